@@ -1,0 +1,13 @@
+//! f64 mathematics that can be proved.
+//!
+//! Lengths are in the unit of the input, angles in radians. The profile lies in the x–z plane and is held as 2D
+//! points (x, z); sheets live in 3D with the width along y.
+//!
+//! Fold angles follow the FOLD format: 0 flat, positive valley (the neighbouring facet rises on the front side),
+//! negative mountain, ±π folded flat. The front of a facet is the side from which its vertices run counter-clockwise.
+
+mod dihedral;
+mod rigid;
+
+pub use dihedral::{fold_angle, fold_angle_gradient, nearest_turn};
+pub use rigid::RigidMotion;

@@ -1,0 +1,188 @@
+//! Rigid motions (rotation and translation, no reflection) and the one that fits two point sets best.
+
+use glam::{DMat3, DQuat, DVec3};
+
+/// x ↦ R x + c.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct RigidMotion {
+    /// R, a rotation.
+    pub rotation: DMat3,
+    /// c.
+    pub translation: DVec3,
+}
+
+impl RigidMotion {
+    /// The motion that leaves every point where it is.
+    pub const IDENTITY: Self = Self {
+        rotation: DMat3::IDENTITY,
+        translation: DVec3::ZERO,
+    };
+
+    /// R x + c.
+    pub fn apply(&self, point: DVec3) -> DVec3 {
+        self.rotation * point + self.translation
+    }
+
+    /// The rigid motion that minimises Σ |R source + c − target|².
+    ///
+    /// Horn 1987, "Closed-form solution of absolute orientation using unit quaternions": the rotation is the
+    /// eigenvector of the largest eigenvalue of a symmetric 4 × 4 matrix of the covariance, found here by Jacobi
+    /// rotations, which also holds for planar and collinear sets. Never a reflection. Fewer than two points give a
+    /// translation, none the identity. Precondition: both slices are equally long.
+    pub fn best_fit(source: &[DVec3], target: &[DVec3]) -> Self {
+        debug_assert_eq!(source.len(), target.len(), "best_fit pairs points");
+        if source.is_empty() {
+            return Self::IDENTITY;
+        }
+        let inverse_count = 1.0 / source.len() as f64;
+        let source_centre = source.iter().sum::<DVec3>() * inverse_count;
+        let target_centre = target.iter().sum::<DVec3>() * inverse_count;
+        let mut covariance = DMat3::ZERO;
+        for (&a, &b) in source.iter().zip(target) {
+            let (a, b) = (a - source_centre, b - target_centre);
+            covariance += DMat3::from_cols(a * b.x, a * b.y, a * b.z);
+        }
+        let rotation = DMat3::from_quat(largest_rotation(covariance));
+        Self {
+            rotation,
+            translation: target_centre - rotation * source_centre,
+        }
+    }
+}
+
+/// The unit quaternion that maximises tr(R covariance), covariance\[i\]\[j\] = Σ a_i b_j.
+fn largest_rotation(covariance: DMat3) -> DQuat {
+    let s = |i: usize, j: usize| covariance.col(j)[i];
+    let mut a = [
+        [
+            s(0, 0) + s(1, 1) + s(2, 2),
+            s(1, 2) - s(2, 1),
+            s(2, 0) - s(0, 2),
+            s(0, 1) - s(1, 0),
+        ],
+        [
+            0.0,
+            s(0, 0) - s(1, 1) - s(2, 2),
+            s(0, 1) + s(1, 0),
+            s(2, 0) + s(0, 2),
+        ],
+        [0.0, 0.0, s(1, 1) - s(0, 0) - s(2, 2), s(1, 2) + s(2, 1)],
+        [0.0, 0.0, 0.0, s(2, 2) - s(0, 0) - s(1, 1)],
+    ];
+    for i in 0..4 {
+        for j in 0..i {
+            a[i][j] = a[j][i];
+        }
+    }
+    let mut vectors = [[0.0; 4]; 4];
+    for (i, row) in vectors.iter_mut().enumerate() {
+        row[i] = 1.0;
+    }
+    for _sweep in 0..64 {
+        let off: f64 = (0..4)
+            .flat_map(|i| (0..i).map(move |j| (i, j)))
+            .map(|(i, j)| a[i][j].abs())
+            .sum();
+        let diagonal: f64 = (0..4).map(|i| a[i][i].abs()).sum();
+        if off <= f64::EPSILON * 1e-3 * diagonal {
+            break;
+        }
+        for p in 0..4 {
+            for q in p + 1..4 {
+                jacobi_rotate(&mut a, &mut vectors, p, q);
+            }
+        }
+    }
+    let best = (0..4)
+        .max_by(|&i, &j| a[i][i].total_cmp(&a[j][j]))
+        .unwrap_or(0);
+    let v = |i: usize| vectors[i][best];
+    DQuat::from_xyzw(v(1), v(2), v(3), v(0)).normalize()
+}
+
+fn jacobi_rotate(a: &mut [[f64; 4]; 4], vectors: &mut [[f64; 4]; 4], p: usize, q: usize) {
+    if a[p][q] == 0.0 {
+        return;
+    }
+    let theta = (a[q][q] - a[p][p]) / (2.0 * a[p][q]);
+    let t = theta.signum() / (theta.abs() + theta.hypot(1.0));
+    let t = if theta == 0.0 { 1.0 } else { t };
+    let c = 1.0 / t.hypot(1.0);
+    let s = t * c;
+    for k in 0..4 {
+        let (akp, akq) = (a[k][p], a[k][q]);
+        a[k][p] = c * akp - s * akq;
+        a[k][q] = s * akp + c * akq;
+    }
+    for k in 0..4 {
+        let (apk, aqk) = (a[p][k], a[q][k]);
+        a[p][k] = c * apk - s * aqk;
+        a[q][k] = s * apk + c * aqk;
+    }
+    for row in vectors.iter_mut() {
+        let (vp, vq) = (row[p], row[q]);
+        row[p] = c * vp - s * vq;
+        row[q] = s * vp + c * vq;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn cloud() -> Vec<DVec3> {
+        (0..20)
+            .map(|i| {
+                let x = f64::from(i);
+                DVec3::new(
+                    (x * 1.7).sin(),
+                    (x * 0.9).cos() * 2.0,
+                    (x * 0.31).sin() * 0.5,
+                )
+            })
+            .collect()
+    }
+
+    #[test]
+    fn a_rigid_motion_is_recovered_exactly() {
+        let motion = RigidMotion {
+            rotation: DMat3::from_quat(DQuat::from_xyzw(0.3, -0.5, 0.7, 0.2).normalize()),
+            translation: DVec3::new(3.0, -2.0, 9.0),
+        };
+        let source = cloud();
+        let target: Vec<_> = source.iter().map(|&p| motion.apply(p)).collect();
+        let fit = RigidMotion::best_fit(&source, &target);
+        for (&p, &q) in source.iter().zip(&target) {
+            assert!(fit.apply(p).distance(q) < 1e-14);
+        }
+    }
+
+    #[test]
+    fn a_planar_set_is_fitted_by_a_rotation_never_by_a_reflection() {
+        let source: Vec<_> = cloud()
+            .into_iter()
+            .map(|p| DVec3::new(p.x, p.y, 0.0))
+            .collect();
+        let mirrored: Vec<_> = source.iter().map(|p| DVec3::new(-p.x, p.y, 0.0)).collect();
+        let fit = RigidMotion::best_fit(&source, &mirrored);
+        assert!((fit.rotation.determinant() - 1.0).abs() < 1e-14);
+        // A planar mirror image is reached by turning the plane over.
+        for (&p, &q) in source.iter().zip(&mirrored) {
+            assert!(fit.apply(p).distance(q) < 1e-14);
+        }
+    }
+
+    #[test]
+    fn a_mirror_image_in_space_cannot_be_reached() {
+        let source = cloud();
+        let mirrored: Vec<_> = source.iter().map(|p| DVec3::new(-p.x, p.y, p.z)).collect();
+        let fit = RigidMotion::best_fit(&source, &mirrored);
+        let worst = source
+            .iter()
+            .zip(&mirrored)
+            .map(|(&p, &q)| fit.apply(p).distance(q))
+            .fold(0.0, f64::max);
+        assert!(worst > 0.1, "a reflection was used: {worst}");
+        assert!((fit.rotation.determinant() - 1.0).abs() < 1e-14);
+    }
+}
