@@ -1,1 +1,20 @@
-//! solver
+//! How a sheet moves: the bar-and-hinge model, its schedule and its engines.
+//!
+//! A [`Model`] is built from a sheet and a [`Material`]; a [`Schedule`] says which fold angle every hinge is driven to
+//! at which motion time.
+//!
+//! Fold angles are in radians, positive for valleys, followed past ±π. Inside the model lengths are in the sheet's
+//! unit length h, masses are 1.
+
+mod error;
+mod face_angle;
+mod gather;
+mod material;
+mod model;
+mod schedule;
+
+pub use error::SolverError;
+pub use gather::Gather;
+pub use material::Material;
+pub use model::{Bar, EnergyByKind, FaceAngles, Hinge, HingeKind, Model};
+pub use schedule::{Schedule, Stage};

@@ -1,0 +1,109 @@
+//! What can go wrong, with its evidence.
+
+/// Why a model, a schedule or a run was refused or ended early.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum SolverError {
+    /// A material constant is not finite or out of range.
+    #[error("{name} is {value}; it must lie between {minimum} and {maximum}")]
+    MaterialOutOfRange {
+        /// The key of the constant.
+        name: &'static str,
+        /// Its value.
+        value: f64,
+        /// The smallest value taken.
+        minimum: f64,
+        /// The largest value taken.
+        maximum: f64,
+    },
+    /// The sheet's unit length is not a positive number.
+    #[error("the unit length of the sheet is {value}; it must be finite and above 0")]
+    UnitLength {
+        /// Its value, in the unit of the sheet.
+        value: f64,
+    },
+    /// The sheet has no triangles.
+    #[error("the sheet has no facets; at least one is needed")]
+    NoFacets,
+    /// A bar has no usable length in the crease pattern.
+    #[error(
+        "edge {edge} (vertices {vertices:?}) is {length} unit lengths long; it must be finite and at least {minimum}"
+    )]
+    DegenerateEdge {
+        /// The edge of the sheet.
+        edge: usize,
+        /// Its ends.
+        vertices: [u32; 2],
+        /// Its length over the unit length.
+        length: f64,
+        /// The smallest length taken.
+        minimum: f64,
+    },
+    /// A triangle has no usable height in the crease pattern.
+    #[error(
+        "triangle {face} (vertices {vertices:?}) is {height} unit lengths high; it must be at least {minimum}"
+    )]
+    DegenerateFace {
+        /// The triangle of the sheet.
+        face: usize,
+        /// Its corners.
+        vertices: [u32; 3],
+        /// Its smallest height over the unit length.
+        height: f64,
+        /// The smallest height taken.
+        minimum: f64,
+    },
+    /// A list does not have one entry for each element.
+    #[error("{found} {what} were given; {expected} are needed")]
+    Count {
+        /// What was counted.
+        what: &'static str,
+        /// How many the model needs.
+        expected: usize,
+        /// How many were given.
+        found: usize,
+    },
+    /// A number of the input is NaN or infinite.
+    #[error("{what} {index} is not finite; every one must be a finite number")]
+    NotFinite {
+        /// What the number belongs to.
+        what: &'static str,
+        /// Which one.
+        index: usize,
+    },
+    /// The number of frames cannot be recorded.
+    #[error("{frames} frames were asked for; an even number from 2 to {maximum} is needed")]
+    Frames {
+        /// The number asked for.
+        frames: usize,
+        /// The largest number taken.
+        maximum: usize,
+    },
+    /// An option of the engine is out of range.
+    #[error("{name} is {value}; it must be finite and above 0")]
+    Option {
+        /// Its name.
+        name: &'static str,
+        /// Its value.
+        value: f64,
+    },
+    /// The motion grew without bound.
+    #[error(
+        "the motion diverged at node {node}, t = {time}: one step moved it by {displacement} unit lengths; \
+         lower the stiffness or raise the damping ratio"
+    )]
+    Diverged {
+        /// The node that moved furthest in one step.
+        node: usize,
+        /// Motion time.
+        time: f64,
+        /// Its displacement in that step over the unit length; NaN where it is no number.
+        displacement: f64,
+    },
+    /// The caller asked to stop.
+    #[error("the run was cancelled at t = {time}")]
+    Cancelled {
+        /// Motion time.
+        time: f64,
+    },
+}

@@ -1,0 +1,52 @@
+//! Which element corners meet at each node: the tables by which nodes gather their forces.
+//!
+//! Each element writes the force on each of its corners once; each node then sums its own corners in the order of
+//! this table. No two threads write the same number, so a sum never depends on how many there are.
+
+use glam::DVec3;
+
+/// Compressed rows: the corner slots of node i are `slots[starts[i]..starts[i + 1]]`.
+///
+/// The slot of corner c of element e with n corners is e·n + c. Slots rise within a row.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Gather {
+    starts: Vec<u32>,
+    slots: Vec<u32>,
+}
+
+impl Gather {
+    /// The table for `elements`, each with the nodes at its N corners.
+    pub(crate) fn new<'a, const N: usize>(
+        node_count: usize,
+        elements: impl Iterator<Item = &'a [u32; N]> + Clone,
+    ) -> Self {
+        let mut starts = vec![0u32; node_count + 1];
+        for node in elements.clone().flatten() {
+            starts[*node as usize + 1] += 1;
+        }
+        for i in 0..node_count {
+            starts[i + 1] += starts[i];
+        }
+        let mut next = starts.clone();
+        let mut slots = vec![0u32; starts[node_count] as usize];
+        for (slot, node) in elements.flatten().enumerate() {
+            let place = &mut next[*node as usize];
+            slots[*place as usize] = slot as u32;
+            *place += 1;
+        }
+        Self { starts, slots }
+    }
+
+    /// The corner slots of `node`, rising.
+    pub fn slots(&self, node: usize) -> &[u32] {
+        &self.slots[self.starts[node] as usize..self.starts[node + 1] as usize]
+    }
+
+    /// The sum of `values` over the corners of `node`, in the order of the slots.
+    pub(crate) fn sum(&self, node: usize, values: &[DVec3]) -> DVec3 {
+        self.slots(node)
+            .iter()
+            .map(|&slot| values[slot as usize])
+            .sum()
+    }
+}
