@@ -1,11 +1,27 @@
 //! What is folded: units and sheets of each case, their exact states and closed forms, and the motions of a sheet.
 //!
 //! A [`Sheet`] is a triangulated crease pattern in the plane (rows along −x, width along +y, front towards +z).
-//! A [`Frame`] is the sheet at one motion time; a [`Motion`] is the sheet with its frames.
-//! Motion time t: 0 deployed, 1 planar, 2 compact.
+//! A [`UnitSheet`] is a sheet of unfolded-waterbomb units with its exact states. A [`Frame`] is a sheet at one motion
+//! time; a [`Motion`] is the sheet with its frames. Motion time t: 0 deployed, 1 planar, 2 compact.
+//!
+//! The science is Zhao et al., "Constructing foldable cylindrical surfaces via unfolded waterbomb origami units";
+//! equation, figure and table numbers in this crate are that paper's.
 
+mod closed_form;
+mod error;
+mod layers;
+mod layout;
 mod motion;
 mod sheet;
+mod states;
+mod unit;
+mod vertex_check;
 
+pub use closed_form::CompactBox;
+pub use error::PatternError;
+pub use layout::UnitSheet;
 pub use motion::{Frame, LayerOrder, Motion};
 pub use sheet::{Assignment, CreaseKind, Edge, Facet, FacetKind, Sheet};
+pub use states::Facing;
+pub use unit::{Case, EQUAL_WIDTH_TOLERANCE, Unit};
+pub use vertex_check::{ANGLE_TOLERANCE, PatternCheck, VertexCheck, VertexGroup, VertexType};

@@ -1,0 +1,86 @@
+//! Why a sheet cannot be made.
+
+use thiserror::Error;
+
+/// Errors of this crate; each carries the value found and what would be right.
+#[derive(Debug, Clone, PartialEq, Error)]
+#[non_exhaustive]
+pub enum PatternError {
+    /// A size that must be positive and finite is not.
+    #[error("{name} is {value}: it must be a positive, finite number")]
+    NotPositive {
+        /// What was given.
+        name: &'static str,
+        /// Its value.
+        value: f64,
+    },
+    /// Rows or columns are missing or too many for 32-bit indices.
+    #[error("{name} is {value}: it must lie between 1 and {limit}")]
+    CountOutOfRange {
+        /// `rows` or `columns`.
+        name: &'static str,
+        /// Its value.
+        value: usize,
+        /// The largest value allowed with the other count.
+        limit: usize,
+    },
+    /// Width and height of the unit contradict the case.
+    #[error(
+        "case {case} needs units with {need}, but w = {width} and h = {height} (w/h = {ratio:.6}); {remedy}",
+        ratio = width / height
+    )]
+    CaseContradictsUnit {
+        /// The case asked for.
+        case: &'static str,
+        /// The relation it needs.
+        need: &'static str,
+        /// w.
+        width: f64,
+        /// h.
+        height: f64,
+        /// What to change.
+        remedy: &'static str,
+    },
+    /// λ is missing or out of range.
+    #[error("lambda is {value}: case SII needs it strictly between 0 and 1")]
+    LambdaOutOfRange {
+        /// The value given, NaN where it is missing.
+        value: f64,
+    },
+    /// d is out of range.
+    #[error("offset d is {value}: it must satisfy 0 <= d < w1' = {limit}")]
+    OffsetOutOfRange {
+        /// The value given.
+        value: f64,
+        /// w1' = w/2 − λh/2.
+        limit: f64,
+    },
+    /// A key that only case SII knows.
+    #[error("{key} is given, but case {case} has none; leave it out or choose case SII")]
+    KeyWithoutCase {
+        /// `lambda` or `offset`.
+        key: &'static str,
+        /// The case asked for.
+        case: &'static str,
+    },
+    /// The divided profile does not have one point more than the sheet has rows.
+    #[error("the divided profile has {found} points, but {rows} rows need {expected}", expected = rows + 1)]
+    WrongPolygon {
+        /// Points found.
+        found: usize,
+        /// Rows of the sheet.
+        rows: usize,
+    },
+    /// Unit parts too thin for the arithmetic.
+    #[error("{part} of the unit is {value} wide, less than 1e-9 of h = {height}; {remedy}")]
+    DegenerateUnit {
+        /// The part.
+        part: &'static str,
+        /// Its width.
+        value: f64,
+        /// h.
+        height: f64,
+        /// What to change.
+        remedy: &'static str,
+    },
+}

@@ -1,0 +1,454 @@
+//! The sheet of Nr × Nc units: its lines, vertices, facets and creases.
+//!
+//! Lines run across the rows at the breaks of every column, E | P | Q | Q | P | E; lines that coincide are one. In an
+//! even row (the paper's U^O) the corner lines are P and the mid lines Q; in an odd row (U^E) they swap. E lines, at
+//! the two borders of a sheet with side pads, behave as P.
+
+use std::collections::BTreeMap;
+
+use glam::DVec2;
+
+use crate::{Assignment, CreaseKind, Edge, Facet, FacetKind, PatternError, Sheet, Unit};
+
+/// Counts are limited so that every index fits into 32 bits with room to spare.
+const MOST_UNITS: usize = 50_000_000;
+
+/// Which of the two families a line belongs to.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Family {
+    P,
+    Q,
+}
+
+/// One line across the rows.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Line {
+    pub(crate) family: Family,
+    /// Position across the width in the crease pattern.
+    pub(crate) y: f64,
+    /// Position across the width in the compact state.
+    pub(crate) compact_y: f64,
+    /// The column on its left (its own for a line inside a column).
+    pub(crate) column: u32,
+}
+
+/// What lies between two neighbouring lines.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Strip {
+    /// Half a unit; one of its lines is a corner line, the other a mid line.
+    Half,
+    Pad,
+}
+
+/// Where a vertex lies in the layout.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Place {
+    /// On the boundary above row `boundary`.
+    Boundary { boundary: u32 },
+    /// A mid vertex of `row`: the upper (M1) or the lower one (M2), or both in one.
+    Mid { row: u32, lower: bool, both: bool },
+}
+
+/// A sheet of units with what its states and its report need to know of every vertex.
+#[derive(Debug, Clone, PartialEq)]
+pub struct UnitSheet {
+    /// The unit.
+    pub unit: Unit,
+    /// Nr.
+    pub rows: usize,
+    /// Nc.
+    pub columns: usize,
+    /// The triangulated crease pattern.
+    pub sheet: Sheet,
+    pub(crate) lines: Vec<Line>,
+    /// The line and the place of each vertex.
+    pub(crate) places: Vec<(u32, Place)>,
+    /// The fold angle of every edge in the compact state, radians; 0 for edges that are not creases.
+    pub(crate) compact_angles: Vec<f64>,
+}
+
+impl UnitSheet {
+    /// Lays out `rows` × `columns` units.
+    ///
+    /// # Errors
+    /// Counts of 0 or beyond what 32-bit indices hold.
+    pub fn new(unit: Unit, rows: usize, columns: usize) -> Result<Self, PatternError> {
+        for (name, value, other) in [("rows", rows, columns), ("columns", columns, rows)] {
+            let limit = MOST_UNITS / other.max(1);
+            if value == 0 || value > limit {
+                return Err(PatternError::CountOutOfRange { name, value, limit });
+            }
+        }
+        let (lines, strips) = lines(&unit, columns);
+        let mut builder = Builder::new(unit, rows, &lines);
+        for row in 0..rows as u32 {
+            for (left, &strip) in strips.iter().enumerate() {
+                builder.add_strip(row, left, strip);
+            }
+        }
+        let Builder {
+            vertices,
+            places,
+            facets,
+            ..
+        } = builder;
+        let (sheet, compact_angles) = triangulate(&unit, &lines, &places, vertices, facets);
+        Ok(Self {
+            unit,
+            rows,
+            columns,
+            sheet,
+            lines,
+            places,
+            compact_angles,
+        })
+    }
+
+    /// The fold angle of every edge in the compact state, radians (geometry of the paper's figures 2c, 3h, 4h, 5f);
+    /// 0 for edges that are not creases.
+    pub fn compact_angles(&self) -> &[f64] {
+        &self.compact_angles
+    }
+
+    /// The name of the unit's kind in a row: the paper's U^O for its odd rows (rows 0, 2, … here), else U^E.
+    pub fn unit_name(row: u32) -> &'static str {
+        if row.is_multiple_of(2) { "U^O" } else { "U^E" }
+    }
+}
+
+/// Whether lines of `family` are mid lines in `row`.
+pub(crate) fn is_mid(family: Family, row: u32) -> bool {
+    (family == Family::Q) == row.is_multiple_of(2)
+}
+
+fn lines(unit: &Unit, columns: usize) -> (Vec<Line>, Vec<Strip>) {
+    let mut lines = Vec::new();
+    let mut strips = Vec::new();
+    let has_sides = unit.side_pad > 0.0;
+    let mut compact_y = 0.0;
+    for column in 0..columns as u32 {
+        let start = f64::from(column) * unit.width;
+        let end = f64::from(column + 1) * unit.width;
+        let line = |family, y, compact_y| Line {
+            family,
+            y,
+            compact_y,
+            column,
+        };
+        if column == 0 {
+            lines.push(line(Family::P, 0.0, 0.0));
+        }
+        if has_sides {
+            compact_y += unit.side_pad;
+            // The pads of two neighbouring columns are one facet: a first P line follows the last one directly.
+            strips.push(Strip::Pad);
+            lines.push(line(Family::P, start + unit.side_pad, compact_y));
+        }
+        strips.push(Strip::Half);
+        lines.push(line(
+            Family::Q,
+            start + unit.side_pad + unit.flap,
+            compact_y,
+        ));
+        if unit.centre_pad > 0.0 {
+            compact_y += unit.centre_pad;
+            strips.push(Strip::Pad);
+            lines.push(line(Family::Q, end - unit.side_pad - unit.flap, compact_y));
+        }
+        strips.push(Strip::Half);
+        lines.push(line(Family::P, end - unit.side_pad, compact_y));
+        if has_sides {
+            compact_y += unit.side_pad;
+            if column + 1 == columns as u32 {
+                strips.push(Strip::Pad);
+                lines.push(line(Family::P, end, compact_y));
+            }
+        }
+    }
+    (lines, strips)
+}
+
+struct Builder<'a> {
+    unit: Unit,
+    lines: &'a [Line],
+    vertices: Vec<DVec2>,
+    places: Vec<(u32, Place)>,
+    index: BTreeMap<(u32, u32, u8), u32>,
+    facets: Vec<Facet>,
+}
+
+impl<'a> Builder<'a> {
+    /// Numbers the vertices row by row, so that neighbours lie close in memory.
+    fn new(unit: Unit, rows: usize, lines: &'a [Line]) -> Self {
+        let mut builder = Self {
+            unit,
+            lines,
+            vertices: Vec::new(),
+            places: Vec::new(),
+            index: BTreeMap::new(),
+            facets: Vec::new(),
+        };
+        for row in 0..=rows as u32 {
+            for line in 0..lines.len() as u32 {
+                builder.add_vertex(line, Place::Boundary { boundary: row }, row, 0);
+            }
+            if row == rows as u32 {
+                break;
+            }
+            let is_mid_line = |&line: &u32| is_mid(lines[line as usize].family, row);
+            for line in (0..lines.len() as u32).filter(is_mid_line) {
+                let both = !unit.split;
+                builder.add_vertex(
+                    line,
+                    Place::Mid {
+                        row,
+                        lower: false,
+                        both,
+                    },
+                    row,
+                    1,
+                );
+                if unit.split {
+                    builder.add_vertex(
+                        line,
+                        Place::Mid {
+                            row,
+                            lower: true,
+                            both,
+                        },
+                        row,
+                        2,
+                    );
+                }
+            }
+        }
+        builder
+    }
+
+    fn add_vertex(&mut self, line: u32, place: Place, row: u32, part: u8) {
+        let h = self.unit.height;
+        let x = match place {
+            Place::Boundary { boundary } => -f64::from(boundary) * h,
+            Place::Mid {
+                row, lower: false, ..
+            } => -f64::from(row) * h - self.unit.mid_distance(),
+            Place::Mid {
+                row, lower: true, ..
+            } => -f64::from(row + 1) * h + self.unit.mid_distance(),
+        };
+        self.index
+            .insert((row, line, part), self.vertices.len() as u32);
+        self.vertices
+            .push(DVec2::new(x, self.lines[line as usize].y));
+        self.places.push((line, place));
+    }
+
+    fn top(&self, row: u32, line: u32) -> u32 {
+        self.index[&(row, line, 0)]
+    }
+
+    fn bottom(&self, row: u32, line: u32) -> u32 {
+        self.index[&(row + 1, line, 0)]
+    }
+
+    /// (M1, M2) of a mid line; the same vertex twice where it is not split.
+    fn mids(&self, row: u32, line: u32) -> (u32, u32) {
+        let upper = self.index[&(row, line, 1)];
+        (
+            upper,
+            self.index.get(&(row, line, 2)).copied().unwrap_or(upper),
+        )
+    }
+
+    fn add_strip(&mut self, row: u32, left: usize, strip: Strip) {
+        let (l, r) = (left as u32, left as u32 + 1);
+        let left_is_mid = is_mid(self.lines[left].family, row);
+        match (strip, left_is_mid) {
+            (Strip::Half, true) => self.add_half(row, r, l),
+            (Strip::Half, false) => self.add_half(row, l, r),
+            (Strip::Pad, true) => self.add_walls(row, l, r),
+            (Strip::Pad, false) => {
+                let pad = [
+                    self.top(row, l),
+                    self.top(row, r),
+                    self.bottom(row, r),
+                    self.bottom(row, l),
+                ];
+                self.add_facet(row, l, FacetKind::TopPad, &pad);
+            }
+        }
+    }
+
+    fn add_half(&mut self, row: u32, corner: u32, mid: u32) {
+        let (corner_top, mid_top) = (self.top(row, corner), self.top(row, mid));
+        let (corner_bottom, mid_bottom) = (self.bottom(row, corner), self.bottom(row, mid));
+        let (m1, m2) = self.mids(row, mid);
+        // Of its two lines the right one always lies in the half unit's own column.
+        let line = corner.max(mid);
+        self.add_facet(row, line, FacetKind::Tuck, &[corner_top, mid_top, m1]);
+        if m1 == m2 {
+            self.add_facet(row, line, FacetKind::Flap, &[corner_top, m1, corner_bottom]);
+        } else {
+            self.add_facet(
+                row,
+                line,
+                FacetKind::Flap,
+                &[corner_top, m1, m2, corner_bottom],
+            );
+        }
+        self.add_facet(row, line, FacetKind::Tuck, &[corner_bottom, m2, mid_bottom]);
+    }
+
+    fn add_walls(&mut self, row: u32, l: u32, r: u32) {
+        let ((l1, l2), (r1, r2)) = (self.mids(row, l), self.mids(row, r));
+        let upper = [self.top(row, l), self.top(row, r), r1, l1];
+        let lower = [l2, r2, self.bottom(row, r), self.bottom(row, l)];
+        self.add_facet(row, l, FacetKind::Wall, &upper);
+        if l1 != l2 {
+            self.add_facet(row, l, FacetKind::BottomPad, &[l1, r1, r2, l2]);
+        }
+        self.add_facet(row, l, FacetKind::Wall, &lower);
+    }
+
+    fn add_facet(&mut self, row: u32, line: u32, kind: FacetKind, polygon: &[u32]) {
+        let mut polygon = polygon.to_vec();
+        if signed_area(&self.vertices, &polygon) < 0.0 {
+            polygon.reverse();
+        }
+        self.facets.push(Facet {
+            polygon,
+            row,
+            column: self.lines[line as usize].column,
+            kind,
+        });
+    }
+}
+
+fn signed_area(vertices: &[DVec2], polygon: &[u32]) -> f64 {
+    let point = |i: usize| vertices[polygon[i % polygon.len()] as usize];
+    (0..polygon.len())
+        .map(|i| point(i).perp_dot(point(i + 1)))
+        .sum::<f64>()
+        / 2.0
+}
+
+/// Splits quadrilaterals by the shorter diagonal (ties by the lowest vertex) and joins the triangles by edges.
+fn triangulate(
+    unit: &Unit,
+    lines: &[Line],
+    places: &[(u32, Place)],
+    vertices: Vec<DVec2>,
+    facets: Vec<Facet>,
+) -> (Sheet, Vec<f64>) {
+    let mut faces = Vec::new();
+    let mut face_facets = Vec::new();
+    for (facet, Facet { polygon, .. }) in facets.iter().enumerate() {
+        for face in split(&vertices, polygon) {
+            faces.push(face);
+            face_facets.push(facet as u32);
+        }
+    }
+    let mut sides: BTreeMap<[u32; 2], [Option<u32>; 2]> = BTreeMap::new();
+    for (face, &[a, b, c]) in faces.iter().enumerate() {
+        for (from, to) in [(a, b), (b, c), (c, a)] {
+            let side = usize::from(from > to);
+            sides.entry([from.min(to), from.max(to)]).or_default()[side] = Some(face as u32);
+        }
+    }
+    let mut edges = Vec::with_capacity(sides.len());
+    let mut compact_angles = Vec::with_capacity(sides.len());
+    for (ends, around) in sides {
+        let facet_of = |face: Option<u32>| face.map(|f| face_facets[f as usize]);
+        let (kind, angle) = match (facet_of(around[0]), facet_of(around[1])) {
+            (Some(a), Some(b)) if a == b => (CreaseKind::Facet, 0.0),
+            (Some(a), Some(b)) => {
+                let (a, b) = (&facets[a as usize], &facets[b as usize]);
+                crease(a, b, lines, places, ends)
+            }
+            _ => (CreaseKind::Border, 0.0),
+        };
+        let assignment = match kind {
+            CreaseKind::Border => Assignment::Border,
+            CreaseKind::Facet => Assignment::Facet,
+            _ if angle > 0.0 => Assignment::Valley,
+            _ => Assignment::Mountain,
+        };
+        let near = around
+            .iter()
+            .flatten()
+            .map(|&f| &facets[face_facets[f as usize] as usize]);
+        let row = near.clone().map(|f| f.row).max().unwrap_or(0);
+        let column = near.map(|f| f.column).min().unwrap_or(0);
+        edges.push(Edge {
+            vertices: ends,
+            assignment,
+            kind,
+            row,
+            column,
+            faces: around,
+        });
+        compact_angles.push(angle);
+    }
+    let sheet = Sheet {
+        vertices,
+        edges,
+        faces,
+        face_facets,
+        facets,
+        unit_length: unit.height,
+    };
+    (sheet, compact_angles)
+}
+
+/// Triangles of a facet, counter-clockwise.
+fn split(vertices: &[DVec2], polygon: &[u32]) -> Vec<[u32; 3]> {
+    let &[a, b, c, d] = polygon else {
+        return vec![[polygon[0], polygon[1], polygon[2]]];
+    };
+    let length = |i: u32, j: u32| vertices[i as usize].distance(vertices[j as usize]);
+    let (ac, bd) = (length(a, c), length(b, d));
+    // Lengths that differ only by rounding tie.
+    let tie = (ac - bd).abs() <= 1e-12 * ac.max(bd);
+    let lowest_on_ac = a.min(c) < b.min(d);
+    if (tie && lowest_on_ac) || (!tie && ac < bd) {
+        vec![[a, b, c], [a, c, d]]
+    } else {
+        vec![[a, b, d], [b, c, d]]
+    }
+}
+
+/// The kind of the crease between two facets and its fold angle in the compact state, radians.
+fn crease(
+    a: &Facet,
+    b: &Facet,
+    lines: &[Line],
+    places: &[(u32, Place)],
+    ends: [u32; 2],
+) -> (CreaseKind, f64) {
+    use FacetKind::{BottomPad, Flap, Tuck, Wall};
+    use std::f64::consts::{FRAC_PI_2, PI};
+    let either = |kind| a.kind == kind || b.kind == kind;
+    let both = |kind| a.kind == kind && b.kind == kind;
+    if a.row != b.row {
+        // Tuck–tuck, or top pad–wall.
+        return (CreaseKind::Row, if both(Tuck) { -PI } else { -FRAC_PI_2 });
+    }
+    if both(Tuck) {
+        (CreaseKind::Vertical, -PI)
+    } else if both(Flap) {
+        let family = lines[places[ends[0] as usize].0 as usize].family;
+        (
+            CreaseKind::Vertical,
+            if is_mid(family, a.row) { PI } else { -PI },
+        )
+    } else if both(Wall) {
+        (CreaseKind::Pad, PI)
+    } else if either(BottomPad) {
+        (CreaseKind::Pad, FRAC_PI_2)
+    } else if either(Flap) && either(Tuck) {
+        (CreaseKind::Diagonal, PI)
+    } else {
+        // Flap–top pad, tuck–wall.
+        (CreaseKind::Pad, -FRAC_PI_2)
+    }
+}

@@ -1,0 +1,318 @@
+//! The pattern check: is every interior vertex developable and flat-foldable, and which type is it?
+//!
+//! Developable: the sector angles sum to 2π. Flat-foldable (Kawasaki): an even number of creases with alternate
+//! sector angles summing to π (Zhao et al., section 2). Types I, J and K are those of the paper's figure 1.
+
+use std::collections::BTreeMap;
+use std::f64::consts::{PI, TAU};
+
+use serde::{Deserialize, Serialize};
+
+use crate::layout::{Place, is_mid};
+use crate::{Assignment, Sheet, UnitSheet};
+
+/// Angle sums may differ from 2π and π by this much, radians.
+pub const ANGLE_TOLERANCE: f64 = 1e-9;
+
+/// The type of an interior vertex.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+pub enum VertexType {
+    /// The unsplit centre of a unit (figure 1b).
+    I,
+    /// On a row boundary where corner lines end: the diagonals lie in the row above (figure 1d).
+    J,
+    /// On a row boundary where corner lines begin: the diagonals lie in the row below (figure 1e).
+    K,
+    /// One of the two centres of a split unit.
+    #[serde(rename = "split")]
+    Split,
+    /// At a pad.
+    #[serde(rename = "pad")]
+    Pad,
+}
+
+/// The creases around one interior vertex.
+#[derive(Debug, Clone, PartialEq)]
+pub struct VertexCheck {
+    /// The vertex.
+    pub vertex: u32,
+    /// Its type.
+    pub kind: VertexType,
+    /// Sector angles between neighbouring creases, counter-clockwise, radians.
+    pub sectors: Vec<f64>,
+    /// Mountain creases minus valley creases (Maekawa: ±2 where the vertex folds flat).
+    pub mountains_minus_valleys: i32,
+}
+
+impl VertexCheck {
+    /// Σ sector angles, radians.
+    pub fn angle_sum(&self) -> f64 {
+        self.sectors.iter().sum()
+    }
+
+    /// The sums of every other sector angle, radians; none for an odd number of creases.
+    pub fn alternate_sums(&self) -> Option<[f64; 2]> {
+        let sum = |start: usize| self.sectors.iter().skip(start).step_by(2).sum();
+        self.sectors
+            .len()
+            .is_multiple_of(2)
+            .then(|| [sum(0), sum(1)])
+    }
+
+    /// Whether the sector angles sum to 2π.
+    pub fn is_developable(&self) -> bool {
+        (self.angle_sum() - TAU).abs() <= ANGLE_TOLERANCE
+    }
+
+    /// Whether alternate sector angles sum to π and mountains and valleys differ by two.
+    pub fn is_flat_foldable(&self) -> bool {
+        self.mountains_minus_valleys.abs() == 2
+            && self
+                .alternate_sums()
+                .is_some_and(|s| s.iter().all(|s| (s - PI).abs() <= ANGLE_TOLERANCE))
+    }
+}
+
+/// Vertices of one type and the same number of creases.
+#[derive(Debug, Clone, PartialEq)]
+pub struct VertexGroup {
+    /// The type.
+    pub kind: VertexType,
+    /// Creases that meet at each.
+    pub degree: usize,
+    /// How many there are.
+    pub count: usize,
+    /// Whether all are developable.
+    pub developable: bool,
+    /// Whether all are flat-foldable.
+    pub flat_foldable: bool,
+    /// Angle sum and alternate sums of the first one, radians.
+    pub angle_sum: f64,
+    /// None for an odd number of creases.
+    pub alternate_sums: Option<[f64; 2]>,
+}
+
+/// The creases in order around every interior vertex, and what they add up to.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PatternCheck {
+    /// One an interior vertex at which creases meet.
+    pub vertices: Vec<VertexCheck>,
+}
+
+impl PatternCheck {
+    /// Whether every interior vertex is developable.
+    pub fn is_developable(&self) -> bool {
+        self.vertices.iter().all(VertexCheck::is_developable)
+    }
+
+    /// Whether every interior vertex is flat-foldable.
+    pub fn is_flat_foldable(&self) -> bool {
+        self.vertices.iter().all(VertexCheck::is_flat_foldable)
+    }
+
+    /// Vertices by type and degree, in that order.
+    pub fn groups(&self) -> Vec<VertexGroup> {
+        let mut groups: BTreeMap<(VertexType, usize), VertexGroup> = BTreeMap::new();
+        for vertex in &self.vertices {
+            let group = groups
+                .entry((vertex.kind, vertex.sectors.len()))
+                .or_insert_with(|| VertexGroup {
+                    kind: vertex.kind,
+                    degree: vertex.sectors.len(),
+                    count: 0,
+                    developable: true,
+                    flat_foldable: true,
+                    angle_sum: vertex.angle_sum(),
+                    alternate_sums: vertex.alternate_sums(),
+                });
+            group.count += 1;
+            group.developable &= vertex.is_developable();
+            group.flat_foldable &= vertex.is_flat_foldable();
+        }
+        groups.into_values().collect()
+    }
+}
+
+impl UnitSheet {
+    /// Checks every interior vertex of the crease pattern.
+    pub fn check(&self) -> PatternCheck {
+        let around = creases_around(&self.sheet);
+        let vertices = around
+            .into_iter()
+            .enumerate()
+            .filter_map(|(vertex, creases)| {
+                let creases = creases?;
+                let at = self.sheet.vertices[vertex];
+                let mut directions: Vec<f64> = creases
+                    .iter()
+                    .map(|&(other, _)| (self.sheet.vertices[other as usize] - at).to_angle())
+                    .collect();
+                directions.sort_by(f64::total_cmp);
+                let sectors = (0..directions.len())
+                    .map(|i| match directions.get(i + 1) {
+                        Some(next) => next - directions[i],
+                        None => directions[0] + TAU - directions[i],
+                    })
+                    .collect();
+                let sign =
+                    |&(_, a): &(u32, Assignment)| if a == Assignment::Mountain { 1 } else { -1 };
+                Some(VertexCheck {
+                    vertex: vertex as u32,
+                    kind: self.vertex_type(vertex),
+                    sectors,
+                    mountains_minus_valleys: creases.iter().map(sign).sum(),
+                })
+            })
+            .collect();
+        PatternCheck { vertices }
+    }
+
+    fn vertex_type(&self, vertex: usize) -> VertexType {
+        let (line, place) = self.places[vertex];
+        let unit = &self.unit;
+        let at_pad = if self.lines[line as usize].family == crate::layout::Family::P {
+            unit.side_pad > 0.0
+        } else {
+            unit.centre_pad > 0.0
+        };
+        match place {
+            _ if at_pad => VertexType::Pad,
+            Place::Mid { both: true, .. } => VertexType::I,
+            Place::Mid { .. } => VertexType::Split,
+            Place::Boundary { boundary } => {
+                if is_mid(self.lines[line as usize].family, boundary) {
+                    VertexType::J
+                } else {
+                    VertexType::K
+                }
+            }
+        }
+    }
+}
+
+/// For every interior vertex the far ends of its creases; none for vertices on the border.
+fn creases_around(sheet: &Sheet) -> Vec<Option<Vec<(u32, Assignment)>>> {
+    let mut around = vec![Some(Vec::new()); sheet.vertices.len()];
+    for edge in &sheet.edges {
+        let [a, b] = edge.vertices;
+        for (from, to) in [(a, b), (b, a)] {
+            match edge.assignment {
+                Assignment::Border => around[from as usize] = None,
+                Assignment::Facet => {}
+                _ => {
+                    if let Some(creases) = &mut around[from as usize] {
+                        creases.push((to, edge.assignment));
+                    }
+                }
+            }
+        }
+    }
+    around
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{Case, Unit};
+
+    fn check(
+        case: Case,
+        width: f64,
+        lambda: Option<f64>,
+        rows: usize,
+        columns: usize,
+    ) -> PatternCheck {
+        let unit = Unit::new(case, width, 1.0, lambda, None).unwrap();
+        UnitSheet::new(unit, rows, columns).unwrap().check()
+    }
+
+    #[test]
+    fn e_has_six_crease_vertices_of_types_i_j_and_k_that_fold_flat() {
+        let check = check(Case::E, 1.0, None, 3, 5);
+        assert!(check.is_developable() && check.is_flat_foldable());
+        let groups: Vec<_> = check
+            .groups()
+            .iter()
+            .map(|g| (g.kind, g.degree, g.count))
+            .collect();
+        // Centres: 5 in even rows, 4 inside odd rows. Boundaries: P inside (4), Q (5): J and K swap each boundary.
+        assert_eq!(
+            groups,
+            [
+                (VertexType::I, 6, 14),
+                (VertexType::J, 6, 9),
+                (VertexType::K, 6, 9)
+            ]
+        );
+    }
+
+    #[test]
+    fn the_sector_angles_of_the_centre_are_those_of_figure_1b() {
+        let check = check(Case::E, 1.0, None, 1, 1);
+        let [centre] = check.vertices.as_slice() else {
+            panic!("one interior vertex")
+        };
+        let mut sectors = centre.sectors.clone();
+        sectors.sort_by(f64::total_cmp);
+        let expected = [PI / 4.0, PI / 4.0, PI / 4.0, PI / 4.0, PI / 2.0, PI / 2.0];
+        assert!(
+            sectors
+                .iter()
+                .zip(expected)
+                .all(|(a, b)| (a - b).abs() < 1e-15),
+            "{sectors:?}"
+        );
+    }
+
+    #[test]
+    fn t_splits_its_centres_into_four_crease_vertices_and_still_folds_flat() {
+        let check = check(Case::T, 0.7, None, 3, 3);
+        assert!(check.is_developable() && check.is_flat_foldable());
+        let split = check
+            .groups()
+            .into_iter()
+            .find(|g| g.kind == VertexType::Split)
+            .unwrap();
+        assert_eq!((split.degree, split.count), (4, 2 * (3 + 2 + 3)));
+    }
+
+    #[test]
+    fn s_and_sii_are_developable_but_their_five_crease_vertices_do_not_fold_flat() {
+        for (case, lambda) in [(Case::S, None), (Case::SII, Some(0.7))] {
+            let check = check(case, 1.6, lambda, 3, 3);
+            assert!(check.is_developable() && !check.is_flat_foldable());
+            let bad: Vec<_> = check
+                .groups()
+                .into_iter()
+                .filter(|g| !g.flat_foldable)
+                .collect();
+            assert!(bad.iter().all(|g| g.kind == VertexType::Pad), "{bad:?}");
+            assert!(
+                bad.iter()
+                    .any(|g| g.degree == 5 && g.alternate_sums.is_none()),
+                "{bad:?}"
+            );
+        }
+    }
+
+    #[test]
+    fn the_unmodified_rectangle_satisfies_the_angle_conditions_whatever_its_shape() {
+        for width in [0.7, 1.0, 2.5] {
+            let check = check(Case::Plain, width, None, 3, 3);
+            assert!(
+                check.is_developable() && check.is_flat_foldable(),
+                "w = {width}"
+            );
+        }
+    }
+
+    #[test]
+    fn a_vertex_moved_by_hand_is_no_longer_flat_foldable() {
+        let unit = Unit::new(Case::E, 1.0, 1.0, None, None).unwrap();
+        let mut sheet = UnitSheet::new(unit, 2, 2).unwrap();
+        let centre = sheet.check().vertices[0].vertex as usize;
+        sheet.sheet.vertices[centre].y += 0.01;
+        let check = sheet.check();
+        assert!(check.is_developable() && !check.is_flat_foldable());
+    }
+}
