@@ -9,6 +9,7 @@
 
 mod closed_form;
 mod error;
+mod fold_file;
 mod layers;
 mod layout;
 mod motion;
@@ -16,9 +17,11 @@ mod sheet;
 mod states;
 mod unit;
 mod vertex_check;
+mod vertex_names;
 
 pub use closed_form::CompactBox;
 pub use error::PatternError;
+pub use fold_file::FoldHeader;
 pub use layout::UnitSheet;
 pub use motion::{Frame, LayerOrder, Motion};
 pub use sheet::{Assignment, CreaseKind, Edge, Facet, FacetKind, Sheet};

@@ -31,6 +31,19 @@ pub enum VertexType {
     Pad,
 }
 
+impl VertexType {
+    /// Its name in reports.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::I => "I",
+            Self::J => "J",
+            Self::K => "K",
+            Self::Split => "split",
+            Self::Pad => "pad",
+        }
+    }
+}
+
 /// The creases around one interior vertex.
 #[derive(Debug, Clone, PartialEq)]
 pub struct VertexCheck {

@@ -1,0 +1,295 @@
+//! Writes a motion as FOLD 1.2: the crease pattern as key frame, the frames of the motion as `file_frames`.
+//!
+//! Source: Demaine, Ku, Lang, "A New File Standard to Represent Folded Structures" (FOLD specification 1.2). Keys
+//! with the prefix `foldmotion:` tie the triangles to the facets of the paper's units.
+
+use std::io::{self, Write};
+
+use glam::DVec3;
+use serde_json::json;
+
+use crate::{Frame, LayerOrder, Motion, Sheet};
+
+/// What a FOLD file says beside the motion itself.
+#[derive(Debug, Clone, Copy)]
+pub struct FoldHeader<'a> {
+    /// `file_title`.
+    pub title: &'a str,
+    /// `file_creator`.
+    pub creator: &'a str,
+    /// `frame_unit`: one of FOLD's `unit`, `in`, `pt`, `m`, `cm`, `mm`, `um`, `nm`.
+    pub unit: &'a str,
+    /// The fold angle every edge of the crease pattern is to take, radians: `edges_foldAngle` of the key frame, which
+    /// Origami Simulator folds to.
+    pub target_angles: &'a [f64],
+}
+
+/// Bytes a written number takes at most on average: 17 digits, sign, point and comma.
+const BYTES_A_NUMBER: u64 = 20;
+
+impl Motion {
+    /// An upper estimate of the size of [`Motion::write_fold`]'s file for `frames` frames, bytes.
+    pub fn fold_file_size(sheet: &Sheet, frames: usize) -> u64 {
+        let numbers = 3 * sheet.vertices.len() as u64 + sheet.edges.len() as u64;
+        let header = 8 * (sheet.vertices.len() + sheet.edges.len() + sheet.faces.len()) as u64;
+        (header + frames as u64 * numbers) * BYTES_A_NUMBER + 4096
+    }
+
+    /// Streams the motion to `out` as FOLD 1.2, one frame a line.
+    ///
+    /// Coordinates are the shortest decimals that read back as the same f64; fold angles are measured, in degrees,
+    /// clamped to ±180; `faceOrders` stand in the last frame, of the pairs in `compact_order`.
+    ///
+    /// # Errors
+    /// Those of `out`.
+    pub fn write_fold(&self, header: &FoldHeader<'_>, out: &mut impl Write) -> io::Result<()> {
+        writeln!(out, "{{")?;
+        for (key, value) in key_frame(&self.sheet, header) {
+            writeln!(out, "\"{key}\": {value},")?;
+        }
+        writeln!(out, "\"file_frames\": [")?;
+        for (index, frame) in self.frames.iter().enumerate() {
+            let last = index + 1 == self.frames.len();
+            let order = last.then_some(&self.compact_order);
+            write_frame(&self.sheet, frame, order, out)?;
+            writeln!(out, "{}", if last { "" } else { "," })?;
+        }
+        writeln!(out, "]\n}}")
+    }
+}
+
+fn key_frame(sheet: &Sheet, header: &FoldHeader<'_>) -> Vec<(&'static str, serde_json::Value)> {
+    let facet = |face: usize| &sheet.facets[sheet.face_facets[face] as usize];
+    let faces = 0..sheet.faces.len();
+    let degrees =
+        |(edge, &angle): (&crate::Edge, &f64)| edge.is_hinge().then(|| angle.to_degrees());
+    let angles: Vec<Option<f64>> = sheet
+        .edges
+        .iter()
+        .zip(header.target_angles)
+        .map(degrees)
+        .collect();
+    vec![
+        ("file_spec", json!(1.2)),
+        ("file_creator", json!(header.creator)),
+        ("file_title", json!(header.title)),
+        ("file_classes", json!(["singleModel", "animation"])),
+        ("frame_title", json!("crease pattern")),
+        ("frame_classes", json!(["creasePattern"])),
+        (
+            "frame_attributes",
+            json!(["2D", "manifold", "orientable", "noCuts", "noJoins"]),
+        ),
+        ("frame_unit", json!(header.unit)),
+        (
+            "vertices_coords",
+            json!(
+                sheet
+                    .vertices
+                    .iter()
+                    .map(|v| [v.x, v.y])
+                    .collect::<Vec<_>>()
+            ),
+        ),
+        (
+            "edges_vertices",
+            json!(sheet.edges.iter().map(|e| e.vertices).collect::<Vec<_>>()),
+        ),
+        (
+            "edges_assignment",
+            json!(sheet.edges.iter().map(|e| e.assignment).collect::<Vec<_>>()),
+        ),
+        ("edges_foldAngle", json!(angles)),
+        ("faces_vertices", json!(sheet.faces)),
+        ("faces_foldmotion:facet", json!(sheet.face_facets)),
+        (
+            "faces_foldmotion:row",
+            json!(faces.clone().map(|f| facet(f).row).collect::<Vec<_>>()),
+        ),
+        (
+            "faces_foldmotion:column",
+            json!(faces.clone().map(|f| facet(f).column).collect::<Vec<_>>()),
+        ),
+        (
+            "faces_foldmotion:kind",
+            json!(faces.map(|f| facet(f).kind).collect::<Vec<_>>()),
+        ),
+    ]
+}
+
+fn write_frame(
+    sheet: &Sheet,
+    frame: &Frame,
+    order: Option<&LayerOrder>,
+    out: &mut impl Write,
+) -> io::Result<()> {
+    write!(
+        out,
+        "{{\"frame_parent\":0,\"frame_inherit\":true,\"frame_title\":{},\"frame_classes\":[\"foldedForm\"],\
+         \"frame_attributes\":[\"3D\",\"manifold\",\"orientable\",\"noCuts\",\"noJoins\"],\"foldmotion:time\":",
+        json!(format!("{}, t = {}", stage_name(frame.time), frame.time))
+    )?;
+    write_number(frame.time, out)?;
+    write!(out, ",\"vertices_coords\":[")?;
+    for (index, &DVec3 { x, y, z }) in frame.positions.iter().enumerate() {
+        out.write_all(if index == 0 { b"[" } else { b",[" })?;
+        write_number(x, out)?;
+        out.write_all(b",")?;
+        write_number(y, out)?;
+        out.write_all(b",")?;
+        write_number(z, out)?;
+        out.write_all(b"]")?;
+    }
+    write!(out, "],\"edges_foldAngle\":[")?;
+    for (index, angle) in sheet.fold_angles(&frame.positions).into_iter().enumerate() {
+        if index > 0 {
+            out.write_all(b",")?;
+        }
+        match angle {
+            Some(angle) => write_number(angle.to_degrees().clamp(-180.0, 180.0), out)?,
+            None => out.write_all(b"null")?,
+        }
+    }
+    write!(out, "]")?;
+    if let Some(order) = order.filter(|order| !order.is_empty()) {
+        write!(out, ",\"faceOrders\":[")?;
+        for (index, (f, g, sign)) in order.iter().enumerate() {
+            write!(out, "{}[{f},{g},{sign}]", if index > 0 { "," } else { "" })?;
+        }
+        write!(out, "]")?;
+    }
+    write!(out, "}}")
+}
+
+fn write_number(value: f64, out: &mut impl Write) -> io::Result<()> {
+    serde_json::to_writer(&mut *out, &value).map_err(io::Error::from)
+}
+
+fn stage_name(time: f64) -> &'static str {
+    match time {
+        0.0 => "deployed",
+        1.0 => "planar",
+        2.0 => "compact",
+        t if t < 1.0 => "unfold",
+        _ => "fold",
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{Case, Unit, UnitSheet};
+    use serde_json::Value;
+
+    fn written() -> (Motion, Value, u64) {
+        let unit = Unit::new(Case::S, 1.6, 1.0, None, None).unwrap();
+        let units = UnitSheet::new(unit, 2, 2).unwrap();
+        let third = 1.0 / 3.0;
+        let wild: Vec<DVec3> = units.compact().iter().map(|&p| p * third + third).collect();
+        let motion = Motion {
+            frames: vec![
+                Frame {
+                    time: 1.0,
+                    positions: units.sheet.planar(),
+                },
+                Frame {
+                    time: 1.5,
+                    positions: wild,
+                },
+                Frame {
+                    time: 2.0,
+                    positions: units.compact(),
+                },
+            ],
+            compact_order: units.compact_order(),
+            sheet: units.sheet.clone(),
+        };
+        let target_angles = units.compact_angles();
+        let header = FoldHeader {
+            title: "a \"title\"",
+            creator: "test",
+            unit: "m",
+            target_angles,
+        };
+        let mut bytes = Vec::new();
+        motion.write_fold(&header, &mut bytes).unwrap();
+        let value = serde_json::from_slice(&bytes).unwrap();
+        (motion, value, bytes.len() as u64)
+    }
+
+    #[test]
+    fn coordinates_read_back_as_the_same_numbers() {
+        let (motion, value, _) = written();
+        for (frame, read) in motion
+            .frames
+            .iter()
+            .zip(value["file_frames"].as_array().unwrap())
+        {
+            let coords: Vec<[f64; 3]> =
+                serde_json::from_value(read["vertices_coords"].clone()).unwrap();
+            let same = frame
+                .positions
+                .iter()
+                .zip(&coords)
+                .all(|(p, c)| p.to_array() == *c);
+            assert!(same && coords.len() == frame.positions.len());
+            assert_eq!(read["foldmotion:time"].as_f64(), Some(frame.time));
+            assert_eq!(
+                (&read["frame_parent"], &read["frame_inherit"]),
+                (&json!(0), &json!(true))
+            );
+        }
+    }
+
+    #[test]
+    fn fold_angles_carry_the_sign_of_their_assignment_and_borders_have_none() {
+        let (motion, value, _) = written();
+        let compact = value["file_frames"][2]["edges_foldAngle"]
+            .as_array()
+            .unwrap();
+        for (edge, angle) in motion.sheet.edges.iter().zip(compact) {
+            match (edge.assignment.letter(), angle.as_f64()) {
+                ('B', None) => {}
+                // Folded flat, a half turn is measured with either sign.
+                ('M', Some(a)) => assert!(
+                    (a + 90.0).abs() < 1e-9 || (a.abs() - 180.0).abs() < 1e-9,
+                    "{a}"
+                ),
+                ('V', Some(a)) => assert!(
+                    (a - 90.0).abs() < 1e-9 || (a.abs() - 180.0).abs() < 1e-9,
+                    "{a}"
+                ),
+                ('F', Some(a)) => assert!(a.abs() < 1e-9),
+                other => panic!("{other:?}"),
+            }
+        }
+        let key: Vec<Option<f64>> =
+            serde_json::from_value(value["edges_foldAngle"].clone()).unwrap();
+        let signs = motion.sheet.edges.iter().zip(key).all(|(edge, angle)| {
+            match edge.assignment.letter() {
+                'M' => angle.unwrap() < 0.0,
+                'V' => angle.unwrap() > 0.0,
+                'F' => angle == Some(0.0),
+                _ => angle.is_none(),
+            }
+        });
+        assert!(signs);
+    }
+
+    #[test]
+    fn the_last_frame_alone_carries_the_order_of_its_layers() {
+        let (motion, value, _) = written();
+        assert!(value["file_frames"][0].get("faceOrders").is_none());
+        let orders: Vec<(u32, u32, i8)> =
+            serde_json::from_value(value["file_frames"][2]["faceOrders"].clone()).unwrap();
+        assert!(!orders.is_empty());
+        assert_eq!(orders, motion.compact_order.iter().collect::<Vec<_>>());
+    }
+
+    #[test]
+    fn the_file_is_no_larger_than_estimated() {
+        let (motion, _, size) = written();
+        let orders = 24 * motion.compact_order.len() as u64;
+        assert!(size <= Motion::fold_file_size(&motion.sheet, 3) + orders);
+    }
+}
