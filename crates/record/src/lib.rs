@@ -1,1 +1,60 @@
-//! record
+//! What is seen: pictures and films of a folding sheet, drawn on the CPU by one visible-surface path.
+//!
+//! A [`Camera`] projects the sheet in parallel, so that papers get equal scales. A [`Surface`] is the projected sheet
+//! and answers which triangle is in front at a point of the screen; the layer order decides between triangles that
+//! coincide. [`picture`] draws one state from it, [`gif`] a whole motion.
+//!
+//! Screen coordinates are pixels, x to the right, y down, depth towards the viewer in pixels too. Colours are sRGB
+//! bytes outside and linear light inside; pixels average linear light. The same input gives the same bytes for any
+//! number of threads.
+//!
+//! ```
+//! use foldmotion_pattern::{Assignment, CreaseKind, Edge, Facet, FacetKind, LayerOrder, Sheet};
+//! use foldmotion_record::{Camera, Style, View, picture};
+//! use glam::DVec2;
+//!
+//! let edge = |a, b| Edge {
+//!     vertices: [a, b],
+//!     assignment: Assignment::Border,
+//!     kind: CreaseKind::Border,
+//!     row: 0,
+//!     column: 0,
+//!     faces: [Some(0), None],
+//! };
+//! let sheet = Sheet {
+//!     vertices: vec![DVec2::ZERO, DVec2::X, DVec2::Y],
+//!     edges: vec![edge(0, 1), edge(1, 2), edge(2, 0)],
+//!     faces: vec![[0, 1, 2]],
+//!     face_facets: vec![0],
+//!     facets: vec![Facet { polygon: vec![0, 1, 2], row: 0, column: 0, kind: FacetKind::Plain }],
+//!     unit_length: 1.0,
+//! };
+//! let (positions, size) = (sheet.planar(), [64, 48]);
+//! let camera = Camera::fit(View::Top, positions.iter().copied(), size, 0.05)?;
+//! let style = Style::default();
+//! let image = picture(&sheet, &positions, &LayerOrder::default(), &camera, &style, size)?;
+//! assert_eq!(image.pixel(0, 0), style.background);
+//! # Ok::<(), foldmotion_record::RecordError>(())
+//! ```
+
+mod camera;
+mod error;
+mod film;
+mod gif;
+mod image;
+mod palette;
+mod paper;
+mod raster;
+mod shade;
+mod surface;
+
+pub use self::camera::{Camera, View};
+pub use self::error::RecordError;
+pub use self::film::{FilmOptions, Shot, positions_at, timeline};
+pub use self::gif::gif;
+pub use self::image::{Image, MAX_PIXELS};
+pub use self::palette::Palette;
+pub use self::paper::Paper;
+pub use self::raster::picture;
+pub use self::shade::Style;
+pub use self::surface::{Candidate, Surface, TIE_TOLERANCE};

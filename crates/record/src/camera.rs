@@ -1,0 +1,129 @@
+//! The camera: a parallel projection, because papers compare states at equal scale.
+
+use glam::{DVec2, DVec3};
+
+use crate::RecordError;
+use crate::image::check_size;
+
+/// Where the viewer stands, in the frame of the motion: growing direction along x, width along y, z up.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum View {
+    /// From above, the front and the right, turned a little so that diagonals of square units stay apart.
+    #[default]
+    Iso,
+    /// Along +y: the profile, x to the right and z up.
+    Front,
+    /// Along −x: y to the right and z up.
+    Side,
+    /// Along −z: x to the right and y up.
+    Top,
+}
+
+impl View {
+    /// Every view by its name in a scene file.
+    pub const NAMES: [(&'static str, Self); 4] = [
+        ("iso", Self::Iso),
+        ("front", Self::Front),
+        ("side", Self::Side),
+        ("top", Self::Top),
+    ];
+
+    /// The view called `name` in a scene file.
+    pub fn from_name(name: &str) -> Option<Self> {
+        let mut names = Self::NAMES.into_iter();
+        names.find(|(n, _)| *n == name).map(|(_, view)| view)
+    }
+
+    /// The direction towards the viewer (any length) and the direction that points up on the screen.
+    fn directions(self) -> (DVec3, DVec3) {
+        match self {
+            Self::Iso => (DVec3::new(0.42, -0.74, 0.53), DVec3::Z),
+            Self::Front => (DVec3::NEG_Y, DVec3::Z),
+            Self::Side => (DVec3::X, DVec3::Z),
+            Self::Top => (DVec3::Z, DVec3::Y),
+        }
+    }
+}
+
+/// A parallel projection of the world onto the screen.
+///
+/// The screen is the world turned, scaled alike in all three directions and mirrored to let y run down, so angles and
+/// ratios of lengths hold.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Camera {
+    right: DVec3,
+    up: DVec3,
+    toward: DVec3,
+    scale: f64,
+    origin: DVec2,
+}
+
+impl Camera {
+    /// The camera that shows all `points` as large as they fit, centred.
+    ///
+    /// `margin`: the part of the picture's sides kept free on each side, 0 ≤ margin < 0.5. Points that all project to
+    /// one point are shown at one pixel a unit.
+    ///
+    /// # Errors
+    /// [`RecordError::Size`], [`RecordError::Margin`], and [`RecordError::Extent`] where the points are none, not
+    /// finite or too far apart.
+    pub fn fit(
+        view: View,
+        points: impl IntoIterator<Item = DVec3>,
+        size: [u32; 2],
+        margin: f64,
+    ) -> Result<Self, RecordError> {
+        check_size(size)?;
+        if !(0.0..0.5).contains(&margin) {
+            return Err(RecordError::Margin { value: margin });
+        }
+        let (toward, up) = view.directions();
+        let toward = toward.normalize();
+        let right = up.cross(toward).normalize();
+        let up = toward.cross(right);
+        let (mut low, mut high) = (DVec2::INFINITY, DVec2::NEG_INFINITY);
+        let mut is_finite = true;
+        for point in points {
+            let across = DVec2::new(right.dot(point), up.dot(point));
+            is_finite &= across.is_finite();
+            low = low.min(across);
+            high = high.max(across);
+        }
+        let extent = high - low;
+        let pixels = DVec2::new(f64::from(size[0]), f64::from(size[1]));
+        let room = pixels * (1.0 - 2.0 * margin);
+        let fitting = (room / extent).min_element();
+        let scale = if extent == DVec2::ZERO { 1.0 } else { fitting };
+        let centre = (low + high) * 0.5 * scale;
+        if !(is_finite && scale.is_normal() && centre.is_finite()) {
+            let [width, height] = extent.to_array();
+            return Err(RecordError::Extent { width, height });
+        }
+        Ok(Self {
+            right,
+            up,
+            toward,
+            scale,
+            origin: pixels * 0.5 + DVec2::new(-centre.x, centre.y),
+        })
+    }
+
+    /// The point on the screen: pixels to the right, pixels down, depth in pixels (larger is nearer to the viewer).
+    pub fn project(&self, point: DVec3) -> DVec3 {
+        DVec3::new(
+            self.origin.x + self.scale * self.right.dot(point),
+            self.origin.y - self.scale * self.up.dot(point),
+            self.scale * self.toward.dot(point),
+        )
+    }
+
+    /// Pixels a unit of length.
+    pub fn scale(&self) -> f64 {
+        self.scale
+    }
+
+    /// The unit vector towards the viewer.
+    pub fn toward(&self) -> DVec3 {
+        self.toward
+    }
+}

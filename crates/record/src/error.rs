@@ -1,0 +1,118 @@
+//! What can go wrong while a motion is drawn.
+
+use std::io;
+
+use thiserror::Error;
+
+/// Why a picture or a film could not be made.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum RecordError {
+    /// The picture has no pixels or too many.
+    #[error(
+        "a picture of {width} × {height} pixels cannot be made: each side must lie in 1 to 65535 and the area be at most {limit} pixels"
+    )]
+    Size {
+        /// Pixels across.
+        width: u32,
+        /// Pixels down.
+        height: u32,
+        /// The largest area.
+        limit: u64,
+    },
+    /// The rate of film frames is out of range.
+    #[error("fps = {value} cannot be filmed: it must lie above 0 and be at most {limit}")]
+    FramesPerSecond {
+        /// What was asked for.
+        value: f64,
+        /// The largest rate: viewers slow down GIF frames shorter than two hundredths of a second.
+        limit: f64,
+    },
+    /// A duration is negative, too long or not a number.
+    #[error("{name} = {value} s cannot be filmed: it must lie in 0 to {limit} s")]
+    Seconds {
+        /// The option.
+        name: &'static str,
+        /// What was asked for.
+        value: f64,
+        /// The longest duration.
+        limit: f64,
+    },
+    /// A line width is negative, too wide or not a number.
+    #[error("line_width = {value} cannot be drawn: it must lie in 0 to {limit} pixels")]
+    LineWidth {
+        /// What was asked for.
+        value: f64,
+        /// The widest line.
+        limit: f64,
+    },
+    /// A margin leaves no room for the sheet.
+    #[error("margin = {value} leaves no room: it must lie in 0 to below 0.5")]
+    Margin {
+        /// What was asked for, as a part of the picture's sides.
+        value: f64,
+    },
+    /// The motion has no frames.
+    #[error("the motion has no frames: a film needs at least one")]
+    NoFrames,
+    /// A frame does not hold one position a vertex.
+    #[error("frame {frame} has {found} positions: the sheet has {expected} vertices")]
+    VertexCount {
+        /// The frame, 0 for a single picture.
+        frame: usize,
+        /// Positions found.
+        found: usize,
+        /// Vertices of the sheet.
+        expected: usize,
+    },
+    /// A position is not a number.
+    #[error(
+        "vertex {vertex} of frame {frame} lies at {position:?}: every coordinate must be finite"
+    )]
+    NotFinite {
+        /// The frame, 0 for a single picture.
+        frame: usize,
+        /// The vertex.
+        vertex: usize,
+        /// Where it lies.
+        position: [f64; 3],
+    },
+    /// The times of a motion's frames do not increase.
+    #[error(
+        "frame {frame} has the time {time}: times must be finite and increase from frame to frame"
+    )]
+    Time {
+        /// The frame.
+        frame: usize,
+        /// Its time.
+        time: f64,
+    },
+    /// The points cannot be brought into the picture.
+    #[error(
+        "points that span {width} by {height} across the view cannot be scaled into the picture"
+    )]
+    Extent {
+        /// Across.
+        width: f64,
+        /// Up.
+        height: f64,
+    },
+    /// The progress callback asked to stop.
+    #[error("the film was interrupted")]
+    Interrupted,
+    /// The film could not be written.
+    #[error("the film could not be written: {0}")]
+    Write(#[from] io::Error),
+    /// The GIF encoder refused a frame.
+    #[error("the film could not be encoded: {0}")]
+    Encode(::gif::EncodingError),
+}
+
+impl From<::gif::EncodingError> for RecordError {
+    fn from(error: ::gif::EncodingError) -> Self {
+        match error {
+            ::gif::EncodingError::Io(error) => Self::Write(error),
+            other => Self::Encode(other),
+        }
+    }
+}

@@ -1,0 +1,188 @@
+//! The timeline of a film: which motion time is shown when, and for how long.
+
+use foldmotion_pattern::{Frame, Motion};
+use glam::DVec3;
+
+use crate::image::check_size;
+use crate::raster::check_positions;
+use crate::{RecordError, Style, View};
+
+/// The largest rate: most viewers show a GIF frame of less than 0.02 s for 0.1 s.
+const MAX_FRAMES_PER_SECOND: f64 = 50.0;
+
+/// The longest stage and hold: a GIF frame lasts at most 655.35 s.
+const MAX_SECONDS: f64 = 600.0;
+
+/// The longest time given to settling after the schedule's end.
+const MAX_SETTLING_SECONDS: f64 = 1.0;
+
+/// How a motion is filmed.
+#[derive(Debug, Clone, PartialEq)]
+pub struct FilmOptions {
+    /// Pixels across and down.
+    pub size: [u32; 2],
+    /// Film frames a second of movement, above 0 and at most 50.
+    pub fps: f64,
+    /// Seconds for deployed → planar and for planar → compact; 0 jumps.
+    pub seconds: [f64; 2],
+    /// Seconds the first state, the planar state and the last state stand still.
+    pub hold: f64,
+    /// Where the viewer stands.
+    pub view: View,
+    /// The part of the picture's sides kept free on each side.
+    pub margin: f64,
+    /// Colours and lines.
+    pub style: Style,
+}
+
+impl Default for FilmOptions {
+    fn default() -> Self {
+        Self {
+            size: [960, 720],
+            fps: 30.0,
+            seconds: [3.0, 5.0],
+            hold: 0.5,
+            view: View::default(),
+            margin: 0.04,
+            style: Style::default(),
+        }
+    }
+}
+
+impl FilmOptions {
+    /// Refuses what cannot be filmed.
+    fn check(&self) -> Result<(), RecordError> {
+        check_size(self.size)?;
+        self.style.check()?;
+        if !(self.fps > 0.0 && self.fps <= MAX_FRAMES_PER_SECOND) {
+            return Err(RecordError::FramesPerSecond {
+                value: self.fps,
+                limit: MAX_FRAMES_PER_SECOND,
+            });
+        }
+        let durations = [
+            ("seconds[0]", self.seconds[0]),
+            ("seconds[1]", self.seconds[1]),
+            ("hold", self.hold),
+        ];
+        for (name, value) in durations {
+            if !(0.0..=MAX_SECONDS).contains(&value) {
+                return Err(RecordError::Seconds {
+                    name,
+                    value,
+                    limit: MAX_SECONDS,
+                });
+            }
+        }
+        Ok(())
+    }
+}
+
+/// One film frame.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Shot {
+    /// The motion time it shows.
+    pub time: f64,
+    /// How long it is shown, in hundredths of a second.
+    pub centiseconds: u16,
+}
+
+/// The film frames of `motion`.
+///
+/// Movement is shown at `fps`, evenly in t within a stage; the frames at the first time, at t = 1 and at the last
+/// time stand for `hold` longer. t = 1 and t = 2 are hit exactly where the motion reaches them. Settling after t = 2
+/// runs on at the rate of the second stage, within one second. Durations are rounded so that the sum stays right:
+/// 30 frames a second last 3, 3, 4, 3, 3, 4, … hundredths.
+///
+/// # Errors
+/// [`RecordError::Size`], [`RecordError::FramesPerSecond`], [`RecordError::Seconds`], [`RecordError::LineWidth`],
+/// [`RecordError::NoFrames`], [`RecordError::Time`].
+pub fn timeline(motion: &Motion, options: &FilmOptions) -> Result<Vec<Shot>, RecordError> {
+    options.check()?;
+    let [first, last] = check_times(motion)?;
+    let mut times = vec![first];
+    let stages = [
+        (0.0, 1.0, options.seconds[0]),
+        (1.0, 2.0, options.seconds[1]),
+        (2.0, last, settling_seconds(last, options.seconds[1])),
+    ];
+    for (start, end, seconds) in stages {
+        let (from, to) = (f64::max(start, first), f64::min(end, last));
+        if to <= from {
+            continue;
+        }
+        let shown = seconds * (to - from) / (end - start);
+        let steps = (shown * options.fps).round().max(1.0);
+        let mut step = 1.0;
+        while step < steps {
+            times.push(from + (to - from) * step / steps);
+            step += 1.0;
+        }
+        times.push(to);
+    }
+    Ok(with_durations(&times, options))
+}
+
+fn settling_seconds(last: f64, fold_seconds: f64) -> f64 {
+    ((last - 2.0) * fold_seconds).clamp(0.0, MAX_SETTLING_SECONDS)
+}
+
+#[expect(clippy::cast_sign_loss, reason = "durations are not negative")]
+fn with_durations(times: &[f64], options: &FilmOptions) -> Vec<Shot> {
+    let ends = [times.first(), times.last()];
+    let mut seconds = 0.0;
+    let mut shown = 0.0;
+    let mut shots = Vec::with_capacity(times.len());
+    for time in times {
+        let is_held = ends.contains(&Some(time)) || *time == 1.0;
+        seconds += 1.0 / options.fps + if is_held { options.hold } else { 0.0 };
+        let until = (seconds * 100.0).round();
+        shots.push(Shot {
+            time: *time,
+            centiseconds: (until - shown) as u16,
+        });
+        shown = until;
+    }
+    shots
+}
+
+/// The first and the last time of a motion whose times increase.
+fn check_times(motion: &Motion) -> Result<[f64; 2], RecordError> {
+    let mut previous = f64::NEG_INFINITY;
+    for (frame, Frame { time, .. }) in motion.frames.iter().enumerate() {
+        if !time.is_finite() || *time <= previous {
+            return Err(RecordError::Time { frame, time: *time });
+        }
+        previous = *time;
+    }
+    match (motion.frames.first(), motion.frames.last()) {
+        (Some(first), Some(last)) => Ok([first.time, last.time]),
+        _ => Err(RecordError::NoFrames),
+    }
+}
+
+/// Refuses frames that do not fit the sheet.
+pub(crate) fn check_frames(motion: &Motion) -> Result<(), RecordError> {
+    let mut frames = motion.frames.iter().enumerate();
+    frames.try_for_each(|(index, frame)| check_positions(&motion.sheet, index, &frame.positions))
+}
+
+/// The positions at motion time `time`: vertices move straight from frame to frame, and stand still before the first
+/// and after the last.
+///
+/// Preconditions: times increase and all frames have equally many positions. No frames give no positions.
+pub fn positions_at(motion: &Motion, time: f64) -> Vec<DVec3> {
+    let next = motion.frames.partition_point(|frame| frame.time < time);
+    let after = motion.frames.get(next);
+    let before = next.checked_sub(1).and_then(|i| motion.frames.get(i));
+    match (before, after) {
+        (_, Some(frame)) if frame.time == time => frame.positions.clone(),
+        (Some(a), Some(b)) => {
+            let s = (time - a.time) / (b.time - a.time);
+            let pairs = a.positions.iter().zip(&b.positions);
+            pairs.map(|(&p, &q)| p.lerp(q, s)).collect()
+        }
+        (Some(only), None) | (None, Some(only)) => only.positions.clone(),
+        (None, None) => Vec::new(),
+    }
+}

@@ -1,0 +1,161 @@
+//! The palette of a film: at most 255 colours and a transparent one.
+//!
+//! All that is ever drawn is known beforehand: two sides of paper under a range of light, three lines, a background,
+//! and their mixtures in edge pixels. So the palette is built from the style, finely where areas lie and coarsely
+//! where single pixels do; it is the same in every frame, and colours cannot flicker as they would if each film or
+//! frame were analysed anew. Nothing is dithered, for the same reason.
+
+use std::collections::HashMap;
+
+use glam::Vec3;
+
+use crate::shade::{Inks, encoded, reflected_range};
+use crate::{Image, Style};
+
+/// Light levels of each side of the paper.
+const LEVELS: u16 = 56;
+
+/// Levels of light that lines and edges are mixed with.
+const MIXING_LEVELS: u16 = 4;
+
+/// The colours of a film.
+#[derive(Debug, Clone)]
+pub struct Palette {
+    colors: Vec<[u8; 3]>,
+}
+
+impl Palette {
+    /// The index that stands for "as before".
+    pub const TRANSPARENT: u8 = 255;
+
+    /// The palette of `style`, the background first.
+    pub fn new(style: &Style) -> Self {
+        let inks = style.inks();
+        let mut palette = Self { colors: Vec::new() };
+        palette.push(inks.background);
+        let lines = [inks.mountain, inks.valley, inks.border];
+        for line in lines {
+            palette.push(line);
+        }
+        for side in [inks.front, inks.back] {
+            for light in levels(LEVELS) {
+                palette.push(side * light);
+            }
+        }
+        palette.push_mixtures(&inks, &lines);
+        palette
+    }
+
+    /// Edge pixels: lines over either side of the paper and over the background, paper beside paper and background.
+    fn push_mixtures(&mut self, inks: &Inks, lines: &[Vec3; 3]) {
+        for &line in lines {
+            self.push_between(line, inks.background, 4);
+            for side in [inks.front, inks.back] {
+                for light in levels(MIXING_LEVELS) {
+                    self.push_between(line, side * light, 4);
+                }
+            }
+        }
+        for light in levels(MIXING_LEVELS) {
+            self.push_between(inks.front * light, inks.back * light, 3);
+            self.push_between(inks.back * light, inks.background, 2);
+        }
+    }
+
+    /// `count` colours between two, evenly spaced as sRGB, where the eye sees even steps.
+    fn push_between(&mut self, from: Vec3, to: Vec3, count: u16) {
+        let [from, to] = [from, to].map(|light| Vec3::from(encoded(light).map(f32::from)));
+        for k in 1..=count {
+            let color = from.lerp(to, f32::from(k) / f32::from(count + 1));
+            self.push_color(color.round().as_u8vec3().to_array());
+        }
+    }
+
+    fn push(&mut self, light: Vec3) {
+        self.push_color(encoded(light));
+    }
+
+    /// Mixtures that find no room are left to their neighbours.
+    fn push_color(&mut self, color: [u8; 3]) {
+        if self.colors.len() < usize::from(Self::TRANSPARENT) && !self.colors.contains(&color) {
+            self.colors.push(color);
+        }
+    }
+
+    /// The colours, index by index.
+    pub fn colors(&self) -> &[[u8; 3]] {
+        &self.colors
+    }
+
+    /// The index of the nearest colour, ties by the lower index.
+    ///
+    /// Distances are squared differences of sRGB bytes weighted 2 : 4 : 3, a plain stand-in for what the eye sees.
+    pub fn nearest(&self, color: [u8; 3]) -> u8 {
+        let distance = |other: &[u8; 3]| -> i32 {
+            let difference = |i: usize| i32::from(color[i]) - i32::from(other[i]);
+            let [r, g, b] = [difference(0), difference(1), difference(2)];
+            2 * r * r + 4 * g * g + 3 * b * b
+        };
+        let nearest = self
+            .colors
+            .iter()
+            .enumerate()
+            .min_by_key(|(_, c)| distance(c));
+        nearest.map_or(0, |(index, _)| index as u8)
+    }
+
+    /// The index of every pixel.
+    pub fn indices(&self, image: &Image) -> Vec<u8> {
+        let mut known = HashMap::new();
+        let mut last = ([0; 3], self.nearest([0; 3]));
+        let mut index = |&color: &[u8; 3]| {
+            if color != last.0 {
+                let index = *known.entry(color).or_insert_with(|| self.nearest(color));
+                last = (color, index);
+            }
+            last.1
+        };
+        image.pixels.iter().map(&mut index).collect()
+    }
+}
+
+/// `count` parts of light over the range that sides reflect, evenly spaced as the eye sees them.
+fn levels(count: u16) -> impl Iterator<Item = f32> {
+    let [low, high] = reflected_range().map(|s| s.powf(1.0 / 2.4));
+    (0..count).map(move |k| (low + (high - low) * f32::from(k) / f32::from(count - 1)).powf(2.4))
+}
+
+#[cfg(test)]
+mod tests {
+    use glam::DVec3;
+
+    use super::*;
+
+    #[test]
+    fn colors_of_the_palette_are_their_own_nearest_and_leave_room_for_transparency() {
+        let palette = Palette::new(&Style::default());
+        assert!(palette.colors().len() > 200, "{}", palette.colors().len());
+        assert!(palette.colors().len() <= usize::from(Palette::TRANSPARENT));
+        for (index, &color) in palette.colors().iter().enumerate() {
+            assert_eq!(usize::from(palette.nearest(color)), index);
+        }
+    }
+
+    #[test]
+    fn areas_of_paper_are_off_by_at_most_two_steps_of_255() {
+        let style = Style::default();
+        let (palette, inks) = (Palette::new(&style), style.inks());
+        for i in 0..200_i32 {
+            let turn = f64::from(i) * 0.7;
+            let rise = f64::from(i) / 100.0 - 1.0;
+            let across = (1.0 - rise * rise).sqrt();
+            let normal = DVec3::new(across * turn.cos(), across * turn.sin(), rise);
+            let color = encoded(inks.paper(normal));
+            let found = palette.colors()[usize::from(palette.nearest(color))];
+            for channel in 0..3 {
+                let error = color[channel].abs_diff(found[channel]);
+                assert!(error <= 2, "{color:?} is drawn as {found:?}");
+            }
+        }
+    }
+}
