@@ -6,8 +6,24 @@
 //! Fold angles follow the FOLD format: 0 flat, positive valley (the neighbouring facet rises on the front side),
 //! negative mountain, ±π folded flat. The front of a facet is the side from which its vertices run counter-clockwise.
 
+mod arc_length;
+mod compass;
 mod dihedral;
+mod division;
+mod error;
+mod levenberg_marquardt;
+mod nurbs;
+mod orientation;
+mod polygon;
+mod profile;
 mod rigid;
 
 pub use dihedral::{fold_angle, fold_angle_gradient, nearest_turn};
+pub use division::{
+    Division, DivisionMethod, DivisionOptions, Ending, divide, divide_from, divide_to_length,
+};
+pub use error::GeometryError;
+pub use nurbs::Nurbs;
+pub use polygon::{Crossing, first_crossing};
+pub use profile::{Closure, Profile};
 pub use rigid::RigidMotion;

@@ -1,0 +1,169 @@
+//! What can be wrong with a profile or its division, with the evidence.
+
+use glam::DVec2;
+use thiserror::Error;
+
+/// What can be wrong with a profile or its division.
+#[derive(Debug, Clone, PartialEq, Error)]
+#[non_exhaustive]
+pub enum GeometryError {
+    /// A cubic curve needs four control points.
+    #[error("the profile has {count} control points; at least {minimum} are needed")]
+    TooFewControlPoints {
+        /// How many were given.
+        count: usize,
+        /// How many are needed.
+        minimum: usize,
+    },
+    /// A control point is NaN, infinite or too large to be squared.
+    #[error(
+        "control point {index} is ({x}, {z}); coordinates must be finite and at most {limit:e} in size"
+    )]
+    ControlPoint {
+        /// Which one, from 0.
+        index: usize,
+        /// Its x.
+        x: f64,
+        /// Its z.
+        z: f64,
+        /// The largest size allowed.
+        limit: f64,
+    },
+    /// The knot vector does not fit the control points.
+    #[error("{count} knots for {control_points} control points; a cubic curve needs {expected}")]
+    KnotCount {
+        /// How many knots were given.
+        count: usize,
+        /// How many control points they are for, a repeated closing point included.
+        control_points: usize,
+        /// Control points + 4.
+        expected: usize,
+    },
+    /// A knot is NaN or infinite.
+    #[error("knot {index} is {value}; knots must be finite")]
+    KnotNotFinite {
+        /// Which one, from 0.
+        index: usize,
+        /// Its value.
+        value: f64,
+    },
+    /// The knots run backwards.
+    #[error(
+        "knot {index} is {value}, below the knot before it, {previous}; knots must not decrease"
+    )]
+    KnotsDecrease {
+        /// Which one, from 0.
+        index: usize,
+        /// The knot before it.
+        previous: f64,
+        /// Its value.
+        value: f64,
+    },
+    /// The curve would have no parameters to run over.
+    #[error(
+        "the curve runs from knot {start} to knot {end}; the end must be above the start by a finite amount"
+    )]
+    KnotRange {
+        /// The knot at which the curve starts (index 3).
+        start: f64,
+        /// The knot at which it ends (index = number of control points).
+        end: f64,
+    },
+    /// A knot is repeated so often that the curve breaks.
+    #[error("the knot at u = {u} is repeated {count} times; at most {limit} are allowed there")]
+    KnotMultiplicity {
+        /// Its value, normalised to [0, 1].
+        u: f64,
+        /// How often it stands there.
+        count: usize,
+        /// 3 inside the curve, 4 at its ends.
+        limit: usize,
+    },
+    /// Two knots differ by so little that derivatives lose their digits.
+    #[error("knots {index} and {next} are {width:e} of the range apart; make them equal or at least {minimum:e} apart", next = index + 1)]
+    KnotSpanTooNarrow {
+        /// The first of the two, from 0.
+        index: usize,
+        /// Their distance over the knot range.
+        width: f64,
+        /// The least distance allowed.
+        minimum: f64,
+    },
+    /// A smooth closed profile has uniform knots.
+    #[error(
+        "a profile that is closed smoothly has uniform knots; leave the knots out or close it with a corner"
+    )]
+    KnotsOfSmoothProfile,
+    /// A closed profile with knots of its own misses its start.
+    #[error(
+        "the closed profile ends {gap:e} away from its start; clamp its knots (repeat the first and the last four times)"
+    )]
+    NotClosed {
+        /// Distance between start and end.
+        gap: f64,
+    },
+    /// The scale is no positive number or takes the profile out of range.
+    #[error(
+        "the profile cannot be scaled by {factor}; a positive, finite factor of moderate size is needed"
+    )]
+    Scale {
+        /// The factor.
+        factor: f64,
+    },
+    /// The length asked for is no positive number.
+    #[error("the requested polygon length is {value}; it must be positive and finite")]
+    Length {
+        /// What was asked for.
+        value: f64,
+    },
+    /// Too few or too many segments.
+    #[error("the division has {count} segments; this profile takes {minimum} to {maximum}")]
+    SegmentCount {
+        /// How many were asked for.
+        count: usize,
+        /// 1, or 3 for a closed profile.
+        minimum: usize,
+        /// The largest number supported.
+        maximum: usize,
+    },
+    /// Segments too short for f64 to tell their ends apart.
+    #[error(
+        "the mean segment is {length:e} long, below {minimum:e}, what f64 resolves at coordinates of this size; use fewer segments"
+    )]
+    SegmentTooShort {
+        /// The mean length.
+        length: f64,
+        /// The least length allowed.
+        minimum: f64,
+    },
+    /// The tolerance is no number ≥ 0.
+    #[error("the division tolerance is {value}; it must be a number of at least 0")]
+    Tolerance {
+        /// What was given.
+        value: f64,
+    },
+    /// A caller's start for the division is no division.
+    #[error("parameter {index} of the start is {value}; parameters must rise strictly from 0 to 1")]
+    Start {
+        /// Which one, from 0.
+        index: usize,
+        /// Its value.
+        value: f64,
+    },
+    /// The curve meets itself.
+    #[error("the profile crosses itself near ({:.6}, {:.6}), at u = {:.6} and u = {:.6}; move its control points apart, or declare it closed if its ends meet", point.x, point.y, parameters[0], parameters[1])]
+    CurveCrosses {
+        /// The two parameters, ascending.
+        parameters: [f64; 2],
+        /// Where, (x, z).
+        point: DVec2,
+    },
+    /// The divided polygon meets itself although the curve does not.
+    #[error("segments {} and {} of the divided profile cross near ({:.6}, {:.6}); use more rows or move the control points apart", segments[0], segments[1], point.x, point.y)]
+    PolygonCrosses {
+        /// The two segments, from 0, ascending.
+        segments: [usize; 2],
+        /// Where, (x, z).
+        point: DVec2,
+    },
+}
