@@ -87,6 +87,14 @@ pub enum SolverError {
         /// Its value.
         value: f64,
     },
+    /// The stiffness matrix is too large to factorise.
+    #[error("the stiffness matrix of {nodes} nodes cannot be factorised: {reason}")]
+    Factorisation {
+        /// The number of nodes.
+        nodes: usize,
+        /// Why.
+        reason: &'static str,
+    },
     /// The motion grew without bound.
     #[error(
         "the motion diverged at node {node}, t = {time}: one step moved it by {displacement} unit lengths; \

@@ -6,11 +6,13 @@
 //! Fold angles are in radians, positive for valleys, followed past ±π. Inside the model lengths are in the sheet's
 //! unit length h, masses are 1.
 
+pub mod dynamic;
 mod error;
 mod face_angle;
 mod gather;
 mod material;
 mod model;
+pub mod quasi_static;
 mod schedule;
 
 pub use error::SolverError;

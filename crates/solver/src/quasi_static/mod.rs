@@ -1,0 +1,41 @@
+//! The quasi-static engine: the sheet folded slowly, in equilibrium at every load step.
+//!
+//! The energy is that of [`crate::Model`], the same the dynamic engine moves by. At each load step its minimum is found
+//! by Newton's method with line search and sparse Cholesky factorisation, warm-started from the last equilibria.
+
+mod configuration;
+mod element_stiffness;
+mod hinge_hessian;
+mod newton;
+mod options;
+mod outcome;
+mod run;
+mod stiffness_matrix;
+
+pub use hinge_hessian::fold_angle_hessian;
+pub use options::QuasiStaticOptions;
+pub use outcome::{QuasiStaticRun, StageOutcome};
+pub use run::run_quasi_static;
+
+use configuration::Configuration;
+use glam::DVec3;
+
+use crate::Model;
+
+/// The force by which residuals are judged: the moment of the stiffer kind of hinge at one radian per unit length, at
+/// a lever of one unit length. In the model's units.
+pub fn force_scale(model: &Model) -> f64 {
+    model
+        .material
+        .fold_stiffness
+        .max(model.material.facet_stiffness)
+}
+
+/// What rounding alone may leave as nodal force: positions are known to ε |x|, bars answer with their stiffness.
+fn rounding_force(model: &Model, positions: &[DVec3]) -> f64 {
+    let bar = |bar: &crate::Bar| {
+        let [a, b] = bar.vertices.map(|v| positions[v as usize].length());
+        bar.stiffness * (a + b)
+    };
+    8.0 * f64::EPSILON * model.bars.iter().map(bar).fold(0.0, f64::max)
+}

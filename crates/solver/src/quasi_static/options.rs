@@ -1,0 +1,60 @@
+//! What a quasi-static run is asked for.
+
+use crate::{SolverError, Stage};
+
+/// The options of [`super::run_quasi_static`].
+#[derive(Debug, Clone, PartialEq)]
+pub struct QuasiStaticOptions {
+    /// The stages to run, in the order of the motion.
+    pub stages: Vec<Stage>,
+    /// N, even: the states at t = 2k/N are recorded.
+    pub frames: usize,
+    /// Whether the load steps between them are recorded too.
+    pub record_load_steps: bool,
+    /// A state is an equilibrium where the largest nodal force is at most this times the force scale (see
+    /// [`super::force_scale`]), rounding aside.
+    pub tolerance: f64,
+    /// The shortest load step tried, in t.
+    pub min_load_step: f64,
+    /// Newton steps taken at one load step before it is shortened.
+    pub max_iterations: usize,
+}
+
+impl Default for QuasiStaticOptions {
+    fn default() -> Self {
+        Self {
+            stages: Stage::ALL.to_vec(),
+            frames: 240,
+            record_load_steps: false,
+            tolerance: 1e-9,
+            min_load_step: 1e-6,
+            max_iterations: 60,
+        }
+    }
+}
+
+impl QuasiStaticOptions {
+    /// The largest number of frames taken.
+    pub const MAX_FRAMES: usize = 100_000;
+
+    /// The first option out of range, as an error.
+    pub(super) fn validate(&self) -> Result<(), SolverError> {
+        if self.frames < 2 || self.frames % 2 == 1 || self.frames > Self::MAX_FRAMES {
+            return Err(SolverError::Frames {
+                frames: self.frames,
+                maximum: Self::MAX_FRAMES,
+            });
+        }
+        positive("tolerance", self.tolerance)?;
+        positive("min_load_step", self.min_load_step)?;
+        positive("max_iterations", self.max_iterations as f64)
+    }
+}
+
+fn positive(name: &'static str, value: f64) -> Result<(), SolverError> {
+    if value.is_finite() && value > 0.0 {
+        Ok(())
+    } else {
+        Err(SolverError::Option { name, value })
+    }
+}
