@@ -13,6 +13,8 @@ use crate::{GeometryError, Profile};
 const MOST_SEGMENTS: usize = 1_000_000;
 /// The shortest mean segment, over the largest coordinate.
 const FINEST_SEGMENT: f64 = 1e-12;
+/// The shortest mean segment, whatever the coordinates: products of lengths stay far from underflow.
+const SHORTEST_SEGMENT: f64 = 1e-100;
 /// How well the length is known before the resolution is checked, over the largest coordinate.
 const LENGTH_ACCURACY: f64 = 1e-13;
 /// Pieces of the arc length table a segment, at least.
@@ -106,7 +108,7 @@ impl Division {
 ///
 /// # Errors
 /// No segment, fewer than 3 for a closed profile, or more than a million; a negative or NaN tolerance; segments below
-/// 1e-12 of the largest coordinate; a profile ([`Profile::check_simple`]) or a divided polygon (exact) that meets itself.
+/// 1e-12 of the largest coordinate or 1e-100; a profile ([`Profile::check_simple`]) or a divided polygon (exact) that meets itself.
 pub fn divide(
     profile: &Profile,
     segments: usize,
@@ -304,7 +306,7 @@ fn check_start(parameters: &[f64]) -> Result<(), GeometryError> {
 
 /// Whether chords of this mean length can be told from rounding.
 pub(crate) fn check_resolution(length: f64, profile: &Profile) -> Result<(), GeometryError> {
-    if length > FINEST_SEGMENT * profile.magnitude() && length.is_normal() {
+    if length > shortest_segment(profile) {
         return Ok(());
     }
     Err(too_short(length, profile))
@@ -313,6 +315,10 @@ pub(crate) fn check_resolution(length: f64, profile: &Profile) -> Result<(), Geo
 fn too_short(length: f64, profile: &Profile) -> GeometryError {
     GeometryError::SegmentTooShort {
         length,
-        minimum: FINEST_SEGMENT * profile.magnitude(),
+        minimum: shortest_segment(profile),
     }
+}
+
+fn shortest_segment(profile: &Profile) -> f64 {
+    SHORTEST_SEGMENT.max(FINEST_SEGMENT * profile.magnitude())
 }

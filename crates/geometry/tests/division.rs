@@ -237,6 +237,26 @@ fn a_profile_is_scaled_to_the_polygon_length_asked_for() {
 }
 
 #[test]
+fn profiles_of_any_size_from_1e90_to_1e_minus_90_are_divided_alike() {
+    for factor in [1e90, 1e40, 1e-40, 1e-90] {
+        let scaled = wave().scaled(factor).unwrap();
+        let division = equal(&scaled, 12);
+        check_promises(&scaled, &division);
+        assert!(
+            division.max_residual <= 1e-13,
+            "{factor}: {}",
+            division.max_residual
+        );
+    }
+    let tiny = wave().scaled(1e-120).unwrap();
+    let refused = divide(&tiny, 12, &DivisionOptions::default());
+    assert!(matches!(
+        refused,
+        Err(GeometryError::SegmentTooShort { .. })
+    ));
+}
+
+#[test]
 fn the_iteration_limit_and_the_tolerance_are_the_callers() {
     let wave = wave();
     let with = |tolerance, max_iterations| {
