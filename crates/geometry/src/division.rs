@@ -107,7 +107,7 @@ impl Division {
 /// Limit: a hairpin or an acute corner tighter than a chord, at which a chord's length is least near the turn, can stall both
 /// starts in a local minimum of E, typically at |R_max| ≈ 1e-2 (7 to 11 % of simple curves through 4 to 8 random control
 /// points; gentle turns and corners of a right angle or more converged in every test). Such a division is
-/// returned as it is: see [`Division::converged`]. One row more or fewer usually helps.
+/// returned as it is: see [`Division::converged`]. One row more or fewer often helps.
 ///
 /// # Errors
 /// No segment, fewer than 3 for a closed profile, or more than a million; a negative or NaN tolerance; segments below
