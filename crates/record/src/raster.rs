@@ -255,3 +255,49 @@ impl<'a> Canvas<'a> {
         sum / SAMPLES as f32
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use foldmotion_pattern::{Case, Unit, UnitSheet};
+
+    use super::*;
+    use crate::View;
+
+    #[test]
+    fn pixels_filled_from_bounds_are_those_found_sample_by_sample() {
+        let size = [72, 54];
+        let style = Style::default();
+        let cases = [(Case::E, 1.0, None), (Case::SII, 1.6, Some(0.7))];
+        for (case, width, lambda) in cases {
+            let unit = Unit::new(case, width, 1.0, lambda, None).unwrap();
+            let units = UnitSheet::new(unit, 3, 2).unwrap();
+            let order = units.compact_order();
+            let paper = Paper::new(&units.sheet, &order);
+            let (flat, compact) = (units.sheet.planar(), units.compact());
+            for part in [0.0, 0.7, 0.999, 1.0] {
+                let pairs = flat.iter().zip(&compact);
+                let state: Vec<_> = pairs.map(|(&p, &q)| p.lerp(q, part)).collect();
+                let camera = Camera::fit(View::Iso, state.clone(), size, 0.05).unwrap();
+                let image = raster(&paper, &state, &camera, &style, size);
+                let surface = Surface::new(&paper, &state, &camera, &style);
+                let canvas = Canvas::new(&surface, &style);
+                for (index, &pixel) in (0..).zip(&image.pixels) {
+                    let place = [index % size[0], index / size[0]].map(f64::from);
+                    let centre = DVec2::from(place) + 0.5;
+                    let light = canvas.mean(|sample| {
+                        let front = surface.front_at(centre + *sample);
+                        front.map_or(canvas.inks.background, |front| {
+                            canvas.seen(front.face, centre + *sample)
+                        })
+                    });
+                    let expected = encoded(light);
+                    let error = (0..3).map(|c| pixel[c].abs_diff(expected[c])).max();
+                    assert!(
+                        error <= Some(1),
+                        "{case:?} {part} {place:?}: {pixel:?} {expected:?}"
+                    );
+                }
+            }
+        }
+    }
+}

@@ -20,6 +20,10 @@ pub const TIE_TOLERANCE: f64 = 1e-2;
 /// An order holds between planes within 30° of each other; beyond that depth tells them apart.
 const PARALLEL_COSINE: f64 = 0.866;
 
+/// Seen at less than 15°, layers are compared as if at 15°: along the ray the window would grow without bound and take
+/// in triangles that lie beside each other, not on each other.
+const LEAST_COSINE: f64 = 0.26;
+
 /// A triangle that may be seen at a point of the screen.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Candidate {
@@ -152,7 +156,7 @@ impl<'a> Surface<'a> {
     /// The depth difference below which `f` and `g` count as coincident.
     fn tie_window(&self, f: u32, g: u32) -> f64 {
         let cosine = |face: u32| self.face(face).normal.z.abs();
-        self.tie / cosine(f).min(cosine(g))
+        self.tie / cosine(f).min(cosine(g)).max(LEAST_COSINE)
     }
 
     /// Whether `f` lies before `g` by the layer order, as far as that is known and holds from here.
