@@ -71,6 +71,18 @@ pub enum SolverError {
         /// Which one.
         index: usize,
     },
+    /// A target fold angle lies beyond what a hinge can turn.
+    #[error("{what} {index} is {value} rad; it must lie within ±{limit} rad")]
+    AngleOutOfRange {
+        /// What the angle belongs to.
+        what: &'static str,
+        /// Which one.
+        index: usize,
+        /// Its value in radians.
+        value: f64,
+        /// The largest magnitude taken.
+        limit: f64,
+    },
     /// The number of frames cannot be recorded.
     #[error("{frames} frames were asked for; an even number from 2 to {maximum} is needed")]
     Frames {

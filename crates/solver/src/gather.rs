@@ -3,8 +3,6 @@
 //! Each element writes the force on each of its corners once; each node then sums its own corners in the order of
 //! this table. No two threads write the same number, so a sum never depends on how many there are.
 
-use glam::DVec3;
-
 /// Compressed rows: the corner slots of node i are `slots[starts[i]..starts[i + 1]]`.
 ///
 /// The slot of corner c of element e with n corners is e·n + c. Slots rise within a row.
@@ -40,13 +38,5 @@ impl Gather {
     /// The corner slots of `node`, rising.
     pub fn slots(&self, node: usize) -> &[u32] {
         &self.slots[self.starts[node] as usize..self.starts[node + 1] as usize]
-    }
-
-    /// The sum of `values` over the corners of `node`, in the order of the slots.
-    pub(crate) fn sum(&self, node: usize, values: &[DVec3]) -> DVec3 {
-        self.slots(node)
-            .iter()
-            .map(|&slot| values[slot as usize])
-            .sum()
     }
 }

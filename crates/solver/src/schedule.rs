@@ -4,6 +4,9 @@ use foldmotion_pattern::{Edge, Sheet};
 
 use crate::SolverError;
 
+/// The largest target taken: a whole turn, twice what paper allows.
+const MAX_ANGLE: f64 = std::f64::consts::TAU;
+
 /// A stage of the motion.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Stage {
@@ -59,7 +62,7 @@ impl Schedule {
     ///
     /// # Errors
     /// [`SolverError::Count`] where a list has not one entry for each edge, [`SolverError::NotFinite`] where the
-    /// angle of a crease is NaN or infinite.
+    /// angle of a crease is NaN or infinite, [`SolverError::AngleOutOfRange`] where it is beyond ±2π.
     pub fn uniform(
         sheet: &Sheet,
         deployed_angles: &[f64],
@@ -75,8 +78,8 @@ impl Schedule {
                 });
             }
             Ok(Ramp {
-                deployed: finite("deployed angle of edge", index, deployed_angles[index])?,
-                compact: finite("compact angle of edge", index, compact_angles[index])?,
+                deployed: checked("deployed angle of edge", index, deployed_angles[index])?,
+                compact: checked("compact angle of edge", index, compact_angles[index])?,
             })
         };
         let hinges = sheet
@@ -133,10 +136,17 @@ fn check_count(what: &'static str, sheet: &Sheet, angles: &[f64]) -> Result<(), 
     }
 }
 
-fn finite(what: &'static str, index: usize, value: f64) -> Result<f64, SolverError> {
-    if value.is_finite() {
-        Ok(value)
-    } else {
+fn checked(what: &'static str, index: usize, value: f64) -> Result<f64, SolverError> {
+    if !value.is_finite() {
         Err(SolverError::NotFinite { what, index })
+    } else if value.abs() > MAX_ANGLE {
+        Err(SolverError::AngleOutOfRange {
+            what,
+            index,
+            value,
+            limit: MAX_ANGLE,
+        })
+    } else {
+        Ok(value)
     }
 }

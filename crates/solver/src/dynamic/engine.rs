@@ -1,0 +1,230 @@
+//! The run: both stages, ramped, settled and recorded.
+//!
+//! A stage is a ramp of all targets, cut into increments of at most [`LARGEST_INCREMENT`], at least one a frame. In
+//! each increment the targets move linearly while the sheet, a mass–spring–damper with the material's dampers, follows
+//! for a number of stable steps; then it settles (`relaxation`) to the ramp tolerance, so that it never lags far behind
+//! the schedule whatever its size and its damping. At the end of the stage it settles to the final tolerance.
+
+use foldmotion_pattern::Frame;
+use glam::DVec3;
+
+use super::options::{DynamicOptions, Run, StageOutcome, StageStatus};
+use super::recorder::Recorder;
+use super::relaxation::{Progress, Relaxation};
+use super::state::State;
+use crate::{Model, Schedule, SolverError, Stage};
+
+/// The share of the stable time step that is used: covers what the bound only estimates (see `stability`) and the
+/// change of geometry until it is evaluated again.
+pub(super) const SAFETY: f64 = 0.9;
+
+/// The largest turn of a target in one increment, radians (1.5°: that of 240 frames), so that the path does not depend on how
+/// few frames are recorded.
+const LARGEST_INCREMENT: f64 = std::f64::consts::PI / 120.0 * (1.0 + 1e-9);
+
+/// Looks at a relaxation between two calls of `progress`.
+const LOOKS_A_REPORT: u64 = 20;
+
+/// Moves the sheet of `model` along `schedule` from `start` (deployed, in the sheet's unit) through both stages.
+///
+/// `progress` is called with the motion time now and then; answering false ends the run. The result does not depend on
+/// the number of threads, bit for bit.
+///
+/// # Errors
+/// [`SolverError::Count`], [`SolverError::NotFinite`], [`SolverError::Frames`], [`SolverError::Option`] for input that
+/// does not fit; [`SolverError::Diverged`] where a node runs away; [`SolverError::Cancelled`]. A stage that does not
+/// settle within its step budget is no error but a [`StageStatus::OutOfSteps`].
+pub fn run(
+    model: &Model,
+    schedule: &Schedule,
+    start: &[DVec3],
+    options: &DynamicOptions,
+    progress: &(dyn Fn(f64) -> bool + Sync),
+) -> Result<Run, SolverError> {
+    options.validate()?;
+    check_input(model, schedule, start)?;
+    let intervals = options.frames / 2;
+    let mut state = State::at_rest(model, model.to_model(start));
+    schedule.targets(Stage::Unfold, 0.0, &mut state.targets);
+    state.follow_angles_from_targets();
+    let recorder = Recorder::new(model, intervals);
+    let previous_forces = vec![DVec3::ZERO; model.node_count()];
+    let mut engine = Engine {
+        schedule,
+        options,
+        progress,
+        intervals,
+        state,
+        recorder,
+        previous_forces,
+    };
+    engine
+        .recorder
+        .frame(Stage::Unfold, 0, &engine.state.positions);
+    let mut stages = Vec::with_capacity(Stage::ALL.len());
+    for stage in Stage::ALL {
+        stages.push(engine.run_stage(stage)?);
+    }
+    let mut frames = engine.recorder.into_frames();
+    // The start is given, not computed: it is recorded as it came, to the last bit.
+    if let Some(first) = frames.first_mut() {
+        *first = Frame {
+            time: 0.0,
+            positions: start.to_vec(),
+        };
+    }
+    let steps = stages.iter().map(|stage| stage.steps).sum();
+    Ok(Run {
+        frames,
+        stages,
+        steps,
+    })
+}
+
+fn check_input(model: &Model, schedule: &Schedule, start: &[DVec3]) -> Result<(), SolverError> {
+    let count = |what, expected, found| {
+        if expected == found {
+            Ok(())
+        } else {
+            Err(SolverError::Count {
+                what,
+                expected,
+                found,
+            })
+        }
+    };
+    count("start positions", model.node_count(), start.len())?;
+    count(
+        "scheduled hinges",
+        model.hinges.len(),
+        schedule.hinge_count(),
+    )?;
+    match start.iter().position(|p| !p.is_finite()) {
+        Some(index) => Err(SolverError::NotFinite {
+            what: "start position of vertex",
+            index,
+        }),
+        None => Ok(()),
+    }
+}
+
+struct Engine<'a, 'm> {
+    schedule: &'a Schedule,
+    options: &'a DynamicOptions,
+    progress: &'a (dyn Fn(f64) -> bool + Sync),
+    intervals: usize,
+    state: State<'m>,
+    recorder: Recorder<'m>,
+    previous_forces: Vec<DVec3>,
+}
+
+impl Engine<'_, '_> {
+    fn run_stage(&mut self, stage: Stage) -> Result<StageOutcome, SolverError> {
+        let increments = self.increments_a_frame(stage);
+        let total = self.intervals * increments;
+        let mut ramp_steps = 0;
+        let mut settling_steps = 0;
+        for increment in 1..=total {
+            let s = increment as f64 / total as f64;
+            ramp_steps += self.ramp(stage, (increment - 1) as f64 / total as f64, s)?;
+            if increment == total {
+                break;
+            }
+            self.settle(stage, s, self.options.ramp_tolerance, &mut settling_steps)?;
+            if increment.is_multiple_of(increments) {
+                self.recorder
+                    .frame(stage, increment / increments, &self.state.positions);
+            }
+        }
+        self.recorder.begin_settling(&self.state.positions);
+        let status = self.settle(stage, 1.0, self.options.tolerance, &mut settling_steps)?;
+        self.recorder
+            .frame(stage, self.intervals, &self.state.positions);
+        self.state.velocities.fill(DVec3::ZERO);
+        self.state.evaluate_forces();
+        Ok(StageOutcome {
+            stage,
+            status,
+            residual: self.state.residual(),
+            fold_angle_error: self.state.fold_angle_error(),
+            steps: ramp_steps + settling_steps,
+        })
+    }
+
+    #[expect(clippy::cast_sign_loss, reason = "a largest magnitude is not negative")]
+    fn increments_a_frame(&self, stage: Stage) -> usize {
+        let turn = self.schedule.largest_turn(stage) / self.intervals as f64;
+        ((turn / LARGEST_INCREMENT).ceil() as usize).max(1)
+    }
+
+    /// Damped steps while the targets go from their values at `from` to those at `to`; how many.
+    fn ramp(&mut self, stage: Stage, from: f64, to: f64) -> Result<u64, SolverError> {
+        self.report(stage, from)?;
+        self.state.damping = 1.0;
+        let dt = SAFETY * self.state.stable_time_step();
+        let steps = self.options.ramp_steps;
+        for step in 1..=steps {
+            let s = from + (to - from) * (step as f64 / steps as f64);
+            self.schedule.targets(stage, s, &mut self.state.targets);
+            self.state
+                .step(dt)
+                .map_err(|runaway| diverged(runaway, stage, s))?;
+        }
+        Ok(steps as u64)
+    }
+
+    /// Relaxes to `tolerance` as far as the budget of the stage allows, of which `spent` is gone.
+    fn settle(
+        &mut self,
+        stage: Stage,
+        s: f64,
+        tolerance: f64,
+        spent: &mut u64,
+    ) -> Result<StageStatus, SolverError> {
+        if tolerance == f64::INFINITY {
+            return Ok(StageStatus::Settled);
+        }
+        let budget = self.options.step_budget.saturating_sub(*spent);
+        let mut relaxation = Relaxation::new(&mut self.state, &mut self.previous_forces, tolerance);
+        let mut looks = 0u64;
+        let mut status = StageStatus::OutOfSteps;
+        while relaxation.steps() < budget {
+            if relaxation
+                .advance()
+                .map_err(|runaway| diverged(runaway, stage, s))?
+                == Progress::Settled
+            {
+                status = StageStatus::Settled;
+                break;
+            }
+            if s == 1.0 {
+                self.recorder.settling(stage, &relaxation.state().positions);
+            }
+            looks += 1;
+            if looks.is_multiple_of(LOOKS_A_REPORT) && !(self.progress)(stage.start_time() + s) {
+                return Err(SolverError::Cancelled {
+                    time: stage.start_time() + s,
+                });
+            }
+        }
+        *spent += relaxation.steps();
+        Ok(status)
+    }
+
+    fn report(&self, stage: Stage, s: f64) -> Result<(), SolverError> {
+        let time = stage.start_time() + s;
+        if (self.progress)(time) {
+            Ok(())
+        } else {
+            Err(SolverError::Cancelled { time })
+        }
+    }
+}
+
+fn diverged((node, displacement): (usize, f64), stage: Stage, s: f64) -> SolverError {
+    SolverError::Diverged {
+        node,
+        time: stage.start_time() + s,
+        displacement,
+    }
+}

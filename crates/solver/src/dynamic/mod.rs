@@ -1,0 +1,21 @@
+//! The dynamic engine: the sheet as masses, springs and dampers, moved by explicit steps.
+//!
+//! [`run`] folds a sheet; [`State`] is the moving sheet itself, for whoever wants to step it.
+//!
+//! Forces as Origami Simulator defines them (Ghassaei, Demaine, Gershenfeld 2018): of a bar with ends a and b on its
+//! first end k (l − l₀) towards b, plus 2 ζ √(k m) (vb − va), a damper on the whole relative velocity, so that it
+//! resists rigid rotation too; of a hinge κ l₀ (θ* − θ) times the gradient of θ; of the corners of a triangle, where
+//! asked for, φ (α₀ − α) times the gradient of α. Unlike there, the time step is bounded by the whole assembled system, the motion
+//! is f64, and it ends where the forces balance.
+
+mod engine;
+mod options;
+mod parallel;
+mod recorder;
+mod relaxation;
+mod stability;
+mod state;
+
+pub use engine::run;
+pub use options::{DynamicOptions, Run, StageOutcome, StageStatus};
+pub use state::State;

@@ -1,0 +1,103 @@
+//! What the user can ask of the dynamic engine, and what it answers.
+
+use foldmotion_pattern::Frame;
+
+use crate::{SolverError, Stage};
+
+/// Options of [`run`](super::run).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct DynamicOptions {
+    /// The motion is recorded at t = 2k/frames, k = 0 … frames; even, at least 2.
+    pub frames: usize,
+    /// The residual at which the end of a stage counts as settled (see [`StageOutcome::residual`]).
+    pub tolerance: f64,
+    /// The residual to which the sheet settles after each increment of the ramp. Infinite: not at all, so that the
+    /// sheet lags behind the schedule as in Origami Simulator.
+    pub ramp_tolerance: f64,
+    /// Damped steps over which each increment of the ramp is spread; at least 1.
+    pub ramp_steps: usize,
+    /// Settling steps allowed in each stage; ramp steps are not counted.
+    pub step_budget: u64,
+}
+
+impl DynamicOptions {
+    /// The largest number of frames taken.
+    pub const MAX_FRAMES: usize = 1_000_000;
+
+    pub(super) fn validate(&self) -> Result<(), SolverError> {
+        let (frames, maximum) = (self.frames, Self::MAX_FRAMES);
+        if frames < 2 || !frames.is_multiple_of(2) || frames > maximum {
+            return Err(SolverError::Frames { frames, maximum });
+        }
+        let ramp_steps = self.ramp_steps as f64;
+        let numbers = [
+            ("tolerance", self.tolerance, self.tolerance < f64::INFINITY),
+            ("ramp_tolerance", self.ramp_tolerance, true),
+            ("ramp_steps", ramp_steps, true),
+        ];
+        match numbers
+            .into_iter()
+            .find(|&(_, value, is_bounded)| !(value > 0.0 && is_bounded))
+        {
+            Some((name, value, _)) => Err(SolverError::Option { name, value }),
+            None => Ok(()),
+        }
+    }
+}
+
+impl Default for DynamicOptions {
+    fn default() -> Self {
+        Self {
+            frames: 240,
+            tolerance: 1e-8,
+            ramp_tolerance: 1e-3,
+            ramp_steps: 32,
+            step_budget: 1_000_000,
+        }
+    }
+}
+
+/// How a stage ended.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum StageStatus {
+    /// The residual fell to the tolerance.
+    Settled,
+    /// The step budget ended first; the state reached is recorded all the same.
+    OutOfSteps,
+}
+
+/// How a stage went.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct StageOutcome {
+    /// Which stage.
+    pub stage: Stage,
+    /// Whether its end is an equilibrium.
+    pub status: StageStatus,
+    /// The largest unbalanced force on a node at its end over the fold stiffness: how many radians out of balance a
+    /// crease of unit length on an arm of unit length would have to be to make it.
+    pub residual: f64,
+    /// The largest |θ − θ*| of any hinge at its end, radians. A settled sheet whose targets fit together has none; one
+    /// caught in another equilibrium, or driven to angles that contradict each other, has.
+    pub fold_angle_error: f64,
+    /// Steps taken, ramp and settling.
+    pub steps: u64,
+}
+
+impl StageOutcome {
+    /// Whether the stage ended in equilibrium.
+    pub fn is_converged(&self) -> bool {
+        self.status == StageStatus::Settled
+    }
+}
+
+/// A computed motion.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Run {
+    /// The states at t = 2k/frames, and between them where settling at the end of a stage moved the sheet visibly;
+    /// times increase strictly. Positions in the sheet's unit.
+    pub frames: Vec<Frame>,
+    /// One for each stage, in order.
+    pub stages: Vec<StageOutcome>,
+    /// Steps of the whole run.
+    pub steps: u64,
+}

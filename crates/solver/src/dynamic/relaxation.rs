@@ -1,0 +1,126 @@
+//! Settling: dynamic relaxation, the motion under a viscous damping that suits its slowest part.
+//!
+//! The dampers along the bars act on relative velocities, so they hardly damp the fast modes of a sheet and choke its
+//! long soft ones, which then creep. Where only the equilibrium is wanted they are replaced by a force −c v on every
+//! node with c = 2 √λ, critical for the mode that moves at present, whose stiffness is the Rayleigh quotient
+//!
+//! λ = −Δx·ΔF / Δx·Δx
+//!
+//! of the last step (Papadrakakis 1981, "A method for the automatic evaluation of the dynamic relaxation parameters";
+//! Underwood 1983, "Dynamic relaxation"). With velocities centred between the steps,
+//!
+//! v ← ((1 − c Δt/2) v + Δt F) / (1 + c Δt/2),  x ← x + Δt v,
+//!
+//! is stable for every c ≥ 0 where the undamped steps are. The equilibrium does not depend on c or on the masses.
+
+use glam::DVec3;
+
+use super::State;
+use super::engine::SAFETY;
+
+/// Steps between two looks at the residual.
+const STEPS_A_LOOK: u64 = 10;
+
+/// Steps between two evaluations of the time step.
+const STEPS_A_BOUND: u64 = 100;
+
+/// How a relaxation stands after a look.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Progress {
+    /// Residual and speed lie below the tolerance.
+    Settled,
+    /// Not yet.
+    Moving,
+}
+
+/// A relaxation under way: the state it moves and its memory of the last step.
+#[derive(Debug)]
+pub(super) struct Relaxation<'a, 'm> {
+    state: &'a mut State<'m>,
+    previous_forces: &'a mut [DVec3],
+    tolerance: f64,
+    damping: f64,
+    dt: f64,
+    steps: u64,
+    was_below: bool,
+}
+
+impl<'a, 'm> Relaxation<'a, 'm> {
+    /// Starts to settle `state` to `tolerance`, without the dampers of its bars.
+    ///
+    /// `previous_forces`: room for one force a node.
+    pub(super) fn new(
+        state: &'a mut State<'m>,
+        previous_forces: &'a mut [DVec3],
+        tolerance: f64,
+    ) -> Self {
+        state.damping = 0.0;
+        Self {
+            state,
+            previous_forces,
+            tolerance,
+            damping: 0.0,
+            dt: 0.0,
+            steps: 0,
+            was_below: false,
+        }
+    }
+
+    /// Steps taken so far.
+    pub(super) fn steps(&self) -> u64 {
+        self.steps
+    }
+
+    /// The state as it moves.
+    pub(super) fn state(&self) -> &State<'m> {
+        self.state
+    }
+
+    /// Moves on to the next look at the residual.
+    ///
+    /// # Errors
+    /// The node that ran away, with its displacement in one step.
+    pub(super) fn advance(&mut self) -> Result<Progress, (usize, f64)> {
+        for _ in 0..STEPS_A_LOOK {
+            self.step()?;
+        }
+        let speed = self.state.largest_speed();
+        let is_below = self.state.residual() <= self.tolerance && speed * self.dt <= self.tolerance;
+        // Twice in a row: a sheet that swings through its equilibrium is below once.
+        let progress = if is_below && self.was_below {
+            Progress::Settled
+        } else {
+            Progress::Moving
+        };
+        self.was_below = is_below;
+        Ok(progress)
+    }
+
+    fn step(&mut self) -> Result<(), (usize, f64)> {
+        self.previous_forces.copy_from_slice(&self.state.forces);
+        self.state.evaluate_forces();
+        if self.steps.is_multiple_of(STEPS_A_BOUND) {
+            self.dt = SAFETY * self.state.stable_time_step();
+        }
+        if self.steps > 0 {
+            self.damping = self.critical_damping();
+        }
+        self.steps += 1;
+        self.state.integrate_damped(self.dt, self.damping)
+    }
+
+    /// 2 √λ of the last step; the damping as it was where nothing moved.
+    fn critical_damping(&self) -> f64 {
+        let (mut work, mut path) = (0.0, 0.0);
+        let forces = self.previous_forces.iter().zip(&self.state.forces);
+        for (v, (before, after)) in self.state.velocities.iter().zip(forces) {
+            work += v.dot(*before - *after);
+            path += v.length_squared();
+        }
+        if path > 0.0 {
+            2.0 * (work / (path * self.dt)).max(0.0).sqrt()
+        } else {
+            self.damping
+        }
+    }
+}
