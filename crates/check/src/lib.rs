@@ -1,1 +1,34 @@
-//! check
+//! What is proved of a motion: the collision verdict, strain, and the box of the compact state.
+//!
+//! # The collision verdict
+//!
+//! [`collisions`] judges every pair of triangles of a sheet over every interval between recorded frames, in which each
+//! vertex moves on a straight line. With τ the touch tolerance, facets *touch* where they come within τ or overlap by
+//! at most τ and leave contact on the side they entered; they *penetrate* where they overlap deeper than τ or leave
+//! on the other side. The depth is the smallest overlap along any direction; across a crease folded past ±180° that
+//! is the height, normal to the facets, of what lies beyond each other.
+//!
+//! What is proved, and under which assumptions:
+//! - A verdict *free* or *touching* is a proof for the frames as f64 numbers and straight paths between them: the tree
+//!   drops only pairs whose swept boxes lie apart, and every other pair has a separating-axis certificate
+//!   (`foldmotion_geometry::collide`) without a gap in time. Rounding is bounded, not ignored.
+//! - *Penetrating* is confirmed by an instant at which the overlap, from the side on which the pair was followed,
+//!   exceeds τ. What overlaps by τ to within rounding at its deepest may come out either way or undecided.
+//! - Triangles in contact at the first frame may be on any side that D(t) allows there; creases folded by exactly
+//!   ±180° at the first frame are taken to be on the side of their assignment. The mutual consistency of such sides
+//!   over more than two layers is not examined.
+//! - Nothing is said about the paths the engine took between the frames if they were not straight, nor about the
+//!   thickness of the material.
+
+mod collision;
+mod error;
+mod extents;
+mod strain;
+
+pub use collision::{
+    Checker, CollisionOptions, CollisionReport, FilterCounts, PairCounts, Penetration,
+    PenetrationKind, Separation, Undecided, Verdict, collisions,
+};
+pub use error::CheckError;
+pub use extents::{FittedBox, RelativeError, fitted_box, relative_error};
+pub use strain::{BarStrain, FacetBending, bar_strain, facet_bending};

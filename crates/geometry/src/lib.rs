@@ -6,9 +6,12 @@
 //! Fold angles follow the FOLD format: 0 flat, positive valley (the neighbouring facet rises on the front side),
 //! negative mountain, ±π folded flat. The front of a facet is the side from which its vertices run counter-clockwise.
 
+mod aabb;
 mod arc_length;
+pub mod collide;
 mod compass;
 mod dihedral;
+mod distance;
 mod division;
 mod error;
 mod levenberg_marquardt;
@@ -18,7 +21,9 @@ mod polygon;
 mod profile;
 mod rigid;
 
+pub use aabb::Aabb;
 pub use dihedral::{fold_angle, fold_angle_gradient, nearest_turn};
+pub use distance::{Closest, segment_segment, triangle_triangle};
 pub use division::{
     Division, DivisionMethod, DivisionOptions, Ending, divide, divide_from, divide_to_length,
 };

@@ -1,0 +1,421 @@
+//! The walk over the frames: which pairs are judged in an interval, and what is remembered of them.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use foldmotion_geometry::{
+    Aabb,
+    collide::{Effort, Limits, MovingPair, Side, Tree},
+};
+use foldmotion_pattern::{Assignment, Frame, Sheet};
+use glam::DVec3;
+use rayon::prelude::*;
+
+use super::{
+    frame::Placed,
+    judge::{Judgement, Question, Witness, starts_deep},
+    pair::{Pair, facets_share_a_vertex},
+    report::{
+        CollisionOptions, CollisionReport, FilterCounts, PairCounts, Penetration, Separation,
+        Undecided, Verdict,
+    },
+};
+use crate::CheckError;
+
+/// Fewer pairs than this are not worth a thread.
+const PAIRS_A_TASK: usize = 128;
+
+/// Judges a motion frame by frame, holding two frames at a time.
+#[derive(Debug)]
+pub struct Checker<'a> {
+    sheet: &'a Sheet,
+    /// τ, a length.
+    tolerance: f64,
+    budget: u32,
+    origin: DVec3,
+    tree: Tree,
+    last: Placed,
+    /// The number of frames taken in.
+    frames: usize,
+    /// The sides of the pairs judged in the last interval, ordered by pair.
+    sides: Vec<((u32, u32), Side)>,
+    penetrating: BTreeSet<(u32, u32)>,
+    touching: BTreeSet<(u32, u32)>,
+    /// The closest approach so far, a length.
+    nearest: Option<Separation>,
+    report: CollisionReport,
+}
+
+impl<'a> Checker<'a> {
+    /// Takes in the first frame.
+    ///
+    /// # Errors
+    /// Tolerance, unit of length, sheet or frame as the variants of [`CheckError`] say.
+    pub fn new(
+        sheet: &'a Sheet,
+        first: &Frame,
+        options: &CollisionOptions,
+    ) -> Result<Self, CheckError> {
+        let value = options.touch_tolerance;
+        if !(value > 0.0 && value < 0.1) {
+            return Err(CheckError::ToleranceOutOfRange { value });
+        }
+        if !(sheet.unit_length > 0.0 && sheet.unit_length.is_finite()) {
+            let value = sheet.unit_length;
+            return Err(CheckError::UnitLength { value });
+        }
+        validate_faces(sheet)?;
+        let hull = Aabb::around(first.positions.iter().copied());
+        let centre = (hull.min + hull.max) * 0.5;
+        let origin = if centre.is_finite() {
+            centre
+        } else {
+            DVec3::ZERO
+        };
+        let last = Placed::new(sheet, first, 0, origin)?;
+        let mut checker = Self {
+            sheet,
+            tolerance: value * sheet.unit_length,
+            budget: options.budget,
+            origin,
+            tree: Tree::new(&last.boxes),
+            last,
+            frames: 1,
+            sides: Vec::new(),
+            penetrating: BTreeSet::new(),
+            touching: BTreeSet::new(),
+            nearest: None,
+            report: empty_report(value),
+        };
+        let limits = checker.limits(checker.last.extent)?;
+        checker.measure_separation();
+        checker.judge_first_frame(&limits)?;
+        Ok(checker)
+    }
+
+    /// Takes in the next frame and judges the interval before it.
+    ///
+    /// # Errors
+    /// A frame that cannot be judged, as the variants of [`CheckError`] say; the checker is as it was before.
+    pub fn advance(&mut self, frame: &Frame) -> Result<(), CheckError> {
+        let next = Placed::new(self.sheet, frame, self.frames, self.origin)?;
+        let (before, time) = (self.last.time, next.time);
+        if time.partial_cmp(&before) != Some(std::cmp::Ordering::Greater) {
+            return Err(CheckError::TimeOrder {
+                frame: self.frames,
+                time,
+                before,
+            });
+        }
+        let limits = self.limits(self.last.extent.max(next.extent))?;
+        let start = std::mem::replace(&mut self.last, next);
+        self.measure_separation();
+        self.judge_interval(&start, &limits);
+        self.frames += 1;
+        Ok(())
+    }
+
+    /// The report on the frames taken in so far.
+    pub fn finish(mut self) -> CollisionReport {
+        let by_time = |p: &Penetration, q: &Penetration| {
+            let by_times = p
+                .time
+                .total_cmp(&q.time)
+                .then(p.passed.total_cmp(&q.passed));
+            by_times.then(p.faces.cmp(&q.faces))
+        };
+        self.report.penetrations.sort_by(by_time);
+        let unit = self.sheet.unit_length;
+        let mut report = self.report;
+        report.first = report.penetrations.first().cloned();
+        report.touching_pairs = self.touching.len();
+        report.min_separation = self.nearest.map(|nearest| Separation {
+            distance: nearest.distance / unit,
+            points: nearest.points.map(|p| p + self.origin),
+            ..nearest
+        });
+        let is_close = self
+            .nearest
+            .is_some_and(|nearest| nearest.distance <= self.tolerance);
+        report.verdict = if report.first.is_some() {
+            Verdict::Penetrating
+        } else if !report.undecided.is_empty() {
+            Verdict::Undecided
+        } else if report.touching_pairs > 0 || is_close {
+            Verdict::Touching
+        } else {
+            Verdict::Free
+        };
+        report
+    }
+
+    fn limits(&self, extent: f64) -> Result<Limits, CheckError> {
+        let margin = Limits::margin_for(extent);
+        if margin * 100.0 > self.tolerance {
+            return Err(CheckError::ToleranceBelowRounding {
+                frame: self.frames,
+                extent,
+                margin,
+                tolerance: self.tolerance,
+            });
+        }
+        Ok(Limits {
+            tolerance: self.tolerance,
+            margin,
+            budget: self.budget,
+        })
+    }
+
+    /// The exact separation at the last frame.
+    fn measure_separation(&mut self) {
+        let hint = self.nearest.map(|nearest| nearest.faces);
+        let Some((closest, faces)) = self.last.nearest(self.sheet, &mut self.tree, hint) else {
+            return;
+        };
+        let unit = self.sheet.unit_length;
+        self.report.separation_series.push(closest.distance / unit);
+        self.keep_nearer(Separation {
+            distance: closest.distance,
+            time: self.last.time,
+            faces,
+            points: [closest.on_a, closest.on_b],
+        });
+    }
+
+    fn keep_nearer(&mut self, candidate: Separation) {
+        let is_nearer = |nearest: &Separation| candidate.distance < nearest.distance;
+        if self.nearest.as_ref().is_none_or(is_nearer) {
+            self.nearest = Some(candidate);
+        }
+    }
+
+    /// Pairs whose boxes, swept from `start` to the last frame, come within τ and within the smallest separation.
+    fn candidates(&mut self, start: &Placed) -> Vec<Pair> {
+        let nearest = self.nearest.map_or(0.0, |nearest| nearest.distance);
+        let radius = 0.5 * nearest.max(self.tolerance);
+        let swept: Vec<_> = start
+            .boxes
+            .iter()
+            .zip(&self.last.boxes)
+            .map(|(p, q)| p.union(q).inflated(radius))
+            .collect();
+        self.tree.refit(&swept);
+        let pairs = self.tree.overlapping_pairs(&swept);
+        pairs
+            .into_iter()
+            .map(|(f, g)| Pair::new(self.sheet, f, g))
+            .collect()
+    }
+
+    /// The sides at the first frame.
+    fn judge_first_frame(&mut self, limits: &Limits) -> Result<(), CheckError> {
+        let swept: Vec<_> = self
+            .last
+            .boxes
+            .iter()
+            .map(|b| b.inflated(self.tolerance))
+            .collect();
+        self.tree.refit(&swept);
+        let assignments = assignments(self.sheet);
+        for (f, g) in self.tree.overlapping_pairs(&swept) {
+            let pair = Pair::new(self.sheet, f, g);
+            if pair.shared == 3 {
+                return Err(CheckError::DuplicateFace { f, g });
+            }
+            let pose = pair.pose(&self.last.positions);
+            match Side::at_start(&pose, limits) {
+                Some(Side::Contact(axes)) => {
+                    self.touching.insert((f, g));
+                    let front = front_normal(self.sheet, f, &self.last.positions);
+                    let kept = match assignments.get(&(f, g)) {
+                        Some(Assignment::Valley) => on_side(&axes, front),
+                        Some(Assignment::Mountain) => on_side(&axes, -front),
+                        _ => axes,
+                    };
+                    self.sides.push(((f, g), Side::Contact(kept)));
+                }
+                Some(apart) => self.sides.push(((f, g), apart)),
+                None => {
+                    let time = self.last.time;
+                    self.penetrates(&pair, 0, [time, time], starts_deep(&pair, &pose));
+                }
+            }
+        }
+        Ok(())
+    }
+
+    fn judge_interval(&mut self, start: &Placed, limits: &Limits) {
+        let mut pairs = self.candidates(start);
+        let faces = self.sheet.faces.len() as u64;
+        let all = faces * faces.saturating_sub(1) / 2;
+        self.report.decided_by.boxes += all - pairs.len() as u64;
+        pairs.retain(|pair| !self.penetrating.contains(&key(pair)));
+        let judged: Vec<Judgement> = pairs
+            .par_iter()
+            .with_min_len(PAIRS_A_TASK)
+            .map(|pair| self.judge(pair, start, limits))
+            .collect();
+        let times = [start.time, self.last.time];
+        self.sides.clear();
+        for (pair, judgement) in pairs.iter().zip(judged) {
+            self.record(pair, judgement, times);
+        }
+    }
+
+    fn judge(&self, pair: &Pair, start: &Placed, limits: &Limits) -> Judgement {
+        let moving = MovingPair {
+            start: pair.pose(&start.positions),
+            end: pair.pose(&self.last.positions),
+        };
+        let found = self.sides.binary_search_by(|(k, _)| k.cmp(&key(pair)));
+        let fresh;
+        let side = if let Ok(index) = found {
+            Some(&self.sides[index].1)
+        } else {
+            fresh = Side::at_start(&moving.start, limits);
+            fresh.as_ref()
+        };
+        let [f, g] = pair.faces;
+        let is_measured = pair.shared == 0 && !facets_share_a_vertex(self.sheet, f, g);
+        let nearest = self
+            .nearest
+            .map_or(f64::INFINITY, |nearest| nearest.distance);
+        let question = Question {
+            limits,
+            nearer_than: is_measured.then_some(nearest),
+            has_touched: self.touching.contains(&key(pair)),
+        };
+        question.judge(pair, &moving, side)
+    }
+
+    fn record(&mut self, pair: &Pair, judgement: Judgement, times: [f64; 2]) {
+        let counts = &mut self.report.pairs_tested;
+        match pair.shared {
+            0 => counts.disjoint += 1,
+            1 => counts.shared_vertex += 1,
+            _ => counts.shared_crease += 1,
+        }
+        let decided_by = &mut self.report.decided_by;
+        let at = |t: f64| times[0] + (times[1] - times[0]) * t;
+        match judgement {
+            Judgement::Passed {
+                side,
+                effort,
+                is_touching,
+                approach,
+            } => {
+                match effort {
+                    Effort::AxisAtRest => decided_by.axis_at_rest += 1,
+                    Effort::TurningAxis => decided_by.turning_axis += 1,
+                    Effort::Search => decided_by.search += 1,
+                }
+                if is_touching {
+                    self.touching.insert(key(pair));
+                }
+                self.sides.push((key(pair), side));
+                if let Some(approach) = approach {
+                    self.keep_nearer(Separation {
+                        distance: approach.closest.distance,
+                        time: at(approach.time),
+                        faces: pair.faces,
+                        points: [approach.closest.on_a, approach.closest.on_b],
+                    });
+                }
+            }
+            Judgement::Penetrates(witness) => {
+                decided_by.search += 1;
+                self.penetrates(pair, self.frames - 1, times, witness);
+            }
+            Judgement::Undecided { time } => {
+                decided_by.search += 1;
+                self.report.undecided.push(Undecided {
+                    time: at(time),
+                    frame: self.frames - 1,
+                    faces: pair.faces,
+                });
+            }
+        }
+    }
+
+    fn penetrates(&mut self, pair: &Pair, frame: usize, times: [f64; 2], witness: Witness) {
+        let at = |t: f64| times[0] + (times[1] - times[0]) * t;
+        let [f, g] = pair.faces;
+        if pair.shared == 0 && !facets_share_a_vertex(self.sheet, f, g) {
+            self.keep_nearer(Separation {
+                distance: 0.0,
+                time: at(witness.contact),
+                faces: pair.faces,
+                points: [witness.point; 2],
+            });
+        }
+        self.penetrating.insert(key(pair));
+        self.report.penetrations.push(Penetration {
+            time: at(witness.contact),
+            passed: at(witness.passed),
+            frame,
+            faces: pair.faces,
+            vertices: witness.vertices,
+            point: witness.point + self.origin,
+            depth: witness.depth / self.sheet.unit_length,
+            kind: witness.kind,
+        });
+    }
+}
+
+fn key(pair: &Pair) -> (u32, u32) {
+    (pair.faces[0], pair.faces[1])
+}
+
+fn empty_report(tolerance: f64) -> CollisionReport {
+    CollisionReport {
+        verdict: Verdict::Free,
+        tolerance,
+        first: None,
+        penetrations: Vec::new(),
+        touching_pairs: 0,
+        undecided: Vec::new(),
+        min_separation: None,
+        separation_series: Vec::new(),
+        pairs_tested: PairCounts::default(),
+        decided_by: FilterCounts::default(),
+    }
+}
+
+fn validate_faces(sheet: &Sheet) -> Result<(), CheckError> {
+    let vertices = sheet.vertices.len();
+    for (face, corners) in sheet.faces.iter().enumerate() {
+        if let Some(&vertex) = corners.iter().find(|&&v| v as usize >= vertices) {
+            return Err(CheckError::CornerOutOfRange {
+                face,
+                vertex,
+                vertices,
+            });
+        }
+    }
+    Ok(())
+}
+
+/// The assignment of the edge between two triangles.
+fn assignments(sheet: &Sheet) -> BTreeMap<(u32, u32), Assignment> {
+    let mut between = BTreeMap::new();
+    for edge in &sheet.edges {
+        if let [Some(f), Some(g)] = edge.faces {
+            between.insert((f.min(g), f.max(g)), edge.assignment);
+        }
+    }
+    between
+}
+
+fn front_normal(sheet: &Sheet, face: u32, positions: &[DVec3]) -> DVec3 {
+    let [p, q, r] = sheet.faces[face as usize].map(|v| positions[v as usize]);
+    (q - p).cross(r - p).normalize_or_zero()
+}
+
+/// The axes that point to the side of `normal`; all where none does.
+fn on_side(axes: &[DVec3], normal: DVec3) -> Vec<DVec3> {
+    let kept: Vec<_> = axes
+        .iter()
+        .copied()
+        .filter(|d| d.dot(normal) > 0.5)
+        .collect();
+    if kept.is_empty() { axes.to_vec() } else { kept }
+}

@@ -1,0 +1,41 @@
+//! The collision verdict on a motion.
+
+mod checker;
+mod frame;
+mod judge;
+mod pair;
+mod report;
+
+pub use checker::Checker;
+use foldmotion_pattern::Motion;
+pub use report::{
+    CollisionOptions, CollisionReport, FilterCounts, PairCounts, Penetration, PenetrationKind,
+    Separation, Undecided, Verdict,
+};
+
+use crate::CheckError;
+
+/// Judges a motion: every pair of triangles in every interval between frames.
+///
+/// `progress` is told the share that is done, from 0 to 1, once an interval; where it returns false the check ends.
+/// The whole motion is judged, also after the first penetration; a pair is dropped after its first one. The report
+/// is bitwise the same for any number of threads.
+///
+/// # Errors
+/// [`CheckError::Cancelled`] if `progress` returned false; the other variants if the motion cannot be judged.
+pub fn collisions(
+    motion: &Motion,
+    options: &CollisionOptions,
+    progress: &(dyn Fn(f64) -> bool + Sync),
+) -> Result<CollisionReport, CheckError> {
+    let (first, rest) = motion.frames.split_first().ok_or(CheckError::NoFrames)?;
+    let mut checker = Checker::new(&motion.sheet, first, options)?;
+    for (done, frame) in rest.iter().enumerate() {
+        if !progress(done as f64 / rest.len() as f64) {
+            return Err(CheckError::Cancelled { intervals: done });
+        }
+        checker.advance(frame)?;
+    }
+    progress(1.0);
+    Ok(checker.finish())
+}

@@ -1,0 +1,158 @@
+//! What the collision check reports.
+
+use glam::DVec3;
+use serde::Serialize;
+
+/// How a motion is judged.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct CollisionOptions {
+    /// τ in units of h: overlaps up to this are touching. Positive, below 0.1.
+    pub touch_tolerance: f64,
+    /// The most steps spent on one pair in one interval before it is left undecided.
+    pub budget: u32,
+}
+
+impl Default for CollisionOptions {
+    fn default() -> Self {
+        Self {
+            touch_tolerance: 1e-6,
+            budget: 4096,
+        }
+    }
+}
+
+/// The verdict on a motion.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Verdict {
+    /// No facets come within τ of each other, apart from what they share.
+    Free,
+    /// Some touch, none penetrate.
+    Touching,
+    /// Some penetrate.
+    Penetrating,
+    /// No penetration was found, but some pair could not be decided.
+    Undecided,
+}
+
+/// How two facets penetrate each other.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum PenetrationKind {
+    /// A vertex is deeper than τ beyond a facet.
+    VertexFacet,
+    /// Two edges are deeper than τ beyond each other.
+    EdgeEdge,
+    /// Facets that share an edge are folded past ±180° by an overlap of more than τ.
+    FoldedThrough,
+    /// Facets that share a vertex cross around it.
+    AroundVertex,
+    /// Facets leave contact on the other side, without an instant found at which they are deeper than τ.
+    PassedThrough,
+}
+
+/// The first penetration of a pair of triangles.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Penetration {
+    /// The motion time at which the contact begins that leads to it; the start of the interval if the pair was in
+    /// contact there already.
+    pub time: f64,
+    /// The motion time at which the overlap passes τ.
+    pub passed: f64,
+    /// The index of the frame at the start of the interval.
+    pub frame: usize,
+    /// The triangles, the smaller index first.
+    pub faces: [u32; 2],
+    /// The vertices that meet: a vertex and a facet's three, two edges' four, or a hinge's four (fewer where some are
+    /// shared).
+    pub vertices: Vec<u32>,
+    /// Where they meet.
+    pub point: DVec3,
+    /// In units of h, the largest found in the interval: the depth for facets that share no vertex (at most τ if they
+    /// passed through), otherwise the overlap from the side on which they were.
+    pub depth: f64,
+    /// How they meet.
+    pub kind: PenetrationKind,
+}
+
+/// The closest approach of facets that share no vertex.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Separation {
+    /// In units of h; 0 where facets meet.
+    pub distance: f64,
+    /// The motion time.
+    pub time: f64,
+    /// The triangles, the smaller index first.
+    pub faces: [u32; 2],
+    /// The closest points, one on each.
+    pub points: [DVec3; 2],
+}
+
+/// A pair that could not be decided in an interval.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Undecided {
+    /// The motion time up to which the pair is certified.
+    pub time: f64,
+    /// The index of the frame at the start of the interval.
+    pub frame: usize,
+    /// The triangles, the smaller index first.
+    pub faces: [u32; 2],
+}
+
+/// How many pairs were judged, counted once an interval.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
+pub struct PairCounts {
+    /// Triangles that share no vertex.
+    pub disjoint: u64,
+    /// Triangles that share one vertex.
+    pub shared_vertex: u64,
+    /// Triangles that share an edge, a crease or one inside a facet.
+    pub shared_crease: u64,
+}
+
+impl PairCounts {
+    /// All of them.
+    pub fn total(&self) -> u64 {
+        self.disjoint + self.shared_vertex + self.shared_crease
+    }
+}
+
+/// What decided the pairs, counted once an interval.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
+pub struct FilterCounts {
+    /// The swept boxes lie apart.
+    pub boxes: u64,
+    /// One axis at rest separates, or the fold angle of a hinge keeps its sign.
+    pub axis_at_rest: u64,
+    /// Axes that turn along separate.
+    pub turning_axis: u64,
+    /// All axes were tried.
+    pub search: u64,
+}
+
+/// The verdict on a motion, with its evidence.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct CollisionReport {
+    /// The verdict.
+    pub verdict: Verdict,
+    /// τ in units of h.
+    pub tolerance: f64,
+    /// The penetration that is first in time.
+    pub first: Option<Penetration>,
+    /// The first penetration of every pair that has one, in order of time.
+    pub penetrations: Vec<Penetration>,
+    /// How many distinct pairs touch.
+    pub touching_pairs: usize,
+    /// What could not be decided.
+    pub undecided: Vec<Undecided>,
+    /// The closest approach over the whole motion; none where all facets share vertices.
+    ///
+    /// The distance is attained at `time`; the true minimum is smaller by at most τ / 100 and a ten thousandth.
+    pub min_separation: Option<Separation>,
+    /// The smallest distance of facets that share no vertex at each frame, in units of h; empty where all do.
+    pub separation_series: Vec<f64>,
+    /// How many pairs were judged.
+    pub pairs_tested: PairCounts,
+    /// What decided them.
+    pub decided_by: FilterCounts,
+}

@@ -1,0 +1,122 @@
+//! The box of a state, measured against an exact one.
+
+use foldmotion_geometry::{Aabb, RigidMotion};
+use glam::DVec3;
+use serde::Serialize;
+
+/// The box of a state after the rigid motion that best fits it to the exact one.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct FittedBox {
+    /// Along x, y, z of the exact state.
+    pub extents: DVec3,
+    /// x · z.
+    pub area: f64,
+    /// x · y · z.
+    pub volume: f64,
+    /// The root mean square distance of the vertices from the exact state.
+    pub rms_to_exact: f64,
+}
+
+/// Fits `positions` to `exact` by a rotation and a translation (no reflection) and measures the box.
+///
+/// Precondition: as many positions as exact ones; none give zeros.
+pub fn fitted_box(positions: &[DVec3], exact: &[DVec3]) -> FittedBox {
+    let fit = RigidMotion::best_fit(positions, exact);
+    let fitted = || positions.iter().map(|&p| fit.apply(p));
+    let squared: f64 = fitted()
+        .zip(exact)
+        .map(|(p, &q)| p.distance_squared(q))
+        .sum();
+    let extents = Aabb::around(fitted()).extents().max(DVec3::ZERO);
+    FittedBox {
+        extents,
+        area: extents.x * extents.z,
+        volume: extents.x * extents.y * extents.z,
+        rms_to_exact: (squared / positions.len().max(1) as f64).sqrt(),
+    }
+}
+
+/// What a measured box is off its closed form by.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct RelativeError {
+    /// Of each extent.
+    pub extents: DVec3,
+    /// Of x · z.
+    pub area: f64,
+    /// Of x · y · z.
+    pub volume: f64,
+}
+
+/// (measured − closed form), each divided by the closed form or, where that is 0, by h, h², h³.
+///
+/// `extents`: the closed form's; area and volume follow from it. `unit_length`: h.
+pub fn relative_error(measured: &FittedBox, extents: DVec3, unit_length: f64) -> RelativeError {
+    let relative = |value: f64, exact: f64, unit: f64| {
+        (value - exact) / if exact == 0.0 { unit } else { exact }
+    };
+    let of_extent = |i: usize| relative(measured.extents[i], extents[i], unit_length);
+    RelativeError {
+        extents: DVec3::new(of_extent(0), of_extent(1), of_extent(2)),
+        area: relative(measured.area, extents.x * extents.z, unit_length.powi(2)),
+        volume: relative(
+            measured.volume,
+            extents.x * extents.y * extents.z,
+            unit_length.powi(3),
+        ),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use glam::DQuat;
+
+    use super::*;
+
+    fn brick() -> Vec<DVec3> {
+        (0..8)
+            .map(|i| {
+                DVec3::new(
+                    f64::from(i & 1) * 3.0,
+                    f64::from(i >> 1 & 1) * 2.0,
+                    f64::from(i >> 2) * 0.5,
+                )
+            })
+            .collect()
+    }
+
+    #[test]
+    fn the_box_does_not_depend_on_where_the_state_lies() {
+        let turn = DQuat::from_axis_angle(DVec3::new(1.0, -2.0, 0.4).normalize(), 2.1);
+        let moved: Vec<_> = brick()
+            .into_iter()
+            .map(|p| turn * p + DVec3::new(5.0, 1.0, -9.0))
+            .collect();
+        let measured = fitted_box(&moved, &brick());
+        assert!(measured.extents.distance(DVec3::new(3.0, 2.0, 0.5)) < 1e-12);
+        assert!((measured.area - 1.5).abs() < 1e-12 && (measured.volume - 3.0).abs() < 1e-12);
+        assert!(measured.rms_to_exact < 1e-12);
+        let error = relative_error(&measured, DVec3::new(3.0, 2.0, 0.5), 1.0);
+        assert!(error.extents.length() + error.area.abs() + error.volume.abs() < 1e-11);
+    }
+
+    #[test]
+    fn an_extent_whose_closed_form_is_zero_is_measured_in_units_of_h() {
+        let measured = FittedBox {
+            extents: DVec3::new(4.0, 0.2, 1.1),
+            area: 4.4,
+            volume: 0.88,
+            rms_to_exact: 0.0,
+        };
+        let error = relative_error(&measured, DVec3::new(4.0, 0.0, 1.0), 2.0);
+        assert_eq!(error.extents.y, 0.1);
+        assert!((error.extents.z - 0.1).abs() < 1e-15 && (error.area - 0.1).abs() < 1e-15);
+        assert_eq!(error.volume, 0.11);
+    }
+
+    #[test]
+    fn a_state_that_is_not_the_exact_one_has_a_distance_to_it() {
+        let mut bent = brick();
+        bent[7].z += 0.3;
+        assert!(fitted_box(&bent, &brick()).rms_to_exact > 0.05);
+    }
+}

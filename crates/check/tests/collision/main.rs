@@ -1,0 +1,4 @@
+//! The collision verdict against motions whose verdict is known.
+
+mod sheets;
+mod verdicts;

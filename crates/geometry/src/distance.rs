@@ -1,0 +1,205 @@
+//! Distances between points, segments and triangles, with the points where they are attained.
+
+use glam::DVec3;
+
+/// The closest points of two sets.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Closest {
+    /// Their distance, 0 where the sets meet.
+    pub distance: f64,
+    /// The point of the first set.
+    pub on_a: DVec3,
+    /// The point of the second set.
+    pub on_b: DVec3,
+}
+
+impl Closest {
+    fn between(on_a: DVec3, on_b: DVec3) -> Self {
+        Self {
+            distance: on_a.distance(on_b),
+            on_a,
+            on_b,
+        }
+    }
+
+    fn flipped(self) -> Self {
+        Self {
+            distance: self.distance,
+            on_a: self.on_b,
+            on_b: self.on_a,
+        }
+    }
+
+    fn keep_nearer(&mut self, other: Self) {
+        if other.distance < self.distance {
+            *self = other;
+        }
+    }
+}
+
+/// The closest points of segments `a` and `b`.
+///
+/// Ericson 2005, "Real-Time Collision Detection", section 5.1.9. Segments of no length and parallel segments are
+/// allowed; for nearly parallel ones the points may be off along the segments, which changes the distance by rounding
+/// only.
+pub fn segment_segment(a: [DVec3; 2], b: [DVec3; 2]) -> Closest {
+    let (u, v, w) = (a[1] - a[0], b[1] - b[0], a[0] - b[0]);
+    let (uu, uv, vv, uw, vw) = (u.dot(u), u.dot(v), v.dot(v), u.dot(w), v.dot(w));
+    let ratio = |x: f64, y: f64| {
+        if y > 0.0 {
+            (x / y).clamp(0.0, 1.0)
+        } else {
+            0.0
+        }
+    };
+    let mut s = ratio(uv * vw - uw * vv, uu * vv - uv * uv);
+    let t = if vv > 0.0 { (uv * s + vw) / vv } else { 0.0 };
+    let t_inside = t.clamp(0.0, 1.0);
+    if t != t_inside || vv == 0.0 {
+        s = ratio(uv * t_inside - uw, uu);
+    }
+    Closest::between(a[0] + u * s, b[0] + v * t_inside)
+}
+
+/// The foot of `point` on the plane of `triangle` where it falls inside the triangle.
+fn foot_inside(point: DVec3, triangle: &[DVec3; 3]) -> Option<DVec3> {
+    let [p, q, r] = *triangle;
+    let normal = (q - p).cross(r - p);
+    let squared = normal.length_squared();
+    if squared == 0.0 {
+        return None;
+    }
+    let foot = point - normal * (normal.dot(point - p) / squared);
+    let inside = |from: DVec3, to: DVec3| (to - from).cross(foot - from).dot(normal) >= 0.0;
+    (inside(p, q) && inside(q, r) && inside(r, p)).then_some(foot)
+}
+
+/// Where the segment crosses the triangle.
+fn crossing(segment: [DVec3; 2], triangle: &[DVec3; 3]) -> Option<DVec3> {
+    let [p, q, r] = *triangle;
+    let normal = (q - p).cross(r - p);
+    let (s, t) = (normal.dot(segment[0] - p), normal.dot(segment[1] - p));
+    if s * t >= 0.0 {
+        return None;
+    }
+    let point = segment[0].lerp(segment[1], s / (s - t));
+    foot_inside(point, triangle).map(|_| point)
+}
+
+fn edges(triangle: &[DVec3; 3]) -> [[DVec3; 2]; 3] {
+    let [p, q, r] = *triangle;
+    [[p, q], [q, r], [r, p]]
+}
+
+/// The closest points of two triangles.
+///
+/// The minimum over the six corners above the other facet and the nine pairs of edges; 0 where an edge crosses a facet.
+/// Triangles of no area are treated as their edges.
+pub fn triangle_triangle(a: &[DVec3; 3], b: &[DVec3; 3]) -> Closest {
+    let mut closest = Closest::between(a[0], b[0]);
+    for edge_a in edges(a) {
+        for edge_b in edges(b) {
+            closest.keep_nearer(segment_segment(edge_a, edge_b));
+        }
+    }
+    for &corner in a {
+        if let Some(foot) = foot_inside(corner, b) {
+            closest.keep_nearer(Closest::between(corner, foot));
+        }
+    }
+    for &corner in b {
+        if let Some(foot) = foot_inside(corner, a) {
+            closest.keep_nearer(Closest::between(corner, foot).flipped());
+        }
+    }
+    let through_b = edges(a).into_iter().find_map(|edge| crossing(edge, b));
+    let meeting = through_b.or_else(|| edges(b).into_iter().find_map(|edge| crossing(edge, a)));
+    if let Some(point) = meeting {
+        closest.keep_nearer(Closest::between(point, point));
+    }
+    closest
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::collide::random::Random;
+
+    fn sampled(a: &[DVec3; 3], b: &[DVec3; 3], n: i32) -> f64 {
+        let points = |t: &[DVec3; 3]| {
+            let t = *t;
+            (0..=n)
+                .flat_map(move |i| (0..=n - i).map(move |j| (i, j)))
+                .map(move |(i, j)| {
+                    let (u, v) = (f64::from(i) / f64::from(n), f64::from(j) / f64::from(n));
+                    t[0] + (t[1] - t[0]) * u + (t[2] - t[0]) * v
+                })
+                .collect::<Vec<_>>()
+        };
+        let (pa, pb) = (points(a), points(b));
+        pa.iter()
+            .flat_map(|&p| pb.iter().map(move |&q| p.distance(q)))
+            .fold(f64::INFINITY, f64::min)
+    }
+
+    #[test]
+    fn the_distance_of_triangles_agrees_with_dense_sampling_from_above() {
+        let mut random = Random::new(3);
+        for case in 0..60 {
+            let a = random.triangle(1.0);
+            let mut b = random.triangle(1.0);
+            if case % 3 == 0 {
+                b = b.map(|p| p + DVec3::Z * 1.5);
+            }
+            if case % 5 == 0 {
+                b = b.map(|p| DVec3::new(p.x, p.y, a[0].z)); // coplanar corner
+            }
+            let n = 24;
+            let closest = triangle_triangle(&a, &b);
+            let dense = sampled(&a, &b, n);
+            assert!(
+                closest.distance <= dense + 1e-14,
+                "{case}: {} > {dense}",
+                closest.distance
+            );
+            // The samples lie within 2 · (longest edge) / n of every point.
+            assert!(
+                closest.distance >= dense - 4.0 * 3.5 / f64::from(n),
+                "{case}"
+            );
+            assert!(closest.on_a.distance(closest.on_b) <= closest.distance + 1e-15);
+        }
+    }
+
+    #[test]
+    fn the_closest_points_lie_on_their_triangles() {
+        let mut random = Random::new(4);
+        for _ in 0..200 {
+            let (a, b) = (random.triangle(1.0), random.triangle(1.0));
+            let closest = triangle_triangle(&a, &b);
+            for (triangle, point) in [(&a, closest.on_a), (&b, closest.on_b)] {
+                let degenerate = [point, point, point];
+                assert!(triangle_triangle(triangle, &degenerate).distance < 1e-12);
+            }
+        }
+    }
+
+    #[test]
+    fn known_distances_hold() {
+        let a = [DVec3::ZERO, DVec3::X, DVec3::Y];
+        let above = a.map(|p| p * 0.25 + DVec3::new(0.1, 0.1, 0.7));
+        assert!((triangle_triangle(&a, &above).distance - 0.7).abs() < 1e-15);
+        let through = [
+            DVec3::new(0.2, 0.2, -1.0),
+            DVec3::new(0.2, 0.2, 1.0),
+            DVec3::new(5.0, 5.0, 0.0),
+        ];
+        assert_eq!(triangle_triangle(&a, &through).distance, 0.0);
+        let inside = a.map(|p| p * 0.2 + DVec3::new(0.1, 0.1, 0.0));
+        assert_eq!(triangle_triangle(&a, &inside).distance, 0.0);
+        let parallel = segment_segment([DVec3::ZERO, DVec3::X], [DVec3::Y, DVec3::Y + DVec3::X]);
+        assert_eq!(parallel.distance, 1.0);
+        let point = segment_segment([DVec3::Z; 2], [DVec3::ZERO; 2]);
+        assert_eq!(point.distance, 1.0);
+    }
+}
