@@ -51,7 +51,10 @@ impl Default for FilmOptions {
 
 impl FilmOptions {
     /// Refuses what cannot be filmed.
-    fn check(&self) -> Result<(), RecordError> {
+    ///
+    /// # Errors
+    /// [`RecordError::Size`], [`RecordError::FramesPerSecond`], [`RecordError::Seconds`], [`RecordError::LineWidth`].
+    pub fn check(&self) -> Result<(), RecordError> {
         check_size(self.size)?;
         self.style.check()?;
         if !(self.fps > 0.0 && self.fps <= MAX_FRAMES_PER_SECOND) {

@@ -265,18 +265,15 @@ impl<'a> Surface<'a> {
     }
 
     /// Whether no other triangle of `list` than `face` is seen in the square of half side `half` around `centre`,
-    /// judged from bounds: true is certain, false is not.
+    /// judged from bounds: true is certain, false is not. The list holds what may touch the square.
     pub(crate) fn fills(&self, face: u32, list: &[u32], centre: DVec2, half: f64) -> bool {
         let screen = self.face(face);
         if !screen.covers_square(centre, half) {
             return false;
         }
         let farthest = screen.depth(centre) - half * screen.steepness();
-        list.iter().all(|&other| {
-            other == face
-                || !self.face(other).may_touch(centre, half)
-                || self.is_before(face, farthest, other, centre, half)
-        })
+        list.iter()
+            .all(|&other| other == face || self.is_before(face, farthest, other, centre, half))
     }
 
     /// Whether `face`, nowhere farther than `farthest`, is in front of `other` in the whole square.

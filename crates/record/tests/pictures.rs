@@ -449,3 +449,43 @@ fn cameras_of_bad_input_are_refused() {
     let one = Camera::fit(View::Iso, [DVec3::ONE], SIZE, 0.0).unwrap();
     assert_eq!(one.project(DVec3::ONE).truncate(), DVec2::new(48.0, 36.0));
 }
+
+#[test]
+fn layers_that_noise_drives_through_each_other_keep_their_faces_only_by_their_order() {
+    let unit = Unit::new(Case::E, 1.0, 1.0, None, None).unwrap();
+    let units = UnitSheet::new(unit, 3, 2).unwrap();
+    let compact = units.compact();
+    let size = [192, 144];
+    let camera = Camera::fit(View::Front, compact.iter().copied(), size, 0.05).unwrap();
+    // The noise a motion without contact leaves between frames, across the layers: up to 6e-3 h between two.
+    let noisy: Vec<_> = (0_u32..)
+        .zip(&compact)
+        .map(|(i, &p)| p + DVec3::Y * 3e-3 * f64::from(i * 7919 % 101).sin())
+        .collect();
+    let changed = |order: &LayerOrder| {
+        let paper = Paper::new(&units.sheet, order);
+        let style = plain();
+        let seen = [&compact, &noisy].map(|state| {
+            let surface = Surface::new(&paper, state, &camera, &style);
+            let at = |k: u32| DVec2::new(f64::from(k % 192), f64::from(k / 192)) + 0.37;
+            let points = (0..192 * 144).map(at);
+            let faces: Vec<_> = points
+                .map(|p| surface.front_at(p).map(|candidate| candidate.face))
+                .collect();
+            faces
+        });
+        let differ = seen[0].iter().zip(&seen[1]).filter(|(a, b)| a != b);
+        (differ.count(), seen[0].iter().flatten().count())
+    };
+    let (with_order, shown) = changed(&units.compact_order());
+    assert!(shown > 4000, "{shown} points show paper");
+    assert!(
+        with_order * 200 < shown,
+        "{with_order} of {shown} points flicker"
+    );
+    let (without_order, _) = changed(&LayerOrder::default());
+    assert!(
+        without_order * 4 > shown,
+        "only {without_order} of {shown} flicker"
+    );
+}
