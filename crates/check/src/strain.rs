@@ -73,3 +73,70 @@ pub fn facet_bending(sheet: &Sheet, positions: &[DVec3]) -> FacetBending {
     }
     bending
 }
+
+#[cfg(test)]
+mod tests {
+    use foldmotion_pattern::{CreaseKind, Edge};
+    use glam::DVec2;
+
+    use super::*;
+
+    /// A unit square split along its diagonal.
+    fn square(assignment: Assignment) -> Sheet {
+        let edge = |v: u32, w: u32, assignment, faces| Edge {
+            vertices: [v, w],
+            assignment,
+            kind: CreaseKind::Facet,
+            row: 0,
+            column: 0,
+            faces,
+        };
+        let border = |v, w, face| edge(v, w, Assignment::Border, [Some(face), None]);
+        Sheet {
+            vertices: vec![DVec2::ZERO, DVec2::X, DVec2::ONE, DVec2::Y],
+            edges: vec![
+                border(0, 1, 0),
+                border(1, 2, 0),
+                border(2, 3, 1),
+                border(3, 0, 1),
+                edge(0, 2, assignment, [Some(1), Some(0)]),
+            ],
+            faces: vec![[0, 1, 2], [0, 2, 3]],
+            face_facets: vec![0, 0],
+            facets: Vec::new(),
+            unit_length: 1.0,
+        }
+    }
+
+    #[test]
+    fn strain_is_the_relative_change_of_length() {
+        let sheet = square(Assignment::Facet);
+        let unstrained = bar_strain(&sheet, &sheet.planar());
+        assert_eq!((unstrained.peak, unstrained.mean), (0.0, 0.0));
+        let scaled: Vec<_> = sheet.planar().iter().map(|p| p * 0.9).collect();
+        let strain = bar_strain(&sheet, &scaled);
+        assert!((strain.peak - 0.1).abs() < 1e-15 && (strain.mean - 0.1).abs() < 1e-15);
+        let mut pulled = sheet.planar();
+        pulled[3].y = 1.5;
+        let strain = bar_strain(&sheet, &pulled);
+        assert_eq!(strain.peak_edge, 3);
+        assert!((strain.peak - 0.5).abs() < 1e-15);
+        let other = 1.25f64.sqrt() - 1.0;
+        assert!((strain.mean - (0.5 + other) / 5.0).abs() < 1e-15);
+    }
+
+    #[test]
+    fn bending_is_measured_inside_facets_and_not_at_creases() {
+        let bend: f64 = 0.3;
+        let sheet = square(Assignment::Facet);
+        let mut bent = sheet.planar();
+        let half = DVec3::new(0.5, 0.5, 0.0);
+        let height = bent[3] - half;
+        bent[3] = half + height * bend.cos() + DVec3::Z * (height.length() * bend.sin());
+        let bending = facet_bending(&sheet, &bent);
+        assert!((bending.peak_rad - bend).abs() < 1e-15 && bending.peak_edge == Some(4));
+        assert!((bending.peak_deg() - bend.to_degrees()).abs() < 1e-12);
+        let creased = facet_bending(&square(Assignment::Valley), &bent);
+        assert_eq!((creased.peak_rad, creased.peak_edge), (0.0, None));
+    }
+}

@@ -84,12 +84,14 @@ impl Placed {
         let measure = |f: u32, g: u32| triangle_triangle(&corners(f), &corners(g));
         let mut best = hint.map(|[f, g]| (measure(f, g), [f, g]));
         let bound = best.as_ref().map_or(f64::INFINITY, |b| b.0.distance);
+        // Pairs as near as the bound to within rounding need no exact distance.
+        let rounding = Limits::margin_for(self.extent);
         tree.refit(&self.boxes);
         tree.visit_near(&self.boxes, bound, |f, g, bound| {
             let (a, b) = (corners(f), corners(g));
             if Pair::new(sheet, f, g).shared > 0
                 || facets_share_a_vertex(sheet, f, g)
-                || is_farther(&a, &b, bound)
+                || is_farther(&a, &b, bound - rounding)
             {
                 return bound;
             }

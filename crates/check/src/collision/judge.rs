@@ -3,7 +3,7 @@
 use foldmotion_geometry::{
     collide::{
         Approach, Axis, Crossing, Effort, Feature, Limits, MovingPair, Outcome, PairPose, Side,
-        certify, closest_approach,
+        certify, closest_approach, enough_clearance,
     },
     segment_segment,
 };
@@ -69,14 +69,17 @@ impl Question<'_> {
         } else {
             wanted
         };
-        let approach = (pair.shared == 0 && passage.clearance < bound)
-            .then(|| closest_approach(moving, bound, self.limits))
-            .flatten();
-        let distance = approach.map_or(f64::INFINITY, |found| found.closest.distance);
+        let is_news = pair.shared == 0 && passage.clearance < enough_clearance(bound, self.limits);
+        let found = is_news.then(|| closest_approach(moving, bound, self.limits));
+        let approach = found.and_then(|found| found.nearest);
+        let distance = approach.map_or(f64::INFINITY, |approach| approach.closest.distance);
+        // Free is claimed only where it is proved, to the hundredth of τ to which distances are searched.
+        let is_proved_free =
+            found.is_some_and(|found| found.is_complete) && distance > 1.01 * tolerance;
         Judgement::Passed {
             side: passage.side,
             effort: passage.effort,
-            is_touching: passage.in_contact || (may_touch && distance <= tolerance),
+            is_touching: passage.in_contact || (may_touch && !is_proved_free),
             approach: approach.filter(|_| distance < wanted),
         }
     }

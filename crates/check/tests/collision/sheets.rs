@@ -91,8 +91,9 @@ pub(crate) fn folded(sheet: &Sheet, directions: &[f64]) -> Vec<DVec3> {
         let last = profile[profile.len() - 1];
         profile.push(last + DVec3::new(angle.cos(), 0.0, angle.sin()));
     }
-    let place = |v: &DVec2| profile[v.x.round() as usize] + DVec3::Y * v.y;
-    sheet.vertices.iter().map(place).collect()
+    let rows = sheet.vertices.len() / profile.len();
+    let place = |(index, v): (usize, &DVec2)| profile[index / rows] + DVec3::Y * v.y;
+    sheet.vertices.iter().enumerate().map(place).collect()
 }
 
 pub(crate) fn motion(sheet: Sheet, states: impl IntoIterator<Item = Vec<DVec3>>) -> Motion {

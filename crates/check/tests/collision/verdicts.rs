@@ -9,7 +9,7 @@ use glam::{DQuat, DVec2, DVec3};
 use crate::sheets::{accordion, fold, folded, motion, sheet, strip};
 
 fn judge(motion: &Motion) -> CollisionReport {
-    collisions(motion, &CollisionOptions::default(), &|_| true).expect("the motion can be judged")
+    collisions(motion, &CollisionOptions::default(), &|_| true).unwrap()
 }
 
 /// Two separate triangles; the second is placed by the states.
@@ -32,9 +32,7 @@ fn a_strip_that_stays_apart_is_free_with_its_closest_approach() {
     let expected = 1.0 + 2.0 * f64::cos(1.8);
     let report = judge(&fold(3, &[&[0.0; 3], &channel, &[0.0; 3]], 7));
     assert_eq!(report.verdict, Verdict::Free, "{report:?}");
-    let separation = report
-        .min_separation
-        .expect("squares 1 and 3 share no vertex");
+    let separation = report.min_separation.unwrap();
     assert!(
         (separation.distance - expected).abs() < 1e-4,
         "{separation:?}"
@@ -53,7 +51,7 @@ fn the_closest_approach_between_frames_is_found() {
         DVec3::new(-2.0, 0.1, 0.1),
         DVec3::new(2.0, 0.1, 0.1),
     ]));
-    let separation = report.min_separation.expect("two plates");
+    let separation = report.min_separation.unwrap();
     assert_eq!(report.verdict, Verdict::Free);
     assert!((separation.distance - 0.1).abs() < 2e-5, "{separation:?}");
     assert!((0.3..0.9).contains(&separation.time));
@@ -67,12 +65,12 @@ fn plates_pass_through_each_other_between_two_frames() {
         DVec3::new(0.1, 0.1, -0.1),
     ]));
     assert_eq!(report.verdict, Verdict::Penetrating);
-    let first = report.first.expect("a witness");
+    let first = report.first.unwrap();
     assert_eq!(first.kind, PenetrationKind::PassedThrough);
     assert!((first.time - 0.75).abs() < 1e-6 && first.passed >= first.time);
     assert!(first.depth <= 1e-6 && first.vertices.len() >= 3);
     assert!(first.point.z.abs() < 1e-5);
-    assert_eq!(report.min_separation.expect("two plates").distance, 0.0);
+    assert_eq!(report.min_separation.unwrap().distance, 0.0);
 }
 
 #[test]
@@ -92,7 +90,7 @@ fn plates_that_touch_and_part_are_touching_and_those_that_stop_a_little_apart_to
         ..CollisionOptions::default()
     };
     let near = two_plates(&[at(0.3), at(5e-4), at(0.3)]);
-    let report = collisions(&near, &wide, &|_| true).expect("judged");
+    let report = collisions(&near, &wide, &|_| true).unwrap();
     assert_eq!(
         (report.verdict, report.tolerance),
         (Verdict::Touching, 1e-3)
@@ -108,7 +106,7 @@ fn plates_that_start_on_each_other_may_part_on_either_side_but_not_come_back_on_
     }
     let report = judge(&two_plates(&[at(0.0), at(0.2), at(0.0), at(-0.2)]));
     assert_eq!(report.verdict, Verdict::Penetrating);
-    assert!(report.first.expect("a witness").time >= 1.0);
+    assert!(report.first.unwrap().time >= 1.0);
 }
 
 #[test]
@@ -117,11 +115,11 @@ fn a_strip_folded_through_itself_penetrates_at_the_right_time() {
     let states: [&[f64]; 3] = [&[0.0; 4], &[0.0, 1.9, 3.3, 4.2], &[0.0, 1.9, 4.0, 5.0]];
     let report = judge(&fold(4, &states, 12));
     assert_eq!(report.verdict, Verdict::Penetrating);
-    let first = report.first.clone().expect("a witness");
+    let first = report.first.clone().unwrap();
     assert!(first.depth > 1e-6 && first.kind != PenetrationKind::FoldedThrough);
     // Dense frames of the same motion find the first contact no earlier than straight paths allow.
     let dense = judge(&fold(4, &states, 240));
-    let dense_first = dense.first.expect("a witness").time / 20.0;
+    let dense_first = dense.first.unwrap().time / 20.0;
     assert!(
         (dense_first - first.time).abs() < 0.1,
         "{dense_first} {first:?}"
@@ -143,7 +141,7 @@ fn a_fold_of_exactly_half_a_turn_touches_and_one_past_it_penetrates_by_its_overl
             .penetrations
             .iter()
             .find(|p| p.kind == PenetrationKind::FoldedThrough)
-            .expect("through the crease");
+            .unwrap();
         assert_eq!(hinge.vertices.len(), 4);
     }
 }
@@ -168,7 +166,7 @@ fn a_closed_ring_whose_seam_opens_touches() {
     let ring: Vec<_> = (0..6).map(|k| f64::from(k) * PI / 3.0).collect();
     let report = judge(&fold(6, &[&ring, &[0.0; 6]], 10));
     assert_eq!(report.verdict, Verdict::Touching, "{:?}", report.first);
-    assert!(report.min_separation.expect("far squares").distance < 1e-6);
+    assert!(report.min_separation.unwrap().distance < 1e-6);
     let too_far: Vec<_> = ring.iter().map(|a| a * 1.05).collect();
     let report = judge(&fold(6, &[&[0.0; 6], &ring, &too_far], 10));
     assert_eq!(report.verdict, Verdict::Penetrating);
@@ -196,7 +194,7 @@ fn crossing_around_a_shared_vertex_is_found() {
     assert_eq!(judged(&[0.5, 0.0, 0.4]).verdict, Verdict::Touching);
     let report = judged(&[0.5, 0.0, -0.3]);
     assert_eq!(report.verdict, Verdict::Penetrating);
-    let first = report.first.expect("a witness");
+    let first = report.first.unwrap();
     assert_eq!(first.kind, PenetrationKind::AroundVertex);
     assert!(first.time <= first.passed && first.passed < 1.001);
 }
@@ -241,7 +239,7 @@ fn verdicts_do_not_depend_on_place_order_or_threads() {
 
         for threads in [1, 2, 5] {
             let pool = rayon::ThreadPoolBuilder::new().num_threads(threads);
-            let pool = pool.build().expect("threads");
+            let pool = pool.build().unwrap();
             assert_eq!(pool.install(|| judge(&original)), expected);
         }
     }
@@ -253,7 +251,7 @@ fn motions_that_cannot_be_judged_are_refused_by_name() {
     let with = |change: &dyn Fn(&mut Motion)| {
         let mut motion = good.clone();
         change(&mut motion);
-        collisions(&motion, &CollisionOptions::default(), &|_| true).expect_err("refused")
+        collisions(&motion, &CollisionOptions::default(), &|_| true).unwrap_err()
     };
     let nan = with(&|m| m.frames[2].positions[1].y = f64::NAN);
     assert!(matches!(
@@ -289,7 +287,7 @@ fn motions_that_cannot_be_judged_are_refused_by_name() {
             touch_tolerance,
             ..CollisionOptions::default()
         };
-        let refused = collisions(&good, &options, &|_| true).expect_err("refused");
+        let refused = collisions(&good, &options, &|_| true).unwrap_err();
         assert!(matches!(refused, CheckError::ToleranceOutOfRange { .. }));
     }
     let cancelled = collisions(&good, &CollisionOptions::default(), &|done| done < 0.5);
@@ -302,7 +300,7 @@ fn an_exhausted_budget_is_undecided_not_free() {
         budget: 1,
         ..CollisionOptions::default()
     };
-    let report = collisions(&accordion(6, 1, 4, 1e-3, 2.0), &options, &|_| true).expect("judged");
+    let report = collisions(&accordion(6, 1, 4, 1e-3, 2.0), &options, &|_| true).unwrap();
     assert_eq!(report.verdict, Verdict::Undecided);
     assert!(!report.undecided.is_empty());
 }
@@ -317,5 +315,5 @@ fn a_single_frame_is_judged_as_it_stands() {
     let crossed = folded(&sheet, &[0.0, 1.9, 4.0, 5.0]);
     let report = judge(&motion(sheet, [crossed]));
     assert_eq!(report.verdict, Verdict::Penetrating);
-    assert!(report.first.expect("a witness").depth > 0.01);
+    assert!(report.first.unwrap().depth > 0.01);
 }

@@ -5,7 +5,8 @@ use glam::DVec3;
 use super::{Limits, MovingPair, PairPose, moving::Leaf};
 use crate::distance::{Closest, triangle_triangle};
 
-const SHORTEST_STEP: f64 = 1.0 / (1u64 << 20) as f64;
+/// The shortest step: motions over it are far below τ / 100.
+const SHORTEST_STEP: f64 = 1.0 / (1u64 << 34) as f64;
 
 /// An instant of closest approach.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -16,12 +17,21 @@ pub struct Approach {
     pub closest: Closest,
 }
 
+/// What was found nearer than a bound.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Approaches {
+    /// The nearest instant found; none where none is nearer than the bound.
+    pub nearest: Option<Approach>,
+    /// Whether the budget sufficed to bound the distance from below at all times.
+    pub is_complete: bool,
+}
+
 /// The closest approach over t in [0, 1], if it is nearer than `bound`.
 ///
-/// The distance is attained, so it is an upper bound of the minimum; the minimum is at most τ / 100 and a ten
-/// thousandth smaller, unless the budget ends first. Between the instants at which the exact distance is taken, the
+/// The distance is attained, so it is an upper bound of the minimum; where the search is complete the minimum is
+/// smaller by at most the larger of τ / 100 and a ten thousandth of it. Between the instants at which the exact distance is taken, the
 /// gap along the line of closest points bounds it from below.
-pub fn closest_approach(pair: &MovingPair, bound: f64, limits: &Limits) -> Option<Approach> {
+pub fn closest_approach(pair: &MovingPair, bound: f64, limits: &Limits) -> Approaches {
     let mut search = Search { best: None, bound };
     let mut here = search.measure(0.0, &pair.start);
     let mut pose = pair.start;
@@ -32,8 +42,7 @@ pub fn closest_approach(pair: &MovingPair, bound: f64, limits: &Limits) -> Optio
         }
         let end = pair.at(time + step);
         let there = search.measure(time + step, &end);
-        let slack = (0.01 * limits.tolerance).max(1e-4 * search.bound);
-        let enough = search.bound - slack;
+        let enough = enough_clearance(search.bound, limits);
         if least_distance(&pose, &end, &here, &there, limits) >= enough || step <= SHORTEST_STEP {
             time += step;
             (pose, here) = (end, there);
@@ -44,7 +53,15 @@ pub fn closest_approach(pair: &MovingPair, bound: f64, limits: &Limits) -> Optio
             step *= 0.5;
         }
     }
-    search.best
+    Approaches {
+        nearest: search.best,
+        is_complete: time >= 1.0 || search.bound <= 0.0,
+    }
+}
+
+/// A lower bound of the distance that makes a search below `bound` pointless, to the precision promised.
+pub fn enough_clearance(bound: f64, limits: &Limits) -> f64 {
+    bound - (0.01 * limits.tolerance).max(1e-4 * bound)
 }
 
 struct Search {
@@ -105,7 +122,9 @@ mod tests {
             };
             let (start, end) = (pose(), pose());
             let pair = MovingPair { start, end };
-            let approach = closest_approach(&pair, f64::INFINITY, &LIMITS).unwrap();
+            let found = closest_approach(&pair, f64::INFINITY, &LIMITS);
+            assert!(found.is_complete);
+            let approach = found.nearest.unwrap();
             let sampled = (0..=2000)
                 .map(|k| pair.at(f64::from(k) / 2000.0))
                 .map(|p| triangle_triangle(&p.a, &p.b).distance)
@@ -131,7 +150,7 @@ mod tests {
             start: pose,
             end: pose,
         };
-        assert!(closest_approach(&pair, 0.9, &LIMITS).is_none());
-        assert!(closest_approach(&pair, 1.1, &LIMITS).is_some());
+        let nearest = |bound: f64| closest_approach(&pair, bound, &LIMITS).nearest;
+        assert!(nearest(0.9).is_none() && nearest(1.1).is_some());
     }
 }

@@ -37,7 +37,7 @@ mod tree;
 mod walk;
 
 pub use certify::{Crossing, Effort, Outcome, Passage, Side, certify};
-pub use closest::{Approach, closest_approach};
+pub use closest::{Approach, Approaches, closest_approach, enough_clearance};
 pub use moving::MovingPair;
 pub use pose::{Axis, Feature, PairPose};
 pub use tree::Tree;
