@@ -191,6 +191,23 @@ impl PairPose {
         for (j, &eb) in edges_b.iter().enumerate() {
             both_ways(eb.cross(normal_b), Feature::SideB(j as u8));
         }
+        if normal_a == DVec3::ZERO && normal_b == DVec3::ZERO {
+            // Both have shrunk to segments, at an instant between frames; parallel ones have no other normals.
+            let longest = edges_a.into_iter().chain(edges_b).reduce(|p, q| {
+                if q.length_squared() > p.length_squared() {
+                    q
+                } else {
+                    p
+                }
+            });
+            if let Some(along) = longest.and_then(DVec3::try_normalize) {
+                let (u, v) = along.any_orthonormal_pair();
+                let apart = self.b[0] - self.a[0];
+                for direction in [u, v, apart - along * along.dot(apart)] {
+                    both_ways(direction, Feature::Free);
+                }
+            }
+        }
     }
 }
 
