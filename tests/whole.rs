@@ -1,1 +1,14 @@
-//! Whole-program tests.
+//! Whole-program tests: scene files in, results out.
+
+#![expect(
+    clippy::unwrap_used,
+    clippy::panic,
+    reason = "a test stops where something is missing"
+)]
+
+#[path = "whole/bad_input.rs"]
+mod bad_input;
+#[path = "whole/scenes.rs"]
+mod scenes;
+#[path = "whole/schemas.rs"]
+mod schemas;

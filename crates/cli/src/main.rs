@@ -1,2 +1,129 @@
-//! The command line.
-fn main() {}
+//! The command line: says what the user asked for to the study, and what came of it to the user.
+
+mod arguments;
+mod init;
+mod progress;
+
+use std::io::Write as _;
+use std::path::PathBuf;
+use std::process::ExitCode;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use arguments::{Arguments, Command, RunArguments};
+use clap::Parser as _;
+use foldmotion_study::{SceneSource, Study, models};
+use progress::Reporter;
+
+/// Set by Ctrl-C; work stops at its next report of progress.
+static INTERRUPTED: AtomicBool = AtomicBool::new(false);
+
+/// Bad input or usage.
+const BAD_INPUT: u8 = 2;
+/// The run failed.
+const FAILED: u8 = 3;
+
+/// What stops a command: a message for the user and the exit status.
+struct Failure {
+    message: String,
+    status: u8,
+}
+
+impl<E: Into<foldmotion_study::StudyError>> From<E> for Failure {
+    fn from(error: E) -> Self {
+        let error = error.into();
+        Self {
+            message: error.to_string(),
+            status: error.status(),
+        }
+    }
+}
+
+fn main() -> ExitCode {
+    let arguments = Arguments::parse();
+    let outcome = match arguments.command {
+        Command::Run(run) => run_scene(&run),
+        Command::Models => list_models(),
+        Command::Init { file } => init::write_scene(&file).map(|()| 0),
+    };
+    match outcome {
+        Ok(status) => ExitCode::from(status),
+        Err(failure) => {
+            // Nothing is left to do where even stderr is closed.
+            let _ = writeln!(std::io::stderr(), "foldmotion: {}", failure.message);
+            ExitCode::from(failure.status)
+        }
+    }
+}
+
+fn run_scene(arguments: &RunArguments) -> Result<u8, Failure> {
+    use_threads(arguments.threads)?;
+    watch_for_interrupts()?;
+    let mut source = SceneSource::read(&arguments.scene)?;
+    for assignment in &arguments.set {
+        source.set(assignment)?;
+    }
+    let folder = arguments
+        .out
+        .clone()
+        .unwrap_or_else(|| PathBuf::from("out").join(source.stem()));
+    let study = Study::resolve(&source)?;
+    let reporter = Reporter::new(arguments.quiet);
+    let report = study.run(&folder, &|phase, done| {
+        reporter.report(phase, done);
+        !INTERRUPTED.load(Ordering::Relaxed)
+    })?;
+    reporter.finish();
+    if arguments.json {
+        print(&report.to_json())?;
+    } else if !arguments.quiet {
+        print(&report.table())?;
+        print(&format!("results in {}\n", folder.display()))?;
+    }
+    Ok(report.status())
+}
+
+fn list_models() -> Result<u8, Failure> {
+    for model in models() {
+        print(&format!(
+            "{:<10} {} ({} x {} units; {}; {})\n",
+            model.name,
+            model.title,
+            model.rows,
+            model.columns,
+            if model.is_closed() { "closed" } else { "open" },
+            model.source
+        ))?;
+    }
+    Ok(0)
+}
+
+fn use_threads(threads: Option<usize>) -> Result<(), Failure> {
+    let Some(threads) = threads else {
+        return Ok(());
+    };
+    rayon::ThreadPoolBuilder::new()
+        .num_threads(threads)
+        .build_global()
+        .map_err(|e| Failure {
+            message: format!("--threads {threads}: {e}"),
+            status: FAILED,
+        })
+}
+
+fn watch_for_interrupts() -> Result<(), Failure> {
+    ctrlc::set_handler(|| INTERRUPTED.store(true, Ordering::Relaxed)).map_err(|e| Failure {
+        message: format!("Ctrl-C cannot be watched: {e}"),
+        status: FAILED,
+    })
+}
+
+/// Prints to stdout; a reader that has gone (`| head`) is no failure.
+fn print(text: &str) -> Result<(), Failure> {
+    match std::io::stdout().write_all(text.as_bytes()) {
+        Err(e) if e.kind() != std::io::ErrorKind::BrokenPipe => Err(Failure {
+            message: format!("stdout: {e}"),
+            status: FAILED,
+        }),
+        _ => Ok(()),
+    }
+}

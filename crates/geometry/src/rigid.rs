@@ -51,7 +51,10 @@ impl RigidMotion {
 }
 
 /// The unit quaternion that maximises tr(R covariance), covariance\[i\]\[j\] = Σ a_i b_j.
-#[expect(clippy::needless_range_loop, reason = "matrix indices read like the formula")]
+#[expect(
+    clippy::needless_range_loop,
+    reason = "matrix indices read like the formula"
+)]
 fn largest_rotation(covariance: DMat3) -> DQuat {
     let s = |i: usize, j: usize| covariance.col(j)[i];
     let mut a = [
@@ -101,7 +104,10 @@ fn largest_rotation(covariance: DMat3) -> DQuat {
     DQuat::from_xyzw(v(1), v(2), v(3), v(0)).normalize()
 }
 
-#[expect(clippy::needless_range_loop, reason = "matrix indices read like the formula")]
+#[expect(
+    clippy::needless_range_loop,
+    reason = "matrix indices read like the formula"
+)]
 fn jacobi_rotate(a: &mut [[f64; 4]; 4], vectors: &mut [[f64; 4]; 4], p: usize, q: usize) {
     if a[p][q] == 0.0 {
         return;

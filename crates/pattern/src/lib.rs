@@ -4,7 +4,7 @@
 //! A [`UnitSheet`] is a sheet of unfolded-waterbomb units with its exact states. A [`Frame`] is a sheet at one motion
 //! time; a [`Motion`] is the sheet with its frames. Motion time t: 0 deployed, 1 planar, 2 compact.
 //!
-//! The science is Zhao et al., "Constructing foldable cylindrical surfaces via unfolded waterbomb origami units";
+//! The science is the paper "Constructing foldable cylindrical surfaces via unfolded waterbomb origami units";
 //! equation, figure and table numbers in this crate are that paper's.
 
 mod closed_form;
@@ -12,6 +12,7 @@ mod error;
 mod fold_file;
 mod layers;
 mod layout;
+mod model;
 mod motion;
 mod sheet;
 mod states;
@@ -23,6 +24,7 @@ pub use closed_form::CompactBox;
 pub use error::PatternError;
 pub use fold_file::FoldHeader;
 pub use layout::UnitSheet;
+pub use model::{ProfileModel, find as find_model, models};
 pub use motion::{Frame, LayerOrder, Motion};
 pub use sheet::{Assignment, CreaseKind, Edge, Facet, FacetKind, Sheet};
 pub use states::Facing;

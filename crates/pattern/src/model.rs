@@ -23,6 +23,13 @@ pub struct ProfileModel {
     pub source: &'static str,
 }
 
+impl ProfileModel {
+    /// Whether it returns to its start.
+    pub fn is_closed(&self) -> bool {
+        self.closure != Closure::Open
+    }
+}
+
 /// A foot lying on the ground, a steep wall, a roof of three segments, wall and foot: from the right foot over the roof
 /// to the left one, mirror symmetric about x = 0. Doubled control points turn the curve sharply at the foot and at the eaves; the
 /// feet are straight because four control points lie on the ground.

@@ -1,7 +1,7 @@
 //! The unit of each case: how a column of width w and a row of height h are divided.
 //!
 //! A column is divided along the width into s | a | 2d | a | s (side pad, flap, centre pad, flap, side pad); on the
-//! mid line of a row the creases meet at distance a from both row boundaries (Zhao et al., sections 2 and 3).
+//! mid line of a row the creases meet at distance a from both row boundaries (sections 2 and 3 of the paper).
 
 use serde::{Deserialize, Serialize};
 

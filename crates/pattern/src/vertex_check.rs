@@ -1,7 +1,7 @@
 //! The pattern check: is every interior vertex developable and flat-foldable, and which type is it?
 //!
 //! Developable: the sector angles sum to 2π. Flat-foldable (Kawasaki): an even number of creases with alternate
-//! sector angles summing to π (Zhao et al., section 2). Types I, J and K are those of the paper's figure 1.
+//! sector angles summing to π (section 2 of the paper). Types I, J and K are those of the paper's figure 1.
 
 use std::collections::BTreeMap;
 use std::f64::consts::{PI, TAU};

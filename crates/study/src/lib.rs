@@ -1,1 +1,22 @@
-//! study
+//! Scene file → study → run → results: the only place that knows the order of the steps.
+//!
+//! A [`SceneSource`] is the text the user wrote, a [`Scene`] what it says, a [`Study`] everything resolved and ready
+//! to run; [`Study::run`] folds, checks, reports and records.
+
+mod error;
+pub mod report;
+mod results;
+mod run;
+pub mod scene;
+mod schema;
+mod source;
+mod study;
+
+pub use error::StudyError;
+pub use foldmotion_pattern::{ProfileModel, models};
+pub use report::Report;
+pub use run::{Phase, Progress};
+pub use scene::Scene;
+pub use schema::{report_schema, scene_schema};
+pub use source::SceneSource;
+pub use study::Study;

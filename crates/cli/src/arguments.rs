@@ -1,0 +1,81 @@
+//! What the user typed.
+
+use std::path::PathBuf;
+
+use clap::{Args, Parser, Subcommand};
+
+/// Folds sheets of unfolded-waterbomb units from the deployed shape through the flat sheet into the compact stack,
+/// proves whether they cross themselves, and records the motion.
+#[derive(Debug, Parser)]
+#[command(name = "foldmotion", version, about, max_term_width = 100)]
+pub(crate) struct Arguments {
+    #[command(subcommand)]
+    pub(crate) command: Command,
+}
+
+/// The commands.
+#[derive(Debug, Subcommand)]
+pub(crate) enum Command {
+    /// Resolve a scene, fold, check, report, record
+    ///
+    /// Exit status: 0 done, 1 a penetration was found, 2 bad input, 3 the run failed or stayed undecided.
+    Run(RunArguments),
+    /// List the built-in profiles
+    Models,
+    /// Write a commented scene to start from
+    Init {
+        /// The file to write; an existing one is kept
+        #[arg(default_value = "scene.toml")]
+        file: PathBuf,
+    },
+}
+
+/// `foldmotion run`.
+#[derive(Debug, Args)]
+pub(crate) struct RunArguments {
+    /// The scene file
+    pub(crate) scene: PathBuf,
+    /// The folder of results; out/<scene's name> where left out
+    #[arg(long)]
+    pub(crate) out: Option<PathBuf>,
+    /// Override a key of the scene, such as sheet.columns=5
+    #[arg(long = "set", value_name = "KEY=VALUE")]
+    pub(crate) set: Vec<String>,
+    /// Threads to use; all cores where left out
+    #[arg(long, value_parser = parse_threads)]
+    pub(crate) threads: Option<usize>,
+    /// No progress and no table
+    #[arg(long)]
+    pub(crate) quiet: bool,
+    /// Print exactly report.json on stdout
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
+fn parse_threads(text: &str) -> Result<usize, String> {
+    match text.parse() {
+        Ok(threads @ 1..=1024) => Ok(threads),
+        _ => Err("a number between 1 and 1024 is needed".to_owned()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use clap::CommandFactory as _;
+
+    #[test]
+    fn the_command_line_is_consistent() {
+        Arguments::command().debug_assert();
+    }
+
+    #[test]
+    fn no_threads_are_refused() {
+        assert!(
+            Arguments::try_parse_from(["foldmotion", "run", "a.toml", "--threads", "0"]).is_err()
+        );
+        assert!(
+            Arguments::try_parse_from(["foldmotion", "run", "a.toml", "--threads", "2"]).is_ok()
+        );
+    }
+}

@@ -1,0 +1,168 @@
+//! The binary as a user meets it: exit status, stdout, stderr, files.
+
+#![expect(
+    clippy::unwrap_used,
+    reason = "a test stops where something is missing"
+)]
+
+use std::path::Path;
+use std::process::{Command, Output};
+
+fn foldmotion(folder: &Path, arguments: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_foldmotion"))
+        .args(arguments)
+        .current_dir(folder)
+        .output()
+        .unwrap()
+}
+
+fn text(bytes: &[u8]) -> String {
+    String::from_utf8(bytes.to_vec()).unwrap()
+}
+
+fn scene(name: &str) -> String {
+    format!("{}/../../scenes/{name}.toml", env!("CARGO_MANIFEST_DIR"))
+}
+
+const SMALL: [&str; 4] = ["--set", "record.size=[64, 48]", "--set", "motion.frames=20"];
+
+#[test]
+fn json_prints_exactly_the_report_and_quiet_nothing() {
+    let home = tempfile::tempdir().unwrap();
+    let unit = scene("one-unit");
+    let mut arguments = vec!["run", unit.as_str(), "--json", "--quiet"];
+    arguments.extend(SMALL);
+    let output = foldmotion(home.path(), &arguments);
+    assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
+    let report = std::fs::read(home.path().join("out/one-unit/report.json")).unwrap();
+    assert_eq!(text(&output.stdout), text(&report));
+    assert_eq!(text(&output.stderr), "");
+    arguments[2] = "--quiet";
+    arguments.remove(3);
+    assert_eq!(text(&foldmotion(home.path(), &arguments).stdout), "");
+}
+
+#[test]
+fn a_run_prints_a_table_and_plain_progress() {
+    let home = tempfile::tempdir().unwrap();
+    let unit = scene("one-unit");
+    let mut arguments = vec!["run", unit.as_str(), "--out", "here"];
+    arguments.extend(SMALL);
+    let output = foldmotion(home.path(), &arguments);
+    let (out, err) = (text(&output.stdout), text(&output.stderr));
+    assert!(
+        out.contains("closed form") && out.contains("verdict: touching"),
+        "{out}"
+    );
+    assert!(
+        err.lines().any(|l| l.starts_with("fold ")) && err.contains("record"),
+        "{err}"
+    );
+    assert!(home.path().join("here/motion.gif").exists());
+}
+
+#[test]
+fn a_penetration_is_status_1() {
+    let home = tempfile::tempdir().unwrap();
+    let short = scene("shelter-short-plain");
+    let set = [
+        "--set",
+        "sheet.rows=2",
+        "--set",
+        "record.outputs=[]",
+        "--set",
+        "profile.length=2.0",
+        "--quiet",
+    ];
+    let mut arguments = vec!["run", short.as_str()];
+    arguments.extend(set);
+    let output = foldmotion(home.path(), &arguments);
+    assert_eq!(output.status.code(), Some(1), "{}", text(&output.stderr));
+}
+
+#[test]
+fn bad_input_is_status_2_and_writes_nothing() {
+    let home = tempfile::tempdir().unwrap();
+    let unit = scene("one-unit");
+    for arguments in [
+        vec!["run", "missing.toml"],
+        vec!["run", unit.as_str(), "--set", "sheet.width=-1"],
+        vec!["run", unit.as_str(), "--set", "sheet"],
+        vec!["run", unit.as_str(), "--threads", "0"],
+        vec!["run"],
+        vec!["fly"],
+    ] {
+        let output = foldmotion(home.path(), &arguments);
+        assert_eq!(
+            output.status.code(),
+            Some(2),
+            "{arguments:?}: {}",
+            text(&output.stderr)
+        );
+        assert!(!text(&output.stderr).contains("panicked"), "{arguments:?}");
+        assert_eq!(
+            std::fs::read_dir(home.path()).unwrap().count(),
+            0,
+            "{arguments:?}"
+        );
+    }
+}
+
+#[test]
+fn an_output_folder_that_cannot_be_written_is_status_3() {
+    let home = tempfile::tempdir().unwrap();
+    std::fs::write(home.path().join("file"), "mine").unwrap();
+    let unit = scene("one-unit");
+    let output = foldmotion(
+        home.path(),
+        &["run", unit.as_str(), "--out", "file", "--quiet"],
+    );
+    assert_eq!(output.status.code(), Some(3));
+    let error = text(&output.stderr);
+    assert!(error.contains("file") && error.contains("--out"), "{error}");
+    assert_eq!(
+        std::fs::read_to_string(home.path().join("file")).unwrap(),
+        "mine"
+    );
+}
+
+#[test]
+fn the_scene_of_init_is_good_and_an_existing_file_is_kept() {
+    let home = tempfile::tempdir().unwrap();
+    let first = foldmotion(home.path(), &["init", "mine.toml"]);
+    assert_eq!(first.status.code(), Some(0), "{}", text(&first.stderr));
+    let written = std::fs::read_to_string(home.path().join("mine.toml")).unwrap();
+    let second = foldmotion(home.path(), &["init", "mine.toml"]);
+    assert_eq!(second.status.code(), Some(2));
+    assert_eq!(
+        std::fs::read_to_string(home.path().join("mine.toml")).unwrap(),
+        written
+    );
+    // A penetration is an answer too.
+    let set = [
+        "run",
+        "mine.toml",
+        "--quiet",
+        "--set",
+        "record.outputs=[]",
+        "--set",
+        "motion.frames=20",
+    ];
+    let run = foldmotion(home.path(), &set);
+    assert!(
+        matches!(run.status.code(), Some(0 | 1)),
+        "{}",
+        text(&run.stderr)
+    );
+}
+
+#[test]
+fn models_lists_the_shelter() {
+    let home = tempfile::tempdir().unwrap();
+    let output = foldmotion(home.path(), &["models"]);
+    assert!(
+        text(&output.stdout)
+            .lines()
+            .any(|l| l.starts_with("shelter ") && l.contains("7 x 5"))
+    );
+}

@@ -1,0 +1,137 @@
+//! What can go wrong between a scene file and its results, and the exit status it means.
+
+use std::io;
+use std::path::PathBuf;
+
+use foldmotion_check::CheckError;
+use foldmotion_record::RecordError;
+use foldmotion_solver::SolverError;
+use thiserror::Error;
+
+/// Errors of a study. Each names the file, the line or key, the value and the remedy.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum StudyError {
+    /// The scene file cannot be read.
+    #[error("{}: cannot be read: {source}", path.display())]
+    Read {
+        /// The scene file.
+        path: PathBuf,
+        /// Why.
+        source: io::Error,
+    },
+    /// The scene is no TOML, or a key is unknown, missing or of the wrong type.
+    #[error("{place}: {message}")]
+    Parse {
+        /// File, line and column, or the `--set` at fault.
+        place: String,
+        /// What is wrong.
+        message: String,
+    },
+    /// A value is not usable.
+    #[error("{place}: {key}{value}: {message}")]
+    Value {
+        /// File and line.
+        place: String,
+        /// The key, dotted.
+        key: String,
+        /// ` = value`, or nothing where the key is absent.
+        value: String,
+        /// What is wrong and what would be right.
+        message: String,
+    },
+    /// The profile cannot be divided into equal segments.
+    #[error(
+        "{place}: the profile cannot be divided into {segments} equal segments: |R_max| = {residual:e} after {iterations} iterations; {remedy}"
+    )]
+    Undivided {
+        /// File and line.
+        place: String,
+        /// Nr.
+        segments: usize,
+        /// |R_max| reached.
+        residual: f64,
+        /// Iterations made.
+        iterations: usize,
+        /// What would help.
+        remedy: &'static str,
+    },
+    /// The output folder or a file in it cannot be written.
+    #[error("{}: {action}: {source}; choose another folder with --out, or free space", path.display())]
+    Output {
+        /// The folder or file.
+        path: PathBuf,
+        /// What was tried.
+        action: &'static str,
+        /// Why it failed.
+        source: io::Error,
+    },
+    /// The disk cannot hold the results.
+    #[error(
+        "{}: the results need about {needed} bytes, but only {available} are free: {frames} frames fit; \
+         set motion.frames to at most that, or choose another folder with --out",
+        path.display()
+    )]
+    DiskTooSmall {
+        /// The output folder.
+        path: PathBuf,
+        /// Bytes estimated.
+        needed: u64,
+        /// Bytes free.
+        available: u64,
+        /// Frames that would fit.
+        frames: usize,
+    },
+    /// The engine failed.
+    #[error("the motion could not be computed: {0}")]
+    Solver(SolverError),
+    /// The check failed.
+    #[error("the motion could not be checked: {0}")]
+    Check(CheckError),
+    /// The film failed.
+    #[error("the motion could not be recorded: {0}")]
+    Record(RecordError),
+    /// Ctrl-C.
+    #[error("interrupted; earlier results are untouched")]
+    Interrupted,
+}
+
+impl StudyError {
+    /// The exit status: 2 bad input or usage, 3 the run failed.
+    pub fn status(&self) -> u8 {
+        match self {
+            Self::Read { .. }
+            | Self::Parse { .. }
+            | Self::Value { .. }
+            | Self::Undivided { .. } => 2,
+            _ => 3,
+        }
+    }
+}
+
+impl From<SolverError> for StudyError {
+    fn from(error: SolverError) -> Self {
+        match error {
+            SolverError::Cancelled { .. } => Self::Interrupted,
+            other => Self::Solver(other),
+        }
+    }
+}
+
+impl From<CheckError> for StudyError {
+    fn from(error: CheckError) -> Self {
+        match error {
+            CheckError::Cancelled { .. } => Self::Interrupted,
+            other => Self::Check(other),
+        }
+    }
+}
+
+impl From<RecordError> for StudyError {
+    fn from(error: RecordError) -> Self {
+        match error {
+            RecordError::Interrupted => Self::Interrupted,
+            other => Self::Record(other),
+        }
+    }
+}

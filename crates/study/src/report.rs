@@ -1,0 +1,451 @@
+//! The report: `report.json` and the table on the terminal.
+
+use std::fmt::Write as _;
+
+use foldmotion_pattern::CompactBox;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// `report.json`. Lengths are in `length_unit`, angles in degrees.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[schemars(title = "foldmotion report")]
+pub struct Report {
+    /// Title of the scene.
+    pub title: String,
+    /// Version of foldmotion.
+    pub version: String,
+    /// FOLD's name of the unit of length.
+    pub length_unit: String,
+    /// E, T, S, SII or plain.
+    pub case: String,
+    /// Nr.
+    pub rows: usize,
+    /// Nc.
+    pub columns: usize,
+    /// The unit.
+    pub unit: UnitReport,
+    /// The division of Γ.
+    pub division: DivisionReport,
+    /// The crease pattern.
+    pub pattern: PatternReport,
+    /// Equations 3 to 7; null where the case has no closed form.
+    pub closed_form: Option<BoxReport>,
+    /// The compact state reached.
+    pub compact: CompactReport,
+    /// The stages of the motion.
+    pub stages: Vec<StageReport>,
+    /// The verdict.
+    pub collision: CollisionSection,
+    /// The engine; its timings and device are all that may differ between two runs of one scene.
+    pub engine: EngineReport,
+    /// Seconds a part of the run took.
+    pub seconds: SecondsReport,
+    /// The files written beside this report.
+    pub files: Vec<String>,
+}
+
+/// The unit.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct UnitReport {
+    /// w.
+    pub width: f64,
+    /// h.
+    pub height: f64,
+    /// a, the width of a flap.
+    pub flap: f64,
+    /// s, the width of a side pad.
+    pub side_pad: f64,
+    /// 2d, the width of the centre pad.
+    pub centre_pad: f64,
+}
+
+/// The division of Γ (equations 1 and 2).
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct DivisionReport {
+    /// How.
+    pub method: String,
+    /// |R_max|.
+    pub max_residual: f64,
+    /// |R_ave|.
+    pub mean_residual: f64,
+    /// Iterations made.
+    pub iterations: usize,
+    /// Wall-clock seconds.
+    pub seconds: f64,
+    /// The divided polygon, (x, z).
+    pub points: Vec<[f64; 2]>,
+}
+
+/// The pattern check.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct PatternReport {
+    /// Whether the angles around every interior vertex sum to 360°.
+    pub developable: bool,
+    /// Whether every interior vertex has an even number of creases and alternate angles that sum to 180°.
+    pub flat_foldable: bool,
+    /// Vertices of the sheet.
+    pub vertex_count: usize,
+    /// Facets of the crease pattern.
+    pub facet_count: usize,
+    /// Triangles of the sheet as computed.
+    pub face_count: usize,
+    /// Interior vertices by type and number of creases.
+    pub vertices: Vec<VertexReport>,
+}
+
+/// Interior vertices of one type.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct VertexReport {
+    /// I, J, K, split or pad.
+    #[serde(rename = "type")]
+    pub kind: String,
+    /// Creases that meet there.
+    pub degree: usize,
+    /// How many there are.
+    pub count: usize,
+    /// Sum of the sector angles, degrees.
+    pub angle_sum_deg: f64,
+    /// Sums of every other sector angle, degrees; null for an odd number of creases.
+    pub alternate_sums_deg: Option<[f64; 2]>,
+    /// Whether all are developable.
+    pub developable: bool,
+    /// Whether all are flat-foldable.
+    pub flat_foldable: bool,
+}
+
+/// A bounding box.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct BoxReport {
+    /// Along the growing direction, the width, the flaps.
+    pub extents: [f64; 3],
+    /// x·z.
+    pub area: f64,
+    /// x·y·z.
+    pub volume: f64,
+}
+
+impl From<CompactBox> for BoxReport {
+    fn from(b: CompactBox) -> Self {
+        Self {
+            extents: b.extents,
+            area: b.area,
+            volume: b.volume,
+        }
+    }
+}
+
+/// The compact state reached, beside the exact one.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct CompactReport {
+    /// Measured after the rigid motion that best fits the exact compact state.
+    pub extents: [f64; 3],
+    /// x·z.
+    pub area: f64,
+    /// x·y·z.
+    pub volume: f64,
+    /// Root mean square distance of the vertices to the exact compact state, in units of h.
+    pub rms_to_exact: f64,
+    /// Against the closed form; null where the case has none.
+    pub relative_error: Option<ErrorReport>,
+}
+
+/// Differences to the closed form, each divided by it or, where it is 0, by h, h², h³.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct ErrorReport {
+    /// Of the three extents.
+    pub extents: [f64; 3],
+    /// Of the area.
+    pub area: f64,
+    /// Of the volume.
+    pub volume: f64,
+}
+
+/// What happened in a stage.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct StageReport {
+    /// unfold or fold.
+    pub name: String,
+    /// Largest |l/l0 − 1| of all edges and frames.
+    pub peak_strain: f64,
+    /// Motion time of the largest strain.
+    pub peak_strain_t: f64,
+    /// Mean |l/l0 − 1| over edges and frames.
+    pub mean_strain: f64,
+    /// Largest bend of a facet, degrees.
+    pub peak_facet_bending_deg: f64,
+    /// Motion time of the largest bend.
+    pub peak_facet_bending_t: f64,
+    /// Whether the stage's last state satisfies the stopping rule.
+    pub converged: bool,
+    /// Unbalanced force left at its end, in units of EA.
+    pub residual: f64,
+    /// Largest difference of a fold angle from its target at its end, degrees.
+    pub fold_angle_error_deg: f64,
+    /// Steps of the engine.
+    pub steps: u64,
+}
+
+/// The verdict.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct CollisionSection {
+    /// free, touching, penetrating or undecided.
+    pub verdict: String,
+    /// τ, in units of h.
+    pub tolerance: f64,
+    /// The first penetration; null where there is none.
+    pub first: Option<PenetrationReport>,
+    /// The first penetration between two facets of one unit, which no path of its neighbours avoids; null where there
+    /// is none.
+    pub first_within_unit: Option<PenetrationReport>,
+    /// Pairs of facets (triangles) that penetrate somewhere.
+    pub penetrating_pairs: usize,
+    /// Pairs of facets (triangles) that touch somewhere.
+    pub touching_pairs: usize,
+    /// Pairs of facets (triangles) that could not be decided.
+    pub undecided_pairs: usize,
+    /// Smallest distance of facets that share no vertex, in units of h.
+    pub min_separation: Option<f64>,
+    /// Motion time of the smallest distance.
+    pub min_separation_t: Option<f64>,
+    /// Pairs of triangles tested over intervals between frames.
+    pub pairs_tested: u64,
+}
+
+/// A penetration, where it begins.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct PenetrationReport {
+    /// Motion time.
+    pub t: f64,
+    /// unfold or fold.
+    pub stage: String,
+    /// What went through what.
+    pub kind: String,
+    /// The two facets of the crease pattern.
+    pub facets: [u32; 2],
+    /// The two triangles.
+    pub faces: [u32; 2],
+    /// The vertices of the features that meet.
+    pub vertices: Vec<u32>,
+    /// The names the paper gives those vertices in the units below, where it names them.
+    pub vertex_names: Vec<Option<String>>,
+    /// The units of the two facets.
+    pub units: [UnitName; 2],
+    /// Where.
+    pub point: [f64; 3],
+    /// How deep the two overlap there, in units of h.
+    pub depth: f64,
+}
+
+/// A unit by row, column and the paper's name.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct UnitName {
+    /// From 0.
+    pub row: u32,
+    /// From 0.
+    pub column: u32,
+    /// U^O or U^E.
+    pub name: String,
+}
+
+/// The engine.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct EngineReport {
+    /// dynamic.
+    pub name: String,
+    /// Steps of all stages.
+    pub steps: u64,
+    /// Wall-clock seconds.
+    pub seconds: f64,
+    /// Threads it could use.
+    pub threads: usize,
+    /// What it ran on.
+    pub device: String,
+    /// Instruction set of the build.
+    pub instruction_set: String,
+}
+
+/// Wall-clock seconds of the parts of a run.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct SecondsReport {
+    /// Strain, box and collisions.
+    pub check: f64,
+    /// Films and files.
+    pub record: f64,
+    /// Everything.
+    pub total: f64,
+}
+
+impl Report {
+    /// The exit status: 3 undecided or not converged, 1 a penetration, else 0.
+    pub fn status(&self) -> u8 {
+        let unfinished =
+            self.stages.iter().any(|s| !s.converged) || self.collision.verdict == "undecided";
+        match (unfinished, self.collision.verdict.as_str()) {
+            (true, _) => 3,
+            (false, "penetrating") => 1,
+            _ => 0,
+        }
+    }
+
+    /// The text of `report.json`.
+    pub fn to_json(&self) -> String {
+        // Strings, numbers and lists always serialise.
+        let mut text = serde_json::to_string_pretty(self).unwrap_or_default();
+        text.push('\n');
+        text
+    }
+
+    /// The table for the terminal.
+    pub fn table(&self) -> String {
+        let mut out = String::new();
+        let unit = &self.length_unit;
+        // Writing into a string cannot fail.
+        let _ = writeln!(out, "{}", self.title);
+        let _ = writeln!(
+            out,
+            "case {}, {} x {} units, w = {:.6} {unit}, h = {:.6} {unit}; |R_max| = {:.1e} in {} iterations",
+            self.case,
+            self.rows,
+            self.columns,
+            self.unit.width,
+            self.unit.height,
+            self.division.max_residual,
+            self.division.iterations
+        );
+        let _ = writeln!(
+            out,
+            "pattern: {}developable, {}flat-foldable; {} vertices, {} facets",
+            if self.pattern.developable { "" } else { "not " },
+            if self.pattern.flat_foldable {
+                ""
+            } else {
+                "not "
+            },
+            self.pattern.vertex_count,
+            self.pattern.facet_count
+        );
+        self.write_box(&mut out);
+        let _ = writeln!(
+            out,
+            "\nstage    peak strain   mean strain   facet bending   converged   residual"
+        );
+        for s in &self.stages {
+            let _ = writeln!(
+                out,
+                "{:<8} {:>10.3} %  {:>10.4} %  {:>11.2} deg   {:<9}   {:.1e}",
+                s.name,
+                s.peak_strain * 100.0,
+                s.mean_strain * 100.0,
+                s.peak_facet_bending_deg,
+                if s.converged { "yes" } else { "no" },
+                s.residual
+            );
+        }
+        self.write_verdict(&mut out);
+        let e = &self.engine;
+        let _ = writeln!(
+            out,
+            "engine {}: {} steps in {:.2} s, {} thread(s), {}; check {:.2} s, record {:.2} s",
+            e.name,
+            e.steps,
+            e.seconds,
+            e.threads,
+            e.device,
+            self.seconds.check,
+            self.seconds.record
+        );
+        out
+    }
+
+    fn write_box(&self, out: &mut String) {
+        let unit = &self.length_unit;
+        let _ = writeln!(
+            out,
+            "\ncompact box        x            y            z            area         volume"
+        );
+        let row = |name: &str, extents: [f64; 3], area: f64, volume: f64| {
+            let mut line = format!("{name:<12}");
+            for value in extents.into_iter().chain([area, volume]) {
+                let _ = write!(line, " {value:>12.6}");
+            }
+            line
+        };
+        let c = &self.compact;
+        let _ = writeln!(
+            out,
+            "{}  ({unit})",
+            row("measured", c.extents, c.area, c.volume)
+        );
+        if let Some(f) = &self.closed_form {
+            let _ = writeln!(out, "{}", row("closed form", f.extents, f.area, f.volume));
+        } else {
+            let _ = writeln!(out, "closed form  none for an unmodified rectangle");
+        }
+        if let Some(e) = &c.relative_error {
+            let mut line = format!("{:<12}", "error");
+            for value in e.extents.into_iter().chain([e.area, e.volume]) {
+                let _ = write!(line, " {value:>12.1e}");
+            }
+            let _ = writeln!(out, "{line}");
+        }
+        let _ = writeln!(
+            out,
+            "vertices lie {:.1e} h (rms) from the exact compact state",
+            c.rms_to_exact
+        );
+    }
+
+    fn write_verdict(&self, out: &mut String) {
+        let c = &self.collision;
+        let _ = writeln!(
+            out,
+            "\nverdict: {} (tolerance {:e} h; {} pairs tested; {} touch, {} penetrate)",
+            c.verdict, c.tolerance, c.pairs_tested, c.touching_pairs, c.penetrating_pairs
+        );
+        if let (Some(d), Some(t)) = (c.min_separation, c.min_separation_t) {
+            let _ = writeln!(
+                out,
+                "smallest separation of facets that share no vertex: {d:.3e} h at t = {t:.4}"
+            );
+        }
+        if let Some(first) = &c.first {
+            let _ = writeln!(out, "first at {}", first.line());
+        }
+        if let Some(within) = c
+            .first_within_unit
+            .as_ref()
+            .filter(|w| c.first.as_ref() != Some(w))
+        {
+            let _ = writeln!(out, "first within one unit at {}", within.line());
+        }
+    }
+}
+
+impl PenetrationReport {
+    fn line(&self) -> String {
+        let unit = |u: &UnitName| format!("{} row {} column {}", u.name, u.row, u.column);
+        let names: Vec<&str> = self
+            .vertex_names
+            .iter()
+            .flatten()
+            .map(String::as_str)
+            .collect();
+        format!(
+            "t = {:.5} ({}): {}, facets {} ({}) and {} ({}), vertices {:?}{}, depth {:.1e} h",
+            self.t,
+            self.stage,
+            self.kind,
+            self.facets[0],
+            unit(&self.units[0]),
+            self.facets[1],
+            unit(&self.units[1]),
+            self.vertices,
+            if names.is_empty() {
+                String::new()
+            } else {
+                format!(" ({})", names.join(", "))
+            },
+            self.depth
+        )
+    }
+}

@@ -1,0 +1,198 @@
+//! The folder of results: written beside its place, then renamed into it.
+
+use std::fs::{self, File};
+use std::io::{self, BufWriter, Write};
+use std::path::{Path, PathBuf};
+
+use crate::StudyError;
+
+/// Every file a run may write; those of an earlier run that a new run does not write are removed with it.
+const NAMES: &[&str] = &["report.json", "motion.fold", "motion.gif"];
+
+/// The name under which the report stands.
+pub(crate) const REPORT: &str = "report.json";
+
+/// Results under way, in a temporary folder beside the output folder; removed unless published.
+#[derive(Debug)]
+pub(crate) struct Results {
+    folder: PathBuf,
+    temporary: PathBuf,
+    written: Vec<&'static str>,
+}
+
+impl Results {
+    /// Opens the temporary folder.
+    pub(crate) fn create(folder: &Path) -> Result<Self, StudyError> {
+        if folder.exists() && !folder.is_dir() {
+            let source = io::Error::new(io::ErrorKind::NotADirectory, "it is a file");
+            return Err(output_error(
+                folder,
+                "cannot be used as output folder",
+                source,
+            ));
+        }
+        let parent = match folder.parent() {
+            Some(parent) if !parent.as_os_str().is_empty() => parent,
+            _ => Path::new("."),
+        };
+        fs::create_dir_all(parent).map_err(|e| output_error(parent, "cannot be made", e))?;
+        let name = folder
+            .file_name()
+            .unwrap_or_else(|| "out".as_ref())
+            .to_string_lossy();
+        let temporary = parent.join(format!(".{name}.partial-{}", std::process::id()));
+        fs::create_dir_all(&temporary)
+            .map_err(|e| output_error(&temporary, "cannot be made", e))?;
+        Ok(Self {
+            folder: folder.to_owned(),
+            temporary,
+            written: Vec::new(),
+        })
+    }
+
+    /// Bytes free where the results go.
+    pub(crate) fn available(&self) -> Result<u64, StudyError> {
+        fs4::available_space(&self.temporary)
+            .map_err(|e| output_error(&self.temporary, "cannot be measured", e))
+    }
+
+    /// Writes one file through `write`.
+    pub(crate) fn write(
+        &mut self,
+        name: &'static str,
+        write: impl FnOnce(&mut BufWriter<File>) -> Result<(), StudyError>,
+    ) -> Result<(), StudyError> {
+        let path = self.temporary.join(name);
+        let failed = |e| write_error(&self.folder, name, e);
+        let mut out = BufWriter::new(File::create(&path).map_err(failed)?);
+        write(&mut out)?;
+        out.flush().map_err(failed)?;
+        self.written.push(name);
+        Ok(())
+    }
+
+    /// The output folder.
+    pub(crate) fn folder(&self) -> &Path {
+        &self.folder
+    }
+
+    /// The names written so far.
+    pub(crate) fn written(&self) -> &[&'static str] {
+        &self.written
+    }
+
+    /// Renames every file into the output folder, the report last; files the run does not know stay.
+    pub(crate) fn publish(self) -> Result<(), StudyError> {
+        let folder = &self.folder;
+        fs::create_dir_all(folder).map_err(|e| output_error(folder, "cannot be made", e))?;
+        // From here on a report in the folder would speak of other files than those beside it.
+        for name in
+            std::iter::once(&REPORT).chain(NAMES.iter().filter(|n| !self.written.contains(n)))
+        {
+            match fs::remove_file(folder.join(name)) {
+                Err(e) if e.kind() != io::ErrorKind::NotFound => {
+                    return Err(output_error(&folder.join(name), "cannot be replaced", e));
+                }
+                _ => {}
+            }
+        }
+        let (report, others): (Vec<&str>, Vec<&str>) =
+            self.written.iter().partition(|&&n| n == REPORT);
+        for name in others.into_iter().chain(report) {
+            let to = folder.join(name);
+            fs::rename(self.temporary.join(name), &to)
+                .map_err(|e| output_error(&to, "cannot be moved into place", e))?;
+        }
+        Ok(())
+    }
+}
+
+impl Drop for Results {
+    fn drop(&mut self) {
+        // What cannot be removed is a hidden folder that says what it is; nothing is lost.
+        let _ = fs::remove_dir_all(&self.temporary);
+    }
+}
+
+/// An error about writing the result `name` of `folder`.
+pub(crate) fn write_error(folder: &Path, name: &str, source: io::Error) -> StudyError {
+    output_error(&folder.join(name), "cannot be written", source)
+}
+
+fn output_error(path: &Path, action: &'static str, source: io::Error) -> StudyError {
+    StudyError::Output {
+        path: path.to_owned(),
+        action,
+        source,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn write(results: &mut Results, name: &'static str, text: &str) {
+        results
+            .write(name, |out| {
+                out.write_all(text.as_bytes()).unwrap();
+                Ok(())
+            })
+            .unwrap();
+    }
+
+    #[test]
+    fn published_results_replace_earlier_ones_and_leave_foreign_files() {
+        let home = tempfile::tempdir().unwrap();
+        let folder = home.path().join("out/scene");
+        let mut first = Results::create(&folder).unwrap();
+        write(&mut first, "motion.gif", "old film");
+        write(&mut first, REPORT, "old report");
+        first.publish().unwrap();
+        fs::write(folder.join("notes.txt"), "mine").unwrap();
+        let mut second = Results::create(&folder).unwrap();
+        write(&mut second, "motion.fold", "new motion");
+        write(&mut second, REPORT, "new report");
+        second.publish().unwrap();
+        assert_eq!(
+            fs::read_to_string(folder.join(REPORT)).unwrap(),
+            "new report"
+        );
+        assert_eq!(
+            fs::read_to_string(folder.join("notes.txt")).unwrap(),
+            "mine"
+        );
+        assert!(
+            !folder.join("motion.gif").exists(),
+            "a film of another motion would mislead"
+        );
+        assert_eq!(
+            fs::read_dir(home.path().join("out")).unwrap().count(),
+            1,
+            "nothing temporary is left"
+        );
+    }
+
+    #[test]
+    fn results_that_are_dropped_leave_earlier_ones_as_they_were() {
+        let home = tempfile::tempdir().unwrap();
+        let folder = home.path().join("scene");
+        let mut first = Results::create(&folder).unwrap();
+        write(&mut first, REPORT, "earlier");
+        first.publish().unwrap();
+        let mut failed = Results::create(&folder).unwrap();
+        write(&mut failed, REPORT, "never");
+        drop(failed);
+        assert_eq!(fs::read_to_string(folder.join(REPORT)).unwrap(), "earlier");
+        assert_eq!(fs::read_dir(home.path()).unwrap().count(), 1);
+    }
+
+    #[test]
+    fn a_file_in_the_way_of_the_folder_is_refused() {
+        let home = tempfile::tempdir().unwrap();
+        let folder = home.path().join("scene");
+        fs::write(&folder, "a file").unwrap();
+        let error = Results::create(&folder).unwrap_err();
+        assert!(error.to_string().contains("it is a file"), "{error}");
+        assert_eq!(fs::read_to_string(&folder).unwrap(), "a file");
+    }
+}

@@ -1,0 +1,275 @@
+//! The scene: exactly what the user wrote.
+//!
+//! A TOML file; unknown keys are refused. [`crate::Study`] is what becomes of it.
+
+use foldmotion_pattern::Case;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// A scene file.
+#[derive(Debug, Clone, PartialEq, Deserialize, Serialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+#[schemars(title = "foldmotion scene")]
+pub struct Scene {
+    /// Title of the study; the file's name where it is left out.
+    pub title: Option<String>,
+    /// The curve Γ in the x–z plane.
+    #[serde(default)]
+    pub profile: ProfileScene,
+    /// The sheet of units.
+    #[serde(default)]
+    pub sheet: SheetScene,
+    /// How Γ is divided into segments.
+    #[serde(default)]
+    pub division: DivisionScene,
+    /// Stiffness and damping.
+    #[serde(default)]
+    pub material: MaterialScene,
+    /// The engine and its frames.
+    #[serde(default)]
+    pub motion: MotionScene,
+    /// Tolerances of the verdict.
+    #[serde(default)]
+    pub check: CheckScene,
+    /// Results to write.
+    #[serde(default)]
+    pub record: RecordScene,
+}
+
+/// `[profile]`.
+#[derive(Debug, Clone, Default, PartialEq, Deserialize, Serialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct ProfileScene {
+    /// A built-in profile (`foldmotion models` lists them); or give `control_points`.
+    pub model: Option<String>,
+    /// Control points [x, z] of a cubic NURBS with unit weights, at least 4.
+    pub control_points: Option<Vec<[f64; 2]>>,
+    /// Knots of that curve; clamped and uniform where left out.
+    pub knots: Option<Vec<f64>>,
+    /// Whether the curve returns to its start, with a corner there or smoothly.
+    pub closed: Option<Closed>,
+    /// Scales Γ so that the divided polygon has this length.
+    pub length: Option<f64>,
+    /// The unit of length; `m` where left out.
+    pub unit: Option<LengthUnit>,
+}
+
+/// How a closed profile meets its start.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Closed {
+    /// With a corner.
+    Corner,
+    /// Smoothly.
+    Smooth,
+}
+
+/// FOLD's units of length.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum LengthUnit {
+    /// No physical unit.
+    Unit,
+    /// Inches.
+    In,
+    /// Points, 1/72 inch.
+    Pt,
+    /// Metres.
+    #[default]
+    M,
+    /// Centimetres.
+    Cm,
+    /// Millimetres.
+    Mm,
+    /// Micrometres.
+    Um,
+    /// Nanometres.
+    Nm,
+}
+
+impl LengthUnit {
+    /// The name in scene and FOLD files.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Unit => "unit",
+            Self::In => "in",
+            Self::Pt => "pt",
+            Self::M => "m",
+            Self::Cm => "cm",
+            Self::Mm => "mm",
+            Self::Um => "um",
+            Self::Nm => "nm",
+        }
+    }
+}
+
+/// `[sheet]`.
+#[derive(Debug, Clone, Default, PartialEq, Deserialize, Serialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct SheetScene {
+    /// W; may be left out for case E, where W = Nc·h (section 4.1 of the paper).
+    pub width: Option<f64>,
+    /// Nr; that of the built-in profile where left out.
+    pub rows: Option<i64>,
+    /// Nc; that of the built-in profile where left out.
+    pub columns: Option<i64>,
+    /// The case; `auto` where left out.
+    pub case: Option<CaseChoice>,
+    /// λ of case SII, in (0, 1).
+    pub lambda: Option<f64>,
+    /// d of case SII, 0 ≤ d < w1' = w/2 − λh/2; w1'/2 where left out.
+    pub offset: Option<f64>,
+    /// The side of Γ, seen along it, on which the flaps stand; `left` where left out.
+    pub facing: Option<FacingChoice>,
+}
+
+/// A case by name, or the one that w/h allows.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
+pub enum CaseChoice {
+    /// Square units.
+    E,
+    /// Tall units.
+    T,
+    /// Short units with side pads.
+    S,
+    /// Short units with side and centre pads.
+    SII,
+    /// Unmodified rectangles.
+    #[serde(rename = "plain")]
+    Plain,
+    /// E where w = h within 1e-9, T below, S above, or SII if λ is given.
+    #[serde(rename = "auto")]
+    Auto,
+}
+
+impl CaseChoice {
+    /// The case, by w and h where the scene leaves it open.
+    pub fn resolve(self, width: f64, height: f64, lambda: Option<f64>) -> Case {
+        match self {
+            Self::E => Case::E,
+            Self::T => Case::T,
+            Self::S => Case::S,
+            Self::SII => Case::SII,
+            Self::Plain => Case::Plain,
+            Self::Auto => Case::auto(width, height, lambda),
+        }
+    }
+}
+
+/// A side of the profile.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum FacingChoice {
+    /// On the left, seen along Γ with x to the right and z up.
+    Left,
+    /// On the right.
+    Right,
+}
+
+/// `[division]`.
+#[derive(Debug, Clone, Default, PartialEq, Deserialize, Serialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct DivisionScene {
+    /// `equal-length`.
+    pub method: Option<DivisionChoice>,
+    /// The iteration ends once |R_max| is at most this; 1e-14 where left out.
+    pub tolerance: Option<f64>,
+    /// Iterations at most; 200 where left out.
+    pub max_iterations: Option<i64>,
+}
+
+/// The ways of dividing a profile.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum DivisionChoice {
+    /// Segments of equal length (equations 1 and 2).
+    EqualLength,
+}
+
+/// `[material]`: Origami Simulator's constants; only their ratios shape the equilibrium.
+#[derive(Debug, Clone, Default, PartialEq, Deserialize, Serialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct MaterialScene {
+    /// EA of the bars; 20 where left out.
+    pub axial_stiffness: Option<f64>,
+    /// Stiffness of a crease per unit length; 0.7 where left out.
+    pub fold_stiffness: Option<f64>,
+    /// Stiffness of a facet hinge per unit length; 0.7 where left out.
+    pub facet_stiffness: Option<f64>,
+    /// Stiffness of the angles of each triangle; 0 where left out (Origami Simulator sets 0.2).
+    pub face_angle_stiffness: Option<f64>,
+    /// ζ of the bars' dampers; 0.45 where left out.
+    pub damping_ratio: Option<f64>,
+}
+
+/// `[motion]`.
+#[derive(Debug, Clone, Default, PartialEq, Deserialize, Serialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct MotionScene {
+    /// `dynamic`.
+    pub engine: Option<EngineChoice>,
+    /// An even number; the states t = 2k/frames are recorded. 240 where left out.
+    pub frames: Option<i64>,
+    /// Whether layers push each other; no where left out.
+    pub contact: Option<bool>,
+}
+
+/// The engines.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum EngineChoice {
+    /// Mass, spring, damper, explicit steps.
+    Dynamic,
+}
+
+/// `[check]`.
+#[derive(Debug, Clone, Default, PartialEq, Deserialize, Serialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct CheckScene {
+    /// τ in units of h: facets that overlap by no more touch; 1e-6 where left out.
+    pub touch_tolerance: Option<f64>,
+}
+
+/// `[record]`.
+#[derive(Debug, Clone, Default, PartialEq, Deserialize, Serialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct RecordScene {
+    /// `fold` and `gif` where left out.
+    pub outputs: Option<Vec<OutputChoice>>,
+    /// Pixels across and down; [960, 720] where left out.
+    pub size: Option<[i64; 2]>,
+    /// Film frames a second; 30 where left out.
+    pub fps: Option<f64>,
+    /// Seconds a stage; [3, 5] where left out.
+    pub seconds: Option<[f64; 2]>,
+    /// Seconds the deployed, the planar and the compact state stand still; 0.5 where left out.
+    pub hold: Option<f64>,
+    /// Where the viewer stands; `iso` where left out.
+    pub camera: Option<CameraChoice>,
+}
+
+/// The files a run writes beside its report.
+#[derive(
+    Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Deserialize, Serialize, JsonSchema,
+)]
+#[serde(rename_all = "lowercase")]
+pub enum OutputChoice {
+    /// `motion.fold`.
+    Fold,
+    /// `motion.gif`.
+    Gif,
+}
+
+/// Camera presets.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum CameraChoice {
+    /// From above, in front and the side.
+    Iso,
+    /// Along the width.
+    Front,
+    /// Along the growing direction.
+    Side,
+    /// From above.
+    Top,
+}

@@ -1,0 +1,22 @@
+//! The JSON schemas that other programs read.
+
+use schemars::{JsonSchema, schema_for};
+
+use crate::{Report, Scene};
+
+/// The schema of scene files.
+pub fn scene_schema() -> String {
+    schema::<Scene>()
+}
+
+/// The schema of `report.json`.
+pub fn report_schema() -> String {
+    schema::<Report>()
+}
+
+fn schema<T: JsonSchema>() -> String {
+    // A schema is plain JSON with string keys, which always serialises.
+    let mut text = serde_json::to_string_pretty(&schema_for!(T)).unwrap_or_default();
+    text.push('\n');
+    text
+}

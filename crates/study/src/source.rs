@@ -1,0 +1,411 @@
+//! The text of a scene file with its `--set` overrides: parses into a [`Scene`] and knows the line of every key.
+
+use std::path::{Path, PathBuf};
+
+use toml::de::{DeTable, DeValue};
+use toml::{Spanned, Table, Value};
+
+use crate::{Scene, StudyError};
+
+/// Keys of the scene format that this version does not act on yet: refused by name, never ignored.
+///
+/// (table, key, the only value refused, or none for all; what to do instead).
+const LATER: &[(&str, &str, Option<&str>, &str)] = &[
+    (
+        "profile",
+        "points",
+        None,
+        "give control_points or a built-in model",
+    ),
+    (
+        "profile",
+        "file",
+        None,
+        "give control_points or a built-in model",
+    ),
+    (
+        "division",
+        "method",
+        Some("parametric"),
+        "use \"equal-length\"",
+    ),
+    (
+        "division",
+        "method",
+        Some("douglas-peucker"),
+        "use \"equal-length\"",
+    ),
+    (
+        "material",
+        "preset",
+        None,
+        "give the stiffnesses themselves",
+    ),
+    (
+        "material",
+        "thickness",
+        None,
+        "leave it out: the sheet is thin",
+    ),
+    ("motion", "engine", Some("quasi-static"), "use \"dynamic\""),
+    ("motion", "contact", Some("true"), "use false"),
+    (
+        "motion",
+        "unfold",
+        None,
+        "leave it out: the hinge angles scale uniformly",
+    ),
+    (
+        "motion",
+        "gap",
+        None,
+        "leave it out: layers do not push each other",
+    ),
+    (
+        "motion",
+        "step",
+        None,
+        "leave it out: every crease follows the uniform ramp",
+    ),
+    (
+        "record",
+        "colour",
+        None,
+        "leave it out: the film shows paper",
+    ),
+    (
+        "record",
+        "at",
+        None,
+        "leave it out: the film shows every state",
+    ),
+    (
+        "pattern",
+        "file",
+        None,
+        "describe the sheet by [profile] and [sheet]",
+    ),
+];
+
+/// Outputs of the scene format that this version does not write yet.
+const LATER_OUTPUTS: &[&str] = &["mp4", "png", "svg", "pdf", "glb", "html", "csv"];
+
+/// A scene file as text.
+#[derive(Debug, Clone)]
+pub struct SceneSource {
+    path: PathBuf,
+    text: String,
+    overrides: Vec<(String, Value)>,
+}
+
+impl SceneSource {
+    /// Reads a scene file.
+    ///
+    /// # Errors
+    /// [`StudyError::Read`].
+    pub fn read(path: &Path) -> Result<Self, StudyError> {
+        let text = std::fs::read_to_string(path).map_err(|source| StudyError::Read {
+            path: path.to_owned(),
+            source,
+        })?;
+        Ok(Self::new(path, text))
+    }
+
+    /// A scene from text; `path` names it in errors and, without its ending, in results.
+    pub fn new(path: &Path, text: String) -> Self {
+        Self {
+            path: path.to_owned(),
+            text,
+            overrides: Vec::new(),
+        }
+    }
+
+    /// Adds a `--set key=value`: a dotted key and a TOML value (a word that is no TOML value is taken as a string).
+    ///
+    /// # Errors
+    /// [`StudyError::Parse`] without `=` or with an empty key.
+    pub fn set(&mut self, assignment: &str) -> Result<(), StudyError> {
+        let fault = |message: String| StudyError::Parse {
+            place: format!("--set {assignment}"),
+            message,
+        };
+        let Some((key, value)) = assignment.split_once('=') else {
+            return Err(fault(
+                "expected key=value, such as sheet.columns=3".to_owned(),
+            ));
+        };
+        let (key, value) = (key.trim(), value.trim());
+        if key.split('.').any(str::is_empty) {
+            return Err(fault(
+                "the key is empty; write table.key=value, such as sheet.columns=3".to_owned(),
+            ));
+        }
+        let parsed = format!("value = {value}")
+            .parse::<Table>()
+            .ok()
+            .and_then(|mut t| t.remove("value"));
+        let value = parsed.unwrap_or_else(|| Value::String(value.to_owned()));
+        self.overrides.push((key.to_owned(), value));
+        Ok(())
+    }
+
+    /// The file's name without its ending.
+    pub fn stem(&self) -> String {
+        self.path
+            .file_stem()
+            .map_or_else(|| "scene".to_owned(), |s| s.to_string_lossy().into_owned())
+    }
+
+    /// Parses the text, then applies the overrides.
+    ///
+    /// # Errors
+    /// [`StudyError::Parse`] for what is no TOML, unknown keys and wrong types; [`StudyError::Value`] for keys this
+    /// version does not act on yet.
+    pub fn scene(&self) -> Result<Scene, StudyError> {
+        let at_fault = |error: &toml::de::Error| StudyError::Parse {
+            place: error.span().map_or_else(
+                || self.path.display().to_string(),
+                |span| self.place(span.start),
+            ),
+            message: error.message().to_owned(),
+        };
+        let mut table: Table = toml::from_str(&self.text).map_err(|e| at_fault(&e))?;
+        for (key, value) in &self.overrides {
+            insert(&mut table, key, value.clone()).map_err(|message| StudyError::Parse {
+                place: format!("--set {key}"),
+                message,
+            })?;
+        }
+        self.refuse_later(&table)?;
+        // The file itself first, so that its own errors carry their line.
+        let scene: Result<Scene, _> = toml::from_str(&self.text);
+        if self.overrides.is_empty() {
+            return scene.map_err(|e| at_fault(&e));
+        }
+        match Scene::deserialize_table(table) {
+            Ok(overridden) => Ok(overridden),
+            Err(error) => match scene {
+                Err(own) => Err(at_fault(&own)),
+                Ok(_) => Err(StudyError::Parse {
+                    place: self.override_names(),
+                    message: error,
+                }),
+            },
+        }
+    }
+
+    fn override_names(&self) -> String {
+        let names: Vec<String> = self
+            .overrides
+            .iter()
+            .map(|(key, _)| format!("--set {key}"))
+            .collect();
+        names.join(", ")
+    }
+
+    fn refuse_later(&self, table: &Table) -> Result<(), StudyError> {
+        for &(group, key, value, remedy) in LATER {
+            let Some(found) = table.get(group).and_then(|t| t.get(key)) else {
+                continue;
+            };
+            let text = found
+                .as_str()
+                .map_or_else(|| found.to_string(), str::to_owned);
+            if value.is_none_or(|v| v == text) {
+                let message = format!("not available in this version; {remedy}");
+                return Err(self.value_error(&format!("{group}.{key}"), message));
+            }
+        }
+        let outputs = table
+            .get("record")
+            .and_then(|t| t.get("outputs"))
+            .and_then(Value::as_array);
+        for output in outputs.into_iter().flatten().filter_map(Value::as_str) {
+            if LATER_OUTPUTS.contains(&output) {
+                let message = format!(
+                    "output \"{output}\" is not available in this version; use fold or gif"
+                );
+                return Err(self.value_error("record.outputs", message));
+            }
+        }
+        Ok(())
+    }
+
+    /// An error about the value of a key: with its file, line and value, or the `--set` that gave it.
+    pub fn value_error(&self, key: &str, message: String) -> StudyError {
+        let overridden = self.overrides.iter().rev().find(|(k, _)| k == key);
+        let (place, value) = match (overridden, self.locate(key)) {
+            (Some((_, value)), _) => ("--set".to_owned(), format!(" = {value}")),
+            (None, Some((span, value))) => (self.place(span.start), format!(" = {value}")),
+            (None, None) => (self.path.display().to_string(), String::new()),
+        };
+        StudyError::Value {
+            place,
+            key: key.to_owned(),
+            value,
+            message,
+        }
+    }
+
+    /// `file:line` of a key, or the file where the key is absent.
+    pub fn place_of(&self, key: &str) -> String {
+        self.locate(key).map_or_else(
+            || self.path.display().to_string(),
+            |(span, _)| self.place(span.start),
+        )
+    }
+
+    /// `file:line:column` of a byte of the text.
+    fn place(&self, byte: usize) -> String {
+        let before = &self.text[..byte.min(self.text.len())];
+        let line = before.matches('\n').count() + 1;
+        let column = before.chars().rev().take_while(|&c| c != '\n').count() + 1;
+        format!("{}:{line}:{column}", self.path.display())
+    }
+
+    /// Where the value of a dotted key stands and its text.
+    fn locate(&self, key: &str) -> Option<(std::ops::Range<usize>, String)> {
+        let table = DeTable::parse(&self.text).ok()?;
+        let mut parts = key.split('.');
+        let mut value: &Spanned<DeValue<'_>> = table.get_ref().get(parts.next()?)?;
+        for part in parts {
+            value = value.get_ref().as_table()?.get(part)?;
+        }
+        let span = value.span();
+        Some((span.clone(), shortened(self.text.get(span)?)))
+    }
+}
+
+/// The text of a value, cut where it is long.
+fn shortened(text: &str) -> String {
+    const LONGEST: usize = 60;
+    if text.chars().count() <= LONGEST {
+        return text.to_owned();
+    }
+    let head: String = text.chars().take(LONGEST).collect();
+    format!("{head}…")
+}
+
+fn insert(table: &mut Table, key: &str, value: Value) -> Result<(), String> {
+    match key.split_once('.') {
+        None => {
+            table.insert(key.to_owned(), value);
+            Ok(())
+        }
+        Some((group, rest)) => {
+            let entry = table
+                .entry(group.to_owned())
+                .or_insert_with(|| Value::Table(Table::new()));
+            match entry {
+                Value::Table(inner) => insert(inner, rest, value),
+                _ => Err(format!(
+                    "{group} is no table, so {rest} cannot be set in it"
+                )),
+            }
+        }
+    }
+}
+
+impl Scene {
+    fn deserialize_table(table: Table) -> Result<Self, String> {
+        table
+            .try_into()
+            .map_err(|e: toml::de::Error| e.message().to_owned())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn source(text: &str) -> SceneSource {
+        SceneSource::new(Path::new("dir/test.toml"), text.to_owned())
+    }
+
+    #[test]
+    fn an_unknown_key_is_refused_with_its_line() {
+        let error = source("title = \"a\"\n[sheet]\nwidht = 5.0\n")
+            .scene()
+            .unwrap_err();
+        assert_eq!(error.status(), 2);
+        let text = error.to_string();
+        assert!(
+            text.contains("test.toml:3") && text.contains("widht"),
+            "{text}"
+        );
+    }
+
+    #[test]
+    fn a_wrong_type_is_refused_with_its_line() {
+        let text = source("[sheet]\nrows = \"seven\"\n")
+            .scene()
+            .unwrap_err()
+            .to_string();
+        assert!(text.contains("test.toml:2"), "{text}");
+    }
+
+    #[test]
+    fn text_that_is_no_toml_is_refused_with_its_line() {
+        let text = source("[sheet]\nrows = = 7\n")
+            .scene()
+            .unwrap_err()
+            .to_string();
+        assert!(text.contains("test.toml:2"), "{text}");
+    }
+
+    #[test]
+    fn keys_of_later_versions_are_refused_by_name_and_value() {
+        for (text, key) in [
+            ("[motion]\nengine = \"quasi-static\"\n", "motion.engine"),
+            ("[motion]\ncontact = true\n", "motion.contact"),
+            ("[record]\noutputs = [\"mp4\"]\n", "record.outputs"),
+            ("[material]\npreset = \"paper\"\n", "material.preset"),
+        ] {
+            let error = source(text).scene().unwrap_err();
+            let message = error.to_string();
+            assert!(
+                message.contains(key) && message.contains("not available"),
+                "{message}"
+            );
+            assert_eq!(error.status(), 2);
+        }
+        assert!(
+            source("[motion]\nengine = \"dynamic\"\ncontact = false\n")
+                .scene()
+                .is_ok()
+        );
+    }
+
+    #[test]
+    fn set_overrides_a_key_and_takes_bare_words_as_strings() {
+        let mut source = source("[sheet]\nrows = 7\n");
+        source.set("sheet.rows=3").unwrap();
+        source.set("sheet.case = SII").unwrap();
+        source.set("profile.model=shelter").unwrap();
+        let scene = source.scene().unwrap();
+        assert_eq!(scene.sheet.rows, Some(3));
+        assert_eq!(scene.sheet.case, Some(crate::scene::CaseChoice::SII));
+        assert_eq!(scene.profile.model.as_deref(), Some("shelter"));
+    }
+
+    #[test]
+    fn a_wrong_set_is_refused_by_name() {
+        let mut unknown = source("");
+        unknown.set("sheet.nonsense=1").unwrap();
+        let text = unknown.scene().unwrap_err().to_string();
+        assert!(
+            text.contains("--set sheet.nonsense") && text.contains("nonsense"),
+            "{text}"
+        );
+        assert!(source("").set("nothing").is_err());
+        assert!(source("").set("=3").is_err());
+    }
+
+    #[test]
+    fn a_value_error_names_file_line_key_and_value() {
+        let text = source("[sheet]\n\nwidth = -5.0\n")
+            .value_error("sheet.width", "no".to_owned())
+            .to_string();
+        assert_eq!(text, "dir/test.toml:3:9: sheet.width = -5.0: no");
+    }
+}

@@ -1,0 +1,428 @@
+//! The study: a scene with everything resolved, ready to run.
+
+use std::time::Instant;
+
+use foldmotion_check::CollisionOptions;
+use foldmotion_geometry::{
+    Closure, Division, DivisionMethod, DivisionOptions, GeometryError, Profile, divide,
+    divide_to_length,
+};
+use foldmotion_pattern::{
+    CompactBox, Facing, PatternCheck, PatternError, ProfileModel, Unit, UnitSheet, find_model,
+    models,
+};
+use foldmotion_record::{FilmOptions, RecordError, View};
+use foldmotion_solver::{Material, Model, Schedule, SolverError};
+use glam::{DVec2, DVec3};
+
+use crate::scene::{CameraChoice, CaseChoice, Closed, FacingChoice, OutputChoice, ProfileScene};
+use crate::{Scene, SceneSource, StudyError};
+
+/// Frames of a motion, at most: the file of a small sheet then stays below some gigabytes.
+const MOST_FRAMES: i64 = 100_000;
+/// Sheets larger than this many units exceed what one machine folds.
+const MOST_ROWS_OR_COLUMNS: i64 = 1_000_000;
+
+/// Everything a run needs, resolved from a scene.
+#[derive(Debug, Clone)]
+pub struct Study {
+    /// Its title.
+    pub title: String,
+    /// FOLD's name of the unit of length.
+    pub unit_name: &'static str,
+    /// Γ.
+    pub profile: Profile,
+    /// Γ divided.
+    pub division: Division,
+    /// Seconds the division took.
+    pub division_seconds: f64,
+    /// The sheet of units.
+    pub units: UnitSheet,
+    /// The pattern check.
+    pub pattern: PatternCheck,
+    /// The closed form of the compact box, where the case has one.
+    pub closed_form: Option<CompactBox>,
+    /// The deployed state, at which the motion starts.
+    pub deployed: Vec<DVec3>,
+    /// Bars, hinges and masses.
+    pub model: Model,
+    /// The target fold angles along the motion.
+    pub schedule: Schedule,
+    /// The states t = 2k/frames are recorded.
+    pub frames: usize,
+    /// How the motion is checked.
+    pub collision: CollisionOptions,
+    /// How the film is made.
+    pub film: FilmOptions,
+    /// What is written beside the report.
+    pub outputs: Vec<OutputChoice>,
+}
+
+impl Study {
+    /// Resolves a scene: profile, division, sheet, model, schedule.
+    ///
+    /// # Errors
+    /// Every unusable value, with file, line, key, value and remedy.
+    pub fn resolve(source: &SceneSource) -> Result<Self, StudyError> {
+        let scene = source.scene()?;
+        let resolver = Resolver {
+            source,
+            scene: &scene,
+        };
+        let built_in = resolver.built_in()?;
+        let rows = resolver.count("sheet.rows", scene.sheet.rows, built_in.map(|m| m.rows))?;
+        let columns = resolver.count(
+            "sheet.columns",
+            scene.sheet.columns,
+            built_in.map(|m| m.columns),
+        )?;
+        let started = Instant::now();
+        let (profile, division) = resolver.division(built_in, rows)?;
+        let division_seconds = started.elapsed().as_secs_f64();
+        let unit = resolver.unit(division.mean_length, columns)?;
+        let units = UnitSheet::new(unit, rows, columns).map_err(|e| resolver.pattern_error(&e))?;
+        let facing = match scene.sheet.facing {
+            Some(FacingChoice::Right) => Facing::Right,
+            _ => Facing::Left,
+        };
+        let deployed = units
+            .deployed(&division.points, facing)
+            .map_err(|e| resolver.pattern_error(&e))?;
+        let deployed_angles = units
+            .deployed_angles(&division.points, facing)
+            .map_err(|e| resolver.pattern_error(&e))?;
+        let model = Model::new(&units.sheet, &resolver.material()?)?;
+        let schedule = Schedule::uniform(&units.sheet, &deployed_angles, units.compact_angles())?;
+        Ok(Self {
+            title: scene.title.clone().unwrap_or_else(|| source.stem()),
+            unit_name: scene.profile.unit.unwrap_or_default().name(),
+            pattern: units.check(),
+            closed_form: CompactBox::closed_form(&unit, rows, columns),
+            frames: resolver.frames()?,
+            collision: resolver.collision()?,
+            film: resolver.film()?,
+            outputs: resolver.outputs(),
+            profile,
+            division,
+            division_seconds,
+            units,
+            deployed,
+            model,
+            schedule,
+        })
+    }
+}
+
+/// Reads values out of the scene and turns what is wrong with them into errors that name their line.
+struct Resolver<'a> {
+    source: &'a SceneSource,
+    scene: &'a Scene,
+}
+
+impl Resolver<'_> {
+    fn fault(&self, key: &str, message: impl Into<String>) -> StudyError {
+        self.source.value_error(key, message.into())
+    }
+
+    fn positive(&self, key: &str, value: f64) -> Result<f64, StudyError> {
+        if value > 0.0 && value.is_finite() {
+            Ok(value)
+        } else {
+            Err(self.fault(key, "must be a positive, finite number"))
+        }
+    }
+
+    fn built_in(&self) -> Result<Option<&'static ProfileModel>, StudyError> {
+        let ProfileScene {
+            model,
+            control_points,
+            knots,
+            closed,
+            ..
+        } = &self.scene.profile;
+        let Some(name) = model else {
+            if control_points.is_none() {
+                let message = "no profile: give profile.model (see `foldmotion models`) or profile.control_points";
+                return Err(self.fault("profile", message));
+            }
+            return Ok(None);
+        };
+        let given = [
+            ("profile.control_points", control_points.is_some()),
+            ("profile.knots", knots.is_some()),
+            ("profile.closed", closed.is_some()),
+        ];
+        if let Some((key, _)) = given.into_iter().find(|&(_, given)| given) {
+            return Err(self.fault(
+                key,
+                "a built-in model brings its own curve; leave out this key or model",
+            ));
+        }
+        let names: Vec<&str> = models().iter().map(|m| m.name).collect();
+        let unknown = || {
+            let message = format!(
+                "no built-in profile of this name; there is: {}",
+                names.join(", ")
+            );
+            self.fault("profile.model", message)
+        };
+        find_model(name).map(Some).ok_or_else(unknown)
+    }
+
+    fn count(
+        &self,
+        key: &str,
+        value: Option<i64>,
+        default: Option<usize>,
+    ) -> Result<usize, StudyError> {
+        match (value, default) {
+            (Some(n), _) => usize::try_from(n)
+                .ok()
+                .filter(|_| (1..=MOST_ROWS_OR_COLUMNS).contains(&n))
+                .ok_or_else(|| {
+                    self.fault(
+                        key,
+                        format!("must lie between 1 and {MOST_ROWS_OR_COLUMNS}"),
+                    )
+                }),
+            (None, Some(n)) => Ok(n),
+            (None, None) => Err(self.fault(key, "is missing: a profile of your own needs it")),
+        }
+    }
+
+    fn division(
+        &self,
+        built_in: Option<&ProfileModel>,
+        rows: usize,
+    ) -> Result<(Profile, Division), StudyError> {
+        let options = self.division_options()?;
+        let profile = match built_in {
+            Some(model) => {
+                let points: Vec<DVec2> = model.control_points.iter().map(|&p| p.into()).collect();
+                Profile::new(&points, model.closure)
+            }
+            None => self.own_profile(),
+        }
+        .map_err(|e| self.geometry_error(&e))?;
+        let length = match (self.scene.profile.length, built_in) {
+            (Some(length), _) => Some(self.positive("profile.length", length)?),
+            (None, built_in) => built_in.map(|m| m.length),
+        };
+        let divided = match length {
+            Some(length) => divide_to_length(&profile, rows, length, &options),
+            None => divide(&profile, rows, &options).map(|division| (profile, division)),
+        };
+        let (profile, division) = divided.map_err(|e| self.geometry_error(&e))?;
+        if division.max_residual > 1e-9 {
+            // Rows of unequal height are no sheet of equal units.
+            return Err(StudyError::Undivided {
+                place: self.source.place_of("profile"),
+                segments: rows,
+                residual: division.max_residual,
+                iterations: division.iterations,
+                remedy: "raise division.max_iterations, or change the number of rows",
+            });
+        }
+        Ok((profile, division))
+    }
+
+    fn own_profile(&self) -> Result<Profile, GeometryError> {
+        let scene = &self.scene.profile;
+        let points: Vec<DVec2> = scene
+            .control_points
+            .iter()
+            .flatten()
+            .map(|&p| p.into())
+            .collect();
+        let closure = match scene.closed {
+            None => Closure::Open,
+            Some(Closed::Corner) => Closure::Corner,
+            Some(Closed::Smooth) => Closure::Smooth,
+        };
+        match &scene.knots {
+            Some(knots) => Profile::with_knots(&points, knots, closure),
+            None => Profile::new(&points, closure),
+        }
+    }
+
+    fn division_options(&self) -> Result<DivisionOptions, StudyError> {
+        let scene = &self.scene.division;
+        let mut options = DivisionOptions {
+            method: DivisionMethod::EqualLength,
+            ..DivisionOptions::default()
+        };
+        if let Some(tolerance) = scene.tolerance {
+            if !(tolerance >= 0.0 && tolerance < 1.0) {
+                return Err(self.fault("division.tolerance", "must lie between 0 and 1"));
+            }
+            options.tolerance = tolerance;
+        }
+        if let Some(limit) = scene.max_iterations {
+            options.max_iterations = usize::try_from(limit)
+                .ok()
+                .filter(|&n| (1..=1_000_000).contains(&n))
+                .ok_or_else(|| {
+                    self.fault("division.max_iterations", "must lie between 1 and 1000000")
+                })?;
+        }
+        Ok(options)
+    }
+
+    /// w and the case, from W, Nc and h.
+    fn unit(&self, height: f64, columns: usize) -> Result<Unit, StudyError> {
+        let scene = &self.scene.sheet;
+        let choice = scene.case.unwrap_or(CaseChoice::Auto);
+        let width = match (scene.width, choice) {
+            (Some(width), _) => self.positive("sheet.width", width)? / columns as f64,
+            (None, CaseChoice::E | CaseChoice::Auto) => height,
+            (None, _) => {
+                let message =
+                    "is missing: only case E makes the width from the rows' height, W = Nc·h";
+                return Err(self.fault("sheet.width", message));
+            }
+        };
+        let case = choice.resolve(width, height, scene.lambda);
+        Unit::new(case, width, height, scene.lambda, scene.offset)
+            .map_err(|e| self.pattern_error(&e))
+    }
+
+    fn material(&self) -> Result<Material, StudyError> {
+        let scene = &self.scene.material;
+        let standard = Material::default();
+        let material = Material {
+            axial_stiffness: scene.axial_stiffness.unwrap_or(standard.axial_stiffness),
+            fold_stiffness: scene.fold_stiffness.unwrap_or(standard.fold_stiffness),
+            facet_stiffness: scene.facet_stiffness.unwrap_or(standard.facet_stiffness),
+            face_angle_stiffness: scene
+                .face_angle_stiffness
+                .unwrap_or(standard.face_angle_stiffness),
+            damping_ratio: scene.damping_ratio.unwrap_or(standard.damping_ratio),
+        };
+        material.validate().map_err(|e| match e {
+            SolverError::MaterialOutOfRange {
+                name,
+                minimum,
+                maximum,
+                ..
+            } => self.fault(
+                &format!("material.{name}"),
+                format!("must lie between {minimum:e} and {maximum:e}"),
+            ),
+            other => StudyError::Solver(other),
+        })?;
+        Ok(material)
+    }
+
+    fn frames(&self) -> Result<usize, StudyError> {
+        let frames = self.scene.motion.frames.unwrap_or(240);
+        if frames % 2 != 0 || !(2..=MOST_FRAMES).contains(&frames) {
+            let message = format!("must be an even number between 2 and {MOST_FRAMES}");
+            return Err(self.fault("motion.frames", message));
+        }
+        Ok(frames as usize)
+    }
+
+    fn collision(&self) -> Result<CollisionOptions, StudyError> {
+        let mut options = CollisionOptions::default();
+        if let Some(tolerance) = self.scene.check.touch_tolerance {
+            if !(tolerance > 0.0 && tolerance <= 1e-2) {
+                return Err(self.fault(
+                    "check.touch_tolerance",
+                    "must lie above 0 and be at most 0.01 (units of h)",
+                ));
+            }
+            options.touch_tolerance = tolerance;
+        }
+        Ok(options)
+    }
+
+    fn film(&self) -> Result<FilmOptions, StudyError> {
+        let scene = &self.scene.record;
+        let mut film = FilmOptions::default();
+        if let Some([width, height]) = scene.size {
+            let side = |n: i64| u32::try_from(n).ok().filter(|n| (1..=65_535).contains(n));
+            let (Some(width), Some(height)) = (side(width), side(height)) else {
+                return Err(self.fault(
+                    "record.size",
+                    "both sides must lie between 1 and 65535 pixels",
+                ));
+            };
+            film.size = [width, height];
+        }
+        film.fps = scene.fps.unwrap_or(film.fps);
+        film.seconds = scene.seconds.unwrap_or(film.seconds);
+        film.hold = scene.hold.unwrap_or(film.hold);
+        if let Some(camera) = scene.camera {
+            film.view = match camera {
+                CameraChoice::Iso => View::Iso,
+                CameraChoice::Front => View::Front,
+                CameraChoice::Side => View::Side,
+                CameraChoice::Top => View::Top,
+            };
+        }
+        film.check().map_err(|e| {
+            let key = match e {
+                RecordError::FramesPerSecond { .. } => "record.fps",
+                RecordError::Seconds { name: "hold", .. } => "record.hold",
+                RecordError::Seconds { .. } => "record.seconds",
+                _ => "record.size",
+            };
+            self.fault(key, e.to_string())
+        })?;
+        Ok(film)
+    }
+
+    fn outputs(&self) -> Vec<OutputChoice> {
+        let mut outputs = self
+            .scene
+            .record
+            .outputs
+            .clone()
+            .unwrap_or_else(|| vec![OutputChoice::Fold, OutputChoice::Gif]);
+        outputs.sort_unstable();
+        outputs.dedup();
+        outputs
+    }
+
+    fn geometry_error(&self, error: &GeometryError) -> StudyError {
+        let key = match error {
+            GeometryError::KnotCount { .. }
+            | GeometryError::KnotNotFinite { .. }
+            | GeometryError::KnotsDecrease { .. }
+            | GeometryError::KnotRange { .. }
+            | GeometryError::KnotMultiplicity { .. }
+            | GeometryError::KnotSpanTooNarrow { .. }
+            | GeometryError::KnotsOfSmoothProfile => "profile.knots",
+            GeometryError::NotClosed { .. } => "profile.closed",
+            GeometryError::Scale { .. } | GeometryError::Length { .. } => "profile.length",
+            GeometryError::SegmentCount { .. }
+            | GeometryError::SegmentTooShort { .. }
+            | GeometryError::PolygonCrosses { .. } => "sheet.rows",
+            GeometryError::Tolerance { .. } => "division.tolerance",
+            _ => "profile.control_points",
+        };
+        self.fault(key, error.to_string())
+    }
+
+    fn pattern_error(&self, error: &PatternError) -> StudyError {
+        let key = match error {
+            PatternError::CountOutOfRange {
+                name: "columns", ..
+            } => "sheet.columns",
+            PatternError::CountOutOfRange { .. } | PatternError::WrongPolygon { .. } => {
+                "sheet.rows"
+            }
+            PatternError::LambdaOutOfRange { .. }
+            | PatternError::KeyWithoutCase { key: "lambda", .. } => "sheet.lambda",
+            PatternError::OffsetOutOfRange { .. } | PatternError::KeyWithoutCase { .. } => {
+                "sheet.offset"
+            }
+            PatternError::CaseContradictsUnit { .. } if self.scene.sheet.width.is_some() => {
+                "sheet.width"
+            }
+            PatternError::CaseContradictsUnit { .. } => "sheet.case",
+            _ => "sheet.width",
+        };
+        self.fault(key, error.to_string())
+    }
+}

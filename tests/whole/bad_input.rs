@@ -1,0 +1,243 @@
+//! Bad scenes are refused with the key, the line, the value and a remedy, before anything is computed.
+
+use std::path::Path;
+
+use foldmotion_study::{SceneSource, Study};
+
+/// A scene that resolves, to spoil.
+const GOOD: &str = "\
+[profile]
+control_points = [[7.0, 0.0], [5.0, 2.0], [2.0, 2.0], [0.0, 0.0]]
+length = 3.0
+[sheet]
+width = 2.0
+rows = 3
+columns = 2
+case = \"E\"
+";
+
+fn refusal(text: &str) -> String {
+    let source = SceneSource::new(Path::new("scene.toml"), text.to_owned());
+    match Study::resolve(&source) {
+        Ok(_) => panic!("accepted:\n{text}"),
+        Err(error) => {
+            assert_eq!(error.status(), 2, "{error}");
+            error.to_string()
+        }
+    }
+}
+
+#[test]
+fn the_scene_the_cases_start_from_is_good() {
+    let source = SceneSource::new(Path::new("scene.toml"), GOOD.to_owned());
+    assert!(Study::resolve(&source).is_ok());
+}
+
+/// (what stands in the scene, what it is replaced by, key and line and words the message must have).
+#[test]
+fn every_bad_value_is_refused_by_key_line_and_value() {
+    let cases: &[(&str, &str, &[&str])] = &[
+        (
+            "width = 2.0",
+            "width = -2.0",
+            &["scene.toml:5", "sheet.width = -2.0", "positive"],
+        ),
+        (
+            "width = 2.0",
+            "width = 0.0",
+            &["sheet.width = 0.0", "positive"],
+        ),
+        (
+            "width = 2.0",
+            "width = nan",
+            &["sheet.width = nan", "positive"],
+        ),
+        ("width = 2.0", "width = \"wide\"", &["scene.toml:5"]),
+        (
+            "width = 2.0",
+            "width = 2.1",
+            &["sheet.width = 2.1", "w = h"],
+        ),
+        ("width = 2.0", "breadth = 2.0", &["scene.toml:5", "breadth"]),
+        ("rows = 3", "rows = 0", &["scene.toml:6", "sheet.rows = 0"]),
+        ("rows = 3", "rows = -3", &["sheet.rows = -3"]),
+        ("rows = 3", "rows = 2.5", &["scene.toml:6"]),
+        (
+            "columns = 2",
+            "columns = 99999999999",
+            &["sheet.columns = 99999999999"],
+        ),
+        ("columns = 2", "", &["sheet.columns", "missing"]),
+        ("case = \"E\"", "case = \"X\"", &["scene.toml:8"]),
+        (
+            "case = \"E\"",
+            "case = \"T\"",
+            &["sheet.width = 2.0", "w < h"],
+        ),
+        ("case = \"E\"", "case = \"S\"", &["w > h"]),
+        (
+            "case = \"E\"",
+            "case = \"E\"\nlambda = 0.5",
+            &["sheet.lambda = 0.5", "SII"],
+        ),
+        (
+            "case = \"E\"",
+            "case = \"E\"\noffset = 0.5",
+            &["sheet.offset = 0.5"],
+        ),
+        (
+            "length = 3.0",
+            "length = -1.0",
+            &["profile.length = -1.0", "positive"],
+        ),
+        ("length = 3.0", "length = inf", &["profile.length = inf"]),
+        (
+            "length = 3.0",
+            "length = 3.0\nmodel = \"shelter\"",
+            &["profile.control_points"],
+        ),
+        (
+            "length = 3.0",
+            "length = 3.0\nknots = [0.0, 1.0]",
+            &["profile.knots", "needs 8"],
+        ),
+        (
+            "[2.0, 2.0], ",
+            "",
+            &["profile.control_points", "at least 4"],
+        ),
+        (
+            "[2.0, 2.0]",
+            "[nan, 2.0]",
+            &["profile.control_points", "finite"],
+        ),
+        ("[2.0, 2.0]", "[2.0]", &["scene.toml:2"]),
+        // A loop: the middle control points change sides.
+        (
+            "[5.0, 2.0], [2.0, 2.0]",
+            "[-20.0, 9.0], [27.0, 9.0]",
+            &["crosses itself"],
+        ),
+        (
+            "length = 3.0",
+            "length = 3.0\nclosed = \"smooth\"\n[motion]\nframes = 7",
+            &["motion.frames = 7", "even"],
+        ),
+    ];
+    for (from, to, words) in cases {
+        assert!(GOOD.contains(from), "{from}");
+        let message = refusal(&GOOD.replacen(from, to, 1));
+        for word in *words {
+            assert!(
+                message.contains(word),
+                "{to}: {word:?} is missing in: {message}"
+            );
+        }
+    }
+}
+
+#[test]
+fn values_of_the_later_tables_are_refused_too() {
+    let cases: &[(&str, &[&str])] = &[
+        ("[motion]\nframes = 3", &["motion.frames = 3", "even"]),
+        ("[motion]\nframes = 0", &["motion.frames = 0"]),
+        (
+            "[material]\naxial_stiffness = 0.0",
+            &["material.axial_stiffness = 0.0"],
+        ),
+        (
+            "[material]\nfold_stiffness = -1.0",
+            &["material.fold_stiffness = -1.0"],
+        ),
+        (
+            "[material]\ndamping_ratio = nan",
+            &["material.damping_ratio = nan"],
+        ),
+        (
+            "[check]\ntouch_tolerance = 0.0",
+            &["check.touch_tolerance = 0.0"],
+        ),
+        (
+            "[check]\ntouch_tolerance = 1.0",
+            &["check.touch_tolerance = 1.0"],
+        ),
+        (
+            "[division]\ntolerance = -1.0",
+            &["division.tolerance = -1.0"],
+        ),
+        (
+            "[division]\nmax_iterations = 0",
+            &["division.max_iterations = 0"],
+        ),
+        ("[record]\nsize = [0, 480]", &["record.size = [0, 480]"]),
+        ("[record]\nsize = [480, 100000]", &["record.size"]),
+        ("[record]\nfps = 0.0", &["record.fps = 0.0"]),
+        ("[record]\nseconds = [1.0, -1.0]", &["record.seconds"]),
+        ("[record]\nhold = nan", &["record.hold = nan"]),
+        (
+            "[record]\noutputs = [\"mp4\"]",
+            &["record.outputs", "not available"],
+        ),
+        ("[record]\noutputs = [\"film\"]", &["scene.toml"]),
+    ];
+    for (text, words) in cases {
+        let message = refusal(&format!("{GOOD}{text}\n"));
+        for word in *words {
+            assert!(
+                message.contains(word),
+                "{text}: {word:?} is missing in: {message}"
+            );
+        }
+    }
+}
+
+#[test]
+fn lambda_and_offset_out_of_range_are_refused() {
+    let sii = GOOD
+        .replace("width = 2.0", "width = 4.0")
+        .replace("\"E\"", "\"SII\"");
+    assert!(refusal(&sii).contains("sheet.lambda"));
+    for lambda in ["0.0", "1.0", "-0.1", "nan"] {
+        let message = refusal(&format!("{sii}lambda = {lambda}\n"));
+        assert!(
+            message.contains(&format!("sheet.lambda = {lambda}")),
+            "{message}"
+        );
+    }
+    for offset in ["-0.1", "0.75", "nan"] {
+        let message = refusal(&format!("{sii}lambda = 0.5\noffset = {offset}\n"));
+        assert!(
+            message.contains(&format!("sheet.offset = {offset}")),
+            "{message}"
+        );
+    }
+}
+
+#[test]
+fn a_closed_profile_needs_three_rows() {
+    let closed = GOOD
+        .replace("length = 3.0", "length = 2.0\nclosed = \"smooth\"")
+        .replace("rows = 3", "rows = 2");
+    let message = refusal(&closed);
+    assert!(
+        message.contains("sheet.rows = 2") && message.contains('3'),
+        "{message}"
+    );
+}
+
+#[test]
+fn a_scene_without_a_profile_or_with_an_unknown_model_is_refused() {
+    assert!(refusal("[sheet]\nrows = 3\n").contains("foldmotion models"));
+    let message = refusal("[profile]\nmodel = \"shed\"\n");
+    assert!(
+        message.contains("shelter") && message.contains("scene.toml:2"),
+        "{message}"
+    );
+}
+
+#[test]
+fn a_missing_file_is_refused_by_name() {
+    let error = SceneSource::read(Path::new("no/such/scene.toml")).unwrap_err();
+    assert_eq!(error.status(), 2);
+    assert!(error.to_string().contains("no/such/scene.toml"));
+}

@@ -1,0 +1,245 @@
+//! Every scene of `scenes/` runs, and its verdict, box and status are the ones measured.
+
+use std::path::{Path, PathBuf};
+
+use foldmotion_study::{Report, SceneSource, Study};
+
+/// What a scene must come to.
+struct Expected {
+    scene: &'static str,
+    verdict: &'static str,
+    status: u8,
+}
+
+/// The contact-free dynamic motion of soft bars crosses itself slightly while the layers close; sheets with one row of
+/// layers only do not.
+const EXPECTED: &[Expected] = &[
+    Expected {
+        scene: "one-unit",
+        verdict: "touching",
+        status: 0,
+    },
+    Expected {
+        scene: "one-row",
+        verdict: "touching",
+        status: 0,
+    },
+    Expected {
+        scene: "shelter-e",
+        verdict: "penetrating",
+        status: 1,
+    },
+    Expected {
+        scene: "shelter-t",
+        verdict: "penetrating",
+        status: 1,
+    },
+    Expected {
+        scene: "shelter-s",
+        verdict: "penetrating",
+        status: 1,
+    },
+    Expected {
+        scene: "shelter-sii",
+        verdict: "penetrating",
+        status: 1,
+    },
+    Expected {
+        scene: "shelter-short-plain",
+        verdict: "penetrating",
+        status: 1,
+    },
+    Expected {
+        scene: "shelter-tall-plain",
+        verdict: "penetrating",
+        status: 1,
+    },
+];
+
+fn scenes() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenes")
+}
+
+fn run(scene: &str, set: &[&str], folder: &Path) -> Report {
+    let mut source = SceneSource::read(&scenes().join(format!("{scene}.toml"))).unwrap();
+    for assignment in set {
+        source.set(assignment).unwrap();
+    }
+    Study::resolve(&source)
+        .unwrap()
+        .run(folder, &|_, _| true)
+        .unwrap()
+}
+
+#[test]
+fn every_scene_file_has_an_expected_verdict() {
+    let mut names: Vec<String> = std::fs::read_dir(scenes())
+        .unwrap()
+        .map(|entry| entry.unwrap().path())
+        .filter(|path| path.extension().is_some_and(|e| e == "toml"))
+        .map(|path| path.file_stem().unwrap().to_string_lossy().into_owned())
+        .collect();
+    names.sort();
+    let mut expected: Vec<&str> = EXPECTED.iter().map(|e| e.scene).collect();
+    expected.sort_unstable();
+    assert_eq!(names, expected);
+}
+
+#[test]
+fn every_scene_comes_to_its_verdict_and_its_compact_box() {
+    let home = tempfile::tempdir().unwrap();
+    for Expected {
+        scene,
+        verdict,
+        status,
+    } in EXPECTED
+    {
+        // Small films: what they show is the record crate's to test.
+        let report = run(
+            scene,
+            &["record.size=[120, 90]", "record.fps=5.0"],
+            &home.path().join(scene),
+        );
+        assert_eq!(
+            (report.collision.verdict.as_str(), report.status()),
+            (*verdict, *status),
+            "{scene}"
+        );
+        assert!(report.stages.iter().all(|s| s.converged), "{scene}");
+        assert!(
+            report.compact.rms_to_exact < 1e-3,
+            "{scene}: {}",
+            report.compact.rms_to_exact
+        );
+        assert!(report.division.max_residual <= 1e-12, "{scene}");
+        if let Some(error) = &report.compact.relative_error {
+            let worst = error
+                .extents
+                .into_iter()
+                .chain([error.area, error.volume])
+                .fold(0.0, |a: f64, b| a.max(b.abs()));
+            assert!(worst < 1e-3, "{scene}: {worst}");
+        }
+        for file in ["report.json", "motion.fold", "motion.gif"] {
+            assert!(
+                home.path().join(scene).join(file).metadata().unwrap().len() > 0,
+                "{scene}: {file}"
+            );
+        }
+        let written = std::fs::read_to_string(home.path().join(scene).join("report.json")).unwrap();
+        assert_eq!(
+            serde_json::from_str::<Report>(&written).unwrap(),
+            report,
+            "{scene}"
+        );
+        if *verdict == "penetrating" {
+            assert!(
+                report.collision.first.is_some(),
+                "{scene}: a witness is given"
+            );
+        }
+    }
+}
+
+/// Figure 4d: the ends of a mid line of a unit pass each other; C2–C6 in U^O, D1–D6 or D3–D8 in U^E.
+#[test]
+fn a_short_plain_unit_is_found_crossing_at_the_ends_of_a_mid_line() {
+    let home = tempfile::tempdir().unwrap();
+    let report = run("shelter-short-plain", &["record.outputs=[]"], home.path());
+    let within = report.collision.first_within_unit.unwrap();
+    let names: Vec<&str> = within
+        .vertex_names
+        .iter()
+        .flatten()
+        .map(String::as_str)
+        .collect();
+    let pairs = [["C2", "C6"], ["D1", "D6"], ["D3", "D8"]];
+    assert!(
+        pairs
+            .iter()
+            .any(|pair| pair.iter().all(|name| names.contains(name))),
+        "{within:?}"
+    );
+}
+
+#[test]
+fn one_square_unit_folds_to_half_its_width_times_its_height() {
+    let home = tempfile::tempdir().unwrap();
+    let report = run("one-unit", &["record.outputs=[]"], home.path());
+    assert!((report.compact.area - 0.5).abs() < 1e-6 && report.compact.extents[1].abs() < 1e-6);
+}
+
+/// The timings and the number of threads are all that may differ.
+#[test]
+fn results_are_the_same_bytes_for_one_thread_and_for_two() {
+    let home = tempfile::tempdir().unwrap();
+    let mut reports = Vec::new();
+    for threads in [1, 2] {
+        let pool = rayon::ThreadPoolBuilder::new()
+            .num_threads(threads)
+            .build()
+            .unwrap();
+        let folder = home.path().join(threads.to_string());
+        let small = ["motion.frames=60", "record.size=[160, 120]", "sheet.rows=4", "profile.length=4.0"];
+        let mut report = pool.install(|| run("shelter-sii", &small, &folder));
+        report.engine.seconds = 0.0;
+        report.engine.threads = 0;
+        report.division.seconds = 0.0;
+        report.seconds.check = 0.0;
+        report.seconds.record = 0.0;
+        report.seconds.total = 0.0;
+        reports.push(report);
+    }
+    assert_eq!(reports[0], reports[1]);
+    for file in ["motion.fold", "motion.gif"] {
+        let bytes = |threads: &str| std::fs::read(home.path().join(threads).join(file)).unwrap();
+        assert!(bytes("1") == bytes("2"), "{file}");
+    }
+}
+
+/// The growing direction lies along x, the width along y, the flaps along −z in the last frame.
+#[test]
+fn the_compact_frame_of_the_file_is_the_right_way_up() {
+    let home = tempfile::tempdir().unwrap();
+    run(
+        "shelter-s",
+        &["record.outputs=[\"fold\"]", "motion.frames=40"],
+        home.path(),
+    );
+    let text = std::fs::read_to_string(home.path().join("motion.fold")).unwrap();
+    let fold: serde_json::Value = serde_json::from_str(&text).unwrap();
+    let last = fold["file_frames"].as_array().unwrap().last().unwrap();
+    let coords: Vec<[f64; 3]> = serde_json::from_value(last["vertices_coords"].clone()).unwrap();
+    let span = |axis: usize| {
+        let values = coords.iter().map(|p| p[axis]);
+        (
+            values.clone().fold(f64::INFINITY, f64::min),
+            values.fold(f64::NEG_INFINITY, f64::max),
+        )
+    };
+    let (x, y, z) = (span(0), span(1), span(2));
+    assert!((x.0 + 4.0).abs() < 1e-3 && x.1.abs() < 1e-3, "{x:?}");
+    assert!(y.0.abs() < 1e-3 && (y.1 - 2.0).abs() < 1e-3, "{y:?}");
+    assert!((z.0 + 0.5).abs() < 1e-3 && z.1.abs() < 1e-3, "{z:?}");
+    assert_eq!(last["foldmotion:time"].as_f64(), Some(2.0));
+}
+
+#[test]
+fn an_interrupted_run_leaves_earlier_results_as_they_were() {
+    let home = tempfile::tempdir().unwrap();
+    let folder = home.path().join("results");
+    run("one-unit", &["record.outputs=[]"], &folder);
+    let before = std::fs::read(folder.join("report.json")).unwrap();
+    let source = SceneSource::read(&scenes().join("one-unit.toml")).unwrap();
+    let error = Study::resolve(&source)
+        .unwrap()
+        .run(&folder, &|_, done| done < 0.5)
+        .unwrap_err();
+    assert_eq!(error.status(), 3);
+    assert_eq!(std::fs::read(folder.join("report.json")).unwrap(), before);
+    assert_eq!(
+        std::fs::read_dir(home.path()).unwrap().count(),
+        1,
+        "nothing half-written is left"
+    );
+}
