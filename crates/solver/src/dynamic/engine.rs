@@ -1,13 +1,14 @@
 //! The run: both stages, ramped, settled and recorded.
 //!
-//! A stage is a ramp of all targets, cut into increments of at most [`LARGEST_INCREMENT`], at least one a frame. In
-//! each increment the targets move linearly while the sheet, a mass–spring–damper with the material's dampers, follows
-//! for a number of stable steps; then it settles (`relaxation`) to the ramp tolerance, so that it never lags far behind
-//! the schedule whatever its size and its damping. At the end of the stage it settles to the final tolerance.
+//! A stage is a ramp of all targets, cut into `increments`. In each the targets move linearly while the sheet, a
+//! mass–spring–damper with the material's dampers, follows for a number of stable steps; then it settles (`relaxation`)
+//! to the tolerance of the increment, so that it never lags far behind the schedule whatever its size and its damping.
+//! At the end of the stage it settles to the final tolerance.
 
 use foldmotion_pattern::Frame;
 use glam::DVec3;
 
+use super::increments::increments;
 use super::options::{DynamicOptions, Run, StageOutcome, StageStatus};
 use super::recorder::Recorder;
 use super::relaxation::{Progress, Relaxation};
@@ -17,10 +18,6 @@ use crate::{Model, Schedule, SolverError, Stage};
 /// The share of the stable time step that is used: covers what the bound only estimates (see `stability`) and the
 /// change of geometry until it is evaluated again.
 pub(super) const SAFETY: f64 = 0.9;
-
-/// The largest turn of a target in one increment, radians (1.5°: that of 240 frames), so that the path does not depend on how
-/// few frames are recorded.
-const LARGEST_INCREMENT: f64 = std::f64::consts::PI / 120.0 * (1.0 + 1e-9);
 
 /// Looks at a relaxation between two calls of `progress`.
 const LOOKS_A_REPORT: u64 = 20;
@@ -43,24 +40,22 @@ pub fn run(
 ) -> Result<Run, SolverError> {
     options.validate()?;
     check_input(model, schedule, start)?;
-    let intervals = options.frames / 2;
     let mut state = State::at_rest(model, model.to_model(start));
     schedule.targets(Stage::Unfold, 0.0, &mut state.targets);
     state.follow_angles_from_targets();
-    let recorder = Recorder::new(model, intervals);
+    let recorder = Recorder::new(model);
     let previous_forces = vec![DVec3::ZERO; model.node_count()];
     let mut engine = Engine {
         schedule,
         options,
         progress,
-        intervals,
         state,
         recorder,
         previous_forces,
     };
     engine
         .recorder
-        .frame(Stage::Unfold, 0, &engine.state.positions);
+        .push(Stage::Unfold, 0.0, &engine.state.positions);
     let mut stages = Vec::with_capacity(Stage::ALL.len());
     for stage in Stage::ALL {
         stages.push(engine.run_stage(stage)?);
@@ -112,7 +107,6 @@ struct Engine<'a, 'm> {
     schedule: &'a Schedule,
     options: &'a DynamicOptions,
     progress: &'a (dyn Fn(f64) -> bool + Sync),
-    intervals: usize,
     state: State<'m>,
     recorder: Recorder<'m>,
     previous_forces: Vec<DVec3>,
@@ -120,26 +114,23 @@ struct Engine<'a, 'm> {
 
 impl Engine<'_, '_> {
     fn run_stage(&mut self, stage: Stage) -> Result<StageOutcome, SolverError> {
-        let increments = self.increments_a_frame(stage);
-        let total = self.intervals * increments;
         let mut ramp_steps = 0;
         let mut settling_steps = 0;
-        for increment in 1..=total {
-            let s = increment as f64 / total as f64;
-            ramp_steps += self.ramp(stage, (increment - 1) as f64 / total as f64, s)?;
-            if increment == total {
-                break;
-            }
-            self.settle(stage, s, self.options.ramp_tolerance, &mut settling_steps)?;
-            if increment.is_multiple_of(increments) {
+        let mut from = 0.0;
+        for increment in increments(self.schedule, stage, self.options) {
+            ramp_steps += self.ramp(stage, from, increment.end)?;
+            let tolerance = increment.tolerance;
+            self.settle(stage, increment.end, tolerance, &mut settling_steps)?;
+            if increment.is_recorded {
                 self.recorder
-                    .frame(stage, increment / increments, &self.state.positions);
+                    .push(stage, increment.end, &self.state.positions);
             }
+            from = increment.end;
         }
+        ramp_steps += self.ramp(stage, from, 1.0)?;
         self.recorder.begin_settling(&self.state.positions);
         let status = self.settle(stage, 1.0, self.options.tolerance, &mut settling_steps)?;
-        self.recorder
-            .frame(stage, self.intervals, &self.state.positions);
+        self.recorder.push(stage, 1.0, &self.state.positions);
         self.state.velocities.fill(DVec3::ZERO);
         self.state.evaluate_forces();
         Ok(StageOutcome {
@@ -149,12 +140,6 @@ impl Engine<'_, '_> {
             fold_angle_error: self.state.fold_angle_error(),
             steps: ramp_steps + settling_steps,
         })
-    }
-
-    #[expect(clippy::cast_sign_loss, reason = "a largest magnitude is not negative")]
-    fn increments_a_frame(&self, stage: Stage) -> usize {
-        let turn = self.schedule.largest_turn(stage) / self.intervals as f64;
-        ((turn / LARGEST_INCREMENT).ceil() as usize).max(1)
     }
 
     /// Damped steps while the targets go from their values at `from` to those at `to`; how many.

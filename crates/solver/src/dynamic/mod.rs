@@ -9,6 +9,7 @@
 //! is f64, and it ends where the forces balance.
 
 mod engine;
+mod increments;
 mod options;
 mod parallel;
 mod recorder;

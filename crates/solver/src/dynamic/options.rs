@@ -51,7 +51,7 @@ impl Default for DynamicOptions {
             frames: 240,
             tolerance: 1e-8,
             ramp_tolerance: 1e-3,
-            ramp_steps: 32,
+            ramp_steps: 8,
             step_budget: 1_000_000,
         }
     }
@@ -93,8 +93,9 @@ impl StageOutcome {
 /// A computed motion.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Run {
-    /// The states at t = 2k/frames, and between them where settling at the end of a stage moved the sheet visibly;
-    /// times increase strictly. Positions in the sheet's unit.
+    /// The states at t = 2k/frames; between them those by which the layers close at the end of `fold`, and the way the
+    /// sheet took where settling at the end of a stage moved it visibly. Times increase strictly, positions are in
+    /// the sheet's unit.
     pub frames: Vec<Frame>,
     /// One for each stage, in order.
     pub stages: Vec<StageOutcome>,

@@ -4,7 +4,7 @@
 //! taken after settling. Where settling moves a node further than [`PATH_STEP`], the state at the end of the ramp and
 //! states along the settling path are recorded too, so that whoever checks the frames sees the whole path: in the
 //! last interval of the stage, [s₀, 1] in stage-local time, the ramp then ends at the middle and the j-th state of
-//! the path lies at 1 − (1 − s₀) / (2 (1 + j)), a monotone map of the settling onto the second half.
+//! the path after it lies at 1 − (1 − s₀) / (2 (1 + j)), a monotone map of the settling onto the second half.
 
 use foldmotion_pattern::Frame;
 use glam::DVec3;
@@ -19,29 +19,29 @@ const PATH_STEP: f64 = 0.02;
 pub(super) struct Recorder<'m> {
     model: &'m Model,
     frames: Vec<Frame>,
-    /// Intervals between frames in each stage.
-    intervals: usize,
+    /// The stage-local time left at the last frame that lies on the ramp.
+    left: f64,
     /// The last state of the settling path that is recorded or, at first, the end of the ramp.
     path: Vec<DVec3>,
     path_states: usize,
 }
 
 impl<'m> Recorder<'m> {
-    /// Nothing recorded yet; `intervals` between frames in each stage.
-    pub(super) fn new(model: &'m Model, intervals: usize) -> Self {
-        let frames = Vec::with_capacity(2 * intervals + 1);
+    /// Nothing recorded yet.
+    pub(super) fn new(model: &'m Model) -> Self {
         Self {
             model,
-            frames,
-            intervals,
+            frames: Vec::new(),
+            left: 1.0,
             path: Vec::new(),
             path_states: 0,
         }
     }
 
-    /// Records `positions` (unit lengths) as frame `index` of `stage`.
-    pub(super) fn frame(&mut self, stage: Stage, index: usize, positions: &[DVec3]) {
-        self.push(stage, index as f64 / self.intervals as f64, positions);
+    /// Records `positions` (unit lengths) as the frame at stage-local time `s`, which lies on the ramp or ends it.
+    pub(super) fn push(&mut self, stage: Stage, s: f64, positions: &[DVec3]) {
+        self.push_frame(stage, s, positions);
+        self.left = if s < 1.0 { 1.0 - s } else { 1.0 };
     }
 
     /// The ramp of a stage ended at `positions`; settling begins.
@@ -72,12 +72,12 @@ impl<'m> Recorder<'m> {
     }
 
     fn push_path_state(&mut self, stage: Stage, positions: &[DVec3]) {
-        let left = 0.5 / (self.intervals as f64 * (1.0 + self.path_states as f64));
+        let left = 0.5 * self.left / (1.0 + self.path_states as f64);
         self.path_states += 1;
-        self.push(stage, 1.0 - left, positions);
+        self.push_frame(stage, 1.0 - left, positions);
     }
 
-    fn push(&mut self, stage: Stage, s: f64, positions: &[DVec3]) {
+    fn push_frame(&mut self, stage: Stage, s: f64, positions: &[DVec3]) {
         let time = stage.start_time() + s;
         self.frames.push(Frame {
             time,
