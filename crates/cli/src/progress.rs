@@ -39,6 +39,7 @@ impl Reporter {
     }
 
     /// Tells the user that `done` (0 to 1) of `phase` is done.
+    #[expect(clippy::cast_sign_loss, reason = "clamped to [0, 1]")]
     pub(crate) fn report(&self, phase: Phase, done: f64) {
         if let Some(bar) = &self.bar {
             bar.set_message(phase.name());

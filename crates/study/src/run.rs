@@ -13,6 +13,7 @@ use foldmotion_pattern::{FoldHeader, Frame, Motion, UnitSheet};
 use foldmotion_record::{FilmOptions, gif};
 use foldmotion_solver::Stage;
 use foldmotion_solver::dynamic::{self, DynamicOptions, Run, StageOutcome};
+use glam::DVec2;
 
 use crate::report::{
     BoxReport, CollisionSection, CompactReport, DivisionReport, EngineReport, ErrorReport,
@@ -218,7 +219,7 @@ impl Study {
                 mean_residual: self.division.mean_residual,
                 iterations: self.division.iterations,
                 seconds: self.division_seconds,
-                points: self.division.points.iter().map(|p| p.to_array()).collect(),
+                points: self.division.points.iter().map(DVec2::to_array).collect(),
             },
             pattern: self.pattern_report(),
             closed_form: self.closed_form.map(BoxReport::from),
@@ -421,6 +422,11 @@ fn timed<T>(work: impl FnOnce() -> Result<T, StudyError>) -> Result<(T, f64), St
 /// Bytes a film takes at most: an eighth of its pixels, where nothing repeats.
 fn film_size(film: &FilmOptions) -> u64 {
     let [width, height] = film.size.map(u64::from);
-    let frames = (film.seconds.iter().sum::<f64>() * film.fps).ceil() + 3.0;
-    (frames * (width * height) as f64 / 8.0) as u64
+    let still_and_moving = 3.0 + (film.seconds.iter().sum::<f64>() * film.fps).ceil();
+    #[expect(
+        clippy::cast_sign_loss,
+        reason = "the film's options were checked to be positive"
+    )]
+    let frames = still_and_moving as u64;
+    frames * width * height / 8
 }

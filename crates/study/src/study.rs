@@ -19,7 +19,7 @@ use crate::scene::{CameraChoice, CaseChoice, Closed, FacingChoice, OutputChoice,
 use crate::{Scene, SceneSource, StudyError};
 
 /// Frames of a motion, at most: the file of a small sheet then stays below some gigabytes.
-const MOST_FRAMES: i64 = 100_000;
+const MOST_FRAMES: usize = 100_000;
 /// Sheets larger than this many units exceed what one machine folds.
 const MOST_ROWS_OR_COLUMNS: i64 = 1_000_000;
 
@@ -252,7 +252,7 @@ impl Resolver<'_> {
             ..DivisionOptions::default()
         };
         if let Some(tolerance) = scene.tolerance {
-            if !(tolerance >= 0.0 && tolerance < 1.0) {
+            if !(0.0..1.0).contains(&tolerance) {
                 return Err(self.fault("division.tolerance", "must lie between 0 and 1"));
             }
             options.tolerance = tolerance;
@@ -315,11 +315,13 @@ impl Resolver<'_> {
 
     fn frames(&self) -> Result<usize, StudyError> {
         let frames = self.scene.motion.frames.unwrap_or(240);
-        if frames % 2 != 0 || !(2..=MOST_FRAMES).contains(&frames) {
-            let message = format!("must be an even number between 2 and {MOST_FRAMES}");
-            return Err(self.fault("motion.frames", message));
-        }
-        Ok(frames as usize)
+        usize::try_from(frames)
+            .ok()
+            .filter(|n| n.is_multiple_of(2) && (2..=MOST_FRAMES).contains(n))
+            .ok_or_else(|| {
+                let message = format!("must be an even number between 2 and {MOST_FRAMES}");
+                self.fault("motion.frames", message)
+            })
     }
 
     fn collision(&self) -> Result<CollisionOptions, StudyError> {
