@@ -31,8 +31,11 @@ impl Material {
     /// The largest damping ratio taken.
     pub const MAX_DAMPING_RATIO: f64 = 1e3;
 
-    /// The first constant that is not finite or out of range, as an error.
-    pub(crate) fn validate(&self) -> Result<(), SolverError> {
+    /// Refuses constants that are not finite or out of range.
+    ///
+    /// # Errors
+    /// [`SolverError::MaterialOutOfRange`], of the first such constant.
+    pub fn validate(&self) -> Result<(), SolverError> {
         let stiffnesses = [
             ("axial_stiffness", self.axial_stiffness),
             ("fold_stiffness", self.fold_stiffness),
