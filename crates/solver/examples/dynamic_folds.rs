@@ -23,7 +23,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         _ => vec![(3, 2), (7, 3), (7, 5)],
     };
     println!(
-        "case   size   nodes   steps (unfold fold)  seconds  Mnode-steps/s  strain %  rms/h    residual  angle error"
+        "case   size   nodes   steps (unfold fold)  seconds  Mnode-steps/s  strain %    rms/h residual angle error frames"
     );
     for (rows, columns) in sizes {
         for unit in [

@@ -11,8 +11,8 @@ use glam::DVec3;
 
 use crate::{Model, Stage};
 
-/// The longest way of a node between two recorded states of the settling path, in unit lengths.
-const PATH_STEP: f64 = 0.02;
+/// The way of a node between two recorded states of the settling path, in unit lengths; one step more at most.
+pub(super) const PATH_STEP: f64 = 0.02;
 
 /// The frames recorded so far.
 #[derive(Debug)]

@@ -17,6 +17,7 @@ use glam::DVec3;
 
 use super::State;
 use super::engine::SAFETY;
+use super::recorder::PATH_STEP;
 
 /// Steps between two looks at the residual.
 const STEPS_A_LOOK: u64 = 10;
@@ -76,13 +77,18 @@ impl<'a, 'm> Relaxation<'a, 'm> {
         self.state
     }
 
-    /// Moves on to the next look at the residual.
+    /// Moves on to the next look at the residual, or until a node may have gone [`PATH_STEP`].
     ///
     /// # Errors
     /// The node that ran away, with its displacement in one step.
     pub(super) fn advance(&mut self) -> Result<Progress, (usize, f64)> {
+        let mut way = 0.0;
         for _ in 0..STEPS_A_LOOK {
-            self.step()?;
+            way += self.step()?;
+            if way > PATH_STEP {
+                self.was_below = false;
+                return Ok(Progress::Moving);
+            }
         }
         let speed = self.state.largest_speed();
         let is_below = self.state.residual() <= self.tolerance && speed * self.dt <= self.tolerance;
@@ -96,7 +102,7 @@ impl<'a, 'm> Relaxation<'a, 'm> {
         Ok(progress)
     }
 
-    fn step(&mut self) -> Result<(), (usize, f64)> {
+    fn step(&mut self) -> Result<f64, (usize, f64)> {
         self.previous_forces.copy_from_slice(&self.state.forces);
         self.state.evaluate_forces();
         if self.steps.is_multiple_of(STEPS_A_BOUND) {

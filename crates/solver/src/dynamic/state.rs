@@ -87,11 +87,11 @@ impl<'a> State<'a> {
         self.gather_forces();
     }
 
-    /// One step of length `dt`.
+    /// One step of length `dt`; returns a bound on the way of any node, the root of the sum of their squares.
     ///
     /// # Errors
-    /// The node that moved furthest and how far, where that is no number or above half a unit length.
-    pub fn step(&mut self, dt: f64) -> Result<(), (usize, f64)> {
+    /// The first node that moved further than half a unit length, or to no number, and how far.
+    pub fn step(&mut self, dt: f64) -> Result<f64, (usize, f64)> {
         self.evaluate_forces();
         self.integrate_damped(dt, 0.0)
     }
@@ -101,7 +101,7 @@ impl<'a> State<'a> {
     ///
     /// # Errors
     /// As [`Self::step`].
-    pub fn integrate_damped(&mut self, dt: f64, c: f64) -> Result<(), (usize, f64)> {
+    pub fn integrate_damped(&mut self, dt: f64, c: f64) -> Result<f64, (usize, f64)> {
         let keep = (1.0 - 0.5 * c * dt) / (1.0 + 0.5 * c * dt);
         let gain = dt / (1.0 + 0.5 * c * dt);
         let mut squared_speeds = 0.0;
@@ -111,19 +111,16 @@ impl<'a> State<'a> {
             *x += *v * dt;
             squared_speeds += v.length_squared();
         }
-        // The sum bounds the largest one, and carries a NaN where a maximum would lose it.
-        if squared_speeds * dt * dt <= MAX_DISPLACEMENT * MAX_DISPLACEMENT {
-            return Ok(());
+        // The sum carries a NaN where a maximum would lose it.
+        let way = squared_speeds.sqrt() * dt;
+        if way <= MAX_DISPLACEMENT {
+            return Ok(way);
         }
-        self.runaway(dt)
-    }
-
-    fn runaway(&self, dt: f64) -> Result<(), (usize, f64)> {
         let displacements = self.velocities.iter().map(|v| v.length() * dt);
-        let worst = displacements
+        let runaway = displacements
             .enumerate()
             .find(|(_, d)| d.is_nan() || *d > MAX_DISPLACEMENT);
-        worst.map_or(Ok(()), Err)
+        runaway.map_or(Ok(way), Err)
     }
 
     /// Evaluates the fold angles afresh: of each the value, modulo 2π, nearest to its target.
