@@ -107,6 +107,28 @@ pub enum SolverError {
         /// Why.
         reason: &'static str,
     },
+    /// The gap between layers cannot be kept.
+    #[error(
+        "the gap is {gap} unit lengths; it must be above 0 and at most {maximum}, a quarter of the smallest height of a \
+         triangle of the sheet"
+    )]
+    GapTooLarge {
+        /// The gap asked for.
+        gap: f64,
+        /// The largest the sheet can close to.
+        maximum: f64,
+    },
+    /// The start state crosses itself, so that contact cannot keep its layers apart.
+    #[error(
+        "triangles {} and {} cross each other in the start state; contact needs a start free of crossings, or must be \
+         switched off",
+        faces[0],
+        faces[1]
+    )]
+    StartCrosses {
+        /// Two triangles of the sheet that cross.
+        faces: [u32; 2],
+    },
     /// The motion grew without bound.
     #[error(
         "the motion diverged at node {node}, t = {time}: one step moved it by {displacement} unit lengths; \

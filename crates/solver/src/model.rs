@@ -101,6 +101,8 @@ pub struct Model {
     pub bars: Vec<Bar>,
     /// One for each edge between two triangles, in the order of the sheet's edges.
     pub hinges: Vec<Hinge>,
+    /// The nodes of the triangles of the sheet, in its order.
+    pub faces: Vec<[u32; 3]>,
     /// The triangles whose angles are held: all, or none where the face-angle stiffness is 0.
     pub face_angles: Vec<FaceAngles>,
     node_count: usize,
@@ -147,6 +149,7 @@ impl Model {
             face_gather: Gather::new(node_count, face_angles.iter().map(|face| &face.vertices)),
             bars,
             hinges,
+            faces: sheet.faces.clone(),
             face_angles,
             node_count,
         })

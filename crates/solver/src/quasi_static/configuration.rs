@@ -12,9 +12,8 @@ pub(super) struct Configuration {
 }
 
 impl Configuration {
-    /// The sheet at `positions`, every hinge folded by at most π.
-    pub(super) fn new(model: &Model, positions: Vec<DVec3>) -> Self {
-        let mut angles = vec![0.0; model.hinges.len()];
+    /// The sheet at `positions`, its fold angles those nearest to `angles`.
+    pub(super) fn new(model: &Model, positions: Vec<DVec3>, mut angles: Vec<f64>) -> Self {
         model.follow_angles(&positions, &mut angles);
         Self { positions, angles }
     }

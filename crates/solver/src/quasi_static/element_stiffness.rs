@@ -81,16 +81,12 @@ fn add_hinge(hinge: &Hinge, excess: f64, state: &Configuration, matrix: &mut Sti
         let [e0, e1, left, right] = hinge.vertices.map(|v| state.positions[v as usize]);
         blocks = fold_angle_hessian(e0, e1, left, right);
     }
-    for i in 0..4 {
-        for j in 0..=i {
-            let block = outer(slopes[i], slopes[j]) + blocks[i][j] * excess;
-            matrix.add(
-                hinge.vertices[i],
-                hinge.vertices[j],
-                block * hinge.stiffness,
-            );
+    for (i, row) in blocks.iter_mut().enumerate() {
+        for (j, block) in row.iter_mut().enumerate() {
+            *block = (outer(slopes[i], slopes[j]) + *block * excess) * hinge.stiffness;
         }
     }
+    matrix.add_element(&hinge.vertices, &blocks);
 }
 
 fn add_face(
@@ -103,11 +99,7 @@ fn add_face(
         let corner: [u32; 3] = std::array::from_fn(|k| face.vertices[(turn + k) % 3]);
         let [a, b, c] = corner.map(|v| state.positions[v as usize]);
         let slopes = face_angle_gradient(a, b, c);
-        for i in 0..3 {
-            for j in 0..=i {
-                let block = outer(slopes[i], slopes[j]) * stiffness;
-                matrix.add(corner[i], corner[j], block);
-            }
-        }
+        let blocks = slopes.map(|u| slopes.map(|v| outer(u, v) * stiffness));
+        matrix.add_element(&corner, &blocks);
     }
 }

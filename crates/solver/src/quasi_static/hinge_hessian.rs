@@ -141,11 +141,11 @@ mod tests {
     fn the_hessian_is_symmetric_and_blind_to_translations() {
         let [a, b, c, d] = hinge(2.0);
         let hessian = fold_angle_hessian(a, b, c, d);
-        for i in 0..4 {
-            let sum: DMat3 = hessian[i].iter().fold(DMat3::ZERO, |s, &m| s + m);
+        for (i, row) in hessian.iter().enumerate() {
+            let sum = row.iter().fold(DMat3::ZERO, |s, &m| s + m);
             assert!(sum.abs_diff_eq(DMat3::ZERO, 1e-13));
-            for j in 0..4 {
-                assert!(hessian[i][j].abs_diff_eq(hessian[j][i].transpose(), 1e-13));
+            for (j, block) in row.iter().enumerate() {
+                assert!(block.abs_diff_eq(hessian[j][i].transpose(), 1e-13));
             }
         }
     }

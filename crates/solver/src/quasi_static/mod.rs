@@ -4,17 +4,21 @@
 //! by Newton's method with line search and sparse Cholesky factorisation, warm-started from the last equilibria.
 
 mod configuration;
+mod contact;
 mod element_stiffness;
 mod hinge_hessian;
+mod history;
+mod jam;
 mod newton;
 mod options;
 mod outcome;
 mod run;
 mod stiffness_matrix;
 
+pub use contact::Contact;
 pub use hinge_hessian::fold_angle_hessian;
 pub use options::QuasiStaticOptions;
-pub use outcome::{QuasiStaticRun, StageOutcome};
+pub use outcome::{FrameFigures, Jam, QuasiStaticRun, StageOutcome};
 pub use run::run_quasi_static;
 
 use configuration::Configuration;
@@ -29,6 +33,11 @@ pub fn force_scale(model: &Model) -> f64 {
         .material
         .fold_stiffness
         .max(model.material.facet_stiffness)
+}
+
+/// F of the barriers at the start: ten times what hinges push with, or bars strained by a thousandth if that is more.
+fn barrier_force(model: &Model) -> f64 {
+    10.0 * force_scale(model).max(1e-3 * model.material.axial_stiffness)
 }
 
 /// What rounding alone may leave as nodal force: positions are known to ε |x|, bars answer with their stiffness.

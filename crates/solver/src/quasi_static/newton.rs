@@ -1,14 +1,15 @@
 //! Newton's method for the equilibrium of the sheet at given targets.
 //!
-//! Each step solves (K + S + μ I) d = −∇U. K is the exact Hessian where that is positive definite and the convex one
-//! elsewhere. S removes the six rigid motions: stiff springs that support one triangle of the sheet statically
-//! determinately. They enter the matrix alone, never the forces; as ∇U is in balance, the step they give is an exact
-//! Newton step, with that triangle's support unmoved. μ is 0 unless no step along d lowers the energy; then it grows,
-//! which acts as inertia relative to the last iterate.
+//! Each step solves (K + S + μ I) d = −∇U. K is the exact Hessian where that is positive definite, the exact one with
+//! μ > 0 or the convex one elsewhere. S removes the six rigid motions: stiff springs that support one triangle of the
+//! sheet statically determinately. They enter the matrix alone, never the forces; as ∇U is in balance, the step they
+//! give is an exact Newton step, with that triangle's support unmoved. μ acts as inertia relative to the last iterate
+//! and vanishes as the search converges. With contact every step is cut where two layers would come too close.
 
 use glam::{DMat3, DVec3};
 
 use super::configuration::{Configuration, dot, largest};
+use super::contact::ContactField;
 use super::element_stiffness::{Curvature, add_stiffness, coupled_nodes};
 use super::hinge_hessian::outer;
 use super::stiffness_matrix::StiffnessMatrix;
@@ -24,6 +25,13 @@ const SUFFICIENT_DECREASE: f64 = 1e-4;
 const MAX_HALVINGS: usize = 14;
 /// The share of the energy that is taken for rounding.
 const ENERGY_ROUNDING: f64 = 1e-13;
+/// μ over the mean diagonal of K: where it starts, its range, and by how much it falls after a step that needed it.
+const INERTIA: f64 = 1e-5;
+const LEAST_INERTIA: f64 = 1e-9;
+const MOST_INERTIA: f64 = 1e-2;
+const INERTIA_DECAY: f64 = 0.25;
+/// Barriers this far out of reach, in reaches, are given room in the matrix.
+const ROOM: f64 = 2.0;
 
 /// How a search for equilibrium ended.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -48,36 +56,49 @@ pub(super) struct Newton<'a> {
     model: &'a Model,
     matrix: StiffnessMatrix,
     support: [u32; 3],
-    max_iterations: usize,
-    /// μ over the mean diagonal of K.
     inertia: f64,
+    pub(super) contact: Option<ContactField>,
     pub(super) factorisations: usize,
+    pub(super) analyses: usize,
 }
 
 impl<'a> Newton<'a> {
-    pub(super) fn new(model: &'a Model, max_iterations: usize) -> Result<Self, SolverError> {
+    pub(super) fn new(
+        model: &'a Model,
+        contact: Option<ContactField>,
+    ) -> Result<Self, SolverError> {
         let matrix = StiffnessMatrix::new(model.node_count(), &coupled_nodes(model))?;
         Ok(Self {
             model,
             matrix,
             support: supporting_triangle(model),
-            max_iterations,
-            inertia: 0.0,
+            inertia: INERTIA,
+            contact,
             factorisations: 0,
+            analyses: 1,
         })
     }
 
-    /// Moves `state` to the equilibrium at `targets`, or as far as it gets.
+    /// Moves `state` to the equilibrium at `targets`, or as far as it gets in `max_iterations`.
+    ///
+    /// `visit` is told every state on the way. Between two of them no layer touches another on the straight way.
+    ///
+    /// # Errors
+    /// Those of [`StiffnessMatrix::new`].
     pub(super) fn settle(
         &mut self,
         state: &mut Configuration,
         targets: &[f64],
         tolerance: Tolerance,
-    ) -> Settled {
-        let mut gradient = vec![DVec3::ZERO; state.positions.len()];
+        max_iterations: usize,
+        visit: &mut dyn FnMut(&Configuration),
+    ) -> Result<Settled, SolverError> {
+        if let Some(contact) = &mut self.contact {
+            contact.prepare(&state.positions);
+        }
         let mut energy = self.energy(state, targets);
-        self.gradient(state, targets, &mut gradient);
-        self.inertia = 0.0;
+        let mut gradient = self.gradient(state, targets);
+        self.inertia = INERTIA;
         let mut last_move = f64::INFINITY;
         let mut iterations = 0;
         loop {
@@ -87,34 +108,43 @@ impl<'a> Newton<'a> {
                 residual,
                 iterations,
             };
-            let balanced = residual <= tolerance.force;
-            if balanced && last_move <= tolerance.step {
-                return settled(true);
+            let is_balanced = residual <= tolerance.force;
+            if is_balanced && last_move <= tolerance.step {
+                return Ok(settled(true));
             }
-            if iterations == self.max_iterations || !energy.is_finite() {
-                return settled(balanced);
+            if iterations == max_iterations || !energy.is_finite() {
+                return Ok(settled(is_balanced));
             }
-            let Some(step) = self.step(state, targets, &gradient, energy) else {
+            let Some(step) = self.step(state, targets, &gradient, energy)? else {
                 // Nothing lowers the energy any further: rounding has the last word.
-                return settled(balanced);
+                return Ok(settled(is_balanced));
             };
             last_move = step.largest_move;
             *state = step.state;
             energy = step.energy;
             gradient = step.gradient;
             iterations += 1;
+            visit(state);
         }
     }
 
     fn energy(&self, state: &Configuration, targets: &[f64]) -> f64 {
-        self.model
+        let elastic = self
+            .model
             .energy_by_kind(&state.positions, &state.angles, targets)
-            .total()
+            .total();
+        let barrier = self.contact.as_ref().map(|c| c.energy(&state.positions));
+        elastic + barrier.unwrap_or(0.0)
     }
 
-    fn gradient(&self, state: &Configuration, targets: &[f64], gradient: &mut [DVec3]) {
+    fn gradient(&self, state: &Configuration, targets: &[f64]) -> Vec<DVec3> {
+        let mut gradient = vec![DVec3::ZERO; state.positions.len()];
         self.model
-            .gradient(&state.positions, &state.angles, targets, gradient);
+            .gradient(&state.positions, &state.angles, targets, &mut gradient);
+        if let Some(contact) = &self.contact {
+            contact.add_gradient(&state.positions, &mut gradient);
+        }
+        gradient
     }
 
     /// One accepted step, or none where no direction lowers the energy.
@@ -124,23 +154,51 @@ impl<'a> Newton<'a> {
         targets: &[f64],
         gradient: &[DVec3],
         energy: f64,
-    ) -> Option<Step> {
-        for curvature in [Curvature::Exact, Curvature::Convex] {
-            let inertias: &[f64] = match curvature {
-                Curvature::Exact => &[0.0],
-                Curvature::Convex => &[0.0, 1e-6, 1e-4, 1e-2, 1.0],
+    ) -> Result<Option<Step>, SolverError> {
+        self.make_room(state)?;
+        let inertia = self.inertia;
+        let attempts = [
+            (Curvature::Exact, 0.0),
+            (Curvature::Exact, inertia),
+            (Curvature::Exact, 10.0 * inertia),
+            (Curvature::Exact, 100.0 * inertia),
+            (Curvature::Convex, 0.0),
+            (Curvature::Convex, 1e-4),
+            (Curvature::Convex, 1e-2),
+            (Curvature::Convex, 1.0),
+        ];
+        for (curvature, inertia) in attempts {
+            let Some(direction) = self.direction(state, targets, gradient, curvature, inertia)
+            else {
+                continue;
             };
-            for &inertia in inertias {
-                let Some(direction) = self.direction(state, targets, gradient, curvature, inertia)
-                else {
-                    continue;
-                };
-                if let Some(step) = self.search(state, targets, gradient, energy, &direction) {
-                    return Some(step);
+            if let Some(step) = self.search(state, targets, gradient, energy, &direction) {
+                if inertia > 0.0 {
+                    self.inertia = (inertia * INERTIA_DECAY).clamp(LEAST_INERTIA, MOST_INERTIA);
                 }
+                return Ok(Some(step));
             }
         }
-        None
+        Ok(None)
+    }
+
+    /// Makes room in the matrix for the barriers within reach.
+    fn make_room(&mut self, state: &Configuration) -> Result<(), SolverError> {
+        let Some(contact) = &self.contact else {
+            return Ok(());
+        };
+        if self
+            .matrix
+            .holds(contact.coupled_nodes(&state.positions, 0.0))
+        {
+            return Ok(());
+        }
+        let mut pairs = coupled_nodes(self.model);
+        let more = ROOM * contact.reach();
+        pairs.extend(contact.coupled_nodes(&state.positions, more));
+        self.matrix = StiffnessMatrix::new(self.model.node_count(), &pairs)?;
+        self.analyses += 1;
+        Ok(())
     }
 
     /// −(K + S + μ I)⁻¹ ∇U; none where the matrix is not positive definite.
@@ -159,6 +217,9 @@ impl<'a> Newton<'a> {
         if inertia > 0.0 {
             self.matrix.shift(inertia * scale);
         }
+        if let Some(contact) = &self.contact {
+            contact.add_stiffness(&state.positions, curvature, &mut self.matrix);
+        }
         self.factorisations += 1;
         if !self.matrix.factorise() {
             return None;
@@ -170,7 +231,7 @@ impl<'a> Newton<'a> {
 
     /// Backtracks along `direction` until the energy falls enough.
     fn search(
-        &self,
+        &mut self,
         state: &Configuration,
         targets: &[f64],
         gradient: &[DVec3],
@@ -182,16 +243,15 @@ impl<'a> Newton<'a> {
         if !(slope < 0.0 && reach.is_finite()) {
             return None;
         }
-        let mut length = (LARGEST_MOVE / reach).min(1.0);
+        let mut length = self.limited(&state.positions, direction, (LARGEST_MOVE / reach).min(1.0));
         let residual = largest(gradient);
-        let mut trial_gradient = vec![DVec3::ZERO; gradient.len()];
         for _halving in 0..MAX_HALVINGS {
             if let Some(trial) = state.moved(self.model, direction, length, LARGEST_TURN) {
                 let trial_energy = self.energy(&trial, targets);
                 let falls = trial_energy <= energy + SUFFICIENT_DECREASE * length * slope;
                 let is_level = (trial_energy - energy).abs() <= ENERGY_ROUNDING * energy.abs();
                 if falls || is_level {
-                    self.gradient(&trial, targets, &mut trial_gradient);
+                    let trial_gradient = self.gradient(&trial, targets);
                     if falls || largest(&trial_gradient) < residual {
                         return Some(Step {
                             state: trial,
@@ -206,6 +266,16 @@ impl<'a> Newton<'a> {
         }
         None
     }
+
+    /// How much of `length` × `direction` contact allows.
+    pub(super) fn limited(&mut self, positions: &[DVec3], direction: &[DVec3], length: f64) -> f64 {
+        let Some(contact) = &mut self.contact else {
+            return length;
+        };
+        let way: Vec<DVec3> = direction.iter().map(|&d| d * length).collect();
+        contact.prepare_way(positions, &way);
+        contact.step_limit(positions, direction, length)
+    }
 }
 
 /// An accepted step.
@@ -219,14 +289,13 @@ struct Step {
 
 /// A triangle amid the sheet: the left one of the middle hinge; of a sheet without hinges its one triangle.
 fn supporting_triangle(model: &Model) -> [u32; 3] {
-    if let Some(hinge) = model.hinges.get(model.hinges.len() / 2) {
-        let [e0, e1, left, _] = hinge.vertices;
-        return [e0, e1, left];
+    match model.hinges.get(model.hinges.len() / 2) {
+        Some(hinge) => {
+            let [e0, e1, left, _] = hinge.vertices;
+            [e0, e1, left]
+        }
+        None => model.faces[0],
     }
-    let [a, b] = model.bars[0].vertices;
-    let others = model.bars.iter().flat_map(|bar| bar.vertices);
-    let c = others.into_iter().find(|&v| v != a && v != b).unwrap_or(b);
-    [a, b, c]
 }
 
 /// Supports the triangle: its first node in space, its second across the line to the first, its third across the

@@ -1,5 +1,6 @@
 //! What a quasi-static run is asked for.
 
+use super::Contact;
 use crate::{SolverError, Stage};
 
 /// The options of [`super::run_quasi_static`].
@@ -14,10 +15,10 @@ pub struct QuasiStaticOptions {
     /// A state is an equilibrium where the largest nodal force is at most this times the force scale (see
     /// [`super::force_scale`]), rounding aside.
     pub tolerance: f64,
-    /// The shortest load step tried, in t.
-    pub min_load_step: f64,
     /// Newton steps taken at one load step before it is shortened.
     pub max_iterations: usize,
+    /// Contact of the layers; none lets them pass through each other.
+    pub contact: Option<Contact>,
 }
 
 impl Default for QuasiStaticOptions {
@@ -27,8 +28,8 @@ impl Default for QuasiStaticOptions {
             frames: 240,
             record_load_steps: false,
             tolerance: 1e-9,
-            min_load_step: 1e-6,
             max_iterations: 60,
+            contact: None,
         }
     }
 }
@@ -46,7 +47,6 @@ impl QuasiStaticOptions {
             });
         }
         positive("tolerance", self.tolerance)?;
-        positive("min_load_step", self.min_load_step)?;
         positive("max_iterations", self.max_iterations as f64)
     }
 }

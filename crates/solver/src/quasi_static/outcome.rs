@@ -8,14 +8,41 @@ use crate::{EnergyByKind, Stage};
 /// The motion and how it was found.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct QuasiStaticRun {
-    /// In order of time, positions in the sheet's unit. Those up to the last state reached.
+    /// In order of time, positions in the sheet's unit: the states at t = 2k/frames, and states between where the
+    /// straight way from one to the next would lead through contact. Those up to the last state reached.
     pub frames: Vec<Frame>,
-    /// The energy at each frame, in the model's units.
-    pub energy: Vec<EnergyByKind>,
+    /// Figures of each frame.
+    pub figures: Vec<FrameFigures>,
     /// One for each stage begun.
     pub stages: Vec<StageOutcome>,
+    /// Where contact stopped the motion, if it did.
+    pub jam: Option<Jam>,
     /// Numeric factorisations in all.
     pub factorisations: usize,
+    /// Symbolic analyses in all: one, and one each time contact couples nodes for the first time.
+    pub analyses: usize,
+}
+
+impl QuasiStaticRun {
+    /// Whether every stage was run to its end in equilibrium and contact stopped none.
+    pub fn is_complete(&self) -> bool {
+        self.jam.is_none() && self.stages.iter().all(|stage| stage.converged)
+    }
+}
+
+/// Figures of one frame, in the model's units.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct FrameFigures {
+    /// Energy of bars and hinges.
+    pub energy: EnergyByKind,
+    /// Energy of the contact barriers.
+    pub contact_energy: f64,
+    /// Pairs of primitives that push on each other.
+    pub contacts: usize,
+    /// The sum of the forces with which they push.
+    pub contact_force: f64,
+    /// The largest |θ − θ*| of a crease, radians.
+    pub fold_angle_error: f64,
 }
 
 /// How a stage went.
@@ -23,16 +50,19 @@ pub struct QuasiStaticRun {
 pub struct StageOutcome {
     /// Which one.
     pub stage: Stage,
-    /// Whether every frame of the stage is an equilibrium.
+    /// Whether it was run to its end and every load step ended in equilibrium.
     pub converged: bool,
     /// t of the last equilibrium.
     pub reached: f64,
-    /// The largest nodal force left at any accepted load step, or at the failed one that ended the stage.
+    /// The largest nodal force left at any accepted load step; where the stage did not converge, that left by the
+    /// last attempt.
     pub residual: f64,
     /// Load steps accepted.
     pub load_steps: usize,
     /// Load steps that found no equilibrium and were tried again shorter.
     pub shortened_steps: usize,
+    /// Load steps in which the sheet snapped: it left its equilibrium and moved far to the next.
+    pub snaps: usize,
     /// Newton iterations, those of failed load steps included.
     pub iterations: usize,
 }
@@ -46,6 +76,7 @@ impl StageOutcome {
             residual: 0.0,
             load_steps: 0,
             shortened_steps: 0,
+            snaps: 0,
             iterations: 0,
         }
     }
@@ -55,6 +86,19 @@ impl StageOutcome {
         if settled.converged {
             self.load_steps += 1;
             self.residual = self.residual.max(settled.residual);
+        } else {
+            self.shortened_steps += 1;
         }
     }
+}
+
+/// Contact stopped the motion.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Jam {
+    /// From this motion time on the creases do not follow their targets.
+    pub time: f64,
+    /// The largest |θ − θ*| of a crease where the motion ended, radians.
+    pub fold_angle_error: f64,
+    /// The pairs of triangles that push hardest there, hardest first, with the force.
+    pub blocking: Vec<([u32; 2], f64)>,
 }

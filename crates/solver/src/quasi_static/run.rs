@@ -1,36 +1,52 @@
 //! The run: load steps along the stages of the schedule.
 
-use std::collections::VecDeque;
-
-use foldmotion_geometry::RigidMotion;
 use foldmotion_pattern::Frame;
 use glam::DVec3;
 
 use super::configuration::Configuration;
+use super::contact::ContactField;
+use super::history::History;
+use super::jam::find_jam;
 use super::newton::{Newton, Settled, Tolerance};
-use super::outcome::{QuasiStaticRun, StageOutcome};
-use super::{QuasiStaticOptions, force_scale, rounding_force};
-use crate::{Model, Schedule, SolverError, Stage};
+use super::outcome::{FrameFigures, QuasiStaticRun, StageOutcome};
+use super::{QuasiStaticOptions, barrier_force, force_scale, rounding_force};
+use crate::{HingeKind, Model, Schedule, SolverError, Stage};
 
-/// The last Newton step of an equilibrium moves no node further, in unit lengths.
+/// The last Newton step of an equilibrium moves no node further, in unit lengths: without contact, and with it.
 const STEP_TOLERANCE: f64 = 1e-9;
+const CONTACT_STEP_TOLERANCE: f64 = 1e-6;
+/// With contact the tolerance of the forces is this many times what it is without.
+const CONTACT_LENIENCE: f64 = 1e3;
 /// A load step that settled within this many iterations is followed by a longer one.
 const EASY_ITERATIONS: usize = 10;
 /// By which load steps grow and shrink.
 const STEP_FACTOR: f64 = 2.0;
+/// Load steps shortened to this share of the spacing of frames are given the budget of a snap.
+const SNAP_STEP: f64 = 0.1;
+/// The iterations allowed in a snap, over those allowed elsewhere.
+const SNAP_BUDGET: usize = 40;
+/// A barrier whose separation falls below this share of its reach is too soft: all become stiffer by a factor, up to a
+/// limit over what they started with.
+const TIGHT: f64 = 0.1;
+const STIFFENING: f64 = 4.0;
+const MOST_STIFFENING: f64 = 1e4;
 
 /// Folds the sheet of `model` slowly along `schedule`, from `start` (one position a vertex, in the sheet's unit).
 ///
 /// At every load step the sheet is brought to the nearest minimum of its energy downhill from the last state, itself
 /// extrapolated. Load steps hit every t = 2k/frames; between them they shorten where Newton's method fails and grow
-/// again where it is easy. `progress` is told t after each one and ends the run by returning false.
+/// again where it is easy. Where short ones fail too, the sheet snaps: the search is given time to descend to the next
+/// equilibrium, however far. `progress` is told t after each load step and ends the run by returning false.
 ///
-/// A stage in which even the shortest load step finds no equilibrium ends the run: what was reached is returned, with
-/// [`StageOutcome::converged`] false.
+/// With contact, no two layers touch on the straight ways between frames: states of the search are recorded as frames
+/// between where they would.
+///
+/// A stage that finds no equilibrium ends the run: what was reached is returned, with
+/// [`StageOutcome::converged`] false. Where contact keeps creases from their targets, [`QuasiStaticRun::jam`] says so.
 ///
 /// # Errors
-/// Options out of range, counts that do not fit the model, positions that are not finite, a matrix too large, and
-/// [`SolverError::Cancelled`].
+/// Options out of range, counts that do not fit the model, positions that are not finite, a matrix too large, a gap
+/// too large, a start that crosses itself where contact is asked for, and [`SolverError::Cancelled`].
 pub fn run_quasi_static(
     model: &Model,
     schedule: &Schedule,
@@ -40,14 +56,30 @@ pub fn run_quasi_static(
 ) -> Result<QuasiStaticRun, SolverError> {
     options.validate()?;
     check_input(model, schedule, start)?;
+    let positions = model.to_model(start);
+    // The angles of the first targets tell which turn a hinge near ±π is in.
+    let mut angles = vec![0.0; model.hinges.len()];
+    if let Some(&stage) = options.stages.first() {
+        schedule.targets(stage, 0.0, &mut angles);
+    }
+    let contact = match options.contact {
+        Some(contact) => Some(ContactField::new(
+            model,
+            contact,
+            barrier_force(model),
+            &positions,
+        )?),
+        None => None,
+    };
     let mut run = Run {
         model,
         schedule,
         options,
         progress,
-        newton: Newton::new(model, options.max_iterations)?,
-        state: Configuration::new(model, model.to_model(start)),
+        newton: Newton::new(model, contact)?,
+        state: Configuration::new(model, positions, angles),
         targets: vec![0.0; model.hinges.len()],
+        last_recorded: Vec::new(),
         outcome: QuasiStaticRun::default(),
     };
     for &stage in &options.stages {
@@ -56,13 +88,18 @@ pub fn run_quasi_static(
             break;
         }
     }
+    run.finish();
     Ok(run.outcome)
 }
 
 fn check_input(model: &Model, schedule: &Schedule, start: &[DVec3]) -> Result<(), SolverError> {
     let counts = [
-        ("positions", model.node_count(), start.len()),
-        ("schedule ramps", model.hinges.len(), schedule.hinge_count()),
+        ("start positions", model.node_count(), start.len()),
+        (
+            "scheduled hinges",
+            model.hinges.len(),
+            schedule.hinge_count(),
+        ),
     ];
     for (what, expected, found) in counts {
         if expected != found {
@@ -88,22 +125,28 @@ struct Run<'a> {
     options: &'a QuasiStaticOptions,
     progress: &'a (dyn Fn(f64) -> bool + Sync),
     newton: Newton<'a>,
+    /// The last equilibrium, and the targets of the load step at hand.
     state: Configuration,
     targets: Vec<f64>,
+    last_recorded: Vec<DVec3>,
     outcome: QuasiStaticRun,
+}
+
+/// An attempted load step.
+struct Trial {
+    state: Configuration,
+    settled: Settled,
+    /// From the last equilibrium to this state, with contact only.
+    way: Vec<Configuration>,
 }
 
 impl Run<'_> {
     /// Records the state in which the stage begins, unless the stage before ended in it.
     fn begin(&mut self, stage: Stage) {
         self.schedule.targets(stage, 0.0, &mut self.targets);
-        if self
-            .outcome
-            .frames
-            .last()
-            .is_none_or(|f| f.time != stage.start_time())
-        {
-            self.record(stage.start_time());
+        let time = stage.start_time();
+        if self.outcome.frames.last().is_none_or(|f| f.time != time) {
+            self.record(time, &self.state.clone());
         }
     }
 
@@ -111,132 +154,209 @@ impl Run<'_> {
     fn stage(&mut self, stage: Stage) -> Result<bool, SolverError> {
         let mut outcome = StageOutcome::new(stage);
         let mut history = History::new(self.state.clone());
-        let spacing = 2.0 / self.options.frames as f64;
         let frames = self.options.frames / 2;
-        let mut length = spacing;
-        let mut next_frame = 1;
-        let mut s = 0.0;
+        let spacing = 1.0 / frames as f64;
+        let (mut s, mut length, mut next_frame) = (0.0, spacing, 1);
         while next_frame <= frames {
             let goal = next_frame as f64 / frames as f64;
             // A step that would leave less than half of itself before the frame is stretched to it.
             let reaches = goal - s <= 1.5 * length;
             let next = if reaches { goal } else { s + length };
-            let trial = self.load_step(stage, next, &history);
+            let is_short = length <= SNAP_STEP * spacing;
+            let trial = self.load_step(stage, next, &history, is_short)?;
             outcome.add(&trial.settled);
-            if trial.settled.converged {
-                self.state = self.aligned(trial.state);
-                history.push(next, self.state.clone());
-                s = next;
-                let time = stage.start_time() + s;
-                if reaches {
-                    next_frame += 1;
-                }
-                if reaches || self.options.record_load_steps {
-                    self.record(time);
-                }
-                if trial.settled.iterations <= EASY_ITERATIONS {
-                    length = (length * STEP_FACTOR).min(spacing);
-                }
-                if !(self.progress)(time) {
-                    return Err(SolverError::Cancelled { time });
-                }
-            } else {
-                outcome.shortened_steps += 1;
-                length = (next - s) / STEP_FACTOR;
-                if length < self.options.min_load_step {
+            if !trial.settled.converged {
+                let stiffened = self.stiffen_barriers(&trial.state);
+                if is_short && !stiffened {
+                    outcome.residual = trial.settled.residual;
                     break;
                 }
+                length = (next - s) / STEP_FACTOR;
+                continue;
+            }
+            if trial.settled.iterations <= EASY_ITERATIONS {
+                length = (length * STEP_FACTOR).min(spacing);
+            }
+            outcome.snaps += usize::from(trial.settled.iterations > self.options.max_iterations);
+            let [from, to] = [s, next].map(|s| stage.start_time() + s);
+            self.accept(from, to, &trial);
+            if reaches || self.options.record_load_steps {
+                self.record(to, &trial.state);
+            }
+            history.push(next, trial.state.clone());
+            (self.state, s, outcome.reached) = (trial.state, next, to);
+            next_frame += usize::from(reaches);
+            if !(self.progress)(to) {
+                return Err(SolverError::Cancelled { time: to });
             }
         }
         outcome.converged = next_frame > frames;
-        outcome.reached = stage.start_time() + s;
         let converged = outcome.converged;
-        self.outcome.factorisations = self.newton.factorisations;
         self.outcome.stages.push(outcome);
         Ok(converged)
     }
 
-    /// The equilibrium at `s`, sought from the state extrapolated to it and, failing that, from the last one.
-    fn load_step(&mut self, stage: Stage, s: f64, history: &History) -> Trial {
+    /// The equilibrium at `s`, sought from the state extrapolated to it where contact allows, else from the last one.
+    fn load_step(
+        &mut self,
+        stage: Stage,
+        s: f64,
+        history: &History,
+        is_short: bool,
+    ) -> Result<Trial, SolverError> {
         self.schedule.targets(stage, s, &mut self.targets);
-        let tolerance = Tolerance {
-            force: self.options.tolerance * force_scale(self.model)
-                + rounding_force(self.model, &self.state.positions),
-            step: STEP_TOLERANCE,
+        let keeps_way = self.newton.contact.is_some();
+        let mut way = Vec::new();
+        let mut state = match history.extrapolate(self.model, s) {
+            Some(ahead) if self.may_move_to(&ahead) => ahead,
+            _ => self.state.clone(),
         };
-        let mut state = history
-            .extrapolate(self.model, s)
-            .unwrap_or_else(|| self.state.clone());
-        let settled = self.newton.settle(&mut state, &self.targets, tolerance);
-        Trial { state, settled }
-    }
-
-    /// `state` moved rigidly onto the last one: the sheet does not wander.
-    fn aligned(&self, mut state: Configuration) -> Configuration {
-        let motion = RigidMotion::best_fit(&state.positions, &self.state.positions);
-        for position in &mut state.positions {
-            *position = motion.apply(*position);
+        if keeps_way {
+            way.extend([self.state.clone(), state.clone()]);
         }
-        state
+        let mut visit = |state: &Configuration| {
+            if keeps_way {
+                way.push(state.clone());
+            }
+        };
+        let budget = self.options.max_iterations * if is_short { SNAP_BUDGET } else { 1 };
+        let tolerance = self.tolerance();
+        let settled =
+            self.newton
+                .settle(&mut state, &self.targets, tolerance, budget, &mut visit)?;
+        Ok(Trial {
+            state,
+            settled,
+            way,
+        })
     }
 
-    fn record(&mut self, time: f64) {
+    fn tolerance(&self) -> Tolerance {
+        let (lenience, step) = if self.newton.contact.is_some() {
+            (CONTACT_LENIENCE, CONTACT_STEP_TOLERANCE)
+        } else {
+            (1.0, STEP_TOLERANCE)
+        };
+        let rounding = rounding_force(self.model, &self.state.positions);
+        Tolerance {
+            force: lenience * self.options.tolerance * force_scale(self.model) + rounding,
+            step,
+        }
+    }
+
+    /// Whether contact leaves the straight way to `ahead` free.
+    fn may_move_to(&mut self, ahead: &Configuration) -> bool {
+        let from = &self.state.positions;
+        let way: Vec<DVec3> = ahead
+            .positions
+            .iter()
+            .zip(from)
+            .map(|(&b, &a)| b - a)
+            .collect();
+        self.newton.limited(from, &way, 1.0) >= 1.0
+    }
+
+    /// Takes note of the contact in a new equilibrium.
+    fn accept(&mut self, from: f64, to: f64, trial: &Trial) {
+        self.record_way(from, to, trial);
+        if let Some(contact) = &mut self.newton.contact {
+            contact.accept(&trial.state.positions);
+        }
+        self.stiffen_barriers(&trial.state);
+    }
+
+    /// Makes the barriers stiffer where a pair has been pressed close to its gap; false where there is none.
+    fn stiffen_barriers(&mut self, state: &Configuration) -> bool {
+        let limit = MOST_STIFFENING * barrier_force(self.model);
+        let Some(contact) = &mut self.newton.contact else {
+            return false;
+        };
+        contact.prepare(&state.positions);
+        let is_tight = contact.tightest(&state.positions) < TIGHT && contact.force < limit;
+        if is_tight {
+            contact.force *= STIFFENING;
+        }
+        is_tight
+    }
+
+    /// Where the straight way from the last frame to the new state is not free of contact, records states on the way
+    /// the search took, at times between `from` and `to`.
+    fn record_way(&mut self, from: f64, to: f64, trial: &Trial) {
+        let Some(contact) = &mut self.newton.contact else {
+            return;
+        };
+        let (way, end) = (&trial.way, &trial.state.positions);
+        let mut between: Vec<usize> = Vec::new();
+        let mut last = &self.last_recorded;
+        let mut next = 0;
+        while next < way.len() && !contact.is_way_free(last, end) {
+            // As far along the way as can be reached straight; the next state always can.
+            let mut furthest = next;
+            while furthest + 1 < way.len()
+                && contact.is_way_free(last, &way[furthest + 1].positions)
+            {
+                furthest += 1;
+            }
+            between.push(furthest);
+            last = &way[furthest].positions;
+            next = furthest + 1;
+        }
+        let parts = (between.len() + 1) as f64;
+        for (index, at) in between.into_iter().enumerate() {
+            let share = (index + 1) as f64 / parts;
+            self.record(from + (to - from) * share, &way[at]);
+        }
+    }
+
+    fn record(&mut self, time: f64, state: &Configuration) {
+        self.last_recorded.clone_from(&state.positions);
         self.outcome.frames.push(Frame {
             time,
-            positions: self.model.to_sheet(&self.state.positions),
+            positions: self.model.to_sheet(&state.positions),
         });
-        self.outcome.energy.push(self.model.energy_by_kind(
-            &self.state.positions,
-            &self.state.angles,
-            &self.targets,
-        ));
-    }
-}
-
-struct Trial {
-    state: Configuration,
-    settled: Settled,
-}
-
-/// The last equilibria of a stage, to extrapolate from.
-struct History {
-    states: VecDeque<(f64, Configuration)>,
-}
-
-impl History {
-    fn new(start: Configuration) -> Self {
-        Self {
-            states: VecDeque::from([(0.0, start)]),
+        let mut figures = FrameFigures {
+            energy: self
+                .model
+                .energy_by_kind(&state.positions, &state.angles, &self.targets),
+            fold_angle_error: self.fold_angle_error(state),
+            ..FrameFigures::default()
+        };
+        if let Some(contact) = &mut self.newton.contact {
+            contact.prepare(&state.positions);
+            figures.contact_energy = contact.energy(&state.positions);
+            (figures.contacts, figures.contact_force) = contact.load(&state.positions);
         }
+        self.outcome.figures.push(figures);
     }
 
-    fn push(&mut self, s: f64, state: Configuration) {
-        self.states.push_back((s, state));
-        if self.states.len() > 3 {
-            self.states.pop_front();
-        }
+    fn fold_angle_error(&self, state: &Configuration) -> f64 {
+        let creases = self
+            .model
+            .hinges
+            .iter()
+            .zip(&state.angles)
+            .zip(&self.targets);
+        creases
+            .filter(|((hinge, _), _)| hinge.kind == HingeKind::Crease)
+            .map(|((_, angle), target)| (angle - target).abs())
+            .fold(0.0, f64::max)
     }
 
-    /// The polynomial through the last (up to three) states at `s`; none where a hinge would turn too far.
-    fn extrapolate(&self, model: &Model, s: f64) -> Option<Configuration> {
-        let weights: Vec<f64> = (0..self.states.len())
-            .map(|i| {
-                let others = (0..self.states.len()).filter(|&j| j != i);
-                let (own, at) = (self.states[i].0, |j: usize| self.states[j].0);
-                others.map(|j| (s - at(j)) / (own - at(j))).product()
-            })
-            .collect();
-        let (_, last) = self.states.back()?;
-        let mut direction = vec![DVec3::ZERO; last.positions.len()];
-        for (weight, (_, state)) in weights.iter().zip(&self.states) {
-            for ((d, &x), &own) in direction
-                .iter_mut()
-                .zip(&state.positions)
-                .zip(&last.positions)
-            {
-                *d += (x - own) * *weight;
-            }
+    /// Records the last equilibrium where it is no frame, and says whether contact stopped the motion.
+    fn finish(&mut self) {
+        let reached = self.outcome.stages.last().map(|stage| stage.reached);
+        let recorded = self.outcome.frames.last().map(|frame| frame.time);
+        if let (Some(reached), Some(recorded)) = (reached, recorded)
+            && reached > recorded
+        {
+            self.record(reached, &self.state.clone());
         }
-        last.moved(model, &direction, 1.0, std::f64::consts::FRAC_PI_2)
+        self.outcome.factorisations = self.newton.factorisations;
+        self.outcome.analyses = self.newton.analyses;
+        if let Some(contact) = &self.newton.contact {
+            let blocking = contact.hardest(&self.state.positions);
+            let slack = contact.fold_angle_slack();
+            self.outcome.jam = find_jam(&self.outcome, slack, blocking);
+        }
     }
 }

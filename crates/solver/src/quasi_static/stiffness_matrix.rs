@@ -82,11 +82,6 @@ impl StiffnessMatrix {
         })
     }
 
-    /// The number of scalars in the factor.
-    pub(super) fn factor_size(&self) -> usize {
-        self.factor.len()
-    }
-
     /// Whether the blocks of every pair have room.
     pub(super) fn holds(&self, pairs: impl IntoIterator<Item = [u32; 2]>) -> bool {
         pairs
@@ -118,6 +113,19 @@ impl StiffnessMatrix {
             self.values[at] += column.x;
             self.values[at + 1] += column.y;
             self.values[at + 2] += column.z;
+        }
+    }
+
+    /// Adds the symmetric matrix of an element, by blocks of its nodes.
+    pub(super) fn add_element<const N: usize>(
+        &mut self,
+        nodes: &[u32; N],
+        blocks: &[[DMat3; N]; N],
+    ) {
+        for (i, row) in blocks.iter().enumerate() {
+            for (j, &block) in row.iter().enumerate().take(i + 1) {
+                self.add(nodes[i], nodes[j], block);
+            }
         }
     }
 

@@ -1,0 +1,152 @@
+//! The vertices, edges and facets that can meet.
+//!
+//! Candidates are found as pairs of triangles. So that no pair of primitives is met twice, every vertex and every edge
+//! belongs to one triangle that has it (Curtis, Tamstorf, Manocha 2008, "Fast collision detection for deformable
+//! models using representative-triangles").
+
+use foldmotion_geometry::Aabb;
+use glam::DVec3;
+
+use super::pair::{Pair, PairKind};
+use crate::Model;
+
+/// Crossings shallower than this, in unit lengths, are rounding.
+const ROUNDING: f64 = 1e-9;
+
+pub(super) struct Primitives {
+    faces: Vec<[u32; 3]>,
+    /// The vertices that belong to each triangle.
+    vertices: Vec<Vec<u32>>,
+    /// The edges that belong to each triangle, with their rest lengths.
+    edges: Vec<Vec<([u32; 2], f64)>>,
+}
+
+impl Primitives {
+    pub(super) fn new(model: &Model) -> Self {
+        let mut vertices = vec![Vec::new(); model.faces.len()];
+        let mut edges = vec![Vec::new(); model.faces.len()];
+        // The first triangle that has a vertex, and the triangles at each vertex.
+        let mut at_vertex: Vec<Vec<u32>> = vec![Vec::new(); model.node_count()];
+        for (index, face) in model.faces.iter().enumerate() {
+            for &v in face {
+                at_vertex[v as usize].push(index as u32);
+            }
+        }
+        for (vertex, around) in at_vertex.iter().enumerate() {
+            if let Some(&owner) = around.first() {
+                vertices[owner as usize].push(vertex as u32);
+            }
+        }
+        for bar in &model.bars {
+            let [a, b] = bar.vertices;
+            let has_both = |face: &&u32| model.faces[**face as usize].contains(&b);
+            if let Some(&owner) = at_vertex[a as usize].iter().find(has_both) {
+                edges[owner as usize].push((bar.vertices, bar.rest_length));
+            }
+        }
+        Self {
+            faces: model.faces.clone(),
+            vertices,
+            edges,
+        }
+    }
+
+    /// The box of every triangle on the straight way from `positions` to `positions` + `way` (empty: at rest), every
+    /// face moved out by `radius`.
+    pub(super) fn boxes(&self, positions: &[DVec3], way: &[DVec3], radius: f64) -> Vec<Aabb> {
+        let around = |face: &[u32; 3]| {
+            let start = face.map(|v| positions[v as usize]);
+            let end = face
+                .map(|v| positions[v as usize] + way.get(v as usize).copied().unwrap_or_default());
+            Aabb::around(start.into_iter().chain(end)).inflated(radius)
+        };
+        self.faces.iter().map(around).collect()
+    }
+
+    /// The smallest height of a triangle.
+    pub(super) fn smallest_height(&self, positions: &[DVec3]) -> f64 {
+        let height = |face: &[u32; 3]| {
+            let [a, b, c] = face.map(|v| positions[v as usize]);
+            let longest = a.distance(b).max(b.distance(c)).max(c.distance(a));
+            (b - a).cross(c - a).length() / longest
+        };
+        self.faces.iter().map(height).fold(f64::INFINITY, f64::min)
+    }
+
+    /// Calls `visit(kind, nodes, mollifier)` for the pairs of primitives that belong to the triangles `a` and `b` and
+    /// share no vertex.
+    pub(super) fn visit_pairs(
+        &self,
+        a: u32,
+        b: u32,
+        mut visit: impl FnMut(PairKind, [u32; 4], f64),
+    ) {
+        for (own, other) in [(a, b), (b, a)] {
+            let [p, q, r] = self.faces[other as usize];
+            for &v in &self.vertices[own as usize] {
+                if ![p, q, r].contains(&v) {
+                    visit(PairKind::VertexFacet, [v, p, q, r], 0.0);
+                }
+            }
+        }
+        for &(first, length) in &self.edges[a as usize] {
+            for &(second, other_length) in &self.edges[b as usize] {
+                if first.iter().all(|v| !second.contains(v)) {
+                    let nodes = [first[0], first[1], second[0], second[1]];
+                    let mollifier = Pair::mollifier([length, other_length]);
+                    visit(PairKind::EdgeEdge, nodes, mollifier);
+                }
+            }
+        }
+    }
+
+    /// Whether a side of one triangle passes through the inside of the other.
+    pub(super) fn cross(&self, [a, b]: [u32; 2], positions: &[DVec3]) -> bool {
+        let corners = |face: u32| self.faces[face as usize];
+        [(a, b), (b, a)].into_iter().any(|(own, other)| {
+            let [p, q, r] = corners(own);
+            let facet = corners(other);
+            [[p, q], [q, r], [r, p]]
+                .into_iter()
+                .filter(|side| side.iter().all(|v| !facet.contains(v)))
+                .any(|side| {
+                    pierces(
+                        side.map(|v| positions[v as usize]),
+                        facet.map(|v| positions[v as usize]),
+                    )
+                })
+        })
+    }
+}
+
+/// Whether the segment passes through the inside of the triangle, by more than rounding.
+fn pierces([p, q]: [DVec3; 2], [a, b, c]: [DVec3; 3]) -> bool {
+    let normal = (b - a).cross(c - a);
+    let area = normal.length();
+    let (above, below) = (normal.dot(p - a) / area, normal.dot(q - a) / area);
+    let apart = above.abs() > ROUNDING && below.abs() > ROUNDING;
+    if !apart || (above > 0.0) == (below > 0.0) {
+        return false;
+    }
+    let hit = p.lerp(q, above / (above - below));
+    [(a, b), (b, c), (c, a)].into_iter().all(|(from, to)| {
+        let side = to - from;
+        normal.cross(side).dot(hit - from) / (area * side.length()) > ROUNDING
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_segment_pierces_a_triangle_only_through_its_inside() {
+        let v = DVec3::new;
+        let triangle = [v(0.0, 0.0, 0.0), v(1.0, 0.0, 0.0), v(0.0, 1.0, 0.0)];
+        assert!(pierces([v(0.2, 0.2, 1.0), v(0.2, 0.3, -1.0)], triangle));
+        assert!(!pierces([v(0.2, 0.2, 1.0), v(0.2, 0.3, 0.1)], triangle));
+        assert!(!pierces([v(0.2, 0.2, 1.0), v(0.2, 0.3, 0.0)], triangle));
+        assert!(!pierces([v(0.8, 0.8, 1.0), v(0.8, 0.8, -1.0)], triangle));
+        assert!(!pierces([v(0.0, 0.0, 1.0), v(0.0, 0.0, -1.0)], triangle));
+    }
+}

@@ -1,0 +1,36 @@
+//! Whether contact stopped the motion.
+
+use super::outcome::{Jam, QuasiStaticRun};
+
+/// A crease further than this from its target, radians, where layers push, may be kept from it by them.
+const KEPT_FROM_TARGET: f64 = 0.1;
+
+/// The jam in which `run` ended, if it did: creases far from their targets, or no further equilibrium, where layers
+/// push.
+///
+/// `slack`: how far off, in radians, creases stay between layers that lie a gap apart. `blocking`: the pairs that push
+/// hardest in the last state.
+pub(super) fn find_jam(
+    run: &QuasiStaticRun,
+    slack: f64,
+    blocking: Vec<([u32; 2], f64)>,
+) -> Option<Jam> {
+    let limit = slack.max(KEPT_FROM_TARGET);
+    let last = run.figures.last()?;
+    let ended_early = run.stages.iter().any(|stage| !stage.converged);
+    let is_kept = last.fold_angle_error > limit;
+    if blocking.is_empty() || !(is_kept || ended_early) {
+        return None;
+    }
+    // Before the jam no layers push, or all creases are near their targets.
+    let frames = run.frames.iter().zip(&run.figures);
+    let first = frames
+        .rev()
+        .take_while(|(_, f)| f.contacts > 0 && (ended_early || f.fold_angle_error > limit))
+        .last();
+    Some(Jam {
+        time: first.or(run.frames.last().zip(Some(last)))?.0.time,
+        fold_angle_error: last.fold_angle_error,
+        blocking,
+    })
+}
