@@ -1,4 +1,5 @@
 //! The quasi-static engine without contact: exact ends, balanced frames, the same bits on any number of threads.
+#![expect(clippy::unwrap_used, reason = "a test stops where a value is missing")]
 
 use foldmotion_geometry::RigidMotion;
 use foldmotion_pattern::{Case, Facing, Unit, UnitSheet};

@@ -1,4 +1,5 @@
 //! The quasi-static engine with contact: the gap is kept, the compact state is reached but for it, jams are named.
+#![expect(clippy::unwrap_used, reason = "a test stops where a value is missing")]
 
 use foldmotion_geometry::{RigidMotion, segment_segment, triangle_triangle};
 use foldmotion_pattern::{Case, Facing, Frame, Unit, UnitSheet};

@@ -19,10 +19,10 @@ pub(super) struct History {
 }
 
 impl History {
-    /// A stage that starts in `start`.
-    pub(super) fn new(start: Configuration) -> Self {
+    /// A path that starts at `s` in `start`.
+    pub(super) fn new(s: f64, start: Configuration) -> Self {
         Self {
-            states: VecDeque::from([(0.0, start)]),
+            states: VecDeque::from([(s, start)]),
         }
     }
 

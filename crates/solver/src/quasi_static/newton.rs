@@ -18,7 +18,7 @@ use crate::{Model, SolverError};
 /// Furthest a node moves in one iteration, in unit lengths.
 const LARGEST_MOVE: f64 = 0.5;
 /// Furthest a hinge turns in one iteration, radians: below π, so that it can be followed.
-const LARGEST_TURN: f64 = 1.0;
+const LARGEST_TURN: f64 = 0.5;
 /// Armijo's constant: the share of the predicted decrease a step must reach.
 const SUFFICIENT_DECREASE: f64 = 1e-4;
 /// Halvings of a step before its direction is given up.

@@ -19,6 +19,10 @@ const CONTACT_STEP_TOLERANCE: f64 = 1e-6;
 const CONTACT_LENIENCE: f64 = 1e3;
 /// A load step that settled within this many iterations is followed by a longer one.
 const EASY_ITERATIONS: usize = 10;
+/// After one that took more than this nothing is extrapolated.
+const HARD_ITERATIONS: usize = 30;
+/// An extrapolated state with more than this many times the energy of the last one is no help.
+const USELESS_ENERGY: f64 = 100.0;
 /// By which load steps grow and shrink.
 const STEP_FACTOR: f64 = 2.0;
 /// Load steps shortened to this share of the spacing of frames are given the budget of a snap.
@@ -153,7 +157,7 @@ impl Run<'_> {
     /// Runs one stage; false where it did not reach its end.
     fn stage(&mut self, stage: Stage) -> Result<bool, SolverError> {
         let mut outcome = StageOutcome::new(stage);
-        let mut history = History::new(self.state.clone());
+        let mut history = History::new(0.0, self.state.clone());
         let frames = self.options.frames / 2;
         let spacing = 1.0 / frames as f64;
         let (mut s, mut length, mut next_frame) = (0.0, spacing, 1);
@@ -183,7 +187,12 @@ impl Run<'_> {
             if reaches || self.options.record_load_steps {
                 self.record(to, &trial.state);
             }
-            history.push(next, trial.state.clone());
+            if trial.settled.iterations > HARD_ITERATIONS {
+                // Where the path is not smooth, what came before says nothing about what comes next.
+                history = History::new(next, trial.state.clone());
+            } else {
+                history.push(next, trial.state.clone());
+            }
             (self.state, s, outcome.reached) = (trial.state, next, to);
             next_frame += usize::from(reaches);
             if !(self.progress)(to) {
@@ -208,7 +217,7 @@ impl Run<'_> {
         let keeps_way = self.newton.contact.is_some();
         let mut way = Vec::new();
         let mut state = match history.extrapolate(self.model, s) {
-            Some(ahead) if self.may_move_to(&ahead) => ahead,
+            Some(ahead) if self.may_start_from(&ahead) => ahead,
             _ => self.state.clone(),
         };
         if keeps_way {
@@ -244,8 +253,18 @@ impl Run<'_> {
         }
     }
 
-    /// Whether contact leaves the straight way to `ahead` free.
-    fn may_move_to(&mut self, ahead: &Configuration) -> bool {
+    /// Whether the extrapolated state `ahead` is a good start: not much higher in energy than the last one at the new
+    /// targets, and contact leaves the straight way to it free.
+    fn may_start_from(&mut self, ahead: &Configuration) -> bool {
+        let [stay, go] = [&self.state, ahead].map(|state| {
+            let energy = &self
+                .model
+                .energy_by_kind(&state.positions, &state.angles, &self.targets);
+            energy.total()
+        });
+        if go > USELESS_ENERGY * stay {
+            return false;
+        }
         let from = &self.state.positions;
         let way: Vec<DVec3> = ahead
             .positions

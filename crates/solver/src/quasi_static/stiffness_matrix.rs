@@ -8,11 +8,11 @@
 use faer::dyn_stack::{MemBuffer, MemStack, StackReq};
 use faer::linalg::cholesky::llt::factor::LltRegularization;
 use faer::perm::PermRef;
-use faer::sparse::linalg::amd;
 use faer::sparse::linalg::cholesky::{
     CholeskySymbolicParams, LltRef, SymbolicCholesky, SymmetricOrdering,
     factorize_symbolic_cholesky,
 };
+use faer::sparse::linalg::{SupernodalThreshold, amd};
 use faer::sparse::{SparseColMatRef, SymbolicSparseColMatRef};
 use faer::{Conj, MatMut, Par, Side};
 use glam::{DMat3, DVec3};
@@ -243,7 +243,12 @@ fn analyse(
         symbolic_view(nodes, columns, rows),
         Side::Lower,
         SymmetricOrdering::Custom(order),
-        CholeskySymbolicParams::default(),
+        CholeskySymbolicParams {
+            // Always by supernodes: with three scalars a node there are always some, and it was measured two to four
+            // times faster than column by column from 500 to 14 000 scalars.
+            supernodal_flop_ratio_threshold: SupernodalThreshold::FORCE_SUPERNODAL,
+            ..CholeskySymbolicParams::default()
+        },
     )
 }
 
