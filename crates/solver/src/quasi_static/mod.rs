@@ -1,7 +1,13 @@
 //! The quasi-static engine: the sheet folded slowly, in equilibrium at every load step.
 //!
 //! The energy is that of [`crate::Model`], the same the dynamic engine moves by. At each load step its minimum is found
-//! by Newton's method with line search and sparse Cholesky factorisation, warm-started from the last equilibria.
+//! by Newton's method with line search and sparse Cholesky factorisation, warm-started from the last equilibria. With
+//! [`Contact`] the layers push on each other and cannot pass through one another.
+//!
+//! Honest limits. The path is that of a sheet folded slowly: where equilibrium is lost it snaps to the next, and which one
+//! that is depends on the step of the search. Layers have the thickness of the gap in contact, which soft bars make room
+//! for by straining: compact extents then exceed the closed form by a length of the order of the gap. Bars too stiff to
+//! strain that far leave the creases open by an angle of the order of the root of the gap instead.
 
 mod configuration;
 mod contact;

@@ -13,7 +13,7 @@ pub struct QuasiStaticOptions {
     /// Whether the load steps between them are recorded too.
     pub record_load_steps: bool,
     /// A state is an equilibrium where the largest nodal force is at most this times the force scale (see
-    /// [`super::force_scale`]), rounding aside.
+    /// [`super::force_scale`]), rounding aside; with contact, at most a thousand times that.
     pub tolerance: f64,
     /// Newton steps taken at one load step before it is shortened.
     pub max_iterations: usize,

@@ -42,8 +42,8 @@ const MOST_STIFFENING: f64 = 1e4;
 /// again where it is easy. Where short ones fail too, the sheet snaps: the search is given time to descend to the next
 /// equilibrium, however far. `progress` is told t after each load step and ends the run by returning false.
 ///
-/// With contact, no two layers touch on the straight ways between frames: states of the search are recorded as frames
-/// between where they would.
+/// With contact, the frames at t = 2k/frames keep the whole gap and the straight ways between frames half of it: where
+/// they would not, states of the search are recorded as frames between.
 ///
 /// A stage that finds no equilibrium ends the run: what was reached is returned, with
 /// [`StageOutcome::converged`] false. Where contact keeps creases from their targets, [`QuasiStaticRun::jam`] says so.
