@@ -154,6 +154,25 @@ fn values_of_the_later_tables_are_refused_too() {
             &["material.damping_ratio = nan"],
         ),
         (
+            "[motion]\nengine = \"dynamic\"\ncontact = true",
+            &["motion.contact = true", "quasi-static"],
+        ),
+        (
+            "[motion]\ncontact = false\ngap = 1e-3",
+            &["motion.gap = 1e-3", "contact is off"],
+        ),
+        ("[motion]\ngap = 0.0", &["motion.gap = 0.0", "between"]),
+        ("[motion]\ngap = 0.5", &["motion.gap = 0.5", "between"]),
+        (
+            "[motion]\ngap = 1e-3\n[material]\nthickness = 0.001",
+            &["motion.gap = 1e-3", "thickness"],
+        ),
+        (
+            "[material]\nthickness = -1.0",
+            &["material.thickness = -1.0"],
+        ),
+        ("[material]\npreset = \"steel\"", &["scene.toml"]),
+        (
             "[check]\ntouch_tolerance = 0.0",
             &["check.touch_tolerance = 0.0"],
         ),

@@ -22,6 +22,8 @@ pub struct FoldHeader<'a> {
     /// The fold angle every edge of the crease pattern is to take, radians: `edges_foldAngle` of the key frame, which
     /// Origami Simulator folds to.
     pub target_angles: &'a [f64],
+    /// Whether the last frame is the compact state with its layers in the motion's `compact_order`.
+    pub has_layer_order: bool,
 }
 
 /// Bytes a written number takes at most on average: 17 digits, sign, point and comma.
@@ -38,7 +40,7 @@ impl Motion {
     /// Streams the motion to `out` as FOLD 1.2, one frame a line.
     ///
     /// Coordinates are the shortest decimals that read back as the same f64; fold angles are measured, in degrees,
-    /// clamped to ±180; `faceOrders` stand in the last frame, of the pairs in `compact_order`.
+    /// clamped to ±180; `faceOrders` stand in the last frame, of the pairs in `compact_order`, if the header says so.
     ///
     /// # Errors
     /// Those of `out`.
@@ -50,7 +52,7 @@ impl Motion {
         writeln!(out, "\"file_frames\": [")?;
         for (index, frame) in self.frames.iter().enumerate() {
             let last = index + 1 == self.frames.len();
-            let order = last.then_some(&self.compact_order);
+            let order = (last && header.has_layer_order).then_some(&self.compact_order);
             write_frame(&self.sheet, frame, order, out)?;
             writeln!(out, "{}", if last { "" } else { "," })?;
         }
@@ -210,6 +212,7 @@ mod tests {
             creator: "test",
             unit: "m",
             target_angles,
+            has_layer_order: true,
         };
         let mut bytes = Vec::new();
         motion.write_fold(&header, &mut bytes).unwrap();

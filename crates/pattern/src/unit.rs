@@ -132,6 +132,21 @@ impl Unit {
         }
     }
 
+    /// The narrowest of the parts the unit has: flap, pads, and the part between split mid vertices.
+    pub fn thinnest_part(&self) -> f64 {
+        let ridge = if self.split {
+            self.height - 2.0 * self.flap
+        } else {
+            self.height
+        };
+        // Pads that the case does not have are exactly 0 wide.
+        let parts = [self.flap, self.side_pad, self.centre_pad, ridge];
+        parts
+            .into_iter()
+            .filter(|&part| part > 0.0)
+            .fold(f64::INFINITY, f64::min)
+    }
+
     /// The width of one column in the compact state, 2s + 2d: flaps have no extent across the width.
     pub fn compact_width(&self) -> f64 {
         2.0 * self.side_pad + self.centre_pad

@@ -3,12 +3,15 @@
 //! A [`SceneSource`] is the text the user wrote, a [`Scene`] what it says, a [`Study`] everything resolved and ready
 //! to run; [`Study::run`] folds, checks, reports and records.
 
+mod engine;
 mod error;
 pub mod report;
+mod reporting;
 mod results;
 mod run;
 pub mod scene;
 mod schema;
+mod series;
 mod source;
 mod study;
 

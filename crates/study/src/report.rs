@@ -34,6 +34,8 @@ pub struct Report {
     pub compact: CompactReport,
     /// The stages of the motion.
     pub stages: Vec<StageReport>,
+    /// Where contact stopped the motion; null where it did not.
+    pub jam: Option<JamReport>,
     /// The verdict.
     pub collision: CollisionSection,
     /// The engine; its timings and device are all that may differ between two runs of one scene.
@@ -175,14 +177,50 @@ pub struct StageReport {
     pub peak_facet_bending_deg: f64,
     /// Motion time of the largest bend.
     pub peak_facet_bending_t: f64,
-    /// Whether the stage's last state satisfies the stopping rule.
+    /// Largest energy of each kind at any frame.
+    pub peak_energy: EnergyReport,
+    /// Pairs of primitives that push on each other, at most at any frame.
+    pub most_contacts: usize,
+    /// Whether the stage was run to its end in equilibrium.
     pub converged: bool,
-    /// Unbalanced force left at its end, in units of EA.
+    /// Motion time of its last state.
+    pub reached_t: f64,
+    /// Largest unbalanced force left, over the fold stiffness.
     pub residual: f64,
-    /// Largest difference of a fold angle from its target at its end, degrees.
-    pub fold_angle_error_deg: f64,
-    /// Steps of the engine.
+    /// Steps of the dynamic engine, Newton iterations of the quasi-static one.
     pub steps: u64,
+    /// Load steps of the quasi-static engine.
+    pub load_steps: Option<u64>,
+    /// Load steps that found no equilibrium and were tried again shorter.
+    pub shortened_load_steps: Option<u64>,
+}
+
+/// Energy by kind, in units of EA·h at EA = 1.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct EnergyReport {
+    /// Of the bars.
+    pub bars: f64,
+    /// Of the creases.
+    pub creases: f64,
+    /// Of the facet hinges.
+    pub facets: f64,
+    /// Of the angles of the triangles.
+    pub face_angles: f64,
+    /// Of the contact barriers.
+    pub contact: f64,
+}
+
+/// Contact stopped the motion.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct JamReport {
+    /// From this motion time on the creases do not follow their targets.
+    pub t: f64,
+    /// Largest difference of a fold angle from its target where the motion ended, degrees.
+    pub fold_angle_error_deg: f64,
+    /// Pairs of facets that push hardest, hardest first; at most ten.
+    pub facets: Vec<[u32; 2]>,
+    /// Their units.
+    pub units: Vec<[UnitName; 2]>,
 }
 
 /// The verdict.
@@ -250,8 +288,10 @@ pub struct UnitName {
 /// The engine.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct EngineReport {
-    /// dynamic.
+    /// dynamic or quasi-static.
     pub name: String,
+    /// Closest approach of layers, units of h; null without contact.
+    pub contact_gap: Option<f64>,
     /// Steps of all stages.
     pub steps: u64,
     /// Wall-clock seconds.
@@ -278,8 +318,9 @@ pub struct SecondsReport {
 impl Report {
     /// The exit status: 3 undecided or not converged, 1 a penetration, else 0.
     pub fn status(&self) -> u8 {
-        let unfinished =
-            self.stages.iter().any(|s| !s.converged) || self.collision.verdict == "undecided";
+        let unfinished = self.jam.is_some()
+            || self.stages.iter().any(|s| !s.converged)
+            || self.collision.verdict == "undecided";
         match (unfinished, self.collision.verdict.as_str()) {
             (true, _) => 3,
             (false, "penetrating") => 1,
@@ -340,6 +381,9 @@ impl Report {
                 if s.converged { "yes" } else { "no" },
                 s.residual
             );
+        }
+        if let Some(jam) = &self.jam {
+            let _ = writeln!(out, "{}", jam.line());
         }
         self.write_verdict(&mut out);
         let e = &self.engine;
@@ -418,6 +462,23 @@ impl Report {
         {
             let _ = writeln!(out, "first within one unit at {}", within.line());
         }
+    }
+}
+
+impl JamReport {
+    fn line(&self) -> String {
+        let pairs = self.facets.iter().zip(&self.units).take(3).map(|(f, u)| {
+            format!(
+                "{} (row {} column {}) on {} (row {} column {})",
+                f[0], u[0].row, u[0].column, f[1], u[1].row, u[1].column
+            )
+        });
+        format!(
+            "jam: contact stops the motion at t = {:.4}, {:.1} degrees short; facets that block: {}",
+            self.t,
+            self.fold_angle_error_deg,
+            pairs.collect::<Vec<_>>().join(", ")
+        )
     }
 }
 

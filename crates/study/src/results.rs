@@ -7,7 +7,13 @@ use std::path::{Path, PathBuf};
 use crate::StudyError;
 
 /// Every file a run may write; those of an earlier run that a new run does not write are removed with it.
-const NAMES: &[&str] = &["report.json", "motion.fold", "motion.gif"];
+const NAMES: &[&str] = &[
+    "report.json",
+    "motion.fold",
+    "motion.gif",
+    "motion.csv",
+    "plots.svg",
+];
 
 /// The name under which the report stands.
 pub(crate) const REPORT: &str = "report.json";

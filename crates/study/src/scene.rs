@@ -190,6 +190,10 @@ pub enum DivisionChoice {
 #[derive(Debug, Clone, Default, PartialEq, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct MaterialScene {
+    /// The constants to start from; keys beside it replace single ones.
+    pub preset: Option<PresetChoice>,
+    /// Thickness of the sheet in profile.unit: layers then come no closer than this. Not with motion.gap.
+    pub thickness: Option<f64>,
     /// EA of the bars; 20 where left out.
     pub axial_stiffness: Option<f64>,
     /// Stiffness of a crease per unit length; 0.7 where left out.
@@ -202,22 +206,49 @@ pub struct MaterialScene {
     pub damping_ratio: Option<f64>,
 }
 
+/// Materials by name.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum PresetChoice {
+    /// Origami Simulator's constants, with its face-angle springs.
+    OrigamiSimulator,
+    /// Stiff bars, soft creases.
+    Paper,
+    /// Bars that strain by less than a thousandth.
+    NearRigid,
+}
+
+impl PresetChoice {
+    /// Its name in scene files.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::OrigamiSimulator => "origami-simulator",
+            Self::Paper => "paper",
+            Self::NearRigid => "near-rigid",
+        }
+    }
+}
+
 /// `[motion]`.
 #[derive(Debug, Clone, Default, PartialEq, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct MotionScene {
-    /// `dynamic`.
+    /// `quasi-static` where left out.
     pub engine: Option<EngineChoice>,
     /// An even number; the states t = 2k/frames are recorded. 240 where left out.
     pub frames: Option<i64>,
-    /// Whether layers push each other; no where left out.
+    /// Whether layers keep apart; quasi-static engine only, where it is on unless set to false.
     pub contact: Option<bool>,
+    /// Closest approach of layers, in units of h; 1e-3 where left out.
+    pub gap: Option<f64>,
 }
 
 /// The engines.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum EngineChoice {
+    /// Equilibrium along the schedule.
+    QuasiStatic,
     /// Mass, spring, damper, explicit steps.
     Dynamic,
 }
@@ -234,7 +265,7 @@ pub struct CheckScene {
 #[derive(Debug, Clone, Default, PartialEq, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct RecordScene {
-    /// `fold` and `gif` where left out.
+    /// `fold`, `gif` and `csv` where left out.
     pub outputs: Option<Vec<OutputChoice>>,
     /// Pixels across and down; [960, 720] where left out.
     pub size: Option<[i64; 2]>,
@@ -258,6 +289,8 @@ pub enum OutputChoice {
     Fold,
     /// `motion.gif`.
     Gif,
+    /// `motion.csv` and `plots.svg`: strain, bending, energy and separation over t.
+    Csv,
 }
 
 /// Camera presets.

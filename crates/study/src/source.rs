@@ -36,30 +36,10 @@ const LATER: &[(&str, &str, Option<&str>, &str)] = &[
         "use \"equal-length\"",
     ),
     (
-        "material",
-        "preset",
-        None,
-        "give the stiffnesses themselves",
-    ),
-    (
-        "material",
-        "thickness",
-        None,
-        "leave it out: the sheet is thin",
-    ),
-    ("motion", "engine", Some("quasi-static"), "use \"dynamic\""),
-    ("motion", "contact", Some("true"), "use false"),
-    (
         "motion",
         "unfold",
         None,
         "leave it out: the hinge angles scale uniformly",
-    ),
-    (
-        "motion",
-        "gap",
-        None,
-        "leave it out: layers do not push each other",
     ),
     (
         "motion",
@@ -88,7 +68,7 @@ const LATER: &[(&str, &str, Option<&str>, &str)] = &[
 ];
 
 /// Outputs of the scene format that this version does not write yet.
-const LATER_OUTPUTS: &[&str] = &["mp4", "png", "svg", "pdf", "glb", "html", "csv"];
+const LATER_OUTPUTS: &[&str] = &["mp4", "png", "svg", "pdf", "glb", "html"];
 
 /// A scene file as text.
 #[derive(Debug, Clone)]
@@ -223,7 +203,7 @@ impl SceneSource {
         for output in outputs.into_iter().flatten().filter_map(Value::as_str) {
             if LATER_OUTPUTS.contains(&output) {
                 let message = format!(
-                    "output \"{output}\" is not available in this version; use fold or gif"
+                    "output \"{output}\" is not available in this version; use fold, gif or csv"
                 );
                 return Err(self.value_error("record.outputs", message));
             }
@@ -356,10 +336,9 @@ mod tests {
     #[test]
     fn keys_of_later_versions_are_refused_by_name_and_value() {
         for (text, key) in [
-            ("[motion]\nengine = \"quasi-static\"\n", "motion.engine"),
-            ("[motion]\ncontact = true\n", "motion.contact"),
+            ("[motion]\nunfold = \"energy\"\n", "motion.unfold"),
             ("[record]\noutputs = [\"mp4\"]\n", "record.outputs"),
-            ("[material]\npreset = \"paper\"\n", "material.preset"),
+            ("[profile]\nfile = \"wing.dat\"\n", "profile.file"),
         ] {
             let error = source(text).scene().unwrap_err();
             let message = error.to_string();

@@ -12,12 +12,19 @@ use foldmotion_pattern::{
     models,
 };
 use foldmotion_record::{FilmOptions, RecordError, View};
+use foldmotion_solver::quasi_static::Contact;
 use foldmotion_solver::{Material, Model, Schedule, SolverError};
 use glam::{DVec2, DVec3};
 
-use crate::scene::{CameraChoice, CaseChoice, Closed, FacingChoice, OutputChoice, ProfileScene};
+use crate::scene::{
+    CameraChoice, CaseChoice, Closed, EngineChoice, FacingChoice, OutputChoice, ProfileScene,
+};
 use crate::{Scene, SceneSource, StudyError};
 
+/// Layers that lie on each other in a column of the compact state.
+const LAYERS_OF_A_COLUMN: f64 = 8.0;
+/// The smallest gap, in units of h: below it a barrier outgrows what f64 resolves.
+const SMALLEST_GAP: f64 = 1e-6;
 /// Frames of a motion, at most: the file of a small sheet then stays below some gigabytes.
 const MOST_FRAMES: usize = 100_000;
 /// Sheets larger than this many units exceed what one machine folds.
@@ -48,6 +55,10 @@ pub struct Study {
     pub model: Model,
     /// The target fold angles along the motion.
     pub schedule: Schedule,
+    /// What moves the sheet.
+    pub engine: EngineChoice,
+    /// How close layers may come, in units of h; none lets them pass through each other.
+    pub contact_gap: Option<f64>,
     /// The states t = 2k/frames are recorded.
     pub frames: usize,
     /// How the motion is checked.
@@ -98,6 +109,8 @@ impl Study {
             unit_name: scene.profile.unit.unwrap_or_default().name(),
             pattern: units.check(),
             closed_form: CompactBox::closed_form(&unit, rows, columns),
+            engine: resolver.engine(),
+            contact_gap: resolver.contact_gap(&unit)?,
             frames: resolver.frames()?,
             collision: resolver.collision()?,
             film: resolver.film()?,
@@ -288,7 +301,10 @@ impl Resolver<'_> {
 
     fn material(&self) -> Result<Material, StudyError> {
         let scene = &self.scene.material;
-        let standard = Material::default();
+        let standard = match scene.preset {
+            Some(preset) => Material::preset(preset.name()).unwrap_or_default(),
+            None => Material::default(),
+        };
         let material = Material {
             axial_stiffness: scene.axial_stiffness.unwrap_or(standard.axial_stiffness),
             fold_stiffness: scene.fold_stiffness.unwrap_or(standard.fold_stiffness),
@@ -311,6 +327,59 @@ impl Resolver<'_> {
             other => StudyError::Solver(other),
         })?;
         Ok(material)
+    }
+
+    fn engine(&self) -> EngineChoice {
+        self.scene
+            .motion
+            .engine
+            .unwrap_or(EngineChoice::QuasiStatic)
+    }
+
+    /// The gap, in units of h; none without contact.
+    fn contact_gap(&self, unit: &Unit) -> Result<Option<f64>, StudyError> {
+        let motion = &self.scene.motion;
+        let thickness = self.scene.material.thickness;
+        let is_dynamic = self.engine() == EngineChoice::Dynamic;
+        if is_dynamic && motion.contact == Some(true) {
+            let message = "the dynamic engine has no contact; use engine = \"quasi-static\", or contact = false";
+            return Err(self.fault("motion.contact", message));
+        }
+        if is_dynamic || motion.contact == Some(false) {
+            let given = [
+                ("motion.gap", motion.gap),
+                ("material.thickness", thickness),
+            ];
+            return match given.into_iter().find(|(_, value)| value.is_some()) {
+                Some((key, _)) => {
+                    Err(self.fault(key, "keeps layers apart, but contact is off; leave it out"))
+                }
+                None => Ok(None),
+            };
+        }
+        let (key, gap) = match (motion.gap, thickness) {
+            (Some(_), Some(_)) => {
+                let message = "the gap follows from material.thickness; leave one of the two out";
+                return Err(self.fault("motion.gap", message));
+            }
+            (_, Some(thickness)) => ("material.thickness", thickness / unit.height),
+            (gap, None) => ("motion.gap", gap.unwrap_or(Contact::default().gap)),
+        };
+        let limit = unit.thinnest_part() / unit.height / LAYERS_OF_A_COLUMN;
+        if gap >= SMALLEST_GAP && gap <= limit {
+            return Ok(Some(gap));
+        }
+        let scale = if key == "material.thickness" {
+            unit.height
+        } else {
+            1.0
+        };
+        let message = format!(
+            "must lie between {:e} and {:.6}, so that the {LAYERS_OF_A_COLUMN} layers of a column fit beside the thinnest part of the unit",
+            SMALLEST_GAP * scale,
+            limit * scale
+        );
+        Err(self.fault(key, message))
     }
 
     fn frames(&self) -> Result<usize, StudyError> {
@@ -380,7 +449,7 @@ impl Resolver<'_> {
             .record
             .outputs
             .clone()
-            .unwrap_or_else(|| vec![OutputChoice::Fold, OutputChoice::Gif]);
+            .unwrap_or_else(|| vec![OutputChoice::Fold, OutputChoice::Gif, OutputChoice::Csv]);
         outputs.sort_unstable();
         outputs.dedup();
         outputs

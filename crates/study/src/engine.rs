@@ -1,0 +1,133 @@
+//! The engines behind one face: what a run needs to know of a computed motion, whichever engine computed it.
+
+use foldmotion_pattern::Frame;
+use foldmotion_solver::Stage;
+use foldmotion_solver::dynamic::{self, DynamicOptions};
+use foldmotion_solver::quasi_static::{Contact, Jam, QuasiStaticOptions, run_quasi_static};
+
+use crate::scene::EngineChoice;
+use crate::{Study, StudyError};
+
+/// A motion as an engine left it, with how it went.
+#[derive(Debug)]
+pub(crate) struct Computed {
+    /// In order of time; positions in the scene's unit.
+    pub(crate) frames: Vec<Frame>,
+    /// One for each stage begun.
+    pub(crate) stages: Vec<StageSummary>,
+    /// Energy of the contact barriers and the number of contacts at each frame; empty without contact.
+    pub(crate) contacts: Vec<ContactFigures>,
+    /// Where contact stopped the motion.
+    pub(crate) jam: Option<Jam>,
+    /// Steps of the dynamic engine, Newton iterations of the quasi-static one.
+    pub(crate) steps: u64,
+}
+
+/// How a stage went.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct StageSummary {
+    pub(crate) stage: Stage,
+    pub(crate) converged: bool,
+    /// Motion time of its last state.
+    pub(crate) reached: f64,
+    /// The largest unbalanced force left, as the engine states it.
+    pub(crate) residual: f64,
+    /// Steps, or Newton iterations.
+    pub(crate) steps: u64,
+    /// Load steps of the quasi-static engine, and those that had to be shortened.
+    pub(crate) load_steps: Option<[u64; 2]>,
+}
+
+/// Contact at one frame.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct ContactFigures {
+    pub(crate) energy: f64,
+    pub(crate) count: usize,
+}
+
+impl Study {
+    /// Moves the sheet through both stages. `progress` is told the motion time.
+    pub(crate) fn fold(
+        &self,
+        progress: &(dyn Fn(f64) -> bool + Sync),
+    ) -> Result<Computed, StudyError> {
+        match self.engine {
+            EngineChoice::Dynamic => self.fold_dynamically(progress),
+            EngineChoice::QuasiStatic => self.fold_in_equilibrium(progress),
+        }
+    }
+
+    fn fold_dynamically(
+        &self,
+        progress: &(dyn Fn(f64) -> bool + Sync),
+    ) -> Result<Computed, StudyError> {
+        let options = DynamicOptions {
+            frames: self.frames,
+            ..DynamicOptions::default()
+        };
+        let run = dynamic::run(
+            &self.model,
+            &self.schedule,
+            &self.deployed,
+            &options,
+            progress,
+        )?;
+        let stages = run.stages.iter().map(|s| StageSummary {
+            stage: s.stage,
+            converged: s.is_converged(),
+            reached: s.stage.start_time() + 1.0,
+            residual: s.residual,
+            steps: s.steps,
+            load_steps: None,
+        });
+        Ok(Computed {
+            stages: stages.collect(),
+            contacts: Vec::new(),
+            jam: None,
+            steps: run.steps,
+            frames: run.frames,
+        })
+    }
+
+    fn fold_in_equilibrium(
+        &self,
+        progress: &(dyn Fn(f64) -> bool + Sync),
+    ) -> Result<Computed, StudyError> {
+        let contact = self.contact_gap.map(|gap| Contact { gap });
+        let options = QuasiStaticOptions {
+            frames: self.frames,
+            contact,
+            ..QuasiStaticOptions::default()
+        };
+        let run = run_quasi_static(
+            &self.model,
+            &self.schedule,
+            &self.deployed,
+            &options,
+            progress,
+        )?;
+        let stages = run.stages.iter().map(|s| StageSummary {
+            stage: s.stage,
+            converged: s.converged,
+            reached: s.reached,
+            residual: s.residual,
+            steps: s.iterations as u64,
+            load_steps: Some([s.load_steps as u64, s.shortened_steps as u64]),
+        });
+        let contacts = run.figures.iter().map(|f| ContactFigures {
+            energy: f.contact_energy,
+            count: f.contacts,
+        });
+        Ok(Computed {
+            stages: stages.collect(),
+            contacts: if self.contact_gap.is_some() {
+                contacts.collect()
+            } else {
+                Vec::new()
+            },
+            steps: run.stages.iter().map(|s| s.iterations as u64).sum(),
+            jam: run.jam,
+            frames: run.frames,
+        })
+    }
+}

@@ -1,0 +1,145 @@
+//! Figures of every frame: strain, bending, energy, separation. They become the report's stages, `motion.csv` and
+//! `plots.svg`.
+
+use std::io::{self, Write};
+
+use foldmotion_check::{bar_strain, facet_bending};
+use foldmotion_pattern::{Frame, Motion};
+use foldmotion_record::{Curve, Panel};
+use foldmotion_solver::{EnergyByKind, Stage};
+
+use crate::Study;
+use crate::engine::Computed;
+
+/// One frame.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct FrameFigures {
+    pub(crate) time: f64,
+    pub(crate) peak_strain: f64,
+    pub(crate) mean_strain: f64,
+    pub(crate) peak_bending_deg: f64,
+    /// In units of EA·h for EA = 1.
+    pub(crate) energy: EnergyByKind,
+    pub(crate) contact_energy: f64,
+    pub(crate) contacts: usize,
+    /// Smallest distance of facets that share no vertex, units of h; NaN where all facets share vertices.
+    pub(crate) separation: f64,
+}
+
+impl Study {
+    /// The figures of every frame of `motion`.
+    ///
+    /// `separations`: as the collision check lists them, one a frame, or none.
+    pub(crate) fn series(
+        &self,
+        motion: &Motion,
+        computed: &Computed,
+        separations: &[f64],
+    ) -> Vec<FrameFigures> {
+        let mut angles = vec![0.0; self.model.hinges.len()];
+        let mut targets = vec![0.0; self.model.hinges.len()];
+        self.schedule.targets(Stage::Unfold, 0.0, &mut angles);
+        let figures = |(index, frame): (usize, &Frame)| {
+            let positions = self.model.to_model(&frame.positions);
+            self.model.follow_angles(&positions, &mut angles);
+            let (stage, local) = stage_at(frame.time);
+            self.schedule.targets(stage, local, &mut targets);
+            let strain = bar_strain(&motion.sheet, &frame.positions);
+            let contact = computed.contacts.get(index);
+            FrameFigures {
+                time: frame.time,
+                peak_strain: strain.peak,
+                mean_strain: strain.mean,
+                peak_bending_deg: facet_bending(&motion.sheet, &frame.positions).peak_deg(),
+                energy: self.model.energy_by_kind(&positions, &angles, &targets),
+                contact_energy: contact.map_or(0.0, |c| c.energy),
+                contacts: contact.map_or(0, |c| c.count),
+                separation: separations.get(index).copied().unwrap_or(f64::NAN),
+            }
+        };
+        motion.frames.iter().enumerate().map(figures).collect()
+    }
+}
+
+fn stage_at(time: f64) -> (Stage, f64) {
+    if time <= 1.0 {
+        (Stage::Unfold, time)
+    } else {
+        (Stage::Fold, (time - 1.0).min(1.0))
+    }
+}
+
+/// `motion.csv`: one line a frame.
+pub(crate) fn write_csv(series: &[FrameFigures], out: &mut impl Write) -> io::Result<()> {
+    writeln!(
+        out,
+        "t,stage,peak_strain,mean_strain,peak_facet_bending_deg,energy_bars,energy_creases,energy_facets,\
+         energy_face_angles,energy_contact,contacts,separation"
+    )?;
+    for f in series {
+        let separation = if f.separation.is_finite() {
+            f.separation.to_string()
+        } else {
+            String::new()
+        };
+        writeln!(
+            out,
+            "{},{},{},{},{},{},{},{},{},{},{},{separation}",
+            f.time,
+            stage_at(f.time).0.name(),
+            f.peak_strain,
+            f.mean_strain,
+            f.peak_bending_deg,
+            f.energy.bars,
+            f.energy.creases,
+            f.energy.facets,
+            f.energy.face_angles,
+            f.contact_energy,
+            f.contacts,
+        )?;
+    }
+    Ok(())
+}
+
+/// The panels of `plots.svg`: strain, bending, energy and smallest separation over t.
+pub(crate) fn panels(series: &[FrameFigures]) -> Vec<Panel> {
+    let curve = |name, value: fn(&FrameFigures) -> f64| Curve {
+        name,
+        points: series.iter().map(|f| (f.time, value(f))).collect(),
+    };
+    let has_contact = series.iter().any(|f| f.contacts > 0);
+    let mut energy = vec![
+        curve("bars", |f| f.energy.bars),
+        curve("creases", |f| f.energy.creases),
+        curve("facets", |f| f.energy.facets),
+    ];
+    if has_contact {
+        energy.push(curve("contact", |f| f.contact_energy));
+    }
+    let panel = |title, is_logarithmic, curves| Panel {
+        title,
+        is_logarithmic,
+        curves,
+    };
+    vec![
+        panel(
+            "bar strain, %",
+            false,
+            vec![
+                curve("peak", |f| 100.0 * f.peak_strain),
+                curve("mean", |f| 100.0 * f.mean_strain),
+            ],
+        ),
+        panel(
+            "largest facet bending, degrees",
+            false,
+            vec![curve("bending", |f| f.peak_bending_deg)],
+        ),
+        panel("energy, units of EA h at EA = 1", false, energy),
+        panel(
+            "smallest separation of facets that share no vertex, h",
+            true,
+            vec![curve("separation", |f| f.separation)],
+        ),
+    ]
+}
