@@ -11,6 +11,10 @@ use crate::RecordError;
 const SIZE: (u32, u32) = (760, 190);
 /// Room for the axis below the last panel, pixels.
 const AXIS: u32 = 34;
+/// Room for the title above a panel, pixels.
+const TITLE: i32 = 22;
+/// Where the panels begin, with their title, pixels.
+const PLOT_LEFT: i32 = 72;
 /// Room for a name in the legend, pixels.
 const LEGEND_STEP: u32 = 92;
 /// Colours that stay apart for the colour-blind and in grey (Okabe and Ito 2008), darkest first.
@@ -78,11 +82,11 @@ fn draw(
     let values = values(panel);
     let mut builder = ChartBuilder::on(area);
     builder
-        .caption(panel.title, ("sans-serif", 14))
+        .margin_top(TITLE)
         .margin_left(8)
         .margin_right(14)
         .x_label_area_size(if is_last { 30 } else { 8 })
-        .y_label_area_size(64);
+        .y_label_area_size(PLOT_LEFT - 8);
     let x_labels = if is_last { 9 } else { 0 };
     // The two axes have different types, so the branches cannot share a variable.
     if panel.is_logarithmic {
@@ -119,6 +123,8 @@ fn draw(
             }
         }
     }
+    area.draw(&Text::new(panel.title, (PLOT_LEFT, 4), ("sans-serif", 14)))
+        .map_err(failed)?;
     legend(panel, area)
 }
 

@@ -52,7 +52,8 @@ impl Study {
                 mean_strain: strain.mean,
                 peak_bending_deg: facet_bending(&motion.sheet, &frame.positions).peak_deg(),
                 energy: self.model.energy_by_kind(&positions, &angles, &targets),
-                contact_energy: contact.map_or(0.0, |c| c.energy),
+                // An empty sum is −0.
+                contact_energy: contact.map_or(0.0, |c| c.energy) + 0.0,
                 contacts: contact.map_or(0, |c| c.count),
                 separation: separations.get(index).copied().unwrap_or(f64::NAN),
             }
@@ -78,13 +79,14 @@ pub(crate) fn write_csv(series: &[FrameFigures], out: &mut impl Write) -> io::Re
     )?;
     for f in series {
         let separation = if f.separation.is_finite() {
-            f.separation.to_string()
+            format!("{:?}", f.separation)
         } else {
             String::new()
         };
+        // Shortest digits that read back as the same number, with an exponent where it is short.
         writeln!(
             out,
-            "{},{},{},{},{},{},{},{},{},{},{},{separation}",
+            "{:?},{},{:?},{:?},{:?},{:?},{:?},{:?},{:?},{:?},{},{separation}",
             f.time,
             stage_at(f.time).0.name(),
             f.peak_strain,
