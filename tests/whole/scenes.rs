@@ -30,6 +30,7 @@ const EXPECTED: &[Expected] = &[
     expected("shelter-short-plain", "penetrating", 1),
     expected("shelter-tall-plain", "free", 0),
     expected("spiral-s", "free", 0),
+    expected("omega-sii", "free", 0),
 ];
 
 /// Without contact, by the dynamic engine: settled after each increment of the schedule, the soft sheet closes its
