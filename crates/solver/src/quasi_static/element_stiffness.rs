@@ -1,11 +1,12 @@
 //! The Hessian of the bar-and-hinge energy, element by element.
 //!
 //! Bar: k (n nᵀ + (1 − l₀/l)(I − n nᵀ)), n its direction. Hinge: κ l₀ (∇θ ∇θᵀ + (θ − θ*) ∇²θ). Face angle:
-//! φ ∇α ∇αᵀ, whose second term is of the order of the strain and left out.
+//! φ (∇α ∇αᵀ + (α − α₀) ∇²α).
 
 use glam::DMat3;
 
 use super::Configuration;
+use super::face_angle_hessian::face_angle_hessian;
 use super::hinge_hessian::{fold_angle_hessian, outer};
 use super::stiffness_matrix::StiffnessMatrix;
 use crate::face_angle::face_angle_gradient;
@@ -16,7 +17,7 @@ use crate::{Bar, FaceAngles, Hinge, Model};
 pub(super) enum Curvature {
     /// The exact one: quadratic convergence, positive definite near stable equilibrium only.
     Exact,
-    /// Gauss–Newton hinges and bars without their compressive part: positive semidefinite everywhere.
+    /// Gauss–Newton hinges and face angles, bars without their compressive part: positive semidefinite everywhere.
     Convex,
 }
 
@@ -38,8 +39,13 @@ pub(super) fn add_stiffness(
         };
         add_hinge(hinge, excess, state, matrix);
     }
+    let stiffness = model.material.face_angle_stiffness;
     for face in &model.face_angles {
-        add_face(face, model.material.face_angle_stiffness, state, matrix);
+        let deviations = match curvature {
+            Curvature::Exact => face.deviations(&state.positions),
+            Curvature::Convex => [0.0; 3],
+        };
+        add_face(face, deviations, stiffness, state, matrix);
     }
 }
 
@@ -91,15 +97,85 @@ fn add_hinge(hinge: &Hinge, excess: f64, state: &Configuration, matrix: &mut Sti
 
 fn add_face(
     face: &FaceAngles,
+    deviations: [f64; 3],
     stiffness: f64,
     state: &Configuration,
     matrix: &mut StiffnessMatrix,
 ) {
-    for turn in 0..3 {
+    for (turn, deviation) in deviations.into_iter().enumerate() {
         let corner: [u32; 3] = std::array::from_fn(|k| face.vertices[(turn + k) % 3]);
         let [a, b, c] = corner.map(|v| state.positions[v as usize]);
         let slopes = face_angle_gradient(a, b, c);
-        let blocks = slopes.map(|u| slopes.map(|v| outer(u, v) * stiffness));
+        let mut blocks = face_angle_hessian(a, b, c);
+        for (i, row) in blocks.iter_mut().enumerate() {
+            for (j, block) in row.iter_mut().enumerate() {
+                *block = (outer(slopes[i], slopes[j]) + *block * deviation) * stiffness;
+            }
+        }
         matrix.add_element(&corner, &blocks);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use foldmotion_pattern::{Case, Unit, UnitSheet};
+    use glam::DVec3;
+
+    use super::*;
+    use crate::Material;
+    use crate::quasi_static::configuration::largest;
+
+    /// How far (K + μ I)⁻¹ (K x + μ x), with K x by differences of the gradient, lies from x.
+    fn error_against_differences(curvature: Curvature) -> f64 {
+        let unit = Unit::new(Case::SII, 1.6, 1.0, Some(0.7), None).unwrap();
+        let sheet = UnitSheet::new(unit, 2, 1).unwrap();
+        let model = Model::new(&sheet.sheet, &Material::ORIGAMI_SIMULATOR).unwrap();
+        // Bent and strained all over.
+        let wave = |i: usize, rate: f64| {
+            let phase = i as f64 * rate;
+            DVec3::new(phase.sin(), (1.3 * phase).cos(), (1.7 * phase).sin())
+        };
+        let vectors = |rate| (0..model.node_count()).map(move |i| wave(i, rate));
+        let planar = model.to_model(&sheet.sheet.planar());
+        let positions = planar.iter().zip(vectors(1.1)).map(|(&p, w)| p + w * 0.1);
+        let angles = vec![0.0; model.hinges.len()];
+        let targets = vec![0.4; model.hinges.len()];
+        let state = Configuration::new(&model, positions.collect(), angles);
+        let x: Vec<DVec3> = vectors(0.6).collect();
+
+        let mut matrix = StiffnessMatrix::new(model.node_count(), &coupled_nodes(&model)).unwrap();
+        add_stiffness(&model, &state, &targets, curvature, &mut matrix);
+        let shift = 10.0 * matrix.mean_diagonal();
+        matrix.shift(shift);
+        let step = 1e-6;
+        let gradient_at = |length: f64| {
+            let moved = state.moved(&model, &x, length, 1.0).unwrap();
+            let mut gradient = vec![DVec3::ZERO; x.len()];
+            model.gradient(&moved.positions, &moved.angles, &targets, &mut gradient);
+            gradient
+        };
+        let (above, below) = (gradient_at(step), gradient_at(-step));
+        let mut solution: Vec<DVec3> = above
+            .iter()
+            .zip(&below)
+            .zip(&x)
+            .map(|((&a, &b), &x)| (a - b) / (2.0 * step) + x * shift)
+            .collect();
+        assert!(matrix.factorise());
+        matrix.solve(&mut solution);
+        let errors: Vec<DVec3> = solution.iter().zip(&x).map(|(&s, &x)| s - x).collect();
+        largest(&errors)
+    }
+
+    #[test]
+    fn the_exact_stiffness_is_the_difference_of_the_gradient() {
+        let error = error_against_differences(Curvature::Exact);
+        assert!(error < 1e-8, "{error}");
+    }
+
+    #[test]
+    fn the_convex_stiffness_is_another_one_where_the_sheet_is_strained() {
+        let error = error_against_differences(Curvature::Convex);
+        assert!(error > 1e-3, "{error}");
     }
 }

@@ -12,6 +12,7 @@
 mod configuration;
 mod contact;
 mod element_stiffness;
+mod face_angle_hessian;
 mod hinge_hessian;
 mod history;
 mod jam;
