@@ -161,6 +161,31 @@ fn values_of_the_later_tables_are_refused_too() {
             "[motion]\ncontact = false\ngap = 1e-3",
             &["motion.gap = 1e-3", "contact is off"],
         ),
+        (
+            "[[motion.step]]\nstage = \"fold\"\nrows = [5, 9]",
+            &["motion.step.0.rows = [5, 9]", "scene.toml:11"],
+        ),
+        (
+            "[[motion.step]]\nstage = \"fold\"\nrows = [-1]",
+            &["motion.step.0.rows = [-1]"],
+        ),
+        (
+            "[[motion.step]]\nstage = \"fold\"\nfrom = 0.5\nto = 0.2",
+            &["motion.step.0.to = 0.2"],
+        ),
+        (
+            "[[motion.step]]\nstage = \"fold\"\nto = 2.0",
+            &["motion.step.0.to = 2.0", "between 0 and 1"],
+        ),
+        (
+            "[[motion.step]]\nstage = \"fold\"\ncreases = \"pads\"",
+            &["motion.step.0", "no crease"],
+        ),
+        (
+            "[[motion.step]]\nstage = \"fold\"\n[[motion.step]]\nstage = \"fold\"\nrows = [1]",
+            &["motion.step.1", "overlap"],
+        ),
+        ("[[motion.step]]\nstage = \"refold\"", &["scene.toml:10"]),
         ("[motion]\ngap = 0.0", &["motion.gap = 0.0", "between"]),
         ("[motion]\ngap = 0.5", &["motion.gap = 0.5", "between"]),
         (

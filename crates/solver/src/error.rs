@@ -83,6 +83,70 @@ pub enum SolverError {
         /// The largest magnitude taken.
         limit: f64,
     },
+    /// A step of the schedule begins or ends outside its stage.
+    #[error("step {step} of the schedule: {name} is {value}; it must lie between 0 and 1")]
+    StepTime {
+        /// The step.
+        step: usize,
+        /// Which time of it.
+        name: &'static str,
+        /// Its value, in stage-local time.
+        value: f64,
+    },
+    /// A step of the schedule ends before it begins, or too soon after.
+    #[error(
+        "step {step} of the schedule goes from {from} to {to}; it must end at least {minimum} after it begins"
+    )]
+    StepDuration {
+        /// The step.
+        step: usize,
+        /// The stage-local time at which it begins.
+        from: f64,
+        /// The stage-local time at which it ends.
+        to: f64,
+        /// The shortest duration taken.
+        minimum: f64,
+    },
+    /// A step of the schedule names rows or columns that the sheet does not have.
+    #[error(
+        "step {step} of the schedule names {what} {first} to {last}; the first must not lie after the last, and the \
+         sheet has {count} {what}, counted from 0"
+    )]
+    StepRange {
+        /// The step.
+        step: usize,
+        /// Rows or columns.
+        what: &'static str,
+        /// The first one named.
+        first: u32,
+        /// The last one named.
+        last: u32,
+        /// How many the sheet has.
+        count: u32,
+    },
+    /// A step of the schedule names no crease.
+    #[error(
+        "step {step} of the schedule names no crease; its kind of crease must occur in its rows and columns"
+    )]
+    StepNamesNone {
+        /// The step.
+        step: usize,
+    },
+    /// Two steps of the schedule name the same crease in the same stage.
+    #[error(
+        "steps {} and {} of the schedule overlap: both move edge {edge} in stage {stage}; a crease may be named once a \
+         stage",
+        steps[0],
+        steps[1]
+    )]
+    StepsOverlap {
+        /// The two steps, the earlier one first.
+        steps: [usize; 2],
+        /// The name of the stage.
+        stage: &'static str,
+        /// The edge of the sheet that both name.
+        edge: usize,
+    },
     /// The number of frames cannot be recorded.
     #[error("{frames} frames were asked for; an even number from 2 to {maximum} is needed")]
     Frames {

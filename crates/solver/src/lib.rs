@@ -1,7 +1,7 @@
 //! How a sheet moves: the bar-and-hinge model, its schedule and its engines.
 //!
 //! A [`Model`] is built from a sheet and a [`Material`]; a [`Schedule`] says which fold angle every hinge is driven to
-//! at which motion time.
+//! at which motion time, all creases alike or one [`ScheduleStep`] after the other.
 //!
 //! Fold angles are in radians, positive for valleys, followed past ±π. Inside the model lengths are in the sheet's
 //! unit length h, masses are 1.
@@ -19,4 +19,4 @@ pub use error::SolverError;
 pub use gather::Gather;
 pub use material::Material;
 pub use model::{Bar, EnergyByKind, FaceAngles, Hinge, HingeKind, Model};
-pub use schedule::{Schedule, Stage};
+pub use schedule::{CreaseGroup, Ease, Schedule, ScheduleStep, Stage};

@@ -241,6 +241,64 @@ pub struct MotionScene {
     pub contact: Option<bool>,
     /// Closest approach of layers, in units of h; 1e-3 where left out.
     pub gap: Option<f64>,
+    /// The schedule: creases that no step names follow the uniform ramp of their stage.
+    pub step: Vec<StepScene>,
+}
+
+/// `[[motion.step]]`: some creases, and when in their stage they move.
+#[derive(Debug, Clone, PartialEq, Deserialize, Serialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct StepScene {
+    /// `unfold` or `fold`.
+    pub stage: StageChoice,
+    /// The creases, by their place in the unit; `all` where left out.
+    pub creases: Option<CreasesChoice>,
+    /// [first, last] row, both included, or [row]; every row where left out.
+    pub rows: Option<Vec<i64>>,
+    /// [first, last] column, both included, or [column]; every column where left out.
+    pub columns: Option<Vec<i64>>,
+    /// The part of the stage, from 0 to 1, at which they begin to move; 0 where left out.
+    pub from: Option<f64>,
+    /// The part of the stage at which they arrive; 1 where left out.
+    pub to: Option<f64>,
+    /// How they move; `linear` where left out.
+    pub ease: Option<EaseChoice>,
+}
+
+/// The stages.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum StageChoice {
+    /// Deployed to planar.
+    Unfold,
+    /// Planar to compact.
+    Fold,
+}
+
+/// Creases by their place in the unit.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum CreasesChoice {
+    /// Every crease.
+    All,
+    /// On the boundaries between rows.
+    Rows,
+    /// Between flaps and tucks.
+    Diagonals,
+    /// Along corner and mid lines.
+    Verticals,
+    /// Beside and across pads.
+    Pads,
+}
+
+/// How a crease moves within its step.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum EaseChoice {
+    /// At constant speed.
+    Linear,
+    /// From rest to rest.
+    Smooth,
 }
 
 /// The engines.

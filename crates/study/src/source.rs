@@ -42,12 +42,6 @@ const LATER: &[(&str, &str, Option<&str>, &str)] = &[
         "leave it out: the hinge angles scale uniformly",
     ),
     (
-        "motion",
-        "step",
-        None,
-        "leave it out: every crease follows the uniform ramp",
-    ),
-    (
         "record",
         "colour",
         None,
@@ -243,13 +237,16 @@ impl SceneSource {
         format!("{}:{line}:{column}", self.path.display())
     }
 
-    /// Where the value of a dotted key stands and its text.
+    /// Where the value of a dotted key stands and its text; a number names an element of a list.
     fn locate(&self, key: &str) -> Option<(std::ops::Range<usize>, String)> {
         let table = DeTable::parse(&self.text).ok()?;
         let mut parts = key.split('.');
         let mut value: &Spanned<DeValue<'_>> = table.get_ref().get(parts.next()?)?;
         for part in parts {
-            value = value.get_ref().as_table()?.get(part)?;
+            value = match part.parse::<usize>() {
+                Ok(index) => value.get_ref().as_array()?.get(index)?,
+                Err(_) => value.get_ref().as_table()?.get(part)?,
+            };
         }
         let span = value.span();
         Some((span.clone(), shortened(self.text.get(span)?)))

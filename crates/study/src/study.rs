@@ -13,11 +13,14 @@ use foldmotion_pattern::{
 };
 use foldmotion_record::{FilmOptions, RecordError, View};
 use foldmotion_solver::quasi_static::Contact;
-use foldmotion_solver::{Material, Model, Schedule, SolverError};
+use foldmotion_solver::{
+    CreaseGroup, Ease, Material, Model, Schedule, ScheduleStep, SolverError, Stage,
+};
 use glam::{DVec2, DVec3};
 
 use crate::scene::{
-    CameraChoice, CaseChoice, Closed, EngineChoice, FacingChoice, OutputChoice, ProfileScene,
+    CameraChoice, CaseChoice, Closed, CreasesChoice, EaseChoice, EngineChoice, FacingChoice,
+    OutputChoice, ProfileScene, StageChoice, StepScene,
 };
 use crate::{Scene, SceneSource, StudyError};
 
@@ -103,7 +106,9 @@ impl Study {
             .deployed_angles(&division.points, facing)
             .map_err(|e| resolver.pattern_error(&e))?;
         let model = Model::new(&units.sheet, &resolver.material()?)?;
-        let schedule = Schedule::uniform(&units.sheet, &deployed_angles, units.compact_angles())?;
+        let schedule = Schedule::uniform(&units.sheet, &deployed_angles, units.compact_angles())?
+            .with_steps(&units.sheet, &resolver.steps()?)
+            .map_err(|e| resolver.schedule_error(e))?;
         Ok(Self {
             title: scene.title.clone().unwrap_or_else(|| source.stem()),
             unit_name: scene.profile.unit.unwrap_or_default().name(),
@@ -380,6 +385,72 @@ impl Resolver<'_> {
             limit * scale
         );
         Err(self.fault(key, message))
+    }
+
+    fn steps(&self) -> Result<Vec<ScheduleStep>, StudyError> {
+        let step = |(index, step): (usize, &StepScene)| {
+            let range = |key: &str, range: &Option<Vec<i64>>| match range.as_deref() {
+                None => Ok(None),
+                Some(&[one]) => self.place_range(index, key, [one, one]),
+                Some(&[first, last]) => self.place_range(index, key, [first, last]),
+                Some(_) => {
+                    let message = "must be [first, last], both included, or [one]";
+                    Err(self.fault(&format!("motion.step.{index}.{key}"), message))
+                }
+            };
+            Ok(ScheduleStep {
+                stage: match step.stage {
+                    StageChoice::Unfold => Stage::Unfold,
+                    StageChoice::Fold => Stage::Fold,
+                },
+                creases: match step.creases {
+                    None | Some(CreasesChoice::All) => CreaseGroup::All,
+                    Some(CreasesChoice::Rows) => CreaseGroup::Rows,
+                    Some(CreasesChoice::Diagonals) => CreaseGroup::Diagonals,
+                    Some(CreasesChoice::Verticals) => CreaseGroup::Verticals,
+                    Some(CreasesChoice::Pads) => CreaseGroup::Pads,
+                },
+                rows: range("rows", &step.rows)?,
+                columns: range("columns", &step.columns)?,
+                from: step.from.unwrap_or(0.0),
+                to: step.to.unwrap_or(1.0),
+                ease: match step.ease {
+                    None | Some(EaseChoice::Linear) => Ease::Linear,
+                    Some(EaseChoice::Smooth) => Ease::Smooth,
+                },
+            })
+        };
+        self.scene
+            .motion
+            .step
+            .iter()
+            .enumerate()
+            .map(step)
+            .collect()
+    }
+
+    fn place_range(
+        &self,
+        index: usize,
+        key: &str,
+        range: [i64; 2],
+    ) -> Result<Option<[u32; 2]>, StudyError> {
+        match range.map(u32::try_from) {
+            [Ok(first), Ok(last)] => Ok(Some([first, last])),
+            _ => Err(self.fault(&format!("motion.step.{index}.{key}"), "counts from 0")),
+        }
+    }
+
+    fn schedule_error(&self, error: SolverError) -> StudyError {
+        let key = match &error {
+            SolverError::StepTime { step, name, .. } => format!("motion.step.{step}.{name}"),
+            SolverError::StepDuration { step, .. } => format!("motion.step.{step}.to"),
+            SolverError::StepRange { step, what, .. } => format!("motion.step.{step}.{what}"),
+            SolverError::StepNamesNone { step } => format!("motion.step.{step}"),
+            SolverError::StepsOverlap { steps, .. } => format!("motion.step.{}", steps[1]),
+            _ => return StudyError::Solver(error),
+        };
+        self.fault(&key, error.to_string())
     }
 
     fn frames(&self) -> Result<usize, StudyError> {

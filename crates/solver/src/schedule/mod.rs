@@ -1,0 +1,241 @@
+//! The schedule: the target fold angle of every hinge along the motion.
+
+use foldmotion_pattern::{Edge, Sheet};
+
+mod step;
+mod timing;
+
+pub use step::{CreaseGroup, ScheduleStep};
+pub use timing::Ease;
+
+use timing::Timing;
+
+use crate::SolverError;
+
+/// The largest target taken: a whole turn, twice what paper allows.
+const MAX_ANGLE: f64 = std::f64::consts::TAU;
+
+/// A stage of the motion.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Stage {
+    /// Deployed to planar: motion time t from 0 to 1.
+    Unfold,
+    /// Planar to compact: motion time t from 1 to 2.
+    Fold,
+}
+
+impl Stage {
+    /// Both, in the order of the motion.
+    pub const ALL: [Self; 2] = [Self::Unfold, Self::Fold];
+
+    /// Its name in reports.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Unfold => "unfold",
+            Self::Fold => "fold",
+        }
+    }
+
+    /// The motion time t at which it starts.
+    pub fn start_time(self) -> f64 {
+        match self {
+            Self::Unfold => 0.0,
+            Self::Fold => 1.0,
+        }
+    }
+
+    /// Its place in [`Self::ALL`].
+    fn index(self) -> usize {
+        match self {
+            Self::Unfold => 0,
+            Self::Fold => 1,
+        }
+    }
+}
+
+/// The target fold angle of every hinge as a function of stage and stage-local time s in [0, 1].
+///
+/// In `unfold` every crease goes from its deployed angle to 0, in `fold` from 0 to its compact angle: θ* = θ_deployed
+/// (1 − p(s)), then θ* = θ_compact p(s), where p(s) = s unless a [`ScheduleStep`] names the crease; then it is 0 before
+/// the step, 1 after it and follows its [`Ease`] in between. Facet hinges are held at 0 throughout. Hinges are numbered
+/// as in [`crate::Model`]: the edges of the sheet that join two triangles, in the order of the sheet.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Schedule {
+    hinges: Vec<[Turn; 2]>,
+}
+
+/// The turn of a hinge in one stage; at its other end the sheet is planar and the hinge at 0.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Turn {
+    /// The fold angle in the deployed or the compact state, radians.
+    pub(crate) angle: f64,
+    /// When it is made.
+    pub(crate) timing: Timing,
+}
+
+impl Schedule {
+    /// The uniform schedule of `sheet`.
+    ///
+    /// `deployed_angles`, `compact_angles`: radians, one for each edge of the sheet; those of edges that are not
+    /// creases between two triangles are ignored.
+    ///
+    /// # Errors
+    /// [`SolverError::Count`] where a list has not one entry for each edge, [`SolverError::NotFinite`] where the
+    /// angle of a crease is NaN or infinite, [`SolverError::AngleOutOfRange`] where it is beyond ±2π.
+    pub fn uniform(
+        sheet: &Sheet,
+        deployed_angles: &[f64],
+        compact_angles: &[f64],
+    ) -> Result<Self, SolverError> {
+        check_count("deployed angles", sheet, deployed_angles)?;
+        check_count("compact angles", sheet, compact_angles)?;
+        let turn = |angle| Turn {
+            angle,
+            timing: Timing::UNIFORM,
+        };
+        let turns = |(index, edge): (usize, &Edge)| {
+            if !edge.is_crease() {
+                return Ok([turn(0.0); 2]);
+            }
+            Ok([
+                turn(checked(
+                    "deployed angle of edge",
+                    index,
+                    deployed_angles[index],
+                )?),
+                turn(checked(
+                    "compact angle of edge",
+                    index,
+                    compact_angles[index],
+                )?),
+            ])
+        };
+        let hinges = hinge_edges(sheet).map(turns).collect::<Result<_, _>>()?;
+        Ok(Self { hinges })
+    }
+
+    /// The same end angles, reached by `steps`; creases that no step of a stage names follow its uniform ramp.
+    ///
+    /// Steps given before are forgotten. `sheet` is the one the schedule was made for. A crease of a stage may be named
+    /// by one step only.
+    ///
+    /// # Errors
+    /// Each with the index of the step: [`SolverError::StepTime`], [`SolverError::StepDuration`],
+    /// [`SolverError::StepRange`] where its numbers do not fit the stage or the sheet, [`SolverError::StepNamesNone`],
+    /// [`SolverError::StepsOverlap`]; [`SolverError::Count`] for a sheet with another number of hinges.
+    pub fn with_steps(
+        mut self,
+        sheet: &Sheet,
+        steps: &[ScheduleStep],
+    ) -> Result<Self, SolverError> {
+        let edges: Vec<(usize, &Edge)> = hinge_edges(sheet).collect();
+        if edges.len() != self.hinges.len() {
+            return Err(SolverError::Count {
+                what: "hinges of the sheet",
+                expected: self.hinges.len(),
+                found: edges.len(),
+            });
+        }
+        for turn in self.hinges.iter_mut().flatten() {
+            turn.timing = Timing::UNIFORM;
+        }
+        // By which step each hinge is named in either stage.
+        let mut named_by = vec![[None; 2]; edges.len()];
+        for (index, step) in steps.iter().enumerate() {
+            step.check(index, sheet)?;
+            let stage = step.stage.index();
+            let mut is_idle = true;
+            for (hinge, &(edge, _)) in edges.iter().enumerate().filter(|(_, e)| step.names(e.1)) {
+                is_idle = false;
+                if let Some(earlier) = named_by[hinge][stage].replace(index) {
+                    return Err(SolverError::StepsOverlap {
+                        steps: [earlier, index],
+                        stage: step.stage.name(),
+                        edge,
+                    });
+                }
+                self.hinges[hinge][stage].timing = step.timing();
+            }
+            if is_idle {
+                return Err(SolverError::StepNamesNone { step: index });
+            }
+        }
+        Ok(self)
+    }
+
+    /// The number of hinges.
+    pub fn hinge_count(&self) -> usize {
+        self.hinges.len()
+    }
+
+    /// The target fold angle of `hinge` in radians at stage-local time `s`, taken within [0, 1].
+    ///
+    /// Exact at both ends of the stage and of every step. Precondition: `hinge` < [`Self::hinge_count`].
+    pub fn target(&self, stage: Stage, hinge: usize, s: f64) -> f64 {
+        let Turn { angle, timing } = self.hinges[hinge][stage.index()];
+        match stage {
+            Stage::Unfold => angle * (1.0 - timing.progress(s)),
+            Stage::Fold => angle * timing.progress(s),
+        }
+    }
+
+    /// Writes the target of every hinge at stage-local time `s` into `targets`.
+    ///
+    /// Precondition: `targets` has [`Self::hinge_count`] entries.
+    pub fn targets(&self, stage: Stage, s: f64, targets: &mut [f64]) {
+        for (hinge, target) in targets.iter_mut().enumerate() {
+            *target = self.target(stage, hinge, s);
+        }
+    }
+
+    /// The turns of `stage` that differ in their timing, each with the largest angle, in radians, made with it; none
+    /// where nothing turns.
+    pub(crate) fn turns(&self, stage: Stage) -> Vec<Turn> {
+        let mut turns: Vec<Turn> = Vec::new();
+        for Turn { angle, timing } in self.hinges.iter().map(|turns| turns[stage.index()]) {
+            let angle = angle.abs();
+            match turns.iter_mut().find(|turn| turn.timing == timing) {
+                Some(turn) => turn.angle = turn.angle.max(angle),
+                None if angle > 0.0 => turns.push(Turn { angle, timing }),
+                None => {}
+            }
+        }
+        turns
+    }
+}
+
+/// The edges with a fold angle, each with its index in the sheet.
+fn hinge_edges(sheet: &Sheet) -> impl Iterator<Item = (usize, &Edge)> {
+    sheet
+        .edges
+        .iter()
+        .enumerate()
+        .filter(|(_, edge)| edge.is_hinge())
+}
+
+fn check_count(what: &'static str, sheet: &Sheet, angles: &[f64]) -> Result<(), SolverError> {
+    if angles.len() == sheet.edges.len() {
+        Ok(())
+    } else {
+        Err(SolverError::Count {
+            what,
+            expected: sheet.edges.len(),
+            found: angles.len(),
+        })
+    }
+}
+
+fn checked(what: &'static str, index: usize, value: f64) -> Result<f64, SolverError> {
+    if !value.is_finite() {
+        Err(SolverError::NotFinite { what, index })
+    } else if value.abs() > MAX_ANGLE {
+        Err(SolverError::AngleOutOfRange {
+            what,
+            index,
+            value,
+            limit: MAX_ANGLE,
+        })
+    } else {
+        Ok(value)
+    }
+}

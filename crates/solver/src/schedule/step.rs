@@ -1,0 +1,122 @@
+//! A step of the schedule: which creases move when.
+
+use foldmotion_pattern::{CreaseKind, Edge, Sheet};
+
+use super::Stage;
+use super::timing::{Ease, Timing};
+use crate::SolverError;
+
+/// The shortest step, in stage-local time.
+const MIN_DURATION: f64 = 1e-6;
+
+/// Creases named by their place in the unit.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+pub enum CreaseGroup {
+    /// Every crease.
+    #[default]
+    All,
+    /// On the boundaries between rows ([`CreaseKind::Row`]).
+    Rows,
+    /// Between flaps and tucks ([`CreaseKind::Diagonal`]).
+    Diagonals,
+    /// Along corner and mid lines ([`CreaseKind::Vertical`]).
+    Verticals,
+    /// Beside and across pads ([`CreaseKind::Pad`]).
+    Pads,
+}
+
+impl CreaseGroup {
+    fn contains(self, kind: CreaseKind) -> bool {
+        match self {
+            Self::All => true,
+            Self::Rows => kind == CreaseKind::Row,
+            Self::Diagonals => kind == CreaseKind::Diagonal,
+            Self::Verticals => kind == CreaseKind::Vertical,
+            Self::Pads => kind == CreaseKind::Pad,
+        }
+    }
+}
+
+/// Some creases of a sheet, and the part of a stage in which they move.
+///
+/// They are held at the angle with which the stage starts until `from`, move to that with which it ends between
+/// `from` and `to`, and are held there. In `unfold` only row creases have an angle to leave.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ScheduleStep {
+    /// The stage.
+    pub stage: Stage,
+    /// The creases, by kind.
+    pub creases: CreaseGroup,
+    /// Those of these rows only, first and last, counted from 0 ([`Edge::row`]: a crease between two rows belongs to
+    /// the later one); none: of every row.
+    pub rows: Option<[u32; 2]>,
+    /// Those of these columns only, first and last, counted from 0 ([`Edge::column`]: a crease between two columns
+    /// belongs to the one with the smaller index); none: of every column.
+    pub columns: Option<[u32; 2]>,
+    /// The stage-local time, in [0, 1], at which they begin to move.
+    pub from: f64,
+    /// The stage-local time, in [0, 1], at which they arrive; at least 1e-6 after `from`.
+    pub to: f64,
+    /// How they move in between.
+    pub ease: Ease,
+}
+
+impl ScheduleStep {
+    /// Whether the step moves `edge`.
+    pub(super) fn names(&self, edge: &Edge) -> bool {
+        let within = |range: Option<[u32; 2]>, place| {
+            range.is_none_or(|[first, last]| (first..=last).contains(&place))
+        };
+        edge.is_hinge()
+            && edge.is_crease()
+            && self.creases.contains(edge.kind)
+            && within(self.rows, edge.row)
+            && within(self.columns, edge.column)
+    }
+
+    pub(super) fn timing(&self) -> Timing {
+        Timing {
+            from: self.from,
+            to: self.to,
+            ease: self.ease,
+        }
+    }
+
+    /// The first fault in the numbers of the step, which is the one numbered `step`.
+    pub(super) fn check(&self, step: usize, sheet: &Sheet) -> Result<(), SolverError> {
+        for (name, value) in [("from", self.from), ("to", self.to)] {
+            if !(0.0..=1.0).contains(&value) {
+                return Err(SolverError::StepTime { step, name, value });
+            }
+        }
+        if self.to - self.from < MIN_DURATION {
+            return Err(SolverError::StepDuration {
+                step,
+                from: self.from,
+                to: self.to,
+                minimum: MIN_DURATION,
+            });
+        }
+        let count = |place: fn(&foldmotion_pattern::Facet) -> u32| {
+            sheet.facets.iter().map(|f| place(f) + 1).max().unwrap_or(0)
+        };
+        for (what, range, count) in [
+            ("rows", self.rows, count(|facet| facet.row)),
+            ("columns", self.columns, count(|facet| facet.column)),
+        ] {
+            match range {
+                Some([first, last]) if first > last || last >= count => {
+                    return Err(SolverError::StepRange {
+                        step,
+                        what,
+                        first,
+                        last,
+                        count,
+                    });
+                }
+                _ => {}
+            }
+        }
+        Ok(())
+    }
+}
