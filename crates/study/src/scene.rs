@@ -253,9 +253,9 @@ pub struct StepScene {
     pub stage: StageChoice,
     /// The creases, by their place in the unit; `all` where left out.
     pub creases: Option<CreasesChoice>,
-    /// [first, last] row, both included, or [row]; every row where left out.
+    /// First and last row, both included, or one; every row where left out.
     pub rows: Option<Vec<i64>>,
-    /// [first, last] column, both included, or [column]; every column where left out.
+    /// First and last column, both included, or one; every column where left out.
     pub columns: Option<Vec<i64>>,
     /// The part of the stage, from 0 to 1, at which they begin to move; 0 where left out.
     pub from: Option<f64>,
