@@ -166,7 +166,9 @@ impl Certificate {
             out,
             "{}{}\nsha256 {}",
             self.file,
-            self.title.as_ref().map_or(String::new(), |t| format!(": {t}")),
+            self.title
+                .as_ref()
+                .map_or(String::new(), |t| format!(": {t}")),
             self.sha256
         );
         let _ = writeln!(

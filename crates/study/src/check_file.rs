@@ -222,7 +222,15 @@ impl<'a> Judge<'a> {
     fn explain(&self, path: &Path, error: &Ended) -> StudyError {
         let at = self.file.frame_number(self.times.len());
         match (error, at) {
-            (Ended::Check(CheckError::DegenerateFace { face, height, limit, .. }), Some(at)) => {
+            (
+                Ended::Check(CheckError::DegenerateFace {
+                    face,
+                    height,
+                    limit,
+                    ..
+                }),
+                Some(at),
+            ) => {
                 let face = self.file.triangle_faces[*face];
                 let message = format!(
                     "{at}: faces_vertices[{face}] has no area: the height of a triangle is {height:e}, more than \
@@ -332,11 +340,7 @@ fn separation(file: &FoldFile, s: &Separation) -> SeparationEntry {
     }
 }
 
-fn penetrations(
-    file: &FoldFile,
-    report: &CollisionReport,
-    times: &[f64],
-) -> Vec<PenetrationEntry> {
+fn penetrations(file: &FoldFile, report: &CollisionReport, times: &[f64]) -> Vec<PenetrationEntry> {
     let entry = |p: &foldmotion_check::Penetration| {
         // What the first frame shows already is no interval's.
         let is_first = p.frame == 0 && p.passed == times[0];

@@ -107,8 +107,8 @@ impl Results {
         let folder = &self.folder;
         fs::create_dir_all(folder).map_err(|e| output_error(folder, "cannot be made", e))?;
         // From here on a report in the folder would speak of other files than those beside it.
-        for name in
-            std::iter::once(&self.last).chain(self.names.iter().filter(|n| !self.written.contains(n)))
+        for name in std::iter::once(&self.last)
+            .chain(self.names.iter().filter(|n| !self.written.contains(n)))
         {
             match fs::remove_file(folder.join(name)) {
                 Err(e) if e.kind() != io::ErrorKind::NotFound => {

@@ -115,7 +115,9 @@ pub enum FoldError {
         vertex: u32,
     },
     /// A face without area.
-    #[error("faces_vertices[{face}] has no area: twice its area is {area:e}, more than {limit:e} is needed")]
+    #[error(
+        "faces_vertices[{face}] has no area: twice its area is {area:e}, more than {limit:e} is needed"
+    )]
     ZeroArea {
         /// The face.
         face: usize,
@@ -125,13 +127,17 @@ pub enum FoldError {
         limit: f64,
     },
     /// A polygon that crosses or touches itself.
-    #[error("faces_vertices[{face}] cannot be cut into triangles: its outline must not cross or touch itself")]
+    #[error(
+        "faces_vertices[{face}] cannot be cut into triangles: its outline must not cross or touch itself"
+    )]
     NotSimple {
         /// The face.
         face: usize,
     },
     /// More than two faces on an edge.
-    #[error("the edge {vertices:?} belongs to faces {faces:?}: at most 2 faces may meet at an edge")]
+    #[error(
+        "the edge {vertices:?} belongs to faces {faces:?}: at most 2 faces may meet at an edge"
+    )]
     NonManifold {
         /// The ends.
         vertices: [u32; 2],

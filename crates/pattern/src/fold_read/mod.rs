@@ -284,7 +284,11 @@ impl<E: From<FoldError>> Reading<'_, E> {
 
     /// Hands on frame `number`, if it belongs to the motion, and holds `own` as long as it is needed.
     fn supply(&mut self, number: FrameNumber, own: Vec<DVec3>) -> Result<(), E> {
-        if self.last_use.get(&number.0).is_some_and(|&last| last > number.0) {
+        if self
+            .last_use
+            .get(&number.0)
+            .is_some_and(|&last| last > number.0)
+        {
             self.held.insert(number.0, own.clone());
             if self.held.len() > HELD_FRAMES {
                 return Err(E::from(FoldError::HeldFrames {
@@ -294,7 +298,12 @@ impl<E: From<FoldError>> Reading<'_, E> {
                 }));
             }
         }
-        let Some(frame) = self.file.frames.get(self.next).filter(|f| f.number == number) else {
+        let Some(frame) = self
+            .file
+            .frames
+            .get(self.next)
+            .filter(|f| f.number == number)
+        else {
             return Ok(());
         };
         let source = frame.source.0;

@@ -265,7 +265,12 @@ fn mean_side(polygons: &[Vec<u32>], rest: &[DVec3]) -> f64 {
     let mut sides = BTreeSet::new();
     for polygon in polygons {
         let next = polygon.iter().cycle().skip(1);
-        sides.extend(polygon.iter().zip(next).map(|(&a, &b)| (a.min(b), a.max(b))));
+        sides.extend(
+            polygon
+                .iter()
+                .zip(next)
+                .map(|(&a, &b)| (a.min(b), a.max(b))),
+        );
     }
     let length = |&(a, b): &(u32, u32)| rest[a as usize].distance(rest[b as usize]);
     sides.iter().map(length).sum::<f64>() / sides.len() as f64

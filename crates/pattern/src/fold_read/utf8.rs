@@ -96,7 +96,11 @@ mod tests {
             for step in 1..=8 {
                 let mut out = Vec::new();
                 let read = Utf8Reader::new(Slow(text, step)).read_to_end(&mut out);
-                assert_eq!(read.is_ok(), str::from_utf8(text).is_ok(), "{text:?} by {step}");
+                assert_eq!(
+                    read.is_ok(),
+                    str::from_utf8(text).is_ok(),
+                    "{text:?} by {step}"
+                );
                 assert!(read.is_err() || out == text);
             }
         }
