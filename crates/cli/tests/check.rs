@@ -199,7 +199,7 @@ fn the_tolerance_asked_for_is_the_one_certified() {
 #[test]
 fn bad_motions_are_status_2_and_write_nothing() {
     let home = tempfile::tempdir().unwrap();
-    let flat = |v: &mut Value| v["file_frames"][4]["vertices_coords"][4] = json!([0, 0.5, 0]);
+    let flat = |v: &mut Value| v["file_frames"][4]["vertices_coords"][4] = json!([0, 0, 0]);
     let backwards = |v: &mut Value| {
         for (k, frame) in v["file_frames"]
             .as_array_mut()
