@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use foldmotion_study::{report_schema, scene_schema};
+use foldmotion_study::{certificate_schema, report_schema, scene_schema};
 
 /// Compares a schema with its file, or writes the file where `UPDATE_SCHEMAS` is set.
 fn is_current(name: &str, schema: &str) {
@@ -27,4 +27,9 @@ fn the_schema_of_the_scene_is_current() {
 #[test]
 fn the_schema_of_the_report_is_current() {
     is_current("report.schema.json", &report_schema());
+}
+
+#[test]
+fn the_schema_of_the_certificate_is_current() {
+    is_current("certificate.schema.json", &certificate_schema());
 }

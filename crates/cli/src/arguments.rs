@@ -20,6 +20,10 @@ pub(crate) enum Command {
     ///
     /// Exit status: 0 done, 1 a penetration was found, 2 bad input, 3 the run failed or stayed undecided.
     Run(RunArguments),
+    /// Decide whether any FOLD motion passes through itself, and certify it
+    ///
+    /// Exit status: 0 free or touching, 1 a penetration was found, 2 bad input, 3 undecided or interrupted.
+    Check(CheckArguments),
     /// List the built-in profiles
     Models,
     /// Write a commented scene to start from
@@ -48,6 +52,29 @@ pub(crate) struct RunArguments {
     #[arg(long)]
     pub(crate) quiet: bool,
     /// Print exactly report.json on stdout
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
+/// `foldmotion check`.
+#[derive(Debug, Args)]
+pub(crate) struct CheckArguments {
+    /// The motion, a FOLD file with frames
+    pub(crate) motion: PathBuf,
+    /// The folder of certificate.json; out/<file's name> where left out
+    #[arg(long)]
+    pub(crate) out: Option<PathBuf>,
+    /// Overlaps up to this are touching, in the file's foldmotion:unitLength or mean sides of a face; 1e-6 where left
+    /// out
+    #[arg(long, value_name = "X")]
+    pub(crate) tolerance: Option<f64>,
+    /// Threads to use; all cores where left out
+    #[arg(long, value_parser = parse_threads)]
+    pub(crate) threads: Option<usize>,
+    /// No progress and no table
+    #[arg(long)]
+    pub(crate) quiet: bool,
+    /// Print exactly certificate.json on stdout
     #[arg(long)]
     pub(crate) json: bool,
 }

@@ -9,9 +9,9 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use arguments::{Arguments, Command, RunArguments};
+use arguments::{Arguments, CheckArguments, Command, RunArguments};
 use clap::Parser as _;
-use foldmotion_study::{SceneSource, Study, models};
+use foldmotion_study::{CheckOptions, SceneSource, Study, check_file, models};
 use progress::Reporter;
 
 /// Set by Ctrl-C; work stops at its next report of progress.
@@ -42,6 +42,7 @@ fn main() -> ExitCode {
     let arguments = Arguments::parse();
     let outcome = match arguments.command {
         Command::Run(run) => run_scene(&run),
+        Command::Check(check) => check_motion(&check),
         Command::Models => list_models(),
         Command::Init { file } => init::write_scene(&file).map(|()| 0),
     };
@@ -80,6 +81,34 @@ fn run_scene(arguments: &RunArguments) -> Result<u8, Failure> {
         print(&format!("results in {}\n", folder.display()))?;
     }
     Ok(report.status())
+}
+
+fn check_motion(arguments: &CheckArguments) -> Result<u8, Failure> {
+    use_threads(arguments.threads)?;
+    watch_for_interrupts()?;
+    let stem = arguments.motion.file_stem().unwrap_or_default();
+    let folder = arguments
+        .out
+        .clone()
+        .unwrap_or_else(|| PathBuf::from("out").join(stem));
+    let mut options = CheckOptions::default();
+    if let Some(tolerance) = arguments.tolerance {
+        options.tolerance = tolerance;
+    }
+    let reporter = Reporter::new(arguments.quiet);
+    let certificate = check_file(&arguments.motion, &options, &|phase, done| {
+        reporter.report(phase, done);
+        !INTERRUPTED.load(Ordering::Relaxed)
+    })?;
+    certificate.write(&folder)?;
+    reporter.finish();
+    if arguments.json {
+        print(&certificate.to_json())?;
+    } else if !arguments.quiet {
+        print(&certificate.table())?;
+        print(&format!("certificate in {}\n", folder.display()))?;
+    }
+    Ok(certificate.status())
 }
 
 fn list_models() -> Result<u8, Failure> {

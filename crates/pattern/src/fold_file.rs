@@ -83,6 +83,7 @@ fn key_frame(sheet: &Sheet, header: &FoldHeader<'_>) -> Vec<(&'static str, serde
             json!(["2D", "manifold", "orientable", "noCuts", "noJoins"]),
         ),
         ("frame_unit", json!(header.unit)),
+        ("foldmotion:unitLength", json!(sheet.unit_length)),
         (
             "vertices_coords",
             json!(

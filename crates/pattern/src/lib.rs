@@ -10,6 +10,7 @@
 mod closed_form;
 mod error;
 mod fold_file;
+mod fold_read;
 mod layers;
 mod layout;
 mod model;
@@ -23,6 +24,7 @@ mod vertex_names;
 pub use closed_form::CompactBox;
 pub use error::PatternError;
 pub use fold_file::FoldHeader;
+pub use fold_read::{FoldError, FoldFile, FrameNumber};
 pub use layout::UnitSheet;
 pub use model::{ProfileModel, find as find_model, models};
 pub use motion::{Frame, LayerOrder, Motion};

@@ -56,6 +56,24 @@ pub enum StudyError {
         /// What would help.
         remedy: &'static str,
     },
+    /// A motion file cannot be judged.
+    #[error("{}: {message}", path.display())]
+    Motion {
+        /// The motion file.
+        path: PathBuf,
+        /// What is wrong, where, and what would be right.
+        message: String,
+    },
+    /// A motion file is too large.
+    #[error("{}: it has {size} bytes: at most {limit} are read", path.display())]
+    LargeMotion {
+        /// The motion file.
+        path: PathBuf,
+        /// Its bytes.
+        size: u64,
+        /// The most.
+        limit: u64,
+    },
     /// The output folder or a file in it cannot be written.
     #[error("{}: {action}: {source}; choose another folder with --out, or free space", path.display())]
     Output {
@@ -102,6 +120,8 @@ impl StudyError {
         match self {
             Self::Read { .. }
             | Self::Parse { .. }
+            | Self::Motion { .. }
+            | Self::LargeMotion { .. }
             | Self::Value { .. }
             | Self::Undivided { .. } => 2,
             _ => 3,

@@ -3,6 +3,8 @@
 //! A [`SceneSource`] is the text the user wrote, a [`Scene`] what it says, a [`Study`] everything resolved and ready
 //! to run; [`Study::run`] folds, checks, reports and records.
 
+pub mod certificate;
+mod check_file;
 mod engine;
 mod error;
 pub mod report;
@@ -15,11 +17,13 @@ mod series;
 mod source;
 mod study;
 
+pub use certificate::Certificate;
+pub use check_file::{CheckOptions, check_file};
 pub use error::StudyError;
 pub use foldmotion_pattern::{ProfileModel, models};
 pub use report::Report;
 pub use run::{Phase, Progress};
 pub use scene::Scene;
-pub use schema::{report_schema, scene_schema};
+pub use schema::{certificate_schema, report_schema, scene_schema};
 pub use source::SceneSource;
 pub use study::Study;

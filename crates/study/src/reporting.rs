@@ -135,13 +135,7 @@ impl Study {
 
 fn collision_section(units: &UnitSheet, collision: &CollisionReport) -> CollisionSection {
     CollisionSection {
-        verdict: match collision.verdict {
-            Verdict::Free => "free",
-            Verdict::Touching => "touching",
-            Verdict::Penetrating => "penetrating",
-            Verdict::Undecided => "undecided",
-        }
-        .to_owned(),
+        verdict: verdict_name(collision.verdict).to_owned(),
         tolerance: collision.tolerance,
         first: collision
             .first
@@ -189,7 +183,16 @@ fn penetration_report(units: &UnitSheet, p: &Penetration) -> PenetrationReport {
     }
 }
 
-fn kind_name(kind: PenetrationKind) -> &'static str {
+pub(crate) fn verdict_name(verdict: Verdict) -> &'static str {
+    match verdict {
+        Verdict::Free => "free",
+        Verdict::Touching => "touching",
+        Verdict::Penetrating => "penetrating",
+        Verdict::Undecided => "undecided",
+    }
+}
+
+pub(crate) fn kind_name(kind: PenetrationKind) -> &'static str {
     match kind {
         PenetrationKind::VertexFacet => "vertex through facet",
         PenetrationKind::EdgeEdge => "edge through edge",

@@ -23,12 +23,25 @@ pub(crate) const REPORT: &str = "report.json";
 pub(crate) struct Results {
     folder: PathBuf,
     temporary: PathBuf,
+    /// The files that may be written; those there already are replaced or removed.
+    names: &'static [&'static str],
+    /// The one that speaks of the others, moved into place last.
+    last: &'static str,
     written: Vec<&'static str>,
 }
 
 impl Results {
-    /// Opens the temporary folder.
+    /// Opens the temporary folder of a run.
     pub(crate) fn create(folder: &Path) -> Result<Self, StudyError> {
+        Self::of(folder, NAMES, REPORT)
+    }
+
+    /// Opens the temporary folder of the results `names`, of which `last` speaks of the others.
+    pub(crate) fn of(
+        folder: &Path,
+        names: &'static [&'static str],
+        last: &'static str,
+    ) -> Result<Self, StudyError> {
         if folder.exists() && !folder.is_dir() {
             let source = io::Error::new(io::ErrorKind::NotADirectory, "it is a file");
             return Err(output_error(
@@ -52,6 +65,8 @@ impl Results {
         Ok(Self {
             folder: folder.to_owned(),
             temporary,
+            names,
+            last,
             written: Vec::new(),
         })
     }
@@ -92,8 +107,8 @@ impl Results {
         let folder = &self.folder;
         fs::create_dir_all(folder).map_err(|e| output_error(folder, "cannot be made", e))?;
         // From here on a report in the folder would speak of other files than those beside it.
-        for name in
-            std::iter::once(&REPORT).chain(NAMES.iter().filter(|n| !self.written.contains(n)))
+        for name in std::iter::once(&self.last)
+            .chain(self.names.iter().filter(|n| !self.written.contains(n)))
         {
             match fs::remove_file(folder.join(name)) {
                 Err(e) if e.kind() != io::ErrorKind::NotFound => {
@@ -103,7 +118,7 @@ impl Results {
             }
         }
         let (report, others): (Vec<&str>, Vec<&str>) =
-            self.written.iter().partition(|&&n| n == REPORT);
+            self.written.iter().partition(|&&n| n == self.last);
         for name in others.into_iter().chain(report) {
             let to = folder.join(name);
             fs::rename(self.temporary.join(name), &to)

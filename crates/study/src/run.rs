@@ -19,6 +19,8 @@ use crate::{Report, Study, StudyError};
 /// A part of a run, as progress names it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Phase {
+    /// Reading a motion file.
+    Read,
     /// The engine.
     Fold,
     /// The collision check.
@@ -31,6 +33,7 @@ impl Phase {
     /// Its name on the screen.
     pub fn name(self) -> &'static str {
         match self {
+            Self::Read => "read",
             Self::Fold => "fold",
             Self::Check => "check",
             Self::Record => "record",

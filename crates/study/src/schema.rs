@@ -2,7 +2,7 @@
 
 use schemars::{JsonSchema, schema_for};
 
-use crate::{Report, Scene};
+use crate::{Certificate, Report, Scene};
 
 /// The schema of scene files.
 pub fn scene_schema() -> String {
@@ -12,6 +12,11 @@ pub fn scene_schema() -> String {
 /// The schema of `report.json`.
 pub fn report_schema() -> String {
     schema::<Report>()
+}
+
+/// The schema of `certificate.json`.
+pub fn certificate_schema() -> String {
+    schema::<Certificate>()
 }
 
 fn schema<T: JsonSchema>() -> String {

@@ -1,0 +1,257 @@
+//! `foldmotion check` as a user meets it.
+
+#![expect(
+    clippy::unwrap_used,
+    reason = "a test stops where something is missing"
+)]
+
+use std::fs;
+use std::path::Path;
+use std::process::{Command, Output};
+
+use serde_json::{Value, json};
+
+fn foldmotion(folder: &Path, arguments: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_foldmotion"))
+        .args(arguments)
+        .current_dir(folder)
+        .output()
+        .unwrap()
+}
+
+fn text(bytes: &[u8]) -> String {
+    String::from_utf8(bytes.to_vec()).unwrap()
+}
+
+fn json_of(path: &Path) -> Value {
+    serde_json::from_slice(&fs::read(path).unwrap()).unwrap()
+}
+
+/// Runs a scene for its motion alone; returns the report.
+fn run(home: &Path, scene: &str, set: &[&str]) -> Value {
+    let scene = format!("{}/../../scenes/{scene}.toml", env!("CARGO_MANIFEST_DIR"));
+    let mut arguments = vec!["run", &scene, "--quiet", "--out", "run"];
+    for assignment in ["record.outputs=[\"fold\"]", "motion.frames=20"]
+        .iter()
+        .chain(set)
+    {
+        arguments.extend(["--set", assignment]);
+    }
+    let output = foldmotion(home, &arguments);
+    assert!(
+        matches!(output.status.code(), Some(0 | 1)),
+        "{}",
+        text(&output.stderr)
+    );
+    json_of(&home.join("run/report.json"))
+}
+
+/// The certificate agrees with the report in everything both say.
+fn agrees(report: &Value, certificate: &Value) {
+    let collision = &report["collision"];
+    assert_eq!(certificate["verdict"], collision["verdict"]);
+    assert_eq!(
+        certificate["pairs_tested"]["total"],
+        collision["pairs_tested"]
+    );
+    assert_eq!(certificate["touching_pairs"], collision["touching_pairs"]);
+    assert_eq!(certificate["unit_length"], report["unit"]["height"]);
+    let separation = &certificate["min_separation"];
+    assert_eq!(
+        separation["distance"].as_f64(),
+        collision["min_separation"].as_f64()
+    );
+    let penetrations = certificate["penetrations"].as_array().unwrap();
+    assert_eq!(json!(penetrations.len()), collision["penetrating_pairs"]);
+    if let Some(first) = penetrations.first() {
+        assert_eq!(first["depth"], collision["first"]["depth"]);
+        assert_eq!(first["pair"]["facets"], collision["first"]["facets"]);
+        assert_eq!(first["t"], collision["first"]["t"]);
+    }
+}
+
+#[test]
+fn our_own_motions_get_the_verdict_of_their_run() {
+    let short = ["sheet.rows=2", "profile.length=2.0"];
+    for (scene, set, status) in [
+        ("one-unit", &[][..], 0),
+        ("shelter-short-plain", &short[..], 1),
+    ] {
+        let home = tempfile::tempdir().unwrap();
+        let report = run(home.path(), scene, set);
+        let output = foldmotion(home.path(), &["check", "run/motion.fold"]);
+        let (out, err) = (text(&output.stdout), text(&output.stderr));
+        assert_eq!(output.status.code(), Some(status), "{err}");
+        assert!(
+            out.contains("verdict: ") && out.contains("sha256 "),
+            "{out}"
+        );
+        assert!(err.contains("check "), "{err}");
+        agrees(
+            &report,
+            &json_of(&home.path().join("out/motion/certificate.json")),
+        );
+    }
+}
+
+#[test]
+fn a_frame_moved_through_the_sheet_is_a_penetration() {
+    let home = tempfile::tempdir().unwrap();
+    run(home.path(), "one-unit", &[]);
+    let path = home.path().join("run/motion.fold");
+    let mut motion = json_of(&path);
+    // A vertex goes to where another facet is, and beyond.
+    let frame = &mut motion["file_frames"][14]["vertices_coords"];
+    let points: Vec<[f64; 3]> = serde_json::from_value(frame.clone()).unwrap();
+    let far = points.len() - 1;
+    let to: Vec<f64> = (0..3)
+        .map(|i| 2.0 * points[0][i] - points[far][i])
+        .collect();
+    frame[far] = json!(to);
+    fs::write(&path, motion.to_string()).unwrap();
+    let arguments = [
+        "check",
+        "run/motion.fold",
+        "--out",
+        "run",
+        "--json",
+        "--quiet",
+    ];
+    let output = foldmotion(home.path(), &arguments);
+    assert_eq!(output.status.code(), Some(1), "{}", text(&output.stderr));
+    let written = fs::read(home.path().join("run/certificate.json")).unwrap();
+    assert_eq!(text(&output.stdout), text(&written));
+    assert_eq!(text(&output.stderr), "");
+    assert!(
+        home.path().join("run/report.json").exists(),
+        "foreign files stay"
+    );
+    let certificate: Value = serde_json::from_slice(&written).unwrap();
+    let first = &certificate["penetrations"][0];
+    assert!(
+        first["frames"] == json!([13, 14]) || first["frames"] == json!([14, 15]),
+        "{first}"
+    );
+    assert_eq!(
+        text(&foldmotion(home.path(), &arguments).stdout),
+        text(&written)
+    );
+}
+
+/// A square of polygons that folds along its middle by `angle` degrees at its last frame.
+fn folding(angle: f64) -> Value {
+    let frame = |angle: f64| {
+        let (s, c) = angle.to_radians().sin_cos();
+        json!({ "frame_parent": 0, "frame_inherit": true, "vertices_coords":
+            [[-1, 0], [0, 0], [0, 1], [-1, 1], [c, 0, s], [c, 1, s]] })
+    };
+    json!({
+        "vertices_coords": [[-1, 0], [0, 0], [0, 1], [-1, 1], [1, 0], [1, 1]],
+        "frame_classes": ["creasePattern"],
+        "faces_vertices": [[0, 1, 2, 3], [1, 4, 5, 2]],
+        "file_frames": (0..=8).map(|k| frame(angle * f64::from(k) / 8.0)).collect::<Vec<_>>(),
+    })
+}
+
+#[test]
+fn polygons_of_others_are_judged_and_the_certificate_says_they_were_cut() {
+    let home = tempfile::tempdir().unwrap();
+    for (angle, verdict, status) in [(120.0, "free", 0), (240.0, "penetrating", 1)] {
+        fs::write(home.path().join("book.fold"), folding(angle).to_string()).unwrap();
+        let output = foldmotion(home.path(), &["check", "book.fold", "--quiet", "--json"]);
+        assert_eq!(
+            output.status.code(),
+            Some(status),
+            "{}",
+            text(&output.stderr)
+        );
+        let certificate: Value = serde_json::from_slice(&output.stdout).unwrap();
+        assert_eq!(certificate["verdict"], verdict);
+        assert_eq!(
+            (&certificate["faces"], &certificate["triangles"]),
+            (&json!(2), &json!(4))
+        );
+        let said = certificate["assumptions"].to_string();
+        assert!(
+            said.contains("2 faces with more than three corners were cut"),
+            "{said}"
+        );
+    }
+}
+
+#[test]
+fn the_tolerance_asked_for_is_the_one_certified() {
+    let home = tempfile::tempdir().unwrap();
+    fs::write(home.path().join("book.fold"), folding(90.0).to_string()).unwrap();
+    let arguments = [
+        "check",
+        "book.fold",
+        "--json",
+        "--quiet",
+        "--tolerance",
+        "1e-4",
+    ];
+    let output = foldmotion(home.path(), &arguments);
+    let certificate: Value = serde_json::from_slice(&output.stdout).unwrap();
+    assert_eq!(certificate["tolerance"], json!(1e-4));
+}
+
+#[test]
+fn bad_motions_are_status_2_and_write_nothing() {
+    let home = tempfile::tempdir().unwrap();
+    let flat = |v: &mut Value| v["file_frames"][4]["vertices_coords"][4] = json!([0, 0, 0]);
+    let backwards = |v: &mut Value| {
+        for (k, frame) in v["file_frames"]
+            .as_array_mut()
+            .unwrap()
+            .iter_mut()
+            .enumerate()
+        {
+            frame["foldmotion:time"] = json!(-(k as f64));
+        }
+    };
+    let changes: [(&dyn Fn(&mut Value), &str); 3] = [
+        (&flat, "file_frames[4]: faces_vertices[1] has no area"),
+        (&backwards, "file_frames[1]: "),
+        (&|v| v["faces_vertices"] = json!([]), "faces_vertices"),
+    ];
+    let good = folding(90.0).to_string();
+    let mut files: Vec<(String, &str)> = vec![
+        (good[..good.len() / 2].to_owned(), "EOF"),
+        (String::new(), "EOF"),
+        ("[]".to_owned(), "a FOLD file"),
+    ];
+    for (change, named) in changes {
+        let mut value = folding(90.0);
+        change(&mut value);
+        files.push((value.to_string(), named));
+    }
+    for (content, named) in files {
+        fs::write(home.path().join("bad.fold"), content).unwrap();
+        let output = foldmotion(home.path(), &["check", "bad.fold", "--quiet"]);
+        let error = text(&output.stderr);
+        assert_eq!(output.status.code(), Some(2), "{error}");
+        assert!(
+            error.contains(named) && error.contains("bad.fold"),
+            "{error}"
+        );
+        assert!(!home.path().join("out").exists());
+    }
+    fs::write(home.path().join("bad.fold"), &good).unwrap();
+    for arguments in [
+        &["check", "missing.fold"][..],
+        &["check", "."],
+        &["check", "bad.fold", "--tolerance", "0"],
+        &["check", "bad.fold", "--tolerance", "x"],
+        &["check"],
+    ] {
+        let output = foldmotion(home.path(), arguments);
+        assert_eq!(
+            output.status.code(),
+            Some(2),
+            "{arguments:?}: {}",
+            text(&output.stderr)
+        );
+    }
+    assert!(!home.path().join("out").exists());
+}

@@ -1,0 +1,322 @@
+//! Reads FOLD 1.0 to 1.2 as a motion, one frame at a time.
+//!
+//! Source: Demaine, Ku, Lang, "A New File Standard to Represent Folded Structures" (FOLD specification 1.2).
+
+mod error;
+mod stream;
+#[cfg(test)]
+mod tests;
+mod topology;
+mod triangulate;
+mod utf8;
+
+use std::collections::BTreeMap;
+use std::io::Read;
+
+use glam::DVec3;
+
+pub use error::{FoldError, FrameNumber};
+use stream::{FrameFields, Keep, Walk, walk};
+
+use crate::{Frame, Sheet};
+
+/// Frames whose coordinates are held because later frames inherit them.
+const HELD_FRAMES: usize = 16;
+
+/// A FOLD file without its frames, and what is needed to read those.
+///
+/// The keys of the file may stand in any order. The sheet is that of the key frame: its `faces_vertices`, cut into
+/// triangles; its edges (built from the faces where they are missing; those of no face left out); M and V between
+/// faces that turn alike, every other joined edge as F. The motion is the key frame, unless its `frame_classes` hold
+/// `creasePattern` or it has no coordinates, and then every element of `file_frames`.
+///
+/// `sheet.vertices` are x and y of [`FoldFile::rest`]: the crease pattern where the key frame is one, otherwise the
+/// first frame seen from above. Fold angles and lengths at rest are therefore not those of a crease pattern there.
+/// `sheet.unit_length` is `foldmotion:unitLength`, otherwise the mean side of the faces at rest.
+#[derive(Debug)]
+pub struct FoldFile {
+    /// `file_title`.
+    pub title: Option<String>,
+    /// What moves.
+    pub sheet: Sheet,
+    /// The face of the file each triangle of the sheet belongs to.
+    pub triangle_faces: Vec<u32>,
+    /// `faces_vertices`.
+    pub polygons: Vec<Vec<u32>>,
+    /// Whether `faces_foldmotion:facet` names the facets.
+    pub has_facets: bool,
+    /// Whether `foldmotion:unitLength` gives the unit of length.
+    pub has_unit_length: bool,
+    /// The coordinates of the key frame, of `file_frames[0]` where it has none.
+    pub rest: Vec<DVec3>,
+    /// The frames of the motion.
+    frames: Vec<FrameSource>,
+    /// `edges_vertices` of the key frame.
+    edges: Option<Vec<[u32; 2]>>,
+}
+
+/// Where a frame of the motion takes its coordinates from.
+#[derive(Debug, Clone, Copy)]
+struct FrameSource {
+    number: FrameNumber,
+    time: f64,
+    /// The frame that has them: itself or one it inherits from.
+    source: FrameNumber,
+}
+
+/// What the first walk notes of a frame.
+struct Noted {
+    parent: Option<u64>,
+    inherit: bool,
+    time: Option<f64>,
+    has_coordinates: bool,
+}
+
+impl FoldFile {
+    /// Reads everything but the frames; their numbers are passed over.
+    ///
+    /// # Errors
+    /// [`FoldError`]: text that is no JSON, a sheet that cannot be built, frames that inherit wrongly.
+    pub fn read(input: impl Read) -> Result<Self, FoldError> {
+        let mut noted = Vec::new();
+        let mut first = Vec::new();
+        let keep = |number: FrameNumber| Keep {
+            coordinates: number.0 <= 1,
+            topology: number.0 == 0,
+        };
+        let mut note = |number: FrameNumber, fields: FrameFields| {
+            if number.0 == 1 {
+                first = fields.coordinates;
+            }
+            noted.push(Noted {
+                parent: fields.parent,
+                inherit: fields.inherit,
+                time: fields.time,
+                has_coordinates: fields.has_coordinates,
+            });
+            true
+        };
+        let mut key = walk(
+            input,
+            Walk {
+                keep: &keep,
+                each: &mut note,
+            },
+        )?;
+        let polygons = key.faces.take().filter(|f| !f.is_empty());
+        let polygons = polygons.ok_or_else(|| missing(0, "faces_vertices", NEED_FACES))?;
+        let rest = if key.has_coordinates {
+            std::mem::take(&mut key.coordinates)
+        } else {
+            first
+        };
+        if rest.is_empty() {
+            return Err(missing(0, "vertices_coords", NEED_COORDINATES));
+        }
+        let topology = topology::build(&key, &polygons, &rest)?;
+        Ok(Self {
+            frames: motion_frames(&key, &noted)?,
+            title: key.title,
+            sheet: topology.sheet,
+            triangle_faces: topology.faces,
+            polygons,
+            has_facets: key.facets.is_some(),
+            has_unit_length: key.unit_length.is_some(),
+            rest,
+            edges: key.edges,
+        })
+    }
+
+    /// How many frames the motion has; at least one.
+    pub fn frame_count(&self) -> usize {
+        self.frames.len()
+    }
+
+    /// The FOLD number of frame `index` of the motion.
+    pub fn frame_number(&self, index: usize) -> Option<FrameNumber> {
+        self.frames.get(index).map(|f| f.number)
+    }
+
+    /// Reads the frames of the motion from the same text and hands each to `each`, in order.
+    ///
+    /// A frame's time is its `foldmotion:time`, its index in the motion where any frame has none. At a time, the
+    /// frame being read is held, and those whose coordinates later frames inherit.
+    ///
+    /// # Errors
+    /// [`FoldError`] where a frame cannot be read or has other vertices or faces than the sheet; what `each` returns.
+    pub fn frames<E: From<FoldError>>(
+        &self,
+        input: impl Read,
+        each: &mut dyn FnMut(Frame) -> Result<(), E>,
+    ) -> Result<(), E> {
+        let mut reading = Reading {
+            file: self,
+            next: 0,
+            last_use: self.last_uses(),
+            held: BTreeMap::new(),
+            each,
+        };
+        reading.supply(FrameNumber(0), self.rest.clone())?;
+        let mut failure = None;
+        let keep = |number: FrameNumber| Keep {
+            coordinates: number.0 > 0,
+            topology: number.0 > 0,
+        };
+        let mut read = |number, fields| {
+            let outcome = reading.take(number, fields);
+            failure = outcome.err();
+            failure.is_none()
+        };
+        let walked = walk(
+            input,
+            Walk {
+                keep: &keep,
+                each: &mut read,
+            },
+        );
+        match failure {
+            Some(failure) => Err(failure),
+            None => walked.map(drop).map_err(E::from),
+        }
+    }
+
+    /// The last frame of the motion that takes its coordinates from each source.
+    fn last_uses(&self) -> BTreeMap<usize, usize> {
+        let uses = self.frames.iter().map(|f| (f.source.0, f.number.0));
+        uses.collect()
+    }
+}
+
+const NEED_FACES: &str = "the sheet is made of the key frame's faces";
+const NEED_COORDINATES: &str = "one position for every vertex is needed there or in file_frames[0]";
+const NEED_OWN: &str = "a frame that does not inherit (frame_inherit) must be complete";
+
+fn missing(frame: usize, key: &'static str, need: &'static str) -> FoldError {
+    FoldError::Missing {
+        frame: FrameNumber(frame),
+        key,
+        need,
+    }
+}
+
+/// The frames of the motion: their times and where their coordinates stand.
+fn motion_frames(key: &FrameFields, noted: &[Noted]) -> Result<Vec<FrameSource>, FoldError> {
+    let is_pattern = key.classes.iter().any(|class| class == "creasePattern");
+    let has_key = key.has_coordinates && (!is_pattern || noted.is_empty());
+    // Parents come before their children, so that chains of inheritance end at the key frame.
+    let mut sources = vec![key.has_coordinates.then_some(0)];
+    for (index, frame) in noted.iter().enumerate() {
+        let number = index + 1;
+        let parent = frame.parent.filter(|&p| p < number as u64);
+        if (frame.inherit || frame.parent.is_some()) && parent.is_none() {
+            return Err(FoldError::Parent {
+                frame: FrameNumber(number),
+                parent: frame.parent.map_or("none".to_owned(), |p| p.to_string()),
+            });
+        }
+        let inherited = parent.filter(|_| frame.inherit);
+        let inherited = inherited.and_then(|p| sources[p as usize]);
+        let source = if frame.has_coordinates {
+            Some(number)
+        } else {
+            inherited
+        };
+        if source.is_none() {
+            return Err(missing(number, "vertices_coords", NEED_OWN));
+        }
+        sources.push(source);
+    }
+    let times: Option<Vec<f64>> = std::iter::once(key.time)
+        .filter(|_| has_key)
+        .chain(noted.iter().map(|n| n.time))
+        .collect();
+    let numbers = (usize::from(!has_key)..sources.len()).filter_map(|n| Some((n, sources[n]?)));
+    Ok(numbers
+        .enumerate()
+        .map(|(index, (number, source))| FrameSource {
+            number: FrameNumber(number),
+            time: times.as_ref().map_or(index as f64, |t| t[index]),
+            source: FrameNumber(source),
+        })
+        .collect())
+}
+
+/// The second walk under way.
+struct Reading<'a, E> {
+    file: &'a FoldFile,
+    /// The frame of the motion that comes next.
+    next: usize,
+    last_use: BTreeMap<usize, usize>,
+    /// Coordinates that later frames inherit.
+    held: BTreeMap<usize, Vec<DVec3>>,
+    each: &'a mut dyn FnMut(Frame) -> Result<(), E>,
+}
+
+impl<E: From<FoldError>> Reading<'_, E> {
+    fn take(&mut self, number: FrameNumber, fields: FrameFields) -> Result<(), E> {
+        self.same_topology(number, &fields)?;
+        self.supply(number, fields.coordinates)
+    }
+
+    fn same_topology(&self, number: FrameNumber, fields: &FrameFields) -> Result<(), FoldError> {
+        let file = self.file;
+        if !fields.inherit && fields.faces.is_none() {
+            return Err(missing(number.0, "faces_vertices", NEED_OWN));
+        }
+        let other_faces = fields.faces.as_ref().is_some_and(|f| *f != file.polygons);
+        let known = file.edges.as_ref();
+        let other_edges = matches!((&fields.edges, known), (Some(own), Some(key)) if own != key);
+        if other_faces || other_edges {
+            return Err(FoldError::OtherTopology { frame: number });
+        }
+        let (found, expected) = (fields.coordinates.len(), file.rest.len());
+        if fields.has_coordinates && found != expected {
+            return Err(FoldError::Count {
+                frame: number,
+                key: "vertices_coords",
+                found,
+                expected,
+                of: "the vertices of the first frame",
+            });
+        }
+        Ok(())
+    }
+
+    /// Hands on frame `number`, if it belongs to the motion, and holds `own` as long as it is needed.
+    fn supply(&mut self, number: FrameNumber, own: Vec<DVec3>) -> Result<(), E> {
+        if self
+            .last_use
+            .get(&number.0)
+            .is_some_and(|&last| last > number.0)
+        {
+            self.held.insert(number.0, own.clone());
+            if self.held.len() > HELD_FRAMES {
+                return Err(E::from(FoldError::HeldFrames {
+                    frame: number,
+                    held: self.held.len(),
+                    limit: HELD_FRAMES,
+                }));
+            }
+        }
+        let Some(frame) = self
+            .file
+            .frames
+            .get(self.next)
+            .filter(|f| f.number == number)
+        else {
+            return Ok(());
+        };
+        let source = frame.source.0;
+        let positions = if source == number.0 {
+            own
+        } else {
+            self.held.get(&source).cloned().unwrap_or_default()
+        };
+        if self.last_use.get(&source) == Some(&number.0) {
+            self.held.remove(&source);
+        }
+        self.next += 1;
+        let time = frame.time;
+        (self.each)(Frame { time, positions })
+    }
+}

@@ -1,0 +1,215 @@
+//! The certificate: `certificate.json` and the table on the terminal.
+
+use std::fmt::Write as _;
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// `certificate.json`: what was proved of a motion file, and under which assumptions.
+///
+/// Lengths are in the file's unit unless said otherwise. Frames are counted from 0 over the motion; the interval
+/// between frames k and k + 1 is `[k, k + 1]`. The same file gives the same bytes on every run.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[schemars(title = "foldmotion certificate")]
+pub struct Certificate {
+    /// Version of foldmotion.
+    pub version: String,
+    /// Name of the motion file.
+    pub file: String,
+    /// SHA-256 of the motion file, hexadecimal.
+    pub sha256: String,
+    /// Its `file_title`; null where it has none.
+    pub title: Option<String>,
+    /// free, touching, penetrating or undecided.
+    pub verdict: String,
+    /// τ, in units of `unit_length`.
+    pub tolerance: f64,
+    /// The length τ and every separation and depth are stated in.
+    pub unit_length: f64,
+    /// Under which assumptions the verdict holds.
+    pub assumptions: Vec<String>,
+    /// Frames of the motion.
+    pub frames: usize,
+    /// Motion time of the first and of the last frame.
+    pub times: [f64; 2],
+    /// Vertices of the sheet.
+    pub vertices: usize,
+    /// Faces of the file.
+    pub faces: usize,
+    /// Triangles they were cut into.
+    pub triangles: usize,
+    /// Pairs of triangles judged, counted once an interval.
+    pub pairs_tested: PairsTested,
+    /// What decided the pairs, counted once an interval.
+    pub decided_by: DecidedBy,
+    /// Closest approach of facets that share no vertex; null where all do.
+    pub min_separation: Option<SeparationEntry>,
+    /// Pairs of triangles that touch somewhere.
+    pub touching_pairs: usize,
+    /// The first penetration of every pair of triangles that has one, in order of time.
+    pub penetrations: Vec<PenetrationEntry>,
+    /// Pairs of triangles that could not be decided in an interval.
+    pub undecided: Vec<UndecidedEntry>,
+}
+
+/// Pairs of triangles judged, by what they share.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+pub struct PairsTested {
+    /// No vertex.
+    pub disjoint: u64,
+    /// One vertex.
+    pub shared_vertex: u64,
+    /// An edge.
+    pub shared_crease: u64,
+    /// All of them.
+    pub total: u64,
+}
+
+/// What decided the pairs.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct DecidedBy {
+    /// The swept boxes lie apart.
+    pub boxes: u64,
+    /// One axis at rest separates, or the fold angle of a hinge keeps its sign.
+    pub axis_at_rest: u64,
+    /// Axes that turn along separate.
+    pub turning_axis: u64,
+    /// All axes were tried.
+    pub search: u64,
+    /// Share of the pairs that needed no search.
+    pub share_without_search: f64,
+}
+
+/// Two triangles by their numbers here and in the file.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+pub struct TrianglePair {
+    /// The triangles; those of the file, in its order, where all its faces are triangles.
+    pub triangles: [u32; 2],
+    /// The faces of the file they were cut from.
+    pub faces: [u32; 2],
+    /// Their `faces_foldmotion:facet`; null where the file names none.
+    pub facets: Option<[u32; 2]>,
+}
+
+/// The closest approach.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct SeparationEntry {
+    /// In units of `unit_length`; the true minimum is smaller by at most τ/100 and a ten thousandth of itself.
+    pub distance: f64,
+    /// Motion time.
+    pub t: f64,
+    /// Between which triangles.
+    pub pair: TrianglePair,
+    /// The closest points.
+    pub points: [[f64; 3]; 2],
+}
+
+/// The first penetration of a pair.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct PenetrationEntry {
+    /// The frames between which it happens; the same frame twice where the motion begins with it.
+    pub frames: [usize; 2],
+    /// Their motion times.
+    pub interval: [f64; 2],
+    /// Motion time at which the contact begins that leads to it.
+    pub t: f64,
+    /// Motion time at which the overlap passes τ.
+    pub passed_t: f64,
+    /// What went through what.
+    pub kind: String,
+    /// Which triangles.
+    pub pair: TrianglePair,
+    /// The vertices of the features that meet.
+    pub vertices: Vec<u32>,
+    /// Where.
+    pub point: [f64; 3],
+    /// How deep, in units of `unit_length`.
+    pub depth: f64,
+}
+
+/// A pair that could not be decided.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct UndecidedEntry {
+    /// The frames between which.
+    pub frames: [usize; 2],
+    /// Their motion times.
+    pub interval: [f64; 2],
+    /// The motion time up to which the pair is certified.
+    pub t: f64,
+    /// Which triangles.
+    pub pair: TrianglePair,
+}
+
+impl Certificate {
+    /// The exit status: 1 a penetration, 3 undecided, else 0.
+    pub fn status(&self) -> u8 {
+        match self.verdict.as_str() {
+            "penetrating" => 1,
+            "undecided" => 3,
+            _ => 0,
+        }
+    }
+
+    /// The text of `certificate.json`.
+    pub fn to_json(&self) -> String {
+        // Strings, numbers and lists always serialise.
+        let mut text = serde_json::to_string_pretty(self).unwrap_or_default();
+        text.push('\n');
+        text
+    }
+
+    /// The table for the terminal.
+    pub fn table(&self) -> String {
+        let mut out = String::new();
+        // Writing into a string cannot fail.
+        let _ = writeln!(
+            out,
+            "{}{}\nsha256 {}",
+            self.file,
+            self.title
+                .as_ref()
+                .map_or(String::new(), |t| format!(": {t}")),
+            self.sha256
+        );
+        let _ = writeln!(
+            out,
+            "{} frames, t = {} to {}; {} vertices, {} faces, {} triangles",
+            self.frames, self.times[0], self.times[1], self.vertices, self.faces, self.triangles
+        );
+        let _ = writeln!(
+            out,
+            "\nverdict: {} (tolerance {:e} of the unit of length {:.6}; {} pairs tested; {} touch, {} penetrate, \
+             {} undecided)",
+            self.verdict,
+            self.tolerance,
+            self.unit_length,
+            self.pairs_tested.total,
+            self.touching_pairs,
+            self.penetrations.len(),
+            self.undecided.len()
+        );
+        let _ = writeln!(
+            out,
+            "{:.4} % of the pairs needed no search",
+            100.0 * self.decided_by.share_without_search
+        );
+        if let Some(s) = &self.min_separation {
+            let _ = writeln!(
+                out,
+                "smallest separation of facets that share no vertex: {:.3e} units at t = {:.4}, faces {} and {}",
+                s.distance, s.t, s.pair.faces[0], s.pair.faces[1]
+            );
+        }
+        if let Some(p) = self.penetrations.first() {
+            let _ = writeln!(
+                out,
+                "first at t = {:.5}: {}, faces {} and {}, vertices {:?}, depth {:.1e} units",
+                p.t, p.kind, p.pair.faces[0], p.pair.faces[1], p.vertices, p.depth
+            );
+        }
+        for assumption in &self.assumptions {
+            let _ = writeln!(out, "- {assumption}");
+        }
+        out
+    }
+}
