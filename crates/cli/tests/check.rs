@@ -70,6 +70,9 @@ fn agrees(report: &Value, certificate: &Value) {
     }
 }
 
+/// A change that spoils a motion, and words of the refusal.
+type Fault<'a> = (&'a dyn Fn(&mut Value), &'a str);
+
 #[test]
 fn our_own_motions_get_the_verdict_of_their_run() {
     let short = ["sheet.rows=2", "profile.length=2.0"];
@@ -210,7 +213,7 @@ fn bad_motions_are_status_2_and_write_nothing() {
             frame["foldmotion:time"] = json!(-(k as f64));
         }
     };
-    let changes: [(&dyn Fn(&mut Value), &str); 3] = [
+    let changes: [Fault<'_>; 3] = [
         (&flat, "file_frames[4]: faces_vertices[1] has no area"),
         (&backwards, "file_frames[1]: "),
         (&|v| v["faces_vertices"] = json!([]), "faces_vertices"),

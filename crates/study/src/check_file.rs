@@ -1,6 +1,7 @@
 //! Checks a motion file: reads it twice as a stream, judges it, writes the certificate.
 
 use std::cell::RefCell;
+use std::fmt::Write as _;
 use std::fs::File;
 use std::io::{self, Read, Write as _};
 use std::path::Path;
@@ -59,7 +60,7 @@ pub fn check_file(
         (input.unless_stopped(file)?, input.digest())
     };
     let mut input = Input::open(path, Phase::Check, progress)?;
-    let judge = RefCell::new(Judge::new(&file, options));
+    let judge = RefCell::new(Judge::new(&file, *options));
     let read = file.frames(&mut input, &mut |frame| judge.borrow_mut().take(&frame));
     let judge = judge.into_inner();
     if input.is_stopped {
@@ -151,7 +152,12 @@ impl<'a> Input<'a> {
 
     fn digest(&self) -> String {
         let bytes = self.hash.clone().finalize();
-        bytes.iter().map(|b| format!("{b:02x}")).collect()
+        let mut text = String::with_capacity(2 * bytes.len());
+        for byte in bytes {
+            // Writing into a string cannot fail.
+            let _ = write!(text, "{byte:02x}");
+        }
+        text
     }
 }
 
@@ -197,7 +203,7 @@ struct Judge<'a> {
 }
 
 impl<'a> Judge<'a> {
-    fn new(file: &'a FoldFile, options: &CheckOptions) -> Self {
+    fn new(file: &'a FoldFile, options: CheckOptions) -> Self {
         Self {
             file,
             options: CollisionOptions {

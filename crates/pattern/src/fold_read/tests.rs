@@ -154,7 +154,7 @@ fn bad_inheritance_is_refused() {
                 .as_object_mut()
                 .unwrap()
                 .remove("frame_parent"),
-        )
+        );
     });
     assert!(
         refused(&orphan)
@@ -210,7 +210,7 @@ fn each_bad_input_is_named() {
                         .as_array_mut()
                         .unwrap()
                         .pop(),
-                )
+                );
             },
             "file_frames[1]: vertices_coords has 3 entries: 4",
         ),

@@ -103,7 +103,7 @@ impl Outline {
                 && self.area([b, c, p]) >= -self.limit
                 && self.area([c, a, p]) >= -self.limit
         };
-        self.area([a, b, c]) > self.limit && !left.iter().any(|p| holds(p))
+        self.area([a, b, c]) > self.limit && !left.iter().any(holds)
     }
 }
 

@@ -46,7 +46,7 @@ fn reaches_compact(name: &str, steps: &[ScheduleStep]) {
     }
 }
 
-/// Neighbouring rows share creases, so one that is folded flat cannot wait long for the next.
+/// Neighbouring rows share creases: strictly one after the other, the sheet does not settle on the way.
 #[test]
 fn rows_one_a_little_after_the_other_reach_the_exact_compact_state() {
     let rows = [
