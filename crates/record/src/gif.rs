@@ -88,14 +88,20 @@ fn compressed(before: Option<&Vec<u8>>, after: &[u8], width: u16, delay: u16) ->
     };
     let mut buffer = Vec::with_capacity(usize::from(right - left) * usize::from(bottom - top));
     for y in top..bottom {
-        for x in left..right {
-            let place = usize::from(y) * row + usize::from(x);
-            let is_kept = before.is_some_and(|before| before[place] == after[place]);
-            buffer.push(if is_kept {
-                Palette::TRANSPARENT
-            } else {
-                after[place]
-            });
+        let row = usize::from(y) * row;
+        let part = row + usize::from(left)..row + usize::from(right);
+        match before {
+            None => buffer.extend_from_slice(&after[part]),
+            Some(before) => {
+                let kept = |(old, new): (&u8, &u8)| {
+                    if old == new {
+                        Palette::TRANSPARENT
+                    } else {
+                        *new
+                    }
+                };
+                buffer.extend(before[part.clone()].iter().zip(&after[part]).map(kept));
+            }
         }
     }
     let mut frame = Frame {

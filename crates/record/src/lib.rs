@@ -2,7 +2,7 @@
 //!
 //! A [`Camera`] projects the sheet in parallel, so that papers get equal scales. A [`Surface`] is the projected sheet
 //! and answers which triangle is in front at a point of the screen; the layer order decides between triangles that
-//! coincide. [`picture`] draws one state from it, [`gif`] a whole motion.
+//! coincide. [`picture`] draws one state from it, [`gif()`] a whole motion.
 //!
 //! Screen coordinates are pixels, x to the right, y down, depth towards the viewer in pixels too. Colours are sRGB
 //! bytes outside and linear light inside; pixels average linear light. The same input gives the same bytes for any
@@ -44,9 +44,13 @@ mod gif;
 mod image;
 mod palette;
 mod paper;
+mod pixel;
 mod plots;
 mod raster;
+mod screen_face;
+mod segment;
 mod shade;
+mod square;
 mod surface;
 
 pub use self::camera::{Camera, View};

@@ -5,7 +5,7 @@
 //! where single pixels do; it is the same in every frame, and colours cannot flicker as they would if each film or
 //! frame were analysed anew. Nothing is dithered, for the same reason.
 
-use std::collections::HashMap;
+use std::array::from_fn;
 
 use glam::Vec3;
 
@@ -18,10 +18,15 @@ const LEVELS: u16 = 56;
 /// Levels of light that lines and edges are mixed with.
 const MIXING_LEVELS: u16 = 4;
 
+/// Bits of a byte that tell in which cell of the colour cube it lies.
+const CELL_BITS: u32 = 4;
+
 /// The colours of a film.
 #[derive(Debug, Clone)]
 pub struct Palette {
     colors: Vec<[u8; 3]>,
+    /// For each cell of the colour cube the colours that are the nearest to one of its own, lowest index first.
+    cells: Vec<Vec<u8>>,
 }
 
 impl Palette {
@@ -31,7 +36,10 @@ impl Palette {
     /// The palette of `style`, the background first.
     pub fn new(style: &Style) -> Self {
         let inks = style.inks();
-        let mut palette = Self { colors: Vec::new() };
+        let mut palette = Self {
+            colors: Vec::new(),
+            cells: Vec::new(),
+        };
         palette.push(inks.background);
         let lines = [inks.mountain, inks.valley, inks.border];
         for line in lines {
@@ -43,6 +51,9 @@ impl Palette {
             }
         }
         palette.push_mixtures(&inks, &lines);
+        palette.cells = (0..1 << (3 * CELL_BITS))
+            .map(|cell| palette.near_cell(cell))
+            .collect();
         palette
     }
 
@@ -87,36 +98,56 @@ impl Palette {
         &self.colors
     }
 
+    /// The colours that may be the nearest to one of those in `cell`: no farther from the nearest of them than another
+    /// colour is from the farthest.
+    fn near_cell(&self, cell: usize) -> Vec<u8> {
+        let axis = |i: usize| (cell >> (i as u32 * CELL_BITS)) as u8 & ((1 << CELL_BITS) - 1);
+        let low = [axis(2), axis(1), axis(0)].map(|step| step << (8 - CELL_BITS));
+        let high = low.map(|value| value | (u8::MAX >> CELL_BITS));
+        let least = |color: [u8; 3]| distance(color, from_fn(|i| color[i].clamp(low[i], high[i])));
+        let most = |color: [u8; 3]| {
+            let is_high = |i: usize| color[i].abs_diff(high[i]) > color[i].abs_diff(low[i]);
+            distance(
+                color,
+                from_fn(|i| if is_high(i) { high[i] } else { low[i] }),
+            )
+        };
+        let limit = self.colors.iter().map(|&color| most(color)).min();
+        let indices = (0..).zip(&self.colors);
+        let near = indices.filter(|(_, color)| Some(least(**color)) <= limit);
+        near.map(|(index, _)| index).collect()
+    }
+
     /// The index of the nearest colour, ties by the lower index.
     ///
     /// Distances are squared differences of sRGB bytes weighted 2 : 4 : 3, a plain stand-in for what the eye sees.
     pub fn nearest(&self, color: [u8; 3]) -> u8 {
-        let distance = |other: &[u8; 3]| -> i32 {
-            let difference = |i: usize| i32::from(color[i]) - i32::from(other[i]);
-            let [r, g, b] = [difference(0), difference(1), difference(2)];
-            2 * r * r + 4 * g * g + 3 * b * b
-        };
-        let nearest = self
-            .colors
+        let place = |cell, byte: &u8| cell << CELL_BITS | usize::from(byte >> (8 - CELL_BITS));
+        let near = &self.cells[color.iter().fold(0, place)];
+        let nearest = near
             .iter()
-            .enumerate()
-            .min_by_key(|(_, c)| distance(c));
-        nearest.map_or(0, |(index, _)| index as u8)
+            .min_by_key(|&&index| distance(color, self.colors[usize::from(index)]));
+        nearest.copied().unwrap_or(0)
     }
 
     /// The index of every pixel.
     pub fn indices(&self, image: &Image) -> Vec<u8> {
-        let mut known = HashMap::new();
         let mut last = ([0; 3], self.nearest([0; 3]));
-        let mut index = |&color: &[u8; 3]| {
+        let index = |&color: &[u8; 3]| {
             if color != last.0 {
-                let index = *known.entry(color).or_insert_with(|| self.nearest(color));
-                last = (color, index);
+                last = (color, self.nearest(color));
             }
             last.1
         };
-        image.pixels.iter().map(&mut index).collect()
+        image.pixels.iter().map(index).collect()
     }
+}
+
+/// How different two colours look, see [`Palette::nearest`].
+fn distance(a: [u8; 3], b: [u8; 3]) -> i32 {
+    let difference = |i: usize| i32::from(a[i]) - i32::from(b[i]);
+    let (r, g, b) = (difference(0), difference(1), difference(2));
+    2 * r * r + 4 * g * g + 3 * b * b
 }
 
 /// `count` parts of light over the range that sides reflect, evenly spaced as the eye sees them.
@@ -138,6 +169,19 @@ mod tests {
         assert!(palette.colors().len() <= usize::from(Palette::TRANSPARENT));
         for (index, &color) in palette.colors().iter().enumerate() {
             assert_eq!(usize::from(palette.nearest(color)), index);
+        }
+    }
+
+    #[test]
+    fn the_nearest_color_is_that_of_a_search_through_all() {
+        let palette = Palette::new(&Style::default());
+        for k in 0..40_000_u32 {
+            let color = [k * 7, k * 11 / 3, k * 13 / 5].map(|value| (value % 256) as u8);
+            let colors = palette.colors().iter();
+            let all = (0..)
+                .zip(colors)
+                .min_by_key(|(_, other)| distance(color, **other));
+            assert_eq!(Some(palette.nearest(color)), all.map(|(index, _)| index));
         }
     }
 

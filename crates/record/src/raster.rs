@@ -1,23 +1,22 @@
 //! Pixels of the visible surface.
 //!
-//! A pixel is the mean, in linear light, of 16 samples: a Hammersley set, which has one sample in each of the 4 × 4
-//! cells and in each of 16 rows and columns, so that steep and flat edges get 16 steps where a regular grid has 4.
-//! Squares of pixels, and then pixels, that one triangle fills alone are found from bounds and get its colour at once.
+//! The picture is divided as Warnock did (1969, A hidden surface algorithm for computer generated halftone pictures):
+//! a square in which nothing shows, or one triangle without lines alone, is filled at once; any other is divided into
+//! four, which inherit the triangles that may show in it, down to single pixels. These are the mean of 16 samples.
 
 use foldmotion_pattern::{LayerOrder, Sheet};
-use glam::{DVec2, DVec3, Vec3};
+use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 
 use crate::image::check_size;
-use crate::shade::{Inks, encoded};
-use crate::surface::{Candidate, ScreenFace};
+use crate::pixel::{Canvas, Pixel};
+use crate::shade::encoded;
+use crate::square::Square;
+use crate::surface::Candidate;
 use crate::{Camera, Image, Paper, RecordError, Style, Surface};
 
-/// The side of the squares the picture is worked through in.
-const TILE: usize = 8;
-
-/// Samples a pixel.
-const SAMPLES: u32 = 16;
+/// The side of the squares that the division starts from, a power of 2.
+const LARGEST: usize = 64;
 
 /// One state of a sheet.
 ///
@@ -74,20 +73,13 @@ pub(crate) fn raster(
     size: [u32; 2],
 ) -> Image {
     let surface = Surface::new(paper, positions, camera, style);
-    let [width, height] = size.map(|side| side as usize);
     let canvas = Canvas::new(&surface, style);
-    let columns = width.div_ceil(TILE);
-    let tiles = tiles(&surface, columns, height.div_ceil(TILE));
+    let [width, height] = size.map(|side| side as usize);
     let mut pixels = vec![style.background; width * height];
     pixels
-        .par_chunks_mut(width * TILE)
-        .zip(tiles.par_chunks(columns))
+        .par_chunks_mut(width * LARGEST)
         .enumerate()
-        .for_each_init(Scratch::default, |scratch, (row, (rows, lists))| {
-            for (column, list) in lists.iter().enumerate() {
-                canvas.tile(list, [column * TILE, row * TILE], rows, width, scratch);
-            }
-        });
+        .for_each(|(index, rows)| Strip::new(&canvas, rows, width, index * LARGEST).draw());
     Image {
         width: size[0],
         height: size[1],
@@ -95,173 +87,167 @@ pub(crate) fn raster(
     }
 }
 
-/// The triangles that may show in each tile, row by row, in the order of the sheet.
-fn tiles(surface: &Surface<'_>, columns: usize, rows: usize) -> Vec<Vec<u32>> {
-    let mut tiles = vec![Vec::new(); columns * rows];
-    for face in 0..surface.faces().len() as u32 {
-        let (low, high) = surface.bounds(face);
-        let (x, y) = (span(low.x, high.x, columns), span(low.y, high.y, rows));
-        for row in y {
-            for column in x.clone() {
-                let corner = DVec2::new(column as f64, row as f64) * TILE as f64;
-                let half = 0.5 * TILE as f64;
-                if surface.may_touch(face, corner + half, half) {
-                    tiles[row * columns + column].push(face);
-                }
-            }
+/// A square of pixels, of which `left` and `top` is the first.
+#[derive(Clone, Copy)]
+struct Region {
+    left: usize,
+    top: usize,
+    side: usize,
+}
+
+impl Region {
+    fn square(self) -> Square {
+        let half = 0.5 * self.side as f64;
+        let corner = DVec2::new(self.left as f64, self.top as f64);
+        Square {
+            centre: corner + half,
+            half,
         }
     }
-    tiles
+
+    fn quarters(self) -> [Self; 4] {
+        let side = self.side / 2;
+        [(0, 0), (side, 0), (0, side), (side, side)].map(|(x, y)| Self {
+            left: self.left + x,
+            top: self.top + y,
+            side,
+        })
+    }
 }
 
-/// The tiles from pixel `low` to pixel `high`, of `count`.
-#[expect(clippy::cast_sign_loss, reason = "clamped to 0 and above before")]
-fn span(low: f64, high: f64, count: usize) -> std::ops::Range<usize> {
-    let tile = |pixel: f64| (pixel / TILE as f64).floor().clamp(-1.0, count as f64);
-    let start = tile(low).max(0.0) as usize;
-    let end = (tile(high) + 1.0).max(0.0) as usize;
-    start..end.min(count)
-}
-
-/// Lists kept from pixel to pixel.
-#[derive(Default)]
-struct Scratch {
-    /// The triangles that may show in the pixel.
-    near: Vec<u32>,
-    /// Those at a point.
+/// Some rows of a picture while they are drawn.
+struct Strip<'a> {
+    canvas: &'a Canvas<'a>,
+    pixels: &'a mut [[u8; 3]],
+    width: usize,
+    /// The first row and the one after the last.
+    rows: [usize; 2],
+    /// The triangles that may show in the square at hand, after those of the squares around it.
+    faces: Vec<u32>,
+    /// The same of the edges whose lines may show.
+    edges: Vec<u32>,
     found: Vec<Candidate>,
+    pixel: Pixel,
 }
 
-/// What colours a sample: the surface with the colour of each triangle.
-struct Canvas<'a> {
-    surface: &'a Surface<'a>,
-    inks: Inks,
-    faces: Vec<Vec3>,
-    samples: Vec<DVec2>,
-}
-
-impl<'a> Canvas<'a> {
-    fn new(surface: &'a Surface<'a>, style: &Style) -> Self {
-        let inks = style.inks();
-        let color = |face: &ScreenFace| inks.paper(face.normal);
-        let faces = surface.faces().iter().map(color).collect();
-        let sample = |k: u32| {
-            let mirrored = (k.reverse_bits() >> (u32::BITS - SAMPLES.ilog2())) & (SAMPLES - 1);
-            let place = DVec2::new(f64::from(k), f64::from(mirrored));
-            (place + 0.5) / f64::from(SAMPLES) - 0.5
-        };
+impl<'a> Strip<'a> {
+    fn new(canvas: &'a Canvas<'a>, pixels: &'a mut [[u8; 3]], width: usize, top: usize) -> Self {
         Self {
-            surface,
-            inks,
-            faces,
-            samples: (0..SAMPLES).map(sample).collect(),
+            rows: [top, top + pixels.len() / width],
+            canvas,
+            pixels,
+            width,
+            faces: (0..canvas.surface.faces().len() as u32).collect(),
+            edges: Vec::new(),
+            found: Vec::new(),
+            pixel: Pixel::default(),
         }
     }
 
-    /// Draws the tile at `corner` (x, y) into `rows`, the pixels of its row of tiles.
-    fn tile(
-        &self,
-        list: &[u32],
-        corner: [usize; 2],
-        rows: &mut [[u8; 3]],
-        width: usize,
-        scratch: &mut Scratch,
-    ) {
-        if list.is_empty() {
+    fn draw(&mut self) {
+        for left in (0..self.width).step_by(LARGEST) {
+            let region = Region {
+                left,
+                top: self.rows[0],
+                side: LARGEST,
+            };
+            self.divide(region, 0);
+        }
+    }
+
+    /// Draws `region`, in which the triangles from `start` on the stack may show.
+    fn divide(&mut self, region: Region, start: usize) {
+        if !self.shows(region) {
             return;
         }
-        let [left, top] = corner;
-        let right = (left + TILE).min(width);
-        let centre = DVec2::new(left as f64, top as f64) + 0.5 * TILE as f64;
-        let half = 0.5 * TILE as f64;
-        let filler = self.filler(list, centre, half, &mut scratch.found);
-        if let Some(face) = filler
-            && !self.surface.may_have_line(face, centre, half)
-        {
-            let color = encoded(self.faces[face as usize]);
-            for row in rows.chunks_mut(width) {
-                row[left..right].fill(color);
+        let (surface, square, own) = (self.canvas.surface, region.square(), self.faces.len());
+        for place in start..own {
+            let face = self.faces[place];
+            if surface.face(face).may_touch(&square) {
+                self.faces.push(face);
             }
+        }
+        if self.faces.len() == own {
             return;
         }
-        for (y, row) in rows.chunks_mut(width).enumerate() {
-            for (x, pixel) in row[left..right].iter_mut().enumerate() {
-                let centre = DVec2::new((left + x) as f64, (top + y) as f64) + 0.5;
-                let light = match filler {
-                    Some(face) => self.lined(face, centre),
-                    None => self.pixel(list, centre, scratch),
-                };
-                *pixel = encoded(light);
-            }
-        }
-    }
-
-    /// The one triangle that is seen in the square of half side `half` around `centre`, if that is certain.
-    fn filler(
-        &self,
-        list: &[u32],
-        centre: DVec2,
-        half: f64,
-        found: &mut Vec<Candidate>,
-    ) -> Option<u32> {
-        let face = self.surface.front_among(list, centre, found)?.face;
-        let fills = self.surface.fills(face, list, centre, half);
-        fills.then_some(face)
-    }
-
-    /// The light of the pixel around `centre`.
-    fn pixel(&self, list: &[u32], centre: DVec2, scratch: &mut Scratch) -> Vec3 {
-        let Scratch { near, found } = scratch;
-        near.clear();
-        let touches = |&face: &u32| self.surface.may_touch(face, centre, 0.5);
-        near.extend(list.iter().copied().filter(touches));
-        if near.is_empty() {
-            return self.inks.background;
-        }
-        if let Some(face) = self.filler(near, centre, 0.5, found) {
-            return self.lined(face, centre);
-        }
-        self.mean(
-            |sample| match self.surface.front_among(near, centre + *sample, found) {
-                Some(front) => self.seen(front.face, centre + *sample),
-                None => self.inks.background,
-            },
-        )
-    }
-
-    /// The light of the pixel around `centre`, which `face` fills, with its lines.
-    fn lined(&self, face: u32, centre: DVec2) -> Vec3 {
-        if self.surface.may_have_line(face, centre, 0.5) {
-            self.mean(|sample| self.seen(face, centre + *sample))
+        if region.side == 1 {
+            let list = &self.faces[own..];
+            let light = self.pixel.light(self.canvas, list, square.centre);
+            self.fill(region, encoded(light));
+        } else if let Some(face) = self.filler(&square, own) {
+            self.edges.extend(surface.lines(face));
+            self.divide_filled(region, face, 0);
+            self.edges.clear();
         } else {
-            self.faces[face as usize]
-        }
-    }
-
-    /// The light at `point` where `face` is seen.
-    fn seen(&self, face: u32, point: DVec2) -> Vec3 {
-        match self.surface.line_at(face, point) {
-            Some(edge) => {
-                let sheet = self.surface.paper().sheet;
-                self.inks.line(sheet.edges[edge as usize].assignment)
+            for quarter in region.quarters() {
+                self.divide(quarter, own);
             }
-            None => self.faces[face as usize],
         }
+        self.faces.truncate(own);
     }
 
-    /// The mean over the samples of a pixel; exactly the common value where all are alike.
-    fn mean(&self, light: impl FnMut(&DVec2) -> Vec3) -> Vec3 {
-        let sum: Vec3 = self.samples.iter().map(light).sum();
-        sum / SAMPLES as f32
+    /// The one triangle that is seen in `square` of those from `own` on the stack, if that is certain; drops some that
+    /// are hidden.
+    fn filler(&mut self, square: &Square, own: usize) -> Option<u32> {
+        let surface = self.canvas.surface;
+        if !surface.drop_hidden(&mut self.faces, own, square) {
+            return None;
+        }
+        let list = &self.faces[own..];
+        let front = surface.front_among(list, square.centre, &mut self.found)?;
+        let fills = surface.fills(front.face, list, square);
+        fills.then_some(front.face)
+    }
+
+    /// Draws `region`, which `face` fills and in which the lines of the edges from `start` on the stack may show.
+    fn divide_filled(&mut self, region: Region, face: u32, start: usize) {
+        if !self.shows(region) {
+            return;
+        }
+        let (square, own) = (region.square(), self.edges.len());
+        for place in start..own {
+            let edge = self.edges[place];
+            if self.canvas.surface.may_have_line(edge, &square) {
+                self.edges.push(edge);
+            }
+        }
+        if self.edges.len() == own {
+            self.fill(region, self.canvas.colors[face as usize]);
+        } else if region.side == 1 {
+            let list = &self.edges[own..];
+            let light = self.pixel.filled(self.canvas, face, list, square.centre);
+            self.fill(region, encoded(light));
+        } else {
+            for quarter in region.quarters() {
+                self.divide_filled(quarter, face, own);
+            }
+        }
+        self.edges.truncate(own);
+    }
+
+    /// Whether a part of `region` lies in the picture.
+    fn shows(&self, region: Region) -> bool {
+        region.left < self.width && region.top < self.rows[1]
+    }
+
+    fn fill(&mut self, region: Region, color: [u8; 3]) {
+        let Region { left, top, side } = region;
+        let right = (left + side).min(self.width);
+        for y in top..(top + side).min(self.rows[1]) {
+            let row = (y - self.rows[0]) * self.width;
+            self.pixels[row + left..row + right].fill(color);
+        }
     }
 }
 
 #[cfg(test)]
 mod tests {
     use foldmotion_pattern::{Case, Unit, UnitSheet};
+    use glam::Vec3;
 
     use super::*;
     use crate::View;
+    use crate::square::{SAMPLES, at_samples};
 
     #[test]
     fn pixels_filled_from_bounds_are_those_found_sample_by_sample() {
@@ -284,13 +270,15 @@ mod tests {
                 for (index, &pixel) in (0..).zip(&image.pixels) {
                     let place = [index % size[0], index / size[0]].map(f64::from);
                     let centre = DVec2::from(place) + 0.5;
-                    let light = canvas.mean(|sample| {
-                        let front = surface.front_at(centre + *sample);
-                        front.map_or(canvas.inks.background, |front| {
-                            canvas.seen(front.face, centre + *sample)
-                        })
-                    });
-                    let expected = encoded(light);
+                    let light = |point| match surface.front_at(point) {
+                        Some(front) => match surface.line_at(front.face, point) {
+                            Some(edge) => canvas.line(edge),
+                            None => canvas.faces[front.face as usize],
+                        },
+                        None => canvas.inks.background,
+                    };
+                    let sum: Vec3 = at_samples(centre, light).into_iter().sum();
+                    let expected = encoded(sum / SAMPLES as f32);
                     let error = (0..3).map(|c| pixel[c].abs_diff(expected[c])).max();
                     assert!(
                         error <= Some(1),

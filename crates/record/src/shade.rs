@@ -8,6 +8,8 @@
 //! of its colour: Lambert's cosine wrapped around the whole sphere, so that no facet turns black and neighbours that
 //! face away from the light still differ. Both sides of the paper are lit alike.
 
+use std::sync::LazyLock;
+
 use foldmotion_pattern::Assignment;
 use glam::{DVec3, Vec3};
 
@@ -130,32 +132,61 @@ pub(crate) fn reflected_range() -> [f32; 2] {
 
 /// Linear light of an sRGB colour (IEC 61966-2-1).
 pub(crate) fn linear(color: [u8; 3]) -> Vec3 {
-    let decode = |byte: u8| {
-        let value = f32::from(byte) / 255.0;
-        if value <= 0.040_45 {
-            value / 12.92
-        } else {
-            ((value + 0.055) / 1.055).powf(2.4)
-        }
-    };
-    Vec3::from(color.map(decode))
+    Vec3::from(color.map(|byte| decoded(f32::from(byte))))
 }
 
 /// The sRGB colour of linear light (IEC 61966-2-1), rounded.
 pub(crate) fn encoded(light: Vec3) -> [u8; 3] {
-    light.to_array().map(|value| {
-        let value = if value <= 0.003_130_8 {
-            value * 12.92
-        } else {
-            1.055 * value.powf(1.0 / 2.4) - 0.055
-        };
-        byte(value)
-    })
+    let encoding: &Encoding = &ENCODING;
+    let [r, g, b] = light.to_array();
+    [encoding.byte(r), encoding.byte(g), encoding.byte(b)]
 }
 
-#[expect(clippy::cast_sign_loss, reason = "clamped to 0 to 255 before")]
-fn byte(value: f32) -> u8 {
-    (value * 255.0).round().clamp(0.0, 255.0) as u8
+/// Byte `value` of sRGB, also between two bytes, in linear light.
+fn decoded(value: f32) -> f32 {
+    let value = value / 255.0;
+    if value <= 0.040_45 {
+        value / 12.92
+    } else {
+        ((value + 0.055) / 1.055).powf(2.4)
+    }
+}
+
+/// The inverse of [`decoded`], rounded, by looking it up.
+struct Encoding {
+    /// The byte of the least light in each of equal cells; bytes are farther apart than these.
+    cells: Vec<u8>,
+    /// The least light of the byte after each.
+    limits: [f32; 256],
+}
+
+static ENCODING: LazyLock<Encoding> = LazyLock::new(Encoding::new);
+
+impl Encoding {
+    /// Cells from no light to 1.
+    const CELLS: usize = 4096;
+
+    fn new() -> Self {
+        let mut limits = [f32::INFINITY; 256];
+        for (byte, limit) in (0..255_u8).zip(&mut limits) {
+            *limit = decoded(f32::from(byte) + 0.5);
+        }
+        let byte = |cell: usize| {
+            let light = cell as f32 / Self::CELLS as f32;
+            limits.partition_point(|&limit| limit <= light) as u8
+        };
+        Self {
+            cells: (0..=Self::CELLS).map(byte).collect(),
+            limits,
+        }
+    }
+
+    #[expect(clippy::cast_sign_loss, reason = "clamped to 0 to CELLS before")]
+    fn byte(&self, light: f32) -> u8 {
+        let cell = (light * Self::CELLS as f32).clamp(0.0, Self::CELLS as f32) as usize;
+        let least = self.cells[cell];
+        least + u8::from(light >= self.limits[usize::from(least)])
+    }
 }
 
 #[cfg(test)]
@@ -167,6 +198,24 @@ mod tests {
         for value in 0..=255 {
             let color = [value, 255 - value, value / 2];
             assert_eq!(encoded(linear(color)), color);
+        }
+    }
+
+    #[test]
+    fn encoding_by_lookup_is_the_formula_rounded() {
+        for i in -100..=20_100_i32 {
+            let light = f64::from(i) / 20_000.0;
+            let value = if light <= 0.003_130_8 {
+                12.92 * light
+            } else {
+                1.055 * light.powf(1.0 / 2.4) - 0.055
+            };
+            let byte = (value * 255.0).clamp(0.0, 255.0);
+            let found = encoded(Vec3::splat(light as f32))[0];
+            assert!(
+                (byte - f64::from(found)).abs() < 0.5 + 1e-4,
+                "{light}: {found}"
+            );
         }
     }
 

@@ -7,6 +7,9 @@
 
 use glam::{DVec2, DVec3};
 
+use crate::screen_face::ScreenFace;
+use crate::segment::Segment;
+use crate::square::{Mask, SAMPLES, Square, at_samples, members};
 use crate::{Camera, Paper, Style};
 
 /// Triangles of known order closer than this count as coincident, in units of the sheet's `unit_length`.
@@ -35,44 +38,32 @@ pub struct Candidate {
     pub covers: bool,
 }
 
-/// The side of a triangle's edge: n·p + c is the distance in pixels from the edge, positive inside.
-#[derive(Debug, Clone, Copy)]
-struct Side {
-    n: DVec2,
-    c: f64,
+/// A triangle at the samples of a pixel.
+#[derive(Debug)]
+pub(crate) struct Layer {
+    pub(crate) face: u32,
+    /// The samples that it covers.
+    pub(crate) covered: Mask,
+    /// Those that only its outlines cover.
+    pub(crate) outlined: Mask,
+    /// At each of these samples, larger is nearer.
+    pub(crate) depths: [f64; SAMPLES],
 }
 
-/// A triangle on the screen.
-#[derive(Debug, Clone)]
-pub(crate) struct ScreenFace {
-    sides: [Side; 3],
-    low: DVec2,
-    high: DVec2,
-    /// depth = offset + gradient·p, kept within the depths of the corners.
-    gradient: DVec2,
-    offset: f64,
-    farthest: f64,
-    nearest: f64,
-    /// Unit front normal in the view: right, up, towards the viewer.
-    pub(crate) normal: DVec3,
-    /// Covers no point of the screen.
-    is_edge_on: bool,
-    /// How far an outline reaches beyond the triangle, in pixels.
-    reach: f64,
-}
+impl Layer {
+    /// The samples at which it may be seen.
+    pub(crate) fn shown(&self) -> Mask {
+        self.covered | self.outlined
+    }
 
-/// An edge on the screen.
-#[derive(Debug, Clone, Copy)]
-struct Segment {
-    start: DVec2,
-    /// From the start to the end.
-    along: DVec2,
-    /// 1 / |along|², 0 for a segment seen end-on.
-    inverse_squared: f64,
-    /// Of the start and the end.
-    depths: [f64; 2],
-    /// Whether the sheet ends or turns over here, so that the line is drawn beyond its triangles too.
-    is_outline: bool,
+    /// At sample `k`, if it may be seen there.
+    pub(crate) fn candidate(&self, k: usize) -> Option<Candidate> {
+        (self.shown() >> k & 1 == 1).then_some(Candidate {
+            face: self.face,
+            depth: self.depths[k],
+            covers: self.covered >> k & 1 == 1,
+        })
+    }
 }
 
 /// The sheet as the camera sees it.
@@ -138,25 +129,55 @@ impl<'a> Surface<'a> {
     /// the outline of another that lies within the tolerance of its plane; else the nearer one is in front, ties by
     /// the lower index.
     pub fn in_front(&self, a: &Candidate, b: &Candidate) -> bool {
+        self.decide(a, b, || self.order(a.face, b.face))
+    }
+
+    /// [`Surface::in_front`] with the layer order of the two, where it matters.
+    fn decide(&self, a: &Candidate, b: &Candidate, order: impl Fn() -> Option<bool>) -> bool {
         let gap = (a.depth - b.depth).abs();
         if gap < self.tie_window(a.face, b.face)
-            && let Some(a_is_front) = self.order(a.face, b.face)
+            && let Some(a_is_front) = order()
         {
             return a_is_front;
         }
         if a.covers != b.covers {
             let covering = if a.covers { a } else { b };
-            if gap * self.face(covering.face).normal.z.abs() < self.tie {
+            if gap * self.face(covering.face).cosine() < self.tie {
                 return a.covers;
             }
         }
         a.depth > b.depth || (a.depth == b.depth && a.face < b.face)
     }
 
+    /// The samples at which `a` is in front of `b`, of those in `asked`, where both may be seen.
+    pub(crate) fn before(&self, a: &Layer, b: &Layer, asked: Mask) -> Mask {
+        // Farther apart than any rule but depth reaches, one answer does for all.
+        let limit = self.tie / self.face(a.face).cosine().min(self.face(b.face).cosine());
+        let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
+        for (a, b) in a.depths.iter().zip(&b.depths) {
+            low = low.min(a - b);
+            high = high.max(a - b);
+        }
+        if low > limit {
+            return asked;
+        }
+        if high < -limit {
+            return 0;
+        }
+        let order = self.order(a.face, b.face);
+        let in_front = |k: &usize| match (a.candidate(*k), b.candidate(*k)) {
+            (Some(a), Some(b)) => self.decide(&a, &b, || order),
+            _ => false,
+        };
+        members(asked)
+            .filter(in_front)
+            .fold(0, |mask, k| mask | 1 << k)
+    }
+
     /// The depth difference below which `f` and `g` count as coincident.
     fn tie_window(&self, f: u32, g: u32) -> f64 {
-        let cosine = |face: u32| self.face(face).normal.z.abs();
-        self.tie / cosine(f).min(cosine(g)).max(LEAST_COSINE)
+        let cosine = self.face(f).cosine().min(self.face(g).cosine());
+        self.tie / cosine.max(LEAST_COSINE)
     }
 
     /// Whether `f` lies before `g` by the layer order, as far as that is known and holds from here.
@@ -178,10 +199,6 @@ impl<'a> Surface<'a> {
     }
 
     /// The triangle in front at `point` of those in `list`.
-    ///
-    /// From the farthest to the nearest each candidate takes the place of the one before unless that one is in
-    /// front of it. One that is in front of all others is found in any sequence; this one makes the answer the same
-    /// for every order of the triangles even where noise and layer order contradict each other in a circle.
     pub(crate) fn front_among(
         &self,
         list: &[u32],
@@ -190,12 +207,24 @@ impl<'a> Surface<'a> {
     ) -> Option<Candidate> {
         found.clear();
         found.extend(list.iter().filter_map(|&face| self.candidate(face, point)));
-        if found.len() > 1 {
-            found.sort_unstable_by(|a, b| {
-                let by_depth = a.depth.total_cmp(&b.depth);
-                by_depth.then(b.face.cmp(&a.face))
-            });
+        self.front_of(found)
+    }
+
+    /// The one in front of those `found` at a point.
+    ///
+    /// From the farthest to the nearest each candidate takes the place of the one before unless that one is in
+    /// front of it. One that is in front of all others is found in any sequence, mostly the nearest, which is tried
+    /// first; this one makes the answer the same for every order of the triangles even where noise and layer order
+    /// contradict each other in a circle.
+    pub(crate) fn front_of(&self, found: &mut [Candidate]) -> Option<Candidate> {
+        let by_depth =
+            |a: &Candidate, b: &Candidate| a.depth.total_cmp(&b.depth).then(b.face.cmp(&a.face));
+        let nearest = *found.iter().max_by(|a, b| by_depth(a, b))?;
+        let mut others = found.iter().filter(|other| other.face != nearest.face);
+        if others.all(|other| self.in_front(&nearest, other)) {
+            return Some(nearest);
         }
+        found.sort_unstable_by(by_depth);
         let mut candidates = found.iter();
         let mut front = candidates.next()?;
         for candidate in candidates {
@@ -216,31 +245,96 @@ impl<'a> Surface<'a> {
                 covers: true,
             });
         }
-        if screen.reach == 0.0 || !screen.may_touch(point, 0.0) {
+        let square = Square {
+            centre: point,
+            half: 0.0,
+        };
+        if screen.reach == 0.0 || !screen.may_touch(&square) {
             return None;
-        }
-        let mut nearest = self.half_width * self.half_width;
-        let mut depth = None;
-        for &edge in self.paper.edges_of_face(face) {
-            let segment = &self.segments[edge as usize];
-            let (distance_squared, s) = segment.nearest(point);
-            if segment.is_outline && distance_squared <= nearest {
-                nearest = distance_squared;
-                depth = Some(segment.depth(s));
-            }
         }
         Some(Candidate {
             face,
-            depth: depth?,
+            depth: self.outline_depth(face, point)?,
             covers: false,
         })
     }
 
-    /// The drawn edge of the facet of `face` within `reach` pixels of `point`, the nearest of several.
-    fn edge_within(&self, face: u32, point: DVec2, reach: f64) -> Option<u32> {
-        let mut nearest = reach * reach;
+    /// The depth of the nearest outline of triangle `face` that covers `point`.
+    fn outline_depth(&self, face: u32, point: DVec2) -> Option<f64> {
+        let mut nearest = self.half_width * self.half_width;
+        let mut depth = None;
+        for segment in self.outlines(face) {
+            let (distance_squared, s) = segment.nearest(point);
+            if distance_squared <= nearest {
+                nearest = distance_squared;
+                depth = Some(segment.depth(s));
+            }
+        }
+        depth
+    }
+
+    /// Triangle `face` at the samples of the pixel around `centre`, none where it covers no sample.
+    pub(crate) fn layer(&self, face: u32, centre: DVec2) -> Option<Layer> {
+        let screen = self.face(face);
+        let covered = screen.covered(centre);
+        let mut outlined = 0;
+        let mut depths = at_samples(centre, |point| screen.depth(point));
+        if covered != Mask::MAX && screen.reach > 0.0 {
+            outlined = self.outlined(face, centre, !covered, &mut depths);
+        }
+        (covered | outlined != 0).then_some(Layer {
+            face,
+            covered,
+            outlined,
+            depths,
+        })
+    }
+
+    /// [`Surface::outline_depth`] at the samples `asked` of the pixel around `centre`; answers where there is one.
+    fn outlined(&self, face: u32, centre: DVec2, asked: Mask, depths: &mut [f64; SAMPLES]) -> Mask {
+        let reach = self.half_width + Square::pixel(centre).corner();
+        let mut nearest = [self.half_width * self.half_width; SAMPLES];
+        let mut found = 0;
+        for segment in self.outlines(face) {
+            if segment.nearest(centre).0 > reach * reach {
+                continue;
+            }
+            let distances = at_samples(centre, |point| segment.nearest(point));
+            for k in members(asked) {
+                let (distance_squared, s) = distances[k];
+                if distance_squared <= nearest[k] {
+                    nearest[k] = distance_squared;
+                    depths[k] = segment.depth(s);
+                    found |= 1 << k;
+                }
+            }
+        }
+        found
+    }
+
+    fn outlines(&self, face: u32) -> impl Iterator<Item = &Segment> {
+        let edges = self.paper.edges_of_face(face).iter();
+        let segments = edges.map(|&edge| &self.segments[edge as usize]);
+        segments.filter(|segment| segment.is_outline)
+    }
+
+    /// The edges whose lines may cover points where triangle `face` is seen.
+    ///
+    /// Each triangle draws the halves of the lines of its facet that lie on it: a hidden line never shows, and no
+    /// line needs a depth of its own.
+    pub(crate) fn lines(&self, face: u32) -> &[u32] {
+        if self.half_width > 0.0 {
+            self.paper.edges_of_facet(face)
+        } else {
+            &[]
+        }
+    }
+
+    /// The edge whose line covers `point` where triangle `face` is seen, the nearest of several.
+    pub fn line_at(&self, face: u32, point: DVec2) -> Option<u32> {
+        let mut nearest = self.half_width * self.half_width;
         let mut found = None;
-        for &edge in self.paper.edges_of_facet(face) {
+        for &edge in self.lines(face) {
             let (distance_squared, _) = self.segments[edge as usize].nearest(point);
             if distance_squared < nearest {
                 nearest = distance_squared;
@@ -250,37 +344,51 @@ impl<'a> Surface<'a> {
         found
     }
 
-    /// The edge whose line covers `point` where triangle `face` is seen.
-    ///
-    /// Each triangle draws the halves of the lines of its facet that lie on it: a hidden line never shows, and no
-    /// line needs a depth of its own.
-    pub fn line_at(&self, face: u32, point: DVec2) -> Option<u32> {
-        self.edge_within(face, point, self.half_width)
+    /// Whether the line of `edge` may touch `square`.
+    pub(crate) fn may_have_line(&self, edge: u32, square: &Square) -> bool {
+        let reach = self.half_width + square.corner();
+        self.segments[edge as usize].nearest(square.centre).0 < reach * reach
     }
 
-    /// Whether a line that [`Surface::line_at`] finds may touch the square of half side `half` around `centre`.
-    pub(crate) fn may_have_line(&self, face: u32, centre: DVec2, half: f64) -> bool {
-        let reach = self.half_width + half * f64::sqrt(2.0);
-        self.half_width > 0.0 && self.edge_within(face, centre, reach).is_some()
+    /// [`Surface::line_at`] for the samples of the pixel around `centre`: the lines of `edges` found in it, each with
+    /// its samples.
+    pub(crate) fn find_lines(&self, edges: &[u32], centre: DVec2, found: &mut Vec<(u32, Mask)>) {
+        found.clear();
+        let mut nearest = [self.half_width * self.half_width; SAMPLES];
+        for &edge in edges {
+            if !self.may_have_line(edge, &Square::pixel(centre)) {
+                continue;
+            }
+            let segment = &self.segments[edge as usize];
+            let distances = at_samples(centre, |point| segment.nearest(point).0);
+            let mut nearer = 0;
+            for (k, least) in nearest.iter_mut().enumerate() {
+                nearer |= Mask::from(distances[k] < *least) << k;
+                *least = least.min(distances[k]);
+            }
+            for (_, farther) in &mut *found {
+                *farther &= !nearer;
+            }
+            found.push((edge, nearer));
+        }
     }
 
-    /// Whether no other triangle of `list` than `face` is seen in the square of half side `half` around `centre`,
-    /// judged from bounds: true is certain, false is not. The list holds what may touch the square.
-    pub(crate) fn fills(&self, face: u32, list: &[u32], centre: DVec2, half: f64) -> bool {
+    /// Whether no other triangle of `list` than `face` is seen in `square`, judged from bounds: true is certain, false
+    /// is not. The list holds what may touch the square.
+    pub(crate) fn fills(&self, face: u32, list: &[u32], square: &Square) -> bool {
         let screen = self.face(face);
-        if !screen.covers_square(centre, half) {
+        if !screen.covers_square(square) {
             return false;
         }
-        let farthest = screen.depth(centre) - half * screen.steepness();
+        let [farthest, _] = screen.depths(square, 0.0);
         list.iter()
-            .all(|&other| other == face || self.is_before(face, farthest, other, centre, half))
+            .all(|&other| other == face || self.is_before(face, farthest, other, square))
     }
 
     /// Whether `face`, nowhere farther than `farthest`, is in front of `other` in the whole square.
-    fn is_before(&self, face: u32, farthest: f64, other: u32, centre: DVec2, half: f64) -> bool {
+    fn is_before(&self, face: u32, farthest: f64, other: u32, square: &Square) -> bool {
         let screen = self.face(other);
-        let rise = (half + screen.reach) * screen.steepness();
-        let nearest = (screen.plane(centre) + rise).min(screen.nearest);
+        let [_, nearest] = screen.depths(square, screen.reach);
         let gap = farthest - nearest;
         let window = self.tie_window(face, other);
         if gap >= window {
@@ -292,15 +400,32 @@ impl<'a> Surface<'a> {
         }
     }
 
-    /// Whether triangle `face` or one of its outlines may show in the square.
-    pub(crate) fn may_touch(&self, face: u32, centre: DVec2, half: f64) -> bool {
-        self.face(face).may_touch(centre, half)
-    }
-
-    /// The box around triangle `face` with its outlines, on the screen.
-    pub(crate) fn bounds(&self, face: u32) -> (DVec2, DVec2) {
-        let screen = self.face(face);
-        (screen.low - screen.reach, screen.high + screen.reach)
+    /// Drops from `list`, from place `start` on, the triangles hidden in all of `square` behind one that covers it;
+    /// answers whether one covers it.
+    ///
+    /// Only what lies so deep that no order with any third triangle between them can lift it is dropped.
+    pub(crate) fn drop_hidden(&self, list: &mut Vec<u32>, start: usize, square: &Square) -> bool {
+        if let [only] = list[start..] {
+            return self.face(only).covers_square(square);
+        }
+        let mut horizon = f64::NEG_INFINITY;
+        for &face in &list[start..] {
+            let screen = self.face(face);
+            if screen.covers_square(square) {
+                horizon = horizon.max(screen.depths(square, 0.0)[0]);
+            }
+        }
+        let limit = horizon - 2.0 * self.tie / LEAST_COSINE;
+        let mut end = start;
+        for place in start..list.len() {
+            let screen = self.face(list[place]);
+            if screen.depths(square, screen.reach)[1] >= limit {
+                list[end] = list[place];
+                end += 1;
+            }
+        }
+        list.truncate(end);
+        horizon > f64::NEG_INFINITY
     }
 
     /// The prepared sheet.
@@ -313,146 +438,8 @@ impl<'a> Surface<'a> {
         &self.faces
     }
 
-    fn face(&self, face: u32) -> &ScreenFace {
+    /// Triangle `face`.
+    pub(crate) fn face(&self, face: u32) -> &ScreenFace {
         &self.faces[face as usize]
-    }
-}
-
-impl ScreenFace {
-    fn new(vertices: [u32; 3], corners: [DVec3; 3]) -> Self {
-        // In the view y runs up.
-        let in_view = corners.map(|p| DVec3::new(p.x, -p.y, p.z));
-        let across = (in_view[1] - in_view[0]).cross(in_view[2] - in_view[0]);
-        let normal = across.try_normalize().unwrap_or(DVec3::Z);
-        let depths = corners.map(|p| p.z);
-        let nearest = depths.into_iter().fold(f64::NEG_INFINITY, f64::max);
-        let farthest = depths.into_iter().fold(f64::INFINITY, f64::min);
-        let is_edge_on = normal.z.abs() < 1e-9;
-        let gradient = if is_edge_on {
-            DVec2::ZERO
-        } else {
-            DVec2::new(-normal.x, normal.y) / normal.z
-        };
-        let offset = if is_edge_on {
-            nearest
-        } else {
-            corners[0].z - gradient.dot(corners[0].truncate())
-        };
-        let flat = corners.map(DVec3::truncate);
-        let inside = if normal.z < 0.0 { 1.0 } else { -1.0 };
-        let side = |i: usize| {
-            let j = (i + 1) % 3;
-            if is_edge_on {
-                Side::NOWHERE
-            } else if vertices[i] < vertices[j] {
-                Side::new(flat[i], flat[j], inside)
-            } else {
-                Side::new(flat[j], flat[i], -inside)
-            }
-        };
-        Self {
-            sides: [side(0), side(1), side(2)],
-            low: flat[0].min(flat[1]).min(flat[2]),
-            high: flat[0].max(flat[1]).max(flat[2]),
-            gradient,
-            offset,
-            farthest,
-            nearest,
-            normal,
-            is_edge_on,
-            reach: 0.0,
-        }
-    }
-
-    /// Whether the front is seen.
-    pub(crate) fn faces_viewer(&self) -> bool {
-        self.normal.z >= 0.0
-    }
-
-    /// Inclusive: a point on an edge lies on both its triangles, so no gap opens between them.
-    fn covers(&self, point: DVec2) -> bool {
-        let [a, b, c] = self.sides.map(|side| side.distance(point));
-        a.min(b).min(c) >= 0.0
-    }
-
-    fn covers_square(&self, centre: DVec2, half: f64) -> bool {
-        let inside = |side: &Side| side.distance(centre) >= half * side.n.abs().element_sum();
-        self.sides.iter().all(inside)
-    }
-
-    fn may_touch(&self, centre: DVec2, half: f64) -> bool {
-        let room = half + self.reach;
-        let near_side = |side: &Side| {
-            side.distance(centre) >= -(half * side.n.abs().element_sum() + self.reach)
-        };
-        (centre + room).cmpge(self.low).all()
-            && (centre - room).cmple(self.high).all()
-            && (self.is_edge_on || self.sides.iter().all(near_side))
-    }
-
-    fn plane(&self, point: DVec2) -> f64 {
-        self.offset + self.gradient.dot(point)
-    }
-
-    /// Kept within the corners' depths: the plane of a triangle seen edge-on is steep beyond measure.
-    fn depth(&self, point: DVec2) -> f64 {
-        self.plane(point).clamp(self.farthest, self.nearest)
-    }
-
-    /// The largest change of depth a pixel along x and y together.
-    fn steepness(&self) -> f64 {
-        self.gradient.abs().element_sum()
-    }
-}
-
-impl Side {
-    /// Nothing lies inside: a triangle seen edge-on covers no point, only its outlines show.
-    const NOWHERE: Self = Self {
-        n: DVec2::ZERO,
-        c: f64::NEG_INFINITY,
-    };
-
-    /// `inside` = 1 keeps the side that (−d.y, d.x) points to, d = end − start. Neighbours pass the same ends with
-    /// opposite signs and get exactly opposite distances.
-    fn new(start: DVec2, end: DVec2, inside: f64) -> Self {
-        let d = end - start;
-        let n = DVec2::new(-d.y, d.x).normalize_or_zero();
-        Self {
-            n: n * inside,
-            c: -n.dot(start) * inside,
-        }
-    }
-
-    fn distance(&self, point: DVec2) -> f64 {
-        self.n.dot(point) + self.c
-    }
-}
-
-impl Segment {
-    fn new([start, end]: [DVec3; 2], is_outline: bool) -> Self {
-        let along = (end - start).truncate();
-        let length_squared = along.length_squared();
-        Self {
-            start: start.truncate(),
-            along,
-            inverse_squared: if length_squared > 0.0 {
-                length_squared.recip()
-            } else {
-                0.0
-            },
-            depths: [start.z, end.z],
-            is_outline,
-        }
-    }
-
-    /// The squared distance of `point` and the parameter of the nearest point, 0 at the start, 1 at the end.
-    fn nearest(&self, point: DVec2) -> (f64, f64) {
-        let from_start = point - self.start;
-        let s = (from_start.dot(self.along) * self.inverse_squared).clamp(0.0, 1.0);
-        ((from_start - self.along * s).length_squared(), s)
-    }
-
-    fn depth(&self, s: f64) -> f64 {
-        self.depths[0] + s * (self.depths[1] - self.depths[0])
     }
 }
