@@ -6,6 +6,7 @@
 //! frame were analysed anew. Nothing is dithered, for the same reason.
 
 use std::array::from_fn;
+use std::sync::OnceLock;
 
 use glam::Vec3;
 
@@ -18,15 +19,18 @@ const LEVELS: u16 = 56;
 /// Levels of light that lines and edges are mixed with.
 const MIXING_LEVELS: u16 = 4;
 
-/// Bits of a byte that tell in which cell of the colour cube it lies.
-const CELL_BITS: u32 = 4;
+/// Leading bits of a byte that tell in which cell of the colour cube it lies.
+const CELL_BITS: u32 = 5;
+
+/// The other bits of a byte.
+const CELL_MASK: u8 = u8::MAX >> CELL_BITS;
 
 /// The colours of a film.
 #[derive(Debug, Clone)]
 pub struct Palette {
     colors: Vec<[u8; 3]>,
-    /// For each cell of the colour cube the colours that are the nearest to one of its own, lowest index first.
-    cells: Vec<Vec<u8>>,
+    /// For each cell of the colour cube the colours that may be the nearest to one in it, found when first asked for.
+    cells: Vec<OnceLock<Vec<u8>>>,
 }
 
 impl Palette {
@@ -38,7 +42,7 @@ impl Palette {
         let inks = style.inks();
         let mut palette = Self {
             colors: Vec::new(),
-            cells: Vec::new(),
+            cells: vec![OnceLock::new(); 1 << (3 * CELL_BITS)],
         };
         palette.push(inks.background);
         let lines = [inks.mountain, inks.valley, inks.border];
@@ -51,9 +55,6 @@ impl Palette {
             }
         }
         palette.push_mixtures(&inks, &lines);
-        palette.cells = (0..1 << (3 * CELL_BITS))
-            .map(|cell| palette.near_cell(cell))
-            .collect();
         palette
     }
 
@@ -98,12 +99,22 @@ impl Palette {
         &self.colors
     }
 
-    /// The colours that may be the nearest to one of those in `cell`: no farther from the nearest of them than another
-    /// colour is from the farthest.
-    fn near_cell(&self, cell: usize) -> Vec<u8> {
-        let axis = |i: usize| (cell >> (i as u32 * CELL_BITS)) as u8 & ((1 << CELL_BITS) - 1);
-        let low = [axis(2), axis(1), axis(0)].map(|step| step << (8 - CELL_BITS));
-        let high = low.map(|value| value | (u8::MAX >> CELL_BITS));
+    /// The index of the nearest colour, ties by the lower index.
+    ///
+    /// Distances are squared differences of sRGB bytes weighted 2 : 4 : 3, a plain stand-in for what the eye sees.
+    pub fn nearest(&self, color: [u8; 3]) -> u8 {
+        let low = color.map(|byte| byte & !CELL_MASK);
+        let place = |cell, byte: &u8| cell << CELL_BITS | usize::from(byte >> (8 - CELL_BITS));
+        let cell = &self.cells[low.iter().fold(0, place)];
+        let near = cell.get_or_init(|| self.near_cell(low)).iter();
+        let nearest = near.min_by_key(|&&index| distance(color, self.colors[usize::from(index)]));
+        nearest.copied().unwrap_or(0)
+    }
+
+    /// The colours that may be the nearest to one in the cell from `low` on: no farther from the nearest one in it than
+    /// another colour is from the farthest.
+    fn near_cell(&self, low: [u8; 3]) -> Vec<u8> {
+        let high = low.map(|byte| byte | CELL_MASK);
         let least = |color: [u8; 3]| distance(color, from_fn(|i| color[i].clamp(low[i], high[i])));
         let most = |color: [u8; 3]| {
             let is_high = |i: usize| color[i].abs_diff(high[i]) > color[i].abs_diff(low[i]);
@@ -113,33 +124,18 @@ impl Palette {
             )
         };
         let limit = self.colors.iter().map(|&color| most(color)).min();
-        let indices = (0..).zip(&self.colors);
-        let near = indices.filter(|(_, color)| Some(least(**color)) <= limit);
+        let colors = (0..).zip(&self.colors);
+        let near = colors.filter(|(_, color)| Some(least(**color)) <= limit);
         near.map(|(index, _)| index).collect()
-    }
-
-    /// The index of the nearest colour, ties by the lower index.
-    ///
-    /// Distances are squared differences of sRGB bytes weighted 2 : 4 : 3, a plain stand-in for what the eye sees.
-    pub fn nearest(&self, color: [u8; 3]) -> u8 {
-        let place = |cell, byte: &u8| cell << CELL_BITS | usize::from(byte >> (8 - CELL_BITS));
-        let near = &self.cells[color.iter().fold(0, place)];
-        let nearest = near
-            .iter()
-            .min_by_key(|&&index| distance(color, self.colors[usize::from(index)]));
-        nearest.copied().unwrap_or(0)
     }
 
     /// The index of every pixel.
     pub fn indices(&self, image: &Image) -> Vec<u8> {
-        let mut last = ([0; 3], self.nearest([0; 3]));
-        let index = |&color: &[u8; 3]| {
-            if color != last.0 {
-                last = (color, self.nearest(color));
-            }
-            last.1
-        };
-        image.pixels.iter().map(index).collect()
+        let mut indices = Vec::with_capacity(image.pixels.len());
+        for run in image.pixels.chunk_by(|a, b| a == b) {
+            indices.resize(indices.len() + run.len(), self.nearest(run[0]));
+        }
+        indices
     }
 }
 

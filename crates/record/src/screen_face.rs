@@ -125,9 +125,23 @@ impl ScreenFace {
         self.offset + self.gradient.dot(point)
     }
 
+    /// `f64::clamp` checks its bounds each time.
+    fn within(&self, depth: f64) -> f64 {
+        let depth = if depth > self.nearest {
+            self.nearest
+        } else {
+            depth
+        };
+        if depth < self.farthest {
+            self.farthest
+        } else {
+            depth
+        }
+    }
+
     /// Kept within the corners' depths: the plane of a triangle seen edge-on is steep beyond measure.
     pub(crate) fn depth(&self, point: DVec2) -> f64 {
-        self.plane(point).min(self.nearest).max(self.farthest)
+        self.within(self.plane(point))
     }
 
     /// The farthest and the nearest it may be within `room` pixels of `square`.
@@ -137,8 +151,7 @@ impl ScreenFace {
         }
         let plane = self.plane(square.centre);
         let rise = (square.half + room) * self.steepness;
-        let within = |depth: f64| depth.min(self.nearest).max(self.farthest);
-        [within(plane - rise), within(plane + rise)]
+        [self.within(plane - rise), self.within(plane + rise)]
     }
 }
 

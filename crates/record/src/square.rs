@@ -44,6 +44,12 @@ impl Square {
     }
 }
 
+/// Sample `k` of the pixel around `centre`.
+#[inline]
+pub(crate) fn sample(centre: DVec2, k: usize) -> DVec2 {
+    DVec2::new(centre.x + OFFSETS[0][k], centre.y + OFFSETS[1][k])
+}
+
 /// `value` at the samples of the pixel around `centre`: one loop without branches, so that it runs in vector registers.
 #[inline]
 pub(crate) fn at_samples<T: Copy + Default>(
@@ -51,11 +57,8 @@ pub(crate) fn at_samples<T: Copy + Default>(
     value: impl Fn(DVec2) -> T,
 ) -> [T; SAMPLES] {
     let mut values = [T::default(); SAMPLES];
-    for k in 0..SAMPLES {
-        values[k] = value(DVec2::new(
-            centre.x + OFFSETS[0][k],
-            centre.y + OFFSETS[1][k],
-        ));
+    for (k, found) in values.iter_mut().enumerate() {
+        *found = value(sample(centre, k));
     }
     values
 }

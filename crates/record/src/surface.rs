@@ -9,7 +9,7 @@ use glam::{DVec2, DVec3};
 
 use crate::screen_face::ScreenFace;
 use crate::segment::Segment;
-use crate::square::{Mask, SAMPLES, Square, at_samples, members};
+use crate::square::{Mask, SAMPLES, Square, at_samples, members, sample};
 use crate::{Camera, Paper, Style};
 
 /// Triangles of known order closer than this count as coincident, in units of the sheet's `unit_length`.
@@ -36,6 +36,37 @@ pub struct Candidate {
     pub depth: f64,
     /// Whether the triangle itself covers the point; else only the outer half of one of its outlines does.
     pub covers: bool,
+}
+
+/// How two triangles compare.
+struct Pair {
+    /// The depth difference below which they count as coincident.
+    window: f64,
+    /// Whether the first is in front there, if that is known.
+    order: Option<bool>,
+    /// For each, the depth difference below which it goes before an outline of the other.
+    touch: [f64; 2],
+    /// Beyond this depth difference the nearer one is in front.
+    reach: f64,
+    /// Whether the first has the lower index.
+    is_first: bool,
+}
+
+impl Pair {
+    /// Whether the first is in front where it is nearer by `gap`. `covers`: whether they cover the point themselves.
+    fn is_front(&self, gap: f64, covers: [bool; 2]) -> bool {
+        let distance = gap.abs();
+        if distance < self.window
+            && let Some(is_front) = self.order
+        {
+            return is_front;
+        }
+        match covers {
+            [true, false] if distance < self.touch[0] => true,
+            [false, true] if distance < self.touch[1] => false,
+            _ => gap > 0.0 || (gap == 0.0 && self.is_first),
+        }
+    }
 }
 
 /// A triangle at the samples of a pixel.
@@ -129,49 +160,51 @@ impl<'a> Surface<'a> {
     /// the outline of another that lies within the tolerance of its plane; else the nearer one is in front, ties by
     /// the lower index.
     pub fn in_front(&self, a: &Candidate, b: &Candidate) -> bool {
-        self.decide(a, b, || self.order(a.face, b.face))
-    }
-
-    /// [`Surface::in_front`] with the layer order of the two, where it matters.
-    fn decide(&self, a: &Candidate, b: &Candidate, order: impl Fn() -> Option<bool>) -> bool {
-        let gap = (a.depth - b.depth).abs();
-        if gap < self.tie_window(a.face, b.face)
-            && let Some(a_is_front) = order()
-        {
-            return a_is_front;
-        }
-        if a.covers != b.covers {
-            let covering = if a.covers { a } else { b };
-            if gap * self.face(covering.face).cosine() < self.tie {
-                return a.covers;
-            }
-        }
-        a.depth > b.depth || (a.depth == b.depth && a.face < b.face)
+        let gap = a.depth - b.depth;
+        let pair = self.pair(a.face, b.face, gap.abs());
+        pair.is_front(gap, [a.covers, b.covers])
     }
 
     /// The samples at which `a` is in front of `b`, of those in `asked`, where both may be seen.
     pub(crate) fn before(&self, a: &Layer, b: &Layer, asked: Mask) -> Mask {
-        // Farther apart than any rule but depth reaches, one answer does for all.
-        let limit = self.tie / self.face(a.face).cosine().min(self.face(b.face).cosine());
+        let mut gaps = a.depths;
         let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
-        for (a, b) in a.depths.iter().zip(&b.depths) {
-            low = low.min(a - b);
-            high = high.max(a - b);
+        for (gap, depth) in gaps.iter_mut().zip(b.depths) {
+            *gap -= depth;
+            low = if *gap < low { *gap } else { low };
+            high = if *gap > high { *gap } else { high };
         }
-        if low > limit {
+        let pair = self.pair(a.face, b.face, low.max(-high));
+        if low > pair.reach {
             return asked;
         }
-        if high < -limit {
+        if high < -pair.reach {
             return 0;
         }
-        let order = self.order(a.face, b.face);
-        let in_front = |k: &usize| match (a.candidate(*k), b.candidate(*k)) {
-            (Some(a), Some(b)) => self.decide(&a, &b, || order),
-            _ => false,
+        let is_front = |k: usize| {
+            let covers = [a.covered, b.covered].map(|covered| covered >> k & 1 == 1);
+            pair.is_front(gaps[k], covers)
         };
-        members(asked)
-            .filter(in_front)
-            .fold(0, |mask, k| mask | 1 << k)
+        members(asked).fold(0, |mask, k| mask | Mask::from(is_front(k)) << k)
+    }
+
+    /// How triangles `f` and `g` compare where their depths differ by at least `closest`.
+    fn pair(&self, f: u32, g: u32, closest: f64) -> Pair {
+        let cosines = [f, g].map(|face| self.face(face).cosine());
+        let reach = self.tie / cosines[0].min(cosines[1]);
+        let window = self.tie_window(f, g);
+        let order = if closest < window {
+            self.order(f, g)
+        } else {
+            None
+        };
+        Pair {
+            window,
+            order,
+            touch: cosines.map(|cosine| self.tie / cosine),
+            reach,
+            is_first: f < g,
+        }
     }
 
     /// The depth difference below which `f` and `g` count as coincident.
@@ -185,17 +218,19 @@ impl<'a> Surface<'a> {
         if f > g {
             return self.order(g, f).map(|g_is_front| !g_is_front);
         }
+        let (face_f, face_g) = (self.face(f), self.face(g));
+        let cosine = face_f.normal.dot(face_g.normal);
+        let same_side = (cosine > 0.0) == (face_f.faces_viewer() == face_g.faces_viewer());
+        if cosine.abs() <= PARALLEL_COSINE || !same_side {
+            return None;
+        }
         let (above, is_g_base) = match self.paper.layer_sign(f, g) {
             Some(sign) => (sign > 0, true),
             None => (self.paper.layer_sign(g, f)? > 0, false),
         };
-        let (face_f, face_g) = (self.face(f), self.face(g));
-        let cosine = face_f.normal.dot(face_g.normal);
-        let are_parallel = cosine.abs() > PARALLEL_COSINE;
-        let same_side = (cosine > 0.0) == (face_f.faces_viewer() == face_g.faces_viewer());
         let base = if is_g_base { face_g } else { face_f };
         let upper_is_front = above == base.faces_viewer();
-        (are_parallel && same_side).then_some(upper_is_front == is_g_base)
+        Some(upper_is_front == is_g_base)
     }
 
     /// The triangle in front at `point` of those in `list`.
@@ -278,11 +313,18 @@ impl<'a> Surface<'a> {
         let screen = self.face(face);
         let covered = screen.covered(centre);
         let mut outlined = 0;
-        let mut depths = at_samples(centre, |point| screen.depth(point));
+        let mut outlines = [0.0; SAMPLES];
         if covered != Mask::MAX && screen.reach > 0.0 {
-            outlined = self.outlined(face, centre, !covered, &mut depths);
+            outlined = self.outlined(face, centre, !covered, &mut outlines);
         }
-        (covered | outlined != 0).then_some(Layer {
+        if covered | outlined == 0 {
+            return None;
+        }
+        let mut depths = at_samples(centre, |point| screen.depth(point));
+        for k in members(outlined) {
+            depths[k] = outlines[k];
+        }
+        Some(Layer {
             face,
             covered,
             outlined,
@@ -299,12 +341,11 @@ impl<'a> Surface<'a> {
             if segment.nearest(centre).0 > reach * reach {
                 continue;
             }
-            let distances = at_samples(centre, |point| segment.nearest(point));
+            let distances = at_samples(centre, |point| segment.nearest(point).0);
             for k in members(asked) {
-                let (distance_squared, s) = distances[k];
-                if distance_squared <= nearest[k] {
-                    nearest[k] = distance_squared;
-                    depths[k] = segment.depth(s);
+                if distances[k] <= nearest[k] {
+                    nearest[k] = distances[k];
+                    depths[k] = segment.depth(segment.nearest(sample(centre, k)).1);
                     found |= 1 << k;
                 }
             }
@@ -363,8 +404,9 @@ impl<'a> Surface<'a> {
             let distances = at_samples(centre, |point| segment.nearest(point).0);
             let mut nearer = 0;
             for (k, least) in nearest.iter_mut().enumerate() {
-                nearer |= Mask::from(distances[k] < *least) << k;
-                *least = least.min(distances[k]);
+                let is_nearer = distances[k] < *least;
+                nearer |= Mask::from(is_nearer) << k;
+                *least = if is_nearer { distances[k] } else { *least };
             }
             for (_, farther) in &mut *found {
                 *farther &= !nearer;
