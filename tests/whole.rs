@@ -8,6 +8,8 @@
 
 #[path = "whole/bad_input.rs"]
 mod bad_input;
+#[path = "whole/refinement.rs"]
+mod refinement;
 #[path = "whole/scenes.rs"]
 mod scenes;
 #[path = "whole/schemas.rs"]

@@ -23,6 +23,7 @@
 mod collision;
 mod error;
 mod extents;
+mod straightness;
 mod strain;
 
 pub use collision::{
@@ -31,4 +32,5 @@ pub use collision::{
 };
 pub use error::CheckError;
 pub use extents::{FittedBox, RelativeError, fitted_box, relative_error};
+pub use straightness::straying;
 pub use strain::{BarStrain, FacetBending, bar_strain, facet_bending};

@@ -317,3 +317,28 @@ fn the_caller_can_end_the_run() {
     .unwrap_err();
     assert_eq!(error, SolverError::Cancelled { time: 0.5 });
 }
+
+#[test]
+fn times_asked_for_are_recorded_once_and_lie_on_the_same_path() {
+    let scene = scene(Case::E, 3, 1, &Material::default(), 1.0);
+    let plain = QuasiStaticOptions {
+        frames: 8,
+        ..QuasiStaticOptions::default()
+    };
+    let asked = QuasiStaticOptions {
+        extra_times: vec![1.7, 0.1, 1.0, 1.25, 1.7 + 1e-14, 0.0, 2.0, -0.3, 2.5],
+        ..plain.clone()
+    };
+    let times = |run: &QuasiStaticRun| run.frames.iter().map(|f| f.time).collect::<Vec<_>>();
+    let (plain, asked) = (run(&scene, &plain), run(&scene, &asked));
+    let expected = [0.0, 0.1, 0.25, 0.5, 0.75, 1.0, 1.25, 1.5, 1.7, 1.75, 2.0];
+    assert_eq!(times(&asked), expected);
+    for frame in &plain.frames {
+        let twin = asked.frames.iter().find(|f| f.time == frame.time).unwrap();
+        let drift = RigidMotion::best_fit(&frame.positions, &twin.positions);
+        for (p, q) in frame.positions.iter().zip(&twin.positions) {
+            let p = drift.apply(*p);
+            assert!(p.distance(*q) < 1e-6, "{} {p} {q}", frame.time);
+        }
+    }
+}

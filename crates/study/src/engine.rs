@@ -46,23 +46,26 @@ pub(crate) struct ContactFigures {
 }
 
 impl Study {
-    /// Moves the sheet through both stages. `progress` is told the motion time.
+    /// Moves the sheet through both stages and records it at `extra_times` too. `progress` is told the motion time.
     pub(crate) fn fold(
         &self,
+        extra_times: &[f64],
         progress: &(dyn Fn(f64) -> bool + Sync),
     ) -> Result<Computed, StudyError> {
         match self.engine {
-            EngineChoice::Dynamic => self.fold_dynamically(progress),
-            EngineChoice::QuasiStatic => self.fold_in_equilibrium(progress),
+            EngineChoice::Dynamic => self.fold_dynamically(extra_times, progress),
+            EngineChoice::QuasiStatic => self.fold_in_equilibrium(extra_times, progress),
         }
     }
 
     fn fold_dynamically(
         &self,
+        extra_times: &[f64],
         progress: &(dyn Fn(f64) -> bool + Sync),
     ) -> Result<Computed, StudyError> {
         let options = DynamicOptions {
             frames: self.frames,
+            extra_times: extra_times.to_vec(),
             ..DynamicOptions::default()
         };
         let run = dynamic::run(
@@ -91,11 +94,13 @@ impl Study {
 
     fn fold_in_equilibrium(
         &self,
+        extra_times: &[f64],
         progress: &(dyn Fn(f64) -> bool + Sync),
     ) -> Result<Computed, StudyError> {
         let contact = self.contact_gap.map(|gap| Contact { gap });
         let options = QuasiStaticOptions {
             frames: self.frames,
+            extra_times: extra_times.to_vec(),
             contact,
             ..QuasiStaticOptions::default()
         };

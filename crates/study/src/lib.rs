@@ -7,6 +7,7 @@ pub mod certificate;
 mod check_file;
 mod engine;
 mod error;
+mod refinement;
 pub mod report;
 mod reporting;
 mod results;

@@ -38,6 +38,8 @@ pub struct Report {
     pub jam: Option<JamReport>,
     /// The verdict.
     pub collision: CollisionSection,
+    /// The recorded path, between whose frames the verdict takes straight lines.
+    pub path: PathReport,
     /// The engine; its timings and device are all that may differ between two runs of one scene.
     pub engine: EngineReport,
     /// Seconds a part of the run took.
@@ -285,6 +287,22 @@ pub struct UnitName {
     pub name: String,
 }
 
+/// The recorded path.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct PathReport {
+    /// Frames recorded.
+    pub frames: usize,
+    /// How often the engine ran again because the verdict was open between frames.
+    pub refinements: usize,
+    /// Frames asked for between the first ones by these runs.
+    pub added_frames: usize,
+    /// How far a straight path between frames strays from the computed motion at most, in units of h: estimated from
+    /// second differences of the frames; null where a stage has too few of them.
+    pub straying: Option<f64>,
+    /// Motion time of the frame after which it strays furthest.
+    pub straying_t: Option<f64>,
+}
+
 /// The engine.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct EngineReport {
@@ -386,6 +404,7 @@ impl Report {
             let _ = writeln!(out, "{}", jam.line());
         }
         self.write_verdict(&mut out);
+        self.write_path(&mut out);
         let e = &self.engine;
         let _ = writeln!(
             out,
@@ -437,6 +456,26 @@ impl Report {
             "vertices lie {:.1e} h (rms) from the exact compact state",
             c.rms_to_exact
         );
+    }
+
+    fn write_path(&self, out: &mut String) {
+        let p = &self.path;
+        let refined = match p.refinements {
+            0 => String::new(),
+            n => format!(
+                ", {} of them added in {n} further run(s) to decide between frames",
+                p.added_frames
+            ),
+        };
+        let straying = match (p.straying, p.straying_t) {
+            (Some(stray), Some(t)) => format!(
+                "straight paths between them stray from the computed motion by about {stray:.1e} h at most (t = {t:.4})"
+            ),
+            _ => {
+                "how far straight paths between them stray is not known: too few frames".to_owned()
+            }
+        };
+        let _ = writeln!(out, "{} frames{refined}; {straying}", p.frames);
     }
 
     fn write_verdict(&self, out: &mut String) {

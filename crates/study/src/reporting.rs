@@ -8,27 +8,24 @@ use foldmotion_solver::Stage;
 use foldmotion_solver::quasi_static::Jam;
 use glam::DVec2;
 
-use crate::engine::{Computed, StageSummary};
+use crate::engine::StageSummary;
+use crate::refinement::Folded;
 use crate::report::{
     BoxReport, CollisionSection, CompactReport, DivisionReport, EnergyReport, EngineReport,
     ErrorReport, JamReport, PatternReport, PenetrationReport, SecondsReport, StageReport, UnitName,
     UnitReport, VertexReport,
 };
-use crate::run::{Checked, VERSION};
+use crate::run::VERSION;
 use crate::scene::EngineChoice;
 use crate::series::FrameFigures;
 use crate::{Report, Study};
 
 impl Study {
-    pub(crate) fn report(
-        &self,
-        computed: &Computed,
-        checked: &Checked,
-        engine_seconds: f64,
-        seconds: SecondsReport,
-        files: &[&str],
-    ) -> Report {
+    pub(crate) fn report(&self, folded: &Folded, seconds: SecondsReport, files: &[&str]) -> Report {
         let unit = &self.units.unit;
+        let Folded {
+            computed, checked, ..
+        } = folded;
         Report {
             title: self.title.clone(),
             version: VERSION.to_owned(),
@@ -61,6 +58,7 @@ impl Study {
                 .collect(),
             jam: computed.jam.as_ref().map(|j| self.jam_report(j)),
             collision: collision_section(&self.units, &checked.collision),
+            path: folded.path,
             engine: EngineReport {
                 name: match self.engine {
                     EngineChoice::Dynamic => "dynamic",
@@ -69,7 +67,7 @@ impl Study {
                 .to_owned(),
                 contact_gap: self.contact_gap,
                 steps: computed.steps,
-                seconds: engine_seconds,
+                seconds: folded.engine_seconds,
                 threads: rayon::current_num_threads(),
                 device: "cpu".to_owned(),
                 instruction_set: std::env::consts::ARCH.to_owned(),

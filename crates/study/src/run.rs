@@ -65,23 +65,15 @@ impl Study {
         let started = Instant::now();
         let mut results = Results::create(folder)?;
         self.require_space(&results)?;
-        let (computed, engine_seconds) = timed(|| self.fold(&|t| progress(Phase::Fold, t / 2.0)))?;
-        let motion = self.place(&computed);
-        let (checked, check_seconds) = timed(|| self.check(&motion, &computed, progress))?;
+        let folded = self.fold_and_check(progress)?;
         let ((), record_seconds) =
-            timed(|| self.record(&motion, &checked, &mut results, progress))?;
+            timed(|| self.record(&folded.motion, &folded.checked, &mut results, progress))?;
         let seconds = SecondsReport {
-            check: check_seconds,
+            check: folded.check_seconds,
             record: record_seconds,
             total: started.elapsed().as_secs_f64(),
         };
-        let report = self.report(
-            &computed,
-            &checked,
-            engine_seconds,
-            seconds,
-            results.written(),
-        );
+        let report = self.report(&folded, seconds, results.written());
         results.write(REPORT, |out| {
             out.write_all(report.to_json().as_bytes())
                 .map_err(|e| write_error(folder, REPORT, e))
@@ -122,7 +114,7 @@ impl Study {
     }
 
     /// The motion in the frame of the exact compact state: one rigid motion, applied to every frame alike.
-    fn place(&self, computed: &Computed) -> Motion {
+    pub(crate) fn place(&self, computed: &Computed) -> Motion {
         let exact = self.units.compact();
         let fit = match computed.frames.last() {
             Some(last) => RigidMotion::best_fit(&last.positions, &exact),
@@ -139,7 +131,7 @@ impl Study {
         }
     }
 
-    fn check(
+    pub(crate) fn check(
         &self,
         motion: &Motion,
         computed: &Computed,
@@ -213,7 +205,9 @@ impl Study {
     }
 }
 
-fn timed<T>(work: impl FnOnce() -> Result<T, StudyError>) -> Result<(T, f64), StudyError> {
+pub(crate) fn timed<T>(
+    work: impl FnOnce() -> Result<T, StudyError>,
+) -> Result<(T, f64), StudyError> {
     let started = Instant::now();
     work().map(|value| (value, started.elapsed().as_secs_f64()))
 }

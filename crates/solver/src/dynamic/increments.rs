@@ -1,6 +1,6 @@
 //! The increments of a stage's ramp.
 //!
-//! The stage is cut at the frames and where a step of the schedule begins or ends. Each piece is divided into equal
+//! The stage is cut at the frames, at the times asked for, and where a step of the schedule begins or ends. Each piece is divided into equal
 //! increments so that none turns a target by more than [`LARGEST_TURN`]. In `fold`, towards the end of every turn, there
 //! is also a geometric series, each closing increment leaving [`CLOSING_RATIO`] of the turn that was left. There the
 //! layers that the turn closes come together: with ε left to turn, neighbouring layers lie of the order of ε² apart, so
@@ -61,7 +61,9 @@ pub(super) fn increments(
             is_recorded,
         }
     };
-    let pieces = pieces(&turns, options.frames / 2);
+    let asked = options.extra_times.iter().map(|t| t - stage.start_time());
+    let asked: Vec<f64> = asked.filter(|s| *s > 0.0 && *s < 1.0).collect();
+    let pieces = pieces(&turns, &asked, options.frames / 2);
     let equal = pieces.iter().flat_map(|piece| {
         (1..=piece.parts).map(|part| (piece.left(part, intervals), part == piece.parts))
     });
@@ -118,14 +120,15 @@ impl Piece {
     }
 }
 
-/// The pieces of the stage in order of time.
-fn pieces(turns: &[Turn], frames: usize) -> Vec<Piece> {
+/// The pieces of the stage in order of time; `asked` are stage-local times at which it is cut too.
+fn pieces(turns: &[Turn], asked: &[f64], frames: usize) -> Vec<Piece> {
     let intervals = frames as f64;
     let same = SAME_TIME * intervals;
     let is_between_frames = |left: &f64| (left - left.round()).abs() > same;
     let kinks = turns
         .iter()
         .flat_map(|turn| [turn.timing.from, turn.timing.to])
+        .chain(asked.iter().copied())
         .map(|s| (1.0 - s) * intervals)
         .filter(is_between_frames);
     let mut cuts: Vec<f64> = (0..=frames).map(|left| left as f64).chain(kinks).collect();

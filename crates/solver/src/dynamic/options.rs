@@ -5,10 +5,12 @@ use foldmotion_pattern::Frame;
 use crate::{SolverError, Stage};
 
 /// Options of [`run`](super::run).
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct DynamicOptions {
     /// The motion is recorded at t = 2k/frames, k = 0 … frames; even, at least 2.
     pub frames: usize,
+    /// Further motion times at which the state is recorded; those outside the stages are passed over.
+    pub extra_times: Vec<f64>,
     /// The residual at which the end of a stage counts as settled (see [`StageOutcome::residual`]).
     pub tolerance: f64,
     /// The residual to which the sheet settles after each increment of the ramp. Infinite: not at all, so that the
@@ -49,6 +51,7 @@ impl Default for DynamicOptions {
     fn default() -> Self {
         Self {
             frames: 240,
+            extra_times: Vec::new(),
             tolerance: 1e-8,
             ramp_tolerance: 1e-3,
             ramp_steps: 8,

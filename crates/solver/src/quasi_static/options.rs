@@ -10,6 +10,8 @@ pub struct QuasiStaticOptions {
     pub stages: Vec<Stage>,
     /// N, even: the states at t = 2k/N are recorded.
     pub frames: usize,
+    /// Further motion times at which the state is recorded; those outside the stages are passed over.
+    pub extra_times: Vec<f64>,
     /// Whether the load steps between them are recorded too.
     pub record_load_steps: bool,
     /// A state is an equilibrium where the largest nodal force is at most this times the force scale (see
@@ -26,6 +28,7 @@ impl Default for QuasiStaticOptions {
         Self {
             stages: Stage::ALL.to_vec(),
             frames: 240,
+            extra_times: Vec::new(),
             record_load_steps: false,
             tolerance: 1e-9,
             max_iterations: 60,

@@ -8,7 +8,7 @@ use crate::{EnergyByKind, Stage};
 /// The motion and how it was found.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct QuasiStaticRun {
-    /// In order of time, positions in the sheet's unit: the states at t = 2k/frames, and states between where the
+    /// In order of time, positions in the sheet's unit: the states at t = 2k/frames and at the times asked for, and states between where the
     /// straight way from one to the next would lead through contact. Those up to the last state reached.
     pub frames: Vec<Frame>,
     /// Figures of each frame.

@@ -23,6 +23,8 @@ const EASY_ITERATIONS: usize = 10;
 const HARD_ITERATIONS: usize = 30;
 /// An extrapolated state with more than this many times the energy of the last one is no help.
 const USELESS_ENERGY: f64 = 100.0;
+/// Stage-local times closer than this are the same but for rounding.
+const SAME_TIME: f64 = 1e-12;
 /// By which load steps grow and shrink.
 const STEP_FACTOR: f64 = 2.0;
 /// Load steps shortened to this share of the spacing of frames are given the budget of a snap.
@@ -38,7 +40,7 @@ const MOST_STIFFENING: f64 = 1e4;
 /// Folds the sheet of `model` slowly along `schedule`, from `start` (one position a vertex, in the sheet's unit).
 ///
 /// At every load step the sheet is brought to the nearest minimum of its energy downhill from the last state, itself
-/// extrapolated. Load steps hit every t = 2k/frames; between them they shorten where Newton's method fails and grow
+/// extrapolated. Load steps hit every t = 2k/frames and every time asked for; between them they shorten where Newton's method fails and grow
 /// again where it is easy. Where short ones fail too, the sheet snaps: the search is given time to descend to the next
 /// equilibrium, however far. `progress` is told t after each load step and ends the run by returning false.
 ///
@@ -123,6 +125,21 @@ fn check_input(model: &Model, schedule: &Schedule, start: &[DVec3]) -> Result<()
     }
 }
 
+/// The stage-local times at which a stage records its state, in order, from the first after its start to its end.
+fn recorded_times(options: &QuasiStaticOptions, stage: Stage) -> Vec<f64> {
+    let frames = (options.frames / 2) as f64;
+    let is_between_frames =
+        |s: &f64| (s * frames - (s * frames).round()).abs() > SAME_TIME * frames;
+    let extra = options.extra_times.iter().map(|t| t - stage.start_time());
+    let mut times: Vec<f64> = extra
+        .filter(|s| *s > 0.0 && *s < 1.0 && is_between_frames(s))
+        .chain((1..=options.frames / 2).map(|k| k as f64 / frames))
+        .collect();
+    times.sort_by(f64::total_cmp);
+    times.dedup_by(|later, earlier| *later - *earlier <= SAME_TIME);
+    times
+}
+
 struct Run<'a> {
     model: &'a Model,
     schedule: &'a Schedule,
@@ -158,11 +175,10 @@ impl Run<'_> {
     fn stage(&mut self, stage: Stage) -> Result<bool, SolverError> {
         let mut outcome = StageOutcome::new(stage);
         let mut history = History::new(0.0, self.state.clone());
-        let frames = self.options.frames / 2;
-        let spacing = 1.0 / frames as f64;
-        let (mut s, mut length, mut next_frame) = (0.0, spacing, 1);
-        while next_frame <= frames {
-            let goal = next_frame as f64 / frames as f64;
+        let goals = recorded_times(self.options, stage);
+        let spacing = 2.0 / self.options.frames as f64;
+        let (mut s, mut length, mut recorded) = (0.0, spacing, 0);
+        while let Some(&goal) = goals.get(recorded) {
             // A step that would leave less than half of itself before the frame is stretched to it.
             let reaches = goal - s <= 1.5 * length;
             let next = if reaches { goal } else { s + length };
@@ -194,12 +210,12 @@ impl Run<'_> {
                 history.push(next, trial.state.clone());
             }
             (self.state, s, outcome.reached) = (trial.state, next, to);
-            next_frame += usize::from(reaches);
+            recorded += usize::from(reaches);
             if !(self.progress)(to) {
                 return Err(SolverError::Cancelled { time: to });
             }
         }
-        outcome.converged = next_frame > frames;
+        outcome.converged = recorded == goals.len();
         let converged = outcome.converged;
         self.outcome.stages.push(outcome);
         Ok(converged)

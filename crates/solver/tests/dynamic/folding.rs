@@ -208,36 +208,39 @@ fn input_that_does_not_fit_is_refused() {
     let units = units(Case::E, 2, 1);
     let model = Model::new(&units.sheet, &Material::default()).unwrap();
     let (start, schedule) = deployed(&units);
-    let refused = |start: &[DVec3], options: DynamicOptions| {
-        run(&model, &schedule, start, &options, &|_| true)
+    let refused = |start: &[DVec3], options: &DynamicOptions| {
+        run(&model, &schedule, start, options, &|_| true)
             .unwrap_err()
             .to_string()
     };
     let good = DynamicOptions::default();
-    assert!(refused(&start[1..], good).contains("start positions were given"));
+    assert!(refused(&start[1..], &good).contains("start positions were given"));
     let mut lost = start.clone();
     lost[3].z = f64::NAN;
-    assert!(refused(&lost, good).contains("start position of vertex 3"));
+    assert!(refused(&lost, &good).contains("start position of vertex 3"));
     for frames in [0, 1, 7, usize::MAX - 1] {
-        let message = refused(&start, DynamicOptions { frames, ..good });
+        let options = DynamicOptions {
+            frames,
+            ..good.clone()
+        };
+        let message = refused(&start, &options);
         assert!(
             message.starts_with(&format!("{frames} frames were asked for")),
             "{message}"
         );
     }
     for tolerance in [0.0, -1.0, f64::NAN, f64::INFINITY] {
-        assert!(refused(&start, DynamicOptions { tolerance, ..good }).contains("tolerance"));
+        let options = DynamicOptions {
+            tolerance,
+            ..good.clone()
+        };
+        assert!(refused(&start, &options).contains("tolerance"));
     }
-    assert!(
-        refused(
-            &start,
-            DynamicOptions {
-                ramp_steps: 0,
-                ..good
-            }
-        )
-        .contains("ramp_steps is 0")
-    );
+    let options = DynamicOptions {
+        ramp_steps: 0,
+        ..good.clone()
+    };
+    assert!(refused(&start, &options).contains("ramp_steps is 0"));
     let other = crate::sheets::units(Case::E, 3, 1);
     let (_, longer) = deployed(&other);
     let error = run(&model, &longer, &start, &good, &|_| true).unwrap_err();
@@ -286,4 +289,29 @@ fn a_schedule_takes_creases_from_their_deployed_angle_over_zero_to_the_compact_o
     assert!(matches!(huge, SolverError::AngleOutOfRange { .. }));
     let lost = Schedule::uniform(&units.sheet, &flat, &vec![f64::NAN; edges]).unwrap_err();
     assert!(matches!(lost, SolverError::NotFinite { .. }));
+}
+
+#[test]
+fn times_asked_for_are_recorded_once_among_the_frames() {
+    let units = units(Case::E, 2, 1);
+    let asked = DynamicOptions {
+        extra_times: vec![1.7, 0.1, 1.0, 0.0, 2.5],
+        ..coarse()
+    };
+    let times = |run: &Run| run.frames.iter().map(|f| f.time).collect::<Vec<_>>();
+    let (plain, asked) = (
+        times(&fold(&units, &coarse())),
+        times(&fold(&units, &asked)),
+    );
+    let count = |t: f64| {
+        asked
+            .iter()
+            .filter(|time| (**time - t).abs() < 1e-9)
+            .count()
+    };
+    for time in plain.iter().chain(&[0.1, 1.7]) {
+        assert_eq!(count(*time), 1, "{time}");
+    }
+    assert!(asked.windows(2).all(|t| t[0] < t[1]));
+    assert_eq!(asked.len(), plain.len() + 2);
 }

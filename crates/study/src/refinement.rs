@@ -1,0 +1,118 @@
+//! Refinement: more frames where the recorded ones do not decide what the computed motion does.
+//!
+//! The verdict speaks of straight paths between frames. Where one leaves the computed motion further than facets
+//! overlap on it, or could not be decided, the motion itself may be clear: the engine then runs again and records
+//! more frames there.
+
+use foldmotion_check::{CollisionReport, Verdict, straying};
+use foldmotion_pattern::{Frame, Motion};
+
+use crate::engine::Computed;
+use crate::report::PathReport;
+use crate::run::{Checked, timed};
+use crate::{Phase, Progress, Study, StudyError};
+
+/// Runs of the engine with more frames, at most; each divides the straying of a path by 16.
+const MOST_ROUNDS: usize = 4;
+/// Parts an interval is divided into.
+const PARTS: usize = 4;
+/// Shorter intervals are not divided.
+const SHORTEST: f64 = 1e-9;
+
+/// A motion and what was found out about it.
+pub(crate) struct Folded {
+    pub(crate) computed: Computed,
+    pub(crate) motion: Motion,
+    pub(crate) checked: Checked,
+    pub(crate) path: PathReport,
+    /// Seconds of all its runs.
+    pub(crate) engine_seconds: f64,
+    pub(crate) check_seconds: f64,
+}
+
+impl Study {
+    /// Folds and checks, with more frames where the first ones leave the verdict open.
+    pub(crate) fn fold_and_check(&self, progress: Progress<'_>) -> Result<Folded, StudyError> {
+        let mut extra_times = Vec::new();
+        let (mut engine_seconds, mut check_seconds) = (0.0, 0.0);
+        let mut rounds = 0;
+        loop {
+            let (computed, seconds) =
+                timed(|| self.fold(&extra_times, &|t| progress(Phase::Fold, t / 2.0)))?;
+            engine_seconds += seconds;
+            let motion = self.place(&computed);
+            let (checked, seconds) = timed(|| self.check(&motion, &computed, progress))?;
+            check_seconds += seconds;
+            let strays = straying(&motion.frames);
+            let more = self.times_between(&checked.collision, &motion.frames, &strays);
+            if more.is_empty() || rounds == MOST_ROUNDS {
+                let path = self.path_report(&motion.frames, &strays, rounds, extra_times.len());
+                return Ok(Folded {
+                    computed,
+                    motion,
+                    checked,
+                    path,
+                    engine_seconds,
+                    check_seconds,
+                });
+            }
+            extra_times.extend(more);
+            rounds += 1;
+        }
+    }
+
+    /// Times at which frames are missing: within intervals that could not be decided, or, where every penetration is
+    /// shallower than the straight paths may stray there, within theirs.
+    fn times_between(
+        &self,
+        collision: &CollisionReport,
+        frames: &[Frame],
+        strays: &[f64],
+    ) -> Vec<f64> {
+        if !matches!(collision.verdict, Verdict::Undecided | Verdict::Penetrating) {
+            return Vec::new();
+        }
+        let height = self.units.unit.height;
+        let mut open: Vec<usize> = collision.undecided.iter().map(|u| u.frame).collect();
+        for penetration in &collision.penetrations {
+            let k = penetration.frame;
+            let is_of_a_frame = penetration.passed <= frames[k].time;
+            let is_certain = strays
+                .get(k)
+                .is_none_or(|&stray| penetration.depth * height > stray);
+            if is_of_a_frame || is_certain {
+                return Vec::new();
+            }
+            open.push(k);
+        }
+        open.sort_unstable();
+        open.dedup();
+        let parts = open.into_iter().filter_map(|k| {
+            let (from, to) = (frames[k].time, frames.get(k + 1)?.time);
+            let inner = move |part| from + (to - from) * part as f64 / PARTS as f64;
+            (to - from > SHORTEST).then(|| (1..PARTS).map(inner))
+        });
+        parts.flatten().collect()
+    }
+
+    fn path_report(
+        &self,
+        frames: &[Frame],
+        strays: &[f64],
+        rounds: usize,
+        added: usize,
+    ) -> PathReport {
+        let largest = strays
+            .iter()
+            .zip(frames)
+            .max_by(|a, b| a.0.total_cmp(b.0))
+            .filter(|(stray, _)| stray.is_finite());
+        PathReport {
+            frames: frames.len(),
+            refinements: rounds,
+            added_frames: added,
+            straying: largest.map(|(stray, _)| stray / self.units.unit.height),
+            straying_t: largest.map(|(_, frame)| frame.time),
+        }
+    }
+}
