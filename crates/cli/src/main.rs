@@ -113,13 +113,22 @@ fn check_motion(arguments: &CheckArguments) -> Result<u8, Failure> {
 
 fn list_models() -> Result<u8, Failure> {
     for model in models() {
+        let columns = model.columns;
         print(&format!(
-            "{:<10} {} ({} x {} units; {}; {})\n",
+            "{:<14} {}, {}\n{:15}{} x {} (E), {} (T), {} (S, SII) units{}; {}\n",
             model.name,
             model.title,
-            model.rows,
-            model.columns,
             if model.is_closed() { "closed" } else { "open" },
+            "",
+            model.rows,
+            columns.e,
+            columns.t,
+            columns.s,
+            if columns.ours {
+                ", T to SII our choice"
+            } else {
+                ""
+            },
             model.source
         ))?;
     }

@@ -157,12 +157,31 @@ fn the_scene_of_init_is_good_and_an_existing_file_is_kept() {
 }
 
 #[test]
-fn models_lists_the_shelter() {
+fn models_lists_all_nine_with_rows_columns_and_source() {
     let home = tempfile::tempdir().unwrap();
     let output = foldmotion(home.path(), &["models"]);
-    assert!(
-        text(&output.stdout)
-            .lines()
-            .any(|l| l.starts_with("shelter ") && l.contains("7 x 5"))
-    );
+    let text = text(&output.stdout);
+    let lines: Vec<_> = text.lines().collect();
+    assert_eq!(lines.len(), 18);
+    for (name, units) in [
+        (
+            "shelter",
+            "7 x 5 (E), 7 (T), 3 (S, SII) units, T to SII our choice; drawn",
+        ),
+        ("chair", "9 x 4 (E), 6 (T), 2 (S, SII) units; drawn"),
+        (
+            "airfoil",
+            "26 x 7 (E), 10 (T), 5 (S, SII) units, T to SII our choice; NACA 4415",
+        ),
+        (
+            "bunny",
+            "100 x 5 (E), 8 (T), 3 (S, SII) units; silhouette of the Stanford",
+        ),
+    ] {
+        let at = lines
+            .iter()
+            .position(|l| l.starts_with(&format!("{name} ")))
+            .unwrap();
+        assert!(lines[at + 1].trim_start().starts_with(units), "{text}");
+    }
 }

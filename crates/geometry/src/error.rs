@@ -29,6 +29,52 @@ pub enum GeometryError {
         /// The largest size allowed.
         limit: f64,
     },
+    /// A curve through points needs some.
+    #[error(
+        "the outline has {count} points; {minimum} to {maximum} are taken, {minimum} of them distinct"
+    )]
+    PointCount {
+        /// How many were given.
+        count: usize,
+        /// 2, or 3 for a closed outline.
+        minimum: usize,
+        /// The most.
+        maximum: usize,
+    },
+    /// A point is NaN, infinite or too large to be squared.
+    #[error(
+        "point {index} is ({x}, {z}); coordinates must be finite and at most {limit:e} in size"
+    )]
+    Point {
+        /// Which one, from 0.
+        index: usize,
+        /// Its x.
+        x: f64,
+        /// Its z.
+        z: f64,
+        /// The largest size allowed.
+        limit: f64,
+    },
+    /// Two points in a row are the same or nearly so.
+    #[error("points {index} and {next} both stand at ({x}, {z}) or too near to it; remove one", next = index + 1)]
+    RepeatedPoint {
+        /// The first of the two, from 0.
+        index: usize,
+        /// Its x.
+        x: f64,
+        /// Its z.
+        z: f64,
+    },
+    /// A closed outline ends far from its start.
+    #[error(
+        "the closed outline ends {gap:e} away from its start, more than twice its longest step ({longest:e}); repeat its first point as the last, or do not call it closed"
+    )]
+    EndsApart {
+        /// Distance between the first and the last point.
+        gap: f64,
+        /// The longest distance between neighbouring points.
+        longest: f64,
+    },
     /// The knot vector does not fit the control points.
     #[error("{count} knots for {control_points} control points; a cubic curve needs {expected}")]
     KnotCount {

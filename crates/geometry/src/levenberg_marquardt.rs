@@ -15,6 +15,7 @@
 use glam::DVec2;
 
 use crate::division::Ending;
+use crate::tridiagonal::Tridiagonal;
 use crate::{GeometryError, Profile};
 
 /// μ starts as this times the largest diagonal entry of DᵀD: even arc length is a good start (section 3.2 of the source).
@@ -284,43 +285,6 @@ fn admissible_share(change: &[f64], parameters: &[f64]) -> f64 {
             share
         }
     })
-}
-
-/// L D Lᵀ of a symmetric positive definite tridiagonal matrix (Golub and Van Loan 2013, algorithm 4.3.6).
-struct Tridiagonal {
-    pivots: Vec<f64>,
-    /// Below the unit diagonal of L; one fewer than pivots.
-    lower: Vec<f64>,
-}
-
-impl Tridiagonal {
-    fn factor(
-        diagonal: impl Iterator<Item = f64>,
-        off_diagonal: impl Iterator<Item = f64>,
-    ) -> Self {
-        let mut pivots: Vec<_> = diagonal.collect();
-        let mut lower: Vec<_> = off_diagonal.collect();
-        for (k, entry) in lower.iter_mut().enumerate() {
-            let coupling = *entry;
-            *entry = coupling / pivots[k];
-            pivots[k + 1] -= *entry * coupling;
-        }
-        Self { pivots, lower }
-    }
-
-    fn solve(&self, b: &[f64]) -> Vec<f64> {
-        let mut x = b.to_vec();
-        for (k, lower) in self.lower.iter().enumerate() {
-            x[k + 1] -= lower * x[k];
-        }
-        for (x, pivot) in x.iter_mut().zip(&self.pivots) {
-            *x /= pivot;
-        }
-        for (k, lower) in self.lower.iter().enumerate().rev() {
-            x[k] -= lower * x[k + 1];
-        }
-        x
-    }
 }
 
 fn dot(a: &[f64], b: &[f64]) -> f64 {

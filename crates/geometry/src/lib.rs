@@ -14,12 +14,14 @@ mod dihedral;
 mod distance;
 mod division;
 mod error;
+mod interpolation;
 mod levenberg_marquardt;
 mod nurbs;
 mod orientation;
 mod polygon;
 mod profile;
 mod rigid;
+mod tridiagonal;
 
 pub use aabb::Aabb;
 pub use dihedral::{fold_angle, fold_angle_gradient, nearest_turn};

@@ -12,7 +12,7 @@ const DEGREE: usize = 3;
 /// Coordinates up to here can be squared and multiplied again without overflow.
 pub(crate) const LARGEST_COORDINATE: f64 = 1e100;
 /// Two knots are equal or at least this far apart, over the knot range.
-const NARROWEST_SPAN: f64 = 1e-9;
+pub(crate) const NARROWEST_SPAN: f64 = 1e-9;
 
 /// A cubic B-spline curve (NURBS of unit weights) over u ∈ [0, 1]; points are (x, z).
 #[derive(Debug, Clone, PartialEq)]

@@ -4,6 +4,7 @@ use glam::DVec2;
 use serde::{Deserialize, Serialize};
 
 use crate::arc_length::arc_length;
+use crate::interpolation::interpolate;
 use crate::polygon::first_crossing;
 use crate::{GeometryError, Nurbs};
 
@@ -72,6 +73,22 @@ impl Profile {
         if closure == Closure::Corner && gap > 0.0 {
             return Err(GeometryError::NotClosed { gap });
         }
+        Ok(Self { curve, closure })
+    }
+
+    /// The profile that runs through `points` in order: a C² cubic spline, held as a NURBS with unit weights.
+    ///
+    /// The parameters of the points are centripetal (the root of the chords between them, Lee 1989), and they are the knots: the
+    /// curve is one cubic from point to point, however many there are, at a cost linear in their number. `Open` and
+    /// `Corner` end without curvature (natural spline); `Corner` and `Smooth` return to the first point, which may be repeated as the
+    /// last. The curve passes through every point, noise included: thin or smooth a scan before.
+    ///
+    /// # Errors
+    /// Fewer than 2 points, or 3 distinct ones for a closed profile; more than 20 000; one that is not finite, larger than
+    /// 1e100, or equal to the one before it; points so unevenly spaced that parameters come nearer than 1e-9; a closed
+    /// profile whose last point is farther from its start than twice the longest step before.
+    pub fn through(points: &[DVec2], closure: Closure) -> Result<Self, GeometryError> {
+        let curve = interpolate(points, closure)?;
         Ok(Self { curve, closure })
     }
 

@@ -26,7 +26,7 @@ pub use error::PatternError;
 pub use fold_file::FoldHeader;
 pub use fold_read::{FoldError, FoldFile, FrameNumber};
 pub use layout::UnitSheet;
-pub use model::{ProfileModel, find as find_model, models};
+pub use model::{CaseColumns, NacaSection, ProfileModel, Shape, find as find_model, models};
 pub use motion::{Frame, LayerOrder, Motion};
 pub use sheet::{Assignment, CreaseKind, Edge, Facet, FacetKind, Sheet};
 pub use states::Facing;

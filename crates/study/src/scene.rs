@@ -107,11 +107,12 @@ impl LengthUnit {
 #[derive(Debug, Clone, Default, PartialEq, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct SheetScene {
-    /// W; may be left out for case E, where W = Nc·h (section 4.1 of the paper).
+    /// W; may be left out for case E, where W = Nc·h (section 4.1 of the paper), and for built-in profiles, where W is that
+    /// of case E.
     pub width: Option<f64>,
     /// Nr; that of the built-in profile where left out.
     pub rows: Option<i64>,
-    /// Nc; that of the built-in profile where left out.
+    /// Nc; that of the built-in profile in this case where left out.
     pub columns: Option<i64>,
     /// The case; `auto` where left out.
     pub case: Option<CaseChoice>,

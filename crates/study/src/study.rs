@@ -8,8 +8,8 @@ use foldmotion_geometry::{
     divide_to_length,
 };
 use foldmotion_pattern::{
-    CompactBox, Facing, PatternCheck, PatternError, ProfileModel, Unit, UnitSheet, find_model,
-    models,
+    Case, CompactBox, Facing, PatternCheck, PatternError, ProfileModel, Unit, UnitSheet,
+    find_model, models,
 };
 use foldmotion_record::{FilmOptions, RecordError, View};
 use foldmotion_solver::quasi_static::Contact;
@@ -88,12 +88,12 @@ impl Study {
         let columns = resolver.count(
             "sheet.columns",
             scene.sheet.columns,
-            built_in.map(|m| m.columns),
+            built_in.map(|m| m.columns.of(resolver.case_asked_for())),
         )?;
         let started = Instant::now();
         let (profile, division) = resolver.division(built_in, rows)?;
         let division_seconds = started.elapsed().as_secs_f64();
-        let unit = resolver.unit(division.mean_length, columns)?;
+        let unit = resolver.unit(built_in, division.mean_length, columns)?;
         let units = UnitSheet::new(unit, rows, columns).map_err(|e| resolver.pattern_error(&e))?;
         let facing = match scene.sheet.facing {
             Some(FacingChoice::Right) => Facing::Right,
@@ -215,16 +215,13 @@ impl Resolver<'_> {
     ) -> Result<(Profile, Division), StudyError> {
         let options = self.division_options()?;
         let profile = match built_in {
-            Some(model) => {
-                let points: Vec<DVec2> = model.control_points.iter().map(|&p| p.into()).collect();
-                Profile::new(&points, model.closure)
-            }
+            Some(model) => model.profile(),
             None => self.own_profile(),
         }
         .map_err(|e| self.geometry_error(&e))?;
         let length = match (self.scene.profile.length, built_in) {
             (Some(length), _) => Some(self.positive("profile.length", length)?),
-            (None, built_in) => built_in.map(|m| m.length),
+            (None, built_in) => built_in.map(ProfileModel::length),
         };
         let divided = match length {
             Some(length) => divide_to_length(&profile, rows, length, &options),
@@ -286,13 +283,32 @@ impl Resolver<'_> {
         Ok(options)
     }
 
-    /// w and the case, from W, Nc and h.
-    fn unit(&self, height: f64, columns: usize) -> Result<Unit, StudyError> {
+    /// The case whose columns a built-in profile brings.
+    fn case_asked_for(&self) -> Case {
+        match self.scene.sheet.case {
+            Some(CaseChoice::T) => Case::T,
+            Some(CaseChoice::S) => Case::S,
+            Some(CaseChoice::SII) => Case::SII,
+            Some(CaseChoice::Plain) => Case::Plain,
+            None | Some(CaseChoice::E | CaseChoice::Auto) => Case::E,
+        }
+    }
+
+    /// w and the case, from W, Nc and h. A built-in profile is as wide in every case as in case E.
+    fn unit(
+        &self,
+        built_in: Option<&ProfileModel>,
+        height: f64,
+        columns: usize,
+    ) -> Result<Unit, StudyError> {
         let scene = &self.scene.sheet;
         let choice = scene.case.unwrap_or(CaseChoice::Auto);
         let width = match (scene.width, choice) {
             (Some(width), _) => self.positive("sheet.width", width)? / columns as f64,
             (None, CaseChoice::E | CaseChoice::Auto) => height,
+            (None, _) if let Some(model) = built_in => {
+                model.columns.e as f64 * height / columns as f64
+            }
             (None, _) => {
                 let message =
                     "is missing: only case E makes the width from the rows' height, W = Nc·h";
