@@ -4,6 +4,7 @@ use glam::DVec3;
 
 use super::{
     Axis, Limits, MovingPair, PairPose,
+    meeting::never_meet,
     walk::{Walk, widest},
 };
 
@@ -89,7 +90,9 @@ pub enum Outcome {
 
 /// Certifies a pair from the side it starts on (see the module documentation).
 ///
-/// `side`: from [`Side::at_start`], or the side the pair had at the end of the interval before.
+/// `side`: from [`Side::at_start`], or the side the pair had at the end of the interval before. What the walk does not
+/// certify is put to the vertex–facet and edge–edge queries, which need no axes: those of triangles that shrink to a
+/// segment on the way are not defined.
 pub fn certify(pair: &MovingPair, side: &Side, limits: &Limits) -> Outcome {
     let mut outcome = Outcome::Undecided { time: 0.0 };
     for first_step in FIRST_STEPS {
@@ -99,7 +102,25 @@ pub fn certify(pair: &MovingPair, side: &Side, limits: &Limits) -> Outcome {
             break;
         }
     }
-    outcome
+    if matches!(outcome, Outcome::Passed(_)) {
+        return outcome;
+    }
+    passage_without_meeting(pair, side, limits).map_or(outcome, Outcome::Passed)
+}
+
+/// The passage of triangles that share no vertex, start apart, end apart and are proved to meet nowhere between.
+fn passage_without_meeting(pair: &MovingPair, side: &Side, limits: &Limits) -> Option<Passage> {
+    if pair.start.shared > 0 || matches!(side, Side::Contact(_)) {
+        return None;
+    }
+    widest(&pair.start, limits)?;
+    let at_end = widest(&pair.end, limits)?;
+    never_meet(pair, limits).then_some(Passage {
+        side: Side::Apart(at_end),
+        clearance: limits.margin,
+        in_contact: false,
+        effort: Effort::Search,
+    })
 }
 
 #[cfg(test)]
