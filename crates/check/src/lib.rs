@@ -25,6 +25,7 @@ mod error;
 mod extents;
 mod straightness;
 mod strain;
+mod verification;
 
 pub use collision::{
     Checker, CollisionOptions, CollisionReport, FilterCounts, PairCounts, Penetration,
@@ -34,3 +35,4 @@ pub use error::CheckError;
 pub use extents::{FittedBox, RelativeError, fitted_box, relative_error};
 pub use straightness::straying;
 pub use strain::{BarStrain, FacetBending, bar_strain, facet_bending};
+pub use verification::{Refutation, Unproved, Verification, Verifier};

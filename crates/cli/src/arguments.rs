@@ -22,7 +22,9 @@ pub(crate) enum Command {
     Run(RunArguments),
     /// Decide whether any FOLD motion passes through itself, and certify it
     ///
-    /// Exit status: 0 free or touching, 1 a penetration was found, 2 bad input, 3 undecided or interrupted.
+    /// Exit status: 0 free or touching, 1 a penetration was found, 2 bad input, 3 undecided or interrupted. With
+    /// --verify: 0 verified, free or touching; 1 verified, penetrating; 2 the certificate is false, or about another
+    /// motion, or bad input; 3 not verified or interrupted.
     Check(CheckArguments),
     /// List the built-in profiles
     Models,
@@ -64,6 +66,9 @@ pub(crate) struct CheckArguments {
     /// The folder of certificate.json; out/<file's name> where left out
     #[arg(long)]
     pub(crate) out: Option<PathBuf>,
+    /// Prove the statement of this certificate.json about the motion again by other means; nothing is written
+    #[arg(long, value_name = "CERTIFICATE", conflicts_with_all = ["out", "tolerance", "json"])]
+    pub(crate) verify: Option<PathBuf>,
     /// Overlaps up to this are touching, in the file's foldmotion:unitLength or mean sides of a face; 1e-6 where left
     /// out
     #[arg(long, value_name = "X")]

@@ -5,13 +5,13 @@ mod init;
 mod progress;
 
 use std::io::Write as _;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use arguments::{Arguments, CheckArguments, Command, RunArguments};
 use clap::Parser as _;
-use foldmotion_study::{CheckOptions, SceneSource, Study, check_file, models};
+use foldmotion_study::{CheckOptions, SceneSource, Study, check_file, models, verify_file};
 use progress::Reporter;
 
 /// Set by Ctrl-C; work stops at its next report of progress.
@@ -86,6 +86,9 @@ fn run_scene(arguments: &RunArguments) -> Result<u8, Failure> {
 fn check_motion(arguments: &CheckArguments) -> Result<u8, Failure> {
     use_threads(arguments.threads)?;
     watch_for_interrupts()?;
+    if let Some(certificate) = &arguments.verify {
+        return verify_certificate(arguments, certificate);
+    }
     let stem = arguments.motion.file_stem().unwrap_or_default();
     let folder = arguments
         .out
@@ -109,6 +112,19 @@ fn check_motion(arguments: &CheckArguments) -> Result<u8, Failure> {
         print(&format!("certificate in {}\n", folder.display()))?;
     }
     Ok(certificate.status())
+}
+
+fn verify_certificate(arguments: &CheckArguments, certificate: &Path) -> Result<u8, Failure> {
+    let reporter = Reporter::new(arguments.quiet);
+    let verified = verify_file(&arguments.motion, certificate, &|phase, done| {
+        reporter.report(phase, done);
+        !INTERRUPTED.load(Ordering::Relaxed)
+    })?;
+    reporter.finish();
+    if !arguments.quiet {
+        print(&verified.table())?;
+    }
+    Ok(verified.status())
 }
 
 fn list_models() -> Result<u8, Failure> {

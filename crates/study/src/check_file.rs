@@ -98,7 +98,7 @@ impl Certificate {
 }
 
 /// A motion file under way: hashed, measured, and ended where the user wants.
-struct Input<'a> {
+pub(crate) struct Input<'a> {
     path: &'a Path,
     file: File,
     size: u64,
@@ -106,11 +106,15 @@ struct Input<'a> {
     hash: Sha256,
     phase: Phase,
     progress: Progress<'a>,
-    is_stopped: bool,
+    pub(crate) is_stopped: bool,
 }
 
 impl<'a> Input<'a> {
-    fn open(path: &'a Path, phase: Phase, progress: Progress<'a>) -> Result<Self, StudyError> {
+    pub(crate) fn open(
+        path: &'a Path,
+        phase: Phase,
+        progress: Progress<'a>,
+    ) -> Result<Self, StudyError> {
         let failed = |source| StudyError::Read {
             path: path.to_owned(),
             source,
@@ -139,18 +143,18 @@ impl<'a> Input<'a> {
         })
     }
 
-    fn unless_stopped<T>(&self, outcome: Result<T, FoldError>) -> Result<T, StudyError> {
+    pub(crate) fn unless_stopped<T>(&self, outcome: Result<T, FoldError>) -> Result<T, StudyError> {
         if self.is_stopped {
             return Err(StudyError::Interrupted);
         }
         outcome.map_err(|e| self.failure(&e))
     }
 
-    fn failure(&self, message: &dyn std::fmt::Display) -> StudyError {
+    pub(crate) fn failure(&self, message: &dyn std::fmt::Display) -> StudyError {
         motion_error(self.path, message)
     }
 
-    fn digest(&self) -> String {
+    pub(crate) fn digest(&self) -> String {
         let bytes = self.hash.clone().finalize();
         let mut text = String::with_capacity(2 * bytes.len());
         for byte in bytes {
@@ -299,7 +303,7 @@ fn certificate(file: &FoldFile, report: &CollisionReport, times: &[f64]) -> Cert
     }
 }
 
-fn assumptions(file: &FoldFile) -> Vec<String> {
+pub(crate) fn assumptions(file: &FoldFile) -> Vec<String> {
     let cut = file.polygons.iter().filter(|p| p.len() > 3).count();
     let polygons = match cut {
         0 => "All faces are triangles.".to_owned(),
@@ -328,7 +332,7 @@ fn assumptions(file: &FoldFile) -> Vec<String> {
     .to_vec()
 }
 
-fn triangle_pair(file: &FoldFile, triangles: [u32; 2]) -> TrianglePair {
+pub(crate) fn triangle_pair(file: &FoldFile, triangles: [u32; 2]) -> TrianglePair {
     let facets = triangles.map(|t| file.sheet.face_facets[t as usize]);
     TrianglePair {
         triangles,

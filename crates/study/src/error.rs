@@ -64,6 +64,14 @@ pub enum StudyError {
         /// What is wrong, where, and what would be right.
         message: String,
     },
+    /// A certificate cannot be read.
+    #[error("{}: {message}", path.display())]
+    Certificate {
+        /// The certificate.
+        path: PathBuf,
+        /// What is wrong, and what would be right.
+        message: String,
+    },
     /// A motion file is too large.
     #[error("{}: it has {size} bytes: at most {limit} are read", path.display())]
     LargeMotion {
@@ -121,6 +129,7 @@ impl StudyError {
             Self::Read { .. }
             | Self::Parse { .. }
             | Self::Motion { .. }
+            | Self::Certificate { .. }
             | Self::LargeMotion { .. }
             | Self::Value { .. }
             | Self::Undivided { .. } => 2,

@@ -16,7 +16,9 @@ pub mod scene;
 mod schema;
 mod series;
 mod source;
+mod statement;
 mod study;
+mod verify_file;
 
 pub use certificate::Certificate;
 pub use check_file::{CheckOptions, check_file};
@@ -28,3 +30,4 @@ pub use scene::Scene;
 pub use schema::{certificate_schema, report_schema, scene_schema};
 pub use source::SceneSource;
 pub use study::Study;
+pub use verify_file::{VerifiedCertificate, verify_file};

@@ -25,6 +25,8 @@ pub enum Phase {
     Fold,
     /// The collision check.
     Check,
+    /// The second proof of a certificate.
+    Verify,
     /// Films and files.
     Record,
 }
@@ -36,6 +38,7 @@ impl Phase {
             Self::Read => "read",
             Self::Fold => "fold",
             Self::Check => "check",
+            Self::Verify => "verify",
             Self::Record => "record",
         }
     }

@@ -236,7 +236,7 @@ impl<'a> Checker<'a> {
                 Some(apart) => self.sides.push(((f, g), apart)),
                 None => {
                     let time = self.last.time;
-                    self.penetrates(&pair, 0, [time, time], starts_deep(&pair, &pose));
+                    self.penetrates(&pair, 0, [time, time], starts_deep(&pair, &pose, limits));
                 }
             }
         }
@@ -338,13 +338,12 @@ impl<'a> Checker<'a> {
 
     fn penetrates(&mut self, pair: &Pair, frame: usize, times: [f64; 2], witness: Witness) {
         let at = |t: f64| times[0] + (times[1] - times[0]) * t;
-        let [f, g] = pair.faces;
-        if pair.shared == 0 && !facets_share_a_vertex(self.sheet, f, g) {
+        if let Some(approach) = witness.approach {
             self.keep_nearer(Separation {
-                distance: 0.0,
-                time: at(witness.contact),
+                distance: approach.closest.distance,
+                time: at(approach.time),
                 faces: pair.faces,
-                points: [witness.point; 2],
+                points: [approach.closest.on_a, approach.closest.on_b],
             });
         }
         self.penetrating.insert(key(pair));

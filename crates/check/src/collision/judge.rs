@@ -1,15 +1,12 @@
 //! The judgement of one pair in one interval.
 
-use foldmotion_geometry::{
-    collide::{
-        Approach, Axis, Crossing, Effort, Feature, Limits, MovingPair, Outcome, PairPose, Side,
-        certify, closest_approach, enough_clearance,
-    },
-    segment_segment,
+use foldmotion_geometry::collide::{
+    Approach, Axis, Crossing, Effort, Feature, Limits, MovingPair, Outcome, PairPose, Side,
+    certify, closest_approach, enough_clearance,
 };
 use glam::DVec3;
 
-use super::{pair::Pair, report::PenetrationKind};
+use super::{meeting::Meeting, pair::Pair, report::PenetrationKind};
 
 /// What an interval did to a pair.
 #[derive(Debug)]
@@ -36,6 +33,8 @@ pub(super) struct Witness {
     pub(super) vertices: Vec<u32>,
     pub(super) point: DVec3,
     pub(super) depth: f64,
+    /// The closest approach on the way, where it may be news.
+    pub(super) approach: Option<Approach>,
 }
 
 /// What a pair is asked.
@@ -51,13 +50,21 @@ pub(super) struct Question<'a> {
 impl Question<'_> {
     /// Judges a pair from its side; none stands for a pair that starts deeper than τ.
     pub(super) fn judge(&self, pair: &Pair, moving: &MovingPair, side: Option<&Side>) -> Judgement {
+        let penetrates = |witness: Witness| {
+            let bound = self.nearer_than;
+            let approaches = bound.map(|bound| closest_approach(moving, bound, self.limits));
+            Judgement::Penetrates(Witness {
+                approach: approaches.and_then(|found| found.nearest),
+                ..witness
+            })
+        };
         let Some(side) = side else {
-            return Judgement::Penetrates(starts_deep(pair, &moving.start));
+            return penetrates(starts_deep(pair, &moving.start, self.limits));
         };
         let passage = match certify(moving, side, self.limits) {
             Outcome::Passed(passage) => passage,
             Outcome::Crossed(crossing) => {
-                return Judgement::Penetrates(self.witness(pair, moving, &crossing));
+                return penetrates(self.witness(pair, moving, &crossing));
             }
             Outcome::Undecided { time } => return Judgement::Undecided { time },
         };
@@ -85,11 +92,12 @@ impl Question<'_> {
     }
 
     fn witness(&self, pair: &Pair, moving: &MovingPair, crossing: &Crossing) -> Witness {
-        let pose = moving.at(crossing.confirmed);
+        // Just as it gets too deep the features still meet; later they may be far through.
+        let pose = moving.at(crossing.passed);
         let is_deep = crossing.depth > self.limits.tolerance;
-        let (vertices, point) = meeting(pair, &pose, &crossing.axis);
+        let meeting = meeting(pair, &pose, &crossing.axis, self.limits);
         let (kind, depth) = match pair.shared {
-            0 if is_deep => (kind_of(&crossing.axis), crossing.depth),
+            0 if is_deep => (kind_of(&meeting), crossing.depth),
             0 => (PenetrationKind::PassedThrough, crossing.depth.max(0.0)),
             1 => (PenetrationKind::AroundVertex, crossing.reach),
             _ => (PenetrationKind::FoldedThrough, crossing.reach),
@@ -98,74 +106,57 @@ impl Question<'_> {
             contact: crossing.contact,
             passed: crossing.passed,
             kind,
-            vertices,
-            point,
+            vertices: vertices(pair, &meeting),
+            point: meeting.point,
             depth,
+            approach: None,
         }
     }
 }
 
 /// The witness of a pair that is deeper than τ at the start of an interval.
-pub(super) fn starts_deep(pair: &Pair, pose: &PairPose) -> Witness {
+pub(super) fn starts_deep(pair: &Pair, pose: &PairPose, limits: &Limits) -> Witness {
     let axis = pose.depth();
-    let (vertices, point) = meeting(pair, pose, &axis);
+    let meeting = meeting(pair, pose, &axis, limits);
     Witness {
         contact: 0.0,
         passed: 0.0,
         kind: match pair.shared {
-            0 => kind_of(&axis),
+            0 => kind_of(&meeting),
             1 => PenetrationKind::AroundVertex,
             _ => PenetrationKind::FoldedThrough,
         },
-        vertices,
-        point,
+        vertices: vertices(pair, &meeting),
+        point: meeting.point,
         depth: axis.overlap,
+        approach: None,
     }
 }
 
-fn kind_of(axis: &Axis) -> PenetrationKind {
-    match axis.feature {
-        Feature::Edges(..) => PenetrationKind::EdgeEdge,
-        _ => PenetrationKind::VertexFacet,
+/// What meets; of the kind the axis says where that is as near.
+fn meeting(pair: &Pair, pose: &PairPose, axis: &Axis, limits: &Limits) -> Meeting {
+    let wants_edges = matches!(axis.feature, Feature::Edges(..));
+    Meeting::nearest(pair, pose, wants_edges, limits.tolerance)
+}
+
+fn kind_of(meeting: &Meeting) -> PenetrationKind {
+    if meeting.are_edges {
+        PenetrationKind::EdgeEdge
+    } else {
+        PenetrationKind::VertexFacet
     }
 }
 
-/// The vertices that meet along an axis, and where.
-fn meeting(pair: &Pair, pose: &PairPose, axis: &Axis) -> (Vec<u32>, DVec3) {
-    let height = |p: &DVec3| axis.direction.dot(*p);
-    let extreme = |corners: &[DVec3; 3], sign: f64| {
-        let by_height = |&i: &usize, &j: &usize| {
-            (sign * height(&corners[i])).total_cmp(&(sign * height(&corners[j])))
-        };
-        (0..3).max_by(by_height).unwrap_or(0)
-    };
-    let (vertices, point) = match axis.feature {
-        Feature::Edges(i, j) => {
-            let ends = |i: u8| [usize::from(i), (usize::from(i) + 1) % 3];
-            let (i, j) = (ends(i), ends(j));
-            let meeting = segment_segment(i.map(|k| pose.a[k]), j.map(|k| pose.b[k]));
-            let vertices = i.map(|k| pair.a[k]).into_iter().chain(j.map(|k| pair.b[k]));
-            (vertices.collect(), meeting.on_a.midpoint(meeting.on_b))
-        }
-        Feature::NormalB | Feature::SideB(_) => {
-            let i = extreme(&pose.a, 1.0);
-            let vertices = [pair.a[i]].into_iter().chain(pair.b);
-            (vertices.collect::<Vec<_>>(), pose.a[i])
-        }
-        Feature::NormalA | Feature::SideA(_) | Feature::Free => {
-            let j = extreme(&pose.b, -1.0);
-            let vertices = [pair.b[j]].into_iter().chain(pair.a);
-            (vertices.collect(), pose.b[j])
-        }
-    };
+/// Those that meet, each once; the hinge's four for triangles that share an edge.
+fn vertices(pair: &Pair, meeting: &Meeting) -> Vec<u32> {
     if pair.shared == 2 {
-        return (vec![pair.a[0], pair.a[1], pair.a[2], pair.b[2]], point);
+        return vec![pair.a[0], pair.a[1], pair.a[2], pair.b[2]];
     }
     let mut distinct: Vec<u32> = Vec::with_capacity(4);
-    for vertex in vertices {
+    for &vertex in &meeting.vertices {
         if !distinct.contains(&vertex) {
             distinct.push(vertex);
         }
     }
-    (distinct, point)
+    distinct
 }

@@ -66,9 +66,10 @@ pub struct Penetration {
     /// The vertices that meet: a vertex and a facet's three, two edges' four, or a hinge's four (fewer where some are
     /// shared).
     pub vertices: Vec<u32>,
-    /// Where they meet.
+    /// Where they meet as the overlap passes τ.
     pub point: DVec3,
-    /// In units of h, the largest found in the interval: the depth for facets that share no vertex (at most τ if they
+    /// In units of h, the largest at the instants passed + 2^(k − 34) of the interval, k = 0, 1, …, and at its end: the
+    /// depth for facets that share no vertex (at most τ if they
     /// passed through), otherwise the overlap from the side on which they were.
     pub depth: f64,
     /// How they meet.

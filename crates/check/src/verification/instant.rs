@@ -1,0 +1,143 @@
+//! The axes of two triangles at an instant.
+
+use glam::DVec3;
+
+use super::span::{COORDINATES, FEATURES, Feature, Pose, Span};
+
+/// How often an arc is halved before it is taken as leaving D(t).
+const HALVINGS: u32 = 8;
+
+/// An axis at an instant.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Axis {
+    /// What it is built from, and 1 or −1 for its sense.
+    pub(super) feature: (Feature, f64),
+    /// A unit direction.
+    pub(super) direction: DVec3,
+    /// max d·a − min d·b, rounding included: not less than the true one.
+    pub(super) overlap: f64,
+    /// How clearly what is not shared lies apart, rounding taken off; positive: apart.
+    pub(super) room: f64,
+}
+
+/// All axes, each in both senses; those too short to have a direction are left out.
+pub(super) fn axes(span: &Span, pose: &Pose) -> Vec<Axis> {
+    let edges = |t: &[DVec3; 3]| [t[1] - t[0], t[2] - t[1], t[0] - t[2]];
+    let (a, b) = (edges(&pose.a), edges(&pose.b));
+    let (normal_a, normal_b) = (a[0].cross(a[1]), b[0].cross(b[1]));
+    let mut axes = Vec::with_capacity(2 * FEATURES.len());
+    for feature in FEATURES {
+        let (normal, power) = match feature {
+            Feature::NormalA => (normal_a, 2),
+            Feature::NormalB => (normal_b, 2),
+            Feature::Edges(i, j) => (a[i].cross(b[j]), 2),
+            Feature::SideA(i) => (normal_a.cross(a[i]), 3),
+            Feature::SideB(j) => (normal_b.cross(b[j]), 3),
+            Feature::Coordinate(k) => (COORDINATES[k], 0),
+        };
+        let length = normal.length();
+        let margin = 256.0 * f64::EPSILON * span.size.powi(power + 1) / length;
+        if margin < 1e-3 * span.size {
+            push_both_ways(&mut axes, span, pose, feature, (normal / length, margin));
+        }
+    }
+    axes
+}
+
+fn push_both_ways(
+    axes: &mut Vec<Axis>,
+    span: &Span,
+    pose: &Pose,
+    feature: Feature,
+    (direction, margin): (DVec3, f64),
+) {
+    let height = |p: DVec3| direction.dot(p - pose.a[0]);
+    let (a, b) = (pose.a.map(height), pose.b.map(height));
+    let on_plane = span.on_plane(feature);
+    for sign in [1.0, -1.0] {
+        let (a, b) = (a.map(|h| sign * h), b.map(|h| sign * h));
+        let overlap = a[0].max(a[1]).max(a[2]) - b[0].min(b[1]).min(b[2]);
+        let room = if span.shared == 0 {
+            -overlap
+        } else if span.may_clear(feature) {
+            let below = (0..3).filter(|&i| !on_plane.a[i]).map(|i| -a[i]);
+            let above = (0..3).filter(|&j| !on_plane.b[j]).map(|j| b[j]);
+            let room = below.chain(above).fold(f64::INFINITY, f64::min);
+            if room.is_finite() { room } else { 0.0 }
+        } else {
+            f64::NEG_INFINITY
+        };
+        axes.push(Axis {
+            feature: (feature, sign),
+            direction: direction * sign,
+            overlap: overlap + margin,
+            room: room - margin,
+        });
+    }
+}
+
+/// The direction in the middle of those along which the triangles lie off each other, to within rounding.
+pub(super) fn inner(span: &Span, axes: &[Axis]) -> Option<DVec3> {
+    let rounding = 1e-12 * span.size;
+    let rim = axes.iter().filter(|axis| axis.overlap <= rounding);
+    rim.map(|axis| axis.direction)
+        .sum::<DVec3>()
+        .try_normalize()
+}
+
+/// Whether the arc from u to v lies in D(t) = { d : overlap ≤ `limit` }.
+///
+/// Along the chord the overlap, not normalised, is convex; normalising divides it by at least half |u + v|. Where that
+/// does not suffice, the arc is halved.
+pub(super) fn is_arc_within(pose: &Pose, u: DVec3, v: DVec3, limit: f64) -> bool {
+    let ends = (u, pose.overlap(u), v, pose.overlap(v));
+    is_piece_within(pose, ends, limit, HALVINGS)
+}
+
+fn is_piece_within(
+    pose: &Pose,
+    (u, over_u, v, over_v): (DVec3, f64, DVec3, f64),
+    limit: f64,
+    halvings: u32,
+) -> bool {
+    let cosine = u.dot(v);
+    let worst = over_u.max(over_v);
+    if worst > limit || cosine < -0.95 {
+        return false;
+    }
+    let shortest = f64::midpoint(1.0, cosine).max(0.0).sqrt();
+    if worst <= limit * shortest {
+        return true;
+    }
+    let Some(middle) = (u + v).try_normalize().filter(|_| halvings > 0) else {
+        return false;
+    };
+    let over = pose.overlap(middle);
+    is_piece_within(pose, (u, over_u, middle, over), limit, halvings - 1)
+        && is_piece_within(pose, (middle, over, v, over_v), limit, halvings - 1)
+}
+
+/// The axes with an overlap of at most `limit` that arcs within D(t) join to a seed, one after the other.
+pub(super) fn joined(pose: &Pose, axes: &[Axis], seeds: &[DVec3], limit: f64) -> Vec<Axis> {
+    let mut waiting: Vec<Axis> = axes
+        .iter()
+        .copied()
+        .filter(|x| x.overlap <= limit)
+        .collect();
+    let mut from = seeds.to_vec();
+    let mut joined: Vec<Axis> = Vec::new();
+    while let Some(direction) = from.pop() {
+        let mut k = 0;
+        while k < waiting.len() {
+            let axis = waiting[k];
+            if is_arc_within(pose, direction, axis.direction, limit) {
+                waiting.swap_remove(k);
+                from.push(axis.direction);
+                joined.push(axis);
+            } else {
+                k += 1;
+            }
+        }
+    }
+    joined
+}

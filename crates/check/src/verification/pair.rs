@@ -1,0 +1,54 @@
+//! Two triangles of the sheet, what they share first.
+
+use foldmotion_pattern::Sheet;
+use glam::DVec3;
+
+use super::span::Span;
+
+/// Triangles f < g with their common vertices first, in the same order.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Pair {
+    pub(super) faces: [u32; 2],
+    pub(super) a: [u32; 3],
+    pub(super) b: [u32; 3],
+    pub(super) shared: usize,
+}
+
+impl Pair {
+    /// Precondition: the faces are those of the sheet.
+    pub(super) fn new(sheet: &Sheet, faces: [u32; 2]) -> Self {
+        let [a, b] = faces.map(|f| sheet.faces[f as usize]);
+        let is_common = |v: &u32| a.contains(v) && b.contains(v);
+        let common: Vec<u32> = a.into_iter().filter(is_common).collect();
+        let first = |corners: [u32; 3]| {
+            let others = corners.into_iter().filter(|v| !is_common(v));
+            let mut sorted = corners;
+            for (slot, v) in sorted.iter_mut().zip(common.iter().copied().chain(others)) {
+                *slot = v;
+            }
+            sorted
+        };
+        Self {
+            faces,
+            a: first(a),
+            b: first(b),
+            shared: common.len(),
+        }
+    }
+
+    pub(super) fn span(&self, start: &[DVec3], end: &[DVec3]) -> Span {
+        let place = |positions: &[DVec3]| {
+            [self.a, self.b].map(|corners| corners.map(|v| positions[v as usize]))
+        };
+        Span::new(place(start), place(end), self.shared)
+    }
+
+    /// Whether the distance of the pair counts: its facets have no vertex in common.
+    pub(super) fn is_measured(&self, sheet: &Sheet) -> bool {
+        let [p, q] = self.faces.map(|f| {
+            let facet = sheet.face_facets[f as usize];
+            &sheet.facets[facet as usize].polygon
+        });
+        self.shared == 0 && !p.iter().any(|v| q.contains(v))
+    }
+}

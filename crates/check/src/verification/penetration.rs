@@ -1,0 +1,212 @@
+//! A penetration found by the second proof, beside the one that is stated.
+
+use foldmotion_pattern::Sheet;
+use glam::DVec3;
+
+use super::distance::on_triangle;
+use super::pair::Pair;
+use super::span::{Pose, Span};
+use super::walk::{Crossing, Limits, instants_after, overlaps_from_side};
+use crate::collision::{Penetration, PenetrationKind};
+
+/// To this share of an interval two proofs agree about when a contact begins and when it gets too deep.
+const TIME_ACCURACY: f64 = 1e-6;
+/// To this share two proofs agree about a depth.
+const DEPTH_ACCURACY: f64 = 1e-5;
+/// Where a pair gets deeper than τ, the stated point lies within this many τ of what meets there.
+const POINT_TOLERANCES: f64 = 16.0;
+
+/// Where a pair gets too deep.
+#[derive(Debug)]
+pub(super) struct Found {
+    span: Span,
+    pub(super) frame: usize,
+    /// The motion times at the ends of the interval.
+    pub(super) times: [f64; 2],
+    pub(super) crossing: Crossing,
+}
+
+impl Found {
+    pub(super) fn new(span: Span, frame: usize, crossing: Crossing) -> Self {
+        Self {
+            span,
+            frame,
+            times: [0.0, 1.0],
+            crossing,
+        }
+    }
+
+    pub(super) fn at_first_frame(span: Span, time: f64, depth: f64) -> Self {
+        let crossing = Crossing {
+            contact: 0.0,
+            passed: 0.0,
+            depth,
+            reach: depth,
+            side: Vec::new(),
+        };
+        Self {
+            times: [time; 2],
+            ..Self::new(span, 0, crossing)
+        }
+    }
+
+    fn is_first_frame(&self) -> bool {
+        self.times[0] == self.times[1]
+    }
+
+    pub(super) fn at(&self, t: f64) -> f64 {
+        self.times[0] + (self.times[1] - self.times[0]) * t
+    }
+
+    /// Whether the pair is as deep as stated.
+    ///
+    /// For triangles that share no vertex: the largest depth. Otherwise one of the overlaps from the side on which the
+    /// pair was: which axes count as that side is left to the prover.
+    fn is_as_deep(&self, stated: f64, pair: &Pair) -> bool {
+        let is_close = |depth: f64| {
+            (stated - depth).abs() <= DEPTH_ACCURACY * depth.abs() + 1e-9 * self.span.size
+        };
+        if is_close(self.depth(pair)) {
+            return true;
+        }
+        let mut instants = instants_after(self.crossing.passed);
+        pair.shared > 0
+            && instants.any(|t| {
+                let pose = self.span.at(t);
+                overlaps_from_side(&self.span, &pose, &self.crossing.side).any(is_close)
+            })
+    }
+
+    fn depth(&self, pair: &Pair) -> f64 {
+        match pair.shared {
+            0 => self.crossing.depth.max(0.0),
+            _ => self.crossing.reach,
+        }
+    }
+}
+
+/// Field, what is stated, what was found.
+type Difference = (&'static str, String, String);
+
+/// In what a stated penetration differs from the one found.
+pub(super) fn compare(
+    stated: &Penetration,
+    found: &Found,
+    pair: &Pair,
+    sheet: &Sheet,
+    limits: &Limits,
+) -> Vec<Difference> {
+    let unit = sheet.unit_length;
+    let mut differences = Vec::new();
+    let mut differ =
+        |field, stated: String, found: String| differences.push((field, stated, found));
+    if stated.frame != found.frame {
+        differ("frames", stated.frame.to_string(), found.frame.to_string());
+        return differences;
+    }
+    let slack = TIME_ACCURACY * (found.times[1] - found.times[0])
+        + 4.0 * f64::EPSILON * found.times[1].abs();
+    let times = [
+        ("t", stated.time, found.crossing.contact),
+        ("passed_t", stated.passed, found.crossing.passed),
+    ];
+    for (field, time, t) in times {
+        let is_close = (time - found.at(t)).abs() <= slack;
+        if !is_close {
+            differ(field, time.to_string(), found.at(t).to_string());
+        }
+    }
+    if !found.is_as_deep(stated.depth * unit, pair) {
+        let depth = found.depth(pair) / unit;
+        differ("depth", format!("{:e}", stated.depth), format!("{depth:e}"));
+    }
+    if !is_kind_right(stated, pair, limits.tolerance / unit) {
+        differ(
+            "kind",
+            format!("{:?}", stated.kind),
+            "not what the facets share and the depth say".to_owned(),
+        );
+    }
+    let pose = found.span.at(found.crossing.passed);
+    let point = stated.point - found.span.origin;
+    let near = POINT_TOLERANCES * limits.tolerance;
+    if let Some(fault) = meeting_fault(stated, pair, &pose, point, (near, found.is_first_frame())) {
+        differ("point", stated.point.to_string(), fault.to_owned());
+    }
+    differences
+}
+
+fn is_kind_right(stated: &Penetration, pair: &Pair, tolerance: f64) -> bool {
+    use PenetrationKind::{AroundVertex, EdgeEdge, FoldedThrough, PassedThrough, VertexFacet};
+    match (pair.shared, stated.kind) {
+        (0, VertexFacet | EdgeEdge) => stated.depth > tolerance,
+        (0, PassedThrough) => stated.depth <= tolerance,
+        (1, AroundVertex) | (2, FoldedThrough) => stated.depth > tolerance,
+        _ => false,
+    }
+}
+
+/// Why the stated vertices do not meet at the stated point, if they do not.
+///
+/// `near`: what counts as there. At the first frame (`is_far`) the two may be far through each other already: the point
+/// is then the vertex itself or halfway between the edges.
+fn meeting_fault(
+    stated: &Penetration,
+    pair: &Pair,
+    pose: &Pose,
+    point: DVec3,
+    (near, is_far): (f64, bool),
+) -> Option<&'static str> {
+    let mut vertices = stated.vertices.clone();
+    vertices.sort_unstable();
+    let is_named = |features: &[u32]| {
+        let mut named = features.to_vec();
+        named.sort_unstable();
+        named.dedup();
+        pair.shared == 2 || named == vertices
+    };
+    if pair.shared == 2 {
+        let mut hinge = [pair.a[0], pair.a[1], pair.a[2], pair.b[2]];
+        hinge.sort_unstable();
+        if vertices != hinge {
+            return Some("the vertices are not those of the two triangles");
+        }
+    }
+    let is_vertex_on = |v: &[u32; 3], p: &[DVec3; 3], facet: &[u32; 3], t: &[DVec3; 3]| {
+        (pair.shared..3).any(|i| {
+            is_named(&[v[i], facet[0], facet[1], facet[2]])
+                && p[i].distance(point) <= near
+                && (is_far || on_triangle(point, t).distance(point) <= near)
+        })
+    };
+    let off_edge = |p: &[DVec3; 3], i: usize| {
+        let (u, v) = (p[i], p[(i + 1) % 3]);
+        on_triangle(point, &[u, v, v]).distance(point)
+    };
+    let are_edges = || {
+        (0..9).any(|k| {
+            let (i, j) = (k / 3, k % 3);
+            let ends = [
+                pair.a[i],
+                pair.a[(i + 1) % 3],
+                pair.b[j],
+                pair.b[(j + 1) % 3],
+            ];
+            let (off_a, off_b) = (off_edge(&pose.a, i), off_edge(&pose.b, j));
+            let is_between = if is_far {
+                (off_a - off_b).abs() <= near
+            } else {
+                off_a.max(off_b) <= near
+            };
+            is_named(&ends) && is_between
+        })
+    };
+    let is_vertex = is_vertex_on(&pair.a, &pose.a, &pair.b, &pose.b)
+        || is_vertex_on(&pair.b, &pose.b, &pair.a, &pose.a);
+    let is_met = match stated.kind {
+        PenetrationKind::VertexFacet => is_vertex,
+        PenetrationKind::EdgeEdge => are_edges(),
+        _ => is_vertex || are_edges(),
+    };
+    (!is_met).then_some("the vertices named do not meet there")
+}

@@ -1,0 +1,479 @@
+//! The second proof, frame by frame, holding two frames at a time.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use foldmotion_pattern::{Assignment, Frame, Sheet};
+use glam::DVec3;
+use rayon::prelude::*;
+
+use super::boxes::Boxes;
+use super::distance::{Nearness, closest, keeps_distance, on_triangle};
+use super::instant::axes;
+use super::outcome::{Refutation, Unproved, Verification};
+use super::pair::Pair;
+use super::penetration::{Found, compare};
+use super::span::Span;
+use super::statement;
+use super::walk::{Limits, Side, Walked, depth, walk};
+use crate::collision::{CollisionReport, Penetration, Separation};
+
+/// The most steps spent on a pair in an interval.
+const BUDGET: u32 = 20_000;
+/// Pairs farther than this, in units of τ, are surely not touching; the first prover resolves distances to τ/100.
+const SURELY_APART: f64 = 1.02;
+/// How many refutations are listed; the rest are of the same motion.
+const MOST_LISTED: usize = 20;
+/// To this share of the unit of length the stated points are met.
+pub(super) const POINT_ACCURACY: f64 = 1e-9;
+
+/// Proves the statement of a collision report again, by other means.
+#[derive(Debug)]
+pub struct Verifier<'a> {
+    sheet: &'a Sheet,
+    claim: &'a CollisionReport,
+    limits: Limits,
+    last: Frame,
+    /// Frames taken in.
+    frames: usize,
+    /// The sides of the pairs in contact, ordered by pair.
+    sides: Vec<([u32; 2], Side)>,
+    claimed: BTreeMap<[u32; 2], &'a Penetration>,
+    undecided: BTreeSet<([u32; 2], usize)>,
+    /// Pairs with a penetration behind them, and the intervals in which each was judged.
+    dropped: BTreeMap<[u32; 2], usize>,
+    surely_touching: BTreeSet<[u32; 2]>,
+    perhaps_touching: BTreeSet<[u32; 2]>,
+    /// Whether the stated closest approach was met, where one is stated.
+    separation_fault: Option<String>,
+    is_separation_met: bool,
+    outcome: Verification,
+}
+
+/// What was found of a pair in an interval.
+struct Judged {
+    side: Option<Side>,
+    found: Option<Found>,
+    touching: [bool; 2],
+    nearer: Option<(f64, f64)>,
+    unproved: Option<&'static str>,
+    is_followed: bool,
+}
+
+impl Judged {
+    fn apart() -> Self {
+        Self {
+            side: None,
+            found: None,
+            touching: [false; 2],
+            nearer: None,
+            unproved: None,
+            is_followed: false,
+        }
+    }
+}
+
+impl<'a> Verifier<'a> {
+    /// Takes in the first frame. `claim`: what the certificate states; its series of separations is not looked at.
+    ///
+    /// Preconditions: the sheet's corners are in range; every frame has a finite position for every vertex.
+    pub fn new(sheet: &'a Sheet, first: Frame, claim: &'a CollisionReport) -> Self {
+        let unit = sheet.unit_length;
+        let mut verifier = Self {
+            sheet,
+            claim,
+            limits: Limits {
+                tolerance: claim.tolerance * unit,
+                budget: BUDGET,
+            },
+            last: first,
+            frames: 1,
+            sides: Vec::new(),
+            claimed: claim.penetrations.iter().map(|p| (p.faces, p)).collect(),
+            undecided: claim.undecided.iter().map(|u| (u.faces, u.frame)).collect(),
+            dropped: BTreeMap::new(),
+            surely_touching: BTreeSet::new(),
+            perhaps_touching: BTreeSet::new(),
+            separation_fault: None,
+            is_separation_met: claim.min_separation.is_none(),
+            outcome: Verification::default(),
+        };
+        verifier.begin();
+        verifier
+    }
+
+    /// Takes in the next frame and proves the interval before it.
+    pub fn advance(&mut self, frame: Frame) {
+        let start = std::mem::replace(&mut self.last, frame);
+        self.meet_separation(&start);
+        let near = self.near_pairs(&start.positions);
+        self.outcome.near += near.len() as u64;
+        let pairs: Vec<Pair> = near
+            .into_iter()
+            .filter(|faces| !self.dropped.contains_key(faces))
+            .map(|faces| Pair::new(self.sheet, faces))
+            .filter(|pair| pair.shared < 3)
+            .collect();
+        let judged: Vec<Judged> = pairs
+            .par_iter()
+            .with_min_len(64)
+            .map(|pair| self.judge(pair, &start))
+            .collect();
+        self.sides.clear();
+        let times = [start.time, self.last.time];
+        for (pair, judged) in pairs.iter().zip(judged) {
+            self.record(pair, judged, times);
+        }
+        let faces = self.sheet.faces.len() as u64;
+        self.outcome.pairs += faces * faces.saturating_sub(1) / 2;
+        self.frames += 1;
+    }
+
+    /// What came of it.
+    pub fn finish(mut self) -> Verification {
+        if let Some(separation) = self
+            .claim
+            .min_separation
+            .filter(|_| !self.is_separation_met)
+        {
+            let fault = self.separation_fault.take();
+            let found = fault.unwrap_or_else(|| "it is at no time of the motion".to_owned());
+            self.refute(
+                "min_separation",
+                format!("{:e} at t = {}", separation.distance, separation.time),
+                found,
+            );
+        }
+        let missing: Vec<_> = self
+            .claimed
+            .iter()
+            .filter(|(faces, _)| !self.dropped.contains_key(*faces))
+            .map(|(_, p)| (p.faces, p.frame))
+            .collect();
+        for (faces, frame) in missing {
+            let open = self.outcome.unproved.iter();
+            let is_open = open
+                .into_iter()
+                .any(|u| u.faces == faces && u.frame == frame);
+            if !is_open {
+                self.refute(
+                    "penetrations",
+                    format!("triangles {faces:?} penetrate after frame {frame}"),
+                    "they do not",
+                );
+            }
+        }
+        self.outcome.touching = [self.surely_touching.len(), self.perhaps_touching.len()];
+        let facts = statement::Facts {
+            sheet: self.sheet,
+            intervals: self.frames - 1,
+            dropped: &self.dropped,
+            touching: self.outcome.touching,
+        };
+        for refutation in statement::consistency(self.claim, &facts) {
+            self.outcome.refuted.push(refutation);
+        }
+        for undecided in &self.claim.undecided {
+            self.outcome.unproved.push(Unproved {
+                faces: undecided.faces,
+                frame: undecided.frame,
+                what: "the certificate leaves the pair undecided".to_owned(),
+            });
+        }
+        self.outcome
+    }
+
+    fn refute(&mut self, field: &str, stated: impl ToString, found: impl ToString) {
+        if self.outcome.refuted.len() < MOST_LISTED {
+            let refutation = Refutation::new(field, stated, found);
+            self.outcome.refuted.push(refutation);
+        }
+    }
+
+    /// The first frame: which sides are possible, and what is too deep already.
+    fn begin(&mut self) {
+        let first = self.last.positions.clone();
+        let assignments = assignments(self.sheet);
+        let near = self.near_pairs(&first);
+        for faces in near {
+            let pair = Pair::new(self.sheet, faces);
+            if pair.shared > 2 {
+                self.refute(
+                    "triangles",
+                    "each stands once",
+                    format!("{faces:?} have the same corners"),
+                );
+                continue;
+            }
+            let span = pair.span(&first, &first);
+            match Side::at_start(&span, &self.limits) {
+                Some(side) if side.is_apart => {}
+                Some(mut side) => {
+                    self.surely_touching.insert(faces);
+                    self.perhaps_touching.insert(faces);
+                    let front = front_normal(self.sheet, faces[0], &first);
+                    let towards = match assignments.get(&faces) {
+                        Some(Assignment::Valley) => front,
+                        Some(Assignment::Mountain) => -front,
+                        _ => DVec3::ZERO,
+                    };
+                    let keeps = |d: &DVec3| d.dot(towards) > 0.5;
+                    if side.directions.iter().any(keeps) {
+                        side.directions.retain(keeps);
+                    }
+                    self.sides.push((faces, side));
+                }
+                None => {
+                    let depth = depth(&span, &span.at(0.0));
+                    let found = Found::at_first_frame(span, self.last.time, depth);
+                    self.penetrates(&pair, &found);
+                    self.dropped.insert(faces, 0);
+                }
+            }
+        }
+        let first = self.last.clone();
+        self.meet_separation(&first);
+    }
+
+    /// The pairs whose swept boxes come as near as τ or the stated closest approach.
+    fn near_pairs(&self, start: &[DVec3]) -> Vec<[u32; 2]> {
+        let stated = self.claim.min_separation.map_or(0.0, |s| s.distance);
+        let unit = self.sheet.unit_length;
+        let radius = 0.5 * (SURELY_APART * self.limits.tolerance).max(stated * unit);
+        // Relative to a vertex: rounding to f32 goes with the size of the sheet, not with its place.
+        let origin = start[0];
+        let mut boxes = Boxes::default();
+        for corners in &self.sheet.faces {
+            let swept = corners.iter().flat_map(|&v| {
+                [
+                    start[v as usize] - origin,
+                    self.last.positions[v as usize] - origin,
+                ]
+            });
+            boxes.push(swept, radius);
+        }
+        boxes.overlapping()
+    }
+
+    fn judge(&self, pair: &Pair, start: &Frame) -> Judged {
+        let span = pair.span(&start.positions, &self.last.positions);
+        let known = self
+            .sides
+            .binary_search_by(|(faces, _)| faces.cmp(&pair.faces));
+        let known = known.ok().map(|index| &self.sides[index].1);
+        let interval = self.frames - 1;
+        if self.undecided.contains(&(pair.faces, interval)) {
+            return Judged::apart();
+        }
+        let mut judged = Judged::apart();
+        let mut is_apart = false;
+        if pair.shared == 0 {
+            is_apart = self.measure(pair, &span, &mut judged);
+        }
+        if is_apart && known.is_none() {
+            return judged;
+        }
+        self.follow(pair, &span, known, &mut judged);
+        judged
+    }
+
+    /// Whether the pair keeps more than τ apart; notes whether it comes nearer than stated.
+    fn measure(&self, pair: &Pair, span: &Span, judged: &mut Judged) -> bool {
+        let apart = SURELY_APART * self.limits.tolerance;
+        let limit = self
+            .least_distance()
+            .filter(|_| pair.is_measured(self.sheet));
+        if let Some(limit) = limit {
+            match keeps_distance(span, limit, BUDGET) {
+                Nearness::Kept if limit >= apart => return true,
+                Nearness::Kept => {}
+                Nearness::Nearer { time, distance } => judged.nearer = Some((time, distance)),
+                Nearness::Unproved => judged.unproved = Some("the closest approach"),
+            }
+        }
+        if self.surely_touching.contains(&pair.faces) {
+            return false;
+        }
+        match keeps_distance(span, apart, BUDGET) {
+            Nearness::Kept => true,
+            Nearness::Nearer { distance, .. } => {
+                let is_sure = distance < 0.98 * self.limits.tolerance;
+                judged.touching = [is_sure, true];
+                false
+            }
+            Nearness::Unproved => {
+                judged.touching = [false, true];
+                false
+            }
+        }
+    }
+
+    /// What is to be proved of all distances: the stated one, less what the certificate leaves open.
+    fn least_distance(&self) -> Option<f64> {
+        let stated = self.claim.min_separation?.distance * self.sheet.unit_length;
+        let slack = (0.01 * self.limits.tolerance).max(1e-4 * stated);
+        Some(stated - 1.01 * slack).filter(|&limit| limit > 0.0)
+    }
+
+    fn follow(&self, pair: &Pair, span: &Span, known: Option<&Side>, judged: &mut Judged) {
+        judged.is_followed = true;
+        let fresh = Side {
+            is_apart: true,
+            directions: Vec::new(),
+        };
+        let was_undecided =
+            self.frames > 1 && self.undecided.contains(&(pair.faces, self.frames - 2));
+        let anew = was_undecided
+            .then(|| Side::at_start(span, &self.limits))
+            .flatten();
+        let side = known.or(anew.as_ref()).unwrap_or(&fresh);
+        match walk(span, side, &self.limits) {
+            Walked::Clean { side, is_close } => {
+                if pair.shared > 0 && is_close {
+                    judged.touching = [touches_for_sure(span), true];
+                }
+                judged.side = (!side.is_apart).then_some(side);
+            }
+            Walked::Crosses(crossing) => {
+                judged.touching = [false, false];
+                judged.found = Some(Found::new(*span, self.frames - 1, crossing));
+            }
+            Walked::Undecided { .. } => judged.unproved = Some("whether they penetrate"),
+        }
+    }
+
+    fn record(&mut self, pair: &Pair, judged: Judged, times: [f64; 2]) {
+        let faces = pair.faces;
+        let at = |t: f64| times[0] + (times[1] - times[0]) * t;
+        self.outcome.followed += u64::from(judged.is_followed);
+        if judged.touching[0] {
+            self.surely_touching.insert(faces);
+        }
+        if judged.touching[1] {
+            self.perhaps_touching.insert(faces);
+        }
+        if let Some((time, distance)) = judged.nearer {
+            let unit = self.sheet.unit_length;
+            let stated = self.claim.min_separation.map_or(0.0, |s| s.distance);
+            let found = format!(
+                "triangles {faces:?} are {:e} apart at t = {}",
+                distance / unit,
+                at(time)
+            );
+            self.refute("min_separation.distance", format!("{stated:e}"), found);
+        }
+        if let Some(what) = judged.unproved {
+            self.outcome.unproved.push(Unproved {
+                faces,
+                frame: self.frames - 1,
+                what: what.to_owned(),
+            });
+        }
+        if let Some(side) = judged.side {
+            self.sides.push((faces, side));
+        }
+        if let Some(mut found) = judged.found {
+            found.times = times;
+            self.penetrates(pair, &found);
+            self.dropped.insert(faces, self.frames);
+        }
+    }
+
+    fn penetrates(&mut self, pair: &Pair, found: &Found) {
+        let Some(&stated) = self.claimed.get(&pair.faces) else {
+            let what = format!(
+                "triangles {:?} penetrate after frame {}, t = {}",
+                pair.faces,
+                found.frame,
+                found.at(found.crossing.passed)
+            );
+            self.refute("penetrations", "none of them", what);
+            return;
+        };
+        for (field, stated, found) in compare(stated, found, pair, self.sheet, &self.limits) {
+            let field = format!("penetrations[{:?}].{field}", pair.faces);
+            self.refute(&field, stated, found);
+        }
+    }
+
+    /// Whether the stated closest approach is what it says, if it falls between `start` and the last frame.
+    fn meet_separation(&mut self, start: &Frame) {
+        let Some(stated) = self
+            .claim
+            .min_separation
+            .filter(|_| !self.is_separation_met)
+        else {
+            return;
+        };
+        let length = self.last.time - start.time;
+        if !(stated.time >= start.time && stated.time <= self.last.time) {
+            return;
+        }
+        let t = if length > 0.0 {
+            (stated.time - start.time) / length
+        } else {
+            0.0
+        };
+        match self.separation_fault(&stated, start, t) {
+            None => self.is_separation_met = true,
+            Some(fault) => self.separation_fault = Some(fault),
+        }
+    }
+
+    fn separation_fault(&self, stated: &Separation, start: &Frame, t: f64) -> Option<String> {
+        let unit = self.sheet.unit_length;
+        let count = self.sheet.faces.len();
+        if stated.faces[0] >= stated.faces[1] || stated.faces[1] as usize >= count {
+            return Some(format!("there are no such triangles {:?}", stated.faces));
+        }
+        let pair = Pair::new(self.sheet, stated.faces);
+        if !pair.is_measured(self.sheet) {
+            return Some("the facets share a vertex".to_owned());
+        }
+        let place = |v: u32| {
+            let (p, q) = (start.positions[v as usize], self.last.positions[v as usize]);
+            p + (q - p) * t
+        };
+        let (a, b) = (pair.a.map(place), pair.b.map(place));
+        let far = a.iter().chain(&b).map(|p| p.length()).fold(0.0, f64::max);
+        let slack = POINT_ACCURACY * unit + 64.0 * f64::EPSILON * far;
+        for (point, triangle) in stated.points.iter().zip([&a, &b]) {
+            let off = point.distance(on_triangle(*point, triangle));
+            if off.is_nan() || off > slack {
+                return Some(format!("a point is {:e} off its facet", off / unit));
+            }
+        }
+        let apart = stated.points[0].distance(stated.points[1]);
+        if (apart - stated.distance * unit).abs() > slack {
+            return Some(format!("the points are {:e} apart", apart / unit));
+        }
+        let span = Span::new([a, b], [a, b], 0);
+        let least = closest(&span.at(0.0)).distance();
+        let is_met =
+            (least - stated.distance * unit).abs() <= slack.max(0.01 * self.limits.tolerance);
+        (!is_met).then(|| format!("the triangles are {:e} apart there", least / unit))
+    }
+}
+
+/// Whether at an end of the interval no axis separates what the triangles do not share.
+fn touches_for_sure(span: &Span) -> bool {
+    [0.0, 1.0].into_iter().any(|t| {
+        let pose = span.at(t);
+        axes(span, &pose)
+            .iter()
+            .all(|axis| axis.room < -1e-9 * span.size)
+    })
+}
+
+/// The assignment of the edge between two triangles.
+fn assignments(sheet: &Sheet) -> BTreeMap<[u32; 2], Assignment> {
+    let between = sheet.edges.iter().filter_map(|edge| match edge.faces {
+        [Some(f), Some(g)] => Some(([f.min(g), f.max(g)], edge.assignment)),
+        _ => None,
+    });
+    between.collect()
+}
+
+fn front_normal(sheet: &Sheet, face: u32, positions: &[DVec3]) -> DVec3 {
+    let [p, q, r] = sheet.faces[face as usize].map(|v| positions[v as usize]);
+    (q - p).cross(r - p).normalize_or_zero()
+}

@@ -1,0 +1,381 @@
+//! The walk of a pair through an interval, on the side it came from.
+
+use glam::DVec3;
+
+use super::instant::{Axis, axes, inner, is_arc_within, joined};
+use super::path::{OnPlane, Path};
+use super::span::{Pose, Span};
+
+/// The longest steps tried, in turn: a long one may lose a side that a short one keeps.
+const FIRST_STEPS: [f64; 3] = [1.0, 1.0 / 16.0, 1.0 / 256.0];
+/// The shortest step.
+pub(super) const SHORTEST_STEP: f64 = 1.0 / (1u64 << 34) as f64;
+/// Longer steps are halved before every axis is tried.
+const SEARCH_STEP: f64 = 1.0 / 8.0;
+/// Longer steps are halved before triangles apart at both ends are taken to touch in between.
+const GRAZING_STEP: f64 = 1.0 / 1024.0;
+/// Pairs that need a shorter step come so close that the first proof may take them to touch.
+const CLOSE_STEP: f64 = 1.0 / 32.0;
+/// How many axes a long step tries.
+const FAVOURITES: usize = 4;
+
+/// On which side of each other two triangles are.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Side {
+    /// Strictly apart: every separating direction can then be reached from every other.
+    pub(super) is_apart: bool,
+    /// Unit directions in the part of D(t) that the pair has reached; may be empty where it is apart.
+    pub(super) directions: Vec<DVec3>,
+}
+
+/// The numbers a walk depends on.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Limits {
+    /// τ, a length.
+    pub(super) tolerance: f64,
+    /// The most steps for a pair in an interval.
+    pub(super) budget: u32,
+}
+
+/// A pair that gets deeper than τ on its side.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Crossing {
+    /// When the contact began, 0 if before the interval.
+    pub(super) contact: f64,
+    /// Up to here it is certified.
+    pub(super) passed: f64,
+    /// The largest depth at the sampled instants passed + 2^(k − 34), and at 1.
+    pub(super) depth: f64,
+    /// The largest overlap from its side at those instants.
+    pub(super) reach: f64,
+    /// The directions in which it could go on, up to there.
+    pub(super) side: Vec<DVec3>,
+}
+
+/// What came of a walk.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) enum Walked {
+    Clean {
+        side: Side,
+        /// Whether some step is proved by touching only, or is so short that the first proof may have taken it so.
+        is_close: bool,
+    },
+    Crosses(Crossing),
+    Undecided {
+        /// Up to here it is certified.
+        time: f64,
+    },
+}
+
+impl Side {
+    /// The side at the first instant of a motion: any that D(t) allows; none where the triangles are deeper than τ.
+    pub(super) fn at_start(span: &Span, limits: &Limits) -> Option<Self> {
+        let pose = span.at(0.0);
+        let all = axes(span, &pose);
+        if let Some(best) = roomiest(&all) {
+            return Some(Self {
+                is_apart: true,
+                directions: vec![best],
+            });
+        }
+        let within = all.iter().filter(|x| x.overlap <= limits.tolerance);
+        let directions: Vec<_> = within.map(|x| x.direction).collect();
+        let has_some = !directions.is_empty();
+        has_some.then_some(Self {
+            is_apart: false,
+            directions,
+        })
+    }
+}
+
+fn roomiest(axes: &[Axis]) -> Option<DVec3> {
+    let apart = axes.iter().filter(|axis| axis.room > 0.0);
+    let best = apart.reduce(|p, q| if q.room > p.room { q } else { p });
+    best.map(|axis| axis.direction)
+}
+
+/// The depth: the least overlap over all axes (exact where it is positive and the triangles share nothing).
+pub(super) fn depth(span: &Span, pose: &Pose) -> f64 {
+    axes(span, pose)
+        .iter()
+        .map(|axis| pose.overlap(axis.direction))
+        .fold(f64::INFINITY, f64::min)
+}
+
+/// Walks a pair through t in [0, 1] from the side it is on at 0.
+pub(super) fn walk(span: &Span, side: &Side, limits: &Limits) -> Walked {
+    let mut walked = Walked::Undecided { time: 0.0 };
+    for first_step in FIRST_STEPS {
+        walked = Walk::new(span, side.clone(), limits).run(first_step);
+        let is_deep = matches!(&walked, Walked::Crosses(c) if c.depth > limits.tolerance);
+        if is_deep || matches!(walked, Walked::Clean { .. }) {
+            break;
+        }
+    }
+    walked
+}
+
+struct Walk<'a> {
+    span: &'a Span,
+    limits: &'a Limits,
+    time: f64,
+    pose: Pose,
+    side: Side,
+    /// What can be reached at `time`, once asked for.
+    reached: Option<Vec<Axis>>,
+    last_apart: Option<(f64, DVec3)>,
+    /// The end of the step in which the present contact began.
+    first_contact: f64,
+    has_touched: bool,
+}
+
+impl<'a> Walk<'a> {
+    fn new(span: &'a Span, side: Side, limits: &'a Limits) -> Self {
+        let apart = side.is_apart.then(|| (0.0, first_direction(&side)));
+        Self {
+            span,
+            limits,
+            time: 0.0,
+            pose: span.at(0.0),
+            has_touched: !side.is_apart,
+            side,
+            reached: None,
+            last_apart: apart,
+            first_contact: 0.0,
+        }
+    }
+
+    fn run(mut self, first_step: f64) -> Walked {
+        let mut step = first_step;
+        let mut shortest = CLOSE_STEP;
+        for _ in 0..self.limits.budget {
+            if self.time >= 1.0 {
+                return Walked::Clean {
+                    side: self.side,
+                    is_close: self.has_touched || shortest < CLOSE_STEP,
+                };
+            }
+            let end = self.span.at(self.time + step);
+            if let Some(side) = self.cross(&end, step) {
+                shortest = step.min(shortest);
+                self.land(side, end, step);
+                // t stays a multiple of the step.
+                if step < first_step && (self.time / (2.0 * step)).fract() == 0.0 {
+                    step *= 2.0;
+                }
+            } else if step > SHORTEST_STEP {
+                step *= 0.5;
+            } else {
+                return self.examine();
+            }
+        }
+        Walked::Undecided { time: self.time }
+    }
+
+    fn land(&mut self, side: Side, pose: Pose, step: f64) {
+        self.time += step;
+        self.pose = pose;
+        if side.is_apart {
+            self.last_apart = Some((self.time, first_direction(&side)));
+        } else if self.side.is_apart {
+            self.first_contact = self.time;
+        }
+        self.side = side;
+        self.reached = None;
+    }
+
+    fn cross(&mut self, end: &Pose, step: f64) -> Option<Side> {
+        let part = self.span.part(&self.pose, end);
+        if self.side.is_apart {
+            if let Some(direction) = self.stay_apart(&part, step) {
+                return Some(Side {
+                    is_apart: true,
+                    directions: vec![direction],
+                });
+            }
+            let may_graze = || roomiest(&axes(self.span, end)).is_none();
+            if step > SEARCH_STEP || (step > GRAZING_STEP && !may_graze()) {
+                return None;
+            }
+        }
+        self.stay_within(&part, end)
+    }
+
+    /// Along one axis the triangles are strictly apart throughout; where it points at the end.
+    fn stay_apart(&self, part: &Span, step: f64) -> Option<DVec3> {
+        let free = |from: DVec3, to: DVec3| {
+            let is_apart = Path::straight(from, to).bound(part, corners(part)).is_apart;
+            (part.shared < 2 && is_apart).then_some(to)
+        };
+        let carried = self.side.directions.iter();
+        if let Some(direction) = carried.copied().find_map(|d| free(d, d)) {
+            return Some(direction);
+        }
+        let middle = part.at(0.5);
+        let mut all = axes(part, &middle);
+        let centre = inner(part, &all);
+        all.retain(|axis| axis.room > 0.0);
+        all.sort_by(|p, q| q.room.total_cmp(&p.room));
+        let tried = if step > SEARCH_STEP {
+            FAVOURITES
+        } else {
+            all.len()
+        };
+        for axis in all.iter().take(tried) {
+            if part.bound(axis.feature).is_apart {
+                return unit_end(part, axis);
+            }
+            if let Some(direction) = free(axis.direction, axis.direction) {
+                return Some(direction);
+            }
+        }
+        let centre_at = |t: f64| {
+            let pose = part.at(t);
+            inner(part, &axes(part, &pose))
+        };
+        let centre = centre.and_then(|d| free(d, d));
+        centre.or_else(|| free(centre_at(0.0)?, centre_at(1.0)?))
+    }
+
+    /// Along one reachable axis the overlap is at most τ throughout.
+    fn stay_within(&mut self, part: &Span, end: &Pose) -> Option<Side> {
+        let limit = self.limits.tolerance;
+        self.reach();
+        let reached = self.reached.as_deref().unwrap_or_default();
+        let mut landed: Vec<DVec3> = Vec::new();
+        let mut keep = |direction: DVec3| {
+            if landed.iter().all(|d| d.dot(direction) < 1.0 - 1e-13) {
+                landed.push(direction);
+            }
+        };
+        for axis in reached {
+            if part.bound(axis.feature).gap >= -limit
+                && let Some(direction) = unit_end(part, axis)
+            {
+                keep(direction);
+            }
+        }
+        let is_kept = |from: DVec3, to: DVec3| {
+            Path::straight(from, to).bound(part, corners(part)).gap >= -limit
+        };
+        for &direction in &self.side.directions {
+            if is_kept(direction, direction) {
+                keep(direction);
+            }
+        }
+        if landed.is_empty() {
+            return None;
+        }
+        self.has_touched = true;
+        let there = axes(part, end);
+        let apart = there.iter().filter(|axis| axis.room > 0.0);
+        let way_out = apart
+            .map(|axis| axis.direction)
+            .find(|&d| landed.iter().any(|&l| is_arc_within(end, l, d, limit)));
+        Some(Side {
+            is_apart: way_out.is_some(),
+            directions: way_out.map_or(landed, |d| vec![d]),
+        })
+    }
+
+    /// Finds what can be reached at the present instant.
+    fn reach(&mut self) {
+        if self.reached.is_some() {
+            return;
+        }
+        let all = axes(self.span, &self.pose);
+        let mut seeds = self.side.directions.clone();
+        if self.side.is_apart {
+            let apart = all.iter().filter(|axis| axis.room > 0.0);
+            seeds.extend(apart.map(|axis| axis.direction));
+        }
+        self.reached = Some(joined(&self.pose, &all, &seeds, self.limits.tolerance));
+    }
+
+    /// No step leads on: looks for an instant at which the pair is deeper than τ on its side.
+    fn examine(mut self) -> Walked {
+        self.reach();
+        let reached = self.reached.take().unwrap_or_default();
+        let mut seeds: Vec<_> = reached.iter().map(|axis| axis.direction).collect();
+        seeds.extend(&self.side.directions);
+        let (mut reach, mut deepest) = (f64::NEG_INFINITY, f64::NEG_INFINITY);
+        for instant in instants_after(self.time) {
+            let pose = self.span.at(instant);
+            deepest = deepest.max(depth(self.span, &pose));
+            let from_side = overlaps_from_side(self.span, &pose, &seeds);
+            reach = reach.max(from_side.fold(f64::INFINITY, f64::min));
+        }
+        let rounding = 1e-12 * self.span.size;
+        if reach.max(deepest) <= self.limits.tolerance + rounding {
+            return Walked::Undecided { time: self.time };
+        }
+        Walked::Crosses(Crossing {
+            contact: self.contact_start(),
+            passed: self.time,
+            depth: deepest,
+            reach,
+            side: seeds,
+        })
+    }
+
+    /// When the present contact began, by bisection.
+    fn contact_start(&self) -> f64 {
+        let Some((mut apart, direction)) = self.last_apart else {
+            return 0.0;
+        };
+        let mut contact = if self.side.is_apart {
+            self.time
+        } else {
+            self.first_contact
+        };
+        for _ in 0..40 {
+            let middle = f64::midpoint(apart, contact);
+            let all = axes(self.span, &self.span.at(middle));
+            let is_apart = |x: &Axis| x.room > 0.0 && x.direction.dot(direction) > 0.5;
+            if all.iter().any(is_apart) {
+                apart = middle;
+            } else {
+                contact = middle;
+            }
+        }
+        contact
+    }
+}
+
+/// The corners on the plane of an axis that is none of the triangles' own: the shared ones.
+fn corners(span: &Span) -> OnPlane {
+    let shared = [0, 1, 2].map(|i| i < span.shared);
+    OnPlane {
+        a: shared,
+        b: shared,
+    }
+}
+
+fn first_direction(side: &Side) -> DVec3 {
+    side.directions.first().copied().unwrap_or(DVec3::ZERO)
+}
+
+/// Where an axis points at the end of a part.
+fn unit_end(part: &Span, axis: &Axis) -> Option<DVec3> {
+    part.directed(axis.feature).ends()[1].try_normalize()
+}
+
+/// The instants time + 2^(k − 34), k = 0, 1, …, up to 1 and 1 itself.
+pub(super) fn instants_after(time: f64) -> impl Iterator<Item = f64> {
+    let later = std::iter::successors(Some(SHORTEST_STEP), |after| Some(2.0 * after));
+    let within = later
+        .map(move |after| time + after)
+        .take_while(|&t| t < 1.0);
+    within.chain([1.0])
+}
+
+/// The overlaps along the axes within 60° of the side, and along the side itself.
+pub(super) fn overlaps_from_side(
+    span: &Span,
+    pose: &Pose,
+    side: &[DVec3],
+) -> impl Iterator<Item = f64> {
+    let all = axes(span, pose).into_iter().map(|axis| axis.direction);
+    let near = all.filter(|d| side.iter().any(|s| s.dot(*d) > 0.5));
+    near.chain(side.iter().copied()).map(|d| pose.overlap(d))
+}
