@@ -16,3 +16,5 @@ mod refinement;
 mod scenes;
 #[path = "whole/schemas.rs"]
 mod schemas;
+#[path = "whole/verify.rs"]
+mod verify;

@@ -58,6 +58,18 @@ impl Found {
         self.times[0] + (self.times[1] - self.times[0]) * t
     }
 
+    /// How far apart two proofs may put an instant: a millionth of the interval, or as long as the corners take to move by
+    /// half of τ relative to each other.
+    fn time_slack(&self, limits: &Limits) -> f64 {
+        let corners = || self.span.a.iter().chain(&self.span.b);
+        let moved = corners()
+            .map(|p| (p[1] - p[0]).length())
+            .fold(0.0, f64::max);
+        let share = TIME_ACCURACY.max(0.25 * limits.tolerance / moved);
+        let [start, end] = self.times;
+        share.min(1.0) * (end - start) + 4.0 * f64::EPSILON * start.abs().max(end.abs())
+    }
+
     /// Whether the pair is as deep as stated.
     ///
     /// For triangles that share no vertex: the largest depth. Otherwise one of the overlaps from the side on which the
@@ -104,8 +116,7 @@ pub(super) fn compare(
         differ("frames", stated.frame.to_string(), found.frame.to_string());
         return differences;
     }
-    let slack = TIME_ACCURACY * (found.times[1] - found.times[0])
-        + 4.0 * f64::EPSILON * found.times[1].abs();
+    let slack = found.time_slack(limits);
     let times = [
         ("t", stated.time, found.crossing.contact),
         ("passed_t", stated.passed, found.crossing.passed),
