@@ -2,7 +2,6 @@
 #![expect(clippy::unwrap_used, reason = "a test stops where a value is missing")]
 
 #[path = "collision/sheets.rs"]
-#[expect(dead_code, reason = "shared with the tests of the first proof")]
 mod sheets;
 
 use std::f64::consts::PI;

@@ -42,11 +42,11 @@ impl Boxes {
         let ([x0, y0, z0], [x1, y1, z1]) = (&self.low, &self.high);
         let overlaps = |j: usize| {
             (x0[j] <= x1[i])
-                & (x1[j] >= x0[i])
-                & (y0[j] <= y1[i])
-                & (y1[j] >= y0[i])
-                & (z0[j] <= z1[i])
-                & (z1[j] >= z0[i])
+                && (x1[j] >= x0[i])
+                && (y0[j] <= y1[i])
+                && (y1[j] >= y0[i])
+                && (z0[j] <= z1[i])
+                && (z1[j] >= z0[i])
         };
         let mut from = i + 1;
         while from < x0.len() {
@@ -60,6 +60,10 @@ impl Boxes {
     }
 
     /// Whether box i overlaps any of the boxes `from` to `to`: no branch inside, so that it runs several lanes wide.
+    #[expect(
+        clippy::needless_bitwise_bool,
+        reason = "lazy operators would be branches"
+    )]
     fn any(&self, i: usize, from: usize, to: usize) -> bool {
         let low = [0, 1, 2].map(|k| &self.low[k][from..to]);
         let high = [0, 1, 2].map(|k| &self.high[k][from..to]);

@@ -12,6 +12,10 @@ pub struct Refutation {
 }
 
 impl Refutation {
+    #[expect(
+        clippy::needless_pass_by_value,
+        reason = "numbers and texts just made are handed over"
+    )]
     /// A field, what it states and what was found.
     pub fn new(field: impl Into<String>, stated: impl ToString, found: impl ToString) -> Self {
         Self {

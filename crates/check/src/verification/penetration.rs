@@ -27,16 +27,16 @@ pub(super) struct Found {
 }
 
 impl Found {
-    pub(super) fn new(span: Span, frame: usize, crossing: Crossing) -> Self {
+    pub(super) fn new(span: &Span, frame: usize, crossing: Crossing) -> Self {
         Self {
-            span,
+            span: *span,
             frame,
             times: [0.0, 1.0],
             crossing,
         }
     }
 
-    pub(super) fn at_first_frame(span: Span, time: f64, depth: f64) -> Self {
+    pub(super) fn at_first_frame(span: &Span, time: f64, depth: f64) -> Self {
         let crossing = Crossing {
             contact: 0.0,
             passed: 0.0,
@@ -150,9 +150,10 @@ pub(super) fn compare(
 fn is_kind_right(stated: &Penetration, pair: &Pair, tolerance: f64) -> bool {
     use PenetrationKind::{AroundVertex, EdgeEdge, FoldedThrough, PassedThrough, VertexFacet};
     match (pair.shared, stated.kind) {
-        (0, VertexFacet | EdgeEdge) => stated.depth > tolerance,
         (0, PassedThrough) => stated.depth <= tolerance,
-        (1, AroundVertex) | (2, FoldedThrough) => stated.depth > tolerance,
+        (0, VertexFacet | EdgeEdge) | (1, AroundVertex) | (2, FoldedThrough) => {
+            stated.depth > tolerance
+        }
         _ => false,
     }
 }

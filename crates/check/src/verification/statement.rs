@@ -65,10 +65,10 @@ fn order_of_penetrations(claim: &CollisionReport, refuted: &mut Vec<Refutation>)
     }
     let mut faces: Vec<_> = claim.penetrations.iter().map(|p| p.faces).collect();
     faces.sort_unstable();
-    if let Some(twice) = faces.windows(2).find(|w| w[0] == w[1]) {
+    if let Some([twice, _]) = faces.windows(2).find(|w| w[0] == w[1]) {
         refuted.push(Refutation::new(
             "penetrations",
-            format!("triangles {:?} twice", twice[0]),
+            format!("triangles {twice:?} twice"),
             "each pair stands once",
         ));
     }

@@ -224,7 +224,7 @@ impl<'a> Verifier<'a> {
                 }
                 None => {
                     let depth = depth(&span, &span.at(0.0));
-                    let found = Found::at_first_frame(span, self.last.time, depth);
+                    let found = Found::at_first_frame(&span, self.last.time, depth);
                     self.penetrates(&pair, &found);
                     self.dropped.insert(faces, 0);
                 }
@@ -335,7 +335,7 @@ impl<'a> Verifier<'a> {
             }
             Walked::Crosses(crossing) => {
                 judged.touching = [false, false];
-                judged.found = Some(Found::new(*span, self.frames - 1, crossing));
+                judged.found = Some(Found::new(span, self.frames - 1, crossing));
             }
             Walked::Undecided { .. } => judged.unproved = Some("whether they penetrate"),
         }
