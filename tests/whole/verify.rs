@@ -253,7 +253,7 @@ fn change_motion(of: &Certified, which: usize, random: &mut Random) -> (Value, &
             let faces = motion["faces_vertices"].as_array().unwrap().len();
             let face = random.below(faces);
             let corners = motion["faces_vertices"][face].as_array_mut().unwrap();
-            let other = (0..).find(|v| !corners.contains(&json!(v)));
+            let other = (0..9).find(|v| !corners.contains(&json!(v)));
             corners[0] = json!(other);
             "a corner of a face changed"
         }
