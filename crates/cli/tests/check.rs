@@ -258,3 +258,36 @@ fn bad_motions_are_status_2_and_write_nothing() {
     }
     assert!(!home.path().join("out").exists());
 }
+
+#[test]
+fn a_certificate_is_verified_by_its_status_and_stays_as_it_was() {
+    let home = tempfile::tempdir().unwrap();
+    fs::write(home.path().join("book.fold"), folding(240.0).to_string()).unwrap();
+    foldmotion(
+        home.path(),
+        &["check", "book.fold", "--out", ".", "--quiet"],
+    );
+    let path = home.path().join("certificate.json");
+    let written = fs::read(&path).unwrap();
+    let verify = ["check", "book.fold", "--verify", "certificate.json"];
+    let output = foldmotion(home.path(), &verify);
+    let (out, err) = (text(&output.stdout), text(&output.stderr));
+    assert_eq!(output.status.code(), Some(1), "{err}");
+    assert!(out.contains("\nVERIFIED\n"), "{out}");
+    assert!(err.contains("verify "), "{err}");
+    assert_eq!(fs::read(&path).unwrap(), written);
+    let mut lie: Value = serde_json::from_slice(&written).unwrap();
+    lie["verdict"] = json!("free");
+    fs::write(&path, lie.to_string()).unwrap();
+    let output = foldmotion(home.path(), &verify);
+    let out = text(&output.stdout);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(out.contains("REFUTED") && out.contains("verdict"), "{out}");
+    for bad in ["{}", "", "[1, 2"] {
+        fs::write(&path, bad).unwrap();
+        let output = foldmotion(home.path(), &verify);
+        let error = text(&output.stderr);
+        assert_eq!(output.status.code(), Some(2), "{error}");
+        assert!(error.contains("certificate.json: "), "{error}");
+    }
+}
