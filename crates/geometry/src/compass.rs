@@ -1,9 +1,9 @@
-//! Stepping equal chords off a curve with a pair of compasses: a start for the division that no corner holds up.
+//! Stepping equal chords off a curve with a pair of compasses.
 
 use glam::DVec2;
 
 /// Halvings of the interval in which the opening of the compasses is sought.
-const HALVINGS: usize = 60;
+const HALVINGS: usize = 40;
 
 /// Samples of a curve in order: parameters and points.
 pub(crate) struct Samples {
@@ -12,32 +12,33 @@ pub(crate) struct Samples {
 }
 
 impl Samples {
-    /// Parameters from 0 to 1 of about equal chords, at the widest opening at which `segments` of them fit on the curve of
-    /// this `length`. None if they cannot be told apart.
+    /// The samples of the curve run backwards.
+    pub(crate) fn reversed(&self) -> Self {
+        Self {
+            parameters: self.parameters.iter().rev().map(|u| 1.0 - u).collect(),
+            points: self.points.iter().rev().copied().collect(),
+        }
+    }
+
+    /// The widest opening at which `segments` chords fit on the curve of this `length`, each ending at the first point that
+    /// far from its start.
     ///
-    /// As accurate as the samples are; where the number of chords jumps with the opening, the last one differs.
-    pub(crate) fn step_off(&self, segments: usize, length: f64) -> Option<Vec<f64>> {
+    /// As accurate as the samples are; where the number of chords jumps with the opening, the last chord ends early.
+    pub(crate) fn widest_opening(&self, segments: usize, length: f64) -> f64 {
         let (mut fits, mut too_wide) = (0.0, 2.0 * length / segments as f64);
-        let mut best = None;
         for _ in 0..HALVINGS {
             let opening = f64::midpoint(fits, too_wide);
-            let ends = self.walk(segments, opening);
-            if ends.len() == segments {
-                best = Some(ends);
+            if self.walk(segments, opening).len() == segments {
                 fits = opening;
             } else {
                 too_wide = opening;
             }
         }
-        let mut parameters = best?;
-        parameters.insert(0, 0.0);
-        parameters[segments] = 1.0;
-        let rising = parameters.windows(2).all(|u| u[0] < u[1]);
-        rising.then_some(parameters)
+        fits
     }
 
     /// The ends of at most `segments` chords, each the first point that far from the end before it.
-    fn walk(&self, segments: usize, opening: f64) -> Vec<f64> {
+    pub(crate) fn walk(&self, segments: usize, opening: f64) -> Vec<f64> {
         let mut ends = Vec::with_capacity(segments + 1);
         let mut centre = self.points[0];
         let (mut u, mut p) = (self.parameters[0], centre);
@@ -75,16 +76,19 @@ mod tests {
             .collect();
         let samples = Samples { parameters, points };
         for segments in [1, 2, 3, 4, 5, 8, 13] {
-            let ends = samples.step_off(segments, 17f64.sqrt()).unwrap();
+            let opening = samples.widest_opening(segments, 17f64.sqrt());
+            let mut ends = vec![0.0];
+            ends.extend(samples.walk(segments, opening));
             let at = |u: f64| DVec2::new(u, 2.0 - 4.0 * (u - 0.5).abs());
             let chords: Vec<_> = ends
                 .windows(2)
                 .map(|u| at(u[0]).distance(at(u[1])))
                 .collect();
             assert_eq!(chords.len(), segments);
-            for chord in &chords[..segments - 1] {
-                assert!((chord - chords[0]).abs() < 1e-2 * chords[0], "{chords:?}");
+            for chord in &chords {
+                assert!((chord - opening).abs() < 1e-2 * opening, "{chords:?}");
             }
+            assert!(samples.walk(segments, 1.01 * opening).len() < segments);
         }
     }
 }

@@ -188,6 +188,36 @@ pub enum GeometryError {
         /// What was given.
         value: f64,
     },
+    /// The tolerance of Douglas and Peucker's method is no distance over the length of the profile.
+    #[error(
+        "the tolerance is {tolerance}; as a distance over the length of the profile it must lie between 0 and 1"
+    )]
+    SplitTolerance {
+        /// What was given.
+        tolerance: f64,
+    },
+    /// The tolerance of Douglas and Peucker's method leaves too few segments.
+    #[error(
+        "a tolerance of {tolerance} times its length leaves {segments} of the profile's segments; at least {minimum} are needed: use a smaller one"
+    )]
+    TooCoarse {
+        /// What was given, over the length of the profile.
+        tolerance: f64,
+        /// The segments it leaves.
+        segments: usize,
+        /// 2, or 3 for a closed profile.
+        minimum: usize,
+    },
+    /// Douglas and Peucker's method found nothing more to split.
+    #[error(
+        "only {possible} segments can be told apart by their distance from the curve, {count} are asked for; use fewer, or another method"
+    )]
+    NothingToSplit {
+        /// What was asked for.
+        count: usize,
+        /// What there is.
+        possible: usize,
+    },
     /// A caller's start for the division is no division.
     #[error("parameter {index} of the start is {value}; parameters must rise strictly from 0 to 1")]
     Start {

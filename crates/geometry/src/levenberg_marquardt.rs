@@ -76,6 +76,12 @@ pub(crate) struct Minimum {
     pub(crate) ending: Ending,
 }
 
+impl Minimum {
+    pub(crate) fn converged(&self) -> bool {
+        self.ending.converged()
+    }
+}
+
 /// Minimises E from `parameters`, which rise strictly from 0 to 1; the ends stay. Order is kept at every step, and E
 /// never rises. An iteration is one linear solve, accepted or not.
 pub(crate) fn minimise(

@@ -8,13 +8,17 @@
 
 mod aabb;
 mod arc_length;
+mod chain;
 pub mod collide;
 mod compass;
 mod dihedral;
 mod distance;
 mod division;
+mod douglas_peucker;
 mod error;
+mod fit;
 mod interpolation;
+mod length_table;
 mod levenberg_marquardt;
 mod nurbs;
 mod orientation;
@@ -28,8 +32,10 @@ pub use dihedral::{fold_angle, fold_angle_gradient, nearest_turn};
 pub use distance::{Closest, segment_segment, triangle_triangle};
 pub use division::{
     Division, DivisionMethod, DivisionOptions, Ending, divide, divide_from, divide_to_length,
+    simplify, simplify_to_length,
 };
 pub use error::GeometryError;
+pub use fit::Fit;
 pub use nurbs::Nurbs;
 pub use polygon::{Crossing, first_crossing};
 pub use profile::{Closure, Profile};

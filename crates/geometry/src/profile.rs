@@ -10,8 +10,9 @@ use crate::{GeometryError, Nurbs};
 
 /// The fewest control points a profile is given.
 const FEWEST_CONTROL_POINTS: usize = 4;
-/// How finely [`Profile::check_simple`] samples each knot span.
-const SAMPLES_PER_SPAN: usize = 64;
+/// How finely [`Profile::check_simple`] samples each knot span of a profile of many, and all of them together.
+const SAMPLES_PER_SPAN: usize = 8;
+const SAMPLES: usize = 1024;
 
 /// How a profile ends.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
@@ -164,9 +165,9 @@ impl Profile {
 
     /// Finds out whether the profile meets itself, apart from the common start and end of a closed one.
     ///
-    /// Checks, exactly, a polyline of 64 samples in each knot span. So a loop smaller than about 1/64 of a span can be
-    /// missed, and two strands closer than the sagitta of a sample (about κ (span length / 64)² / 8) can be taken for a
-    /// crossing. [`divide`](crate::divide) checks its polygon exactly beside this.
+    /// Checks, exactly, a polyline of n samples in each knot span: 1024 over the number of spans, at least 8. So a loop
+    /// smaller than about 1/n of a span can be missed, and two strands closer than the sagitta of a sample (about
+    /// κ (span length / n)² / 8) can be taken for a crossing. [`divide`](crate::divide) checks its polygon exactly beside this.
     ///
     /// # Errors
     /// `CurveCrosses` with one place where it does; touching counts.
@@ -190,9 +191,10 @@ impl Profile {
     /// Parameters and points along the curve, without repeated points.
     fn samples(&self) -> (Vec<f64>, Vec<DVec2>) {
         let breakpoints = self.curve.breakpoints();
+        let count = SAMPLES_PER_SPAN.max(SAMPLES.div_ceil(breakpoints.len() - 1));
         let inner = breakpoints.windows(2).flat_map(|span| {
             let (start, width) = (span[0], span[1] - span[0]);
-            (0..SAMPLES_PER_SPAN).map(move |k| start + width * (k as f64 / SAMPLES_PER_SPAN as f64))
+            (0..count).map(move |k| start + width * (k as f64 / count as f64))
         });
         let mut samples: Vec<_> = inner.chain([1.0]).map(|u| (u, self.position(u))).collect();
         samples.dedup_by(|b, a| a.1 == b.1);

@@ -6,8 +6,8 @@
 )]
 
 use foldmotion_geometry::{
-    Closure, Division, DivisionOptions, Ending, GeometryError, Profile, divide, divide_from,
-    divide_to_length,
+    Closure, Division, DivisionMethod, DivisionOptions, Ending, GeometryError, Profile, divide,
+    divide_from, divide_to_length, simplify,
 };
 use glam::DVec2;
 use proptest::prelude::*;
@@ -175,19 +175,163 @@ fn sharp_turns_and_corners_are_divided_too() {
 }
 
 #[test]
-fn a_division_that_a_needle_sharp_corner_holds_up_says_so() {
-    // Corners of 20°: chords of some lengths cannot get past them from an even start.
+fn needle_sharp_corners_hold_no_division_up() {
+    // Corners of 20°, in segments longer and shorter than the legs.
     let zigzag = zigzag(0.35, 3);
-    let endings: Vec<_> = (4..30)
-        .map(|segments| {
-            let division = equal(&zigzag, segments);
-            check_promises(&zigzag, &division);
-            assert_eq!(division.converged(), division.max_residual <= 1e-13);
-            division.ending
+    for segments in 2..60 {
+        let division = equal(&zigzag, segments);
+        check_promises(&zigzag, &division);
+        // Three chords of this point-symmetric curve bifurcate on the way: they are refused.
+        assert_eq!(division.max_residual <= 1e-13, segments != 3, "{segments}");
+        assert_eq!(division.converged(), segments != 3);
+    }
+}
+
+#[test]
+fn a_triangle_with_a_needle_at_its_seam_may_stay_undivided_and_says_so() {
+    let endings = (3..12).map(|segments| {
+        let corners = [
+            [0.0, 0.0],
+            [4.0, 0.1],
+            [4.0, 0.1],
+            [4.0, 0.1],
+            [4.0, -0.1],
+            [4.0, -0.1],
+            [4.0, -0.1],
+        ];
+        let needle = profile(&corners, Closure::Corner);
+        let division = equal(&needle, segments);
+        check_promises(&needle, &division);
+        assert_eq!(division.converged(), division.max_residual <= 1e-13);
+        division.ending
+    });
+    assert!(endings.collect::<Vec<_>>().contains(&Ending::Tolerance));
+}
+
+#[test]
+fn every_random_curve_without_a_seam_corner_is_divided_however_sharp_its_turns() {
+    // A linear congruential generator (Knuth 1997, volume 2, section 3.3.4).
+    let mut state = 7_u64;
+    let mut unit = || {
+        state = state
+            .wrapping_mul(6_364_136_223_846_793_005)
+            .wrapping_add(1_442_695_040_888_963_407);
+        (state >> 11) as f64 / (1_u64 << 53) as f64
+    };
+    let mut divided = 0;
+    for curve in 0..900 {
+        let count = 4 + (6.0 * unit()) as usize;
+        let points: Vec<_> = (0..count).map(|_| [unit(), unit()]).collect();
+        let closure = [Closure::Open, Closure::Smooth][curve % 2];
+        let segments = 3 + (58.0 * unit()) as usize;
+        let profile = profile(&points, closure);
+        if let Ok(division) = divide(&profile, segments, &DivisionOptions::default()) {
+            check_promises(&profile, &division);
+            assert!(
+                division.converged(),
+                "curve {curve}, {closure:?}, {segments}: {}",
+                division.max_residual
+            );
+            divided += 1;
+        }
+    }
+    assert!(divided > 200, "{divided}");
+}
+
+#[test]
+fn parametric_division_is_even_in_the_parameter() {
+    let wave = wave();
+    let options = DivisionOptions {
+        method: DivisionMethod::Parametric,
+        ..DivisionOptions::default()
+    };
+    let division = divide(&wave, 8, &options).unwrap();
+    check_promises(&wave, &division);
+    assert_eq!(
+        division.parameters,
+        [0.0, 0.125, 0.25, 0.375, 0.5, 0.625, 0.75, 0.875, 1.0]
+    );
+    assert_eq!(division.ending, Ending::Direct);
+    assert!(
+        division.max_residual > 0.1,
+        "the wave is not run through evenly"
+    );
+}
+
+#[test]
+fn douglas_peucker_keeps_the_curve_within_its_tolerance_and_fits_better_than_even_parameters() {
+    let wave = wave();
+    let length = wave.arc_length(1e-9);
+    let mut before = 1;
+    for tolerance in [0.05, 0.01, 1e-3, 1e-4] {
+        let division = simplify(&wave, tolerance).unwrap();
+        check_promises(&wave, &division);
+        let fit = division.fit(&wave);
+        assert!(fit.largest <= 1.002 * tolerance * length, "{fit:?}");
+        assert!(fit.mean < fit.largest);
+        let segments = division.points.len() - 1;
+        assert!(segments > before);
+        before = segments;
+        // One segment fewer leaves the tolerance: the splits come in order of deviation here.
+        let by_count = |segments, method| {
+            let options = DivisionOptions {
+                method,
+                ..DivisionOptions::default()
+            };
+            divide(&wave, segments, &options).unwrap()
+        };
+        let fewer = by_count(segments - 1, DivisionMethod::DouglasPeucker);
+        assert!(fewer.fit(&wave).largest > tolerance * length);
+        let even = by_count(segments, DivisionMethod::Parametric);
+        assert!(fit.largest < even.fit(&wave).largest);
+    }
+}
+
+#[test]
+fn the_fit_of_an_arc_is_its_sagitta() {
+    // Three chords of a nearly circular Bézier quarter: sagitta r (1 − cos 15°), mean ⅔ of it.
+    let k = 0.552_284_749_8;
+    let arc = profile(&[[1.0, 0.0], [1.0, k], [k, 1.0], [0.0, 1.0]], Closure::Open);
+    let fit = equal(&arc, 3).fit(&arc);
+    let sagitta = 1.0 - (std::f64::consts::PI / 12.0).cos();
+    assert!((fit.largest - sagitta).abs() < 0.01 * sagitta, "{fit:?}");
+    assert!(
+        (fit.mean - 2.0 / 3.0 * sagitta).abs() < 0.01 * sagitta,
+        "{fit:?}"
+    );
+}
+
+#[test]
+fn tolerances_that_leave_one_segment_and_numbers_that_cannot_be_told_apart_are_refused() {
+    assert!(matches!(
+        simplify(&wave(), 0.9),
+        Err(GeometryError::TooCoarse {
+            segments: 1,
+            minimum: 2,
+            ..
         })
-        .collect();
-    assert!(endings.contains(&Ending::Stalled));
-    assert!(endings.contains(&Ending::Tolerance));
+    ));
+    for tolerance in [0.0, -1.0, f64::NAN, 1.0] {
+        assert!(matches!(
+            simplify(&wave(), tolerance),
+            Err(GeometryError::SplitTolerance { .. })
+        ));
+    }
+    let line = profile(
+        &[[0.0, 0.0], [1.0, 0.0], [2.0, 0.0], [3.0, 0.0]],
+        Closure::Open,
+    );
+    let options = DivisionOptions {
+        method: DivisionMethod::DouglasPeucker,
+        ..DivisionOptions::default()
+    };
+    assert!(matches!(
+        divide(&line, 4, &options),
+        Err(GeometryError::NothingToSplit {
+            count: 4,
+            possible: 1
+        })
+    ));
 }
 
 #[test]
@@ -271,7 +415,8 @@ fn the_iteration_limit_and_the_tolerance_are_the_callers() {
     check_promises(&wave, &none);
     assert_eq!(
         (none.ending, none.iterations, none.converged()),
-        (Ending::Iterations, 0, false)
+        (Ending::Tolerance, 0, true),
+        "followed chains need no iterations"
     );
     let loose = with(1e-3, 100).unwrap();
     assert!(loose.max_residual <= 1e-3 && loose.ending == Ending::Tolerance);

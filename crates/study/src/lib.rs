@@ -7,6 +7,7 @@ pub mod certificate;
 mod check_file;
 mod engine;
 mod error;
+mod profile;
 mod refinement;
 pub mod report;
 mod reporting;

@@ -24,6 +24,8 @@ pub struct Report {
     pub columns: usize,
     /// The unit.
     pub unit: UnitReport,
+    /// The curve Γ.
+    pub profile: ProfileReport,
     /// The division of Γ.
     pub division: DivisionReport,
     /// The crease pattern.
@@ -63,6 +65,24 @@ pub struct UnitReport {
     pub centre_pad: f64,
 }
 
+/// The curve Γ.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct ProfileReport {
+    /// Where it comes from: the source of a built-in profile, or the key or file of the scene.
+    pub source: String,
+    /// Whether it returns to its start.
+    pub closed: bool,
+}
+
+/// Distances of Γ from the divided polygon.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct FitReport {
+    /// The largest.
+    pub largest: f64,
+    /// The mean over the length of Γ.
+    pub mean: f64,
+}
+
 /// The division of Γ (equations 1 and 2).
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct DivisionReport {
@@ -72,6 +92,8 @@ pub struct DivisionReport {
     pub max_residual: f64,
     /// |R_ave|.
     pub mean_residual: f64,
+    /// How far Γ is from the polygon.
+    pub fit: FitReport,
     /// Iterations made.
     pub iterations: usize,
     /// Wall-clock seconds.

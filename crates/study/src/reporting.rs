@@ -12,8 +12,8 @@ use crate::engine::StageSummary;
 use crate::refinement::Folded;
 use crate::report::{
     BoxReport, CollisionSection, CompactReport, DivisionReport, EnergyReport, EngineReport,
-    ErrorReport, JamReport, PatternReport, PenetrationReport, SecondsReport, StageReport, UnitName,
-    UnitReport, VertexReport,
+    ErrorReport, FitReport, JamReport, PatternReport, PenetrationReport, ProfileReport,
+    SecondsReport, StageReport, UnitName, UnitReport, VertexReport,
 };
 use crate::run::VERSION;
 use crate::scene::EngineChoice;
@@ -40,8 +40,16 @@ impl Study {
                 side_pad: unit.side_pad,
                 centre_pad: unit.centre_pad,
             },
+            profile: ProfileReport {
+                source: self.profile_source.clone(),
+                closed: self.profile.is_closed(),
+            },
             division: DivisionReport {
-                method: "equal-length".to_owned(),
+                method: self.division_method.name().to_owned(),
+                fit: FitReport {
+                    largest: self.fit.largest,
+                    mean: self.fit.mean,
+                },
                 max_residual: self.division.max_residual,
                 mean_residual: self.division.mean_residual,
                 iterations: self.division.iterations,

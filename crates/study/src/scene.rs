@@ -40,13 +40,19 @@ pub struct Scene {
 #[derive(Debug, Clone, Default, PartialEq, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct ProfileScene {
-    /// A built-in profile (`foldmotion models` lists them); or give `control_points`.
+    /// A built-in profile (`foldmotion models` lists them); or give `control_points`, `points` or `file`.
     pub model: Option<String>,
+    /// Points [x, z] that the curve runs through, as a cubic spline, at least 2.
+    pub points: Option<Vec<[f64; 2]>>,
+    /// A file of such points, beside the scene: .csv (x, z a line), .dat (airfoil, Selig's or Lednicer's order) or .dxf (one
+    /// polyline, ASCII).
+    pub file: Option<String>,
     /// Control points [x, z] of a cubic NURBS with unit weights, at least 4.
     pub control_points: Option<Vec<[f64; 2]>>,
     /// Knots of that curve; clamped and uniform where left out.
     pub knots: Option<Vec<f64>>,
-    /// Whether the curve returns to its start, with a corner there or smoothly.
+    /// Whether the curve returns to its start, with a corner there or smoothly; outlines in files that say they are closed,
+    /// with a corner where left out.
     pub closed: Option<Closed>,
     /// Scales Γ so that the divided polygon has this length.
     pub length: Option<f64>,
@@ -143,6 +149,17 @@ pub enum CaseChoice {
     Auto,
 }
 
+impl DivisionChoice {
+    /// The name in scenes and reports.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::EqualLength => "equal-length",
+            Self::Parametric => "parametric",
+            Self::DouglasPeucker => "douglas-peucker",
+        }
+    }
+}
+
 impl CaseChoice {
     /// The case, by w and h where the scene leaves it open.
     pub fn resolve(self, width: f64, height: f64, lambda: Option<f64>) -> Case {
@@ -171,9 +188,10 @@ pub enum FacingChoice {
 #[derive(Debug, Clone, Default, PartialEq, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct DivisionScene {
-    /// `equal-length`.
+    /// `equal-length` where left out.
     pub method: Option<DivisionChoice>,
-    /// The iteration ends once |R_max| is at most this; 1e-14 where left out.
+    /// Equal length: the iteration ends once |R_max| is at most this; 1e-14 where left out. Douglas–Peucker: the largest
+    /// distance from the curve, over its length; the rows follow from it.
     pub tolerance: Option<f64>,
     /// Iterations at most; 200 where left out.
     pub max_iterations: Option<i64>,
@@ -185,6 +203,10 @@ pub struct DivisionScene {
 pub enum DivisionChoice {
     /// Segments of equal length (equations 1 and 2).
     EqualLength,
+    /// Even in the parameter of the curve.
+    Parametric,
+    /// Split where the curve is farthest from its segment.
+    DouglasPeucker,
 }
 
 /// `[material]`: Origami Simulator's constants; only their ratios shape the equilibrium.

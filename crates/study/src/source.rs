@@ -12,30 +12,6 @@ use crate::{Scene, StudyError};
 /// (table, key, the only value refused, or none for all; what to do instead).
 const LATER: &[(&str, &str, Option<&str>, &str)] = &[
     (
-        "profile",
-        "points",
-        None,
-        "give control_points or a built-in model",
-    ),
-    (
-        "profile",
-        "file",
-        None,
-        "give control_points or a built-in model",
-    ),
-    (
-        "division",
-        "method",
-        Some("parametric"),
-        "use \"equal-length\"",
-    ),
-    (
-        "division",
-        "method",
-        Some("douglas-peucker"),
-        "use \"equal-length\"",
-    ),
-    (
         "motion",
         "unfold",
         None,
@@ -121,6 +97,11 @@ impl SceneSource {
         let value = parsed.unwrap_or_else(|| Value::String(value.to_owned()));
         self.overrides.push((key.to_owned(), value));
         Ok(())
+    }
+
+    /// A path of the scene: relative ones are beside the scene file.
+    pub(crate) fn beside(&self, path: &str) -> PathBuf {
+        self.path.parent().unwrap_or(Path::new("")).join(path)
     }
 
     /// The file's name without its ending.
@@ -335,7 +316,6 @@ mod tests {
         for (text, key) in [
             ("[motion]\nunfold = \"energy\"\n", "motion.unfold"),
             ("[record]\noutputs = [\"mp4\"]\n", "record.outputs"),
-            ("[profile]\nfile = \"wing.dat\"\n", "profile.file"),
         ] {
             let error = source(text).scene().unwrap_err();
             let message = error.to_string();

@@ -3,24 +3,20 @@
 use std::time::Instant;
 
 use foldmotion_check::CollisionOptions;
-use foldmotion_geometry::{
-    Closure, Division, DivisionMethod, DivisionOptions, GeometryError, Profile, divide,
-    divide_to_length,
-};
+use foldmotion_geometry::{Division, Fit, Profile};
 use foldmotion_pattern::{
     Case, CompactBox, Facing, PatternCheck, PatternError, ProfileModel, Unit, UnitSheet,
-    find_model, models,
 };
 use foldmotion_record::{FilmOptions, RecordError, View};
 use foldmotion_solver::quasi_static::Contact;
 use foldmotion_solver::{
     CreaseGroup, Ease, Material, Model, Schedule, ScheduleStep, SolverError, Stage,
 };
-use glam::{DVec2, DVec3};
+use glam::DVec3;
 
 use crate::scene::{
-    CameraChoice, CaseChoice, Closed, CreasesChoice, EaseChoice, EngineChoice, FacingChoice,
-    OutputChoice, ProfileScene, StageChoice, StepScene,
+    CameraChoice, CaseChoice, CreasesChoice, DivisionChoice, EaseChoice, EngineChoice,
+    FacingChoice, OutputChoice, StageChoice, StepScene,
 };
 use crate::{Scene, SceneSource, StudyError};
 
@@ -42,8 +38,14 @@ pub struct Study {
     pub unit_name: &'static str,
     /// Γ.
     pub profile: Profile,
+    /// Where Γ comes from.
+    pub profile_source: String,
     /// Γ divided.
     pub division: Division,
+    /// How.
+    pub division_method: DivisionChoice,
+    /// How far Γ is from its segments.
+    pub fit: Fit,
     /// Seconds the division took.
     pub division_seconds: f64,
     /// The sheet of units.
@@ -83,16 +85,18 @@ impl Study {
             source,
             scene: &scene,
         };
-        let built_in = resolver.built_in()?;
-        let rows = resolver.count("sheet.rows", scene.sheet.rows, built_in.map(|m| m.rows))?;
+        let curve = resolver.curve()?;
+        let built_in = curve.model;
+        let started = Instant::now();
+        let divided = resolver.division(&curve)?;
+        let division_seconds = started.elapsed().as_secs_f64();
+        let (profile, division) = (divided.profile, divided.division);
+        let rows = division.points.len() - 1;
         let columns = resolver.count(
             "sheet.columns",
             scene.sheet.columns,
             built_in.map(|m| m.columns.of(resolver.case_asked_for())),
         )?;
-        let started = Instant::now();
-        let (profile, division) = resolver.division(built_in, rows)?;
-        let division_seconds = started.elapsed().as_secs_f64();
         let unit = resolver.unit(built_in, division.mean_length, columns)?;
         let units = UnitSheet::new(unit, rows, columns).map_err(|e| resolver.pattern_error(&e))?;
         let facing = match scene.sheet.facing {
@@ -121,7 +125,10 @@ impl Study {
             film: resolver.film()?,
             outputs: resolver.outputs(),
             profile,
+            profile_source: curve.source,
             division,
+            division_method: divided.method,
+            fit: divided.fit,
             division_seconds,
             units,
             deployed,
@@ -132,17 +139,17 @@ impl Study {
 }
 
 /// Reads values out of the scene and turns what is wrong with them into errors that name their line.
-struct Resolver<'a> {
-    source: &'a SceneSource,
-    scene: &'a Scene,
+pub(crate) struct Resolver<'a> {
+    pub(crate) source: &'a SceneSource,
+    pub(crate) scene: &'a Scene,
 }
 
 impl Resolver<'_> {
-    fn fault(&self, key: &str, message: impl Into<String>) -> StudyError {
+    pub(crate) fn fault(&self, key: &str, message: impl Into<String>) -> StudyError {
         self.source.value_error(key, message.into())
     }
 
-    fn positive(&self, key: &str, value: f64) -> Result<f64, StudyError> {
+    pub(crate) fn positive(&self, key: &str, value: f64) -> Result<f64, StudyError> {
         if value > 0.0 && value.is_finite() {
             Ok(value)
         } else {
@@ -150,44 +157,7 @@ impl Resolver<'_> {
         }
     }
 
-    fn built_in(&self) -> Result<Option<&'static ProfileModel>, StudyError> {
-        let ProfileScene {
-            model,
-            control_points,
-            knots,
-            closed,
-            ..
-        } = &self.scene.profile;
-        let Some(name) = model else {
-            if control_points.is_none() {
-                let message = "no profile: give profile.model (see `foldmotion models`) or profile.control_points";
-                return Err(self.fault("profile", message));
-            }
-            return Ok(None);
-        };
-        let given = [
-            ("profile.control_points", control_points.is_some()),
-            ("profile.knots", knots.is_some()),
-            ("profile.closed", closed.is_some()),
-        ];
-        if let Some((key, _)) = given.into_iter().find(|&(_, given)| given) {
-            return Err(self.fault(
-                key,
-                "a built-in model brings its own curve; leave out this key or model",
-            ));
-        }
-        let names: Vec<&str> = models().iter().map(|m| m.name).collect();
-        let unknown = || {
-            let message = format!(
-                "no built-in profile of this name; there is: {}",
-                names.join(", ")
-            );
-            self.fault("profile.model", message)
-        };
-        find_model(name).map(Some).ok_or_else(unknown)
-    }
-
-    fn count(
+    pub(crate) fn count(
         &self,
         key: &str,
         value: Option<i64>,
@@ -206,81 +176,6 @@ impl Resolver<'_> {
             (None, Some(n)) => Ok(n),
             (None, None) => Err(self.fault(key, "is missing: a profile of your own needs it")),
         }
-    }
-
-    fn division(
-        &self,
-        built_in: Option<&ProfileModel>,
-        rows: usize,
-    ) -> Result<(Profile, Division), StudyError> {
-        let options = self.division_options()?;
-        let profile = match built_in {
-            Some(model) => model.profile(),
-            None => self.own_profile(),
-        }
-        .map_err(|e| self.geometry_error(&e))?;
-        let length = match (self.scene.profile.length, built_in) {
-            (Some(length), _) => Some(self.positive("profile.length", length)?),
-            (None, built_in) => built_in.map(ProfileModel::length),
-        };
-        let divided = match length {
-            Some(length) => divide_to_length(&profile, rows, length, &options),
-            None => divide(&profile, rows, &options).map(|division| (profile, division)),
-        };
-        let (profile, division) = divided.map_err(|e| self.geometry_error(&e))?;
-        if division.max_residual > 1e-9 {
-            // Rows of unequal height are no sheet of equal units.
-            return Err(StudyError::Undivided {
-                place: self.source.place_of("profile"),
-                segments: rows,
-                residual: division.max_residual,
-                iterations: division.iterations,
-                remedy: "raise division.max_iterations, or change the number of rows",
-            });
-        }
-        Ok((profile, division))
-    }
-
-    fn own_profile(&self) -> Result<Profile, GeometryError> {
-        let scene = &self.scene.profile;
-        let points: Vec<DVec2> = scene
-            .control_points
-            .iter()
-            .flatten()
-            .map(|&p| p.into())
-            .collect();
-        let closure = match scene.closed {
-            None => Closure::Open,
-            Some(Closed::Corner) => Closure::Corner,
-            Some(Closed::Smooth) => Closure::Smooth,
-        };
-        match &scene.knots {
-            Some(knots) => Profile::with_knots(&points, knots, closure),
-            None => Profile::new(&points, closure),
-        }
-    }
-
-    fn division_options(&self) -> Result<DivisionOptions, StudyError> {
-        let scene = &self.scene.division;
-        let mut options = DivisionOptions {
-            method: DivisionMethod::EqualLength,
-            ..DivisionOptions::default()
-        };
-        if let Some(tolerance) = scene.tolerance {
-            if !(0.0..1.0).contains(&tolerance) {
-                return Err(self.fault("division.tolerance", "must lie between 0 and 1"));
-            }
-            options.tolerance = tolerance;
-        }
-        if let Some(limit) = scene.max_iterations {
-            options.max_iterations = usize::try_from(limit)
-                .ok()
-                .filter(|&n| (1..=1_000_000).contains(&n))
-                .ok_or_else(|| {
-                    self.fault("division.max_iterations", "must lie between 1 and 1000000")
-                })?;
-        }
-        Ok(options)
     }
 
     /// The case whose columns a built-in profile brings.
@@ -540,26 +435,6 @@ impl Resolver<'_> {
         outputs.sort_unstable();
         outputs.dedup();
         outputs
-    }
-
-    fn geometry_error(&self, error: &GeometryError) -> StudyError {
-        let key = match error {
-            GeometryError::KnotCount { .. }
-            | GeometryError::KnotNotFinite { .. }
-            | GeometryError::KnotsDecrease { .. }
-            | GeometryError::KnotRange { .. }
-            | GeometryError::KnotMultiplicity { .. }
-            | GeometryError::KnotSpanTooNarrow { .. }
-            | GeometryError::KnotsOfSmoothProfile => "profile.knots",
-            GeometryError::NotClosed { .. } => "profile.closed",
-            GeometryError::Scale { .. } | GeometryError::Length { .. } => "profile.length",
-            GeometryError::SegmentCount { .. }
-            | GeometryError::SegmentTooShort { .. }
-            | GeometryError::PolygonCrosses { .. } => "sheet.rows",
-            GeometryError::Tolerance { .. } => "division.tolerance",
-            _ => "profile.control_points",
-        };
-        self.fault(key, error.to_string())
     }
 
     fn pattern_error(&self, error: &PatternError) -> StudyError {

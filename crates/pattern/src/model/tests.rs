@@ -1,6 +1,8 @@
 //! The built-in profiles: their tables, their sources, their division.
 
-use foldmotion_geometry::{Division, DivisionOptions, Profile, divide_to_length};
+use foldmotion_geometry::{
+    Division, DivisionOptions, Profile, divide, divide_from, divide_to_length,
+};
 use glam::DVec2;
 
 use super::*;
@@ -88,6 +90,40 @@ fn every_division_is_equal_to_1e_minus_13_and_never_worse_than_table_1() {
         let residual = division.max_residual;
         assert!(residual <= paper.min(1e-13), "{}: {residual:e}", model.name);
         assert!((division.length() - model.length()).abs() <= 1e-14 * model.length());
+    }
+}
+
+/// A linear congruential generator (Knuth 1997, volume 2, section 3.3.4).
+fn random(state: &mut u64) -> f64 {
+    *state = state
+        .wrapping_mul(6_364_136_223_846_793_005)
+        .wrapping_add(1_442_695_040_888_963_407);
+    (*state >> 11) as f64 / (1_u64 << 53) as f64
+}
+
+#[test]
+fn a_thousand_random_rising_starts_and_even_parameters_reach_the_division_of_even_arc_length() {
+    let mut state = 1;
+    for model in models() {
+        let profile = model.profile().unwrap();
+        let options = DivisionOptions::default();
+        let expected = divide(&profile, model.rows, &options).unwrap();
+        let even: Vec<_> = (0..=model.rows)
+            .map(|k| k as f64 / model.rows as f64)
+            .collect();
+        let random_starts = (0..112).map(|_| {
+            let mut start: Vec<_> = (1..model.rows).map(|_| random(&mut state)).collect();
+            start.extend([0.0, 1.0]);
+            start.sort_by(f64::total_cmp);
+            start
+        });
+        for start in std::iter::once(even).chain(random_starts) {
+            let division = divide_from(&profile, &start, &options).unwrap();
+            assert!(division.max_residual <= 1e-13, "{}", model.name);
+            for (u, expected) in division.parameters.iter().zip(&expected.parameters) {
+                assert!((u - expected).abs() <= 1e-9, "{}", model.name);
+            }
+        }
     }
 }
 

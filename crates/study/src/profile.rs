@@ -1,0 +1,292 @@
+//! From `[profile]` and `[division]` to the curve Γ and its segments.
+
+use foldmotion_geometry::{
+    Closure, Division, DivisionMethod, DivisionOptions, Fit, GeometryError, Profile, divide,
+    divide_to_length, simplify, simplify_to_length,
+};
+use foldmotion_pattern::{Outline, ProfileModel, find_model, models};
+use glam::DVec2;
+
+use crate::StudyError;
+use crate::scene::{Closed, DivisionChoice, ProfileScene};
+use crate::study::Resolver;
+
+/// Rows of a sheet differ by at most this, over their mean height.
+const EQUAL_ROWS: f64 = 1e-9;
+
+/// Γ with its segments.
+pub(crate) struct DividedProfile {
+    pub(crate) profile: Profile,
+    pub(crate) division: Division,
+    pub(crate) method: DivisionChoice,
+    pub(crate) fit: Fit,
+}
+
+/// Γ and where it comes from.
+pub(crate) struct Curve {
+    pub(crate) model: Option<&'static ProfileModel>,
+    pub(crate) profile: Profile,
+    pub(crate) source: String,
+}
+
+impl Resolver<'_> {
+    /// The curve, from the one key of `[profile]` that gives it.
+    pub(crate) fn curve(&self) -> Result<Curve, StudyError> {
+        let scene = &self.scene.profile;
+        self.check_shape_keys(scene)?;
+        if let Some(name) = &scene.model {
+            return self.built_in(name);
+        }
+        let own = |profile: Result<Profile, GeometryError>, key: &str, source: &str| {
+            Ok(Curve {
+                model: None,
+                profile: profile.map_err(|e| self.curve_error(&e, key))?,
+                source: source.to_owned(),
+            })
+        };
+        let list = |points: &[[f64; 2]]| -> Vec<DVec2> {
+            points.iter().copied().map(DVec2::from).collect()
+        };
+        let closure = closure(scene.closed);
+        match (&scene.control_points, &scene.points, &scene.file) {
+            (Some(points), _, _) => {
+                let profile = match &scene.knots {
+                    Some(knots) => Profile::with_knots(&list(points), knots, closure),
+                    None => Profile::new(&list(points), closure),
+                };
+                own(
+                    profile,
+                    "profile.control_points",
+                    "control points of the scene",
+                )
+            }
+            (_, Some(points), _) => {
+                let profile = Profile::through(&list(points), closure);
+                own(profile, "profile.points", "points of the scene")
+            }
+            (_, _, Some(file)) => {
+                let outline = self.outline(file)?;
+                let closure = match scene.closed {
+                    None if outline.closed => Closure::Corner,
+                    _ => closure,
+                };
+                let profile = Profile::through(&outline.points, closure);
+                own(profile, "profile.file", &format!("points of {file}"))
+            }
+            _ => {
+                let message = "no profile: give profile.model (see `foldmotion models`), profile.control_points, profile.points or profile.file";
+                Err(self.fault("profile", message))
+            }
+        }
+    }
+
+    /// One key gives the curve, and keys that belong to another are refused.
+    fn check_shape_keys(&self, scene: &ProfileScene) -> Result<(), StudyError> {
+        let shapes = [
+            ("profile.model", scene.model.is_some()),
+            ("profile.control_points", scene.control_points.is_some()),
+            ("profile.points", scene.points.is_some()),
+            ("profile.file", scene.file.is_some()),
+        ];
+        let mut given = shapes.into_iter().filter(|&(_, given)| given);
+        let (first, second) = (given.next(), given.next());
+        if let (Some((first, _)), Some((key, _))) = (first, second) {
+            let message = format!("{first} gives the curve already; leave one of the two out");
+            return Err(self.fault(key, message));
+        }
+        if scene.knots.is_some() && scene.control_points.is_none() {
+            let message = "knots belong to profile.control_points; leave them out";
+            return Err(self.fault("profile.knots", message));
+        }
+        if scene.closed.is_some() && scene.model.is_some() {
+            let message = "a built-in model brings its own curve; leave out this key or model";
+            return Err(self.fault("profile.closed", message));
+        }
+        Ok(())
+    }
+
+    fn built_in(&self, name: &str) -> Result<Curve, StudyError> {
+        let Some(model) = find_model(name) else {
+            let names: Vec<&str> = models().iter().map(|m| m.name).collect();
+            let message = format!(
+                "no built-in profile of this name; there is: {}",
+                names.join(", ")
+            );
+            return Err(self.fault("profile.model", message));
+        };
+        Ok(Curve {
+            model: Some(model),
+            profile: model
+                .profile()
+                .map_err(|e| self.curve_error(&e, "profile.model"))?,
+            source: format!("{}: {}", model.name, model.source),
+        })
+    }
+
+    fn outline(&self, file: &str) -> Result<Outline, StudyError> {
+        let path = self.source.beside(file);
+        Outline::read(&path)
+            .map_err(|e| self.fault("profile.file", format!("{}: {e}", path.display())))
+    }
+
+    /// The curve divided; for a sheet, whose rows are equal, into equal segments.
+    pub(crate) fn division(&self, curve: &Curve) -> Result<DividedProfile, StudyError> {
+        let method = self
+            .scene
+            .division
+            .method
+            .unwrap_or(DivisionChoice::EqualLength);
+        let length = match (self.scene.profile.length, curve.model) {
+            (Some(length), _) => Some(self.positive("profile.length", length)?),
+            (None, model) => model.map(ProfileModel::length),
+        };
+        let is_split = method == DivisionChoice::DouglasPeucker;
+        let tolerance = self.scene.division.tolerance.filter(|_| is_split);
+        let (profile, division) = match tolerance {
+            Some(tolerance) => self.simplified(curve, tolerance, length)?,
+            None => self.divided(curve, method, length)?,
+        };
+        let divided = DividedProfile {
+            fit: division.fit(&profile),
+            profile,
+            division,
+            method,
+        };
+        self.check_equal(&divided)?;
+        Ok(divided)
+    }
+
+    /// The curve divided by a tolerance, from which the rows follow.
+    fn simplified(
+        &self,
+        curve: &Curve,
+        tolerance: f64,
+        length: Option<f64>,
+    ) -> Result<(Profile, Division), StudyError> {
+        if self.scene.sheet.rows.is_some() {
+            let message = "the rows follow from division.tolerance; leave one of the two out";
+            return Err(self.fault("sheet.rows", message));
+        }
+        match length {
+            Some(length) => simplify_to_length(&curve.profile, tolerance, length),
+            None => simplify(&curve.profile, tolerance)
+                .map(|division| (curve.profile.clone(), division)),
+        }
+        .map_err(|e| self.geometry_error(&e))
+    }
+
+    /// The curve divided into the rows asked for.
+    fn divided(
+        &self,
+        curve: &Curve,
+        method: DivisionChoice,
+        length: Option<f64>,
+    ) -> Result<(Profile, Division), StudyError> {
+        let rows = curve.model.map(|m| m.rows);
+        let rows = self.count("sheet.rows", self.scene.sheet.rows, rows)?;
+        let options = self.division_options(method)?;
+        match length {
+            Some(length) => divide_to_length(&curve.profile, rows, length, &options),
+            None => divide(&curve.profile, rows, &options)
+                .map(|division| (curve.profile.clone(), division)),
+        }
+        .map_err(|e| self.geometry_error(&e))
+    }
+
+    /// Rows of unequal height are no sheet of equal units.
+    fn check_equal(&self, divided: &DividedProfile) -> Result<(), StudyError> {
+        let division = &divided.division;
+        if division.max_residual <= EQUAL_ROWS {
+            return Ok(());
+        }
+        let segments = division.points.len() - 1;
+        if divided.method != DivisionChoice::EqualLength {
+            let message = format!(
+                "divides the profile into {segments} segments that differ by up to {:.3} of their mean (the curve is at most {:.6} and on average {:.6} away from them), but the units of a sheet are equal; use \"equal-length\"",
+                division.max_residual, divided.fit.largest, divided.fit.mean
+            );
+            return Err(self.fault("division.method", message));
+        }
+        Err(StudyError::Undivided {
+            place: self.source.place_of("profile"),
+            segments,
+            residual: division.max_residual,
+            iterations: division.iterations,
+            remedy: if divided.profile.is_closed() {
+                "the chains of equal chords from its start shrink into an acute corner at its seam or around a turn tighter than a segment: change the number of rows, round the corner, or raise division.max_iterations"
+            } else {
+                "its turns are too tight for segments of this length: change the number of rows, round the turns, or raise division.max_iterations"
+            },
+        })
+    }
+
+    fn division_options(&self, method: DivisionChoice) -> Result<DivisionOptions, StudyError> {
+        let scene = &self.scene.division;
+        let mut options = DivisionOptions {
+            method: match method {
+                DivisionChoice::EqualLength => DivisionMethod::EqualLength,
+                DivisionChoice::Parametric => DivisionMethod::Parametric,
+                DivisionChoice::DouglasPeucker => DivisionMethod::DouglasPeucker,
+            },
+            ..DivisionOptions::default()
+        };
+        if let Some(tolerance) = scene.tolerance {
+            if !(0.0..1.0).contains(&tolerance) {
+                return Err(self.fault("division.tolerance", "must lie between 0 and 1"));
+            }
+            options.tolerance = tolerance;
+        }
+        if let Some(limit) = scene.max_iterations {
+            options.max_iterations = usize::try_from(limit)
+                .ok()
+                .filter(|&n| (1..=1_000_000).contains(&n))
+                .ok_or_else(|| {
+                    self.fault("division.max_iterations", "must lie between 1 and 1000000")
+                })?;
+        }
+        Ok(options)
+    }
+
+    /// An error of making the curve, which is about `key` unless it names another.
+    fn curve_error(&self, error: &GeometryError, key: &str) -> StudyError {
+        let key = match error {
+            GeometryError::NotClosed { .. } | GeometryError::EndsApart { .. } => "profile.closed",
+            GeometryError::KnotCount { .. }
+            | GeometryError::KnotNotFinite { .. }
+            | GeometryError::KnotsDecrease { .. }
+            | GeometryError::KnotRange { .. }
+            | GeometryError::KnotMultiplicity { .. }
+            | GeometryError::KnotSpanTooNarrow { .. }
+            | GeometryError::KnotsOfSmoothProfile => "profile.knots",
+            _ => key,
+        };
+        self.fault(key, error.to_string())
+    }
+
+    fn geometry_error(&self, error: &GeometryError) -> StudyError {
+        let scene = &self.scene.profile;
+        let key = match error {
+            GeometryError::Scale { .. } | GeometryError::Length { .. } => "profile.length",
+            GeometryError::SegmentCount { .. }
+            | GeometryError::SegmentTooShort { .. }
+            | GeometryError::NothingToSplit { .. }
+            | GeometryError::PolygonCrosses { .. } => "sheet.rows",
+            GeometryError::Tolerance { .. }
+            | GeometryError::SplitTolerance { .. }
+            | GeometryError::TooCoarse { .. } => "division.tolerance",
+            _ if scene.file.is_some() => "profile.file",
+            _ if scene.points.is_some() => "profile.points",
+            _ if scene.model.is_some() => "profile.model",
+            _ => "profile.control_points",
+        };
+        self.fault(key, error.to_string())
+    }
+}
+
+fn closure(closed: Option<Closed>) -> Closure {
+    match closed {
+        None => Closure::Open,
+        Some(Closed::Corner) => Closure::Corner,
+        Some(Closed::Smooth) => Closure::Smooth,
+    }
+}
