@@ -15,14 +15,17 @@
 //! - *Penetrating* is confirmed by an instant at which the overlap, from the side on which the pair was followed,
 //!   exceeds τ. What overlaps by τ to within rounding at its deepest may come out either way or undecided.
 //! - Triangles in contact at the first frame may be on any side that D(t) allows there; creases folded by exactly
-//!   ±180° at the first frame are taken to be on the side of their assignment. The mutual consistency of such sides
-//!   over more than two layers is not examined.
+//!   ±180° at the first frame are taken to be on the side of their assignment, others on the side that a file's
+//!   `faceOrders` claim ([`Checker::claim`]).
+//! - Triangles that lie on each other are tested as a stack: whether the orders of its pairs are possible together
+//!   ([`Cluster`], [`LayerRule`]). A stack with open orders is tested as far as they are known.
 //! - Nothing is said about the paths the engine took between the frames if they were not straight, nor about the
 //!   thickness of the material.
 
 mod collision;
 mod error;
 mod extents;
+mod layers;
 mod straightness;
 mod strain;
 mod verification;
@@ -33,6 +36,7 @@ pub use collision::{
 };
 pub use error::CheckError;
 pub use extents::{FittedBox, RelativeError, fitted_box, relative_error};
+pub use layers::{Claims, Cluster, LayerConflict, LayerProof, LayerRule, RuleCounts};
 pub use straightness::straying;
 pub use strain::{BarStrain, FacetBending, bar_strain, facet_bending};
 pub use verification::{Refutation, Unproved, Verification, Verifier};

@@ -22,8 +22,8 @@ pub struct FoldHeader<'a> {
     /// The fold angle every edge of the crease pattern is to take, radians: `edges_foldAngle` of the key frame, which
     /// Origami Simulator folds to.
     pub target_angles: &'a [f64],
-    /// Whether the last frame is the compact state with its layers in the motion's `compact_order`.
-    pub has_layer_order: bool,
+    /// The order of the triangles that coincide, by the index of the frame, in order: its `faceOrders`.
+    pub layer_orders: &'a [(usize, LayerOrder)],
 }
 
 /// Bytes a written number takes at most on average: 17 digits, sign, point and comma.
@@ -40,7 +40,7 @@ impl Motion {
     /// Streams the motion to `out` as FOLD 1.2, one frame a line.
     ///
     /// Coordinates are the shortest decimals that read back as the same f64; fold angles are measured, in degrees,
-    /// clamped to ±180; `faceOrders` stand in the last frame, of the pairs in `compact_order`, if the header says so.
+    /// clamped to ±180; `faceOrders` stand in the frames for which the header has an order.
     ///
     /// # Errors
     /// Those of `out`.
@@ -52,7 +52,9 @@ impl Motion {
         writeln!(out, "\"file_frames\": [")?;
         for (index, frame) in self.frames.iter().enumerate() {
             let last = index + 1 == self.frames.len();
-            let order = (last && header.has_layer_order).then_some(&self.compact_order);
+            let orders = header.layer_orders;
+            let order = orders.binary_search_by_key(&index, |(frame, _)| *frame);
+            let order = order.ok().map(|place| &orders[place].1);
             write_frame(&self.sheet, frame, order, out)?;
             writeln!(out, "{}", if last { "" } else { "," })?;
         }
@@ -213,7 +215,7 @@ mod tests {
             creator: "test",
             unit: "m",
             target_angles,
-            has_layer_order: true,
+            layer_orders: &[(2, units.compact_order())],
         };
         let mut bytes = Vec::new();
         motion.write_fold(&header, &mut bytes).unwrap();
@@ -281,7 +283,7 @@ mod tests {
     }
 
     #[test]
-    fn the_last_frame_alone_carries_the_order_of_its_layers() {
+    fn the_frames_named_alone_carry_the_order_of_their_layers() {
         let (motion, value, _) = written();
         assert!(value["file_frames"][0].get("faceOrders").is_none());
         let orders: Vec<(u32, u32, i8)> =

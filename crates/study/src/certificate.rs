@@ -50,6 +50,10 @@ pub struct Certificate {
     pub penetrations: Vec<PenetrationEntry>,
     /// Pairs of triangles that could not be decided in an interval.
     pub undecided: Vec<UndecidedEntry>,
+    /// Triangles that lie on each other, and whether their order is proved.
+    pub clusters: Vec<ClusterEntry>,
+    /// What the file's `faceOrders` claim.
+    pub layer_orders: LayerOrders,
 }
 
 /// Pairs of triangles judged, by what they share.
@@ -123,8 +127,66 @@ pub struct PenetrationEntry {
     pub vertices: Vec<u32>,
     /// Where.
     pub point: [f64; 3],
-    /// How deep, in units of `unit_length`.
+    /// How deep, in units of `unit_length`; 0 for layers out of order.
     pub depth: f64,
+    /// The layers whose order contradicts itself or the file's claims; null for other kinds.
+    pub layers: Option<LayersEntry>,
+}
+
+/// Layers out of order.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+pub struct LayersEntry {
+    /// What their order breaks.
+    pub rule: String,
+    /// All triangles concerned, two to four.
+    pub triangles: Vec<u32>,
+    /// The faces of the file they were cut from.
+    pub faces: Vec<u32>,
+}
+
+/// Triangles that lie on each other, directly or through others, over consecutive frames.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct ClusterEntry {
+    /// The first and the last frame.
+    pub frames: [usize; 2],
+    /// Their motion times.
+    pub t: [f64; 2],
+    /// The triangles.
+    pub triangles: Vec<u32>,
+    /// The deepest stack found; there may be a deeper one.
+    pub layers: usize,
+    /// Pairs that lie on each other, the most at a frame.
+    pub pairs: usize,
+    /// proved: every order is known and keeps the rules; unproved: some order is open, no rule is broken; contradicted.
+    pub order: String,
+    /// How often each rule was tested, over all frames.
+    pub rules: RulesTested,
+}
+
+/// How often the rules of layer order were tested.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+pub struct RulesTested {
+    /// Two creases folded flat on one line are nested or apart.
+    pub taco_taco: u64,
+    /// A crease folded flat has no layer inside that runs on across it.
+    pub taco_tortilla: u64,
+    /// Layers that run on across one line keep their order.
+    pub tortilla_tortilla: u64,
+    /// A crease that leaves the plane passes through no layer.
+    pub bent: u64,
+    /// Ordered pairs on no cycle over a common region.
+    pub transitivity: u64,
+    /// Creases folded flat to the side of their assignment.
+    pub crease: u64,
+}
+
+/// The file's `faceOrders`, summed over the frames.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+pub struct LayerOrders {
+    /// Entries with a sign of 1 or -1, inherited ones counted at each frame.
+    pub claimed: usize,
+    /// Those of faces that do not lie on each other at their frame, or went through each other: they are ignored.
+    pub ignored: usize,
 }
 
 /// A pair that could not be decided.
@@ -206,10 +268,30 @@ impl Certificate {
                 "first at t = {:.5}: {}, faces {} and {}, vertices {:?}, depth {:.1e} units",
                 p.t, p.kind, p.pair.faces[0], p.pair.faces[1], p.vertices, p.depth
             );
+            if let Some(layers) = &p.layers {
+                let _ = writeln!(out, "  faces {:?} break: {}", layers.faces, layers.rule);
+            }
         }
+        let _ = writeln!(out, "{}", self.layer_line());
         for assumption in &self.assumptions {
             let _ = writeln!(out, "- {assumption}");
         }
         out
+    }
+
+    fn layer_line(&self) -> String {
+        let count = |order: &str| self.clusters.iter().filter(|c| c.order == order).count();
+        let deepest = self.clusters.iter().map(|c| c.layers).max().unwrap_or(0);
+        let orders = self.layer_orders;
+        format!(
+            "layers: {} clusters up to {deepest} deep; order proved in {}, open in {}, contradicted in {}; faceOrders: \
+             {} claimed, {} ignored",
+            self.clusters.len(),
+            count("proved"),
+            count("unproved"),
+            count("contradicted"),
+            orders.claimed,
+            orders.ignored
+        )
     }
 }

@@ -1,27 +1,19 @@
 //! Checks a motion file: reads it twice as a stream, judges it, writes the certificate.
 
 use std::cell::RefCell;
-use std::fmt::Write as _;
 use std::fs::File;
 use std::io::{self, Read, Write as _};
 use std::path::Path;
 
-use foldmotion_check::{CheckError, Checker, CollisionOptions, CollisionReport, Separation};
-use foldmotion_pattern::{FoldError, FoldFile, Frame};
-use glam::DVec3;
+use foldmotion_check::{CheckError, Checker, CollisionOptions, CollisionReport};
+use foldmotion_pattern::{FoldError, FoldFile, Frame, LayerOrder};
 use sha2::{Digest as _, Sha256};
 
-use crate::certificate::{
-    Certificate, DecidedBy, PairsTested, PenetrationEntry, SeparationEntry, TrianglePair,
-    UndecidedEntry,
-};
-use crate::reporting::{kind_name, verdict_name};
-use crate::results::{Results, write_error};
-use crate::run::VERSION;
+use crate::certificate::Certificate;
+use crate::certify::{CheckedMotion, MotionFile};
+use crate::digest::hexadecimal;
+use crate::results::{CERTIFICATE, Results, write_error};
 use crate::{Phase, Progress, StudyError};
-
-/// The name under which the certificate stands.
-const CERTIFICATE: &str = "certificate.json";
 
 /// The largest motion file, bytes: 16 GiB.
 const LARGEST: u64 = 16 << 30;
@@ -61,7 +53,9 @@ pub fn check_file(
     };
     let mut input = Input::open(path, Phase::Check, progress)?;
     let judge = RefCell::new(Judge::new(&file, *options));
-    let read = file.frames(&mut input, &mut |frame| judge.borrow_mut().take(&frame));
+    let read = file.frames(&mut input, &mut |frame, order| {
+        judge.borrow_mut().take(&frame, order)
+    });
     let judge = judge.into_inner();
     if input.is_stopped {
         return Err(StudyError::Interrupted);
@@ -73,13 +67,15 @@ pub fn check_file(
     }
     let (report, times) = judge.finish().map_err(|e| motion_error(path, &e))?;
     let name = path.file_name().unwrap_or_default().to_string_lossy();
-    let certificate = certificate(&file, &report, &times);
     progress(Phase::Check, 1.0);
-    Ok(Certificate {
-        file: name.into_owned(),
+    let motion = CheckedMotion {
+        name: &name,
         sha256,
-        ..certificate
-    })
+        file: MotionFile::from(&file),
+        times: &times,
+        collision: &report,
+    };
+    Ok(motion.certificate())
 }
 
 impl Certificate {
@@ -155,13 +151,7 @@ impl<'a> Input<'a> {
     }
 
     pub(crate) fn digest(&self) -> String {
-        let bytes = self.hash.clone().finalize();
-        let mut text = String::with_capacity(2 * bytes.len());
-        for byte in bytes {
-            // Writing into a string cannot fail.
-            let _ = write!(text, "{byte:02x}");
-        }
-        text
+        hexadecimal(&self.hash.clone().finalize())
     }
 }
 
@@ -219,10 +209,15 @@ impl<'a> Judge<'a> {
         }
     }
 
-    fn take(&mut self, frame: &Frame) -> Result<(), Ended> {
-        match &mut self.checker {
-            Some(checker) => checker.advance(frame)?,
-            None => self.checker = Some(Checker::new(&self.file.sheet, frame, &self.options)?),
+    fn take(&mut self, frame: &Frame, order: &LayerOrder) -> Result<(), Ended> {
+        if let Some(checker) = &mut self.checker {
+            checker.advance(frame)?;
+        } else {
+            self.checker = Some(Checker::new(&self.file.sheet, frame, &self.options)?);
+        }
+        if let Some(checker) = &mut self.checker {
+            let faces = &self.file.triangle_faces;
+            checker.claim(order, &|triangle| faces[triangle as usize]);
         }
         self.times.push(frame.time);
         Ok(())
@@ -262,123 +257,4 @@ impl<'a> Judge<'a> {
         let checker = self.checker.ok_or(CheckError::NoFrames)?;
         Ok((checker.finish(), self.times))
     }
-}
-
-fn certificate(file: &FoldFile, report: &CollisionReport, times: &[f64]) -> Certificate {
-    let first_and_last = [times.first(), times.last()].map(|t| t.copied().unwrap_or(0.0));
-    let pairs = report.pairs_tested;
-    let by = report.decided_by;
-    let quick = by.boxes + by.axis_at_rest + by.turning_axis;
-    Certificate {
-        version: VERSION.to_owned(),
-        file: String::new(),
-        sha256: String::new(),
-        title: file.title.clone(),
-        verdict: verdict_name(report.verdict).to_owned(),
-        tolerance: report.tolerance,
-        unit_length: file.sheet.unit_length,
-        assumptions: assumptions(file),
-        frames: times.len(),
-        times: first_and_last,
-        vertices: file.sheet.vertices.len(),
-        faces: file.polygons.len(),
-        triangles: file.sheet.faces.len(),
-        pairs_tested: PairsTested {
-            disjoint: pairs.disjoint,
-            shared_vertex: pairs.shared_vertex,
-            shared_crease: pairs.shared_crease,
-            total: pairs.total(),
-        },
-        decided_by: DecidedBy {
-            boxes: by.boxes,
-            axis_at_rest: by.axis_at_rest,
-            turning_axis: by.turning_axis,
-            search: by.search,
-            share_without_search: quick as f64 / (quick + by.search).max(1) as f64,
-        },
-        min_separation: report.min_separation.map(|s| separation(file, &s)),
-        touching_pairs: report.touching_pairs,
-        penetrations: penetrations(file, report, times),
-        undecided: undecided(file, report, times),
-    }
-}
-
-pub(crate) fn assumptions(file: &FoldFile) -> Vec<String> {
-    let cut = file.polygons.iter().filter(|p| p.len() > 3).count();
-    let polygons = match cut {
-        0 => "All faces are triangles.".to_owned(),
-        _ => format!(
-            "{cut} faces with more than three corners were cut into triangles, convex ones from their first corner, \
-             others ear by ear; each moves as its triangles do."
-        ),
-    };
-    let unit = if file.has_unit_length {
-        "The unit of length is the file's foldmotion:unitLength."
-    } else {
-        "The unit of length is the mean side of the faces in the key frame, or in the first frame where that has none."
-    };
-    [
-        "Between frames every vertex moves on a straight line at constant speed.",
-        "Nothing is said of motion before, after or other than the recorded frames.",
-        "Coordinates are taken as the f64 numbers nearest to the decimals of the file.",
-        "The material has no thickness.",
-        "Facets that overlap by at most the tolerance and leave on the side they came from touch.",
-        "Facets in contact at the first frame may lie on any side they allow there; creases folded by 180 degrees \
-         there lie on the side of their assignment.",
-        &polygons,
-        unit,
-    ]
-    .map(str::to_owned)
-    .to_vec()
-}
-
-pub(crate) fn triangle_pair(file: &FoldFile, triangles: [u32; 2]) -> TrianglePair {
-    let facets = triangles.map(|t| file.sheet.face_facets[t as usize]);
-    TrianglePair {
-        triangles,
-        faces: triangles.map(|t| file.triangle_faces[t as usize]),
-        facets: file.has_facets.then_some(facets),
-    }
-}
-
-fn separation(file: &FoldFile, s: &Separation) -> SeparationEntry {
-    SeparationEntry {
-        distance: s.distance,
-        t: s.time,
-        pair: triangle_pair(file, s.faces),
-        points: s.points.map(DVec3::into),
-    }
-}
-
-fn penetrations(file: &FoldFile, report: &CollisionReport, times: &[f64]) -> Vec<PenetrationEntry> {
-    let entry = |p: &foldmotion_check::Penetration| {
-        // What the first frame shows already is no interval's.
-        let is_first = p.frame == 0 && p.passed == times[0];
-        let frames = [p.frame, if is_first { 0 } else { p.frame + 1 }];
-        PenetrationEntry {
-            frames,
-            interval: frames.map(|k| times[k]),
-            t: p.time,
-            passed_t: p.passed,
-            kind: kind_name(p.kind).to_owned(),
-            pair: triangle_pair(file, p.faces),
-            vertices: p.vertices.clone(),
-            point: p.point.into(),
-            depth: p.depth,
-        }
-    };
-    report.penetrations.iter().map(entry).collect()
-}
-
-fn undecided(file: &FoldFile, report: &CollisionReport, times: &[f64]) -> Vec<UndecidedEntry> {
-    let entry = |u: &foldmotion_check::Undecided| {
-        let frames = [u.frame, u.frame + 1];
-        UndecidedEntry {
-            frames,
-            interval: frames.map(|k| times[k]),
-            t: u.time,
-            pair: triangle_pair(file, u.faces),
-        }
-    };
-    report.undecided.iter().map(entry).collect()
 }

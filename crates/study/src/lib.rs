@@ -4,7 +4,9 @@
 //! to run; [`Study::run`] folds, checks, reports and records.
 
 pub mod certificate;
+mod certify;
 mod check_file;
+mod digest;
 mod engine;
 mod error;
 mod profile;

@@ -74,7 +74,12 @@ impl Study {
         }
         let height = self.units.unit.height;
         let mut open: Vec<usize> = collision.undecided.iter().map(|u| u.frame).collect();
-        for penetration in &collision.penetrations {
+        // Layers out of order are shown by their frame alone; more frames come where facets passed through.
+        let passed = collision
+            .penetrations
+            .iter()
+            .filter(|p| p.conflict.is_none());
+        for penetration in passed {
             let k = penetration.frame;
             let is_of_a_frame = penetration.passed <= frames[k].time;
             let is_certain = strays

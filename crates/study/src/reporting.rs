@@ -205,6 +205,7 @@ pub(crate) fn kind_name(kind: PenetrationKind) -> &'static str {
         PenetrationKind::FoldedThrough => "folded past a half turn",
         PenetrationKind::AroundVertex => "facets crossing around a shared vertex",
         PenetrationKind::PassedThrough => "facets changing sides",
+        PenetrationKind::LayerOrder => "layers out of order",
     }
 }
 

@@ -10,6 +10,7 @@ use crate::StudyError;
 const NAMES: &[&str] = &[
     "report.json",
     "motion.fold",
+    CERTIFICATE,
     "motion.gif",
     "motion.csv",
     "plots.svg",
@@ -17,6 +18,9 @@ const NAMES: &[&str] = &[
 
 /// The name under which the report stands.
 pub(crate) const REPORT: &str = "report.json";
+
+/// The name under which the certificate of a motion stands.
+pub(crate) const CERTIFICATE: &str = "certificate.json";
 
 /// Results under way, in a temporary folder beside the output folder; removed unless published.
 #[derive(Debug)]

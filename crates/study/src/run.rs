@@ -4,14 +4,16 @@ use std::io::Write as _;
 use std::path::Path;
 use std::time::Instant;
 
-use foldmotion_check::{CollisionReport, FittedBox, Verdict, collisions, fitted_box};
+use foldmotion_check::{CheckError, Checker, CollisionReport, FittedBox, fitted_box};
 use foldmotion_geometry::RigidMotion;
-use foldmotion_pattern::{FoldHeader, Motion};
+use foldmotion_pattern::{FoldHeader, LayerOrder, Motion};
 use foldmotion_record::{FilmOptions, gif, plots};
 
+use crate::certify::{CheckedMotion, MotionFile};
+use crate::digest::HashedWriter;
 use crate::engine::Computed;
 use crate::report::SecondsReport;
-use crate::results::{REPORT, Results, write_error};
+use crate::results::{CERTIFICATE, REPORT, Results, write_error};
 use crate::scene::OutputChoice;
 use crate::series::{FrameFigures, panels, write_csv};
 use crate::{Report, Study, StudyError};
@@ -50,9 +52,17 @@ pub type Progress<'a> = &'a (dyn Fn(Phase, f64) -> bool + Sync);
 /// FOLD's `file_creator` and the report's `version` name this.
 pub(crate) const VERSION: &str = env!("CARGO_PKG_VERSION");
 
+/// The name under which the motion stands.
+const MOTION: &str = "motion.fold";
+
+/// Bytes of an entry of `faceOrders` at most on average.
+const BYTES_AN_ORDER: u64 = 20;
+
 /// What was found out about a motion.
 pub(crate) struct Checked {
     pub(crate) collision: CollisionReport,
+    /// The order of the triangles that coincide, by the index of the frame.
+    pub(crate) layer_orders: Vec<(usize, LayerOrder)>,
     pub(crate) series: Vec<FrameFigures>,
     pub(crate) compact: FittedBox,
 }
@@ -92,10 +102,11 @@ impl Study {
         } else {
             0
         };
+        let orders = BYTES_AN_ORDER * self.units.compact_order().len() as u64;
         let size = |frames| {
             let fold = self.outputs.contains(&OutputChoice::Fold);
             film + if fold {
-                Motion::fold_file_size(&self.units.sheet, frames)
+                Motion::fold_file_size(&self.units.sheet, frames) + orders
             } else {
                 0
             }
@@ -140,15 +151,56 @@ impl Study {
         computed: &Computed,
         progress: Progress<'_>,
     ) -> Result<Checked, StudyError> {
-        let collision = collisions(motion, &self.collision, &|done| {
-            progress(Phase::Check, done)
-        })?;
+        let (collision, layer_orders) = self.judge(motion, progress)?;
         let last = motion.frames.last().map_or(&[][..], |f| &f.positions);
         Ok(Checked {
             series: self.series(motion, computed, &collision.separation_series),
             compact: fitted_box(last, &self.units.compact()),
             collision,
+            layer_orders,
         })
+    }
+
+    /// The verdict, and the order of the layers at every frame that has some.
+    ///
+    /// The order is claimed as the motion file will claim it, so that its check gives the same certificate. In the
+    /// compact frame of a motion without penetration, layers a gap apart lie in the exact order.
+    fn judge(
+        &self,
+        motion: &Motion,
+        progress: Progress<'_>,
+    ) -> Result<(CollisionReport, Vec<(usize, LayerOrder)>), StudyError> {
+        let mut orders = Vec::new();
+        let mut checker: Option<Checker<'_>> = None;
+        for (index, frame) in motion.frames.iter().enumerate() {
+            if !progress(Phase::Check, index as f64 / motion.frames.len() as f64) {
+                return Err(CheckError::Cancelled { intervals: index }.into());
+            }
+            let mut judged = match checker {
+                Some(mut checker) => {
+                    checker.advance(frame)?;
+                    checker
+                }
+                None => Checker::new(&motion.sheet, frame, &self.collision)?,
+            };
+            let mut order = judged.layer_order();
+            let is_last = index + 1 == motion.frames.len();
+            if is_last && frame.time == 2.0 && judged.is_clean() {
+                for (f, g, sign) in motion.compact_order.iter() {
+                    if order.sign(f, g).is_none() {
+                        order.insert(f, g, sign);
+                    }
+                }
+            }
+            judged.claim(&order, &|triangle| triangle);
+            if !order.is_empty() {
+                orders.push((index, order));
+            }
+            checker = Some(judged);
+        }
+        progress(Phase::Check, 1.0);
+        let checker = checker.ok_or(CheckError::NoFrames)?;
+        Ok((checker.finish(), orders))
     }
 
     fn record(
@@ -191,19 +243,42 @@ impl Study {
         results: &mut Results,
     ) -> Result<(), StudyError> {
         let folder = results.folder().to_owned();
-        let is_compact = motion.frames.last().is_some_and(|f| f.time == 2.0);
         let header = FoldHeader {
             title: &self.title,
             creator: &format!("foldmotion {VERSION}"),
             unit: self.unit_name,
             target_angles: self.units.compact_angles(),
-            // Layers that went through each other lie in some other order.
-            has_layer_order: is_compact && checked.collision.verdict != Verdict::Penetrating,
+            layer_orders: &checked.layer_orders,
         };
-        results.write("motion.fold", |out| {
+        let mut sha256 = String::new();
+        results.write(MOTION, |out| {
+            let mut out = HashedWriter::new(out);
             motion
-                .write_fold(&header, out)
-                .map_err(|e| write_error(&folder, "motion.fold", e))
+                .write_fold(&header, &mut out)
+                .map_err(|e| write_error(&folder, MOTION, e))?;
+            sha256 = out.digest();
+            Ok(())
+        })?;
+        let times: Vec<f64> = motion.frames.iter().map(|f| f.time).collect();
+        let checked = CheckedMotion {
+            name: MOTION,
+            sha256,
+            file: MotionFile {
+                title: Some(self.title.clone()),
+                sheet: &motion.sheet,
+                faces: motion.sheet.faces.len(),
+                cut_faces: 0,
+                triangle_faces: None,
+                has_facets: true,
+                has_unit_length: true,
+            },
+            times: &times,
+            collision: &checked.collision,
+        };
+        let certificate = checked.certificate().to_json();
+        results.write(CERTIFICATE, |out| {
+            out.write_all(certificate.as_bytes())
+                .map_err(|e| write_error(&folder, CERTIFICATE, e))
         })
     }
 }

@@ -1,13 +1,13 @@
 //! What a certificate states, as the second proof takes it; and what of it the motion file alone refutes.
 
 use foldmotion_check::{
-    CollisionReport, FilterCounts, PairCounts, Penetration, PenetrationKind, Refutation,
+    Claims, CollisionReport, FilterCounts, PairCounts, Penetration, PenetrationKind, Refutation,
     Separation, Undecided, Verdict,
 };
 use foldmotion_pattern::FoldFile;
 
 use crate::certificate::{Certificate, DecidedBy, PairsTested, TrianglePair};
-use crate::check_file::{assumptions, triangle_pair};
+use crate::certify::MotionFile;
 use crate::reporting::{kind_name, verdict_name};
 use crate::run::VERSION;
 
@@ -40,6 +40,7 @@ fn require<T: PartialEq + std::fmt::Debug>(
 
 /// What the file without its frames refutes.
 pub(crate) fn against_file(certificate: &Certificate, file: &FoldFile) -> Vec<Refutation> {
+    let known = MotionFile::from(file);
     let mut refuted = Vec::new();
     let r = &mut refuted;
     require(r, "version", &certificate.version, &VERSION.to_owned());
@@ -54,7 +55,7 @@ pub(crate) fn against_file(certificate: &Certificate, file: &FoldFile) -> Vec<Re
         r,
         "assumptions",
         &certificate.assumptions,
-        &assumptions(file),
+        &known.assumptions(),
     );
     require(r, "frames", &certificate.frames, &file.frame_count());
     require(
@@ -89,7 +90,7 @@ pub(crate) fn against_file(certificate: &Certificate, file: &FoldFile) -> Vec<Re
                 found,
             ));
         } else {
-            require(r, field, pair, &triangle_pair(file, pair.triangles));
+            require(r, field, pair, &known.pair(pair.triangles));
         }
     }
     refuted
@@ -142,6 +143,7 @@ pub(crate) fn against_times(certificate: &Certificate, times: &[f64]) -> Vec<Ref
     require(&mut refuted, "times", &certificate.times, &ends);
     let penetrations = certificate.penetrations.iter();
     let intervals = penetrations
+        .filter(|p| p.layers.is_none())
         .map(|p| ("penetrations", p.frames, p.interval, p.t))
         .chain(
             certificate
@@ -169,16 +171,45 @@ pub(crate) fn against_times(certificate: &Certificate, times: &[f64]) -> Vec<Ref
     refuted
 }
 
-/// The statement in the terms of the check.
+/// What the order of the layers refutes, as the check finds it: `found`.
+pub(crate) fn against_layers(stated: &Certificate, found: &Certificate) -> Vec<Refutation> {
+    let mut refuted = Vec::new();
+    let r = &mut refuted;
+    require(r, "clusters", &stated.clusters, &found.clusters);
+    require(r, "layer_orders", &stated.layer_orders, &found.layer_orders);
+    let [stated, found] = [stated, found].map(|certificate| {
+        let all = certificate.penetrations.iter();
+        all.filter(|p| p.layers.is_some()).collect::<Vec<_>>()
+    });
+    require(r, "penetrations.layers", &stated, &found);
+    refuted
+}
+
+/// The verdict without penetrations.
+fn verdict_without(certificate: &Certificate) -> Verdict {
+    let separation = certificate.min_separation;
+    let is_close = separation.is_some_and(|s| s.distance <= certificate.tolerance);
+    if !certificate.undecided.is_empty() {
+        Verdict::Undecided
+    } else if certificate.touching_pairs > 0 || is_close {
+        Verdict::Touching
+    } else {
+        Verdict::Free
+    }
+}
+
+/// The statement in the terms of the check, but for the order of layers.
 pub(crate) fn claim(certificate: &Certificate) -> Result<CollisionReport, Refutation> {
     let verdict = VERDICTS
         .into_iter()
         .find(|&v| verdict_name(v) == certificate.verdict);
     let unknown = |field: &str, name: &str| Refutation::new(field, name, "there is no such one");
     let verdict = verdict.ok_or_else(|| unknown("verdict", &certificate.verdict))?;
-    let penetrations: Result<Vec<_>, _> = certificate
+    let of_pairs = certificate
         .penetrations
         .iter()
+        .filter(|p| p.layers.is_none());
+    let penetrations: Result<Vec<_>, _> = of_pairs
         .map(|p| {
             let kind = KINDS.into_iter().find(|&k| kind_name(k) == p.kind);
             Ok(Penetration {
@@ -190,6 +221,7 @@ pub(crate) fn claim(certificate: &Certificate) -> Result<CollisionReport, Refuta
                 point: p.point.into(),
                 depth: p.depth,
                 kind: kind.ok_or_else(|| unknown("penetrations.kind", &p.kind))?,
+                conflict: None,
             })
         })
         .collect();
@@ -206,6 +238,13 @@ pub(crate) fn claim(certificate: &Certificate) -> Result<CollisionReport, Refuta
     });
     let (tested, by) = (certificate.pairs_tested, certificate.decided_by);
     let penetrations = penetrations?;
+    let has_layers_only = penetrations.is_empty() && !certificate.penetrations.is_empty();
+    let verdict = match verdict {
+        Verdict::Penetrating if has_layers_only => verdict_without(certificate),
+        // Layers out of order leave no other verdict; the second proof sees none of them.
+        _ if has_layers_only => return Err(unknown("verdict", &certificate.verdict)),
+        _ => verdict,
+    };
     Ok(CollisionReport {
         verdict,
         tolerance: certificate.tolerance,
@@ -226,5 +265,7 @@ pub(crate) fn claim(certificate: &Certificate) -> Result<CollisionReport, Refuta
             turning_axis: by.turning_axis,
             search: by.search,
         },
+        clusters: Vec::new(),
+        claims: Claims::default(),
     })
 }

@@ -19,7 +19,10 @@ use super::{
         Undecided, Verdict,
     },
 };
-use crate::CheckError;
+use crate::{
+    CheckError,
+    layers::{Claims, FaceEdges, LayerPair, front_normal},
+};
 
 /// Fewer pairs than this are not worth a thread.
 const PAIRS_A_TASK: usize = 128;
@@ -27,22 +30,31 @@ const PAIRS_A_TASK: usize = 128;
 /// Judges a motion frame by frame, holding two frames at a time.
 #[derive(Debug)]
 pub struct Checker<'a> {
-    sheet: &'a Sheet,
+    pub(super) sheet: &'a Sheet,
+    pub(super) edges: FaceEdges,
     /// τ, a length.
-    tolerance: f64,
+    pub(super) tolerance: f64,
     budget: u32,
-    origin: DVec3,
+    pub(super) origin: DVec3,
     tree: Tree,
-    last: Placed,
+    pub(super) last: Placed,
     /// The number of frames taken in.
-    frames: usize,
+    pub(super) frames: usize,
     /// The sides of the pairs judged in the last interval, ordered by pair.
-    sides: Vec<((u32, u32), Side)>,
-    penetrating: BTreeSet<(u32, u32)>,
+    pub(super) sides: Vec<((u32, u32), Side)>,
+    /// Pairs without a side whose boxes met in the last interval: they have penetrated or could not be decided.
+    pub(super) unfollowed: Vec<(u32, u32)>,
+    /// The layers of the last frame, ordered by pair.
+    pub(super) layers: Vec<LayerPair>,
+    /// Whether the rules were tested at the last frame.
+    pub(super) is_proved: bool,
+    pub(super) penetrating: BTreeSet<(u32, u32)>,
+    /// Pairs of layers that were found in an order that contradicts others.
+    pub(super) contradicting: BTreeSet<[u32; 2]>,
     touching: BTreeSet<(u32, u32)>,
     /// The closest approach so far, a length.
     nearest: Option<Separation>,
-    report: CollisionReport,
+    pub(super) report: CollisionReport,
 }
 
 impl<'a> Checker<'a> {
@@ -74,6 +86,7 @@ impl<'a> Checker<'a> {
         let last = Placed::new(sheet, first, 0, origin)?;
         let mut checker = Self {
             sheet,
+            edges: FaceEdges::new(sheet),
             tolerance: value * sheet.unit_length,
             budget: options.budget,
             origin,
@@ -81,6 +94,10 @@ impl<'a> Checker<'a> {
             last,
             frames: 1,
             sides: Vec::new(),
+            unfollowed: Vec::new(),
+            layers: Vec::new(),
+            is_proved: false,
+            contradicting: BTreeSet::new(),
             penetrating: BTreeSet::new(),
             touching: BTreeSet::new(),
             nearest: None,
@@ -89,6 +106,7 @@ impl<'a> Checker<'a> {
         let limits = checker.limits(checker.last.extent)?;
         checker.measure_separation();
         checker.judge_first_frame(&limits)?;
+        checker.find_layers();
         Ok(checker)
     }
 
@@ -107,15 +125,18 @@ impl<'a> Checker<'a> {
             });
         }
         let limits = self.limits(self.last.extent.max(next.extent))?;
+        self.prove_layers();
         let start = std::mem::replace(&mut self.last, next);
         self.measure_separation();
         self.judge_interval(&start, &limits);
         self.frames += 1;
+        self.find_layers();
         Ok(())
     }
 
     /// The report on the frames taken in so far.
     pub fn finish(mut self) -> CollisionReport {
+        self.prove_layers();
         let by_time = |p: &Penetration, q: &Penetration| {
             let by_times = p
                 .time
@@ -126,6 +147,9 @@ impl<'a> Checker<'a> {
         self.report.penetrations.sort_by(by_time);
         let unit = self.sheet.unit_length;
         let mut report = self.report;
+        report
+            .clusters
+            .sort_by(|p, q| p.frames.cmp(&q.frames).then(p.faces.cmp(&q.faces)));
         report.first = report.penetrations.first().cloned();
         report.touching_pairs = self.touching.len();
         report.min_separation = self.nearest.map(|nearest| Separation {
@@ -236,6 +260,7 @@ impl<'a> Checker<'a> {
                 Some(apart) => self.sides.push(((f, g), apart)),
                 None => {
                     let time = self.last.time;
+                    self.unfollowed.push((f, g));
                     self.penetrates(&pair, 0, [time, time], starts_deep(&pair, &pose, limits));
                 }
             }
@@ -248,7 +273,14 @@ impl<'a> Checker<'a> {
         let faces = self.sheet.faces.len() as u64;
         let all = faces * faces.saturating_sub(1) / 2;
         self.report.decided_by.boxes += all - pairs.len() as u64;
-        pairs.retain(|pair| !self.penetrating.contains(&key(pair)));
+        self.unfollowed.clear();
+        pairs.retain(|pair| {
+            let is_lost = self.penetrating.contains(&key(pair));
+            if is_lost {
+                self.unfollowed.push(key(pair));
+            }
+            !is_lost
+        });
         let judged: Vec<Judgement> = pairs
             .par_iter()
             .with_min_len(PAIRS_A_TASK)
@@ -323,10 +355,12 @@ impl<'a> Checker<'a> {
             }
             Judgement::Penetrates(witness) => {
                 decided_by.search += 1;
+                self.unfollowed.push(key(pair));
                 self.penetrates(pair, self.frames - 1, times, witness);
             }
             Judgement::Undecided { time } => {
                 decided_by.search += 1;
+                self.unfollowed.push(key(pair));
                 self.report.undecided.push(Undecided {
                     time: at(time),
                     frame: self.frames - 1,
@@ -356,6 +390,7 @@ impl<'a> Checker<'a> {
             point: witness.point + self.origin,
             depth: witness.depth / self.sheet.unit_length,
             kind: witness.kind,
+            conflict: None,
         });
     }
 }
@@ -376,6 +411,8 @@ fn empty_report(tolerance: f64) -> CollisionReport {
         separation_series: Vec::new(),
         pairs_tested: PairCounts::default(),
         decided_by: FilterCounts::default(),
+        clusters: Vec::new(),
+        claims: Claims::default(),
     }
 }
 
@@ -404,13 +441,8 @@ fn assignments(sheet: &Sheet) -> BTreeMap<(u32, u32), Assignment> {
     between
 }
 
-fn front_normal(sheet: &Sheet, face: u32, positions: &[DVec3]) -> DVec3 {
-    let [p, q, r] = sheet.faces[face as usize].map(|v| positions[v as usize]);
-    (q - p).cross(r - p).normalize_or_zero()
-}
-
 /// The axes that point to the side of `normal`; all where none does.
-fn on_side(axes: &[DVec3], normal: DVec3) -> Vec<DVec3> {
+pub(super) fn on_side(axes: &[DVec3], normal: DVec3) -> Vec<DVec3> {
     let kept: Vec<_> = axes
         .iter()
         .copied()

@@ -3,6 +3,7 @@
 mod checker;
 mod frame;
 mod judge;
+mod layering;
 mod meeting;
 mod pair;
 mod report;

@@ -3,6 +3,8 @@
 use glam::DVec3;
 use serde::Serialize;
 
+use crate::layers::{Claims, Cluster, LayerConflict};
+
 /// How a motion is judged.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct CollisionOptions {
@@ -49,9 +51,11 @@ pub enum PenetrationKind {
     AroundVertex,
     /// Facets leave contact on the other side, without an instant found at which they are deeper than τ.
     PassedThrough,
+    /// The order of coincident layers contradicts itself, or what the file claims of it.
+    LayerOrder,
 }
 
-/// The first penetration of a pair of triangles.
+/// The first penetration of a pair of triangles; of kind [`PenetrationKind::LayerOrder`] there may be one besides.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Penetration {
     /// The motion time at which the contact begins that leads to it; the start of the interval if the pair was in
@@ -74,6 +78,8 @@ pub struct Penetration {
     pub depth: f64,
     /// How they meet.
     pub kind: PenetrationKind,
+    /// The rule that the layers break, of kind [`PenetrationKind::LayerOrder`]: depth 0, at the time of a frame.
+    pub conflict: Option<LayerConflict>,
 }
 
 /// The closest approach of facets that share no vertex.
@@ -156,4 +162,8 @@ pub struct CollisionReport {
     pub pairs_tested: PairCounts,
     /// What decided them.
     pub decided_by: FilterCounts,
+    /// Layers that lie on each other, and what is proved of their order.
+    pub clusters: Vec<Cluster>,
+    /// The orders that were claimed.
+    pub claims: Claims,
 }

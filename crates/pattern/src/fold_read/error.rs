@@ -94,6 +94,36 @@ pub enum FoldError {
         /// How many there are.
         vertices: usize,
     },
+    /// An entry of `faceOrders` that orders no two faces.
+    #[error(
+        "{frame}: faceOrders[{entry}] is [{}, {}, {}]: it must name two faces below {faces} and one of the signs \
+         -1, 0, 1",
+        order.0, order.1, order.2
+    )]
+    FaceOrder {
+        /// The frame.
+        frame: FrameNumber,
+        /// Which entry.
+        entry: usize,
+        /// The entry.
+        order: (u32, u32, i8),
+        /// How many faces there are.
+        faces: usize,
+    },
+    /// `faceOrders` put a face above another and below it.
+    #[error(
+        "{frame}: faceOrders[{entry}] gives faces {f} and {g} another order than an earlier entry"
+    )]
+    TwoOrders {
+        /// The frame.
+        frame: FrameNumber,
+        /// The later entry.
+        entry: usize,
+        /// One face.
+        f: u32,
+        /// The other.
+        g: u32,
+    },
     /// A face with too few or too many corners.
     #[error("faces_vertices[{face}] has {corners} corners: between 3 and {limit} are needed")]
     Corners {

@@ -16,11 +16,11 @@ use std::io::Read;
 use glam::DVec3;
 
 pub use error::{FoldError, FrameNumber};
-use stream::{FrameFields, Keep, Walk, walk};
+use stream::{FaceOrder, FrameFields, Keep, Walk, walk};
 
-use crate::{Frame, Sheet};
+use crate::{Frame, LayerOrder, Sheet};
 
-/// Frames whose coordinates are held because later frames inherit them.
+/// Frames whose coordinates, and those whose layer orders, are held because later frames inherit them.
 const HELD_FRAMES: usize = 16;
 
 /// A FOLD file without its frames, and what is needed to read those.
@@ -49,6 +49,8 @@ pub struct FoldFile {
     pub has_unit_length: bool,
     /// The coordinates of the key frame, of `file_frames[0]` where it has none.
     pub rest: Vec<DVec3>,
+    /// `faceOrders` of the key frame.
+    key_order: LayerOrder,
     /// The frames of the motion.
     frames: Vec<FrameSource>,
     /// `edges_vertices` of the key frame.
@@ -62,6 +64,8 @@ struct FrameSource {
     time: f64,
     /// The frame that has them: itself or one it inherits from.
     source: FrameNumber,
+    /// The frame that has its `faceOrders`, if any has.
+    order_source: Option<FrameNumber>,
 }
 
 /// What the first walk notes of a frame.
@@ -70,6 +74,7 @@ struct Noted {
     inherit: bool,
     time: Option<f64>,
     has_coordinates: bool,
+    has_orders: bool,
 }
 
 impl FoldFile {
@@ -93,6 +98,7 @@ impl FoldFile {
                 inherit: fields.inherit,
                 time: fields.time,
                 has_coordinates: fields.has_coordinates,
+                has_orders: fields.has_orders,
             });
             true
         };
@@ -114,6 +120,8 @@ impl FoldFile {
             return Err(missing(0, "vertices_coords", NEED_COORDINATES));
         }
         let topology = topology::build(&key, &polygons, &rest)?;
+        let orders = std::mem::take(&mut key.orders);
+        let key_order = layer_order(FrameNumber(0), &orders, polygons.len())?;
         Ok(Self {
             frames: motion_frames(&key, &noted)?,
             title: key.title,
@@ -123,6 +131,7 @@ impl FoldFile {
             has_facets: key.facets.is_some(),
             has_unit_length: key.unit_length.is_some(),
             rest,
+            key_order,
             edges: key.edges,
         })
     }
@@ -137,8 +146,10 @@ impl FoldFile {
         self.frames.get(index).map(|f| f.number)
     }
 
-    /// Reads the frames of the motion from the same text and hands each to `each`, in order.
+    /// Reads the frames of the motion from the same text and hands each to `each`, in order, with the order of the
+    /// faces of the file (not of the triangles) that its `faceOrders` claim; empty where it has none.
     ///
+    /// Entries of sign 0, an order that is not known, are left out.
     /// A frame's time is its `foldmotion:time`, its index in the motion where any frame has none. At a time, the
     /// frame being read is held, and those whose coordinates later frames inherit.
     ///
@@ -147,16 +158,18 @@ impl FoldFile {
     pub fn frames<E: From<FoldError>>(
         &self,
         input: impl Read,
-        each: &mut dyn FnMut(Frame) -> Result<(), E>,
+        each: &mut dyn FnMut(Frame, &LayerOrder) -> Result<(), E>,
     ) -> Result<(), E> {
+        let frames = self.frames.iter();
+        let orders = frames.clone().map(|f| (f.order_source, f.number));
         let mut reading = Reading {
             file: self,
             next: 0,
-            last_use: self.last_uses(),
-            held: BTreeMap::new(),
+            positions: Held::new(frames.map(|f| (Some(f.source), f.number)).collect()),
+            orders: Held::new(orders.collect()),
             each,
         };
-        reading.supply(FrameNumber(0), self.rest.clone())?;
+        reading.supply(FrameNumber(0), self.rest.clone(), self.key_order.clone())?;
         let mut failure = None;
         let keep = |number: FrameNumber| Keep {
             coordinates: number.0 > 0,
@@ -179,12 +192,6 @@ impl FoldFile {
             None => walked.map(drop).map_err(E::from),
         }
     }
-
-    /// The last frame of the motion that takes its coordinates from each source.
-    fn last_uses(&self) -> BTreeMap<usize, usize> {
-        let uses = self.frames.iter().map(|f| (f.source.0, f.number.0));
-        uses.collect()
-    }
 }
 
 const NEED_FACES: &str = "the sheet is made of the key frame's faces";
@@ -205,6 +212,7 @@ fn motion_frames(key: &FrameFields, noted: &[Noted]) -> Result<Vec<FrameSource>,
     let has_key = key.has_coordinates && (!is_pattern || noted.is_empty());
     // Parents come before their children, so that chains of inheritance end at the key frame.
     let mut sources = vec![key.has_coordinates.then_some(0)];
+    let mut orders = vec![key.has_orders.then_some(0)];
     for (index, frame) in noted.iter().enumerate() {
         let number = index + 1;
         let parent = frame.parent.filter(|&p| p < number as u64);
@@ -214,17 +222,18 @@ fn motion_frames(key: &FrameFields, noted: &[Noted]) -> Result<Vec<FrameSource>,
                 parent: frame.parent.map_or("none".to_owned(), |p| p.to_string()),
             });
         }
-        let inherited = parent.filter(|_| frame.inherit);
-        let inherited = inherited.and_then(|p| sources[p as usize]);
-        let source = if frame.has_coordinates {
-            Some(number)
-        } else {
-            inherited
+        let parent = parent.filter(|_| frame.inherit);
+        let from = |has_own: bool, sources: &[Option<usize>]| match parent {
+            _ if has_own => Some(number),
+            Some(parent) => sources[parent as usize],
+            None => None,
         };
+        let source = from(frame.has_coordinates, &sources);
         if source.is_none() {
             return Err(missing(number, "vertices_coords", NEED_OWN));
         }
         sources.push(source);
+        orders.push(from(frame.has_orders, &orders));
     }
     let times: Option<Vec<f64>> = std::iter::once(key.time)
         .filter(|_| has_key)
@@ -237,8 +246,86 @@ fn motion_frames(key: &FrameFields, noted: &[Noted]) -> Result<Vec<FrameSource>,
             number: FrameNumber(number),
             time: times.as_ref().map_or(index as f64, |t| t[index]),
             source: FrameNumber(source),
+            order_source: orders[number].map(FrameNumber),
         })
         .collect())
+}
+
+/// The order that `faceOrders` claim.
+fn layer_order(
+    frame: FrameNumber,
+    orders: &[FaceOrder],
+    faces: usize,
+) -> Result<LayerOrder, FoldError> {
+    let mut order = LayerOrder::default();
+    for (entry, &(f, g, sign)) in orders.iter().enumerate() {
+        let is_in_range = (f as usize) < faces && (g as usize) < faces;
+        if !is_in_range || f == g || !(-1..=1).contains(&sign) {
+            return Err(FoldError::FaceOrder {
+                frame,
+                entry,
+                order: (f, g, sign),
+                faces,
+            });
+        }
+        if sign == 0 {
+            continue;
+        }
+        if order.sign(f, g).is_some_and(|known| known != sign) {
+            return Err(FoldError::TwoOrders { frame, entry, f, g });
+        }
+        order.insert(f, g, sign);
+    }
+    Ok(order)
+}
+
+/// What frames say themselves, held as long as later frames inherit it.
+struct Held<T> {
+    /// The last frame of the motion that takes its value from each source.
+    last_use: BTreeMap<usize, usize>,
+    values: BTreeMap<usize, T>,
+}
+
+impl<T: Clone + Default> Held<T> {
+    fn new(uses: Vec<(Option<FrameNumber>, FrameNumber)>) -> Self {
+        let uses = uses.into_iter();
+        Self {
+            last_use: uses.filter_map(|(s, f)| Some((s?.0, f.0))).collect(),
+            values: BTreeMap::new(),
+        }
+    }
+
+    /// Holds the value of frame `number` if a later frame needs it.
+    fn keep(&mut self, number: FrameNumber, own: &T) -> Result<(), FoldError> {
+        let last = self.last_use.get(&number.0);
+        if last.is_some_and(|&last| last > number.0) {
+            self.values.insert(number.0, own.clone());
+            if self.values.len() > HELD_FRAMES {
+                return Err(FoldError::HeldFrames {
+                    frame: number,
+                    held: self.values.len(),
+                    limit: HELD_FRAMES,
+                });
+            }
+        }
+        Ok(())
+    }
+
+    /// The value of frame `number`, which takes it from `source`.
+    fn value(&mut self, number: FrameNumber, source: Option<FrameNumber>, own: T) -> T {
+        let Some(source) = source else {
+            return T::default();
+        };
+        let value = if source == number {
+            own
+        } else {
+            self.values.get(&source.0).cloned().unwrap_or_default()
+        };
+        if self.last_use.get(&source.0) == Some(&number.0) {
+            self.values.remove(&source.0);
+        }
+        value
+    }
 }
 
 /// The second walk under way.
@@ -246,16 +333,16 @@ struct Reading<'a, E> {
     file: &'a FoldFile,
     /// The frame of the motion that comes next.
     next: usize,
-    last_use: BTreeMap<usize, usize>,
-    /// Coordinates that later frames inherit.
-    held: BTreeMap<usize, Vec<DVec3>>,
-    each: &'a mut dyn FnMut(Frame) -> Result<(), E>,
+    positions: Held<Vec<DVec3>>,
+    orders: Held<LayerOrder>,
+    each: &'a mut dyn FnMut(Frame, &LayerOrder) -> Result<(), E>,
 }
 
 impl<E: From<FoldError>> Reading<'_, E> {
     fn take(&mut self, number: FrameNumber, fields: FrameFields) -> Result<(), E> {
         self.same_topology(number, &fields)?;
-        self.supply(number, fields.coordinates)
+        let order = layer_order(number, &fields.orders, self.file.polygons.len())?;
+        self.supply(number, fields.coordinates, order)
     }
 
     fn same_topology(&self, number: FrameNumber, fields: &FrameFields) -> Result<(), FoldError> {
@@ -282,41 +369,23 @@ impl<E: From<FoldError>> Reading<'_, E> {
         Ok(())
     }
 
-    /// Hands on frame `number`, if it belongs to the motion, and holds `own` as long as it is needed.
-    fn supply(&mut self, number: FrameNumber, own: Vec<DVec3>) -> Result<(), E> {
-        if self
-            .last_use
-            .get(&number.0)
-            .is_some_and(|&last| last > number.0)
-        {
-            self.held.insert(number.0, own.clone());
-            if self.held.len() > HELD_FRAMES {
-                return Err(E::from(FoldError::HeldFrames {
-                    frame: number,
-                    held: self.held.len(),
-                    limit: HELD_FRAMES,
-                }));
-            }
-        }
-        let Some(frame) = self
-            .file
-            .frames
-            .get(self.next)
-            .filter(|f| f.number == number)
-        else {
+    /// Hands on frame `number`, if it belongs to the motion, and holds what it says as long as it is needed.
+    fn supply(
+        &mut self,
+        number: FrameNumber,
+        own: Vec<DVec3>,
+        own_order: LayerOrder,
+    ) -> Result<(), E> {
+        self.positions.keep(number, &own)?;
+        self.orders.keep(number, &own_order)?;
+        let file = self.file;
+        let Some(frame) = file.frames.get(self.next).filter(|f| f.number == number) else {
             return Ok(());
         };
-        let source = frame.source.0;
-        let positions = if source == number.0 {
-            own
-        } else {
-            self.held.get(&source).cloned().unwrap_or_default()
-        };
-        if self.last_use.get(&source) == Some(&number.0) {
-            self.held.remove(&source);
-        }
+        let positions = self.positions.value(number, Some(frame.source), own);
+        let order = self.orders.value(number, frame.order_source, own_order);
         self.next += 1;
         let time = frame.time;
-        (self.each)(Frame { time, positions })
+        (self.each)(Frame { time, positions }, &order)
     }
 }

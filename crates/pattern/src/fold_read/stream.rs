@@ -30,12 +30,19 @@ pub(super) struct FrameFields {
     pub(super) assignments: Option<Vec<String>>,
     pub(super) facets: Option<Vec<u32>>,
     pub(super) unit_length: Option<f64>,
+    /// Whether the frame has `faceOrders`, kept or not.
+    pub(super) has_orders: bool,
+    pub(super) orders: Vec<FaceOrder>,
     seen: Vec<String>,
 }
+
+/// An entry of `faceOrders`: [f, g, s].
+pub(super) type FaceOrder = (u32, u32, i8);
 
 /// What of a frame is kept.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct Keep {
+    /// Coordinates and the order of the layers.
     pub(super) coordinates: bool,
     pub(super) topology: bool,
 }
@@ -229,6 +236,14 @@ impl FrameFields {
                     map.next_value::<IgnoredAny>()?;
                 }
             }
+            "faceOrders" => {
+                self.has_orders = true;
+                if keep.coordinates {
+                    self.orders = map.next_value_seed(List::new(place))?;
+                } else {
+                    map.next_value::<IgnoredAny>()?;
+                }
+            }
             _ if !keep.topology => drop(map.next_value::<IgnoredAny>()?),
             "faces_vertices" => self.faces = Some(map.next_value_seed(List::new(place))?),
             "edges_vertices" => self.edges = Some(map.next_value_seed(List::new(place))?),
@@ -250,7 +265,7 @@ impl FrameFields {
 
 /// The keys that matter to a motion.
 fn known(key: &str) -> Option<&'static str> {
-    const KEYS: [&str; 11] = [
+    const KEYS: [&str; 12] = [
         "file_title",
         "frame_classes",
         "frame_parent",
@@ -258,6 +273,7 @@ fn known(key: &str) -> Option<&'static str> {
         "foldmotion:time",
         "foldmotion:unitLength",
         "vertices_coords",
+        "faceOrders",
         "faces_vertices",
         "edges_vertices",
         "edges_assignment",

@@ -7,7 +7,7 @@ use crate::{Assignment, Case, FoldHeader, Frame, Motion, Unit, UnitSheet};
 fn frames(text: &str) -> Result<(FoldFile, Vec<Frame>), FoldError> {
     let file = FoldFile::read(text.as_bytes())?;
     let mut frames = Vec::new();
-    file.frames::<FoldError>(text.as_bytes(), &mut |frame| {
+    file.frames::<FoldError>(text.as_bytes(), &mut |frame, _| {
         frames.push(frame);
         Ok(())
     })?;
@@ -67,7 +67,7 @@ fn our_own_motion_reads_back_bitwise() {
         creator: "test",
         unit: "m",
         target_angles: units.compact_angles(),
-        has_layer_order: true,
+        layer_orders: &[(2, units.compact_order())],
     };
     let mut bytes = Vec::new();
     motion.write_fold(&header, &mut bytes).unwrap();
@@ -303,6 +303,66 @@ fn a_caller_that_ends_the_walk_gets_its_own_error() {
     }
     let text = square().to_string();
     let file = FoldFile::read(text.as_bytes()).unwrap();
-    let outcome = file.frames(text.as_bytes(), &mut |_| Err(Enough(1)));
+    let outcome = file.frames(text.as_bytes(), &mut |_, _| Err(Enough(1)));
     assert_eq!(outcome, Err(Enough(1)));
+}
+
+/// The claims of every frame.
+fn claims(value: &Value) -> Vec<Vec<(u32, u32, i8)>> {
+    let text = value.to_string();
+    let file = FoldFile::read(text.as_bytes()).unwrap();
+    let mut claims = Vec::new();
+    file.frames::<FoldError>(text.as_bytes(), &mut |_, order| {
+        claims.push(order.iter().collect());
+        Ok(())
+    })
+    .unwrap();
+    claims
+}
+
+#[test]
+fn face_orders_are_inherited_like_coordinates_and_unknown_signs_are_no_claim() {
+    let still = json!({ "frame_parent": 1, "frame_inherit": true });
+    let own = with(|v| {
+        v["file_frames"][0]["faceOrders"] = json!([[1, 0, 1], [0, 1, 0]]);
+        v["file_frames"][1]["faceOrders"] = json!([[1, 0, -1]]);
+        v["file_frames"].as_array_mut().unwrap().push(still.clone());
+    });
+    assert_eq!(
+        claims(&own),
+        [vec![(1, 0, 1)], vec![(1, 0, -1)], vec![(1, 0, 1)]]
+    );
+    let of_key = with(|v| v["faceOrders"] = json!([[0, 1, -1]]));
+    assert_eq!(claims(&of_key), vec![vec![(0, 1, -1)]; 2]);
+    assert_eq!(claims(&square()), vec![vec![]; 2]);
+}
+
+#[test]
+fn face_orders_that_order_no_two_faces_are_refused_by_entry() {
+    let orders = [
+        (
+            json!([[0, 1, 1], [1, 2, 1]]),
+            "file_frames[1]: faceOrders[1] is [1, 2, 1]",
+        ),
+        (json!([[1, 1, 1]]), "faceOrders[0] is [1, 1, 1]"),
+        (json!([[1, 0, 2]]), "faceOrders[0] is [1, 0, 2]"),
+        (
+            json!([[1, 0, 1], [1, 0, -1]]),
+            "faceOrders[1] gives faces 1 and 0",
+        ),
+        (json!([[1, 0]]), "faceOrders"),
+        (json!([[1, -1, 1]]), "faceOrders"),
+        (json!([[1, 0, 0.5]]), "faceOrders"),
+        (json!(3), "faceOrders"),
+    ];
+    for (order, named) in orders {
+        let error = refused(&with(|v| v["file_frames"][1]["faceOrders"] = order));
+        assert!(error.to_string().contains(named), "{error}");
+        assert!(error.to_string().contains("file_frames[1]"), "{error}");
+    }
+    let error = refused(&with(|v| v["faceOrders"] = json!([[0, 2, 1]])));
+    assert!(
+        error.to_string().contains("the key frame: faceOrders[0]"),
+        "{error}"
+    );
 }

@@ -1,0 +1,205 @@
+//! What the walk over the frames does with the layers of each: finds them, hears what the file claims, tests the rules.
+
+use std::collections::BTreeSet;
+
+use foldmotion_geometry::collide::Side;
+use foldmotion_pattern::{Assignment, LayerOrder};
+use glam::DVec3;
+
+use super::{
+    checker::{Checker, on_side},
+    pair::Pair,
+    report::{Penetration, PenetrationKind},
+};
+use crate::layers::{
+    Contradiction, LayerConflict, LayerPair, LayerRule, front_normal, layer_pairs, layer_point,
+    order_of, prove,
+};
+
+impl Checker<'_> {
+    /// The order of the triangles that coincide at the last frame taken in, as the motion leaves it, in both
+    /// directions; pairs whose order is not known are left out.
+    pub fn layer_order(&self) -> LayerOrder {
+        order_of(self.sheet, &self.last.positions, &self.layers)
+    }
+
+    /// Whether nothing has penetrated before the last frame, nor between the last two.
+    pub fn is_clean(&self) -> bool {
+        self.report.penetrations.is_empty()
+    }
+
+    /// Takes in what a file claims of the order at the last frame taken in; at most once a frame.
+    ///
+    /// `face_of`: the face of the file that a triangle belongs to; `order` is of such faces. A claim of two layers
+    /// whose order the motion shows must agree with it, otherwise it is a penetration. Where the motion leaves both
+    /// sides open, as at the first frame, the claim decides, for the frames to come too. Claims of faces that are no
+    /// layers of each other are counted and ignored.
+    pub fn claim(&mut self, order: &LayerOrder, face_of: &dyn Fn(u32) -> u32) {
+        let mut heard = BTreeSet::new();
+        for index in 0..self.layers.len() {
+            let pair = self.layers[index];
+            let [f, g] = pair.faces;
+            let [a, b] = [f, g].map(face_of);
+            if pair.is_lost || a == b {
+                continue;
+            }
+            // The sign of (a, b) speaks of b's front, where f is above; that of (b, a) of a's, where g is.
+            let of_first = order.sign(a, b).map(|sign| ((a, b), -f64::from(sign), g));
+            let of_second = order.sign(b, a).map(|sign| ((b, a), f64::from(sign), f));
+            for (claim, sign, face) in [of_first, of_second].into_iter().flatten() {
+                heard.insert(claim);
+                let up = front_normal(self.sheet, face, &self.last.positions) * sign;
+                self.hear(index, up);
+            }
+        }
+        self.report.claims.claimed += order.len();
+        self.report.claims.ignored += order.len() - heard.len();
+    }
+
+    /// Takes in the claim that the first layer of a pair lies below the second along `up`.
+    fn hear(&mut self, index: usize, up: DVec3) {
+        let LayerPair {
+            faces, up: known, ..
+        } = self.layers[index];
+        match known {
+            Some(known) if known.dot(up) < 0.0 => {
+                let rule = self.claim_rule(faces);
+                let contradiction = Contradiction {
+                    faces,
+                    conflict: LayerConflict {
+                        rule,
+                        faces: faces.to_vec(),
+                    },
+                    vertices: self.sheet.faces[faces[0] as usize].to_vec(),
+                    point: layer_point(self.sheet, &self.last.positions, faces),
+                };
+                self.contradicts(contradiction);
+            }
+            Some(_) => {}
+            None => {
+                self.layers[index].up = Some(up);
+                self.keep_side(faces, up);
+            }
+        }
+    }
+
+    /// Follows a pair from now on along `up`.
+    fn keep_side(&mut self, [f, g]: [u32; 2], up: DVec3) {
+        let Ok(found) = self.sides.binary_search_by(|(pair, _)| pair.cmp(&(f, g))) else {
+            return;
+        };
+        let pose = Pair::new(self.sheet, f, g).pose(&self.last.positions);
+        let side = &mut self.sides[found].1;
+        match side {
+            Side::Contact(axes) => *axes = on_side(axes, up),
+            // The gap on the other side is below τ, and so is the overlap on this one.
+            Side::Apart(axis) if axis.dot(up) < 0.0 && pose.overlap(up) < self.tolerance => {
+                *side = Side::Contact(vec![up]);
+            }
+            Side::Apart(_) => {}
+        }
+    }
+
+    /// At the first frame the only order known is that of creases folded flat, from their assignment.
+    fn claim_rule(&self, faces: [u32; 2]) -> LayerRule {
+        if self.frames == 1 && self.crease_between(faces).is_some() {
+            LayerRule::Crease
+        } else {
+            LayerRule::Claim
+        }
+    }
+
+    /// The side of the first on which the second lies by the assignment of the crease between them, where there is one.
+    fn assigned_side(&self, faces: [u32; 2]) -> Option<DVec3> {
+        let front = front_normal(self.sheet, faces[0], &self.last.positions);
+        match self.sheet.edges[self.crease_between(faces)? as usize].assignment {
+            Assignment::Valley => Some(front),
+            Assignment::Mountain => Some(-front),
+            _ => None,
+        }
+    }
+
+    fn crease_between(&self, [f, g]: [u32; 2]) -> Option<u32> {
+        let mut hinges = (0..3).filter_map(|i| self.edges.hinge(self.sheet, f, i));
+        let (edge, _) = hinges.find(|&(_, beyond)| beyond == g)?;
+        self.sheet.edges[edge as usize].is_crease().then_some(edge)
+    }
+
+    /// Finds the layers of the last frame.
+    ///
+    /// What is closer than τ may lie on either side: a gap that small shows no order. So a pair without an order gets
+    /// none before it was seen apart, and at the first frame only creases folded flat have one.
+    pub(super) fn find_layers(&mut self) {
+        let followed = self.sides.iter().map(|(pair, side)| (*pair, Some(side)));
+        let unfollowed = self.unfollowed.iter().map(|&pair| (pair, None));
+        let mut sides: Vec<_> = followed.chain(unfollowed).collect();
+        sides.sort_by_key(|(pair, _)| *pair);
+        let mut layers = layer_pairs(self.sheet, &self.last.positions, &sides, self.tolerance);
+        for pair in &mut layers {
+            let [f, g] = pair.faces;
+            pair.is_lost = self.penetrating.contains(&(f, g));
+            let earlier = self.layers.binary_search_by(|p| p.faces.cmp(&pair.faces));
+            match earlier {
+                Ok(index) if self.layers[index].up.is_none() => pair.up = None,
+                Err(_) if self.frames == 1 => pair.up = self.assigned_side(pair.faces),
+                _ => {}
+            }
+        }
+        self.layers = layers;
+        self.is_proved = false;
+        if self.frames == 1 {
+            for LayerPair { faces, up, .. } in self.layers.clone() {
+                if let Some(up) = up {
+                    self.keep_side(faces, up);
+                }
+            }
+        }
+    }
+
+    /// Tests the rules at the last frame, once.
+    pub(super) fn prove_layers(&mut self) {
+        if std::mem::replace(&mut self.is_proved, true) || self.layers.is_empty() {
+            return;
+        }
+        let positions = &self.last.positions;
+        let proof = prove(
+            self.sheet,
+            &self.edges,
+            positions,
+            &self.layers,
+            self.tolerance,
+        );
+        let frame = self.frames - 1;
+        for mut cluster in proof.clusters {
+            cluster.frames = [frame; 2];
+            cluster.times = [self.last.time; 2];
+            let before =
+                |c: &&mut crate::Cluster| c.frames[1] + 1 == frame && c.faces == cluster.faces;
+            match self.report.clusters.iter_mut().rev().find(before) {
+                Some(earlier) => earlier.extend(&cluster),
+                None => self.report.clusters.push(cluster),
+            }
+        }
+        for contradiction in proof.contradictions {
+            self.contradicts(contradiction);
+        }
+    }
+
+    /// Records a contradiction, the first of every pair.
+    fn contradicts(&mut self, found: Contradiction) {
+        if !self.contradicting.insert(found.faces) {
+            return;
+        }
+        self.report.penetrations.push(Penetration {
+            time: self.last.time,
+            passed: self.last.time,
+            frame: self.frames - 1,
+            faces: found.faces,
+            vertices: found.vertices,
+            point: found.point + self.origin,
+            depth: 0.0,
+            kind: PenetrationKind::LayerOrder,
+            conflict: Some(found.conflict),
+        });
+    }
+}

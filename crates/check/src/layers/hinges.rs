@@ -1,0 +1,288 @@
+//! Creases and layers along one line: whether they pass through each other there.
+
+use std::f64::consts::{PI, TAU};
+
+use foldmotion_pattern::Sheet;
+use glam::DVec3;
+
+use super::{FaceEdges, LayerPair, LayerRule, NARROW, front_normal};
+
+/// Half-planes at less than this angle are told apart by their layers, not by the angle. It is far above what
+/// coincident layers differ by, τ over the size of a triangle, and far below the angles that creases rest at.
+const SAME_ANGLE: f64 = 1e-3;
+
+/// What meets the hinge at its line.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+enum Other {
+    /// Another hinge on the same line, by its edge.
+    Hinge { edge: u32 },
+    /// A triangle that the line crosses.
+    Across { face: u32 },
+}
+
+/// A hinge, and what meets it along the same line on the side of one of its triangles.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Meeting {
+    edge: u32,
+    other: Other,
+    /// The triangles of the hinge, the one that is a layer of the other first.
+    faces: [u32; 2],
+    /// The triangles of the other, the layer first; twice the one that is crossed.
+    others: [u32; 2],
+    /// The index of the pair of layers it was found at.
+    pub(super) pair: usize,
+    /// A point of the line where the two meet.
+    pub(super) point: DVec3,
+}
+
+/// A half-plane that ends in the line.
+#[derive(Debug, Clone, Copy)]
+struct Half {
+    face: u32,
+    /// Around the line, from the layer that the meeting was found at.
+    angle: f64,
+}
+
+/// The layers of a frame, to be looked up.
+pub(super) struct Layers<'a> {
+    pub(super) sheet: &'a Sheet,
+    pub(super) edges: &'a FaceEdges,
+    pub(super) positions: &'a [DVec3],
+    /// In order of their faces.
+    pub(super) pairs: &'a [LayerPair],
+    /// τ, a length.
+    pub(super) tolerance: f64,
+}
+
+/// A line in space with the directions of a half-plane and of growing angles.
+struct Line {
+    at: DVec3,
+    along: DVec3,
+    inward: DVec3,
+    /// Along × inward.
+    up: DVec3,
+    length: f64,
+}
+
+impl Line {
+    fn angle(&self, towards: DVec3) -> f64 {
+        self.up.dot(towards).atan2(self.inward.dot(towards))
+    }
+}
+
+impl Meeting {
+    /// The same for one meeting, however it was found.
+    pub(super) fn key(&self) -> impl Ord + use<> {
+        (self.edge, self.other)
+    }
+
+    /// The triangles that meet, each once, in order.
+    pub(super) fn all_faces(&self) -> Vec<u32> {
+        let mut faces = [self.faces, self.others].concat();
+        faces.sort_unstable();
+        faces.dedup();
+        faces
+    }
+
+    /// The ends of the hinge and of the other one.
+    pub(super) fn vertices(&self, sheet: &Sheet) -> Vec<u32> {
+        let mut vertices = sheet.edges[self.edge as usize].vertices.to_vec();
+        let others = match self.other {
+            Other::Hinge { edge } => sheet.edges[edge as usize].vertices.to_vec(),
+            Other::Across { face } => sheet.faces[face as usize].to_vec(),
+        };
+        for vertex in others {
+            if !vertices.contains(&vertex) {
+                vertices.push(vertex);
+            }
+        }
+        vertices
+    }
+}
+
+impl Layers<'_> {
+    /// What meets along the edges of the two layers of a pair.
+    pub(super) fn meetings(&self, index: usize) -> Vec<Meeting> {
+        let [f, g] = self.pairs[index].faces;
+        let mut found = Vec::new();
+        for (a, b) in [(f, g), (g, f)] {
+            for i in 0..3 {
+                let Some((edge, beyond)) = self.edges.hinge(self.sheet, a, i) else {
+                    continue;
+                };
+                let Some((other, others, point)) = self.at_line(a, i, b) else {
+                    continue;
+                };
+                let meeting = Meeting {
+                    edge,
+                    other,
+                    faces: [a, beyond],
+                    others,
+                    pair: index,
+                    point,
+                };
+                found.extend(meeting.in_order());
+            }
+        }
+        found
+    }
+
+    /// What of triangle `b` meets edge `i` of its layer `a`.
+    fn at_line(&self, a: u32, i: usize, b: u32) -> Option<(Other, [u32; 2], DVec3)> {
+        let width = NARROW * self.tolerance;
+        let line = self.line(a, i)?;
+        let corners = self.corners(b);
+        let height = corners.map(|p| line.inward.dot(p - line.at));
+        let along = corners.map(|p| line.along.dot(p - line.at));
+        let shared = |from: f64, to: f64| {
+            let (low, high) = (from.min(to).max(0.0), from.max(to).min(line.length));
+            (high - low > width).then(|| line.at + line.along * f64::midpoint(low, high))
+        };
+        let beside = (0..3).find(|&k| height[k].abs().max(height[(k + 1) % 3].abs()) <= width);
+        if let Some(k) = beside {
+            let point = shared(along[k], along[(k + 1) % 3])?;
+            let (edge, beyond) = self.edges.hinge(self.sheet, b, k)?;
+            return Some((Other::Hinge { edge }, [b, beyond], point));
+        }
+        let is_across = height.iter().any(|&h| h > width) && height.iter().any(|&h| h < -width);
+        if !is_across {
+            return None;
+        }
+        let cuts = (0..3).filter_map(|k| {
+            let (p, q) = (height[k], height[(k + 1) % 3]);
+            let (s, t) = (along[k], along[(k + 1) % 3]);
+            ((p > 0.0) != (q > 0.0)).then(|| s + (t - s) * p / (p - q))
+        });
+        let [mut low, mut high] = [f64::INFINITY, f64::NEG_INFINITY];
+        for cut in cuts {
+            (low, high) = (low.min(cut), high.max(cut));
+        }
+        let point = shared(low, high)?;
+        Some((Other::Across { face: b }, [b, b], point))
+    }
+
+    /// Which rule a meeting falls under and whether it is kept; none where an order it depends on is not known.
+    pub(super) fn test(&self, meeting: &Meeting) -> Option<(LayerRule, bool)> {
+        let corners = self.sheet.faces[meeting.faces[0] as usize];
+        let ends = self.sheet.edges[meeting.edge as usize].vertices;
+        let i = (0..3).find(|&i| !ends.contains(&corners[(i + 2) % 3]))?;
+        let line = self.line(meeting.faces[0], i)?;
+        let own = meeting.faces.map(|face| self.half(&line, face, ends));
+        let others = match meeting.other {
+            Other::Hinge { edge } => {
+                let ends = self.sheet.edges[edge as usize].vertices;
+                meeting.others.map(|face| self.half(&line, face, ends))
+            }
+            Other::Across { face } => {
+                let across = front_normal(self.sheet, face, self.positions).cross(line.along);
+                [across, -across].map(|towards| Half {
+                    face,
+                    angle: line.angle(towards),
+                })
+            }
+        };
+        let cut = widest_gap([own[0].angle, own[1].angle, others[0].angle, others[1].angle]);
+        let mut crossings = 0;
+        for x in &own {
+            for y in &others {
+                crossings += u32::from(self.is_before(&line, x, y, cut)?);
+            }
+        }
+        // The two pairs interleave where an odd number of the four comparisons hold, wherever the circle is cut.
+        Some((rule_of(&own, &others), crossings % 2 == 0))
+    }
+
+    /// Whether half-plane `x` comes before `y` in the direction of growing angles from `cut` on.
+    fn is_before(&self, line: &Line, x: &Half, y: &Half, cut: f64) -> Option<bool> {
+        let apart = (y.angle - x.angle + PI).rem_euclid(TAU) - PI;
+        if apart.abs() >= SAME_ANGLE {
+            let from_cut = |half: &Half| (half.angle - cut).rem_euclid(TAU);
+            return Some(from_cut(x) < from_cut(y));
+        }
+        let key = [x.face.min(y.face), x.face.max(y.face)];
+        let found = self
+            .pairs
+            .binary_search_by(|pair| pair.faces.cmp(&key))
+            .ok()?;
+        let first_is_below = self.pairs[found].up?;
+        let growing = line.up * x.angle.cos() - line.inward * x.angle.sin();
+        let is_below = first_is_below.dot(growing) > 0.0;
+        Some(is_below == (x.face < y.face))
+    }
+
+    /// The half-plane of triangle `face` at its edge `ends`.
+    fn half(&self, line: &Line, face: u32, ends: [u32; 2]) -> Half {
+        let corners = self.sheet.faces[face as usize];
+        let apex = corners
+            .into_iter()
+            .find(|v| !ends.contains(v))
+            .unwrap_or(corners[0]);
+        let towards = self.positions[apex as usize] - self.positions[ends[0] as usize];
+        Half {
+            face,
+            angle: line.angle(towards),
+        }
+    }
+
+    /// Edge `i` of a triangle, its apex inward.
+    fn line(&self, face: u32, i: usize) -> Option<Line> {
+        let corners = self.corners(face);
+        let (at, end, apex) = (corners[i], corners[(i + 1) % 3], corners[(i + 2) % 3]);
+        let along = (end - at).try_normalize()?;
+        let towards = apex - at;
+        let inward = (towards - along * along.dot(towards)).try_normalize()?;
+        Some(Line {
+            at,
+            along,
+            inward,
+            up: along.cross(inward),
+            length: at.distance(end),
+        })
+    }
+
+    fn corners(&self, face: u32) -> [DVec3; 3] {
+        self.sheet.faces[face as usize].map(|v| self.positions[v as usize])
+    }
+}
+
+impl Meeting {
+    /// The hinge of two with the smaller edge first; none for a hinge that meets itself.
+    fn in_order(self) -> Option<Self> {
+        match self.other {
+            Other::Hinge { edge } if edge == self.edge => None,
+            Other::Hinge { edge } if edge < self.edge => Some(Self {
+                edge,
+                other: Other::Hinge { edge: self.edge },
+                faces: self.others,
+                others: self.faces,
+                ..self
+            }),
+            _ => Some(self),
+        }
+    }
+}
+
+fn rule_of(own: &[Half; 2], others: &[Half; 2]) -> LayerRule {
+    let bends = [own, others].map(|[p, q]| {
+        let apart = ((p.angle - q.angle + PI).rem_euclid(TAU) - PI).abs();
+        (apart < SAME_ANGLE, apart > PI - SAME_ANGLE)
+    });
+    match bends {
+        [(true, _), (true, _)] => LayerRule::TacoTaco,
+        [(_, true), (_, true)] => LayerRule::TortillaTortilla,
+        [(true, _), (_, true)] | [(_, true), (true, _)] => LayerRule::TacoTortilla,
+        _ => LayerRule::Bent,
+    }
+}
+
+/// The middle of the widest gap between four angles.
+fn widest_gap(mut angles: [f64; 4]) -> f64 {
+    angles.sort_by(f64::total_cmp);
+    let gap = |i: usize| (angles[(i + 1) % 4] - angles[i]).rem_euclid(TAU);
+    let widest = (0..4)
+        .max_by(|&i, &j| gap(i).total_cmp(&gap(j)))
+        .unwrap_or(0);
+    // Four equal angles leave a gap of a whole turn, which is 0 here.
+    let half = 0.5 * gap(widest);
+    angles[widest] + if half > 0.0 { half } else { PI }
+}
