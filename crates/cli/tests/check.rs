@@ -291,3 +291,101 @@ fn a_certificate_is_verified_by_its_status_and_stays_as_it_was() {
         assert!(error.contains("certificate.json: "), "{error}");
     }
 }
+
+/// A unit folded flat without contact, and its motion.
+fn flat_unit(home: &Path) -> Value {
+    run(home, "one-unit", &["motion.contact=false"]);
+    json_of(&home.join("run/motion.fold"))
+}
+
+/// Checks a motion: the exit status and the certificate.
+fn check(home: &Path, motion: &Value) -> (Option<i32>, Value) {
+    fs::write(home.join("changed.fold"), motion.to_string()).unwrap();
+    let output = foldmotion(home, &["check", "changed.fold", "--json", "--quiet"]);
+    let certificate = serde_json::from_slice(&output.stdout).unwrap();
+    (output.status.code(), certificate)
+}
+
+#[test]
+fn the_certificate_of_a_run_is_byte_for_byte_that_of_its_motion_file() {
+    let short = ["sheet.rows=2", "profile.length=2.0"];
+    for (scene, set) in [
+        ("one-unit", &["motion.contact=false"][..]),
+        ("one-unit", &[]),
+        ("shelter-short-plain", &short[..]),
+    ] {
+        let home = tempfile::tempdir().unwrap();
+        run(home.path(), scene, set);
+        let own = fs::read(home.path().join("run/certificate.json")).unwrap();
+        let output = foldmotion(
+            home.path(),
+            &["check", "run/motion.fold", "--quiet", "--json"],
+        );
+        assert_eq!(text(&own), text(&output.stdout), "{scene} {set:?}");
+    }
+}
+
+#[test]
+fn layers_swapped_in_face_orders_are_refused_by_name() {
+    let home = tempfile::tempdir().unwrap();
+    let motion = flat_unit(home.path());
+    let (status, certificate) = check(home.path(), &motion);
+    assert_eq!(
+        (status, &certificate["verdict"]),
+        (Some(0), &json!("touching"))
+    );
+    let clusters = certificate["clusters"].as_array().unwrap();
+    assert!(
+        clusters.iter().any(|c| c["order"] == "proved"),
+        "{clusters:?}"
+    );
+    let last = motion["file_frames"].as_array().unwrap().len() - 1;
+    let orders = motion["file_frames"][last]["faceOrders"].clone();
+    let orders: Vec<(u32, u32, i8)> = serde_json::from_value(orders).unwrap();
+    let (f, g, _) = orders[0];
+    let swapped: Vec<_> = orders
+        .iter()
+        .map(|&(a, b, s)| {
+            (
+                a,
+                b,
+                if (a.min(b), a.max(b)) == (f.min(g), f.max(g)) {
+                    -s
+                } else {
+                    s
+                },
+            )
+        })
+        .collect();
+    let mut changed = motion.clone();
+    changed["file_frames"][last]["faceOrders"] = json!(swapped);
+    let (status, certificate) = check(home.path(), &changed);
+    assert_eq!(status, Some(1));
+    let first = &certificate["penetrations"][0];
+    assert_eq!(first["kind"], "layers out of order");
+    assert_eq!(first["pair"]["triangles"], json!([f.min(g), f.max(g)]));
+    assert_eq!(first["frames"], json!([last, last]));
+}
+
+#[test]
+fn a_motion_whose_last_frames_have_their_layers_exchanged_is_refused() {
+    let home = tempfile::tempdir().unwrap();
+    let mut motion = flat_unit(home.path());
+    let frames = motion["file_frames"].as_array_mut().unwrap();
+    let from = frames.len() - 2;
+    // Mirrored in the plane that the layers close to: each goes to where its counterpart was.
+    for frame in &mut frames[from..] {
+        let mut points: Vec<[f64; 3]> =
+            serde_json::from_value(frame["vertices_coords"].clone()).unwrap();
+        let middle = points.iter().map(|p| p[1]).sum::<f64>() / points.len() as f64;
+        for point in &mut points {
+            point[1] = 2.0 * middle - point[1];
+        }
+        frame["vertices_coords"] = json!(points);
+    }
+    let (status, certificate) = check(home.path(), &motion);
+    assert_eq!(
+        (status, &certificate["verdict"]),
+        (Some(1), &json!("penetrating"))
+    );
+}

@@ -171,6 +171,7 @@ mod tests {
         let folder = home.path().join("out/scene");
         let mut first = Results::create(&folder).unwrap();
         write(&mut first, "motion.gif", "old film");
+        write(&mut first, CERTIFICATE, "old certificate");
         write(&mut first, REPORT, "old report");
         first.publish().unwrap();
         fs::write(folder.join("notes.txt"), "mine").unwrap();
@@ -190,6 +191,7 @@ mod tests {
             !folder.join("motion.gif").exists(),
             "a film of another motion would mislead"
         );
+        assert!(!folder.join(CERTIFICATE).exists());
         assert_eq!(
             fs::read_dir(home.path().join("out")).unwrap().count(),
             1,
