@@ -8,6 +8,8 @@
 
 #[path = "whole/bad_input.rs"]
 mod bad_input;
+#[path = "whole/layers.rs"]
+mod layers;
 #[path = "whole/profiles.rs"]
 mod profiles;
 #[path = "whole/refinement.rs"]
