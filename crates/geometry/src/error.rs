@@ -242,4 +242,19 @@ pub enum GeometryError {
         /// Where, (x, z).
         point: DVec2,
     },
+    /// The ends of a closed chain could not be parted.
+    #[error(
+        "the closed profile could not be opened at its seam: its first and last segment all but coincide; give them an angle"
+    )]
+    SeamClosed,
+    /// The descent that straightens a chain came to its end before it was straight.
+    #[error(
+        "the profile could not be straightened: after {steps} steps its segments are {clearance:e} mean segments apart; move its layers apart"
+    )]
+    NotStraightened {
+        /// Steps made.
+        steps: usize,
+        /// The least distance of segments that are no neighbours, in mean segments.
+        clearance: f64,
+    },
 }

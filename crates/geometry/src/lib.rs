@@ -26,6 +26,7 @@ mod polygon;
 mod profile;
 mod rigid;
 mod tridiagonal;
+pub mod unfolding;
 
 pub use aabb::Aabb;
 pub use dihedral::{fold_angle, fold_angle_gradient, nearest_turn};
