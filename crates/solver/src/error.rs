@@ -147,6 +147,30 @@ pub enum SolverError {
         /// The edge of the sheet that both name.
         edge: usize,
     },
+    /// The knots of an unfold path are out of order.
+    #[error(
+        "knot {knot} of the unfold path has progress {value}; it must ascend strictly from 0 at the first knot to 1 at the last"
+    )]
+    PathProgress {
+        /// The knot, from 0.
+        knot: usize,
+        /// Its progress.
+        value: f64,
+    },
+    /// An unfold path does not lead from the deployed angle of a crease to 0.
+    #[error(
+        "the unfold path leads edge {edge} from {} to {}; it must start at its deployed angle {deployed} and end at 0 (radians)",
+        ends[0],
+        ends[1]
+    )]
+    PathEnds {
+        /// The edge of the sheet.
+        edge: usize,
+        /// The angles at the ends of the path, radians.
+        ends: [f64; 2],
+        /// The deployed angle, radians.
+        deployed: f64,
+    },
     /// The number of frames cannot be recorded.
     #[error("{frames} frames were asked for; an even number from 2 to {maximum} is needed")]
     Frames {

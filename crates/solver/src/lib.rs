@@ -19,4 +19,4 @@ pub use error::SolverError;
 pub use gather::Gather;
 pub use material::Material;
 pub use model::{Bar, EnergyByKind, FaceAngles, Hinge, HingeKind, Model};
-pub use schedule::{CreaseGroup, Ease, Schedule, ScheduleStep, Stage};
+pub use schedule::{CreaseGroup, Ease, Schedule, ScheduleStep, Stage, UnfoldPath};

@@ -180,7 +180,7 @@ mod tests {
     use foldmotion_pattern::{Case, Unit, UnitSheet};
 
     use super::*;
-    use crate::{CreaseGroup, Ease, ScheduleStep};
+    use crate::{CreaseGroup, Ease, ScheduleStep, UnfoldPath};
 
     fn sheet() -> UnitSheet {
         let unit = Unit::new(Case::E, 1.0, 1.0, None, None).unwrap();
@@ -293,6 +293,36 @@ mod tests {
             // An increment for each frame and kink; twice for 180° at 1.5°, half as much more where eased; closing.
             let most = frames / 2 + 2 * steps.len() + (steps.len() + 1) * (180 + 20);
             assert!(increments.len() <= most, "{} {most}", increments.len());
+        }
+    }
+
+    #[test]
+    fn no_increment_turns_a_crease_too_far_on_a_path_to_and_fro() {
+        let units = sheet();
+        let flat = vec![0.0; units.sheet.edges.len()];
+        let angles = vec![vec![0.0; 2], vec![1.5, -0.3], vec![-1.5, 0.3], vec![0.0; 2]];
+        let path = UnfoldPath {
+            progress: vec![0.0, 0.21, 0.3, 1.0],
+            angles,
+        };
+        let schedule = Schedule::uniform(&units.sheet, &flat, &flat)
+            .and_then(|schedule| schedule.with_unfold_path(&units.sheet, path))
+            .unwrap();
+        for frames in [2, 24, 240] {
+            let increments = increments(&schedule, Stage::Unfold, &options(frames));
+            let ends: Vec<f64> = increments.iter().map(|i| i.end).chain([1.0]).collect();
+            for (from, end) in std::iter::once(0.0).chain(ends.iter().copied()).zip(&ends) {
+                for hinge in 0..schedule.hinge_count() {
+                    let [a, b] = [from, *end].map(|s| schedule.target(Stage::Unfold, hinge, s));
+                    assert!(
+                        (b - a).abs() <= LARGEST_TURN * (1.0 + 1e-6),
+                        "{from}: {a} {b}"
+                    );
+                }
+            }
+            // 3 radians within 0.09 of the stage set the pace of all of it.
+            let pace = 3.0 / 0.09 / LARGEST_TURN;
+            assert!((ends.len() as f64) < pace + frames as f64 + 2.0);
         }
     }
 

@@ -4,11 +4,14 @@ use foldmotion_pattern::{Edge, Sheet};
 
 mod step;
 mod timing;
+mod unfold_path;
 
 pub use step::{CreaseGroup, ScheduleStep};
 pub use timing::Ease;
+pub use unfold_path::UnfoldPath;
 
 use timing::Timing;
+use unfold_path::FollowedPath;
 
 use crate::SolverError;
 
@@ -57,17 +60,20 @@ impl Stage {
 ///
 /// In `unfold` every crease goes from its deployed angle to 0, in `fold` from 0 to its compact angle: θ* = θ_deployed
 /// (1 − p(s)), then θ* = θ_compact p(s), where p(s) = s unless a [`ScheduleStep`] names the crease; then it is 0 before
-/// the step, 1 after it and follows its [`Ease`] in between. Facet hinges are held at 0 throughout. Hinges are numbered
+/// the step, 1 after it and follows its [`Ease`] in between. Given an [`UnfoldPath`], the row creases follow it in `unfold`
+/// instead, at the progress p(s). Facet hinges are held at 0 throughout. Hinges are numbered
 /// as in [`crate::Model`]: the edges of the sheet that join two triangles, in the order of the sheet.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Schedule {
     hinges: Vec<[Turn; 2]>,
+    unfold_path: Option<FollowedPath>,
 }
 
 /// The turn of a hinge in one stage; at its other end the sheet is planar and the hinge at 0.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Turn {
-    /// The fold angle in the deployed or the compact state, radians.
+    /// The fold angle in the deployed or the compact state, radians; along a path that turns a crease to and fro, its
+    /// greatest rate for the unit of progress, as seen by [`Schedule::turns`].
     pub(crate) angle: f64,
     /// When it is made.
     pub(crate) timing: Timing,
@@ -111,7 +117,46 @@ impl Schedule {
             ])
         };
         let hinges = hinge_edges(sheet).map(turns).collect::<Result<_, _>>()?;
-        Ok(Self { hinges })
+        Ok(Self {
+            hinges,
+            unfold_path: None,
+        })
+    }
+
+    /// The same schedule, with the row creases following `path` in `unfold`; steps go on timing them.
+    ///
+    /// `sheet` is the one the schedule was made for.
+    ///
+    /// # Errors
+    /// [`SolverError::PathProgress`], [`SolverError::NotFinite`], [`SolverError::AngleOutOfRange`] where its numbers are out
+    /// of order or range, [`SolverError::PathEnds`] where it does not lead from the deployed angles to 0,
+    /// [`SolverError::Count`] where it or the sheet has another number of rows.
+    pub fn with_unfold_path(
+        mut self,
+        sheet: &Sheet,
+        path: UnfoldPath,
+    ) -> Result<Self, SolverError> {
+        self.check_sheet(sheet)?;
+        let unfold = Stage::Unfold.index();
+        let deployed: Vec<f64> = self
+            .hinges
+            .iter()
+            .map(|turns| turns[unfold].angle)
+            .collect();
+        self.unfold_path = Some(FollowedPath::new(sheet, path, &deployed)?);
+        Ok(self)
+    }
+
+    fn check_sheet(&self, sheet: &Sheet) -> Result<(), SolverError> {
+        let found = hinge_edges(sheet).count();
+        if found == self.hinges.len() {
+            return Ok(());
+        }
+        Err(SolverError::Count {
+            what: "hinges of the sheet",
+            expected: self.hinges.len(),
+            found,
+        })
     }
 
     /// The same end angles, reached by `steps`; creases that no step of a stage names follow its uniform ramp.
@@ -128,14 +173,8 @@ impl Schedule {
         sheet: &Sheet,
         steps: &[ScheduleStep],
     ) -> Result<Self, SolverError> {
+        self.check_sheet(sheet)?;
         let edges: Vec<(usize, &Edge)> = hinge_edges(sheet).collect();
-        if edges.len() != self.hinges.len() {
-            return Err(SolverError::Count {
-                what: "hinges of the sheet",
-                expected: self.hinges.len(),
-                found: edges.len(),
-            });
-        }
         for turn in self.hinges.iter_mut().flatten() {
             turn.timing = Timing::UNIFORM;
         }
@@ -173,9 +212,11 @@ impl Schedule {
     /// Exact at both ends of the stage and of every step. Precondition: `hinge` < [`Self::hinge_count`].
     pub fn target(&self, stage: Stage, hinge: usize, s: f64) -> f64 {
         let Turn { angle, timing } = self.hinges[hinge][stage.index()];
-        match stage {
-            Stage::Unfold => angle * (1.0 - timing.progress(s)),
-            Stage::Fold => angle * timing.progress(s),
+        let progress = timing.progress(s);
+        match (stage, &self.unfold_path) {
+            (Stage::Unfold, Some(path)) => path.angle(hinge, progress).unwrap_or(0.0),
+            (Stage::Unfold, None) => angle * (1.0 - progress),
+            (Stage::Fold, _) => angle * progress,
         }
     }
 
@@ -188,12 +229,17 @@ impl Schedule {
         }
     }
 
-    /// The turns of `stage` that differ in their timing, each with the largest angle, in radians, made with it; none
-    /// where nothing turns.
+    /// The turns of `stage` that differ in their timing, each with the largest angle, in radians, made with it or, along a
+    /// path, the greatest rate for the unit of progress; none where nothing turns.
     pub(crate) fn turns(&self, stage: Stage) -> Vec<Turn> {
         let mut turns: Vec<Turn> = Vec::new();
-        for Turn { angle, timing } in self.hinges.iter().map(|turns| turns[stage.index()]) {
-            let angle = angle.abs();
+        for (hinge, ends) in self.hinges.iter().enumerate() {
+            let Turn { angle, timing } = ends[stage.index()];
+            let rate = match (stage, &self.unfold_path) {
+                (Stage::Unfold, Some(path)) => path.fastest(hinge),
+                _ => None,
+            };
+            let angle = rate.unwrap_or(angle.abs());
             match turns.iter_mut().find(|turn| turn.timing == timing) {
                 Some(turn) => turn.angle = turn.angle.max(angle),
                 None if angle > 0.0 => turns.push(Turn { angle, timing }),

@@ -5,6 +5,7 @@
 mod faults;
 mod motion;
 mod targets;
+mod unfold_path;
 
 use foldmotion_pattern::{Case, Facing, Unit, UnitSheet};
 use foldmotion_solver::{CreaseGroup, Ease, Schedule, ScheduleStep, Stage};
