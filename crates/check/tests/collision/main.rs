@@ -4,4 +4,5 @@
 mod layers;
 mod sheets;
 mod stacks;
+mod unrolling;
 mod verdicts;

@@ -9,40 +9,36 @@ use glam::DVec2;
 /// r = √θ, both arms to θ = 6π, in 2 · `half` equal segments from the centre outwards.
 pub(crate) fn fermat_spiral(half: usize) -> Vec<DVec2> {
     let at = |angle: f64| DVec2::from_angle(angle) * angle.sqrt();
-    // The arm marched in chords of one length; the last angle grows with it.
-    let arm = |length: f64| {
-        let mut angles = vec![0.0f64];
-        for _ in 0..half {
-            let last = angles[angles.len() - 1];
-            // Distances from a point grow along the arm for at least this far.
-            let (mut near, mut far) = (last, last + 1.5);
-            while far - near > 1e-15 * far {
-                let middle = near.midpoint(far);
-                if middle <= near || middle >= far {
-                    break;
-                }
-                if at(middle).distance(at(last)) < length {
-                    near = middle;
-                } else {
-                    far = middle;
-                }
-            }
-            angles.push(far);
-        }
-        angles
+    // Distances from a point of the arm grow along it at least as far as 1.5.
+    let next = |last: f64, length: f64| {
+        last_where([last, last + 1.5], |angle| {
+            at(angle).distance(at(last)) < length
+        })
     };
-    let (mut short, mut long) = (10.0 / half as f64, 80.0 / half as f64);
-    for _ in 0..100 {
-        let middle = short.midpoint(long);
-        if arm(middle)[half] < 6.0 * PI {
-            short = middle;
-        } else {
-            long = middle;
-        }
-    }
-    let points: Vec<DVec2> = arm(long).into_iter().map(at).collect();
+    let arm = |length: f64| -> Vec<f64> {
+        let angles = std::iter::successors(Some(0.0), |&last| Some(next(last, length)));
+        angles.take(half + 1).collect()
+    };
+    let scale = 1.0 / half as f64;
+    let length = last_where([10.0 * scale, 80.0 * scale], |length| {
+        arm(length)[half] < 6.0 * PI
+    });
+    let points: Vec<DVec2> = arm(length).into_iter().map(at).collect();
     let other = points[1..].iter().rev().map(|&p| -p);
     other.chain(points.iter().copied()).collect()
+}
+
+/// Where, between two numbers, what holds at the lower one ends.
+fn last_where([mut low, mut high]: [f64; 2], holds: impl Fn(f64) -> bool) -> f64 {
+    for _ in 0..60 {
+        let middle = low.midpoint(high);
+        if holds(middle) {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+    low
 }
 
 /// A polygon around points at the given radii, closed.
