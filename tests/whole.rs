@@ -18,5 +18,7 @@ mod refinement;
 mod scenes;
 #[path = "whole/schemas.rs"]
 mod schemas;
+#[path = "whole/unfolding.rs"]
+mod unfolding;
 #[path = "whole/verify.rs"]
 mod verify;

@@ -197,6 +197,7 @@ fn values_of_the_later_tables_are_refused_too() {
             &["material.thickness = -1.0"],
         ),
         ("[material]\npreset = \"steel\"", &["scene.toml"]),
+        ("[motion]\nunfold = \"sideways\"", &["scene.toml", "energy"]),
         (
             "[check]\ntouch_tolerance = 0.0",
             &["check.touch_tolerance = 0.0"],
@@ -284,4 +285,13 @@ fn a_missing_file_is_refused_by_name() {
     let error = SceneSource::read(Path::new("no/such/scene.toml")).unwrap_err();
     assert_eq!(error.status(), 2);
     assert!(error.to_string().contains("no/such/scene.toml"));
+}
+
+#[test]
+fn energy_is_refused_for_profiles_of_more_segments_than_it_takes() {
+    let long = GOOD.replace("rows = 3", "rows = 2001");
+    let message = refusal(&format!("{long}[motion]\nunfold = \"energy\"\n"));
+    for word in ["motion.unfold", "2001", "2000"] {
+        assert!(message.contains(word), "{word:?} is missing in: {message}");
+    }
 }

@@ -21,6 +21,7 @@ mod series;
 mod source;
 mod statement;
 mod study;
+mod unfolding;
 mod verify_file;
 
 pub use certificate::Certificate;
@@ -33,4 +34,5 @@ pub use scene::Scene;
 pub use schema::{certificate_schema, report_schema, scene_schema};
 pub use source::SceneSource;
 pub use study::Study;
+pub use unfolding::Unfolding;
 pub use verify_file::{VerifiedCertificate, verify_file};

@@ -34,6 +34,8 @@ pub struct Report {
     pub closed_form: Option<BoxReport>,
     /// The compact state reached.
     pub compact: CompactReport,
+    /// How stage unfold moves the row creases.
+    pub unfold: UnfoldReport,
     /// The stages of the motion.
     pub stages: Vec<StageReport>,
     /// Where contact stopped the motion; null where it did not.
@@ -184,6 +186,23 @@ pub struct ErrorReport {
     pub area: f64,
     /// Of the volume.
     pub volume: f64,
+}
+
+/// How stage unfold moves the row creases.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct UnfoldReport {
+    /// uniform or energy.
+    pub method: String,
+    /// uniform, energy or auto.
+    pub asked: String,
+    /// Whether the divided profile was proved not to cross itself on this path.
+    pub certified: bool,
+    /// Where uniform scaling makes it cross itself first, as a share of the stage; null where it does not or was not looked at.
+    pub crosses_at: Option<f64>,
+    /// Steps of the descent that found the path; null where uniform.
+    pub steps: Option<usize>,
+    /// Straight pieces the path has been thinned to; null where uniform.
+    pub pieces: Option<usize>,
 }
 
 /// What happened in a stage.
@@ -393,6 +412,7 @@ impl Report {
             self.division.max_residual,
             self.division.iterations
         );
+        let _ = writeln!(out, "{}", self.unfold.line());
         let _ = writeln!(
             out,
             "pattern: {}developable, {}flat-foldable; {} vertices, {} facets",
@@ -523,6 +543,21 @@ impl Report {
         {
             let _ = writeln!(out, "first within one unit at {}", within.line());
         }
+    }
+}
+
+impl UnfoldReport {
+    /// A line for the terminal.
+    fn line(&self) -> String {
+        let certified = if self.certified {
+            "the profile is proved not to cross itself"
+        } else {
+            "not proved free of crossings"
+        };
+        let crosses = self.crosses_at.map_or_else(String::new, |share| {
+            format!(" (uniform scaling crosses at t = {share:.4})")
+        });
+        format!("unfold: {}, {certified}{crosses}", self.method)
     }
 }
 

@@ -13,7 +13,7 @@ use crate::refinement::Folded;
 use crate::report::{
     BoxReport, CollisionSection, CompactReport, DivisionReport, EnergyReport, EngineReport,
     ErrorReport, FitReport, JamReport, PatternReport, PenetrationReport, ProfileReport,
-    SecondsReport, StageReport, UnitName, UnitReport, VertexReport,
+    SecondsReport, StageReport, UnfoldReport, UnitName, UnitReport, VertexReport,
 };
 use crate::run::VERSION;
 use crate::scene::EngineChoice;
@@ -59,6 +59,18 @@ impl Study {
             pattern: self.pattern_report(),
             closed_form: self.closed_form.map(BoxReport::from),
             compact: self.compact_report(&checked.compact),
+            unfold: UnfoldReport {
+                method: self.unfolding.method().to_owned(),
+                asked: self.unfolding.asked.name().to_owned(),
+                certified: self.unfolding.certified,
+                crosses_at: self.unfolding.crosses_at,
+                steps: self.unfolding.path.as_ref().map(|path| path.steps),
+                pieces: self
+                    .unfolding
+                    .path
+                    .as_ref()
+                    .map(|path| path.turns.len() - 1),
+            },
             stages: computed
                 .stages
                 .iter()

@@ -264,8 +264,34 @@ pub struct MotionScene {
     pub contact: Option<bool>,
     /// Closest approach of layers, in units of h; 1e-3 where left out.
     pub gap: Option<f64>,
-    /// The schedule: creases that no step names follow the uniform ramp of their stage.
+    /// How stage 1 unfolds the profile; `auto` where left out.
+    pub unfold: Option<UnfoldChoice>,
+    /// The schedule: creases that no step names follow the ramp of their stage.
     pub step: Vec<StepScene>,
+}
+
+/// How the row creases move from the deployed shape to the flat sheet.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize, Serialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum UnfoldChoice {
+    /// All fold angles scaled together.
+    Uniform,
+    /// A path on which the profile does not cross itself (Cantarella, Demaine, Iben, O'Brien 2004).
+    Energy,
+    /// Uniform where that is proved not to cross, else energy.
+    #[default]
+    Auto,
+}
+
+impl UnfoldChoice {
+    /// Its name in scene files.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Uniform => "uniform",
+            Self::Energy => "energy",
+            Self::Auto => "auto",
+        }
+    }
 }
 
 /// `[[motion.step]]`: some creases, and when in their stage they move.

@@ -12,12 +12,6 @@ use crate::{Scene, StudyError};
 /// (table, key, the only value refused, or none for all; what to do instead).
 const LATER: &[(&str, &str, Option<&str>, &str)] = &[
     (
-        "motion",
-        "unfold",
-        None,
-        "leave it out: the hinge angles scale uniformly",
-    ),
-    (
         "record",
         "colour",
         None,
@@ -314,7 +308,7 @@ mod tests {
     #[test]
     fn keys_of_later_versions_are_refused_by_name_and_value() {
         for (text, key) in [
-            ("[motion]\nunfold = \"energy\"\n", "motion.unfold"),
+            ("[record]\ncolour = \"paper\"\n", "record.colour"),
             ("[record]\noutputs = [\"mp4\"]\n", "record.outputs"),
         ] {
             let error = source(text).scene().unwrap_err();

@@ -18,6 +18,7 @@ use crate::scene::{
     CameraChoice, CaseChoice, CreasesChoice, DivisionChoice, EaseChoice, EngineChoice,
     FacingChoice, OutputChoice, StageChoice, StepScene,
 };
+use crate::unfolding::Unfolding;
 use crate::{Scene, SceneSource, StudyError};
 
 /// Layers that lie on each other in a column of the compact state.
@@ -58,6 +59,8 @@ pub struct Study {
     pub deployed: Vec<DVec3>,
     /// Bars, hinges and masses.
     pub model: Model,
+    /// How stage 1 moves the row creases.
+    pub unfolding: Unfolding,
     /// The target fold angles along the motion.
     pub schedule: Schedule,
     /// What moves the sheet.
@@ -110,9 +113,15 @@ impl Study {
             .deployed_angles(&division.points, facing)
             .map_err(|e| resolver.pattern_error(&e))?;
         let model = Model::new(&units.sheet, &resolver.material()?)?;
-        let schedule = Schedule::uniform(&units.sheet, &deployed_angles, units.compact_angles())?
-            .with_steps(&units.sheet, &resolver.steps()?)
-            .map_err(|e| resolver.schedule_error(e))?;
+        let steps = resolver.steps()?;
+        let mut schedule =
+            Schedule::uniform(&units.sheet, &deployed_angles, units.compact_angles())?
+                .with_steps(&units.sheet, &steps)
+                .map_err(|e| resolver.schedule_error(e))?;
+        let unfolding = resolver.unfolding(&profile, &division, &steps)?;
+        if let Some(path) = unfolding.fold_angles(facing) {
+            schedule = schedule.with_unfold_path(&units.sheet, path)?;
+        }
         Ok(Self {
             title: scene.title.clone().unwrap_or_else(|| source.stem()),
             unit_name: scene.profile.unit.unwrap_or_default().name(),
@@ -133,6 +142,7 @@ impl Study {
             units,
             deployed,
             model,
+            unfolding,
             schedule,
         })
     }
@@ -338,6 +348,20 @@ impl Resolver<'_> {
             .enumerate()
             .map(step)
             .collect()
+    }
+
+    fn unfolding(
+        &self,
+        profile: &Profile,
+        division: &Division,
+        steps: &[ScheduleStep],
+    ) -> Result<Unfolding, StudyError> {
+        let in_turn = steps.iter().any(|step| {
+            step.stage == Stage::Unfold && (step.rows.is_some() || step.columns.is_some())
+        });
+        let asked = self.scene.motion.unfold.unwrap_or_default();
+        Unfolding::new(asked, profile, division, in_turn)
+            .map_err(|e| self.fault("motion.unfold", e.to_string()))
     }
 
     fn place_range(

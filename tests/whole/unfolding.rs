@@ -1,0 +1,145 @@
+//! Stage 1: uniform where that is proved clear, by energy where it would cross.
+
+use std::path::Path;
+
+use foldmotion_solver::Stage;
+use foldmotion_study::{Report, SceneSource, Study, models};
+
+/// The spiral without contact and files: each engine state is the path's own.
+const BARE: [&str; 3] = [
+    "motion.contact=false",
+    "motion.frames=40",
+    "record.outputs=[]",
+];
+
+fn resolved(scene: &str, set: &[&str]) -> Study {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("../scenes/{scene}.toml"));
+    let mut source = SceneSource::read(&path).unwrap();
+    for assignment in set {
+        source.set(assignment).unwrap();
+    }
+    Study::resolve(&source).unwrap()
+}
+
+fn run(scene: &str, set: &[&str]) -> Report {
+    let folder = tempfile::tempdir().unwrap();
+    let study = resolved(scene, set);
+    study.run(folder.path(), &|_, _| true).unwrap()
+}
+
+#[test]
+fn a_fermat_spiral_unfolded_uniformly_penetrates_and_by_energy_does_not() {
+    let uniform = run(
+        "spiral-energy",
+        &[&BARE[..], &["motion.unfold=uniform"]].concat(),
+    );
+    assert_eq!(uniform.unfold.method, "uniform");
+    assert!(!uniform.unfold.certified && uniform.unfold.steps.is_none());
+    let first = uniform.collision.first.unwrap();
+    assert_eq!(
+        (uniform.collision.verdict.as_str(), first.stage.as_str()),
+        ("penetrating", "unfold")
+    );
+    // Straight paths between 20 frames a stage stray a little from the motion.
+    let crosses_at = uniform.unfold.crosses_at.unwrap();
+    assert!(
+        (first.t - crosses_at).abs() < 0.01,
+        "{} {crosses_at}",
+        first.t
+    );
+
+    let auto = run("spiral-energy", &BARE);
+    assert_eq!(
+        (auto.unfold.method.as_str(), auto.unfold.asked.as_str()),
+        ("energy", "auto")
+    );
+    assert!(auto.unfold.certified && auto.unfold.steps.unwrap() > 10);
+    assert_eq!(auto.unfold.crosses_at, Some(crosses_at));
+    assert_eq!(
+        auto.collision.verdict, "touching",
+        "{:?}",
+        auto.collision.first
+    );
+    assert!(auto.stages.iter().all(|s| s.converged));
+    // The creases follow the path: the sheet stays as it is but for its folds.
+    assert!(
+        auto.stages[0].peak_strain < 1e-9,
+        "{}",
+        auto.stages[0].peak_strain
+    );
+    assert!(auto.compact.rms_to_exact < 1e-9);
+}
+
+#[test]
+fn a_shelter_unfolds_uniformly_unless_energy_is_asked_for() {
+    for (asked, method) in [
+        ("auto", "uniform"),
+        ("uniform", "uniform"),
+        ("energy", "energy"),
+    ] {
+        let study = resolved("shelter-e", &[&format!("motion.unfold={asked}")]);
+        let unfolding = &study.unfolding;
+        assert_eq!(
+            (unfolding.method(), unfolding.asked.name()),
+            (method, asked)
+        );
+        assert!(
+            unfolding.certified && unfolding.crosses_at.is_none(),
+            "{asked}"
+        );
+    }
+    let [uniform, energy] = ["uniform", "energy"].map(|asked| {
+        let study = resolved("shelter-e", &[&format!("motion.unfold={asked}")]);
+        let at = |s| (0..study.schedule.hinge_count()).map(move |h| (h, s));
+        let target = |(hinge, s)| study.schedule.target(Stage::Unfold, hinge, s);
+        [0.0, 0.4, 1.0].map(|s| at(s).map(target).collect::<Vec<f64>>())
+    });
+    assert_eq!(uniform[0], energy[0]);
+    assert_eq!(uniform[2], energy[2]);
+    let report = run(
+        "shelter-e",
+        &[&BARE[..], &["motion.unfold=energy"]].concat(),
+    );
+    assert_eq!(
+        (
+            report.unfold.method.as_str(),
+            report.collision.verdict.as_str()
+        ),
+        ("energy", "touching")
+    );
+}
+
+#[test]
+fn every_built_in_profile_unfolds_on_a_way_proved_clear() {
+    for model in models() {
+        let name = format!("profile.model={}", model.name);
+        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenes/spiral-energy.toml");
+        let mut source = SceneSource::read(&path).unwrap();
+        for set in [&name, &format!("sheet.rows={}", model.rows)] {
+            source.set(set).unwrap();
+        }
+        let study = Study::resolve(&source).unwrap();
+        assert!(study.unfolding.certified, "{}", model.name);
+        // Of the nine only the spiral crosses itself when all angles are scaled together.
+        let crosses = model.name == "fermat-spiral";
+        assert_eq!(
+            study.unfolding.crosses_at.is_some(),
+            crosses,
+            "{}",
+            model.name
+        );
+        assert_eq!(study.unfolding.path.is_some(), crosses, "{}", model.name);
+    }
+}
+
+#[test]
+fn rows_that_unfold_in_turn_are_uniform_and_nothing_is_proved_of_them() {
+    let step = "motion.step=[{stage=\"unfold\", rows=[0, 20], to=0.5}]";
+    let auto = resolved("spiral-energy", &[step]).unfolding;
+    assert_eq!((auto.method(), auto.certified), ("uniform", false));
+    assert!(auto.crosses_at.is_some());
+    let energy = resolved("spiral-energy", &[step, "motion.unfold=energy"]).unfolding;
+    assert_eq!((energy.method(), energy.certified), ("energy", false));
+    let all = "motion.step=[{stage=\"unfold\", creases=\"rows\", ease=\"smooth\"}]";
+    assert!(resolved("spiral-energy", &[all]).unfolding.certified);
+}
