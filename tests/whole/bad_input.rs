@@ -289,7 +289,9 @@ fn a_missing_file_is_refused_by_name() {
 
 #[test]
 fn energy_is_refused_for_profiles_of_more_segments_than_it_takes() {
-    let long = GOOD.replace("rows = 3", "rows = 2001");
+    let long = GOOD
+        .replace("rows = 3", "rows = 2001")
+        .replace("width = 2.0\n", "");
     let message = refusal(&format!("{long}[motion]\nunfold = \"energy\"\n"));
     for word in ["motion.unfold", "2001", "2000"] {
         assert!(message.contains(word), "{word:?} is missing in: {message}");
