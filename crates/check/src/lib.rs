@@ -32,7 +32,8 @@ mod verification;
 
 pub use collision::{
     Checker, CollisionOptions, CollisionReport, FilterCounts, PairCounts, Penetration,
-    PenetrationKind, Separation, Undecided, Verdict, collisions,
+    PenetrationKind, PenetrationSpan, Separation, Undecided, Verdict, collisions,
+    penetration_spans,
 };
 pub use error::CheckError;
 pub use extents::{FittedBox, RelativeError, fitted_box, relative_error};

@@ -12,7 +12,7 @@ use rayon::prelude::*;
 
 use crate::film::check_frames;
 use crate::raster::raster;
-use crate::{Camera, FilmOptions, Palette, Paper, RecordError, positions_at, timeline};
+use crate::{Camera, FilmOptions, Marks, Palette, Paper, RecordError, positions_at, timeline};
 
 /// Frames worked on at a time, fewer for large pictures: bounds the memory, not the result.
 const CHUNK: usize = 16;
@@ -21,6 +21,8 @@ const CHUNK: usize = 16;
 const CHUNK_PIXELS: usize = 1 << 26;
 
 /// Films `motion` with one fixed camera that sees all of it.
+///
+/// Facets are painted as `marks` says; a mark shows in at least one frame.
 ///
 /// `progress` gets the part done, from 0 to 1, and answers whether to go on. The order of the compact state also
 /// decides between layers at other times, wherever they come within [`crate::TIE_TOLERANCE`] of each other. The
@@ -32,6 +34,7 @@ const CHUNK_PIXELS: usize = 1 << 26;
 /// leave an incomplete film behind in `writer`.
 pub fn gif(
     motion: &Motion,
+    marks: &Marks,
     options: &FilmOptions,
     writer: impl Write,
     progress: &(dyn Fn(f64) -> bool + Sync),
@@ -41,7 +44,7 @@ pub fn gif(
     let points = motion.frames.iter().flat_map(|frame| &frame.positions);
     let camera = Camera::fit(options.view, points.copied(), options.size, options.margin)?;
     let paper = Paper::new(&motion.sheet, &motion.compact_order);
-    let palette = Palette::new(&options.style);
+    let palette = Palette::new(&options.style, !marks.is_empty());
     let [width, height] = options.size.map(|side| side as u16);
     let mut encoder = Encoder::new(writer, width, height, &palette.colors().concat())?;
     encoder.set_repeat(Repeat::Infinite)?;
@@ -53,12 +56,16 @@ pub fn gif(
         if !progress(done as f64 / shots.len() as f64) {
             return Err(RecordError::Interrupted);
         }
-        let draw = |time: f64| {
+        let draw = |index: usize, time: f64| {
             let positions = positions_at(motion, time);
-            let image = raster(&paper, &positions, &camera, &options.style, options.size);
-            palette.indices(&image)
+            let previous = index.checked_sub(1).map_or(time, |index| shots[index].time);
+            let marked = marks.at(&motion.sheet, previous, time);
+            let (style, size) = (&options.style, options.size);
+            palette.indices(&raster(&paper, &positions, &camera, style, &marked, size))
         };
-        let pictures: Vec<_> = chunk.par_iter().map(|shot| draw(shot.time)).collect();
+        let pictures: Vec<_> = (chunk.par_iter().enumerate())
+            .map(|(index, shot)| draw(done + index, shot.time))
+            .collect();
         let before = |i: usize| {
             i.checked_sub(1)
                 .map_or(previous.as_ref(), |j| pictures.get(j))

@@ -16,6 +16,9 @@ use crate::{Image, Style};
 /// Light levels of each side of the paper.
 const LEVELS: u16 = 56;
 
+/// Light levels of marked facets.
+const MARK_LEVELS: u16 = 24;
+
 /// Levels of light that lines and edges are mixed with.
 const MIXING_LEVELS: u16 = 4;
 
@@ -37,8 +40,8 @@ impl Palette {
     /// The index that stands for "as before".
     pub const TRANSPARENT: u8 = 255;
 
-    /// The palette of `style`, the background first.
-    pub fn new(style: &Style) -> Self {
+    /// The palette of `style`, the background first; `has_marks`: with the colour of marked facets.
+    pub fn new(style: &Style, has_marks: bool) -> Self {
         let inks = style.inks();
         let mut palette = Self {
             colors: Vec::new(),
@@ -52,6 +55,11 @@ impl Palette {
         for side in [inks.front, inks.back] {
             for light in levels(LEVELS) {
                 palette.push(side * light);
+            }
+        }
+        if has_marks {
+            for light in levels(MARK_LEVELS) {
+                palette.push(inks.mark * light);
             }
         }
         palette.push_mixtures(&inks, &lines);
@@ -124,9 +132,10 @@ impl Palette {
             )
         };
         let limit = self.colors.iter().map(|&color| most(color)).min();
-        let colors = (0..).zip(&self.colors);
-        let near = colors.filter(|(_, color)| Some(least(**color)) <= limit);
-        near.map(|(index, _)| index).collect()
+        // The colours lead, so that the index never counts past the last of a full palette.
+        let colors = self.colors.iter().zip(0..);
+        let near = colors.filter(|(color, _)| Some(least(**color)) <= limit);
+        near.map(|(_, index)| index).collect()
     }
 
     /// The index of every pixel.
@@ -160,7 +169,7 @@ mod tests {
 
     #[test]
     fn colors_of_the_palette_are_their_own_nearest_and_leave_room_for_transparency() {
-        let palette = Palette::new(&Style::default());
+        let palette = Palette::new(&Style::default(), false);
         assert!(palette.colors().len() > 200, "{}", palette.colors().len());
         assert!(palette.colors().len() <= usize::from(Palette::TRANSPARENT));
         for (index, &color) in palette.colors().iter().enumerate() {
@@ -170,7 +179,7 @@ mod tests {
 
     #[test]
     fn the_nearest_color_is_that_of_a_search_through_all() {
-        let palette = Palette::new(&Style::default());
+        let palette = Palette::new(&Style::default(), false);
         for k in 0..40_000_u32 {
             let color = [k * 7, k * 11 / 3, k * 13 / 5].map(|value| (value % 256) as u8);
             let colors = palette.colors().iter();
@@ -184,7 +193,7 @@ mod tests {
     #[test]
     fn areas_of_paper_are_off_by_at_most_two_steps_of_255() {
         let style = Style::default();
-        let (palette, inks) = (Palette::new(&style), style.inks());
+        let (palette, inks) = (Palette::new(&style, false), style.inks());
         for i in 0..200_i32 {
             let turn = f64::from(i) * 0.7;
             let rise = f64::from(i) / 100.0 - 1.0;

@@ -4,6 +4,7 @@
 
 use glam::{DVec2, Vec3};
 
+use crate::screen_face::ScreenFace;
 use crate::shade::{Inks, encoded};
 use crate::square::{Mask, SAMPLES};
 use crate::surface::{Candidate, Layer};
@@ -19,10 +20,14 @@ pub(crate) struct Canvas<'a> {
 }
 
 impl<'a> Canvas<'a> {
-    pub(crate) fn new(surface: &'a Surface<'a>, style: &Style) -> Self {
+    /// `marked`: whether each triangle is; none is where the list is empty.
+    pub(crate) fn new(surface: &'a Surface<'a>, style: &Style, marked: &[bool]) -> Self {
         let inks = style.inks();
-        let faces = surface.faces().iter().map(|face| inks.paper(face.normal));
-        let faces: Vec<Vec3> = faces.collect();
+        let colour = |(index, face): (usize, &ScreenFace)| match marked.get(index) {
+            Some(true) => inks.marked(face.normal),
+            _ => inks.paper(face.normal),
+        };
+        let faces: Vec<Vec3> = surface.faces().iter().enumerate().map(colour).collect();
         Self {
             surface,
             inks,

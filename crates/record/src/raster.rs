@@ -37,7 +37,7 @@ pub fn picture(
     style.check()?;
     check_positions(sheet, 0, positions)?;
     let paper = Paper::new(sheet, order);
-    Ok(raster(&paper, positions, camera, style, size))
+    Ok(raster(&paper, positions, camera, style, &[], size))
 }
 
 /// Refuses positions that are too few, too many or not finite.
@@ -64,16 +64,17 @@ pub(crate) fn check_positions(
     }
 }
 
-/// [`picture`] of a prepared sheet and checked input.
+/// [`picture`] of a prepared sheet and checked input, with those triangles marked for which `marked` says so.
 pub(crate) fn raster(
     paper: &Paper<'_>,
     positions: &[DVec3],
     camera: &Camera,
     style: &Style,
+    marked: &[bool],
     size: [u32; 2],
 ) -> Image {
     let surface = Surface::new(paper, positions, camera, style);
-    let canvas = Canvas::new(&surface, style);
+    let canvas = Canvas::new(&surface, style, marked);
     let [width, height] = size.map(|side| side as usize);
     let mut pixels = vec![style.background; width * height];
     pixels
@@ -264,9 +265,9 @@ mod tests {
                 let pairs = flat.iter().zip(&compact);
                 let state: Vec<_> = pairs.map(|(&p, &q)| p.lerp(q, part)).collect();
                 let camera = Camera::fit(View::Iso, state.clone(), size, 0.05).unwrap();
-                let image = raster(&paper, &state, &camera, &style, size);
+                let image = raster(&paper, &state, &camera, &style, &[], size);
                 let surface = Surface::new(&paper, &state, &camera, &style);
-                let canvas = Canvas::new(&surface, &style);
+                let canvas = Canvas::new(&surface, &style, &[]);
                 for (index, &pixel) in (0..).zip(&image.pixels) {
                     let place = [index % size[0], index / size[0]].map(f64::from);
                     let centre = DVec2::from(place) + 0.5;

@@ -40,6 +40,8 @@ pub struct Style {
     pub valley: [u8; 3],
     /// The border of the sheet.
     pub border: [u8; 3],
+    /// Fully lit facets that are marked, on both sides.
+    pub mark: [u8; 3],
     /// Behind the sheet.
     pub background: [u8; 3],
     /// The width of all lines in pixels; 0 draws none.
@@ -54,6 +56,7 @@ impl Default for Style {
             mountain: [205, 38, 30],
             valley: [24, 78, 168],
             border: [38, 38, 42],
+            mark: [233, 30, 160],
             background: [255, 255, 255],
             line_width: 1.8,
         }
@@ -80,6 +83,7 @@ impl Style {
             mountain: linear(self.mountain),
             valley: linear(self.valley),
             border: linear(self.border),
+            mark: linear(self.mark),
             background: linear(self.background),
         }
     }
@@ -93,6 +97,7 @@ pub(crate) struct Inks {
     pub(crate) mountain: Vec3,
     pub(crate) valley: Vec3,
     pub(crate) border: Vec3,
+    pub(crate) mark: Vec3,
     pub(crate) background: Vec3,
 }
 
@@ -104,6 +109,12 @@ impl Inks {
         } else {
             self.back * reflected(-normal)
         }
+    }
+
+    /// The colour of a marked triangle, whichever side is seen.
+    pub(crate) fn marked(&self, normal: DVec3) -> Vec3 {
+        let seen = if normal.z >= 0.0 { normal } else { -normal };
+        self.mark * reflected(seen)
     }
 
     /// The colour of a line.

@@ -9,7 +9,7 @@ use ::gif::{ColorOutput, DecodeOptions, Repeat};
 use common::*;
 use foldmotion_pattern::{Case, Frame, Motion, Unit, UnitSheet};
 use foldmotion_record::{
-    Camera, FilmOptions, Palette, RecordError, gif, picture, positions_at, timeline,
+    Camera, FilmOptions, Marks, Palette, RecordError, gif, picture, positions_at, timeline,
 };
 use glam::DVec3;
 use rayon::ThreadPoolBuilder;
@@ -27,7 +27,7 @@ fn options() -> FilmOptions {
 #[expect(clippy::unwrap_used, reason = "a film that fails must fail its test")]
 fn film(motion: &Motion, options: &FilmOptions) -> Vec<u8> {
     let mut bytes = Vec::new();
-    gif(motion, options, &mut bytes, &|_| true).unwrap();
+    gif(motion, &Marks::default(), options, &mut bytes, &|_| true).unwrap();
     bytes
 }
 
@@ -39,7 +39,7 @@ fn a_film_reads_back_frame_by_frame_as_the_pictures_it_was_made_of() {
 
     let points = motion.frames.iter().flat_map(|f| f.positions.clone());
     let camera = Camera::fit(options.view, points, options.size, options.margin).unwrap();
-    let palette = Palette::new(&options.style);
+    let palette = Palette::new(&options.style, false);
     let shots = timeline(&motion, &options).unwrap();
     let mut settings = DecodeOptions::new();
     settings.set_color_output(ColorOutput::Indexed);
@@ -193,7 +193,7 @@ fn films_of_bad_input_are_refused_before_anything_is_written() {
     ];
     let refused = |motion: &Motion, options: &FilmOptions| {
         let mut bytes = Vec::new();
-        let error = gif(motion, options, &mut bytes, &|_| true).unwrap_err();
+        let error = gif(motion, &Marks::default(), options, &mut bytes, &|_| true).unwrap_err();
         assert!(bytes.is_empty(), "{error} after {} bytes", bytes.len());
         error
     };
@@ -253,7 +253,14 @@ fn a_film_can_be_interrupted_and_reports_its_progress() {
         assert!((0.0..=1.0).contains(&part));
         calls.fetch_add(1, Ordering::Relaxed) < 2
     };
-    let error = gif(&motion, &options, &mut Vec::new(), &stop_at_third).unwrap_err();
+    let error = gif(
+        &motion,
+        &Marks::default(),
+        &options,
+        &mut Vec::new(),
+        &stop_at_third,
+    )
+    .unwrap_err();
     assert!(matches!(error, RecordError::Interrupted), "{error}");
     assert_eq!(calls.load(Ordering::Relaxed), 3);
 }
@@ -275,10 +282,49 @@ fn a_film_that_cannot_be_written_says_so() {
     }
     let motion = folding_square(&[0.0, 1.0, 2.0]);
     for room in [0, 100, 900, 2000] {
-        let error = gif(&motion, &options(), Full(room), &|_| true).unwrap_err();
+        let error = gif(&motion, &Marks::default(), &options(), Full(room), &|_| {
+            true
+        })
+        .unwrap_err();
         let RecordError::Write(error) = error else {
             panic!("room for {room} bytes: {error}");
         };
         assert_eq!(error.kind(), io::ErrorKind::StorageFull);
     }
+}
+
+#[test]
+fn marked_facets_are_painted_in_their_span_and_nowhere_else() {
+    let motion = folding_square(&[0.0, 0.4, 1.0, 1.5, 2.0]);
+    let options = options();
+    let mut marks = Marks::default();
+    marks.insert(0, 0.9, 1.2);
+    let mut bytes = Vec::new();
+    gif(&motion, &marks, &options, &mut bytes, &|_| true).unwrap();
+    let mut settings = DecodeOptions::new();
+    settings.set_color_output(ColorOutput::RGBA);
+    let mut decoder = settings.read_info(bytes.as_slice()).unwrap();
+    let is_marked = |p: &[u8]| p[3] == 255 && p[0] > 90 && p[1] < p[0] / 3 && p[2] > p[0] / 2;
+    let mut canvas = vec![0; 96 * 72 * 4];
+    let mut painted = Vec::new();
+    while let Some(frame) = decoder.read_next_frame().unwrap() {
+        let width = usize::from(frame.width);
+        for (index, pixel) in frame.buffer.chunks(4).enumerate() {
+            let (x, y) = (index % width, index / width);
+            let place = (usize::from(frame.top) + y) * 96 + usize::from(frame.left) + x;
+            if pixel[3] == 255 {
+                canvas[4 * place..4 * place + 4].copy_from_slice(pixel);
+            }
+        }
+        painted.push(canvas.chunks(4).filter(|p| is_marked(p)).count() > 20);
+    }
+    let shots = timeline(&motion, &options).unwrap();
+    let expected: Vec<bool> = (0..shots.len())
+        .map(|k| {
+            let previous = if k == 0 { 0.0 } else { shots[k - 1].time };
+            shots[k].time >= 0.9 && previous < 1.2
+        })
+        .collect();
+    assert_eq!(painted, expected);
+    assert!(expected.contains(&true) && expected.contains(&false));
 }

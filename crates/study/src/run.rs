@@ -4,10 +4,12 @@ use std::io::Write as _;
 use std::path::Path;
 use std::time::Instant;
 
-use foldmotion_check::{CheckError, Checker, CollisionReport, FittedBox, fitted_box};
+use foldmotion_check::{
+    CheckError, Checker, CollisionReport, FittedBox, fitted_box, penetration_spans,
+};
 use foldmotion_geometry::RigidMotion;
 use foldmotion_pattern::{FoldHeader, LayerOrder, Motion};
-use foldmotion_record::{FilmOptions, gif, plots};
+use foldmotion_record::{FilmOptions, Marks, gif, plots};
 
 use crate::certify::{CheckedMotion, MotionFile};
 use crate::digest::HashedWriter;
@@ -210,22 +212,24 @@ impl Study {
         results: &mut Results,
         progress: Progress<'_>,
     ) -> Result<(), StudyError> {
+        let marks = marks(motion, &checked.collision);
         for output in &self.outputs {
             match output {
                 OutputChoice::Fold => self.record_fold(motion, checked, results)?,
                 OutputChoice::Gif => results.write("motion.gif", |out| {
-                    gif(motion, &self.film, out, &|done| {
+                    gif(motion, &marks, &self.film, out, &|done| {
                         progress(Phase::Record, done)
                     })
                     .map_err(StudyError::from)
                 })?,
                 OutputChoice::Csv => {
+                    let first = checked.collision.first.as_ref().map(|p| p.time);
                     let folder = results.folder().to_owned();
                     results.write("motion.csv", |out| {
                         write_csv(&checked.series, out)
                             .map_err(|e| write_error(&folder, "motion.csv", e))
                     })?;
-                    let svg = plots(&panels(&checked.series))?;
+                    let svg = plots(&panels(&checked.series, first))?;
                     results.write("plots.svg", |out| {
                         out.write_all(svg.as_bytes())
                             .map_err(|e| write_error(&folder, "plots.svg", e))
@@ -288,6 +292,17 @@ pub(crate) fn timed<T>(
 ) -> Result<(T, f64), StudyError> {
     let started = Instant::now();
     work().map(|value| (value, started.elapsed().as_secs_f64()))
+}
+
+/// The facets that penetrate each other, while they do.
+fn marks(motion: &Motion, collision: &CollisionReport) -> Marks {
+    let mut marks = Marks::default();
+    for span in penetration_spans(motion, collision) {
+        for face in span.faces {
+            marks.insert(face, span.from, span.to);
+        }
+    }
+    marks
 }
 
 /// Bytes a film takes at most: an eighth of its pixels, where nothing repeats.

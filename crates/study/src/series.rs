@@ -104,7 +104,9 @@ pub(crate) fn write_csv(series: &[FrameFigures], out: &mut impl Write) -> io::Re
 }
 
 /// The panels of `plots.svg`: strain, bending, energy and smallest separation over t.
-pub(crate) fn panels(series: &[FrameFigures]) -> Vec<Panel> {
+///
+/// `first_penetration`: its motion time, drawn as an upright line across the separation.
+pub(crate) fn panels(series: &[FrameFigures], first_penetration: Option<f64>) -> Vec<Panel> {
     let curve = |name, value: fn(&FrameFigures) -> f64| Curve {
         name,
         points: series.iter().map(|f| (f.time, value(f))).collect(),
@@ -117,6 +119,17 @@ pub(crate) fn panels(series: &[FrameFigures]) -> Vec<Panel> {
     ];
     if has_contact {
         energy.push(curve("contact", |f| f.contact_energy));
+    }
+    let mut separation = vec![curve("separation", |f| f.separation)];
+    if let Some(time) = first_penetration {
+        let drawn = series.iter().map(|f| f.separation);
+        let drawn: Vec<f64> = drawn.filter(|s| s.is_finite() && *s > 0.0).collect();
+        let lowest = drawn.iter().copied().fold(f64::INFINITY, f64::min);
+        let highest = drawn.iter().copied().fold(0.0, f64::max);
+        separation.push(Curve {
+            name: "penetration",
+            points: vec![(time, lowest), (time, highest)],
+        });
     }
     let panel = |title, is_logarithmic, curves| Panel {
         title,
@@ -141,7 +154,7 @@ pub(crate) fn panels(series: &[FrameFigures]) -> Vec<Panel> {
         panel(
             "smallest separation of facets that share no vertex, h",
             true,
-            vec![curve("separation", |f| f.separation)],
+            separation,
         ),
     ]
 }

@@ -7,6 +7,7 @@ mod layering;
 mod meeting;
 mod pair;
 mod report;
+mod span;
 
 pub use checker::Checker;
 use foldmotion_pattern::Motion;
@@ -14,6 +15,8 @@ pub use report::{
     CollisionOptions, CollisionReport, FilterCounts, PairCounts, Penetration, PenetrationKind,
     Separation, Undecided, Verdict,
 };
+
+pub use span::{PenetrationSpan, penetration_spans};
 
 use crate::CheckError;
 

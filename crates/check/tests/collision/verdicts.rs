@@ -2,6 +2,7 @@ use std::f64::consts::PI;
 
 use foldmotion_check::{
     CheckError, CollisionOptions, CollisionReport, PenetrationKind, Verdict, collisions,
+    penetration_spans,
 };
 use foldmotion_pattern::{Assignment, Motion};
 use glam::{DQuat, DVec2, DVec3};
@@ -316,4 +317,31 @@ fn a_single_frame_is_judged_as_it_stands() {
     let report = judge(&motion(sheet, [crossed]));
     assert_eq!(report.verdict, Verdict::Penetrating);
     assert!(report.first.unwrap().depth > 0.01);
+}
+
+#[test]
+fn a_penetration_lasts_until_the_plates_are_no_longer_in_each_other() {
+    // The upright plate's corner sinks through the lying one by 0.2 and rises again.
+    let heights = [0.3, 0.1, -0.1, -0.2, -0.1, 0.1, 0.3];
+    let base = [DVec2::ZERO, DVec2::X, DVec2::Y];
+    let vertices = base.into_iter().chain(base.map(|p| p + DVec2::X * 5.0));
+    let sheet = sheet(vertices.collect(), vec![[0, 1, 2], [3, 4, 5]]);
+    let place = |&height: &f64| {
+        let lower = base.map(|p| p.extend(0.0));
+        let upper = [(0.0, 0.0), (0.1, 1.0), (-0.1, 1.0)]
+            .map(|(x, z)| DVec3::new(0.3 + x, 0.3, height + z));
+        lower.into_iter().chain(upper).collect()
+    };
+    let motion = motion(sheet, heights.iter().map(place));
+    let report = judge(&motion);
+    let spans = penetration_spans(&motion, &report);
+    assert_eq!(spans.len(), 1, "{report:?}");
+    assert_eq!(spans[0].from, report.first.unwrap().time);
+    assert!((spans[0].from - 1.5).abs() < 1e-6, "{spans:?}");
+    assert_eq!(spans[0].to, 4.0);
+    // Plates that have changed sides are not in each other: the span is the interval.
+    let through = two_plates(&[0.3, -0.1, -0.5].map(|z| DVec3::new(0.1, 0.1, z)));
+    let spans = penetration_spans(&through, &judge(&through));
+    assert!((spans[0].from - 0.75).abs() < 1e-6, "{spans:?}");
+    assert_eq!(spans[0].to, 1.0);
 }

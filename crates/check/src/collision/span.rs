@@ -1,0 +1,50 @@
+//! How long a penetration lasts.
+
+use foldmotion_pattern::Motion;
+use glam::DVec3;
+
+use super::{CollisionReport, Penetration, PenetrationKind, pair::Pair};
+
+/// The motion times between which a pair of triangles penetrates.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PenetrationSpan {
+    /// The triangles.
+    pub faces: [u32; 2],
+    /// The beginning of the contact that leads to the penetration.
+    pub from: f64,
+    /// The last frame that shows them deeper than τ in each other, without a frame between that does not; at least
+    /// the end of the interval in which they penetrate.
+    pub to: f64,
+}
+
+/// The span of each penetration of `report`, which is about `motion`, in its order.
+///
+/// A pair that has passed through to the other side is no longer in the other: its span ends with the interval.
+/// Layers out of order are named at the time of one frame.
+pub fn penetration_spans(motion: &Motion, report: &CollisionReport) -> Vec<PenetrationSpan> {
+    let tolerance = report.tolerance * motion.sheet.unit_length;
+    let span = |p: &Penetration| PenetrationSpan {
+        faces: p.faces,
+        from: p.time,
+        to: match p.kind {
+            PenetrationKind::LayerOrder => p.time,
+            _ => last_deep(motion, p, tolerance),
+        },
+    };
+    report.penetrations.iter().map(span).collect()
+}
+
+fn last_deep(motion: &Motion, p: &Penetration, tolerance: f64) -> f64 {
+    let pair = Pair::new(&motion.sheet, p.faces[0], p.faces[1]);
+    let is_deep = |positions: &[DVec3]| pair.pose(positions).depth().overlap > tolerance;
+    let mut frames = motion.frames.iter().skip(p.frame + 1);
+    let first = frames.next().map_or(p.passed, |frame| frame.time);
+    let later = frames.take_while(|frame| is_deep(&frame.positions)).last();
+    let is_still_deep = motion
+        .frames
+        .get(p.frame + 1)
+        .is_some_and(|frame| is_deep(&frame.positions));
+    later
+        .filter(|_| is_still_deep)
+        .map_or(first, |frame| frame.time)
+}
