@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use foldmotion_study::{certificate_schema, report_schema, scene_schema};
+use foldmotion_study::{certificate_schema, paper_schema, report_schema, scene_schema};
 
 /// Compares a schema with its file, or writes the file where `UPDATE_SCHEMAS` is set.
 fn is_current(name: &str, schema: &str) {
@@ -32,4 +32,9 @@ fn the_schema_of_the_report_is_current() {
 #[test]
 fn the_schema_of_the_certificate_is_current() {
     is_current("certificate.schema.json", &certificate_schema());
+}
+
+#[test]
+fn the_schema_of_the_paper_is_current() {
+    is_current("paper.schema.json", &paper_schema());
 }

@@ -26,6 +26,12 @@ pub(crate) enum Command {
     /// --verify: 0 verified, free or touching; 1 verified, penetrating; 2 the certificate is false, or about another
     /// motion, or bad input; 3 not verified or interrupted.
     Check(CheckArguments),
+    /// Rebuild every table and figure of the paper, its numbers beside ours
+    ///
+    /// Writes figures as SVG and PNG, paper.json and index.html. Parts that are finished are reused.
+    ///
+    /// Exit status: 0 done, 2 bad input, 3 the run failed or was interrupted; finished parts stay.
+    Paper(PaperArguments),
     /// List the built-in profiles
     Models,
     /// Write a commented scene to start from
@@ -80,6 +86,26 @@ pub(crate) struct CheckArguments {
     #[arg(long)]
     pub(crate) quiet: bool,
     /// Print exactly certificate.json on stdout
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
+/// `foldmotion paper`.
+#[derive(Debug, Args)]
+pub(crate) struct PaperArguments {
+    /// The folder of results
+    #[arg(long, default_value = "out/paper")]
+    pub(crate) out: PathBuf,
+    /// Only these parts, such as table1,fig6,figA1: table1, table2, fig1 to fig10, unfoldings, cases, certificates, figA1
+    #[arg(long, value_name = "PARTS")]
+    pub(crate) only: Option<String>,
+    /// Threads to use; all cores where left out
+    #[arg(long, value_parser = parse_threads)]
+    pub(crate) threads: Option<usize>,
+    /// No progress and no summary
+    #[arg(long)]
+    pub(crate) quiet: bool,
+    /// Print exactly paper.json on stdout
     #[arg(long)]
     pub(crate) json: bool,
 }

@@ -9,8 +9,9 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use arguments::{Arguments, CheckArguments, Command, RunArguments};
+use arguments::{Arguments, CheckArguments, Command, PaperArguments, RunArguments};
 use clap::Parser as _;
+use foldmotion_study::paper::{PaperPart, paper};
 use foldmotion_study::{CheckOptions, SceneSource, Study, check_file, models, verify_file};
 use progress::Reporter;
 
@@ -43,6 +44,7 @@ fn main() -> ExitCode {
     let outcome = match arguments.command {
         Command::Run(run) => run_scene(&run),
         Command::Check(check) => check_motion(&check),
+        Command::Paper(paper) => rebuild_paper(&paper),
         Command::Models => list_models(),
         Command::Init { file } => init::write_scene(&file).map(|()| 0),
     };
@@ -70,7 +72,7 @@ fn run_scene(arguments: &RunArguments) -> Result<u8, Failure> {
     let study = Study::resolve(&source)?;
     let reporter = Reporter::new(arguments.quiet);
     let report = study.run(&folder, &|phase, done| {
-        reporter.report(phase, done);
+        reporter.report(phase.name(), done);
         !INTERRUPTED.load(Ordering::Relaxed)
     })?;
     reporter.finish();
@@ -100,7 +102,7 @@ fn check_motion(arguments: &CheckArguments) -> Result<u8, Failure> {
     }
     let reporter = Reporter::new(arguments.quiet);
     let certificate = check_file(&arguments.motion, &options, &|phase, done| {
-        reporter.report(phase, done);
+        reporter.report(phase.name(), done);
         !INTERRUPTED.load(Ordering::Relaxed)
     })?;
     certificate.write(&folder)?;
@@ -117,7 +119,7 @@ fn check_motion(arguments: &CheckArguments) -> Result<u8, Failure> {
 fn verify_certificate(arguments: &CheckArguments, certificate: &Path) -> Result<u8, Failure> {
     let reporter = Reporter::new(arguments.quiet);
     let verified = verify_file(&arguments.motion, certificate, &|phase, done| {
-        reporter.report(phase, done);
+        reporter.report(phase.name(), done);
         !INTERRUPTED.load(Ordering::Relaxed)
     })?;
     reporter.finish();
@@ -125,6 +127,32 @@ fn verify_certificate(arguments: &CheckArguments, certificate: &Path) -> Result<
         print(&verified.table())?;
     }
     Ok(verified.status())
+}
+
+fn rebuild_paper(arguments: &PaperArguments) -> Result<u8, Failure> {
+    use_threads(arguments.threads)?;
+    watch_for_interrupts()?;
+    let parts = match &arguments.only {
+        Some(list) => PaperPart::parse_list(list)?,
+        None => PaperPart::ALL.to_vec(),
+    };
+    let reporter = Reporter::new(arguments.quiet);
+    let run = paper(&arguments.out, &parts, &|part, done| {
+        reporter.report(part.name(), done);
+        !INTERRUPTED.load(Ordering::Relaxed)
+    })?;
+    reporter.finish();
+    if arguments.json {
+        print(&run.record.to_json())?;
+    } else if !arguments.quiet {
+        let (made, reused) = (run.made, run.reused);
+        let page = arguments.out.join("index.html");
+        let page = page.display();
+        print(&format!(
+            "{made} pieces made, {reused} reused\nresults in {page}\n"
+        ))?;
+    }
+    Ok(0)
 }
 
 fn list_models() -> Result<u8, Failure> {

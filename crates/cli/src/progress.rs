@@ -3,7 +3,6 @@
 use std::io::{IsTerminal as _, Write as _};
 use std::sync::Mutex;
 
-use foldmotion_study::Phase;
 use indicatif::{ProgressBar, ProgressStyle};
 
 /// Plain lines come at these steps of a phase.
@@ -15,7 +14,7 @@ pub(crate) struct Reporter {
     bar: Option<ProgressBar>,
     quiet: bool,
     /// The phase and the plain step last told.
-    told: Mutex<Option<(Phase, u32)>>,
+    told: Mutex<Option<(&'static str, u32)>>,
 }
 
 impl Reporter {
@@ -25,7 +24,7 @@ impl Reporter {
         let bar = (terminal && !quiet).then(|| {
             let bar = ProgressBar::new(1000);
             if let Ok(style) =
-                ProgressStyle::with_template("{msg:>7} [{bar:40}] {percent:>3} %  {elapsed}")
+                ProgressStyle::with_template("{msg:>12} [{bar:40}] {percent:>3} %  {elapsed}")
             {
                 bar.set_style(style.progress_chars("=> "));
             }
@@ -38,11 +37,11 @@ impl Reporter {
         }
     }
 
-    /// Tells the user that `done` (0 to 1) of `phase` is done.
+    /// Tells the user that `done` (0 to 1) of the phase or part `name` is done.
     #[expect(clippy::cast_sign_loss, reason = "clamped to [0, 1]")]
-    pub(crate) fn report(&self, phase: Phase, done: f64) {
+    pub(crate) fn report(&self, name: &'static str, done: f64) {
         if let Some(bar) = &self.bar {
-            bar.set_message(phase.name());
+            bar.set_message(name);
             bar.set_position((done.clamp(0.0, 1.0) * 1000.0).round() as u64);
             return;
         }
@@ -55,14 +54,9 @@ impl Reporter {
             .told
             .lock()
             .unwrap_or_else(std::sync::PoisonError::into_inner);
-        if told.is_none_or(|(p, s)| p != phase || s < step) {
-            *told = Some((phase, step));
-            let _ = writeln!(
-                std::io::stderr(),
-                "{} {} %",
-                phase.name(),
-                100 * step / PLAIN_STEPS
-            );
+        if told.is_none_or(|(p, s)| p != name || s < step) {
+            *told = Some((name, step));
+            let _ = writeln!(std::io::stderr(), "{} {} %", name, 100 * step / PLAIN_STEPS);
         }
     }
 

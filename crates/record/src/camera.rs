@@ -43,6 +43,34 @@ impl View {
             Self::Top => (DVec3::Z, DVec3::Y),
         }
     }
+
+    /// Right, up and towards the viewer, unit vectors.
+    fn axes(self) -> [DVec3; 3] {
+        let (toward, up) = self.directions();
+        let toward = toward.normalize();
+        let right = up.cross(toward).normalize();
+        [right, toward.cross(right), toward]
+    }
+
+    /// The least and the largest place of `points` across the view, to the right and up, in their unit.
+    ///
+    /// No points give an infinite, a point that is not finite a NaN extent.
+    pub fn extent(self, points: impl IntoIterator<Item = DVec3>) -> [DVec2; 2] {
+        let [right, up, _] = self.axes();
+        let (mut low, mut high) = (DVec2::INFINITY, DVec2::NEG_INFINITY);
+        let mut is_finite = true;
+        for point in points {
+            let across = DVec2::new(right.dot(point), up.dot(point));
+            is_finite &= across.is_finite();
+            low = low.min(across);
+            high = high.max(across);
+        }
+        if is_finite {
+            [low, high]
+        } else {
+            [DVec2::NAN; 2]
+        }
+    }
 }
 
 /// A parallel projection of the world onto the screen.
@@ -73,32 +101,36 @@ impl Camera {
         size: [u32; 2],
         margin: f64,
     ) -> Result<Self, RecordError> {
-        check_size(size)?;
         if !(0.0..0.5).contains(&margin) {
             return Err(RecordError::Margin { value: margin });
         }
-        let (toward, up) = view.directions();
-        let toward = toward.normalize();
-        let right = up.cross(toward).normalize();
-        let up = toward.cross(right);
-        let (mut low, mut high) = (DVec2::INFINITY, DVec2::NEG_INFINITY);
-        let mut is_finite = true;
-        for point in points {
-            let across = DVec2::new(right.dot(point), up.dot(point));
-            is_finite &= across.is_finite();
-            low = low.min(across);
-            high = high.max(across);
-        }
-        let extent = high - low;
-        let pixels = DVec2::new(f64::from(size[0]), f64::from(size[1]));
+        let [low, high] = view.extent(points);
+        let pixels = DVec2::from(size.map(f64::from));
         let room = pixels * (1.0 - 2.0 * margin);
-        let fitting = (room / extent).min_element();
-        let scale = if extent == DVec2::ZERO { 1.0 } else { fitting };
+        let fitting = (room / (high - low)).min_element();
+        let scale = if high == low { 1.0 } else { fitting };
+        Self::centred(view, [low, high], size, scale)
+    }
+
+    /// The camera that shows the middle of `extent`, see [`View::extent`], in the middle of the picture, `scale` pixels
+    /// a unit: pictures of one scale can be compared.
+    ///
+    /// # Errors
+    /// [`RecordError::Size`], and [`RecordError::Extent`] where extent and scale do not project to finite pixels.
+    pub fn centred(
+        view: View,
+        [low, high]: [DVec2; 2],
+        size: [u32; 2],
+        scale: f64,
+    ) -> Result<Self, RecordError> {
+        check_size(size)?;
         let centre = (low + high) * 0.5 * scale;
-        if !(is_finite && scale.is_normal() && centre.is_finite()) {
-            let [width, height] = extent.to_array();
+        if !(scale.is_normal() && scale > 0.0 && centre.is_finite()) {
+            let [width, height] = (high - low).to_array();
             return Err(RecordError::Extent { width, height });
         }
+        let pixels = DVec2::from(size.map(f64::from));
+        let [right, up, toward] = view.axes();
         Ok(Self {
             right,
             up,

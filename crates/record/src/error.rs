@@ -52,6 +52,18 @@ pub enum RecordError {
         /// What was asked for, as a part of the picture's sides.
         value: f64,
     },
+    /// A PNG could not be encoded.
+    #[error("a PNG could not be written: {message}")]
+    Png {
+        /// The encoder's words.
+        message: String,
+    },
+    /// The built-in font cannot be read.
+    #[error("the built-in font cannot be read: {message}")]
+    Font {
+        /// The parser's words.
+        message: String,
+    },
     /// The motion has no frames.
     #[error("the motion has no frames: a film needs at least one")]
     NoFrames,

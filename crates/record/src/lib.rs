@@ -2,7 +2,8 @@
 //!
 //! A [`Camera`] projects the sheet in parallel, so that papers get equal scales. A [`Surface`] is the projected sheet
 //! and answers which triangle is in front at a point of the screen; the layer order decides between triangles that
-//! coincide. [`picture`] draws one state from it, [`gif()`] a whole motion.
+//! coincide. [`picture`] draws one state from it, [`gif()`] a whole motion. A [`Drawing`] puts pictures beside crease
+//! patterns and words, as SVG and PNG.
 //!
 //! Screen coordinates are pixels, x to the right, y down, depth towards the viewer in pixels too. Colours are sRGB
 //! bytes outside and linear light inside; pixels average linear light. The same input gives the same bytes for any
@@ -38,6 +39,7 @@
 //! ```
 
 mod camera;
+mod drawing;
 mod error;
 mod film;
 mod gif;
@@ -55,6 +57,7 @@ mod square;
 mod surface;
 
 pub use self::camera::{Camera, View};
+pub use self::drawing::{Anchor, Drawing, PIXELS_A_UNIT, Stroke, png};
 pub use self::error::RecordError;
 pub use self::film::{FilmOptions, Shot, positions_at, timeline};
 pub use self::gif::gif;

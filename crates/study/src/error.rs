@@ -82,6 +82,14 @@ pub enum StudyError {
         /// The most.
         limit: u64,
     },
+    /// A part of the paper of that name does not exist.
+    #[error("{name:?}: no part of the paper; there is: {known}")]
+    Part {
+        /// What was asked for.
+        name: String,
+        /// Every name.
+        known: String,
+    },
     /// The output folder or a file in it cannot be written.
     #[error("{}: {action}: {source}; choose another folder with --out, or free space", path.display())]
     Output {
@@ -132,6 +140,7 @@ impl StudyError {
             | Self::Certificate { .. }
             | Self::LargeMotion { .. }
             | Self::Value { .. }
+            | Self::Part { .. }
             | Self::Undivided { .. } => 2,
             _ => 3,
         }

@@ -144,7 +144,7 @@ pub(crate) fn write_error(folder: &Path, name: &str, source: io::Error) -> Study
     output_error(&folder.join(name), "cannot be written", source)
 }
 
-fn output_error(path: &Path, action: &'static str, source: io::Error) -> StudyError {
+pub(crate) fn output_error(path: &Path, action: &'static str, source: io::Error) -> StudyError {
     StudyError::Output {
         path: path.to_owned(),
         action,

@@ -2,6 +2,7 @@
 
 use schemars::{JsonSchema, schema_for};
 
+use crate::paper::PaperRecord;
 use crate::{Certificate, Report, Scene};
 
 /// The schema of scene files.
@@ -17,6 +18,11 @@ pub fn report_schema() -> String {
 /// The schema of `certificate.json`.
 pub fn certificate_schema() -> String {
     schema::<Certificate>()
+}
+
+/// The schema of `paper.json`.
+pub fn paper_schema() -> String {
+    schema::<PaperRecord>()
 }
 
 fn schema<T: JsonSchema>() -> String {

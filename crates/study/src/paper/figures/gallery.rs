@@ -1,0 +1,130 @@
+//! Figures 6 to 9: the profiles deployed and folded, the shelter with its cut patterns.
+
+use foldmotion_pattern::{Case, models};
+use foldmotion_record::{Anchor, Drawing, View};
+use glam::DVec2;
+
+use super::panel::{Cell, Pose, common_scale};
+use super::pattern::{Place, WORDS, draw};
+use super::{Composed, page};
+use crate::paper::targets::{CASES, sheet};
+use crate::{Study, StudyError};
+
+/// Figure 6.
+pub(super) fn figure6() -> Result<Composed, StudyError> {
+    let cell = DVec2::new(310.0, 250.0);
+    let mut drawing = page(3.0 * 320.0 + 10.0, 3.0 * 285.0 + 5.0)?;
+    for ((k, model), letter) in models().iter().enumerate().zip('a'..) {
+        let study = sheet(model.name, Case::E)?;
+        let pose = Pose::deployed(&study);
+        let (x, y) = (10.0 + 320.0 * (k % 3) as f64, 5.0 + 285.0 * (k / 3) as f64);
+        let scale = common_scale(std::slice::from_ref(&pose), View::Iso, cell);
+        let place = Cell::new(x, y, cell.x, cell.y);
+        pose.show(&mut drawing, View::Iso, place, scale)?;
+        let name = model.name.replace('-', " ");
+        let words = format!("({letter}) {name}, {}", counts(&study));
+        let below = DVec2::new(x + 0.5 * cell.x, y + cell.y + 18.0);
+        drawing.words(below, words, WORDS, Anchor::Middle);
+    }
+    Ok((
+        drawing,
+        "Figure 6. The nine profiles deployed with units of case E; N_r × N_c of table 1. One camera, each profile as large \
+         as its panel.",
+    ))
+}
+
+/// Figure 7.
+pub(super) fn figure7() -> Result<Composed, StudyError> {
+    let drawing = four_cases([("chair", "(a) chair"), ("omega", "(b) capital omega")])?;
+    Ok((
+        drawing,
+        "Figure 7. Open profiles in cases E, T, S and SII, deployed above and folded below; one camera, one scale a profile.",
+    ))
+}
+
+/// Figure 8.
+pub(super) fn figure8() -> Result<Composed, StudyError> {
+    let drawing = four_cases([
+        ("mushroom", "(a) mushroom"),
+        ("bunny", "(b) Stanford bunny"),
+    ])?;
+    Ok((
+        drawing,
+        "Figure 8. Closed profiles in cases E, T, S and SII, deployed above and folded below; one camera, one scale a profile.",
+    ))
+}
+
+fn counts(study: &Study) -> String {
+    format!("{} × {}", study.units.rows, study.units.columns)
+}
+
+fn four_cases(blocks: [(&str, &str); 2]) -> Result<Drawing, StudyError> {
+    let cell = DVec2::new(270.0, 240.0);
+    let folded = 150.0;
+    let block = cell.y + folded + 60.0;
+    let mut drawing = page(4.0 * 280.0 + 10.0, 2.0 * block)?;
+    for (k, (model, title)) in blocks.into_iter().enumerate() {
+        let top = block * k as f64;
+        drawing.words(
+            DVec2::new(10.0, top + 20.0),
+            title,
+            1.2 * WORDS,
+            Anchor::Start,
+        );
+        let studies: Vec<Study> = CASES
+            .iter()
+            .map(|&case| sheet(model, case))
+            .collect::<Result<_, _>>()?;
+        let deployed: Vec<Pose<'_>> = studies.iter().map(Pose::deployed).collect();
+        let compact: Vec<Pose<'_>> = studies.iter().map(Pose::compact).collect();
+        let scale = common_scale(&deployed, View::Iso, cell).min(common_scale(
+            &compact,
+            View::Iso,
+            DVec2::new(cell.x, folded),
+        ));
+        for (column, study) in studies.iter().enumerate() {
+            let x = 10.0 + 280.0 * column as f64;
+            let upper = Cell::new(x, top + 25.0, cell.x, cell.y);
+            deployed[column].show(&mut drawing, View::Iso, upper, scale)?;
+            let lower = Cell::new(x, top + 25.0 + cell.y, cell.x, folded);
+            compact[column].show(&mut drawing, View::Iso, lower, scale)?;
+            let words = format!("case {}, {}", study.units.unit.case.name(), counts(study));
+            let below = DVec2::new(x + 0.5 * cell.x, top + block - 15.0);
+            drawing.words(below, words, WORDS, Anchor::Middle);
+        }
+    }
+    Ok(drawing)
+}
+
+/// Figure 9.
+pub(super) fn figure9() -> Result<Composed, StudyError> {
+    let line = 250.0;
+    let mut drawing = page(1000.0, 4.0 * line + 30.0)?;
+    for (x, words) in [
+        (165.0, "deployed"),
+        (480.0, "folded"),
+        (810.0, "cut pattern"),
+    ] {
+        drawing.words(DVec2::new(x, 20.0), words, WORDS, Anchor::Middle);
+    }
+    for ((k, case), letter) in CASES.into_iter().enumerate().zip('a'..) {
+        let study = sheet("shelter", case)?;
+        let top = 30.0 + line * k as f64;
+        let poses = [Pose::deployed(&study), Pose::compact(&study)];
+        for (pose, x) in poses.iter().zip([10.0, 325.0]) {
+            let cell = Cell::new(x, top, 310.0, line);
+            pose.show(&mut drawing, View::Iso, cell, 31.0)?;
+        }
+        let words = format!("({letter}) case {}, {}", case.name(), counts(&study));
+        drawing.words(DVec2::new(10.0, top + 20.0), words, WORDS, Anchor::Start);
+        let (scale, width) = (31.0, study.units.unit.width * study.units.columns as f64);
+        let left = 810.0 - 0.5 * scale * width;
+        let place = Place::new(DVec2::new(left, top + 15.0), scale, width);
+        draw(&mut drawing, &study.units.sheet, &place, 1.0, |_| true);
+    }
+    Ok((
+        drawing,
+        "Figure 9. The shelter in cases E, T, S and SII: deployed and folded as rendered here in place of the paper's \
+         photographs, and the pattern to cut (black), with mountains red and valleys blue; all at one scale.",
+    ))
+}

@@ -1,0 +1,109 @@
+//! States of a sheet as pictures in a drawing.
+
+use foldmotion_pattern::{LayerOrder, Sheet};
+use foldmotion_record::{Camera, Drawing, PIXELS_A_UNIT, Style, View, picture};
+use glam::{DVec2, DVec3};
+
+use crate::{Study, StudyError};
+
+/// The width of lines in pictures, in units of the page, at most.
+const LINE_WIDTH: f64 = 0.9;
+/// The width of lines, as a part of the rows' height, at most: rows some pixels high need thin lines.
+const LINE_PART: f64 = 0.03;
+/// Space kept free around a state, in units of the page.
+const MARGIN: f64 = 4.0;
+
+/// A state of a sheet, to be shown.
+#[derive(Debug)]
+pub(super) struct Pose<'a> {
+    pub(super) sheet: &'a Sheet,
+    pub(super) positions: Vec<DVec3>,
+    pub(super) order: LayerOrder,
+}
+
+impl<'a> Pose<'a> {
+    /// A state without coincident facets.
+    pub(super) fn new(study: &'a Study, positions: Vec<DVec3>) -> Self {
+        Self {
+            sheet: &study.units.sheet,
+            positions,
+            order: LayerOrder::default(),
+        }
+    }
+
+    /// The deployed state.
+    pub(super) fn deployed(study: &'a Study) -> Self {
+        Self::new(study, study.deployed.clone())
+    }
+
+    /// The exact compact state.
+    pub(super) fn compact(study: &'a Study) -> Self {
+        Self::new(study, study.units.compact()).layered(study)
+    }
+
+    /// The same with the order of the facets that coincide in the compact state.
+    pub(super) fn layered(self, study: &Study) -> Self {
+        Self {
+            order: study.units.compact_order(),
+            ..self
+        }
+    }
+
+    fn size(&self, view: View) -> DVec2 {
+        let [low, high] = view.extent(self.positions.iter().copied());
+        high - low
+    }
+
+    /// Shows it in the middle of a cell, `scale` units of the page a unit of length.
+    pub(super) fn show(
+        &self,
+        drawing: &mut Drawing,
+        view: View,
+        cell: Cell,
+        scale: f64,
+    ) -> Result<(), StudyError> {
+        let pixels = f64::from(PIXELS_A_UNIT);
+        #[expect(clippy::cast_sign_loss, reason = "cells are positive")]
+        let size = (cell.size * pixels).to_array().map(|side| side as u32);
+        let extent = view.extent(self.positions.iter().copied());
+        let camera = Camera::centred(view, extent, size, scale * pixels)?;
+        let style = Style {
+            line_width: LINE_WIDTH.min(LINE_PART * scale * self.sheet.unit_length) * pixels,
+            ..Style::default()
+        };
+        let image = picture(
+            self.sheet,
+            &self.positions,
+            &self.order,
+            &camera,
+            &style,
+            size,
+        )?;
+        drawing.picture(cell.at, image);
+        Ok(())
+    }
+}
+
+/// A rectangle of the page.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Cell {
+    /// Its left upper corner.
+    pub(super) at: DVec2,
+    pub(super) size: DVec2,
+}
+
+impl Cell {
+    pub(super) fn new(x: f64, y: f64, width: f64, height: f64) -> Self {
+        Self {
+            at: DVec2::new(x, y),
+            size: DVec2::new(width, height),
+        }
+    }
+}
+
+/// The largest scale at which every pose fits into a cell of `size`.
+pub(super) fn common_scale(poses: &[Pose<'_>], view: View, size: DVec2) -> f64 {
+    let room = size - 2.0 * MARGIN;
+    let fit = |pose: &Pose<'_>| (room / pose.size(view)).min_element();
+    poses.iter().map(fit).fold(f64::INFINITY, f64::min)
+}

@@ -1,0 +1,104 @@
+//! Figure A1: the motions of shelter, rolling paper and capital omega in four cases.
+
+use foldmotion_geometry::RigidMotion;
+use foldmotion_record::{Anchor, View};
+use glam::{DVec2, DVec3};
+
+use super::panel::{Cell, Pose, common_scale};
+use super::pattern::{SMALL, WORDS};
+use super::{Composed, page};
+use crate::paper::motions::{CERTIFIED, Folding, STRIP_TIMES, finished};
+use crate::paper::store::Store;
+use crate::paper::targets::{CASES, sheet};
+use crate::{Study, StudyError};
+
+/// Width and height of a state's cell.
+const CELL: DVec2 = DVec2::new(230.0, 150.0);
+/// Room for the words on the left.
+const LEFT: f64 = 90.0;
+/// Room for the title of a profile.
+const TITLE: f64 = 40.0;
+
+/// Figure A1, from the motions with contact.
+pub(super) fn figure_a1(store: &Store) -> Result<Composed, StudyError> {
+    let block = TITLE + CASES.len() as f64 * (CELL.y + 6.0);
+    let width = LEFT + STRIP_TIMES.len() as f64 * (CELL.x + 6.0);
+    let mut drawing = page(width, block * CERTIFIED.len() as f64)?;
+    for ((k, model), letter) in CERTIFIED.into_iter().enumerate().zip('a'..) {
+        let top = block * k as f64;
+        let title = format!("({letter}) {}", model.replace('-', " "));
+        drawing.words(
+            DVec2::new(10.0, top + 22.0),
+            title,
+            1.2 * WORDS,
+            Anchor::Start,
+        );
+        let mut strips = Vec::new();
+        for case in CASES {
+            let folding = finished(store, model, case, true).ok_or(StudyError::Interrupted)?;
+            strips.push((sheet(model, case)?, folding));
+        }
+        let mut poses = Vec::new();
+        for (study, folding) in &strips {
+            poses.extend(folding.states.iter().map(|state| pose(study, state)));
+        }
+        let scale = common_scale(&poses, View::Iso, CELL);
+        let times = STRIP_TIMES.len();
+        for (index, pose) in poses.iter().enumerate() {
+            let (row, column) = (index / times, index % times);
+            let x = LEFT + (CELL.x + 6.0) * column as f64;
+            let y = top + TITLE + (CELL.y + 6.0) * row as f64;
+            pose.show(
+                &mut drawing,
+                View::Iso,
+                Cell::new(x, y, CELL.x, CELL.y),
+                scale,
+            )?;
+            let (study, folding) = &strips[row];
+            if column == 0 {
+                words_of(
+                    &mut drawing,
+                    DVec2::new(10.0, y + 0.5 * CELL.y),
+                    study,
+                    folding,
+                );
+            }
+            if row == 0 {
+                let words = format!("t = {}", folding.states[column].0);
+                let above = DVec2::new(x + 0.5 * CELL.x, y - 8.0);
+                drawing.words(above, words, SMALL, Anchor::Middle);
+            }
+        }
+    }
+    Ok((
+        drawing,
+        "Figure A1. The motions computed here with contact, from the deployed state (t = 0) through the plane (t = 1) to the \
+         compact state (t = 2); one camera, one scale a profile.",
+    ))
+}
+
+fn words_of(drawing: &mut foldmotion_record::Drawing, at: DVec2, study: &Study, folding: &Folding) {
+    let case = format!("case {}", study.units.unit.case.name());
+    drawing.words(at, case, WORDS, Anchor::Start);
+    let below = at + DVec2::new(0.0, 16.0);
+    drawing.words(below, folding.row.verdict.clone(), SMALL, Anchor::Start);
+}
+
+/// A state of a motion, turned as its stage is shown: upright until it is nearly flat, then as the compact state lies.
+fn pose<'a>(study: &'a Study, (time, positions): &(f64, Vec<DVec3>)) -> Pose<'a> {
+    let target = if *time < 1.0 {
+        study.deployed.clone()
+    } else if *time == 1.0 {
+        study.units.sheet.planar()
+    } else {
+        study.units.compact()
+    };
+    let fit = RigidMotion::best_fit(positions, &target);
+    let turned = positions.iter().map(|&p| fit.apply(p)).collect();
+    let pose = Pose::new(study, turned);
+    if *time > 1.0 {
+        pose.layered(study)
+    } else {
+        pose
+    }
+}

@@ -1,0 +1,145 @@
+//! Figures 3, 4 and 5: the units of cases T, S and SII and what they fold to.
+
+use foldmotion_pattern::{Case, Unit};
+use foldmotion_record::{Anchor, Drawing, View};
+use glam::DVec2;
+
+use super::panel::{Cell, Pose, common_scale};
+use super::pattern::{WORDS, draw_unit};
+use super::{Composed, page};
+use crate::paper::targets::{LAMBDA, sheet, study};
+use crate::{Study, StudyError};
+
+/// The profile the units are shown on.
+const MODEL: &str = "shelter";
+/// Its width in units of h, and the columns of figures 3 and 4.
+const WIDTH: f64 = 5.0;
+
+/// Width of the page.
+const PAGE: f64 = 1000.0;
+/// Height of a line of units with their deployed and compact state.
+const LINE: f64 = 290.0;
+
+/// Height of the line of units with d = 0.
+const D_ZERO: f64 = 200.0;
+
+/// Figure 3.
+pub(super) fn figure3() -> Result<Composed, StudyError> {
+    let mut drawing = page(PAGE, 2.0 * LINE)?;
+    let plain = plain(7)?;
+    let tall = sheet(MODEL, Case::T)?;
+    line(&mut drawing, 0.0, ["a", "b", "c", "d"], "plain", &plain)?;
+    line(&mut drawing, LINE, ["e", "f", "g", "h"], "case T", &tall)?;
+    Ok((
+        drawing,
+        "Figure 3. Tall units (w < h) on the shelter. Unmodified they fold flat to a curved outline; with the middle \
+         vertices split (case T) to a slim rectangle.",
+    ))
+}
+
+/// Figure 4.
+pub(super) fn figure4() -> Result<Composed, StudyError> {
+    let mut drawing = page(PAGE, 2.0 * LINE)?;
+    let plain = plain(3)?;
+    let short = sheet(MODEL, Case::S)?;
+    line(&mut drawing, 0.0, ["a", "b", "c", "d"], "plain", &plain)?;
+    line(&mut drawing, LINE, ["e", "f", "g", "h"], "case S", &short)?;
+    Ok((
+        drawing,
+        "Figure 4. Short units (w > h) on the shelter. Unmodified, the state in which every crease is folded by 180° passes \
+         through itself: the ends of a unit's middle line change places; with pads (case S) the sheet folds compactly.",
+    ))
+}
+
+/// Figure 5.
+pub(super) fn figure5() -> Result<Composed, StudyError> {
+    let mut drawing = page(PAGE, LINE + D_ZERO)?;
+    let width = WIDTH / 3.0;
+    let fault = |e: foldmotion_pattern::PatternError| StudyError::Parse {
+        place: "figure 5".to_owned(),
+        message: e.to_string(),
+    };
+    let unit = Unit::new(Case::SII, width, 1.0, Some(LAMBDA), Some(0.0)).map_err(fault)?;
+    two_units(&mut drawing, 0.0, ["a", "b"], "d = 0", &unit, D_ZERO - 20.0)?;
+    let study = sheet(MODEL, Case::SII)?;
+    line(
+        &mut drawing,
+        D_ZERO,
+        ["c", "d", "e", "f"],
+        "case SII",
+        &study,
+    )?;
+    Ok((
+        drawing,
+        "Figure 5. Case SII with λ = 0.7: split middle vertices without centre pad (d = 0), and with one (d = w_1'/2); the \
+         compact state has facets on both skin planes.",
+    ))
+}
+
+/// The shelter of unmodified rectangles.
+fn plain(columns: usize) -> Result<Study, StudyError> {
+    study(format!(
+        "[profile]\nmodel = \"{MODEL}\"\n[sheet]\ncase = \"plain\"\ncolumns = {columns}\nwidth = {WIDTH}\n"
+    ))
+}
+
+/// The two units of a case, side by side.
+fn two_units(
+    drawing: &mut Drawing,
+    top: f64,
+    letters: [&str; 2],
+    name: &str,
+    unit: &Unit,
+    caption: f64,
+) -> Result<(), StudyError> {
+    let scale = 140.0 / unit.width.max(unit.height);
+    for (row, letter) in (0..).zip(letters) {
+        let left = 45.0 + 215.0 * f64::from(row);
+        let at = DVec2::new(left + 0.5 * (140.0 - scale * unit.width), top + 30.0);
+        draw_unit(drawing, unit, row, at, scale)?;
+        let kind = if row == 0 { "U^O" } else { "U^E" };
+        let below = DVec2::new(left + 70.0, top + caption);
+        drawing.words(
+            below,
+            format!("({letter}) {kind}, {name}"),
+            WORDS,
+            Anchor::Middle,
+        );
+    }
+    Ok(())
+}
+
+/// The two units of a sheet, its deployed and its compact state, these at one scale.
+fn line(
+    drawing: &mut Drawing,
+    top: f64,
+    letters: [&str; 4],
+    name: &str,
+    study: &Study,
+) -> Result<(), StudyError> {
+    two_units(
+        drawing,
+        top,
+        [letters[0], letters[1]],
+        name,
+        &study.units.unit,
+        LINE - 22.0,
+    )?;
+    let is_flat = study.units.unit.side_pad == 0.0;
+    let poses = [Pose::deployed(study), Pose::compact(study)];
+    let view = if is_flat { View::Front } else { View::Iso };
+    let cell = DVec2::new(250.0, LINE - 50.0);
+    let scale =
+        common_scale(&poses[..1], View::Iso, cell).min(common_scale(&poses[1..], view, cell));
+    let words = ["deployed", "folded"];
+    for (k, pose) in poses.iter().enumerate() {
+        let x = 460.0 + 270.0 * k as f64;
+        let cell = Cell::new(x, top + 10.0, cell.x, cell.y);
+        let view = if k == 0 { View::Iso } else { view };
+        pose.show(drawing, view, cell, scale)?;
+        let below = DVec2::new(x + 125.0, top + LINE - 22.0);
+        let words = format!("({}) {}", letters[2 + k], words[k]);
+        drawing.words(below, words, WORDS, Anchor::Middle);
+    }
+    Ok(())
+}
