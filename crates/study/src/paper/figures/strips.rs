@@ -81,7 +81,8 @@ fn words_of(drawing: &mut foldmotion_record::Drawing, at: DVec2, study: &Study, 
     let case = format!("case {}", study.units.unit.case.name());
     drawing.words(at, case, WORDS, Anchor::Start);
     let below = at + DVec2::new(0.0, 16.0);
-    drawing.words(below, folding.row.verdict.clone(), SMALL, Anchor::Start);
+    let words = format!("verdict {}", folding.row.verdict);
+    drawing.words(below, words, SMALL, Anchor::Start);
 }
 
 /// A state of a motion, turned as its stage is shown: upright until it is nearly flat, then as the compact state lies.
