@@ -159,7 +159,8 @@ fn publish(store: &Store, record: &mut PaperRecord) -> Result<(), StudyError> {
     }
     let unfolded =
         |model: &foldmotion_pattern::ProfileModel| unfoldings::finished(store, model.name);
-    record.unfoldings = models().iter().filter_map(unfolded).collect();
+    let found = models().iter().filter_map(unfolded);
+    record.unfoldings = found.flatten().collect();
     let drawn: Vec<Figure> = figures::finished(store);
     record.figures = drawn.iter().map(|figure| figure.row.clone()).collect();
     store.write_file("paper.json", record.to_json().as_bytes())?;

@@ -220,7 +220,8 @@ fn unfoldings(record: &PaperRecord) -> String {
         "N_r",
         "way",
         "verdict",
-        "crosses at this part of the hinge angles",
+        "crosses at this part of the way to go",
+        "proved clear at every instant",
         "frames",
     ];
     let rows = record.unfoldings.iter().map(|row| {
@@ -231,6 +232,7 @@ fn unfoldings(record: &PaperRecord) -> String {
             row.verdict.clone(),
             row.crosses_at
                 .map_or(NONE.to_owned(), |part| format!("{part:.4}")),
+            if row.proved { "yes" } else { NONE }.to_owned(),
             row.frames.to_string(),
         ]
     });
@@ -248,7 +250,7 @@ fn faults(record: &PaperRecord) -> String {
     for row in &record.unfoldings {
         if let Some(part) = row.crosses_at {
             tell(format!(
-                "{}, unfolded by the way “{}”: passes through itself from {part:.3} of the hinge angles on.",
+                "{}, unfolded by the way “{}”: passes through itself from {part:.3} of the way to go on.",
                 row.model, row.method
             ));
         }

@@ -141,19 +141,22 @@ pub struct MotionRow {
     pub error: ErrorReport,
 }
 
-/// A profile unfolded into the plane by scaling all hinge angles alike, judged frame by frame.
+/// A profile unfolded into the plane, judged frame by frame.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct UnfoldingRow {
     /// The profile.
     pub model: String,
     /// Nr.
     pub rows: usize,
-    /// `uniform` or `energy`.
+    /// `uniform`: all hinge angles are scaled alike; `energy`: descent of the energy of Cantarella et al. (2004).
     pub method: String,
     /// free, touching, penetrating or undecided.
     pub verdict: String,
-    /// Deployed part of the hinge angles, from 1 to 0, at which the first penetration begins.
+    /// Part of the way still to go, from 1 to 0, at which the first penetration begins; the part of the hinge angles where
+    /// they are scaled.
     pub crosses_at: Option<f64>,
+    /// Whether the divided profile was proved not to cross itself at any instant between.
+    pub proved: bool,
     /// Frames judged.
     pub frames: usize,
 }

@@ -4,7 +4,7 @@
 //! length. Every column repeats the same cross-section; one column is judged.
 
 use foldmotion_check::{CollisionOptions, Verdict, collisions};
-use foldmotion_pattern::{Case, Facing, Frame, LayerOrder, Motion, Unit, UnitSheet, find_model};
+use foldmotion_pattern::{Case, Facing, Frame, LayerOrder, Motion, Unit, UnitSheet};
 use glam::DVec2;
 
 use super::motions::Done;
@@ -15,20 +15,20 @@ use crate::reporting::verdict_name;
 use crate::{Study, StudyError};
 
 /// Frames from deployed to planar: the straight paths between them are what is judged.
-const FRAMES: usize = 480;
+const FRAMES: usize = 960;
 
-/// The unfolding of `model` by scaling all hinge angles alike, if it has been judged.
-pub(super) fn finished(store: &Store, model: &str) -> Option<UnfoldingRow> {
+/// The unfoldings of `model`, if they have been judged.
+pub(super) fn finished(store: &Store, model: &str) -> Option<Vec<UnfoldingRow>> {
     store.find(&name(model), &part_inputs(model))
 }
 
-/// The unfolding of `model`, judged where it has not been.
+/// The unfoldings of `model`, judged where they have not been: uniform, and by energy where uniform is not proved clear.
 pub(super) fn unfolding(
     store: &Store,
     model: &str,
     done: Done<'_>,
-) -> Result<UnfoldingRow, StudyError> {
-    store.part(&name(model), &part_inputs(model), || judge(model, done))
+) -> Result<Vec<UnfoldingRow>, StudyError> {
+    store.part(&name(model), &part_inputs(model), || judge_all(model, done))
 }
 
 fn name(model: &str) -> String {
@@ -39,25 +39,53 @@ fn part_inputs(model: &str) -> String {
     inputs(model, &format!("unfolding, {FRAMES} frames"))
 }
 
-fn judge(model: &str, done: Done<'_>) -> Result<UnfoldingRow, StudyError> {
+fn judge_all(model: &str, done: Done<'_>) -> Result<Vec<UnfoldingRow>, StudyError> {
     let study = sheet(model, Case::E)?;
-    let motion = uniform_motion(&study)?;
+    let unfolding = &study.unfolding;
+    let turns = turns(&study.division.points);
+    let scaled = |time: f64| turns.iter().map(|turn| (1.0 - time) * turn).collect();
+    let uniform = judge(model, &study, scaled, done)?;
+    let is_proved = unfolding.certified && unfolding.path.is_none();
+    let mut rows = vec![UnfoldingRow {
+        proved: is_proved,
+        ..uniform
+    }];
+    if let Some(path) = &unfolding.path {
+        let by_energy = judge(model, &study, |time| path.at(time), done)?;
+        rows.push(UnfoldingRow {
+            method: "energy".to_owned(),
+            proved: unfolding.certified,
+            ..by_energy
+        });
+    }
+    Ok(rows)
+}
+
+/// Judges the motion in which the turns of the chain at time t are `turns_at(t)`.
+fn judge(
+    model: &str,
+    study: &Study,
+    turns_at: impl Fn(f64) -> Vec<f64>,
+    done: Done<'_>,
+) -> Result<UnfoldingRow, StudyError> {
+    let motion = motion(study, turns_at)?;
     let report = collisions(&motion, &CollisionOptions::default(), done)?;
     Ok(UnfoldingRow {
         model: model.to_owned(),
-        rows: find_model(model).map_or(0, |m| m.rows),
+        rows: study.units.rows,
         method: "uniform".to_owned(),
         verdict: verdict_name(report.verdict).to_owned(),
         crosses_at: match (report.verdict, &report.first) {
             (Verdict::Penetrating, Some(first)) => Some(1.0 - first.time),
             _ => None,
         },
+        proved: false,
         frames: motion.frames.len(),
     })
 }
 
-/// One column of the sheet over the chain with its turns scaled from all to none.
-fn uniform_motion(study: &Study) -> Result<Motion, StudyError> {
+/// One column of the sheet over the chain with those turns.
+fn motion(study: &Study, turns_at: impl Fn(f64) -> Vec<f64>) -> Result<Motion, StudyError> {
     let height = study.units.unit.height;
     let fault = |e: foldmotion_pattern::PatternError| StudyError::Parse {
         place: study.title.clone(),
@@ -65,10 +93,9 @@ fn uniform_motion(study: &Study) -> Result<Motion, StudyError> {
     };
     let unit = Unit::new(Case::E, height, height, None, None).map_err(fault)?;
     let units = UnitSheet::new(unit, study.units.rows, 1).map_err(fault)?;
-    let points = &study.division.points;
     let state = |k: usize| {
         let time = k as f64 / FRAMES as f64;
-        let polygon = with_turns_scaled(points, 1.0 - time);
+        let polygon = chain(height, &turns_at(time));
         let positions = units.deployed(&polygon, Facing::Left).map_err(fault)?;
         Ok(Frame { time, positions })
     };
@@ -80,22 +107,28 @@ fn uniform_motion(study: &Study) -> Result<Motion, StudyError> {
     })
 }
 
-/// The chain `points` with the turns between its segments scaled by `part`; its middle segment stays.
-fn with_turns_scaled(points: &[DVec2], part: f64) -> Vec<DVec2> {
-    let segments: Vec<DVec2> = points.windows(2).map(|p| p[1] - p[0]).collect();
-    let mut headings = vec![segments.first().map_or(0.0, |s| s.to_angle())];
-    for pair in segments.windows(2) {
-        let turn = pair[0].perp_dot(pair[1]).atan2(pair[0].dot(pair[1]));
-        headings.push(headings.last().copied().unwrap_or(0.0) + turn);
+/// The turns from each segment of a polygon to the next, radians in (−π, π].
+fn turns(points: &[DVec2]) -> Vec<f64> {
+    let turn = |p: &[DVec2]| {
+        let (from, to) = (p[1] - p[0], p[2] - p[1]);
+        from.perp_dot(to).atan2(from.dot(to))
+    };
+    points.windows(3).map(turn).collect()
+}
+
+/// The chain of segments of length `height` with those turns; its middle segment lies along x, which keeps the ways of
+/// both ends short.
+fn chain(height: f64, turns: &[f64]) -> Vec<DVec2> {
+    let mut heading = -turns[..turns.len() / 2].iter().sum::<f64>();
+    let mut point = height * DVec2::from_angle(heading);
+    let mut points = vec![DVec2::ZERO, point];
+    for turn in turns {
+        heading += turn;
+        point += height * DVec2::from_angle(heading);
+        points.push(point);
     }
-    let middle = headings.get(headings.len() / 2).copied().unwrap_or(0.0);
-    let mut chain = vec![points.first().copied().unwrap_or_default()];
-    for (segment, heading) in segments.iter().zip(&headings) {
-        let direction = DVec2::from_angle(middle + part * (heading - middle));
-        let last = chain.last().copied().unwrap_or_default();
-        chain.push(last + segment.length() * direction);
-    }
-    chain
+    let middle = points[points.len() / 2];
+    points.iter().map(|&p| p - middle).collect()
 }
 
 #[cfg(test)]
@@ -103,37 +136,29 @@ mod tests {
     use super::*;
 
     #[test]
-    fn scaling_the_turns_keeps_lengths_and_ends_straight() {
+    fn the_chain_of_a_polygons_turns_has_its_distances() {
         let study = sheet("omega", Case::E).unwrap();
         let points = &study.division.points;
-        let whole = with_turns_scaled(points, 1.0);
-        for (a, b) in whole.iter().zip(points) {
-            assert!((*a - *b).length() < 1e-12);
+        let whole = chain(study.units.unit.height, &turns(points));
+        assert_eq!(whole.len(), points.len());
+        for (i, j) in [(0, 35), (3, 20), (11, 12)] {
+            let error = whole[i].distance(whole[j]) - points[i].distance(points[j]);
+            assert!(error.abs() < 1e-11, "{i} {j}: {error}");
         }
-        for part in [0.7, 0.0] {
-            for pair in with_turns_scaled(points, part).windows(2) {
-                assert!(((pair[1] - pair[0]).length() - 1.0).abs() < 1e-12);
-            }
-        }
-        let flat = with_turns_scaled(points, 0.0);
-        let span = (flat[flat.len() - 1] - flat[0]).length();
-        assert!((span - (points.len() - 1) as f64).abs() < 1e-12);
+        let flat = chain(1.0, &[0.0; 34]);
+        assert!((flat[0].distance(flat[35]) - 35.0).abs() < 1e-12);
     }
 
     #[test]
-    fn the_shelter_unfolds_clear_and_the_spiral_crosses_itself_when_scaled() {
-        let row = judge("shelter", &|_| true).unwrap();
-        assert!(
-            matches!(row.verdict.as_str(), "free" | "touching"),
-            "{row:?}"
-        );
-        assert_eq!(row.crosses_at, None);
-        let row = judge("fermat-spiral", &|_| true).unwrap();
-        assert_eq!(row.verdict, "penetrating");
-        assert!(
-            row.crosses_at
-                .is_some_and(|part| (0.8..0.9).contains(&part)),
-            "{row:?}"
-        );
+    fn the_shelter_unfolds_clear_and_the_spiral_by_energy_where_scaling_crosses() {
+        let rows = judge_all("shelter", &|_| true).unwrap();
+        assert_eq!(rows.len(), 1, "{rows:?}");
+        assert!(rows[0].proved && rows[0].crosses_at.is_none(), "{rows:?}");
+        let rows = judge_all("fermat-spiral", &|_| true).unwrap();
+        assert_eq!(rows[0].verdict, "penetrating");
+        let crosses_at = rows[0].crosses_at.unwrap();
+        assert!((0.8..0.9).contains(&crosses_at), "{rows:?}");
+        assert_eq!((rows[1].method.as_str(), rows[1].proved), ("energy", true));
+        assert!(rows[1].crosses_at.is_none(), "{rows:?}");
     }
 }
