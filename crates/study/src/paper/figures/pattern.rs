@@ -144,7 +144,7 @@ fn label(drawing: &mut Drawing, at: DVec2, away: DVec2, half: f64, name: &str) {
         (0.0, true) => (4.0, 4.0 + 9.0 * sign(away.y)),
         (x, true) => (3.0 * x, 4.0 + 9.0 * sign(away.y)),
         (0.0, false) if sign(away.y) == 0.0 => (9.0, 3.5),
-        (0.0, false) => (4.0, 3.5 - 8.5 * sign(away.y)),
+        (0.0, false) => (4.0, 3.5 - 4.5 * sign(away.y)),
         (x, false) => (3.0 * x, -4.0),
     };
     let anchor = if dx < 0.0 { Anchor::End } else { Anchor::Start };
