@@ -357,3 +357,95 @@ fn an_exhausted_budget_is_undecided() {
         Outcome::Undecided { .. }
     ));
 }
+
+/// Mirror images in a folding sheet: corners 1 and 0 meet at a point and pass, the facets behind them are never in each
+/// other. Of the axes before the contact one alone leads to those after it, and only from close by.
+#[test]
+fn corners_that_meet_at_a_point_and_pass_touch() {
+    let pair = MovingPair {
+        start: PairPose {
+            a: [
+                DVec3::new(
+                    -1.182_526_622_228_076_8,
+                    -2.356_943_535_021_146_3,
+                    -0.684_433_335_193_203_2,
+                ),
+                DVec3::new(
+                    -1.468_041_415_306_987,
+                    -1.108_914_930_470_406_7,
+                    -0.233_011_272_273_418_5,
+                ),
+                DVec3::new(
+                    -0.894_892_714_888_426_3,
+                    -2.253_744_651_172_832_3,
+                    0.277_510_039_105_149_7,
+                ),
+            ],
+            b: [
+                DVec3::new(
+                    -1.471_283_293_825_841,
+                    -1.108_914_930_470_406_2,
+                    -0.255_010_165_735_981_1,
+                ),
+                DVec3::new(
+                    -1.014_961_075_815_963_3,
+                    -1.134_204_455_587_614,
+                    -0.422_819_846_456_129_8,
+                ),
+                DVec3::new(
+                    -0.886_723_344_561_860_7,
+                    9.146_247_275_904_074e-05,
+                    -0.764_416_852_652_660_4,
+                ),
+            ],
+            shared: 0,
+        },
+        end: PairPose {
+            a: [
+                DVec3::new(
+                    -1.138_008_116_994_137_2,
+                    -2.347_105_275_973_367,
+                    -0.727_810_881_619_428_9,
+                ),
+                DVec3::new(
+                    -1.459_491_866_842_780_8,
+                    -1.101_339_925_526_613_6,
+                    -0.291_868_074_058_533_1,
+                ),
+                DVec3::new(
+                    -0.901_914_234_493_968_8,
+                    -2.241_136_408_263_309_4,
+                    0.247_913_304_495_723_02,
+                ),
+            ],
+            b: [
+                DVec3::new(
+                    -1.446_119_047_674_940_8,
+                    -1.101_339_925_526_613_6,
+                    -0.201_122_161_632_596_16,
+                ),
+                DVec3::new(
+                    -0.995_028_205_323_127,
+                    -1.127_929_456_575_127_7,
+                    -0.381_968_598_817_210_85,
+                ),
+                DVec3::new(
+                    -0.875_504_853_344_714_5,
+                    8.453_937_699_748_337e-05,
+                    -0.742_179_637_791_598_1,
+                ),
+            ],
+            shared: 0,
+        },
+    };
+    let limits = Limits {
+        tolerance: 1e-6,
+        margin: Limits::margin_for(3.0),
+        budget: 4096,
+    };
+    let side = Side::at_start(&pair.start, &limits).unwrap();
+    match certify(&pair, &side, &limits) {
+        Outcome::Passed(passage) => assert!(passage.in_contact, "{passage:?}"),
+        other => panic!("{other:?}"),
+    }
+}

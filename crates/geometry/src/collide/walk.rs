@@ -158,8 +158,23 @@ impl<'a> Walk<'a> {
             if apart.is_some() || step > GRAZING_STEP {
                 return apart.map(Side::Apart);
             }
+            return self.graze(end, step);
         }
         self.touch(end)
+    }
+
+    /// Comes into contact and out of it on the way to `end`, where the triangles are apart again.
+    ///
+    /// A path that ends on an axis along which they still touch may be on a part of D(t) that closes: a shorter step
+    /// may find the way to where they are apart.
+    fn graze(&mut self, end: &PairPose, step: f64) -> Option<Side> {
+        let before = (self.clearance, self.in_contact);
+        let side = self.touch(end);
+        if matches!(side, Some(Side::Contact(_))) && step > SHORTEST_STEP {
+            (self.clearance, self.in_contact) = before;
+            return None;
+        }
+        side
     }
 
     /// Stays strictly apart on the way to `end`, on an axis at rest or turning along with the triangles.
