@@ -22,6 +22,7 @@ impl Random {
         (self.0 >> 11) as f64 / (1_u64 << 53) as f64
     }
 
+    #[expect(clippy::cast_sign_loss, reason = "a share of a count is not negative")]
     fn below(&mut self, limit: usize) -> usize {
         (self.unit() * limit as f64) as usize
     }

@@ -209,6 +209,7 @@ fn a_triangle_with_a_needle_at_its_seam_may_stay_undivided_and_says_so() {
 }
 
 #[test]
+#[expect(clippy::cast_sign_loss, reason = "shares of counts are not negative")]
 fn every_random_curve_without_a_seam_corner_is_divided_however_sharp_its_turns() {
     // A linear congruential generator (Knuth 1997, volume 2, section 3.3.4).
     let mut state = 7_u64;

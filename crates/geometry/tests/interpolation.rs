@@ -1,7 +1,5 @@
 //! Curves through given points: through each, smooth, closed where asked, and what is refused.
 
-#![expect(clippy::unwrap_used, reason = "builders of test profiles")]
-
 use foldmotion_geometry::{Closure, GeometryError, Profile};
 use glam::DVec2;
 
