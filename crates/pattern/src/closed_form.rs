@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::{Case, Unit};
+use crate::{Case, Folding, Unit, UnitSheet};
 
 /// The compact bounding box.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -34,10 +34,33 @@ impl CompactBox {
     }
 }
 
+impl UnitSheet {
+    /// The compact bounding box in closed form: equations 3 to 7, and with rows of their own heights h_k
+    /// x = Σ h_k − (Nr − 1)·a, the other extents as they are: each row lies a further on than the one before it ends,
+    /// whatever its height. A folded map is as large as one unit and flat. None for the unmodified rectangle.
+    pub fn closed_form(&self) -> Option<CompactBox> {
+        match self.folding {
+            Folding::Waterbomb => self.waterbomb_box(),
+            Folding::Map => Some(self.map_box()),
+        }
+    }
+
+    /// The box of the sheet folded unit by unit, also where it folds like a map.
+    pub fn waterbomb_box(&self) -> Option<CompactBox> {
+        let mut closed = CompactBox::closed_form(&self.unit, self.rows, self.columns)?;
+        if !self.has_equal_rows() {
+            let [x, y, z] = &mut closed.extents;
+            *x = -self.boundaries[self.rows] - (self.rows as f64 - 1.0) * self.unit.flap;
+            closed.area = *x * *z;
+            closed.volume = closed.area * *y;
+        }
+        Some(closed)
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::UnitSheet;
 
     #[test]
     fn the_exact_compact_state_fills_the_box_of_equations_3_to_7() {

@@ -47,6 +47,14 @@ pub enum PatternError {
         /// The value given, NaN where it is missing.
         value: f64,
     },
+    /// λ of a common flap is out of range.
+    #[error(
+        "lambda is {value}: one flap width for rows of unequal height needs it above 0 and at most 1"
+    )]
+    CommonFlapOutOfRange {
+        /// The value given.
+        value: f64,
+    },
     /// d is out of range.
     #[error("offset d is {value}: it must satisfy 0 <= d < w1' = {limit}")]
     OffsetOutOfRange {
@@ -70,6 +78,21 @@ pub enum PatternError {
         found: usize,
         /// Rows of the sheet.
         rows: usize,
+    },
+    /// The creases of two neighbouring rows do not end at the same places.
+    #[error(
+        "row {row} ({upper}) and row {next} ({lower}) clash: {reason}; take one flap width for every row, or equal heights",
+        next = row + 1
+    )]
+    RowsClash {
+        /// The upper of the two rows.
+        row: usize,
+        /// Case and ratio w/h of the upper row.
+        upper: String,
+        /// Case and ratio w/h of the lower row.
+        lower: String,
+        /// Which creases end where.
+        reason: String,
     },
     /// Unit parts too thin for the arithmetic.
     #[error("{part} of the unit is {value} wide, less than 1e-9 of h = {height}; {remedy}")]

@@ -7,7 +7,7 @@
 
 use glam::{DVec2, DVec3};
 
-use crate::{Case, FacetKind, LayerOrder, UnitSheet};
+use crate::{Case, FacetKind, Folding, LayerOrder, UnitSheet};
 
 /// Overlaps smaller than this fraction of h are shared edges, not layers.
 const OVERLAP_TOLERANCE: f64 = 1e-9;
@@ -16,10 +16,15 @@ impl UnitSheet {
     /// The order of every two triangles of different facets that overlap in the compact state, both directions.
     ///
     /// Empty for an unmodified rectangle with w > h, whose flat state no order of layers admits (geometry of figure
-    /// 4d); in one with w < h, rows that reach each other round the curved outline carry no order.
+    /// 4d); in one with w < h, rows that reach each other round the curved outline carry no order. A map has one pair for every two layers that overlap,
+    /// which grows with the square of their number.
     pub fn compact_order(&self) -> LayerOrder {
         let mut order = LayerOrder::default();
-        if self.unit.case == Case::Plain && self.unit.width > self.unit.height * (1.0 + 1e-9) {
+        let is_map = self.folding == Folding::Map;
+        if !is_map
+            && self.unit.case == Case::Plain
+            && self.unit.width > self.unit.height * (1.0 + 1e-9)
+        {
             return order;
         }
         let positions = self.compact();
@@ -60,8 +65,9 @@ impl UnitSheet {
             _ => Plane::Z,
         };
         let rank = match plane {
-            Plane::X => u32::from(!self.is_lower_wall(facet_index)),
-            _ => self.half_unit_rank(facet_index),
+            Plane::X => u64::from(!self.is_lower_wall(facet_index)),
+            Plane::Z if facet.kind == FacetKind::Unit => self.map_rank(facet.row, facet.column),
+            _ => u64::from(self.half_unit_rank(facet_index)),
         };
         let (flat, offset, normal_along) = match plane {
             Plane::X => (
@@ -118,7 +124,8 @@ impl UnitSheet {
     /// Whether a wall is the one below its ridge or bottom pad (further from row 0).
     fn is_lower_wall(&self, facet: u32) -> bool {
         let facet = &self.sheet.facets[facet as usize];
-        let middle = -(f64::from(facet.row) + 0.5) * self.unit.height;
+        let row = facet.row as usize;
+        let middle = f64::midpoint(self.boundaries[row], self.boundaries[row + 1]);
         let mean = facet
             .polygon
             .iter()
@@ -145,7 +152,7 @@ struct Layer {
     /// Its corners in the plane.
     flat: [DVec2; 3],
     offset: f64,
-    rank: u32,
+    rank: u64,
     normal_along: f64,
     low: f64,
     high: f64,

@@ -8,7 +8,10 @@ use std::collections::BTreeMap;
 
 use glam::DVec2;
 
-use crate::{Assignment, CreaseKind, Edge, Facet, FacetKind, PatternError, Sheet, Unit};
+use crate::{
+    Assignment, Case, CreaseKind, Edge, Facet, FacetKind, Folding, PatternError, Sheet, Unit,
+    clashes,
+};
 
 /// Counts are limited so that every index fits into 32 bits with room to spare.
 const MOST_UNITS: usize = 50_000_000;
@@ -37,7 +40,8 @@ pub(crate) struct Line {
 enum Strip {
     /// Half a unit; one of its lines is a corner line, the other a mid line.
     Half,
-    Pad,
+    /// A pad, with its column (the smaller index for one between two).
+    Pad(u32),
 }
 
 /// Where a vertex lies in the layout.
@@ -52,14 +56,20 @@ pub(crate) enum Place {
 /// A sheet of units with what its states and its report need to know of every vertex.
 #[derive(Debug, Clone, PartialEq)]
 pub struct UnitSheet {
-    /// The unit.
+    /// The unit; where rows have their own heights, one with the parts all rows share and their mean height.
     pub unit: Unit,
+    /// How it folds.
+    pub folding: Folding,
     /// Nr.
     pub rows: usize,
     /// Nc.
     pub columns: usize,
     /// The triangulated crease pattern.
     pub sheet: Sheet,
+    /// The unit of each row.
+    pub(crate) row_units: Vec<Unit>,
+    /// x of each boundary between rows, both ends included.
+    pub(crate) boundaries: Vec<f64>,
     pub(crate) lines: Vec<Line>,
     /// The line and the place of each vertex.
     pub(crate) places: Vec<(u32, Place)>,
@@ -73,14 +83,72 @@ impl UnitSheet {
     /// # Errors
     /// Counts of 0 or beyond what 32-bit indices hold.
     pub fn new(unit: Unit, rows: usize, columns: usize) -> Result<Self, PatternError> {
-        for (name, value, other) in [("rows", rows, columns), ("columns", columns, rows)] {
-            let limit = MOST_UNITS / other.max(1);
-            if value == 0 || value > limit {
-                return Err(PatternError::CountOutOfRange { name, value, limit });
-            }
+        require_counts(rows, columns)?;
+        Self::with_rows(&vec![unit; rows], columns)
+    }
+
+    /// Lays out one row for each of `units`, in `columns` columns: rows of their own heights that share the widths w, a,
+    /// s and 2d ([`common_flap`](crate::common_flap), or [`own_cases`](crate::own_cases) where those meet).
+    ///
+    /// Equal units give the sheet of [`Self::new`], bit for bit.
+    ///
+    /// # Errors
+    /// [`PatternError::RowsClash`] where the creases of two neighbouring rows do not meet; counts as in [`Self::new`].
+    pub fn with_rows(units: &[Unit], columns: usize) -> Result<Self, PatternError> {
+        Self::laid_out(units, columns, Folding::Waterbomb)
+    }
+
+    pub(crate) fn laid_out(
+        units: &[Unit],
+        columns: usize,
+        folding: Folding,
+    ) -> Result<Self, PatternError> {
+        let rows = units.len();
+        require_counts(rows, columns)?;
+        if let Some(clash) = clashes(units).into_iter().next() {
+            return Err(clash.into());
         }
-        let (lines, strips) = lines(&unit, columns);
-        let mut builder = Builder::new(unit, rows, &lines);
+        let first = units[0];
+        if units.iter().all(|&unit| unit == first) {
+            let boundaries = (0..=rows).map(|k| -(k as f64) * first.height).collect();
+            return Ok(Self::build(
+                first,
+                units.to_vec(),
+                boundaries,
+                columns,
+                folding,
+            ));
+        }
+        let mut boundaries = vec![0.0];
+        for (row, unit) in units.iter().enumerate() {
+            boundaries.push(boundaries[row] - unit.height);
+        }
+        let has_pads = first.compact_width() > 0.0;
+        let unit = Unit {
+            case: if has_pads { Case::SII } else { Case::T },
+            height: -boundaries[rows] / rows as f64,
+            split: units.iter().any(|unit| unit.split),
+            ..first
+        };
+        Ok(Self::build(
+            unit,
+            units.to_vec(),
+            boundaries,
+            columns,
+            folding,
+        ))
+    }
+
+    fn build(
+        unit: Unit,
+        row_units: Vec<Unit>,
+        boundaries: Vec<f64>,
+        columns: usize,
+        folding: Folding,
+    ) -> Self {
+        let rows = row_units.len();
+        let (lines, strips) = lines(&unit, columns, folding);
+        let mut builder = Builder::new(&row_units, &boundaries, &lines);
         for row in 0..rows as u32 {
             for (left, &strip) in strips.iter().enumerate() {
                 builder.add_strip(row, left, strip);
@@ -93,15 +161,51 @@ impl UnitSheet {
             ..
         } = builder;
         let (sheet, compact_angles) = triangulate(&unit, &lines, &places, vertices, facets);
-        Ok(Self {
+        Self {
             unit,
+            folding,
             rows,
             columns,
             sheet,
+            row_units,
+            boundaries,
             lines,
             places,
             compact_angles,
-        })
+        }
+    }
+
+    /// The unit of each row: its own height and case, the same widths as every other.
+    pub fn row_units(&self) -> &[Unit] {
+        &self.row_units
+    }
+
+    /// Whether every row has the same height.
+    pub fn has_equal_rows(&self) -> bool {
+        self.row_units.iter().all(|unit| *unit == self.unit)
+    }
+
+    /// The names of the rows' cases, joined by `+` where they differ, such as `E+T`.
+    pub fn case_name(&self) -> String {
+        let mut names: Vec<&str> = Vec::new();
+        for name in self.row_units.iter().map(|unit| unit.case.name()) {
+            if !names.contains(&name) {
+                names.push(name);
+            }
+        }
+        names.sort_by_key(|name| (name.len(), *name));
+        names.join("+")
+    }
+
+    /// The narrowest of the parts that any row has ([`Unit::thinnest_part`]).
+    pub fn thinnest_part(&self) -> f64 {
+        let parts = self.row_units.iter().map(Unit::thinnest_part);
+        parts.fold(f64::INFINITY, f64::min)
+    }
+
+    /// h of a row.
+    pub(crate) fn row_height(&self, row: usize) -> f64 {
+        self.row_units[row].height
     }
 
     /// The fold angle of every edge in the compact state, radians (geometry of the paper's figures 2c, 3h, 4h, 5f);
@@ -116,12 +220,24 @@ impl UnitSheet {
     }
 }
 
+fn require_counts(rows: usize, columns: usize) -> Result<(), PatternError> {
+    for (name, value, other) in [("rows", rows, columns), ("columns", columns, rows)] {
+        let limit = MOST_UNITS / other.max(1);
+        if value == 0 || value > limit {
+            return Err(PatternError::CountOutOfRange { name, value, limit });
+        }
+    }
+    Ok(())
+}
+
 /// Whether lines of `family` are mid lines in `row`.
 pub(crate) fn is_mid(family: Family, row: u32) -> bool {
     (family == Family::Q) == row.is_multiple_of(2)
 }
 
-fn lines(unit: &Unit, columns: usize) -> (Vec<Line>, Vec<Strip>) {
+/// A map is creased between its columns, so that their pads end there; else pads of two neighbouring columns are one.
+fn lines(unit: &Unit, columns: usize, folding: Folding) -> (Vec<Line>, Vec<Strip>) {
+    let is_map = folding == Folding::Map;
     let mut lines = Vec::new();
     let mut strips = Vec::new();
     let has_sides = unit.side_pad > 0.0;
@@ -140,8 +256,8 @@ fn lines(unit: &Unit, columns: usize) -> (Vec<Line>, Vec<Strip>) {
         }
         if has_sides {
             compact_y += unit.side_pad;
-            // The pads of two neighbouring columns are one facet: a first P line follows the last one directly.
-            strips.push(Strip::Pad);
+            let is_own = is_map || column == 0;
+            strips.push(Strip::Pad(if is_own { column } else { column - 1 }));
             lines.push(line(Family::P, start + unit.side_pad, compact_y));
         }
         strips.push(Strip::Half);
@@ -152,15 +268,15 @@ fn lines(unit: &Unit, columns: usize) -> (Vec<Line>, Vec<Strip>) {
         ));
         if unit.centre_pad > 0.0 {
             compact_y += unit.centre_pad;
-            strips.push(Strip::Pad);
+            strips.push(Strip::Pad(column));
             lines.push(line(Family::Q, end - unit.side_pad - unit.flap, compact_y));
         }
         strips.push(Strip::Half);
         lines.push(line(Family::P, end - unit.side_pad, compact_y));
         if has_sides {
             compact_y += unit.side_pad;
-            if column + 1 == columns as u32 {
-                strips.push(Strip::Pad);
+            if is_map || column + 1 == columns as u32 {
+                strips.push(Strip::Pad(column));
                 lines.push(line(Family::P, end, compact_y));
             }
         }
@@ -169,7 +285,8 @@ fn lines(unit: &Unit, columns: usize) -> (Vec<Line>, Vec<Strip>) {
 }
 
 struct Builder<'a> {
-    unit: Unit,
+    units: &'a [Unit],
+    boundaries: &'a [f64],
     lines: &'a [Line],
     vertices: Vec<DVec2>,
     places: Vec<(u32, Place)>,
@@ -179,9 +296,11 @@ struct Builder<'a> {
 
 impl<'a> Builder<'a> {
     /// Numbers the vertices row by row, so that neighbours lie close in memory.
-    fn new(unit: Unit, rows: usize, lines: &'a [Line]) -> Self {
+    fn new(units: &'a [Unit], boundaries: &'a [f64], lines: &'a [Line]) -> Self {
+        let rows = units.len();
         let mut builder = Self {
-            unit,
+            units,
+            boundaries,
             lines,
             vertices: Vec::new(),
             places: Vec::new(),
@@ -197,7 +316,7 @@ impl<'a> Builder<'a> {
             }
             let is_mid_line = |&line: &u32| is_mid(lines[line as usize].family, row);
             for line in (0..lines.len() as u32).filter(is_mid_line) {
-                let both = !unit.split;
+                let both = !units[row as usize].split;
                 builder.add_vertex(
                     line,
                     Place::Mid {
@@ -208,7 +327,7 @@ impl<'a> Builder<'a> {
                     row,
                     1,
                 );
-                if unit.split {
+                if !both {
                     builder.add_vertex(
                         line,
                         Place::Mid {
@@ -226,15 +345,16 @@ impl<'a> Builder<'a> {
     }
 
     fn add_vertex(&mut self, line: u32, place: Place, row: u32, part: u8) {
-        let h = self.unit.height;
+        let at = |boundary: u32| self.boundaries[boundary as usize];
+        let mid_distance = |row: u32| self.units[row as usize].mid_distance();
         let x = match place {
-            Place::Boundary { boundary } => -f64::from(boundary) * h,
+            Place::Boundary { boundary } => at(boundary),
             Place::Mid {
                 row, lower: false, ..
-            } => -f64::from(row) * h - self.unit.mid_distance(),
+            } => at(row) - mid_distance(row),
             Place::Mid {
                 row, lower: true, ..
-            } => -f64::from(row + 1) * h + self.unit.mid_distance(),
+            } => at(row + 1) + mid_distance(row),
         };
         self.index
             .insert((row, line, part), self.vertices.len() as u32);
@@ -266,15 +386,15 @@ impl<'a> Builder<'a> {
         match (strip, left_is_mid) {
             (Strip::Half, true) => self.add_half(row, r, l),
             (Strip::Half, false) => self.add_half(row, l, r),
-            (Strip::Pad, true) => self.add_walls(row, l, r),
-            (Strip::Pad, false) => {
+            (Strip::Pad(column), true) => self.add_walls(row, column, l, r),
+            (Strip::Pad(column), false) => {
                 let pad = [
                     self.top(row, l),
                     self.top(row, r),
                     self.bottom(row, r),
                     self.bottom(row, l),
                 ];
-                self.add_facet(row, l, FacetKind::TopPad, &pad);
+                self.add_facet(row, column, FacetKind::TopPad, &pad);
             }
         }
     }
@@ -284,33 +404,43 @@ impl<'a> Builder<'a> {
         let (corner_bottom, mid_bottom) = (self.bottom(row, corner), self.bottom(row, mid));
         let (m1, m2) = self.mids(row, mid);
         // Of its two lines the right one always lies in the half unit's own column.
-        let line = corner.max(mid);
-        self.add_facet(row, line, FacetKind::Tuck, &[corner_top, mid_top, m1]);
+        let column = self.lines[corner.max(mid) as usize].column;
+        self.add_facet(row, column, FacetKind::Tuck, &[corner_top, mid_top, m1]);
         if m1 == m2 {
-            self.add_facet(row, line, FacetKind::Flap, &[corner_top, m1, corner_bottom]);
+            self.add_facet(
+                row,
+                column,
+                FacetKind::Flap,
+                &[corner_top, m1, corner_bottom],
+            );
         } else {
             self.add_facet(
                 row,
-                line,
+                column,
                 FacetKind::Flap,
                 &[corner_top, m1, m2, corner_bottom],
             );
         }
-        self.add_facet(row, line, FacetKind::Tuck, &[corner_bottom, m2, mid_bottom]);
+        self.add_facet(
+            row,
+            column,
+            FacetKind::Tuck,
+            &[corner_bottom, m2, mid_bottom],
+        );
     }
 
-    fn add_walls(&mut self, row: u32, l: u32, r: u32) {
+    fn add_walls(&mut self, row: u32, column: u32, l: u32, r: u32) {
         let ((l1, l2), (r1, r2)) = (self.mids(row, l), self.mids(row, r));
         let upper = [self.top(row, l), self.top(row, r), r1, l1];
         let lower = [l2, r2, self.bottom(row, r), self.bottom(row, l)];
-        self.add_facet(row, l, FacetKind::Wall, &upper);
+        self.add_facet(row, column, FacetKind::Wall, &upper);
         if l1 != l2 {
-            self.add_facet(row, l, FacetKind::BottomPad, &[l1, r1, r2, l2]);
+            self.add_facet(row, column, FacetKind::BottomPad, &[l1, r1, r2, l2]);
         }
-        self.add_facet(row, l, FacetKind::Wall, &lower);
+        self.add_facet(row, column, FacetKind::Wall, &lower);
     }
 
-    fn add_facet(&mut self, row: u32, line: u32, kind: FacetKind, polygon: &[u32]) {
+    fn add_facet(&mut self, row: u32, column: u32, kind: FacetKind, polygon: &[u32]) {
         let mut polygon = polygon.to_vec();
         if signed_area(&self.vertices, &polygon) < 0.0 {
             polygon.reverse();
@@ -318,7 +448,7 @@ impl<'a> Builder<'a> {
         self.facets.push(Facet {
             polygon,
             row,
-            column: self.lines[line as usize].column,
+            column,
             kind,
         });
     }

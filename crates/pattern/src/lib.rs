@@ -7,30 +7,38 @@
 //! The science is the paper "Constructing foldable cylindrical surfaces via unfolded waterbomb origami units";
 //! equation, figure and table numbers in this crate are that paper's.
 
+mod clash_figure;
 mod closed_form;
 mod error;
 mod fold_file;
 mod fold_read;
 mod layers;
 mod layout;
+mod map;
 mod model;
 mod motion;
 mod outline;
 mod sheet;
+mod skin;
 mod states;
+mod unequal;
 mod unit;
 mod vertex_check;
 mod vertex_names;
 
+pub use clash_figure::clash_figure;
 pub use closed_form::CompactBox;
 pub use error::PatternError;
 pub use fold_file::FoldHeader;
 pub use fold_read::{FoldError, FoldFile, FrameNumber};
 pub use layout::UnitSheet;
+pub use map::Folding;
 pub use model::{CaseColumns, NacaSection, ProfileModel, Shape, find as find_model, models};
 pub use motion::{Frame, LayerOrder, Motion};
 pub use outline::{LARGEST_OUTLINE_FILE, Outline, OutlineError};
 pub use sheet::{Assignment, CreaseKind, Edge, Facet, FacetKind, Sheet};
+pub use skin::{Skin, SkinPlane};
 pub use states::Facing;
+pub use unequal::{Clash, clashes, common_flap, own_cases};
 pub use unit::{Case, EQUAL_WIDTH_TOLERANCE, Unit};
 pub use vertex_check::{ANGLE_TOLERANCE, PatternCheck, VertexCheck, VertexGroup, VertexType};

@@ -44,6 +44,8 @@ pub enum CreaseKind {
     Vertical,
     /// Beside or across a pad: flap–pad, tuck–wall, wall–wall, wall–bottom pad.
     Pad,
+    /// Between two columns, where the sheet folds like a map.
+    Column,
     /// The border of the sheet.
     Border,
     /// Inside a facet.
@@ -93,11 +95,13 @@ pub enum FacetKind {
     BottomPad,
     /// Stands between the skin planes in the compact state.
     Wall,
+    /// A whole unit, its creases held flat: of a sheet that folds like a map.
+    Unit,
     /// Of an imported sheet, with no unit.
     Plain,
 }
 
-/// A facet of the crease pattern: a triangle or a quadrilateral.
+/// A facet of the crease pattern: a triangle, a quadrilateral, or a whole unit.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Facet {
     /// Its corners, counter-clockwise seen from the front.

@@ -6,7 +6,7 @@ use foldmotion_geometry::RigidMotion;
 use glam::{DMat3, DQuat, DVec2, DVec3};
 
 use crate::layout::{Family, Place};
-use crate::{Case, CreaseKind, PatternError, Sheet, UnitSheet};
+use crate::{Case, CreaseKind, Folding, PatternError, Sheet, UnitSheet};
 
 /// The side of the profile, seen along it from its start, on which the flaps stand.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -22,18 +22,19 @@ impl UnitSheet {
     /// The deployed state: row i lies on the segment from `polygon[i]` to `polygon[i + 1]`, only the hinges between
     /// rows are bent (section 2 of the paper).
     ///
-    /// `polygon`: Nr + 1 points (x, z), neighbours h apart. Isometric to the sheet as far as they are.
+    /// `polygon`: Nr + 1 points (x, z), neighbours their row's h apart. Isometric to the sheet as far as they are.
     ///
     /// # Errors
     /// A polygon of another number of points.
     pub fn deployed(&self, polygon: &[DVec2], facing: Facing) -> Result<Vec<DVec3>, PatternError> {
         self.require_polygon(polygon)?;
-        let fraction = self.unit.mid_distance() / self.unit.height;
         let width = self.unit.width * self.columns as f64;
         let place = |&(line, place): &(u32, Place)| {
             let at = match place {
                 Place::Boundary { boundary } => polygon[boundary as usize],
                 Place::Mid { row, lower, .. } => {
+                    let unit = &self.row_units[row as usize];
+                    let fraction = unit.mid_distance() / unit.height;
                     let (from, to) = (polygon[row as usize], polygon[row as usize + 1]);
                     from.lerp(to, if lower { 1.0 - fraction } else { fraction })
                 }
@@ -89,13 +90,15 @@ impl UnitSheet {
     /// The exact compact state: growing along −x from the first row, the width along y, flaps along −z.
     ///
     /// For `plain` every crease lies at ±180°, each row turned against the row before (figures 3d, 4d); the first
-    /// row lies as in case E.
+    /// row lies as in case E. A map lies in the plane z = 0 with unit (0, 0) facing up.
     pub fn compact(&self) -> Vec<DVec3> {
+        if self.folding == Folding::Map {
+            return self.compact_map();
+        }
         if self.unit.case == Case::Plain {
             return self.compact_plain();
         }
         let a = self.unit.flap;
-        let h = self.unit.height;
         // x of the P and the Q lines on every boundary.
         let (mut p, mut q) = (vec![0.0], vec![-a]);
         for row in 0..self.rows {
@@ -104,7 +107,7 @@ impl UnitSheet {
             } else {
                 (&mut q, &mut p)
             };
-            corner.push(corner[row] - h);
+            corner.push(corner[row] - self.row_height(row));
             mid.push(corner[row + 1] + a);
         }
         let place = |&(line, place): &(u32, Place)| {

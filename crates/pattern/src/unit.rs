@@ -152,7 +152,7 @@ impl Unit {
         2.0 * self.side_pad + self.centre_pad
     }
 
-    fn require_wide_parts(&self) -> Result<(), PatternError> {
+    pub(crate) fn require_wide_parts(&self) -> Result<(), PatternError> {
         let least = EQUAL_WIDTH_TOLERANCE * self.height;
         let ridge = if self.split {
             self.height - 2.0 * self.flap
@@ -237,14 +237,18 @@ fn sii_widths(
     }
     let flap = value * height / 2.0;
     let limit = width / 2.0 - flap;
-    let offset = offset.unwrap_or(limit / 2.0);
-    if !(offset >= 0.0 && offset < limit) {
-        return Err(PatternError::OffsetOutOfRange {
-            value: offset,
-            limit,
-        });
-    }
+    let offset = sii_offset(limit, offset)?;
     Ok((flap, limit - offset, offset))
+}
+
+/// d below its limit w1', of which it is half where it is left open.
+pub(crate) fn sii_offset(limit: f64, offset: Option<f64>) -> Result<f64, PatternError> {
+    let value = offset.unwrap_or(limit / 2.0);
+    if value >= 0.0 && value < limit {
+        Ok(value)
+    } else {
+        Err(PatternError::OffsetOutOfRange { value, limit })
+    }
 }
 
 #[cfg(test)]

@@ -9,7 +9,7 @@ use std::f64::consts::{PI, TAU};
 use serde::{Deserialize, Serialize};
 
 use crate::layout::{Place, is_mid};
-use crate::{Assignment, Sheet, UnitSheet};
+use crate::{Assignment, Folding, Sheet, UnitSheet};
 
 /// Angle sums may differ from 2π and π by this much, radians.
 pub const ANGLE_TOLERANCE: f64 = 1e-9;
@@ -29,6 +29,9 @@ pub enum VertexType {
     /// At a pad.
     #[serde(rename = "pad")]
     Pad,
+    /// On the lines between the units of a map.
+    #[serde(rename = "grid")]
+    Grid,
 }
 
 impl VertexType {
@@ -40,6 +43,7 @@ impl VertexType {
             Self::K => "K",
             Self::Split => "split",
             Self::Pad => "pad",
+            Self::Grid => "grid",
         }
     }
 }
@@ -86,7 +90,7 @@ impl VertexCheck {
     }
 }
 
-/// Vertices of one type and the same number of creases.
+/// Vertices of one type that have the same number of creases, the same signs and the same sums of sector angles.
 #[derive(Debug, Clone, PartialEq)]
 pub struct VertexGroup {
     /// The type.
@@ -99,9 +103,11 @@ pub struct VertexGroup {
     pub developable: bool,
     /// Whether all are flat-foldable.
     pub flat_foldable: bool,
-    /// Angle sum and alternate sums of the first one, radians.
+    /// Mountain creases minus valley creases at each.
+    pub mountains_minus_valleys: i32,
+    /// Angle sum, radians.
     pub angle_sum: f64,
-    /// None for an odd number of creases.
+    /// Alternate sums, the smaller first; none for an odd number of creases.
     pub alternate_sums: Option<[f64; 2]>,
 }
 
@@ -123,21 +129,29 @@ impl PatternCheck {
         self.vertices.iter().all(VertexCheck::is_flat_foldable)
     }
 
-    /// Vertices by type and degree, in that order.
+    /// Vertices by type, degree, sums and signs, in that order; sums that differ by less than 1e-6 are one.
     pub fn groups(&self) -> Vec<VertexGroup> {
-        let mut groups: BTreeMap<(VertexType, usize), VertexGroup> = BTreeMap::new();
+        let mut groups: BTreeMap<_, VertexGroup> = BTreeMap::new();
         for vertex in &self.vertices {
-            let group = groups
-                .entry((vertex.kind, vertex.sectors.len()))
-                .or_insert_with(|| VertexGroup {
-                    kind: vertex.kind,
-                    degree: vertex.sectors.len(),
-                    count: 0,
-                    developable: true,
-                    flat_foldable: true,
-                    angle_sum: vertex.angle_sum(),
-                    alternate_sums: vertex.alternate_sums(),
-                });
+            let alternate_sums = vertex.alternate_sums().map(|[a, b]| [a.min(b), a.max(b)]);
+            let sums = alternate_sums.map_or(0.0, |[least, _]| least);
+            let key = (
+                vertex.kind,
+                vertex.sectors.len(),
+                (sums * 1e6).round() as i64,
+                (vertex.angle_sum() * 1e6).round() as i64,
+                vertex.mountains_minus_valleys,
+            );
+            let group = groups.entry(key).or_insert_with(|| VertexGroup {
+                kind: vertex.kind,
+                degree: vertex.sectors.len(),
+                count: 0,
+                developable: true,
+                flat_foldable: true,
+                mountains_minus_valleys: vertex.mountains_minus_valleys,
+                angle_sum: vertex.angle_sum(),
+                alternate_sums,
+            });
             group.count += 1;
             group.developable &= vertex.is_developable();
             group.flat_foldable &= vertex.is_flat_foldable();
@@ -154,7 +168,7 @@ impl UnitSheet {
             .into_iter()
             .enumerate()
             .filter_map(|(vertex, creases)| {
-                let creases = creases?;
+                let creases = creases.filter(|creases| !creases.is_empty())?;
                 let at = self.sheet.vertices[vertex];
                 let mut directions: Vec<f64> = creases
                     .iter()
@@ -189,6 +203,7 @@ impl UnitSheet {
             unit.centre_pad > 0.0
         };
         match place {
+            _ if self.folding == Folding::Map => VertexType::Grid,
             _ if at_pad => VertexType::Pad,
             Place::Mid { both: true, .. } => VertexType::I,
             Place::Mid { .. } => VertexType::Split,
@@ -316,6 +331,21 @@ mod tests {
                 check.is_developable() && check.is_flat_foldable(),
                 "w = {width}"
             );
+        }
+    }
+
+    #[test]
+    fn a_vertex_whose_alternate_sums_differ_is_a_group_of_its_own() {
+        let unit = Unit::new(Case::E, 1.0, 1.0, None, None).unwrap();
+        let mut sheet = UnitSheet::new(unit, 3, 3).unwrap();
+        let before = sheet.check().groups().len();
+        let centre = sheet.check().vertices[0].vertex as usize;
+        sheet.sheet.vertices[centre].y += 0.01;
+        let groups = sheet.check().groups();
+        assert!(groups.len() > before);
+        let sums = |g: &VertexGroup| g.alternate_sums.unwrap();
+        for g in &groups {
+            assert_eq!(g.flat_foldable, (sums(g)[0] - PI).abs() < 1e-6, "{g:?}");
         }
     }
 

@@ -19,6 +19,8 @@ pub enum CreaseGroup {
     Rows,
     /// Between flaps and tucks ([`CreaseKind::Diagonal`]).
     Diagonals,
+    /// Between columns, of a map ([`CreaseKind::Column`]).
+    Columns,
     /// Along corner and mid lines ([`CreaseKind::Vertical`]).
     Verticals,
     /// Beside and across pads ([`CreaseKind::Pad`]).
@@ -30,6 +32,7 @@ impl CreaseGroup {
         match self {
             Self::All => true,
             Self::Rows => kind == CreaseKind::Row,
+            Self::Columns => kind == CreaseKind::Column,
             Self::Diagonals => kind == CreaseKind::Diagonal,
             Self::Verticals => kind == CreaseKind::Vertical,
             Self::Pads => kind == CreaseKind::Pad,
