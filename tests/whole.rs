@@ -14,6 +14,8 @@ mod layers;
 mod profiles;
 #[path = "whole/refinement.rs"]
 mod refinement;
+#[path = "whole/rows.rs"]
+mod rows;
 #[path = "whole/scenes.rs"]
 mod scenes;
 #[path = "whole/schemas.rs"]

@@ -8,11 +8,11 @@ use foldmotion_pattern::{Outline, ProfileModel, find_model, models};
 use glam::DVec2;
 
 use crate::StudyError;
-use crate::scene::{Closed, DivisionChoice, ProfileScene};
+use crate::scene::{Closed, DivisionChoice, ProfileScene, UnequalChoice};
 use crate::study::Resolver;
 
 /// Rows of a sheet differ by at most this, over their mean height.
-const EQUAL_ROWS: f64 = 1e-9;
+pub(crate) const EQUAL_ROWS: f64 = 1e-9;
 
 /// Γ with its segments.
 pub(crate) struct DividedProfile {
@@ -193,16 +193,20 @@ impl Resolver<'_> {
         .map_err(|e| self.geometry_error(&e))
     }
 
-    /// Rows of unequal height are no sheet of equal units.
+    /// Rows of unequal height are no sheet of equal units; `sheet.unequal` says what becomes of them.
     fn check_equal(&self, divided: &DividedProfile) -> Result<(), StudyError> {
         let division = &divided.division;
-        if division.max_residual <= EQUAL_ROWS {
+        let is_taken = matches!(
+            self.scene.sheet.unequal,
+            Some(UnequalChoice::OwnCase | UnequalChoice::CommonFlap)
+        );
+        if division.max_residual <= EQUAL_ROWS || is_taken {
             return Ok(());
         }
         let segments = division.points.len() - 1;
         if divided.method != DivisionChoice::EqualLength {
             let message = format!(
-                "divides the profile into {segments} segments that differ by up to {:.3} of their mean (the curve is at most {:.6} and on average {:.6} away from them), but the units of a sheet are equal; use \"equal-length\"",
+                "divides the profile into {segments} segments that differ by up to {:.3} of their mean (the curve is at most {:.6} and on average {:.6} away from them), but the units of a sheet are equal; use \"equal-length\", or set sheet.unequal = \"common-flap\"",
                 division.max_residual, divided.fit.largest, divided.fit.mean
             );
             return Err(self.fault("division.method", message));

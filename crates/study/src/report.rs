@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use foldmotion_pattern::CompactBox;
+use foldmotion_pattern::{CompactBox, SkinPlane};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -16,7 +16,7 @@ pub struct Report {
     pub version: String,
     /// FOLD's name of the unit of length.
     pub length_unit: String,
-    /// E, T, S, SII or plain.
+    /// E, T, S, SII or plain; where rows of unequal height have several, joined by `+`.
     pub case: String,
     /// Nr.
     pub rows: usize,
@@ -26,6 +26,10 @@ pub struct Report {
     pub unit: UnitReport,
     /// The curve Γ.
     pub profile: ProfileReport,
+    /// Height and case of each row where they differ; null where all rows are equal.
+    pub unequal_rows: Option<Vec<RowReport>>,
+    /// The sheet folded like a map; null where it folds unit by unit.
+    pub map: Option<MapReport>,
     /// The division of Γ.
     pub division: DivisionReport,
     /// The crease pattern.
@@ -52,12 +56,32 @@ pub struct Report {
     pub files: Vec<String>,
 }
 
+/// A row of its own height.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct RowReport {
+    /// E, T, S or SII.
+    pub case: String,
+    /// Its h.
+    pub height: f64,
+}
+
+/// A sheet folded like a map.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct MapReport {
+    /// Nr·Nc.
+    pub layers: usize,
+    /// Height of the stack, layers times `material.thickness`; null where the sheet has no thickness.
+    pub stack_height: Option<f64>,
+    /// The box of the same sheet folded unit by unit; null where it has no closed form.
+    pub waterbomb: Option<BoxReport>,
+}
+
 /// The unit.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct UnitReport {
     /// w.
     pub width: f64,
-    /// h.
+    /// h; the mean where rows differ.
     pub height: f64,
     /// a, the width of a flap.
     pub flap: f64,
@@ -131,9 +155,11 @@ pub struct VertexReport {
     pub degree: usize,
     /// How many there are.
     pub count: usize,
+    /// Mountain creases minus valley creases: +2 or −2 where a vertex folds flat (Maekawa).
+    pub mountains_minus_valleys: i32,
     /// Sum of the sector angles, degrees.
     pub angle_sum_deg: f64,
-    /// Sums of every other sector angle, degrees; null for an odd number of creases.
+    /// Sums of every other sector angle, degrees, the smaller first; null for an odd number of creases.
     pub alternate_sums_deg: Option<[f64; 2]>,
     /// Whether all are developable.
     pub developable: bool,
@@ -150,6 +176,27 @@ pub struct BoxReport {
     pub area: f64,
     /// x·y·z.
     pub volume: f64,
+}
+
+impl MapReport {
+    /// Its line in the table.
+    fn line(&self, unit: &str) -> String {
+        let mut line = format!("map          {} layers", self.layers);
+        // Writing into a string cannot fail.
+        if let Some(height) = self.stack_height {
+            let _ = write!(line, ", {height:.6} {unit} high");
+        }
+        if let Some(BoxReport {
+            extents: [x, y, z], ..
+        }) = &self.waterbomb
+        {
+            let _ = write!(
+                line,
+                "; folded unit by unit {x:.6} x {y:.6} x {z:.6} {unit}"
+            );
+        }
+        line
+    }
 }
 
 impl From<CompactBox> for BoxReport {
@@ -175,6 +222,58 @@ pub struct CompactReport {
     pub rms_to_exact: f64,
     /// Against the closed form; null where the case has none.
     pub relative_error: Option<ErrorReport>,
+    /// What touches the two skin planes, after the same rigid motion; null where the case has none.
+    pub skin: Option<SkinReport>,
+}
+
+/// What a compact sheet touches its skin planes with: the upper one, where the boundary vertices lie, and the lower
+/// one, a below it.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct SkinReport {
+    /// A vertex lies on a plane within this distance, in units of the flap width a.
+    pub tolerance: f64,
+    /// Measured.
+    pub upper: SkinPlaneReport,
+    /// Measured.
+    pub lower: SkinPlaneReport,
+    /// Of the exact compact state.
+    pub exact_upper: SkinPlaneReport,
+    /// Of the exact compact state.
+    pub exact_lower: SkinPlaneReport,
+}
+
+/// What lies on a skin plane.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct SkinPlaneReport {
+    /// Facets in the plane.
+    pub facets: usize,
+    /// Edges in the plane beside those facets.
+    pub edges: usize,
+    /// Vertices in the plane beside those facets and edges.
+    pub vertices: usize,
+    /// Area of the facets.
+    pub area: f64,
+    /// That area over x·y of the compact box in closed form; 0 where the box is flat.
+    pub share: f64,
+}
+
+impl From<SkinPlane> for SkinPlaneReport {
+    fn from(plane: SkinPlane) -> Self {
+        let SkinPlane {
+            facets,
+            edges,
+            vertices,
+            area,
+            share,
+        } = plane;
+        Self {
+            facets,
+            edges,
+            vertices,
+            area,
+            share,
+        }
+    }
 }
 
 /// Differences to the closed form, each divided by it or, where it is 0, by h, h², h³.
@@ -426,6 +525,9 @@ impl Report {
             self.pattern.facet_count
         );
         self.write_box(&mut out);
+        if let Some(map) = &self.map {
+            let _ = writeln!(out, "{}", map.line(unit));
+        }
         let _ = writeln!(
             out,
             "\nstage    peak strain   mean strain   facet bending   converged   residual"

@@ -3,22 +3,27 @@
 use foldmotion_check::{
     CollisionReport, FittedBox, Penetration, PenetrationKind, Verdict, relative_error,
 };
-use foldmotion_pattern::UnitSheet;
+use foldmotion_geometry::RigidMotion;
+use foldmotion_pattern::{Frame, Unit, UnitSheet};
 use foldmotion_solver::Stage;
 use foldmotion_solver::quasi_static::Jam;
-use glam::DVec2;
+use glam::{DVec2, DVec3};
 
 use crate::engine::StageSummary;
 use crate::refinement::Folded;
 use crate::report::{
     BoxReport, CollisionSection, CompactReport, DivisionReport, EnergyReport, EngineReport,
-    ErrorReport, FitReport, JamReport, PatternReport, PenetrationReport, ProfileReport,
-    SecondsReport, StageReport, UnfoldReport, UnitName, UnitReport, VertexReport,
+    ErrorReport, FitReport, JamReport, MapReport, PatternReport, PenetrationReport, ProfileReport,
+    RowReport, SecondsReport, SkinReport, StageReport, UnfoldReport, UnitName, UnitReport,
+    VertexReport,
 };
 use crate::run::VERSION;
 use crate::scene::EngineChoice;
 use crate::series::FrameFigures;
 use crate::{Report, Study};
+
+/// A vertex this close to a skin plane, in units of a, lies on it: wide enough for layers that keep a gap.
+const SKIN_TOLERANCE: f64 = 0.05;
 
 impl Study {
     pub(crate) fn report(&self, folded: &Folded, seconds: SecondsReport, files: &[&str]) -> Report {
@@ -30,7 +35,7 @@ impl Study {
             title: self.title.clone(),
             version: VERSION.to_owned(),
             length_unit: self.unit_name.to_owned(),
-            case: unit.case.name().to_owned(),
+            case: self.units.case_name(),
             rows: self.units.rows,
             columns: self.units.columns,
             unit: UnitReport {
@@ -40,6 +45,8 @@ impl Study {
                 side_pad: unit.side_pad,
                 centre_pad: unit.centre_pad,
             },
+            unequal_rows: self.row_reports(),
+            map: self.map_report(),
             profile: ProfileReport {
                 source: self.profile_source.clone(),
                 closed: self.profile.is_closed(),
@@ -58,7 +65,7 @@ impl Study {
             },
             pattern: self.pattern_report(),
             closed_form: self.closed_form.map(BoxReport::from),
-            compact: self.compact_report(&checked.compact),
+            compact: self.compact_report(&checked.compact, folded.motion.frames.last()),
             unfold: UnfoldReport {
                 method: self.unfolding.method().to_owned(),
                 asked: self.unfolding.asked.name().to_owned(),
@@ -97,7 +104,25 @@ impl Study {
         }
     }
 
-    fn compact_report(&self, measured: &FittedBox) -> CompactReport {
+    fn row_reports(&self) -> Option<Vec<RowReport>> {
+        let row = |unit: &Unit| RowReport {
+            case: unit.case.name().to_owned(),
+            height: unit.height,
+        };
+        let rows = self.units.row_units().iter().map(row);
+        (!self.units.has_equal_rows()).then(|| rows.collect())
+    }
+
+    fn map_report(&self) -> Option<MapReport> {
+        let layers = self.units.map_layers()?;
+        Some(MapReport {
+            layers,
+            stack_height: self.thickness.map(|thickness| layers as f64 * thickness),
+            waterbomb: self.units.waterbomb_box().map(BoxReport::from),
+        })
+    }
+
+    fn compact_report(&self, measured: &FittedBox, last: Option<&Frame>) -> CompactReport {
         let h = self.units.unit.height;
         let error = self.closed_form.map(|closed| {
             let error = relative_error(measured, closed.extents.into(), h);
@@ -113,7 +138,27 @@ impl Study {
             volume: measured.volume,
             rms_to_exact: measured.rms_to_exact / h,
             relative_error: error,
+            skin: last.and_then(|frame| self.skin_report(&frame.positions)),
         }
+    }
+
+    fn skin_report(&self, positions: &[DVec3]) -> Option<SkinReport> {
+        let units = &self.units;
+        let exact = units.compact();
+        let fit = RigidMotion::best_fit(positions, &exact);
+        let fitted: Vec<DVec3> = positions.iter().map(|&p| fit.apply(p)).collect();
+        let tolerance = SKIN_TOLERANCE * units.unit.flap;
+        let (measured, exact) = (
+            units.skin(&fitted, tolerance)?,
+            units.skin(&exact, tolerance)?,
+        );
+        Some(SkinReport {
+            tolerance: SKIN_TOLERANCE,
+            upper: measured.upper.into(),
+            lower: measured.lower.into(),
+            exact_upper: exact.upper.into(),
+            exact_lower: exact.lower.into(),
+        })
     }
 
     fn jam_report(&self, jam: &Jam) -> JamReport {
@@ -134,6 +179,7 @@ impl Study {
         let vertices = self.pattern.groups().into_iter().map(|g| VertexReport {
             kind: g.kind.name().to_owned(),
             degree: g.degree,
+            mountains_minus_valleys: g.mountains_minus_valleys,
             count: g.count,
             angle_sum_deg: g.angle_sum.to_degrees(),
             alternate_sums_deg: g.alternate_sums.map(|s| s.map(f64::to_degrees)),

@@ -122,12 +122,38 @@ pub struct SheetScene {
     pub columns: Option<i64>,
     /// The case; `auto` where left out.
     pub case: Option<CaseChoice>,
-    /// λ of case SII, in (0, 1).
+    /// λ of case SII, in (0, 1), or of a common flap.
     pub lambda: Option<f64>,
     /// d of case SII, 0 ≤ d < w1' = w/2 − λh/2; w1'/2 where left out.
     pub offset: Option<f64>,
     /// The side of Γ, seen along it, on which the flaps stand; `left` where left out.
     pub facing: Option<FacingChoice>,
+    /// What becomes of rows of unequal height, which a division other than `equal-length` gives; `refuse` where left out.
+    pub unequal: Option<UnequalChoice>,
+    /// How the flat sheet folds; `waterbomb` where left out.
+    pub folding: Option<FoldingChoice>,
+}
+
+/// What becomes of rows of unequal height.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum UnequalChoice {
+    /// They are refused.
+    Refuse,
+    /// Each takes E, T or S by its own w/h; refused, with the reason, where the creases of neighbours do not meet.
+    OwnCase,
+    /// All have one flap width, a = λ·min(h, w)/2 of the lowest row, with `lambda` in (0, 1], 0.9 where left out.
+    CommonFlap,
+}
+
+/// How the flat sheet folds.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum FoldingChoice {
+    /// Every unit folds: the paper's compact state.
+    Waterbomb,
+    /// The lines between units fold, columns first, then rows: one unit of Nr·Nc layers.
+    Map,
 }
 
 /// A case by name, or the one that w/h allows.
@@ -332,6 +358,8 @@ pub enum CreasesChoice {
     All,
     /// On the boundaries between rows.
     Rows,
+    /// Between the columns of a map.
+    Columns,
     /// Between flaps and tucks.
     Diagonals,
     /// Along corner and mid lines.

@@ -67,6 +67,8 @@ pub struct Study {
     pub engine: EngineChoice,
     /// How close layers may come, in units of h; none lets them pass through each other.
     pub contact_gap: Option<f64>,
+    /// Thickness of the sheet, where the scene gives it.
+    pub thickness: Option<f64>,
     /// The states t = 2k/frames are recorded.
     pub frames: usize,
     /// How the motion is checked.
@@ -94,14 +96,12 @@ impl Study {
         let divided = resolver.division(&curve)?;
         let division_seconds = started.elapsed().as_secs_f64();
         let (profile, division) = (divided.profile, divided.division);
-        let rows = division.points.len() - 1;
         let columns = resolver.count(
             "sheet.columns",
             scene.sheet.columns,
             built_in.map(|m| m.columns.of(resolver.case_asked_for())),
         )?;
-        let unit = resolver.unit(built_in, division.mean_length, columns)?;
-        let units = UnitSheet::new(unit, rows, columns).map_err(|e| resolver.pattern_error(&e))?;
+        let units = resolver.units(built_in, &division, columns)?;
         let facing = match scene.sheet.facing {
             Some(FacingChoice::Right) => Facing::Right,
             _ => Facing::Left,
@@ -113,7 +113,7 @@ impl Study {
             .deployed_angles(&division.points, facing)
             .map_err(|e| resolver.pattern_error(&e))?;
         let model = Model::new(&units.sheet, &resolver.material()?)?;
-        let steps = resolver.steps()?;
+        let steps = resolver.steps_of(&units)?;
         let mut schedule =
             Schedule::uniform(&units.sheet, &deployed_angles, units.compact_angles())?
                 .with_steps(&units.sheet, &steps)
@@ -126,9 +126,10 @@ impl Study {
             title: scene.title.clone().unwrap_or_else(|| source.stem()),
             unit_name: scene.profile.unit.unwrap_or_default().name(),
             pattern: units.check(),
-            closed_form: CompactBox::closed_form(&unit, rows, columns),
+            closed_form: units.closed_form(),
             engine: resolver.engine(),
-            contact_gap: resolver.contact_gap(&unit)?,
+            contact_gap: resolver.contact_gap(&units)?,
+            thickness: scene.material.thickness,
             frames: resolver.frames()?,
             collision: resolver.collision()?,
             film: resolver.film()?,
@@ -200,7 +201,7 @@ impl Resolver<'_> {
     }
 
     /// w and the case, from W, Nc and h. A built-in profile is as wide in every case as in case E.
-    fn unit(
+    pub(crate) fn unit(
         &self,
         built_in: Option<&ProfileModel>,
         height: f64,
@@ -208,21 +209,32 @@ impl Resolver<'_> {
     ) -> Result<Unit, StudyError> {
         let scene = &self.scene.sheet;
         let choice = scene.case.unwrap_or(CaseChoice::Auto);
-        let width = match (scene.width, choice) {
-            (Some(width), _) => self.positive("sheet.width", width)? / columns as f64,
-            (None, CaseChoice::E | CaseChoice::Auto) => height,
+        let width = self.unit_width(built_in, height, columns)?;
+        let case = choice.resolve(width, height, scene.lambda);
+        Unit::new(case, width, height, scene.lambda, scene.offset)
+            .map_err(|e| self.pattern_error(&e))
+    }
+
+    /// w, from W and Nc, or from the (mean) height of the rows.
+    pub(crate) fn unit_width(
+        &self,
+        built_in: Option<&ProfileModel>,
+        height: f64,
+        columns: usize,
+    ) -> Result<f64, StudyError> {
+        let scene = &self.scene.sheet;
+        match (scene.width, scene.case.unwrap_or(CaseChoice::Auto)) {
+            (Some(width), _) => Ok(self.positive("sheet.width", width)? / columns as f64),
+            (None, CaseChoice::E | CaseChoice::Auto) => Ok(height),
             (None, _) if let Some(model) = built_in => {
-                model.columns.e as f64 * height / columns as f64
+                Ok(model.columns.e as f64 * height / columns as f64)
             }
             (None, _) => {
                 let message =
                     "is missing: only case E makes the width from the rows' height, W = Nc·h";
-                return Err(self.fault("sheet.width", message));
+                Err(self.fault("sheet.width", message))
             }
-        };
-        let case = choice.resolve(width, height, scene.lambda);
-        Unit::new(case, width, height, scene.lambda, scene.offset)
-            .map_err(|e| self.pattern_error(&e))
+        }
     }
 
     fn material(&self) -> Result<Material, StudyError> {
@@ -263,7 +275,8 @@ impl Resolver<'_> {
     }
 
     /// The gap, in units of h; none without contact.
-    fn contact_gap(&self, unit: &Unit) -> Result<Option<f64>, StudyError> {
+    fn contact_gap(&self, units: &UnitSheet) -> Result<Option<f64>, StudyError> {
+        let height = units.unit.height;
         let motion = &self.scene.motion;
         let thickness = self.scene.material.thickness;
         let is_dynamic = self.engine() == EngineChoice::Dynamic;
@@ -274,7 +287,11 @@ impl Resolver<'_> {
         if is_dynamic || motion.contact == Some(false) {
             let given = [
                 ("motion.gap", motion.gap),
-                ("material.thickness", thickness),
+                // Of a map it is also what its stack is measured by.
+                (
+                    "material.thickness",
+                    thickness.filter(|_| units.map_layers().is_none()),
+                ),
             ];
             return match given.into_iter().find(|(_, value)| value.is_some()) {
                 Some((key, _)) => {
@@ -288,27 +305,28 @@ impl Resolver<'_> {
                 let message = "the gap follows from material.thickness; leave one of the two out";
                 return Err(self.fault("motion.gap", message));
             }
-            (_, Some(thickness)) => ("material.thickness", thickness / unit.height),
+            (_, Some(thickness)) => ("material.thickness", thickness / height),
             (gap, None) => ("motion.gap", gap.unwrap_or(Contact::default().gap)),
         };
-        let limit = unit.thinnest_part() / unit.height / LAYERS_OF_A_COLUMN;
+        let layers = units.map_layers().map_or(LAYERS_OF_A_COLUMN, |n| n as f64);
+        let limit = units.thinnest_part() / height / layers;
         if gap >= SMALLEST_GAP && gap <= limit {
             return Ok(Some(gap));
         }
         let scale = if key == "material.thickness" {
-            unit.height
+            height
         } else {
             1.0
         };
         let message = format!(
-            "must lie between {:e} and {:.6}, so that the {LAYERS_OF_A_COLUMN} layers of a column fit beside the thinnest part of the unit",
+            "must lie between {:e} and {:.6}, so that the {layers} layers on each other fit beside the thinnest part of the unit",
             SMALLEST_GAP * scale,
             limit * scale
         );
         Err(self.fault(key, message))
     }
 
-    fn steps(&self) -> Result<Vec<ScheduleStep>, StudyError> {
+    pub(crate) fn steps(&self) -> Result<Vec<ScheduleStep>, StudyError> {
         let step = |(index, step): (usize, &StepScene)| {
             let range = |key: &str, range: &Option<Vec<i64>>| match range.as_deref() {
                 None => Ok(None),
@@ -327,6 +345,7 @@ impl Resolver<'_> {
                 creases: match step.creases {
                     None | Some(CreasesChoice::All) => CreaseGroup::All,
                     Some(CreasesChoice::Rows) => CreaseGroup::Rows,
+                    Some(CreasesChoice::Columns) => CreaseGroup::Columns,
                     Some(CreasesChoice::Diagonals) => CreaseGroup::Diagonals,
                     Some(CreasesChoice::Verticals) => CreaseGroup::Verticals,
                     Some(CreasesChoice::Pads) => CreaseGroup::Pads,
@@ -461,7 +480,7 @@ impl Resolver<'_> {
         outputs
     }
 
-    fn pattern_error(&self, error: &PatternError) -> StudyError {
+    pub(crate) fn pattern_error(&self, error: &PatternError) -> StudyError {
         let key = match error {
             PatternError::CountOutOfRange {
                 name: "columns", ..
@@ -470,6 +489,7 @@ impl Resolver<'_> {
                 "sheet.rows"
             }
             PatternError::LambdaOutOfRange { .. }
+            | PatternError::CommonFlapOutOfRange { .. }
             | PatternError::KeyWithoutCase { key: "lambda", .. } => "sheet.lambda",
             PatternError::OffsetOutOfRange { .. } | PatternError::KeyWithoutCase { .. } => {
                 "sheet.offset"

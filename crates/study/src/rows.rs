@@ -1,0 +1,143 @@
+//! From the segments of the divided profile to the rows of the sheet: equal or of their own heights, folded unit by unit
+//! or like a map.
+
+use foldmotion_geometry::Division;
+use foldmotion_pattern::{
+    Folding, PatternError, ProfileModel, Unit, UnitSheet, clash_figure, common_flap, own_cases,
+};
+use foldmotion_solver::{CreaseGroup, Ease, ScheduleStep, Stage};
+
+use crate::profile::EQUAL_ROWS;
+use crate::scene::{CaseChoice, FoldingChoice, UnequalChoice};
+use crate::study::Resolver;
+use crate::{SceneSource, StudyError};
+
+/// λ of a common flap where the scene leaves it open: below 1, so that the lowest rows are split like the others.
+const COMMON_LAMBDA: f64 = 0.9;
+
+impl Resolver<'_> {
+    /// The sheet on the segments of `division`.
+    pub(crate) fn units(
+        &self,
+        built_in: Option<&ProfileModel>,
+        division: &Division,
+        columns: usize,
+    ) -> Result<UnitSheet, StudyError> {
+        let rows = self.row_units(built_in, division, columns)?;
+        let sheet = match self.folding() {
+            Folding::Waterbomb => UnitSheet::with_rows(&rows, columns),
+            Folding::Map => UnitSheet::map_folded(&rows, columns),
+        };
+        sheet.map_err(|e| match e {
+            PatternError::RowsClash { .. } => self.fault("sheet.unequal", e.to_string()),
+            e => self.pattern_error(&e),
+        })
+    }
+
+    fn folding(&self) -> Folding {
+        match self.scene.sheet.folding {
+            None | Some(FoldingChoice::Waterbomb) => Folding::Waterbomb,
+            Some(FoldingChoice::Map) => Folding::Map,
+        }
+    }
+
+    /// The unit of each row.
+    fn row_units(
+        &self,
+        built_in: Option<&ProfileModel>,
+        division: &Division,
+        columns: usize,
+    ) -> Result<Vec<Unit>, StudyError> {
+        let scene = &self.scene.sheet;
+        let height = division.mean_length;
+        if division.max_residual <= EQUAL_ROWS {
+            let unit = self.unit(built_in, height, columns)?;
+            return Ok(vec![unit; division.points.len() - 1]);
+        }
+        if !matches!(scene.case, None | Some(CaseChoice::Auto)) {
+            let message = "rows of unequal height take a case each; leave it out, or divide into equal lengths";
+            return Err(self.fault("sheet.case", message));
+        }
+        let width = self.unit_width(built_in, height, columns)?;
+        let heights: Vec<f64> = division
+            .points
+            .windows(2)
+            .map(|p| p[0].distance(p[1]))
+            .collect();
+        let rows = if scene.unequal == Some(UnequalChoice::CommonFlap) {
+            let lambda = scene.lambda.unwrap_or(COMMON_LAMBDA);
+            common_flap(width, &heights, lambda, scene.offset)
+        } else {
+            self.refuse_flap_keys()?;
+            own_cases(width, &heights)
+        };
+        rows.map_err(|e| self.pattern_error(&e))
+    }
+
+    /// λ and d are of case SII and of a common flap.
+    fn refuse_flap_keys(&self) -> Result<(), StudyError> {
+        let scene = &self.scene.sheet;
+        let given = [
+            ("sheet.lambda", scene.lambda.is_some()),
+            ("sheet.offset", scene.offset.is_some()),
+        ];
+        match given.into_iter().find(|&(_, given)| given) {
+            Some((key, _)) => {
+                let message = "rows in their own cases have none; leave it out, or set unequal = \"common-flap\"";
+                Err(self.fault(key, message))
+            }
+            None => Ok(()),
+        }
+    }
+
+    /// The steps of the scene, or of a map: first its columns fold, then the stack of them row by row.
+    pub(crate) fn steps_of(&self, units: &UnitSheet) -> Result<Vec<ScheduleStep>, StudyError> {
+        let steps = self.steps()?;
+        let is_timed = steps.iter().any(|step| step.stage == Stage::Fold);
+        let is_map = units.folding == Folding::Map;
+        if !is_map || is_timed || units.rows == 1 || units.columns == 1 {
+            return Ok(steps);
+        }
+        let half = |creases, from| ScheduleStep {
+            stage: Stage::Fold,
+            creases,
+            rows: None,
+            columns: None,
+            from,
+            to: from + 0.5,
+            ease: Ease::Linear,
+        };
+        let map = [
+            half(CreaseGroup::Columns, 0.0),
+            half(CreaseGroup::Rows, 0.5),
+        ];
+        Ok(steps.into_iter().chain(map).collect())
+    }
+}
+
+/// A drawing (SVG) of one column of the scene's sheet, each row with the creases of its own case, and marks where those
+/// of neighbouring rows do not meet (figure 10); none where the rows are equal.
+///
+/// # Errors
+/// As [`Study::resolve`](crate::Study::resolve), but for rows that clash.
+pub fn draw_clashes(source: &SceneSource) -> Result<Option<String>, StudyError> {
+    let scene = source.scene()?;
+    let resolver = Resolver {
+        source,
+        scene: &scene,
+    };
+    let curve = resolver.curve()?;
+    let division = resolver.division(&curve)?.division;
+    if division.max_residual <= EQUAL_ROWS {
+        return Ok(None);
+    }
+    let columns = resolver.count(
+        "sheet.columns",
+        scene.sheet.columns,
+        curve.model.map(|m| m.columns.e),
+    )?;
+    let rows = resolver.row_units(curve.model, &division, columns)?;
+    clash_figure(&rows)
+        .map(Some)
+        .map_err(|e| resolver.pattern_error(&e))
+}
