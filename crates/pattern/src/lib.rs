@@ -9,6 +9,7 @@
 
 mod clash_figure;
 mod closed_form;
+mod cut;
 mod error;
 mod fold_file;
 mod fold_read;
@@ -28,6 +29,10 @@ mod vertex_names;
 
 pub use clash_figure::clash_figure;
 pub use closed_form::CompactBox;
+pub use cut::{
+    CutError, CutLine, CutOptions, CutPage, CutPattern, LineClass, PageLayout, PageNumber,
+    PaperSize, Tiles, crease_pattern_fold, parse_millimetres, pattern_dxf, pattern_svg,
+};
 pub use error::PatternError;
 pub use fold_file::FoldHeader;
 pub use fold_read::{FoldError, FoldFile, FrameNumber};
