@@ -4,6 +4,8 @@ use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand};
 
+use crate::pattern::PatternArguments;
+
 /// Folds sheets of unfolded-waterbomb units from the deployed shape through the flat sheet into the compact stack,
 /// proves whether they cross themselves, and records the motion.
 #[derive(Debug, Parser)]
@@ -32,6 +34,15 @@ pub(crate) enum Command {
     ///
     /// Exit status: 0 done, 2 bad input, 3 the run failed or was interrupted; finished parts stay.
     Paper(PaperArguments),
+    /// Write the crease pattern for cutting and folding: SVG, DXF and FOLD in millimetres
+    ///
+    /// Mountain creases are red (#f00), valley creases blue (#00f), the outline to cut black (#000), each on a layer of
+    /// its own, creases before the outline, seen from the front. In SVG a crease's opacity is its fold angle over 180
+    /// degrees, as Origami Simulator reads it; its dashes are for the eye. DXF is R12, FOLD 1.2. Lengths are those of
+    /// the scene in profile.unit (the unit "unit" counts as 1 mm), unless --scale or --width is given.
+    ///
+    /// Exit status: 0 done, 2 bad input, 3 the files could not be written or interrupted.
+    Pattern(PatternArguments),
     /// List the built-in profiles
     Models,
     /// Write a commented scene to start from

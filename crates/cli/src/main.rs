@@ -2,6 +2,7 @@
 
 mod arguments;
 mod init;
+mod pattern;
 mod progress;
 
 use std::io::Write as _;
@@ -12,7 +13,10 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use arguments::{Arguments, CheckArguments, Command, PaperArguments, RunArguments};
 use clap::Parser as _;
 use foldmotion_study::paper::{PaperPart, paper};
-use foldmotion_study::{CheckOptions, SceneSource, Study, check_file, models, verify_file};
+use foldmotion_study::{
+    CheckOptions, PatternStudy, SceneSource, Study, check_file, models, verify_file,
+};
+use pattern::PatternArguments;
 use progress::Reporter;
 
 /// Set by Ctrl-C; work stops at its next report of progress.
@@ -45,6 +49,7 @@ fn main() -> ExitCode {
         Command::Run(run) => run_scene(&run),
         Command::Check(check) => check_motion(&check),
         Command::Paper(paper) => rebuild_paper(&paper),
+        Command::Pattern(pattern) => write_pattern(&pattern),
         Command::Models => list_models(),
         Command::Init { file } => init::write_scene(&file).map(|()| 0),
     };
@@ -151,6 +156,27 @@ fn rebuild_paper(arguments: &PaperArguments) -> Result<u8, Failure> {
         print(&format!(
             "{made} pieces made, {reused} reused\nresults in {page}\n"
         ))?;
+    }
+    Ok(0)
+}
+
+fn write_pattern(arguments: &PatternArguments) -> Result<u8, Failure> {
+    watch_for_interrupts()?;
+    let mut source = SceneSource::read(&arguments.scene)?;
+    for assignment in &arguments.set {
+        source.set(assignment)?;
+    }
+    let folder = arguments
+        .out
+        .clone()
+        .unwrap_or_else(|| PathBuf::from("out").join(source.stem()));
+    let summary =
+        PatternStudy::resolve(&source)?.write(&folder, &arguments.options(), &|_, _| {
+            !INTERRUPTED.load(Ordering::Relaxed)
+        })?;
+    if !arguments.quiet {
+        print(&summary)?;
+        print(&format!("pattern in {}\n", folder.display()))?;
     }
     Ok(0)
 }

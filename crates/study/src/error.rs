@@ -4,6 +4,7 @@ use std::io;
 use std::path::PathBuf;
 
 use foldmotion_check::CheckError;
+use foldmotion_pattern::CutError;
 use foldmotion_record::RecordError;
 use foldmotion_solver::SolverError;
 use thiserror::Error;
@@ -90,6 +91,9 @@ pub enum StudyError {
         /// Every name.
         known: String,
     },
+    /// The crease pattern cannot be put on paper as asked.
+    #[error("the pattern: {0}")]
+    Cut(#[from] CutError),
     /// The output folder or a file in it cannot be written.
     #[error("{}: {action}: {source}; choose another folder with --out, or free space", path.display())]
     Output {
@@ -141,6 +145,7 @@ impl StudyError {
             | Self::LargeMotion { .. }
             | Self::Value { .. }
             | Self::Part { .. }
+            | Self::Cut(_)
             | Self::Undivided { .. } => 2,
             _ => 3,
         }

@@ -10,6 +10,7 @@ mod digest;
 mod engine;
 mod error;
 pub mod paper;
+mod pattern_files;
 mod profile;
 mod refinement;
 pub mod report;
@@ -29,7 +30,10 @@ mod verify_file;
 pub use certificate::Certificate;
 pub use check_file::{CheckOptions, check_file};
 pub use error::StudyError;
-pub use foldmotion_pattern::{ProfileModel, models};
+pub use foldmotion_pattern::{
+    CutError, CutOptions, PaperSize, ProfileModel, models, parse_millimetres,
+};
+pub use pattern_files::{PatternFormat, PatternOptions, PatternScale, PatternStudy};
 pub use report::Report;
 pub use rows::draw_clashes;
 pub use run::{Phase, Progress};

@@ -26,7 +26,12 @@ use crate::{Report, Study};
 const SKIN_TOLERANCE: f64 = 0.05;
 
 impl Study {
-    pub(crate) fn report(&self, folded: &Folded, seconds: SecondsReport, files: &[&str]) -> Report {
+    pub(crate) fn report(
+        &self,
+        folded: &Folded,
+        seconds: SecondsReport,
+        files: &[String],
+    ) -> Report {
         let unit = &self.units.unit;
         let Folded {
             computed, checked, ..
@@ -100,7 +105,7 @@ impl Study {
                 instruction_set: std::env::consts::ARCH.to_owned(),
             },
             seconds,
-            files: files.iter().map(|&f| f.to_owned()).collect(),
+            files: files.to_vec(),
         }
     }
 

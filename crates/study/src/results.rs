@@ -16,6 +16,11 @@ const NAMES: &[&str] = &[
     "plots.svg",
 ];
 
+/// Whether a run may write a file of this name.
+fn is_of_a_run(name: &str) -> bool {
+    NAMES.contains(&name)
+}
+
 /// The name under which the report stands.
 pub(crate) const REPORT: &str = "report.json";
 
@@ -27,23 +32,23 @@ pub(crate) const CERTIFICATE: &str = "certificate.json";
 pub(crate) struct Results {
     folder: PathBuf,
     temporary: PathBuf,
-    /// The files that may be written; those there already are replaced or removed.
-    names: &'static [&'static str],
+    /// Whether a file of this name may be written; those there already are replaced or removed.
+    is_ours: fn(&str) -> bool,
     /// The one that speaks of the others, moved into place last.
     last: &'static str,
-    written: Vec<&'static str>,
+    written: Vec<String>,
 }
 
 impl Results {
     /// Opens the temporary folder of a run.
     pub(crate) fn create(folder: &Path) -> Result<Self, StudyError> {
-        Self::of(folder, NAMES, REPORT)
+        Self::of(folder, is_of_a_run, REPORT)
     }
 
-    /// Opens the temporary folder of the results `names`, of which `last` speaks of the others.
+    /// Opens the temporary folder of the results whose names `is_ours` knows, of which `last` speaks of the others.
     pub(crate) fn of(
         folder: &Path,
-        names: &'static [&'static str],
+        is_ours: fn(&str) -> bool,
         last: &'static str,
     ) -> Result<Self, StudyError> {
         if folder.exists() && !folder.is_dir() {
@@ -69,7 +74,7 @@ impl Results {
         Ok(Self {
             folder: folder.to_owned(),
             temporary,
-            names,
+            is_ours,
             last,
             written: Vec::new(),
         })
@@ -84,7 +89,7 @@ impl Results {
     /// Writes one file through `write`.
     pub(crate) fn write(
         &mut self,
-        name: &'static str,
+        name: &str,
         write: impl FnOnce(&mut BufWriter<File>) -> Result<(), StudyError>,
     ) -> Result<(), StudyError> {
         let path = self.temporary.join(name);
@@ -92,7 +97,7 @@ impl Results {
         let mut out = BufWriter::new(File::create(&path).map_err(failed)?);
         write(&mut out)?;
         out.flush().map_err(failed)?;
-        self.written.push(name);
+        self.written.push(name.to_owned());
         Ok(())
     }
 
@@ -102,7 +107,7 @@ impl Results {
     }
 
     /// The names written so far.
-    pub(crate) fn written(&self) -> &[&'static str] {
+    pub(crate) fn written(&self) -> &[String] {
         &self.written
     }
 
@@ -111,9 +116,8 @@ impl Results {
         let folder = &self.folder;
         fs::create_dir_all(folder).map_err(|e| output_error(folder, "cannot be made", e))?;
         // From here on a report in the folder would speak of other files than those beside it.
-        for name in std::iter::once(&self.last)
-            .chain(self.names.iter().filter(|n| !self.written.contains(n)))
-        {
+        let stale = self.stale()?;
+        for name in std::iter::once(self.last).chain(stale.iter().map(String::as_str)) {
             match fs::remove_file(folder.join(name)) {
                 Err(e) if e.kind() != io::ErrorKind::NotFound => {
                     return Err(output_error(&folder.join(name), "cannot be replaced", e));
@@ -121,14 +125,30 @@ impl Results {
                 _ => {}
             }
         }
-        let (report, others): (Vec<&str>, Vec<&str>) =
-            self.written.iter().partition(|&&n| n == self.last);
+        let (report, others): (Vec<&String>, Vec<&String>) =
+            self.written.iter().partition(|&n| n == self.last);
         for name in others.into_iter().chain(report) {
             let to = folder.join(name);
             fs::rename(self.temporary.join(name), &to)
                 .map_err(|e| output_error(&to, "cannot be moved into place", e))?;
         }
         Ok(())
+    }
+
+    /// Files of earlier results that these do not replace.
+    fn stale(&self) -> Result<Vec<String>, StudyError> {
+        let unread = |e| output_error(&self.folder, "cannot be read", e);
+        let mut stale = Vec::new();
+        for entry in fs::read_dir(&self.folder).map_err(unread)? {
+            // A name that is no UTF-8 is none of ours.
+            let Ok(name) = entry.map_err(unread)?.file_name().into_string() else {
+                continue;
+            };
+            if (self.is_ours)(&name) && !self.written.contains(&name) {
+                stale.push(name);
+            }
+        }
+        Ok(stale)
     }
 }
 

@@ -107,6 +107,20 @@ impl LengthUnit {
             Self::Nm => "nm",
         }
     }
+
+    /// Its length in millimetres; none for the unit that has no physical length.
+    pub fn millimetres(self) -> Option<f64> {
+        match self {
+            Self::Unit => None,
+            Self::In => Some(25.4),
+            Self::Pt => Some(25.4 / 72.0),
+            Self::M => Some(1e3),
+            Self::Cm => Some(10.0),
+            Self::Mm => Some(1.0),
+            Self::Um => Some(1e-3),
+            Self::Nm => Some(1e-6),
+        }
+    }
 }
 
 /// `[sheet]`.

@@ -14,6 +14,7 @@ use foldmotion_solver::{
 };
 use glam::DVec3;
 
+use crate::profile::DividedProfile;
 use crate::scene::{
     CameraChoice, CaseChoice, CreasesChoice, DivisionChoice, EaseChoice, EngineChoice,
     FacingChoice, OutputChoice, StageChoice, StepScene,
@@ -90,18 +91,13 @@ impl Study {
             source,
             scene: &scene,
         };
-        let curve = resolver.curve()?;
-        let built_in = curve.model;
-        let started = Instant::now();
-        let divided = resolver.division(&curve)?;
-        let division_seconds = started.elapsed().as_secs_f64();
+        let ResolvedSheet {
+            profile_source,
+            divided,
+            division_seconds,
+            units,
+        } = resolver.sheet()?;
         let (profile, division) = (divided.profile, divided.division);
-        let columns = resolver.count(
-            "sheet.columns",
-            scene.sheet.columns,
-            built_in.map(|m| m.columns.of(resolver.case_asked_for())),
-        )?;
-        let units = resolver.units(built_in, &division, columns)?;
         let facing = match scene.sheet.facing {
             Some(FacingChoice::Right) => Facing::Right,
             _ => Facing::Left,
@@ -123,7 +119,7 @@ impl Study {
             schedule = schedule.with_unfold_path(&units.sheet, path)?;
         }
         Ok(Self {
-            title: scene.title.clone().unwrap_or_else(|| source.stem()),
+            title: resolver.title(),
             unit_name: scene.profile.unit.unwrap_or_default().name(),
             pattern: units.check(),
             closed_form: units.closed_form(),
@@ -135,7 +131,7 @@ impl Study {
             film: resolver.film()?,
             outputs: resolver.outputs(),
             profile,
-            profile_source: curve.source,
+            profile_source,
             division,
             division_method: divided.method,
             fit: divided.fit,
@@ -149,6 +145,14 @@ impl Study {
     }
 }
 
+/// Γ divided and the sheet of units: what is folded, before anything says how.
+pub(crate) struct ResolvedSheet {
+    profile_source: String,
+    divided: DividedProfile,
+    division_seconds: f64,
+    pub(crate) units: UnitSheet,
+}
+
 /// Reads values out of the scene and turns what is wrong with them into errors that name their line.
 pub(crate) struct Resolver<'a> {
     pub(crate) source: &'a SceneSource,
@@ -156,6 +160,32 @@ pub(crate) struct Resolver<'a> {
 }
 
 impl Resolver<'_> {
+    /// The title; the file's name where the scene has none.
+    pub(crate) fn title(&self) -> String {
+        let title = self.scene.title.clone();
+        title.unwrap_or_else(|| self.source.stem())
+    }
+
+    /// Divides the profile and lays out the sheet.
+    pub(crate) fn sheet(&self) -> Result<ResolvedSheet, StudyError> {
+        let curve = self.curve()?;
+        let started = Instant::now();
+        let divided = self.division(&curve)?;
+        let division_seconds = started.elapsed().as_secs_f64();
+        let columns = self.count(
+            "sheet.columns",
+            self.scene.sheet.columns,
+            curve.model.map(|m| m.columns.of(self.case_asked_for())),
+        )?;
+        let units = self.units(curve.model, &divided.division, columns)?;
+        Ok(ResolvedSheet {
+            profile_source: curve.source,
+            divided,
+            division_seconds,
+            units,
+        })
+    }
+
     pub(crate) fn fault(&self, key: &str, message: impl Into<String>) -> StudyError {
         self.source.value_error(key, message.into())
     }

@@ -6,6 +6,9 @@ use super::{CutError, CutLine, CutPage, CutPattern, PageNumber};
 
 /// The most pages of a pattern.
 const MOST_PAGES: usize = 1000;
+/// A line along the side of a page and no farther from it than this, mm, lies on it: both pages of a seam draw it,
+/// whatever the rounding.
+const SEAM: f64 = 1e-6;
 /// Half the length of a tick across the line where two pages meet, mm.
 const TICK: f64 = 3.0;
 
@@ -163,7 +166,7 @@ impl<'a> Tiles<'a> {
 
 /// The part of a line inside a box, in the same direction; none where it has no length there.
 ///
-/// Ends that lie inside are kept bit for bit; new ends lie exactly on the side of the box that cuts the line.
+/// A line along a side of the box and within [`SEAM`] of it is inside. Ends that lie inside are kept bit for bit; new ends lie exactly on the side of the box that cuts the line.
 /// Source: Liang & Barsky 1984, "A new concept and method for line clipping".
 fn clip([from, to]: [DVec2; 2], low: DVec2, high: DVec2) -> Option<[DVec2; 2]> {
     let along = to - from;
@@ -171,7 +174,7 @@ fn clip([from, to]: [DVec2; 2], low: DVec2, high: DVec2) -> Option<[DVec2; 2]> {
     for axis in 0..2 {
         let (start, step) = (from[axis], along[axis]);
         if step == 0.0 {
-            if start < low[axis] || start > high[axis] {
+            if start < low[axis] - SEAM || start > high[axis] + SEAM {
                 return None;
             }
             continue;

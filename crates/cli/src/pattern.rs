@@ -1,0 +1,168 @@
+//! `foldmotion pattern`: the crease pattern for cutting and folding.
+
+use std::path::PathBuf;
+
+use clap::{Args, ValueEnum};
+use foldmotion_study::{
+    CutError, CutOptions, PaperSize, PatternFormat, PatternOptions, PatternScale, parse_millimetres,
+};
+
+/// `foldmotion pattern`.
+#[derive(Debug, Args)]
+pub(crate) struct PatternArguments {
+    /// The scene file
+    pub(crate) scene: PathBuf,
+    /// The folder of results; out/<scene's name> where left out
+    #[arg(long)]
+    pub(crate) out: Option<PathBuf>,
+    /// Override a key of the scene, such as sheet.columns=5
+    #[arg(long = "set", value_name = "KEY=VALUE")]
+    pub(crate) set: Vec<String>,
+    /// The files to write
+    #[arg(
+        long,
+        value_name = "LIST",
+        value_delimiter = ',',
+        default_value = "svg,dxf,fold"
+    )]
+    formats: Vec<FormatChoice>,
+    /// Make it this many times the size in the scene; 1 is life size
+    #[arg(
+        long,
+        value_name = "X",
+        allow_negative_numbers = true,
+        conflicts_with = "width"
+    )]
+    scale: Option<f64>,
+    /// Make the sheet this wide (W): a length with mm, cm, m, in or pt, such as 200mm
+    #[arg(long, value_name = "LENGTH", value_parser = parse_millimetres, allow_hyphen_values = true)]
+    width: Option<f64>,
+    /// Write pages of this paper too, to be glued together: A0 to A6, letter, legal, tabloid, each with -landscape for
+    /// the long side across, or WIDTHxHEIGHT such as 300x600mm
+    #[arg(long, value_name = "PAPER")]
+    sheet: Option<PaperSize>,
+    /// White space around the pattern and on every side of a page
+    #[arg(long, value_name = "LENGTH", value_parser = parse_millimetres, default_value = "10mm", allow_hyphen_values = true)]
+    margin: f64,
+    /// How far neighbouring pages repeat each other, to be glued on each other
+    #[arg(long, value_name = "LENGTH", value_parser = parse_millimetres, default_value = "10mm", allow_hyphen_values = true)]
+    overlap: f64,
+    /// Dashes of mountain or valley lines, in mm: dash and gap in turn, such as mountain=6,2,2,2; mountain=none for
+    /// solid lines. By the height of a row where left out
+    #[arg(long, value_name = "CLASS=LIST", value_parser = parse_dashes)]
+    dash: Vec<Dashes>,
+    /// The width of the lines; a 2000th of the page's diagonal, at least 0.1 mm, where left out
+    #[arg(long, value_name = "LENGTH", value_parser = parse_millimetres, allow_hyphen_values = true)]
+    line_width: Option<f64>,
+    /// Keep every crease between two vertices a line of its own; those in one straight line are joined otherwise
+    #[arg(long)]
+    segments: bool,
+    /// Draw the lines too that cut facets into triangles (they are no creases)
+    #[arg(long)]
+    facets: bool,
+    /// Print nothing
+    #[arg(long)]
+    pub(crate) quiet: bool,
+}
+
+impl PatternArguments {
+    /// What the study is asked to write.
+    pub(crate) fn options(&self) -> PatternOptions {
+        let scale = match self.width {
+            Some(width) => PatternScale::Width(width),
+            None => PatternScale::Factor(self.scale.unwrap_or(1.0)),
+        };
+        let dashes = |class| {
+            let given = self.dash.iter().rev().find(|d| d.class == class);
+            given.map(|d| d.lengths.clone())
+        };
+        PatternOptions {
+            formats: self.formats.iter().map(|f| f.format()).collect(),
+            scale,
+            paper: self.sheet,
+            overlap: self.overlap,
+            lines: CutOptions {
+                margin: self.margin,
+                keeps_segments: self.segments,
+                draws_facets: self.facets,
+                mountain_dashes: dashes(DashedClass::Mountain),
+                valley_dashes: dashes(DashedClass::Valley),
+                stroke_width: self.line_width,
+                ..CutOptions::new(1.0)
+            },
+        }
+    }
+}
+
+/// A file format by name.
+#[derive(Debug, Clone, Copy, ValueEnum)]
+enum FormatChoice {
+    Svg,
+    Dxf,
+    Fold,
+}
+
+impl FormatChoice {
+    fn format(self) -> PatternFormat {
+        match self {
+            Self::Svg => PatternFormat::Svg,
+            Self::Dxf => PatternFormat::Dxf,
+            Self::Fold => PatternFormat::Fold,
+        }
+    }
+}
+
+/// The lines that have dashes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum DashedClass {
+    Mountain,
+    Valley,
+}
+
+/// `--dash`.
+#[derive(Debug, Clone)]
+struct Dashes {
+    class: DashedClass,
+    /// mm; empty for solid lines.
+    lengths: Vec<f64>,
+}
+
+fn parse_dashes(text: &str) -> Result<Dashes, String> {
+    let need = "write mountain=LIST or valley=LIST, such as mountain=6,2,2,2 or valley=none";
+    let (class, list) = text.split_once('=').ok_or(need)?;
+    let class = match class {
+        "mountain" => DashedClass::Mountain,
+        "valley" => DashedClass::Valley,
+        _ => return Err(need.to_owned()),
+    };
+    if list == "none" {
+        let lengths = Vec::new();
+        return Ok(Dashes { class, lengths });
+    }
+    let lengths: Result<_, CutError> = list.split(',').map(parse_millimetres).collect();
+    let lengths = lengths.map_err(|e| e.to_string())?;
+    Ok(Dashes { class, lengths })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn dashes_are_read_class_by_class() {
+        let dashes = parse_dashes("mountain=6,2,0.5cm,2").unwrap();
+        assert_eq!(dashes.class, DashedClass::Mountain);
+        assert_eq!(dashes.lengths, [6.0, 2.0, 5.0, 2.0]);
+        assert!(parse_dashes("valley=none").unwrap().lengths.is_empty());
+        for text in [
+            "",
+            "mountain",
+            "cut=1,2",
+            "valley=",
+            "valley=1,,2",
+            "valley=a,b",
+        ] {
+            assert!(parse_dashes(text).is_err(), "{text}");
+        }
+    }
+}

@@ -1,0 +1,193 @@
+//! `foldmotion pattern` as a user meets it.
+
+#![expect(
+    clippy::unwrap_used,
+    reason = "a test stops where something is missing"
+)]
+
+use std::path::Path;
+use std::process::{Command, Output};
+
+fn pattern(folder: &Path, arguments: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_foldmotion"))
+        .arg("pattern")
+        .args(arguments)
+        .current_dir(folder)
+        .output()
+        .unwrap()
+}
+
+fn scene(name: &str) -> String {
+    format!("{}/../../scenes/{name}.toml", env!("CARGO_MANIFEST_DIR"))
+}
+
+fn text(bytes: &[u8]) -> String {
+    String::from_utf8(bytes.to_vec()).unwrap()
+}
+
+fn names(folder: &Path) -> Vec<String> {
+    let entries = std::fs::read_dir(folder).unwrap();
+    let mut names: Vec<String> = entries
+        .map(|e| e.unwrap().file_name().into_string().unwrap())
+        .collect();
+    names.sort_unstable();
+    names
+}
+
+#[test]
+fn the_pattern_of_every_case_is_written_in_the_size_of_its_scene() {
+    let home = tempfile::tempdir().unwrap();
+    for name in [
+        "shelter-e",
+        "shelter-t",
+        "shelter-s",
+        "shelter-sii",
+        "shelter-tall-plain",
+    ] {
+        let output = pattern(home.path(), &[&scene(name), "--margin", "0"]);
+        assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
+        let folder = home.path().join("out").join(name);
+        assert_eq!(
+            names(&folder),
+            ["pattern.dxf", "pattern.fold", "pattern.svg"]
+        );
+        let svg = std::fs::read_to_string(folder.join("pattern.svg")).unwrap();
+        assert!(
+            svg.contains("1 m of the scene is 1000 mm on paper"),
+            "{name}"
+        );
+        // h = 1 m, seven rows, W = 5 m; rows differ by what the division leaves.
+        assert!(
+            svg.contains("width=\"7000mm\" height=\"5000mm\""),
+            "{name}: {}",
+            &svg[..400]
+        );
+        let fold = std::fs::read(folder.join("pattern.fold")).unwrap();
+        let fold: serde_json::Value = serde_json::from_slice(&fold).unwrap();
+        assert_eq!(
+            (&fold["frame_unit"], &fold["file_spec"]),
+            (&"mm".into(), &1.2.into())
+        );
+    }
+}
+
+#[test]
+fn every_unit_of_length_becomes_millimetres() {
+    let home = tempfile::tempdir().unwrap();
+    let units = [
+        ("cm", "70mm", "10 mm"),
+        ("mm", "7mm", "1 mm"),
+        ("in", "177.8mm", "25.4 mm"),
+        ("pt", "2.469444444mm", "0.352777778 mm"),
+        ("unit", "7mm", "no physical length, is 1 mm"),
+    ];
+    for (unit, width, note) in units {
+        let set = format!("profile.unit={unit}");
+        let arguments = [
+            &scene("shelter-e"),
+            "--set",
+            &set,
+            "--margin=0",
+            "--out=here",
+            "--formats=svg",
+        ];
+        let output = pattern(home.path(), &arguments);
+        assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
+        let svg = std::fs::read_to_string(home.path().join("here/pattern.svg")).unwrap();
+        assert!(
+            svg.contains(&format!("width=\"{width}\"")),
+            "{unit}: {}",
+            &svg[..400]
+        );
+        assert!(
+            svg.contains(note) && text(&output.stdout).contains(note),
+            "{unit}"
+        );
+    }
+}
+
+#[test]
+fn pages_come_if_asked_and_go_when_the_next_pattern_has_none() {
+    let home = tempfile::tempdir().unwrap();
+    let shelter = scene("shelter-sii");
+    let folder = home.path().join("here");
+    let common = [shelter.as_str(), "--out", "here", "--width", "300mm"];
+    let with = |more: &[&str]| {
+        let output = pattern(home.path(), &[&common, more].concat());
+        assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
+        text(&output.stdout)
+    };
+    let summary = with(&["--sheet", "A4", "--formats", "svg,dxf"]);
+    // 420 mm x 300 mm on windows of 190 mm x 277 mm that overlap by 10 mm.
+    assert!(
+        summary.contains("420.000 mm x 300.000 mm") && summary.contains("2 x 3 (rows x columns)")
+    );
+    let pages = |ending: &str| {
+        let page = |n: &String| n.starts_with("pattern-") && n.ends_with(ending);
+        names(&folder).iter().filter(|n| page(n)).count()
+    };
+    assert_eq!((pages(".svg"), pages(".dxf")), (6, 6));
+    std::fs::write(folder.join("pattern-notes.svg"), "mine").unwrap();
+    assert_eq!(with(&["--formats", "fold", "--quiet"]), "");
+    assert_eq!(names(&folder), ["pattern-notes.svg", "pattern.fold"]);
+}
+
+#[test]
+fn the_same_scene_gives_the_same_bytes() {
+    let home = tempfile::tempdir().unwrap();
+    let shelter = scene("shelter-s");
+    for out in ["a", "b"] {
+        let output = pattern(
+            home.path(),
+            &[&shelter, "--out", out, "--scale", "0.05", "--sheet", "a3"],
+        );
+        assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
+    }
+    let (a, b) = (home.path().join("a"), home.path().join("b"));
+    assert_eq!(names(&a), names(&b));
+    for name in names(&a) {
+        assert_eq!(
+            std::fs::read(a.join(&name)).unwrap(),
+            std::fs::read(b.join(&name)).unwrap()
+        );
+    }
+}
+
+#[test]
+fn bad_input_is_status_2_and_writes_nothing() {
+    let home = tempfile::tempdir().unwrap();
+    let shelter = scene("shelter-e");
+    let cases: &[&[&str]] = &[
+        &["--scale", "0"],
+        &["--scale", "-1"],
+        &["--scale", "nan"],
+        &["--scale", "1e-9"],
+        &["--scale", "1", "--width", "1m"],
+        &["--width", "-3mm"],
+        &["--width", "wide"],
+        &["--formats", "svg,png"],
+        &["--formats", ""],
+        &["--sheet", "A9"],
+        &["--sheet", "10x10mm"],
+        &["--sheet", "A4", "--margin", "110"],
+        &["--sheet", "A4", "--overlap", "100"],
+        &["--sheet", "30x30mm"],
+        &["--margin", "-1"],
+        &["--dash", "cut=1,2"],
+        &["--dash", "valley=1,2,3"],
+        &["--line-width", "0"],
+        &["--set", "sheet.columns=0"],
+        &["--set", "sheet"],
+    ];
+    for &case in cases {
+        let output = pattern(home.path(), &[&[shelter.as_str()], case].concat());
+        let error = text(&output.stderr);
+        assert_eq!(output.status.code(), Some(2), "{case:?}: {error}");
+        assert!(!error.contains("panicked") && !error.is_empty(), "{case:?}");
+        assert!(names(home.path()).is_empty(), "{case:?}");
+    }
+    assert_eq!(
+        pattern(home.path(), &["missing.toml"]).status.code(),
+        Some(2)
+    );
+}

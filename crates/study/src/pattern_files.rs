@@ -1,0 +1,246 @@
+//! The crease pattern of a scene as files for cutting, printing and Origami Simulator.
+
+use std::fmt::Write as _;
+use std::io::Write as _;
+use std::path::Path;
+
+use foldmotion_pattern::{
+    CutOptions, CutPattern, LineClass, PageLayout, PaperSize, Tiles, UnitSheet, crease_pattern_fold,
+};
+
+use crate::results::{Results, write_error};
+use crate::run::VERSION;
+use crate::scene::LengthUnit;
+use crate::study::Resolver;
+use crate::{Phase, Progress, SceneSource, StudyError};
+
+/// The file moved into place last.
+const PATTERN_SVG: &str = "pattern.svg";
+/// Ends of lines closer than this, in SVG units, are one vertex for Origami Simulator unless it is told otherwise.
+const ORIGAMI_SIMULATOR_TOLERANCE: f64 = 3.0;
+
+/// A kind of pattern file.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum PatternFormat {
+    /// SVG, in layers.
+    Svg,
+    /// DXF R12, in layers.
+    Dxf,
+    /// FOLD 1.2.
+    Fold,
+}
+
+/// How large the pattern is made.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum PatternScale {
+    /// This many times the size in the scene; 1 is life size.
+    Factor(f64),
+    /// So that the sheet is this wide (W), mm.
+    Width(f64),
+}
+
+/// What is written, and how.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PatternOptions {
+    /// The files to write.
+    pub formats: Vec<PatternFormat>,
+    /// How large.
+    pub scale: PatternScale,
+    /// The paper of the pages; none for the whole pattern alone.
+    pub paper: Option<PaperSize>,
+    /// How far pages repeat each other, mm.
+    pub overlap: f64,
+    /// Lines, dashes and margin; `title`, `note` and `scale` are set from the scene.
+    pub lines: CutOptions,
+}
+
+/// The sheet of a scene: all that its crease pattern needs.
+#[derive(Debug, Clone)]
+pub struct PatternStudy {
+    /// The title of the scene.
+    pub title: String,
+    /// The scene's unit of length.
+    pub unit: LengthUnit,
+    /// The sheet.
+    pub units: UnitSheet,
+}
+
+impl PatternStudy {
+    /// Resolves profile, division and sheet of a scene; what says how it moves is only read.
+    ///
+    /// # Errors
+    /// Every unusable value, with file, line, key, value and remedy.
+    pub fn resolve(source: &SceneSource) -> Result<Self, StudyError> {
+        let scene = source.scene()?;
+        let resolver = Resolver {
+            source,
+            scene: &scene,
+        };
+        Ok(Self {
+            title: resolver.title(),
+            unit: scene.profile.unit.unwrap_or_default(),
+            units: resolver.sheet()?.units,
+        })
+    }
+
+    /// Writes pattern.svg, pattern.dxf and pattern.fold, and pattern-ROW-COLUMN.svg and .dxf for pages, into `folder`;
+    /// pattern files of earlier calls are replaced, other files stay. Returns what was written, for the screen.
+    ///
+    /// # Errors
+    /// [`StudyError`]; the folder is then as it was.
+    pub fn write(
+        &self,
+        folder: &Path,
+        options: &PatternOptions,
+        progress: Progress<'_>,
+    ) -> Result<String, StudyError> {
+        let lines = self.line_options(options);
+        let angles = self.units.compact_angles();
+        let pattern = CutPattern::new(&self.units.sheet, angles, &lines)?;
+        let layout = |PaperSize(paper)| PageLayout {
+            paper,
+            margin: lines.margin,
+            overlap: options.overlap,
+        };
+        let tiles = options.paper.map(|paper| pattern.tiles(layout(paper)));
+        let tiles = tiles.transpose()?;
+        let fold = crease_pattern_fold(
+            &self.units.sheet,
+            angles,
+            &lines,
+            &format!("foldmotion {VERSION}"),
+        )?;
+        let mut results = Results::of(folder, is_pattern_file, PATTERN_SVG)?;
+        let mut save = |name: &str, text: &str| {
+            results.write(name, |out| {
+                out.write_all(text.as_bytes())
+                    .map_err(|e| write_error(folder, name, e))
+            })
+        };
+        let has = |format| options.formats.contains(&format);
+        if has(PatternFormat::Fold) {
+            save("pattern.fold", &fold)?;
+        }
+        let whole = std::iter::once(pattern.whole());
+        let pages = whole.chain(tiles.iter().flat_map(Tiles::pages));
+        let count = 1 + tiles.as_ref().map_or(0, |t| t.counts().iter().product());
+        for (index, page) in pages.enumerate() {
+            if !progress(Phase::Record, index as f64 / count as f64) {
+                return Err(StudyError::Interrupted);
+            }
+            let stem = match page.number {
+                None => "pattern".to_owned(),
+                Some(number) => format!("pattern-{}-{}", number.row + 1, number.column + 1),
+            };
+            if has(PatternFormat::Svg) {
+                save(&format!("{stem}.svg"), &page.svg())?;
+            }
+            if has(PatternFormat::Dxf) {
+                save(&format!("{stem}.dxf"), &page.dxf())?;
+            }
+        }
+        results.publish()?;
+        let pages = tiles.map(|tiles| tiles.counts());
+        Ok(self.summary(&pattern, pages, &lines.note))
+    }
+
+    /// The options with title, scale and note.
+    fn line_options(&self, options: &PatternOptions) -> CutOptions {
+        let natural = self.unit.millimetres();
+        let life_size = natural.unwrap_or(1.0);
+        let width = self.units.unit.width * self.units.columns as f64;
+        let scale = match options.scale {
+            PatternScale::Factor(factor) => factor * life_size,
+            PatternScale::Width(millimetres) => millimetres / width,
+        };
+        let of_scene = match natural {
+            Some(_) => format!("1 {} of the scene", self.unit.name()),
+            None => "1 unit of the scene, which has no physical length,".to_owned(),
+        };
+        CutOptions {
+            title: self.title.clone(),
+            // To 1e-9 mm, as the lines themselves.
+            note: format!("{of_scene} is {} mm on paper", (scale * 1e9).round() / 1e9),
+            scale,
+            ..options.lines.clone()
+        }
+    }
+
+    fn summary(&self, pattern: &CutPattern, pages: Option<[usize; 2]>, note: &str) -> String {
+        let size = pattern.size;
+        let mut text = format!(
+            "{}: case {}, {} x {} units; {:.3} mm x {:.3} mm; {note}\n",
+            self.title,
+            self.units.unit.case.name(),
+            self.units.rows,
+            self.units.columns,
+            size.x,
+            size.y
+        );
+        for class in LineClass::ALL {
+            let count = pattern.count(class);
+            if count > 0 {
+                let length = pattern.length(class);
+                let name = class.name();
+                let _ = writeln!(text, "{name:<9}{count:>7} lines {length:>15.3} mm");
+            }
+        }
+        let _ = writeln!(text, "pen up {:>23.3} mm", pattern.travel());
+        if let Some([columns, rows]) = pages {
+            let _ = writeln!(text, "pages    {rows:>7} x {columns} (rows x columns)");
+        }
+        if pattern.shortest_edge < ORIGAMI_SIMULATOR_TOLERANCE {
+            let _ = writeln!(
+                text,
+                "the shortest line is {:.3} mm: set Origami Simulator's vertex merge tolerance below it before \
+                 importing pattern.svg, or open pattern.fold there",
+                pattern.shortest_edge
+            );
+        }
+        text
+    }
+}
+
+/// Whether a file is one that [`PatternStudy::write`] may have written.
+fn is_pattern_file(name: &str) -> bool {
+    let Some(rest) = name.strip_prefix("pattern") else {
+        return false;
+    };
+    if matches!(rest, ".svg" | ".dxf" | ".fold") {
+        return true;
+    }
+    let page = rest
+        .strip_suffix(".svg")
+        .or_else(|| rest.strip_suffix(".dxf"));
+    let numbers = page.and_then(|page| page.strip_prefix('-')?.split_once('-'));
+    let is_number = |text: &str| !text.is_empty() && text.bytes().all(|b| b.is_ascii_digit());
+    numbers.is_some_and(|(row, column)| is_number(row) && is_number(column))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn pages_and_patterns_are_known_by_name_and_nothing_else_is() {
+        for name in [
+            "pattern.svg",
+            "pattern.dxf",
+            "pattern.fold",
+            "pattern-1-12.svg",
+        ] {
+            assert!(is_pattern_file(name), "{name}");
+        }
+        for name in [
+            "pattern.png",
+            "pattern-1.svg",
+            "pattern-1-2.fold",
+            "pattern-a-b.svg",
+            "pattern-1-2-3.svg",
+            "my-pattern.svg",
+            "pattern--.svg",
+        ] {
+            assert!(!is_pattern_file(name), "{name}");
+        }
+    }
+}
