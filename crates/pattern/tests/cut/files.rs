@@ -83,7 +83,11 @@ fn joined_lines_are_fewer_and_as_long_and_none_continues_another() {
             assert!(found[layer].0 <= wanted[layer].0, "{layer}");
         }
         assert_eq!(found["cut"].0, 4);
-        assert!(2 * found["mountain"].0 < wanted["mountain"].0);
+        assert!(found["mountain"].0 < wanted["mountain"].0);
+        if units.unit.case == Case::E {
+            // 6 row boundaries, 4 corner lines and 5 mid lines from side to side.
+            assert_eq!(found["mountain"].0, 6 + 4 + 5);
+        }
         let whole = |p: [f64; 2]| p.map(|c| (c * 1e6).round() as i64);
         let away = |line: &ReadLine, end: usize| {
             let [from, to] = [line.ends[end], line.ends[1 - end]];
@@ -196,7 +200,11 @@ fn the_pen_travels_less_than_in_the_order_of_the_sheet() {
         let pattern = CutPattern::new(&units.sheet, units.compact_angles(), &options).unwrap();
         let mut pen = glam::DVec2::ZERO;
         let mut unsorted = 0.0;
-        for edge in &units.sheet.edges {
+        let by_class = LineClass::ALL.into_iter().flat_map(|class| {
+            let edges = units.sheet.edges.iter();
+            edges.filter(move |e| LineClass::of(e.assignment) == class)
+        });
+        for edge in by_class {
             let [a, b] = edge
                 .vertices
                 .map(|v| units.sheet.vertices[v as usize] * 1000.0);
@@ -204,7 +212,7 @@ fn the_pen_travels_less_than_in_the_order_of_the_sheet() {
             pen = b;
         }
         assert!(
-            pattern.travel() < 0.5 * unsorted,
+            pattern.travel() < 0.75 * unsorted,
             "{} {unsorted}",
             pattern.travel()
         );
@@ -286,11 +294,18 @@ fn the_fold_file_reads_back_as_the_sheet_in_millimetres() {
                 };
                 sheet.edges.iter().map(edge).collect()
             };
-            assert_eq!(edges(&file.sheet), edges(&units.sheet));
+            // Facets with equal diagonals may be split by the other one.
+            let mut found = edges(&file.sheet);
+            let mut wanted = edges(&units.sheet);
+            let has_quads = wanted.values().any(|&letter| letter == 'F');
+            if !draws_facets {
+                found.retain(|_, letter| *letter != 'F');
+                wanted.retain(|_, letter| *letter != 'F');
+            }
+            assert!(found == wanted, "{:?}", units.unit.case);
             let value: serde_json::Value = serde_json::from_str(&text).unwrap();
             assert_eq!(value["frame_unit"], "mm");
             let drawn = value["edges_assignment"].as_array().unwrap();
-            let has_quads = edges(&units.sheet).values().any(|&letter| letter == 'F');
             assert_eq!(drawn.iter().any(|a| a == "F"), draws_facets && has_quads);
             let kept = units.sheet.edges.iter().zip(angles);
             let kept = kept.filter(|(e, _)| draws_facets || e.assignment.letter() != 'F');
