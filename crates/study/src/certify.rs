@@ -90,7 +90,7 @@ impl MotionFile<'_> {
         .to_vec()
     }
 
-    fn face(&self, triangle: u32) -> u32 {
+    pub(crate) fn face(&self, triangle: u32) -> u32 {
         self.triangle_faces
             .map_or(triangle, |faces| faces[triangle as usize])
     }
@@ -204,12 +204,7 @@ fn cluster(cluster: &Cluster) -> ClusterEntry {
         triangles: cluster.faces.clone(),
         layers: cluster.layers,
         pairs: cluster.pairs,
-        order: match cluster.order {
-            LayerProof::Proved => "proved",
-            LayerProof::Unproved => "unproved",
-            LayerProof::Contradicted => "contradicted",
-        }
-        .to_owned(),
+        order: proof_name(cluster.order).to_owned(),
         rules: RulesTested {
             taco_taco: rules.taco_taco,
             taco_tortilla: rules.taco_tortilla,
@@ -221,7 +216,7 @@ fn cluster(cluster: &Cluster) -> ClusterEntry {
     }
 }
 
-fn rule_name(rule: LayerRule) -> &'static str {
+pub(crate) fn rule_name(rule: LayerRule) -> &'static str {
     match rule {
         LayerRule::TacoTaco => "taco-taco",
         LayerRule::TacoTortilla => "taco-tortilla",
@@ -230,5 +225,13 @@ fn rule_name(rule: LayerRule) -> &'static str {
         LayerRule::Transitivity => "transitivity",
         LayerRule::Crease => "faceOrders against the assignment of the crease",
         LayerRule::Claim => "faceOrders against the motion",
+    }
+}
+
+pub(crate) fn proof_name(order: LayerProof) -> &'static str {
+    match order {
+        LayerProof::Proved => "proved",
+        LayerProof::Unproved => "unproved",
+        LayerProof::Contradicted => "contradicted",
     }
 }

@@ -1,13 +1,16 @@
 //! What a certificate states, as the second proof takes it; and what of it the motion file alone refutes.
 
 use foldmotion_check::{
-    Claims, CollisionReport, FilterCounts, PairCounts, Penetration, PenetrationKind, Refutation,
-    Separation, Undecided, Verdict,
+    Claims, Cluster, CollisionReport, FilterCounts, LayerConflict, LayerProof, LayerRule,
+    PairCounts, Penetration, PenetrationKind, Refutation, RuleCounts, Separation, Undecided,
+    Verdict,
 };
 use foldmotion_pattern::FoldFile;
 
-use crate::certificate::{Certificate, DecidedBy, PairsTested, TrianglePair};
-use crate::certify::MotionFile;
+use crate::certificate::{
+    Certificate, ClusterEntry, DecidedBy, PairsTested, PenetrationEntry, TrianglePair,
+};
+use crate::certify::{MotionFile, proof_name, rule_name};
 use crate::reporting::{kind_name, verdict_name};
 use crate::run::VERSION;
 
@@ -17,12 +20,27 @@ const VERDICTS: [Verdict; 4] = [
     Verdict::Penetrating,
     Verdict::Undecided,
 ];
-const KINDS: [PenetrationKind; 5] = [
+const KINDS: [PenetrationKind; 6] = [
     PenetrationKind::VertexFacet,
     PenetrationKind::EdgeEdge,
     PenetrationKind::FoldedThrough,
     PenetrationKind::AroundVertex,
     PenetrationKind::PassedThrough,
+    PenetrationKind::LayerOrder,
+];
+const RULES: [LayerRule; 7] = [
+    LayerRule::TacoTaco,
+    LayerRule::TacoTortilla,
+    LayerRule::TortillaTortilla,
+    LayerRule::Bent,
+    LayerRule::Transitivity,
+    LayerRule::Crease,
+    LayerRule::Claim,
+];
+const PROOFS: [LayerProof; 3] = [
+    LayerProof::Proved,
+    LayerProof::Unproved,
+    LayerProof::Contradicted,
 ];
 
 /// Refutes a field unless it is what it should be.
@@ -93,6 +111,20 @@ pub(crate) fn against_file(certificate: &Certificate, file: &FoldFile) -> Vec<Re
             require(r, field, pair, &known.pair(pair.triangles));
         }
     }
+    for layers in certificate
+        .penetrations
+        .iter()
+        .filter_map(|p| p.layers.as_ref())
+    {
+        let count = file.sheet.faces.len();
+        let found: Vec<Option<u32>> = layers
+            .triangles
+            .iter()
+            .map(|&t| ((t as usize) < count).then(|| known.face(t)))
+            .collect();
+        let stated: Vec<Option<u32>> = layers.faces.iter().copied().map(Some).collect();
+        require(r, "penetrations.layers.faces", &stated, &found);
+    }
     refuted
 }
 
@@ -139,25 +171,42 @@ fn sums(certificate: &Certificate, refuted: &mut Vec<Refutation>) {
 /// What the times of the frames refute.
 pub(crate) fn against_times(certificate: &Certificate, times: &[f64]) -> Vec<Refutation> {
     let mut refuted = Vec::new();
+    let r = &mut refuted;
     let ends = [times.first(), times.last()].map(|t| t.copied().unwrap_or(0.0));
-    require(&mut refuted, "times", &certificate.times, &ends);
+    require(r, "times", &certificate.times, &ends);
     let penetrations = certificate.penetrations.iter();
     let intervals = penetrations
-        .filter(|p| p.layers.is_none())
-        .map(|p| ("penetrations", p.frames, p.interval, p.t))
+        .map(|p| {
+            (
+                "penetrations",
+                p.frames,
+                p.interval,
+                p.t,
+                p.layers.is_some(),
+            )
+        })
         .chain(
             certificate
                 .undecided
                 .iter()
-                .map(|u| ("undecided", u.frames, u.interval, u.t)),
+                .map(|u| ("undecided", u.frames, u.interval, u.t, false)),
         );
-    for (field, frames, interval, t) in intervals {
+    for (field, frames, interval, t, at_frame) in intervals {
         let of = frames.map(|k| times.get(k).copied().unwrap_or(f64::NAN));
-        require(&mut refuted, &format!("{field}.interval"), &interval, &of);
+        require(r, &format!("{field}.interval"), &interval, &of);
         let is_next = frames[0].checked_add(1) == Some(frames[1]) || frames == [0, 0];
-        if !is_next {
-            let found = "an interval is between one frame and the next";
-            refuted.push(Refutation::new(
+        let is_fit = if at_frame {
+            frames[0] == frames[1]
+        } else {
+            is_next
+        };
+        if !is_fit {
+            let found = if at_frame {
+                "layers are out of order at one frame"
+            } else {
+                "an interval is between one frame and the next"
+            };
+            r.push(Refutation::new(
                 format!("{field}.frames"),
                 format!("{frames:?}"),
                 found,
@@ -165,66 +214,21 @@ pub(crate) fn against_times(certificate: &Certificate, times: &[f64]) -> Vec<Ref
         }
         if !(interval[0]..=interval[1]).contains(&t) {
             let found = format!("the interval is {interval:?}");
-            refuted.push(Refutation::new(format!("{field}.t"), t, found));
+            r.push(Refutation::new(format!("{field}.t"), t, found));
         }
     }
     refuted
 }
 
-/// What the order of the layers refutes, as the check finds it: `found`.
-pub(crate) fn against_layers(stated: &Certificate, found: &Certificate) -> Vec<Refutation> {
-    let mut refuted = Vec::new();
-    let r = &mut refuted;
-    require(r, "clusters", &stated.clusters, &found.clusters);
-    require(r, "layer_orders", &stated.layer_orders, &found.layer_orders);
-    let [stated, found] = [stated, found].map(|certificate| {
-        let all = certificate.penetrations.iter();
-        all.filter(|p| p.layers.is_some()).collect::<Vec<_>>()
-    });
-    require(r, "penetrations.layers", &stated, &found);
-    refuted
-}
-
-/// The verdict without penetrations.
-fn verdict_without(certificate: &Certificate) -> Verdict {
-    let separation = certificate.min_separation;
-    let is_close = separation.is_some_and(|s| s.distance <= certificate.tolerance);
-    if !certificate.undecided.is_empty() {
-        Verdict::Undecided
-    } else if certificate.touching_pairs > 0 || is_close {
-        Verdict::Touching
-    } else {
-        Verdict::Free
-    }
-}
-
-/// The statement in the terms of the check, but for the order of layers.
+/// The statement in the terms of the check.
 pub(crate) fn claim(certificate: &Certificate) -> Result<CollisionReport, Refutation> {
     let verdict = VERDICTS
         .into_iter()
         .find(|&v| verdict_name(v) == certificate.verdict);
-    let unknown = |field: &str, name: &str| Refutation::new(field, name, "there is no such one");
     let verdict = verdict.ok_or_else(|| unknown("verdict", &certificate.verdict))?;
-    let of_pairs = certificate
-        .penetrations
-        .iter()
-        .filter(|p| p.layers.is_none());
-    let penetrations: Result<Vec<_>, _> = of_pairs
-        .map(|p| {
-            let kind = KINDS.into_iter().find(|&k| kind_name(k) == p.kind);
-            Ok(Penetration {
-                time: p.t,
-                passed: p.passed_t,
-                frame: p.frames[0],
-                faces: p.pair.triangles,
-                vertices: p.vertices.clone(),
-                point: p.point.into(),
-                depth: p.depth,
-                kind: kind.ok_or_else(|| unknown("penetrations.kind", &p.kind))?,
-                conflict: None,
-            })
-        })
-        .collect();
+    let penetrations: Result<Vec<_>, _> =
+        certificate.penetrations.iter().map(penetration).collect();
+    let clusters: Result<Vec<_>, _> = certificate.clusters.iter().map(cluster).collect();
     let undecided = certificate.undecided.iter().map(|u| Undecided {
         time: u.t,
         frame: u.frames[0],
@@ -238,13 +242,6 @@ pub(crate) fn claim(certificate: &Certificate) -> Result<CollisionReport, Refuta
     });
     let (tested, by) = (certificate.pairs_tested, certificate.decided_by);
     let penetrations = penetrations?;
-    let has_layers_only = penetrations.is_empty() && !certificate.penetrations.is_empty();
-    let verdict = match verdict {
-        Verdict::Penetrating if has_layers_only => verdict_without(certificate),
-        // Layers out of order leave no other verdict; the second proof sees none of them.
-        _ if has_layers_only => return Err(unknown("verdict", &certificate.verdict)),
-        _ => verdict,
-    };
     Ok(CollisionReport {
         verdict,
         tolerance: certificate.tolerance,
@@ -265,7 +262,57 @@ pub(crate) fn claim(certificate: &Certificate) -> Result<CollisionReport, Refuta
             turning_axis: by.turning_axis,
             search: by.search,
         },
-        clusters: Vec::new(),
-        claims: Claims::default(),
+        clusters: clusters?,
+        claims: Claims {
+            claimed: certificate.layer_orders.claimed,
+            ignored: certificate.layer_orders.ignored,
+        },
+    })
+}
+
+fn unknown(field: &str, name: &str) -> Refutation {
+    Refutation::new(field, name, "there is no such one")
+}
+
+fn penetration(p: &PenetrationEntry) -> Result<Penetration, Refutation> {
+    let kind = KINDS.into_iter().find(|&k| kind_name(k) == p.kind);
+    let kind = kind.ok_or_else(|| unknown("penetrations.kind", &p.kind))?;
+    let conflict = p.layers.as_ref().map(|layers| {
+        let rule = RULES.into_iter().find(|&r| rule_name(r) == layers.rule);
+        Ok(LayerConflict {
+            rule: rule.ok_or_else(|| unknown("penetrations.layers.rule", &layers.rule))?,
+            faces: layers.triangles.clone(),
+        })
+    });
+    Ok(Penetration {
+        time: p.t,
+        passed: p.passed_t,
+        frame: p.frames[0],
+        faces: p.pair.triangles,
+        vertices: p.vertices.clone(),
+        point: p.point.into(),
+        depth: p.depth,
+        kind,
+        conflict: conflict.transpose()?,
+    })
+}
+
+fn cluster(c: &ClusterEntry) -> Result<Cluster, Refutation> {
+    let order = PROOFS.into_iter().find(|&o| proof_name(o) == c.order);
+    Ok(Cluster {
+        frames: c.frames,
+        times: c.t,
+        faces: c.triangles.clone(),
+        layers: c.layers,
+        pairs: c.pairs,
+        order: order.ok_or_else(|| unknown("clusters.order", &c.order))?,
+        rules: RuleCounts {
+            taco_taco: c.rules.taco_taco,
+            taco_tortilla: c.rules.taco_tortilla,
+            tortilla_tortilla: c.rules.tortilla_tortilla,
+            bent: c.rules.bent,
+            transitivity: c.rules.transitivity,
+            crease: c.rules.crease,
+        },
     })
 }

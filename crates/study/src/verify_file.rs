@@ -5,16 +5,13 @@ use std::fs::File;
 use std::io::Read as _;
 use std::path::Path;
 
-use foldmotion_check::{
-    CheckError, Checker, CollisionOptions, CollisionReport, Refutation, Verification, Verifier,
-};
-use foldmotion_pattern::{FoldError, FoldFile, Frame, LayerOrder};
+use foldmotion_check::{CollisionReport, Refutation, Verification, Verifier};
+use foldmotion_pattern::{FoldError, FoldFile, Frame};
 use serde_json::Value;
 
 use crate::certificate::Certificate;
-use crate::certify::{CheckedMotion, MotionFile};
 use crate::check_file::Input;
-use crate::statement::{against_file, against_layers, against_times, claim};
+use crate::statement::{against_file, against_times, claim};
 use crate::{Phase, Progress, StudyError};
 
 /// The largest certificate, bytes: 256 MiB.
@@ -36,8 +33,7 @@ pub struct VerifiedCertificate {
 
 /// Proves what the certificate at `certificate` states of the motion in the FOLD file at `motion` again.
 ///
-/// Nothing of the first proof is used (`foldmotion_check::Verifier`), but for the order of layers: that is followed
-/// and tested once more as the check does. Every field is compared with the file, the
+/// Nothing of the first proof is used (`foldmotion_check::Verifier`). Every field is compared with the file, the
 /// frames, the topology or the second proof; only the name of the file is not part of the statement. Memory is that of
 /// the sheet and two frames.
 ///
@@ -78,40 +74,23 @@ pub fn verify_file(
         Err(refutation) => return Ok(done(refuted(vec![refutation]))),
     };
     let mut input = Input::open(motion, Phase::Verify, progress)?;
-    let (verification, times, layers) = prove(&file, &mut input, &claim)?;
+    let (mut verification, times) = prove(&file, &mut input, &claim)?;
     if input.digest() != sha256 {
         return Err(input.failure(&"it changed while it was read"));
     }
-    let mut verification = verification;
     verification
         .refuted
         .extend(against_times(&certificate, &times));
-    let found = layers.map(|collision| {
-        let motion = CheckedMotion {
-            name: &certificate.file,
-            sha256,
-            file: MotionFile::from(&file),
-            times: &times,
-            collision: &collision,
-        };
-        against_layers(&certificate, &motion.certificate())
-    });
-    verification.refuted.extend(
-        found.unwrap_or_else(|e| vec![Refutation::new("clusters", certificate.clusters.len(), e)]),
-    );
     progress(Phase::Verify, 1.0);
     Ok(done(verification))
 }
 
-/// The second proof, the times of the frames, and the first proof's report for the order of the layers.
-type Proved = (Verification, Vec<f64>, Result<CollisionReport, CheckError>);
-
+/// The second proof, and the times of the frames.
 fn prove(
     file: &FoldFile,
     input: &mut Input<'_>,
     claim: &CollisionReport,
-) -> Result<Proved, StudyError> {
-    let mut layers = Layers::new(file, claim.tolerance);
+) -> Result<(Verification, Vec<f64>), StudyError> {
     let mut verifier: Option<Verifier<'_>> = None;
     let mut times: Vec<f64> = Vec::new();
     let mut disorder = None;
@@ -122,11 +101,15 @@ fn prove(
             disorder = disorder.or(Some(times.len()));
         }
         times.push(frame.time);
-        layers.take(&frame, order);
         match &mut verifier {
             _ if disorder.is_some() => {}
             Some(verifier) => verifier.advance(frame),
             None => verifier = Some(Verifier::new(&file.sheet, frame, claim)),
+        }
+        if let Some(verifier) = &mut verifier
+            && disorder.is_none()
+        {
+            verifier.hear(order, &|triangle| file.triangle_faces[triangle as usize]);
         }
         Ok(())
     });
@@ -135,50 +118,7 @@ fn prove(
         return Err(input.failure(&format!("frame {frame} is not later than the one before")));
     }
     let verifier = verifier.ok_or_else(|| input.failure(&"the motion has no frames"))?;
-    Ok((verifier.finish(), times, layers.finish()))
-}
-
-/// The order of the layers, followed by the check.
-struct Layers<'a> {
-    file: &'a FoldFile,
-    options: CollisionOptions,
-    checker: Result<Checker<'a>, CheckError>,
-}
-
-impl<'a> Layers<'a> {
-    fn new(file: &'a FoldFile, touch_tolerance: f64) -> Self {
-        Self {
-            file,
-            options: CollisionOptions {
-                touch_tolerance,
-                ..CollisionOptions::default()
-            },
-            checker: Err(CheckError::NoFrames),
-        }
-    }
-
-    /// Takes in a frame; after a failure none.
-    fn take(&mut self, frame: &Frame, order: &LayerOrder) {
-        let failure = match &mut self.checker {
-            Ok(checker) => checker.advance(frame).err(),
-            Err(CheckError::NoFrames) => {
-                self.checker = Checker::new(&self.file.sheet, frame, &self.options);
-                None
-            }
-            Err(_) => return,
-        };
-        if let Some(failure) = failure {
-            self.checker = Err(failure);
-        }
-        if let Ok(checker) = &mut self.checker {
-            let faces = &self.file.triangle_faces;
-            checker.claim(order, &|triangle| faces[triangle as usize]);
-        }
-    }
-
-    fn finish(self) -> Result<CollisionReport, CheckError> {
-        self.checker.map(Checker::finish)
-    }
+    Ok((verifier.finish(), times))
 }
 
 fn read_certificate(path: &Path) -> Result<Certificate, StudyError> {

@@ -9,6 +9,8 @@ use rayon::prelude::*;
 use super::boxes::Boxes;
 use super::distance::{Nearness, closest, keeps_distance, on_triangle};
 use super::instant::axes;
+use super::line;
+use super::ordering::Ordering;
 use super::outcome::{Refutation, Unproved, Verification};
 use super::pair::Pair;
 use super::penetration::{Found, compare};
@@ -29,24 +31,25 @@ pub(super) const POINT_ACCURACY: f64 = 1e-9;
 /// Proves the statement of a collision report again, by other means.
 #[derive(Debug)]
 pub struct Verifier<'a> {
-    sheet: &'a Sheet,
-    claim: &'a CollisionReport,
-    limits: Limits,
-    last: Frame,
+    pub(super) sheet: &'a Sheet,
+    pub(super) claim: &'a CollisionReport,
+    pub(super) limits: Limits,
+    pub(super) last: Frame,
     /// Frames taken in.
-    frames: usize,
+    pub(super) frames: usize,
     /// The sides of the pairs in contact, ordered by pair.
-    sides: Vec<([u32; 2], Side)>,
+    pub(super) sides: Vec<([u32; 2], Side)>,
     claimed: BTreeMap<[u32; 2], &'a Penetration>,
-    undecided: BTreeSet<([u32; 2], usize)>,
+    pub(super) undecided: BTreeSet<([u32; 2], usize)>,
     /// Pairs with a penetration behind them, and the intervals in which each was judged.
-    dropped: BTreeMap<[u32; 2], usize>,
+    pub(super) dropped: BTreeMap<[u32; 2], usize>,
     surely_touching: BTreeSet<[u32; 2]>,
     perhaps_touching: BTreeSet<[u32; 2]>,
     /// Whether the stated closest approach was met, where one is stated.
     separation_fault: Option<String>,
     is_separation_met: bool,
-    outcome: Verification,
+    pub(super) ordering: Ordering,
+    pub(super) outcome: Verification,
 }
 
 /// What was found of a pair in an interval.
@@ -78,6 +81,7 @@ impl<'a> Verifier<'a> {
     /// Preconditions: the sheet's corners are in range; every frame has a finite position for every vertex.
     pub fn new(sheet: &'a Sheet, first: Frame, claim: &'a CollisionReport) -> Self {
         let unit = sheet.unit_length;
+        let of_pairs = claim.penetrations.iter().filter(|p| p.conflict.is_none());
         let mut verifier = Self {
             sheet,
             claim,
@@ -88,13 +92,14 @@ impl<'a> Verifier<'a> {
             last: first,
             frames: 1,
             sides: Vec::new(),
-            claimed: claim.penetrations.iter().map(|p| (p.faces, p)).collect(),
+            claimed: of_pairs.map(|p| (p.faces, p)).collect(),
             undecided: claim.undecided.iter().map(|u| (u.faces, u.frame)).collect(),
             dropped: BTreeMap::new(),
             surely_touching: BTreeSet::new(),
             perhaps_touching: BTreeSet::new(),
             separation_fault: None,
             is_separation_met: claim.min_separation.is_none(),
+            ordering: Ordering::new(line::hinges(sheet)),
             outcome: Verification::default(),
         };
         verifier.begin();
@@ -103,14 +108,15 @@ impl<'a> Verifier<'a> {
 
     /// Takes in the next frame and proves the interval before it.
     pub fn advance(&mut self, frame: Frame) {
+        self.prove_layers();
         let start = std::mem::replace(&mut self.last, frame);
         self.meet_separation(&start);
         let near = self.near_pairs(&start.positions);
         self.outcome.near += near.len() as u64;
         let pairs: Vec<Pair> = near
-            .into_iter()
-            .filter(|faces| !self.dropped.contains_key(faces))
-            .map(|faces| Pair::new(self.sheet, faces))
+            .iter()
+            .filter(|faces| !self.dropped.contains_key(*faces))
+            .map(|&faces| Pair::new(self.sheet, faces))
             .filter(|pair| pair.shared < 3)
             .collect();
         let judged: Vec<Judged> = pairs
@@ -120,16 +126,23 @@ impl<'a> Verifier<'a> {
             .collect();
         self.sides.clear();
         let times = [start.time, self.last.time];
+        let mut open = BTreeSet::new();
         for (pair, judged) in pairs.iter().zip(judged) {
+            if judged.unproved.is_some() {
+                open.insert(pair.faces);
+            }
             self.record(pair, judged, times);
         }
         let faces = self.sheet.faces.len() as u64;
         self.outcome.pairs += faces * faces.saturating_sub(1) / 2;
         self.frames += 1;
+        self.find_layers(&near, &open);
     }
 
     /// What came of it.
     pub fn finish(mut self) -> Verification {
+        self.prove_layers();
+        self.compare_clusters();
         if let Some(separation) = self
             .claim
             .min_separation
@@ -182,7 +195,7 @@ impl<'a> Verifier<'a> {
         self.outcome
     }
 
-    fn refute(&mut self, field: &str, stated: impl ToString, found: impl ToString) {
+    pub(super) fn refute(&mut self, field: &str, stated: impl ToString, found: impl ToString) {
         if self.outcome.refuted.len() < MOST_LISTED {
             let refutation = Refutation::new(field, stated, found);
             self.outcome.refuted.push(refutation);
@@ -194,7 +207,7 @@ impl<'a> Verifier<'a> {
         let first = self.last.positions.clone();
         let assignments = assignments(self.sheet);
         let near = self.near_pairs(&first);
-        for faces in near {
+        for &faces in &near {
             let pair = Pair::new(self.sheet, faces);
             if pair.shared > 2 {
                 self.refute(
@@ -230,6 +243,7 @@ impl<'a> Verifier<'a> {
                 }
             }
         }
+        self.find_layers(&near, &BTreeSet::new());
         let first = self.last.clone();
         self.meet_separation(&first);
     }

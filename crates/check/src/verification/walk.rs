@@ -88,7 +88,7 @@ impl Side {
     }
 }
 
-fn roomiest(axes: &[Axis]) -> Option<DVec3> {
+pub(super) fn roomiest(axes: &[Axis]) -> Option<DVec3> {
     let apart = axes.iter().filter(|axis| axis.room > 0.0);
     let best = apart.reduce(|p, q| if q.room > p.room { q } else { p });
     best.map(|axis| axis.direction)
@@ -320,9 +320,14 @@ impl<'a> Walk<'a> {
 
     /// When the present contact began, by bisection.
     fn contact_start(&self) -> f64 {
-        let Some((mut apart, direction)) = self.last_apart else {
+        let Some((mut apart, mut direction)) = self.last_apart else {
             return 0.0;
         };
+        if direction == DVec3::ZERO {
+            // A pair seen for the first time: any direction that separates it will do.
+            let all = axes(self.span, &self.span.at(apart));
+            direction = roomiest(&all).unwrap_or(direction);
+        }
         let mut contact = if self.side.is_apart {
             self.time
         } else {
