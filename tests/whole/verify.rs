@@ -77,15 +77,27 @@ impl Certified {
     }
 }
 
-/// Free, touching and penetrating.
-fn certified() -> [Certified; 3] {
+/// Free, touching, penetrating, and touching with the `faceOrders` of two layers turned round.
+fn certified() -> [Certified; 4] {
     let frames = "motion.frames=12";
     let short = ["sheet.rows=2", "profile.length=2.0", frames];
+    let touching = Certified::of_scene("one-row", &[frames, "motion.contact=false"]);
+    let swapped = with_layers_swapped(&touching.motion);
     [
         Certified::of_scene("one-row", &[frames]),
-        Certified::of_scene("one-row", &[frames, "motion.contact=false"]),
+        touching,
         Certified::of_scene("shelter-short-plain", &short),
+        Certified::of_motion(tempfile::tempdir().unwrap(), &swapped),
     ]
+}
+
+/// The motion with one order of its last frame turned round.
+fn with_layers_swapped(motion: &Value) -> Value {
+    let mut motion = motion.clone();
+    let last = frames(&mut motion).last_mut().unwrap();
+    let sign = last.pointer_mut("/faceOrders/0/2").unwrap();
+    *sign = json!(-sign.as_i64().unwrap());
+    motion
 }
 
 /// Seeded numbers (`SplitMix64`, Steele, Lea and Flood 2014).
@@ -119,6 +131,9 @@ fn leaves(value: &Value, at: &str, found: &mut Vec<String>) {
 /// Changes one value: numbers by a thousandth (at least 1 where they count), names to others.
 fn change_leaf(certificate: &mut Value, pointer: &str) {
     let all = certificate["pairs_tested"]["total"].as_u64().unwrap();
+    let entry = pointer.split("/point/").next().unwrap();
+    let of_layers = certificate.pointer(&format!("{entry}/layers"));
+    let is_of_layers = of_layers.is_some_and(|layers| !layers.is_null());
     let leaf = certificate.pointer_mut(pointer).unwrap();
     let changed = match &*leaf {
         Value::String(text) if pointer == "/verdict" => {
@@ -143,6 +158,10 @@ fn change_leaf(certificate: &mut Value, pointer: &str) {
             let n = n.as_u64().unwrap();
             json!(n + (n / 1000).max(1))
         }
+        // Any point of what the layers have in common is as true.
+        Value::Number(n) if pointer.contains("/point/") && is_of_layers => {
+            json!(n.as_f64().unwrap() + 10.0)
+        }
         Value::Number(n) => {
             let x = n.as_f64().unwrap();
             // A thousandth of what is nearly nothing is within the accuracy stated.
@@ -160,6 +179,7 @@ fn change_lists(certificate: &mut Value, which: usize) -> &'static str {
     let triangles = certificate["triangles"].as_u64().unwrap();
     let times = certificate["times"].clone();
     let has_some = !certificate["penetrations"].as_array().unwrap().is_empty();
+    let has_clusters = !certificate["clusters"].as_array().unwrap().is_empty();
     match which {
         0 if has_some => {
             certificate["penetrations"].as_array_mut().unwrap().pop();
@@ -170,7 +190,7 @@ fn change_lists(certificate: &mut Value, which: usize) -> &'static str {
             list.push(list[0].clone());
             "a penetration twice"
         }
-        2 if has_some => {
+        2 if certificate["penetrations"].as_array().unwrap().len() > 1 => {
             certificate["penetrations"]
                 .as_array_mut()
                 .unwrap()
@@ -191,7 +211,16 @@ fn change_lists(certificate: &mut Value, which: usize) -> &'static str {
             certificate["assumptions"].as_array_mut().unwrap().pop();
             "an assumption left out"
         }
-        6 => {
+        6 if has_clusters => {
+            certificate["clusters"].as_array_mut().unwrap().pop();
+            "a cluster left out"
+        }
+        7 if has_clusters => {
+            let list = certificate["clusters"].as_array_mut().unwrap();
+            list.push(list[0].clone());
+            "a cluster twice"
+        }
+        8 => {
             certificate["proved_by"] = json!("somebody");
             "a key nobody knows"
         }
@@ -302,7 +331,12 @@ fn change_motion(of: &Certified, which: usize, random: &mut Random) -> (Value, &
 
 #[test]
 fn certificates_of_free_touching_and_penetrating_motions_verify() {
-    let expected = [("free", 0), ("touching", 0), ("penetrating", 1)];
+    let expected = [
+        ("free", 0),
+        ("touching", 0),
+        ("penetrating", 1),
+        ("penetrating", 1),
+    ];
     for (of, (verdict, status)) in certified().iter().zip(expected) {
         assert_eq!(of.certificate["verdict"], verdict);
         let verified = of.verify(&of.motion, &of.certificate).unwrap();
@@ -316,9 +350,9 @@ fn every_seeded_change_of_a_motion_or_a_certificate_is_refused() {
     let all = certified();
     let mut random = Random(2026);
     let mut refused = 0;
-    for seed in 0..48 {
-        let of = &all[seed % 3];
-        let (motion, name) = change_motion(of, seed / 3 % 7, &mut random);
+    for seed in 0..56 {
+        let of = &all[seed % 4];
+        let (motion, name) = change_motion(of, seed / 4 % 7, &mut random);
         assert_ne!(motion, of.motion);
         let status = of.status(&motion, &of.certificate);
         assert_eq!(status, 2, "{seed}: {name}, hash and all");
@@ -330,11 +364,23 @@ fn every_seeded_change_of_a_motion_or_a_certificate_is_refused() {
         );
         refused += 2;
     }
-    for seed in 0..120 {
-        let of = &all[seed % 3];
+    for seed in 0..180 {
+        let of = &all[seed % 4];
         let mut certificate = of.certificate.clone();
         let mut pointers = Vec::new();
         leaves(&certificate, "", &mut pointers);
+        let is_of_layers = |p: &String| {
+            ["/clusters", "/layer_orders"]
+                .iter()
+                .any(|at| p.starts_with(at))
+        };
+        let is_penetration = |p: &String| p.starts_with("/penetrations");
+        match seed {
+            0..90 => {}
+            90..150 => pointers.retain(is_of_layers),
+            _ if of.certificate["penetrations"][0].is_null() => continue,
+            _ => pointers.retain(is_penetration),
+        }
         let pointer = &pointers[random.below(pointers.len())];
         change_leaf(&mut certificate, pointer);
         assert_ne!(certificate, of.certificate, "{pointer}");
@@ -342,10 +388,10 @@ fn every_seeded_change_of_a_motion_or_a_certificate_is_refused() {
         assert!(status >= 2, "{seed}: {pointer}: {status}");
         refused += 1;
     }
-    for seed in 0..24 {
-        let of = &all[seed % 3];
+    for seed in 0..40 {
+        let of = &all[seed % 4];
         let mut certificate = of.certificate.clone();
-        let name = change_lists(&mut certificate, seed / 3);
+        let name = change_lists(&mut certificate, seed / 4);
         let status = of.status(&of.motion, &certificate);
         assert!(status >= 2, "{seed}: {name}: {status}");
         refused += 1;
@@ -361,7 +407,7 @@ fn every_seeded_change_of_a_motion_or_a_certificate_is_refused() {
 
 #[test]
 fn a_penetrating_motion_with_a_clean_certificate_is_refuted_and_so_is_the_reverse() {
-    let [_, clean, penetrating] = certified();
+    let [_, clean, penetrating, swapped] = certified();
     // All that can be taken from the file is right; the verdict, and what belongs to it, is the lie.
     let mut lie = penetrating.certificate.clone();
     lie["verdict"] = json!("touching");
@@ -370,6 +416,16 @@ fn a_penetrating_motion_with_a_clean_certificate_is_refuted_and_so_is_the_revers
     assert_eq!(verified.status(), 2);
     let fields = verified.verification.refuted.iter().map(|r| &r.field);
     assert!(fields.into_iter().any(|f| f == "penetrations"));
+    // The certificate of the layers in their order, with the hash of the file in which two are swapped.
+    let mut lie = clean.certificate.clone();
+    lie["sha256"] = swapped.certificate["sha256"].clone();
+    let verified = swapped.verify(&swapped.motion, &lie).unwrap();
+    assert_eq!(verified.status(), 2, "{}", verified.table());
+    let refuted = &verified.verification.refuted;
+    assert!(
+        refuted.iter().all(|r| r.field == "penetrations"),
+        "{refuted:?}"
+    );
     let mut lie = clean.certificate.clone();
     lie["verdict"] = json!("penetrating");
     let mut invented = penetrating.certificate["penetrations"][0].clone();
