@@ -15,7 +15,7 @@ const SEARCH_STEP: f64 = 1.0 / 8.0;
 /// Longer steps are halved before triangles apart at both ends are taken to touch in between.
 const GRAZING_STEP: f64 = 1.0 / 1024.0;
 /// Pairs that need a shorter step come so close that the first proof may take them to touch.
-const CLOSE_STEP: f64 = 1.0 / 32.0;
+const CLOSE_STEP: f64 = 1.0 / 8.0;
 /// How many axes a long step tries.
 const FAVOURITES: usize = 4;
 
