@@ -170,10 +170,16 @@ fn write_pattern(arguments: &PatternArguments) -> Result<u8, Failure> {
         .out
         .clone()
         .unwrap_or_else(|| PathBuf::from("out").join(source.stem()));
-    let summary =
-        PatternStudy::resolve(&source)?.write(&folder, &arguments.options(), &|_, _| {
-            !INTERRUPTED.load(Ordering::Relaxed)
-        })?;
+    let study = PatternStudy::resolve(&source);
+    if study.is_err()
+        && let Some(figure) = PatternStudy::write_clashes(&source, &folder)?
+        && !arguments.quiet
+    {
+        print(&format!("the rows are drawn in {}\n", figure.display()))?;
+    }
+    let summary = study?.write(&folder, &arguments.options(), &|_, _| {
+        !INTERRUPTED.load(Ordering::Relaxed)
+    })?;
     if !arguments.quiet {
         print(&summary)?;
         print(&format!("pattern in {}\n", folder.display()))?;

@@ -191,3 +191,32 @@ fn bad_input_is_status_2_and_writes_nothing() {
         Some(2)
     );
 }
+
+#[test]
+fn rows_that_clash_are_named_and_drawn() {
+    let home = tempfile::tempdir().unwrap();
+    let unequal = std::fs::read_to_string(scene("shelter-unequal")).unwrap();
+    let own = unequal
+        .replace("common-flap", "own-case")
+        .replace("lambda = 0.8\n", "");
+    std::fs::write(home.path().join("own.toml"), own).unwrap();
+    let output = pattern(home.path(), &["own.toml"]);
+    assert_eq!(output.status.code(), Some(2));
+    let error = text(&output.stderr);
+    assert!(
+        error.contains("clash") && error.contains("row 0"),
+        "{error}"
+    );
+    let folder = home.path().join("out/own");
+    assert_eq!(names(&folder), ["clashes.svg"]);
+    assert!(text(&output.stdout).contains("clashes.svg"));
+    let figure = std::fs::read_to_string(folder.join("clashes.svg")).unwrap();
+    assert!(figure.contains("</svg>"));
+    // Another fault draws nothing.
+    let output = pattern(
+        home.path(),
+        &[&scene("shelter-s"), "--set", "sheet.width=-1.0"],
+    );
+    assert_eq!(output.status.code(), Some(2));
+    assert_eq!(names(&home.path().join("out")), ["own"]);
+}

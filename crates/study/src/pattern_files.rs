@@ -2,13 +2,14 @@
 
 use std::fmt::Write as _;
 use std::io::Write as _;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use foldmotion_pattern::{
     CutOptions, CutPattern, LineClass, PageLayout, PaperSize, Tiles, UnitSheet, crease_pattern_fold,
 };
 
 use crate::results::{Results, write_error};
+use crate::rows::draw_clashes;
 use crate::run::VERSION;
 use crate::scene::LengthUnit;
 use crate::study::Resolver;
@@ -16,6 +17,8 @@ use crate::{Phase, Progress, SceneSource, StudyError};
 
 /// The file moved into place last.
 const PATTERN_SVG: &str = "pattern.svg";
+/// The drawing of rows that clash.
+const CLASHES_SVG: &str = "clashes.svg";
 /// Ends of lines closer than this, in SVG units, are one vertex for Origami Simulator unless it is told otherwise.
 const ORIGAMI_SIMULATOR_TOLERANCE: f64 = 3.0;
 
@@ -81,6 +84,27 @@ impl PatternStudy {
             unit: scene.profile.unit.unwrap_or_default(),
             units: resolver.sheet()?.units,
         })
+    }
+
+    /// Draws the column of a scene whose rows clash as clashes.svg into `folder` (figure 10 of the paper); says where.
+    /// None where the rows are equal, or something else is wrong with the scene.
+    ///
+    /// # Errors
+    /// [`StudyError::Output`]; the folder is then as it was.
+    pub fn write_clashes(
+        source: &SceneSource,
+        folder: &Path,
+    ) -> Result<Option<PathBuf>, StudyError> {
+        let Ok(Some(figure)) = draw_clashes(source) else {
+            return Ok(None);
+        };
+        let mut results = Results::of(folder, |name| name == CLASHES_SVG, CLASHES_SVG)?;
+        results.write(CLASHES_SVG, |out| {
+            out.write_all(figure.as_bytes())
+                .map_err(|e| write_error(folder, CLASHES_SVG, e))
+        })?;
+        results.publish()?;
+        Ok(Some(folder.join(CLASHES_SVG)))
     }
 
     /// Writes pattern.svg, pattern.dxf and pattern.fold, and pattern-ROW-COLUMN.svg and .dxf for pages, into `folder`;
