@@ -66,14 +66,8 @@ fn main() -> ExitCode {
 fn run_scene(arguments: &RunArguments) -> Result<u8, Failure> {
     use_threads(arguments.threads)?;
     watch_for_interrupts()?;
-    let mut source = SceneSource::read(&arguments.scene)?;
-    for assignment in &arguments.set {
-        source.set(assignment)?;
-    }
-    let folder = arguments
-        .out
-        .clone()
-        .unwrap_or_else(|| PathBuf::from("out").join(source.stem()));
+    let (source, folder) =
+        scene_and_folder(&arguments.scene, &arguments.set, arguments.out.as_ref())?;
     let study = Study::resolve(&source)?;
     let reporter = Reporter::new(arguments.quiet);
     let report = study.run(&folder, &|phase, done| {
@@ -88,6 +82,22 @@ fn run_scene(arguments: &RunArguments) -> Result<u8, Failure> {
         print(&format!("results in {}\n", folder.display()))?;
     }
     Ok(report.status())
+}
+
+/// The scene with its `--set`, and the folder of its results.
+fn scene_and_folder(
+    scene: &Path,
+    set: &[String],
+    out: Option<&PathBuf>,
+) -> Result<(SceneSource, PathBuf), Failure> {
+    let mut source = SceneSource::read(scene)?;
+    for assignment in set {
+        source.set(assignment)?;
+    }
+    let folder = out
+        .cloned()
+        .unwrap_or_else(|| PathBuf::from("out").join(source.stem()));
+    Ok((source, folder))
 }
 
 fn check_motion(arguments: &CheckArguments) -> Result<u8, Failure> {
@@ -162,14 +172,8 @@ fn rebuild_paper(arguments: &PaperArguments) -> Result<u8, Failure> {
 
 fn write_pattern(arguments: &PatternArguments) -> Result<u8, Failure> {
     watch_for_interrupts()?;
-    let mut source = SceneSource::read(&arguments.scene)?;
-    for assignment in &arguments.set {
-        source.set(assignment)?;
-    }
-    let folder = arguments
-        .out
-        .clone()
-        .unwrap_or_else(|| PathBuf::from("out").join(source.stem()));
+    let (source, folder) =
+        scene_and_folder(&arguments.scene, &arguments.set, arguments.out.as_ref())?;
     let study = PatternStudy::resolve(&source);
     if study.is_err()
         && let Some(figure) = PatternStudy::write_clashes(&source, &folder)?

@@ -18,7 +18,7 @@ impl Default for CollisionOptions {
     fn default() -> Self {
         Self {
             touch_tolerance: 1e-6,
-            budget: 4096,
+            budget: 1 << 16,
         }
     }
 }

@@ -20,7 +20,7 @@ use super::walk::{Limits, Side, Walked, depth, walk};
 use crate::collision::{CollisionReport, Penetration, Separation};
 
 /// The most steps spent on a pair in an interval.
-const BUDGET: u32 = 20_000;
+const BUDGET: u32 = 1 << 16;
 /// Pairs farther than this, in units of τ, are surely not touching; the first prover resolves distances to τ/100.
 const SURELY_APART: f64 = 1.02;
 /// How many refutations are listed; the rest are of the same motion.
