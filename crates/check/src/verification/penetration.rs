@@ -13,7 +13,8 @@ use crate::collision::{Penetration, PenetrationKind};
 const TIME_ACCURACY: f64 = 1e-6;
 /// To this share two proofs agree about a depth.
 const DEPTH_ACCURACY: f64 = 1e-5;
-/// Where a pair gets deeper than τ, the stated point lies within this many τ of what meets there.
+/// Where a contact begins or a pair gets deeper than τ, the pair touches, and the stated point lies on what meets there,
+/// to within this many τ.
 const POINT_TOLERANCES: f64 = 16.0;
 
 /// Where a pair gets too deep.
@@ -87,7 +88,8 @@ impl Found {
     /// for a while, come into contact more than once; there they must touch, and not be too deep before.
     fn may_begin(&self, stated: &Penetration, pair: &Pair, limits: &Limits) -> bool {
         let overlap = self.overlap(stated.time, pair);
-        stated.time <= stated.passed && overlap.is_some_and(|o| o.abs() <= 2.0 * limits.tolerance)
+        stated.time <= stated.passed
+            && overlap.is_some_and(|o| o.abs() <= POINT_TOLERANCES * limits.tolerance)
     }
 
     /// Whether the pair may be said to get too deep when stated: which side it was on may be left open by a contact
@@ -97,7 +99,7 @@ impl Found {
         let is_deep_later = self.share(stated.passed).is_some_and(|share| {
             instants_after(share).any(|t| depth(&self.span, &self.span.at(t)) > limits.tolerance)
         });
-        overlap.is_some_and(|o| o.abs() <= 2.0 * limits.tolerance) && is_deep_later
+        overlap.is_some_and(|o| o.abs() <= POINT_TOLERANCES * limits.tolerance) && is_deep_later
     }
 
     /// Whether the pair is as deep as stated.

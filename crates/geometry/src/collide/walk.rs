@@ -140,7 +140,13 @@ impl<'a> Walk<'a> {
     /// Certifies the step to `end` and gives the side there.
     fn cross(&mut self, end: &PairPose, step: f64) -> Option<Side> {
         let Side::Apart(direction) = self.side else {
-            return self.touch(end);
+            let parts =
+                widest(end, self.limits).is_some() && widest(&self.pose, self.limits).is_none();
+            return if parts {
+                self.part(end, step)
+            } else {
+                self.touch(end)
+            };
         };
         let mut apart = self.glide(direction, end);
         if apart.is_none() && !self.is_fresh {
@@ -158,16 +164,16 @@ impl<'a> Walk<'a> {
             if apart.is_some() || step > GRAZING_STEP {
                 return apart.map(Side::Apart);
             }
-            return self.graze(end, step);
+            return self.part(end, step);
         }
         self.touch(end)
     }
 
-    /// Comes into contact and out of it on the way to `end`, where the triangles are apart again.
+    /// Comes out of contact on the way to `end`, where the triangles are apart.
     ///
     /// A path that ends on an axis along which they still touch may be on a part of D(t) that closes: a shorter step
     /// may find the way to where they are apart.
-    fn graze(&mut self, end: &PairPose, step: f64) -> Option<Side> {
+    fn part(&mut self, end: &PairPose, step: f64) -> Option<Side> {
         let before = (self.clearance, self.in_contact);
         let side = self.touch(end);
         if matches!(side, Some(Side::Contact(_))) && step > SHORTEST_STEP {
