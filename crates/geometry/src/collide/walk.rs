@@ -10,6 +10,9 @@ use super::{
 
 /// The shortest step: motions over it are far below τ.
 const SHORTEST_STEP: f64 = 1.0 / (1u64 << 34) as f64;
+/// Longer steps are halved before a pair that parts is left on an axis along which it still touches: over shorter ones
+/// overlaps grow by less than τ, but in motions of more than 2²⁶ τ an interval.
+const PARTING_STEP: f64 = 1.0 / (1u64 << 26) as f64;
 /// Longer steps are halved before all axes are tried.
 const SEARCH_STEP: f64 = 1.0 / 8.0;
 /// Longer steps are halved before a contact is assumed between two instants at which the triangles are apart.
@@ -176,7 +179,7 @@ impl<'a> Walk<'a> {
     fn part(&mut self, end: &PairPose, step: f64) -> Option<Side> {
         let before = (self.clearance, self.in_contact);
         let side = self.touch(end);
-        if matches!(side, Some(Side::Contact(_))) && step > SHORTEST_STEP {
+        if matches!(side, Some(Side::Contact(_))) && step > PARTING_STEP {
             (self.clearance, self.in_contact) = before;
             return None;
         }
