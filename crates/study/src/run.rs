@@ -212,16 +212,18 @@ impl Study {
         results: &mut Results,
         progress: Progress<'_>,
     ) -> Result<(), StudyError> {
-        let marks = marks(motion, &checked.collision);
         for output in &self.outputs {
             match output {
                 OutputChoice::Fold => self.record_fold(motion, checked, results)?,
-                OutputChoice::Gif => results.write("motion.gif", |out| {
-                    gif(motion, &marks, &self.film, out, &|done| {
-                        progress(Phase::Record, done)
-                    })
-                    .map_err(StudyError::from)
-                })?,
+                OutputChoice::Gif => {
+                    let marks = marks(motion, &checked.collision);
+                    results.write("motion.gif", |out| {
+                        gif(motion, &marks, &self.film, out, &|done| {
+                            progress(Phase::Record, done)
+                        })
+                        .map_err(StudyError::from)
+                    })?;
+                }
                 OutputChoice::Csv => {
                     let first = checked.collision.first.as_ref().map(|p| p.time);
                     let folder = results.folder().to_owned();

@@ -37,14 +37,10 @@ pub fn penetration_spans(motion: &Motion, report: &CollisionReport) -> Vec<Penet
 fn last_deep(motion: &Motion, p: &Penetration, tolerance: f64) -> f64 {
     let pair = Pair::new(&motion.sheet, p.faces[0], p.faces[1]);
     let is_deep = |positions: &[DVec3]| pair.pose(positions).depth().overlap > tolerance;
-    let mut frames = motion.frames.iter().skip(p.frame + 1);
-    let first = frames.next().map_or(p.passed, |frame| frame.time);
-    let later = frames.take_while(|frame| is_deep(&frame.positions)).last();
-    let is_still_deep = motion
-        .frames
-        .get(p.frame + 1)
-        .is_some_and(|frame| is_deep(&frame.positions));
-    later
-        .filter(|_| is_still_deep)
-        .map_or(first, |frame| frame.time)
+    let after = motion.frames.iter().skip(p.frame + 1);
+    let interval_end = motion.frames.get(p.frame + 1).map_or(p.passed, |f| f.time);
+    after
+        .take_while(|frame| is_deep(&frame.positions))
+        .last()
+        .map_or(interval_end, |frame| frame.time)
 }
