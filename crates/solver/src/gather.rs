@@ -7,7 +7,7 @@
 ///
 /// The slot of corner c of element e with n corners is e·n + c. Slots rise within a row.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Gather {
+pub(crate) struct Gather {
     starts: Vec<u32>,
     slots: Vec<u32>,
 }
@@ -36,7 +36,7 @@ impl Gather {
     }
 
     /// The corner slots of `node`, rising.
-    pub fn slots(&self, node: usize) -> &[u32] {
+    pub(crate) fn slots(&self, node: usize) -> &[u32] {
         &self.slots[self.starts[node] as usize..self.starts[node + 1] as usize]
     }
 }

@@ -10,13 +10,13 @@ pub mod dynamic;
 mod error;
 mod face_angle;
 mod gather;
+mod locality;
 mod material;
 mod model;
 pub mod quasi_static;
 mod schedule;
 
 pub use error::SolverError;
-pub use gather::Gather;
 pub use material::Material;
 pub use model::{Bar, EnergyByKind, FaceAngles, Hinge, HingeKind, Model};
 pub use schedule::{CreaseGroup, Ease, Schedule, ScheduleStep, Stage, UnfoldPath};

@@ -22,6 +22,7 @@ use glam::DVec3;
 
 use crate::face_angle::{face_angle, face_angle_gradient};
 use crate::gather::Gather;
+use crate::locality::hilbert_order;
 use crate::{Material, SolverError};
 
 /// The smallest edge length and triangle height taken, in unit lengths: below it stiffnesses and fold-angle gradients
@@ -105,10 +106,9 @@ pub struct Model {
     pub faces: Vec<[u32; 3]>,
     /// The triangles whose angles are held: all, or none where the face-angle stiffness is 0.
     pub face_angles: Vec<FaceAngles>,
-    node_count: usize,
+    /// The nodes in an order that keeps neighbours together.
+    pub(crate) locality: Vec<u32>,
     pub(crate) bar_gather: Gather,
-    pub(crate) hinge_gather: Gather,
-    pub(crate) face_gather: Gather,
 }
 
 impl Model {
@@ -140,24 +140,21 @@ impl Model {
         } else {
             Vec::new()
         };
-        let node_count = sheet.vertices.len();
         Ok(Self {
             unit_length,
             material: *material,
-            bar_gather: Gather::new(node_count, bars.iter().map(|bar| &bar.vertices)),
-            hinge_gather: Gather::new(node_count, hinges.iter().map(|hinge| &hinge.vertices)),
-            face_gather: Gather::new(node_count, face_angles.iter().map(|face| &face.vertices)),
+            locality: hilbert_order(&sheet.vertices),
+            bar_gather: Gather::new(rest.len(), bars.iter().map(|bar| &bar.vertices)),
             bars,
             hinges,
             faces: sheet.faces.clone(),
             face_angles,
-            node_count,
         })
     }
 
     /// The number of nodes; each has mass 1.
     pub fn node_count(&self) -> usize {
-        self.node_count
+        self.locality.len()
     }
 
     /// Positions in unit lengths, from positions in the sheet's unit.

@@ -40,22 +40,34 @@ pub fn run(
 ) -> Result<Run, SolverError> {
     options.validate()?;
     check_input(model, schedule, start)?;
-    let mut state = State::at_rest(model, model.to_model(start));
-    schedule.targets(Stage::Unfold, 0.0, &mut state.targets);
+    // On a worker the threads meet without waking each other up.
+    rayon::scope(|_| run_here(model, schedule, start, options, progress))
+}
+
+fn run_here(
+    model: &Model,
+    schedule: &Schedule,
+    start: &[DVec3],
+    options: &DynamicOptions,
+    progress: &(dyn Fn(f64) -> bool + Sync),
+) -> Result<Run, SolverError> {
+    let mut state = State::at_rest(model, &model.to_model(start));
+    let mut targets = vec![0.0; model.hinges.len()];
+    schedule.targets(Stage::Unfold, 0.0, &mut targets);
+    state.set_targets(&targets);
     state.follow_angles_from_targets();
     let recorder = Recorder::new(model);
-    let previous_forces = vec![DVec3::ZERO; model.node_count()];
     let mut engine = Engine {
         schedule,
         options,
         progress,
         state,
         recorder,
-        previous_forces,
+        targets,
     };
     engine
         .recorder
-        .push(Stage::Unfold, 0.0, &engine.state.positions);
+        .push(Stage::Unfold, 0.0, &engine.state.positions());
     let mut stages = Vec::with_capacity(Stage::ALL.len());
     for stage in Stage::ALL {
         stages.push(engine.run_stage(stage)?);
@@ -109,7 +121,7 @@ struct Engine<'a, 'm> {
     progress: &'a (dyn Fn(f64) -> bool + Sync),
     state: State<'m>,
     recorder: Recorder<'m>,
-    previous_forces: Vec<DVec3>,
+    targets: Vec<f64>,
 }
 
 impl Engine<'_, '_> {
@@ -123,15 +135,15 @@ impl Engine<'_, '_> {
             self.settle(stage, increment.end, tolerance, &mut settling_steps)?;
             if increment.is_recorded {
                 self.recorder
-                    .push(stage, increment.end, &self.state.positions);
+                    .push(stage, increment.end, &self.state.positions());
             }
             from = increment.end;
         }
         ramp_steps += self.ramp(stage, from, 1.0)?;
-        self.recorder.begin_settling(&self.state.positions);
+        self.recorder.begin_settling(&self.state.positions());
         let status = self.settle(stage, 1.0, self.options.tolerance, &mut settling_steps)?;
-        self.recorder.push(stage, 1.0, &self.state.positions);
-        self.state.velocities.fill(DVec3::ZERO);
+        self.recorder.push(stage, 1.0, &self.state.positions());
+        self.state.stop();
         self.state.evaluate_forces();
         Ok(StageOutcome {
             stage,
@@ -146,11 +158,13 @@ impl Engine<'_, '_> {
     fn ramp(&mut self, stage: Stage, from: f64, to: f64) -> Result<u64, SolverError> {
         self.report(stage, from)?;
         self.state.damping = 1.0;
+        self.state.use_unit_masses();
         let dt = SAFETY * self.state.stable_time_step();
         let steps = self.options.ramp_steps;
         for step in 1..=steps {
             let s = from + (to - from) * (step as f64 / steps as f64);
-            self.schedule.targets(stage, s, &mut self.state.targets);
+            self.schedule.targets(stage, s, &mut self.targets);
+            self.state.set_targets(&self.targets);
             self.state
                 .step(dt)
                 .map_err(|runaway| diverged(runaway, stage, s))?;
@@ -170,7 +184,7 @@ impl Engine<'_, '_> {
             return Ok(StageStatus::Settled);
         }
         let budget = self.options.step_budget.saturating_sub(*spent);
-        let mut relaxation = Relaxation::new(&mut self.state, &mut self.previous_forces, tolerance);
+        let mut relaxation = Relaxation::new(&mut self.state, tolerance);
         let mut looks = 0u64;
         let mut status = StageStatus::OutOfSteps;
         while relaxation.steps() < budget {
@@ -183,7 +197,8 @@ impl Engine<'_, '_> {
                 break;
             }
             if s == 1.0 {
-                self.recorder.settling(stage, &relaxation.state().positions);
+                self.recorder
+                    .settling(stage, &relaxation.state().positions());
             }
             looks += 1;
             if looks.is_multiple_of(LOOKS_A_REPORT) && !(self.progress)(stage.start_time() + s) {

@@ -8,10 +8,20 @@
 //! asked for, φ (α₀ − α) times the gradient of α. Unlike there, the time step is bounded by the whole assembled system, the motion
 //! is f64, and it ends where the forces balance.
 
+#![expect(
+    clippy::inline_always,
+    reason = "a pass is compiled for the machine's vectors only where all of it is inlined"
+)]
+
+mod angle;
 mod engine;
 mod increments;
+mod lanes;
+mod layout;
 mod options;
-mod parallel;
+mod part;
+
+mod passes;
 mod recorder;
 mod relaxation;
 mod stability;

@@ -13,8 +13,6 @@
 //!
 //! is stable for every c ≥ 0 where the undamped steps are. The equilibrium does not depend on c or on the masses.
 
-use glam::DVec3;
-
 use super::State;
 use super::engine::SAFETY;
 use super::recorder::PATH_STEP;
@@ -24,6 +22,9 @@ const STEPS_A_LOOK: u64 = 10;
 
 /// Steps between two evaluations of the time step.
 const STEPS_A_BOUND: u64 = 100;
+
+/// With every mass the row sum of its node the bound on the time step is 2.
+const DT: f64 = 2.0 * SAFETY;
 
 /// How a relaxation stands after a look.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -38,7 +39,6 @@ pub(super) enum Progress {
 #[derive(Debug)]
 pub(super) struct Relaxation<'a, 'm> {
     state: &'a mut State<'m>,
-    previous_forces: &'a mut [DVec3],
     tolerance: f64,
     damping: f64,
     dt: f64,
@@ -48,20 +48,13 @@ pub(super) struct Relaxation<'a, 'm> {
 
 impl<'a, 'm> Relaxation<'a, 'm> {
     /// Starts to settle `state` to `tolerance`, without the dampers of its bars.
-    ///
-    /// `previous_forces`: room for one force a node.
-    pub(super) fn new(
-        state: &'a mut State<'m>,
-        previous_forces: &'a mut [DVec3],
-        tolerance: f64,
-    ) -> Self {
+    pub(super) fn new(state: &'a mut State<'m>, tolerance: f64) -> Self {
         state.damping = 0.0;
         Self {
             state,
-            previous_forces,
             tolerance,
             damping: 0.0,
-            dt: 0.0,
+            dt: DT,
             steps: 0,
             was_below: false,
         }
@@ -91,7 +84,7 @@ impl<'a, 'm> Relaxation<'a, 'm> {
             }
         }
         let speed = self.state.largest_speed();
-        let is_below = self.state.residual() <= self.tolerance && speed * self.dt <= self.tolerance;
+        let is_below = self.state.residual() <= self.tolerance && speed * DT <= self.tolerance;
         // Twice in a row: a sheet that swings through its equilibrium is below once.
         let progress = if is_below && self.was_below {
             Progress::Settled
@@ -103,26 +96,22 @@ impl<'a, 'm> Relaxation<'a, 'm> {
     }
 
     fn step(&mut self) -> Result<f64, (usize, f64)> {
-        self.previous_forces.copy_from_slice(&self.state.forces);
-        self.state.evaluate_forces();
         if self.steps.is_multiple_of(STEPS_A_BOUND) {
-            self.dt = SAFETY * self.state.stable_time_step();
+            self.state.scale_masses();
         }
-        if self.steps > 0 {
+        if self.steps > 1 {
             self.damping = self.critical_damping();
         }
         self.steps += 1;
-        self.state.integrate_damped(self.dt, self.damping)
+        // No node goes far in a step, so that its path is seen.
+        self.dt = DT.min(PATH_STEP / self.state.largest_speed());
+        self.state.step_with(self.dt, self.damping)
     }
 
     /// 2 √λ of the last step; the damping as it was where nothing moved.
     fn critical_damping(&self) -> f64 {
-        let (mut work, mut path) = (0.0, 0.0);
-        let forces = self.previous_forces.iter().zip(&self.state.forces);
-        for (v, (before, after)) in self.state.velocities.iter().zip(forces) {
-            work += v.dot(*before - *after);
-            path += v.length_squared();
-        }
+        let work = self.state.sum(|totals| totals.work);
+        let path = self.state.sum(|totals| totals.path);
         if path > 0.0 {
             2.0 * (work / (path * self.dt)).max(0.0).sqrt()
         } else {

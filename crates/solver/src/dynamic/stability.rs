@@ -16,20 +16,23 @@
 //! derivative of θ, whose size is that of the product of the first ones. The last is an estimate, not a bound; the
 //! safety factor of the engine covers it.
 
-use glam::DVec3;
+use pulp::{Simd, WithSimd};
 
 use super::State;
-use crate::face_angle::face_angle_gradient;
+use super::lanes::{Lanes, Quad, Vectors, WIDTH};
+use super::layout::Block;
+use super::part::{Edge, Face, LEAST_SQUARE, Part};
+use super::passes::{Hinges, Scratch, load};
 
 /// The row sums of the block norms of the stiffness and of the damping matrix at a node.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub(super) struct RowSums {
-    stiffness: f64,
-    damping: f64,
+    pub(super) stiffness: f64,
+    pub(super) damping: f64,
 }
 
 impl RowSums {
-    /// The largest Δt that is stable for this row; infinite for a node that nothing holds.
+    /// The largest Δt that is stable for this row and unit masses; infinite for a node that nothing holds.
     fn stable_time_step(self) -> f64 {
         let Self { stiffness, damping } = self;
         if stiffness > 0.0 {
@@ -42,53 +45,188 @@ impl RowSums {
 }
 
 impl State<'_> {
-    /// The largest stable time step at the present positions, angles and targets.
+    /// The largest time step that is stable at the present positions, targets and angles of the last evaluation, for
+    /// unit masses.
     pub fn stable_time_step(&mut self) -> f64 {
-        self.row_sums.fill(RowSums::default());
-        self.add_bar_rows();
-        self.add_hinge_rows();
-        self.add_face_angle_rows();
+        self.update_row_sums();
         self.row_sums
             .iter()
             .map(|row| row.stable_time_step())
             .fold(f64::INFINITY, f64::min)
     }
 
-    fn add_bar_rows(&mut self) {
-        for (bar, damper) in self.model.bars.iter().zip(&self.bar_dampers) {
-            for v in bar.vertices {
-                let row = &mut self.row_sums[v as usize];
-                row.stiffness += 2.0 * bar.stiffness;
-                row.damping += 2.0 * damper * self.damping;
+    /// Evaluates the row sums of every node.
+    pub(super) fn update_row_sums(&mut self) {
+        let Some(scratch) = self.scratch.first_mut() else {
+            return;
+        };
+        let rows = self.row_sums.chunks_mut(self.layout.block_len);
+        for ((block, hinges), rows) in self.layout.blocks.iter().zip(&self.hinges).zip(rows) {
+            self.arch.dispatch(BlockRows {
+                block,
+                hinges,
+                positions: &self.now.positions,
+                scratch,
+                damping: self.damping,
+                face_angle_stiffness: self.model.material.face_angle_stiffness,
+                rows,
+            });
+        }
+    }
+}
+
+/// The row sums of the nodes of one block, by the passes of a step.
+#[derive(Debug)]
+struct BlockRows<'a> {
+    block: &'a Block,
+    hinges: &'a Hinges,
+    positions: &'a [Quad],
+    scratch: &'a mut Scratch,
+    damping: f64,
+    face_angle_stiffness: f64,
+    rows: &'a mut [RowSums],
+}
+
+impl WithSimd for BlockRows<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(mut self, simd: S) {
+        load(self.block, self.positions, &mut self.scratch.positions);
+        self.edge_rows(simd);
+        self.face_rows(simd);
+        self.node_rows();
+    }
+}
+
+impl BlockRows<'_> {
+    /// Of each edge: the rows of its ends and of its damper, and what its hinge weighs at an apex.
+    #[inline(always)]
+    fn edge_rows<S: Simd>(&mut self, simd: S) {
+        let scratch = &mut *self.scratch;
+        let groups = self.block.edges.len();
+        scratch.pulls.resize(groups, [[0.0; 4]; WIDTH]);
+        scratch.turnings.resize(groups * WIDTH, 0.0);
+        let (weights, _) = scratch.turnings.as_chunks_mut::<WIDTH>();
+        let hinges = self.hinges.angles.iter().zip(&self.hinges.targets);
+        let loads = scratch.pulls.iter_mut().zip(weights);
+        let two = Lanes::splat(simd, 2.0);
+        let one = two.constant(1.0);
+        for ((record, (angle, target)), (rows, weights)) in
+            self.block.edges.iter().zip(hinges).zip(loads)
+        {
+            for index in 0..Lanes::<S>::PARTS {
+                let part = Part { simd, index };
+                let Edge { e, a, b } = part.edge(&scratch.positions, record);
+                let square = e.dot(e).max(two.constant(LEAST_SQUARE));
+                let (left, right) = (e.cross(a), b.cross(e));
+                let left_area = left.dot(left).max(two.constant(LEAST_SQUARE)).sqrt();
+                let right_area = right.dot(right).max(two.constant(LEAST_SQUARE)).sqrt();
+                // The sizes of the gradient of the angle at the apexes; the ends share in them.
+                let length = square.sqrt();
+                let (at_left, at_right) = (length.over(left_area), length.over(right_area));
+                let cosine = left.dot(right).over(left_area * right_area);
+                let (l, r) = (a.dot(e).over(square), b.dot(e).over(square));
+                let at_end = length_of_sum(at_left * l, at_right * r, cosine);
+                let at_start = length_of_sum(at_left * (one - l), at_right * (one - r), cosine);
+                let lag = (part.numbers(angle) - part.numbers(target)).abs();
+                let stiffness = part.numbers(&record.hinge_stiffness) * (one + lag);
+                let weight = stiffness * (at_start + at_end + at_left + at_right);
+                weight.store(weights, index);
+                let bar = two * part.numbers(&record.stiffness);
+                let rows_of_ends = Vectors {
+                    x: weight.mul_add(at_start, bar),
+                    y: weight.mul_add(at_end, bar),
+                    z: two * part.numbers(&record.damper),
+                };
+                rows_of_ends.store(rows, index);
             }
         }
     }
 
-    fn add_hinge_rows(&mut self) {
-        for (index, hinge) in self.model.hinges.iter().enumerate() {
-            let norms = hinge.angle_gradient(&self.positions).map(DVec3::length);
-            let lag = (self.angles[index] - self.targets[index]).abs();
-            let stiffness = hinge.stiffness * (1.0 + lag);
-            self.add_rows(hinge.vertices, norms, stiffness);
-        }
-    }
-
-    fn add_face_angle_rows(&mut self) {
-        for face in &self.model.face_angles {
-            let [a, b, c] = face.vertices;
-            for corner in [[a, b, c], [b, c, a], [c, a, b]] {
-                let [p, q, r] = corner.map(|v| self.positions[v as usize]);
-                let norms = face_angle_gradient(p, q, r).map(DVec3::length);
-                self.add_rows(corner, norms, self.model.material.face_angle_stiffness);
+    /// Of each triangle: the rows of its corners as apexes and of its angles.
+    #[inline(always)]
+    fn face_rows<S: Simd>(&mut self, simd: S) {
+        let scratch = &mut *self.scratch;
+        let groups = self.block.faces.len();
+        scratch.corner_forces.resize(groups, [[[0.0; 4]; WIDTH]; 3]);
+        let one = Lanes::splat(simd, 1.0);
+        let held = one.constant(self.face_angle_stiffness);
+        for (record, rows) in self.block.faces.iter().zip(&mut scratch.corner_forces) {
+            for index in 0..Lanes::<S>::PARTS {
+                let part = Part { simd, index };
+                let Face {
+                    sides: [ea, eb, ec],
+                    square,
+                    ..
+                } = part.face(&scratch.positions, record);
+                let area = square.sqrt();
+                let (la, lb, lc) = (length(ea), length(eb), length(ec));
+                let wa = part.gathered(&scratch.turnings, &record.edges[0]) * la;
+                let wb = part.gathered(&scratch.turnings, &record.edges[1]) * lb;
+                let wc = part.gathered(&scratch.turnings, &record.edges[2]) * lc;
+                // |q| of each side, and |q_b + q_c| at a and so on.
+                let (qa, qb, qc) = (one.over(la), one.over(lb), one.over(lc));
+                let oa = length_of_sum(qb, qc, eb.dot(ec) * qb * qc);
+                let ob = length_of_sum(qc, qa, ec.dot(ea) * qc * qa);
+                let oc = length_of_sum(qa, qb, ea.dot(eb) * qa * qb);
+                let (sa, sb, sc) = (oa + qb + qc, ob + qc + qa, oc + qa + qb);
+                // The angle at the next corner sees this one across the side that joins them.
+                let ra = held * (oa * sa + qc * sb + qb * sc) + wa.over(area);
+                let rb = held * (ob * sb + qa * sc + qc * sa) + wb.over(area);
+                let rc = held * (oc * sc + qb * sa + qa * sb) + wc.over(area);
+                let zero = one.constant(0.0);
+                Vectors {
+                    x: ra,
+                    y: zero,
+                    z: zero,
+                }
+                .store(&mut rows[0], index);
+                Vectors {
+                    x: rb,
+                    y: zero,
+                    z: zero,
+                }
+                .store(&mut rows[1], index);
+                Vectors {
+                    x: rc,
+                    y: zero,
+                    z: zero,
+                }
+                .store(&mut rows[2], index);
             }
         }
     }
 
-    /// Adds the rows of stiffness · g gᵀ, with the norms of the blocks of g.
-    fn add_rows<const N: usize>(&mut self, vertices: [u32; N], norms: [f64; N], stiffness: f64) {
-        let weight = stiffness * norms.iter().sum::<f64>();
-        for (v, norm) in vertices.into_iter().zip(norms) {
-            self.row_sums[v as usize].stiffness += weight * norm;
+    #[inline(always)]
+    fn node_rows(&mut self) {
+        let ends = self.scratch.pulls.as_flattened();
+        let corners = self.scratch.corner_forces.as_flattened().as_flattened();
+        for (row, starts) in self.rows.iter_mut().zip(self.block.starts.windows(2)) {
+            let [[end, corner], [last_end, last_corner]] = [starts[0], starts[1]];
+            let [mut stiffness, mut damping] = [0.0; 2];
+            for &slot in &self.block.ends[end as usize..last_end as usize] {
+                let rows = &ends[slot as usize / 2];
+                stiffness += rows[slot as usize % 2];
+                damping += rows[2] * self.damping;
+            }
+            for &slot in &self.block.corners[corner as usize..last_corner as usize] {
+                stiffness += corners[slot as usize][0];
+            }
+            *row = RowSums { stiffness, damping };
         }
     }
+}
+
+/// |u + v| of vectors of these lengths with this cosine between them.
+#[inline(always)]
+fn length_of_sum<S: Simd>(u: Lanes<S>, v: Lanes<S>, cosine: Lanes<S>) -> Lanes<S> {
+    let squared = u.mul_add(u, v * v) + u.constant(2.0) * u * v * cosine;
+    squared.max(u.constant(0.0)).sqrt()
+}
+
+#[inline(always)]
+fn length<S: Simd>(vector: Vectors<S>) -> Lanes<S> {
+    let squared = vector.dot(vector);
+    squared.max(squared.constant(LEAST_SQUARE)).sqrt()
 }

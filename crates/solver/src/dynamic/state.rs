@@ -1,17 +1,19 @@
 //! The moving sheet: positions, velocities and the passes of one step.
 //!
-//! A step is semi-implicit Euler (Origami Simulator's own scheme): with the force F(x, v) on every node of unit mass
+//! A step is semi-implicit Euler (Origami Simulator's own scheme): with the force F(x, v) on every node of mass m
 //!
-//! v ← v + Δt F(x, v),  x ← x + Δt v.
+//! v ← v + Δt F(x, v) / m,  x ← x + Δt v.
 //!
-//! Passes: `bar_forces` and `hinge_forces` (and `face_angle_forces`) evaluate each element once and write what it does
-//! to each of its corners; `gather_forces` sums them per node in a fixed order; `integrate` moves the nodes. No pass
-//! writes what another thread reads, none allocates.
+//! The nodes are cut into blocks (`layout`); each block makes its passes (`passes`) from the state in which the step
+//! starts and writes that of its own nodes at the end. So threads meet once a step, and the result depends on their
+//! number in no bit.
 
-use foldmotion_geometry::{fold_angle, fold_angle_gradient, nearest_turn};
 use glam::DVec3;
+use pulp::Arch;
 
-use super::parallel::fill;
+use super::lanes::{Quad, WIDTH};
+use super::layout::{Layout, NO_HINGE};
+use super::passes::{After, Before, BlockStep, Hinges, Mass, Pace, Scratch, Totals};
 use super::stability::RowSums;
 use crate::Model;
 
@@ -19,231 +21,395 @@ use crate::Model;
 #[derive(Debug, Clone)]
 pub struct State<'a> {
     pub(super) model: &'a Model,
-    /// One position a node.
-    pub positions: Vec<DVec3>,
-    /// One velocity a node.
-    pub velocities: Vec<DVec3>,
+    pub(super) layout: Layout,
+    pub(super) now: Nodes,
+    next: Nodes,
     /// The force on every node at the last evaluation.
-    pub forces: Vec<DVec3>,
-    /// The followed fold angle of every hinge at the last evaluation, radians.
-    pub angles: Vec<f64>,
-    /// The target of every hinge, radians.
-    pub targets: Vec<f64>,
+    forces: Vec<Quad>,
+    pub(super) masses: Vec<Mass>,
+    /// Of every node, at the last look at them.
+    pub(super) row_sums: Vec<RowSums>,
+    pub(super) hinges: Vec<Hinges>,
     /// Fraction of the material's damping that acts: 1, or 0 for undamped motion.
     pub damping: f64,
-    pub(super) bar_dampers: Vec<f64>,
-    /// Room for the row sums of the time step bound, one a node.
-    pub(super) row_sums: Vec<RowSums>,
-    bar_forces: Vec<DVec3>,
-    hinge_forces: Vec<HingeForces>,
-    face_forces: Vec<[DVec3; 3]>,
-    is_parallel: bool,
+    pub(super) totals: Vec<Totals>,
+    pub(super) scratch: Vec<Scratch>,
+    pub(super) arch: Arch,
+}
+
+/// Nodes in the order of the layout.
+#[derive(Debug, Clone)]
+pub(super) struct Nodes {
+    pub(super) positions: Vec<Quad>,
+    pub(super) velocities: Vec<Quad>,
 }
 
 /// The longest way a node may go in one step, in unit lengths: beyond it the motion has run away.
 const MAX_DISPLACEMENT: f64 = 0.5;
 
-/// What a hinge does to its four corners, and its angle.
-#[derive(Debug, Clone, Copy)]
-struct HingeForces {
-    corners: [DVec3; 4],
-    angle: f64,
-}
-
 impl<'a> State<'a> {
     /// The sheet of `model` at rest at `positions` (unit lengths), with every target at the angle it has there.
     ///
     /// Precondition: one position a node.
-    pub fn at_rest(model: &'a Model, positions: Vec<DVec3>) -> Self {
+    pub fn at_rest(model: &'a Model, positions: &[DVec3]) -> Self {
         let mut angles = vec![0.0; model.hinges.len()];
-        model.follow_angles(&positions, &mut angles);
-        let idle = |angle: &f64| HingeForces {
-            corners: [DVec3::ZERO; 4],
-            angle: *angle,
+        model.follow_angles(positions, &mut angles);
+        let layout = Layout::new(model);
+        let count = layout.order.len();
+        let nodes = Nodes {
+            positions: quads(&layout.order, positions),
+            velocities: vec![[0.0; 4]; count],
         };
-        let damper = |bar: &crate::Bar| 2.0 * model.material.damping_ratio * bar.stiffness.sqrt();
-        Self {
-            velocities: vec![DVec3::ZERO; positions.len()],
-            forces: vec![DVec3::ZERO; positions.len()],
-            targets: angles.clone(),
+        let hinges = layout.blocks.iter().map(|block| Hinges {
+            angles: vec![[0.0; WIDTH]; block.edges.len()],
+            targets: vec![[0.0; WIDTH]; block.edges.len()],
+        });
+        let workers = rayon::current_num_threads().min(layout.blocks.len()).max(1);
+        let mut state = Self {
+            hinges: hinges.collect(),
+            next: nodes.clone(),
+            now: nodes,
+            forces: vec![[0.0; 4]; count],
+            masses: vec![Mass::UNIT; count],
+            row_sums: vec![RowSums::default(); count],
             damping: 1.0,
-            bar_dampers: model.bars.iter().map(damper).collect(),
-            row_sums: vec![RowSums::default(); positions.len()],
-            bar_forces: vec![DVec3::ZERO; model.bars.len()],
-            hinge_forces: angles.iter().map(idle).collect(),
-            face_forces: vec![[DVec3::ZERO; 3]; model.face_angles.len()],
-            is_parallel: model.node_count() >= super::parallel::MIN_NODES,
+            totals: vec![Totals::default(); layout.blocks.len()],
+            scratch: vec![Scratch::default(); workers],
+            arch: Arch::new(),
+            layout,
             model,
-            positions,
-            angles,
-        }
+        };
+        state.set_targets(&angles);
+        state.follow_angles_from_targets();
+        state
     }
 
-    /// Evaluates the force on every node, dampers included, and follows the fold angles.
-    pub fn evaluate_forces(&mut self) {
-        self.evaluate_bars();
-        self.evaluate_hinges();
-        self.evaluate_face_angles();
-        self.gather_forces();
-    }
-
-    /// One step of length `dt`; returns a bound on the way of any node, the root of the sum of their squares.
+    /// One step of length `dt` with the dampers of the bars; returns a bound on the way of any node, the root of the sum
+    /// of their squares.
     ///
     /// # Errors
     /// The first node that moved further than half a unit length, or to no number, and how far.
     pub fn step(&mut self, dt: f64) -> Result<f64, (usize, f64)> {
-        self.evaluate_forces();
-        self.integrate_damped(dt, 0.0)
+        self.step_with(dt, 0.0)
     }
 
-    /// Moves the nodes by one step of length `dt` with the forces of the last evaluation and a viscous force −c v,
-    /// centred in the step; c = 0 is semi-implicit Euler.
+    /// One step of length `dt`, with a viscous force −c m v, centred in the step, beside the dampers.
     ///
     /// # Errors
     /// As [`Self::step`].
-    pub fn integrate_damped(&mut self, dt: f64, c: f64) -> Result<f64, (usize, f64)> {
-        let keep = (1.0 - 0.5 * c * dt) / (1.0 + 0.5 * c * dt);
-        let gain = dt / (1.0 + 0.5 * c * dt);
-        let mut squared_speeds = 0.0;
-        let nodes = self.velocities.iter_mut().zip(&mut self.positions);
-        for ((v, x), force) in nodes.zip(&self.forces) {
-            *v = *v * keep + *force * gain;
-            *x += *v * dt;
-            squared_speeds += v.length_squared();
-        }
+    pub(super) fn step_with(&mut self, dt: f64, viscosity: f64) -> Result<f64, (usize, f64)> {
+        self.evaluate(Pace {
+            dt,
+            viscosity,
+            damping: self.damping,
+        });
+        std::mem::swap(&mut self.now, &mut self.next);
         // The sum carries a NaN where a maximum would lose it.
-        let way = squared_speeds.sqrt() * dt;
+        let way = self.sum(|totals| totals.squared_speed).sqrt() * dt;
         if way <= MAX_DISPLACEMENT {
             return Ok(way);
         }
-        let displacements = self.velocities.iter().map(|v| v.length() * dt);
-        let runaway = displacements
-            .enumerate()
+        let runaway = self
+            .layout
+            .order
+            .iter()
+            .zip(&self.now.velocities)
+            .map(|(&node, v)| (node as usize, vector(v).length() * dt))
             .find(|(_, d)| d.is_nan() || *d > MAX_DISPLACEMENT);
         runaway.map_or(Ok(way), Err)
     }
 
-    /// Evaluates the fold angles afresh: of each the value, modulo 2π, nearest to its target.
+    /// Evaluates the force on every node, dampers included, and follows the fold angles; nothing moves.
+    pub fn evaluate_forces(&mut self) {
+        self.evaluate(Pace {
+            dt: 0.0,
+            viscosity: 0.0,
+            damping: self.damping,
+        });
+    }
+
+    /// The passes over every block, from `now` to `next`.
+    fn evaluate(&mut self, pace: Pace) {
+        let len = self.layout.block_len;
+        let work = Work {
+            arch: self.arch,
+            before: Before {
+                positions: &self.now.positions,
+                velocities: &self.now.velocities,
+            },
+            pace,
+            face_angle_stiffness: self.model.material.face_angle_stiffness,
+            block_len: len,
+        };
+        let share = Share {
+            blocks: &self.layout.blocks,
+            hinges: &mut self.hinges,
+            totals: &mut self.totals,
+            after: After {
+                positions: &mut self.next.positions,
+                velocities: &mut self.next.velocities,
+                forces: &mut self.forces,
+                masses: &self.masses,
+            },
+        };
+        share.run(&work, &mut self.scratch);
+    }
+
+    pub(super) fn sum(&self, of: impl Fn(&Totals) -> f64) -> f64 {
+        self.totals.iter().map(of).sum()
+    }
+
+    fn largest(&self, of: impl Fn(&Totals) -> f64) -> f64 {
+        self.totals.iter().map(of).fold(0.0, f64::max)
+    }
+
+    /// Positions in the order of the model.
+    pub fn positions(&self) -> Vec<DVec3> {
+        vectors(&self.layout.order, &self.now.positions)
+    }
+
+    /// Velocities in the order of the model.
+    pub fn velocities(&self) -> Vec<DVec3> {
+        vectors(&self.layout.order, &self.now.velocities)
+    }
+
+    /// Sets the velocities, one a node.
+    pub fn set_velocities(&mut self, velocities: &[DVec3]) {
+        self.now.velocities = quads(&self.layout.order, velocities);
+    }
+
+    /// The force on every node at the last evaluation.
+    pub fn forces(&self) -> Vec<DVec3> {
+        vectors(&self.layout.order, &self.forces)
+    }
+
+    /// Sets the target of every hinge, radians.
+    pub fn set_targets(&mut self, targets: &[f64]) {
+        for (block, hinges) in self.layout.blocks.iter().zip(&mut self.hinges) {
+            let slots = hinges.targets.as_flattened_mut();
+            for (slot, &hinge) in slots.iter_mut().zip(&block.hinges) {
+                if hinge != NO_HINGE {
+                    *slot = targets[hinge as usize];
+                }
+            }
+        }
+    }
+
+    /// The target of every hinge, radians.
+    pub fn targets(&self) -> Vec<f64> {
+        self.by_hinge(|hinges| &hinges.targets)
+    }
+
+    /// The followed fold angle of every hinge at the last evaluation, radians.
+    pub fn angles(&self) -> Vec<f64> {
+        self.by_hinge(|hinges| &hinges.angles)
+    }
+
+    fn by_hinge(&self, of: impl Fn(&Hinges) -> &Vec<[f64; WIDTH]>) -> Vec<f64> {
+        let mut numbers = vec![0.0; self.model.hinges.len()];
+        for (block, hinges) in self.layout.blocks.iter().zip(&self.hinges) {
+            for (&number, &hinge) in of(hinges).as_flattened().iter().zip(&block.hinges) {
+                if hinge != NO_HINGE {
+                    numbers[hinge as usize] = number;
+                }
+            }
+        }
+        numbers
+    }
+
+    /// Takes each fold angle, at the next evaluation, for the value modulo 2π that is nearest to its target.
     pub fn follow_angles_from_targets(&mut self) {
-        self.angles.copy_from_slice(&self.targets);
-        self.model.follow_angles(&self.positions, &mut self.angles);
-        for (hinge, angle) in self.hinge_forces.iter_mut().zip(&self.angles) {
-            hinge.angle = *angle;
+        for hinges in &mut self.hinges {
+            hinges.angles.copy_from_slice(&hinges.targets);
         }
     }
 
     /// The largest force on a node at the last evaluation over the fold stiffness.
     pub fn residual(&self) -> f64 {
-        largest_length(&self.forces) / self.model.material.fold_stiffness
+        self.largest(|totals| totals.squared_force).sqrt() / self.model.material.fold_stiffness
     }
 
-    /// The largest |v| of a node.
+    /// The largest |v| of a node after the last step.
     pub fn largest_speed(&self) -> f64 {
-        largest_length(&self.velocities)
+        self.largest(|totals| totals.largest_squared_speed).sqrt()
     }
 
     /// The largest |θ − θ*| of a hinge at the last evaluation.
     pub fn fold_angle_error(&self) -> f64 {
-        let errors = self
-            .angles
-            .iter()
-            .zip(&self.targets)
-            .map(|(angle, target)| angle - target);
-        errors.map(f64::abs).fold(0.0, f64::max)
+        let errors = self.layout.blocks.iter().zip(&self.hinges);
+        let errors = errors.flat_map(|(block, hinges)| {
+            let pairs = hinges.angles.as_flattened().iter();
+            let pairs = pairs.zip(hinges.targets.as_flattened()).zip(&block.hinges);
+            pairs
+                .filter(|(_, hinge)| **hinge != NO_HINGE)
+                .map(|((angle, target), _)| (angle - target).abs())
+        });
+        errors.fold(0.0, f64::max)
     }
 
-    /// Σ |v|² / 2.
+    /// Σ |v|² / 2, of unit masses.
     pub fn kinetic_energy(&self) -> f64 {
-        0.5 * self
+        let squares = self
+            .now
             .velocities
             .iter()
-            .map(|v| v.length_squared())
-            .sum::<f64>()
+            .map(|v| vector(v).length_squared());
+        0.5 * squares.sum::<f64>()
     }
 
-    fn evaluate_bars(&mut self) {
-        let Self {
-            model,
-            positions,
-            velocities,
-            bar_dampers,
-            damping,
-            ..
-        } = self;
-        fill(self.is_parallel, &mut self.bar_forces, |index, force| {
-            let bar = &model.bars[index];
-            let [a, b] = bar.vertices.map(|v| v as usize);
-            let drag = (velocities[b] - velocities[a]) * (bar_dampers[index] * *damping);
-            *force = bar.pull(positions) + drag;
-        });
-    }
-
-    fn evaluate_hinges(&mut self) {
-        let Self {
-            model,
-            positions,
-            targets,
-            ..
-        } = self;
-        fill(
-            self.is_parallel,
-            &mut self.hinge_forces,
-            |index, hinge_forces| {
-                let hinge = &model.hinges[index];
-                let [e0, e1, left, right] = hinge.vertices.map(|v| positions[v as usize]);
-                let angle = nearest_turn(fold_angle(e0, e1, left, right), hinge_forces.angle);
-                let torque = hinge.stiffness * (targets[index] - angle);
-                let corners = fold_angle_gradient(e0, e1, left, right).map(|slope| slope * torque);
-                *hinge_forces = HingeForces { corners, angle };
-            },
-        );
-        for (angle, hinge) in self.angles.iter_mut().zip(&self.hinge_forces) {
-            *angle = hinge.angle;
+    /// Gives every node the mass 1, that of the material.
+    pub(super) fn use_unit_masses(&mut self) {
+        for index in 0..self.masses.len() {
+            self.change_mass(index, Mass::UNIT);
         }
     }
 
-    fn evaluate_face_angles(&mut self) {
-        let Self {
-            model, positions, ..
-        } = self;
-        fill(self.is_parallel, &mut self.face_forces, |index, forces| {
-            let stiffness = model.material.face_angle_stiffness;
-            *forces = model.face_angles[index]
-                .energy_gradient(positions, stiffness)
-                .map(|g| -g);
-        });
+    /// Gives every node the mass at which a time step of 2 is the longest that is stable for it.
+    pub(super) fn scale_masses(&mut self) {
+        self.update_row_sums();
+        for index in 0..self.masses.len() {
+            let stiffness = self.row_sums[index].stiffness;
+            self.change_mass(index, Mass::new(stiffness.max(f64::MIN_POSITIVE)));
+        }
     }
 
-    fn gather_forces(&mut self) {
-        let Self {
-            model,
-            bar_forces,
-            hinge_forces,
-            face_forces,
-            ..
-        } = self;
-        let face_forces = face_forces.as_flattened();
-        fill(self.is_parallel, &mut self.forces, |node, force| {
-            let mut sum = DVec3::ZERO;
-            for &slot in model.bar_gather.slots(node) {
-                let pull = bar_forces[slot as usize / 2];
-                sum += if slot % 2 == 0 { pull } else { -pull };
-            }
-            for &slot in model.hinge_gather.slots(node) {
-                sum += hinge_forces[slot as usize / 4].corners[slot as usize % 4];
-            }
-            for &slot in model.face_gather.slots(node) {
-                sum += face_forces[slot as usize];
-            }
-            *force = sum;
-        });
+    /// The node keeps its kinetic energy.
+    fn change_mass(&mut self, index: usize, mass: Mass) {
+        let factor = (self.masses[index].mass * mass.inverse).sqrt();
+        for speed in &mut self.now.velocities[index] {
+            *speed *= factor;
+        }
+        self.masses[index] = mass;
+    }
+
+    pub(super) fn stop(&mut self) {
+        self.now.velocities.fill([0.0; 4]);
     }
 }
 
-fn largest_length(vectors: &[DVec3]) -> f64 {
+/// What is the same for every block of a step.
+#[derive(Debug)]
+struct Work<'a> {
+    arch: Arch,
+    before: Before<'a>,
+    pace: Pace,
+    face_angle_stiffness: f64,
+    block_len: usize,
+}
+
+/// A run of blocks with what they write.
+#[derive(Debug)]
+struct Share<'a> {
+    blocks: &'a [super::layout::Block],
+    hinges: &'a mut [Hinges],
+    totals: &'a mut [Totals],
+    after: After<'a>,
+}
+
+impl Share<'_> {
+    /// Steps the blocks, shared out to as many workers as there are scratches.
+    fn run(self, work: &Work<'_>, scratches: &mut [Scratch]) {
+        if scratches.len() < 2 {
+            if let [scratch] = scratches {
+                self.run_here(work, scratch);
+            }
+            return;
+        }
+        let half = scratches.len() / 2;
+        let (first, second) = self.split(half, scratches.len(), work.block_len);
+        let (here, there) = scratches.split_at_mut(half);
+        rayon::join(|| first.run(work, here), || second.run(work, there));
+    }
+
+    fn split(self, part: usize, of: usize, block_len: usize) -> (Self, Self) {
+        let blocks = self.blocks.len() * part / of;
+        let nodes = (blocks * block_len).min(self.after.forces.len());
+        let (blocks_0, blocks_1) = self.blocks.split_at(blocks);
+        let (hinges_0, hinges_1) = self.hinges.split_at_mut(blocks);
+        let (totals_0, totals_1) = self.totals.split_at_mut(blocks);
+        let (positions_0, positions_1) = self.after.positions.split_at_mut(nodes);
+        let (velocities_0, velocities_1) = self.after.velocities.split_at_mut(nodes);
+        let (forces_0, forces_1) = self.after.forces.split_at_mut(nodes);
+        let (masses_0, masses_1) = self.after.masses.split_at(nodes);
+        let first = Share {
+            blocks: blocks_0,
+            hinges: hinges_0,
+            totals: totals_0,
+            after: After {
+                positions: positions_0,
+                velocities: velocities_0,
+                forces: forces_0,
+                masses: masses_0,
+            },
+        };
+        let second = Share {
+            blocks: blocks_1,
+            hinges: hinges_1,
+            totals: totals_1,
+            after: After {
+                positions: positions_1,
+                velocities: velocities_1,
+                forces: forces_1,
+                masses: masses_1,
+            },
+        };
+        (first, second)
+    }
+
+    fn run_here(self, work: &Work<'_>, scratch: &mut Scratch) {
+        let After {
+            positions,
+            velocities,
+            forces,
+            masses,
+        } = self.after;
+        let len = work.block_len;
+        let after = positions
+            .chunks_mut(len)
+            .zip(velocities.chunks_mut(len))
+            .zip(forces.chunks_mut(len))
+            .zip(masses.chunks(len));
+        let blocks = self.blocks.iter().zip(self.hinges).zip(self.totals);
+        for (((block, hinges), totals), (((positions, velocities), forces), masses)) in
+            blocks.zip(after)
+        {
+            *totals = work.arch.dispatch(BlockStep {
+                block,
+                hinges,
+                before: work.before,
+                after: After {
+                    positions,
+                    velocities,
+                    forces,
+                    masses,
+                },
+                scratch,
+                pace: work.pace,
+                face_angle_stiffness: work.face_angle_stiffness,
+            });
+        }
+    }
+}
+
+/// One quad a node, in the order of the layout.
+fn quads(order: &[u32], vectors: &[DVec3]) -> Vec<Quad> {
+    let quad = |&node: &u32| {
+        let v = vectors[node as usize];
+        [v.x, v.y, v.z, 0.0]
+    };
+    order.iter().map(quad).collect()
+}
+
+/// One vector a node, in the order of the model.
+fn vectors(order: &[u32], quads: &[Quad]) -> Vec<DVec3> {
+    let mut vectors = vec![DVec3::ZERO; quads.len()];
+    for (&node, quad) in order.iter().zip(quads) {
+        vectors[node as usize] = vector(quad);
+    }
     vectors
-        .iter()
-        .map(|v| v.length_squared())
-        .fold(0.0, f64::max)
-        .sqrt()
+}
+
+fn vector(quad: &Quad) -> DVec3 {
+    let [x, y, z, _] = *quad;
+    DVec3::new(x, y, z)
 }

@@ -118,13 +118,13 @@ fn the_result_is_the_same_for_any_number_of_threads_bit_for_bit() {
             .build()
             .unwrap();
         pool.install(|| {
-            let mut state = State::at_rest(&model, model.to_model(&start));
-            state.targets.fill(0.3);
+            let mut state = State::at_rest(&model, &model.to_model(&start));
+            state.set_targets(&vec![0.3; model.hinges.len()]);
             let dt = 0.9 * state.stable_time_step();
             for _ in 0..25 {
                 state.step(dt).unwrap();
             }
-            (state.positions, state.angles)
+            (state.positions(), state.angles())
         })
     };
     let one = steps_on(1);

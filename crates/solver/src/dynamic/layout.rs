@@ -1,0 +1,303 @@
+//! The sheet cut into blocks: what a pass reads, in the order in which it reads it.
+//!
+//! Nodes are renumbered along Hilbert's curve and cut into equal runs. A block owns a run and holds every element that
+//! acts on it, with copies of those on its border: evaluated twice, they save the wait for the neighbour. All a block
+//! reads and writes in a step fits into a core's own cache; blocks do not depend on each other within a step, nor their
+//! results on who works on them.
+
+use crate::Model;
+use crate::gather::Gather;
+
+use super::lanes::WIDTH;
+
+/// Nodes a block owns at most. With these its records and sums take about 700 kB.
+const LARGEST_BLOCK: usize = 1024;
+
+/// The mark of an edge without a hinge.
+pub(super) const NO_HINGE: u32 = u32::MAX;
+
+/// Bars with their hinges; every edge of the sheet is a bar, and a hinge where two triangles meet.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub(super) struct EdgeGroup {
+    /// The ends and the apexes on the left and on the right, numbered within the block; an edge of the border has its one
+    /// apex twice.
+    pub(super) vertices: [[u16; WIDTH]; 4],
+    /// k of the bar.
+    pub(super) stiffness: [f64; WIDTH],
+    /// k l₀.
+    pub(super) tension: [f64; WIDTH],
+    /// Of the damper along the bar.
+    pub(super) damper: [f64; WIDTH],
+    /// κ l₀ of the hinge; 0 without one.
+    pub(super) hinge_stiffness: [f64; WIDTH],
+}
+
+/// Triangles.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub(super) struct FaceGroup {
+    /// The corners, numbered within the block, counter-clockwise seen from the front.
+    pub(super) vertices: [[u16; WIDTH]; 3],
+    /// The edge opposite to each of them, numbered within the block.
+    pub(super) edges: [[u16; WIDTH]; 3],
+}
+
+/// A run of nodes with all that acts on them.
+#[derive(Debug, Clone)]
+pub(super) struct Block {
+    /// The first node it owns, in the order of the layout.
+    pub(super) first: usize,
+    /// How many it owns: the first ones of its own numbering.
+    pub(super) owned: usize,
+    /// The others its elements touch, in the order of the layout.
+    pub(super) halo: Vec<u32>,
+    pub(super) edges: Vec<EdgeGroup>,
+    pub(super) faces: Vec<FaceGroup>,
+    /// The rest angles at the corners of the triangles; none where they are not held.
+    pub(super) rest_angles: Vec<[[f64; WIDTH]; 3]>,
+    /// The hinge of each edge in the model, or [`NO_HINGE`].
+    pub(super) hinges: Vec<u32>,
+    /// Where the slots of each owned node start, and where the last ones end.
+    pub(super) starts: Vec<[u16; 2]>,
+    /// The ends of bars at each owned node: twice the edge, and one more at its second end.
+    pub(super) ends: Vec<u16>,
+    /// The corners of triangles at each owned node: (3 group + corner) WIDTH + lane.
+    pub(super) corners: Vec<u16>,
+}
+
+/// The blocks of a model.
+#[derive(Debug, Clone)]
+pub(super) struct Layout {
+    /// The model's number of each node, in the order of the layout.
+    pub(super) order: Vec<u32>,
+    pub(super) blocks: Vec<Block>,
+    /// Nodes every block owns; the last one may own fewer.
+    pub(super) block_len: usize,
+}
+
+impl Layout {
+    pub(super) fn new(model: &Model) -> Self {
+        let order = model.locality.clone();
+        let nodes = order.len();
+        let count = nodes.div_ceil(LARGEST_BLOCK).max(1);
+        let block_len = nodes.div_ceil(count).max(1);
+        let topology = Topology::new(model, &order);
+        let blocks = (0..nodes)
+            .step_by(block_len)
+            .map(|first| Block::new(model, &topology, first, block_len.min(nodes - first)))
+            .collect();
+        Self {
+            order,
+            blocks,
+            block_len,
+        }
+    }
+}
+
+/// Who meets whom, by the numbers of the model.
+struct Topology<'a> {
+    order: &'a [u32],
+    /// The place of each node in the layout.
+    places: Vec<u32>,
+    faces_at: Gather,
+    /// The edge opposite to each corner of each triangle.
+    face_edges: Vec<[u32; 3]>,
+    /// The hinge of each edge.
+    hinge_of: Vec<u32>,
+    /// The corner of a triangle that does not lie on each edge.
+    apex_of: Vec<u32>,
+}
+
+impl<'a> Topology<'a> {
+    fn new(model: &Model, order: &'a [u32]) -> Self {
+        let mut places = vec![0; order.len()];
+        for (place, &node) in order.iter().enumerate() {
+            places[node as usize] = place as u32;
+        }
+        let edge_between = |a: u32, b: u32| {
+            let ends = model.bar_gather.slots(a as usize).iter();
+            let edges = ends.map(|&slot| slot / 2);
+            let mut joining = edges.filter(|&e| model.bars[e as usize].vertices.contains(&b));
+            // Every side of a triangle is an edge of the sheet.
+            joining.next().unwrap_or_default()
+        };
+        let face_edges: Vec<[u32; 3]> = model
+            .faces
+            .iter()
+            .map(|&[a, b, c]| [edge_between(b, c), edge_between(c, a), edge_between(a, b)])
+            .collect();
+        let mut hinge_of = vec![NO_HINGE; model.bars.len()];
+        for (index, hinge) in model.hinges.iter().enumerate() {
+            hinge_of[hinge.edge as usize] = index as u32;
+        }
+        let mut apex_of = vec![0; model.bars.len()];
+        for (face, edges) in model.faces.iter().zip(&face_edges) {
+            for (apex, edge) in face.iter().zip(edges) {
+                apex_of[*edge as usize] = *apex;
+            }
+        }
+        Self {
+            order,
+            places,
+            faces_at: Gather::new(order.len(), model.faces.iter()),
+            face_edges,
+            hinge_of,
+            apex_of,
+        }
+    }
+
+    /// Ends and apexes of an edge, as the hinge has them.
+    fn edge_vertices(&self, model: &Model, edge: u32) -> [u32; 4] {
+        if let Some(hinge) = model.hinges.get(self.hinge_of[edge as usize] as usize) {
+            return hinge.vertices;
+        }
+        let [a, b] = model.bars[edge as usize].vertices;
+        let apex = self.apex_of[edge as usize];
+        [a, b, apex, apex]
+    }
+}
+
+impl Block {
+    fn new(model: &Model, topology: &Topology<'_>, first: usize, owned: usize) -> Self {
+        let nodes = &topology.order[first..first + owned];
+        let mut faces: Vec<u32> = nodes
+            .iter()
+            .flat_map(|&node| topology.faces_at.slots(node as usize))
+            .map(|&slot| slot / 3)
+            .collect();
+        let mut edges: Vec<u32> = Vec::with_capacity(3 * faces.len());
+        sort_by_place(&mut faces, |face| {
+            model.faces[face as usize].map(|v| topology.places[v as usize])
+        });
+        for &face in &faces {
+            edges.extend(topology.face_edges[face as usize]);
+        }
+        let vertices = |edge: u32| topology.edge_vertices(model, edge);
+        sort_by_place(&mut edges, |edge| {
+            model.bars[edge as usize]
+                .vertices
+                .map(|v| topology.places[v as usize])
+        });
+        let mut halo: Vec<u32> = edges
+            .iter()
+            .flat_map(|&edge| vertices(edge))
+            .map(|v| topology.places[v as usize])
+            .filter(|&place| !(first..first + owned).contains(&(place as usize)))
+            .collect();
+        halo.sort_unstable();
+        halo.dedup();
+        let mut block = Self {
+            first,
+            owned,
+            halo,
+            edges: vec![EdgeGroup::default(); edges.len().div_ceil(WIDTH)],
+            faces: vec![FaceGroup::default(); faces.len().div_ceil(WIDTH)],
+            rest_angles: Vec::new(),
+            hinges: edges
+                .iter()
+                .map(|&edge| topology.hinge_of[edge as usize])
+                .collect(),
+            starts: Vec::with_capacity(owned + 1),
+            ends: Vec::new(),
+            corners: Vec::new(),
+        };
+        block.fill_edges(model, topology, &edges);
+        block.fill_faces(model, topology, &faces, &edges);
+        block.fill_slots(edges.len(), faces.len());
+        block
+    }
+
+    /// The number of a node within the block.
+    fn local(&self, topology: &Topology<'_>, node: u32) -> u16 {
+        let place = topology.places[node as usize];
+        let own = (place as usize).wrapping_sub(self.first);
+        let local = if own < self.owned {
+            own
+        } else {
+            self.owned + self.halo.partition_point(|&other| other < place)
+        };
+        local as u16
+    }
+
+    fn fill_edges(&mut self, model: &Model, topology: &Topology<'_>, edges: &[u32]) {
+        for (index, &edge) in edges.iter().enumerate() {
+            let (group, lane) = (index / WIDTH, index % WIDTH);
+            let vertices = topology.edge_vertices(model, edge);
+            let bar = &model.bars[edge as usize];
+            let hinge = model.hinges.get(self.hinges[index] as usize);
+            let local = vertices.map(|v| self.local(topology, v));
+            let record = &mut self.edges[group];
+            for (column, vertex) in record.vertices.iter_mut().zip(local) {
+                column[lane] = vertex;
+            }
+            record.stiffness[lane] = bar.stiffness;
+            record.tension[lane] = bar.stiffness * bar.rest_length;
+            record.damper[lane] = 2.0 * model.material.damping_ratio * bar.stiffness.sqrt();
+            record.hinge_stiffness[lane] = hinge.map_or(0.0, |hinge| hinge.stiffness);
+        }
+    }
+
+    fn fill_faces(&mut self, model: &Model, topology: &Topology<'_>, faces: &[u32], edges: &[u32]) {
+        let mut by_edge: Vec<(u32, u16)> = edges
+            .iter()
+            .enumerate()
+            .map(|(index, &edge)| (edge, index as u16))
+            .collect();
+        by_edge.sort_unstable();
+        let index_of = |edge: u32| {
+            let at = by_edge.partition_point(|&(other, _)| other < edge);
+            by_edge[at].1
+        };
+        if !model.face_angles.is_empty() {
+            self.rest_angles = vec![[[0.0; WIDTH]; 3]; self.faces.len()];
+        }
+        for (index, &face) in faces.iter().enumerate() {
+            let (group, lane) = (index / WIDTH, index % WIDTH);
+            for corner in 0..3 {
+                let vertex = model.faces[face as usize][corner];
+                self.faces[group].vertices[corner][lane] = self.local(topology, vertex);
+                self.faces[group].edges[corner][lane] =
+                    index_of(topology.face_edges[face as usize][corner]);
+                if let Some(angles) = self.rest_angles.get_mut(group) {
+                    angles[corner][lane] = model.face_angles[face as usize].rest_angles[corner];
+                }
+            }
+        }
+    }
+
+    /// Lists the ends and corners at each owned node, in the order of the records.
+    fn fill_slots(&mut self, edges: usize, faces: usize) {
+        let mut ends = vec![Vec::new(); self.owned];
+        for edge in 0..edges {
+            for end in 0..2 {
+                let node = self.edges[edge / WIDTH].vertices[end][edge % WIDTH];
+                if let Some(slots) = ends.get_mut(node as usize) {
+                    slots.push((2 * edge + end) as u16);
+                }
+            }
+        }
+        let mut corners = vec![Vec::new(); self.owned];
+        for face in 0..faces {
+            let (group, lane) = (face / WIDTH, face % WIDTH);
+            for corner in 0..3 {
+                let node = self.faces[group].vertices[corner][lane];
+                if let Some(slots) = corners.get_mut(node as usize) {
+                    slots.push(((3 * group + corner) * WIDTH + lane) as u16);
+                }
+            }
+        }
+        self.starts.push([0; 2]);
+        for (ends, corners) in ends.iter().zip(&corners) {
+            self.ends.extend(ends);
+            self.corners.extend(corners);
+            self.starts
+                .push([self.ends.len() as u16, self.corners.len() as u16]);
+        }
+    }
+}
+
+/// Sorts elements, each once, by the lowest place of a node of theirs.
+fn sort_by_place<const N: usize>(elements: &mut Vec<u32>, places: impl Fn(u32) -> [u32; N]) {
+    let key = |&element: &u32| (places(element).into_iter().min(), element);
+    elements.sort_by_cached_key(key);
+    elements.dedup();
+}

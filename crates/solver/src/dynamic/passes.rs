@@ -1,0 +1,332 @@
+//! The passes of one step over a block.
+//!
+//! `edge_loads` evaluates each bar and hinge once: the pull of the bar, with its damper, and what the hinge asks of its
+//! two triangles,
+//!
+//! p = k (1 − l₀/l) e + d (v₁ − v₀),  g = κ l₀ (θ* − θ) / l,  e = x₁ − x₀, l = |e|.
+//!
+//! θ = atan2(l b·n_left, n_left·n_right) with n_left = e × a, n_right = b × e and a, b from x₀ to the apexes; it is
+//! `foldmotion_geometry::fold_angle` since (n_right × n_left)·e = l² b·n_left.
+//!
+//! `face_loads` turns the g of the three edges of a triangle into forces on its corners. The gradient of a fold angle at
+//! the corners of one of its triangles is along the normal n of that triangle: l n/|n|² at the apex, and at the ends what
+//! keeps translations and rotations free. With D the dot product of the two sides at a corner, the three hinges sum to
+//!
+//! f_a = ((g_a − g_b) D_c + (g_a − g_c) D_b) n / |n|²
+//!
+//! for the corner a opposite to the edge of g_a, and in turn for b and c: three products where four points a hinge had
+//! been. The face-angle springs m = φ (α₀ − α) add, with q = e × n / (|n| |e|²) of each side,
+//!
+//! f_a = (m_b − m_a) q_c + (m_c − m_a) q_b.
+//!
+//! `node_step` sums the ends and corners at each node in a fixed order and moves it.
+
+use pulp::{Simd, WithSimd};
+
+use super::angle::atan2;
+use super::lanes::{Lanes, Quad, WIDTH};
+use super::layout::Block;
+use super::part::LEAST_SQUARE;
+use super::part::{Edge, Face, Part};
+
+/// What is kept for a turn: a whole one, halved and doubled, is followed to the nearest.
+const TURN: f64 = std::f64::consts::TAU;
+
+/// How a step moves the nodes.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Pace {
+    /// Δt.
+    pub(super) dt: f64,
+    /// c of a viscous force −c m v, centred in the step.
+    pub(super) viscosity: f64,
+    /// Fraction of the bars' dampers that acts.
+    pub(super) damping: f64,
+}
+
+/// Sums over the nodes of a block in a step, from the state it started in.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub(super) struct Totals {
+    /// Σ v·(F before − F now): the work of the change of the forces on the last way, over Δt.
+    pub(super) work: f64,
+    /// Σ m |v|², of the last way.
+    pub(super) path: f64,
+    /// The largest |F|².
+    pub(super) squared_force: f64,
+    /// Σ |v|² after the step.
+    pub(super) squared_speed: f64,
+    /// The largest |v|² after the step.
+    pub(super) largest_squared_speed: f64,
+}
+
+/// The state in which a step starts, in the order of the layout.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Before<'a> {
+    pub(super) positions: &'a [Quad],
+    pub(super) velocities: &'a [Quad],
+}
+
+/// The mass of a node.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Mass {
+    pub(super) mass: f64,
+    pub(super) inverse: f64,
+}
+
+impl Mass {
+    pub(super) const UNIT: Self = Self::new(1.0);
+
+    pub(super) const fn new(mass: f64) -> Self {
+        Self {
+            mass,
+            inverse: 1.0 / mass,
+        }
+    }
+}
+
+/// What a step writes of the nodes of one block.
+#[derive(Debug)]
+pub(super) struct After<'a> {
+    pub(super) positions: &'a mut [Quad],
+    pub(super) velocities: &'a mut [Quad],
+    /// Forces of the last evaluation, overwritten by those of this one.
+    pub(super) forces: &'a mut [Quad],
+    pub(super) masses: &'a [Mass],
+}
+
+/// Angles and targets of the hinges of a block.
+#[derive(Debug, Clone)]
+pub(super) struct Hinges {
+    /// The followed fold angles at the last evaluation.
+    pub(super) angles: Vec<[f64; WIDTH]>,
+    pub(super) targets: Vec<[f64; WIDTH]>,
+}
+
+/// Room for the loads of one block; a worker needs one.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Scratch {
+    pub(super) positions: Vec<Quad>,
+    velocities: Vec<Quad>,
+    /// Of each edge the pull on its first end.
+    pub(super) pulls: Vec<[Quad; WIDTH]>,
+    /// Of each edge what its hinge asks of its triangles.
+    pub(super) turnings: Vec<f64>,
+    pub(super) corner_forces: Vec<[[Quad; WIDTH]; 3]>,
+}
+
+/// One step of one block.
+#[derive(Debug)]
+pub(super) struct BlockStep<'a> {
+    pub(super) block: &'a Block,
+    pub(super) hinges: &'a mut Hinges,
+    pub(super) before: Before<'a>,
+    pub(super) after: After<'a>,
+    pub(super) scratch: &'a mut Scratch,
+    pub(super) pace: Pace,
+    pub(super) face_angle_stiffness: f64,
+}
+
+impl WithSimd for BlockStep<'_> {
+    type Output = Totals;
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(mut self, simd: S) -> Totals {
+        self.load_nodes();
+        if self.pace.damping == 0.0 {
+            self.edge_loads::<S, false>(simd);
+        } else {
+            self.edge_loads::<S, true>(simd);
+        }
+        if self.block.rest_angles.is_empty() {
+            self.face_loads::<S, false>(simd);
+        } else {
+            self.face_loads::<S, true>(simd);
+        }
+        self.node_step()
+    }
+}
+
+impl BlockStep<'_> {
+    #[inline(always)]
+    fn load_nodes(&mut self) {
+        let Self {
+            block,
+            before,
+            scratch,
+            ..
+        } = self;
+        load(block, before.positions, &mut scratch.positions);
+        if self.pace.damping != 0.0 {
+            load(block, before.velocities, &mut scratch.velocities);
+        }
+    }
+
+    #[inline(always)]
+    fn edge_loads<S: Simd, const DAMPED: bool>(&mut self, simd: S) {
+        let scratch = &mut *self.scratch;
+        let groups = self.block.edges.len();
+        scratch.pulls.resize(groups, [[0.0; 4]; WIDTH]);
+        scratch.turnings.resize(groups * WIDTH, 0.0);
+        let damping = Lanes::splat(simd, self.pace.damping);
+        let (turnings, _) = scratch.turnings.as_chunks_mut::<WIDTH>();
+        let hinges = self.hinges.angles.iter_mut().zip(&self.hinges.targets);
+        let loads = scratch.pulls.iter_mut().zip(turnings);
+        for ((record, (angle, target)), (pull, turning)) in
+            self.block.edges.iter().zip(hinges).zip(loads)
+        {
+            for index in 0..Lanes::<S>::PARTS {
+                let part = Part { simd, index };
+                let Edge { e, a, b } = part.edge(&scratch.positions, record);
+                let square = e.dot(e).max(damping.constant(LEAST_SQUARE));
+                let inverse = damping.constant(1.0).over(square.sqrt());
+                let tension = part.numbers(&record.tension) * inverse;
+                let mut load = e.scaled(part.numbers(&record.stiffness) - tension);
+                if DAMPED {
+                    let start = part.vectors(&scratch.velocities, &record.vertices[0]);
+                    let end = part.vectors(&scratch.velocities, &record.vertices[1]);
+                    load = (end - start).mul_add(part.numbers(&record.damper) * damping, load);
+                }
+                load.store(pull, index);
+                let (left, right) = (e.cross(a), b.cross(e));
+                let raw = atan2(square * inverse * b.dot(left), left.dot(right));
+                let turns = (part.numbers(angle) - raw) * damping.constant(1.0 / TURN);
+                let followed = turns.round().mul_add(damping.constant(TURN), raw);
+                followed.store(angle, index);
+                let moment =
+                    part.numbers(&record.hinge_stiffness) * (part.numbers(target) - followed);
+                (moment * inverse).store(turning, index);
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn face_loads<S: Simd, const HELD: bool>(&mut self, simd: S) {
+        let scratch = &mut *self.scratch;
+        let groups = self.block.faces.len();
+        scratch.corner_forces.resize(groups, [[[0.0; 4]; WIDTH]; 3]);
+        let one = Lanes::splat(simd, 1.0);
+        let stiffness = one.constant(self.face_angle_stiffness);
+        for (group, (record, forces)) in self
+            .block
+            .faces
+            .iter()
+            .zip(&mut scratch.corner_forces)
+            .enumerate()
+        {
+            for index in 0..Lanes::<S>::PARTS {
+                let part = Part { simd, index };
+                let Face {
+                    sides: [ea, eb, ec],
+                    dots: [da, db, dc],
+                    normal,
+                    square,
+                } = part.face(&scratch.positions, record);
+                let ga = part.gathered(&scratch.turnings, &record.edges[0]);
+                let gb = part.gathered(&scratch.turnings, &record.edges[1]);
+                let gc = part.gathered(&scratch.turnings, &record.edges[2]);
+                let along = normal.scaled(one.over(square));
+                let (ab, bc, ca) = (ga - gb, gb - gc, gc - ga);
+                let mut fa = along.scaled(ab * dc - ca * db);
+                let mut fb = along.scaled(bc * da - ab * dc);
+                let mut fc = along.scaled(ca * db - bc * da);
+                if HELD {
+                    let rest = &self.block.rest_angles[group];
+                    let length = square.sqrt();
+                    let ma = stiffness * (part.numbers(&rest[0]) - atan2(length, da));
+                    let mb = stiffness * (part.numbers(&rest[1]) - atan2(length, db));
+                    let mc = stiffness * (part.numbers(&rest[2]) - atan2(length, dc));
+                    // e × n / (|n| |e|²), with |e|² the sum of the dot products at its ends.
+                    let across = along.scaled(length);
+                    let qa = ea.cross(across).scaled(one.over(db + dc));
+                    let qb = eb.cross(across).scaled(one.over(dc + da));
+                    let qc = ec.cross(across).scaled(one.over(da + db));
+                    fa = qc.mul_add(mb - ma, qb.mul_add(mc - ma, fa));
+                    fb = qa.mul_add(mc - mb, qc.mul_add(ma - mb, fb));
+                    fc = qb.mul_add(ma - mc, qa.mul_add(mb - mc, fc));
+                }
+                fa.store(&mut forces[0], index);
+                fb.store(&mut forces[1], index);
+                fc.store(&mut forces[2], index);
+            }
+        }
+    }
+
+    /// Sums the forces at each node and moves it.
+    #[inline(always)]
+    fn node_step(&mut self) -> Totals {
+        let Pace { dt, viscosity, .. } = self.pace;
+        let keep = (1.0 - 0.5 * viscosity * dt) / (1.0 + 0.5 * viscosity * dt);
+        let gain = dt / (1.0 + 0.5 * viscosity * dt);
+        let Self {
+            block,
+            before,
+            after,
+            scratch,
+            ..
+        } = self;
+        let pulls = scratch.pulls.as_flattened();
+        let corner_forces = scratch.corner_forces.as_flattened().as_flattened();
+        let own = block.first..block.first + block.owned;
+        let nodes = before.positions[own.clone()]
+            .iter()
+            .zip(&before.velocities[own])
+            .zip(block.starts.windows(2));
+        let written = after
+            .positions
+            .iter_mut()
+            .zip(after.velocities.iter_mut())
+            .zip(after.forces.iter_mut())
+            .zip(after.masses);
+        let [mut work, mut path, mut speeds] = [[0.0; 4]; 3];
+        let (mut squared_force, mut largest_squared_speed) = (0.0f64, 0.0f64);
+        for (((x, v), starts), (((new_x, new_v), force), mass)) in nodes.zip(written) {
+            let [[end, corner], [last_end, last_corner]] = [starts[0], starts[1]];
+            let mut sum = [0.0; 4];
+            for &slot in &block.ends[end as usize..last_end as usize] {
+                let sign = if slot % 2 == 0 { 1.0 } else { -1.0 };
+                add(&mut sum, &pulls[slot as usize / 2], sign);
+            }
+            for &slot in &block.corners[corner as usize..last_corner as usize] {
+                add(&mut sum, &corner_forces[slot as usize], 1.0);
+            }
+            let impulse = gain * mass.inverse;
+            for k in 0..4 {
+                work[k] += v[k] * (force[k] - sum[k]);
+                path[k] += v[k] * v[k] * mass.mass;
+                new_v[k] = v[k] * keep + sum[k] * impulse;
+                new_x[k] = x[k] + new_v[k] * dt;
+                speeds[k] += new_v[k] * new_v[k];
+            }
+            *force = sum;
+            squared_force = squared_force.max(squared(&sum));
+            largest_squared_speed = largest_squared_speed.max(squared(new_v));
+        }
+        Totals {
+            work: work.iter().sum(),
+            path: path.iter().sum(),
+            squared_force,
+            squared_speed: speeds.iter().sum(),
+            largest_squared_speed,
+        }
+    }
+}
+
+/// Copies the nodes of a block, its own first.
+#[inline(always)]
+pub(super) fn load(block: &Block, nodes: &[Quad], local: &mut Vec<Quad>) {
+    local.clear();
+    local.extend_from_slice(&nodes[block.first..block.first + block.owned]);
+    local.extend(block.halo.iter().map(|&node| nodes[node as usize]));
+}
+
+/// sum + factor × term.
+#[inline(always)]
+fn add(sum: &mut Quad, term: &Quad, factor: f64) {
+    for (sum, term) in sum.iter_mut().zip(term) {
+        *sum += term * factor;
+    }
+}
+
+#[inline(always)]
+fn squared(vector: &Quad) -> f64 {
+    vector[0] * vector[0] + vector[1] * vector[1] + vector[2] * vector[2]
+}
