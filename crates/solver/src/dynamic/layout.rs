@@ -10,8 +10,13 @@ use crate::gather::Gather;
 
 use super::lanes::WIDTH;
 
-/// Nodes a block owns at most. With these its records and sums take about 700 kB.
-const LARGEST_BLOCK: usize = 1024;
+/// Sheets are cut into at least [`BLOCKS`] blocks, so that threads find work, unless these would own fewer nodes than
+/// this: of a smaller block the border is too large a share.
+const SMALL_BLOCK: usize = 1024;
+const BLOCKS: usize = 16;
+
+/// Nodes a block owns at most: its numbers are 16 bits wide, and its loads stay in the cache.
+const LARGE_BLOCK: usize = 4096;
 
 /// The mark of an edge without a hinge.
 pub(super) const NO_HINGE: u32 = u32::MAX;
@@ -78,8 +83,8 @@ impl Layout {
     pub(super) fn new(model: &Model) -> Self {
         let order = model.locality.clone();
         let nodes = order.len();
-        let count = nodes.div_ceil(LARGEST_BLOCK).max(1);
-        let block_len = nodes.div_ceil(count).max(1);
+        let count = nodes.div_ceil(SMALL_BLOCK).min(BLOCKS);
+        let block_len = nodes.div_ceil(count.max(nodes.div_ceil(LARGE_BLOCK)).max(1));
         let topology = Topology::new(model, &order);
         let blocks = (0..nodes)
             .step_by(block_len)

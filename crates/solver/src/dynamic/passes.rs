@@ -297,8 +297,8 @@ impl BlockStep<'_> {
                 speeds[k] += new_v[k] * new_v[k];
             }
             *force = sum;
-            squared_force = squared_force.max(squared(&sum));
-            largest_squared_speed = largest_squared_speed.max(squared(new_v));
+            squared_force = larger(squared(&sum), squared_force);
+            largest_squared_speed = larger(squared(new_v), largest_squared_speed);
         }
         Totals {
             work: work.iter().sum(),
@@ -329,4 +329,10 @@ fn add(sum: &mut Quad, term: &Quad, factor: f64) {
 #[inline(always)]
 fn squared(vector: &Quad) -> f64 {
     vector[0] * vector[0] + vector[1] * vector[1] + vector[2] * vector[2]
+}
+
+/// The larger of two numbers; `other` where `number` is none.
+#[inline(always)]
+fn larger(number: f64, other: f64) -> f64 {
+    if number > other { number } else { other }
 }
