@@ -102,7 +102,7 @@ impl Study {
                 seconds: folded.engine_seconds,
                 threads: rayon::current_num_threads(),
                 device: "cpu".to_owned(),
-                instruction_set: std::env::consts::ARCH.to_owned(),
+                instruction_set: foldmotion_solver::dynamic::instruction_set(),
             },
             seconds,
             files: files.to_vec(),

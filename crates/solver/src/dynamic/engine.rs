@@ -22,7 +22,8 @@ pub(super) const SAFETY: f64 = 0.9;
 /// Looks at a relaxation between two calls of `progress`.
 const LOOKS_A_REPORT: u64 = 20;
 
-/// Moves the sheet of `model` along `schedule` from `start` (deployed, in the sheet's unit) through both stages.
+/// Moves the sheet of `model` along `schedule` from `start` (one position a vertex, in the sheet's unit) through the stages
+/// asked for.
 ///
 /// `progress` is called with the motion time now and then; answering false ends the run. The result does not depend on
 /// the number of threads, bit for bit.
@@ -53,7 +54,8 @@ fn run_here(
 ) -> Result<Run, SolverError> {
     let mut state = State::at_rest(model, &model.to_model(start));
     let mut targets = vec![0.0; model.hinges.len()];
-    schedule.targets(Stage::Unfold, 0.0, &mut targets);
+    let first = options.stages.first().copied().unwrap_or(Stage::Unfold);
+    schedule.targets(first, 0.0, &mut targets);
     state.set_targets(&targets);
     state.follow_angles_from_targets();
     let recorder = Recorder::new(model);
@@ -65,18 +67,16 @@ fn run_here(
         recorder,
         targets,
     };
-    engine
-        .recorder
-        .push(Stage::Unfold, 0.0, &engine.state.positions());
-    let mut stages = Vec::with_capacity(Stage::ALL.len());
-    for stage in Stage::ALL {
+    engine.recorder.push(first, 0.0, &engine.state.positions());
+    let mut stages = Vec::with_capacity(options.stages.len());
+    for &stage in &options.stages {
         stages.push(engine.run_stage(stage)?);
     }
     let mut frames = engine.recorder.into_frames();
     // The start is given, not computed: it is recorded as it came, to the last bit.
-    if let Some(first) = frames.first_mut() {
-        *first = Frame {
-            time: 0.0,
+    if let Some(frame) = frames.first_mut() {
+        *frame = Frame {
+            time: first.start_time(),
             positions: start.to_vec(),
         };
     }

@@ -6,7 +6,7 @@
 
 use std::ops::{Add, Mul, Sub};
 
-use pulp::Simd;
+use pulp::{Arch, Simd, WithSimd};
 
 /// Elements in a group of records: a multiple of the lanes of every instruction set.
 pub(super) const WIDTH: usize = 8;
@@ -216,4 +216,18 @@ impl<S: Simd> Sub for Vectors<S> {
             z: self.z - other.z,
         }
     }
+}
+
+/// The processor and the vectors of this machine that the passes use.
+pub fn instruction_set() -> String {
+    struct LaneCount;
+    impl WithSimd for LaneCount {
+        type Output = usize;
+
+        fn with_simd<S: Simd>(self, _simd: S) -> usize {
+            S::F64_LANES
+        }
+    }
+    let lanes = Arch::new().dispatch(LaneCount);
+    format!("{}, {lanes} f64 a vector", std::env::consts::ARCH)
 }

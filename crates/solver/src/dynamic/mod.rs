@@ -14,6 +14,7 @@
 )]
 
 mod angle;
+mod cost;
 mod engine;
 mod increments;
 mod lanes;
@@ -27,6 +28,8 @@ mod relaxation;
 mod stability;
 mod state;
 
+pub use cost::StepCost;
 pub use engine::run;
+pub use lanes::instruction_set;
 pub use options::{DynamicOptions, Run, StageOutcome, StageStatus};
 pub use state::State;

@@ -7,6 +7,8 @@ use crate::{SolverError, Stage};
 /// Options of [`run`](super::run).
 #[derive(Debug, Clone, PartialEq)]
 pub struct DynamicOptions {
+    /// The stages to run, in the order of the motion.
+    pub stages: Vec<Stage>,
     /// The motion is recorded at t = 2k/frames, k = 0 … frames; even, at least 2.
     pub frames: usize,
     /// Further motion times at which the state is recorded; those outside the stages are passed over.
@@ -50,6 +52,7 @@ impl DynamicOptions {
 impl Default for DynamicOptions {
     fn default() -> Self {
         Self {
+            stages: Stage::ALL.to_vec(),
             frames: 240,
             extra_times: Vec::new(),
             tolerance: 1e-8,
