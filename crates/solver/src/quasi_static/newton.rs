@@ -10,7 +10,7 @@ use glam::{DMat3, DVec3};
 
 use super::configuration::{Configuration, dot, largest};
 use super::contact::ContactField;
-use super::element_stiffness::{Curvature, add_stiffness, coupled_nodes};
+use super::element_stiffness::{Curvature, ElementMap, add_stiffness, coupled_nodes};
 use super::hinge_hessian::outer;
 use super::stiffness_matrix::StiffnessMatrix;
 use crate::{Model, SolverError};
@@ -55,6 +55,7 @@ pub(super) struct Tolerance {
 pub(super) struct Newton<'a> {
     model: &'a Model,
     matrix: StiffnessMatrix,
+    elements: ElementMap,
     support: [u32; 3],
     inertia: f64,
     pub(super) contact: Option<ContactField>,
@@ -70,6 +71,7 @@ impl<'a> Newton<'a> {
         let matrix = StiffnessMatrix::new(model.node_count(), &coupled_nodes(model))?;
         Ok(Self {
             model,
+            elements: ElementMap::new(model, &matrix),
             matrix,
             support: supporting_triangle(model),
             inertia: INERTIA,
@@ -197,6 +199,7 @@ impl<'a> Newton<'a> {
         let more = ROOM * contact.reach();
         pairs.extend(contact.coupled_nodes(&state.positions, more));
         self.matrix = StiffnessMatrix::new(self.model.node_count(), &pairs)?;
+        self.elements = ElementMap::new(self.model, &self.matrix);
         self.analyses += 1;
         Ok(())
     }
@@ -211,17 +214,21 @@ impl<'a> Newton<'a> {
         inertia: f64,
     ) -> Option<Vec<DVec3>> {
         self.matrix.clear();
-        add_stiffness(self.model, state, targets, curvature, &mut self.matrix);
+        add_stiffness(
+            self.model,
+            state,
+            targets,
+            curvature,
+            &self.elements,
+            &mut self.matrix,
+        );
         let scale = self.matrix.mean_diagonal();
         add_support(self.support, state, scale, &mut self.matrix);
-        if inertia > 0.0 {
-            self.matrix.shift(inertia * scale);
-        }
         if let Some(contact) = &self.contact {
             contact.add_stiffness(&state.positions, curvature, &mut self.matrix);
         }
         self.factorisations += 1;
-        if !self.matrix.factorise() {
+        if !self.matrix.factorise(inertia * scale) {
             return None;
         }
         let mut direction: Vec<DVec3> = gradient.iter().map(|&g| -g).collect();
@@ -309,8 +316,14 @@ fn add_support(
     let [a, b, c] = triangle.map(|v| state.positions[v as usize]);
     let along = (b - a).normalize_or_zero();
     let normal = (b - a).cross(c - a).normalize_or_zero();
-    let [i, j, k] = triangle;
-    matrix.add(i, i, DMat3::IDENTITY * stiffness);
-    matrix.add(j, j, (DMat3::IDENTITY - outer(along, along)) * stiffness);
-    matrix.add(k, k, outer(normal, normal) * stiffness);
+    let blocks = [
+        DMat3::IDENTITY * stiffness,
+        (DMat3::IDENTITY - outer(along, along)) * stiffness,
+        outer(normal, normal) * stiffness,
+    ];
+    for (&node, block) in triangle.iter().zip(blocks) {
+        if let Some(places) = matrix.element(&[node]) {
+            matrix.add(&places, &[[block]]);
+        }
+    }
 }

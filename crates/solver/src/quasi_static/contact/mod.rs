@@ -193,8 +193,10 @@ impl ContactField {
     ) {
         for pair in &self.pairs {
             let corners = pair.corners(positions);
-            if let Some(blocks) = pair.hessian(&corners, self.force, curvature) {
-                matrix.add_element(&pair.nodes, &blocks);
+            if let Some(blocks) = pair.hessian(&corners, self.force, curvature)
+                && let Some(places) = matrix.element(&pair.nodes)
+            {
+                matrix.add(&places, &blocks);
             }
         }
     }
