@@ -7,10 +7,10 @@ use glam::DMat3;
 
 use super::Configuration;
 use super::face_angle_hessian::face_angle_hessian;
-use super::hinge_hessian::{fold_angle_hessian, outer};
-use super::stiffness_matrix::StiffnessMatrix;
+use super::hinge_hessian::{hinge_blocks, outer};
+use super::stiffness_matrix::{ElementPlaces, StiffnessMatrix};
 use crate::face_angle::face_angle_gradient;
-use crate::{Bar, FaceAngles, Hinge, Model};
+use crate::{Bar, FaceAngles, Model};
 
 /// Which Hessian is assembled.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -21,31 +21,57 @@ pub(super) enum Curvature {
     Convex,
 }
 
+/// Where the elements of a model lie in a matrix, in their order.
+pub(super) struct ElementMap {
+    bars: Vec<ElementPlaces<2>>,
+    hinges: Vec<ElementPlaces<4>>,
+    faces: Vec<ElementPlaces<3>>,
+}
+
+impl ElementMap {
+    /// The places of the elements of `model`. Precondition: `matrix` has room for [`coupled_nodes`].
+    pub(super) fn new(model: &Model, matrix: &StiffnessMatrix) -> Self {
+        let bars = model.bars.iter().map(|bar| &bar.vertices);
+        let hinges = model.hinges.iter().map(|hinge| &hinge.vertices);
+        let faces = model.face_angles.iter().map(|face| &face.vertices);
+        Self {
+            bars: bars.filter_map(|nodes| matrix.element(nodes)).collect(),
+            hinges: hinges.filter_map(|nodes| matrix.element(nodes)).collect(),
+            faces: faces.filter_map(|nodes| matrix.element(nodes)).collect(),
+        }
+    }
+}
+
 /// Adds the Hessian at `state` to `matrix`.
 pub(super) fn add_stiffness(
     model: &Model,
     state: &Configuration,
     targets: &[f64],
     curvature: Curvature,
+    map: &ElementMap,
     matrix: &mut StiffnessMatrix,
 ) {
-    for bar in &model.bars {
-        add_bar(bar, state, curvature, matrix);
+    for (bar, places) in model.bars.iter().zip(&map.bars) {
+        if let Some(blocks) = bar_blocks(bar, state, curvature) {
+            matrix.add(places, &blocks);
+        }
     }
-    for (index, hinge) in model.hinges.iter().enumerate() {
-        let excess = match curvature {
-            Curvature::Exact => state.angles[index] - targets[index],
+    let angles = state.angles.iter().zip(targets);
+    for ((hinge, places), (angle, target)) in model.hinges.iter().zip(&map.hinges).zip(angles) {
+        let bend = match curvature {
+            Curvature::Exact => hinge.stiffness * (angle - target),
             Curvature::Convex => 0.0,
         };
-        add_hinge(hinge, excess, state, matrix);
+        let corners = hinge.vertices.map(|v| state.positions[v as usize]);
+        matrix.add(places, &hinge_blocks(corners, hinge.stiffness, bend));
     }
     let stiffness = model.material.face_angle_stiffness;
-    for face in &model.face_angles {
+    for (face, places) in model.face_angles.iter().zip(&map.faces) {
         let deviations = match curvature {
             Curvature::Exact => face.deviations(&state.positions),
             Curvature::Convex => [0.0; 3],
         };
-        add_face(face, deviations, stiffness, state, matrix);
+        matrix.add(places, &face_blocks(face, deviations, stiffness, state));
     }
 }
 
@@ -60,12 +86,13 @@ pub(super) fn coupled_nodes(model: &Model) -> Vec<[u32; 2]> {
     bars.chain(apexes).collect()
 }
 
-fn add_bar(bar: &Bar, state: &Configuration, curvature: Curvature, matrix: &mut StiffnessMatrix) {
+/// None for a bar pressed to a point, which has no direction.
+fn bar_blocks(bar: &Bar, state: &Configuration, curvature: Curvature) -> Option<[[DMat3; 2]; 2]> {
     let [a, b] = bar.vertices.map(|v| state.positions[v as usize]);
     let along = b - a;
     let length = along.length();
     if length == 0.0 {
-        return;
+        return None;
     }
     let slack = 1.0 - bar.rest_length / length;
     let across = match curvature {
@@ -74,46 +101,31 @@ fn add_bar(bar: &Bar, state: &Configuration, curvature: Curvature, matrix: &mut 
     };
     let direction = outer(along, along) * (1.0 / (length * length));
     let block = (direction * (1.0 - across) + DMat3::IDENTITY * across) * bar.stiffness;
-    let [i, j] = bar.vertices;
-    matrix.add(i, i, block);
-    matrix.add(j, j, block);
-    matrix.add(i, j, -block);
+    Some([[block, -block], [-block, block]])
 }
 
-fn add_hinge(hinge: &Hinge, excess: f64, state: &Configuration, matrix: &mut StiffnessMatrix) {
-    let slopes = hinge.angle_gradient(&state.positions);
-    let mut blocks = [[DMat3::ZERO; 4]; 4];
-    if excess != 0.0 {
-        let [e0, e1, left, right] = hinge.vertices.map(|v| state.positions[v as usize]);
-        blocks = fold_angle_hessian(e0, e1, left, right);
-    }
-    for (i, row) in blocks.iter_mut().enumerate() {
-        for (j, block) in row.iter_mut().enumerate() {
-            *block = (outer(slopes[i], slopes[j]) + *block * excess) * hinge.stiffness;
-        }
-    }
-    matrix.add_element(&hinge.vertices, &blocks);
-}
-
-fn add_face(
+/// The sum over the corners of the triangle.
+fn face_blocks(
     face: &FaceAngles,
     deviations: [f64; 3],
     stiffness: f64,
     state: &Configuration,
-    matrix: &mut StiffnessMatrix,
-) {
+) -> [[DMat3; 3]; 3] {
+    let mut sum = [[DMat3::ZERO; 3]; 3];
+    let points = face.vertices.map(|v| state.positions[v as usize]);
     for (turn, deviation) in deviations.into_iter().enumerate() {
-        let corner: [u32; 3] = std::array::from_fn(|k| face.vertices[(turn + k) % 3]);
-        let [a, b, c] = corner.map(|v| state.positions[v as usize]);
+        let corner = |k: usize| (turn + k) % 3;
+        let [a, b, c] = [0, 1, 2].map(|k| points[corner(k)]);
         let slopes = face_angle_gradient(a, b, c);
-        let mut blocks = face_angle_hessian(a, b, c);
-        for (i, row) in blocks.iter_mut().enumerate() {
-            for (j, block) in row.iter_mut().enumerate() {
-                *block = (outer(slopes[i], slopes[j]) + *block * deviation) * stiffness;
+        let bends = face_angle_hessian(a, b, c);
+        for i in 0..3 {
+            for j in 0..3 {
+                sum[corner(i)][corner(j)] +=
+                    (outer(slopes[i], slopes[j]) + bends[i][j] * deviation) * stiffness;
             }
         }
-        matrix.add_element(&corner, &blocks);
     }
+    sum
 }
 
 #[cfg(test)]
@@ -144,9 +156,9 @@ mod tests {
         let x: Vec<DVec3> = vectors(0.6).collect();
 
         let mut matrix = StiffnessMatrix::new(model.node_count(), &coupled_nodes(&model)).unwrap();
-        add_stiffness(&model, &state, &targets, curvature, &mut matrix);
+        let map = ElementMap::new(&model, &matrix);
+        add_stiffness(&model, &state, &targets, curvature, &map, &mut matrix);
         let shift = 10.0 * matrix.mean_diagonal();
-        matrix.shift(shift);
         let step = 1e-6;
         let gradient_at = |length: f64| {
             let moved = state.moved(&model, &x, length, 1.0).unwrap();
@@ -161,7 +173,7 @@ mod tests {
             .zip(&x)
             .map(|((&a, &b), &x)| (a - b) / (2.0 * step) + x * shift)
             .collect();
-        assert!(matrix.factorise());
+        assert!(matrix.factorise(shift));
         matrix.solve(&mut solution);
         let errors: Vec<DVec3> = solution.iter().zip(&x).map(|(&s, &x)| s - x).collect();
         largest(&errors)

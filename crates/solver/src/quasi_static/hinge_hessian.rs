@@ -1,12 +1,15 @@
 //! The second derivative of the fold angle of a hinge.
 //!
-//! The angle depends on its four points through e = e1 − e0, a = left − e0 and b = right − e0 alone. With
-//! n = e × a, m = b × e, σ_a = a·e/|e|², σ_b = b·e/|e|² the first derivatives are (Bridson et al. 2003)
+//! The angle depends on its four points through e = e1 − e0, a = left − e0 and b = right − e0 alone, and but for the
+//! orientation through each wing by itself. With n = e × a (for the right wing b × e), σ = a·e/|e|², the arm
+//! t = a − σ e of the apex and its height |t|, the first derivative is g = ∂θ/∂a = |e| n/|n|², ∂θ/∂e = −σ g (Bridson et
+//! al. 2003), and moving the apex or the edge turns and shrinks g:
 //!
-//! ∂θ/∂a = |e| n/|n|²,  ∂θ/∂b = |e| m/|m|²,  ∂θ/∂e = −σ_a ∂θ/∂a − σ_b ∂θ/∂b.
+//! ∂g/∂a = −T/|t|²,  ∂g/∂e = σ T/|t|² − e gᵀ/|e|²,  T = t gᵀ + g tᵀ,
+//! ∂²θ/∂e² = Σ σ (e gᵀ + g eᵀ)/|e|² − (σ²/|t|² + 1/(2|e|²)) T
 //!
-//! The second ones follow by differentiating these (compare Tamstorf and Grinspun 2013, "Discrete bending forces and
-//! their Jacobians"). ∂²θ/∂a∂b = 0.
+//! with the sum over both wings (compare Tamstorf and Grinspun 2013, "Discrete bending forces and their Jacobians"; the
+//! parts of T/(2|e|²) that are not symmetric by themselves cancel between the wings). ∂²θ/∂a∂b = 0.
 
 use glam::{DMat3, DVec3};
 
@@ -14,81 +17,83 @@ use glam::{DMat3, DVec3};
 ///
 /// Precondition: both triangles have positive area.
 pub fn fold_angle_hessian(e0: DVec3, e1: DVec3, left: DVec3, right: DVec3) -> [[DMat3; 4]; 4] {
-    let e = e1 - e0;
-    let a = Wing::new(e, left - e0, 1.0);
-    let b = Wing::new(e, right - e0, -1.0);
-    let by_edge = a.edge_share(e) + b.edge_share(e);
-    let zero = DMat3::ZERO;
-    // In the coordinates (e, a, b).
-    let h = [
-        [by_edge, a.mixed.transpose(), b.mixed.transpose()],
-        [a.mixed, a.own, zero],
-        [b.mixed, zero, b.own],
-    ];
-    let mut blocks = [[zero; 4]; 4];
-    for i in 0..3 {
-        for j in 0..3 {
-            blocks[i + 1][j + 1] = h[i][j];
-            // Every coordinate falls with e0 as it rises with its own point.
-            blocks[0][j + 1] -= h[i][j];
-            blocks[i + 1][0] -= h[i][j];
-            blocks[0][0] += h[i][j];
-        }
-    }
-    blocks
+    hinge_blocks([e0, e1, left, right], 0.0, 1.0)
 }
 
-/// One triangle of the hinge and what it adds: a for the left one, b for the right one.
+/// `square` ∇θ ∇θᵀ + `bend` ∇²θ, by blocks of the points (e0, e1, left, right).
+///
+/// Precondition: both triangles have positive area.
+#[inline]
+pub(super) fn hinge_blocks(
+    [e0, e1, left, right]: [DVec3; 4],
+    square: f64,
+    bend: f64,
+) -> [[DMat3; 4]; 4] {
+    let e = e1 - e0;
+    let per_edge = 1.0 / e.length_squared();
+    let (to_left, to_right) = (left - e0, right - e0);
+    let l = Wing::new(e, per_edge, to_left, e.cross(to_left));
+    let r = Wing::new(e, per_edge, to_right, to_right.cross(e));
+    let across = outer(l.slope, r.slope) * square;
+    let [ll, rr] = [l, r].map(|wing| wing.own(square, bend));
+    let [l_edge, r_edge] = [l, r].map(|wing| outer(e * (-bend * per_edge), wing.slope));
+    // The apexes against e1; e0 follows, as translations change nothing.
+    let l1 = l_edge - ll * l.share - across * r.share;
+    let r1 = r_edge - rr * r.share - across.transpose() * l.share;
+    let [l0, r0] = [-(ll + across + l1), -(rr + across.transpose() + r1)];
+    let e11 = (l.turn + r.turn) * (-0.5 * bend * per_edge)
+        - (l_edge.transpose() + l1) * l.share
+        - (r_edge.transpose() + r1) * r.share;
+    let e10 = -(l1.transpose() + r1.transpose() + e11);
+    let e00 = -(l0 + r0 + e10);
+    [
+        [e00, e10.transpose(), l0.transpose(), r0.transpose()],
+        [e10, e11, l1.transpose(), r1.transpose()],
+        [l0, l1, ll, across],
+        [r0, r1, across.transpose(), rr],
+    ]
+}
+
+/// One triangle of the hinge.
+#[derive(Clone, Copy)]
 struct Wing {
-    apex: DVec3,
     /// g = ∂θ/∂apex.
-    gradient: DVec3,
-    /// ∂g/∂apex.
-    own: DMat3,
-    /// ∂g/∂e.
-    mixed: DMat3,
+    slope: DVec3,
+    /// σ.
+    share: f64,
+    /// 1/|t|².
+    per_height: f64,
+    /// T.
+    turn: DMat3,
 }
 
 impl Wing {
-    /// `sign`: 1 where the normal is e × apex, −1 where it is apex × e.
-    fn new(e: DVec3, apex: DVec3, sign: f64) -> Self {
-        let normal = e.cross(apex) * sign;
-        let square = normal.length_squared();
-        let length = e.length();
-        let gradient = normal * (length / square);
-        let unit = normal / square.sqrt();
-        // ∂(|e| n/|n|²)/∂n.
-        let by_normal = (DMat3::IDENTITY - outer(unit, unit) * 2.0) * (length / square);
+    #[inline]
+    fn new(e: DVec3, per_edge: f64, apex: DVec3, normal: DVec3) -> Self {
+        let share = apex.dot(e) * per_edge;
+        let per_area = 1.0 / normal.length_squared();
+        let per_height = per_area / per_edge;
+        let slope = normal * (per_area / per_edge.sqrt());
+        let half = outer(apex - e * share, slope);
         Self {
-            apex,
-            gradient,
-            own: by_normal * cross_matrix(e) * sign,
-            mixed: outer(normal, e) * (1.0 / (length * square))
-                - by_normal * cross_matrix(apex) * sign,
+            slope,
+            share,
+            per_height,
+            turn: half + half.transpose(),
         }
     }
 
-    /// Its part of ∂²θ/∂e²: −∂(σ g)/∂e.
-    fn edge_share(&self, e: DVec3) -> DMat3 {
-        let square = e.length_squared();
-        let sigma = self.apex.dot(e) / square;
-        let slope = (self.apex - e * (2.0 * sigma)) / square;
-        -(self.mixed * sigma + outer(self.gradient, slope))
+    /// The block of the apex with itself.
+    #[inline]
+    fn own(&self, square: f64, bend: f64) -> DMat3 {
+        outer(self.slope, self.slope * square) - self.turn * (bend * self.per_height)
     }
 }
 
 /// u vᵀ.
+#[inline]
 pub(super) fn outer(u: DVec3, v: DVec3) -> DMat3 {
     DMat3::from_cols(u * v.x, u * v.y, u * v.z)
-}
-
-/// The matrix of x ↦ u × x.
-fn cross_matrix(u: DVec3) -> DMat3 {
-    DMat3::from_cols(
-        DVec3::new(0.0, u.z, -u.y),
-        DVec3::new(-u.z, 0.0, u.x),
-        DVec3::new(u.y, -u.x, 0.0),
-    )
 }
 
 #[cfg(test)]

@@ -9,6 +9,7 @@
 //! for by straining: compact extents then exceed the closed form by a length of the order of the gap. Bars too stiff to
 //! strain that far leave the creases open by an angle of the order of the root of the gap instead.
 
+mod cholesky;
 mod configuration;
 mod contact;
 mod element_stiffness;

@@ -4,13 +4,15 @@
 //! μ > 0 or the convex one elsewhere. S removes the six rigid motions: stiff springs that support one triangle of the
 //! sheet statically determinately. They enter the matrix alone, never the forces; as ∇U is in balance, the step they
 //! give is an exact Newton step, with that triangle's support unmoved. μ acts as inertia relative to the last iterate
-//! and vanishes as the search converges. With contact every step is cut where two layers would come too close.
+//! and vanishes as the search converges. Once K is the exact one and the steps shrink fast, its factor serves for the
+//! following steps too (the chord method): near the equilibrium they cost a fraction and lead to the same point. With
+//! contact every step is cut where two layers would come too close.
 
 use glam::{DMat3, DVec3};
 
 use super::configuration::{Configuration, dot, largest};
 use super::contact::ContactField;
-use super::element_stiffness::{Curvature, add_stiffness, coupled_nodes};
+use super::element_stiffness::{Curvature, ElementMap, add_stiffness, coupled_nodes};
 use super::hinge_hessian::outer;
 use super::stiffness_matrix::StiffnessMatrix;
 use crate::{Model, SolverError};
@@ -30,6 +32,8 @@ const INERTIA: f64 = 1e-5;
 const LEAST_INERTIA: f64 = 1e-9;
 const MOST_INERTIA: f64 = 1e-2;
 const INERTIA_DECAY: f64 = 0.25;
+/// A step with an earlier factor is taken where it is at most this share of the step before it.
+const CHORD_DECREASE: f64 = 0.1;
 /// Barriers this far out of reach, in reaches, are given room in the matrix.
 const ROOM: f64 = 2.0;
 
@@ -40,6 +44,7 @@ pub(super) struct Settled {
     /// The largest nodal force left.
     pub(super) residual: f64,
     pub(super) iterations: usize,
+    pub(super) factorisations: usize,
 }
 
 /// When a state counts as an equilibrium.
@@ -47,16 +52,23 @@ pub(super) struct Settled {
 pub(super) struct Tolerance {
     /// The largest nodal force.
     pub(super) force: f64,
-    /// The largest move of the last Newton step.
+    /// The largest move of the last Newton step: what then remains is of the order of its square.
     pub(super) step: f64,
+    /// The largest move that a further step with an earlier factor would make.
+    pub(super) remainder: f64,
 }
 
 /// The search, with the matrix it reuses.
 pub(super) struct Newton<'a> {
     model: &'a Model,
     matrix: StiffnessMatrix,
+    elements: ElementMap,
     support: [u32; 3],
     inertia: f64,
+    /// The Hessian in the matrix, with the mean of its diagonal, while the state is the one it was assembled at.
+    assembled: Option<(Curvature, f64)>,
+    /// The largest move of the last step, where the factor at hand is an exact one and served for it.
+    chord: Option<f64>,
     pub(super) contact: Option<ContactField>,
     pub(super) factorisations: usize,
     pub(super) analyses: usize,
@@ -70,9 +82,12 @@ impl<'a> Newton<'a> {
         let matrix = StiffnessMatrix::new(model.node_count(), &coupled_nodes(model))?;
         Ok(Self {
             model,
+            elements: ElementMap::new(model, &matrix),
             matrix,
             support: supporting_triangle(model),
             inertia: INERTIA,
+            assembled: None,
+            chord: None,
             contact,
             factorisations: 0,
             analyses: 1,
@@ -99,17 +114,21 @@ impl<'a> Newton<'a> {
         let mut energy = self.energy(state, targets);
         let mut gradient = self.gradient(state, targets);
         self.inertia = INERTIA;
-        let mut last_move = f64::INFINITY;
+        self.chord = None;
+        let earlier = self.factorisations;
+        let mut is_near = false;
         let mut iterations = 0;
         loop {
             let residual = largest(&gradient);
+            let factorisations = self.factorisations - earlier;
             let settled = |converged| Settled {
                 converged,
                 residual,
                 iterations,
+                factorisations,
             };
             let is_balanced = residual <= tolerance.force;
-            if is_balanced && last_move <= tolerance.step {
+            if is_balanced && is_near {
                 return Ok(settled(true));
             }
             if iterations == max_iterations || !energy.is_finite() {
@@ -119,7 +138,7 @@ impl<'a> Newton<'a> {
                 // Nothing lowers the energy any further: rounding has the last word.
                 return Ok(settled(is_balanced));
             };
-            last_move = step.largest_move;
+            is_near = step.is_last(&tolerance);
             *state = step.state;
             energy = step.energy;
             gradient = step.gradient;
@@ -128,20 +147,20 @@ impl<'a> Newton<'a> {
         }
     }
 
-    fn energy(&self, state: &Configuration, targets: &[f64]) -> f64 {
+    fn energy(&mut self, state: &Configuration, targets: &[f64]) -> f64 {
         let elastic = self
             .model
             .energy_by_kind(&state.positions, &state.angles, targets)
             .total();
-        let barrier = self.contact.as_ref().map(|c| c.energy(&state.positions));
+        let barrier = self.contact.as_mut().map(|c| c.energy(&state.positions));
         elastic + barrier.unwrap_or(0.0)
     }
 
-    fn gradient(&self, state: &Configuration, targets: &[f64]) -> Vec<DVec3> {
+    fn gradient(&mut self, state: &Configuration, targets: &[f64]) -> Vec<DVec3> {
         let mut gradient = vec![DVec3::ZERO; state.positions.len()];
         self.model
             .gradient(&state.positions, &state.angles, targets, &mut gradient);
-        if let Some(contact) = &self.contact {
+        if let Some(contact) = &mut self.contact {
             contact.add_gradient(&state.positions, &mut gradient);
         }
         gradient
@@ -155,6 +174,10 @@ impl<'a> Newton<'a> {
         gradient: &[DVec3],
         energy: f64,
     ) -> Result<Option<Step>, SolverError> {
+        self.assembled = None;
+        if let Some(step) = self.chord_step(state, targets, gradient, energy) {
+            return Ok(Some(step));
+        }
         self.make_room(state)?;
         let inertia = self.inertia;
         let attempts = [
@@ -168,65 +191,100 @@ impl<'a> Newton<'a> {
             (Curvature::Convex, 1.0),
         ];
         for (curvature, inertia) in attempts {
-            let Some(direction) = self.direction(state, targets, gradient, curvature, inertia)
-            else {
+            if !self.factorise(state, targets, curvature, inertia) {
                 continue;
-            };
+            }
+            let direction = self.direction(gradient);
             if let Some(step) = self.search(state, targets, gradient, energy, &direction) {
                 if inertia > 0.0 {
                     self.inertia = (inertia * INERTIA_DECAY).clamp(LEAST_INERTIA, MOST_INERTIA);
                 }
+                let is_exact = curvature == Curvature::Exact && inertia == 0.0;
+                self.chord = step.full_move.filter(|_| is_exact);
                 return Ok(Some(step));
             }
         }
         Ok(None)
     }
 
+    /// A step with the factor of an earlier one; none where it would not be much smaller than the step before.
+    fn chord_step(
+        &mut self,
+        state: &Configuration,
+        targets: &[f64],
+        gradient: &[DVec3],
+        energy: f64,
+    ) -> Option<Step> {
+        let last = self.chord.take()?;
+        let direction = self.direction(gradient);
+        let decrease = largest(&direction) / last;
+        if !(decrease <= CHORD_DECREASE) {
+            return None;
+        }
+        let mut step = self.search(state, targets, gradient, energy, &direction)?;
+        self.chord = step.full_move;
+        step.decrease = Some(decrease);
+        Some(step)
+    }
+
     /// Makes room in the matrix for the barriers within reach.
     fn make_room(&mut self, state: &Configuration) -> Result<(), SolverError> {
-        let Some(contact) = &self.contact else {
+        let Some(contact) = &mut self.contact else {
             return Ok(());
         };
-        if self
-            .matrix
-            .holds(contact.coupled_nodes(&state.positions, 0.0))
-        {
+        if contact.fits(&state.positions, &self.matrix) {
             return Ok(());
         }
         let mut pairs = coupled_nodes(self.model);
         let more = ROOM * contact.reach();
         pairs.extend(contact.coupled_nodes(&state.positions, more));
         self.matrix = StiffnessMatrix::new(self.model.node_count(), &pairs)?;
+        self.elements = ElementMap::new(self.model, &self.matrix);
         self.analyses += 1;
         Ok(())
     }
 
-    /// −(K + S + μ I)⁻¹ ∇U; none where the matrix is not positive definite.
-    fn direction(
+    /// Factorises K + S + μ I at `state`, μ = `inertia` over the mean diagonal; false where that is not positive definite.
+    fn factorise(
         &mut self,
         state: &Configuration,
         targets: &[f64],
-        gradient: &[DVec3],
         curvature: Curvature,
         inertia: f64,
-    ) -> Option<Vec<DVec3>> {
+    ) -> bool {
+        let scale = match self.assembled {
+            Some((present, scale)) if present == curvature => scale,
+            _ => self.assemble(state, targets, curvature),
+        };
+        self.assembled = Some((curvature, scale));
+        self.factorisations += 1;
+        self.matrix.factorise(inertia * scale)
+    }
+
+    /// Assembles K + S; returns the mean diagonal of K without barriers.
+    fn assemble(&mut self, state: &Configuration, targets: &[f64], curvature: Curvature) -> f64 {
         self.matrix.clear();
-        add_stiffness(self.model, state, targets, curvature, &mut self.matrix);
+        add_stiffness(
+            self.model,
+            state,
+            targets,
+            curvature,
+            &self.elements,
+            &mut self.matrix,
+        );
         let scale = self.matrix.mean_diagonal();
         add_support(self.support, state, scale, &mut self.matrix);
-        if inertia > 0.0 {
-            self.matrix.shift(inertia * scale);
-        }
-        if let Some(contact) = &self.contact {
+        if let Some(contact) = &mut self.contact {
             contact.add_stiffness(&state.positions, curvature, &mut self.matrix);
         }
-        self.factorisations += 1;
-        if !self.matrix.factorise() {
-            return None;
-        }
+        scale
+    }
+
+    /// −(K + S + μ I)⁻¹ ∇U with the factor at hand.
+    fn direction(&mut self, gradient: &[DVec3]) -> Vec<DVec3> {
         let mut direction: Vec<DVec3> = gradient.iter().map(|&g| -g).collect();
         self.matrix.solve(&mut direction);
-        Some(direction)
+        direction
     }
 
     /// Backtracks along `direction` until the energy falls enough.
@@ -257,7 +315,8 @@ impl<'a> Newton<'a> {
                             state: trial,
                             energy: trial_energy,
                             gradient: trial_gradient,
-                            largest_move: if length == 1.0 { reach } else { f64::INFINITY },
+                            full_move: (length == 1.0).then_some(reach),
+                            decrease: None,
                         });
                     }
                 }
@@ -283,8 +342,20 @@ struct Step {
     state: Configuration,
     energy: f64,
     gradient: Vec<DVec3>,
-    /// The largest move of a full step; infinite for a shortened one, which says nothing about convergence.
-    largest_move: f64,
+    /// The largest move of a full step; a shortened one says nothing about convergence.
+    full_move: Option<f64>,
+    /// The move over that of the step before, where this step was made with the same factor.
+    decrease: Option<f64>,
+}
+
+impl Step {
+    /// Whether a further step would make no difference.
+    fn is_last(&self, tolerance: &Tolerance) -> bool {
+        self.full_move.is_some_and(|moved| match self.decrease {
+            Some(decrease) => moved * decrease <= tolerance.remainder,
+            None => moved <= tolerance.step,
+        })
+    }
 }
 
 /// A triangle amid the sheet: the left one of the middle hinge; of a sheet without hinges its one triangle.
@@ -309,8 +380,14 @@ fn add_support(
     let [a, b, c] = triangle.map(|v| state.positions[v as usize]);
     let along = (b - a).normalize_or_zero();
     let normal = (b - a).cross(c - a).normalize_or_zero();
-    let [i, j, k] = triangle;
-    matrix.add(i, i, DMat3::IDENTITY * stiffness);
-    matrix.add(j, j, (DMat3::IDENTITY - outer(along, along)) * stiffness);
-    matrix.add(k, k, outer(normal, normal) * stiffness);
+    let blocks = [
+        DMat3::IDENTITY * stiffness,
+        (DMat3::IDENTITY - outer(along, along)) * stiffness,
+        outer(normal, normal) * stiffness,
+    ];
+    for (&node, block) in triangle.iter().zip(blocks) {
+        if let Some(places) = matrix.element(&[node]) {
+            matrix.add(&places, &[[block]]);
+        }
+    }
 }

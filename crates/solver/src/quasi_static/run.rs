@@ -3,7 +3,7 @@
 use foldmotion_pattern::Frame;
 use glam::DVec3;
 
-use super::configuration::Configuration;
+use super::configuration::{Configuration, largest};
 use super::contact::ContactField;
 use super::history::History;
 use super::jam::find_jam;
@@ -15,10 +15,17 @@ use crate::{HingeKind, Model, Schedule, SolverError, Stage};
 /// The last Newton step of an equilibrium moves no node further, in unit lengths: without contact, and with it.
 const STEP_TOLERANCE: f64 = 1e-9;
 const CONTACT_STEP_TOLERANCE: f64 = 1e-6;
+/// What further steps with the same factor would add may be this many times what rounding leaves of the positions; with
+/// contact, of the order of a Newton step squared.
+const REMAINDER: f64 = 8.0 * f64::EPSILON;
+const CONTACT_REMAINDER: f64 = 1e-10;
 /// With contact the tolerance of the forces is this many times what it is without.
 const CONTACT_LENIENCE: f64 = 1e3;
 /// A load step that settled within this many iterations is followed by a longer one.
 const EASY_ITERATIONS: usize = 10;
+/// After one that took more factorisations than this, shorter ones lead on faster: what they are extrapolated to is nearer.
+const COSTLY_FACTORISATIONS: usize = 8;
+const MOST_SHORTENED: f64 = 8.0;
 /// After one that took more than this nothing is extrapolated.
 const HARD_ITERATIONS: usize = 30;
 /// An extrapolated state with more than this many times the energy of the last one is no help.
@@ -174,7 +181,8 @@ impl Run<'_> {
     /// Runs one stage; false where it did not reach its end.
     fn stage(&mut self, stage: Stage) -> Result<bool, SolverError> {
         let mut outcome = StageOutcome::new(stage);
-        let mut history = History::new(0.0, self.state.clone());
+        let in_contact = self.newton.contact.is_some();
+        let mut history = History::new(0.0, self.state.clone(), in_contact);
         let goals = recorded_times(self.options, stage);
         let spacing = 2.0 / self.options.frames as f64;
         let (mut s, mut length, mut recorded) = (0.0, spacing, 0);
@@ -194,9 +202,7 @@ impl Run<'_> {
                 length = (next - s) / STEP_FACTOR;
                 continue;
             }
-            if trial.settled.iterations <= EASY_ITERATIONS {
-                length = (length * STEP_FACTOR).min(spacing);
-            }
+            length = (length * self.growth(&trial.settled)).min(spacing);
             outcome.snaps += usize::from(trial.settled.iterations > self.options.max_iterations);
             let [from, to] = [s, next].map(|s| stage.start_time() + s);
             self.accept(from, to, &trial);
@@ -205,7 +211,7 @@ impl Run<'_> {
             }
             if trial.settled.iterations > HARD_ITERATIONS {
                 // Where the path is not smooth, what came before says nothing about what comes next.
-                history = History::new(next, trial.state.clone());
+                history = History::new(next, trial.state.clone(), in_contact);
             } else {
                 history.push(next, trial.state.clone());
             }
@@ -219,6 +225,18 @@ impl Run<'_> {
         let converged = outcome.converged;
         self.outcome.stages.push(outcome);
         Ok(converged)
+    }
+
+    /// By how much longer the next load step may be.
+    fn growth(&self, settled: &Settled) -> f64 {
+        let excess = settled.factorisations as f64 / COSTLY_FACTORISATIONS as f64;
+        if excess > 1.0 && self.newton.contact.is_none() {
+            1.0 / excess.min(MOST_SHORTENED)
+        } else if settled.iterations <= EASY_ITERATIONS {
+            STEP_FACTOR
+        } else {
+            1.0
+        }
     }
 
     /// The equilibrium at `s`, sought from the state extrapolated to it where contact allows, else from the last one.
@@ -257,15 +275,18 @@ impl Run<'_> {
     }
 
     fn tolerance(&self) -> Tolerance {
-        let (lenience, step) = if self.newton.contact.is_some() {
-            (CONTACT_LENIENCE, CONTACT_STEP_TOLERANCE)
+        let remainder = REMAINDER * largest(&self.state.positions);
+        let (lenience, step, remainder) = if self.newton.contact.is_some() {
+            let remainder = remainder.max(CONTACT_REMAINDER);
+            (CONTACT_LENIENCE, CONTACT_STEP_TOLERANCE, remainder)
         } else {
-            (1.0, STEP_TOLERANCE)
+            (1.0, STEP_TOLERANCE, remainder)
         };
         let rounding = rounding_force(self.model, &self.state.positions);
         Tolerance {
             force: lenience * self.options.tolerance * force_scale(self.model) + rounding,
             step,
+            remainder,
         }
     }
 

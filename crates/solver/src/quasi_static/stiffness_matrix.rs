@@ -1,38 +1,33 @@
-//! The sparse stiffness matrix, in 3 × 3 blocks of nodes, and its Cholesky factorisation.
+//! The sparse stiffness matrix, in 3 × 3 blocks of nodes, and its factorisation.
 //!
-//! The lower half is stored by columns; all three scalar columns of a node list the same rows. The symbolic analysis
-//! (an approximate-minimum-degree ordering of the nodes, Amestoy, Davis, Duff 1996, and the elimination tree) is made
-//! once per pattern and reused by every numeric factorisation. Factorisations run on one thread: bitwise the same
-//! result on any number of them.
+//! The lower half is stored by columns in the order of elimination. The symbolic analysis is made once per pattern and
+//! reused by every numeric factorisation. Factorisations run on one thread: bitwise the same result on any number of
+//! them.
 
-use faer::dyn_stack::{MemBuffer, MemStack, StackReq};
-use faer::linalg::cholesky::llt::factor::LltRegularization;
-use faer::perm::PermRef;
-use faer::sparse::linalg::cholesky::{
-    CholeskySymbolicParams, LltRef, SymbolicCholesky, SymmetricOrdering,
-    factorize_symbolic_cholesky,
-};
-use faer::sparse::linalg::{SupernodalThreshold, amd};
-use faer::sparse::{SparseColMatRef, SymbolicSparseColMatRef};
-use faer::{Conj, MatMut, Par, Side};
 use glam::{DMat3, DVec3};
 
+use super::cholesky::{Cholesky, Place};
 use crate::SolverError;
 
 /// A symmetric matrix over nodes and its factor.
 pub(super) struct StiffnessMatrix {
-    nodes: usize,
-    /// The blocks of node column j are `blocks[starts[j]..starts[j + 1]]`: their rows, rising from j itself.
+    /// The blocks of the node column of rank j are `starts[j]..starts[j + 1]`: their rows by rank, rising from j itself.
     starts: Vec<u32>,
-    blocks: Vec<u32>,
-    /// The same pattern by scalars.
-    columns: Vec<u32>,
     rows: Vec<u32>,
-    values: Vec<f64>,
-    symbolic: SymbolicCholesky<u32>,
-    factor: Vec<f64>,
-    workspace: MemBuffer,
+    /// Each block by columns.
+    values: Vec<[f64; 9]>,
+    places: Vec<Place>,
+    cholesky: Cholesky,
     right_side: Vec<f64>,
+}
+
+/// Where the blocks of an element of N nodes lie in a matrix.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct ElementPlaces<const N: usize> {
+    /// The nodes of the element in the order of elimination.
+    order: [u8; N],
+    /// The block of the i-th and the j-th of them, i ≥ j.
+    blocks: [[u32; N]; N],
 }
 
 impl StiffnessMatrix {
@@ -41,156 +36,123 @@ impl StiffnessMatrix {
     /// # Errors
     /// [`SolverError::Factorisation`] where the analysis needs more than the machine or 32-bit indices hold.
     pub(super) fn new(nodes: usize, pairs: &[[u32; 2]]) -> Result<Self, SolverError> {
-        let (starts, blocks) = block_pattern(nodes, pairs);
-        let entries = 9 * blocks.len();
-        if u32::try_from(entries).is_err() {
-            return Err(SolverError::Factorisation {
-                nodes,
-                reason: "more entries than 32-bit indices hold",
-            });
-        }
-        let mut columns = vec![0u32];
-        let mut rows = Vec::with_capacity(entries);
-        for node in 0..nodes {
-            let own = &blocks[starts[node] as usize..starts[node + 1] as usize];
-            for _axis in 0..3 {
-                rows.extend(own.iter().flat_map(|&b| [3 * b, 3 * b + 1, 3 * b + 2]));
-                columns.push(rows.len() as u32);
-            }
-        }
-        let symbolic = analyse(nodes, &starts, &blocks, &columns, &rows).map_err(|_error| {
-            SolverError::Factorisation {
-                nodes,
-                reason: "the symbolic analysis ran out of memory",
-            }
-        })?;
-        let scratch = StackReq::any_of(&[
-            symbolic.factorize_numeric_llt_scratch::<f64>(Par::Seq, faer::Spec::default()),
-            symbolic.solve_in_place_scratch::<f64>(1, Par::Seq),
-        ]);
+        let (starts, rows) = block_pattern(nodes, pairs.iter().copied());
+        let cholesky = Cholesky::new(nodes, &starts, &rows)
+            .map_err(|reason| SolverError::Factorisation { nodes, reason })?;
+        let ranks = cholesky.ranks();
+        let ranked = pairs
+            .iter()
+            .map(|pair| pair.map(|node| ranks[node as usize]));
+        let (starts, rows) = block_pattern(nodes, ranked);
+        let columns = (0..nodes).flat_map(|column| {
+            let own = &rows[starts[column] as usize..starts[column + 1] as usize];
+            own.iter().map(move |&row| (row, column as u32))
+        });
+        let places: Vec<Place> = columns
+            .filter_map(|(row, column)| cholesky.place(row, column))
+            .collect();
         Ok(Self {
-            nodes,
-            values: vec![0.0; rows.len()],
-            factor: vec![0.0; symbolic.len_val()],
-            workspace: MemBuffer::new(scratch),
+            values: vec![[0.0; 9]; rows.len()],
             right_side: vec![0.0; 3 * nodes],
             starts,
-            blocks,
-            columns,
             rows,
-            symbolic,
+            places,
+            cholesky,
         })
     }
 
     /// Whether the blocks of every pair have room.
     pub(super) fn holds(&self, pairs: impl IntoIterator<Item = [u32; 2]>) -> bool {
-        pairs
-            .into_iter()
-            .all(|[a, b]| self.place(a.max(b), a.min(b)).is_some())
+        pairs.into_iter().all(|[a, b]| {
+            let [a, b] = self.ranks([a, b]);
+            self.block(a.max(b), a.min(b)).is_some()
+        })
     }
 
     pub(super) fn clear(&mut self) {
-        self.values.fill(0.0);
+        self.values.fill([0.0; 9]);
     }
 
-    /// Adds the block of rows `i` and columns `j`; its mirror image is implied. Call once for i ≠ j.
-    ///
-    /// Precondition: the pattern has room for it.
-    pub(super) fn add(&mut self, i: u32, j: u32, block: DMat3) {
-        let (i, j, block) = if i >= j {
-            (i, j, block)
-        } else {
-            (j, i, block.transpose())
-        };
-        let Some(place) = self.place(i, j) else {
-            debug_assert!(false, "the pattern has no block ({i}, {j})");
-            return;
-        };
-        let stride = 3 * (self.starts[j as usize + 1] - self.starts[j as usize]) as usize;
-        for axis in 0..3 {
-            let at = place + axis * stride;
-            let column = block.col(axis);
-            self.values[at] += column.x;
-            self.values[at + 1] += column.y;
-            self.values[at + 2] += column.z;
+    /// Where the blocks of an element lie; none where the pattern has no room for one.
+    pub(super) fn element<const N: usize>(&self, nodes: &[u32; N]) -> Option<ElementPlaces<N>> {
+        let ranks = self.ranks(*nodes);
+        let mut order: [u8; N] = std::array::from_fn(|i| i as u8);
+        order.sort_unstable_by_key(|&i| ranks[i as usize]);
+        let mut blocks = [[0; N]; N];
+        for i in 0..N {
+            for j in 0..=i {
+                let [row, column] = [i, j].map(|k| ranks[order[k] as usize]);
+                blocks[i][j] = self.block(row, column)?;
+            }
         }
+        Some(ElementPlaces { order, blocks })
     }
 
     /// Adds the symmetric matrix of an element, by blocks of its nodes.
-    pub(super) fn add_element<const N: usize>(
+    pub(super) fn add<const N: usize>(
         &mut self,
-        nodes: &[u32; N],
+        places: &ElementPlaces<N>,
         blocks: &[[DMat3; N]; N],
     ) {
-        for (i, row) in blocks.iter().enumerate() {
-            for (j, &block) in row.iter().enumerate().take(i + 1) {
-                self.add(nodes[i], nodes[j], block);
+        for (i, row) in places.blocks.iter().enumerate() {
+            for (j, &place) in row.iter().enumerate().take(i + 1) {
+                let block = &blocks[places.order[i] as usize][places.order[j] as usize];
+                for (sum, scalar) in self.values[place as usize]
+                    .iter_mut()
+                    .zip(block.to_cols_array())
+                {
+                    *sum += scalar;
+                }
             }
-        }
-    }
-
-    /// Adds `amount` to every diagonal scalar.
-    pub(super) fn shift(&mut self, amount: f64) {
-        for node in 0..self.nodes as u32 {
-            self.add(node, node, DMat3::from_diagonal(DVec3::splat(amount)));
         }
     }
 
     /// The mean of the diagonal scalars.
     pub(super) fn mean_diagonal(&self) -> f64 {
-        let diagonal = |column: usize| {
-            // The block of the node itself comes first in its column.
-            self.values[self.columns[column] as usize + column % 3]
+        // The block of the node itself comes first in its column.
+        let trace = |start: &u32| {
+            let block = &self.values[*start as usize];
+            block[0] + block[4] + block[8]
         };
-        (0..3 * self.nodes).map(diagonal).sum::<f64>() / (3 * self.nodes) as f64
+        let nodes = self.starts.len() - 1;
+        self.starts[..nodes].iter().map(trace).sum::<f64>() / (3 * nodes) as f64
     }
 
-    /// Factorises; false where the matrix is not positive definite.
-    pub(super) fn factorise(&mut self) -> bool {
-        let pattern = symbolic_view(self.nodes, &self.columns, &self.rows);
-        let matrix = SparseColMatRef::new(pattern, &self.values[..]);
-        self.symbolic
-            .factorize_numeric_llt(
-                &mut self.factor,
-                matrix,
-                Side::Lower,
-                LltRegularization::default(),
-                Par::Seq,
-                MemStack::new(&mut self.workspace),
-                faer::Spec::default(),
-            )
-            .is_ok()
+    /// Factorises the matrix with `shift` added to every diagonal scalar; false where it is not positive definite.
+    pub(super) fn factorise(&mut self, shift: f64) -> bool {
+        self.cholesky
+            .factorise(&self.starts, &self.places, &self.values, shift)
     }
 
     /// Overwrites `vectors` by the solution with them as the right side, from the last factorisation.
     pub(super) fn solve(&mut self, vectors: &mut [DVec3]) {
-        for (scalars, vector) in self.right_side.chunks_exact_mut(3).zip(vectors.iter()) {
-            scalars.copy_from_slice(&vector.to_array());
+        let ranks = self.cholesky.ranks();
+        for (&rank, vector) in ranks.iter().zip(vectors.iter()) {
+            self.right_side[3 * rank as usize..][..3].copy_from_slice(&vector.to_array());
         }
-        let size = self.right_side.len();
-        LltRef::new(&self.symbolic, &self.factor).solve_in_place_with_conj(
-            Conj::No,
-            MatMut::from_column_major_slice_mut(&mut self.right_side, size, 1),
-            Par::Seq,
-            MemStack::new(&mut self.workspace),
-        );
-        for (scalars, vector) in self.right_side.chunks_exact(3).zip(vectors) {
-            *vector = DVec3::from_slice(scalars);
+        self.cholesky.solve(&mut self.right_side);
+        for (&rank, vector) in self.cholesky.ranks().iter().zip(vectors) {
+            *vector = DVec3::from_slice(&self.right_side[3 * rank as usize..]);
         }
     }
 
-    /// The place in `values` of the first scalar of block (i, j), i ≥ j.
-    fn place(&self, i: u32, j: u32) -> Option<usize> {
-        let start = self.starts[j as usize] as usize;
-        let end = self.starts[j as usize + 1] as usize;
-        let block = self.blocks[start..end].binary_search(&i).ok()?;
-        Some(9 * start + 3 * block)
+    fn ranks<const N: usize>(&self, nodes: [u32; N]) -> [u32; N] {
+        let ranks = self.cholesky.ranks();
+        nodes.map(|node| ranks[node as usize])
+    }
+
+    /// The block of a row and a column by rank, row ≥ column.
+    fn block(&self, row: u32, column: u32) -> Option<u32> {
+        let start = self.starts[column as usize];
+        let end = self.starts[column as usize + 1];
+        let own = &self.rows[start as usize..end as usize];
+        Some(start + own.binary_search(&row).ok()? as u32)
     }
 }
 
 /// The blocks of the lower half by columns: starts and rows, the diagonal included.
-fn block_pattern(nodes: usize, pairs: &[[u32; 2]]) -> (Vec<u32>, Vec<u32>) {
-    let lower = pairs.iter().map(|&[a, b]| (a.min(b), a.max(b)));
+fn block_pattern(nodes: usize, pairs: impl Iterator<Item = [u32; 2]>) -> (Vec<u32>, Vec<u32>) {
+    let lower = pairs.map(|[a, b]| (a.min(b), a.max(b)));
     let mut all: Vec<(u32, u32)> = (0..nodes as u32).map(|i| (i, i)).chain(lower).collect();
     all.sort_unstable();
     all.dedup();
@@ -204,57 +166,16 @@ fn block_pattern(nodes: usize, pairs: &[[u32; 2]]) -> (Vec<u32>, Vec<u32>) {
     (starts, all.into_iter().map(|(_, row)| row).collect())
 }
 
-fn symbolic_view<'a>(
-    nodes: usize,
-    columns: &'a [u32],
-    rows: &'a [u32],
-) -> SymbolicSparseColMatRef<'a, u32> {
-    SymbolicSparseColMatRef::new_checked(3 * nodes, 3 * nodes, columns, None, rows)
-}
-
-fn analyse(
-    nodes: usize,
-    starts: &[u32],
-    blocks: &[u32],
-    columns: &[u32],
-    rows: &[u32],
-) -> Result<SymbolicCholesky<u32>, faer::sparse::FaerError> {
-    // Order the nodes, not the scalars: a ninth of the work, and the three scalars of a node stay together.
-    let (mut forward, mut inverse) = (vec![0u32; nodes], vec![0u32; nodes]);
-    let graph = SymbolicSparseColMatRef::new_checked(nodes, nodes, starts, None, blocks);
-    let scratch = amd::order_maybe_unsorted_scratch::<u32>(nodes, blocks.len());
-    amd::order_maybe_unsorted(
-        &mut forward,
-        &mut inverse,
-        graph,
-        amd::Control::default(),
-        MemStack::new(&mut MemBuffer::new(scratch)),
-    )?;
-    let expand = |order: &[u32]| -> Vec<u32> {
-        order
-            .iter()
-            .flat_map(|&node| [3 * node, 3 * node + 1, 3 * node + 2])
-            .collect()
-    };
-    // An inverse expands to the inverse: scalar 3 i + c goes with node i.
-    let (forward, inverse) = (expand(&forward), expand(&inverse));
-    let order = PermRef::new_checked(&forward, &inverse, 3 * nodes);
-    factorize_symbolic_cholesky(
-        symbolic_view(nodes, columns, rows),
-        Side::Lower,
-        SymmetricOrdering::Custom(order),
-        CholeskySymbolicParams {
-            // Always by supernodes: with three scalars a node there are always some, and it was measured two to four
-            // times faster than column by column from 500 to 14 000 scalars.
-            supernodal_flop_ratio_threshold: SupernodalThreshold::FORCE_SUPERNODAL,
-            ..CholeskySymbolicParams::default()
-        },
-    )
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// Adds a block of two nodes and its mirror image.
+    fn add(matrix: &mut StiffnessMatrix, nodes: [u32; 2], block: DMat3) {
+        let places = matrix.element(&nodes).unwrap();
+        let zero = DMat3::ZERO;
+        matrix.add(&places, &[[zero, block], [block.transpose(), zero]]);
+    }
 
     #[test]
     fn a_solution_solves_the_system_it_was_made_from() {
@@ -270,20 +191,18 @@ mod tests {
         };
         let mut dense = vec![vec![DMat3::ZERO; nodes]; nodes];
         for &[i, j] in &pairs {
-            matrix.add(i, j, block(i, j));
+            add(&mut matrix, [i, j], block(i, j));
             dense[i as usize][j as usize] += block(i, j);
             dense[j as usize][i as usize] += block(i, j).transpose();
         }
-        matrix.shift(9.0);
         for (i, row) in dense.iter_mut().enumerate() {
             row[i] += DMat3::IDENTITY * 9.0;
         }
-        assert!((matrix.mean_diagonal() - 9.0).abs() < 1e-14);
         let right: Vec<DVec3> = (0..nodes)
             .map(|i| DVec3::new(i as f64, 1.0, -(i as f64)))
             .collect();
         let mut solution = right.clone();
-        assert!(matrix.factorise());
+        assert!(matrix.factorise(9.0));
         matrix.solve(&mut solution);
         for (row, expected) in dense.iter().zip(&right) {
             let product: DVec3 = row.iter().zip(&solution).map(|(&m, &x)| m * x).sum();
@@ -294,9 +213,9 @@ mod tests {
     #[test]
     fn an_indefinite_matrix_is_refused() {
         let mut matrix = StiffnessMatrix::new(3, &[[0, 1], [1, 2]]).unwrap();
-        matrix.shift(1.0);
-        matrix.add(1, 0, DMat3::IDENTITY * 2.0);
-        assert!(!matrix.factorise());
+        add(&mut matrix, [1, 0], DMat3::IDENTITY * 2.0);
+        assert!(!matrix.factorise(1.0));
+        assert!(matrix.factorise(2.1));
     }
 
     #[test]

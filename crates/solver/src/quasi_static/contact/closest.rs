@@ -30,6 +30,7 @@ pub(super) struct Closest {
 }
 
 impl Closest {
+    #[inline]
     fn new(x: &[DVec3; 4], weights: [f64; 4], tangents: &[[f64; 4]]) -> Self {
         let apart = combine(&weights, x);
         let mut all = [[0.0; 4]; 2];
@@ -116,26 +117,36 @@ impl Closest {
         self.weights.map(|w| normal * w)
     }
 
-    /// ∇∇D by blocks of nodes. Precondition: D > 0.
-    pub(super) fn hessian(&self, x: &[DVec3; 4]) -> [[DMat3; 4]; 4] {
+    /// Adds `scale` ∇∇D, by blocks of nodes. Precondition: D > 0.
+    pub(super) fn add_hessian(&self, x: &[DVec3; 4], scale: f64, sum: &mut [[DMat3; 4]; 4]) {
         let tangents: [DVec3; 2] = [0, 1].map(|k| combine(&self.tangents[k], x));
         let inverse = self.inverse_metric(&tangents);
-        let coupling =
-            |i: usize, k: usize| tangents[k] * self.weights[i] + self.apart * self.tangents[k][i];
+        // C by parameters and nodes, and C K⁻¹; 0 for parameters that are not free.
+        let coupling = [0, 1].map(|k| {
+            let tangent = &self.tangents[k];
+            [0, 1, 2, 3].map(|i| tangents[k] * self.weights[i] + self.apart * tangent[i])
+        });
+        let weighted = [0, 1].map(|k| {
+            let weights = inverse.col(k);
+            [0, 1, 2, 3].map(|i| coupling[0][i] * weights.x + coupling[1][i] * weights.y)
+        });
         let normal = self.apart / self.distance;
-        let along = outer(normal, normal);
-        std::array::from_fn(|i| {
-            std::array::from_fn(|j| {
+        let across = DMat3::IDENTITY - outer(normal, normal);
+        let scale = scale / self.distance;
+        for i in 0..4 {
+            for j in 0..=i {
                 // ∇∇D = (∇∇½D² − ∇D ∇Dᵀ) / D.
-                let mut block = (DMat3::IDENTITY - along) * (self.weights[i] * self.weights[j]);
+                let mut block = across * (self.weights[i] * self.weights[j]);
                 for k in 0..self.free {
-                    for l in 0..self.free {
-                        block -= outer(coupling(i, k), coupling(j, l)) * inverse.col(l)[k];
-                    }
+                    block -= outer(weighted[k][i], coupling[k][j]);
                 }
-                block * (1.0 / self.distance)
-            })
-        })
+                block *= scale;
+                sum[i][j] += block;
+                if i != j {
+                    sum[j][i] += block.transpose();
+                }
+            }
+        }
     }
 
     /// K⁻¹.
@@ -156,6 +167,7 @@ impl Closest {
     }
 }
 
+#[inline]
 fn combine(weights: &[f64; 4], x: &[DVec3; 4]) -> DVec3 {
     weights.iter().zip(x).map(|(&w, &p)| p * w).sum()
 }
@@ -250,7 +262,9 @@ mod tests {
     fn gradient_and_hessian_agree_with_central_differences() {
         for sample in samples() {
             let gradient = sample.closest(&sample.x).gradient();
-            let hessian = sample.closest(&sample.x).hessian(&sample.x);
+            let mut hessian = [[DMat3::ZERO; 4]; 4];
+            let closest = sample.closest(&sample.x);
+            closest.add_hessian(&sample.x, 1.0, &mut hessian);
             for (node, axis) in (0..4).flat_map(|node| (0..3).map(move |axis| (node, axis))) {
                 let h = 1e-6;
                 let shifted = |sign: f64| {

@@ -10,6 +10,7 @@
 //! come apart.
 
 mod closest;
+mod near;
 mod pair;
 mod primitives;
 mod step_limit;
@@ -17,8 +18,9 @@ mod step_limit;
 use std::collections::BTreeMap;
 
 use foldmotion_geometry::collide::Tree;
-use glam::DVec3;
+use glam::{DMat3, DVec3};
 
+use self::near::Near;
 use self::pair::{Pair, PairKind};
 use self::primitives::Primitives;
 use self::step_limit::step_limit;
@@ -65,6 +67,7 @@ pub(super) struct ContactField {
     /// ρ of the pairs that do not keep the whole gap yet.
     admitted: BTreeMap<(PairKind, [u32; 4]), f64>,
     pairs: Vec<Pair>,
+    near: Near,
     searched: Searched,
     smallest_height: f64,
 }
@@ -125,6 +128,7 @@ impl ContactField {
             force,
             admitted: BTreeMap::new(),
             pairs: Vec::new(),
+            near: Near::default(),
             searched: Searched::default(),
             smallest_height,
             primitives,
@@ -165,18 +169,20 @@ impl ContactField {
             way: way.to_vec(),
         };
         self.pairs = self.search(positions, way, self.gap + self.reach + MARGIN);
+        self.near = Near::default();
     }
 
     /// Σ B; infinite where a gap is not kept.
-    pub(super) fn energy(&self, positions: &[DVec3]) -> f64 {
-        self.pairs
-            .iter()
-            .map(|pair| pair.energy(&pair.corners(positions), self.force))
+    pub(super) fn energy(&mut self, positions: &[DVec3]) -> f64 {
+        let force = self.force;
+        let pairs = self.near.active(&self.pairs, positions);
+        pairs
+            .map(|pair| pair.energy(&pair.corners(positions), force))
             .sum()
     }
 
-    pub(super) fn add_gradient(&self, positions: &[DVec3], gradient: &mut [DVec3]) {
-        for pair in &self.pairs {
+    pub(super) fn add_gradient(&mut self, positions: &[DVec3], gradient: &mut [DVec3]) {
+        for pair in self.near.active(&self.pairs, positions) {
             if let Some(slopes) = pair.gradient(&pair.corners(positions), self.force) {
                 for (node, slope) in pair.nodes.iter().zip(slopes) {
                     gradient[*node as usize] += slope;
@@ -186,17 +192,27 @@ impl ContactField {
     }
 
     pub(super) fn add_stiffness(
-        &self,
+        &mut self,
         positions: &[DVec3],
         curvature: Curvature,
         matrix: &mut StiffnessMatrix,
     ) {
-        for pair in &self.pairs {
+        let mut blocks = [[DMat3::ZERO; 4]; 4];
+        for pair in self.near.active(&self.pairs, positions) {
             let corners = pair.corners(positions);
-            if let Some(blocks) = pair.hessian(&corners, self.force, curvature) {
-                matrix.add_element(&pair.nodes, &blocks);
+            if pair.hessian(&corners, self.force, curvature, &mut blocks)
+                && let Some(places) = matrix.element(&pair.nodes)
+            {
+                matrix.add(&places, &blocks);
             }
         }
+    }
+
+    /// Whether `matrix` has room for every barrier within reach.
+    pub(super) fn fits(&mut self, positions: &[DVec3], matrix: &StiffnessMatrix) -> bool {
+        self.near
+            .active(&self.pairs, positions)
+            .all(|pair| matrix.element(&pair.nodes).is_some())
     }
 
     /// The pairs of nodes coupled by barriers, or that will be when the layers come closer by `more`.
@@ -215,10 +231,20 @@ impl ContactField {
 
     /// The largest t ≤ `limit` for which every pair keeps a tenth of its separation on the way from `positions` along
     /// t × `direction`. Precondition: candidates prepared for that way.
-    pub(super) fn step_limit(&self, positions: &[DVec3], direction: &[DVec3], limit: f64) -> f64 {
-        self.pairs.iter().fold(limit, |limit, pair| {
-            let (x, d) = (pair.corners(positions), pair.corners(direction));
-            step_limit(pair, pair.gap, &x, &d, limit)
+    pub(super) fn step_limit(
+        &mut self,
+        positions: &[DVec3],
+        direction: &[DVec3],
+        limit: f64,
+    ) -> f64 {
+        self.near.move_to(&self.pairs, positions);
+        let pairs = self.pairs.iter().zip(&self.near.least);
+        pairs.fold(limit, |limit, (pair, least)| {
+            let d = pair.corners(direction);
+            if least - pair.gap > pair.speed(&d) * limit {
+                return limit;
+            }
+            step_limit(pair, pair.gap, &pair.corners(positions), &d, limit)
         })
     }
 

@@ -49,10 +49,12 @@ impl Pair {
         MOLLIFIED * (lengths[0] * lengths[1]).powi(2)
     }
 
+    #[inline]
     pub(super) fn corners(&self, positions: &[DVec3]) -> [DVec3; 4] {
         self.nodes.map(|v| positions[v as usize])
     }
 
+    #[inline]
     pub(super) fn closest(&self, x: &[DVec3; 4]) -> Closest {
         match self.kind {
             PairKind::VertexFacet => Closest::vertex_facet(x),
@@ -61,6 +63,7 @@ impl Pair {
     }
 
     /// A bound of how fast the distance changes while the corners move at the velocities `d`.
+    #[inline]
     pub(super) fn speed(&self, d: &[DVec3; 4]) -> f64 {
         let mean = (d[0] + d[1] + d[2] + d[3]) * 0.25;
         let own = d.map(|v| (v - mean).length());
@@ -110,27 +113,30 @@ impl Pair {
         Some(gradient)
     }
 
-    /// ∇∇(B m), or its positive semidefinite part m B″ ∇D ∇Dᵀ; none where the pair is out of reach.
+    /// Writes ∇∇(B m), or its positive semidefinite part m B″ ∇D ∇Dᵀ; false where the pair is out of reach.
     pub(super) fn hessian(
         &self,
         x: &[DVec3; 4],
         force: f64,
         curvature: Curvature,
-    ) -> Option<[[DMat3; 4]; 4]> {
+        hessian: &mut [[DMat3; 4]; 4],
+    ) -> bool {
         let closest = self.closest(x);
         let y = (closest.distance - self.gap) / self.reach;
         if y >= 1.0 {
-            return None;
+            return false;
         }
         let [value, slope, bend] = barrier(y);
         let (m, by_cross) = self.mollified(x);
         let normals = closest.gradient();
-        let stiff = product(&normals, &normals, m * force * bend / self.reach);
-        if curvature == Curvature::Convex {
-            return Some(blocks(stiff));
+        let stiff = normals.map(|normal| normal * (m * force * bend / self.reach));
+        for (row, &stiff) in hessian.iter_mut().zip(&stiff) {
+            *row = normals.map(|normal| outer(stiff, normal));
         }
-        let turning = closest.hessian(x);
-        let mut hessian = blocks(|i, j| stiff(i, j) + turning[i][j] * (m * force * slope));
+        if curvature == Curvature::Convex {
+            return true;
+        }
+        closest.add_hessian(x, m * force * slope, hessian);
         if by_cross > 0.0 {
             let cross = Cross::new(x);
             let c = cross.gradient();
@@ -149,7 +155,7 @@ impl Pair {
                 }
             }
         }
-        Some(hessian)
+        true
     }
 
     /// m and dm/dc.
@@ -291,7 +297,8 @@ mod tests {
     #[test]
     fn the_hessian_of_the_barrier_agrees_with_differences_of_the_gradient() {
         for (pair, x) in cases() {
-            let hessian = pair.hessian(&x, 3.0, Curvature::Exact).unwrap();
+            let mut hessian = [[DMat3::ZERO; 4]; 4];
+            assert!(pair.hessian(&x, 3.0, Curvature::Exact, &mut hessian));
             for node in 0..4 {
                 for axis in 0..3 {
                     let gradient = |sign: f64| {
