@@ -218,7 +218,7 @@ impl<'a> Newton<'a> {
         let last = self.chord.take()?;
         let direction = self.direction(gradient);
         let decrease = largest(&direction) / last;
-        if !(decrease <= CHORD_DECREASE) {
+        if decrease.is_nan() || decrease > CHORD_DECREASE {
             return None;
         }
         let mut step = self.search(state, targets, gradient, energy, &direction)?;

@@ -48,7 +48,7 @@ impl Fronts {
         let parents = elimination_tree(&neighbours);
         let columns = fill(&neighbours, &parents);
         let groups = merge(&parents, &columns);
-        Ok(Self::numbered(&order, &columns, groups))
+        Ok(Self::numbered(&order, &columns, &groups))
     }
 
     pub(super) fn count(&self) -> usize {
@@ -66,13 +66,13 @@ impl Fronts {
     }
 
     /// Numbers the groups in postorder.
-    fn numbered(order: &[u32], columns: &[Vec<u32>], groups: Vec<Option<Group>>) -> Self {
+    fn numbered(order: &[u32], columns: &[Vec<u32>], groups: &[Option<Group>]) -> Self {
         let nodes = order.len();
         // Of each node in the first order: its rank in the final one.
         let mut ranks = vec![0u32; nodes];
         let (mut first, mut front_of) = (vec![0u32], vec![0u32; nodes]);
         let mut last_nodes: Vec<u32> = Vec::new();
-        for group in postorder(&groups) {
+        for group in postorder(groups) {
             let front = last_nodes.len() as u32;
             let mut rank = first[first.len() - 1];
             for &node in &group.nodes {

@@ -4,6 +4,11 @@
 //! equations"): the nodes of a front are eliminated from a small dense matrix, and what that leaves of the rows below
 //! is added to the front that eliminates the first of them. Sums are taken in one order, on one thread.
 
+#![expect(
+    clippy::inline_always,
+    reason = "a kernel is compiled for the machine's vectors only where all of it is inlined"
+)]
+
 mod fronts;
 mod kernel;
 
