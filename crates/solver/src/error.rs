@@ -230,6 +230,35 @@ pub enum SolverError {
         /// Its displacement in that step over the unit length; NaN where it is no number.
         displacement: f64,
     },
+    /// No GPU can be used.
+    #[error(
+        "no GPU can be used: {reason}; install a Vulkan driver (Mesa has one in software, in Debian's package \
+         mesa-vulkan-drivers), or run on the CPU"
+    )]
+    NoGpu {
+        /// What the adapters or the driver said.
+        reason: String,
+    },
+    /// The sheet does not fit the GPU.
+    #[error(
+        "{what} of the sheet take {bytes} bytes on the GPU, which allows {limit} in one buffer; run on the CPU"
+    )]
+    GpuTooSmall {
+        /// Which records.
+        what: &'static str,
+        /// Their size.
+        bytes: u64,
+        /// The largest buffer.
+        limit: u64,
+    },
+    /// The GPU gave up.
+    #[error("the GPU {gpu} stopped: {reason}; run on the CPU")]
+    GpuLost {
+        /// Its name.
+        gpu: String,
+        /// What the driver said.
+        reason: String,
+    },
     /// The caller asked to stop.
     #[error("the run was cancelled at t = {time}")]
     Cancelled {

@@ -18,7 +18,7 @@
 
 use foldmotion_geometry::{fold_angle, fold_angle_gradient, nearest_turn};
 use foldmotion_pattern::{Edge, Sheet};
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 
 use crate::face_angle::{face_angle, face_angle_gradient};
 use crate::gather::Gather;
@@ -106,6 +106,12 @@ pub struct Model {
     pub faces: Vec<[u32; 3]>,
     /// The triangles whose angles are held: all, or none where the face-angle stiffness is 0.
     pub face_angles: Vec<FaceAngles>,
+    /// The crease pattern in unit lengths.
+    #[cfg_attr(
+        not(feature = "gpu"),
+        expect(dead_code, reason = "the GPU's places are told from it")
+    )]
+    pub(crate) pattern: Vec<DVec2>,
     /// The nodes in an order that keeps neighbours together.
     pub(crate) locality: Vec<u32>,
     pub(crate) bar_gather: Gather,
@@ -143,6 +149,7 @@ impl Model {
         Ok(Self {
             unit_length,
             material: *material,
+            pattern: sheet.vertices.iter().map(|&v| v / unit_length).collect(),
             locality: hilbert_order(&sheet.vertices),
             bar_gather: Gather::new(rest.len(), bars.iter().map(|bar| &bar.vertices)),
             bars,

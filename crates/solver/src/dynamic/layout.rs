@@ -99,21 +99,21 @@ impl Layout {
 }
 
 /// Who meets whom, by the numbers of the model.
-struct Topology<'a> {
-    order: &'a [u32],
+pub(super) struct Topology<'a> {
+    pub(super) order: &'a [u32],
     /// The place of each node in the layout.
-    places: Vec<u32>,
-    faces_at: Gather,
+    pub(super) places: Vec<u32>,
+    pub(super) faces_at: Gather,
     /// The edge opposite to each corner of each triangle.
-    face_edges: Vec<[u32; 3]>,
+    pub(super) face_edges: Vec<[u32; 3]>,
     /// The hinge of each edge.
-    hinge_of: Vec<u32>,
+    pub(super) hinge_of: Vec<u32>,
     /// The corner of a triangle that does not lie on each edge.
-    apex_of: Vec<u32>,
+    pub(super) apex_of: Vec<u32>,
 }
 
 impl<'a> Topology<'a> {
-    fn new(model: &Model, order: &'a [u32]) -> Self {
+    pub(super) fn new(model: &Model, order: &'a [u32]) -> Self {
         let mut places = vec![0; order.len()];
         for (place, &node) in order.iter().enumerate() {
             places[node as usize] = place as u32;
@@ -151,7 +151,7 @@ impl<'a> Topology<'a> {
     }
 
     /// Ends and apexes of an edge, as the hinge has them.
-    fn edge_vertices(&self, model: &Model, edge: u32) -> [u32; 4] {
+    pub(super) fn edge_vertices(&self, model: &Model, edge: u32) -> [u32; 4] {
         if let Some(hinge) = model.hinges.get(self.hinge_of[edge as usize] as usize) {
             return hinge.vertices;
         }

@@ -16,6 +16,8 @@
 mod angle;
 mod cost;
 mod engine;
+#[cfg(feature = "gpu")]
+pub mod gpu;
 mod increments;
 mod lanes;
 mod layout;
