@@ -16,6 +16,9 @@ use crate::{Phase, Progress, Study, StudyError};
 const MOST_ROUNDS: usize = 4;
 /// Parts an interval is divided into.
 const PARTS: usize = 4;
+/// Straight paths may stray this many times as far as is estimated of them: the estimate was seen to be half of what it
+/// should be.
+const LARGEST_STRAY: f64 = 2.0;
 /// Shorter intervals are not divided.
 const SHORTEST: f64 = 1e-9;
 
@@ -84,7 +87,7 @@ impl Study {
             let is_of_a_frame = penetration.passed <= frames[k].time;
             let is_certain = strays
                 .get(k)
-                .is_none_or(|&stray| penetration.depth * height > stray);
+                .is_none_or(|&stray| penetration.depth * height > LARGEST_STRAY * stray);
             if is_of_a_frame || is_certain {
                 return Vec::new();
             }

@@ -32,6 +32,9 @@ const HARD_ITERATIONS: usize = 30;
 const USELESS_ENERGY: f64 = 100.0;
 /// Stage-local times closer than this are the same but for rounding.
 const SAME_TIME: f64 = 1e-12;
+/// The longest load step, in stage-local time: as long as that of 240 frames, so that the path does not depend on how few
+/// frames are recorded.
+const LONGEST_STEP: f64 = 1.0 / 120.0;
 /// By which load steps grow and shrink.
 const STEP_FACTOR: f64 = 2.0;
 /// Load steps shortened to this share of the spacing of frames are given the budget of a snap.
@@ -184,7 +187,7 @@ impl Run<'_> {
         let in_contact = self.newton.contact.is_some();
         let mut history = History::new(0.0, self.state.clone(), in_contact);
         let goals = recorded_times(self.options, stage);
-        let spacing = 2.0 / self.options.frames as f64;
+        let spacing = LONGEST_STEP.min(2.0 / self.options.frames as f64);
         let (mut s, mut length, mut recorded) = (0.0, spacing, 0);
         while let Some(&goal) = goals.get(recorded) {
             // A step that would leave less than half of itself before the frame is stretched to it.
