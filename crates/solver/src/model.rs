@@ -107,10 +107,6 @@ pub struct Model {
     /// The triangles whose angles are held: all, or none where the face-angle stiffness is 0.
     pub face_angles: Vec<FaceAngles>,
     /// The crease pattern in unit lengths.
-    #[cfg_attr(
-        not(feature = "gpu"),
-        expect(dead_code, reason = "the GPU's places are told from it")
-    )]
     pub(crate) pattern: Vec<DVec2>,
     /// The nodes in an order that keeps neighbours together.
     pub(crate) locality: Vec<u32>,

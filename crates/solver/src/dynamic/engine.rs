@@ -8,8 +8,10 @@
 use foldmotion_pattern::Frame;
 use glam::DVec3;
 
+#[cfg(feature = "gpu")]
+use super::gpu::{Gpu, GpuDrive};
 use super::increments::increments;
-use super::options::{DynamicOptions, Run, StageOutcome, StageStatus};
+use super::options::{Device, DynamicOptions, Run, StageOutcome, StageStatus};
 use super::recorder::Recorder;
 use super::relaxation::{Progress, Relaxation};
 use super::state::State;
@@ -42,7 +44,49 @@ pub fn run(
     options.validate()?;
     check_input(model, schedule, start)?;
     // On a worker the threads meet without waking each other up.
-    rayon::scope(|_| run_here(model, schedule, start, options, progress))
+    rayon::scope(|_| run_on_device(model, schedule, start, options, progress))
+}
+
+#[cfg(feature = "gpu")]
+fn run_on_device(
+    model: &Model,
+    schedule: &Schedule,
+    start: &[DVec3],
+    options: &DynamicOptions,
+    progress: &(dyn Fn(f64) -> bool + Sync),
+) -> Result<Run, SolverError> {
+    let gpu = match options.device {
+        Device::Gpu => Some(Gpu::new()?),
+        Device::Auto if model.node_count() >= Device::AUTO_NODES => {
+            Gpu::new().ok().filter(|gpu| !gpu.is_software())
+        }
+        Device::Cpu | Device::Auto => None,
+    };
+    let drive = match &gpu {
+        Some(gpu) => Some(GpuDrive::new(gpu, model, &model.to_model(start))?),
+        None => None,
+    };
+    let mut run = run_here(model, schedule, start, options, progress, drive)?;
+    if let Some(gpu) = gpu {
+        gpu.name().clone_into(&mut run.device);
+    }
+    Ok(run)
+}
+
+#[cfg(not(feature = "gpu"))]
+fn run_on_device(
+    model: &Model,
+    schedule: &Schedule,
+    start: &[DVec3],
+    options: &DynamicOptions,
+    progress: &(dyn Fn(f64) -> bool + Sync),
+) -> Result<Run, SolverError> {
+    if options.device == Device::Gpu {
+        return Err(SolverError::NoGpu {
+            reason: "this program was built without the feature gpu".to_owned(),
+        });
+    }
+    run_here(model, schedule, start, options, progress)
 }
 
 fn run_here(
@@ -51,13 +95,14 @@ fn run_here(
     start: &[DVec3],
     options: &DynamicOptions,
     progress: &(dyn Fn(f64) -> bool + Sync),
+    #[cfg(feature = "gpu")] drive: Option<GpuDrive<'_>>,
 ) -> Result<Run, SolverError> {
     let mut state = State::at_rest(model, &model.to_model(start));
     let mut targets = vec![0.0; model.hinges.len()];
     let first = options.stages.first().copied().unwrap_or(Stage::Unfold);
     schedule.targets(first, 0.0, &mut targets);
     state.set_targets(&targets);
-    state.follow_angles_from_targets();
+    state.set_angles(&targets);
     let recorder = Recorder::new(model);
     let mut engine = Engine {
         schedule,
@@ -66,6 +111,8 @@ fn run_here(
         state,
         recorder,
         targets,
+        #[cfg(feature = "gpu")]
+        drive,
     };
     engine.recorder.push(first, 0.0, &engine.state.positions());
     let mut stages = Vec::with_capacity(options.stages.len());
@@ -85,6 +132,7 @@ fn run_here(
         frames,
         stages,
         steps,
+        device: "cpu".to_owned(),
     })
 }
 
@@ -122,6 +170,8 @@ struct Engine<'a, 'm> {
     state: State<'m>,
     recorder: Recorder<'m>,
     targets: Vec<f64>,
+    #[cfg(feature = "gpu")]
+    drive: Option<GpuDrive<'a>>,
 }
 
 impl Engine<'_, '_> {
@@ -161,6 +211,18 @@ impl Engine<'_, '_> {
         self.state.use_unit_masses();
         let dt = SAFETY * self.state.stable_time_step();
         let steps = self.options.ramp_steps;
+        #[cfg(feature = "gpu")]
+        if let Some(drive) = &mut self.drive {
+            drive.load(&self.state);
+            for step in 1..=steps {
+                let s = from + (to - from) * (step as f64 / steps as f64);
+                self.schedule.targets(stage, s, &mut self.targets);
+                drive.step(&self.targets, dt)?;
+            }
+            drive.store(&mut self.state)?;
+            self.state.set_targets(&self.targets);
+            return Ok(steps as u64);
+        }
         for step in 1..=steps {
             let s = from + (to - from) * (step as f64 / steps as f64);
             self.schedule.targets(stage, s, &mut self.targets);
@@ -182,6 +244,10 @@ impl Engine<'_, '_> {
     ) -> Result<StageStatus, SolverError> {
         if tolerance == f64::INFINITY {
             return Ok(StageStatus::Settled);
+        }
+        #[cfg(feature = "gpu")]
+        if let Some(status) = self.settle_on_gpu(stage, s, tolerance, spent)? {
+            return Ok(status);
         }
         let budget = self.options.step_budget.saturating_sub(*spent);
         let mut relaxation = Relaxation::new(&mut self.state, tolerance);
@@ -209,6 +275,44 @@ impl Engine<'_, '_> {
         }
         *spent += relaxation.steps();
         Ok(status)
+    }
+
+    /// Settles as far as f32 goes; none where the CPU is to go on from there, or there is no GPU.
+    #[cfg(feature = "gpu")]
+    fn settle_on_gpu(
+        &mut self,
+        stage: Stage,
+        s: f64,
+        tolerance: f64,
+        spent: &mut u64,
+    ) -> Result<Option<StageStatus>, SolverError> {
+        let Some(drive) = &mut self.drive else {
+            return Ok(None);
+        };
+        let budget = self.options.step_budget.saturating_sub(*spent);
+        let time = stage.start_time() + s;
+        let (recorder, progress) = (&mut self.recorder, self.progress);
+        let is_recorded = s == 1.0;
+        let mut look = |positions: &[DVec3]| {
+            if is_recorded {
+                recorder.settling(stage, positions);
+            }
+            if progress(time) {
+                Ok(())
+            } else {
+                Err(SolverError::Cancelled { time })
+            }
+        };
+        self.state.damping = 0.0;
+        let rough = drive.settle(&mut self.state, tolerance, budget, is_recorded, &mut look)?;
+        *spent += rough.steps;
+        Ok(if !rough.is_settled {
+            Some(StageStatus::OutOfSteps)
+        } else if rough.tolerance <= tolerance {
+            Some(StageStatus::Settled)
+        } else {
+            None
+        })
     }
 
     fn report(&self, stage: Stage, s: f64) -> Result<(), SolverError> {

@@ -33,5 +33,5 @@ mod state;
 pub use cost::StepCost;
 pub use engine::run;
 pub use lanes::instruction_set;
-pub use options::{DynamicOptions, Run, StageOutcome, StageStatus};
+pub use options::{Device, DynamicOptions, Run, StageOutcome, StageStatus};
 pub use state::State;

@@ -4,11 +4,31 @@ use foldmotion_pattern::Frame;
 
 use crate::{SolverError, Stage};
 
+/// Where a run moves the sheet.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Device {
+    /// The processor, in f64.
+    #[default]
+    Cpu,
+    /// A GPU, in f32, as far as that goes; the rest is the processor's. Needs the cargo feature `gpu`.
+    Gpu,
+    /// A GPU that is none in software, for sheets large enough; else the processor.
+    Auto,
+}
+
+impl Device {
+    /// Sheets of fewer nodes are left to the processor by [`Self::Auto`]: a step of theirs takes it less than the handing
+    /// over of a submission and its result.
+    pub const AUTO_NODES: usize = 50_000;
+}
+
 /// Options of [`run`](super::run).
 #[derive(Debug, Clone, PartialEq)]
 pub struct DynamicOptions {
     /// The stages to run, in the order of the motion.
     pub stages: Vec<Stage>,
+    /// Where the sheet is moved.
+    pub device: Device,
     /// The motion is recorded at t = 2k/frames, k = 0 … frames; even, at least 2.
     pub frames: usize,
     /// Further motion times at which the state is recorded; those outside the stages are passed over.
@@ -53,6 +73,7 @@ impl Default for DynamicOptions {
     fn default() -> Self {
         Self {
             stages: Stage::ALL.to_vec(),
+            device: Device::Cpu,
             frames: 240,
             extra_times: Vec::new(),
             tolerance: 1e-8,
@@ -107,4 +128,6 @@ pub struct Run {
     pub stages: Vec<StageOutcome>,
     /// Steps of the whole run.
     pub steps: u64,
+    /// What moved the sheet: "cpu", or the name of the GPU.
+    pub device: String,
 }

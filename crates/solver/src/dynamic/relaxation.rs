@@ -24,7 +24,7 @@ const STEPS_A_LOOK: u64 = 10;
 const STEPS_A_BOUND: u64 = 100;
 
 /// With every mass the row sum of its node the bound on the time step is 2.
-const DT: f64 = 2.0 * SAFETY;
+pub(super) const DT: f64 = 2.0 * SAFETY;
 
 /// How a relaxation stands after a look.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -80,7 +80,7 @@ impl<'a> State<'a> {
             model,
         };
         state.set_targets(&angles);
-        state.follow_angles_from_targets();
+        state.set_angles(&angles);
         state
     }
 
@@ -173,6 +173,11 @@ impl<'a> State<'a> {
         vectors(&self.layout.order, &self.now.velocities)
     }
 
+    /// Sets the positions, one a node, in unit lengths.
+    pub fn set_positions(&mut self, positions: &[DVec3]) {
+        self.now.positions = quads(&self.layout.order, positions);
+    }
+
     /// Sets the velocities, one a node.
     pub fn set_velocities(&mut self, velocities: &[DVec3]) {
         self.now.velocities = quads(&self.layout.order, velocities);
@@ -185,11 +190,24 @@ impl<'a> State<'a> {
 
     /// Sets the target of every hinge, radians.
     pub fn set_targets(&mut self, targets: &[f64]) {
+        self.set_by_hinge(targets, |hinges| &mut hinges.targets);
+    }
+
+    /// Takes each fold angle, at the next evaluation, for the value modulo 2π that is nearest to that of `angles`.
+    pub fn set_angles(&mut self, angles: &[f64]) {
+        self.set_by_hinge(angles, |hinges| &mut hinges.angles);
+    }
+
+    fn set_by_hinge(
+        &mut self,
+        numbers: &[f64],
+        of: impl Fn(&mut Hinges) -> &mut Vec<[f64; WIDTH]>,
+    ) {
         for (block, hinges) in self.layout.blocks.iter().zip(&mut self.hinges) {
-            let slots = hinges.targets.as_flattened_mut();
+            let slots = of(hinges).as_flattened_mut();
             for (slot, &hinge) in slots.iter_mut().zip(&block.hinges) {
                 if hinge != NO_HINGE {
-                    *slot = targets[hinge as usize];
+                    *slot = numbers[hinge as usize];
                 }
             }
         }
@@ -215,13 +233,6 @@ impl<'a> State<'a> {
             }
         }
         numbers
-    }
-
-    /// Takes each fold angle, at the next evaluation, for the value modulo 2π that is nearest to its target.
-    pub fn follow_angles_from_targets(&mut self) {
-        for hinges in &mut self.hinges {
-            hinges.angles.copy_from_slice(&hinges.targets);
-        }
     }
 
     /// The largest force on a node at the last evaluation over the fold stiffness.
@@ -255,6 +266,16 @@ impl<'a> State<'a> {
             .iter()
             .map(|v| vector(v).length_squared());
         0.5 * squares.sum::<f64>()
+    }
+
+    /// The mass of every node, in the order of the model.
+    #[cfg(feature = "gpu")]
+    pub(super) fn masses(&self) -> Vec<f64> {
+        let mut masses = vec![1.0; self.masses.len()];
+        for (&node, mass) in self.layout.order.iter().zip(&self.masses) {
+            masses[node as usize] = mass.mass;
+        }
+        masses
     }
 
     /// Gives every node the mass 1, that of the material.

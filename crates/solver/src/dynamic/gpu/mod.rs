@@ -6,16 +6,18 @@
 //! with the CPU's to some 1e-5 of the stiffest bar's for sheets of some ten thousand nodes: an f32 has 24 bits, and a
 //! displacement of a hundred unit lengths leaves 1e-5 of one.
 //!
-//! Limits. The motion of a whole run stays on the CPU for now: here a state can be stepped and relaxed, for whoever wants
-//! many nodes and has the card. The residual of a relaxation has a floor of about 1e-4 for the same reason.
+//! In a run ([`Device`](super::Device)) the GPU moves the sheet and settles it to what f32 leaves, about 1e-4 of the fold
+//! stiffness for a sheet of some ten unit lengths; finer tolerances, those of the last degrees of a fold, are the CPU's.
 
 mod buffers;
 mod control;
 mod device;
+mod drive;
 mod state;
 mod tables;
 #[cfg(test)]
 mod tests;
 
 pub use device::Gpu;
+pub(super) use drive::GpuDrive;
 pub use state::{GpuState, GpuTotals};

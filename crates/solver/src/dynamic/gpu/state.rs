@@ -147,7 +147,7 @@ impl<'a> GpuState<'a> {
         self.run(count)
     }
 
-    /// `count` steps of dynamic relaxation from here: no dampers, the viscosity critical for the mode that moves, no node
+    /// Begins a dynamic relaxation with `count` steps: no dampers, the viscosity critical for the mode that moves, no node
     /// further than `longest_way` in a step of at most `dt`.
     ///
     /// # Errors
@@ -162,8 +162,16 @@ impl<'a> GpuState<'a> {
         self.run(count)
     }
 
-    fn run(&mut self, count: usize) -> Result<(), SolverError> {
+    fn run(&self, count: usize) -> Result<(), SolverError> {
         self.write(&self.buffers.control, &self.control.to_words());
+        self.go_on(count)
+    }
+
+    /// `count` more steps like the last ones.
+    ///
+    /// # Errors
+    /// [`SolverError::GpuLost`].
+    pub fn go_on(&self, count: usize) -> Result<(), SolverError> {
         let mut left = count;
         while left > 0 {
             let steps = left.min(STEPS_A_SUBMISSION);
@@ -212,6 +220,19 @@ impl<'a> GpuState<'a> {
     /// Sets the target of every hinge, radians.
     pub fn set_targets(&mut self, targets: &[f64]) {
         self.write(&self.buffers.targets, &self.tables.by_edge(targets));
+    }
+
+    /// Sets the followed fold angle of every hinge, radians: the next ones are those nearest to them.
+    pub fn set_angles(&mut self, angles: &[f64]) {
+        self.write(&self.buffers.angles, &self.tables.by_edge(angles));
+    }
+
+    /// Sets the positions, one a node, in unit lengths.
+    pub fn set_positions(&mut self, positions: &[DVec3]) {
+        self.write(
+            &self.buffers.displacements,
+            &displacements(self.model, positions),
+        );
     }
 
     /// Sets the velocities, one a node.

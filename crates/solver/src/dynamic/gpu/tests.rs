@@ -3,6 +3,7 @@
 //! Tests that need a GPU are ignored unless FOLDMOTION_GPU_TESTS=yes is set when they are built; Mesa's software Vulkan
 //! will do.
 
+use foldmotion_geometry::RigidMotion;
 use foldmotion_pattern::{Case, Unit, UnitSheet};
 use glam::DVec3;
 use wgpu::naga;
@@ -11,8 +12,8 @@ use super::control::{Control, NAMES, WORDS};
 use super::device::{PASSES, SOURCE};
 use super::state::GROUP;
 use super::{Gpu, GpuState};
-use crate::dynamic::State;
-use crate::{Material, Model};
+use crate::dynamic::{Device, DynamicOptions, Run, StageOutcome, State, run};
+use crate::{Material, Model, Schedule, Stage};
 
 /// What f32 may leave of forces from bars of stiffness 40 a unit length: 20 units in the last place of it. Some 1e-5 was
 /// seen.
@@ -241,4 +242,54 @@ fn two_runs_give_the_same_bits() {
         (state.positions().unwrap(), state.totals().unwrap())
     };
     assert_eq!(run(), run());
+}
+
+/// Flat to compact, both stages being asked for on `device`.
+fn fold(device: Device) -> (Run, Vec<DVec3>) {
+    let units = UnitSheet::new(Unit::new(Case::E, 1.0, 1.0, None, None).unwrap(), 3, 2).unwrap();
+    let model = Model::new(&units.sheet, &Material::default()).unwrap();
+    let flat = vec![0.0; units.sheet.edges.len()];
+    let schedule = Schedule::uniform(&units.sheet, &flat, units.compact_angles()).unwrap();
+    let options = DynamicOptions {
+        stages: vec![Stage::Fold],
+        frames: 24,
+        device,
+        ..DynamicOptions::default()
+    };
+    let run = run(&model, &schedule, &units.sheet.planar(), &options, &|_| {
+        true
+    })
+    .unwrap();
+    (run, units.compact())
+}
+
+#[test]
+#[cfg_attr(not(gpu_tests), ignore = "needs a GPU and FOLDMOTION_GPU_TESTS=yes")]
+fn a_run_on_the_gpu_ends_in_the_exact_compact_state_and_names_its_device() {
+    let (on_gpu, compact) = fold(Device::Gpu);
+    let (on_cpu, _) = fold(Device::Cpu);
+    assert!(on_gpu.stages.iter().all(StageOutcome::is_converged));
+    let last = &on_gpu.frames.last().unwrap().positions;
+    let motion = RigidMotion::best_fit(last, &compact);
+    let placed: Vec<DVec3> = last.iter().map(|&p| motion.apply(p)).collect();
+    let error = largest_difference(&placed, &compact);
+    assert!(error < 1e-6, "{error}");
+    assert_eq!(on_cpu.device, "cpu");
+    assert_eq!(on_gpu.device, Gpu::new().unwrap().name());
+    // The frames that both record at the same times are the same states.
+    for frame in &on_gpu.frames {
+        let Some(twin) = on_cpu.frames.iter().find(|f| f.time == frame.time) else {
+            continue;
+        };
+        let motion = RigidMotion::best_fit(&frame.positions, &twin.positions);
+        let placed: Vec<DVec3> = frame.positions.iter().map(|&p| motion.apply(p)).collect();
+        let error = largest_difference(&placed, &twin.positions);
+        assert!(error < 0.01, "t = {}: {error}", frame.time);
+    }
+}
+
+#[test]
+#[cfg_attr(not(gpu_tests), ignore = "needs a GPU and FOLDMOTION_GPU_TESTS=yes")]
+fn a_small_sheet_is_left_to_the_processor_where_the_choice_is_free() {
+    assert_eq!(fold(Device::Auto).0.device, "cpu");
 }
