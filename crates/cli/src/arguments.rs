@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use clap::{Args, Parser, Subcommand};
+use clap::{Args, Parser, Subcommand, ValueEnum};
 
 use crate::pattern::PatternArguments;
 
@@ -67,12 +67,26 @@ pub(crate) struct RunArguments {
     /// Threads to use; all cores where left out
     #[arg(long, value_parser = parse_threads)]
     pub(crate) threads: Option<usize>,
+    /// Where the dynamic engine moves the sheet; auto takes a GPU for large sheets where there is a real one
+    #[arg(long, value_enum, default_value_t = DeviceChoice::Cpu)]
+    pub(crate) device: DeviceChoice,
     /// No progress and no table
     #[arg(long)]
     pub(crate) quiet: bool,
     /// Print exactly report.json on stdout
     #[arg(long)]
     pub(crate) json: bool,
+}
+
+/// Where the dynamic engine runs.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(crate) enum DeviceChoice {
+    /// The processor
+    Cpu,
+    /// A GPU, whichever the driver offers
+    Gpu,
+    /// A real GPU for large sheets, else the processor
+    Auto,
 }
 
 /// `foldmotion check`.

@@ -10,11 +10,12 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use arguments::{Arguments, CheckArguments, Command, PaperArguments, RunArguments};
+use arguments::{Arguments, CheckArguments, Command, DeviceChoice, PaperArguments, RunArguments};
 use clap::Parser as _;
 use foldmotion_study::paper::{PaperPart, paper};
+use foldmotion_study::scene::EngineChoice;
 use foldmotion_study::{
-    CheckOptions, PatternStudy, SceneSource, Study, check_file, models, verify_file,
+    CheckOptions, Device, PatternStudy, SceneSource, Study, check_file, models, verify_file,
 };
 use pattern::PatternArguments;
 use progress::Reporter;
@@ -68,7 +69,8 @@ fn run_scene(arguments: &RunArguments) -> Result<u8, Failure> {
     watch_for_interrupts()?;
     let (source, folder) =
         scene_and_folder(&arguments.scene, &arguments.set, arguments.out.as_ref())?;
-    let study = Study::resolve(&source)?;
+    let mut study = Study::resolve(&source)?;
+    study.device = device(arguments.device, &study)?;
     let reporter = Reporter::new(arguments.quiet);
     let report = study.run(&folder, &|phase, done| {
         reporter.report(phase.name(), done);
@@ -82,6 +84,22 @@ fn run_scene(arguments: &RunArguments) -> Result<u8, Failure> {
         print(&format!("results in {}\n", folder.display()))?;
     }
     Ok(report.status())
+}
+
+/// # Errors
+/// A GPU is asked for, and the engine has no use for one.
+fn device(choice: DeviceChoice, study: &Study) -> Result<Device, Failure> {
+    match choice {
+        DeviceChoice::Cpu => Ok(Device::Cpu),
+        DeviceChoice::Auto => Ok(Device::Auto),
+        DeviceChoice::Gpu if study.engine == EngineChoice::Dynamic => Ok(Device::Gpu),
+        DeviceChoice::Gpu => Err(Failure {
+            message: "--device gpu: the quasi-static engine runs on the processor; add --set motion.engine=dynamic, or leave \
+                      --device out"
+                .to_owned(),
+            status: 2,
+        }),
+    }
 }
 
 /// The scene with its `--set`, and the folder of its results.

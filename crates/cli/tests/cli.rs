@@ -185,3 +185,21 @@ fn models_lists_all_nine_with_rows_columns_and_source() {
         assert!(lines[at + 1].trim_start().starts_with(units), "{text}");
     }
 }
+
+#[test]
+fn a_device_is_named_in_the_report_and_refused_where_the_engine_has_no_use_for_it() {
+    let home = tempfile::tempdir().unwrap();
+    let unit = scene("one-unit");
+    let mut arguments = vec!["run", unit.as_str(), "--device", "gpu", "--quiet"];
+    arguments.extend(SMALL);
+    let output = foldmotion(home.path(), &arguments);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(text(&output.stderr).contains("--set motion.engine=dynamic"));
+    assert!(!home.path().join("out").exists());
+    // A small sheet stays on the processor.
+    arguments[3] = "auto";
+    arguments.extend(["--set", "motion.engine=dynamic", "--json"]);
+    let output = foldmotion(home.path(), &arguments);
+    let report: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+    assert_eq!(report["engine"]["device"], "cpu");
+}

@@ -21,6 +21,8 @@ pub(crate) struct Computed {
     pub(crate) jam: Option<Jam>,
     /// Steps of the dynamic engine, Newton iterations of the quasi-static one.
     pub(crate) steps: u64,
+    /// What it ran on.
+    pub(crate) device: String,
 }
 
 /// How a stage went.
@@ -64,6 +66,7 @@ impl Study {
         progress: &(dyn Fn(f64) -> bool + Sync),
     ) -> Result<Computed, StudyError> {
         let options = DynamicOptions {
+            device: self.device,
             frames: self.frames,
             extra_times: extra_times.to_vec(),
             ..DynamicOptions::default()
@@ -88,6 +91,7 @@ impl Study {
             contacts: Vec::new(),
             jam: None,
             steps: run.steps,
+            device: run.device,
             frames: run.frames,
         })
     }
@@ -131,6 +135,7 @@ impl Study {
                 Vec::new()
             },
             steps: run.stages.iter().map(|s| s.iterations as u64).sum(),
+            device: "cpu".to_owned(),
             jam: run.jam,
             frames: run.frames,
         })

@@ -33,6 +33,7 @@ pub use error::StudyError;
 pub use foldmotion_pattern::{
     CutError, CutOptions, PaperSize, ProfileModel, models, parse_millimetres,
 };
+pub use foldmotion_solver::dynamic::Device;
 pub use pattern_files::{PatternFormat, PatternOptions, PatternScale, PatternStudy};
 pub use report::Report;
 pub use rows::draw_clashes;

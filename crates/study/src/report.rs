@@ -456,9 +456,9 @@ pub struct EngineReport {
     pub seconds: f64,
     /// Threads it could use.
     pub threads: usize,
-    /// What it ran on.
+    /// What it ran on: cpu, or the name of the GPU.
     pub device: String,
-    /// Instruction set of the build.
+    /// The processor, and the f64 numbers its vectors hold.
     pub instruction_set: String,
 }
 

@@ -101,7 +101,7 @@ impl Study {
                 steps: computed.steps,
                 seconds: folded.engine_seconds,
                 threads: rayon::current_num_threads(),
-                device: "cpu".to_owned(),
+                device: computed.device.clone(),
                 instruction_set: foldmotion_solver::dynamic::instruction_set(),
             },
             seconds,

@@ -8,6 +8,7 @@ use foldmotion_pattern::{
     Case, CompactBox, Facing, PatternCheck, PatternError, ProfileModel, Unit, UnitSheet,
 };
 use foldmotion_record::{FilmOptions, RecordError, View};
+use foldmotion_solver::dynamic::Device;
 use foldmotion_solver::quasi_static::Contact;
 use foldmotion_solver::{
     CreaseGroup, Ease, Material, Model, Schedule, ScheduleStep, SolverError, Stage,
@@ -66,6 +67,8 @@ pub struct Study {
     pub schedule: Schedule,
     /// What moves the sheet.
     pub engine: EngineChoice,
+    /// Where the dynamic engine moves it; the quasi-static one runs on the processor.
+    pub device: Device,
     /// How close layers may come, in units of h; none lets them pass through each other.
     pub contact_gap: Option<f64>,
     /// Thickness of the sheet, where the scene gives it.
@@ -124,6 +127,7 @@ impl Study {
             pattern: units.check(),
             closed_form: units.closed_form(),
             engine: resolver.engine(),
+            device: Device::Cpu,
             contact_gap: resolver.contact_gap(&units)?,
             thickness: scene.material.thickness,
             frames: resolver.frames()?,

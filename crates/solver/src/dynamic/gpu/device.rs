@@ -36,14 +36,11 @@ impl Gpu {
     }
 
     async fn open(source: &str) -> Result<Self, String> {
-        let instance = wgpu::Instance::new(wgpu::InstanceDescriptor::new_without_display_handle());
-        let adapter = instance
-            .request_adapter(&wgpu::RequestAdapterOptions {
-                power_preference: wgpu::PowerPreference::HighPerformance,
-                ..wgpu::RequestAdapterOptions::default()
-            })
-            .await
-            .map_err(|e| e.to_string())?;
+        let adapter = match adapter(wgpu::Backends::PRIMARY).await {
+            Ok(adapter) => adapter,
+            // OpenGL where there is nothing newer.
+            Err(_reason) => adapter(wgpu::Backends::all()).await?,
+        };
         let info = adapter.get_info();
         let (device, queue) = adapter
             .request_device(&wgpu::DeviceDescriptor {
@@ -117,4 +114,17 @@ impl Gpu {
             reason: reason.to_string(),
         }
     }
+}
+
+async fn adapter(backends: wgpu::Backends) -> Result<wgpu::Adapter, String> {
+    let instance = wgpu::Instance::new(wgpu::InstanceDescriptor {
+        backends,
+        ..wgpu::InstanceDescriptor::new_without_display_handle()
+    });
+    let options = wgpu::RequestAdapterOptions {
+        power_preference: wgpu::PowerPreference::HighPerformance,
+        ..wgpu::RequestAdapterOptions::default()
+    };
+    let adapter = instance.request_adapter(&options).await;
+    adapter.map_err(|e| e.to_string())
 }
