@@ -40,7 +40,7 @@ pub(crate) fn print() -> Result<(), Box<dyn Error>> {
         let options = CollisionOptions::default();
         let mut report = collisions(&motion, &options, &|_| true);
         let seconds = median_seconds(SAMPLES, || {
-            report = collisions(&motion, &options, &|_| true)
+            report = collisions(&motion, &options, &|_| true);
         });
         let decided = report?.decided_by;
         let near = decided.axis_at_rest + decided.turning_axis + decided.search;

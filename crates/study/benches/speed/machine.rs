@@ -88,6 +88,7 @@ struct FusedSums;
 impl WithSimd for FusedSums {
     type Output = f64;
 
+    #[expect(clippy::inline_always, reason = "compiled for the machine's vectors")]
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) -> f64 {
         let factor = simd.splat_f64s(black_box(0.999));
