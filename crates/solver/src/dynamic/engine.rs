@@ -219,7 +219,7 @@ impl Engine<'_, '_> {
                 self.schedule.targets(stage, s, &mut self.targets);
                 drive.step(&self.targets, dt)?;
             }
-            drive.store(&mut self.state)?;
+            drive.store(&mut self.state, dt, stage.start_time() + to)?;
             self.state.set_targets(&self.targets);
             return Ok(steps as u64);
         }
@@ -304,7 +304,14 @@ impl Engine<'_, '_> {
             }
         };
         self.state.damping = 0.0;
-        let rough = drive.settle(&mut self.state, tolerance, budget, is_recorded, &mut look)?;
+        let rough = drive.settle(
+            &mut self.state,
+            tolerance,
+            budget,
+            is_recorded,
+            time,
+            &mut look,
+        )?;
         *spent += rough.steps;
         Ok(if !rough.is_settled {
             Some(StageStatus::OutOfSteps)

@@ -45,7 +45,7 @@ pub(super) struct Nodes {
 }
 
 /// The longest way a node may go in one step, in unit lengths: beyond it the motion has run away.
-const MAX_DISPLACEMENT: f64 = 0.5;
+pub(super) const MAX_DISPLACEMENT: f64 = 0.5;
 
 impl<'a> State<'a> {
     /// The sheet of `model` at rest at `positions` (unit lengths), with every target at the angle it has there.

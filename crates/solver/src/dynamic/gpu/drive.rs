@@ -6,6 +6,7 @@ use super::{Gpu, GpuState};
 use crate::dynamic::State;
 use crate::dynamic::recorder::PATH_STEP;
 use crate::dynamic::relaxation::DT;
+use crate::dynamic::state::MAX_DISPLACEMENT;
 use crate::{Model, SolverError};
 
 /// Steps between two looks at the residual; where the path is recorded, as many as the CPU's.
@@ -57,10 +58,35 @@ impl<'a> GpuDrive<'a> {
         self.state.step(1, dt, 1.0, 0.0)
     }
 
-    /// Hands over to the CPU's state.
-    pub(in crate::dynamic) fn store(&self, cpu: &mut State<'_>) -> Result<(), SolverError> {
-        cpu.set_positions(&self.state.positions()?);
-        cpu.set_velocities(&self.state.velocities()?);
+    /// Hands over to the CPU's state at motion time `time`, after steps of length `dt`.
+    ///
+    /// # Errors
+    /// [`SolverError::Diverged`] where a node went further in a step than the CPU lets it, or to no number.
+    pub(in crate::dynamic) fn store(
+        &self,
+        cpu: &mut State<'_>,
+        dt: f64,
+        time: f64,
+    ) -> Result<(), SolverError> {
+        let positions = self.state.positions()?;
+        let velocities = self.state.velocities()?;
+        // From or to a place that is no number the way is none either.
+        let ways = positions
+            .iter()
+            .zip(&velocities)
+            .map(|(p, v)| v.length() * dt + 0.0 * p.length());
+        let runaway = ways
+            .enumerate()
+            .find(|(_, way)| way.is_nan() || *way > MAX_DISPLACEMENT);
+        if let Some((node, displacement)) = runaway {
+            return Err(SolverError::Diverged {
+                node,
+                time,
+                displacement,
+            });
+        }
+        cpu.set_positions(&positions);
+        cpu.set_velocities(&velocities);
         cpu.set_angles(&self.state.angles()?);
         Ok(())
     }
@@ -83,13 +109,15 @@ impl<'a> GpuDrive<'a> {
             / self.model.material.fold_stiffness
     }
 
-    /// Relaxes to `tolerance`, or to what f32 leaves; `look` sees the positions now and then and may end it with an error.
+    /// Relaxes at motion time `time` to `tolerance`, or to what f32 leaves; `look` sees the positions now and then and may
+    /// end it with an error.
     pub(in crate::dynamic) fn settle(
         &mut self,
         cpu: &mut State<'_>,
         tolerance: f64,
         budget: u64,
         is_recorded: bool,
+        time: f64,
         look: &mut dyn FnMut(&[DVec3]) -> Result<(), SolverError>,
     ) -> Result<Rough, SolverError> {
         let look_steps = if is_recorded {
@@ -113,7 +141,7 @@ impl<'a> GpuDrive<'a> {
                     look(&self.state.positions()?)?;
                 }
                 if is_settled || steps >= budget || looks * look_steps >= STEPS_A_LOOK {
-                    self.store(cpu)?;
+                    self.store(cpu, totals.pace[0], time)?;
                     look(&cpu.positions())?;
                     if is_settled {
                         return Ok(Rough {

@@ -10,6 +10,14 @@ use crate::{Model, SolverError};
 /// Invocations of a group, as the shader has them.
 pub(super) const GROUP: u32 = 128;
 
+/// The numbers of the bindings each pass uses; a test compares them with the shader.
+pub(super) const BINDINGS: [&[u32]; 4] = [
+    &[0, 1, 2, 3, 4, 5, 6, 7, 8],
+    &[0, 4, 8, 9, 10, 11],
+    &[0, 4, 5, 8, 11, 12, 13, 14, 16],
+    &[15, 16],
+];
+
 /// The most steps handed in at once, so that a driver's watchdog sees progress.
 const STEPS_A_SUBMISSION: usize = 64;
 
@@ -357,16 +365,10 @@ fn bind(gpu: &Gpu, buffers: &Buffers, constants: &[(u32, wgpu::Buffer)]) -> [wgp
         .into_iter()
         .chain(constants.iter().map(|(number, buffer)| (*number, buffer)))
         .collect();
-    let used: [&[u32]; 4] = [
-        &[0, 1, 2, 3, 4, 5, 6, 7, 8],
-        &[0, 4, 8, 9, 10, 11],
-        &[0, 4, 5, 8, 11, 12, 13, 14, 16],
-        &[15, 16],
-    ];
     std::array::from_fn(|pass| {
         let entries: Vec<wgpu::BindGroupEntry<'_>> = all
             .iter()
-            .filter(|(number, _)| used[pass].contains(number))
+            .filter(|(number, _)| BINDINGS[pass].contains(number))
             .map(|&(binding, buffer)| wgpu::BindGroupEntry {
                 binding,
                 resource: buffer.as_entire_binding(),

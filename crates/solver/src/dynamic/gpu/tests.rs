@@ -10,10 +10,10 @@ use wgpu::naga;
 
 use super::control::{Control, NAMES, WORDS};
 use super::device::{PASSES, SOURCE};
-use super::state::GROUP;
-use super::{Gpu, GpuState};
+use super::state::{BINDINGS, GROUP};
+use super::{Gpu, GpuDrive, GpuState};
 use crate::dynamic::{Device, DynamicOptions, Run, StageOutcome, State, run};
-use crate::{Material, Model, Schedule, Stage};
+use crate::{Material, Model, Schedule, SolverError, Stage};
 
 /// What f32 may leave of forces from bars of stiffness 40 a unit length: 20 units in the last place of it. Some 1e-5 was
 /// seen.
@@ -292,4 +292,46 @@ fn a_run_on_the_gpu_ends_in_the_exact_compact_state_and_names_its_device() {
 #[cfg_attr(not(gpu_tests), ignore = "needs a GPU and FOLDMOTION_GPU_TESTS=yes")]
 fn a_small_sheet_is_left_to_the_processor_where_the_choice_is_free() {
     assert_eq!(fold(Device::Auto).0.device, "cpu");
+}
+
+#[test]
+#[cfg_attr(not(gpu_tests), ignore = "needs a GPU and FOLDMOTION_GPU_TESTS=yes")]
+fn a_node_that_runs_away_on_the_gpu_is_reported_as_on_the_cpu() {
+    let gpu = Gpu::new().unwrap();
+    let sheet = shaken(Case::E, 3, 2, 0.0);
+    for (speed, is_wild) in [(0.1, false), (1e6, true), (f64::NAN, true)] {
+        let mut cpu = sheet.on_cpu();
+        let mut velocities = vec![DVec3::ZERO; sheet.model.node_count()];
+        velocities[4] = DVec3::splat(speed);
+        cpu.set_velocities(&velocities);
+        let dt = 0.5 * cpu.stable_time_step();
+        let mut drive = GpuDrive::new(&gpu, &sheet.model, &sheet.positions).unwrap();
+        drive.load(&cpu);
+        drive.step(&sheet.targets, dt).unwrap();
+        let stored = drive.store(&mut sheet.on_cpu(), dt, 1.5);
+        assert_eq!(cpu.step(dt).is_err(), is_wild, "{speed}");
+        let is_reported = matches!(stored, Err(SolverError::Diverged { time, .. }) if time == 1.5);
+        assert_eq!(is_reported, is_wild, "{speed}: {stored:?}");
+    }
+}
+
+#[test]
+fn every_pass_binds_what_it_uses_and_at_most_eight_storage_buffers() {
+    let module = module();
+    let flags = naga::valid::ValidationFlags::all();
+    let mut validator = naga::valid::Validator::new(flags, naga::valid::Capabilities::empty());
+    let info = validator.validate(&module).unwrap();
+    for (index, bound) in BINDINGS.iter().enumerate() {
+        let uses = info.get_entry_point(index);
+        let globals = module.global_variables.iter();
+        let used = globals.filter(|(handle, _)| !uses[*handle].is_empty());
+        let used: Vec<_> = used
+            .filter_map(|(_, global)| Some((global.binding.as_ref()?.binding, global.space)))
+            .collect();
+        let numbers: Vec<u32> = used.iter().map(|(number, _)| *number).collect();
+        assert_eq!(&numbers, bound, "{}", PASSES[index]);
+        let storage = |space| matches!(space, naga::AddressSpace::Storage { .. });
+        let count = used.iter().filter(|(_, space)| storage(*space)).count();
+        assert!(count <= 8, "{}: {count}", PASSES[index]);
+    }
 }
