@@ -11,6 +11,7 @@
 
 mod buffers;
 mod control;
+mod cost;
 mod device;
 mod drive;
 mod state;

@@ -170,6 +170,15 @@ impl<'a> GpuState<'a> {
         self.run(count)
     }
 
+    /// Nodes, edges and triangles.
+    pub(super) fn counts(&self) -> [u64; 3] {
+        [self.control.nodes, self.control.edges, self.control.faces].map(u64::from)
+    }
+
+    pub(super) fn has_face_angles(&self) -> bool {
+        self.control.face_angle_stiffness > 0.0
+    }
+
     fn run(&self, count: usize) -> Result<(), SolverError> {
         self.write(&self.buffers.control, &self.control.to_words());
         self.go_on(count)

@@ -11,6 +11,7 @@ use wgpu::naga;
 use super::control::{Control, NAMES, WORDS};
 use super::device::{PASSES, SOURCE};
 use super::state::{BINDINGS, GROUP};
+use super::tables::Tables;
 use super::{Gpu, GpuDrive, GpuState};
 use crate::dynamic::{Device, DynamicOptions, Run, StageOutcome, State, run};
 use crate::{Material, Model, Schedule, SolverError, Stage};
@@ -333,5 +334,27 @@ fn every_pass_binds_what_it_uses_and_at_most_eight_storage_buffers() {
         let storage = |space| matches!(space, naga::AddressSpace::Storage { .. });
         let count = used.iter().filter(|(_, space)| storage(*space)).count();
         assert!(count <= 8, "{}: {count}", PASSES[index]);
+    }
+}
+
+#[test]
+#[cfg_attr(not(gpu_tests), ignore = "needs a GPU and FOLDMOTION_GPU_TESTS=yes")]
+fn the_bytes_held_are_those_of_the_records() {
+    let gpu = Gpu::new().unwrap();
+    for sheet in sheets() {
+        let tables = Tables::new(&sheet.model);
+        let constant = size_of_val(&*tables.edge_vertices)
+            + size_of_val(&*tables.edge_constants)
+            + size_of_val(&*tables.edge_rest)
+            + size_of_val(&*tables.face_records)
+            + size_of_val(&*tables.face_rest)
+            + size_of_val(&*tables.starts)
+            + size_of_val(&*tables.slots);
+        // Places, speeds, forces; loads, angles, targets; three forces.
+        let moving = 3 * 16 * sheet.model.node_count()
+            + (16 + 4 + 4) * sheet.model.bars.len()
+            + 3 * 16 * sheet.model.faces.len();
+        let held = sheet.on_gpu(&gpu).memory_bytes();
+        assert_eq!(held, (constant + moving) as u64);
     }
 }
