@@ -42,12 +42,11 @@ pub fn run(
     progress: &(dyn Fn(f64) -> bool + Sync),
 ) -> Result<Run, SolverError> {
     options.validate()?;
-    check_input(model, schedule, start)?;
+    schedule.check_start(model, start)?;
     // On a worker the threads meet without waking each other up.
     rayon::scope(|_| run_on_device(model, schedule, start, options, progress))
 }
 
-#[cfg(feature = "gpu")]
 fn run_on_device(
     model: &Model,
     schedule: &Schedule,
@@ -55,38 +54,34 @@ fn run_on_device(
     options: &DynamicOptions,
     progress: &(dyn Fn(f64) -> bool + Sync),
 ) -> Result<Run, SolverError> {
-    let gpu = match options.device {
-        Device::Gpu => Some(Gpu::new()?),
-        Device::Auto if model.node_count() >= Device::AUTO_NODES => {
-            Gpu::new().ok().filter(|gpu| !gpu.is_software())
+    #[cfg(not(feature = "gpu"))]
+    {
+        if options.device == Device::Gpu {
+            return Err(SolverError::NoGpu {
+                reason: "this program was built without the feature gpu".to_owned(),
+            });
         }
-        Device::Cpu | Device::Auto => None,
-    };
-    let drive = match &gpu {
-        Some(gpu) => Some(GpuDrive::new(gpu, model, &model.to_model(start))?),
-        None => None,
-    };
-    let mut run = run_here(model, schedule, start, options, progress, drive)?;
-    if let Some(gpu) = gpu {
-        gpu.name().clone_into(&mut run.device);
+        run_here(model, schedule, start, options, progress)
     }
-    Ok(run)
-}
-
-#[cfg(not(feature = "gpu"))]
-fn run_on_device(
-    model: &Model,
-    schedule: &Schedule,
-    start: &[DVec3],
-    options: &DynamicOptions,
-    progress: &(dyn Fn(f64) -> bool + Sync),
-) -> Result<Run, SolverError> {
-    if options.device == Device::Gpu {
-        return Err(SolverError::NoGpu {
-            reason: "this program was built without the feature gpu".to_owned(),
-        });
+    #[cfg(feature = "gpu")]
+    {
+        let gpu = match options.device {
+            Device::Gpu => Some(Gpu::new()?),
+            Device::Auto if model.node_count() >= Device::AUTO_NODES => {
+                Gpu::new().ok().filter(|gpu| !gpu.is_software())
+            }
+            Device::Cpu | Device::Auto => None,
+        };
+        let drive = match &gpu {
+            Some(gpu) => Some(GpuDrive::new(gpu, model, &model.to_model(start))?),
+            None => None,
+        };
+        let mut run = run_here(model, schedule, start, options, progress, drive)?;
+        if let Some(gpu) = gpu {
+            gpu.name().clone_into(&mut run.device);
+        }
+        Ok(run)
     }
-    run_here(model, schedule, start, options, progress)
 }
 
 fn run_here(
@@ -134,33 +129,6 @@ fn run_here(
         steps,
         device: "cpu".to_owned(),
     })
-}
-
-fn check_input(model: &Model, schedule: &Schedule, start: &[DVec3]) -> Result<(), SolverError> {
-    let count = |what, expected, found| {
-        if expected == found {
-            Ok(())
-        } else {
-            Err(SolverError::Count {
-                what,
-                expected,
-                found,
-            })
-        }
-    };
-    count("start positions", model.node_count(), start.len())?;
-    count(
-        "scheduled hinges",
-        model.hinges.len(),
-        schedule.hinge_count(),
-    )?;
-    match start.iter().position(|p| !p.is_finite()) {
-        Some(index) => Err(SolverError::NotFinite {
-            what: "start position of vertex",
-            index,
-        }),
-        None => Ok(()),
-    }
 }
 
 struct Engine<'a, 'm> {

@@ -271,29 +271,31 @@ impl Block {
 
     /// Lists the ends and corners at each owned node, in the order of the records.
     fn fill_slots(&mut self, edges: usize, faces: usize) {
-        let mut ends = vec![Vec::new(); self.owned];
-        for edge in 0..edges {
-            for end in 0..2 {
-                let node = self.edges[edge / WIDTH].vertices[end][edge % WIDTH];
-                if let Some(slots) = ends.get_mut(node as usize) {
-                    slots.push((2 * edge + end) as u16);
-                }
-            }
-        }
-        let mut corners = vec![Vec::new(); self.owned];
-        for face in 0..faces {
-            let (group, lane) = (face / WIDTH, face % WIDTH);
-            for corner in 0..3 {
-                let node = self.faces[group].vertices[corner][lane];
-                if let Some(slots) = corners.get_mut(node as usize) {
-                    slots.push(((3 * group + corner) * WIDTH + lane) as u16);
-                }
-            }
-        }
+        let ends: Vec<[u32; 2]> = (0..edges)
+            .map(|edge| {
+                let vertices = &self.edges[edge / WIDTH].vertices;
+                [0, 1].map(|end| u32::from(vertices[end][edge % WIDTH]))
+            })
+            .collect();
+        let corners: Vec<[u32; 3]> = (0..faces)
+            .map(|face| {
+                let vertices = &self.faces[face / WIDTH].vertices;
+                [0, 1, 2].map(|corner| u32::from(vertices[corner][face % WIDTH]))
+            })
+            .collect();
+        let nodes = self.owned + self.halo.len();
+        let ends = Gather::new(nodes, ends.iter());
+        let corners = Gather::new(nodes, corners.iter());
+        let corner_slot = |slot: &u32| {
+            let (face, corner) = (*slot as usize / 3, *slot as usize % 3);
+            ((3 * (face / WIDTH) + corner) * WIDTH + face % WIDTH) as u16
+        };
         self.starts.push([0; 2]);
-        for (ends, corners) in ends.iter().zip(&corners) {
-            self.ends.extend(ends);
-            self.corners.extend(corners);
+        for node in 0..self.owned {
+            self.ends
+                .extend(ends.slots(node).iter().map(|&slot| slot as u16));
+            self.corners
+                .extend(corners.slots(node).iter().map(corner_slot));
             self.starts
                 .push([self.ends.len() as u16, self.corners.len() as u16]);
         }

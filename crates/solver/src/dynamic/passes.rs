@@ -26,10 +26,9 @@ use pulp::{Simd, WithSimd};
 use super::angle::atan2;
 use super::lanes::{Lanes, Quad, WIDTH};
 use super::layout::Block;
-use super::part::LEAST_SQUARE;
-use super::part::{Edge, Face, Part};
+use super::part::{Edge, Face, LEAST_SQUARE, Part};
 
-/// What is kept for a turn: a whole one, halved and doubled, is followed to the nearest.
+/// A whole turn: fold angles are followed modulo it.
 const TURN: f64 = std::f64::consts::TAU;
 
 /// How a step moves the nodes.

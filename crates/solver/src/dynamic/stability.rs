@@ -175,25 +175,9 @@ impl BlockRows<'_> {
                 let ra = held * (oa * sa + qc * sb + qb * sc) + wa.over(area);
                 let rb = held * (ob * sb + qa * sc + qc * sa) + wb.over(area);
                 let rc = held * (oc * sc + qb * sa + qa * sb) + wc.over(area);
-                let zero = one.constant(0.0);
-                Vectors {
-                    x: ra,
-                    y: zero,
-                    z: zero,
-                }
-                .store(&mut rows[0], index);
-                Vectors {
-                    x: rb,
-                    y: zero,
-                    z: zero,
-                }
-                .store(&mut rows[1], index);
-                Vectors {
-                    x: rc,
-                    y: zero,
-                    z: zero,
-                }
-                .store(&mut rows[2], index);
+                alone(ra).store(&mut rows[0], index);
+                alone(rb).store(&mut rows[1], index);
+                alone(rc).store(&mut rows[2], index);
             }
         }
     }
@@ -229,4 +213,15 @@ fn length_of_sum<S: Simd>(u: Lanes<S>, v: Lanes<S>, cosine: Lanes<S>) -> Lanes<S
 fn length<S: Simd>(vector: Vectors<S>) -> Lanes<S> {
     let squared = vector.dot(vector);
     squared.max(squared.constant(LEAST_SQUARE)).sqrt()
+}
+
+/// A number where a vector has room.
+#[inline(always)]
+fn alone<S: Simd>(x: Lanes<S>) -> Vectors<S> {
+    let zero = x.constant(0.0);
+    Vectors {
+        x,
+        y: zero,
+        z: zero,
+    }
 }

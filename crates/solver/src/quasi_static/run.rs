@@ -71,7 +71,7 @@ pub fn run_quasi_static(
     progress: &(dyn Fn(f64) -> bool + Sync),
 ) -> Result<QuasiStaticRun, SolverError> {
     options.validate()?;
-    check_input(model, schedule, start)?;
+    schedule.check_start(model, start)?;
     let positions = model.to_model(start);
     // The angles of the first targets tell which turn a hinge near ±π is in.
     let mut angles = vec![0.0; model.hinges.len()];
@@ -106,33 +106,6 @@ pub fn run_quasi_static(
     }
     run.finish();
     Ok(run.outcome)
-}
-
-fn check_input(model: &Model, schedule: &Schedule, start: &[DVec3]) -> Result<(), SolverError> {
-    let counts = [
-        ("start positions", model.node_count(), start.len()),
-        (
-            "scheduled hinges",
-            model.hinges.len(),
-            schedule.hinge_count(),
-        ),
-    ];
-    for (what, expected, found) in counts {
-        if expected != found {
-            return Err(SolverError::Count {
-                what,
-                expected,
-                found,
-            });
-        }
-    }
-    match start.iter().position(|p| !p.is_finite()) {
-        Some(index) => Err(SolverError::NotFinite {
-            what: "start position of vertex",
-            index,
-        }),
-        None => Ok(()),
-    }
 }
 
 /// The stage-local times at which a stage records its state, in order, from the first after its start to its end.

@@ -1,6 +1,7 @@
 //! The schedule: the target fold angle of every hinge along the motion.
 
 use foldmotion_pattern::{Edge, Sheet};
+use glam::DVec3;
 
 mod step;
 mod timing;
@@ -13,7 +14,7 @@ pub use unfold_path::UnfoldPath;
 use timing::Timing;
 use unfold_path::FollowedPath;
 
-use crate::SolverError;
+use crate::{Model, SolverError};
 
 /// The largest target taken: a whole turn, twice what paper allows.
 const MAX_ANGLE: f64 = std::f64::consts::TAU;
@@ -200,6 +201,33 @@ impl Schedule {
             }
         }
         Ok(self)
+    }
+
+    /// Whether `start` (one position a vertex) is a state of `model` from which this schedule can move it.
+    ///
+    /// # Errors
+    /// [`SolverError::Count`] where positions or hinges are too few or too many, [`SolverError::NotFinite`].
+    pub(crate) fn check_start(&self, model: &Model, start: &[DVec3]) -> Result<(), SolverError> {
+        let counts = [
+            ("start positions", model.node_count(), start.len()),
+            ("scheduled hinges", model.hinges.len(), self.hinge_count()),
+        ];
+        for (what, expected, found) in counts {
+            if expected != found {
+                return Err(SolverError::Count {
+                    what,
+                    expected,
+                    found,
+                });
+            }
+        }
+        match start.iter().position(|p| !p.is_finite()) {
+            Some(index) => Err(SolverError::NotFinite {
+                what: "start position of vertex",
+                index,
+            }),
+            None => Ok(()),
+        }
     }
 
     /// The number of hinges.

@@ -51,13 +51,14 @@ pub(crate) fn print(ceilings: &[Ceiling]) {
 fn ceiling(threads: usize) -> Result<Ceiling, ThreadPoolBuildError> {
     let pool = ThreadPoolBuilder::new().num_threads(threads).build()?;
     let operations = pool.install(|| {
+        let mut operations = 0;
         let seconds = median_seconds(3, || {
-            (0..threads).into_par_iter().with_max_len(1).for_each(|_| {
-                black_box(Arch::new().dispatch(FusedSums));
-            });
+            let workers = (0..threads).into_par_iter().with_max_len(1);
+            operations = workers
+                .map(|_| Arch::new().dispatch(FusedSums))
+                .sum::<usize>();
         });
-        let lanes = Arch::new().dispatch(LaneCount);
-        (2 * threads * ROUNDS * lanes) as f64 / seconds
+        operations as f64 / seconds
     });
     let bytes = pool.install(|| {
         let [mut a, b, c] = [0.0, 1.0, 2.0].map(|number| vec![number; NUMBERS]);
@@ -86,11 +87,12 @@ fn ceiling(threads: usize) -> Result<Ceiling, ThreadPoolBuildError> {
 struct FusedSums;
 
 impl WithSimd for FusedSums {
-    type Output = f64;
+    /// The operations of it.
+    type Output = usize;
 
     #[expect(clippy::inline_always, reason = "compiled for the machine's vectors")]
     #[inline(always)]
-    fn with_simd<S: Simd>(self, simd: S) -> f64 {
+    fn with_simd<S: Simd>(self, simd: S) -> usize {
         let factor = simd.splat_f64s(black_box(0.999));
         let term = simd.splat_f64s(black_box(1e-3));
         let mut sums = [simd.splat_f64s(black_box(1.0)); SUMS];
@@ -103,16 +105,7 @@ impl WithSimd for FusedSums {
         for sum in sums {
             total += simd.reduce_sum_f64s(sum);
         }
-        total
-    }
-}
-
-struct LaneCount;
-
-impl WithSimd for LaneCount {
-    type Output = usize;
-
-    fn with_simd<S: Simd>(self, _simd: S) -> usize {
-        S::F64_LANES
+        black_box(total);
+        2 * (ROUNDS / SUMS) * SUMS * S::F64_LANES
     }
 }

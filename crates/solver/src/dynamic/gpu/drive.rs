@@ -137,9 +137,6 @@ impl<'a> GpuDrive<'a> {
                 let totals = self.state.totals()?;
                 let is_settled =
                     totals.residual <= tolerance && totals.largest_speed * DT <= tolerance;
-                if is_recorded {
-                    look(&self.state.positions()?)?;
-                }
                 if is_settled || steps >= budget || looks * look_steps >= STEPS_A_LOOK {
                     self.store(cpu, totals.pace[0], time)?;
                     look(&cpu.positions())?;
@@ -151,6 +148,9 @@ impl<'a> GpuDrive<'a> {
                         });
                     }
                     break;
+                }
+                if is_recorded {
+                    look(&self.state.positions()?)?;
                 }
                 self.state.go_on(look_steps)?;
                 looks += 1;

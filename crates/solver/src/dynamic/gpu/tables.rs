@@ -4,6 +4,7 @@ use glam::DVec2;
 
 use super::super::layout::{NO_HINGE, Topology};
 use crate::Model;
+use crate::gather::Gather;
 
 /// Records in the order of the buffers; nodes in the model's locality order.
 #[derive(Debug)]
@@ -94,25 +95,26 @@ impl Tables {
 
     /// Ends first, then corners, each by node.
     fn fill_slots(&mut self, nodes: usize) {
-        let mut ends = vec![Vec::new(); nodes];
-        for (edge, vertices) in self.edge_vertices.iter().enumerate() {
-            for (end, &node) in vertices[..2].iter().enumerate() {
-                ends[node as usize].push((2 * edge + end) as u32);
+        let ends = self.edge_vertices.iter().filter_map(|v| v.first_chunk());
+        let corners = self
+            .face_records
+            .iter()
+            .filter_map(|[v, _]| v.first_chunk());
+        let ends = Gather::new::<2>(nodes, ends);
+        let corners = Gather::new::<3>(nodes, corners);
+        let tables = [&ends, &corners];
+        self.slots = tables
+            .iter()
+            .flat_map(|table| (0..nodes).flat_map(|node| table.slots(node)))
+            .copied()
+            .collect();
+        let mut next = [0, 2 * self.edge_vertices.len() as u32];
+        self.starts.push(next);
+        for node in 0..nodes {
+            for (next, table) in next.iter_mut().zip(tables) {
+                *next += table.slots(node).len() as u32;
             }
-        }
-        let mut corners = vec![Vec::new(); nodes];
-        for (face, [vertices, _]) in self.face_records.iter().enumerate() {
-            for (corner, &node) in vertices[..3].iter().enumerate() {
-                corners[node as usize].push((3 * face + corner) as u32);
-            }
-        }
-        self.slots = ends.iter().chain(&corners).flatten().copied().collect();
-        let [mut end, mut corner] = [0, ends.iter().map(Vec::len).sum::<usize>()];
-        self.starts.push([end as u32, corner as u32]);
-        for (ends, corners) in ends.iter().zip(&corners) {
-            end += ends.len();
-            corner += corners.len();
-            self.starts.push([end as u32, corner as u32]);
+            self.starts.push(next);
         }
     }
 }

@@ -63,15 +63,12 @@ pub(super) fn factorise_panel<S: Simd>(simd: S, panel: &mut [f64], shape: Shape)
         let (done, rest) = panel.split_at_mut(first * height);
         let own = &mut rest[..3 * height];
         let from = row / S::F64_LANES;
-        let vectors = height / S::F64_LANES;
-        let mut at = from;
-        while at + 2 <= vectors {
-            subtract_done::<S, 2>(simd, done, own, height, row, at);
-            at += 2;
-        }
-        if at < vectors {
-            subtract_done::<S, 1>(simd, done, own, height, row, at);
-        }
+        let done = Columns {
+            scalars: done,
+            height,
+            from: 0,
+        };
+        done.subtract_from::<S, 3>(simd, row, from, own, height);
         let Some(corner) = Corner::factorise(own, height, row) else {
             return false;
         };
@@ -81,31 +78,64 @@ pub(super) fn factorise_panel<S: Simd>(simd: S, panel: &mut [f64], shape: Shape)
     true
 }
 
-/// Subtracts from V vectors of three columns what the columns done before contribute.
-#[inline(always)]
-fn subtract_done<S: Simd, const V: usize>(
-    simd: S,
-    done: &[f64],
-    own: &mut [f64],
+/// Columns, each `height` long, of which the rows from `from` on count.
+#[derive(Clone, Copy)]
+struct Columns<'a> {
+    scalars: &'a [f64],
     height: usize,
-    row: usize,
-    at: usize,
-) {
-    let mut sums = [[simd.splat_f64s(0.0); V]; 3];
-    for column in done.chunks_exact(height) {
-        let vectors = &S::as_simd_f64s(column).0[at..at + V];
-        let factors = &column[row..row + 3];
-        for (sum, &factor) in sums.iter_mut().zip(factors) {
-            let factor = simd.splat_f64s(factor);
+    from: usize,
+}
+
+impl Columns<'_> {
+    /// Subtracts from V vectors, at `at`, of N columns of `target` those of the product of the columns with the rows from
+    /// `row` on. The columns of `target` lie `distance` apart.
+    #[inline(always)]
+    fn subtract_product<S: Simd, const V: usize, const N: usize>(
+        self,
+        simd: S,
+        row: usize,
+        at: usize,
+        target: &mut [f64],
+        distance: usize,
+    ) {
+        let mut sums = [[simd.splat_f64s(0.0); V]; N];
+        for column in self.scalars.chunks_exact(self.height) {
+            let rows = &column[self.from..];
+            let vectors = &S::as_simd_f64s(rows).0[at..at + V];
+            let factors = &rows[row..row + N];
+            for (sum, &factor) in sums.iter_mut().zip(factors) {
+                let factor = simd.splat_f64s(factor);
+                for v in 0..V {
+                    sum[v] = simd.mul_add_e_f64s(vectors[v], factor, sum[v]);
+                }
+            }
+        }
+        for (column, sum) in target.chunks_exact_mut(distance).zip(sums) {
+            let vectors = &mut S::as_mut_simd_f64s(column).0[at..at + V];
             for v in 0..V {
-                sum[v] = simd.mul_add_e_f64s(vectors[v], factor, sum[v]);
+                vectors[v] = simd.sub_f64s(vectors[v], sum[v]);
             }
         }
     }
-    for (column, sum) in own.chunks_exact_mut(height).zip(sums) {
-        let vectors = &mut S::as_mut_simd_f64s(column).0[at..at + V];
-        for v in 0..V {
-            vectors[v] = simd.sub_f64s(vectors[v], sum[v]);
+
+    /// The same for all vectors from `first` on.
+    #[inline(always)]
+    fn subtract_from<S: Simd, const N: usize>(
+        self,
+        simd: S,
+        row: usize,
+        first: usize,
+        target: &mut [f64],
+        distance: usize,
+    ) {
+        let vectors = distance / S::F64_LANES;
+        let mut at = first;
+        while at + 2 <= vectors {
+            self.subtract_product::<S, 2, N>(simd, row, at, target, distance);
+            at += 2;
+        }
+        if at < vectors {
+            self.subtract_product::<S, 1, N>(simd, row, at, target, distance);
         }
     }
 }
@@ -173,48 +203,14 @@ pub(super) fn subtract_product<S: Simd>(simd: S, panel: &[f64], update: &mut [f6
     if tail == 0 {
         return;
     }
-    let vectors = tail / S::F64_LANES;
+    let below = Columns {
+        scalars: panel,
+        height: shape.height(),
+        from: shape.head(),
+    };
     for (index, columns) in update.chunks_exact_mut(TOGETHER * tail).enumerate() {
-        let j = TOGETHER * index;
-        let mut at = j / S::F64_LANES;
-        while at + 2 <= vectors {
-            multiply::<S, 2>(simd, panel, columns, shape, j, at);
-            at += 2;
-        }
-        if at < vectors {
-            multiply::<S, 1>(simd, panel, columns, shape, j, at);
-        }
-    }
-}
-
-/// V vectors of four columns of the product.
-#[inline(always)]
-fn multiply<S: Simd, const V: usize>(
-    simd: S,
-    panel: &[f64],
-    columns: &mut [f64],
-    shape: Shape,
-    j: usize,
-    at: usize,
-) {
-    let (head, tail) = (shape.head(), shape.tail());
-    let mut sums = [[simd.splat_f64s(0.0); V]; TOGETHER];
-    for column in panel.chunks_exact(shape.height()) {
-        let below = &column[head..];
-        let vectors = &S::as_simd_f64s(below).0[at..at + V];
-        let factors = &below[j..j + TOGETHER];
-        for (sum, &factor) in sums.iter_mut().zip(factors) {
-            let factor = simd.splat_f64s(factor);
-            for v in 0..V {
-                sum[v] = simd.mul_add_e_f64s(vectors[v], factor, sum[v]);
-            }
-        }
-    }
-    for (column, sum) in columns.chunks_exact_mut(tail).zip(sums) {
-        let vectors = &mut S::as_mut_simd_f64s(column).0[at..at + V];
-        for v in 0..V {
-            vectors[v] = simd.sub_f64s(vectors[v], sum[v]);
-        }
+        let row = TOGETHER * index;
+        below.subtract_from::<S, TOGETHER>(simd, row, row / S::F64_LANES, columns, tail);
     }
 }
 
