@@ -72,7 +72,7 @@ fn draw_row(
     };
     for edge in pair.edges.iter().filter(|e| e.faces.iter().any(is_own)) {
         let (colour, dash) = match edge.assignment {
-            Assignment::Facet => continue,
+            Assignment::Facet | Assignment::Free => continue,
             Assignment::Border => ("black", ""),
             Assignment::Mountain => ("red", ""),
             Assignment::Valley => ("blue", " stroke-dasharray=\"6 4\""),

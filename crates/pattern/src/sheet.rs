@@ -19,6 +19,9 @@ pub enum Assignment {
     /// F: not a crease; inside a facet, where a quadrilateral is split into triangles.
     #[serde(rename = "F")]
     Facet,
+    /// U: a hinge that nothing drives and nothing holds.
+    #[serde(rename = "U")]
+    Free,
 }
 
 impl Assignment {
@@ -29,6 +32,7 @@ impl Assignment {
             Self::Mountain => 'M',
             Self::Valley => 'V',
             Self::Facet => 'F',
+            Self::Free => 'U',
         }
     }
 }
@@ -46,6 +50,8 @@ pub enum CreaseKind {
     Pad,
     /// Between two columns, where the sheet folds like a map.
     Column,
+    /// Of an imported sheet, with no unit.
+    Imported,
     /// The border of the sheet.
     Border,
     /// Inside a facet.
@@ -57,7 +63,7 @@ pub enum CreaseKind {
 pub struct Edge {
     /// Its ends.
     pub vertices: [u32; 2],
-    /// Mountain, valley, border or inside a facet.
+    /// Mountain, valley, border, inside a facet or a free hinge.
     pub assignment: Assignment,
     /// Its place in the unit.
     pub kind: CreaseKind,
@@ -101,10 +107,10 @@ pub enum FacetKind {
     Plain,
 }
 
-/// A facet of the crease pattern: a triangle, a quadrilateral, or a whole unit.
+/// A facet of the crease pattern: a triangle, a quadrilateral, or a whole unit; of an imported sheet any polygon.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Facet {
-    /// Its corners, counter-clockwise seen from the front.
+    /// Its corners, counter-clockwise seen from the front; of a facet with holes those of its outer border.
     pub polygon: Vec<u32>,
     /// The row.
     pub row: u32,

@@ -226,7 +226,7 @@ fn creases_around(sheet: &Sheet) -> Vec<Option<Vec<(u32, Assignment)>>> {
         for (from, to) in [(a, b), (b, a)] {
             match edge.assignment {
                 Assignment::Border => around[from as usize] = None,
-                Assignment::Facet => {}
+                Assignment::Facet | Assignment::Free => {}
                 _ => {
                     if let Some(creases) = &mut around[from as usize] {
                         creases.push((to, edge.assignment));

@@ -122,7 +122,7 @@ impl Inks {
         match assignment {
             Assignment::Mountain => self.mountain,
             Assignment::Valley => self.valley,
-            Assignment::Border | Assignment::Facet => self.border,
+            Assignment::Border | Assignment::Facet | Assignment::Free => self.border,
         }
     }
 }

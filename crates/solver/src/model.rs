@@ -17,7 +17,7 @@
 //! for a stiffness of EA = 1, forces in units of EA.
 
 use foldmotion_geometry::{fold_angle, fold_angle_gradient, nearest_turn};
-use foldmotion_pattern::{Edge, Sheet};
+use foldmotion_pattern::{Assignment, Edge, Sheet};
 use glam::{DVec2, DVec3};
 
 use crate::face_angle::{face_angle, face_angle_gradient};
@@ -47,6 +47,8 @@ pub enum HingeKind {
     Crease,
     /// Inside a facet: held flat.
     Facet,
+    /// Neither driven nor held: its stiffness is 0.
+    Free,
 }
 
 /// A rotational spring along an edge between two triangles.
@@ -200,7 +202,7 @@ impl Model {
         for ((hinge, angle), target) in self.hinges.iter().zip(angles).zip(targets) {
             let share = match hinge.kind {
                 HingeKind::Crease => &mut energy.creases,
-                HingeKind::Facet => &mut energy.facets,
+                HingeKind::Facet | HingeKind::Free => &mut energy.facets,
             };
             *share += 0.5 * hinge.stiffness * (angle - target) * (angle - target);
         }
@@ -340,10 +342,12 @@ fn build_bars(sheet: &Sheet, material: &Material, rest: &[DVec3]) -> Result<Vec<
 fn build_hinges(sheet: &Sheet, material: &Material, bars: &[Bar]) -> Vec<Hinge> {
     let hinge = |(index, edge): (usize, &Edge)| {
         let vertices = sheet.hinge_vertices(edge)?;
-        let (kind, stiffness) = if edge.is_crease() {
-            (HingeKind::Crease, material.fold_stiffness)
-        } else {
-            (HingeKind::Facet, material.facet_stiffness)
+        let (kind, stiffness) = match edge.assignment {
+            Assignment::Mountain | Assignment::Valley => {
+                (HingeKind::Crease, material.fold_stiffness)
+            }
+            Assignment::Free => (HingeKind::Free, 0.0),
+            Assignment::Border | Assignment::Facet => (HingeKind::Facet, material.facet_stiffness),
         };
         let rest_length = bars[index].rest_length;
         Some(Hinge {

@@ -72,10 +72,14 @@ impl CutPage<'_> {
             dxf.linetype(name, dashes);
         }
         dxf.pair(0, "ENDTAB");
-        dxf.table("LAYER", LineClass::ALL.len() + 2);
+        // Sheets of units have no free hinges, and no layer for them.
+        let has_free = self.of(LineClass::Free).next().is_some();
+        let is_used = |class: &LineClass| has_free || *class != LineClass::Free;
+        let classes: Vec<LineClass> = LineClass::ALL.into_iter().filter(is_used).collect();
+        dxf.table("LAYER", classes.len() + 2);
         // Layer 0 must exist.
         dxf.layer("0", 7, "CONTINUOUS");
-        for class in LineClass::ALL {
+        for class in classes {
             dxf.layer(&class.name().to_uppercase(), colour(class), linetype(class));
         }
         dxf.layer("MARKS", 8, "CONTINUOUS");
@@ -100,15 +104,16 @@ fn linetype(class: LineClass) -> &'static str {
     match class {
         LineClass::Mountain => "DASHDOT",
         LineClass::Valley => "DASHED",
-        LineClass::Facet | LineClass::Cut => "CONTINUOUS",
+        LineClass::Free | LineClass::Facet | LineClass::Cut => "CONTINUOUS",
     }
 }
 
-/// AutoCAD's colour numbers: red, blue, yellow, and 7, black on white.
+/// AutoCAD's colour numbers: red, blue, magenta, yellow, and 7, black on white.
 fn colour(class: LineClass) -> u8 {
     match class {
         LineClass::Mountain => 1,
         LineClass::Valley => 5,
+        LineClass::Free => 6,
         LineClass::Facet => 2,
         LineClass::Cut => 7,
     }

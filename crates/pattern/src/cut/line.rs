@@ -11,6 +11,8 @@ pub enum LineClass {
     Mountain,
     /// Folded towards the front.
     Valley,
+    /// Creased, but folded neither way: a free hinge.
+    Free,
     /// Where a quadrilateral facet is cut into triangles: not a crease.
     Facet,
     /// Cut: the border of the sheet; last, so that the sheet holds while it is creased.
@@ -19,13 +21,20 @@ pub enum LineClass {
 
 impl LineClass {
     /// Every class, in the order in which they are drawn.
-    pub const ALL: [Self; 4] = [Self::Mountain, Self::Valley, Self::Facet, Self::Cut];
+    pub const ALL: [Self; 5] = [
+        Self::Mountain,
+        Self::Valley,
+        Self::Free,
+        Self::Facet,
+        Self::Cut,
+    ];
 
     /// The class of an edge of the crease pattern.
     pub fn of(assignment: Assignment) -> Self {
         match assignment {
             Assignment::Mountain => Self::Mountain,
             Assignment::Valley => Self::Valley,
+            Assignment::Free => Self::Free,
             Assignment::Facet => Self::Facet,
             Assignment::Border => Self::Cut,
         }
@@ -36,6 +45,7 @@ impl LineClass {
         match self {
             Self::Mountain => "mountain",
             Self::Valley => "valley",
+            Self::Free => "free",
             Self::Facet => "facet",
             Self::Cut => "cut",
         }

@@ -100,7 +100,7 @@ impl CutOptions {
                 .valley_dashes
                 .clone()
                 .unwrap_or_else(|| standard(&[2.0, 1.0])),
-            LineClass::Facet | LineClass::Cut => Vec::new(),
+            LineClass::Free | LineClass::Facet | LineClass::Cut => Vec::new(),
         }
     }
 

@@ -2,7 +2,7 @@
 //!
 //! One user unit is one millimetre. Every line is a `<line>` with its own attributes, in a group for each class that
 //! Inkscape shows as a layer; no style sheets, no transforms. Colours and opacity are those that Origami Simulator
-//! reads: #000 border, #f00 mountain, #00f valley, #ff0 facet, and a crease's opacity is its fold angle over 180°.
+//! reads: #000 border, #f00 mountain, #00f valley, #ff0 facet, #f0f free hinge, and a crease's opacity is its fold angle over 180°.
 
 use std::f64::consts::PI;
 use std::fmt::Write as _;
@@ -97,6 +97,7 @@ fn colour(class: LineClass) -> &'static str {
     match class {
         LineClass::Mountain => "#f00",
         LineClass::Valley => "#00f",
+        LineClass::Free => "#f0f",
         LineClass::Facet => "#ff0",
         LineClass::Cut => "#000",
     }
@@ -108,6 +109,6 @@ fn opacity(line: &CutLine) -> String {
         LineClass::Mountain | LineClass::Valley => {
             format!(" stroke-opacity=\"{}\"", number(line.fold_angle.abs() / PI))
         }
-        LineClass::Facet | LineClass::Cut => String::new(),
+        LineClass::Free | LineClass::Facet | LineClass::Cut => String::new(),
     }
 }

@@ -129,6 +129,7 @@ pub(crate) fn layer(assignment: Assignment) -> &'static str {
         Assignment::Mountain => "mountain",
         Assignment::Valley => "valley",
         Assignment::Facet => "facet",
+        Assignment::Free => "free",
     }
 }
 

@@ -47,7 +47,7 @@ pub(super) fn stroke(assignment: Assignment, width: f64) -> Option<Stroke> {
         Assignment::Mountain => style.mountain,
         Assignment::Valley => style.valley,
         Assignment::Border => style.border,
-        Assignment::Facet => return None,
+        Assignment::Facet | Assignment::Free => return None,
     };
     Some(Stroke::new(color, width))
 }
