@@ -531,7 +531,7 @@ fn triangulate(
 }
 
 /// Triangles of a facet, counter-clockwise.
-fn split(vertices: &[DVec2], polygon: &[u32]) -> Vec<[u32; 3]> {
+pub(crate) fn split(vertices: &[DVec2], polygon: &[u32]) -> Vec<[u32; 3]> {
     let &[a, b, c, d] = polygon else {
         return vec![[polygon[0], polygon[1], polygon[2]]];
     };

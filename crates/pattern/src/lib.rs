@@ -13,6 +13,7 @@ mod cut;
 mod error;
 mod fold_file;
 mod fold_read;
+mod import;
 mod layers;
 mod layout;
 mod map;
@@ -36,6 +37,11 @@ pub use cut::{
 pub use error::PatternError;
 pub use fold_file::FoldHeader;
 pub use fold_read::{FoldError, FoldFile, FrameNumber};
+pub use import::{
+    Curves, ImportError, ImportOptions, Imported, LARGEST_IMPORT_FILE, LengthUnit, MOST_LINES,
+    MOST_NESTED, MOST_NODES, MOST_PIECES, MOST_STAGE_ANGLES, MOST_STYLE_RULES, MOST_VERTICES,
+    MergeTolerance, PatternStage, Source, Unknown, Warning, WarningKind, import_fold, import_svg,
+};
 pub use layout::UnitSheet;
 pub use map::Folding;
 pub use model::{CaseColumns, NacaSection, ProfileModel, Shape, find as find_model, models};

@@ -16,7 +16,8 @@ use std::io::Read;
 use glam::DVec3;
 
 pub use error::{FoldError, FrameNumber};
-use stream::{FaceOrder, FrameFields, Keep, Walk, walk};
+use stream::FaceOrder;
+pub(crate) use stream::{FrameFields, Keep, Walk, walk};
 
 use crate::{Frame, LayerOrder, Sheet};
 
@@ -88,6 +89,7 @@ impl FoldFile {
         let keep = |number: FrameNumber| Keep {
             coordinates: number.0 <= 1,
             topology: number.0 == 0,
+            rest: false,
         };
         let mut note = |number: FrameNumber, fields: FrameFields| {
             if number.0 == 1 {
@@ -174,6 +176,7 @@ impl FoldFile {
         let keep = |number: FrameNumber| Keep {
             coordinates: number.0 > 0,
             topology: number.0 > 0,
+            rest: false,
         };
         let mut read = |number, fields| {
             let outcome = reading.take(number, fields);

@@ -16,46 +16,54 @@ const BUFFER: usize = 1 << 16;
 
 /// What a frame says itself, before inheritance.
 #[derive(Debug, Default)]
-pub(super) struct FrameFields {
-    pub(super) title: Option<String>,
-    pub(super) classes: Vec<String>,
-    pub(super) parent: Option<u64>,
-    pub(super) inherit: bool,
-    pub(super) time: Option<f64>,
+pub(crate) struct FrameFields {
+    pub(crate) title: Option<String>,
+    pub(crate) classes: Vec<String>,
+    pub(crate) parent: Option<u64>,
+    pub(crate) inherit: bool,
+    pub(crate) time: Option<f64>,
     /// Whether the frame has coordinates, kept or not.
-    pub(super) has_coordinates: bool,
-    pub(super) coordinates: Vec<DVec3>,
-    pub(super) faces: Option<Vec<Vec<u32>>>,
-    pub(super) edges: Option<Vec<[u32; 2]>>,
-    pub(super) assignments: Option<Vec<String>>,
-    pub(super) facets: Option<Vec<u32>>,
-    pub(super) unit_length: Option<f64>,
+    pub(crate) has_coordinates: bool,
+    pub(crate) coordinates: Vec<DVec3>,
+    pub(crate) faces: Option<Vec<Vec<u32>>>,
+    pub(crate) edges: Option<Vec<[u32; 2]>>,
+    pub(crate) assignments: Option<Vec<String>>,
+    pub(crate) facets: Option<Vec<u32>>,
+    pub(crate) unit_length: Option<f64>,
     /// Whether the frame has `faceOrders`, kept or not.
-    pub(super) has_orders: bool,
-    pub(super) orders: Vec<FaceOrder>,
+    pub(crate) has_orders: bool,
+    pub(crate) orders: Vec<FaceOrder>,
+    /// `edges_foldAngle`, or `edges_foldAngles` of FOLD 1.0, degrees.
+    pub(crate) angles: Option<Vec<Option<f64>>>,
+    pub(crate) frame_title: Option<String>,
+    pub(crate) unit: Option<String>,
+    /// Every other key, where they are kept.
+    pub(crate) other: serde_json::Map<String, serde_json::Value>,
     seen: Vec<String>,
 }
 
 /// An entry of `faceOrders`: [f, g, s].
-pub(super) type FaceOrder = (u32, u32, i8);
+pub(crate) type FaceOrder = (u32, u32, i8);
 
 /// What of a frame is kept.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) struct Keep {
+pub(crate) struct Keep {
     /// Coordinates and the order of the layers.
-    pub(super) coordinates: bool,
-    pub(super) topology: bool,
+    pub(crate) coordinates: bool,
+    pub(crate) topology: bool,
+    /// Fold angles, unit, and every key not known here.
+    pub(crate) rest: bool,
 }
 
 /// What a walk keeps of which frame, and whom it tells of each.
-pub(super) struct Walk<'a> {
-    pub(super) keep: &'a dyn Fn(FrameNumber) -> Keep,
+pub(crate) struct Walk<'a> {
+    pub(crate) keep: &'a dyn Fn(FrameNumber) -> Keep,
     /// Told every element of `file_frames` in order; false ends the walk.
-    pub(super) each: &'a mut dyn FnMut(FrameNumber, FrameFields) -> bool,
+    pub(crate) each: &'a mut dyn FnMut(FrameNumber, FrameFields) -> bool,
 }
 
 /// Walks over a file; returns the key frame.
-pub(super) fn walk(input: impl Read, walk: Walk<'_>) -> Result<FrameFields, FoldError> {
+pub(crate) fn walk(input: impl Read, walk: Walk<'_>) -> Result<FrameFields, FoldError> {
     let place = Place::default();
     let input = BufReader::with_capacity(BUFFER, Utf8Reader::new(input));
     let mut reader = serde_json::Deserializer::from_reader(input);
@@ -218,6 +226,11 @@ impl FrameFields {
         place.enter(known(key).unwrap_or(""));
         match known(key) {
             Some(known) => self.once(known)?,
+            None if keep.rest => {
+                self.once(key)?;
+                self.other.insert(key.to_owned(), map.next_value()?);
+                return Ok(());
+            }
             None => return map.next_value::<IgnoredAny>().map(drop),
         }
         match key {
@@ -244,6 +257,14 @@ impl FrameFields {
                     map.next_value::<IgnoredAny>()?;
                 }
             }
+            "edges_foldAngle" | "edges_foldAngles" | "frame_title" | "frame_unit" if !keep.rest => {
+                map.next_value::<IgnoredAny>()?;
+            }
+            "edges_foldAngle" | "edges_foldAngles" => {
+                self.angles = Some(map.next_value_seed(List::new(place))?);
+            }
+            "frame_title" => self.frame_title = Some(map.next_value()?),
+            "frame_unit" => self.unit = Some(map.next_value()?),
             _ if !keep.topology => drop(map.next_value::<IgnoredAny>()?),
             "faces_vertices" => self.faces = Some(map.next_value_seed(List::new(place))?),
             "edges_vertices" => self.edges = Some(map.next_value_seed(List::new(place))?),
@@ -263,9 +284,13 @@ impl FrameFields {
     }
 }
 
-/// The keys that matter to a motion.
+/// The keys that matter to a motion or a crease pattern.
 fn known(key: &str) -> Option<&'static str> {
-    const KEYS: [&str; 12] = [
+    const KEYS: [&str; 16] = [
+        "edges_foldAngle",
+        "edges_foldAngles",
+        "frame_title",
+        "frame_unit",
         "file_title",
         "frame_classes",
         "frame_parent",

@@ -1,0 +1,163 @@
+//! The frames of a FOLD file and what they inherit.
+
+use glam::DVec3;
+use serde_json::{Map, Value};
+
+use super::super::ImportError;
+use crate::fold_read::{FrameFields, Keep, Walk, walk};
+use crate::{FoldError, FrameNumber};
+
+/// The most frames.
+const MOST_FRAMES: usize = 100_000;
+
+/// Every frame, the key frame first.
+pub(super) struct Frames {
+    list: Vec<FrameFields>,
+}
+
+impl Frames {
+    /// Reads the frames; each inherits from one before it.
+    pub(super) fn read(bytes: &[u8]) -> Result<Self, ImportError> {
+        let mut list = vec![FrameFields::default()];
+        let keep = |_| Keep {
+            coordinates: true,
+            topology: true,
+            rest: true,
+        };
+        let mut each = |_, fields| {
+            list.push(fields);
+            list.len() <= MOST_FRAMES
+        };
+        let walked = walk(
+            bytes,
+            Walk {
+                keep: &keep,
+                each: &mut each,
+            },
+        );
+        if list.len() > MOST_FRAMES {
+            return Err(ImportError::TooMany {
+                what: "frames",
+                found: list.len(),
+                limit: MOST_FRAMES,
+            });
+        }
+        list[0] = walked?;
+        for (number, frame) in list.iter().enumerate().skip(1) {
+            let is_earlier = frame.parent.is_some_and(|p| p < number as u64);
+            if (frame.inherit || frame.parent.is_some()) && !is_earlier {
+                return Err(FoldError::Parent {
+                    frame: FrameNumber(number),
+                    parent: frame.parent.map_or("none".to_owned(), |p| p.to_string()),
+                }
+                .into());
+            }
+        }
+        Ok(Self { list })
+    }
+
+    /// The frame that is the pattern.
+    pub(super) fn pattern(&self) -> Result<usize, ImportError> {
+        let has_coordinates = |frame: usize| self.coordinates(frame).is_some_and(|c| !c.is_empty());
+        let is_pattern = |frame: &usize| {
+            let classes = &self.list[*frame].classes;
+            has_coordinates(*frame) && classes.iter().any(|class| class == "creasePattern")
+        };
+        let frames = 0..self.list.len();
+        let found = frames.clone().find(is_pattern);
+        let first = frames.take(2).find(|&frame| has_coordinates(frame));
+        found.or(first).ok_or_else(|| {
+            let error = FoldError::Missing {
+                frame: FrameNumber(0),
+                key: "vertices_coords",
+                need: "a crease pattern has a position for every vertex",
+            };
+            error.into()
+        })
+    }
+
+    /// What a frame has itself or inherits.
+    fn inherited<'a, T>(
+        &'a self,
+        mut frame: usize,
+        own: impl Fn(&'a FrameFields) -> Option<T>,
+    ) -> Option<T> {
+        loop {
+            let fields = &self.list[frame];
+            let found = own(fields);
+            if found.is_some() || !fields.inherit {
+                return found;
+            }
+            frame = usize::try_from(fields.parent?).ok()?;
+        }
+    }
+
+    pub(super) fn coordinates(&self, frame: usize) -> Option<&[DVec3]> {
+        self.inherited(frame, |f| {
+            f.has_coordinates.then_some(f.coordinates.as_slice())
+        })
+    }
+
+    pub(super) fn edges(&self, frame: usize) -> Option<&[[u32; 2]]> {
+        self.inherited(frame, |f| f.edges.as_deref())
+    }
+
+    pub(super) fn assignments(&self, frame: usize) -> Option<&[String]> {
+        self.inherited(frame, |f| f.assignments.as_deref())
+    }
+
+    pub(super) fn angles(&self, frame: usize) -> Option<&[Option<f64>]> {
+        self.inherited(frame, |f| f.angles.as_deref())
+    }
+
+    pub(super) fn faces(&self, frame: usize) -> Option<&[Vec<u32>]> {
+        self.inherited(frame, |f| f.faces.as_deref())
+    }
+
+    pub(super) fn unit(&self, frame: usize) -> Option<&str> {
+        let own = self.inherited(frame, |f| f.unit.as_deref());
+        own.or(self.list[0].unit.as_deref())
+    }
+
+    pub(super) fn unit_length(&self) -> Option<f64> {
+        self.list[0].unit_length
+    }
+
+    /// The keys of the key frame that are not read.
+    pub(super) fn keys(&self) -> &Map<String, Value> {
+        &self.list[0].other
+    }
+
+    pub(super) fn take_title(&mut self) -> Option<String> {
+        self.list[0].title.take()
+    }
+
+    /// The frames besides `pattern` with fold angles of their own.
+    pub(super) fn with_angles(
+        &self,
+        pattern: usize,
+    ) -> impl Iterator<Item = (usize, &FrameFields)> {
+        let frames = self.list.iter().enumerate();
+        frames.filter(move |(number, f)| *number > 0 && *number != pattern && f.angles.is_some())
+    }
+}
+
+/// Refuses lists that name vertices that do not exist.
+pub(super) fn check_indices(
+    key: &'static str,
+    list: &[impl AsRef<[u32]>],
+    vertices: usize,
+) -> Result<(), FoldError> {
+    for (element, corners) in list.iter().enumerate() {
+        let beyond = corners.as_ref().iter().find(|&&v| v as usize >= vertices);
+        if let Some(&vertex) = beyond {
+            return Err(FoldError::VertexOutOfRange {
+                key,
+                element,
+                vertex,
+                vertices,
+            });
+        }
+    }
+    Ok(())
+}

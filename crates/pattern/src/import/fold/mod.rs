@@ -1,0 +1,202 @@
+//! FOLD 1.0 to 1.2 as a crease pattern.
+//!
+//! Source: Demaine, Ku, Lang, "A New File Standard to Represent Folded Structures" (FOLD specification 1.2).
+
+mod edges;
+mod faces;
+mod flat;
+mod frames;
+mod stages;
+
+use glam::DVec3;
+use serde_json::{Map, Value};
+
+use super::assemble::{Assembled, assemble};
+use super::drawing::Drawing;
+use super::plan::Plan;
+use super::warning::{WarningKind, Warnings};
+use super::{
+    ImportError, ImportOptions, Imported, LengthUnit, MOST_PIECES, MOST_VERTICES, MergeTolerance,
+    Source, check_size, plan_of,
+};
+use frames::Frames;
+
+/// Reads a crease pattern from FOLD.
+///
+/// The pattern is the first frame of the class `creasePattern`, otherwise the key frame (`file_frames[0]` where that
+/// has no coordinates). Assignments and angles:
+///
+/// - B border; C cut, opened; F and J inside a facet; U a free hinge.
+/// - M and V fold by their `edges_foldAngle`, which counts also where its sign is the other one; by −180° and 180° where
+///   there is no such list; a null angle is a free hinge.
+/// - An angle makes a crease of U, F, J and of edges without assignment; without either an edge is a free hinge.
+/// - Every frame of `file_frames` with angles of its own is a stage; a crease that a stage drives is not free.
+///
+/// Faces that are listed are kept, with their vertices, as facets; otherwise they are traced as in a drawing. Edges
+/// of no face and unused vertices are left out; edges that only faces name are facet lines, or free hinges where the
+/// file lists no edges. Keys that are not read are kept in [`Imported::keys`].
+///
+/// Not found: listed faces that overlap without sharing an edge.
+///
+/// # Errors
+/// [`ImportError`]; texts name edges, faces and vertices by index.
+pub fn import_fold(bytes: &[u8], options: &ImportOptions) -> Result<Imported, ImportError> {
+    check_size(bytes)?;
+    let mut frames = Frames::read(bytes)?;
+    let mut warnings = Warnings::default();
+    let pattern = frames.pattern()?;
+    let file = FoldPattern::new(&frames, pattern)?;
+    let plan = file.plan(options, &mut warnings)?;
+    let assembled = assemble(&plan, &mut warnings)?;
+    let mut imported = file.imported(assembled, plan, &frames)?;
+    imported.stages = stages::stages(&frames, &file, &imported, &mut warnings)?;
+    imported.warnings = warnings.finish();
+    imported.title = frames.take_title();
+    Ok(imported)
+}
+
+/// The lists of the frame that is the pattern.
+struct FoldPattern<'a> {
+    frame: usize,
+    coordinates: &'a [DVec3],
+    edges: &'a [[u32; 2]],
+    /// What each edge is, and the angle it is to take.
+    meanings: Vec<edges::Meaning>,
+    faces: &'a [Vec<u32>],
+}
+
+impl<'a> FoldPattern<'a> {
+    fn new(frames: &'a Frames, frame: usize) -> Result<Self, ImportError> {
+        let coordinates = frames.coordinates(frame).unwrap_or(&[]);
+        let edges = frames.edges(frame).unwrap_or(&[]);
+        let faces = frames.faces(frame).unwrap_or(&[]);
+        let corners = faces.iter().map(Vec::len).sum();
+        for (what, found, limit) in [
+            ("vertices", coordinates.len(), MOST_VERTICES),
+            ("edges", edges.len(), MOST_PIECES),
+            ("corners of faces", corners, 4 * MOST_VERTICES),
+        ] {
+            if found > limit {
+                return Err(ImportError::TooMany { what, found, limit });
+            }
+        }
+        frames::check_indices("edges_vertices", edges, coordinates.len())?;
+        frames::check_indices("faces_vertices", faces, coordinates.len())?;
+        Ok(Self {
+            frame,
+            coordinates,
+            edges,
+            meanings: edges::meanings(frames, frame, edges.len())?,
+            faces,
+        })
+    }
+
+    fn plan(&self, options: &ImportOptions, warnings: &mut Warnings) -> Result<Plan, ImportError> {
+        let flat = flat::in_plane(self)?;
+        let mut is_used = vec![false; flat.len()];
+        let ends = self.edges.iter().flatten();
+        let corners = self.faces.iter().flatten();
+        let users: Vec<u32> = if self.faces.is_empty() {
+            ends.copied().collect()
+        } else {
+            corners.copied().collect()
+        };
+        for v in users {
+            is_used[v as usize] = true;
+        }
+        for (vertex, _) in (0..).zip(&is_used).filter(|(_, used)| !**used) {
+            warnings.add(WarningKind::UnusedVertex, &Source::FoldVertex(vertex));
+        }
+        if !self.faces.is_empty() {
+            return faces::plan(self, flat, warnings);
+        }
+        let drawing = Drawing {
+            points: flat,
+            lines: edges::lines(self, &faces::Sides::new(), warnings),
+            sources: (0..self.edges.len() as u32).map(Source::FoldEdge).collect(),
+        };
+        let merge = options.merge.unwrap_or(MergeTolerance::LISTED);
+        plan_of(drawing, merge, 1.0, false, warnings)
+    }
+
+    fn imported(
+        &self,
+        assembled: Assembled,
+        plan: Plan,
+        frames: &Frames,
+    ) -> Result<Imported, ImportError> {
+        let Assembled {
+            mut sheet,
+            targets,
+            edge_lines,
+            vertex_points,
+        } = assembled;
+        match frames.unit_length() {
+            Some(length) if length > 0.0 => sheet.unit_length = length,
+            Some(value) => return Err(crate::FoldError::UnitLength { value }.into()),
+            None => {}
+        }
+        let unit = match frames.unit(self.frame) {
+            None => LengthUnit::Unit,
+            Some(name) => LengthUnit::named(name).ok_or_else(|| ImportError::Unit {
+                found: name.chars().take(40).collect(),
+            })?,
+        };
+        let lines = edge_lines.into_iter();
+        let edge_sources = lines
+            .map(|l| Some(plan.lines[l? as usize].source))
+            .collect();
+        let vertex_sources: Vec<Option<u32>> = vertex_points
+            .iter()
+            .map(|&p| plan.origins[p as usize])
+            .collect();
+        let place = |v: &Option<u32>| v.map(|v| self.coordinates[v as usize]);
+        let shape: Option<Vec<DVec3>> = vertex_sources.iter().map(place).collect();
+        let shape = shape.filter(|shape| *shape != sheet.planar());
+        let keys = frames.keys();
+        let fixed_facets = fixed_facets(keys, &sheet, &vertex_sources, self.faces.len());
+        Ok(Imported {
+            title: None,
+            sheet,
+            unit,
+            targets,
+            stages: Vec::new(),
+            fixed_facets,
+            sources: plan.sources,
+            edge_sources,
+            vertex_sources,
+            shape,
+            warnings: Vec::new(),
+            keys: keys.clone(),
+            listed: [self.coordinates.len(), self.edges.len(), self.faces.len()],
+        })
+    }
+}
+
+/// The facets that a key fixes; `faces`: how many the file lists.
+fn fixed_facets(
+    keys: &Map<String, Value>,
+    sheet: &crate::Sheet,
+    vertex_sources: &[Option<u32>],
+    faces: usize,
+) -> Vec<u32> {
+    let is_set = |list: &[Value], index: usize| {
+        let value = list.get(index);
+        value.is_some_and(|v| v.as_bool() == Some(true) || v.as_f64().is_some_and(|n| n != 0.0))
+    };
+    let list = |key: &str| keys.get(key).and_then(Value::as_array);
+    let by_face = list("faces_foldmotion:fixed").filter(|list| list.len() == faces);
+    let by_vertex = list("rtori:os:vertices_fixed");
+    let is_fixed = |facet: usize| {
+        let by_face = by_face.is_some_and(|list| is_set(list, facet));
+        let corner = |v: &u32| vertex_sources[*v as usize];
+        let mut corners = sheet.facets[facet].polygon.iter().map(corner);
+        by_face
+            || by_vertex
+                .is_some_and(|list| corners.all(|v| v.is_some_and(|v| is_set(list, v as usize))))
+    };
+    (0..sheet.facets.len())
+        .filter(|&facet| is_fixed(facet))
+        .map(|facet| facet as u32)
+        .collect()
+}

@@ -1,0 +1,85 @@
+//! How a crease pattern is read, and how much of one.
+
+use super::ImportError;
+
+/// The most bytes of a file.
+pub const LARGEST_IMPORT_FILE: usize = 16 << 20;
+/// The most lines drawn, before they are split at crossings; the most edges of a FOLD file.
+pub const MOST_LINES: usize = 50_000;
+/// The most lines after splitting.
+pub const MOST_PIECES: usize = 200_000;
+/// The most vertices of a FOLD file.
+pub const MOST_VERTICES: usize = 200_000;
+/// The most elements, texts and comments of an SVG.
+pub const MOST_NODES: u32 = 200_000;
+/// The most elements of an SVG that stand in each other.
+pub const MOST_NESTED: usize = 256;
+/// The most rules of the style sheets of an SVG.
+pub const MOST_STYLE_RULES: usize = 200;
+/// The most fold angles in all frames of a FOLD file together.
+pub const MOST_STAGE_ANGLES: usize = 10_000_000;
+
+/// How far apart two points may lie to be one vertex.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum MergeTolerance {
+    /// In parts of the diagonal of the drawing's bounding box, between 1e-12 and 0.1.
+    Relative(f64),
+    /// In the drawing's own units, before it is scaled to its physical size: Origami Simulator takes 3.
+    Absolute(f64),
+}
+
+impl MergeTolerance {
+    /// For drawings: a tenth of a thousandth of the diagonal, 0.03 mm on a sheet of paper.
+    pub const DRAWING: Self = Self::Relative(1e-4);
+    /// For files that list their vertices.
+    pub const LISTED: Self = Self::Relative(1e-9);
+
+    /// The length, for a drawing with this diagonal whose units are `scale` long.
+    pub(super) fn length(self, diagonal: f64, scale: f64) -> Result<f64, ImportError> {
+        let relative = match self {
+            Self::Relative(part) => part,
+            Self::Absolute(length) => length * scale / diagonal,
+        };
+        // Relative bounds keep every vertex apart in f64 and the drawing from falling into one.
+        if (1e-12..=0.1).contains(&relative) {
+            Ok(relative * diagonal)
+        } else {
+            Err(ImportError::Tolerance {
+                value: relative * diagonal,
+                diagonal,
+            })
+        }
+    }
+}
+
+/// What becomes of what cannot be read.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Unknown {
+    /// The file is refused; the error names every such element.
+    #[default]
+    Refuse,
+    /// Such elements are left out; a warning names them.
+    Ignore,
+}
+
+/// What becomes of Bézier curves in paths.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub enum Curves {
+    /// As every other thing that cannot be read.
+    #[default]
+    Refuse,
+    /// They become chords that stray from the curve by no more than this, in parts of the diagonal of the drawing.
+    Flatten(f64),
+}
+
+/// How a crease pattern is read.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct ImportOptions {
+    /// How far apart two points may lie to be one vertex; [`MergeTolerance::DRAWING`] in SVG and
+    /// [`MergeTolerance::LISTED`] in FOLD where left out.
+    pub merge: Option<MergeTolerance>,
+    /// What becomes of strokes and elements that have no meaning here.
+    pub unknown: Unknown,
+    /// What becomes of Bézier curves.
+    pub curves: Curves,
+}

@@ -1,0 +1,47 @@
+//! What the colour of a stroke means.
+
+use std::f64::consts::PI;
+use std::str::FromStr as _;
+
+use svgtypes::Color;
+
+use super::super::drawing::Role;
+
+/// What a stroke means: its role, and the alpha of its colour; an error for what means nothing.
+pub(super) fn meaning(stroke: &str) -> Result<(Role, f64), ()> {
+    // The parser takes any letter for a digit of 0.
+    let digits = stroke.strip_prefix('#').unwrap_or_default();
+    if !digits.bytes().all(|b| b.is_ascii_hexdigit()) {
+        return Err(());
+    }
+    let color = Color::from_str(stroke).map_err(|_| ())?;
+    let role = match (color.red, color.green, color.blue) {
+        (0, 0, 0) => Role::Border,
+        (255, 0, 0) => Role::Mountain,
+        (0, 0, 255) => Role::Valley,
+        (0, 255, 0) => Role::Cut,
+        (255, 255, 0) => Role::Facet,
+        (255, 0, 255) => Role::Free,
+        _ => return Err(()),
+    };
+    Ok((role, f64::from(color.alpha) / 255.0))
+}
+
+/// The fold angle of a role at an opacity, radians.
+pub(super) fn target(role: Role, opacity: f64) -> f64 {
+    match role {
+        Role::Mountain => -PI * opacity,
+        Role::Valley => PI * opacity,
+        _ => 0.0,
+    }
+}
+
+/// An opacity between 0 and 1, given as number or percentage; none where it is neither.
+pub(super) fn opacity(text: &str) -> Option<f64> {
+    let (number, scale) = match text.strip_suffix('%') {
+        Some(percent) => (percent, 0.01),
+        None => (text, 1.0),
+    };
+    let value: f64 = number.trim().parse().ok()?;
+    value.is_finite().then(|| (value * scale).clamp(0.0, 1.0))
+}

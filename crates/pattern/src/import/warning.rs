@@ -1,0 +1,120 @@
+//! What an import changed or left out.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::fmt;
+
+use super::Source;
+use super::source::listed;
+
+/// The most sources a warning names.
+const MOST_NAMED: usize = 1_000;
+
+/// What was changed or left out.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[non_exhaustive]
+pub enum WarningKind {
+    /// A stroke or an element without a meaning is left out.
+    Ignored,
+    /// An element that is not drawn (no stroke, hidden, in `defs`) is left out.
+    NotDrawn,
+    /// Ends of lines that nearly meet were made one vertex.
+    Merged,
+    /// Lines shorter than the tolerance are left out.
+    TooShort,
+    /// Lines were split where they cross or touch.
+    Split,
+    /// Lines on other lines are left out.
+    Duplicate,
+    /// Lines on other lines that say otherwise are left out.
+    Conflict,
+    /// Lines that end nowhere are left out.
+    Stray,
+    /// Straight lines of two pieces were made one.
+    Joined,
+    /// Lines beside the sheet or in its holes are left out.
+    Outside,
+    /// Lines at the edge of the sheet are its border, whatever they were drawn as.
+    MadeBorder,
+    /// Cuts that both ends hold together cannot open and act as free hinges.
+    ClosedCut,
+    /// Edges whose fold angle has the other sign than their assignment: the angle counts.
+    OtherSign,
+    /// Creases without a fold angle are free hinges.
+    MadeFree,
+    /// Edges without assignment or angle are free hinges.
+    Unassigned,
+    /// Edges that belong to no face are left out.
+    NoFace,
+    /// Vertices that belong to no face are left out.
+    UnusedVertex,
+    /// Faces that were listed clockwise were turned over.
+    Turned,
+    /// Frames with other edges than the pattern are no stages.
+    OtherFrame,
+}
+
+impl WarningKind {
+    fn text(self) -> &'static str {
+        match self {
+            Self::Ignored => "left out, for it has no meaning in a crease pattern",
+            Self::NotDrawn => "left out, for it is not drawn with a stroke",
+            Self::Merged => "moved within the tolerance to an end near by",
+            Self::TooShort => "left out, for it is shorter than the tolerance",
+            Self::Split => "split where it meets other lines",
+            Self::Duplicate => "left out, for it lies on another line",
+            Self::Conflict => "left out, for it lies on a line that says otherwise",
+            Self::Stray => "left out, for it ends nowhere",
+            Self::Joined => "joined into one straight line",
+            Self::Outside => "left out, for it lies beside the sheet or in a hole",
+            Self::MadeBorder => "made border, for it lies at the edge of the sheet",
+            Self::ClosedCut => {
+                "made a free hinge: both ends of the cut hold together, so that it cannot open"
+            }
+            Self::OtherSign => "folded by its angle, whose sign contradicts its assignment",
+            Self::MadeFree => "made a free hinge, for its fold angle is null",
+            Self::Unassigned => "made a free hinge, for it has neither assignment nor angle",
+            Self::NoFace | Self::UnusedVertex => "left out, for it belongs to no face",
+            Self::Turned => "turned over, for it was listed clockwise",
+            Self::OtherFrame => "no stage, for it has other edges than the pattern",
+        }
+    }
+}
+
+/// What an import changed or left out, of one kind.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Warning {
+    /// What.
+    pub kind: WarningKind,
+    /// Which, in order, each once: the first thousand.
+    pub sources: Vec<Source>,
+    /// How many there are in all.
+    pub count: usize,
+}
+
+impl fmt::Display for Warning {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}: {}", listed(&self.sources), self.kind.text())
+    }
+}
+
+/// The warnings under way: each kind once.
+#[derive(Debug, Default)]
+pub(super) struct Warnings {
+    found: BTreeMap<WarningKind, BTreeSet<Source>>,
+}
+
+impl Warnings {
+    pub(super) fn add(&mut self, kind: WarningKind, source: &Source) {
+        self.found.entry(kind).or_default().insert(source.clone());
+    }
+
+    /// The warnings by kind.
+    pub(super) fn finish(self) -> Vec<Warning> {
+        let warning = |(kind, sources): (WarningKind, BTreeSet<Source>)| Warning {
+            kind,
+            count: sources.len(),
+            sources: sources.into_iter().take(MOST_NAMED).collect(),
+        };
+        self.found.into_iter().map(warning).collect()
+    }
+}

@@ -1,0 +1,184 @@
+//! An imported pattern as FOLD 1.2.
+
+use serde_json::{Map, Value, json};
+
+use super::Imported;
+use crate::{Assignment, Sheet};
+
+/// Keys of FOLD that say what this writer says itself, or that a changed sheet makes wrong.
+const OWN: [&str; 18] = [
+    "file_spec",
+    "file_creator",
+    "file_frames",
+    "frame_parent",
+    "frame_inherit",
+    "frame_attributes",
+    "vertices_edges",
+    "vertices_faces",
+    "vertices_vertices",
+    "edges_edges",
+    "edges_faces",
+    "edges_length",
+    "edges_lengths",
+    "edgeOrders",
+    "faceOrders",
+    "faces_edges",
+    "faces_faces",
+    "faces_vertices",
+];
+
+impl Imported {
+    /// The pattern as FOLD 1.2: its vertices, edges with assignment and target fold angle (degrees; null where an edge
+    /// has none), faces, and a frame for each stage.
+    ///
+    /// Faces are the facets where each is one polygon without holes or cuts inside; otherwise all are triangles, with F
+    /// edges between those of one facet. Keys that were not read stand where they stood: lists with an entry for each
+    /// vertex, edge or face (`edges_name:key`) are put in the order of the sheet, null where it has a new element;
+    /// other keys as they are. Lists that say how elements lie to each other are left out.
+    pub fn fold(&self, creator: &str) -> String {
+        let lists = Lists::new(self);
+        let mut file = Map::new();
+        for (key, value) in &self.keys {
+            if !OWN.contains(&key.as_str()) {
+                file.insert(key.clone(), lists.reordered(key, value));
+            }
+        }
+        let edges = |of: &dyn Fn(usize) -> Value| -> Value {
+            lists.edges.iter().map(|&edge| of(edge)).collect()
+        };
+        let sheet = &self.sheet;
+        file.insert("file_spec".into(), json!(1.2));
+        file.insert("file_creator".into(), json!(creator));
+        if let Some(title) = &self.title {
+            file.insert("file_title".into(), json!(title));
+        }
+        file.insert("frame_classes".into(), json!(["creasePattern"]));
+        file.insert("frame_unit".into(), json!(self.unit.name()));
+        file.insert("foldmotion:unitLength".into(), json!(sheet.unit_length));
+        let place = |v: &glam::DVec2| json!(v.to_array());
+        file.insert(
+            "vertices_coords".into(),
+            sheet.vertices.iter().map(place).collect(),
+        );
+        file.insert(
+            "edges_vertices".into(),
+            edges(&|e| json!(sheet.edges[e].vertices)),
+        );
+        file.insert(
+            "edges_assignment".into(),
+            edges(&|e| json!(sheet.edges[e].assignment)),
+        );
+        file.insert(
+            "edges_foldAngle".into(),
+            edges(&|e| json!(self.target_degrees(e))),
+        );
+        file.insert("faces_vertices".into(), lists.faces.clone());
+        let frames: Vec<Value> = self
+            .stages
+            .iter()
+            .map(|stage| {
+                let angle = |e: usize| json!(stage.angles[e].map(f64::to_degrees));
+                let mut frame = json!({
+                    "frame_parent": 0, "frame_inherit": true, "edges_foldAngle": edges(&angle),
+                });
+                if let Some(title) = &stage.title {
+                    frame["frame_title"] = json!(title);
+                }
+                frame
+            })
+            .collect();
+        if !frames.is_empty() {
+            file.insert("file_frames".into(), json!(frames));
+        }
+        let lines: Vec<String> = file
+            .iter()
+            .map(|(key, value)| format!("{}: {value}", json!(key)))
+            .collect();
+        format!("{{\n{}\n}}\n", lines.join(",\n"))
+    }
+
+    fn target_degrees(&self, edge: usize) -> Option<f64> {
+        match self.sheet.edges[edge].assignment {
+            Assignment::Border | Assignment::Free => None,
+            Assignment::Mountain | Assignment::Valley | Assignment::Facet => {
+                Some(self.targets[edge].to_degrees())
+            }
+        }
+    }
+}
+
+/// Which elements are written, and where they come from.
+struct Lists<'a> {
+    imported: &'a Imported,
+    /// The edges written.
+    edges: Vec<usize>,
+    /// `faces_vertices`.
+    faces: Value,
+    /// The facet of each face.
+    face_facets: Vec<u32>,
+}
+
+impl<'a> Lists<'a> {
+    fn new(imported: &'a Imported) -> Self {
+        let sheet = &imported.sheet;
+        let are_polygons = are_polygons(sheet);
+        let is_written = |edge: &usize| !are_polygons || imported.edge_sources[*edge].is_some();
+        let (faces, face_facets) = if are_polygons {
+            let polygons = sheet.facets.iter().map(|f| json!(f.polygon)).collect();
+            (polygons, (0..sheet.facets.len() as u32).collect())
+        } else {
+            (json!(sheet.faces), sheet.face_facets.clone())
+        };
+        Self {
+            imported,
+            edges: (0..sheet.edges.len()).filter(is_written).collect(),
+            faces,
+            face_facets,
+        }
+    }
+
+    /// A list of the file in the order of the sheet; any other value as it is.
+    fn reordered(&self, key: &str, value: &Value) -> Value {
+        let imported = self.imported;
+        let Some(list) = value.as_array() else {
+            return value.clone();
+        };
+        let take = |from: Vec<Option<u32>>| -> Value {
+            let entry = |index: Option<u32>| list.get(index? as usize).cloned();
+            from.into_iter()
+                .map(|i| entry(i).unwrap_or(Value::Null))
+                .collect()
+        };
+        // The element is named first (`edges_name:key`) or after a prefix (`name:edges_key`).
+        let of = |kind: &str| key.split(':').any(|part| part.starts_with(kind));
+        let [vertices, edges, faces] = imported.listed;
+        if of("vertices_") && list.len() == vertices {
+            take(imported.vertex_sources.clone())
+        } else if of("edges_") && list.len() == edges {
+            take(self.edges.iter().map(|&e| imported.fold_edge(e)).collect())
+        } else if of("faces_") && list.len() == faces {
+            take(self.face_facets.iter().map(|&f| Some(f)).collect())
+        } else {
+            value.clone()
+        }
+    }
+}
+
+/// Whether every facet is one polygon with edges of its own around it, no two corners in one point.
+fn are_polygons(sheet: &Sheet) -> bool {
+    let mut triangles = vec![0; sheet.facets.len()];
+    for &facet in &sheet.face_facets {
+        triangles[facet as usize] += 1;
+    }
+    let is_polygon = |(facet, count): (&crate::Facet, &usize)| {
+        let mut places: Vec<[u64; 2]> = facet
+            .polygon
+            .iter()
+            .map(|&v| sheet.vertices[v as usize].to_array().map(f64::to_bits))
+            .collect();
+        places.sort_unstable();
+        places.dedup();
+        places.len() == count + 2 && facet.polygon.len() == count + 2
+    };
+    sheet.facets.iter().zip(&triangles).all(is_polygon)
+}

@@ -1,0 +1,16 @@
+//! Crease patterns read from SVG and FOLD.
+
+#![expect(
+    clippy::unwrap_used,
+    clippy::panic,
+    reason = "a test stops where something is missing"
+)]
+
+mod bad_fold;
+mod bad_svg;
+mod draw;
+mod fold;
+mod geometry;
+mod patterns;
+mod round_trip;
+mod svg;
