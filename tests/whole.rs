@@ -8,6 +8,10 @@
 
 #[path = "whole/bad_input.rs"]
 mod bad_input;
+#[path = "whole/corpus.rs"]
+mod corpus;
+#[path = "whole/import.rs"]
+mod import;
 #[path = "whole/layers.rs"]
 mod layers;
 #[path = "whole/profiles.rs"]
