@@ -1,6 +1,6 @@
 //! The camera: a parallel projection, because papers compare states at equal scale.
 
-use glam::{DVec2, DVec3};
+use glam::{DQuat, DVec2, DVec3};
 
 use crate::RecordError;
 use crate::image::check_size;
@@ -140,6 +140,53 @@ impl Camera {
         })
     }
 
+    /// The camera that shows all `points` while it turns about the vertical through `middle`, see [`Self::turned`].
+    ///
+    /// # Errors
+    /// Those of [`Self::fit`].
+    pub fn fit_turning(
+        view: View,
+        points: impl IntoIterator<Item = DVec3>,
+        middle: DVec3,
+        size: [u32; 2],
+        margin: f64,
+    ) -> Result<Self, RecordError> {
+        let [right, up, _] = view.axes();
+        let sides = [right, up].map(|axis| {
+            let flat = DVec3::new(axis.x, axis.y, 0.0);
+            flat.normalize_or_zero()
+        });
+        // A point runs along a circle; its ends across the view are these four.
+        let ends = |point: DVec3| {
+            let radius = (point - middle).truncate().length();
+            let foot = DVec3::new(middle.x, middle.y, point.z);
+            [-radius, radius].map(|r| sides.map(|side| foot + r * side))
+        };
+        let points = points
+            .into_iter()
+            .flat_map(|p| ends(p).into_iter().flatten());
+        Self::fit(view, points, size, margin)
+    }
+
+    /// The camera turned by `degrees`, counter-clockwise seen from above, about the vertical through `middle`, which
+    /// stays where it is on the screen.
+    #[must_use]
+    pub fn turned(&self, degrees: f64, middle: DVec3) -> Self {
+        if degrees == 0.0 {
+            return *self;
+        }
+        let turn = DQuat::from_rotation_z(degrees.to_radians());
+        let [right, up, toward] = [self.right, self.up, self.toward].map(|axis| turn * axis);
+        let moved = |old: DVec3, new: DVec3| self.scale * (old - new).dot(middle);
+        Self {
+            right,
+            up,
+            toward,
+            scale: self.scale,
+            origin: self.origin + DVec2::new(moved(self.right, right), -moved(self.up, up)),
+        }
+    }
+
     /// The point on the screen: pixels to the right, pixels down, depth in pixels (larger is nearer to the viewer).
     pub fn project(&self, point: DVec3) -> DVec3 {
         DVec3::new(
@@ -157,5 +204,31 @@ impl Camera {
     /// The unit vector towards the viewer.
     pub fn toward(&self) -> DVec3 {
         self.toward
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_turning_camera_keeps_its_middle_and_sees_all_points_all_around() {
+        let points = [(0.0, 0.0, 0.0), (3.0, 1.0, 0.5), (1.0, -2.0, 2.0)].map(DVec3::from);
+        let (middle, size) = (DVec3::new(1.0, 0.5, 1.0), [200, 150]);
+        for view in View::NAMES.map(|(_, view)| view) {
+            let camera = Camera::fit_turning(view, points, middle, size, 0.0).unwrap();
+            for degrees in (0..360).map(f64::from) {
+                let turned = camera.turned(degrees, middle);
+                let apart = turned.project(middle) - camera.project(middle);
+                assert!(apart.truncate().length() < 1e-9, "{view:?} {degrees}");
+                for point in points {
+                    let place = turned.project(point).truncate();
+                    let room = DVec2::new(200.0, 150.0) + 1e-9;
+                    assert!(place.cmpge(DVec2::splat(-1e-9)).all() && place.cmple(room).all());
+                }
+            }
+            let plain = Camera::fit(view, points, size, 0.0).unwrap();
+            assert!(plain.scale() >= camera.scale(), "room to turn costs scale");
+        }
     }
 }

@@ -38,6 +38,70 @@ pub enum RecordError {
         /// The longest duration.
         limit: f64,
     },
+    /// The camera turns too far or by something that is no number.
+    #[error("turn = {value}° cannot be filmed: it must lie in −{limit}° to {limit}°")]
+    Turn {
+        /// What was asked for.
+        value: f64,
+        /// The largest turn.
+        limit: f64,
+    },
+    /// Values to show have no range.
+    #[error("values from {low} to {high} cannot be shown: the range must be finite and rise")]
+    Range {
+        /// The value of the first colour.
+        low: f64,
+        /// The value of the last colour.
+        high: f64,
+    },
+    /// Values to show do not fit the motion.
+    #[error(
+        "frame {frame} has {found} values: every frame of the motion needs one for each of {expected} triangles"
+    )]
+    ValueCount {
+        /// The first frame that is wrong, missing or too many.
+        frame: usize,
+        /// Its values.
+        found: usize,
+        /// Triangles of the sheet.
+        expected: usize,
+    },
+    /// The program was built without a part that is needed.
+    #[error(
+        "{what} cannot be written: this build lacks the feature \"{feature}\"; build with --features {feature}"
+    )]
+    Feature {
+        /// What was asked for.
+        what: &'static str,
+        /// The cargo feature.
+        feature: &'static str,
+    },
+    /// The H.264 encoder failed or refuses the size.
+    #[error("the film could not be encoded as H.264: {message}")]
+    H264 {
+        /// Why.
+        message: String,
+    },
+    /// A 3D file would be too large.
+    #[error("a {format} file of {bytes} bytes cannot be written: at most {limit} fit; {remedy}")]
+    FileSize {
+        /// The format.
+        format: &'static str,
+        /// What the file would take.
+        bytes: u64,
+        /// The largest size.
+        limit: u64,
+        /// What makes it smaller.
+        remedy: &'static str,
+    },
+    /// A tolerance or thickness is not positive and finite.
+    #[error("{name} = {value} cannot be used: it must be finite and above 0")]
+    NotPositive {
+        /// The option.
+        name: &'static str,
+        /// What was asked for.
+        value: f64,
+    },
     /// A line width is negative, too wide or not a number.
     #[error("line_width = {value} cannot be drawn: it must lie in 0 to {limit} pixels")]
     LineWidth {
@@ -131,6 +195,17 @@ impl From<::gif::EncodingError> for RecordError {
         match error {
             ::gif::EncodingError::Io(error) => Self::Write(error),
             other => Self::Encode(other),
+        }
+    }
+}
+
+impl From<::png::EncodingError> for RecordError {
+    fn from(error: ::png::EncodingError) -> Self {
+        match error {
+            ::png::EncodingError::IoError(error) => Self::Write(error),
+            other => Self::Png {
+                message: other.to_string(),
+            },
         }
     }
 }

@@ -16,6 +16,19 @@ const MAX_SECONDS: f64 = 600.0;
 /// The longest time given to settling after the schedule's end.
 const MAX_SETTLING_SECONDS: f64 = 1.0;
 
+/// The largest turn of the camera, in degrees.
+const MAX_TURN: f64 = 3600.0;
+
+/// How often the states of a motion are shown.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Playback {
+    /// From the first to the last.
+    #[default]
+    Once,
+    /// To the last and back to the first; a film that repeats then has no jump.
+    BackAndForth,
+}
+
 /// How a motion is filmed.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FilmOptions {
@@ -25,12 +38,23 @@ pub struct FilmOptions {
     pub fps: f64,
     /// Seconds for deployed → planar and for planar → compact; 0 jumps.
     pub seconds: [f64; 2],
-    /// Seconds the first state, the planar state and the last state stand still.
-    pub hold: f64,
+    /// Seconds the first state, the planar state and the last state stand still: deployed, planar and compact of a
+    /// whole motion.
+    pub hold: [f64; 3],
+    /// Whether the film runs once or also back.
+    pub playback: Playback,
     /// Where the viewer stands.
     pub view: View,
     /// The part of the picture's sides kept free on each side.
     pub margin: f64,
+    /// Degrees by which the camera turns about the vertical through the middle of the motion, evenly over the film.
+    pub turn: f64,
+    /// Whether the stage and the time are written into the picture.
+    pub has_caption: bool,
+    /// Whether pictures are also made without background, for those reels that can show through. Takes twice the time.
+    pub is_transparent: bool,
+    /// What the film was made from and by what; written into every file where not empty.
+    pub provenance: String,
     /// Colours and lines.
     pub style: Style,
 }
@@ -41,9 +65,14 @@ impl Default for FilmOptions {
             size: [960, 720],
             fps: 30.0,
             seconds: [3.0, 5.0],
-            hold: 0.5,
+            hold: [0.5; 3],
+            playback: Playback::Once,
             view: View::default(),
             margin: 0.04,
+            turn: 0.0,
+            has_caption: false,
+            is_transparent: false,
+            provenance: String::new(),
             style: Style::default(),
         }
     }
@@ -53,7 +82,8 @@ impl FilmOptions {
     /// Refuses what cannot be filmed.
     ///
     /// # Errors
-    /// [`RecordError::Size`], [`RecordError::FramesPerSecond`], [`RecordError::Seconds`], [`RecordError::LineWidth`].
+    /// [`RecordError::Size`], [`RecordError::FramesPerSecond`], [`RecordError::Seconds`], [`RecordError::LineWidth`],
+    /// [`RecordError::Turn`].
     pub fn check(&self) -> Result<(), RecordError> {
         check_size(self.size)?;
         self.style.check()?;
@@ -66,7 +96,9 @@ impl FilmOptions {
         let durations = [
             ("seconds[0]", self.seconds[0]),
             ("seconds[1]", self.seconds[1]),
-            ("hold", self.hold),
+            ("hold", self.hold[0]),
+            ("hold", self.hold[1]),
+            ("hold", self.hold[2]),
         ];
         for (name, value) in durations {
             if !(0.0..=MAX_SECONDS).contains(&value) {
@@ -76,6 +108,12 @@ impl FilmOptions {
                     limit: MAX_SECONDS,
                 });
             }
+        }
+        if !(-MAX_TURN..=MAX_TURN).contains(&self.turn) {
+            return Err(RecordError::Turn {
+                value: self.turn,
+                limit: MAX_TURN,
+            });
         }
         Ok(())
     }
@@ -88,13 +126,16 @@ pub struct Shot {
     pub time: f64,
     /// How long it is shown, in hundredths of a second.
     pub centiseconds: u16,
+    /// How many frames show it in a film of constant rate, at least one.
+    pub repeats: u32,
 }
 
 /// The film frames of `motion`.
 ///
 /// Movement is shown at `fps`, evenly in t within a stage; the frames at the first time, at t = 1 and at the last
 /// time stand for `hold` longer. t = 1 and t = 2 are hit exactly where the motion reaches them. Settling after t = 2
-/// runs on at the rate of the second stage, within one second. Durations are rounded so that the sum stays right:
+/// runs on at the rate of the second stage, within one second. A film back and forth
+/// shows every state but the last a second time, in the opposite order. Durations are rounded so that the sum stays right:
 /// 30 frames a second last 3, 3, 4, 3, 3, 4, … hundredths.
 ///
 /// # Errors
@@ -123,6 +164,10 @@ pub fn timeline(motion: &Motion, options: &FilmOptions) -> Result<Vec<Shot>, Rec
         }
         times.push(to);
     }
+    if options.playback == Playback::BackAndForth {
+        let back: Vec<f64> = times.iter().rev().skip(1).copied().collect();
+        times.extend(back);
+    }
     Ok(with_durations(&times, options))
 }
 
@@ -132,17 +177,24 @@ fn settling_seconds(last: f64, fold_seconds: f64) -> f64 {
 
 #[expect(clippy::cast_sign_loss, reason = "durations are not negative")]
 fn with_durations(times: &[f64], options: &FilmOptions) -> Vec<Shot> {
-    let ends = [times.first(), times.last()];
+    let first = times.first().copied();
+    let last = times.iter().copied().reduce(f64::max);
+    let hold = |time: f64| match Some(time) {
+        t if t == first => options.hold[0],
+        t if t == last => options.hold[2],
+        _ if time == 1.0 => options.hold[1],
+        _ => 0.0,
+    };
     let mut seconds = 0.0;
     let mut shown = 0.0;
     let mut shots = Vec::with_capacity(times.len());
-    for time in times {
-        let is_held = ends.contains(&Some(time)) || *time == 1.0;
-        seconds += 1.0 / options.fps + if is_held { options.hold } else { 0.0 };
+    for &time in times {
+        seconds += 1.0 / options.fps + hold(time);
         let until = (seconds * 100.0).round();
         shots.push(Shot {
-            time: *time,
+            time,
             centiseconds: (until - shown) as u16,
+            repeats: 1 + (hold(time) * options.fps).round() as u32,
         });
         shown = until;
     }

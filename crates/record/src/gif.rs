@@ -6,83 +6,108 @@
 
 use std::io::Write;
 
-use ::gif::{DisposalMethod, Encoder, Frame, Repeat};
+use ::gif::{AnyExtension, DisposalMethod, Encoder, Extension, Frame, Repeat};
 use foldmotion_pattern::Motion;
 use rayon::prelude::*;
 
-use crate::film::check_frames;
-use crate::raster::raster;
-use crate::{Camera, FilmOptions, Marks, Palette, Paper, RecordError, positions_at, timeline};
+use crate::{FilmOptions, Marks, Palette, Picture, RecordError, Reel, Scene, Title, film};
 
-/// Frames worked on at a time, fewer for large pictures: bounds the memory, not the result.
-const CHUNK: usize = 16;
-
-/// Pixels worked on at a time.
-const CHUNK_PIXELS: usize = 1 << 26;
-
-/// Films `motion` with one fixed camera that sees all of it.
-///
-/// Facets are painted as `marks` says; a mark shows in at least one frame.
-///
-/// `progress` gets the part done, from 0 to 1, and answers whether to go on. The order of the compact state also
-/// decides between layers at other times, wherever they come within [`crate::TIE_TOLERANCE`] of each other. The
-/// bytes do not depend on the number of threads.
+/// Films `motion` as a GIF alone, see [`film`].
 ///
 /// # Errors
-/// Those of [`timeline`] and [`Camera::fit`], [`RecordError::VertexCount`] and [`RecordError::NotFinite`] before
-/// anything is written; then [`RecordError::Interrupted`], [`RecordError::Write`] and [`RecordError::Encode`], which
-/// leave an incomplete film behind in `writer`.
+/// Those of [`film`]; [`RecordError::Write`] and [`RecordError::Encode`] leave an incomplete film behind in `writer`.
 pub fn gif(
     motion: &Motion,
     marks: &Marks,
     options: &FilmOptions,
-    writer: impl Write,
+    writer: impl Write + Send,
     progress: &(dyn Fn(f64) -> bool + Sync),
 ) -> Result<(), RecordError> {
-    let shots = timeline(motion, options)?;
-    check_frames(motion)?;
-    let points = motion.frames.iter().flat_map(|frame| &frame.positions);
-    let camera = Camera::fit(options.view, points.copied(), options.size, options.margin)?;
-    let paper = Paper::new(&motion.sheet, &motion.compact_order);
-    let palette = Palette::new(&options.style, !marks.is_empty());
-    let [width, height] = options.size.map(|side| side as u16);
-    let mut encoder = Encoder::new(writer, width, height, &palette.colors().concat())?;
-    encoder.set_repeat(Repeat::Infinite)?;
+    let scene = Scene {
+        motion,
+        marks,
+        values: None,
+    };
+    film(scene, options, &mut [&mut Gif::new(writer)], progress)
+}
 
-    let area = usize::from(width) * usize::from(height);
-    let mut previous: Option<Vec<u8>> = None;
-    let mut done = 0;
-    for chunk in shots.chunks((CHUNK_PIXELS / area).clamp(1, CHUNK)) {
-        if !progress(done as f64 / shots.len() as f64) {
-            return Err(RecordError::Interrupted);
+/// Takes a film as an animated GIF that repeats for ever.
+pub struct Gif<W: Write> {
+    writer: Option<W>,
+    encoder: Option<Encoder<W>>,
+    palette: Option<Palette>,
+    previous: Option<Vec<u8>>,
+}
+
+impl<W: Write> Gif<W> {
+    /// `writer`: where the bytes go; best buffered.
+    pub fn new(writer: W) -> Self {
+        Self {
+            writer: Some(writer),
+            encoder: None,
+            palette: None,
+            previous: None,
         }
-        let draw = |index: usize, time: f64| {
-            let positions = positions_at(motion, time);
-            let previous = index.checked_sub(1).map_or(time, |index| shots[index].time);
-            let marked = marks.at(&motion.sheet, previous, time);
-            let (style, size) = (&options.style, options.size);
-            palette.indices(&raster(&paper, &positions, &camera, style, &marked, size))
+    }
+}
+
+impl<W: Write> std::fmt::Debug for Gif<W> {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("Gif").finish_non_exhaustive()
+    }
+}
+
+impl<W: Write + Send> Reel for Gif<W> {
+    fn begin(&mut self, title: Title<'_>) -> Result<(), RecordError> {
+        let [width, height] = title.options.size.map(|side| side as u16);
+        let colors = title.palette.colors().concat();
+        let Some(writer) = self.writer.take() else {
+            return Ok(());
         };
-        let pictures: Vec<_> = (chunk.par_iter().enumerate())
-            .map(|(index, shot)| draw(done + index, shot.time))
+        let mut encoder = Encoder::new(writer, width, height, &colors)?;
+        encoder.set_repeat(Repeat::Infinite)?;
+        let comment = title.options.provenance.as_bytes();
+        if !comment.is_empty() {
+            let blocks: Vec<&[u8]> = comment.chunks(u8::MAX.into()).collect();
+            encoder.write_raw_extension(AnyExtension(Extension::Comment as u8), &blocks)?;
+        }
+        self.palette = Some(title.palette.clone());
+        self.encoder = Some(encoder);
+        Ok(())
+    }
+
+    fn take(&mut self, pictures: &[Picture]) -> Result<(), RecordError> {
+        let (Some(encoder), Some(palette)) = (&mut self.encoder, &self.palette) else {
+            return Ok(());
+        };
+        let Some(last) = pictures.last() else {
+            return Ok(());
+        };
+        let width = last.image.width as u16;
+        let indices: Vec<_> = (pictures.par_iter())
+            .map(|picture| palette.indices(&picture.image))
             .collect();
         let before = |i: usize| {
             i.checked_sub(1)
-                .map_or(previous.as_ref(), |j| pictures.get(j))
+                .map_or(self.previous.as_ref(), |j| indices.get(j))
         };
-        let frames: Vec<_> = (0..chunk.len())
+        let frames: Vec<_> = (0..indices.len())
             .into_par_iter()
-            .map(|i| compressed(before(i), &pictures[i], width, chunk[i].centiseconds))
+            .map(|i| compressed(before(i), &indices[i], width, pictures[i].shot.centiseconds))
             .collect();
         for frame in &frames {
             encoder.write_lzw_pre_encoded_frame(frame)?;
         }
-        done += chunk.len();
-        previous = pictures.into_iter().last();
+        self.previous = indices.into_iter().last();
+        Ok(())
     }
-    encoder.into_inner()?.flush()?;
-    progress(1.0);
-    Ok(())
+
+    fn finish(&mut self) -> Result<(), RecordError> {
+        if let Some(encoder) = self.encoder.take() {
+            encoder.into_inner()?.flush()?;
+        }
+        Ok(())
+    }
 }
 
 /// The GIF frame that turns the picture `before` into `after`, the whole picture where there is none before.

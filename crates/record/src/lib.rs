@@ -2,7 +2,8 @@
 //!
 //! A [`Camera`] projects the sheet in parallel, so that papers get equal scales. A [`Surface`] is the projected sheet
 //! and answers which triangle is in front at a point of the screen; the layer order decides between triangles that
-//! coincide. [`picture`] draws one state from it, [`gif()`] a whole motion. A [`Drawing`] puts pictures beside crease
+//! coincide. [`picture`] draws one state from it, [`film()`] a whole motion into
+//! every [`Reel`] asked for: [`Gif`], [`Mp4`], [`Frames`]. [`glb`], [`obj`] and [`stl`] carry the sheet into 3D programs. A [`Drawing`] puts pictures beside crease
 //! patterns and words, as SVG and PNG.
 //!
 //! Screen coordinates are pixels, x to the right, y down, depth towards the viewer in pixels too. Colours are sRGB
@@ -39,33 +40,55 @@
 //! ```
 
 mod camera;
+mod caption;
+mod colour_map;
+mod cutout;
 mod drawing;
 mod error;
 mod film;
+mod frames;
 mod gif;
+
+mod h264;
 mod image;
+
 mod marks;
+mod mp4;
+
 mod palette;
 mod paper;
 mod pixel;
 mod plots;
 mod raster;
+mod reel;
 mod screen_face;
 mod segment;
 mod shade;
+
 mod square;
+
 mod surface;
+mod values;
 
 pub use self::camera::{Camera, View};
 pub use self::drawing::{Anchor, Drawing, PIXELS_A_UNIT, Stroke, png};
 pub use self::error::RecordError;
-pub use self::film::{FilmOptions, Shot, positions_at, timeline};
-pub use self::gif::gif;
+pub use self::film::{FilmOptions, Playback, Shot, positions_at, timeline};
+pub use self::frames::Frames;
+pub use self::gif::{Gif, gif};
+
+pub use self::h264::Mp4;
 pub use self::image::{Image, MAX_PIXELS};
+
 pub use self::marks::Marks;
+
 pub use self::palette::Palette;
 pub use self::paper::Paper;
 pub use self::plots::{Curve, Panel, plots};
 pub use self::raster::picture;
+pub use self::reel::{Picture, Reel, Scene, Title, film};
 pub use self::shade::Style;
+
+pub use self::colour_map::colour_of;
 pub use self::surface::{Candidate, Surface, TIE_TOLERANCE};
+pub use self::values::Values;

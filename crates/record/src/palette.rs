@@ -10,7 +10,9 @@ use std::sync::OnceLock;
 
 use glam::Vec3;
 
-use crate::shade::{Inks, encoded, reflected_range};
+use crate::caption::ink;
+use crate::colour_map::colour_of;
+use crate::shade::{Inks, encoded, linear, reflected_range};
 use crate::{Image, Style};
 
 /// Light levels of each side of the paper.
@@ -21,6 +23,9 @@ const MARK_LEVELS: u16 = 24;
 
 /// Levels of light that lines and edges are mixed with.
 const MIXING_LEVELS: u16 = 4;
+
+/// Levels of values.
+const MAP_LEVELS: u16 = 128;
 
 /// Leading bits of a byte that tell in which cell of the colour cube it lies.
 const CELL_BITS: u32 = 5;
@@ -63,6 +68,37 @@ impl Palette {
             }
         }
         palette.push_mixtures(&inks, &lines);
+        palette
+    }
+
+    /// The palette of a film that shows values as colours: those of the map lead, paper and marks have what is left.
+    pub(crate) fn of_values(style: &Style) -> Self {
+        let inks = style.inks();
+        let mut palette = Self {
+            colors: Vec::new(),
+            cells: vec![OnceLock::new(); 1 << (3 * CELL_BITS)],
+        };
+        palette.push(inks.background);
+        let lines = [inks.mountain, inks.valley, inks.border];
+        for line in lines {
+            palette.push(line);
+        }
+        palette.push_color(ink(style.background));
+        for k in 0..MAP_LEVELS {
+            let part = f64::from(k) / f64::from(MAP_LEVELS - 1);
+            palette.push_color(colour_of(part));
+        }
+        for side in [inks.front, inks.back, inks.mark] {
+            for light in levels(MIXING_LEVELS) {
+                palette.push(side * light);
+            }
+        }
+        for part in [0.0, 0.25, 0.5, 0.75, 1.0] {
+            let colour = linear(colour_of(part));
+            for other in [inks.background, inks.mountain, inks.valley, inks.border] {
+                palette.push_between(colour, other, 3);
+            }
+        }
         palette
     }
 

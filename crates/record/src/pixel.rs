@@ -5,7 +5,7 @@
 use glam::{DVec2, Vec3};
 
 use crate::screen_face::ScreenFace;
-use crate::shade::{Inks, encoded};
+use crate::shade::{Inks, Paint, encoded};
 use crate::square::{Mask, SAMPLES};
 use crate::surface::{Candidate, Layer};
 use crate::{Style, Surface};
@@ -20,11 +20,12 @@ pub(crate) struct Canvas<'a> {
 }
 
 impl<'a> Canvas<'a> {
-    /// `marked`: whether each triangle is; none is where the list is empty.
-    pub(crate) fn new(surface: &'a Surface<'a>, style: &Style, marked: &[bool]) -> Self {
+    /// `paints`: of each triangle; all show their paper where the list is empty.
+    pub(crate) fn new(surface: &'a Surface<'a>, style: &Style, paints: &[Paint]) -> Self {
         let inks = style.inks();
-        let colour = |(index, face): (usize, &ScreenFace)| match marked.get(index) {
-            Some(true) => inks.marked(face.normal),
+        let colour = |(index, face): (usize, &ScreenFace)| match paints.get(index) {
+            Some(Paint::Mark) => inks.marked(face.normal),
+            Some(Paint::Flat(light)) => *light,
             _ => inks.paper(face.normal),
         };
         let faces: Vec<Vec3> = surface.faces().iter().enumerate().map(colour).collect();

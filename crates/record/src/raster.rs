@@ -10,7 +10,7 @@ use rayon::prelude::*;
 
 use crate::image::check_size;
 use crate::pixel::{Canvas, Pixel};
-use crate::shade::encoded;
+use crate::shade::{Paint, encoded};
 use crate::square::Square;
 use crate::surface::Candidate;
 use crate::{Camera, Image, Paper, RecordError, Style, Surface};
@@ -64,17 +64,17 @@ pub(crate) fn check_positions(
     }
 }
 
-/// [`picture`] of a prepared sheet and checked input, with those triangles marked for which `marked` says so.
+/// [`picture`] of a prepared sheet and checked input, each triangle painted as `paints` says.
 pub(crate) fn raster(
     paper: &Paper<'_>,
     positions: &[DVec3],
     camera: &Camera,
     style: &Style,
-    marked: &[bool],
+    paints: &[Paint],
     size: [u32; 2],
 ) -> Image {
     let surface = Surface::new(paper, positions, camera, style);
-    let canvas = Canvas::new(&surface, style, marked);
+    let canvas = Canvas::new(&surface, style, paints);
     let [width, height] = size.map(|side| side as usize);
     let mut pixels = vec![style.background; width * height];
     pixels

@@ -89,6 +89,17 @@ impl Style {
     }
 }
 
+/// What a triangle is painted with.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum Paint {
+    /// Its sides of the paper.
+    Paper,
+    /// The colour of marks.
+    Mark,
+    /// A colour in linear light that stands for a value: it takes no light, so that a legend tells it.
+    Flat(Vec3),
+}
+
 /// The colours of a [`Style`] in linear light.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Inks {

@@ -19,7 +19,7 @@ fn options() -> FilmOptions {
         size: SIZE,
         fps: 20.0,
         seconds: [0.2, 0.3],
-        hold: 0.25,
+        hold: [0.25; 3],
         ..FilmOptions::default()
     }
 }
@@ -175,7 +175,7 @@ fn films_of_bad_input_are_refused_before_anything_is_written() {
             |e| matches!(e, RecordError::FramesPerSecond { .. }),
         ),
         (
-            |o| o.hold = -1.0,
+            |o| o.hold[1] = -1.0,
             |e| matches!(e, RecordError::Seconds { .. }),
         ),
         (

@@ -481,7 +481,7 @@ impl Resolver<'_> {
         }
         film.fps = scene.fps.unwrap_or(film.fps);
         film.seconds = scene.seconds.unwrap_or(film.seconds);
-        film.hold = scene.hold.unwrap_or(film.hold);
+        film.hold = scene.hold.map_or(film.hold, |seconds| [seconds; 3]);
         if let Some(camera) = scene.camera {
             film.view = match camera {
                 CameraChoice::Iso => View::Iso,

@@ -1,0 +1,236 @@
+//! One film pass for every kind of film.
+//!
+//! Each state is drawn once and handed to every reel asked for. States are drawn in parallel, a batch at a time; while
+//! one batch is drawn the reels take the one before, in order. So the memory is bounded by two batches and the bytes do
+//! not depend on the number of threads.
+
+use foldmotion_pattern::Motion;
+use glam::DVec3;
+use rayon::prelude::*;
+
+use crate::caption::Overlay;
+use crate::cutout::uncovered;
+use crate::film::check_frames;
+use crate::raster::raster;
+use crate::shade::Paint;
+use crate::{
+    Camera, FilmOptions, Image, Marks, Palette, Paper, RecordError, Shot, Style, Values,
+    positions_at, timeline,
+};
+
+/// Pictures worked on at a time, fewer for large ones: bounds the memory, not the result.
+const BATCH: usize = 16;
+
+/// Pixels worked on at a time.
+const BATCH_PIXELS: usize = 1 << 25;
+
+/// What is filmed.
+#[derive(Debug, Clone, Copy)]
+pub struct Scene<'a> {
+    /// What moves.
+    pub motion: &'a Motion,
+    /// Facets painted in the colour of marks; a mark shows in at least one picture.
+    pub marks: &'a Marks,
+    /// Values shown as colours with a legend, instead of paper.
+    pub values: Option<&'a Values>,
+}
+
+/// What a film needs to know before its first picture.
+#[derive(Debug, Clone, Copy)]
+pub struct Title<'a> {
+    /// How it is made.
+    pub options: &'a FilmOptions,
+    /// The colours of its areas, for reels of few colours.
+    pub palette: &'a Palette,
+}
+
+/// A picture on its way into the reels.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Picture {
+    /// How long it is shown.
+    pub shot: Shot,
+    /// Before its background.
+    pub image: Image,
+    /// How far each pixel of the sheet covers the background, where asked for by [`FilmOptions::is_transparent`].
+    pub alpha: Option<Vec<u8>>,
+}
+
+/// What a film is written to.
+pub trait Reel: Send {
+    /// Called once, before the first picture.
+    ///
+    /// # Errors
+    /// Where the film cannot be written.
+    fn begin(&mut self, title: Title<'_>) -> Result<(), RecordError>;
+
+    /// Called for the pictures in order, several at a time.
+    ///
+    /// # Errors
+    /// Where the film cannot be written.
+    fn take(&mut self, pictures: &[Picture]) -> Result<(), RecordError>;
+
+    /// Called once, after the last picture.
+    ///
+    /// # Errors
+    /// Where the film cannot be written.
+    fn finish(&mut self) -> Result<(), RecordError>;
+}
+
+/// Films `scene` into all `reels` at once.
+///
+/// The camera sees all of the motion, also while it turns. `progress` gets the part done, from 0 to 1, and answers
+/// whether to go on. The order of the compact state also decides between layers at other times, wherever they come
+/// within [`crate::TIE_TOLERANCE`] of each other. The bytes do not depend on the number of threads.
+///
+/// # Errors
+/// Those of [`timeline`] and [`Camera::fit`], [`RecordError::VertexCount`], [`RecordError::NotFinite`],
+/// [`RecordError::Range`] and [`RecordError::ValueCount`] before anything is written; then
+/// [`RecordError::Interrupted`] and those of the reels, which leave incomplete films behind.
+pub fn film(
+    scene: Scene<'_>,
+    options: &FilmOptions,
+    reels: &mut [&mut dyn Reel],
+    progress: &(dyn Fn(f64) -> bool + Sync),
+) -> Result<(), RecordError> {
+    let set = Set::new(scene, options)?;
+    let palette = match scene.values {
+        Some(_) => Palette::of_values(&options.style),
+        None => Palette::new(&options.style, !scene.marks.is_empty()),
+    };
+    for reel in reels.iter_mut() {
+        let palette = &palette;
+        reel.begin(Title { options, palette })?;
+    }
+    let [width, height] = options.size.map(|side| side as usize);
+    let length = (BATCH_PIXELS / (width * height)).clamp(1, BATCH);
+    let mut drawn: Vec<Picture> = Vec::new();
+    let mut done = 0;
+    loop {
+        if !progress(done as f64 / set.shots.len() as f64) {
+            return Err(RecordError::Interrupted);
+        }
+        let next = done..(done + length).min(set.shots.len());
+        let (pictures, taken) = rayon::join(
+            || {
+                next.clone()
+                    .into_par_iter()
+                    .map(|i| set.picture(i))
+                    .collect()
+            },
+            || reels.iter_mut().try_for_each(|reel| reel.take(&drawn)),
+        );
+        taken?;
+        let pictures: Result<Vec<Picture>, RecordError> = pictures;
+        drawn = pictures?;
+        done = next.end;
+        if drawn.is_empty() {
+            break;
+        }
+    }
+    for reel in reels.iter_mut() {
+        reel.finish()?;
+    }
+    progress(1.0);
+    Ok(())
+}
+
+/// Everything a picture of the film is drawn from.
+struct Set<'a> {
+    scene: Scene<'a>,
+    options: &'a FilmOptions,
+    shots: Vec<Shot>,
+    paper: Paper<'a>,
+    camera: Camera,
+    /// Where the vertical stands about which the camera turns.
+    middle: DVec3,
+    legend: Option<Overlay>,
+}
+
+impl<'a> Set<'a> {
+    fn new(scene: Scene<'a>, options: &'a FilmOptions) -> Result<Self, RecordError> {
+        let motion = scene.motion;
+        let shots = timeline(motion, options)?;
+        check_frames(motion)?;
+        if let Some(values) = scene.values {
+            values.check(motion)?;
+        }
+        let points = motion
+            .frames
+            .iter()
+            .flat_map(|f| f.positions.iter().copied());
+        let (low, high) = points.clone().fold(
+            (DVec3::INFINITY, DVec3::NEG_INFINITY),
+            |(low, high), point| (low.min(point), high.max(point)),
+        );
+        let middle = (low + high) * 0.5;
+        let (view, size, margin) = (options.view, options.size, options.margin);
+        let camera = if options.turn == 0.0 {
+            Camera::fit(view, points, size, margin)?
+        } else {
+            Camera::fit_turning(view, points, middle, size, margin)?
+        };
+        let legend = scene.values.map(|values| Overlay::legend(values, size));
+        Ok(Self {
+            paper: Paper::new(&motion.sheet, &motion.compact_order),
+            legend: legend.transpose()?,
+            scene,
+            options,
+            shots,
+            camera,
+            middle,
+        })
+    }
+
+    fn picture(&self, index: usize) -> Result<Picture, RecordError> {
+        let (shot, options) = (self.shots[index], self.options);
+        let positions = positions_at(self.scene.motion, shot.time);
+        let part = index as f64 / (self.shots.len() - 1).max(1) as f64;
+        let camera = self.camera.turned(options.turn * part, self.middle);
+        let paints = self.paints(index);
+        let draw = |style: &Style| {
+            raster(
+                &self.paper,
+                &positions,
+                &camera,
+                style,
+                &paints,
+                options.size,
+            )
+        };
+        let mut image = draw(&options.style);
+        let mut alpha = options
+            .is_transparent
+            .then(|| uncovered(&image, &options.style, draw));
+        let caption = options
+            .has_caption
+            .then(|| Overlay::caption(shot.time, options.size));
+        for overlay in [self.legend.clone(), caption.transpose()?] {
+            if let Some(overlay) = overlay {
+                overlay.draw(&mut image, alpha.as_deref_mut(), options.style.background);
+            }
+        }
+        Ok(Picture { shot, image, alpha })
+    }
+
+    fn paints(&self, index: usize) -> Vec<Paint> {
+        let Scene {
+            motion,
+            marks,
+            values,
+        } = self.scene;
+        let time = self.shots[index].time;
+        let before = index.checked_sub(1).map_or(time, |i| self.shots[i].time);
+        let marked = marks.at(&motion.sheet, before.min(time), before.max(time));
+        let mut paints = vec![Paint::Paper; motion.sheet.faces.len()];
+        if let Some(values) = values {
+            let colours = values.colours(motion, time);
+            for (paint, colour) in paints.iter_mut().zip(colours) {
+                *paint = colour.map_or(Paint::Paper, Paint::Flat);
+            }
+        }
+        for (paint, _) in paints.iter_mut().zip(marked).filter(|(_, is)| *is) {
+            *paint = Paint::Mark;
+        }
+        paints
+    }
+}
