@@ -22,6 +22,7 @@ pub(crate) struct Overlay {
 
 impl Overlay {
     /// The stage and the time, in the lower left corner.
+    #[expect(clippy::cast_sign_loss, reason = "letters have a height")]
     pub(crate) fn caption(time: f64, size: [u32; 2]) -> Result<Self, RecordError> {
         let text = format!("{}, t = {time:.2}", stage(time));
         let letters = letters(size);
@@ -35,6 +36,7 @@ impl Overlay {
     }
 
     /// The colour scale of `values` with their title and range, in the upper left corner.
+    #[expect(clippy::cast_sign_loss, reason = "letters have a height")]
     pub(crate) fn legend(values: &Values, size: [u32; 2]) -> Result<Self, RecordError> {
         let letters = letters(size);
         let [left, thick] = [0.5 * letters, 0.7 * letters].map(|l| l.round() as u32);
@@ -66,6 +68,7 @@ impl Overlay {
     }
 
     /// Lays it over `image`; `alpha`, where given, covers what is written on.
+    #[expect(clippy::cast_sign_loss, reason = "between two bytes")]
     pub(crate) fn draw(&self, image: &mut Image, mut alpha: Option<&mut [u8]>, ground: [u8; 3]) {
         let ink = ink(ground);
         let mut put = |x: u32, y: u32, colour: [u8; 3], part: f64| {

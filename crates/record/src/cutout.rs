@@ -11,6 +11,7 @@ use crate::square::SAMPLES;
 use crate::{Image, Style};
 
 /// How far each pixel of `image`, drawn with `style`, covers its background; `draw` draws it in another style.
+#[expect(clippy::cast_sign_loss, reason = "clamped to 0 to 255 before")]
 pub(crate) fn uncovered(image: &Image, style: &Style, draw: impl Fn(&Style) -> Image) -> Vec<u8> {
     let far = |byte: u8| if byte < 128 { u8::MAX } else { 0 };
     let other = Style {

@@ -94,7 +94,19 @@ pub enum RecordError {
         /// What makes it smaller.
         remedy: &'static str,
     },
-    /// A tolerance or thickness is not positive and finite.
+    /// A motion needs more morph targets than viewers take.
+    #[error(
+        "a GLB within {tolerance} of the motion needs {needed} morph targets: viewers take {limit}; raise the tolerance or film a part"
+    )]
+    Targets {
+        /// Those needed.
+        needed: usize,
+        /// Those that viewers take.
+        limit: usize,
+        /// The tolerance, in the sheet's unit of length.
+        tolerance: f64,
+    },
+    /// A tolerance, a duration or a thickness is not positive and finite.
     #[error("{name} = {value} cannot be used: it must be finite and above 0")]
     NotPositive {
         /// The option.

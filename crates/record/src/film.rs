@@ -202,7 +202,7 @@ fn with_durations(times: &[f64], options: &FilmOptions) -> Vec<Shot> {
 }
 
 /// The first and the last time of a motion whose times increase.
-fn check_times(motion: &Motion) -> Result<[f64; 2], RecordError> {
+pub(crate) fn check_times(motion: &Motion) -> Result<[f64; 2], RecordError> {
     let mut previous = f64::NEG_INFINITY;
     for (frame, Frame { time, .. }) in motion.frames.iter().enumerate() {
         if !time.is_finite() || *time <= previous {

@@ -17,7 +17,7 @@ use crate::{Picture, RecordError, Reel, Title};
 
 /// The quantiser of H.264: the step doubles with every 6; flat colours and thin lines show no blocks at this one.
 #[cfg(feature = "h264")]
-const QUANTISER: u8 = 20;
+const QUANTISER: u8 = 22;
 
 /// Seconds between pictures that stand alone, to which players can jump.
 #[cfg(feature = "h264")]
@@ -86,7 +86,7 @@ impl<W: Write + Send> Reel for Mp4<W> {
         let options = title.options;
         let [width, height] = options.size.map(|side| side.next_multiple_of(2));
         let (short, long) = (width.min(height), width.max(height));
-        if short < 16 || short > 2160 || long > 3840 {
+        if !(16..=2160).contains(&short) || long > 3840 {
             return Err(RecordError::H264 {
                 message: format!(
                     "{width} × {height} pixels: at least 16 each way and at most 3840 × 2160 fit; change the size"
@@ -175,13 +175,13 @@ fn encoder(fps: f64) -> Result<Encoder, RecordError> {
     };
     let period = (fps * SECONDS_BETWEEN_KEYS).ceil().max(1.0) as u32;
     let config = EncoderConfig::new()
-        .bitrate(BitRate::from_bps(100_000_000))
+        .bitrate(BitRate::from_bps(10_000_000))
         .max_frame_rate(FrameRate::from_hz(fps as f32))
         .rate_control_mode(RateControlMode::Quality)
         .qp(QpRange::new(QUANTISER, QUANTISER))
         .profile(Profile::Baseline)
         .complexity(Complexity::High)
-        .skip_frames(false)
+        .skip_frames(true)
         .scene_change_detect(false)
         .adaptive_quantization(false)
         .background_detection(false)

@@ -48,13 +48,14 @@ mod error;
 mod film;
 mod frames;
 mod gif;
-
+mod glb;
+mod glb_buffer;
 mod h264;
 mod image;
-
+mod key_frames;
 mod marks;
 mod mp4;
-
+mod obj;
 mod palette;
 mod paper;
 mod pixel;
@@ -64,31 +65,32 @@ mod reel;
 mod screen_face;
 mod segment;
 mod shade;
-
+mod solid;
 mod square;
-
+mod stl;
 mod surface;
 mod values;
 
 pub use self::camera::{Camera, View};
+pub use self::colour_map::colour_of;
 pub use self::drawing::{Anchor, Drawing, PIXELS_A_UNIT, Stroke, png};
 pub use self::error::RecordError;
 pub use self::film::{FilmOptions, Playback, Shot, positions_at, timeline};
 pub use self::frames::Frames;
 pub use self::gif::{Gif, gif};
-
+pub use self::glb::{GlbOptions, MAX_TARGETS, glb};
 pub use self::h264::Mp4;
 pub use self::image::{Image, MAX_PIXELS};
-
+pub use self::key_frames::{KeyFrames, key_frames};
 pub use self::marks::Marks;
-
+pub use self::obj::obj;
 pub use self::palette::Palette;
 pub use self::paper::Paper;
 pub use self::plots::{Curve, Panel, plots};
 pub use self::raster::picture;
 pub use self::reel::{Picture, Reel, Scene, Title, film};
 pub use self::shade::Style;
-
-pub use self::colour_map::colour_of;
+pub use self::solid::{Solid, solid, surface_of};
+pub use self::stl::stl;
 pub use self::surface::{Candidate, Surface, TIE_TOLERANCE};
 pub use self::values::Values;

@@ -34,7 +34,7 @@ impl Track {
     /// [`RecordError::FileSize`] where 32-bit offsets do not reach, [`RecordError::Write`].
     pub(crate) fn write(&self, writer: &mut impl Write) -> Result<(), RecordError> {
         let kind = boxed(
-            b"ftyp",
+            *b"ftyp",
             &[b"isom", &512_u32.to_be_bytes(), b"isomiso2avc1mp41"],
         );
         // The index is as long for any offset.
@@ -61,7 +61,7 @@ impl Track {
         let scale = (self.fps * f64::from(TICKS)).round().max(1.0) as u32;
         let duration = self.lengths.len() as u32 * TICKS;
         let header = boxed(
-            b"mvhd",
+            *b"mvhd",
             &[
                 &words(&[0, 0, 0, scale, duration, 0x1_0000]),
                 &[1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0],
@@ -70,19 +70,19 @@ impl Track {
             ],
         );
         let track = boxed(
-            b"trak",
+            *b"trak",
             &[
                 &self.track_header(duration),
                 &self.media(scale, duration, offset),
             ],
         );
-        boxed(b"moov", &[&header, &track, &self.words_of_user()])
+        boxed(*b"moov", &[&header, &track, &self.words_of_user()])
     }
 
     fn track_header(&self, duration: u32) -> Vec<u8> {
         let [width, height] = self.size.map(|side| u32::from(side) << 16);
         boxed(
-            b"tkhd",
+            *b"tkhd",
             &[
                 // Enabled and in the movie.
                 &words(&[3, 0, 0, 1, 0, duration, 0, 0, 0, 0]),
@@ -94,37 +94,40 @@ impl Track {
 
     fn media(&self, scale: u32, duration: u32, offset: u32) -> Vec<u8> {
         // "und" in three letters of five bits.
-        let header = boxed(b"mdhd", &[&words(&[0, 0, 0, scale, duration, 0x55C4_0000])]);
+        let header = boxed(
+            *b"mdhd",
+            &[&words(&[0, 0, 0, scale, duration, 0x55C4_0000])],
+        );
         let handler = boxed(
-            b"hdlr",
+            *b"hdlr",
             &[&words(&[0, 0]), b"vide", &words(&[0, 0, 0]), b"video\0"],
         );
-        let place = boxed(b"url ", &[&words(&[1])]);
-        let places = boxed(b"dref", &[&words(&[0, 1]), &place]);
+        let place = boxed(*b"url ", &[&words(&[1])]);
+        let places = boxed(*b"dref", &[&words(&[0, 1]), &place]);
         let info = boxed(
-            b"minf",
+            *b"minf",
             &[
-                &boxed(b"vmhd", &[&words(&[1, 0, 0])]),
-                &boxed(b"dinf", &[&places]),
+                &boxed(*b"vmhd", &[&words(&[1, 0, 0])]),
+                &boxed(*b"dinf", &[&places]),
                 &self.samples(offset),
             ],
         );
-        boxed(b"mdia", &[&header, &handler, &info])
+        boxed(*b"mdia", &[&header, &handler, &info])
     }
 
     fn samples(&self, offset: u32) -> Vec<u8> {
         let count = self.lengths.len() as u32;
-        let description = boxed(b"stsd", &[&words(&[0, 1]), &self.description()]);
-        let durations = boxed(b"stts", &[&words(&[0, 1, count, TICKS])]);
+        let description = boxed(*b"stsd", &[&words(&[0, 1]), &self.description()]);
+        let durations = boxed(*b"stts", &[&words(&[0, 1, count, TICKS])]);
         let keys = boxed(
-            b"stss",
+            *b"stss",
             &[&words(&[0, self.keys.len() as u32]), &words(&self.keys)],
         );
-        let chunks = boxed(b"stsc", &[&words(&[0, 1, 1, count, 1])]);
-        let lengths = boxed(b"stsz", &[&words(&[0, 0, count]), &words(&self.lengths)]);
-        let offsets = boxed(b"stco", &[&words(&[0, 1, offset])]);
+        let chunks = boxed(*b"stsc", &[&words(&[0, 1, 1, count, 1])]);
+        let lengths = boxed(*b"stsz", &[&words(&[0, 0, count]), &words(&self.lengths)]);
+        let offsets = boxed(*b"stco", &[&words(&[0, 1, offset])]);
         let parts = [description, durations, keys, chunks, lengths, offsets];
-        boxed(b"stbl", &parts.each_ref().map(Vec::as_slice))
+        boxed(*b"stbl", &parts.each_ref().map(Vec::as_slice))
     }
 
     fn description(&self) -> Vec<u8> {
@@ -132,7 +135,7 @@ impl Track {
         // Version, profile, compatibility, level; lengths of four bytes; one set of each kind.
         let profile = self.sequence.get(1..4).unwrap_or_default();
         let configuration = boxed(
-            b"avcC",
+            *b"avcC",
             &[
                 &[1],
                 profile,
@@ -145,10 +148,10 @@ impl Track {
             ],
         );
         // BT.709 primaries, transfer and matrix, video range.
-        let colour = boxed(b"colr", &[b"nclx", &[0, 1, 0, 1, 0, 1, 0]]);
-        let aspect = boxed(b"pasp", &[&words(&[1, 1])]);
+        let colour = boxed(*b"colr", &[b"nclx", &[0, 1, 0, 1, 0, 1, 0]]);
+        let aspect = boxed(*b"pasp", &[&words(&[1, 1])]);
         boxed(
-            b"avc1",
+            *b"avc1",
             &[
                 &[0, 0, 0, 0, 0, 0, 0, 1],
                 &[0; 16],
@@ -171,14 +174,14 @@ impl Track {
         if self.provenance.is_empty() {
             return Vec::new();
         }
-        let data = boxed(b"data", &[&words(&[1, 0]), self.provenance.as_bytes()]);
-        let list = boxed(b"ilst", &[&boxed(b"\xA9cmt", &[&data])]);
+        let data = boxed(*b"data", &[&words(&[1, 0]), self.provenance.as_bytes()]);
+        let list = boxed(*b"ilst", &[&boxed(*b"\xA9cmt", &[&data])]);
         let handler = boxed(
-            b"hdlr",
+            *b"hdlr",
             &[&words(&[0, 0]), b"mdirappl", &words(&[0, 0]), &[0]],
         );
-        let meta = boxed(b"meta", &[&words(&[0]), &handler, &list]);
-        boxed(b"udta", &[&meta])
+        let meta = boxed(*b"meta", &[&words(&[0]), &handler, &list]);
+        boxed(*b"udta", &[&meta])
     }
 }
 
@@ -192,12 +195,14 @@ fn words(values: &[u32]) -> Vec<u8> {
         .collect()
 }
 
-fn boxed(kind: &[u8; 4], parts: &[&[u8]]) -> Vec<u8> {
+fn boxed(kind: [u8; 4], parts: &[&[u8]]) -> Vec<u8> {
     let length = 8 + parts.iter().map(|part| part.len()).sum::<usize>();
     let mut bytes = Vec::with_capacity(length);
     bytes.extend((length as u32).to_be_bytes());
     bytes.extend(kind);
-    parts.iter().for_each(|part| bytes.extend(*part));
+    for part in parts {
+        bytes.extend(*part);
+    }
     bytes
 }
 

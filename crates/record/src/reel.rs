@@ -204,10 +204,9 @@ impl<'a> Set<'a> {
         let caption = options
             .has_caption
             .then(|| Overlay::caption(shot.time, options.size));
-        for overlay in [self.legend.clone(), caption.transpose()?] {
-            if let Some(overlay) = overlay {
-                overlay.draw(&mut image, alpha.as_deref_mut(), options.style.background);
-            }
+        let overlays = [self.legend.clone(), caption.transpose()?];
+        for overlay in overlays.into_iter().flatten() {
+            overlay.draw(&mut image, alpha.as_deref_mut(), options.style.background);
         }
         Ok(Picture { shot, image, alpha })
     }
