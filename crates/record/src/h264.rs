@@ -174,14 +174,16 @@ fn encoder(fps: f64) -> Result<Encoder, RecordError> {
         RateControlMode, VuiConfig,
     };
     let period = (fps * SECONDS_BETWEEN_KEYS).ceil().max(1.0) as u32;
+    // Of openh264's modes this one alone keeps to the range of quantisers, never leaves out a frame, whatever its size,
+    // and prints nothing; the bit rate only bounds the level from below.
     let config = EncoderConfig::new()
-        .bitrate(BitRate::from_bps(10_000_000))
+        .bitrate(BitRate::from_bps(1_000_000))
         .max_frame_rate(FrameRate::from_hz(fps as f32))
-        .rate_control_mode(RateControlMode::Quality)
+        .rate_control_mode(RateControlMode::Bufferbased)
         .qp(QpRange::new(QUANTISER, QUANTISER))
         .profile(Profile::Baseline)
         .complexity(Complexity::High)
-        .skip_frames(true)
+        .skip_frames(false)
         .scene_change_detect(false)
         .adaptive_quantization(false)
         .background_detection(false)

@@ -257,7 +257,7 @@ fn a_film_can_be_interrupted_and_reports_its_progress() {
         &motion,
         &Marks::default(),
         &options,
-        &mut Vec::new(),
+        Vec::new(),
         &stop_at_third,
     )
     .unwrap_err();

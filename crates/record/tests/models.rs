@@ -1,5 +1,7 @@
 //! 3D files read back.
 
+#![expect(clippy::unwrap_used, reason = "files that cannot be read must fail their test")]
+
 mod common;
 
 use std::collections::BTreeMap;

@@ -2,6 +2,8 @@
 
 #![cfg(feature = "h264")]
 
+#![expect(clippy::unwrap_used, reason = "files that cannot be read must fail their test")]
+
 mod common;
 
 use common::*;
@@ -47,21 +49,21 @@ fn word(bytes: &[u8], at: usize) -> usize {
 }
 
 /// Where the content of the first box `kind` begins.
-fn content(bytes: &[u8], kind: &[u8; 4]) -> usize {
-    bytes.windows(4).position(|w| w == kind).unwrap() + 4
+fn content(bytes: &[u8], kind: [u8; 4]) -> usize {
+    bytes.windows(4).position(|w| *w == kind).unwrap() + 4
 }
 
 /// The pictures as a decoder wants them: units after start codes, the parameter sets first.
 fn stream(bytes: &[u8]) -> Vec<Vec<u8>> {
     let start = [0, 0, 0, 1];
-    let at = content(bytes, b"avcC");
+    let at = content(bytes, *b"avcC");
     let length = usize::from(bytes[at + 7]);
     let sequence = &bytes[at + 8..at + 8 + length];
     let rest = at + 8 + length;
     let parameters = &bytes[rest + 3..rest + 3 + usize::from(bytes[rest + 2])];
     let mut first = [&start, sequence, &start, parameters].concat();
-    let table = content(bytes, b"stsz");
-    let mut place = word(bytes, content(bytes, b"stco") + 8);
+    let table = content(bytes, *b"stsz");
+    let mut place = word(bytes, content(bytes, *b"stco") + 8);
     let mut pictures = Vec::new();
     for index in 0..word(bytes, table + 8) {
         let end = place + word(bytes, table + 12 + 4 * index);

@@ -1,5 +1,7 @@
 //! Films of several kinds at once, read back.
 
+#![expect(clippy::unwrap_used, reason = "files that cannot be read must fail their test")]
+
 mod common;
 
 use std::io::{self, Cursor};
