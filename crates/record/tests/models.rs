@@ -1,6 +1,9 @@
 //! 3D files read back.
 
-#![expect(clippy::unwrap_used, reason = "files that cannot be read must fail their test")]
+#![expect(
+    clippy::unwrap_used,
+    reason = "files that cannot be read must fail their test"
+)]
 
 mod common;
 

@@ -1,8 +1,10 @@
 //! MP4 films decoded.
 
 #![cfg(feature = "h264")]
-
-#![expect(clippy::unwrap_used, reason = "files that cannot be read must fail their test")]
+#![expect(
+    clippy::unwrap_used,
+    reason = "files that cannot be read must fail their test"
+)]
 
 mod common;
 

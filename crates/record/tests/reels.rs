@@ -1,6 +1,9 @@
 //! Films of several kinds at once, read back.
 
-#![expect(clippy::unwrap_used, reason = "files that cannot be read must fail their test")]
+#![expect(
+    clippy::unwrap_used,
+    reason = "files that cannot be read must fail their test"
+)]
 
 mod common;
 
