@@ -16,8 +16,8 @@ use crate::glb_buffer::{Buffer, container};
 use crate::shade::linear;
 use crate::{KeyFrames, RecordError, Style, key_frames};
 
-/// The most morph targets: WebGL 2 grants 256 layers of a texture, in which three.js keeps them, and Filament takes
-/// as many.
+/// The most morph targets: Filament takes 256, and WebGL 2 grants 256 layers of a texture, in which three.js and
+/// Babylon.js keep them.
 pub const MAX_TARGETS: usize = 255;
 
 /// The largest file.
@@ -56,8 +56,10 @@ impl Default for GlbOptions {
 
 /// Writes `motion` as GLB, in metres and with y up as glTF asks, and answers which frames it holds and how well.
 ///
-/// glTF guarantees that viewers take only 8 attributes that morph at once; here at most two targets have weight at a
-/// time, and three.js, Babylon.js, Filament and Blender keep hundreds of targets. The error of f32 (about 1e-7 of the
+/// glTF asks viewers for no more than 8 attributes that morph at once. Here at most two targets have weight at a time,
+/// but a viewer must hold them all: those that keep targets in textures do (three.js also needs a uniform each, of which
+/// graphics cards have a thousand and WebGL 2 grants 256); engines of 8 or 60 targets show such a file wrongly or not at
+/// all, and need a larger tolerance. The error of f32 (about 1e-7 of the
 /// sheet's size) comes on top of the tolerance. Viewers know no order of layers: those that coincide flicker.
 ///
 /// # Errors
