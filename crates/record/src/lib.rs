@@ -70,6 +70,7 @@ mod square;
 mod stl;
 mod surface;
 mod values;
+mod visible;
 
 pub use self::camera::{Camera, View};
 pub use self::colour_map::colour_of;
@@ -94,3 +95,4 @@ pub use self::solid::{Solid, solid, surface_of};
 pub use self::stl::stl;
 pub use self::surface::{Candidate, Surface, TIE_TOLERANCE};
 pub use self::values::Values;
+pub use self::visible::{Visible, VisibleArea, VisibleLine};

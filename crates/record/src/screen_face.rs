@@ -27,8 +27,8 @@ pub(crate) struct ScreenFace {
 
 /// The side of a triangle's edge: n·p + c is the distance in pixels from the edge, positive inside.
 #[derive(Debug, Clone, Copy)]
-struct Side {
-    n: DVec2,
+pub(crate) struct Side {
+    pub(crate) n: DVec2,
     c: f64,
     /// |n.x| + |n.y|: how much nearer a corner of a square may be than its centre, a pixel of half its side.
     spread: f64,
@@ -91,6 +91,31 @@ impl ScreenFace {
         self.normal.z.abs()
     }
 
+    /// Whether it covers no point of the screen.
+    pub(crate) fn is_edge_on(&self) -> bool {
+        self.is_edge_on
+    }
+
+    /// The low and the high corner of the box around it.
+    pub(crate) fn extent(&self) -> [DVec2; 2] {
+        [self.low, self.high]
+    }
+
+    /// The depth halfway between its farthest and its nearest corner.
+    pub(crate) fn middle(&self) -> f64 {
+        0.5 * (self.farthest + self.nearest)
+    }
+
+    /// The change of its plane's depth a pixel along x and y.
+    pub(crate) fn gradient(&self) -> DVec2 {
+        self.gradient
+    }
+
+    /// The sides of its edges.
+    pub(crate) fn sides(&self) -> &[Side; 3] {
+        &self.sides
+    }
+
     /// Inclusive: a point on an edge lies on both its triangles, so no gap opens between them.
     pub(crate) fn covers(&self, point: DVec2) -> bool {
         self.sides.iter().all(|side| side.distance(point) >= 0.0)
@@ -121,7 +146,8 @@ impl ScreenFace {
             && (self.is_edge_on || self.sides.iter().all(near_side))
     }
 
-    fn plane(&self, point: DVec2) -> f64 {
+    /// The depth of its plane.
+    pub(crate) fn plane(&self, point: DVec2) -> f64 {
         self.offset + self.gradient.dot(point)
     }
 
@@ -175,7 +201,7 @@ impl Side {
         }
     }
 
-    fn distance(&self, point: DVec2) -> f64 {
+    pub(crate) fn distance(&self, point: DVec2) -> f64 {
         self.n.dot(point) + self.c
     }
 

@@ -101,6 +101,8 @@ impl Layer {
 #[derive(Debug)]
 pub struct Surface<'a> {
     paper: &'a Paper<'a>,
+    /// The vertices on the screen.
+    points: Vec<DVec3>,
     faces: Vec<ScreenFace>,
     segments: Vec<Segment>,
     /// [`TIE_TOLERANCE`] in pixels.
@@ -138,6 +140,7 @@ impl<'a> Surface<'a> {
         }
         Self {
             paper,
+            points,
             faces,
             segments,
             tie: TIE_TOLERANCE * sheet.unit_length * camera.scale(),
@@ -468,6 +471,29 @@ impl<'a> Surface<'a> {
         }
         list.truncate(end);
         horizon > f64::NEG_INFINITY
+    }
+
+    /// Where `front` covers `back`, it is in front if it is nearer by more than this.
+    pub(crate) fn threshold(&self, front: u32, back: u32) -> f64 {
+        let window = self.tie_window(front, back);
+        match self.order(front, back) {
+            Some(true) => -window,
+            Some(false) => window,
+            None => 0.0,
+        }
+    }
+
+    /// [`Surface::threshold`] against an outline of `back` where `back` itself covers no point.
+    pub(crate) fn outline_threshold(&self, front: u32, back: u32) -> f64 {
+        match self.order(front, back) {
+            Some(_) => self.threshold(front, back),
+            None => -self.tie / self.face(front).cosine(),
+        }
+    }
+
+    /// The vertices on the screen: pixels and depth.
+    pub(crate) fn points(&self) -> &[DVec3] {
+        &self.points
     }
 
     /// The prepared sheet.
