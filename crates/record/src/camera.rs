@@ -6,7 +6,7 @@ use crate::RecordError;
 use crate::image::check_size;
 
 /// Where the viewer stands, in the frame of the motion: growing direction along x, width along y, z up.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub enum View {
     /// From above, the front and the right, turned a little so that diagonals of square units stay apart.
     #[default]
@@ -17,6 +17,13 @@ pub enum View {
     Side,
     /// Along −z: x to the right and y up.
     Top,
+    /// From anywhere around, in degrees.
+    Around {
+        /// Counter-clockwise seen from above, from +x to the viewer: −90 is [`View::Front`], 0 [`View::Side`].
+        azimuth: f64,
+        /// Above the plane z = 0: 90 is seen from above, with azimuth −90 as [`View::Top`].
+        elevation: f64,
+    },
 }
 
 impl View {
@@ -34,19 +41,15 @@ impl View {
         names.find(|(n, _)| *n == name).map(|(_, view)| view)
     }
 
-    /// The direction towards the viewer (any length) and the direction that points up on the screen.
-    fn directions(self) -> (DVec3, DVec3) {
-        match self {
+    /// Right, up and towards the viewer, unit vectors.
+    fn axes(self) -> [DVec3; 3] {
+        let (toward, up) = match self {
             Self::Iso => (DVec3::new(0.42, -0.74, 0.53), DVec3::Z),
             Self::Front => (DVec3::NEG_Y, DVec3::Z),
             Self::Side => (DVec3::X, DVec3::Z),
             Self::Top => (DVec3::Z, DVec3::Y),
-        }
-    }
-
-    /// Right, up and towards the viewer, unit vectors.
-    fn axes(self) -> [DVec3; 3] {
-        let (toward, up) = self.directions();
+            Self::Around { azimuth, elevation } => return around(azimuth, elevation),
+        };
         let toward = toward.normalize();
         let right = up.cross(toward).normalize();
         [right, toward.cross(right), toward]
@@ -71,6 +74,15 @@ impl View {
             [DVec2::NAN; 2]
         }
     }
+}
+
+/// The axes of a view from `azimuth` and `elevation` in degrees; right stays level, also straight from above.
+fn around(azimuth: f64, elevation: f64) -> [DVec3; 3] {
+    let (sin, cos) = azimuth.to_radians().sin_cos();
+    let (rise, across) = elevation.to_radians().sin_cos();
+    let toward = DVec3::new(across * cos, across * sin, rise);
+    let right = DVec3::new(-sin, cos, 0.0);
+    [right, toward.cross(right), toward]
 }
 
 /// A parallel projection of the world onto the screen.
@@ -210,6 +222,32 @@ impl Camera {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn angles_name_the_fixed_views_and_every_view_has_a_right_handed_frame() {
+        let named = [
+            (View::Front, -90.0, 0.0),
+            (View::Side, 0.0, 0.0),
+            (View::Top, -90.0, 90.0),
+        ];
+        for (view, azimuth, elevation) in named {
+            let (found, expected) = (View::Around { azimuth, elevation }.axes(), view.axes());
+            for (a, b) in found.into_iter().zip(expected) {
+                assert!((a - b).length() < 1e-15, "{view:?}: {found:?}");
+            }
+        }
+        for k in 0..500 {
+            let (azimuth, elevation) = (f64::from(k) * 7.3 - 900.0, f64::from(k) * 1.9 - 90.0);
+            let [right, up, toward] = View::Around { azimuth, elevation }.axes();
+            assert!((right.cross(up) - toward).length() < 1e-14);
+            assert!((right.length() - 1.0).abs() < 1e-14 && right.z == 0.0);
+        }
+        let nowhere = View::Around {
+            azimuth: f64::NAN,
+            elevation: 0.0,
+        };
+        assert!(Camera::fit(nowhere, [DVec3::ONE], [9, 9], 0.0).is_err());
+    }
 
     #[test]
     fn a_turning_camera_keeps_its_middle_and_sees_all_points_all_around() {

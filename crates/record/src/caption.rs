@@ -143,7 +143,7 @@ fn short(value: f64) -> String {
 }
 
 /// What a motion time lies between.
-fn stage(time: f64) -> &'static str {
+pub(crate) fn stage(time: f64) -> &'static str {
     match time {
         t if t <= 0.0 => "deployed",
         t if t < 1.0 => "deployed to planar",

@@ -134,6 +134,38 @@ pub enum RecordError {
         /// The encoder's words.
         message: String,
     },
+    /// The unit of a page has no length, or the page is too long.
+    #[error(
+        "a page with {value} mm a unit cannot be made: that must lie above 0 and no side of the page be longer than {limit} mm"
+    )]
+    Unit {
+        /// What was asked for.
+        value: f64,
+        /// The longest side.
+        limit: f64,
+    },
+    /// A length of a figure is not positive or too large.
+    #[error("{name} = {value} mm cannot be drawn: it must lie above 0 and be at most {limit} mm")]
+    Length {
+        /// The option.
+        name: &'static str,
+        /// What was asked for.
+        value: f64,
+        /// The largest length.
+        limit: f64,
+    },
+    /// The words of a figure leave no room for its states.
+    #[error(
+        "{states} states do not fit on {width} × {height} mm beside their labels: allow a larger page, smaller letters or fewer states a row"
+    )]
+    NoRoom {
+        /// Of the page, millimetres.
+        width: f64,
+        /// Of the page at most, millimetres.
+        height: f64,
+        /// How many there are.
+        states: usize,
+    },
     /// The built-in font cannot be read.
     #[error("the built-in font cannot be read: {message}")]
     Font {

@@ -45,6 +45,7 @@ mod colour_map;
 mod cutout;
 mod drawing;
 mod error;
+mod figure;
 mod film;
 mod frames;
 mod gif;
@@ -74,8 +75,9 @@ mod visible;
 
 pub use self::camera::{Camera, View};
 pub use self::colour_map::colour_of;
-pub use self::drawing::{Anchor, Drawing, PIXELS_A_UNIT, Stroke, png};
+pub use self::drawing::{Anchor, Drawing, PIXELS_A_UNIT, Provenance, Stroke, png};
 pub use self::error::RecordError;
+pub use self::figure::{Bounds, Legend, LineStyle, Pose, StripOptions, strip};
 pub use self::film::{FilmOptions, Playback, Shot, positions_at, timeline};
 pub use self::frames::Frames;
 pub use self::gif::{Gif, gif};

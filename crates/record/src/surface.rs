@@ -248,6 +248,23 @@ impl<'a> Surface<'a> {
         self.front_of(found)
     }
 
+    /// The same of those that cover the point themselves.
+    pub(crate) fn front_covering(
+        &self,
+        list: &[u32],
+        point: DVec2,
+        found: &mut Vec<Candidate>,
+    ) -> Option<Candidate> {
+        found.clear();
+        let covering = list.iter().filter(|&&face| self.face(face).covers(point));
+        found.extend(covering.map(|&face| Candidate {
+            face,
+            depth: self.face(face).depth(point),
+            covers: true,
+        }));
+        self.front_of(found)
+    }
+
     /// The one in front of those `found` at a point.
     ///
     /// From the farthest to the nearest each candidate takes the place of the one before unless that one is in

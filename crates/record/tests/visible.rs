@@ -283,17 +283,18 @@ fn areas_are_those_that_rays_meet_first_from_flat_to_compact() {
     let mut all = Count::default();
     for units in sheets() {
         let order = units.compact_order();
-        for part in [0.0, 0.3, 0.6, 0.9, 0.995, 1.0] {
+        for part in [0.3, 0.9, 0.995, 1.0] {
             let positions = between(&units, part);
             for state in states(&units, &positions, &order) {
-                let count = compare_areas(&state, &state.visible(), 400);
+                let count = compare_areas(&state, &state.visible(), 150);
                 assert_eq!(count.wrong, 0, "{:?} {part}: {count:?}", units.unit.case);
                 all.compared += count.compared;
                 all.circles += count.circles;
             }
         }
     }
-    assert!(all.compared > 20_000, "{all:?}");
+    eprintln!("{all:?}");
+    assert!(all.compared > 5_000, "{all:?}");
     assert!(all.circles * 100 < all.compared, "{all:?}");
 }
 
@@ -302,16 +303,16 @@ fn lines_are_seen_where_rays_beside_them_meet_their_triangles_first() {
     let mut compared = 0;
     for units in sheets() {
         let order = units.compact_order();
-        for part in [0.0, 0.3, 0.6, 0.9, 0.995, 1.0] {
+        for part in [0.3, 0.9, 0.995, 1.0] {
             let positions = between(&units, part);
             for state in states(&units, &positions, &order) {
-                let count = compare_lines(&state, &state.visible(), 400);
+                let count = compare_lines(&state, &state.visible(), 150);
                 assert_eq!(count.wrong, 0, "{:?} {part}: {count:?}", units.unit.case);
                 compared += count.compared;
             }
         }
     }
-    assert!(compared > 10_000, "{compared}");
+    assert!(compared > 2_000, "{compared}");
 }
 
 #[test]

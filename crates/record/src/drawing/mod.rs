@@ -1,11 +1,15 @@
-//! A drawing: areas, lines, words and pictures on a white page, written as SVG and as PNG.
+//! A drawing: areas, lines, words and pictures on a page, written as SVG, PDF and PNG.
 //!
-//! Lengths are units of the page, x to the right, y down; colours are sRGB. The SVG keeps lines and words as such and
-//! carries pictures inside; the PNG has [`PIXELS_A_UNIT`] pixels a unit. Both come from the same items in the same order.
+//! Lengths are units of the page, x to the right, y down; colours are sRGB. SVG and PDF keep lines and words as such and
+//! carry pictures inside; the PNG has [`PIXELS_A_UNIT`] pixels a unit. All come from the same items in the same order.
 
 mod label;
+mod pdf;
+mod pdf_font;
 mod png;
+mod provenance;
 mod svg;
+mod width;
 
 use glam::DVec2;
 
@@ -13,9 +17,17 @@ use crate::image::check_size;
 use crate::{Image, RecordError};
 
 pub use self::png::png;
+pub use self::provenance::Provenance;
+pub(crate) use self::width::words_width;
 
 /// Pixels of a PNG, and of pictures inside a drawing, a unit of the page.
 pub const PIXELS_A_UNIT: u32 = 2;
+
+/// The length of a dot: round ends make it one, but some viewers draw nothing of no length.
+const DOT: f64 = 0.01;
+
+/// The millimetres of a unit unless said otherwise: a 96th of an inch, as in CSS.
+const UNIT_MILLIMETRES: f64 = 25.4 / 96.0;
 
 /// A line's look.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -24,8 +36,8 @@ pub struct Stroke {
     pub color: [u8; 3],
     /// Its width.
     pub width: f64,
-    /// The lengths of dashes and of the gaps between them.
-    pub dash: Option<[f64; 2]>,
+    /// The lengths of a dash, a gap, another dash and another gap; all ends are round and half a width longer.
+    pub dash: Option<[f64; 4]>,
 }
 
 impl Stroke {
@@ -42,7 +54,16 @@ impl Stroke {
     #[must_use]
     pub fn dashed(self, dash: f64, gap: f64) -> Self {
         Self {
-            dash: Some([dash, gap]),
+            dash: Some([dash, gap, dash, gap]),
+            ..self
+        }
+    }
+
+    /// The same line in dashes with a dot in each gap.
+    #[must_use]
+    pub fn dash_dotted(self, dash: f64, gap: f64) -> Self {
+        Self {
+            dash: Some([dash, gap, DOT, gap]),
             ..self
         }
     }
@@ -67,8 +88,17 @@ enum Item {
         outline: Vec<DVec2>,
         color: [u8; 3],
     },
+    Shape {
+        rings: Vec<Vec<DVec2>>,
+        color: [u8; 3],
+        bleed: f64,
+    },
     Line {
         points: Vec<DVec2>,
+        stroke: Stroke,
+    },
+    Lines {
+        parts: Vec<[DVec2; 2]>,
         stroke: Stroke,
     },
     Words {
@@ -83,6 +113,9 @@ enum Item {
     },
 }
 
+/// The longest side of a page in millimetres: 14 400 points (ISO 32000-1, annex C).
+const LONGEST_PAGE: f64 = 5080.0;
+
 /// The colour of words.
 const WORDS: [u8; 3] = [38, 38, 42];
 
@@ -90,11 +123,15 @@ const WORDS: [u8; 3] = [38, 38, 42];
 #[derive(Debug, Clone, PartialEq)]
 pub struct Drawing {
     size: [u32; 2],
+    /// Millimetres of a unit, if they are said.
+    unit: Option<f64>,
+    background: Option<[u8; 3]>,
+    provenance: Option<Provenance>,
     items: Vec<Item>,
 }
 
 impl Drawing {
-    /// An empty page of `size` units.
+    /// An empty white page of `size` units.
     ///
     /// # Errors
     /// [`RecordError::Size`] where its PNG would have no pixels or too many.
@@ -102,14 +139,73 @@ impl Drawing {
         check_size(size.map(|side| side.saturating_mul(PIXELS_A_UNIT)))?;
         Ok(Self {
             size,
+            unit: None,
+            background: Some([u8::MAX; 3]),
+            provenance: None,
             items: Vec::new(),
         })
+    }
+
+    /// The page in print: `millimetres` a unit, else a 96th of an inch.
+    ///
+    /// # Errors
+    /// [`RecordError::Unit`] where that is not a positive length, or the page would be longer than 5 m, more than a PDF
+    /// may be.
+    pub fn with_unit(mut self, millimetres: f64) -> Result<Self, RecordError> {
+        let longest = f64::from(self.size[0].max(self.size[1])) * millimetres;
+        if !(millimetres > 0.0 && longest <= LONGEST_PAGE) {
+            return Err(RecordError::Unit {
+                value: millimetres,
+                limit: LONGEST_PAGE,
+            });
+        }
+        self.unit = Some(millimetres);
+        Ok(self)
+    }
+
+    /// The page in another colour; none lets through what lies behind it.
+    #[must_use]
+    pub fn with_background(mut self, background: Option<[u8; 3]>) -> Self {
+        self.background = background;
+        self
+    }
+
+    /// What every file of the drawing says of its origin.
+    #[must_use]
+    pub fn with_provenance(mut self, provenance: Provenance) -> Self {
+        self.provenance = Some(provenance);
+        self
+    }
+
+    /// Units across and down.
+    pub fn size(&self) -> [u32; 2] {
+        self.size
+    }
+
+    /// Millimetres of a unit.
+    fn unit(&self) -> f64 {
+        self.unit.unwrap_or(UNIT_MILLIMETRES)
     }
 
     /// Fills the polygon `outline`.
     pub fn area(&mut self, outline: impl IntoIterator<Item = DVec2>, color: [u8; 3]) {
         let outline = outline.into_iter().collect();
         self.items.push(Item::Area { outline, color });
+    }
+
+    /// Fills what closed `rings` wind around, holes running the other way round, and `bleed` around it: where shapes
+    /// adjoin, a small one closes the seam that viewers leave between edges that they smooth one by one.
+    pub fn shape(&mut self, rings: Vec<Vec<DVec2>>, color: [u8; 3], bleed: f64) {
+        self.items.push(Item::Shape {
+            rings,
+            color,
+            bleed,
+        });
+    }
+
+    /// Draws straight lines of one look.
+    pub fn lines(&mut self, parts: Vec<[DVec2; 2]>, stroke: Stroke) {
+        self.items.push(Item::Lines { parts, stroke });
     }
 
     /// Draws a line through `points`.

@@ -48,11 +48,29 @@ impl Drawing {
             message: e.to_string(),
         })?;
         let mut pixmap = new_pixmap(self.size.map(|side| side * PIXELS_A_UNIT))?;
-        pixmap.fill(Color::WHITE);
+        if let Some([r, g, b]) = self.background {
+            pixmap.fill(Color::from_rgba8(r, g, b, u8::MAX));
+        }
         for item in &self.items {
             match item {
                 Item::Area { outline, color } => fill(&mut pixmap, path(outline, true), *color),
-                Item::Line { points, stroke } => stroke_path(&mut pixmap, points, stroke),
+                Item::Shape {
+                    rings,
+                    color,
+                    bleed,
+                } => {
+                    let shape = joined(rings.iter().map(|ring| (&ring[..], true)));
+                    let outline = Stroke::new(*color, *bleed);
+                    stroke_path(&mut pixmap, shape.as_ref(), &outline);
+                    fill(&mut pixmap, shape, *color);
+                }
+                Item::Line { points, stroke } => {
+                    stroke_path(&mut pixmap, path(points, false).as_ref(), stroke);
+                }
+                Item::Lines { parts, stroke } => {
+                    let lines = joined(parts.iter().map(|part| (&part[..], false)));
+                    stroke_path(&mut pixmap, lines.as_ref(), stroke);
+                }
                 Item::Words {
                     at,
                     text,
@@ -118,8 +136,8 @@ fn fill(pixmap: &mut Pixmap, path: Option<Path>, color: [u8; 3]) {
     }
 }
 
-fn stroke_path(pixmap: &mut Pixmap, points: &[DVec2], stroke: &Stroke) {
-    let Some(path) = path(points, false) else {
+fn stroke_path(pixmap: &mut Pixmap, path: Option<&Path>, stroke: &Stroke) {
+    let Some(path) = path.filter(|_| stroke.width > 0.0) else {
         return;
     };
     let dash = stroke
@@ -132,21 +150,28 @@ fn stroke_path(pixmap: &mut Pixmap, points: &[DVec2], stroke: &Stroke) {
         dash: dash.and_then(|lengths| StrokeDash::new(lengths, 0.0)),
         ..tiny_skia::Stroke::default()
     };
-    pixmap.stroke_path(&path, &paint(stroke.color), &look, scaling(), None);
+    pixmap.stroke_path(path, &paint(stroke.color), &look, scaling(), None);
 }
 
 fn path(points: &[DVec2], closed: bool) -> Option<Path> {
+    joined(std::iter::once((points, closed)))
+}
+
+/// One path of several lines, each closed or not.
+fn joined<'a>(parts: impl Iterator<Item = (&'a [DVec2], bool)>) -> Option<Path> {
     let mut builder = PathBuilder::new();
-    for (index, point) in points.iter().enumerate() {
-        let [x, y] = point.as_vec2().to_array();
-        if index == 0 {
-            builder.move_to(x, y);
-        } else {
-            builder.line_to(x, y);
+    for (points, closed) in parts {
+        for (index, point) in points.iter().enumerate() {
+            let [x, y] = point.as_vec2().to_array();
+            if index == 0 {
+                builder.move_to(x, y);
+            } else {
+                builder.line_to(x, y);
+            }
         }
-    }
-    if closed {
-        builder.close();
+        if closed {
+            builder.close();
+        }
     }
     builder.finish()
 }

@@ -8,6 +8,7 @@ use glam::DVec2;
 
 use super::label::runs;
 use super::png::png;
+use super::provenance::escaped;
 use super::{Anchor, Drawing, Item, PIXELS_A_UNIT, Stroke, WORDS};
 use crate::RecordError;
 
@@ -17,19 +18,23 @@ impl Drawing {
     /// # Errors
     /// [`RecordError::Png`].
     pub fn svg(&self) -> Result<String, RecordError> {
-        let [width, height] = self.size;
-        let mut svg = format!(
-            "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\" \
-             viewBox=\"0 0 {width} {height}\">\n\
-             <rect width=\"{width}\" height=\"{height}\" fill=\"#ffffff\"/>\n"
-        );
+        let mut svg = self.head();
         for item in &self.items {
             match item {
                 Item::Area { outline, color } => {
                     let (path, color) = (path(outline, true), hex(*color));
                     let _ = writeln!(svg, "<path d=\"{path}\" fill=\"{color}\"/>");
                 }
-                Item::Line { points, stroke } => svg.push_str(&line(points, stroke)),
+                Item::Shape {
+                    rings,
+                    color,
+                    bleed,
+                } => svg.push_str(&shape(rings, *color, *bleed)),
+                Item::Line { points, stroke } => svg.push_str(&line(&path(points, false), stroke)),
+                Item::Lines { parts, stroke } => {
+                    let path: String = parts.iter().map(|part| short_path(part, false)).collect();
+                    svg.push_str(&line(&path, stroke));
+                }
                 Item::Words {
                     at,
                     text,
@@ -52,19 +57,59 @@ impl Drawing {
         svg.push_str("</svg>\n");
         Ok(svg)
     }
+
+    /// The page: its size, what it says of itself, its background.
+    fn head(&self) -> String {
+        let [width, height] = self.size;
+        let [across, down] = self.size.map(|side| match self.unit {
+            Some(unit) => format!("{}mm", number(f64::from(side) * unit)),
+            None => side.to_string(),
+        });
+        let mut svg = format!(
+            "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{across}\" height=\"{down}\" \
+             viewBox=\"0 0 {width} {height}\">\n"
+        );
+        if let Some(provenance) = &self.provenance {
+            let (title, rdf) = (escaped(&provenance.title), provenance.rdf());
+            let _ = writeln!(svg, "<title>{title}</title>\n<metadata>\n{rdf}</metadata>");
+        }
+        if let Some(background) = self.background {
+            let color = hex(background);
+            let _ = writeln!(
+                svg,
+                "<rect width=\"{width}\" height=\"{height}\" fill=\"{color}\"/>"
+            );
+        }
+        svg
+    }
 }
 
-fn line(points: &[DVec2], stroke: &Stroke) -> String {
+fn shape(rings: &[Vec<DVec2>], color: [u8; 3], bleed: f64) -> String {
+    let path: String = rings.iter().map(|ring| short_path(ring, true)).collect();
+    let color = hex(color);
+    let outline = if bleed > 0.0 {
+        let width = number(bleed);
+        format!(" stroke=\"{color}\" stroke-width=\"{width}\" stroke-linejoin=\"round\"")
+    } else {
+        String::new()
+    };
+    format!("<path d=\"{path}\" fill=\"{color}\"{outline}/>\n")
+}
+
+fn line(path: &str, stroke: &Stroke) -> String {
     let dash = match stroke.dash {
-        Some([dash, gap]) => {
+        Some([dash, gap, second, last]) if [dash, gap] == [second, last] => {
             format!(" stroke-dasharray=\"{} {}\"", number(dash), number(gap))
+        }
+        Some(lengths) => {
+            let lengths = lengths.map(number).join(" ");
+            format!(" stroke-dasharray=\"{lengths}\"")
         }
         None => String::new(),
     };
     format!(
-        "<path d=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"{}\" stroke-linecap=\"round\" \
+        "<path d=\"{path}\" fill=\"none\" stroke=\"{}\" stroke-width=\"{}\" stroke-linecap=\"round\" \
          stroke-linejoin=\"round\"{dash}/>\n",
-        path(points, false),
         hex(stroke.color),
         number(stroke.width),
     )
@@ -119,19 +164,31 @@ fn path(points: &[DVec2], closed: bool) -> String {
     path
 }
 
+/// [`path`] to a hundredth of a unit and without the letters that go without saying: shapes have many corners.
+fn short_path(points: &[DVec2], closed: bool) -> String {
+    let mut path = String::new();
+    for (k, point) in points.iter().enumerate() {
+        let [x, y] = point
+            .to_array()
+            .map(|value| trimmed(&format!("{value:.2}")));
+        let _ = write!(path, "{}{x} {y}", if k == 0 { 'M' } else { ' ' });
+    }
+    if closed {
+        path.push('Z');
+    }
+    path
+}
+
 /// To a thousandth of a unit.
 fn number(value: f64) -> String {
-    let text = format!("{value:.3}");
-    let text = text.trim_end_matches('0').trim_end_matches('.');
+    trimmed(&format!("{value:.3}"))
+}
+
+fn trimmed(decimals: &str) -> String {
+    let text = decimals.trim_end_matches('0').trim_end_matches('.');
     if text == "-0" { "0" } else { text }.to_owned()
 }
 
 fn hex([r, g, b]: [u8; 3]) -> String {
     format!("#{r:02x}{g:02x}{b:02x}")
-}
-
-fn escaped(text: &str) -> String {
-    text.replace('&', "&amp;")
-        .replace('<', "&lt;")
-        .replace('>', "&gt;")
 }

@@ -1,5 +1,41 @@
 //! Where every triangle is hidden by another.
+//!
+//! Noise and layer order may contradict each other in a circle: f before g before h before f. Such a point belongs to
+//! the nearest triangle f or to one that the order lifts before it; what neither leaves is a gap.
 
-use super::{Scene, VisibleArea};
+use glam::DVec2;
 
-pub(super) fn fill(_scene: &Scene<'_>, _areas: &mut [VisibleArea]) {}
+use super::hiding::{hidden_part, triangle};
+use super::plane::outside;
+use super::{LEAST_AREA, Scene, Seen};
+
+/// The gaps over triangle `face`, where it is the nearest: convex, each with the triangle that is seen in its middle.
+pub(super) fn over(scene: &Scene<'_>, face: u32, all: &[Seen]) -> Vec<(u32, Vec<DVec2>)> {
+    let seen = &all[face as usize];
+    if !seen.hiders.iter().any(|hider| hider.by_order) {
+        return Vec::new();
+    }
+    let mut near = Vec::new();
+    scene.grid.near(&scene.boxes[face as usize], &mut near);
+    let nearer = near.iter().filter(|&&other| other != face);
+    let mut clips: Vec<Vec<DVec2>> = nearer
+        .filter_map(|&other| hidden_part(scene.surface, other, face, 0.0))
+        .collect();
+    clips.extend(seen.pieces.iter().cloned());
+    for hider in seen.hiders.iter().filter(|hider| hider.by_order) {
+        clips.extend(all[hider.face as usize].pieces.iter().cloned());
+    }
+    let mut left = vec![triangle(scene.surface, face).to_vec()];
+    for clip in &clips {
+        for piece in std::mem::take(&mut left) {
+            outside(piece, clip, LEAST_AREA, &mut left);
+        }
+    }
+    let mut found = Vec::new();
+    let filled = left.into_iter().filter_map(|piece| {
+        let middle = piece.iter().sum::<DVec2>() / piece.len() as f64;
+        let front = scene.surface.front_covering(&near, middle, &mut found)?;
+        Some((front.face, piece))
+    });
+    filled.collect()
+}

@@ -20,8 +20,13 @@ pub(super) fn triangle(surface: &Surface<'_>, face: u32) -> [DVec2; 3] {
     }
 }
 
-/// The convex part of triangle `back` that triangle `front` hides, if it hides any.
-pub(super) fn hidden_part(surface: &Surface<'_>, front: u32, back: u32) -> Option<Vec<DVec2>> {
+/// The convex part of triangle `back` that triangle `front` hides if it does so where it is nearer by `threshold`.
+pub(super) fn hidden_part(
+    surface: &Surface<'_>,
+    front: u32,
+    back: u32,
+    threshold: f64,
+) -> Option<Vec<DVec2>> {
     let [screen_front, screen_back] = [front, back].map(|face| surface.face(face));
     let ([low, high], [other_low, other_high]) = (screen_front.extent(), screen_back.extent());
     let is_apart = low.cmpgt(other_high).any() || high.cmplt(other_low).any();
@@ -35,7 +40,6 @@ pub(super) fn hidden_part(surface: &Surface<'_>, front: u32, back: u32) -> Optio
     if part.is_empty() {
         return None;
     }
-    let threshold = surface.threshold(front, back);
     let gap = |p: DVec2| screen_front.plane(p) - screen_back.plane(p);
     if threshold == 0.0 && part.iter().all(|&p| gap(p).abs() < EQUAL_DEPTH) {
         part.truncate(if front < back { part.len() } else { 0 });

@@ -26,11 +26,11 @@ struct Half {
     inward: Option<DVec2>,
 }
 
-/// The visible parts of `edge`; `place`: where in the painting sequence a triangle stands.
+/// The visible parts of `edge`; `level`: that of a triangle.
 pub(super) fn seen_of(
     scene: &Scene<'_>,
     edge: u32,
-    place: &impl Fn(u32) -> u32,
+    level: &impl Fn(u32) -> u32,
 ) -> Vec<VisibleLine> {
     let surface = scene.surface;
     let sheet = surface.paper().sheet;
@@ -66,11 +66,12 @@ pub(super) fn seen_of(
         let seen = gaps(hidden.collect(), SHORTEST / length);
         found.extend(seen.into_iter().map(|[from, to]| (from, to, face)));
     }
-    joined_parts(found, place, SHORTEST / length)
+    joined_parts(found, level, SHORTEST / length)
         .into_iter()
         .map(|(from, to, face)| VisibleLine {
             edge,
             face,
+            level: level(face),
             ends: [from, to].map(|s| start + (end - start) * s),
         })
         .collect()
@@ -152,10 +153,10 @@ fn gaps(mut hidden: Vec<Interval>, least: f64) -> Vec<Interval> {
     seen
 }
 
-/// The union of the parts seen of both halves: where both are, the triangle that is painted later counts.
+/// The union of the parts seen of both halves: where both are, the triangle of the higher level counts.
 fn joined_parts(
     found: Vec<(f64, f64, u32)>,
-    place: &impl Fn(u32) -> u32,
+    level: &impl Fn(u32) -> u32,
     least: f64,
 ) -> Vec<(f64, f64, u32)> {
     let mut cuts: Vec<f64> = found.iter().flat_map(|part| [part.0, part.1]).collect();
@@ -167,7 +168,7 @@ fn joined_parts(
         let seen = found
             .iter()
             .filter(|part| part.0 < middle && middle < part.1);
-        let Some(face) = seen.map(|part| part.2).max_by_key(|&face| place(face)) else {
+        let Some(face) = seen.map(|part| part.2).max_by_key(|&face| level(face)) else {
             continue;
         };
         match joined.last_mut() {

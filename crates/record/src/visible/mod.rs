@@ -19,21 +19,24 @@ use rayon::prelude::*;
 
 use self::grid::Grid;
 use self::hiding::hidden_part;
-pub(crate) use self::plane::{Plane, Rings, doubled_area};
+use self::plane::outside;
+use self::plane::{Plane, Rings};
+pub(crate) use self::plane::{doubled_area, perimeter};
 use crate::Surface;
 
-/// Visible parts smaller than this are rounding, in square pixels.
+/// Visible parts whose doubled area is smaller are rounding, in square pixels.
 const LEAST_AREA: f64 = 1e-7;
 
-/// So many hiding polygons are subtracted at once: few, because most triangles that are hidden at all are hidden by the
-/// largest of them.
-const BATCH: usize = 12;
+/// Visible parts and holes narrower than this are rounding, in pixels.
+const LEAST_WIDTH: f64 = 1e-4;
 
 /// The visible part of a triangle.
 #[derive(Debug, Clone, PartialEq)]
 pub struct VisibleArea {
     /// The triangle.
     pub face: u32,
+    /// Above the levels of all that the triangle hides: painted in this order, what is in front lies on top.
+    pub level: u32,
     /// Closed rings in pixels; those of holes run the other way round than the ones around them.
     pub rings: Vec<Vec<DVec2>>,
 }
@@ -45,6 +48,8 @@ pub struct VisibleLine {
     pub edge: u32,
     /// The triangle on whose side it is seen, the front one of two.
     pub face: u32,
+    /// That of the triangle.
+    pub level: u32,
     /// Where it begins and ends, pixels, from the edge's first vertex towards its second.
     pub ends: [DVec2; 2],
 }
@@ -52,18 +57,19 @@ pub struct VisibleLine {
 /// What is seen of a sheet.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Visible {
-    /// Areas that do not overlap; each after those that its triangle hides in part.
+    /// Areas that do not overlap, by level.
     pub areas: Vec<VisibleArea>,
-    /// Creases, the border, and edges inside a facet where the facet turns over; in the same sequence.
+    /// Creases, the border, and edges inside a facet where the facet turns over, by level.
     pub lines: Vec<VisibleLine>,
 }
 
 impl Surface<'_> {
     /// The visible parts of all triangles and lines, whatever the width of lines.
     ///
-    /// Exact up to a grid of about a 2⁻²⁶th of the picture's sides. Every point belongs to the triangle that
-    /// [`Surface::front_at`] finds there for lines without width; where noise and layer order contradict each other in
-    /// a circle, so that every triangle is hidden by another, this is sampled. Takes about n + k time for n triangles and
+    /// Exact but for parts narrower than 1e-4 pixels and rounding to about a 2⁻²⁶th of the picture's sides. Every point
+    /// belongs to the triangle that [`Surface::front_at`] finds there for lines without width. Where noise and layer
+    /// order contradict each other in a circle, so that every triangle is hidden by another, one point decides for a
+    /// convex part, and no lines are seen in it. Takes about n + k time for n triangles and
     /// k pairs that overlap on the screen. Positions that do not project to finite pixels show nothing.
     pub fn visible(&self) -> Visible {
         let points = self.points().iter();
@@ -89,28 +95,58 @@ struct Scene<'a> {
     boxes: Vec<[DVec2; 2]>,
 }
 
+/// A triangle that hides a part of another.
+#[derive(Debug, Clone, Copy)]
+struct Hider {
+    face: u32,
+    /// Whether the layer order says so, not the depth.
+    by_order: bool,
+}
+
+/// What is seen of a triangle: convex pieces.
+#[derive(Debug, Default)]
+struct Seen {
+    pieces: Rings,
+    hiders: Vec<Hider>,
+}
+
 impl Scene<'_> {
     fn visible(&self) -> Visible {
-        let faces = (0..self.boxes.len() as u32).into_par_iter();
-        let (rings, hidden_by): (Vec<Rings>, Vec<Vec<u32>>) =
-            faces.map(|face| self.seen_of(face)).unzip();
+        let faces = || (0..self.boxes.len() as u32).into_par_iter();
+        let mut seen: Vec<Seen> = faces().map(|face| self.seen_of(face)).collect();
         let depths: Vec<f64> = self.surface.faces().iter().map(|f| f.middle()).collect();
-        let places = order::places(&hidden_by, &depths);
-        let place = |face: u32| places[face as usize];
-        let mut areas: Vec<VisibleArea> = (0..)
-            .zip(rings)
-            .map(|(face, rings)| VisibleArea { face, rings })
+        let levels = order::levels(&seen, &depths);
+        let level = |face: u32| levels[face as usize];
+        let gaps: Vec<_> = faces()
+            .flat_map_iter(|face| gaps::over(self, face, &seen))
             .collect();
-        gaps::fill(self, &mut areas);
-        areas.retain(|area| !area.rings.is_empty());
-        areas.sort_by_key(|area| place(area.face));
+        for (face, piece) in gaps {
+            seen[face as usize].pieces.push(piece);
+        }
+        let areas = faces().zip(seen).map(|(face, seen)| VisibleArea {
+            face,
+            level: level(face),
+            rings: self.joined(seen.pieces),
+        });
+        let mut areas: Vec<_> = areas.filter(|area| !area.rings.is_empty()).collect();
+        areas.sort_by_key(|area| (area.level, area.face));
         let edges = (0..self.surface.paper().sheet.edges.len() as u32).into_par_iter();
         let drawn = edges.filter(|&edge| self.is_drawn(edge));
         let mut lines: Vec<VisibleLine> = drawn
-            .flat_map_iter(|edge| lines::seen_of(self, edge, &place))
+            .flat_map_iter(|edge| lines::seen_of(self, edge, &level))
             .collect();
-        lines.sort_by_key(|line| (place(line.face), line.edge));
+        lines.sort_by_key(|line| (line.level, line.edge));
         Visible { areas, lines }
+    }
+
+    /// Convex pieces as one polygon.
+    fn joined(&self, pieces: Rings) -> Rings {
+        if pieces.len() < 2 {
+            return pieces;
+        }
+        let mut rings = self.plane.union(&pieces);
+        rings.retain(|ring| doubled_area(ring).abs() > LEAST_WIDTH * perimeter(ring));
+        rings
     }
 
     /// Whether `edge` is a line: every edge but those inside a facet that is seen from one side.
@@ -127,27 +163,31 @@ impl Scene<'_> {
     }
 
     /// What is seen of triangle `face`, and which triangles hide a part of it.
-    fn seen_of(&self, face: u32) -> (Rings, Vec<u32>) {
+    fn seen_of(&self, face: u32) -> Seen {
         let (mut near, mut hiders, mut clips) = (Vec::new(), Vec::new(), Vec::new());
         if self.surface.face(face).is_edge_on() {
-            return (Vec::new(), hiders);
+            return Seen::default();
         }
         self.grid.near(&self.boxes[face as usize], &mut near);
         for &other in near.iter().filter(|&&other| other != face) {
-            if let Some(part) = hidden_part(self.surface, other, face) {
-                hiders.push(other);
+            let threshold = self.surface.threshold(other, face);
+            if let Some(part) = hidden_part(self.surface, other, face, threshold) {
+                let by_order = threshold < 0.0;
+                hiders.push(Hider {
+                    face: other,
+                    by_order,
+                });
                 clips.push(part);
             }
         }
+        // Most that are hidden at all are hidden by the largest.
         clips.sort_by(|a, b| doubled_area(b).total_cmp(&doubled_area(a)));
-        let mut seen = vec![hiding::triangle(self.surface, face).to_vec()];
-        for batch in clips.chunks(BATCH) {
-            seen = self.plane.without(&seen, batch);
-            if seen.is_empty() {
-                break;
+        let mut pieces = vec![hiding::triangle(self.surface, face).to_vec()];
+        for clip in &clips {
+            for piece in std::mem::take(&mut pieces) {
+                outside(piece, clip, LEAST_AREA, &mut pieces);
             }
         }
-        seen.retain(|ring| doubled_area(ring).abs() > LEAST_AREA);
-        (seen, hiders)
+        Seen { pieces, hiders }
     }
 }

@@ -1,7 +1,9 @@
-//! The sequence in which triangles are painted: those behind first.
+//! The levels in which triangles are painted: those behind first.
 
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
+
+use super::Seen;
 
 /// A triangle that waits to be painted; the farthest is the greatest.
 #[derive(Debug, PartialEq)]
@@ -25,64 +27,70 @@ impl Ord for Waiting {
     }
 }
 
-/// The place of each triangle in the sequence, 0 first: each after all that it hides in part, as far as these relations
-/// run in no circle; of those that are free, the farthest first.
+/// The level of each triangle: above those of all that it hides in part, as far as these relations run in no circle;
+/// circles are broken at the farthest.
 ///
-/// `hidden_by`: for each triangle those that hide a part of it. `depths`: one a triangle, larger is nearer.
-pub(super) fn places(hidden_by: &[Vec<u32>], depths: &[f64]) -> Vec<u32> {
+/// `depths`: one a triangle, larger is nearer.
+pub(super) fn levels(seen: &[Seen], depths: &[f64]) -> Vec<u32> {
     let mut open = vec![0_u32; depths.len()];
-    for &front in hidden_by.iter().flatten() {
-        open[front as usize] += 1;
+    for hider in seen.iter().flat_map(|seen| &seen.hiders) {
+        open[hider.face as usize] += 1;
     }
     let waiting = |face: u32| Waiting {
         depth: depths[face as usize],
         face,
     };
     let mut all: Vec<Waiting> = (0..depths.len() as u32).map(waiting).collect();
+    let free = |face: &&Waiting| open[face.face as usize] == 0;
+    let free = all.iter().filter(free).map(|face| waiting(face.face));
+    let mut heap: BinaryHeap<Waiting> = free.collect();
     all.sort_unstable();
-    let free = |face: &Waiting| open[face.face as usize] == 0;
-    let mut heap: BinaryHeap<Waiting> = all
-        .iter()
-        .filter(|face| free(face))
-        .map(|face| waiting(face.face))
-        .collect();
-    let mut places = vec![u32::MAX; depths.len()];
-    let mut next = 0;
+    let (mut levels, mut is_done) = (vec![0; depths.len()], vec![false; depths.len()]);
     // In a circle the farthest goes first.
     while let Some(Waiting { face, .. }) = heap.pop().or_else(|| all.pop()) {
-        if places[face as usize] != u32::MAX {
+        if std::mem::replace(&mut is_done[face as usize], true) {
             continue;
         }
-        places[face as usize] = next;
-        next += 1;
-        for &front in &hidden_by[face as usize] {
-            let count = &mut open[front as usize];
-            *count -= 1;
-            if *count == 0 {
-                heap.push(waiting(front));
+        for hider in &seen[face as usize].hiders {
+            let front = hider.face as usize;
+            if !is_done[front] {
+                levels[front] = levels[front].max(levels[face as usize] + 1);
+            }
+            open[front] -= 1;
+            if open[front] == 0 {
+                heap.push(waiting(hider.face));
             }
         }
     }
-    places
+    levels
 }
 
 #[cfg(test)]
 mod tests {
+    use super::super::Hider;
     use super::*;
 
-    #[test]
-    fn what_is_hidden_is_painted_first_whatever_its_depth() {
-        let hidden_by = [vec![1], vec![2], vec![], vec![0]];
-        assert_eq!(places(&hidden_by, &[3.0, 2.0, 1.0, 9.0]), [1, 2, 3, 0]);
+    fn seen(hidden_by: &[&[u32]]) -> Vec<Seen> {
+        let hider = |&face: &u32| Hider {
+            face,
+            by_order: false,
+        };
+        let seen = |fronts: &&[u32]| Seen {
+            pieces: Vec::new(),
+            hiders: fronts.iter().map(hider).collect(),
+        };
+        hidden_by.iter().map(seen).collect()
     }
 
     #[test]
-    fn free_triangles_follow_their_depth_and_circles_are_broken_at_the_farthest() {
-        assert_eq!(
-            places(&[vec![], vec![], vec![]], &[5.0, 1.0, 3.0]),
-            [2, 0, 1]
-        );
-        let circle = [vec![1], vec![2], vec![0]];
-        assert_eq!(places(&circle, &[2.0, 1.0, 3.0]), [2, 0, 1]);
+    fn what_hides_lies_above_what_it_hides_whatever_the_depths() {
+        let all = seen(&[&[1, 2], &[2], &[], &[0], &[]]);
+        assert_eq!(levels(&all, &[3.0, 2.0, 1.0, 9.0, 5.0]), [1, 2, 3, 0, 0]);
+    }
+
+    #[test]
+    fn circles_are_broken_at_the_farthest() {
+        let circle = seen(&[&[1], &[2], &[0]]);
+        assert_eq!(levels(&circle, &[2.0, 1.0, 3.0]), [2, 0, 1]);
     }
 }

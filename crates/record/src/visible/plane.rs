@@ -32,29 +32,18 @@ impl Plane {
         Some(Self { grid })
     }
 
-    /// `subject` without `clips`, which all run the same way round.
-    pub(crate) fn without(&self, subject: &[Vec<DVec2>], clips: &[Vec<DVec2>]) -> Rings {
-        self.overlay(subject, clips, OverlayRule::Difference)
-    }
-
-    /// What any of `parts`, which all run the same way round but for their holes, covers.
+    /// What any of `parts`, which all run the same way round, covers.
     pub(crate) fn union(&self, parts: &[Vec<DVec2>]) -> Rings {
-        self.overlay(parts, &[], OverlayRule::Subject)
-    }
-
-    fn overlay(&self, subject: &[Vec<DVec2>], clips: &[Vec<DVec2>], rule: OverlayRule) -> Rings {
-        let corners = subject.iter().chain(clips).map(Vec::len).sum();
+        let corners = parts.iter().map(Vec::len).sum();
         let mut overlay = FloatOverlay::with_adapter(self.grid.clone(), corners);
         let mut ring = Vec::new();
-        let kinds = [(subject, ShapeType::Subject), (clips, ShapeType::Clip)];
-        for (rings, kind) in kinds {
-            for points in rings {
-                ring.clear();
-                ring.extend(points.iter().map(DVec2::to_array));
-                overlay = overlay.unsafe_add_contour(&ring, kind);
-            }
+        for points in parts {
+            ring.clear();
+            ring.extend(points.iter().map(DVec2::to_array));
+            overlay = overlay.unsafe_add_contour(&ring, ShapeType::Subject);
         }
-        let shapes = overlay.overlay(rule, FillRule::NonZero).into_iter();
+        let shapes = overlay.overlay(OverlayRule::Subject, FillRule::NonZero);
+        let shapes = shapes.into_iter();
         let rings = shapes.flatten();
         rings
             .map(|ring| ring.into_iter().map(DVec2::from).collect())
@@ -73,6 +62,12 @@ pub(crate) fn doubled_area(ring: &[DVec2]) -> f64 {
         .sum()
 }
 
+/// The length of the closed `ring`.
+pub(crate) fn perimeter(ring: &[DVec2]) -> f64 {
+    let next = ring.iter().cycle().skip(1);
+    ring.iter().zip(next).map(|(a, b)| a.distance(*b)).sum()
+}
+
 /// Keeps of the convex polygon `ring` where `value`, which is linear, is not negative (Sutherland and Hodgman 1974).
 pub(super) fn cut(ring: &mut Vec<DVec2>, value: impl Fn(DVec2) -> f64) {
     let values: Vec<f64> = ring.iter().map(|&p| value(p)).collect();
@@ -87,10 +82,40 @@ pub(super) fn cut(ring: &mut Vec<DVec2>, value: impl Fn(DVec2) -> f64) {
             kept.push(p);
         }
         if (v >= 0.0) != (w >= 0.0) {
-            kept.push(p + (ring[j] - p) * (v / (v - w)));
+            // From the same end either way, so that neighbours get the same point.
+            kept.push(if v >= 0.0 {
+                p + (ring[j] - p) * (v / (v - w))
+            } else {
+                ring[j] + (p - ring[j]) * (w / (w - v))
+            });
         }
     }
     *ring = kept;
+}
+
+/// The parts of the convex polygon `piece` outside the convex polygon `hole`, both along growing angles: convex, and
+/// without those that are not larger than `least` in doubled area.
+pub(super) fn outside(piece: Vec<DVec2>, hole: &[DVec2], least: f64, parts: &mut Rings) {
+    let side = |k: usize| {
+        let (a, b) = (hole[k], hole[(k + 1) % hole.len()]);
+        let normal = (b - a).normalize_or_zero().perp();
+        move |p: DVec2| normal.dot(p - a)
+    };
+    let is_apart = |k: usize| piece.iter().all(|&p| side(k)(p) <= 0.0);
+    if (0..hole.len()).any(is_apart) {
+        parts.push(piece);
+        return;
+    }
+    let mut rest = piece;
+    for k in 0..hole.len() {
+        let inside = side(k);
+        let mut part = rest.clone();
+        cut(&mut part, |p| -inside(p));
+        if doubled_area(&part) > least {
+            parts.push(part);
+        }
+        cut(&mut rest, inside);
+    }
 }
 
 #[cfg(test)]
@@ -111,18 +136,22 @@ mod tests {
     fn a_hole_is_cut_out_and_filled_again() {
         let plane = Plane::new(square(0.0, 10.0).into_iter()).unwrap();
         let (all, inner) = (square(0.0, 10.0), square(2.0, 4.0));
-        let holed = plane.without(&[all], std::slice::from_ref(&inner));
+        let mut parts = Vec::new();
+        outside(all.clone(), &inner, 0.0, &mut parts);
+        assert_eq!(parts.len(), 4);
+        assert!((area(&parts) - 96.0).abs() < 1e-12);
+        let holed = plane.union(&parts);
         assert_eq!(holed.len(), 2, "{holed:?}");
         assert!((area(&holed).abs() - 96.0).abs() < 1e-4);
-        let mut parts = holed;
-        let turned = area(&parts) < 0.0;
-        let mut inner = inner;
-        if turned {
-            inner.reverse();
-        }
-        parts.push(inner);
+        parts.push(inner.clone());
         let whole = plane.union(&parts);
+        assert_eq!(whole.len(), 1);
         assert!((area(&whole).abs() - 100.0).abs() < 1e-4, "{whole:?}");
+        for (piece, hole, left) in [(&all, square(10.0, 12.0), 1), (&inner, all.clone(), 0)] {
+            let mut parts = Vec::new();
+            outside(piece.clone(), &hole, 0.0, &mut parts);
+            assert_eq!(parts.len(), left, "beside and within");
+        }
     }
 
     #[test]

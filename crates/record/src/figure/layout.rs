@@ -1,0 +1,190 @@
+//! Where the states stand on the page.
+
+use glam::DVec2;
+
+use super::{Pose, StripOptions, UNIT, keys};
+use crate::RecordError;
+use crate::drawing::words_width;
+
+/// The distance of lines of text, in sizes of letters.
+pub(super) const LINE: f64 = 1.25;
+
+/// Kept free at the page's border and between states, in sizes of letters.
+const GAP: f64 = 1.0;
+
+/// Halvings in the search for the scale: beyond the digits of an f64.
+const HALVINGS: usize = 60;
+
+/// Where a state stands, without its label.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Cell {
+    /// The left upper corner.
+    pub(super) at: DVec2,
+    pub(super) size: DVec2,
+    /// Across the view, to the right and up: the middle of what is shown there, in the sheet's unit of length.
+    pub(super) extent: [DVec2; 2],
+}
+
+/// The page in its units.
+#[derive(Debug)]
+pub(super) struct Layout {
+    pub(super) page: [u32; 2],
+    /// Of a unit.
+    pub(super) millimetres: f64,
+    /// Units a length of the sheet.
+    pub(super) scale: f64,
+    pub(super) letters: f64,
+    pub(super) line_width: f64,
+    pub(super) cells: Vec<Cell>,
+    /// The left upper corner and the width of the foot.
+    pub(super) foot: (DVec2, f64),
+}
+
+/// What a state needs.
+#[derive(Debug)]
+struct Need {
+    extent: [DVec2; 2],
+    /// Room for the words at the box on each side.
+    margin: DVec2,
+    /// The width of the text below.
+    text: f64,
+    lines: usize,
+}
+
+impl Need {
+    fn new(pose: &Pose<'_>, options: &StripOptions, letters: f64) -> Result<Self, RecordError> {
+        let extent = options.view.extent(pose.points());
+        let (mut text, mut lines) = (0.0, 0);
+        for line in pose.captions() {
+            text = f64::max(text, words_width(line, letters)?);
+            lines += 1;
+        }
+        let mut widest: f64 = 0.0;
+        for size in pose.bounds.iter().flat_map(|bounds| &bounds.sizes) {
+            widest = widest.max(words_width(size, letters)?);
+        }
+        let margin = if widest > 0.0 {
+            DVec2::new(widest + letters, 1.6 * letters)
+        } else {
+            DVec2::ZERO
+        };
+        Ok(Self {
+            extent,
+            margin,
+            text,
+            lines,
+        })
+    }
+
+    /// At `scale`, without the text.
+    fn size(&self, scale: f64) -> DVec2 {
+        (self.extent[1] - self.extent[0]) * scale + 2.0 * self.margin
+    }
+
+    fn width(&self, scale: f64) -> f64 {
+        self.size(scale).x.max(self.text)
+    }
+}
+
+impl Layout {
+    pub(super) fn new(poses: &[Pose<'_>], options: &StripOptions) -> Result<Self, RecordError> {
+        #[expect(clippy::cast_sign_loss, reason = "widths are positive")]
+        let across = (options.width / UNIT).round().max(1.0) as u32;
+        let width = f64::from(across);
+        let millimetres = options.width / width;
+        let letters = options.letters / millimetres;
+        let needs = poses.iter().map(|pose| Need::new(pose, options, letters));
+        let needs: Vec<Need> = needs.collect::<Result<_, _>>()?;
+        let rows: Vec<&[Need]> = needs.chunks(options.columns.max(1)).collect();
+        let gap = GAP * letters;
+        let inner = width - 2.0 * gap;
+        let foot = keys::height(poses, options, letters, inner)?;
+        let room = options.height / millimetres - foot - gap;
+        let scale = fitting_scale(&rows, [inner, room], letters);
+        let scale = scale.ok_or(RecordError::NoRoom {
+            width: options.width,
+            height: options.height,
+            states: poses.len(),
+        })?;
+        let mut cells = Vec::with_capacity(poses.len());
+        let mut top = gap;
+        for row in &rows {
+            place_row(row, [inner, top, gap], scale, &mut cells);
+            top += row_height(row, scale, letters);
+        }
+        #[expect(clippy::cast_sign_loss, reason = "heights are positive")]
+        let down = (top + foot).ceil().max(1.0) as u32;
+        Ok(Self {
+            page: [across, down],
+            millimetres,
+            scale,
+            letters,
+            line_width: options.line_width / millimetres,
+            cells,
+            foot: (DVec2::new(gap, top), inner),
+        })
+    }
+}
+
+/// The widest scale at which every row and all rows together fit into `room`, none where the text alone does not.
+fn fitting_scale(rows: &[&[Need]], room: [f64; 2], letters: f64) -> Option<f64> {
+    let fits = |scale: f64| {
+        let widest = rows.iter().map(|row| row_width(row, scale, letters));
+        let high: f64 = rows.iter().map(|row| row_height(row, scale, letters)).sum();
+        widest.fold(0.0, f64::max) <= room[0] && high <= room[1]
+    };
+    let needs = || rows.iter().copied().flatten();
+    let largest = needs().map(|need| (need.extent[1] - need.extent[0]).max_element());
+    let largest = largest.fold(0.0, f64::max);
+    if !fits(0.0) || !largest.is_finite() {
+        return None;
+    }
+    // States of no extent are shown at one unit a length.
+    let mut too_large = if largest > 0.0 {
+        (room[0] + room[1]) / largest
+    } else {
+        1.0
+    };
+    if fits(too_large) {
+        return Some(too_large);
+    }
+    let mut fitting = 0.0;
+    for _ in 0..HALVINGS {
+        let middle = 0.5 * (fitting + too_large);
+        if fits(middle) {
+            fitting = middle;
+        } else {
+            too_large = middle;
+        }
+    }
+    (fitting > 0.0).then_some(fitting)
+}
+
+fn row_width(row: &[Need], scale: f64, letters: f64) -> f64 {
+    let gaps = GAP * letters * (row.len() - 1) as f64;
+    gaps + row.iter().map(|need| need.width(scale)).sum::<f64>()
+}
+
+fn row_height(row: &[Need], scale: f64, letters: f64) -> f64 {
+    let high = row.iter().map(|need| need.size(scale).y);
+    let lines = row.iter().map(|need| need.lines).max().unwrap_or(0);
+    high.fold(0.0, f64::max) + letters * (LINE * lines as f64 + 2.0 * GAP)
+}
+
+/// Spreads a row over the width; the states stand on a common ground.
+fn place_row(row: &[Need], [inner, top, gap]: [f64; 3], scale: f64, cells: &mut Vec<Cell>) {
+    let high = row.iter().map(|need| need.size(scale).y);
+    let high = high.fold(0.0, f64::max);
+    let used: f64 = row.iter().map(|need| need.width(scale)).sum();
+    let between = (inner - used) / row.len() as f64;
+    let mut left = gap + 0.5 * between;
+    for need in row {
+        let (size, width) = (need.size(scale), need.width(scale));
+        cells.push(Cell {
+            at: DVec2::new(left, top + high - size.y),
+            size: DVec2::new(width, size.y),
+            extent: need.extent,
+        });
+        left += width + between;
+    }
+}

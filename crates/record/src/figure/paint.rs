@@ -1,0 +1,141 @@
+//! A state as areas and lines of the page.
+
+use std::collections::BTreeMap;
+
+use foldmotion_pattern::Assignment;
+use glam::{DVec2, DVec3};
+
+use super::layout::{Cell, Layout};
+use super::{Pose, StripOptions};
+use crate::shade::encoded;
+use crate::visible::{Visible, doubled_area, perimeter};
+use crate::{Camera, Drawing, Paper, RecordError, Stroke, Surface, colour_of};
+
+/// Areas are painted this much wider, half of it on each side, so that no seam opens between neighbours; lines cover it.
+const BLEED: f64 = 0.3;
+
+/// Parts narrower than this would be all bleed, in units of the page.
+const NARROWEST: f64 = 0.02;
+
+/// The colour of the curve to compare with: bluish green (Okabe and Ito 2008).
+const TARGET: [u8; 3] = [0, 158, 115];
+
+/// Draws states of a sheet.
+pub(super) struct Painter<'a> {
+    pub(super) paper: &'a Paper<'a>,
+    pub(super) options: &'a StripOptions,
+    pub(super) layout: &'a Layout,
+}
+
+impl Painter<'_> {
+    /// Draws `pose` into `cell`.
+    pub(super) fn paint(
+        &self,
+        drawing: &mut Drawing,
+        pose: &Pose<'_>,
+        cell: &Cell,
+    ) -> Result<(), RecordError> {
+        let (options, scale) = (self.options, self.layout.scale);
+        let camera = Camera::centred(options.view, cell.extent, [1, 1], scale)?;
+        let shift = cell.at + 0.5 * cell.size - DVec2::splat(0.5);
+        let place = |point: DVec3| camera.project(point).truncate() + shift;
+        let surface = Surface::new(self.paper, &pose.positions, &camera, &options.style);
+        let visible = surface.visible();
+        if let Some(bounds) = &pose.bounds {
+            self.back_of_box(drawing, bounds, &camera, shift);
+        }
+        self.areas(drawing, pose, &surface, &visible, shift);
+        self.lines(drawing, pose, &visible, shift);
+        if let Some(bounds) = &pose.bounds {
+            self.front_of_box(drawing, bounds, &camera, shift);
+        }
+        if pose.target.len() > 1 {
+            let width = 2.0 * self.layout.line_width;
+            let stroke = Stroke::new(TARGET, width).dashed(4.0 * width, 3.0 * width);
+            drawing.line(pose.target.iter().map(|&p| place(p)), stroke);
+        }
+        Ok(())
+    }
+
+    fn areas(
+        &self,
+        drawing: &mut Drawing,
+        pose: &Pose<'_>,
+        surface: &Surface<'_>,
+        visible: &Visible,
+        shift: DVec2,
+    ) {
+        let inks = self.options.style.inks();
+        let color = |face: usize| {
+            let normal = surface.face(face as u32).normal;
+            if pose.marked.get(face) == Some(&true) {
+                return encoded(inks.marked(normal));
+            }
+            let value = pose
+                .values
+                .get(face)
+                .and_then(|&value| self.color_of(value));
+            value.unwrap_or_else(|| encoded(inks.paper(normal)))
+        };
+        for level in visible.areas.chunk_by(|a, b| a.level == b.level) {
+            // One path a colour keeps files small.
+            let mut by_color: BTreeMap<[u8; 3], Vec<Vec<DVec2>>> = BTreeMap::new();
+            for area in level {
+                let rings = by_color.entry(color(area.face as usize)).or_default();
+                let wide = area
+                    .rings
+                    .iter()
+                    .filter(|ring| doubled_area(ring).abs() > NARROWEST * perimeter(ring));
+                rings.extend(wide.map(|ring| ring.iter().map(|&p| p + shift).collect()));
+            }
+            for (color, rings) in by_color {
+                if !rings.is_empty() {
+                    drawing.shape(rings, color, BLEED);
+                }
+            }
+        }
+    }
+
+    fn lines(&self, drawing: &mut Drawing, pose: &Pose<'_>, visible: &Visible, shift: DVec2) {
+        let (options, width) = (self.options, self.layout.line_width);
+        for level in visible.lines.chunk_by(|a, b| a.level == b.level) {
+            // The border comes last, where it goes over the ends of creases.
+            let mut looks: BTreeMap<(u8, [u8; 3]), (Stroke, Vec<[DVec2; 2]>)> = BTreeMap::new();
+            for line in level {
+                let assignment = self.paper.sheet.edges[line.edge as usize].assignment;
+                let value = pose.bars.get(line.edge as usize);
+                let (rank, stroke) = match value.and_then(|&value| self.color_of(value)) {
+                    Some(color) => (4, Stroke::new(color, 3.0 * width)),
+                    None => {
+                        let color = options.style.line(assignment);
+                        let stroke = options.lines.stroke(assignment, color, width);
+                        (rank(assignment), stroke)
+                    }
+                };
+                let look = looks.entry((rank, stroke.color));
+                let (_, parts) = look.or_insert_with(|| (stroke, Vec::new()));
+                parts.push(line.ends.map(|p| p + shift));
+            }
+            for (stroke, parts) in looks.into_values() {
+                drawing.lines(parts, stroke);
+            }
+        }
+    }
+
+    /// The colour of a value, if values are shown and it is one.
+    fn color_of(&self, value: f64) -> Option<[u8; 3]> {
+        let [low, high] = self.options.legend.as_ref()?.range;
+        let part = (value - low) / (high - low);
+        (!part.is_nan()).then(|| colour_of(part))
+    }
+}
+
+/// Where a line stands in the sequence of painting within a level.
+fn rank(assignment: Assignment) -> u8 {
+    match assignment {
+        Assignment::Facet | Assignment::Free => 0,
+        Assignment::Valley => 1,
+        Assignment::Mountain => 2,
+        Assignment::Border => 3,
+    }
+}

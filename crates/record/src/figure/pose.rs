@@ -1,0 +1,132 @@
+//! One state of a strip.
+
+use foldmotion_pattern::{LayerOrder, Motion, Sheet};
+use glam::DVec3;
+
+use crate::caption::stage;
+use crate::{Marks, RecordError, positions_at};
+
+/// A box around a state, with its sizes.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Bounds {
+    /// The corner with the least coordinates.
+    pub low: DVec3,
+    /// The corner with the largest.
+    pub high: DVec3,
+    /// What stands at an edge along x, y and z; empty: nothing.
+    pub sizes: [String; 3],
+    /// What stands below the label, such as a closed form.
+    pub words: String,
+}
+
+/// One state of a strip.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Pose<'a> {
+    /// One a vertex.
+    pub positions: Vec<DVec3>,
+    /// Of the triangles that coincide.
+    pub order: &'a LayerOrder,
+    /// Below the state.
+    pub label: String,
+    /// For each triangle whether it takes the colour of marks; empty: none does.
+    pub marked: Vec<bool>,
+    /// One value a triangle, shown as its colour; one that is not a number shows the paper. Empty: none.
+    pub values: Vec<f64>,
+    /// One value an edge, shown as the line's colour; one that is not a number shows the line. Empty: none.
+    pub bars: Vec<f64>,
+    /// A curve to compare with, drawn over the state; empty: none.
+    pub target: Vec<DVec3>,
+    /// The box around the state.
+    pub bounds: Option<Bounds>,
+}
+
+impl<'a> Pose<'a> {
+    /// The state at `positions` with `label` and nothing else.
+    pub fn new(positions: Vec<DVec3>, order: &'a LayerOrder, label: impl Into<String>) -> Self {
+        Self {
+            positions,
+            order,
+            label: label.into(),
+            marked: Vec::new(),
+            values: Vec::new(),
+            bars: Vec::new(),
+            target: Vec::new(),
+            bounds: None,
+        }
+    }
+
+    /// The state of `motion` at motion time `time`, labelled with time and stage, and with what `marks` mark then.
+    ///
+    /// Precondition: the times of the motion increase.
+    pub fn at(motion: &'a Motion, marks: &Marks, time: f64) -> Self {
+        let positions = positions_at(motion, time);
+        let label = format!("t = {time}, {}", stage(time));
+        let marked = if marks.is_empty() {
+            Vec::new()
+        } else {
+            marks.at(&motion.sheet, time, time)
+        };
+        Self {
+            marked,
+            ..Self::new(positions, &motion.compact_order, label)
+        }
+    }
+
+    /// Refuses lists that do not fit `sheet`, and points that are not finite.
+    pub(super) fn check(&self, sheet: &Sheet, frame: usize) -> Result<(), RecordError> {
+        let lists = [
+            (self.marked.len(), sheet.faces.len()),
+            (self.values.len(), sheet.faces.len()),
+            (self.bars.len(), sheet.edges.len()),
+        ];
+        for (found, expected) in lists {
+            if found != 0 && found != expected {
+                return Err(RecordError::ValueCount {
+                    frame,
+                    found,
+                    expected,
+                });
+            }
+        }
+        let corners = self.bounds.iter().flat_map(|b| [b.low, b.high]);
+        let mut points = self.target.iter().copied().chain(corners).enumerate();
+        match points.find(|(_, p)| !p.is_finite()) {
+            None => Ok(()),
+            Some((vertex, position)) => Err(RecordError::NotFinite {
+                frame,
+                vertex,
+                position: position.to_array(),
+            }),
+        }
+    }
+
+    /// All points that are shown.
+    pub(super) fn points(&self) -> impl Iterator<Item = DVec3> {
+        let corners = self.bounds.iter().flat_map(Bounds::corners);
+        let points = self.positions.iter().chain(&self.target).copied();
+        points.chain(corners)
+    }
+
+    /// The lines of text below the state.
+    pub(super) fn captions(&self) -> impl Iterator<Item = &str> {
+        let words = self.bounds.as_ref().map(|bounds| &bounds.words[..]);
+        let lines = [Some(&self.label[..]), words].into_iter().flatten();
+        lines.filter(|line| !line.is_empty())
+    }
+}
+
+impl Bounds {
+    /// Corner k has the larger coordinate i where bit i of k is set.
+    pub(super) fn corners(&self) -> [DVec3; 8] {
+        std::array::from_fn(|k| {
+            let pick = |i: usize| {
+                if k >> i & 1 == 1 {
+                    self.high[i]
+                } else {
+                    self.low[i]
+                }
+            };
+            DVec3::new(pick(0), pick(1), pick(2))
+        })
+    }
+}
