@@ -280,22 +280,19 @@ fn between(units: &UnitSheet, part: f64) -> Vec<DVec3> {
 
 #[test]
 fn areas_are_those_that_rays_meet_first_from_flat_to_compact() {
-    let mut all = Count::default();
+    let mut compared = 0;
     for units in sheets() {
         let order = units.compact_order();
-        for part in [0.3, 0.9, 0.995, 1.0] {
+        for part in [0.0, 0.3, 0.6, 0.9, 0.995, 1.0] {
             let positions = between(&units, part);
             for state in states(&units, &positions, &order) {
-                let count = compare_areas(&state, &state.visible(), 150);
+                let count = compare_areas(&state, &state.visible(), 400);
                 assert_eq!(count.wrong, 0, "{:?} {part}: {count:?}", units.unit.case);
-                all.compared += count.compared;
-                all.circles += count.circles;
+                compared += count.compared;
             }
         }
     }
-    eprintln!("{all:?}");
-    assert!(all.compared > 5_000, "{all:?}");
-    assert!(all.circles * 100 < all.compared, "{all:?}");
+    assert!(compared > 20_000, "{compared}");
 }
 
 #[test]
@@ -303,16 +300,16 @@ fn lines_are_seen_where_rays_beside_them_meet_their_triangles_first() {
     let mut compared = 0;
     for units in sheets() {
         let order = units.compact_order();
-        for part in [0.3, 0.9, 0.995, 1.0] {
+        for part in [0.0, 0.3, 0.6, 0.9, 0.995, 1.0] {
             let positions = between(&units, part);
             for state in states(&units, &positions, &order) {
-                let count = compare_lines(&state, &state.visible(), 150);
+                let count = compare_lines(&state, &state.visible(), 400);
                 assert_eq!(count.wrong, 0, "{:?} {part}: {count:?}", units.unit.case);
                 compared += count.compared;
             }
         }
     }
-    assert!(compared > 2_000, "{compared}");
+    assert!(compared > 10_000, "{compared}");
 }
 
 #[test]
@@ -339,4 +336,85 @@ fn a_sheet_seen_in_another_order_or_state_is_found_out() {
         assert!(compare_areas(state, &visible, 400).wrong > 4);
         assert!(compare_lines(state, &visible, 400).wrong > 4);
     }
+}
+
+/// Area inside the rings of `area`, holes taken off.
+fn size(area: &VisibleArea) -> f64 {
+    let ring = |ring: &Vec<DVec2>| -> f64 {
+        let next = ring.iter().cycle().skip(1);
+        ring.iter().zip(next).map(|(a, b)| a.perp_dot(*b)).sum()
+    };
+    0.5 * area.rings.iter().map(ring).sum::<f64>().abs()
+}
+
+/// The state of `sheet` from above, 24 pixels a unit of length.
+fn from_top<'a>(sheet: &'a Sheet, positions: &'a [DVec3], order: &'a LayerOrder) -> State<'a> {
+    State {
+        sheet,
+        positions,
+        order,
+        camera: camera(),
+    }
+}
+
+#[test]
+fn squares_that_penetrate_are_cut_where_their_planes_meet() {
+    let sheet = two_squares();
+    let mut positions = sheet.planar();
+    // The second rises through the first at x = 0.25.
+    for p in &mut positions[4..] {
+        p.z = p.x - 0.25;
+    }
+    let none = LayerOrder::default();
+    let state = from_top(&sheet, &positions, &none);
+    let visible = state.visible();
+    let seen = |faces: [u32; 2]| -> f64 {
+        let areas = visible
+            .areas
+            .iter()
+            .filter(|area| faces.contains(&area.face));
+        areas.map(size).sum::<f64>() / state.camera.scale().powi(2)
+    };
+    assert!((seen([0, 1]) - 0.25).abs() < 1e-5, "{}", seen([0, 1]));
+    assert!((seen([2, 3]) - 0.75).abs() < 1e-5, "{}", seen([2, 3]));
+    // The side y = 0 of the second is hidden as far as x = 0.25.
+    let edge = sheet
+        .edges
+        .iter()
+        .position(|e| e.vertices == [4, 5])
+        .unwrap();
+    let lines = visible.lines.iter().filter(|line| line.edge == edge as u32);
+    let length: f64 = lines.map(|line| line.ends[0].distance(line.ends[1])).sum();
+    assert!(
+        (length / state.camera.scale() - 0.75).abs() < 1e-9,
+        "{length}"
+    );
+}
+
+#[test]
+fn where_an_order_runs_in_a_circle_every_point_still_has_one_triangle() {
+    let corners = [DVec2::ZERO, DVec2::X, DVec2::new(0.4, 0.9)];
+    let vertices: Vec<DVec2> = corners.into_iter().cycle().take(9).collect();
+    let sheet = sheet(&vertices, &[[0, 1, 2], [3, 4, 5], [6, 7, 8]], &[]);
+    let mut order = LayerOrder::default();
+    for (f, g) in [(0, 1), (1, 2), (2, 0)] {
+        order.insert(f, g, 1);
+        order.insert(g, f, -1);
+    }
+    let lift = |(k, p): (usize, DVec3)| p + DVec3::new(0.1, 0.05, 0.002) * (k / 3) as f64;
+    let positions: Vec<DVec3> = sheet.planar().into_iter().enumerate().map(lift).collect();
+    let state = from_top(&sheet, &positions, &order);
+    let visible = state.visible();
+    let count = compare_areas(&state, &visible, 400);
+    assert_eq!(count.wrong, 0, "{count:?}");
+    assert!(count.circles > 100, "{count:?}");
+    let paper = Paper::new(&sheet, &order);
+    let surface = Surface::new(&paper, &positions, &state.camera, &plain());
+    let middle = state.camera.project(DVec3::new(0.6, 0.4, 0.0)).truncate();
+    let front = surface.front_at(middle).map(|front| front.face);
+    let areas = visible.areas.iter().filter(|area| holds(area, middle));
+    assert_eq!(
+        areas.map(|area| area.face).collect::<Vec<_>>(),
+        [front.unwrap()]
+    );
 }

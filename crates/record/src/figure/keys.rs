@@ -8,8 +8,8 @@ use super::{Legend, Pose, StripOptions};
 use crate::drawing::words_width;
 use crate::{Anchor, Drawing, RecordError, Stroke, colour_of};
 
-/// The height of a row of keys in sizes of letters.
-const ROW: f64 = 3.4;
+/// The height of a row of keys in sizes of letters, with a scale of colours and without.
+const ROW: [f64; 2] = [3.6, 2.0];
 
 /// The colour of bars and ticks.
 const INK: [u8; 3] = [38, 38, 42];
@@ -96,6 +96,11 @@ fn places(
     Ok(places)
 }
 
+/// The height of a row.
+fn row(options: &StripOptions, letters: f64) -> f64 {
+    ROW[usize::from(options.legend.is_none())] * letters
+}
+
 /// The height of the foot.
 pub(super) fn height(
     poses: &[Pose<'_>],
@@ -109,7 +114,7 @@ pub(super) fn height(
     }
     let places = places(&keys, options, letters, inner)?;
     let rows = places.last().map_or(0, |place| place.0) + 1;
-    Ok(ROW * letters * rows as f64)
+    Ok(row(options, letters) * rows as f64)
 }
 
 /// Draws the foot.
@@ -122,8 +127,9 @@ pub(super) fn draw(
     let (corner, inner) = layout.foot;
     let keys = keys(poses, options);
     let places = places(&keys, options, layout.letters, inner)?;
+    let high = row(options, layout.letters);
     let mut ats = places.into_iter().map(|(row, x)| {
-        let y = ROW * layout.letters * (row as f64 + 0.5);
+        let y = high * (row as f64 + 0.5);
         corner + DVec2::new(x, y)
     });
     if let Some(at) = ats.next().filter(|_| !options.unit.is_empty()) {

@@ -168,7 +168,7 @@ fn row_width(row: &[Need], scale: f64, letters: f64) -> f64 {
 fn row_height(row: &[Need], scale: f64, letters: f64) -> f64 {
     let high = row.iter().map(|need| need.size(scale).y);
     let lines = row.iter().map(|need| need.lines).max().unwrap_or(0);
-    high.fold(0.0, f64::max) + letters * (LINE * lines as f64 + 2.0 * GAP)
+    high.fold(0.0, f64::max) + letters * (LINE * lines as f64 + GAP)
 }
 
 /// Spreads a row over the width; the states stand on a common ground.

@@ -44,8 +44,8 @@ impl LineStyle {
     pub(super) fn stroke(self, assignment: Assignment, color: [u8; 3], width: f64) -> Stroke {
         let stroke = Stroke::new(color, width);
         match (self, assignment) {
-            (Self::Dashed, Assignment::Mountain) => stroke.dash_dotted(6.0 * width, 3.0 * width),
-            (Self::Dashed, Assignment::Valley) => stroke.dashed(4.0 * width, 3.0 * width),
+            (Self::Dashed, Assignment::Mountain) => stroke.dash_dotted(5.0 * width, 2.5 * width),
+            (Self::Dashed, Assignment::Valley) => stroke.dashed(2.5 * width, 2.5 * width),
             _ => stroke,
         }
     }

@@ -2,7 +2,8 @@
 //!
 //! Each state is what [`Surface::visible`] sees of it, so a figure hides what pictures of pixels hide. Areas take the
 //! light of pictures; lines are drawn over them, those in front last. States stand in rows with a label below each; keys
-//! of scale, lines and colours stand at the foot.
+//! of scale, lines and colours stand at the foot. Creases of facets seen so nearly edge-on that their lines would run
+//! together are left out.
 
 mod bounds;
 mod keys;
@@ -146,7 +147,7 @@ pub fn strip(
         painter.paint(&mut drawing, pose, cell)?;
         let middle = cell.at.x + 0.5 * cell.size.x;
         for (line, text) in pose.captions().enumerate() {
-            let y = cell.at.y + cell.size.y + layout.letters * (1.0 + layout::LINE * line as f64);
+            let y = cell.at.y + cell.size.y + layout.letters * (1.2 + layout::LINE * line as f64);
             let at = DVec2::new(middle, y);
             drawing.words(at, text, layout.letters, Anchor::Middle);
         }

@@ -8,14 +8,19 @@ use glam::{DVec2, DVec3};
 use super::layout::{Cell, Layout};
 use super::{Pose, StripOptions};
 use crate::shade::encoded;
-use crate::visible::{Visible, doubled_area, perimeter};
-use crate::{Camera, Drawing, Paper, RecordError, Stroke, Surface, colour_of};
+use crate::visible::{doubled_area, perimeter};
+use crate::{
+    Camera, Drawing, Paper, RecordError, Stroke, Style, Surface, Visible, VisibleLine, colour_of,
+};
 
 /// Areas are painted this much wider, half of it on each side, so that no seam opens between neighbours; lines cover it.
 const BLEED: f64 = 0.3;
 
 /// Parts narrower than this would be all bleed, in units of the page.
 const NARROWEST: f64 = 0.02;
+
+/// A crease is drawn where the triangle beside it is at least this many line widths high.
+const ROOM: f64 = 1.5;
 
 /// The colour of the curve to compare with: bluish green (Okabe and Ito 2008).
 const TARGET: [u8; 3] = [0, 158, 115];
@@ -39,13 +44,17 @@ impl Painter<'_> {
         let camera = Camera::centred(options.view, cell.extent, [1, 1], scale)?;
         let shift = cell.at + 0.5 * cell.size - DVec2::splat(0.5);
         let place = |point: DVec3| camera.project(point).truncate() + shift;
-        let surface = Surface::new(self.paper, &pose.positions, &camera, &options.style);
+        let style = Style {
+            line_width: 0.0,
+            ..options.style.clone()
+        };
+        let surface = Surface::new(self.paper, &pose.positions, &camera, &style);
         let visible = surface.visible();
         if let Some(bounds) = &pose.bounds {
             self.back_of_box(drawing, bounds, &camera, shift);
         }
         self.areas(drawing, pose, &surface, &visible, shift);
-        self.lines(drawing, pose, &visible, shift);
+        self.lines(drawing, pose, &surface, &visible, shift);
         if let Some(bounds) = &pose.bounds {
             self.front_of_box(drawing, bounds, &camera, shift);
         }
@@ -96,12 +105,19 @@ impl Painter<'_> {
         }
     }
 
-    fn lines(&self, drawing: &mut Drawing, pose: &Pose<'_>, visible: &Visible, shift: DVec2) {
+    fn lines(
+        &self,
+        drawing: &mut Drawing,
+        pose: &Pose<'_>,
+        surface: &Surface<'_>,
+        visible: &Visible,
+        shift: DVec2,
+    ) {
         let (options, width) = (self.options, self.layout.line_width);
         for level in visible.lines.chunk_by(|a, b| a.level == b.level) {
             // The border comes last, where it goes over the ends of creases.
             let mut looks: BTreeMap<(u8, [u8; 3]), (Stroke, Vec<[DVec2; 2]>)> = BTreeMap::new();
-            for line in level {
+            for line in level.iter().filter(|line| self.has_room(line, surface)) {
                 let assignment = self.paper.sheet.edges[line.edge as usize].assignment;
                 let value = pose.bars.get(line.edge as usize);
                 let (rank, stroke) = match value.and_then(|&value| self.color_of(value)) {
@@ -120,6 +136,28 @@ impl Painter<'_> {
                 drawing.lines(parts, stroke);
             }
         }
+    }
+
+    /// Whether `line` has room beside it on the screen: creases of facets seen nearly edge-on would run together to a
+    /// blot. What bounds the shape always has.
+    fn has_room(&self, line: &VisibleLine, surface: &Surface<'_>) -> bool {
+        let edge = &self.paper.sheet.edges[line.edge as usize];
+        let [Some(left), Some(right)] = edge.faces else {
+            return true;
+        };
+        if surface.face(left).faces_viewer() != surface.face(right).faces_viewer() {
+            return true;
+        }
+        let [start, end] = edge
+            .vertices
+            .map(|v| surface.points()[v as usize].truncate());
+        let along = (end - start).normalize_or_zero();
+        let sides = [left, right].into_iter().zip(line.seen);
+        sides.filter(|side| side.1).any(|(face, _)| {
+            let apex = self.paper.sheet.apex(face, edge);
+            let apex = apex.map_or(start, |v| surface.points()[v as usize].truncate());
+            along.perp_dot(apex - start).abs() > ROOM * self.layout.line_width
+        })
     }
 
     /// The colour of a value, if values are shown and it is one.

@@ -6,7 +6,7 @@
 use glam::DVec2;
 
 use super::hiding::{hidden_part, triangle};
-use super::plane::outside;
+use super::plane::{outside, tidy};
 use super::{LEAST_AREA, Scene, Seen};
 
 /// The gaps over triangle `face`, where it is the nearest: convex, each with the triangle that is seen in its middle.
@@ -25,6 +25,7 @@ pub(super) fn over(scene: &Scene<'_>, face: u32, all: &[Seen]) -> Vec<(u32, Vec<
     for hider in seen.hiders.iter().filter(|hider| hider.by_order) {
         clips.extend(all[hider.face as usize].pieces.iter().cloned());
     }
+    clips.iter_mut().for_each(tidy);
     let mut left = vec![triangle(scene.surface, face).to_vec()];
     for clip in &clips {
         for piece in std::mem::take(&mut left) {

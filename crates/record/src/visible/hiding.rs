@@ -3,7 +3,7 @@
 use glam::DVec2;
 
 use super::LEAST_AREA;
-use super::plane::{cut, doubled_area};
+use super::plane::{cut, doubled_area, tidy};
 use crate::Surface;
 
 /// Depths closer than this are equal, in pixels: triangles of one plane and no order, of which the first is in front.
@@ -46,5 +46,6 @@ pub(super) fn hidden_part(
     } else {
         cut(&mut part, |p| gap(p) - threshold);
     }
+    tidy(&mut part);
     (doubled_area(&part) > LEAST_AREA).then_some(part)
 }

@@ -51,8 +51,11 @@ pub(super) fn seen_of(
         .grid
         .near(&[start.min(end), start.max(end)], &mut near);
     near.retain(|other| beside().all(|face| face != *other));
-    let mut found: Vec<(f64, f64, u32)> = Vec::new();
-    for face in beside().filter(|face| is_edge_on || has_inside(face)) {
+    let mut found = Vec::new();
+    for (side, face) in (0..).zip(joined.faces) {
+        let Some(face) = face.filter(|face| is_edge_on || has_inside(face)) else {
+            continue;
+        };
         let inward = has_inside(&face).then(|| {
             let apex = sheet.apex(face, joined).unwrap_or(joined.vertices[0]);
             let normal = (end - start).perp() / length;
@@ -64,17 +67,23 @@ pub(super) fn seen_of(
             .iter()
             .filter_map(|&other| half.hidden_by(scene, other));
         let seen = gaps(hidden.collect(), SHORTEST / length);
-        found.extend(seen.into_iter().map(|[from, to]| (from, to, face)));
+        found.extend(seen.into_iter().map(|interval| (interval, side)));
     }
-    joined_parts(found, level, SHORTEST / length)
-        .into_iter()
-        .map(|(from, to, face)| VisibleLine {
+    let line = |(interval, seen): (Interval, [bool; 2])| {
+        let faces = joined.faces.into_iter().zip(seen).filter(|pair| pair.1);
+        let face = faces
+            .filter_map(|pair| pair.0)
+            .max_by_key(|&face| level(face));
+        face.map(|face| VisibleLine {
             edge,
             face,
+            seen,
             level: level(face),
-            ends: [from, to].map(|s| start + (end - start) * s),
+            ends: interval.map(|s| start + (end - start) * s),
         })
-        .collect()
+    };
+    let parts = joined_parts(&found, SHORTEST / length).into_iter();
+    parts.filter_map(line).collect()
 }
 
 impl Half {
@@ -153,27 +162,23 @@ fn gaps(mut hidden: Vec<Interval>, least: f64) -> Vec<Interval> {
     seen
 }
 
-/// The union of the parts seen of both halves: where both are, the triangle of the higher level counts.
-fn joined_parts(
-    found: Vec<(f64, f64, u32)>,
-    level: &impl Fn(u32) -> u32,
-    least: f64,
-) -> Vec<(f64, f64, u32)> {
-    let mut cuts: Vec<f64> = found.iter().flat_map(|part| [part.0, part.1]).collect();
+/// The union of the parts seen, each with its side of the edge: parts and the sides they are seen on.
+fn joined_parts(found: &[(Interval, usize)], least: f64) -> Vec<(Interval, [bool; 2])> {
+    let mut cuts: Vec<f64> = found.iter().flat_map(|part| part.0).collect();
     cuts.sort_by(f64::total_cmp);
     cuts.dedup_by(|b, a| *b - *a <= least);
-    let mut joined: Vec<(f64, f64, u32)> = Vec::new();
+    let mut joined: Vec<(Interval, [bool; 2])> = Vec::new();
     for pair in cuts.windows(2) {
         let middle = 0.5 * (pair[0] + pair[1]);
-        let seen = found
-            .iter()
-            .filter(|part| part.0 < middle && middle < part.1);
-        let Some(face) = seen.map(|part| part.2).max_by_key(|&face| level(face)) else {
-            continue;
-        };
+        let holds = |part: &&(Interval, usize)| part.0[0] < middle && middle < part.0[1];
+        let mut seen = [false; 2];
+        for (_, side) in found.iter().filter(holds) {
+            seen[*side] = true;
+        }
         match joined.last_mut() {
-            Some(last) if last.1 == pair[0] && last.2 == face => last.1 = pair[1],
-            _ => joined.push((pair[0], pair[1], face)),
+            _ if seen == [false; 2] => {}
+            Some(last) if last.0[1] == pair[0] && last.1 == seen => last.0[1] = pair[1],
+            _ => joined.push(([pair[0], pair[1]], seen)),
         }
     }
     joined
@@ -192,13 +197,17 @@ mod tests {
     }
 
     #[test]
-    fn halves_are_joined_and_the_front_one_names_the_part() {
-        let parts = vec![(0.0, 0.6, 0), (0.4, 1.0, 1)];
-        let by_index = joined_parts(parts.clone(), &|face| face, 1e-9);
-        assert_eq!(by_index, [(0.0, 0.4, 0), (0.4, 1.0, 1)]);
-        let other = joined_parts(parts, &|face| 1 - face, 1e-9);
-        assert_eq!(other, [(0.0, 0.6, 0), (0.6, 1.0, 1)]);
-        let apart = joined_parts(vec![(0.0, 0.2, 0), (0.5, 1.0, 0)], &|face| face, 1e-9);
-        assert_eq!(apart, [(0.0, 0.2, 0), (0.5, 1.0, 0)]);
+    fn halves_are_joined_and_say_on_which_sides_they_are_seen() {
+        let (left, right) = ([true, false], [false, true]);
+        let parts = [([0.0, 0.6], 0), ([0.4, 1.0], 1)];
+        let expected = [
+            ([0.0, 0.4], left),
+            ([0.4, 0.6], [true; 2]),
+            ([0.6, 1.0], right),
+        ];
+        assert_eq!(joined_parts(&parts, 1e-9), expected);
+        let apart = [([0.0, 0.2], 0), ([0.5, 1.0], 0)];
+        let expected = [([0.0, 0.2], left), ([0.5, 1.0], left)];
+        assert_eq!(joined_parts(&apart, 1e-9), expected);
     }
 }

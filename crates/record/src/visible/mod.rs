@@ -48,6 +48,8 @@ pub struct VisibleLine {
     pub edge: u32,
     /// The triangle on whose side it is seen, the front one of two.
     pub face: u32,
+    /// Whether it is seen on the triangles to its left and to its right, see [`foldmotion_pattern::Edge`].
+    pub seen: [bool; 2],
     /// That of the triangle.
     pub level: u32,
     /// Where it begins and ends, pixels, from the edge's first vertex towards its second.

@@ -11,6 +11,9 @@ use i_overlay::float::overlay::FloatOverlay;
 use i_overlay::i_float::adapter::FloatPointAdapter;
 use i_overlay::i_float::float::rect::FloatRect;
 
+/// Points closer than this are one, in pixels.
+const SAME_POINT: f64 = 1e-7;
+
 /// Closed rings; nothing is filled twice and rings of holes run the other way round.
 pub(crate) type Rings = Vec<Vec<DVec2>>;
 
@@ -93,7 +96,15 @@ pub(super) fn cut(ring: &mut Vec<DVec2>, value: impl Fn(DVec2) -> f64) {
     *ring = kept;
 }
 
-/// The parts of the convex polygon `piece` outside the convex polygon `hole`, both along growing angles: convex, and
+/// Drops corners that coincide with the one before: an edge of no length has no side.
+pub(super) fn tidy(ring: &mut Vec<DVec2>) {
+    ring.dedup_by(|b, a| a.distance(*b) < SAME_POINT);
+    while ring.len() > 1 && ring[0].distance(ring[ring.len() - 1]) < SAME_POINT {
+        ring.pop();
+    }
+}
+
+/// The parts of the convex polygon `piece` outside the convex polygon `hole`, both along growing angles, the hole tidy: convex, and
 /// without those that are not larger than `least` in doubled area.
 pub(super) fn outside(piece: Vec<DVec2>, hole: &[DVec2], least: f64, parts: &mut Rings) {
     let side = |k: usize| {
@@ -152,6 +163,18 @@ mod tests {
             outside(piece.clone(), &hole, 0.0, &mut parts);
             assert_eq!(parts.len(), left, "beside and within");
         }
+    }
+
+    #[test]
+    fn corners_that_coincide_do_not_hide_what_a_hole_cuts_out() {
+        let mut hole = square(2.0, 4.0);
+        hole.insert(1, hole[0]);
+        hole.push(hole[0] + 1e-12);
+        tidy(&mut hole);
+        assert_eq!(hole, square(2.0, 4.0));
+        let mut parts = Vec::new();
+        outside(square(0.0, 10.0), &hole, 0.0, &mut parts);
+        assert!((area(&parts) - 96.0).abs() < 1e-12);
     }
 
     #[test]
