@@ -161,12 +161,49 @@ pub(super) struct Vectors<S: Simd> {
 pub(super) type Quad = [f64; 4];
 
 impl<S: Simd> Vectors<S> {
+    /// The vectors of `points` that `indices` names, one a lane.
+    #[inline(always)]
+    pub(super) fn gather(simd: S, points: &[Quad], indices: &[u16]) -> Self {
+        let elements = elements(simd);
+        let mut quads = [[0.0; 4]; WIDTH];
+        for place in 0..S::F64_LANES {
+            quads[place] = points[indices[elements[place]] as usize];
+        }
+        Self::of_rows(simd, rows::<S>(&quads))
+    }
+
+    /// The vectors of a part of a group of quads, in any order.
+    #[inline(always)]
+    pub(super) fn load(simd: S, group: &[Quad; WIDTH], part: usize) -> Self {
+        let (rows, _) = S::as_simd_f64s(group.as_flattened());
+        let rows = &rows[4 * part..4 * part + 4];
+        Self::of_rows(simd, [rows[0], rows[1], rows[2], rows[3]])
+    }
+
+    #[inline(always)]
+    fn of_rows(simd: S, rows: [S::f64s; 4]) -> Self {
+        let [x, y, z, _] = simd.deinterleave_shfl_f64s(rows);
+        let lanes = Lanes { simd, value: x };
+        Self {
+            x: lanes,
+            y: lanes.with(y),
+            z: lanes.with(z),
+        }
+    }
+
     /// Writes the vectors of a part into a group of quads.
     #[inline(always)]
     pub(super) fn store(self, group: &mut [Quad; WIDTH], part: usize) {
-        let (x, y, z) = (self.x.to_array(), self.y.to_array(), self.z.to_array());
-        for lane in 0..S::F64_LANES {
-            group[part * S::F64_LANES + lane] = [x[lane], y[lane], z[lane], 0.0];
+        let simd = self.x.simd;
+        let zero = simd.splat_f64s(0.0);
+        let elements = elements(simd);
+        let mut quads = [[0.0; 4]; WIDTH];
+        let (rows, _) = S::as_mut_simd_f64s(quads.as_flattened_mut());
+        rows[..4].copy_from_slice(
+            &simd.interleave_shfl_f64s([self.x.value, self.y.value, self.z.value, zero]),
+        );
+        for place in 0..S::F64_LANES {
+            group[part * S::F64_LANES + elements[place]] = quads[place];
         }
     }
 
@@ -216,6 +253,29 @@ impl<S: Simd> Sub for Vectors<S> {
             z: self.z - other.z,
         }
     }
+}
+
+/// Quads as the vectors that hold them.
+#[inline(always)]
+fn rows<S: Simd>(quads: &[Quad; WIDTH]) -> [S::f64s; 4] {
+    let (rows, _) = S::as_simd_f64s(quads.as_flattened());
+    [rows[0], rows[1], rows[2], rows[3]]
+}
+
+/// The element whose quad stands at each place of a part, since taking quads apart may exchange lanes.
+#[inline(always)]
+fn elements<S: Simd>(simd: S) -> [usize; WIDTH] {
+    let mut quads = [[0.0; 4]; WIDTH];
+    for place in 0..S::F64_LANES {
+        quads[place] = [place as f64; 4];
+    }
+    let [x, ..] = simd.deinterleave_shfl_f64s(rows::<S>(&quads));
+    let places = Lanes { simd, value: x }.to_array();
+    let mut elements = [0; WIDTH];
+    for lane in 0..S::F64_LANES {
+        elements[places[lane] as usize] = lane;
+    }
+    elements
 }
 
 /// The processor and the vectors of this machine that the passes use.

@@ -55,18 +55,8 @@ impl<S: Simd> Part<S> {
     /// Of `points` those that the part of `indices` names.
     #[inline(always)]
     pub(super) fn vectors(self, points: &[Quad], indices: &[u16; WIDTH]) -> Vectors<S> {
-        let [mut x, mut y, mut z] = [[0.0; WIDTH]; 3];
-        for lane in 0..S::F64_LANES {
-            let point = &points[indices[self.index * S::F64_LANES + lane] as usize];
-            x[lane] = point[0];
-            y[lane] = point[1];
-            z[lane] = point[2];
-        }
-        Vectors {
-            x: Lanes::load(self.simd, &x, 0),
-            y: Lanes::load(self.simd, &y, 0),
-            z: Lanes::load(self.simd, &z, 0),
-        }
+        let first = self.index * S::F64_LANES;
+        Vectors::gather(self.simd, points, &indices[first..first + S::F64_LANES])
     }
 
     #[inline(always)]

@@ -24,7 +24,7 @@
 use pulp::{Simd, WithSimd};
 
 use super::angle::atan2;
-use super::lanes::{Lanes, Quad, WIDTH};
+use super::lanes::{Lanes, Quad, Vectors, WIDTH};
 use super::layout::Block;
 use super::part::{Edge, Face, LEAST_SQUARE, Part};
 
@@ -140,7 +140,7 @@ impl WithSimd for BlockStep<'_> {
         } else {
             self.face_loads::<S, true>(simd);
         }
-        self.node_step()
+        self.node_step(simd)
     }
 }
 
@@ -251,7 +251,7 @@ impl BlockStep<'_> {
 
     /// Sums the forces at each node and moves it.
     #[inline(always)]
-    fn node_step(&mut self) -> Totals {
+    fn node_step<S: Simd>(&mut self, simd: S) -> Totals {
         let Pace { dt, viscosity, .. } = self.pace;
         let keep = (1.0 - 0.5 * viscosity * dt) / (1.0 + 0.5 * viscosity * dt);
         let gain = dt / (1.0 + 0.5 * viscosity * dt);
@@ -276,7 +276,6 @@ impl BlockStep<'_> {
             .zip(after.forces.iter_mut())
             .zip(after.masses);
         let [mut work, mut path, mut speeds] = [[0.0; 4]; 3];
-        let (mut squared_force, mut largest_squared_speed) = (0.0f64, 0.0f64);
         for (((x, v), starts), (((new_x, new_v), force), mass)) in nodes.zip(written) {
             let [[end, corner], [last_end, last_corner]] = [starts[0], starts[1]];
             let mut sum = [0.0; 4];
@@ -288,23 +287,26 @@ impl BlockStep<'_> {
                 add(&mut sum, &corner_forces[slot as usize], 1.0);
             }
             let impulse = gain * mass.inverse;
+            // All is read before anything is written, so that the four numbers of a vector move together.
+            let (x, v, last_force) = (*x, *v, *force);
+            let [mut next_x, mut next_v] = [[0.0; 4]; 2];
             for k in 0..4 {
-                work[k] += v[k] * (force[k] - sum[k]);
+                work[k] += v[k] * (last_force[k] - sum[k]);
                 path[k] += v[k] * v[k] * mass.mass;
-                new_v[k] = v[k] * keep + sum[k] * impulse;
-                new_x[k] = x[k] + new_v[k] * dt;
-                speeds[k] += new_v[k] * new_v[k];
+                next_v[k] = v[k] * keep + sum[k] * impulse;
+                next_x[k] = x[k] + next_v[k] * dt;
+                speeds[k] += next_v[k] * next_v[k];
             }
+            *new_x = next_x;
+            *new_v = next_v;
             *force = sum;
-            squared_force = larger(squared(&sum), squared_force);
-            largest_squared_speed = larger(squared(new_v), largest_squared_speed);
         }
         Totals {
             work: work.iter().sum(),
             path: path.iter().sum(),
-            squared_force,
+            squared_force: largest_square(simd, after.forces),
             squared_speed: speeds.iter().sum(),
-            largest_squared_speed,
+            largest_squared_speed: largest_square(simd, after.velocities),
         }
     }
 }
@@ -325,13 +327,19 @@ fn add(sum: &mut Quad, term: &Quad, factor: f64) {
     }
 }
 
+/// The largest |v|² of `vectors`; those that are no number are passed over.
 #[inline(always)]
-fn squared(vector: &Quad) -> f64 {
-    vector[0] * vector[0] + vector[1] * vector[1] + vector[2] * vector[2]
-}
-
-/// The larger of two numbers; `other` where `number` is none.
-#[inline(always)]
-fn larger(number: f64, other: f64) -> f64 {
-    if number > other { number } else { other }
+fn largest_square<S: Simd>(simd: S, vectors: &[Quad]) -> f64 {
+    let (groups, rest) = vectors.as_chunks::<WIDTH>();
+    let mut largest = Lanes::splat(simd, 0.0);
+    for group in groups {
+        for part in 0..Lanes::<S>::PARTS {
+            let v = Vectors::load(simd, group, part);
+            let square = v.dot(v);
+            largest = largest.select_below(square, square, largest);
+        }
+    }
+    let rest = rest.iter().map(|[x, y, z, _]| x * x + y * y + z * z);
+    let lanes = largest.to_array();
+    rest.chain(lanes).fold(0.0, f64::max)
 }
