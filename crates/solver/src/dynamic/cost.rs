@@ -6,14 +6,13 @@ use super::layout::{EdgeGroup, FaceGroup};
 use super::passes::Mass;
 
 /// Additions, multiplications, divisions and roots of an edge without its damper, counted in `edge_loads`: 9 for the
-/// three differences, 5 + 3 for the length, 7 for the pull, 18 for the normals, 12 for sine and cosine, 34 for the angle,
+/// three differences, 5 + 3 for the length, 2 for the pull, 18 for the normals, 12 for sine and cosine, 34 for the angle,
 /// 10 for the turn and the moment.
-const EDGE_OPERATIONS: f64 = 98.0;
+const EDGE_OPERATIONS: f64 = 93.0;
 /// Of a triangle without its angle springs, counted in `face_loads`.
-const FACE_OPERATIONS: f64 = 64.0;
-/// Of a node beside its sums, counted in `node_step`, and of each end and corner in its sums.
+const FACE_OPERATIONS: f64 = 91.0;
+/// Of a node beside its sum, counted in `node_step`, and of each corner in it.
 const NODE_OPERATIONS: f64 = 36.0;
-const END_OPERATIONS: f64 = 6.0;
 const CORNER_OPERATIONS: f64 = 3.0;
 
 /// What one step takes.
@@ -41,15 +40,16 @@ impl State<'_> {
             let edges = block.edges.len() * size_of::<EdgeGroup>();
             let faces = block.faces.len() * size_of::<FaceGroup>();
             let angles = block.edges.len() * number;
-            let slots = 2 * (block.ends.len() + block.corners.len() + 2 * block.starts.len());
+            let corners = 2 * (block.corners.len() + block.corner_starts.len());
+            let ends = 2 * (block.ends.len() + block.end_starts.len());
             let halo = block.halo.len();
             // Angles are read and written, targets read.
-            bytes += edges + faces + 3 * angles + slots + halo * (quad + 4);
-            memory += edges + faces + 2 * angles + slots + halo * 4 + block.hinges.len() * 4;
+            bytes += edges + faces + 3 * angles + corners + halo * (quad + 4);
+            memory += edges + faces + 3 * angles + corners + ends + halo * 4;
+            memory += block.hinges.len() * 4;
             operations += EDGE_OPERATIONS * block.hinges.len() as f64
                 + FACE_OPERATIONS * (block.faces.len() * WIDTH) as f64
                 + NODE_OPERATIONS * block.owned as f64
-                + END_OPERATIONS * block.ends.len() as f64
                 + CORNER_OPERATIONS * block.corners.len() as f64;
         }
         // Positions and velocities are read and written, forces too, masses read.

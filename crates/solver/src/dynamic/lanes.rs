@@ -199,9 +199,12 @@ impl<S: Simd> Vectors<S> {
         let elements = elements(simd);
         let mut quads = [[0.0; 4]; WIDTH];
         let (rows, _) = S::as_mut_simd_f64s(quads.as_flattened_mut());
-        rows[..4].copy_from_slice(
-            &simd.interleave_shfl_f64s([self.x.value, self.y.value, self.z.value, zero]),
-        );
+        rows[..4].copy_from_slice(&simd.interleave_shfl_f64s([
+            self.x.value,
+            self.y.value,
+            self.z.value,
+            zero,
+        ]));
         for place in 0..S::F64_LANES {
             group[part * S::F64_LANES + elements[place]] = quads[place];
         }

@@ -27,11 +27,11 @@ pub(super) struct EdgeGroup {
     /// The ends and the apexes on the left and on the right, numbered within the block; an edge of the border has its one
     /// apex twice.
     pub(super) vertices: [[u16; WIDTH]; 4],
-    /// k of the bar.
+    /// k of the bar over the number of triangles at the edge.
     pub(super) stiffness: [f64; WIDTH],
-    /// k l₀.
+    /// k l₀ over that number.
     pub(super) tension: [f64; WIDTH],
-    /// Of the damper along the bar.
+    /// Of the damper along the bar, over that number.
     pub(super) damper: [f64; WIDTH],
     /// κ l₀ of the hinge; 0 without one.
     pub(super) hinge_stiffness: [f64; WIDTH],
@@ -61,10 +61,14 @@ pub(super) struct Block {
     pub(super) rest_angles: Vec<[[f64; WIDTH]; 3]>,
     /// The hinge of each edge in the model, or [`NO_HINGE`].
     pub(super) hinges: Vec<u32>,
-    /// Where the slots of each owned node start, and where the last ones end.
-    pub(super) starts: Vec<[u16; 2]>,
+    /// The number of triangles at each edge.
+    pub(super) triangles: Vec<[f64; WIDTH]>,
+    /// Where the ends of each owned node start, and where the last ones end.
+    pub(super) end_starts: Vec<u16>,
     /// The ends of bars at each owned node: twice the edge, and one more at its second end.
     pub(super) ends: Vec<u16>,
+    /// Where the corners of each owned node start, and where the last ones end.
+    pub(super) corner_starts: Vec<u16>,
     /// The corners of triangles at each owned node: (3 group + corner) WIDTH + lane.
     pub(super) corners: Vec<u16>,
 }
@@ -110,6 +114,8 @@ pub(super) struct Topology<'a> {
     pub(super) hinge_of: Vec<u32>,
     /// The corner of a triangle that does not lie on each edge.
     pub(super) apex_of: Vec<u32>,
+    /// The number of triangles at each edge, 1 or 2.
+    pub(super) triangles_at: Vec<f64>,
 }
 
 impl<'a> Topology<'a> {
@@ -135,9 +141,11 @@ impl<'a> Topology<'a> {
             hinge_of[hinge.edge as usize] = index as u32;
         }
         let mut apex_of = vec![0; model.bars.len()];
+        let mut triangles_at = vec![0.0; model.bars.len()];
         for (face, edges) in model.faces.iter().zip(&face_edges) {
             for (apex, edge) in face.iter().zip(edges) {
                 apex_of[*edge as usize] = *apex;
+                triangles_at[*edge as usize] += 1.0;
             }
         }
         Self {
@@ -147,6 +155,7 @@ impl<'a> Topology<'a> {
             face_edges,
             hinge_of,
             apex_of,
+            triangles_at,
         }
     }
 
@@ -201,8 +210,10 @@ impl Block {
                 .iter()
                 .map(|&edge| topology.hinge_of[edge as usize])
                 .collect(),
-            starts: Vec::with_capacity(owned + 1),
+            triangles: vec![[0.0; WIDTH]; edges.len().div_ceil(WIDTH)],
+            end_starts: Vec::with_capacity(owned + 1),
             ends: Vec::new(),
+            corner_starts: Vec::with_capacity(owned + 1),
             corners: Vec::new(),
         };
         block.fill_edges(model, topology, &edges);
@@ -234,9 +245,13 @@ impl Block {
             for (column, vertex) in record.vertices.iter_mut().zip(local) {
                 column[lane] = vertex;
             }
-            record.stiffness[lane] = bar.stiffness;
-            record.tension[lane] = bar.stiffness * bar.rest_length;
-            record.damper[lane] = 2.0 * model.material.damping_ratio * bar.stiffness.sqrt();
+            let triangles = topology.triangles_at[edge as usize];
+            let share = 1.0 / triangles;
+            let damper = 2.0 * model.material.damping_ratio * bar.stiffness.sqrt();
+            self.triangles[group][lane] = triangles;
+            record.stiffness[lane] = share * bar.stiffness;
+            record.tension[lane] = share * bar.stiffness * bar.rest_length;
+            record.damper[lane] = share * damper;
             record.hinge_stiffness[lane] = hinge.map_or(0.0, |hinge| hinge.stiffness);
         }
     }
@@ -290,14 +305,15 @@ impl Block {
             let (face, corner) = (*slot as usize / 3, *slot as usize % 3);
             ((3 * (face / WIDTH) + corner) * WIDTH + face % WIDTH) as u16
         };
-        self.starts.push([0; 2]);
+        self.end_starts.push(0);
+        self.corner_starts.push(0);
         for node in 0..self.owned {
             self.ends
                 .extend(ends.slots(node).iter().map(|&slot| slot as u16));
             self.corners
                 .extend(corners.slots(node).iter().map(corner_slot));
-            self.starts
-                .push([self.ends.len() as u16, self.corners.len() as u16]);
+            self.end_starts.push(self.ends.len() as u16);
+            self.corner_starts.push(self.corners.len() as u16);
         }
     }
 }

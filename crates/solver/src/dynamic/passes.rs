@@ -3,12 +3,15 @@
 //! `edge_loads` evaluates each bar and hinge once: the pull of the bar, with its damper, and what the hinge asks of its
 //! two triangles,
 //!
-//! p = k (1 − l₀/l) e + d (v₁ − v₀),  g = κ l₀ (θ* − θ) / l,  e = x₁ − x₀, l = |e|.
+//! p = k (1 − l₀/l) e + d (v₁ − v₀),  g = κ l₀ (θ* − θ) / l,  e = x₁ − x₀, l = |e|,
+//!
+//! as the three numbers k (1 − l₀/l), d and g; the first two shared out to the triangles at the edge.
 //!
 //! θ = atan2(l b·n_left, n_left·n_right) with n_left = e × a, n_right = b × e and a, b from x₀ to the apexes; it is
 //! `foldmotion_geometry::fold_angle` since (n_right × n_left)·e = l² b·n_left.
 //!
-//! `face_loads` turns the g of the three edges of a triangle into forces on its corners. The gradient of a fold angle at
+//! `face_loads` turns those of the three edges of a triangle into forces on its corners, where it has the points anyway;
+//! so a node sums 6 corners, and no ends of bars. The gradient of a fold angle at
 //! the corners of one of its triangles is along the normal n of that triangle: l n/|n|² at the apex, and at the ends what
 //! keeps translations and rotations free. With D the dot product of the two sides at a corner, the three hinges sum to
 //!
@@ -19,7 +22,7 @@
 //!
 //! f_a = (m_b − m_a) q_c + (m_c − m_a) q_b.
 //!
-//! `node_step` sums the ends and corners at each node in a fixed order and moves it.
+//! `node_step` sums the corners at each node in a fixed order and moves it.
 
 use pulp::{Simd, WithSimd};
 
@@ -105,10 +108,8 @@ pub(super) struct Hinges {
 pub(super) struct Scratch {
     pub(super) positions: Vec<Quad>,
     velocities: Vec<Quad>,
-    /// Of each edge the pull on its first end.
-    pub(super) pulls: Vec<[Quad; WIDTH]>,
-    /// Of each edge what its hinge asks of its triangles.
-    pub(super) turnings: Vec<f64>,
+    /// Of each edge what it asks of each of its triangles: g, k (1 − l₀/l) and d.
+    pub(super) loads: Vec<[Quad; WIDTH]>,
     pub(super) corner_forces: Vec<[[Quad; WIDTH]; 3]>,
 }
 
@@ -130,15 +131,12 @@ impl WithSimd for BlockStep<'_> {
     #[inline(always)]
     fn with_simd<S: Simd>(mut self, simd: S) -> Totals {
         self.load_nodes();
-        if self.pace.damping == 0.0 {
-            self.edge_loads::<S, false>(simd);
-        } else {
-            self.edge_loads::<S, true>(simd);
-        }
-        if self.block.rest_angles.is_empty() {
-            self.face_loads::<S, false>(simd);
-        } else {
-            self.face_loads::<S, true>(simd);
+        self.edge_loads(simd);
+        match (self.pace.damping == 0.0, self.block.rest_angles.is_empty()) {
+            (true, true) => self.face_loads::<S, false, false>(simd),
+            (true, false) => self.face_loads::<S, false, true>(simd),
+            (false, true) => self.face_loads::<S, true, false>(simd),
+            (false, false) => self.face_loads::<S, true, true>(simd),
         }
         self.node_step(simd)
     }
@@ -160,31 +158,21 @@ impl BlockStep<'_> {
     }
 
     #[inline(always)]
-    fn edge_loads<S: Simd, const DAMPED: bool>(&mut self, simd: S) {
+    fn edge_loads<S: Simd>(&mut self, simd: S) {
         let scratch = &mut *self.scratch;
-        let groups = self.block.edges.len();
-        scratch.pulls.resize(groups, [[0.0; 4]; WIDTH]);
-        scratch.turnings.resize(groups * WIDTH, 0.0);
+        scratch
+            .loads
+            .resize(self.block.edges.len(), [[0.0; 4]; WIDTH]);
         let damping = Lanes::splat(simd, self.pace.damping);
-        let (turnings, _) = scratch.turnings.as_chunks_mut::<WIDTH>();
         let hinges = self.hinges.angles.iter_mut().zip(&self.hinges.targets);
-        let loads = scratch.pulls.iter_mut().zip(turnings);
-        for ((record, (angle, target)), (pull, turning)) in
-            self.block.edges.iter().zip(hinges).zip(loads)
-        {
+        let records = self.block.edges.iter().zip(hinges);
+        for ((record, (angle, target)), load) in records.zip(&mut scratch.loads) {
             for index in 0..Lanes::<S>::PARTS {
                 let part = Part { simd, index };
                 let Edge { e, a, b } = part.edge(&scratch.positions, record);
                 let square = e.dot(e).max(damping.constant(LEAST_SQUARE));
                 let inverse = damping.constant(1.0).over(square.sqrt());
                 let tension = part.numbers(&record.tension) * inverse;
-                let mut load = e.scaled(part.numbers(&record.stiffness) - tension);
-                if DAMPED {
-                    let start = part.vectors(&scratch.velocities, &record.vertices[0]);
-                    let end = part.vectors(&scratch.velocities, &record.vertices[1]);
-                    load = (end - start).mul_add(part.numbers(&record.damper) * damping, load);
-                }
-                load.store(pull, index);
                 let (left, right) = (e.cross(a), b.cross(e));
                 let raw = atan2(square * inverse * b.dot(left), left.dot(right));
                 let turns = (part.numbers(angle) - raw) * damping.constant(1.0 / TURN);
@@ -192,16 +180,22 @@ impl BlockStep<'_> {
                 followed.store(angle, index);
                 let moment =
                     part.numbers(&record.hinge_stiffness) * (part.numbers(target) - followed);
-                (moment * inverse).store(turning, index);
+                let asked = Vectors {
+                    x: moment * inverse,
+                    y: part.numbers(&record.stiffness) - tension,
+                    z: part.numbers(&record.damper) * damping,
+                };
+                asked.store(load, index);
             }
         }
     }
 
     #[inline(always)]
-    fn face_loads<S: Simd, const HELD: bool>(&mut self, simd: S) {
+    fn face_loads<S: Simd, const DAMPED: bool, const HELD: bool>(&mut self, simd: S) {
         let scratch = &mut *self.scratch;
         let groups = self.block.faces.len();
         scratch.corner_forces.resize(groups, [[[0.0; 4]; WIDTH]; 3]);
+        let loads = scratch.loads.as_flattened();
         let one = Lanes::splat(simd, 1.0);
         let stiffness = one.constant(self.face_angle_stiffness);
         for (group, (record, forces)) in self
@@ -219,14 +213,23 @@ impl BlockStep<'_> {
                     normal,
                     square,
                 } = part.face(&scratch.positions, record);
-                let ga = part.gathered(&scratch.turnings, &record.edges[0]);
-                let gb = part.gathered(&scratch.turnings, &record.edges[1]);
-                let gc = part.gathered(&scratch.turnings, &record.edges[2]);
+                let la = part.vectors(loads, &record.edges[0]);
+                let lb = part.vectors(loads, &record.edges[1]);
+                let lc = part.vectors(loads, &record.edges[2]);
+                let (mut pa, mut pb, mut pc) = (ea.scaled(la.y), eb.scaled(lb.y), ec.scaled(lc.y));
+                if DAMPED {
+                    let va = part.vectors(&scratch.velocities, &record.vertices[0]);
+                    let vb = part.vectors(&scratch.velocities, &record.vertices[1]);
+                    let vc = part.vectors(&scratch.velocities, &record.vertices[2]);
+                    pa = (vc - vb).mul_add(la.z, pa);
+                    pb = (va - vc).mul_add(lb.z, pb);
+                    pc = (vb - va).mul_add(lc.z, pc);
+                }
                 let along = normal.scaled(one.over(square));
-                let (ab, bc, ca) = (ga - gb, gb - gc, gc - ga);
-                let mut fa = along.scaled(ab * dc - ca * db);
-                let mut fb = along.scaled(bc * da - ab * dc);
-                let mut fc = along.scaled(ca * db - bc * da);
+                let (ab, bc, ca) = (la.x - lb.x, lb.x - lc.x, lc.x - la.x);
+                let mut fa = along.mul_add(ab * dc - ca * db, pc - pb);
+                let mut fb = along.mul_add(bc * da - ab * dc, pa - pc);
+                let mut fc = along.mul_add(ca * db - bc * da, pb - pa);
                 if HELD {
                     let rest = &self.block.rest_angles[group];
                     let length = square.sqrt();
@@ -262,13 +265,12 @@ impl BlockStep<'_> {
             scratch,
             ..
         } = self;
-        let pulls = scratch.pulls.as_flattened();
         let corner_forces = scratch.corner_forces.as_flattened().as_flattened();
         let own = block.first..block.first + block.owned;
         let nodes = before.positions[own.clone()]
             .iter()
             .zip(&before.velocities[own])
-            .zip(block.starts.windows(2));
+            .zip(block.corner_starts.windows(2));
         let written = after
             .positions
             .iter_mut()
@@ -277,14 +279,12 @@ impl BlockStep<'_> {
             .zip(after.masses);
         let [mut work, mut path, mut speeds] = [[0.0; 4]; 3];
         for (((x, v), starts), (((new_x, new_v), force), mass)) in nodes.zip(written) {
-            let [[end, corner], [last_end, last_corner]] = [starts[0], starts[1]];
             let mut sum = [0.0; 4];
-            for &slot in &block.ends[end as usize..last_end as usize] {
-                let sign = if slot % 2 == 0 { 1.0 } else { -1.0 };
-                add(&mut sum, &pulls[slot as usize / 2], sign);
-            }
-            for &slot in &block.corners[corner as usize..last_corner as usize] {
-                add(&mut sum, &corner_forces[slot as usize], 1.0);
+            for &slot in &block.corners[starts[0] as usize..starts[1] as usize] {
+                let force = &corner_forces[slot as usize];
+                for k in 0..4 {
+                    sum[k] += force[k];
+                }
             }
             let impulse = gain * mass.inverse;
             // All is read before anything is written, so that the four numbers of a vector move together.
@@ -317,14 +317,6 @@ pub(super) fn load(block: &Block, nodes: &[Quad], local: &mut Vec<Quad>) {
     local.clear();
     local.extend_from_slice(&nodes[block.first..block.first + block.owned]);
     local.extend(block.halo.iter().map(|&node| nodes[node as usize]));
-}
-
-/// sum + factor × term.
-#[inline(always)]
-fn add(sum: &mut Quad, term: &Quad, factor: f64) {
-    for (sum, term) in sum.iter_mut().zip(term) {
-        *sum += term * factor;
-    }
 }
 
 /// The largest |v|² of `vectors`; those that are no number are passed over.

@@ -60,6 +60,7 @@ impl State<'_> {
         let Some(scratch) = self.scratch.first_mut() else {
             return;
         };
+        let mut weights = Vec::new();
         let rows = self.row_sums.chunks_mut(self.layout.block_len);
         for ((block, hinges), rows) in self.layout.blocks.iter().zip(&self.hinges).zip(rows) {
             self.arch.dispatch(BlockRows {
@@ -67,6 +68,7 @@ impl State<'_> {
                 hinges,
                 positions: &self.now.positions,
                 scratch,
+                weights: &mut weights,
                 damping: self.damping,
                 face_angle_stiffness: self.model.material.face_angle_stiffness,
                 rows,
@@ -82,6 +84,8 @@ struct BlockRows<'a> {
     hinges: &'a Hinges,
     positions: &'a [Quad],
     scratch: &'a mut Scratch,
+    /// Of each edge what its hinge weighs at an apex.
+    weights: &'a mut Vec<f64>,
     damping: f64,
     face_angle_stiffness: f64,
     rows: &'a mut [RowSums],
@@ -105,15 +109,16 @@ impl BlockRows<'_> {
     fn edge_rows<S: Simd>(&mut self, simd: S) {
         let scratch = &mut *self.scratch;
         let groups = self.block.edges.len();
-        scratch.pulls.resize(groups, [[0.0; 4]; WIDTH]);
-        scratch.turnings.resize(groups * WIDTH, 0.0);
-        let (weights, _) = scratch.turnings.as_chunks_mut::<WIDTH>();
+        scratch.loads.resize(groups, [[0.0; 4]; WIDTH]);
+        self.weights.resize(groups * WIDTH, 0.0);
+        let (weights, _) = self.weights.as_chunks_mut::<WIDTH>();
         let hinges = self.hinges.angles.iter().zip(&self.hinges.targets);
-        let loads = scratch.pulls.iter_mut().zip(weights);
+        let edges = self.block.edges.iter().zip(&self.block.triangles);
+        let loads = scratch.loads.iter_mut().zip(weights);
         let two = Lanes::splat(simd, 2.0);
         let one = two.constant(1.0);
-        for ((record, (angle, target)), (rows, weights)) in
-            self.block.edges.iter().zip(hinges).zip(loads)
+        for (((record, triangles), (angle, target)), (rows, weights)) in
+            edges.zip(hinges).zip(loads)
         {
             for index in 0..Lanes::<S>::PARTS {
                 let part = Part { simd, index };
@@ -133,11 +138,12 @@ impl BlockRows<'_> {
                 let stiffness = part.numbers(&record.hinge_stiffness) * (one + lag);
                 let weight = stiffness * (at_start + at_end + at_left + at_right);
                 weight.store(weights, index);
-                let bar = two * part.numbers(&record.stiffness);
+                let twice = two * part.numbers(triangles);
+                let bar = twice * part.numbers(&record.stiffness);
                 let rows_of_ends = Vectors {
                     x: weight.mul_add(at_start, bar),
                     y: weight.mul_add(at_end, bar),
-                    z: two * part.numbers(&record.damper),
+                    z: twice * part.numbers(&record.damper),
                 };
                 rows_of_ends.store(rows, index);
             }
@@ -162,9 +168,9 @@ impl BlockRows<'_> {
                 } = part.face(&scratch.positions, record);
                 let area = square.sqrt();
                 let (la, lb, lc) = (length(ea), length(eb), length(ec));
-                let wa = part.gathered(&scratch.turnings, &record.edges[0]) * la;
-                let wb = part.gathered(&scratch.turnings, &record.edges[1]) * lb;
-                let wc = part.gathered(&scratch.turnings, &record.edges[2]) * lc;
+                let wa = part.gathered(&self.weights, &record.edges[0]) * la;
+                let wb = part.gathered(&self.weights, &record.edges[1]) * lb;
+                let wc = part.gathered(&self.weights, &record.edges[2]) * lc;
                 // |q| of each side, and |q_b + q_c| at a and so on.
                 let (qa, qb, qc) = (one.over(la), one.over(lb), one.over(lc));
                 let oa = length_of_sum(qb, qc, eb.dot(ec) * qb * qc);
@@ -184,17 +190,18 @@ impl BlockRows<'_> {
 
     #[inline(always)]
     fn node_rows(&mut self) {
-        let ends = self.scratch.pulls.as_flattened();
+        let ends = self.scratch.loads.as_flattened();
         let corners = self.scratch.corner_forces.as_flattened().as_flattened();
-        for (row, starts) in self.rows.iter_mut().zip(self.block.starts.windows(2)) {
-            let [[end, corner], [last_end, last_corner]] = [starts[0], starts[1]];
+        let starts = self.block.end_starts.windows(2);
+        let starts = starts.zip(self.block.corner_starts.windows(2));
+        for (row, (end_range, corner_range)) in self.rows.iter_mut().zip(starts) {
             let [mut stiffness, mut damping] = [0.0; 2];
-            for &slot in &self.block.ends[end as usize..last_end as usize] {
+            for &slot in &self.block.ends[end_range[0] as usize..end_range[1] as usize] {
                 let rows = &ends[slot as usize / 2];
                 stiffness += rows[slot as usize % 2];
                 damping += rows[2] * self.damping;
             }
-            for &slot in &self.block.corners[corner as usize..last_corner as usize] {
+            for &slot in &self.block.corners[corner_range[0] as usize..corner_range[1] as usize] {
                 stiffness += corners[slot as usize][0];
             }
             *row = RowSums { stiffness, damping };
