@@ -1,0 +1,251 @@
+//! The one-file page: a motion beside its plots, report and certificate, in any browser, without a network.
+//!
+//! Words, tables and plots are plain HTML, there before any script runs. The sheet is drawn by three.js, which the page
+//! carries (`assets/three`); a content security policy by hash lets the browser run these two scripts and nothing
+//! else, and fetch nothing.
+
+mod certificate;
+mod html;
+mod layers;
+mod payload;
+mod policy;
+mod report;
+mod sheet;
+
+use std::io::Write;
+
+use foldmotion_pattern::Motion;
+use serde_json::{Value, json};
+
+use self::html::{data, escaped};
+use self::payload::{archived, check_size};
+use crate::plots::time_axis;
+use crate::{
+    KeyFrames, Marks, Panel, Provenance, RecordError, Style, Values, View, key_frames, plots,
+};
+
+const TEMPLATE: &str = include_str!("page.html");
+const STYLES: &str = include_str!("page.css");
+const LIBRARY: &str = include_str!("../../assets/three/three.min.js");
+const SCRIPT: &str = concat!(
+    "\"use strict\";\n(() => {\n",
+    include_str!("data.js"),
+    include_str!("paper.js"),
+    include_str!("stage.js"),
+    include_str!("player.js"),
+    include_str!("main.js"),
+    "})();\n"
+);
+
+/// The part of the tolerance that rounding positions to steps may take, see [`sheet`].
+const ROUNDING: f64 = 1.0 / 16.0;
+
+/// What a page shows.
+#[derive(Debug, Clone, Copy)]
+pub struct Page<'a> {
+    /// What moves.
+    pub motion: &'a Motion,
+    /// Facets painted in the colour of marks, each in its span; foldmotion marks facets that penetrate each other.
+    pub marks: &'a Marks,
+    /// Values that can be shown as colours instead of paper, such as strain and facet bending.
+    pub values: &'a [Values],
+    /// The plots, none for no section of plots.
+    pub panels: &'a [Panel],
+    /// The text of `report.json`. Times, threads and device are left out of the page.
+    pub report: Option<&'a str>,
+    /// The text of `certificate.json`, also to download.
+    pub certificate: Option<&'a str>,
+    /// The bytes of `motion.fold`, to download.
+    pub fold: Option<&'a [u8]>,
+}
+
+/// How a page is made.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PageOptions {
+    /// How far a vertex may be drawn from the motion, in the sheet's `unit_length`.
+    pub tolerance: f64,
+    /// Seconds for deployed → planar and for planar → compact.
+    pub seconds: [f64; 2],
+    /// Where the viewer stands at first.
+    pub view: View,
+    /// Colours and lines; the background is the page's.
+    pub style: Style,
+    /// Title, program, scene and hash; embedded as they are, so that the page can be made again.
+    pub provenance: Provenance,
+}
+
+impl Default for PageOptions {
+    fn default() -> Self {
+        Self {
+            tolerance: 1e-3,
+            seconds: [3.0, 5.0],
+            view: View::default(),
+            style: Style::default(),
+            provenance: Provenance::default(),
+        }
+    }
+}
+
+/// Writes `page` as one HTML file and answers which frames of the motion it holds, and how well.
+///
+/// Every vertex is drawn within the tolerance of the motion at all times; values run straight between all frames of the
+/// motion, in 254 steps of their range. Where layers coincide the order of the compact state decides, in steps of
+/// depth of 4e-3 `unit_length`: closer than a few of these, layers are seen in their order rather than where they are.
+/// The page holds no time and no device: the same input gives the same bytes.
+///
+/// Browsers: those with WebGL 2 and `DecompressionStream` (since 2023); others show all but the sheet.
+///
+/// # Errors
+/// Those of [`key_frames`]; [`RecordError::NotPositive`], [`RecordError::LineWidth`], [`RecordError::Range`],
+/// [`RecordError::ValueCount`], [`RecordError::Json`], [`RecordError::FileSize`] before anything is written, then
+/// [`RecordError::Write`].
+pub fn page(
+    page: &Page<'_>,
+    options: &PageOptions,
+    mut writer: impl Write,
+) -> Result<KeyFrames, RecordError> {
+    let keys = checked(page, options)?;
+    check_size(page, keys.frames.len())?;
+    let report = page.report.map(|text| parsed("report", text)).transpose()?;
+    let certificate = (page.certificate)
+        .map(|text| parsed("certificate", text))
+        .transpose()?;
+    let verdict = verdict(report.as_ref(), certificate.as_ref());
+    let (scene, payload) = sheet::scene(page, options, &keys, verdict);
+    let title = escaped(&options.provenance.title);
+    for (name, text) in parts(TEMPLATE) {
+        writer.write_all(text.as_bytes())?;
+        let filling = match name {
+            "title" => title.clone(),
+            "policy" => policy::policy(STYLES, &[LIBRARY, SCRIPT]),
+            "generator" => escaped(&options.provenance.producer),
+            "styles" => STYLES.to_owned(),
+            "verdict" => certificate::badge(verdict),
+            "lead" => report.as_ref().map(report::lead).unwrap_or_default(),
+            "plots" => plots_section(page.panels)?,
+            "report" => report.as_ref().map(report::section).unwrap_or_default(),
+            "certificate" => (certificate.as_ref())
+                .map(certificate::section)
+                .unwrap_or_default(),
+            "files" => files(page),
+            "origin" => origin(&options.provenance),
+            "scene" => data(&scene),
+            "payload" => archived(&payload),
+            "fold" => archived(page.fold.unwrap_or_default()),
+            "certificate-file" => archived(page.certificate.unwrap_or_default().as_bytes()),
+            "provenance" => data(&provenance(&options.provenance)),
+            "library" => LIBRARY.to_owned(),
+            "script" => SCRIPT.to_owned(),
+            _ => String::new(),
+        };
+        writer.write_all(filling.as_bytes())?;
+    }
+    writer.flush()?;
+    Ok(keys)
+}
+
+/// The key frames, or what is wrong with the input.
+fn checked(page: &Page<'_>, options: &PageOptions) -> Result<KeyFrames, RecordError> {
+    let [unfold, fold] = options.seconds;
+    for (name, value) in [("seconds[0]", unfold), ("seconds[1]", fold)] {
+        if !(value.is_finite() && value > 0.0) {
+            return Err(RecordError::NotPositive { name, value });
+        }
+    }
+    options.style.check()?;
+    let tolerance = (1.0 - ROUNDING) * options.tolerance * page.motion.sheet.unit_length;
+    let keys = key_frames(page.motion, tolerance)?;
+    for values in page.values {
+        values.check(page.motion)?;
+    }
+    Ok(keys)
+}
+
+fn parsed(name: &'static str, text: &str) -> Result<Value, RecordError> {
+    serde_json::from_str(text).map_err(|error| RecordError::Json {
+        name,
+        message: error.to_string(),
+    })
+}
+
+/// What was proved, best from the certificate.
+fn verdict<'a>(report: Option<&'a Value>, certificate: Option<&'a Value>) -> Option<&'a str> {
+    let proved = certificate.and_then(|c| c.get("verdict")?.as_str());
+    proved.or_else(|| report.and_then(|r| r.pointer("/collision/verdict")?.as_str()))
+}
+
+/// The text of a template up to each `{{name}}`, with that name; the last with none.
+fn parts(template: &str) -> impl Iterator<Item = (&str, &str)> {
+    let pieces = template.split("}}");
+    pieces.map(|piece| {
+        let (text, name) = piece.split_once("{{").unwrap_or((piece, ""));
+        (name, text)
+    })
+}
+
+/// The plots as a picture: nothing in it can run.
+fn plots_section(panels: &[Panel]) -> Result<String, RecordError> {
+    if panels.is_empty() {
+        return Ok(String::new());
+    }
+    let titles: Vec<&str> = panels.iter().map(|panel| panel.title).collect();
+    let [left, right] = time_axis(panels).map(|(place, time)| json!([place, time]));
+    Ok(format!(
+        "<section>\n<h2>Plots</h2>\n<figure class=\"plots\" id=\"plots\" data-axis=\"[{left},{right}]\">\n\
+         <img alt=\"Plots over motion time t: {}\" src=\"data:image/svg+xml;base64,{}\">\n\
+         <div class=\"now\" id=\"plot-now\"></div>\n\
+         <figcaption>Against motion time t. The line is the state shown above; press on the plots to move it.\
+         </figcaption>\n</figure>\n</section>\n",
+        escaped(&titles.join("; ")),
+        payload::base64(plots(panels)?.as_bytes())
+    ))
+}
+
+fn files(page: &Page<'_>) -> String {
+    let row = |id: &str, name: &str, what: &str| {
+        format!(
+            "<li><button type=\"button\" id=\"save-{id}\" data-name=\"{name}\">{name}</button> {what}</li>\n"
+        )
+    };
+    let mut rows = String::new();
+    if page.fold.is_some() {
+        let what = "the motion as computed, every frame in full precision, as FOLD 1.2";
+        rows.push_str(&row("fold", "motion.fold", what));
+    }
+    if page.certificate.is_some() {
+        let what = "what is proved of it; <code>foldmotion check motion.fold --verify certificate.json</code> proves it again";
+        rows.push_str(&row("certificate", "certificate.json", what));
+    }
+    if rows.is_empty() {
+        return rows;
+    }
+    format!("<section>\n<h2>Files</h2>\n<ul class=\"files\">\n{rows}</ul>\n</section>\n")
+}
+
+/// Who made the page, at its foot.
+fn origin(origin: &Provenance) -> String {
+    let mut text = String::new();
+    if !origin.producer.is_empty() {
+        text.push_str(&format!("Made by {}. ", escaped(&origin.producer)));
+    }
+    if !origin.hash.is_empty() {
+        let hash = escaped(&origin.hash);
+        text.push_str(&format!("Motion <code>{hash}</code>. "));
+    }
+    if !origin.scene.is_empty() {
+        let scene = escaped(&origin.scene);
+        text.push_str(&format!(
+            "<details><summary>Scene</summary><pre>{scene}</pre></details>"
+        ));
+    }
+    text
+}
+
+fn provenance(origin: &Provenance) -> Value {
+    json!({
+        "title": origin.title,
+        "producer": origin.producer,
+        "scene": origin.scene,
+        "hash": origin.hash,
+    })
+}
