@@ -57,7 +57,7 @@ class Motion {
     }
 
     /** The coordinates of the vertices: straight from key frame to key frame. */
-    positions(time) {
+    at(time) {
         const { before, after, part } = between(this.keyTimes, time);
         const { origin, step } = this.header;
         const [from, to] = [before * this.width, after * this.width];

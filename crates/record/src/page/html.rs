@@ -51,13 +51,18 @@ pub(super) fn table(caption: &str, head: &[&str], rows: &[Vec<String>]) -> Strin
     html
 }
 
+/// Letters beyond which a text takes a line of its own.
+const LONG: usize = 34;
+
 /// Names beside texts; those without text are left out.
 pub(super) fn facts(rows: &[(&str, Option<String>)]) -> String {
     let mut html = String::from("<dl>\n");
     for (name, text) in rows {
         if let Some(text) = text {
+            let is_long = name.chars().count() + text.chars().count() > LONG;
+            let class = if is_long { " class=\"long\"" } else { "" };
             let (name, text) = (escaped(name), escaped(text));
-            let _ = writeln!(html, "<div><dt>{name}</dt><dd>{text}</dd></div>");
+            let _ = writeln!(html, "<div{class}><dt>{name}</dt><dd>{text}</dd></div>");
         }
     }
     html.push_str("</dl>\n");
@@ -73,12 +78,13 @@ pub(super) fn number(value: &Value) -> Option<String> {
 }
 
 /// `x` with `count` digits at most.
-pub(super) fn digits(x: f64, count: usize) -> String {
-    let scientific = format!("{x:.*e}", count.saturating_sub(1));
+pub(super) fn digits(x: f64, count: u16) -> String {
+    let after_first = count.saturating_sub(1);
+    let scientific = format!("{x:.*e}", usize::from(after_first));
     let (mantissa, exponent) = scientific.split_once('e').unwrap_or((&scientific, "0"));
     let power: i32 = exponent.parse().unwrap_or(0);
     let text = if x == 0.0 || (-3..6).contains(&power) {
-        let places = (count as i32 - 1 - power).max(0);
+        let places = (i32::from(after_first) - power).max(0);
         trimmed(&format!("{x:.*}", places.cast_unsigned() as usize)).to_owned()
     } else {
         let exponent: String = exponent.chars().map(raised).collect();

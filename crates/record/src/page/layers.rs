@@ -104,7 +104,9 @@ fn heights(above: &mut [Vec<usize>]) -> Vec<i32> {
     for list in above.iter_mut() {
         list.sort_unstable();
         list.dedup();
-        list.iter().for_each(|&high| below[high] += 1);
+        for &high in list.iter() {
+            below[high] += 1;
+        }
     }
     let mut heights = vec![0; above.len()];
     let mut ready: VecDeque<usize> = (0..above.len()).filter(|&f| below[f] == 0).collect();

@@ -93,10 +93,11 @@ class Controls {
     }
 
     addViews() {
-        for (const name of Object.keys(this.motion.header.views).filter((view) => view !== "start")) {
+        this.views = new Map(this.motion.header.views);
+        for (const [name, view] of this.views) {
             const button = document.createElement("button");
             Object.assign(button, { type: "button", textContent: name });
-            button.addEventListener("click", () => this.stage.look(name));
+            button.addEventListener("click", () => this.stage.look(view));
             element("views").append(button);
         }
     }
@@ -179,9 +180,9 @@ class Controls {
     }
 
     show() {
-        const { player, motion, paper, stage } = this;
-        paper.show(player.time, this.values);
-        stage.request();
+        const { player, motion } = this;
+        this.paper.show(player.time, this.values);
+        this.stage.request();
         const slider = element("time");
         slider.value = player.time;
         const stop = this.stops.find(([time]) => Math.abs(time - player.time) < 5e-4);
@@ -189,8 +190,8 @@ class Controls {
             if (stop && stop[0] === time) button.setAttribute("aria-current", "true");
             else button.removeAttribute("aria-current");
         });
-        const stage_name = player.time < 1 ? "unfold" : player.time <= 2 ? "fold" : "settle";
-        const words = stop ? stop[1].textContent : stage_name;
+        const stage = player.time < 1 ? "unfold" : player.time <= 2 ? "fold" : "settle";
+        const words = stop ? stop[1].textContent : stage;
         const number = player.time.toFixed(3);
         slider.setAttribute("aria-valuetext", `t = ${number}, ${words}`);
         const [bold, rest] = ["b", "span"].map((tag) => document.createElement(tag));
@@ -204,7 +205,7 @@ class Controls {
         if (values) {
             const most = motion.values(this.values, player.time).reduce((a, b) => (b > a ? b : a), 0);
             const [low, high] = values.range;
-            element("legend-now").textContent = `now at most ${most >= 1 ? "≥ " : ""}${short(low + most * (high - low))}`;
+            element("legend-now").textContent = `largest now ${most >= 1 ? "≥ " : ""}${short(low + most * (high - low))}`;
         }
     }
 }
@@ -224,8 +225,8 @@ function addFile(id) {
 /** What a link may ask for: motion.html#t=1.5&view=top&colour=1 */
 function follow(controls) {
     const wishes = new URLSearchParams(location.hash.slice(1));
-    const view = wishes.get("view");
-    if (Object.hasOwn(controls.motion.header.views, view ?? "")) controls.stage.look(view);
+    const view = controls.views.get(wishes.get("view"));
+    if (view) controls.stage.look(view);
     const colour = Number(wishes.get("colour") ?? 0);
     if (controls.choices[colour]) controls.colour(colour - 1);
     if (wishes.has("t")) controls.player.set(wishes.get("t"));
@@ -252,8 +253,8 @@ async function open() {
         play: () => controls.player.play(),
         pause: () => controls.player.pause(),
         setColour: (index) => controls.colour(index),
-        setView: (name) => stage.look(name),
-        positions: (time) => Array.from(motion.positions(time)),
+        setView: (name) => stage.look(controls.views.get(name)),
+        positions: (time) => Array.from(motion.at(time)),
     };
     document.documentElement.dataset.ready = "true";
 }

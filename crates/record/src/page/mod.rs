@@ -10,19 +10,17 @@ mod layers;
 mod payload;
 mod policy;
 mod report;
+mod sections;
 mod sheet;
 
 use std::io::Write;
 
 use foldmotion_pattern::Motion;
-use serde_json::{Value, json};
+use serde_json::Value;
 
 use self::html::{data, escaped};
 use self::payload::{archived, check_size};
-use crate::plots::time_axis;
-use crate::{
-    KeyFrames, Marks, Panel, Provenance, RecordError, Style, Values, View, key_frames, plots,
-};
+use crate::{KeyFrames, Marks, Panel, Provenance, RecordError, Style, Values, View, key_frames};
 
 const TEMPLATE: &str = include_str!("page.html");
 const STYLES: &str = include_str!("page.css");
@@ -112,7 +110,10 @@ pub fn page(
         .transpose()?;
     let verdict = verdict(report.as_ref(), certificate.as_ref());
     let (scene, payload) = sheet::scene(page, options, &keys, verdict);
-    let title = escaped(&options.provenance.title);
+    let title = match options.provenance.title.trim() {
+        "" => "Folding motion".to_owned(),
+        title => escaped(title),
+    };
     for (name, text) in parts(TEMPLATE) {
         writer.write_all(text.as_bytes())?;
         let filling = match name {
@@ -122,18 +123,18 @@ pub fn page(
             "styles" => STYLES.to_owned(),
             "verdict" => certificate::badge(verdict),
             "lead" => report.as_ref().map(report::lead).unwrap_or_default(),
-            "plots" => plots_section(page.panels)?,
+            "plots" => sections::plotted(page.panels)?,
             "report" => report.as_ref().map(report::section).unwrap_or_default(),
             "certificate" => (certificate.as_ref())
                 .map(certificate::section)
                 .unwrap_or_default(),
-            "files" => files(page),
-            "origin" => origin(&options.provenance),
+            "files" => sections::files(page),
+            "origin" => sections::origin(&options.provenance),
             "scene" => data(&scene),
             "payload" => archived(&payload),
             "fold" => archived(page.fold.unwrap_or_default()),
             "certificate-file" => archived(page.certificate.unwrap_or_default().as_bytes()),
-            "provenance" => data(&provenance(&options.provenance)),
+            "provenance" => data(&sections::provenance(&options.provenance)),
             "library" => LIBRARY.to_owned(),
             "script" => SCRIPT.to_owned(),
             _ => String::new(),
@@ -180,72 +181,5 @@ fn parts(template: &str) -> impl Iterator<Item = (&str, &str)> {
     pieces.map(|piece| {
         let (text, name) = piece.split_once("{{").unwrap_or((piece, ""));
         (name, text)
-    })
-}
-
-/// The plots as a picture: nothing in it can run.
-fn plots_section(panels: &[Panel]) -> Result<String, RecordError> {
-    if panels.is_empty() {
-        return Ok(String::new());
-    }
-    let titles: Vec<&str> = panels.iter().map(|panel| panel.title).collect();
-    let [left, right] = time_axis(panels).map(|(place, time)| json!([place, time]));
-    Ok(format!(
-        "<section>\n<h2>Plots</h2>\n<figure class=\"plots\" id=\"plots\" data-axis=\"[{left},{right}]\">\n\
-         <img alt=\"Plots over motion time t: {}\" src=\"data:image/svg+xml;base64,{}\">\n\
-         <div class=\"now\" id=\"plot-now\"></div>\n\
-         <figcaption>Against motion time t. The line is the state shown above; press on the plots to move it.\
-         </figcaption>\n</figure>\n</section>\n",
-        escaped(&titles.join("; ")),
-        payload::base64(plots(panels)?.as_bytes())
-    ))
-}
-
-fn files(page: &Page<'_>) -> String {
-    let row = |id: &str, name: &str, what: &str| {
-        format!(
-            "<li><button type=\"button\" id=\"save-{id}\" data-name=\"{name}\">{name}</button> {what}</li>\n"
-        )
-    };
-    let mut rows = String::new();
-    if page.fold.is_some() {
-        let what = "the motion as computed, every frame in full precision, as FOLD 1.2";
-        rows.push_str(&row("fold", "motion.fold", what));
-    }
-    if page.certificate.is_some() {
-        let what = "what is proved of it; <code>foldmotion check motion.fold --verify certificate.json</code> proves it again";
-        rows.push_str(&row("certificate", "certificate.json", what));
-    }
-    if rows.is_empty() {
-        return rows;
-    }
-    format!("<section>\n<h2>Files</h2>\n<ul class=\"files\">\n{rows}</ul>\n</section>\n")
-}
-
-/// Who made the page, at its foot.
-fn origin(origin: &Provenance) -> String {
-    let mut text = String::new();
-    if !origin.producer.is_empty() {
-        text.push_str(&format!("Made by {}. ", escaped(&origin.producer)));
-    }
-    if !origin.hash.is_empty() {
-        let hash = escaped(&origin.hash);
-        text.push_str(&format!("Motion <code>{hash}</code>. "));
-    }
-    if !origin.scene.is_empty() {
-        let scene = escaped(&origin.scene);
-        text.push_str(&format!(
-            "<details><summary>Scene</summary><pre>{scene}</pre></details>"
-        ));
-    }
-    text
-}
-
-fn provenance(origin: &Provenance) -> Value {
-    json!({
-        "title": origin.title,
-        "producer": origin.producer,
-        "scene": origin.scene,
-        "hash": origin.hash,
     })
 }

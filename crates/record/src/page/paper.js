@@ -57,9 +57,11 @@ void main() {
     else if (vPaint.a > 0.25) light = mark * reflected();
     vec3 slopeX = dFdx(vCorner), slopeY = dFdy(vCorner);
     vec3 away = vCorner / max(sqrt(slopeX * slopeX + slopeY * slopeY), vec3(1e-9));
-    vec3 cover = 1.0 - smoothstep(halfWidth - 0.5, halfWidth + 0.5, away);
     for (int i = 0; i < 3; i += 1) {
-        if (vLine[i] > 0.5 && halfWidth > 0.0) light = mix(light, ink(vLine[i]), cover[i]);
+        // A crease has a half in each of its triangles, the border all in one.
+        float reach = vLine[i] < 2.5 ? halfWidth : 2.0 * halfWidth;
+        float cover = 1.0 - smoothstep(reach - 0.5, reach + 0.5, away[i]);
+        if (vLine[i] > 0.5 && halfWidth > 0.0) light = mix(light, ink(vLine[i]), cover);
     }
     colour = vec4(encoded(light), 1.0);
 }`;
@@ -101,13 +103,15 @@ class Paper {
         this.colours = motion.header.colours.map(light);
     }
 
-    set pixelRatio(ratio) {
-        this.material.uniforms.halfWidth.value = 0.5 * this.motion.header.style.lineWidth * ratio;
+    /** Lines are as wide as in a film of 960 pixels, thinner on a narrower screen. */
+    setLines(ratio, width) {
+        const part = Math.min(Math.max(width / 960, 0.5), 1);
+        this.material.uniforms.halfWidth.value = 0.5 * this.motion.header.style.lineWidth * part * ratio;
     }
 
     /** Shows the state at `time`, painted with values of number `index`, or as paper where that is below 0. */
     show(time, index) {
-        this.place(this.motion.positions(time));
+        this.place(this.motion.at(time));
         this.order();
         this.paint(time, index);
         this.geometry.boundingSphere = null;

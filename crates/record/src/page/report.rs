@@ -98,9 +98,9 @@ fn stages(report: &Value) -> String {
     let row = |stage: &Value| {
         vec![
             cell(stage, "/name"),
-            format!("{} %", scaled(stage, "/peak_strain", 100.0)),
-            format!("{} %", scaled(stage, "/mean_strain", 100.0)),
-            format!("{}°", scaled(stage, "/peak_facet_bending_deg", 1.0)),
+            scaled(stage, "/peak_strain", 100.0),
+            scaled(stage, "/mean_strain", 100.0),
+            scaled(stage, "/peak_facet_bending_deg", 1.0),
             cell(stage, "/converged"),
         ]
     };
@@ -110,9 +110,9 @@ fn stages(report: &Value) -> String {
     }
     let head = [
         "stage",
-        "largest strain",
-        "mean strain",
-        "largest facet bending",
+        "largest strain, %",
+        "mean strain, %",
+        "largest facet bending, °",
         "converged",
     ];
     table("The stages of the motion", &head, &rows)

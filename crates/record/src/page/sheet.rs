@@ -53,7 +53,8 @@ pub(super) fn scene(
         "colours": (0..COLOURS).map(|k| colour_of(k as f64 / (COLOURS - 1) as f64)).collect::<Vec<_>>(),
         "marks": marks.map(|([from, to], face)| json!([from, to, face])).collect::<Vec<_>>(),
         "seconds": options.seconds,
-        "views": views(options.view),
+        "views": View::NAMES.map(|(name, view)| json!([name, axes(view)])),
+        "start": axes(options.view),
         "style": {
             "front": style.front, "back": style.back, "mark": style.mark, "mountain": style.mountain,
             "valley": style.valley, "border": style.border, "lineWidth": style.line_width,
@@ -131,16 +132,9 @@ fn levels(values: &Values) -> Vec<u8> {
     changes
 }
 
-/// Right, up and towards the viewer of every view by name; "start" is the one a page opens with.
-fn views(start: View) -> Value {
-    let named = View::NAMES
-        .into_iter()
-        .chain([("start", start)])
-        .map(|(name, view)| {
-            let axes = view.axes().map(|axis| axis.to_array());
-            (name.to_owned(), json!(axes))
-        });
-    Value::Object(named.collect())
+/// Right, up and towards the viewer.
+fn axes(view: View) -> [[f64; 3]; 3] {
+    view.axes().map(|axis| axis.to_array())
 }
 
 /// Positions rounded to steps.

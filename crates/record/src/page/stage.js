@@ -20,15 +20,15 @@ class Stage {
         canvas.addEventListener("blur", () => { this.controls.enableZoom = false; });
         this.caster = new THREE.Raycaster();
         this.isWaiting = false;
-        this.look("start");
+        this.look(motion.header.start);
         new ResizeObserver(() => this.resize()).observe(canvas.parentElement);
         this.resize();
     }
 
-    /** Looks from a view of the header, so that all of the motion fits. */
-    look(name) {
-        const [right, up, toward] = this.motion.header.views[name].map((axis) => new THREE.Vector3(...axis));
-        const axes = [right, up, toward];
+    /** Looks along axes of the header (right, up, towards the viewer), so that all of the motion fits. */
+    look(view) {
+        const axes = view.map((axis) => new THREE.Vector3(...axis));
+        const [, up, toward] = axes;
         const [low, high] = [[Infinity, Infinity, Infinity], [-Infinity, -Infinity, -Infinity]];
         const { places, header } = this.motion;
         const point = new THREE.Vector3();
@@ -71,7 +71,7 @@ class Stage {
     resize() {
         const { clientWidth, clientHeight } = this.canvas;
         const ratio = Math.min(window.devicePixelRatio || 1, 3);
-        this.paper.pixelRatio = ratio;
+        this.paper.setLines(ratio, clientWidth);
         this.renderer.setPixelRatio(ratio);
         this.renderer.setSize(clientWidth, clientHeight, false);
         this.frame();
