@@ -31,6 +31,8 @@ const SCRIPT: &str = concat!(
     include_str!("paper.js"),
     include_str!("stage.js"),
     include_str!("player.js"),
+    include_str!("timeline.js"),
+    include_str!("legend.js"),
     include_str!("main.js"),
     "})();\n"
 );
