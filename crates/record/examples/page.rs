@@ -1,6 +1,8 @@
 //! The page of a folder of results, from its motion.fold and, where they are there, report.json and certificate.json:
 //!
-//! `cargo run --release --example page -- out/shelter-sii motion.html [--tolerance 1e-3] [--mark]`
+//! `cargo run --release --example page -- out/shelter-sii motion.html [--tolerance 1e-3]`
+
+#![expect(clippy::print_stdout, reason = "a program says what it did")]
 
 mod common;
 
@@ -21,11 +23,9 @@ fn main() -> Result<(), Box<dyn Error>> {
         return Err("a folder of results and the name of the page are needed".into());
     };
     let mut options = PageOptions::default();
-    let mut marks = Marks::default();
     while let Some(argument) = arguments.next() {
         match &argument[..] {
             "--tolerance" => options.tolerance = arguments.next().unwrap_or_default().parse()?,
-            "--mark" => marks.insert(0, 0.5, 0.75),
             other => return Err(format!("{other} is not known").into()),
         }
     }
@@ -34,6 +34,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let motion = read(&fold.to_string_lossy())?;
     let text = |name| fs::read_to_string(folder.join(name)).ok();
     let (report, certificate) = (text("report.json"), text("certificate.json"));
+    let marks = certificate.as_deref().map(marks).transpose()?;
     options.provenance = Provenance {
         title: title(report.as_deref()).unwrap_or_else(|| folder.display().to_string()),
         producer: format!("foldmotion {}", env!("CARGO_PKG_VERSION")),
@@ -50,7 +51,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let keys = page(
         &Page {
             motion: &motion,
-            marks: &marks,
+            marks: &marks.unwrap_or_default(),
             values: &values,
             panels: &values.each_ref().map(|values| panel(&motion, values)),
             report: report.as_deref(),
@@ -60,17 +61,27 @@ fn main() -> Result<(), Box<dyn Error>> {
         &options,
         BufWriter::new(File::create(&name)?),
     )?;
-    let (kept, all) = (keys.frames.len(), motion.frames.len());
-    writeln_frames(kept, all, keys.error)
+    println!(
+        "{} of {} frames hold the motion within {:.1e}",
+        keys.frames.len(),
+        motion.frames.len(),
+        keys.error
+    );
+    Ok(())
 }
 
-fn writeln_frames(kept: usize, all: usize, error: f64) -> Result<(), Box<dyn Error>> {
-    use std::io::Write as _;
-    writeln!(
-        std::io::stdout(),
-        "{kept} of {all} frames hold the motion within {error:.1e}"
-    )?;
-    Ok(())
+/// The triangles that penetrate each other, from then on.
+fn marks(certificate: &str) -> Result<Marks, Box<dyn Error>> {
+    let certificate: serde_json::Value = serde_json::from_str(certificate)?;
+    let mut marks = Marks::default();
+    for entry in certificate["penetrations"].as_array().into_iter().flatten() {
+        let time = entry["t"].as_f64().unwrap_or_default();
+        let triangles = entry["pair"]["triangles"].as_array().into_iter().flatten();
+        for face in triangles.filter_map(serde_json::Value::as_u64) {
+            marks.insert(u32::try_from(face)?, time, f64::MAX);
+        }
+    }
+    Ok(marks)
 }
 
 fn title(report: Option<&str>) -> Option<String> {

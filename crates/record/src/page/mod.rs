@@ -106,45 +106,88 @@ pub fn page(
 ) -> Result<KeyFrames, RecordError> {
     let keys = checked(page, options)?;
     check_size(page, keys.frames.len())?;
-    let report = page.report.map(|text| parsed("report", text)).transpose()?;
-    let certificate = (page.certificate)
-        .map(|text| parsed("certificate", text))
-        .transpose()?;
-    let verdict = verdict(report.as_ref(), certificate.as_ref());
-    let (scene, payload) = sheet::scene(page, options, &keys, verdict);
-    let title = match options.provenance.title.trim() {
-        "" => "Folding motion".to_owned(),
-        title => escaped(title),
-    };
+    let contents = Contents::new(page, options, &keys)?;
     for (name, text) in parts(TEMPLATE) {
         writer.write_all(text.as_bytes())?;
-        let filling = match name {
-            "title" => title.clone(),
-            "policy" => policy::policy(STYLES, &[LIBRARY, SCRIPT]),
-            "generator" => escaped(&options.provenance.producer),
-            "styles" => STYLES.to_owned(),
-            "verdict" => certificate::badge(verdict),
-            "lead" => report.as_ref().map(report::lead).unwrap_or_default(),
-            "plots" => sections::plotted(page.panels)?,
-            "report" => report.as_ref().map(report::section).unwrap_or_default(),
-            "certificate" => (certificate.as_ref())
-                .map(certificate::section)
-                .unwrap_or_default(),
-            "files" => sections::files(page),
-            "origin" => sections::origin(&options.provenance),
-            "scene" => data(&scene),
-            "payload" => archived(&payload),
-            "fold" => archived(page.fold.unwrap_or_default()),
-            "certificate-file" => archived(page.certificate.unwrap_or_default().as_bytes()),
-            "provenance" => data(&sections::provenance(&options.provenance)),
-            "library" => LIBRARY.to_owned(),
-            "script" => SCRIPT.to_owned(),
-            _ => String::new(),
-        };
-        writer.write_all(filling.as_bytes())?;
+        writer.write_all(contents.filling(name)?.as_bytes())?;
     }
     writer.flush()?;
     Ok(keys)
+}
+
+/// What fills the template.
+struct Contents<'a> {
+    page: &'a Page<'a>,
+    origin: &'a Provenance,
+    report: Option<Value>,
+    certificate: Option<Value>,
+    scene: Value,
+    payload: Vec<u8>,
+}
+
+impl<'a> Contents<'a> {
+    fn new(
+        page: &'a Page<'a>,
+        options: &'a PageOptions,
+        keys: &KeyFrames,
+    ) -> Result<Self, RecordError> {
+        let report = page.report.map(|text| parsed("report", text));
+        let certificate = page.certificate.map(|text| parsed("certificate", text));
+        let (scene, payload) = sheet::scene(page, options, keys);
+        let mut contents = Self {
+            page,
+            origin: &options.provenance,
+            report: report.transpose()?,
+            certificate: certificate.transpose()?,
+            scene,
+            payload,
+        };
+        contents.scene["verdict"] = contents.verdict().into();
+        Ok(contents)
+    }
+
+    /// What was proved, best from the certificate.
+    fn verdict(&self) -> Option<&str> {
+        let proved = self.certificate.as_ref().and_then(|c| c.get("verdict"));
+        let told = || self.report.as_ref()?.pointer("/collision/verdict");
+        proved.or_else(told)?.as_str()
+    }
+
+    fn title(&self) -> String {
+        match self.origin.title.trim() {
+            "" => "Folding motion".to_owned(),
+            title => escaped(title),
+        }
+    }
+
+    /// What stands in the place of `name`.
+    fn filling(&self, name: &str) -> Result<String, RecordError> {
+        let section = |value: &Option<Value>, of: fn(&Value) -> String| {
+            value.as_ref().map(of).unwrap_or_default()
+        };
+        let certificate = self.page.certificate.unwrap_or_default();
+        Ok(match name {
+            "title" => self.title(),
+            "policy" => policy::policy(STYLES, &[LIBRARY, SCRIPT]),
+            "generator" => escaped(&self.origin.producer),
+            "styles" => STYLES.to_owned(),
+            "lead" => section(&self.report, report::lead),
+            "verdict" => certificate::badge(self.verdict()),
+            "plots" => sections::plotted(self.page.panels)?,
+            "report" => section(&self.report, report::section),
+            "certificate" => section(&self.certificate, certificate::section),
+            "files" => sections::files(self.page),
+            "origin" => sections::origin(self.origin),
+            "scene" => data(&self.scene),
+            "payload" => archived(&self.payload),
+            "fold" => archived(self.page.fold.unwrap_or_default()),
+            "certificate-file" => archived(certificate.as_bytes()),
+            "provenance" => data(&sections::provenance(self.origin)),
+            "library" => LIBRARY.to_owned(),
+            "script" => SCRIPT.to_owned(),
+            _ => String::new(),
+        })
+    }
 }
 
 /// The key frames, or what is wrong with the input.
@@ -169,12 +212,6 @@ fn parsed(name: &'static str, text: &str) -> Result<Value, RecordError> {
         name,
         message: error.to_string(),
     })
-}
-
-/// What was proved, best from the certificate.
-fn verdict<'a>(report: Option<&'a Value>, certificate: Option<&'a Value>) -> Option<&'a str> {
-    let proved = certificate.and_then(|c| c.get("verdict")?.as_str());
-    proved.or_else(|| report.and_then(|r| r.pointer("/collision/verdict")?.as_str()))
 }
 
 /// The text of a template up to each `{{name}}`, with that name; the last with none.

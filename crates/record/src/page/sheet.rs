@@ -20,12 +20,7 @@ const LEVELS: u8 = 254;
 const COLOURS: usize = 32;
 
 /// The header, and the arrays it describes.
-pub(super) fn scene(
-    page: &Page<'_>,
-    options: &PageOptions,
-    keys: &KeyFrames,
-    verdict: Option<&str>,
-) -> (Value, Vec<u8>) {
+pub(super) fn scene(page: &Page<'_>, options: &PageOptions, keys: &KeyFrames) -> (Value, Vec<u8>) {
     let motion = page.motion;
     let mut payload = Payload::default();
     let grid = Grid::new(motion, options.tolerance * motion.sheet.unit_length);
@@ -59,7 +54,6 @@ pub(super) fn scene(
             "front": style.front, "back": style.back, "mark": style.mark, "mountain": style.mountain,
             "valley": style.valley, "border": style.border, "lineWidth": style.line_width,
         },
-        "verdict": verdict,
     });
     (header, payload.bytes)
 }

@@ -31,9 +31,9 @@ class Stage {
         const [, up, toward] = axes;
         const [low, high] = [[Infinity, Infinity, Infinity], [-Infinity, -Infinity, -Infinity]];
         const { places, header } = this.motion;
-        const point = new THREE.Vector3();
+        const [point, origin] = [new THREE.Vector3(), new THREE.Vector3(...header.origin)];
         for (let i = 0; i < places.length; i += 3) {
-            point.fromArray(places, i).multiplyScalar(header.step).add(new THREE.Vector3(...header.origin));
+            point.fromArray(places, i).multiplyScalar(header.step).add(origin);
             axes.forEach((axis, k) => {
                 const place = axis.dot(point);
                 low[k] = Math.min(low[k], place);
