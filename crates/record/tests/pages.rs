@@ -399,13 +399,24 @@ fn the_same_page_has_the_same_bytes_and_shows_no_time_and_no_device() {
 }
 
 #[test]
-fn marks_are_told_by_span_and_triangle() {
+fn marks_are_told_by_triangle_and_span_within_the_motion() {
     let motion = folding_square(&[0.0, 1.0]);
     let mut marks = Marks::default();
     marks.insert(1, 0.25, 0.5);
-    marks.insert(9, 0.0, 1.0);
+    marks.insert(0, -7.0, f64::INFINITY);
+    for (face, from, to) in [
+        (9, 0.0, 1.0),
+        (0, 1.5, 2.0),
+        (0, 0.7, 0.6),
+        (0, f64::NAN, 1.0),
+    ] {
+        marks.insert(face, from, to);
+    }
     let (header, _) = read(&written(&bare(&motion, &marks), &PageOptions::default()));
-    assert_eq!(header["marks"], serde_json::json!([[0.25, 0.5, 1]]));
+    assert_eq!(
+        header["marks"],
+        serde_json::json!([[0.25, 0.5, 1], [0.0, 1.0, 0]])
+    );
 }
 
 #[test]

@@ -85,8 +85,8 @@ class Motion {
         const least = (this.last - this.first) / 200;
         const facets = new Set();
         for (const [from, to, face] of this.header.marks) {
-            const middle = (from + to) / 2;
-            if (Math.abs(time - middle) <= Math.max((to - from) / 2, least)) facets.add(this.faceFacets[face]);
+            const slack = Math.max(least - (to - from) / 2, 0);
+            if (time >= from - slack && time <= to + slack) facets.add(this.faceFacets[face]);
         }
         return facets;
     }

@@ -32,8 +32,6 @@ pub(super) fn scene(page: &Page<'_>, options: &PageOptions, keys: &KeyFrames) ->
     let style = &options.style;
     let times: Vec<f64> = motion.frames.iter().map(|frame| frame.time).collect();
     let values = |v: &Values| json!({"title": v.title, "range": v.range});
-    let marks = page.marks.spans();
-    let marks = marks.filter(|&(_, face)| (face as usize) < motion.sheet.faces.len());
     let header = json!({
         "arrays": payload.directory(),
         "origin": grid.origin.to_array(),
@@ -46,7 +44,7 @@ pub(super) fn scene(page: &Page<'_>, options: &PageOptions, keys: &KeyFrames) ->
         "values": page.values.iter().map(values).collect::<Vec<_>>(),
         "levels": LEVELS,
         "colours": (0..COLOURS).map(|k| colour_of(k as f64 / (COLOURS - 1) as f64)).collect::<Vec<_>>(),
-        "marks": marks.map(|([from, to], face)| json!([from, to, face])).collect::<Vec<_>>(),
+        "marks": marks(page),
         "seconds": options.seconds,
         "views": View::NAMES.map(|(name, view)| json!([name, axes(view)])),
         "start": axes(options.view),
@@ -124,6 +122,19 @@ fn levels(values: &Values) -> Vec<u8> {
         }
     }
     changes
+}
+
+/// The spans of marks within the motion, with their triangles.
+fn marks(page: &Page<'_>) -> Vec<Value> {
+    let times = page.motion.frames.iter().map(|frame| frame.time);
+    let [first, last] = [f64::min, f64::max].map(|end| times.clone().fold(f64::NAN, end));
+    let is_there = |&(span, face): &([f64; 2], u32)| {
+        let [from, to] = span;
+        from <= to && from <= last && to >= first && (face as usize) < page.motion.sheet.faces.len()
+    };
+    let marks = page.marks.spans().filter(is_there);
+    let entry = |([from, to], face): ([f64; 2], u32)| json!([from.max(first), to.min(last), face]);
+    marks.map(entry).collect()
 }
 
 /// Right, up and towards the viewer.
