@@ -38,6 +38,8 @@ pub(super) fn badge(verdict: Option<&str>) -> String {
 pub(super) fn section(certificate: &Value) -> String {
     let mut html = String::from("<section>\n<h2>Certificate</h2>\n");
     html.push_str(&statement(certificate));
+    html.push_str(&penetrations(certificate));
+    html.push_str(&undecided(certificate));
     let assumptions = list(certificate, "/assumptions");
     if !assumptions.is_empty() {
         html.push_str("<h3>Assumptions</h3>\n<ul class=\"assumptions\">\n");
@@ -46,8 +48,6 @@ pub(super) fn section(certificate: &Value) -> String {
         }
         html.push_str("</ul>\n");
     }
-    html.push_str(&penetrations(certificate));
-    html.push_str(&undecided(certificate));
     html.push_str("</section>\n");
     html
 }

@@ -35,7 +35,7 @@ function between(times, time) {
     return { before, after, part: span > 0 ? Math.min(Math.max((time - times[before]) / span, 0), 1) : 0 };
 }
 
-/** The sheet and its motion: what is where, and what it is worth, at any time. */
+/** The sheet and its motion: what is where, and what it is worth, at any time. `places`: the coordinates of every key. */
 class Motion {
     constructor(header, data) {
         Object.assign(this, data);
@@ -43,7 +43,8 @@ class Motion {
         this.times = header.times;
         this.keyTimes = header.keys.map((key) => header.times[key]);
         this.width = data.positions.length / header.keys.length;
-        this.places = summed(data.positions, this.width);
+        const place = (steps, i) => header.origin[i % 3] + header.step * steps;
+        this.places = Float32Array.from(summed(data.positions, this.width), place);
         this.triangles = data.faces.length / 3;
         this.levels = header.values.map((_, index) => summed(data[`values${index}`], this.triangles));
     }
@@ -59,12 +60,11 @@ class Motion {
     /** The coordinates of the vertices: straight from key frame to key frame. */
     at(time) {
         const { before, after, part } = between(this.keyTimes, time);
-        const { origin, step } = this.header;
         const [from, to] = [before * this.width, after * this.width];
         const positions = new Float32Array(this.width);
         for (let i = 0; i < this.width; i += 1) {
             const [a, b] = [this.places[from + i], this.places[to + i]];
-            positions[i] = origin[i % 3] + step * (a + (b - a) * part);
+            positions[i] = a + (b - a) * part;
         }
         return positions;
     }

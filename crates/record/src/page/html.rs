@@ -52,7 +52,7 @@ pub(super) fn table(caption: &str, head: &[&str], rows: &[Vec<String>]) -> Strin
 }
 
 /// Letters beyond which a text takes a line of its own.
-const LONG: usize = 34;
+const LONG: usize = 42;
 
 /// Names beside texts; those without text are left out.
 pub(super) fn facts(rows: &[(&str, Option<String>)]) -> String {

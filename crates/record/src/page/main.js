@@ -15,12 +15,14 @@ class Controls {
     }
 
     addButtons() {
-        for (const [name, view] of this.views) {
+        const add = (name, title, act) => {
             const button = document.createElement("button");
-            Object.assign(button, { type: "button", textContent: name });
-            button.addEventListener("click", () => this.stage.look(view));
+            Object.assign(button, { type: "button", textContent: name, title });
+            button.addEventListener("click", act);
             element("views").append(button);
-        }
+        };
+        this.views.forEach((view, name) => add(name, "all of the motion", () => this.stage.look(view)));
+        add("fit", "the state shown, as large as it fits", () => this.stage.fit());
         element("play").addEventListener("click", () => this.player.toggle());
         element("repeat").checked = this.player.isRepeated;
         element("repeat").addEventListener("change", (event) => { this.player.isRepeated = event.target.checked; });
@@ -99,6 +101,7 @@ function hook(motion, controls) {
         pause: () => player.pause(),
         setColour: (index) => controls.legend.choose(index),
         setView: (name) => controls.stage.look(controls.views.get(name)),
+        fit: () => controls.stage.fit(),
         positions: (time) => Array.from(motion.at(time)),
     };
 }

@@ -2,6 +2,16 @@
 
 const MARGIN = 1.1;
 
+/** The diagonal of the box around all points. */
+function reach(points) {
+    const [low, high] = [[Infinity, Infinity, Infinity], [-Infinity, -Infinity, -Infinity]];
+    points.forEach((x, i) => {
+        low[i % 3] = Math.min(low[i % 3], x);
+        high[i % 3] = Math.max(high[i % 3], x);
+    });
+    return Math.hypot(...low.map((x, k) => high[k] - x)) || 1;
+}
+
 class Stage {
     constructor(motion, paper, canvas) {
         Object.assign(this, { motion, paper, canvas });
@@ -20,6 +30,7 @@ class Stage {
         canvas.addEventListener("blur", () => { this.controls.enableZoom = false; });
         this.caster = new THREE.Raycaster();
         this.isWaiting = false;
+        this.reach = reach(motion.places);
         this.look(motion.header.start);
         new ResizeObserver(() => this.resize()).observe(canvas.parentElement);
         this.resize();
@@ -27,13 +38,22 @@ class Stage {
 
     /** Looks along axes of the header (right, up, towards the viewer), so that all of the motion fits. */
     look(view) {
-        const axes = view.map((axis) => new THREE.Vector3(...axis));
+        this.aim(view.map((axis) => new THREE.Vector3(...axis)), this.motion.places);
+    }
+
+    /** Looks from where the viewer stands, so that the state shown fills the picture. */
+    fit() {
+        const axes = [new THREE.Vector3(), new THREE.Vector3(), new THREE.Vector3()];
+        this.camera.matrixWorld.extractBasis(...axes);
+        this.aim(axes, this.paper.geometry.attributes.position.array);
+    }
+
+    aim(axes, points) {
         const [, up, toward] = axes;
         const [low, high] = [[Infinity, Infinity, Infinity], [-Infinity, -Infinity, -Infinity]];
-        const { places, header } = this.motion;
-        const [point, origin] = [new THREE.Vector3(), new THREE.Vector3(...header.origin)];
-        for (let i = 0; i < places.length; i += 3) {
-            point.fromArray(places, i).multiplyScalar(header.step).add(origin);
+        const point = new THREE.Vector3();
+        for (let i = 0; i < points.length; i += 3) {
+            point.fromArray(points, i);
             axes.forEach((axis, k) => {
                 const place = axis.dot(point);
                 low[k] = Math.min(low[k], place);
@@ -43,12 +63,11 @@ class Stage {
         const target = new THREE.Vector3();
         axes.forEach((axis, k) => target.addScaledVector(axis, (low[k] + high[k]) / 2));
         this.size = [0, 1].map((k) => Math.max(high[k] - low[k], 1e-9));
-        const reach = Math.hypot(...low.map((l, k) => high[k] - l)) || 1;
         // Straight from above the turn about the vertical is lost: a little from the view's lower side keeps it.
         toward.addScaledVector(up, Math.abs(toward.z) > 0.9999 ? -1e-4 : 0).normalize();
-        this.camera.position.copy(target).addScaledVector(toward, 4 * reach);
-        this.camera.near = reach;
-        this.camera.far = 7 * reach;
+        this.camera.position.copy(target).addScaledVector(toward, 4 * this.reach);
+        this.camera.near = this.reach;
+        this.camera.far = 7 * this.reach;
         this.camera.zoom = 1;
         this.controls.target.copy(target);
         this.controls.update();
