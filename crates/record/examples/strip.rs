@@ -22,7 +22,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     };
     let (mut times, mut options) = (Vec::new(), StripOptions::default());
     let mut has_box = false;
-    options.unit = "h".to_owned();
+    "h".clone_into(&mut options.unit);
     while let Some(argument) = arguments.next() {
         match &argument[..] {
             "--grey" => {

@@ -145,7 +145,7 @@ fn sizes(report: &Value) -> String {
     };
     let straying = || {
         let straying = report.pointer("/path/straying")?.as_f64()?;
-        Some(format!("about {} h at most", digits(straying, 2)))
+        Some(format!("≈ {} h", digits(straying, 2)))
     };
     facts(&[
         ("profile", text(report, "/profile/source")),
