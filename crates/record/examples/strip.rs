@@ -2,15 +2,17 @@
 //!
 //! `cargo run --release --example strip -- motion.fold strip [t …] [--grey] [--box] [--strain] [--view iso|front|side|top|AZIMUTH,ELEVATION]`
 
-use std::error::Error;
-use std::fs::{self, File};
-use std::io::BufReader;
+mod common;
 
-use foldmotion_pattern::{FoldError, FoldFile, LayerOrder, Motion, Sheet};
+use std::error::Error;
+use std::fs;
+
 use foldmotion_record::{
     Bounds, Legend, LineStyle, Marks, Pose, Provenance, StripOptions, Style, View, strip,
 };
 use glam::DVec3;
+
+use crate::common::{read, strains};
 
 fn main() -> Result<(), Box<dyn Error>> {
     let mut arguments = std::env::args().skip(1);
@@ -20,7 +22,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     };
     let (mut times, mut options) = (Vec::new(), StripOptions::default());
     let mut has_box = false;
-    options.unit = "h".to_owned();
+    "h".clone_into(&mut options.unit);
     while let Some(argument) = arguments.next() {
         match &argument[..] {
             "--grey" => {
@@ -60,20 +62,6 @@ fn main() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// The largest change of length of a triangle's edges, per cent.
-fn strains(sheet: &Sheet, positions: &[DVec3]) -> Vec<f64> {
-    let flat = sheet.planar();
-    let strain = |face: &[u32; 3]| {
-        let edges = [0, 1, 2].map(|i| [face[i], face[(i + 1) % 3]].map(|v| v as usize));
-        let changes = edges.map(|[a, b]| {
-            let rest = flat[a].distance(flat[b]);
-            100.0 * (positions[a].distance(positions[b]) / rest - 1.0).abs()
-        });
-        changes.into_iter().fold(0.0, f64::max)
-    };
-    sheet.faces.iter().map(strain).collect()
-}
-
 /// The box around the positions.
 fn bounds(positions: &[DVec3], unit: f64) -> Bounds {
     let low = positions.iter().copied().fold(DVec3::INFINITY, DVec3::min);
@@ -99,35 +87,5 @@ fn view(text: &str) -> Result<View, Box<dyn Error>> {
     Ok(View::Around {
         azimuth: azimuth.parse()?,
         elevation: elevation.parse()?,
-    })
-}
-
-/// The motion in the file, with the layer order of its last frame.
-fn read(path: &str) -> Result<Motion, Box<dyn Error>> {
-    let file = FoldFile::read(BufReader::new(File::open(path)?))?;
-    let mut frames = Vec::new();
-    let mut last = LayerOrder::default();
-    file.frames::<FoldError>(BufReader::new(File::open(path)?), &mut |frame, order| {
-        frames.push(frame);
-        last = order.clone();
-        Ok(())
-    })?;
-    // The order is that of the faces in the file; triangles of one face do not overlap.
-    let mut of_face = vec![Vec::new(); file.polygons.len()];
-    for (triangle, &face) in (0..).zip(&file.triangle_faces) {
-        of_face[face as usize].push(triangle);
-    }
-    let mut compact_order = LayerOrder::default();
-    for (f, g, sign) in last.iter() {
-        for &a in &of_face[f as usize] {
-            for &b in &of_face[g as usize] {
-                compact_order.insert(a, b, sign);
-            }
-        }
-    }
-    Ok(Motion {
-        sheet: file.sheet,
-        frames,
-        compact_order,
     })
 }

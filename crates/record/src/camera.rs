@@ -42,7 +42,7 @@ impl View {
     }
 
     /// Right, up and towards the viewer, unit vectors.
-    fn axes(self) -> [DVec3; 3] {
+    pub(crate) fn axes(self) -> [DVec3; 3] {
         let (toward, up) = match self {
             Self::Iso => (DVec3::new(0.42, -0.74, 0.53), DVec3::Z),
             Self::Front => (DVec3::NEG_Y, DVec3::Z),

@@ -217,6 +217,14 @@ pub enum RecordError {
         /// Up.
         height: f64,
     },
+    /// A report or certificate cannot be read.
+    #[error("the {name} cannot be shown: it is no JSON: {message}")]
+    Json {
+        /// What was to be shown.
+        name: &'static str,
+        /// The parser's words.
+        message: String,
+    },
     /// The progress callback asked to stop.
     #[error("the film was interrupted")]
     Interrupted,

@@ -3,7 +3,7 @@
 //! A [`Camera`] projects the sheet in parallel, so that papers get equal scales. A [`Surface`] is the projected sheet
 //! and answers which triangle is in front at a point of the screen; the layer order decides between triangles that
 //! coincide. [`picture`] draws one state from it, [`film()`] a whole motion into
-//! every [`Reel`] asked for: [`Gif`], [`Mp4`], [`Frames`]. [`glb`], [`obj`] and [`stl`] carry the sheet into 3D programs. A [`Drawing`] puts pictures beside crease
+//! every [`Reel`] asked for: [`Gif`], [`Mp4`], [`Frames`]. [`glb`], [`obj`] and [`stl`] carry the sheet into 3D programs, [`page()`] into browsers. A [`Drawing`] puts pictures beside crease
 //! patterns and words, as SVG and PNG.
 //!
 //! Screen coordinates are pixels, x to the right, y down, depth towards the viewer in pixels too. Colours are sRGB
@@ -57,6 +57,7 @@ mod key_frames;
 mod marks;
 mod mp4;
 mod obj;
+mod page;
 mod palette;
 mod paper;
 mod pixel;
@@ -87,6 +88,7 @@ pub use self::image::{Image, MAX_PIXELS};
 pub use self::key_frames::{KeyFrames, key_frames};
 pub use self::marks::Marks;
 pub use self::obj::obj;
+pub use self::page::{Page, PageOptions, page};
 pub use self::palette::Palette;
 pub use self::paper::Paper;
 pub use self::plots::{Curve, Panel, plots};

@@ -21,6 +21,11 @@ impl Marks {
         self.spans.is_empty()
     }
 
+    /// Every span of motion time, with its triangle.
+    pub(crate) fn spans(&self) -> impl Iterator<Item = ([f64; 2], u32)> + '_ {
+        self.spans.iter().copied()
+    }
+
     /// For each triangle of `sheet` whether it is marked in the shot that shows motion time `time` and stands for
     /// the times after `previous`: so a mark shorter than the time between two shots is seen in one.
     pub(crate) fn at(&self, sheet: &Sheet, previous: f64, time: f64) -> Vec<bool> {

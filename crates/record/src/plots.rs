@@ -15,6 +15,8 @@ const AXIS: u32 = 34;
 const TITLE: i32 = 22;
 /// Where the panels begin, with their title, pixels.
 const PLOT_LEFT: i32 = 72;
+/// Room to the right of the panels, pixels.
+const MARGIN_RIGHT: i32 = 14;
 /// Room for a name in the legend, pixels.
 const LEGEND_STEP: u32 = 92;
 /// Colours that stay apart for the colour-blind and in grey (Okabe and Ito 2008), darkest first.
@@ -71,6 +73,16 @@ pub fn plots(panels: &[Panel]) -> Result<String, RecordError> {
     Ok(svg)
 }
 
+/// Where the time axis of [`plots`] begins and ends: the part of the width from the left, and the motion time there.
+pub(crate) fn time_axis(panels: &[Panel]) -> [(f64, f64); 2] {
+    let times = times(panels);
+    let place = |x: i32| f64::from(x) / f64::from(SIZE.0);
+    [
+        (place(PLOT_LEFT), times.start),
+        (place(SIZE.0.cast_signed() - MARGIN_RIGHT), times.end),
+    ]
+}
+
 type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
 
 fn draw(
@@ -84,7 +96,7 @@ fn draw(
     builder
         .margin_top(TITLE)
         .margin_left(8)
-        .margin_right(14)
+        .margin_right(MARGIN_RIGHT)
         .x_label_area_size(if is_last { 30 } else { 8 })
         .y_label_area_size(PLOT_LEFT - 8);
     let x_labels = if is_last { 9 } else { 0 };
@@ -134,7 +146,7 @@ fn legend(panel: &Panel, area: &Area<'_>) -> Result<(), RecordError> {
         return Ok(());
     }
     // From the right, so that names end where the panel ends.
-    let first = SIZE.0 - 14 - LEGEND_STEP * COLOURS.len() as u32;
+    let first = SIZE.0 - MARGIN_RIGHT.cast_unsigned() - LEGEND_STEP * COLOURS.len() as u32;
     for (x, (curve, colour)) in (first.cast_signed()..)
         .step_by(LEGEND_STEP as usize)
         .zip(panel.curves.iter().zip(COLOURS))
