@@ -19,13 +19,21 @@ impl UnitSheet {
     /// 4d); in one with w < h, rows that reach each other round the curved outline carry no order. A map has one pair for every two layers that overlap,
     /// which grows with the square of their number.
     pub fn compact_order(&self) -> LayerOrder {
+        self.compact_order_within(usize::MAX).unwrap_or_default()
+    }
+
+    /// The same order where it has at most `pairs` entries; none as soon as it outgrows them.
+    ///
+    /// The columns of case E lie in one plane in the compact state, so that its order grows with the square of their
+    /// number.
+    pub fn compact_order_within(&self, pairs: usize) -> Option<LayerOrder> {
         let mut order = LayerOrder::default();
         let is_map = self.folding == Folding::Map;
         if !is_map
             && self.unit.case == Case::Plain
             && self.unit.width > self.unit.height * (1.0 + 1e-9)
         {
-            return order;
+            return Some(order);
         }
         let positions = self.compact();
         let tolerance = OVERLAP_TOLERANCE * self.unit.height;
@@ -47,10 +55,13 @@ impl UnitSheet {
                     let facing_up = |layer: &Layer| if layer.normal_along > 0.0 { 1 } else { -1 };
                     order.insert(upper.face, lower.face, facing_up(lower));
                     order.insert(lower.face, upper.face, -facing_up(upper));
+                    if order.len() > pairs {
+                        return None;
+                    }
                 }
             }
         }
-        order
+        Some(order)
     }
 
     fn layer(&self, face: u32, positions: &[DVec3]) -> Layer {
