@@ -16,6 +16,8 @@ mod import;
 mod layers;
 #[path = "whole/profiles.rs"]
 mod profiles;
+#[path = "whole/recording.rs"]
+mod recording;
 #[path = "whole/refinement.rs"]
 mod refinement;
 #[path = "whole/rows.rs"]

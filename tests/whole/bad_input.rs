@@ -220,10 +220,43 @@ fn values_of_the_later_tables_are_refused_too() {
         ("[record]\nseconds = [1.0, -1.0]", &["record.seconds"]),
         ("[record]\nhold = nan", &["record.hold = nan"]),
         (
-            "[record]\noutputs = [\"mp4\"]",
+            "[record]\noutputs = [\"html\"]",
             &["record.outputs", "not available"],
         ),
-        ("[record]\noutputs = [\"film\"]", &["scene.toml"]),
+        ("[record]\noutputs = [\"film\"]", &["scene.toml:10"]),
+        (
+            "[record]\noutputs = [\"mp4\"]\nsize = [8, 8]",
+            &["scene.toml:11", "record.size = [8, 8]", "mp4"],
+        ),
+        ("[record]\nat = []", &["scene.toml:10", "record.at = []"]),
+        ("[record]\nat = [1.0, 0.5]", &["record.at", "rise"]),
+        ("[record]\nat = [-0.5]", &["record.at = [-0.5]"]),
+        ("[record]\nhold = [1.0, 2.0]", &["scene.toml:10", "three"]),
+        ("[record]\ncolour = \"red\"", &["scene.toml:10", "strain"]),
+        (
+            "[record]\nloop = \"twice\"",
+            &["scene.toml:10", "back-and-forth"],
+        ),
+        (
+            "[record]\ncamera = \"below\"",
+            &["scene.toml:10", "turntable"],
+        ),
+        (
+            "[record]\ncamera = { azimuth = 0.0, elevation = 91.0 }",
+            &["scene.toml:10", "record.camera", "elevation"],
+        ),
+        (
+            "[record]\ncamera = { azimuth = 0.0, elevation = 0.0, turn = nan }",
+            &["record.camera", "turn"],
+        ),
+        (
+            "[record]\nthickened = true",
+            &["record.thickened = true", "material.thickness"],
+        ),
+        (
+            "[record]\nthickened = -1.0",
+            &["record.thickened = -1.0", "positive"],
+        ),
     ];
     for (text, words) in cases {
         let message = refusal(&format!("{GOOD}{text}\n"));

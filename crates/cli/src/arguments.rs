@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 
 use crate::pattern::PatternArguments;
+use crate::record::RecordArguments;
 
 /// Folds sheets of unfolded-waterbomb units from the deployed shape through the flat sheet into the compact stack,
 /// proves whether they cross themselves, and records the motion.
@@ -28,6 +29,14 @@ pub(crate) enum Command {
     /// --verify: 0 verified, free or touching; 1 verified, penetrating; 2 the certificate is false, or about another
     /// motion, or bad input; 3 not verified or interrupted.
     Check(CheckArguments),
+    /// Make films, figures and 3D files of any FOLD motion
+    ///
+    /// motion.gif, motion.mp4, frames/0001.png on, figure.svg and figure.pdf (states side by side), motion.glb,
+    /// state-0.5.obj and state-0.5.stl. Facets that penetrate are marked where a certificate.json of the motion lies
+    /// beside it. Other files in the folder stay.
+    ///
+    /// Exit status: 0 done, 2 bad input, 3 the files could not be written or interrupted.
+    Record(RecordArguments),
     /// Rebuild every table and figure of the paper, its numbers beside ours
     ///
     /// Writes figures as SVG and PNG, paper.json and index.html. Parts that are finished are reused.
@@ -135,7 +144,7 @@ pub(crate) struct PaperArguments {
     pub(crate) json: bool,
 }
 
-fn parse_threads(text: &str) -> Result<usize, String> {
+pub(crate) fn parse_threads(text: &str) -> Result<usize, String> {
     match text.parse() {
         Ok(threads @ 1..=1024) => Ok(threads),
         _ => Err("a number between 1 and 1024 is needed".to_owned()),

@@ -4,6 +4,7 @@ mod arguments;
 mod init;
 mod pattern;
 mod progress;
+mod record;
 
 use std::io::Write as _;
 use std::path::{Path, PathBuf};
@@ -15,10 +16,12 @@ use clap::Parser as _;
 use foldmotion_study::paper::{PaperPart, paper};
 use foldmotion_study::scene::EngineChoice;
 use foldmotion_study::{
-    CheckOptions, Device, PatternStudy, SceneSource, Study, check_file, models, verify_file,
+    CheckOptions, Device, PatternStudy, Phase, SceneSource, Study, check_file, models,
+    record_again, record_file, verify_file,
 };
 use pattern::PatternArguments;
 use progress::Reporter;
+use record::RecordArguments;
 
 /// Set by Ctrl-C; work stops at its next report of progress.
 static INTERRUPTED: AtomicBool = AtomicBool::new(false);
@@ -49,6 +52,7 @@ fn main() -> ExitCode {
     let outcome = match arguments.command {
         Command::Run(run) => run_scene(&run),
         Command::Check(check) => check_motion(&check),
+        Command::Record(record) => record_motion(&record),
         Command::Paper(paper) => rebuild_paper(&paper),
         Command::Pattern(pattern) => write_pattern(&pattern),
         Command::Models => list_models(),
@@ -160,6 +164,44 @@ fn verify_certificate(arguments: &CheckArguments, certificate: &Path) -> Result<
         print(&verified.table())?;
     }
     Ok(verified.status())
+}
+
+fn record_motion(arguments: &RecordArguments) -> Result<u8, Failure> {
+    use_threads(arguments.threads)?;
+    watch_for_interrupts()?;
+    let reporter = Reporter::new(arguments.quiet);
+    let progress = |phase: Phase, done| {
+        reporter.report(phase.name(), done);
+        !INTERRUPTED.load(Ordering::Relaxed)
+    };
+    let (out, motion) = (arguments.out.as_deref(), arguments.motion.as_deref());
+    if let Some(file) = &arguments.again {
+        let again = record_again(file, motion, out, &progress)?;
+        reporter.finish();
+        for warning in &again.warnings {
+            let _ = writeln!(std::io::stderr(), "foldmotion: warning: {warning}");
+        }
+        if !arguments.quiet {
+            let same = if again.is_same { "the same" } else { "other" };
+            print(&format!("{}: {same} bytes\n", again.path.display()))?;
+        }
+        return Ok(0);
+    }
+    // The command line has a motion where it has no --again.
+    let motion = motion.unwrap_or(Path::new(""));
+    let folder = arguments.folder(motion);
+    let record = record_file(motion, &arguments.scene(), &folder, &progress)?;
+    reporter.finish();
+    if !arguments.quiet {
+        let marks = if record.is_judged {
+            "penetrations are marked"
+        } else {
+            "penetrations are not marked: no certificate.json of this motion lies beside it"
+        };
+        let count = record.files.len();
+        print(&format!("{count} files in {}; {marks}\n", folder.display()))?;
+    }
+    Ok(0)
 }
 
 fn rebuild_paper(arguments: &PaperArguments) -> Result<u8, Failure> {

@@ -45,6 +45,24 @@ impl<W> std::fmt::Debug for Mp4<W> {
 }
 
 impl<W: Write + Send> Mp4<W> {
+    /// Refuses sizes of pictures that do not fit.
+    ///
+    /// # Errors
+    /// [`RecordError::H264`].
+    pub fn check_size(size: [u32; 2]) -> Result<(), RecordError> {
+        let [width, height] = size;
+        let (short, long) = (width.min(height), width.max(height));
+        // An odd side grows by one pixel.
+        if (15..=2160).contains(&short) && long <= 3840 {
+            return Ok(());
+        }
+        Err(RecordError::H264 {
+            message: format!(
+                "{width} × {height} pixels: at least 16 each way and at most 3840 × 2160 fit; change the size"
+            ),
+        })
+    }
+
     /// `writer`: where the bytes go, at the end of the film.
     ///
     /// # Errors
@@ -84,15 +102,8 @@ impl<W: Write + Send> Reel for Mp4<W> {
 impl<W: Write + Send> Reel for Mp4<W> {
     fn begin(&mut self, title: Title<'_>) -> Result<(), RecordError> {
         let options = title.options;
+        Self::check_size(options.size)?;
         let [width, height] = options.size.map(|side| side.next_multiple_of(2));
-        let (short, long) = (width.min(height), width.max(height));
-        if !(16..=2160).contains(&short) || long > 3840 {
-            return Err(RecordError::H264 {
-                message: format!(
-                    "{width} × {height} pixels: at least 16 each way and at most 3840 × 2160 fit; change the size"
-                ),
-            });
-        }
         self.track = Track {
             size: [width, height].map(|side| side as u16),
             fps: options.fps,

@@ -84,7 +84,7 @@ impl Certificate {
     /// # Errors
     /// [`StudyError::Output`]; an earlier certificate is then as it was.
     pub fn write(&self, folder: &Path) -> Result<(), StudyError> {
-        let mut results = Results::of(folder, |name| name == CERTIFICATE, CERTIFICATE)?;
+        let mut results = Results::of(folder, |name| name == CERTIFICATE, Some(CERTIFICATE))?;
         results.write(CERTIFICATE, |out| {
             out.write_all(self.to_json().as_bytes())
                 .map_err(|e| write_error(folder, CERTIFICATE, e))

@@ -73,6 +73,14 @@ pub enum StudyError {
         /// What is wrong, and what would be right.
         message: String,
     },
+    /// A recorded file cannot be made again.
+    #[error("{}: {message}", path.display())]
+    Origin {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong, and what would help.
+        message: String,
+    },
     /// A motion file is too large.
     #[error("{}: it has {size} bytes: at most {limit} are read", path.display())]
     LargeMotion {
@@ -142,6 +150,7 @@ impl StudyError {
             | Self::Parse { .. }
             | Self::Motion { .. }
             | Self::Certificate { .. }
+            | Self::Origin { .. }
             | Self::LargeMotion { .. }
             | Self::Value { .. }
             | Self::Part { .. }

@@ -12,6 +12,8 @@ mod error;
 pub mod paper;
 mod pattern_files;
 mod profile;
+mod record_scene;
+mod recording;
 mod refinement;
 pub mod report;
 mod reporting;
@@ -35,6 +37,7 @@ pub use foldmotion_pattern::{
 };
 pub use foldmotion_solver::dynamic::Device;
 pub use pattern_files::{PatternFormat, PatternOptions, PatternScale, PatternStudy};
+pub use recording::{Again, MotionRecord, Recording, record_again, record_file};
 pub use report::Report;
 pub use rows::draw_clashes;
 pub use run::{Phase, Progress};

@@ -98,7 +98,7 @@ impl PatternStudy {
         let Ok(Some(figure)) = draw_clashes(source) else {
             return Ok(None);
         };
-        let mut results = Results::of(folder, |name| name == CLASHES_SVG, CLASHES_SVG)?;
+        let mut results = Results::of(folder, |name| name == CLASHES_SVG, Some(CLASHES_SVG))?;
         results.write(CLASHES_SVG, |out| {
             out.write_all(figure.as_bytes())
                 .map_err(|e| write_error(folder, CLASHES_SVG, e))
@@ -134,7 +134,7 @@ impl PatternStudy {
             &lines,
             &format!("foldmotion {VERSION}"),
         )?;
-        let mut results = Results::of(folder, is_pattern_file, PATTERN_SVG)?;
+        let mut results = Results::of(folder, is_pattern_file, Some(PATTERN_SVG))?;
         let mut save = |name: &str, text: &str| {
             results.write(name, |out| {
                 out.write_all(text.as_bytes())

@@ -1,25 +1,51 @@
 //! The folder of results: written beside its place, then renamed into it.
 
+use std::collections::BTreeSet;
 use std::fs::{self, File};
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 
 use crate::StudyError;
 
-/// Every file a run may write; those of an earlier run that a new run does not write are removed with it.
+/// Files a run may write, beside pictures and states; those of an earlier run that a new run does not write are removed
+/// with it.
 const NAMES: &[&str] = &[
     "report.json",
-    "motion.fold",
+    MOTION,
     CERTIFICATE,
     "motion.gif",
+    "motion.mp4",
+    "motion.glb",
     "motion.csv",
     "plots.svg",
+    "figure.svg",
+    "figure.pdf",
 ];
 
 /// Whether a run may write a file of this name.
 fn is_of_a_run(name: &str) -> bool {
-    NAMES.contains(&name)
+    NAMES.contains(&name) || is_picture(name) || is_state(name)
 }
+
+/// `frames/0001.png` and so on.
+fn is_picture(name: &str) -> bool {
+    let file = name.strip_prefix(FRAMES).and_then(|n| n.strip_prefix('/'));
+    let number = file.and_then(|n| n.strip_suffix(".png"));
+    number.is_some_and(|n| n.len() >= 4 && n.bytes().all(|b| b.is_ascii_digit()))
+}
+
+/// `state-0.5.obj` and so on.
+fn is_state(name: &str) -> bool {
+    let rest = name.strip_prefix("state-");
+    let time = rest.and_then(|n| n.strip_suffix(".obj").or(n.strip_suffix(".stl")));
+    time.is_some_and(|time| time.parse::<f64>().is_ok())
+}
+
+/// The name under which the motion stands.
+pub(crate) const MOTION: &str = "motion.fold";
+
+/// The folder of pictures among the results.
+pub(crate) const FRAMES: &str = "frames";
 
 /// The name under which the report stands.
 pub(crate) const REPORT: &str = "report.json";
@@ -34,22 +60,22 @@ pub(crate) struct Results {
     temporary: PathBuf,
     /// Whether a file of this name may be written; those there already are replaced or removed.
     is_ours: fn(&str) -> bool,
-    /// The one that speaks of the others, moved into place last.
-    last: &'static str,
+    /// The one that speaks of the others, if there is one, moved into place last.
+    last: Option<&'static str>,
     written: Vec<String>,
 }
 
 impl Results {
     /// Opens the temporary folder of a run.
     pub(crate) fn create(folder: &Path) -> Result<Self, StudyError> {
-        Self::of(folder, is_of_a_run, REPORT)
+        Self::of(folder, is_of_a_run, Some(REPORT))
     }
 
     /// Opens the temporary folder of the results whose names `is_ours` knows, of which `last` speaks of the others.
     pub(crate) fn of(
         folder: &Path,
         is_ours: fn(&str) -> bool,
-        last: &'static str,
+        last: Option<&'static str>,
     ) -> Result<Self, StudyError> {
         if folder.exists() && !folder.is_dir() {
             let source = io::Error::new(io::ErrorKind::NotADirectory, "it is a file");
@@ -86,19 +112,51 @@ impl Results {
             .map_err(|e| output_error(&self.temporary, "cannot be measured", e))
     }
 
+    /// Refuses what the disk cannot hold.
+    pub(crate) fn require(&self, needed: u64) -> Result<(), StudyError> {
+        let available = self.available()?;
+        if needed <= available {
+            return Ok(());
+        }
+        let message = format!("about {needed} bytes are needed, but only {available} are free");
+        let source = io::Error::new(io::ErrorKind::StorageFull, message);
+        Err(output_error(&self.folder, "cannot hold the files", source))
+    }
+
+    /// Opens one file of the results.
+    pub(crate) fn create_file(&mut self, name: &str) -> Result<BufWriter<File>, StudyError> {
+        let file = File::create(self.temporary.join(name));
+        let file = file.map_err(|e| write_error(&self.folder, name, e))?;
+        self.written.push(name.to_owned());
+        Ok(BufWriter::new(file))
+    }
+
+    /// Makes a folder among the results and answers where files go; [`Self::add`] then names them.
+    pub(crate) fn create_subfolder(&self, name: &str) -> Result<PathBuf, StudyError> {
+        let path = self.temporary.join(name);
+        fs::create_dir_all(&path).map_err(|e| write_error(&self.folder, name, e))?;
+        Ok(path)
+    }
+
+    /// Takes up files that were written into a subfolder.
+    pub(crate) fn add(&mut self, names: Vec<String>) {
+        self.written.extend(names);
+    }
+
+    /// Where the files are until they are published.
+    pub(crate) fn temporary(&self) -> &Path {
+        &self.temporary
+    }
+
     /// Writes one file through `write`.
     pub(crate) fn write(
         &mut self,
         name: &str,
         write: impl FnOnce(&mut BufWriter<File>) -> Result<(), StudyError>,
     ) -> Result<(), StudyError> {
-        let path = self.temporary.join(name);
-        let failed = |e| write_error(&self.folder, name, e);
-        let mut out = BufWriter::new(File::create(&path).map_err(failed)?);
+        let mut out = self.create_file(name)?;
         write(&mut out)?;
-        out.flush().map_err(failed)?;
-        self.written.push(name.to_owned());
-        Ok(())
+        out.flush().map_err(|e| write_error(&self.folder, name, e))
     }
 
     /// The output folder.
@@ -117,7 +175,11 @@ impl Results {
         fs::create_dir_all(folder).map_err(|e| output_error(folder, "cannot be made", e))?;
         // From here on a report in the folder would speak of other files than those beside it.
         let stale = self.stale()?;
-        for name in std::iter::once(self.last).chain(stale.iter().map(String::as_str)) {
+        for name in self
+            .last
+            .into_iter()
+            .chain(stale.iter().map(String::as_str))
+        {
             match fs::remove_file(folder.join(name)) {
                 Err(e) if e.kind() != io::ErrorKind::NotFound => {
                     return Err(output_error(&folder.join(name), "cannot be replaced", e));
@@ -125,8 +187,17 @@ impl Results {
                 _ => {}
             }
         }
-        let (report, others): (Vec<&String>, Vec<&String>) =
-            self.written.iter().partition(|&n| n == self.last);
+        let frames = folder.join(FRAMES);
+        if self.temporary.join(FRAMES).is_dir() {
+            fs::create_dir_all(&frames).map_err(|e| output_error(&frames, "cannot be made", e))?;
+        } else if stale.iter().any(|name| is_picture(name)) {
+            // Where foreign files lie in it, it stays.
+            let _ = fs::remove_dir(&frames);
+        }
+        let (report, others): (Vec<&String>, Vec<&String>) = self
+            .written
+            .iter()
+            .partition(|&n| Some(n.as_str()) == self.last);
         for name in others.into_iter().chain(report) {
             let to = folder.join(name);
             fs::rename(self.temporary.join(name), &to)
@@ -137,19 +208,27 @@ impl Results {
 
     /// Files of earlier results that these do not replace.
     fn stale(&self) -> Result<Vec<String>, StudyError> {
-        let unread = |e| output_error(&self.folder, "cannot be read", e);
-        let mut stale = Vec::new();
-        for entry in fs::read_dir(&self.folder).map_err(unread)? {
-            // A name that is no UTF-8 is none of ours.
-            let Ok(name) = entry.map_err(unread)?.file_name().into_string() else {
-                continue;
-            };
-            if (self.is_ours)(&name) && !self.written.contains(&name) {
-                stale.push(name);
-            }
+        let written: BTreeSet<&str> = self.written.iter().map(String::as_str).collect();
+        let mut stale = names_in(&self.folder, "")?;
+        if self.folder.join(FRAMES).is_dir() {
+            let pictures = names_in(&self.folder.join(FRAMES), "frames/")?;
+            stale.extend(pictures);
         }
+        stale.retain(|name| (self.is_ours)(name) && !written.contains(name.as_str()));
         Ok(stale)
     }
+}
+
+/// The names in `folder`, each after `prefix`. A name that is no UTF-8 is none of ours.
+fn names_in(folder: &Path, prefix: &str) -> Result<Vec<String>, StudyError> {
+    let unread = |e| output_error(folder, "cannot be read", e);
+    let mut names = Vec::new();
+    for entry in fs::read_dir(folder).map_err(unread)? {
+        if let Ok(name) = entry.map_err(unread)?.file_name().into_string() {
+            names.push(format!("{prefix}{name}"));
+        }
+    }
+    Ok(names)
 }
 
 impl Drop for Results {

@@ -4,20 +4,15 @@ use std::io::Write as _;
 use std::path::Path;
 use std::time::Instant;
 
-use foldmotion_check::{
-    CheckError, Checker, CollisionReport, FittedBox, fitted_box, penetration_spans,
-};
+use foldmotion_check::{CheckError, Checker, CollisionReport, FittedBox, fitted_box};
 use foldmotion_geometry::RigidMotion;
-use foldmotion_pattern::{FoldHeader, LayerOrder, Motion};
-use foldmotion_record::{FilmOptions, Marks, gif, plots};
+use foldmotion_pattern::{LayerOrder, Motion};
 
-use crate::certify::{CheckedMotion, MotionFile};
-use crate::digest::HashedWriter;
 use crate::engine::Computed;
 use crate::report::SecondsReport;
-use crate::results::{CERTIFICATE, REPORT, Results, write_error};
+use crate::results::{REPORT, Results, write_error};
 use crate::scene::OutputChoice;
-use crate::series::{FrameFigures, panels, write_csv};
+use crate::series::FrameFigures;
 use crate::{Report, Study, StudyError};
 
 /// A part of a run, as progress names it.
@@ -54,9 +49,6 @@ pub type Progress<'a> = &'a (dyn Fn(Phase, f64) -> bool + Sync);
 /// FOLD's `file_creator` and the report's `version` name this.
 pub(crate) const VERSION: &str = env!("CARGO_PKG_VERSION");
 
-/// The name under which the motion stands.
-const MOTION: &str = "motion.fold";
-
 /// Bytes of an entry of `faceOrders` at most on average.
 const BYTES_AN_ORDER: u64 = 20;
 
@@ -81,8 +73,7 @@ impl Study {
         let mut results = Results::create(folder)?;
         self.require_space(&results)?;
         let folded = self.fold_and_check(progress)?;
-        let ((), record_seconds) =
-            timed(|| self.record(&folded.motion, &folded.checked, &mut results, progress))?;
+        let (_, record_seconds) = timed(|| self.record(&folded, &mut results, progress))?;
         let seconds = SecondsReport {
             check: folded.check_seconds,
             record: record_seconds,
@@ -99,19 +90,14 @@ impl Study {
 
     fn require_space(&self, results: &Results) -> Result<(), StudyError> {
         let available = results.available()?;
-        let film = if self.outputs.contains(&OutputChoice::Gif) {
-            film_size(&self.film)
-        } else {
-            0
-        };
         let orders = BYTES_AN_ORDER * self.units.compact_order().len() as u64;
         let size = |frames| {
-            let fold = self.outputs.contains(&OutputChoice::Fold);
-            film + if fold {
+            let fold = if self.recording.has(OutputChoice::Fold) {
                 Motion::fold_file_size(&self.units.sheet, frames) + orders
             } else {
                 0
-            }
+            };
+            fold + self.recording.space(&self.units.sheet, frames)
         };
         let needed = size(self.frames);
         if needed <= available {
@@ -204,89 +190,6 @@ impl Study {
         let checker = checker.ok_or(CheckError::NoFrames)?;
         Ok((checker.finish(), orders))
     }
-
-    fn record(
-        &self,
-        motion: &Motion,
-        checked: &Checked,
-        results: &mut Results,
-        progress: Progress<'_>,
-    ) -> Result<(), StudyError> {
-        for output in &self.outputs {
-            match output {
-                OutputChoice::Fold => self.record_fold(motion, checked, results)?,
-                OutputChoice::Gif => {
-                    let marks = marks(motion, &checked.collision);
-                    results.write("motion.gif", |out| {
-                        gif(motion, &marks, &self.film, out, &|done| {
-                            progress(Phase::Record, done)
-                        })
-                        .map_err(StudyError::from)
-                    })?;
-                }
-                OutputChoice::Csv => {
-                    let first = checked.collision.first.as_ref().map(|p| p.time);
-                    let folder = results.folder().to_owned();
-                    results.write("motion.csv", |out| {
-                        write_csv(&checked.series, out)
-                            .map_err(|e| write_error(&folder, "motion.csv", e))
-                    })?;
-                    let svg = plots(&panels(&checked.series, first))?;
-                    results.write("plots.svg", |out| {
-                        out.write_all(svg.as_bytes())
-                            .map_err(|e| write_error(&folder, "plots.svg", e))
-                    })?;
-                }
-            }
-        }
-        Ok(())
-    }
-
-    fn record_fold(
-        &self,
-        motion: &Motion,
-        checked: &Checked,
-        results: &mut Results,
-    ) -> Result<(), StudyError> {
-        let folder = results.folder().to_owned();
-        let header = FoldHeader {
-            title: &self.title,
-            creator: &format!("foldmotion {VERSION}"),
-            unit: self.unit_name,
-            target_angles: self.units.compact_angles(),
-            layer_orders: &checked.layer_orders,
-        };
-        let mut sha256 = String::new();
-        results.write(MOTION, |out| {
-            let mut out = HashedWriter::new(out);
-            motion
-                .write_fold(&header, &mut out)
-                .map_err(|e| write_error(&folder, MOTION, e))?;
-            sha256 = out.digest();
-            Ok(())
-        })?;
-        let times: Vec<f64> = motion.frames.iter().map(|f| f.time).collect();
-        let checked = CheckedMotion {
-            name: MOTION,
-            sha256,
-            file: MotionFile {
-                title: Some(self.title.clone()),
-                sheet: &motion.sheet,
-                faces: motion.sheet.faces.len(),
-                cut_faces: 0,
-                triangle_faces: None,
-                has_facets: true,
-                has_unit_length: true,
-            },
-            times: &times,
-            collision: &checked.collision,
-        };
-        let certificate = checked.certificate().to_json();
-        results.write(CERTIFICATE, |out| {
-            out.write_all(certificate.as_bytes())
-                .map_err(|e| write_error(&folder, CERTIFICATE, e))
-        })
-    }
 }
 
 pub(crate) fn timed<T>(
@@ -294,27 +197,4 @@ pub(crate) fn timed<T>(
 ) -> Result<(T, f64), StudyError> {
     let started = Instant::now();
     work().map(|value| (value, started.elapsed().as_secs_f64()))
-}
-
-/// The facets that penetrate each other, while they do.
-fn marks(motion: &Motion, collision: &CollisionReport) -> Marks {
-    let mut marks = Marks::default();
-    for span in penetration_spans(motion, collision) {
-        for face in span.faces {
-            marks.insert(face, span.from, span.to);
-        }
-    }
-    marks
-}
-
-/// Bytes a film takes at most: an eighth of its pixels, where nothing repeats.
-fn film_size(film: &FilmOptions) -> u64 {
-    let [width, height] = film.size.map(u64::from);
-    let still_and_moving = 3.0 + (film.seconds.iter().sum::<f64>() * film.fps).ceil();
-    #[expect(
-        clippy::cast_sign_loss,
-        reason = "the film's options were checked to be positive"
-    )]
-    let frames = still_and_moving as u64;
-    frames * width * height / 8
 }

@@ -6,8 +6,13 @@ use foldmotion_pattern::Case;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+pub use crate::record_scene::{
+    CameraChoice, CameraScene, ColourChoice, HoldScene, LoopChoice, OutputChoice, OwnCamera,
+    RecordScene, ThickenedScene,
+};
+
 /// A scene file.
-#[derive(Debug, Clone, PartialEq, Deserialize, Serialize, JsonSchema)]
+#[derive(Debug, Clone, Default, PartialEq, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[schemars(title = "foldmotion scene")]
 pub struct Scene {
@@ -408,50 +413,4 @@ pub enum EngineChoice {
 pub struct CheckScene {
     /// τ in units of h: facets that overlap by no more touch; 1e-6 where left out.
     pub touch_tolerance: Option<f64>,
-}
-
-/// `[record]`.
-#[derive(Debug, Clone, Default, PartialEq, Deserialize, Serialize, JsonSchema)]
-#[serde(deny_unknown_fields, default)]
-pub struct RecordScene {
-    /// `fold`, `gif` and `csv` where left out.
-    pub outputs: Option<Vec<OutputChoice>>,
-    /// Pixels across and down; [960, 720] where left out.
-    pub size: Option<[i64; 2]>,
-    /// Film frames a second; 30 where left out.
-    pub fps: Option<f64>,
-    /// Seconds a stage; [3, 5] where left out.
-    pub seconds: Option<[f64; 2]>,
-    /// Seconds the deployed, the planar and the compact state stand still; 0.5 where left out.
-    pub hold: Option<f64>,
-    /// Where the viewer stands; `iso` where left out.
-    pub camera: Option<CameraChoice>,
-}
-
-/// The files a run writes beside its report.
-#[derive(
-    Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Deserialize, Serialize, JsonSchema,
-)]
-#[serde(rename_all = "lowercase")]
-pub enum OutputChoice {
-    /// `motion.fold`.
-    Fold,
-    /// `motion.gif`.
-    Gif,
-    /// `motion.csv` and `plots.svg`: strain, bending, energy and separation over t.
-    Csv,
-}
-
-/// Camera presets.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
-#[serde(rename_all = "lowercase")]
-pub enum CameraChoice {
-    /// From above, in front and the side.
-    Iso,
-    /// Along the width.
-    Front,
-    /// Along the growing direction.
-    Side,
-    /// From above.
-    Top,
 }

@@ -5,41 +5,37 @@ use std::path::{Path, PathBuf};
 use toml::de::{DeTable, DeValue};
 use toml::{Spanned, Table, Value};
 
+use crate::scene::RecordScene;
 use crate::{Scene, StudyError};
 
 /// Keys of the scene format that this version does not act on yet: refused by name, never ignored.
 ///
 /// (table, key, the only value refused, or none for all; what to do instead).
-const LATER: &[(&str, &str, Option<&str>, &str)] = &[
-    (
-        "record",
-        "colour",
-        None,
-        "leave it out: the film shows paper",
-    ),
-    (
-        "record",
-        "at",
-        None,
-        "leave it out: the film shows every state",
-    ),
-    (
-        "pattern",
-        "file",
-        None,
-        "describe the sheet by [profile] and [sheet]",
-    ),
-];
+const LATER: &[(&str, &str, Option<&str>, &str)] = &[(
+    "pattern",
+    "file",
+    None,
+    "describe the sheet by [profile] and [sheet]",
+)];
 
 /// Outputs of the scene format that this version does not write yet.
-const LATER_OUTPUTS: &[&str] = &["mp4", "png", "svg", "pdf", "glb", "html"];
+const LATER_OUTPUTS: &[&str] = &["html"];
 
 /// A scene file as text.
 #[derive(Debug, Clone)]
 pub struct SceneSource {
     path: PathBuf,
     text: String,
-    overrides: Vec<(String, Value)>,
+    overrides: Vec<Override>,
+}
+
+/// A value from the command line.
+#[derive(Debug, Clone)]
+struct Override {
+    /// `--set`, or the flag that gave it.
+    flag: String,
+    key: String,
+    value: Value,
 }
 
 impl SceneSource {
@@ -89,8 +85,26 @@ impl SceneSource {
             .ok()
             .and_then(|mut t| t.remove("value"));
         let value = parsed.unwrap_or_else(|| Value::String(value.to_owned()));
-        self.overrides.push((key.to_owned(), value));
+        self.overrides.push(Override {
+            flag: "--set".to_owned(),
+            key: key.to_owned(),
+            value,
+        });
         Ok(())
+    }
+
+    /// No file, but `[record]` from the command line: each key is named as a flag in errors.
+    pub(crate) fn of_flags(record: &RecordScene) -> Self {
+        let mut source = Self::new(Path::new("record"), String::new());
+        // A struct of plain values with string keys always serialises.
+        let table = Table::try_from(record).unwrap_or_default();
+        let flags = table.into_iter().map(|(key, value)| Override {
+            flag: format!("--{key}"),
+            key: format!("record.{key}"),
+            value,
+        });
+        source.overrides.extend(flags);
+        source
     }
 
     /// A path of the scene: relative ones are beside the scene file.
@@ -119,7 +133,7 @@ impl SceneSource {
             message: error.message().to_owned(),
         };
         let mut table: Table = toml::from_str(&self.text).map_err(|e| at_fault(&e))?;
-        for (key, value) in &self.overrides {
+        for Override { key, value, .. } in &self.overrides {
             insert(&mut table, key, value.clone()).map_err(|message| StudyError::Parse {
                 place: format!("--set {key}"),
                 message,
@@ -147,7 +161,7 @@ impl SceneSource {
         let names: Vec<String> = self
             .overrides
             .iter()
-            .map(|(key, _)| format!("--set {key}"))
+            .map(|over| format!("{} {}", over.flag, over.key))
             .collect();
         names.join(", ")
     }
@@ -171,9 +185,8 @@ impl SceneSource {
             .and_then(Value::as_array);
         for output in outputs.into_iter().flatten().filter_map(Value::as_str) {
             if LATER_OUTPUTS.contains(&output) {
-                let message = format!(
-                    "output \"{output}\" is not available in this version; use fold, gif or csv"
-                );
+                let message =
+                    format!("output \"{output}\" is not available in this version; leave it out");
                 return Err(self.value_error("record.outputs", message));
             }
         }
@@ -182,9 +195,9 @@ impl SceneSource {
 
     /// An error about the value of a key: with its file, line and value, or the `--set` that gave it.
     pub fn value_error(&self, key: &str, message: String) -> StudyError {
-        let overridden = self.overrides.iter().rev().find(|(k, _)| k == key);
+        let overridden = self.overrides.iter().rev().find(|over| over.key == key);
         let (place, value) = match (overridden, self.locate(key)) {
-            (Some((_, value)), _) => ("--set".to_owned(), format!(" = {value}")),
+            (Some(over), _) => (over.flag.clone(), format!(" = {}", over.value)),
             (None, Some((span, value))) => (self.place(span.start), format!(" = {value}")),
             (None, None) => (self.path.display().to_string(), String::new()),
         };
@@ -307,10 +320,7 @@ mod tests {
 
     #[test]
     fn keys_of_later_versions_are_refused_by_name_and_value() {
-        for (text, key) in [
-            ("[record]\ncolour = \"paper\"\n", "record.colour"),
-            ("[record]\noutputs = [\"mp4\"]\n", "record.outputs"),
-        ] {
+        for (text, key) in [("[record]\noutputs = [\"html\"]\n", "record.outputs")] {
             let error = source(text).scene().unwrap_err();
             let message = error.to_string();
             assert!(

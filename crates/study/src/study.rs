@@ -7,7 +7,6 @@ use foldmotion_geometry::{Division, Fit, Profile};
 use foldmotion_pattern::{
     Case, CompactBox, Facing, PatternCheck, PatternError, ProfileModel, Unit, UnitSheet,
 };
-use foldmotion_record::{FilmOptions, RecordError, View};
 use foldmotion_solver::dynamic::Device;
 use foldmotion_solver::quasi_static::Contact;
 use foldmotion_solver::{
@@ -16,9 +15,10 @@ use foldmotion_solver::{
 use glam::DVec3;
 
 use crate::profile::DividedProfile;
+use crate::recording::Recording;
 use crate::scene::{
-    CameraChoice, CaseChoice, CreasesChoice, DivisionChoice, EaseChoice, EngineChoice,
-    FacingChoice, OutputChoice, StageChoice, StepScene,
+    CaseChoice, CreasesChoice, DivisionChoice, EaseChoice, EngineChoice, FacingChoice, StageChoice,
+    StepScene,
 };
 use crate::unfolding::Unfolding;
 use crate::{Scene, SceneSource, StudyError};
@@ -77,10 +77,8 @@ pub struct Study {
     pub frames: usize,
     /// How the motion is checked.
     pub collision: CollisionOptions,
-    /// How the film is made.
-    pub film: FilmOptions,
-    /// What is written beside the report.
-    pub outputs: Vec<OutputChoice>,
+    /// What is written beside the report, and how it looks.
+    pub recording: Recording,
 }
 
 impl Study {
@@ -132,8 +130,7 @@ impl Study {
             thickness: scene.material.thickness,
             frames: resolver.frames()?,
             collision: resolver.collision()?,
-            film: resolver.film()?,
-            outputs: resolver.outputs(),
+            recording: resolver.recording()?,
             profile,
             profile_source,
             division,
@@ -464,54 +461,6 @@ impl Resolver<'_> {
             options.touch_tolerance = tolerance;
         }
         Ok(options)
-    }
-
-    fn film(&self) -> Result<FilmOptions, StudyError> {
-        let scene = &self.scene.record;
-        let mut film = FilmOptions::default();
-        if let Some([width, height]) = scene.size {
-            let side = |n: i64| u32::try_from(n).ok().filter(|n| (1..=65_535).contains(n));
-            let (Some(width), Some(height)) = (side(width), side(height)) else {
-                return Err(self.fault(
-                    "record.size",
-                    "both sides must lie between 1 and 65535 pixels",
-                ));
-            };
-            film.size = [width, height];
-        }
-        film.fps = scene.fps.unwrap_or(film.fps);
-        film.seconds = scene.seconds.unwrap_or(film.seconds);
-        film.hold = scene.hold.map_or(film.hold, |seconds| [seconds; 3]);
-        if let Some(camera) = scene.camera {
-            film.view = match camera {
-                CameraChoice::Iso => View::Iso,
-                CameraChoice::Front => View::Front,
-                CameraChoice::Side => View::Side,
-                CameraChoice::Top => View::Top,
-            };
-        }
-        film.check().map_err(|e| {
-            let key = match e {
-                RecordError::FramesPerSecond { .. } => "record.fps",
-                RecordError::Seconds { name: "hold", .. } => "record.hold",
-                RecordError::Seconds { .. } => "record.seconds",
-                _ => "record.size",
-            };
-            self.fault(key, e.to_string())
-        })?;
-        Ok(film)
-    }
-
-    fn outputs(&self) -> Vec<OutputChoice> {
-        let mut outputs = self
-            .scene
-            .record
-            .outputs
-            .clone()
-            .unwrap_or_else(|| vec![OutputChoice::Fold, OutputChoice::Gif, OutputChoice::Csv]);
-        outputs.sort_unstable();
-        outputs.dedup();
-        outputs
     }
 
     pub(crate) fn pattern_error(&self, error: &PatternError) -> StudyError {

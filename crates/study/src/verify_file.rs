@@ -121,7 +121,7 @@ fn prove(
     Ok((verifier.finish(), times))
 }
 
-fn read_certificate(path: &Path) -> Result<Certificate, StudyError> {
+pub(crate) fn read_certificate(path: &Path) -> Result<Certificate, StudyError> {
     let failed = |source| StudyError::Read {
         path: path.to_owned(),
         source,

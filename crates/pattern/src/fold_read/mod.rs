@@ -48,6 +48,10 @@ pub struct FoldFile {
     pub has_facets: bool,
     /// Whether `foldmotion:unitLength` gives the unit of length.
     pub has_unit_length: bool,
+    /// Whether every frame of the motion has a `foldmotion:time`.
+    pub has_times: bool,
+    /// `frame_unit` of the key frame.
+    pub unit: Option<String>,
     /// The coordinates of the key frame, of `file_frames[0]` where it has none.
     pub rest: Vec<DVec3>,
     /// `faceOrders` of the key frame.
@@ -124,8 +128,11 @@ impl FoldFile {
         let topology = topology::build(&key, &polygons, &rest)?;
         let orders = std::mem::take(&mut key.orders);
         let key_order = layer_order(FrameNumber(0), &orders, polygons.len())?;
+        let (frames, has_times) = motion_frames(&key, &noted)?;
         Ok(Self {
-            frames: motion_frames(&key, &noted)?,
+            frames,
+            has_times,
+            unit: key.unit,
             title: key.title,
             sheet: topology.sheet,
             triangle_faces: topology.faces,
@@ -209,8 +216,11 @@ fn missing(frame: usize, key: &'static str, need: &'static str) -> FoldError {
     }
 }
 
-/// The frames of the motion: their times and where their coordinates stand.
-fn motion_frames(key: &FrameFields, noted: &[Noted]) -> Result<Vec<FrameSource>, FoldError> {
+/// The frames of the motion: their times and where their coordinates stand; and whether the file gives the times.
+fn motion_frames(
+    key: &FrameFields,
+    noted: &[Noted],
+) -> Result<(Vec<FrameSource>, bool), FoldError> {
     let is_pattern = key.classes.iter().any(|class| class == "creasePattern");
     let has_key = key.has_coordinates && (!is_pattern || noted.is_empty());
     // Parents come before their children, so that chains of inheritance end at the key frame.
@@ -243,15 +253,15 @@ fn motion_frames(key: &FrameFields, noted: &[Noted]) -> Result<Vec<FrameSource>,
         .chain(noted.iter().map(|n| n.time))
         .collect();
     let numbers = (usize::from(!has_key)..sources.len()).filter_map(|n| Some((n, sources[n]?)));
-    Ok(numbers
+    let frames = numbers
         .enumerate()
         .map(|(index, (number, source))| FrameSource {
             number: FrameNumber(number),
             time: times.as_ref().map_or(index as f64, |t| t[index]),
             source: FrameNumber(source),
             order_source: orders[number].map(FrameNumber),
-        })
-        .collect())
+        });
+    Ok((frames.collect(), times.is_some()))
 }
 
 /// The order that `faceOrders` claim.

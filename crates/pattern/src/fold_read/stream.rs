@@ -257,6 +257,9 @@ impl FrameFields {
                     map.next_value::<IgnoredAny>()?;
                 }
             }
+            "frame_unit" if keep.topology && !keep.rest => {
+                self.unit = Some(map.next_value()?);
+            }
             "edges_foldAngle" | "edges_foldAngles" | "frame_title" | "frame_unit" if !keep.rest => {
                 map.next_value::<IgnoredAny>()?;
             }

@@ -1,6 +1,5 @@
 //! Figure A1: the motions of shelter, rolling paper and capital omega in four cases.
 
-use foldmotion_geometry::RigidMotion;
 use foldmotion_record::{Anchor, View};
 use glam::{DVec2, DVec3};
 
@@ -10,6 +9,7 @@ use super::{Composed, page};
 use crate::paper::motions::{CERTIFIED, Folding, STRIP_TIMES, finished};
 use crate::paper::store::Store;
 use crate::paper::targets::{CASES, sheet};
+use crate::recording::turned;
 use crate::{Study, StudyError};
 
 /// Width and height of a state's cell.
@@ -87,16 +87,7 @@ fn words_of(drawing: &mut foldmotion_record::Drawing, at: DVec2, study: &Study, 
 
 /// A state of a motion, turned as its stage is shown: upright until it is nearly flat, then as the compact state lies.
 fn pose<'a>(study: &'a Study, (time, positions): &(f64, Vec<DVec3>)) -> Pose<'a> {
-    let target = if *time < 1.0 {
-        study.deployed.clone()
-    } else if *time == 1.0 {
-        study.units.sheet.planar()
-    } else {
-        study.units.compact()
-    };
-    let fit = RigidMotion::best_fit(positions, &target);
-    let turned = positions.iter().map(|&p| fit.apply(p)).collect();
-    let pose = Pose::new(study, turned);
+    let pose = Pose::new(study, turned(&study.known(), *time, positions));
     if *time > 1.0 {
         pose.layered(study)
     } else {

@@ -1,0 +1,207 @@
+//! Makes a recorded file again, from what it says of its origin.
+
+use std::path::{Path, PathBuf};
+
+use super::models::state_name;
+use super::motion_file::{ReadMotion, recording};
+use super::origin::Origin;
+use crate::results::{FRAMES, Results, output_error};
+use crate::run::{Progress, VERSION};
+use crate::scene::OutputChoice;
+use crate::{Scene, SceneSource, Study, StudyError};
+
+/// A file made again.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Again {
+    /// Where it stands.
+    pub path: PathBuf,
+    /// Whether it has the same bytes as the file it was made after.
+    pub is_same: bool,
+    /// Why the bytes may differ, for the user.
+    pub warnings: Vec<String>,
+}
+
+/// Makes `file` again: into the folder `out` under its own name, or beside it as `NAME-again`.
+///
+/// A file of a run runs its scene again; paths in it are taken beside the file. A file of a motion needs that motion:
+/// `motion`, or the file of that name beside `file`, in the folder above it, or in the working folder. Another version,
+/// another motion or another kind of processor may give other bytes; [`Again`] says so.
+///
+/// # Errors
+/// [`StudyError::Origin`] where the file does not say where it comes from or the motion is not found; those of a run
+/// and of `record_file`.
+pub fn record_again(
+    file: &Path,
+    motion: Option<&Path>,
+    out: Option<&Path>,
+    progress: Progress<'_>,
+) -> Result<Again, StudyError> {
+    let origin = Origin::read(file)?;
+    let asked = Asked::new(file, &origin)?;
+    let target = asked.target(out);
+    let folder = target.parent().unwrap_or(Path::new(""));
+    let mut results = Results::of(&folder.join("again"), |_| false, None)?;
+    let mut warnings = Vec::new();
+    if origin.version != VERSION {
+        warnings.push(format!(
+            "the file was made by foldmotion {}, this is {VERSION}: the bytes may differ",
+            origin.version
+        ));
+    }
+    let found = match &origin.scene {
+        Some(scene) => asked.run(scene, &mut results, progress)?,
+        None => asked.record(&origin, motion, &mut results, progress)?,
+    };
+    if found != origin.sha256 {
+        warnings.push(format!(
+            "the motion has the SHA-256 {found}, that of the file had {}: the bytes may differ",
+            origin.sha256
+        ));
+    }
+    let name = asked.name()?;
+    if !results.written().contains(&name) {
+        return Err(asked.fault(format!(
+            "the recording has no {name}: give the file its first name back"
+        )));
+    }
+    let made = results.take(&name, &target)?;
+    let earlier = std::fs::read(file).map_err(|source| StudyError::Read {
+        path: file.to_owned(),
+        source,
+    })?;
+    Ok(Again {
+        path: target,
+        is_same: made == earlier,
+        warnings,
+    })
+}
+
+/// A file to be made again.
+struct Asked<'a> {
+    file: &'a Path,
+    output: OutputChoice,
+    state: Option<f64>,
+}
+
+impl<'a> Asked<'a> {
+    fn new(file: &'a Path, origin: &Origin) -> Result<Self, StudyError> {
+        let ending = file.extension().unwrap_or_default().to_string_lossy();
+        let output = OutputChoice::ALL
+            .into_iter()
+            .find(|output| output.name() == ending.to_ascii_lowercase());
+        let output = output.ok_or_else(|| StudyError::Origin {
+            path: file.to_owned(),
+            message: "its ending tells no kind of file; call it as it was: gif, mp4, png, svg, pdf, glb or obj".to_owned(),
+        })?;
+        Ok(Self {
+            file,
+            output,
+            state: origin.state,
+        })
+    }
+
+    fn fault(&self, message: String) -> StudyError {
+        StudyError::Origin {
+            path: self.file.to_owned(),
+            message,
+        }
+    }
+
+    fn file_name(&self) -> String {
+        let name = self.file.file_name().unwrap_or_default();
+        name.to_string_lossy().into_owned()
+    }
+
+    fn beside(&self) -> &Path {
+        self.file.parent().unwrap_or(Path::new(""))
+    }
+
+    /// Its name among the results.
+    fn name(&self) -> Result<String, StudyError> {
+        Ok(match (self.output, self.state) {
+            (OutputChoice::Png, _) => format!("{FRAMES}/{}", self.file_name()),
+            (OutputChoice::Svg | OutputChoice::Pdf, _) => {
+                format!("figure.{}", self.output.name())
+            }
+            (OutputChoice::Obj, Some(time)) => state_name(time, self.output),
+            (OutputChoice::Gif | OutputChoice::Mp4 | OutputChoice::Glb, _) => {
+                format!("motion.{}", self.output.name())
+            }
+            _ => return Err(self.fault("files of this kind are not made again".to_owned())),
+        })
+    }
+
+    /// Where it is made again.
+    fn target(&self, out: Option<&Path>) -> PathBuf {
+        let Some(out) = out else {
+            let stem = self.file.file_stem().unwrap_or_default().to_string_lossy();
+            let name = format!("{stem}-again.{}", self.output.name());
+            return self.beside().join(name);
+        };
+        out.join(self.file.file_name().unwrap_or_default())
+    }
+
+    /// Runs `scene` and records into `results`; answers the SHA-256 of the motion.
+    fn run(
+        &self,
+        scene: &Scene,
+        results: &mut Results,
+        progress: Progress<'_>,
+    ) -> Result<String, StudyError> {
+        let text = toml::to_string(scene).map_err(|e| self.fault(e.to_string()))?;
+        let source = SceneSource::new(self.file, text);
+        let mut study = Study::resolve(&source)?;
+        study.recording.outputs = vec![self.output];
+        let folded = study.fold_and_check(progress)?;
+        study.record(&folded, results, progress)
+    }
+
+    /// Records the motion it was made from into `results`; answers its SHA-256.
+    fn record(
+        &self,
+        origin: &Origin,
+        motion: Option<&Path>,
+        results: &mut Results,
+        progress: Progress<'_>,
+    ) -> Result<String, StudyError> {
+        let name = origin.motion.as_deref().unwrap_or_default();
+        let path = match motion {
+            Some(motion) => motion.to_owned(),
+            None => self.find(name)?,
+        };
+        let mut recording = recording(&origin.record.clone().unwrap_or_default())?;
+        recording.outputs = vec![self.output];
+        let mut read = ReadMotion::read(&path, progress)?;
+        // It may have been renamed since.
+        name.clone_into(&mut read.name);
+        read.record(&recording, results, progress)?;
+        Ok(read.sha256)
+    }
+
+    /// The motion called `name`. It is a name, not a path: what a file says must not reach elsewhere.
+    fn find(&self, name: &str) -> Result<PathBuf, StudyError> {
+        let only_name = Path::new(name).file_name().unwrap_or_default();
+        let places = [
+            self.beside().to_owned(),
+            self.beside().join(".."),
+            PathBuf::new(),
+        ];
+        let mut places = places.into_iter().map(|place| place.join(only_name));
+        places.find(|path| path.is_file()).ok_or_else(|| {
+            self.fault(format!(
+                "it was recorded from {name}, which is not beside it: name the motion after --again FILE"
+            ))
+        })
+    }
+}
+
+impl Results {
+    /// Moves one of the files to `target` and gives up the others; answers its bytes.
+    fn take(self, name: &str, target: &Path) -> Result<Vec<u8>, StudyError> {
+        let path = self.temporary().join(name);
+        let bytes = std::fs::read(&path).map_err(|e| output_error(&path, "cannot be read", e))?;
+        std::fs::rename(&path, target)
+            .map_err(|e| output_error(target, "cannot be moved into place", e))?;
+        Ok(bytes)
+    }
+}

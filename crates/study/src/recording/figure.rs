@@ -1,0 +1,148 @@
+//! `figure.svg` and `figure.pdf`: states side by side at one scale.
+
+use std::io::Write as _;
+
+use foldmotion_record::{
+    Bounds, Drawing, LineStyle, Pose, Provenance, RecordError, StripOptions, strip,
+};
+use glam::DVec3;
+
+use super::colours::legend;
+use super::{Quantity, Recorder, Shown, turned};
+use crate::StudyError;
+use crate::results::{Results, write_error};
+use crate::run::VERSION;
+use crate::scene::{ColourChoice, OutputChoice};
+
+/// States in a row, at most.
+const COLUMNS: usize = 5;
+
+impl Recorder<'_> {
+    pub(super) fn figures(
+        &self,
+        values: Shown<'_>,
+        results: &mut Results,
+    ) -> Result<(), StudyError> {
+        let (svg, pdf) = (OutputChoice::Svg, OutputChoice::Pdf);
+        if !self.recording.has(svg) && !self.recording.has(pdf) {
+            return Ok(());
+        }
+        let drawing = self.figure(values)?;
+        let folder = results.folder().to_owned();
+        let mut write = |name: &'static str, bytes: &[u8]| {
+            results.write(name, |out| {
+                out.write_all(bytes)
+                    .map_err(|e| write_error(&folder, name, e))
+            })
+        };
+        if self.recording.has(svg) {
+            write("figure.svg", drawing.svg()?.as_bytes())?;
+        }
+        if self.recording.has(pdf) {
+            write("figure.pdf", &drawing.pdf()?)?;
+        }
+        Ok(())
+    }
+
+    fn figure(&self, values: Shown<'_>) -> Result<Drawing, StudyError> {
+        let times = self.times();
+        let poses: Vec<Pose<'_>> = times.into_iter().map(|time| self.pose(time)).collect();
+        let recording = self.recording;
+        let mut options = StripOptions {
+            columns: COLUMNS,
+            view: recording.film.view,
+            style: recording.film.style.clone(),
+            unit: self.unit.to_owned(),
+            legend: values.map(legend),
+            ..StripOptions::default()
+        };
+        if recording.colour == ColourChoice::Grey {
+            options.lines = LineStyle::Dashed;
+        }
+        if recording.film.is_transparent {
+            options.background = None;
+        }
+        // Long labels leave room for fewer states in a row.
+        let drawing = loop {
+            match strip(&self.motion.sheet, &poses, &options) {
+                Err(RecordError::NoRoom { .. }) if options.columns > 1 => options.columns -= 1,
+                drawing => break drawing?,
+            }
+        };
+        Ok(drawing.with_provenance(Provenance {
+            title: self.title.to_owned(),
+            producer: format!("foldmotion {VERSION}"),
+            scene: self.origin.text(),
+            hash: self.origin.sha256.clone(),
+        }))
+    }
+
+    fn pose(&self, time: f64) -> Pose<'_> {
+        let mut pose = Pose::at(self.motion, &self.marks, time);
+        if let Some(quantity) = Quantity::of(self.recording.colour) {
+            pose.values = quantity.values(&self.motion.sheet, &pose.positions);
+        }
+        if let Some(known) = &self.known {
+            pose.positions = turned(known, time, &pose.positions);
+            if self.recording.has_profile && time == 0.0 {
+                pose.target.clone_from(&known.profile);
+            }
+        }
+        if self.recording.has_box && time >= 2.0 {
+            pose.bounds = Some(self.bounds(&pose.positions));
+        }
+        pose
+    }
+
+    /// The box around the compact state, which lies along the axes.
+    fn bounds(&self, positions: &[DVec3]) -> Bounds {
+        let points = || positions.iter().copied();
+        let low = points().fold(DVec3::INFINITY, DVec3::min);
+        let high = points().fold(DVec3::NEG_INFINITY, DVec3::max);
+        let unit = self.unit;
+        let closed_form = self.known.as_ref().and_then(|known| known.closed_form);
+        let words = closed_form.map(|form| {
+            let [x, y, z] = form.extents.map(short);
+            format!("closed form {x} × {y} × {z} {unit}")
+        });
+        Bounds {
+            low,
+            high,
+            sizes: (high - low)
+                .to_array()
+                .map(|side| format!("{} {unit}", short(side))),
+            words: words.unwrap_or_default(),
+        }
+    }
+}
+
+/// Four digits.
+fn short(value: f64) -> String {
+    let size = value.abs();
+    if size < 1e-9 {
+        return "0".to_owned();
+    }
+    if !(1e-3..1e6).contains(&size) {
+        return format!("{value:.3e}");
+    }
+    #[expect(clippy::cast_sign_loss, reason = "clamped to 0 to 6 before")]
+    let decimals = (3.0 - size.log10().floor()).clamp(0.0, 6.0) as usize;
+    let text = format!("{value:.decimals$}");
+    if text.contains('.') {
+        text.trim_end_matches('0').trim_end_matches('.').to_owned()
+    } else {
+        text
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lengths_have_four_digits() {
+        let numbers = [0.0, 1e-12, 5.0, 0.35, 5.3512, 12_345.6, 2.5e-7];
+        let expected = ["0", "0", "5", "0.35", "5.351", "12346", "2.500e-7"];
+        assert_eq!(numbers.map(short), expected);
+    }
+}

@@ -1,0 +1,128 @@
+//! Films, figures and models of a motion: of a run, and of any motion file.
+
+mod again;
+mod colours;
+mod figure;
+mod films;
+mod known;
+mod models;
+mod motion_file;
+mod origin;
+mod resolve;
+mod run_files;
+mod space;
+
+use foldmotion_pattern::Motion;
+use foldmotion_record::{FilmOptions, Marks, Values};
+
+use crate::results::Results;
+use crate::run::{Phase, Progress};
+use crate::scene::{ColourChoice, LengthUnit, OutputChoice};
+use crate::{Scene, StudyError};
+
+pub use self::again::{Again, record_again};
+pub use self::motion_file::{MotionRecord, record_file};
+
+use self::colours::Quantity;
+pub(crate) use self::known::{Known, turned};
+use self::origin::Origin;
+
+/// The states of figures and models of a whole motion.
+const STATES: [f64; 5] = [0.0, 0.5, 1.0, 1.5, 2.0];
+
+/// `[record]`, resolved.
+#[derive(Debug, Clone)]
+pub struct Recording {
+    /// What is written, in order, each once.
+    pub outputs: Vec<OutputChoice>,
+    /// How films look.
+    pub film: FilmOptions,
+    /// The motion times of figures and models, rising; the standard ones where the scene gives none.
+    pub at: Option<Vec<f64>>,
+    /// What colours show.
+    pub colour: ColourChoice,
+    /// Thickness of solids in the motion's unit; none for surfaces.
+    pub thickness: Option<f64>,
+    /// Whether figures show the profile.
+    pub has_profile: bool,
+    /// Whether figures show the compact box.
+    pub has_box: bool,
+    /// The scene with its title, which recorded files carry.
+    pub(crate) scene: Scene,
+}
+
+impl Recording {
+    pub(crate) fn has(&self, output: OutputChoice) -> bool {
+        self.outputs.contains(&output)
+    }
+}
+
+/// Records one motion.
+pub(crate) struct Recorder<'a> {
+    pub(crate) recording: &'a Recording,
+    pub(crate) motion: &'a Motion,
+    /// Facets that penetrate.
+    pub(crate) marks: Marks,
+    pub(crate) title: &'a str,
+    /// FOLD's name of the unit of length.
+    pub(crate) unit: &'a str,
+    /// What the study says beside the motion, if there is one.
+    pub(crate) known: Option<Known>,
+    pub(crate) origin: Origin,
+}
+
+impl Recorder<'_> {
+    /// Writes every figure, model and film of the recording into `results`; all films in one pass.
+    ///
+    /// A page would be written here: `OutputChoice::Html` after the models, from `motion`, `marks`, `values` and
+    /// `origin`.
+    pub(crate) fn write(
+        &self,
+        results: &mut Results,
+        progress: Progress<'_>,
+    ) -> Result<(), StudyError> {
+        let values = Quantity::of(self.recording.colour).map(|q| q.of_motion(self.motion));
+        self.figures(values.as_ref(), results)?;
+        proceed(progress)?;
+        self.models(results)?;
+        proceed(progress)?;
+        self.films(values.as_ref(), results, progress)
+    }
+
+    /// The motion times of figures and models. Those after the motion's end or before its beginning are that state.
+    fn times(&self) -> Vec<f64> {
+        let frames = &self.motion.frames;
+        let (Some(first), Some(last)) = (frames.first(), frames.last()) else {
+            return Vec::new();
+        };
+        let (first, last) = (first.time, last.time);
+        let even = |k: i32| first + (last.min(2.0) - first) * f64::from(k) / 4.0;
+        let asked = match &self.recording.at {
+            Some(at) => at.clone(),
+            None if first > 0.0 => (0..5).map(even).collect(),
+            None => STATES.to_vec(),
+        };
+        let mut times: Vec<f64> = asked.into_iter().map(|t| t.clamp(first, last)).collect();
+        times.dedup();
+        times
+    }
+
+    /// Metres in the motion's unit of length.
+    fn metres(&self) -> f64 {
+        let name = toml::Value::String(self.unit.to_owned());
+        let unit: Option<LengthUnit> = name.try_into().ok();
+        let millimetres = unit.and_then(LengthUnit::millimetres);
+        millimetres.map_or(1.0, |length| length / 1000.0)
+    }
+}
+
+/// What a film and a figure show as colours.
+type Shown<'a> = Option<&'a Values>;
+
+fn proceed(progress: Progress<'_>) -> Result<(), StudyError> {
+    if progress(Phase::Record, 0.0) {
+        Ok(())
+    } else {
+        Err(StudyError::Interrupted)
+    }
+}

@@ -1,0 +1,98 @@
+//! `motion.glb`, and an OBJ and STL file of each state.
+
+use std::io::BufWriter;
+
+use foldmotion_pattern::Motion;
+use foldmotion_record::{
+    GlbOptions, RecordError, Solid, glb, obj, positions_at, solid, stl, surface_of,
+};
+
+use super::Recorder;
+use crate::StudyError;
+use crate::results::Results;
+use crate::run::VERSION;
+use crate::scene::OutputChoice;
+
+/// Seconds of a stage that a film jumps over: a GLB has no jumps.
+const SHORTEST_STAGE: f64 = 0.01;
+
+impl Recorder<'_> {
+    pub(super) fn models(&self, results: &mut Results) -> Result<(), StudyError> {
+        if self.recording.has(OutputChoice::Glb) {
+            self.glb(results)?;
+        }
+        let outputs = [OutputChoice::Obj, OutputChoice::Stl].map(|o| self.recording.has(o));
+        if outputs == [false, false] {
+            return Ok(());
+        }
+        for time in self.times() {
+            let solid = self.solid(time)?;
+            if outputs[0] {
+                let text = self.origin.text_at(time);
+                results.write(&state_name(time, OutputChoice::Obj), |out| {
+                    obj(&solid, &text, out).map_err(StudyError::from)
+                })?;
+            }
+            if outputs[1] {
+                // The 80 bytes of the header hold no scene.
+                let label = format!("foldmotion {VERSION} t={time} {}", self.origin.sha256);
+                results.write(&state_name(time, OutputChoice::Stl), |out| {
+                    stl(&solid, &label, out).map_err(StudyError::from)
+                })?;
+            }
+        }
+        Ok(())
+    }
+
+    /// As few morph targets as hold 1e-3 h; fewer where viewers would not take as many.
+    fn glb(&self, results: &mut Results) -> Result<(), StudyError> {
+        let mut options = GlbOptions {
+            seconds: self.recording.film.seconds.map(|s| s.max(SHORTEST_STAGE)),
+            style: self.recording.film.style.clone(),
+            title: self.title.to_owned(),
+            provenance: self.origin.text(),
+            ..GlbOptions::default()
+        };
+        let motion = self.motion_in_metres();
+        let motion = motion.as_ref().unwrap_or(self.motion);
+        let mut bytes = Vec::new();
+        loop {
+            match glb(motion, &options, &mut bytes) {
+                Err(RecordError::Targets { .. }) => options.tolerance *= 2.0,
+                written => break written.map(drop)?,
+            }
+        }
+        results.write("motion.glb", |out: &mut BufWriter<_>| {
+            std::io::Write::write_all(out, &bytes)
+                .map_err(|e| StudyError::Record(RecordError::Write(e)))
+        })
+    }
+
+    /// The motion in metres, where its unit is another.
+    fn motion_in_metres(&self) -> Option<Motion> {
+        let metres = self.metres();
+        if metres == 1.0 {
+            return None;
+        }
+        let mut motion = self.motion.clone();
+        motion.sheet.unit_length *= metres;
+        let positions = motion.frames.iter_mut().flat_map(|f| &mut f.positions);
+        positions.for_each(|position| *position *= metres);
+        Some(motion)
+    }
+
+    fn solid(&self, time: f64) -> Result<Solid, RecordError> {
+        let metres = self.metres();
+        let mut positions = positions_at(self.motion, time);
+        positions.iter_mut().for_each(|p| *p *= metres);
+        match self.recording.thickness {
+            Some(thickness) => solid(&self.motion.sheet, &positions, thickness * metres),
+            None => surface_of(&self.motion.sheet, &positions),
+        }
+    }
+}
+
+/// The name of the file of one state, such as `state-0.5.obj`.
+pub(super) fn state_name(time: f64, output: OutputChoice) -> String {
+    format!("state-{time}.{}", output.name())
+}

@@ -1,0 +1,269 @@
+//! Records a motion file, whoever made it.
+
+use std::path::Path;
+
+use foldmotion_pattern::{FoldError, FoldFile, LayerOrder, Motion};
+use foldmotion_record::Marks;
+
+use super::run_files::marks;
+use super::{Origin, Recorder, Recording};
+use crate::check_file::Input;
+use crate::results::{CERTIFICATE, FRAMES, Results};
+use crate::run::{Phase, Progress};
+use crate::scene::{ColourChoice, OutputChoice, RecordScene};
+use crate::statement::claim;
+use crate::study::Resolver;
+use crate::verify_file::read_certificate;
+use crate::{Scene, SceneSource, StudyError};
+
+/// Positions held in memory, at most: 2.4 GB.
+const MOST_POSITIONS: usize = 100_000_000;
+
+/// What came of recording a motion file.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct MotionRecord {
+    /// The names of the files in the folder.
+    pub files: Vec<String>,
+    /// Whether penetrations are marked: a certificate of this very file lies beside it.
+    pub is_judged: bool,
+}
+
+/// Records the motion in the FOLD file at `path` into `folder`, as `record` says; keys of it are named as flags in errors.
+///
+/// Without `foldmotion:time` in the file its frames, evenly, are one stage from t = 1 to t = 2. Facets that penetrate
+/// are marked where a `certificate.json` of this very file lies beside it. Other files in `folder` stay.
+///
+/// # Errors
+/// [`StudyError`]: a file that is no motion or too large, values that cannot be used, outputs that need a scene.
+pub fn record_file(
+    path: &Path,
+    record: &RecordScene,
+    folder: &Path,
+    progress: Progress<'_>,
+) -> Result<MotionRecord, StudyError> {
+    let recording = recording(record)?;
+    let read = ReadMotion::read(path, progress)?;
+    let mut results = Results::of(folder, ours(&recording), None)?;
+    results.require(recording.space(&read.motion.sheet, read.motion.frames.len()))?;
+    read.record(&recording, &mut results, progress)?;
+    let files = results.written().to_vec();
+    results.publish()?;
+    Ok(MotionRecord {
+        files,
+        is_judged: read.is_judged,
+    })
+}
+
+/// Pictures of an earlier, longer film would mislead; other files are left alone.
+fn ours(recording: &Recording) -> fn(&str) -> bool {
+    if recording.has(OutputChoice::Png) {
+        |name| name.starts_with(FRAMES)
+    } else {
+        |_| false
+    }
+}
+
+/// How a motion file is recorded, from `record`.
+pub(super) fn recording(record: &RecordScene) -> Result<Recording, StudyError> {
+    let mut record = record.clone();
+    let outputs = record
+        .outputs
+        .get_or_insert_with(|| vec![OutputChoice::Gif]);
+    let needs_scene = [OutputChoice::Fold, OutputChoice::Csv];
+    let refused = outputs.iter().find(|o| needs_scene.contains(o)).copied();
+    let source = SceneSource::of_flags(&record);
+    if let Some(output) = refused {
+        let message = format!(
+            "{} comes from running a scene (foldmotion run); of a motion there is gif, mp4, png, svg, pdf, glb, obj and stl",
+            output.name()
+        );
+        return Err(source.value_error("record.outputs", message));
+    }
+    if record.profile == Some(true) {
+        let message = "a motion file has no profile; run the scene instead".to_owned();
+        return Err(source.value_error("record.profile", message));
+    }
+    let scene = Scene {
+        record,
+        ..Scene::default()
+    };
+    let resolver = Resolver {
+        source: &source,
+        scene: &scene,
+    };
+    resolver.recording()
+}
+
+/// A motion read from a file.
+pub(super) struct ReadMotion {
+    pub(super) motion: Motion,
+    pub(super) sha256: String,
+    /// The name of the file.
+    pub(super) name: String,
+    title: Option<String>,
+    unit: Option<String>,
+    marks: Marks,
+    is_judged: bool,
+    /// Whether the crease pattern is known: lengths at rest.
+    is_flat: bool,
+}
+
+impl ReadMotion {
+    pub(super) fn read(path: &Path, progress: Progress<'_>) -> Result<Self, StudyError> {
+        let (file, described) = {
+            let mut input = Input::open(path, Phase::Read, progress)?;
+            let file = FoldFile::read(&mut input);
+            (input.unless_stopped(file)?, input.digest())
+        };
+        let mut input = Input::open(path, Phase::Read, progress)?;
+        let positions = file.frame_count().saturating_mul(file.sheet.vertices.len());
+        if positions > MOST_POSITIONS {
+            let message = format!(
+                "it has {positions} positions of vertices: at most {MOST_POSITIONS} can be recorded; leave out frames"
+            );
+            return Err(input.failure(&message));
+        }
+        let (mut frames, mut claimed) = (Vec::new(), LayerOrder::default());
+        let read = file.frames::<FoldError>(&mut input, &mut |frame, order| {
+            frames.push(frame);
+            if !order.is_empty() {
+                claimed = order.clone();
+            }
+            Ok(())
+        });
+        input.unless_stopped(read)?;
+        let sha256 = input.digest();
+        if sha256 != described {
+            return Err(input.failure(&"it changed while it was read"));
+        }
+        if let Some(k) = (1..frames.len()).find(|&k| frames[k].time <= frames[k - 1].time) {
+            let message = format!("frame {k} of the motion is not later than the one before");
+            return Err(input.failure(&message));
+        }
+        let compact_order = of_triangles(&claimed, &file);
+        let mut motion = Motion {
+            sheet: file.sheet,
+            frames,
+            compact_order,
+        };
+        let judged = judged(path, &motion, &sha256, file.has_times);
+        if !file.has_times {
+            as_one_stage(&mut motion);
+        }
+        let name = path.file_name().unwrap_or_default().to_string_lossy();
+        Ok(Self {
+            sha256,
+            name: name.into_owned(),
+            title: file.title,
+            unit: file.unit,
+            is_judged: judged.is_some(),
+            marks: judged.unwrap_or_default(),
+            is_flat: file.rest.iter().all(|p| p.z == file.rest[0].z),
+            motion,
+        })
+    }
+
+    /// Records it into `results`.
+    pub(super) fn record(
+        &self,
+        recording: &Recording,
+        results: &mut Results,
+        progress: Progress<'_>,
+    ) -> Result<(), StudyError> {
+        self.require_states(recording)?;
+        let record = &recording.scene.record;
+        let recorder = Recorder {
+            recording,
+            motion: &self.motion,
+            marks: self.marks.clone(),
+            title: self.title.as_deref().unwrap_or(&self.name),
+            unit: self.unit.as_deref().unwrap_or("unit"),
+            known: None,
+            origin: Origin::of_motion(self.name.clone(), record, self.sha256.clone()),
+        };
+        recorder.write(results, progress)
+    }
+
+    /// Refuses what this motion cannot show.
+    fn require_states(&self, recording: &Recording) -> Result<(), StudyError> {
+        let source = SceneSource::of_flags(&recording.scene.record);
+        let ends = [self.motion.frames.first(), self.motion.frames.last()];
+        let [first, last] = ends.map(|frame| frame.map_or(0.0, |f| f.time));
+        let outside = |t: &&f64| !(first..=last).contains(*t);
+        if let Some(time) = recording.at.iter().flatten().find(outside) {
+            let message = format!(
+                "t = {time} is not in {}, which runs from t = {first} to {last}",
+                self.name
+            );
+            return Err(source.value_error("record.at", message));
+        }
+        if recording.colour == ColourChoice::Strain && !self.is_flat {
+            let message = format!(
+                "{} has no flat crease pattern as its key frame, so lengths at rest are not known; use bending or paper",
+                self.name
+            );
+            return Err(source.value_error("record.colour", message));
+        }
+        Ok(())
+    }
+}
+
+/// The order of the triangles of faces in `order`; those of one face do not overlap.
+fn of_triangles(order: &LayerOrder, file: &FoldFile) -> LayerOrder {
+    let mut of_face = vec![Vec::new(); file.polygons.len()];
+    for (triangle, &face) in (0..).zip(&file.triangle_faces) {
+        of_face[face as usize].push(triangle);
+    }
+    let mut triangles = LayerOrder::default();
+    for (f, g, sign) in order.iter() {
+        for &a in &of_face[f as usize] {
+            for &b in &of_face[g as usize] {
+                triangles.insert(a, b, sign);
+            }
+        }
+    }
+    triangles
+}
+
+/// What the certificate beside the file marks; none where there is none of this very file.
+fn judged(path: &Path, motion: &Motion, sha256: &str, has_times: bool) -> Option<Marks> {
+    let beside = path.parent()?.join(CERTIFICATE);
+    let certificate = read_certificate(&beside).ok()?;
+    if certificate.sha256 != sha256 {
+        return None;
+    }
+    let report = claim(&certificate).ok()?;
+    let faces = motion.sheet.faces.len();
+    let frames = motion.frames.len();
+    let mut penetrations = report.penetrations.iter();
+    let is_of_motion =
+        penetrations.all(|p| p.frame < frames && p.faces.iter().all(|&f| (f as usize) < faces));
+    if !is_of_motion {
+        return None;
+    }
+    if has_times {
+        return Some(marks(motion, &report));
+    }
+    // The certificate counts frames where the file gives no times.
+    let spans = foldmotion_check::penetration_spans(motion, &report);
+    let mut staged = Marks::default();
+    for span in spans {
+        let [from, to] = [span.from, span.to].map(|index| stage_time(index, frames));
+        span.faces
+            .into_iter()
+            .for_each(|face| staged.insert(face, from, to));
+    }
+    Some(staged)
+}
+
+/// Times that are numbers of frames become one stage, from planar to compact.
+fn as_one_stage(motion: &mut Motion) {
+    let count = motion.frames.len();
+    for frame in &mut motion.frames {
+        frame.time = stage_time(frame.time, count);
+    }
+}
+
+fn stage_time(index: f64, count: usize) -> f64 {
+    1.0 + index / count.saturating_sub(1).max(1) as f64
+}
