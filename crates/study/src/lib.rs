@@ -9,8 +9,12 @@ mod check_file;
 mod digest;
 mod engine;
 mod error;
+mod gap;
+mod imported_report;
+mod imported_study;
 pub mod paper;
 mod pattern_files;
+mod pattern_scene;
 mod profile;
 mod refinement;
 pub mod report;
@@ -24,12 +28,15 @@ mod series;
 mod source;
 mod statement;
 mod study;
+mod subject;
 mod unfolding;
+mod unit_study;
 mod verify_file;
 
 pub use certificate::Certificate;
 pub use check_file::{CheckOptions, check_file};
 pub use error::StudyError;
+pub use imported_study::ImportedStudy;
 pub use foldmotion_pattern::{
     CutError, CutOptions, PaperSize, ProfileModel, models, parse_millimetres,
 };
@@ -42,5 +49,7 @@ pub use scene::Scene;
 pub use schema::{certificate_schema, paper_schema, report_schema, scene_schema};
 pub use source::SceneSource;
 pub use study::Study;
+pub use subject::Subject;
 pub use unfolding::Unfolding;
+pub use unit_study::UnitStudy;
 pub use verify_file::{VerifiedCertificate, verify_file};

@@ -5,9 +5,8 @@ use std::path::Path;
 use std::time::Instant;
 
 use foldmotion_check::{
-    CheckError, Checker, CollisionReport, FittedBox, fitted_box, penetration_spans,
+    CheckError, Checker, CollisionReport, FittedBox, penetration_spans,
 };
-use foldmotion_geometry::RigidMotion;
 use foldmotion_pattern::{FoldHeader, LayerOrder, Motion};
 use foldmotion_record::{FilmOptions, Marks, gif, plots};
 
@@ -104,11 +103,11 @@ impl Study {
         } else {
             0
         };
-        let orders = BYTES_AN_ORDER * self.units.compact_order().len() as u64;
+        let orders = BYTES_AN_ORDER * self.subject.compact_order().len() as u64;
         let size = |frames| {
             let fold = self.outputs.contains(&OutputChoice::Fold);
             film + if fold {
-                Motion::fold_file_size(&self.units.sheet, frames) + orders
+                Motion::fold_file_size(self.subject.sheet(), frames) + orders
             } else {
                 0
             }
@@ -129,21 +128,14 @@ impl Study {
         })
     }
 
-    /// The motion in the frame of the exact compact state: one rigid motion, applied to every frame alike.
+    /// The motion where it is shown.
     pub(crate) fn place(&self, computed: &Computed) -> Motion {
-        let exact = self.units.compact();
-        let fit = match computed.frames.last() {
-            Some(last) => RigidMotion::best_fit(&last.positions, &exact),
-            None => RigidMotion::IDENTITY,
-        };
         let mut frames = computed.frames.clone();
-        for position in frames.iter_mut().flat_map(|f| &mut f.positions) {
-            *position = fit.apply(*position);
-        }
+        self.subject.place(&mut frames);
         Motion {
-            sheet: self.units.sheet.clone(),
+            sheet: self.subject.sheet().clone(),
             frames,
-            compact_order: self.units.compact_order(),
+            compact_order: self.subject.compact_order(),
         }
     }
 
@@ -157,7 +149,7 @@ impl Study {
         let last = motion.frames.last().map_or(&[][..], |f| &f.positions);
         Ok(Checked {
             series: self.series(motion, computed, &collision.separation_series),
-            compact: fitted_box(last, &self.units.compact()),
+            compact: self.subject.measured_box(last),
             collision,
             layer_orders,
         })
@@ -253,8 +245,9 @@ impl Study {
             title: &self.title,
             creator: &format!("foldmotion {VERSION}"),
             unit: self.unit_name,
-            target_angles: self.units.compact_angles(),
+            target_angles: self.subject.end_angles(),
             layer_orders: &checked.layer_orders,
+            keys: &self.subject.kept_keys(),
         };
         let mut sha256 = String::new();
         results.write(MOTION, |out| {

@@ -23,12 +23,6 @@ const LATER: &[(&str, &str, Option<&str>, &str)] = &[
         None,
         "leave it out: the film shows every state",
     ),
-    (
-        "pattern",
-        "file",
-        None,
-        "describe the sheet by [profile] and [sheet]",
-    ),
 ];
 
 /// Outputs of the scene format that this version does not write yet.
@@ -43,11 +37,15 @@ pub struct SceneSource {
 }
 
 impl SceneSource {
-    /// Reads a scene file.
+    /// Reads a scene file. A crease pattern (.fold, .svg) is a scene of its own, of which `[pattern]` names this file and
+    /// all else is left out.
     ///
     /// # Errors
     /// [`StudyError::Read`].
     pub fn read(path: &Path) -> Result<Self, StudyError> {
+        if let Some(pattern) = Self::of_pattern(path) {
+            return Ok(pattern);
+        }
         let text = std::fs::read_to_string(path).map_err(|source| StudyError::Read {
             path: path.to_owned(),
             source,
@@ -91,6 +89,12 @@ impl SceneSource {
         let value = parsed.unwrap_or_else(|| Value::String(value.to_owned()));
         self.overrides.push((key.to_owned(), value));
         Ok(())
+    }
+
+    /// Gives a key the text `value`, as if by `--set`.
+    pub(crate) fn give(&mut self, key: &str, value: &str) {
+        self.overrides
+            .push((key.to_owned(), Value::String(value.to_owned())));
     }
 
     /// A path of the scene: relative ones are beside the scene file.
