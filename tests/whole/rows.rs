@@ -34,8 +34,14 @@ fn unequal_rows_with_one_flap_width_fold_to_their_exact_box_with_and_without_con
         let report = run("shelter-unequal", &[contact]);
         let verdict = report.collision.verdict.as_str();
         assert!(verdicts.contains(&verdict), "{contact}: {verdict}");
-        assert_eq!((report.case.as_deref().unwrap(), report.status()), ("SII", 0));
-        assert!(report.compact.rms_to_exact.unwrap() < tolerance, "{contact}");
+        assert_eq!(
+            (report.case.as_deref().unwrap(), report.status()),
+            ("SII", 0)
+        );
+        assert!(
+            report.compact.rms_to_exact.unwrap() < tolerance,
+            "{contact}"
+        );
         if contact.ends_with("false") {
             assert!(largest_error(&report) < tolerance);
         }

@@ -119,12 +119,17 @@ fn every_scene_comes_to_its_verdict_and_writes_its_files() {
         );
         // Layers are a gap of 1e-3 h apart, and there are eight of them in a column; long stacks add up.
         assert!(
-            report.compact.rms_to_exact.unwrap() < f64::max(2e-2, 1.5e-3 * report.rows.unwrap() as f64),
+            report.compact.rms_to_exact.unwrap()
+                < f64::max(2e-2, 1.5e-3 * report.rows.unwrap() as f64),
             "{scene}: {}",
             report.compact.rms_to_exact.unwrap()
         );
         let is_equal = report.unequal_rows.is_none();
-        assert_eq!(report.division.as_ref().unwrap().max_residual <= 1e-12, is_equal, "{scene}");
+        assert_eq!(
+            report.division.as_ref().unwrap().max_residual <= 1e-12,
+            is_equal,
+            "{scene}"
+        );
         for file in [
             "report.json",
             "motion.fold",

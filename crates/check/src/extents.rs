@@ -60,7 +60,10 @@ pub fn principal_box(positions: &[DVec3], faces: &[[u32; 3]]) -> FittedBox {
         sum + (a + b + c + square(middle(t) - centre) * 9.0) * (area(t) / 12.0)
     });
     let motion = RigidMotion::to_principal_axes(centre, moments);
-    measured(Aabb::around(positions.iter().map(|&p| motion.apply(p))), None)
+    measured(
+        Aabb::around(positions.iter().map(|&p| motion.apply(p))),
+        None,
+    )
 }
 
 /// What a measured box is off its closed form by.
@@ -143,7 +146,10 @@ mod tests {
             principal_box(&positions, &halves),
             principal_box(&positions, &fan),
         ] {
-            assert!(extents.distance(DVec3::new(5.0, 2.0, 0.0)) < 1e-12, "{extents}");
+            assert!(
+                extents.distance(DVec3::new(5.0, 2.0, 0.0)) < 1e-12,
+                "{extents}"
+            );
         }
         assert_eq!(principal_box(&[], &[]).extents, DVec3::ZERO);
     }

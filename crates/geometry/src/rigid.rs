@@ -140,12 +140,15 @@ mod tests {
         let turn = DMat3::from_quat(DQuat::from_xyzw(0.3, -0.5, 0.7, 0.2).normalize());
         let variances = DMat3::from_diagonal(DVec3::new(0.5, 9.0, 2.0));
         let centre = DVec3::new(3.0, -2.0, 9.0);
-        let motion =
-            RigidMotion::to_principal_axes(centre, turn * variances * turn.transpose());
+        let motion = RigidMotion::to_principal_axes(centre, turn * variances * turn.transpose());
         assert!(motion.apply(centre).length() < 1e-14);
         assert!((motion.rotation.determinant() - 1.0).abs() < 1e-14);
         // The axis of variance 9 goes along x, 2 along y, 0.5 along z.
-        for (own, along) in [(turn.y_axis, DVec3::X), (turn.z_axis, DVec3::Y), (turn.x_axis, DVec3::Z)] {
+        for (own, along) in [
+            (turn.y_axis, DVec3::X),
+            (turn.z_axis, DVec3::Y),
+            (turn.x_axis, DVec3::Z),
+        ] {
             assert!(((motion.rotation * own).dot(along).abs() - 1.0).abs() < 1e-14);
         }
     }

@@ -32,12 +32,7 @@ pub(crate) fn diagonalise<const N: usize>(a: &mut [[f64; N]; N]) -> [[f64; N]; N
     clippy::needless_range_loop,
     reason = "matrix indices read like the formula"
 )]
-fn rotate<const N: usize>(
-    a: &mut [[f64; N]; N],
-    vectors: &mut [[f64; N]; N],
-    p: usize,
-    q: usize,
-) {
+fn rotate<const N: usize>(a: &mut [[f64; N]; N], vectors: &mut [[f64; N]; N], p: usize, q: usize) {
     if a[p][q] == 0.0 {
         return;
     }

@@ -14,7 +14,9 @@ impl Resolver<'_> {
     /// The gap, in units of the sheet's unit length; none without contact.
     pub(crate) fn contact_gap(&self, subject: &Subject) -> Result<Option<f64>, StudyError> {
         let height = subject.sheet().unit_length;
-        let is_map = subject.units().is_some_and(|s| s.units.map_layers().is_some());
+        let is_map = subject
+            .units()
+            .is_some_and(|s| s.units.map_layers().is_some());
         let motion = &self.scene.motion;
         let thickness = self.scene.material.thickness;
         let is_dynamic = self.engine() == EngineChoice::Dynamic;
@@ -26,10 +28,7 @@ impl Resolver<'_> {
             let given = [
                 ("motion.gap", motion.gap),
                 // Of a map it is also what its stack is measured by.
-                (
-                    "material.thickness",
-                    thickness.filter(|_| !is_map),
-                ),
+                ("material.thickness", thickness.filter(|_| !is_map)),
             ];
             return match given.into_iter().find(|(_, value)| value.is_some()) {
                 Some((key, _)) => {
@@ -61,7 +60,11 @@ impl Resolver<'_> {
             "must lie between {:e} and {:.6}, so that the {layers} layers on each other fit beside the thinnest part of the {}",
             SMALLEST_GAP * scale,
             limit * scale,
-            if subject.units().is_some() { "unit" } else { "pattern" }
+            if subject.units().is_some() {
+                "unit"
+            } else {
+                "pattern"
+            }
         );
         Err(self.fault(key, message))
     }

@@ -36,11 +36,11 @@ mod verify_file;
 pub use certificate::Certificate;
 pub use check_file::{CheckOptions, check_file};
 pub use error::StudyError;
-pub use imported_study::ImportedStudy;
 pub use foldmotion_pattern::{
     CutError, CutOptions, PaperSize, ProfileModel, models, parse_millimetres,
 };
 pub use foldmotion_solver::dynamic::Device;
+pub use imported_study::ImportedStudy;
 pub use pattern_files::{PatternFormat, PatternOptions, PatternScale, PatternStudy};
 pub use report::Report;
 pub use rows::draw_clashes;

@@ -80,7 +80,8 @@ impl PatternStudy {
             scene: &scene,
         };
         if scene.pattern.is_some() {
-            let message = "is the pattern already; only the sheet of a profile can be written for cutting";
+            let message =
+                "is the pattern already; only the sheet of a profile can be written for cutting";
             return Err(resolver.fault("pattern.file", message));
         }
         Ok(Self {

@@ -42,8 +42,11 @@ impl Study {
         let (mut engine_seconds, mut check_seconds) = (0.0, 0.0);
         let mut rounds = 0;
         loop {
-            let (computed, seconds) =
-                timed(|| self.fold(&extra_times, &|t| progress(Phase::Fold, (t - start) / (2.0 - start))))?;
+            let (computed, seconds) = timed(|| {
+                self.fold(&extra_times, &|t| {
+                    progress(Phase::Fold, (t - start) / (2.0 - start))
+                })
+            })?;
             engine_seconds += seconds;
             let motion = self.place(&computed);
             let (checked, seconds) = timed(|| self.check(&motion, &computed, progress))?;
@@ -51,7 +54,8 @@ impl Study {
             let strays = straying(&motion.frames);
             let more = self.times_between(&checked.collision, &motion.frames, &strays);
             if more.is_empty() || rounds == MOST_ROUNDS {
-                let path = self.path_report(&motion.frames, &strays, rounds, extra_times.len() - asked);
+                let path =
+                    self.path_report(&motion.frames, &strays, rounds, extra_times.len() - asked);
                 return Ok(Folded {
                     computed,
                     motion,

@@ -578,9 +578,13 @@ impl Report {
         if let Some(import) = &self.import {
             out.push_str(&import.lines(unit));
         }
-        if let (Some(case), Some(rows), Some(columns), Some(of_unit), Some(division)) =
-            (&self.case, self.rows, self.columns, self.unit, &self.division)
-        {
+        if let (Some(case), Some(rows), Some(columns), Some(of_unit), Some(division)) = (
+            &self.case,
+            self.rows,
+            self.columns,
+            self.unit,
+            &self.division,
+        ) {
             let _ = writeln!(
                 out,
                 "case {case}, {rows} x {columns} units, w = {:.6} {unit}, h = {:.6} {unit}; |R_max| = {:.1e} in {} iterations",
@@ -708,7 +712,9 @@ impl JamReport {
         let pairs = self.facets.iter().take(3).enumerate().map(|(index, f)| {
             let place = |side: usize| {
                 let unit = self.units.get(index).map(|pair| &pair[side]);
-                unit.map_or_else(String::new, |u| format!(" (row {} column {})", u.row, u.column))
+                unit.map_or_else(String::new, |u| {
+                    format!(" (row {} column {})", u.row, u.column)
+                })
             };
             format!("{}{} on {}{}", f[0], place(0), f[1], place(1))
         });

@@ -13,14 +13,14 @@ use crate::engine::StageSummary;
 use crate::refinement::Folded;
 use crate::report::{
     BoxReport, CollisionSection, CompactReport, DivisionReport, EnergyReport, EngineReport,
-    ErrorReport, FitReport, ImportReport, JamReport, MapReport, PatternReport, PenetrationReport, ProfileReport,
-    RowReport, SecondsReport, SkinReport, StageReport, UnfoldReport, UnitName, UnitReport,
-    VertexReport,
+    ErrorReport, FitReport, ImportReport, JamReport, MapReport, PatternReport, PenetrationReport,
+    ProfileReport, RowReport, SecondsReport, SkinReport, StageReport, UnfoldReport, UnitName,
+    UnitReport, VertexReport,
 };
 use crate::run::VERSION;
 use crate::scene::EngineChoice;
 use crate::series::FrameFigures;
-use crate::{Report, Study, UnitStudy, Unfolding};
+use crate::{Report, Study, Unfolding, UnitStudy};
 
 /// A vertex this close to a skin plane, in units of a, lies on it: wide enough for layers that keep a gap.
 const SKIN_TOLERANCE: f64 = 0.05;
@@ -171,10 +171,7 @@ impl Study {
         CollisionSection {
             verdict: verdict_name(collision.verdict).to_owned(),
             tolerance: collision.tolerance,
-            first: collision
-                .first
-                .as_ref()
-                .map(|p| self.penetration_report(p)),
+            first: collision.first.as_ref().map(|p| self.penetration_report(p)),
             first_within_unit: collision
                 .penetrations
                 .iter()

@@ -4,9 +4,7 @@ use std::io::Write as _;
 use std::path::Path;
 use std::time::Instant;
 
-use foldmotion_check::{
-    CheckError, Checker, CollisionReport, FittedBox, penetration_spans,
-};
+use foldmotion_check::{CheckError, Checker, CollisionReport, FittedBox, penetration_spans};
 use foldmotion_pattern::{FoldHeader, LayerOrder, Motion};
 use foldmotion_record::{FilmOptions, Marks, gif, plots};
 

@@ -204,7 +204,8 @@ mod tests {
     fn every_case_of_a_target_is_deployed_on_the_same_polygon_over_the_same_width() {
         for model in models() {
             let [first, others @ ..] = CASES.map(|case| sheet(model.name, case).unwrap());
-            let corners = |study: &UnitStudy| Aabb::around(study.deployed.iter().copied()).extents();
+            let corners =
+                |study: &UnitStudy| Aabb::around(study.deployed.iter().copied()).extents();
             for study in others {
                 assert_eq!(study.division.points, first.division.points);
                 let difference = (corners(&study) - corners(&first)).abs().max_element();

@@ -77,7 +77,12 @@ pub(super) fn figure_a1(store: &Store) -> Result<Composed, StudyError> {
     ))
 }
 
-fn words_of(drawing: &mut foldmotion_record::Drawing, at: DVec2, study: &UnitStudy, folding: &Folding) {
+fn words_of(
+    drawing: &mut foldmotion_record::Drawing,
+    at: DVec2,
+    study: &UnitStudy,
+    folding: &Folding,
+) {
     let case = format!("case {}", study.units.unit.case.name());
     drawing.words(at, case, WORDS, Anchor::Start);
     let below = at + DVec2::new(0.0, 16.0);
