@@ -12,6 +12,10 @@ mod bad_input;
 mod corpus;
 #[path = "whole/import.rs"]
 mod import;
+#[path = "whole/imported.rs"]
+mod imported;
+#[path = "whole/imported_faults.rs"]
+mod imported_faults;
 #[path = "whole/layers.rs"]
 mod layers;
 #[path = "whole/profiles.rs"]

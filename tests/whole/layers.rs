@@ -44,8 +44,9 @@ fn the_order_followed_from_a_motion_is_the_exact_order_of_the_compact_state() {
         let home = tempfile::tempdir().unwrap();
         let study = Study::resolve(&source).unwrap();
         let report = study.run(home.path(), &|_, _| true).unwrap();
-        let unit = Unit::new(case, report.unit.width, report.unit.height, lambda, None).unwrap();
-        let exact = UnitSheet::new(unit, report.rows, report.columns).unwrap();
+        let of_unit = report.unit.unwrap();
+        let unit = Unit::new(case, of_unit.width, of_unit.height, lambda, None).unwrap();
+        let exact = UnitSheet::new(unit, report.rows.unwrap(), report.columns.unwrap()).unwrap();
         let (exact, order) = (
             exact.compact_order(),
             followed(&home.path().join("motion.fold")),

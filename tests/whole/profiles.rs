@@ -2,11 +2,11 @@
 
 use std::path::Path;
 
-use foldmotion_study::{SceneSource, Study, models};
+use foldmotion_study::{SceneSource, UnitStudy, models};
 
-fn resolve(text: &str) -> Study {
+fn resolve(text: &str) -> UnitStudy {
     let source = SceneSource::new(Path::new("scene.toml"), text.to_owned());
-    Study::resolve(&source).unwrap_or_else(|e| panic!("{text}: {e}"))
+    UnitStudy::resolve(&source).unwrap_or_else(|e| panic!("{text}: {e}"))
 }
 
 #[test]
@@ -77,7 +77,7 @@ fn points_of_the_scene_and_the_same_points_in_a_table_give_the_same_study() {
     );
     assert!(own.profile_source.contains("points of the scene"));
     let (_folder, source) = beside("hill.csv", "x,z\n4,0\n3,1.5\n1,2\n0,0\n", "");
-    let study = Study::resolve(&source).unwrap();
+    let study = UnitStudy::resolve(&source).unwrap();
     assert_eq!(study.division.points, own.division.points);
     assert_eq!(study.profile_source, "points of hill.csv");
     assert!(!study.profile.is_closed());
@@ -87,13 +87,13 @@ fn points_of_the_scene_and_the_same_points_in_a_table_give_the_same_study() {
 #[test]
 fn an_airfoil_file_and_a_closed_polyline_become_closed_sheets() {
     let (_folder, source) = beside("wing.dat", SECTION, "length = 8.0");
-    let wing = Study::resolve(&source).unwrap();
+    let wing = UnitStudy::resolve(&source).unwrap();
     assert!(wing.profile.is_closed());
     assert!((wing.division.mean_length - 1.0).abs() < 1e-13);
     let dxf =
         "0\nLWPOLYLINE\n70\n1\n10\n0\n20\n0\n10\n3\n20\n0\n10\n4\n20\n2\n10\n1\n20\n3\n0\nEOF\n";
     let (_folder, source) = beside("plot.dxf", dxf, "closed = \"smooth\"");
-    let plot = Study::resolve(&source).unwrap();
+    let plot = UnitStudy::resolve(&source).unwrap();
     assert_eq!(plot.division.points.first(), plot.division.points.last());
 }
 
@@ -140,7 +140,7 @@ fn outlines_with_faults_are_refused_with_file_line_value_and_remedy() {
     ];
     for (name, outline, more, words) in cases {
         let (_folder, source) = beside(name, outline, more);
-        let error = Study::resolve(&source).err().unwrap();
+        let error = UnitStudy::resolve(&source).err().unwrap();
         assert_eq!(error.status(), 2);
         let message = error.to_string();
         for word in words {
@@ -151,7 +151,7 @@ fn outlines_with_faults_are_refused_with_file_line_value_and_remedy() {
 
 fn refusal(text: &str) -> String {
     let source = SceneSource::new(Path::new("scene.toml"), text.to_owned());
-    let error = Study::resolve(&source).err().unwrap();
+    let error = UnitStudy::resolve(&source).err().unwrap();
     assert_eq!(error.status(), 2);
     error.to_string()
 }

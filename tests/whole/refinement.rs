@@ -101,7 +101,7 @@ fn the_straying_reported_is_that_of_the_frames_between() {
         estimates.len()
     );
     let largest = straying(&all).into_iter().fold(0.0, f64::max);
-    let reported = report.path.straying.unwrap() * report.unit.height;
+    let reported = report.path.straying.unwrap() * report.unit.unwrap().height;
     assert!(
         (reported - largest).abs() < 1e-9 * largest,
         "{reported} {largest}"

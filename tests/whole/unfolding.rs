@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use foldmotion_solver::Stage;
-use foldmotion_study::{Report, SceneSource, Study, models};
+use foldmotion_study::{Report, SceneSource, Study, Unfolding, UnitStudy, models};
 
 /// The spiral without contact and files: each engine state is the path's own.
 const BARE: [&str; 3] = [
@@ -21,6 +21,15 @@ fn resolved(scene: &str, set: &[&str]) -> Study {
     Study::resolve(&source).unwrap()
 }
 
+fn unfolding(scene: &str, set: &[&str]) -> Unfolding {
+    resolved(scene, set)
+        .subject
+        .units()
+        .unwrap()
+        .unfolding
+        .clone()
+}
+
 fn run(scene: &str, set: &[&str]) -> Report {
     let folder = tempfile::tempdir().unwrap();
     let study = resolved(scene, set);
@@ -33,15 +42,16 @@ fn a_fermat_spiral_unfolded_uniformly_penetrates_and_by_energy_does_not() {
         "spiral-energy",
         &[&BARE[..], &["motion.unfold=uniform"]].concat(),
     );
-    assert_eq!(uniform.unfold.method, "uniform");
-    assert!(!uniform.unfold.certified && uniform.unfold.steps.is_none());
+    let of_uniform = uniform.unfold.unwrap();
+    assert_eq!(of_uniform.method, "uniform");
+    assert!(!of_uniform.certified && of_uniform.steps.is_none());
     let first = uniform.collision.first.unwrap();
     assert_eq!(
         (uniform.collision.verdict.as_str(), first.stage.as_str()),
         ("penetrating", "unfold")
     );
     // Straight paths between 20 frames a stage stray a little from the motion.
-    let crosses_at = uniform.unfold.crosses_at.unwrap();
+    let crosses_at = of_uniform.crosses_at.unwrap();
     assert!(
         (first.t - crosses_at).abs() < 0.01,
         "{} {crosses_at}",
@@ -49,12 +59,13 @@ fn a_fermat_spiral_unfolded_uniformly_penetrates_and_by_energy_does_not() {
     );
 
     let auto = run("spiral-energy", &BARE);
+    let of_auto = auto.unfold.as_ref().unwrap();
     assert_eq!(
-        (auto.unfold.method.as_str(), auto.unfold.asked.as_str()),
+        (of_auto.method.as_str(), of_auto.asked.as_str()),
         ("energy", "auto")
     );
-    assert!(auto.unfold.certified && auto.unfold.steps.unwrap() > 10);
-    assert_eq!(auto.unfold.crosses_at, Some(crosses_at));
+    assert!(of_auto.certified && of_auto.steps.unwrap() > 10);
+    assert_eq!(of_auto.crosses_at, Some(crosses_at));
     assert_eq!(
         auto.collision.verdict, "touching",
         "{:?}",
@@ -67,7 +78,7 @@ fn a_fermat_spiral_unfolded_uniformly_penetrates_and_by_energy_does_not() {
         "{}",
         auto.stages[0].peak_strain
     );
-    assert!(auto.compact.rms_to_exact < 1e-9);
+    assert!(auto.compact.rms_to_exact.unwrap() < 1e-9);
 }
 
 #[test]
@@ -77,8 +88,7 @@ fn a_shelter_unfolds_uniformly_unless_energy_is_asked_for() {
         ("uniform", "uniform"),
         ("energy", "energy"),
     ] {
-        let study = resolved("shelter-e", &[&format!("motion.unfold={asked}")]);
-        let unfolding = &study.unfolding;
+        let unfolding = unfolding("shelter-e", &[&format!("motion.unfold={asked}")]);
         assert_eq!(
             (unfolding.method(), unfolding.asked.name()),
             (method, asked)
@@ -102,7 +112,7 @@ fn a_shelter_unfolds_uniformly_unless_energy_is_asked_for() {
     );
     assert_eq!(
         (
-            report.unfold.method.as_str(),
+            report.unfold.as_ref().unwrap().method.as_str(),
             report.collision.verdict.as_str()
         ),
         ("energy", "touching")
@@ -118,7 +128,7 @@ fn every_built_in_profile_unfolds_on_a_way_proved_clear() {
         for set in [&name, &format!("sheet.rows={}", model.rows)] {
             source.set(set).unwrap();
         }
-        let study = Study::resolve(&source).unwrap();
+        let study = UnitStudy::resolve(&source).unwrap();
         assert!(study.unfolding.certified, "{}", model.name);
         // Of the nine only the spiral crosses itself when all angles are scaled together.
         let crosses = model.name == "fermat-spiral";
@@ -135,11 +145,11 @@ fn every_built_in_profile_unfolds_on_a_way_proved_clear() {
 #[test]
 fn rows_that_unfold_in_turn_are_uniform_and_nothing_is_proved_of_them() {
     let step = "motion.step=[{stage=\"unfold\", rows=[0, 20], to=0.5}]";
-    let auto = resolved("spiral-energy", &[step]).unfolding;
+    let auto = unfolding("spiral-energy", &[step]);
     assert_eq!((auto.method(), auto.certified), ("uniform", false));
     assert!(auto.crosses_at.is_some());
-    let energy = resolved("spiral-energy", &[step, "motion.unfold=energy"]).unfolding;
+    let energy = unfolding("spiral-energy", &[step, "motion.unfold=energy"]);
     assert_eq!((energy.method(), energy.certified), ("energy", false));
     let all = "motion.step=[{stage=\"unfold\", creases=\"rows\", ease=\"smooth\"}]";
-    assert!(resolved("spiral-energy", &[all]).unfolding.certified);
+    assert!(unfolding("spiral-energy", &[all]).certified);
 }

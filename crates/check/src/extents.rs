@@ -1,20 +1,20 @@
 //! The box of a state, measured against an exact one.
 
 use foldmotion_geometry::{Aabb, RigidMotion};
-use glam::DVec3;
+use glam::{DMat3, DVec3};
 use serde::Serialize;
 
-/// The box of a state after the rigid motion that best fits it to the exact one.
+/// The box of a state after the rigid motion that best fits it to the exact one, or along its principal axes.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct FittedBox {
-    /// Along x, y, z of the exact state.
+    /// Along x, y, z of the exact state; along the principal axes from the longest spread to the shortest.
     pub extents: DVec3,
     /// x · z.
     pub area: f64,
     /// x · y · z.
     pub volume: f64,
-    /// The root mean square distance of the vertices from the exact state.
-    pub rms_to_exact: f64,
+    /// The root mean square distance of the vertices from the exact state, where there is one.
+    pub rms_to_exact: Option<f64>,
 }
 
 /// Fits `positions` to `exact` by a rotation and a translation (no reflection) and measures the box.
@@ -27,13 +27,43 @@ pub fn fitted_box(positions: &[DVec3], exact: &[DVec3]) -> FittedBox {
         .zip(exact)
         .map(|(p, &q)| p.distance_squared(q))
         .sum();
-    let extents = Aabb::around(fitted()).extents().max(DVec3::ZERO);
+    let rms = (squared / positions.len().max(1) as f64).sqrt();
+    measured(Aabb::around(fitted()), Some(rms))
+}
+
+fn measured(bounds: Aabb, rms_to_exact: Option<f64>) -> FittedBox {
+    let extents = bounds.extents().max(DVec3::ZERO);
     FittedBox {
         extents,
         area: extents.x * extents.z,
         volume: extents.x * extents.y * extents.z,
-        rms_to_exact: (squared / positions.len().max(1) as f64).sqrt(),
+        rms_to_exact,
     }
+}
+
+/// Measures the box of a sheet along its principal axes, those of the second moments of its area.
+///
+/// `faces`: its triangles. Precondition: their corners lie within `positions`; without area the axes are x, y and z.
+pub fn principal_box(positions: &[DVec3], faces: &[[u32; 3]]) -> FittedBox {
+    let corners = || faces.iter().map(|face| face.map(|v| positions[v as usize]));
+    let area = |[a, b, c]: [DVec3; 3]| 0.5 * (b - a).cross(c - a).length();
+    let total: f64 = corners().map(area).sum();
+    if total <= 0.0 {
+        return measured(Aabb::around(positions.iter().copied()), None);
+    }
+    let middle = |t: [DVec3; 3]| (t[0] + t[1] + t[2]) / 3.0;
+    let centre = corners().map(|t| middle(t) * area(t)).sum::<DVec3>() / total;
+    let square = |p: DVec3| DMat3::from_cols(p * p.x, p * p.y, p * p.z);
+    // ∫ p pᵀ over a triangle with middle m is its area times (a aᵀ + b bᵀ + c cᵀ + 9 m mᵀ) / 12.
+    let moments = corners().fold(DMat3::ZERO, |sum, t| {
+        let [a, b, c] = t.map(|p| square(p - centre));
+        sum + (a + b + c + square(middle(t) - centre) * 9.0) * (area(t) / 12.0)
+    });
+    let motion = RigidMotion::to_principal_axes(centre, moments);
+    measured(
+        Aabb::around(positions.iter().map(|&p| motion.apply(p))),
+        None,
+    )
 }
 
 /// What a measured box is off its closed form by.
@@ -94,9 +124,34 @@ mod tests {
         let measured = fitted_box(&moved, &brick());
         assert!(measured.extents.distance(DVec3::new(3.0, 2.0, 0.5)) < 1e-12);
         assert!((measured.area - 1.5).abs() < 1e-12 && (measured.volume - 3.0).abs() < 1e-12);
-        assert!(measured.rms_to_exact < 1e-12);
+        assert!(measured.rms_to_exact.unwrap() < 1e-12);
         let error = relative_error(&measured, DVec3::new(3.0, 2.0, 0.5), 1.0);
         assert!(error.extents.length() + error.area.abs() + error.volume.abs() < 1e-11);
+    }
+
+    #[test]
+    fn a_rectangle_has_its_sides_as_principal_extents_however_it_is_cut_and_turned() {
+        let turn = DQuat::from_axis_angle(DVec3::new(1.0, -2.0, 0.4).normalize(), 2.1);
+        let place = |x: f64, y: f64| turn * DVec3::new(x, y, 0.0) + DVec3::new(5.0, 1.0, -9.0);
+        let positions = [
+            place(0.0, 0.0),
+            place(2.0, 0.0),
+            place(2.0, 5.0),
+            place(0.0, 5.0),
+            place(0.1, 0.7),
+        ];
+        let halves = [[0, 1, 2], [0, 2, 3]];
+        let fan = [[0, 1, 4], [1, 2, 4], [2, 3, 4], [3, 0, 4]];
+        for FittedBox { extents, .. } in [
+            principal_box(&positions, &halves),
+            principal_box(&positions, &fan),
+        ] {
+            assert!(
+                extents.distance(DVec3::new(5.0, 2.0, 0.0)) < 1e-12,
+                "{extents}"
+            );
+        }
+        assert_eq!(principal_box(&[], &[]).extents, DVec3::ZERO);
     }
 
     #[test]
@@ -105,7 +160,7 @@ mod tests {
             extents: DVec3::new(4.0, 0.2, 1.1),
             area: 4.4,
             volume: 0.88,
-            rms_to_exact: 0.0,
+            rms_to_exact: None,
         };
         let error = relative_error(&measured, DVec3::new(4.0, 0.0, 1.0), 2.0);
         assert_eq!(error.extents.y, 0.1);
@@ -117,6 +172,6 @@ mod tests {
     fn a_state_that_is_not_the_exact_one_has_a_distance_to_it() {
         let mut bent = brick();
         bent[7].z += 0.3;
-        assert!(fitted_box(&bent, &brick()).rms_to_exact > 0.05);
+        assert!(fitted_box(&bent, &brick()).rms_to_exact.unwrap() > 0.05);
     }
 }

@@ -65,9 +65,9 @@ pub(crate) enum Command {
 /// `foldmotion run`.
 #[derive(Debug, Args)]
 pub(crate) struct RunArguments {
-    /// The scene file
+    /// The scene file, or a crease pattern: .fold, or .svg in Origami Simulator's colours
     pub(crate) scene: PathBuf,
-    /// The folder of results; out/<scene's name> where left out
+    /// The folder of results; out/<the file's name> where left out
     #[arg(long)]
     pub(crate) out: Option<PathBuf>,
     /// Override a key of the scene, such as sheet.columns=5

@@ -203,3 +203,39 @@ fn a_device_is_named_in_the_report_and_refused_where_the_engine_has_no_use_for_i
     let report: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
     assert_eq!(report["engine"]["device"], "cpu");
 }
+
+#[test]
+fn a_crease_pattern_is_run_by_itself_whatever_the_case_of_its_ending() {
+    let home = tempfile::tempdir().unwrap();
+    let stored = format!(
+        "{}/../../scenes/imported/pop-up",
+        env!("CARGO_MANIFEST_DIR")
+    );
+    for (ending, name) in [("svg", "card.SVG"), ("fold", "own.Fold")] {
+        std::fs::copy(format!("{stored}.{ending}"), home.path().join(name)).unwrap();
+        let mut arguments = vec!["run", name, "--set", "pattern.fold_percent=50"];
+        arguments.extend(SMALL);
+        let output = foldmotion(home.path(), &arguments);
+        assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
+        let out = text(&output.stdout);
+        assert!(
+            out.contains("folded by 50 %") && out.contains("mean edge"),
+            "{out}"
+        );
+        let stem = name.split('.').next().unwrap();
+        for file in ["motion.fold", "motion.gif", "motion.csv", "report.json"] {
+            let path = home.path().join("out").join(stem).join(file);
+            assert!(path.is_file(), "{}", path.display());
+        }
+    }
+    let missing = foldmotion(home.path(), &["run", "gone.svg"]);
+    assert_eq!(missing.status.code(), Some(2));
+    assert!(text(&missing.stderr).contains("gone.svg"));
+    let wrong = foldmotion(
+        home.path(),
+        &["run", "card.SVG", "--set", "pattern.fold_percent=x"],
+    );
+    assert_eq!(wrong.status.code(), Some(2));
+    let pattern = foldmotion(home.path(), &["pattern", "card.SVG"]);
+    assert_eq!(pattern.status.code(), Some(2), "{}", text(&pattern.stderr));
+}

@@ -25,6 +25,7 @@ mod orientation;
 mod polygon;
 mod profile;
 mod rigid;
+mod symmetric;
 mod tridiagonal;
 pub mod unfolding;
 

@@ -2,6 +2,8 @@
 
 use glam::{DMat3, DQuat, DVec3};
 
+use crate::symmetric::diagonalise;
+
 /// x ↦ R x + c.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RigidMotion {
@@ -48,6 +50,22 @@ impl RigidMotion {
             translation: target_centre - rotation * source_centre,
         }
     }
+
+    /// The rigid motion that moves `centre` to the origin and the principal axes of `covariance`, a symmetric matrix, to
+    /// x, y and z, that of the largest eigenvalue first.
+    pub fn to_principal_axes(centre: DVec3, covariance: DMat3) -> Self {
+        let mut a = covariance.transpose().to_cols_array_2d();
+        let vectors = diagonalise(&mut a);
+        let mut order = [0, 1, 2];
+        order.sort_by(|&i: &usize, &j| a[j][j].total_cmp(&a[i][i]));
+        let axis = |i: usize| DVec3::new(vectors[0][i], vectors[1][i], vectors[2][i]);
+        let [x, y] = [order[0], order[1]].map(axis);
+        let rotation = DMat3::from_cols(x, y, x.cross(y)).transpose();
+        Self {
+            rotation,
+            translation: -(rotation * centre),
+        }
+    }
 }
 
 /// The unit quaternion that maximises tr(R covariance), covariance\[i\]\[j\] = Σ a_i b_j.
@@ -78,60 +96,12 @@ fn largest_rotation(covariance: DMat3) -> DQuat {
             a[i][j] = a[j][i];
         }
     }
-    let mut vectors = [[0.0; 4]; 4];
-    for (i, row) in vectors.iter_mut().enumerate() {
-        row[i] = 1.0;
-    }
-    for _sweep in 0..64 {
-        let off: f64 = (0..4)
-            .flat_map(|i| (0..i).map(move |j| (i, j)))
-            .map(|(i, j)| a[i][j].abs())
-            .sum();
-        let diagonal: f64 = (0..4).map(|i| a[i][i].abs()).sum();
-        if off <= f64::EPSILON * 1e-3 * diagonal {
-            break;
-        }
-        for p in 0..4 {
-            for q in p + 1..4 {
-                jacobi_rotate(&mut a, &mut vectors, p, q);
-            }
-        }
-    }
+    let vectors = diagonalise(&mut a);
     let best = (0..4)
         .max_by(|&i, &j| a[i][i].total_cmp(&a[j][j]))
         .unwrap_or(0);
     let v = |i: usize| vectors[i][best];
     DQuat::from_xyzw(v(1), v(2), v(3), v(0)).normalize()
-}
-
-#[expect(
-    clippy::needless_range_loop,
-    reason = "matrix indices read like the formula"
-)]
-fn jacobi_rotate(a: &mut [[f64; 4]; 4], vectors: &mut [[f64; 4]; 4], p: usize, q: usize) {
-    if a[p][q] == 0.0 {
-        return;
-    }
-    let theta = (a[q][q] - a[p][p]) / (2.0 * a[p][q]);
-    let t = theta.signum() / (theta.abs() + theta.hypot(1.0));
-    let t = if theta == 0.0 { 1.0 } else { t };
-    let c = 1.0 / t.hypot(1.0);
-    let s = t * c;
-    for k in 0..4 {
-        let (akp, akq) = (a[k][p], a[k][q]);
-        a[k][p] = c * akp - s * akq;
-        a[k][q] = s * akp + c * akq;
-    }
-    for k in 0..4 {
-        let (apk, aqk) = (a[p][k], a[q][k]);
-        a[p][k] = c * apk - s * aqk;
-        a[q][k] = s * apk + c * aqk;
-    }
-    for row in vectors.iter_mut() {
-        let (vp, vq) = (row[p], row[q]);
-        row[p] = c * vp - s * vq;
-        row[q] = s * vp + c * vq;
-    }
 }
 
 #[cfg(test)]
@@ -162,6 +132,24 @@ mod tests {
         let fit = RigidMotion::best_fit(&source, &target);
         for (&p, &q) in source.iter().zip(&target) {
             assert!(fit.apply(p).distance(q) < 1e-14);
+        }
+    }
+
+    #[test]
+    fn principal_axes_come_to_lie_along_x_y_and_z() {
+        let turn = DMat3::from_quat(DQuat::from_xyzw(0.3, -0.5, 0.7, 0.2).normalize());
+        let variances = DMat3::from_diagonal(DVec3::new(0.5, 9.0, 2.0));
+        let centre = DVec3::new(3.0, -2.0, 9.0);
+        let motion = RigidMotion::to_principal_axes(centre, turn * variances * turn.transpose());
+        assert!(motion.apply(centre).length() < 1e-14);
+        assert!((motion.rotation.determinant() - 1.0).abs() < 1e-14);
+        // The axis of variance 9 goes along x, 2 along y, 0.5 along z.
+        for (own, along) in [
+            (turn.y_axis, DVec3::X),
+            (turn.z_axis, DVec3::Y),
+            (turn.x_axis, DVec3::Z),
+        ] {
+            assert!(((motion.rotation * own).dot(along).abs() - 1.0).abs() < 1e-14);
         }
     }
 

@@ -6,7 +6,7 @@
 use std::io::{self, Write};
 
 use glam::DVec3;
-use serde_json::json;
+use serde_json::{Map, Value, json};
 
 use crate::{Frame, LayerOrder, Motion, Sheet};
 
@@ -24,6 +24,8 @@ pub struct FoldHeader<'a> {
     pub target_angles: &'a [f64],
     /// The order of the triangles that coincide, by the index of the frame, in order: its `faceOrders`.
     pub layer_orders: &'a [(usize, LayerOrder)],
+    /// Further keys of the key frame; those that the motion writes itself are passed over.
+    pub keys: &'a Map<String, Value>,
 }
 
 /// Bytes a written number takes at most on average: 17 digits, sign, point and comma.
@@ -46,8 +48,13 @@ impl Motion {
     /// Those of `out`.
     pub fn write_fold(&self, header: &FoldHeader<'_>, out: &mut impl Write) -> io::Result<()> {
         writeln!(out, "{{")?;
-        for (key, value) in key_frame(&self.sheet, header) {
+        let own = key_frame(&self.sheet, header);
+        for (key, value) in &own {
             writeln!(out, "\"{key}\": {value},")?;
+        }
+        let is_own = |key: &str| key == "file_frames" || own.iter().any(|(own, _)| *own == key);
+        for (key, value) in header.keys.iter().filter(|(key, _)| !is_own(key)) {
+            writeln!(out, "{}: {value},", json!(key))?;
         }
         writeln!(out, "\"file_frames\": [")?;
         for (index, frame) in self.frames.iter().enumerate() {
@@ -62,7 +69,7 @@ impl Motion {
     }
 }
 
-fn key_frame(sheet: &Sheet, header: &FoldHeader<'_>) -> Vec<(&'static str, serde_json::Value)> {
+fn key_frame(sheet: &Sheet, header: &FoldHeader<'_>) -> Vec<(&'static str, Value)> {
     let facet = |face: usize| &sheet.facets[sheet.face_facets[face] as usize];
     let faces = 0..sheet.faces.len();
     let degrees =
@@ -210,12 +217,15 @@ mod tests {
             sheet: units.sheet.clone(),
         };
         let target_angles = units.compact_angles();
+        let keys = json!({"file_author": "somebody", "file_title": "another"});
+        let keys = keys.as_object().unwrap().clone();
         let header = FoldHeader {
             title: "a \"title\"",
             creator: "test",
             unit: "m",
             target_angles,
             layer_orders: &[(2, units.compact_order())],
+            keys: &keys,
         };
         let mut bytes = Vec::new();
         motion.write_fold(&header, &mut bytes).unwrap();
@@ -290,6 +300,13 @@ mod tests {
             serde_json::from_value(value["file_frames"][2]["faceOrders"].clone()).unwrap();
         assert!(!orders.is_empty());
         assert_eq!(orders, motion.compact_order.iter().collect::<Vec<_>>());
+    }
+
+    #[test]
+    fn further_keys_stand_in_the_key_frame_but_replace_none() {
+        let (_, value, _) = written();
+        assert_eq!(value["file_author"], "somebody");
+        assert_ne!(value["file_title"], "another");
     }
 
     #[test]

@@ -9,7 +9,7 @@ use std::f64::consts::{PI, TAU};
 use serde::{Deserialize, Serialize};
 
 use crate::layout::{Place, is_mid};
-use crate::{Assignment, Folding, Sheet, UnitSheet};
+use crate::{Assignment, Folding, Imported, Sheet, UnitSheet};
 
 /// Angle sums may differ from 2π and π by this much, radians.
 pub const ANGLE_TOLERANCE: f64 = 1e-9;
@@ -32,6 +32,9 @@ pub enum VertexType {
     /// On the lines between the units of a map.
     #[serde(rename = "grid")]
     Grid,
+    /// Of an imported pattern, with no unit.
+    #[serde(rename = "imported")]
+    Imported,
 }
 
 impl VertexType {
@@ -44,6 +47,7 @@ impl VertexType {
             Self::Split => "split",
             Self::Pad => "pad",
             Self::Grid => "grid",
+            Self::Imported => "imported",
         }
     }
 }
@@ -160,38 +164,49 @@ impl PatternCheck {
     }
 }
 
+impl Sheet {
+    /// Checks every interior vertex at which creases meet; `kind` says of which type one is.
+    fn check_vertices(&self, kind: impl Fn(usize) -> VertexType) -> PatternCheck {
+        let vertex_check = |(vertex, creases): (usize, Option<Vec<(u32, Assignment)>>)| {
+            let creases = creases.filter(|creases| !creases.is_empty())?;
+            let at = self.vertices[vertex];
+            let mut directions: Vec<f64> = creases
+                .iter()
+                .map(|&(other, _)| (self.vertices[other as usize] - at).to_angle())
+                .collect();
+            directions.sort_by(f64::total_cmp);
+            let sectors = (0..directions.len())
+                .map(|i| match directions.get(i + 1) {
+                    Some(next) => next - directions[i],
+                    None => directions[0] + TAU - directions[i],
+                })
+                .collect();
+            let sign = |&(_, a): &(u32, Assignment)| if a == Assignment::Mountain { 1 } else { -1 };
+            Some(VertexCheck {
+                vertex: vertex as u32,
+                kind: kind(vertex),
+                sectors,
+                mountains_minus_valleys: creases.iter().map(sign).sum(),
+            })
+        };
+        let around = creases_around(self).into_iter().enumerate();
+        PatternCheck {
+            vertices: around.filter_map(vertex_check).collect(),
+        }
+    }
+}
+
+impl Imported {
+    /// Checks every interior vertex at which mountain and valley creases meet; free hinges do not count.
+    pub fn check(&self) -> PatternCheck {
+        self.sheet.check_vertices(|_| VertexType::Imported)
+    }
+}
+
 impl UnitSheet {
     /// Checks every interior vertex of the crease pattern.
     pub fn check(&self) -> PatternCheck {
-        let around = creases_around(&self.sheet);
-        let vertices = around
-            .into_iter()
-            .enumerate()
-            .filter_map(|(vertex, creases)| {
-                let creases = creases.filter(|creases| !creases.is_empty())?;
-                let at = self.sheet.vertices[vertex];
-                let mut directions: Vec<f64> = creases
-                    .iter()
-                    .map(|&(other, _)| (self.sheet.vertices[other as usize] - at).to_angle())
-                    .collect();
-                directions.sort_by(f64::total_cmp);
-                let sectors = (0..directions.len())
-                    .map(|i| match directions.get(i + 1) {
-                        Some(next) => next - directions[i],
-                        None => directions[0] + TAU - directions[i],
-                    })
-                    .collect();
-                let sign =
-                    |&(_, a): &(u32, Assignment)| if a == Assignment::Mountain { 1 } else { -1 };
-                Some(VertexCheck {
-                    vertex: vertex as u32,
-                    kind: self.vertex_type(vertex),
-                    sectors,
-                    mountains_minus_valleys: creases.iter().map(sign).sum(),
-                })
-            })
-            .collect();
-        PatternCheck { vertices }
+        self.sheet.check_vertices(|vertex| self.vertex_type(vertex))
     }
 
     fn vertex_type(&self, vertex: usize) -> VertexType {

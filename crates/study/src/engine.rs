@@ -48,7 +48,7 @@ pub(crate) struct ContactFigures {
 }
 
 impl Study {
-    /// Moves the sheet through both stages and records it at `extra_times` too. `progress` is told the motion time.
+    /// Moves the sheet through its stages and records it at `extra_times` too. `progress` is told the motion time.
     pub(crate) fn fold(
         &self,
         extra_times: &[f64],
@@ -66,6 +66,7 @@ impl Study {
         progress: &(dyn Fn(f64) -> bool + Sync),
     ) -> Result<Computed, StudyError> {
         let options = DynamicOptions {
+            stages: self.subject.stages().to_vec(),
             device: self.device,
             frames: self.frames,
             extra_times: extra_times.to_vec(),
@@ -74,7 +75,7 @@ impl Study {
         let run = dynamic::run(
             &self.model,
             &self.schedule,
-            &self.deployed,
+            &self.subject.start(),
             &options,
             progress,
         )?;
@@ -103,6 +104,7 @@ impl Study {
     ) -> Result<Computed, StudyError> {
         let contact = self.contact_gap.map(|gap| Contact { gap });
         let options = QuasiStaticOptions {
+            stages: self.subject.stages().to_vec(),
             frames: self.frames,
             extra_times: extra_times.to_vec(),
             contact,
@@ -111,7 +113,7 @@ impl Study {
         let run = run_quasi_static(
             &self.model,
             &self.schedule,
-            &self.deployed,
+            &self.subject.start(),
             &options,
             progress,
         )?;

@@ -4,7 +4,7 @@ use std::io;
 use std::path::PathBuf;
 
 use foldmotion_check::CheckError;
-use foldmotion_pattern::CutError;
+use foldmotion_pattern::{CutError, ImportError};
 use foldmotion_record::RecordError;
 use foldmotion_solver::SolverError;
 use thiserror::Error;
@@ -91,6 +91,14 @@ pub enum StudyError {
         /// The most.
         limit: u64,
     },
+    /// A file is no crease pattern that can be read.
+    #[error("{}: {error}", path.display())]
+    Import {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong, and with which element.
+        error: ImportError,
+    },
     /// A part of the paper of that name does not exist.
     #[error("{name:?}: no part of the paper; there is: {known}")]
     Part {
@@ -153,6 +161,7 @@ impl StudyError {
             | Self::Origin { .. }
             | Self::LargeMotion { .. }
             | Self::Value { .. }
+            | Self::Import { .. }
             | Self::Part { .. }
             | Self::Cut(_)
             | Self::Undivided { .. } => 2,

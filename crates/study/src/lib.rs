@@ -9,8 +9,12 @@ mod check_file;
 mod digest;
 mod engine;
 mod error;
+mod gap;
+mod imported_report;
+mod imported_study;
 pub mod paper;
 mod pattern_files;
+mod pattern_scene;
 mod profile;
 mod record_scene;
 mod recording;
@@ -26,7 +30,9 @@ mod series;
 mod source;
 mod statement;
 mod study;
+mod subject;
 mod unfolding;
+mod unit_study;
 mod verify_file;
 
 pub use certificate::Certificate;
@@ -36,6 +42,7 @@ pub use foldmotion_pattern::{
     CutError, CutOptions, PaperSize, ProfileModel, models, parse_millimetres,
 };
 pub use foldmotion_solver::dynamic::Device;
+pub use imported_study::ImportedStudy;
 pub use pattern_files::{PatternFormat, PatternOptions, PatternScale, PatternStudy};
 pub use recording::{Again, MotionRecord, Recording, record_again, record_file};
 pub use report::Report;
@@ -45,5 +52,7 @@ pub use scene::Scene;
 pub use schema::{certificate_schema, paper_schema, report_schema, scene_schema};
 pub use source::SceneSource;
 pub use study::Study;
+pub use subject::Subject;
 pub use unfolding::Unfolding;
+pub use unit_study::UnitStudy;
 pub use verify_file::{VerifiedCertificate, verify_file};

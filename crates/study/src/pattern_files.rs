@@ -79,8 +79,13 @@ impl PatternStudy {
             source,
             scene: &scene,
         };
+        if scene.pattern.is_some() {
+            let message =
+                "is the pattern already; only the sheet of a profile can be written for cutting";
+            return Err(resolver.fault("pattern.file", message));
+        }
         Ok(Self {
-            title: resolver.title(),
+            title: resolver.title(None),
             unit: scene.profile.unit.unwrap_or_default(),
             units: resolver.sheet()?.units,
         })

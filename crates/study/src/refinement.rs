@@ -36,12 +36,17 @@ pub(crate) struct Folded {
 impl Study {
     /// Folds and checks, with more frames where the first ones leave the verdict open.
     pub(crate) fn fold_and_check(&self, progress: Progress<'_>) -> Result<Folded, StudyError> {
-        let mut extra_times = Vec::new();
+        let mut extra_times = self.subject.times_of_interest();
+        let asked = extra_times.len();
+        let start = self.subject.start_time();
         let (mut engine_seconds, mut check_seconds) = (0.0, 0.0);
         let mut rounds = 0;
         loop {
-            let (computed, seconds) =
-                timed(|| self.fold(&extra_times, &|t| progress(Phase::Fold, t / 2.0)))?;
+            let (computed, seconds) = timed(|| {
+                self.fold(&extra_times, &|t| {
+                    progress(Phase::Fold, (t - start) / (2.0 - start))
+                })
+            })?;
             engine_seconds += seconds;
             let motion = self.place(&computed);
             let (checked, seconds) = timed(|| self.check(&motion, &computed, progress))?;
@@ -49,7 +54,8 @@ impl Study {
             let strays = straying(&motion.frames);
             let more = self.times_between(&checked.collision, &motion.frames, &strays);
             if more.is_empty() || rounds == MOST_ROUNDS {
-                let path = self.path_report(&motion.frames, &strays, rounds, extra_times.len());
+                let path =
+                    self.path_report(&motion.frames, &strays, rounds, extra_times.len() - asked);
                 return Ok(Folded {
                     computed,
                     motion,
@@ -75,7 +81,7 @@ impl Study {
         if !matches!(collision.verdict, Verdict::Undecided | Verdict::Penetrating) {
             return Vec::new();
         }
-        let height = self.units.unit.height;
+        let height = self.subject.sheet().unit_length;
         let mut open: Vec<usize> = collision.undecided.iter().map(|u| u.frame).collect();
         // Layers out of order are shown by their frame alone; more frames come where facets passed through.
         let passed = collision
@@ -119,7 +125,7 @@ impl Study {
             frames: frames.len(),
             refinements: rounds,
             added_frames: added,
-            straying: largest.map(|(stray, _)| stray / self.units.unit.height),
+            straying: largest.map(|(stray, _)| stray / self.subject.sheet().unit_length),
             straying_t: largest.map(|(_, frame)| frame.time),
         }
     }

@@ -2,9 +2,11 @@
 
 use std::fmt::Write as _;
 
-use foldmotion_pattern::{CompactBox, SkinPlane};
+use foldmotion_pattern::{CompactBox, SkinPlane, Unit};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+
+pub use crate::imported_report::ImportReport;
 
 /// `report.json`. Lengths are in `length_unit`, angles in degrees.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -16,22 +18,25 @@ pub struct Report {
     pub version: String,
     /// FOLD's name of the unit of length.
     pub length_unit: String,
-    /// E, T, S, SII or plain; where rows of unequal height have several, joined by `+`.
-    pub case: String,
+    /// E, T, S, SII or plain; where rows of unequal height have several, joined by `+`. Null for an imported pattern, as
+    /// are rows, columns, unit, profile, division, unfold.
+    pub case: Option<String>,
     /// Nr.
-    pub rows: usize,
+    pub rows: Option<usize>,
     /// Nc.
-    pub columns: usize,
+    pub columns: Option<usize>,
     /// The unit.
-    pub unit: UnitReport,
+    pub unit: Option<UnitReport>,
+    /// The imported pattern; null for a sheet of units.
+    pub import: Option<ImportReport>,
     /// The curve Γ.
-    pub profile: ProfileReport,
+    pub profile: Option<ProfileReport>,
     /// Height and case of each row where they differ; null where all rows are equal.
     pub unequal_rows: Option<Vec<RowReport>>,
     /// The sheet folded like a map; null where it folds unit by unit.
     pub map: Option<MapReport>,
     /// The division of Γ.
-    pub division: DivisionReport,
+    pub division: Option<DivisionReport>,
     /// The crease pattern.
     pub pattern: PatternReport,
     /// Equations 3 to 7; null where the case has no closed form.
@@ -39,7 +44,7 @@ pub struct Report {
     /// The compact state reached.
     pub compact: CompactReport,
     /// How stage unfold moves the row creases.
-    pub unfold: UnfoldReport,
+    pub unfold: Option<UnfoldReport>,
     /// The stages of the motion.
     pub stages: Vec<StageReport>,
     /// Where contact stopped the motion; null where it did not.
@@ -148,7 +153,7 @@ pub struct PatternReport {
 /// Interior vertices of one type.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct VertexReport {
-    /// I, J, K, split or pad.
+    /// I, J, K, split, pad or grid; imported.
     #[serde(rename = "type")]
     pub kind: String,
     /// Creases that meet there.
@@ -199,6 +204,18 @@ impl MapReport {
     }
 }
 
+impl From<&Unit> for UnitReport {
+    fn from(unit: &Unit) -> Self {
+        Self {
+            width: unit.width,
+            height: unit.height,
+            flap: unit.flap,
+            side_pad: unit.side_pad,
+            centre_pad: unit.centre_pad,
+        }
+    }
+}
+
 impl From<CompactBox> for BoxReport {
     fn from(b: CompactBox) -> Self {
         Self {
@@ -212,14 +229,16 @@ impl From<CompactBox> for BoxReport {
 /// The compact state reached, beside the exact one.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct CompactReport {
-    /// Measured after the rigid motion that best fits the exact compact state.
+    /// Measured after the rigid motion that best fits the exact compact state; of an imported pattern along its
+    /// principal axes, from the longest spread to the shortest.
     pub extents: [f64; 3],
     /// x·z.
     pub area: f64,
     /// x·y·z.
     pub volume: f64,
-    /// Root mean square distance of the vertices to the exact compact state, in units of h.
-    pub rms_to_exact: f64,
+    /// Root mean square distance of the vertices to the exact compact state, in units of h; null for an
+    /// imported pattern.
+    pub rms_to_exact: Option<f64>,
     /// Against the closed form; null where the case has none.
     pub relative_error: Option<ErrorReport>,
     /// What touches the two skin planes, after the same rigid motion; null where the case has none.
@@ -361,7 +380,7 @@ pub struct JamReport {
     pub fold_angle_error_deg: f64,
     /// Pairs of facets that push hardest, hardest first; at most ten.
     pub facets: Vec<[u32; 2]>,
-    /// Their units.
+    /// Their units; none for an imported pattern.
     pub units: Vec<[UnitName; 2]>,
 }
 
@@ -370,7 +389,7 @@ pub struct JamReport {
 pub struct CollisionSection {
     /// free, touching, penetrating or undecided.
     pub verdict: String,
-    /// τ, in units of h.
+    /// τ, in units of h; of an imported pattern, as all lengths said to be in units of h, of its mean edge.
     pub tolerance: f64,
     /// The first penetration; null where there is none.
     pub first: Option<PenetrationReport>,
@@ -408,8 +427,8 @@ pub struct PenetrationReport {
     pub vertices: Vec<u32>,
     /// The names the paper gives those vertices in the units below, where it names them.
     pub vertex_names: Vec<Option<String>>,
-    /// The units of the two facets.
-    pub units: [UnitName; 2],
+    /// The units of the two facets; null for an imported pattern.
+    pub units: Option<[UnitName; 2]>,
     /// Where.
     pub point: [f64; 3],
     /// How deep the two overlap there, in units of h.
@@ -500,18 +519,7 @@ impl Report {
         let unit = &self.length_unit;
         // Writing into a string cannot fail.
         let _ = writeln!(out, "{}", self.title);
-        let _ = writeln!(
-            out,
-            "case {}, {} x {} units, w = {:.6} {unit}, h = {:.6} {unit}; |R_max| = {:.1e} in {} iterations",
-            self.case,
-            self.rows,
-            self.columns,
-            self.unit.width,
-            self.unit.height,
-            self.division.max_residual,
-            self.division.iterations
-        );
-        let _ = writeln!(out, "{}", self.unfold.line());
+        self.write_subject(&mut out);
         let _ = writeln!(
             out,
             "pattern: {}developable, {}flat-foldable; {} vertices, {} facets",
@@ -564,6 +572,39 @@ impl Report {
         out
     }
 
+    /// What is folded.
+    fn write_subject(&self, out: &mut String) {
+        let unit = &self.length_unit;
+        if let Some(import) = &self.import {
+            out.push_str(&import.lines(unit));
+        }
+        if let (Some(case), Some(rows), Some(columns), Some(of_unit), Some(division)) = (
+            &self.case,
+            self.rows,
+            self.columns,
+            self.unit,
+            &self.division,
+        ) {
+            let _ = writeln!(
+                out,
+                "case {case}, {rows} x {columns} units, w = {:.6} {unit}, h = {:.6} {unit}; |R_max| = {:.1e} in {} iterations",
+                of_unit.width, of_unit.height, division.max_residual, division.iterations
+            );
+        }
+        if let Some(unfold) = &self.unfold {
+            let _ = writeln!(out, "{}", unfold.line());
+        }
+    }
+
+    /// The unit of tolerances and separations.
+    fn tolerance_unit(&self) -> &'static str {
+        if self.import.is_some() {
+            "mean edges"
+        } else {
+            "h"
+        }
+    }
+
     fn write_box(&self, out: &mut String) {
         let unit = &self.length_unit;
         let _ = writeln!(
@@ -585,7 +626,7 @@ impl Report {
         );
         if let Some(f) = &self.closed_form {
             let _ = writeln!(out, "{}", row("closed form", f.extents, f.area, f.volume));
-        } else {
+        } else if self.import.is_none() {
             let _ = writeln!(out, "closed form  none for an unmodified rectangle");
         }
         if let Some(e) = &c.relative_error {
@@ -595,11 +636,12 @@ impl Report {
             }
             let _ = writeln!(out, "{line}");
         }
-        let _ = writeln!(
-            out,
-            "vertices lie {:.1e} h (rms) from the exact compact state",
-            c.rms_to_exact
-        );
+        if let Some(rms) = c.rms_to_exact {
+            let _ = writeln!(
+                out,
+                "vertices lie {rms:.1e} h (rms) from the exact compact state"
+            );
+        }
     }
 
     fn write_path(&self, out: &mut String) {
@@ -613,7 +655,8 @@ impl Report {
         };
         let straying = match (p.straying, p.straying_t) {
             (Some(stray), Some(t)) => format!(
-                "straight paths between them stray from the computed motion by about {stray:.1e} h at most (t = {t:.4})"
+                "straight paths between them stray from the computed motion by about {stray:.1e} {} at most (t = {t:.4})",
+                self.tolerance_unit()
             ),
             _ => {
                 "how far straight paths between them stray is not known: too few frames".to_owned()
@@ -624,26 +667,27 @@ impl Report {
 
     fn write_verdict(&self, out: &mut String) {
         let c = &self.collision;
+        let h = self.tolerance_unit();
         let _ = writeln!(
             out,
-            "\nverdict: {} (tolerance {:e} h; {} pairs tested; {} touch, {} penetrate)",
+            "\nverdict: {} (tolerance {:e} {h}; {} pairs tested; {} touch, {} penetrate)",
             c.verdict, c.tolerance, c.pairs_tested, c.touching_pairs, c.penetrating_pairs
         );
         if let (Some(d), Some(t)) = (c.min_separation, c.min_separation_t) {
             let _ = writeln!(
                 out,
-                "smallest separation of facets that share no vertex: {d:.3e} h at t = {t:.4}"
+                "smallest separation of facets that share no vertex: {d:.3e} {h} at t = {t:.4}"
             );
         }
         if let Some(first) = &c.first {
-            let _ = writeln!(out, "first at {}", first.line());
+            let _ = writeln!(out, "first at {}", first.line(h));
         }
         if let Some(within) = c
             .first_within_unit
             .as_ref()
             .filter(|w| c.first.as_ref() != Some(w))
         {
-            let _ = writeln!(out, "first within one unit at {}", within.line());
+            let _ = writeln!(out, "first within one unit at {}", within.line(h));
         }
     }
 }
@@ -665,11 +709,14 @@ impl UnfoldReport {
 
 impl JamReport {
     fn line(&self) -> String {
-        let pairs = self.facets.iter().zip(&self.units).take(3).map(|(f, u)| {
-            format!(
-                "{} (row {} column {}) on {} (row {} column {})",
-                f[0], u[0].row, u[0].column, f[1], u[1].row, u[1].column
-            )
+        let pairs = self.facets.iter().take(3).enumerate().map(|(index, f)| {
+            let place = |side: usize| {
+                let unit = self.units.get(index).map(|pair| &pair[side]);
+                unit.map_or_else(String::new, |u| {
+                    format!(" (row {} column {})", u.row, u.column)
+                })
+            };
+            format!("{}{} on {}{}", f[0], place(0), f[1], place(1))
         });
         format!(
             "jam: contact stops the motion at t = {:.4}, {:.1} degrees short; facets that block: {}",
@@ -681,8 +728,14 @@ impl JamReport {
 }
 
 impl PenetrationReport {
-    fn line(&self) -> String {
-        let unit = |u: &UnitName| format!("{} row {} column {}", u.name, u.row, u.column);
+    /// A line for the terminal; `h`: the unit of the depth.
+    fn line(&self, h: &str) -> String {
+        let unit = |side: usize| {
+            let unit = self.units.as_ref().map(|pair| &pair[side]);
+            unit.map_or_else(String::new, |u| {
+                format!(" ({} row {} column {})", u.name, u.row, u.column)
+            })
+        };
         let names: Vec<&str> = self
             .vertex_names
             .iter()
@@ -690,14 +743,14 @@ impl PenetrationReport {
             .map(String::as_str)
             .collect();
         format!(
-            "t = {:.5} ({}): {}, facets {} ({}) and {} ({}), vertices {:?}{}, depth {:.1e} h",
+            "t = {:.5} ({}): {}, facets {}{} and {}{}, vertices {:?}{}, depth {:.1e} {h}",
             self.t,
             self.stage,
             self.kind,
             self.facets[0],
-            unit(&self.units[0]),
+            unit(0),
             self.facets[1],
-            unit(&self.units[1]),
+            unit(1),
             self.vertices,
             if names.is_empty() {
                 String::new()

@@ -13,14 +13,14 @@ use crate::engine::StageSummary;
 use crate::refinement::Folded;
 use crate::report::{
     BoxReport, CollisionSection, CompactReport, DivisionReport, EnergyReport, EngineReport,
-    ErrorReport, FitReport, JamReport, MapReport, PatternReport, PenetrationReport, ProfileReport,
-    RowReport, SecondsReport, SkinReport, StageReport, UnfoldReport, UnitName, UnitReport,
-    VertexReport,
+    ErrorReport, FitReport, ImportReport, JamReport, MapReport, PatternReport, PenetrationReport,
+    ProfileReport, RowReport, SecondsReport, SkinReport, StageReport, UnfoldReport, UnitName,
+    UnitReport, VertexReport,
 };
 use crate::run::VERSION;
 use crate::scene::EngineChoice;
 use crate::series::FrameFigures;
-use crate::{Report, Study};
+use crate::{Report, Study, Unfolding, UnitStudy};
 
 /// A vertex this close to a skin plane, in units of a, lies on it: wide enough for layers that keep a gap.
 const SKIN_TOLERANCE: f64 = 0.05;
@@ -32,7 +32,8 @@ impl Study {
         seconds: SecondsReport,
         files: &[String],
     ) -> Report {
-        let unit = &self.units.unit;
+        let units = self.subject.units();
+        let sheet = units.map(|study| &study.units);
         let Folded {
             computed, checked, ..
         } = folded;
@@ -40,56 +41,26 @@ impl Study {
             title: self.title.clone(),
             version: VERSION.to_owned(),
             length_unit: self.unit_name.to_owned(),
-            case: self.units.case_name(),
-            rows: self.units.rows,
-            columns: self.units.columns,
-            unit: UnitReport {
-                width: unit.width,
-                height: unit.height,
-                flap: unit.flap,
-                side_pad: unit.side_pad,
-                centre_pad: unit.centre_pad,
-            },
-            unequal_rows: self.row_reports(),
-            map: self.map_report(),
-            profile: ProfileReport {
-                source: self.profile_source.clone(),
-                closed: self.profile.is_closed(),
-            },
-            division: DivisionReport {
-                method: self.division_method.name().to_owned(),
-                fit: FitReport {
-                    largest: self.fit.largest,
-                    mean: self.fit.mean,
-                },
-                max_residual: self.division.max_residual,
-                mean_residual: self.division.mean_residual,
-                iterations: self.division.iterations,
-                seconds: self.division_seconds,
-                points: self.division.points.iter().map(DVec2::to_array).collect(),
-            },
+            case: sheet.map(UnitSheet::case_name),
+            rows: sheet.map(|sheet| sheet.rows),
+            columns: sheet.map(|sheet| sheet.columns),
+            unit: sheet.map(|sheet| UnitReport::from(&sheet.unit)),
+            import: self.subject.imported().map(ImportReport::new),
+            unequal_rows: sheet.and_then(row_reports),
+            map: sheet.and_then(|sheet| self.map_report(sheet)),
+            profile: units.map(profile_report),
+            division: units.map(division_report),
             pattern: self.pattern_report(),
-            closed_form: self.closed_form.map(BoxReport::from),
+            closed_form: self.subject.closed_form().map(BoxReport::from),
             compact: self.compact_report(&checked.compact, folded.motion.frames.last()),
-            unfold: UnfoldReport {
-                method: self.unfolding.method().to_owned(),
-                asked: self.unfolding.asked.name().to_owned(),
-                certified: self.unfolding.certified,
-                crosses_at: self.unfolding.crosses_at,
-                steps: self.unfolding.path.as_ref().map(|path| path.steps),
-                pieces: self
-                    .unfolding
-                    .path
-                    .as_ref()
-                    .map(|path| path.turns.len() - 1),
-            },
+            unfold: units.map(|study| unfold_report(&study.unfolding)),
             stages: computed
                 .stages
                 .iter()
                 .map(|s| stage_report(s, &checked.series))
                 .collect(),
             jam: computed.jam.as_ref().map(|j| self.jam_report(j)),
-            collision: collision_section(&self.units, &checked.collision),
+            collision: self.collision_section(&checked.collision),
             path: folded.path,
             engine: EngineReport {
                 name: match self.engine {
@@ -109,27 +80,18 @@ impl Study {
         }
     }
 
-    fn row_reports(&self) -> Option<Vec<RowReport>> {
-        let row = |unit: &Unit| RowReport {
-            case: unit.case.name().to_owned(),
-            height: unit.height,
-        };
-        let rows = self.units.row_units().iter().map(row);
-        (!self.units.has_equal_rows()).then(|| rows.collect())
-    }
-
-    fn map_report(&self) -> Option<MapReport> {
-        let layers = self.units.map_layers()?;
+    fn map_report(&self, sheet: &UnitSheet) -> Option<MapReport> {
+        let layers = sheet.map_layers()?;
         Some(MapReport {
             layers,
             stack_height: self.thickness.map(|thickness| layers as f64 * thickness),
-            waterbomb: self.units.waterbomb_box().map(BoxReport::from),
+            waterbomb: sheet.waterbomb_box().map(BoxReport::from),
         })
     }
 
     fn compact_report(&self, measured: &FittedBox, last: Option<&Frame>) -> CompactReport {
-        let h = self.units.unit.height;
-        let error = self.closed_form.map(|closed| {
+        let h = self.subject.sheet().unit_length;
+        let error = self.subject.closed_form().map(|closed| {
             let error = relative_error(measured, closed.extents.into(), h);
             ErrorReport {
                 extents: error.extents.into(),
@@ -141,14 +103,14 @@ impl Study {
             extents: measured.extents.into(),
             area: measured.area,
             volume: measured.volume,
-            rms_to_exact: measured.rms_to_exact / h,
+            rms_to_exact: measured.rms_to_exact.map(|rms| rms / h),
             relative_error: error,
             skin: last.and_then(|frame| self.skin_report(&frame.positions)),
         }
     }
 
     fn skin_report(&self, positions: &[DVec3]) -> Option<SkinReport> {
-        let units = &self.units;
+        let units = &self.subject.units()?.units;
         let exact = units.compact();
         let fit = RigidMotion::best_fit(positions, &exact);
         let fitted: Vec<DVec3> = positions.iter().map(|&p| fit.apply(p)).collect();
@@ -167,11 +129,12 @@ impl Study {
     }
 
     fn jam_report(&self, jam: &Jam) -> JamReport {
-        let blocking = jam.blocking.iter().take(10).map(|(faces, _)| {
-            let facets = faces.map(|f| self.units.sheet.face_facets[f as usize]);
-            (facets, facets.map(|f| unit_of(&self.units, f)))
-        });
-        let (facets, units) = blocking.unzip();
+        let facets = |(faces, _): &([u32; 2], f64)| {
+            faces.map(|f| self.subject.sheet().face_facets[f as usize])
+        };
+        let facets: Vec<[u32; 2]> = jam.blocking.iter().take(10).map(facets).collect();
+        let units = facets.iter().filter_map(|pair| self.units_of(*pair));
+        let units = units.collect();
         JamReport {
             t: jam.time,
             fold_angle_error_deg: jam.fold_angle_error.to_degrees(),
@@ -181,7 +144,9 @@ impl Study {
     }
 
     fn pattern_report(&self) -> PatternReport {
-        let vertices = self.pattern.groups().into_iter().map(|g| VertexReport {
+        let check = self.subject.pattern_check();
+        let sheet = self.subject.sheet();
+        let vertices = check.groups().into_iter().map(|g| VertexReport {
             kind: g.kind.name().to_owned(),
             degree: g.degree,
             mountains_minus_valleys: g.mountains_minus_valleys,
@@ -192,63 +157,119 @@ impl Study {
             flat_foldable: g.flat_foldable,
         });
         PatternReport {
-            developable: self.pattern.is_developable(),
-            flat_foldable: self.pattern.is_flat_foldable(),
-            vertex_count: self.units.sheet.vertices.len(),
-            facet_count: self.units.sheet.facets.len(),
-            face_count: self.units.sheet.faces.len(),
+            developable: check.is_developable(),
+            flat_foldable: check.is_flat_foldable(),
+            vertex_count: sheet.vertices.len(),
+            facet_count: sheet.facets.len(),
+            face_count: sheet.faces.len(),
             vertices: vertices.collect(),
         }
     }
-}
 
-fn collision_section(units: &UnitSheet, collision: &CollisionReport) -> CollisionSection {
-    CollisionSection {
-        verdict: verdict_name(collision.verdict).to_owned(),
-        tolerance: collision.tolerance,
-        first: collision
-            .first
-            .as_ref()
-            .map(|p| penetration_report(units, p)),
-        first_within_unit: collision
-            .penetrations
-            .iter()
-            .map(|p| penetration_report(units, p))
-            .find(|p| p.units[0] == p.units[1]),
-        penetrating_pairs: collision.penetrations.len(),
-        touching_pairs: collision.touching_pairs,
-        undecided_pairs: collision.undecided.len(),
-        min_separation: collision.min_separation.map(|s| s.distance),
-        min_separation_t: collision.min_separation.map(|s| s.time),
-        pairs_tested: collision.pairs_tested.total(),
+    fn collision_section(&self, collision: &CollisionReport) -> CollisionSection {
+        let is_within_unit = |p: &PenetrationReport| p.units.as_ref().is_some_and(|u| u[0] == u[1]);
+        CollisionSection {
+            verdict: verdict_name(collision.verdict).to_owned(),
+            tolerance: collision.tolerance,
+            first: collision.first.as_ref().map(|p| self.penetration_report(p)),
+            first_within_unit: collision
+                .penetrations
+                .iter()
+                .map(|p| self.penetration_report(p))
+                .find(is_within_unit),
+            penetrating_pairs: collision.penetrations.len(),
+            touching_pairs: collision.touching_pairs,
+            undecided_pairs: collision.undecided.len(),
+            min_separation: collision.min_separation.map(|s| s.distance),
+            min_separation_t: collision.min_separation.map(|s| s.time),
+            pairs_tested: collision.pairs_tested.total(),
+        }
     }
-}
 
-fn penetration_report(units: &UnitSheet, p: &Penetration) -> PenetrationReport {
-    let facets = p.faces.map(|f| units.sheet.face_facets[f as usize]);
-    let named = facets.map(|f| unit_of(units, f));
-    let vertex_name = |&v: &u32| {
-        named
-            .iter()
-            .find_map(|u| units.vertex_name(v, u.row, u.column))
-    };
-    PenetrationReport {
-        t: p.time,
-        stage: if p.time < 1.0 {
+    fn penetration_report(&self, p: &Penetration) -> PenetrationReport {
+        let facets = p
+            .faces
+            .map(|f| self.subject.sheet().face_facets[f as usize]);
+        let units = self.units_of(facets);
+        let vertex_name = |&v: &u32| {
+            let sheet = &self.subject.units()?.units;
+            let pair = units.as_ref()?;
+            pair.iter()
+                .find_map(|u| sheet.vertex_name(v, u.row, u.column))
+        };
+        let stage = if p.time < 1.0 {
             Stage::Unfold
         } else {
             Stage::Fold
+        };
+        PenetrationReport {
+            t: p.time,
+            stage: stage.name().to_owned(),
+            kind: kind_name(p.kind).to_owned(),
+            facets,
+            faces: p.faces,
+            vertex_names: p.vertices.iter().map(vertex_name).collect(),
+            vertices: p.vertices.clone(),
+            units,
+            point: p.point.into(),
+            depth: p.depth,
         }
-        .name()
-        .to_owned(),
-        kind: kind_name(p.kind).to_owned(),
-        facets,
-        faces: p.faces,
-        vertex_names: p.vertices.iter().map(vertex_name).collect(),
-        vertices: p.vertices.clone(),
-        units: named,
-        point: p.point.into(),
-        depth: p.depth,
+    }
+
+    /// The units of two facets; none for an imported pattern.
+    fn units_of(&self, facets: [u32; 2]) -> Option<[UnitName; 2]> {
+        let sheet = &self.subject.units()?.units.sheet;
+        Some(facets.map(|facet| {
+            let facet = &sheet.facets[facet as usize];
+            UnitName {
+                row: facet.row,
+                column: facet.column,
+                name: UnitSheet::unit_name(facet.row).to_owned(),
+            }
+        }))
+    }
+}
+
+fn row_reports(sheet: &UnitSheet) -> Option<Vec<RowReport>> {
+    let row = |unit: &Unit| RowReport {
+        case: unit.case.name().to_owned(),
+        height: unit.height,
+    };
+    let rows = sheet.row_units().iter().map(row);
+    (!sheet.has_equal_rows()).then(|| rows.collect())
+}
+
+fn profile_report(study: &UnitStudy) -> ProfileReport {
+    ProfileReport {
+        source: study.profile_source.clone(),
+        closed: study.profile.is_closed(),
+    }
+}
+
+fn division_report(study: &UnitStudy) -> DivisionReport {
+    DivisionReport {
+        method: study.division_method.name().to_owned(),
+        fit: FitReport {
+            largest: study.fit.largest,
+            mean: study.fit.mean,
+        },
+        max_residual: study.division.max_residual,
+        mean_residual: study.division.mean_residual,
+        iterations: study.division.iterations,
+        seconds: study.division_seconds,
+        points: study.division.points.iter().map(DVec2::to_array).collect(),
+    }
+}
+
+fn unfold_report(unfolding: &Unfolding) -> UnfoldReport {
+    let path = unfolding.path.as_ref();
+    UnfoldReport {
+        method: unfolding.method().to_owned(),
+        asked: unfolding.asked.name().to_owned(),
+        certified: unfolding.certified,
+        crosses_at: unfolding.crosses_at,
+        steps: path.map(|path| path.steps),
+        pieces: path.map(|path| path.turns.len() - 1),
     }
 }
 
@@ -269,15 +290,6 @@ pub(crate) fn kind_name(kind: PenetrationKind) -> &'static str {
         PenetrationKind::AroundVertex => "facets crossing around a shared vertex",
         PenetrationKind::PassedThrough => "facets changing sides",
         PenetrationKind::LayerOrder => "layers out of order",
-    }
-}
-
-fn unit_of(units: &UnitSheet, facet: u32) -> UnitName {
-    let facet = &units.sheet.facets[facet as usize];
-    UnitName {
-        row: facet.row,
-        column: facet.column,
-        name: UnitSheet::unit_name(facet.row).to_owned(),
     }
 }
 

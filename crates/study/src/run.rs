@@ -4,8 +4,7 @@ use std::io::Write as _;
 use std::path::Path;
 use std::time::Instant;
 
-use foldmotion_check::{CheckError, Checker, CollisionReport, FittedBox, fitted_box};
-use foldmotion_geometry::RigidMotion;
+use foldmotion_check::{CheckError, Checker, CollisionReport, FittedBox};
 use foldmotion_pattern::{LayerOrder, Motion};
 
 use crate::engine::Computed;
@@ -90,14 +89,14 @@ impl Study {
 
     fn require_space(&self, results: &Results) -> Result<(), StudyError> {
         let available = results.available()?;
-        let orders = BYTES_AN_ORDER * self.units.compact_order().len() as u64;
+        let orders = BYTES_AN_ORDER * self.subject.compact_order().len() as u64;
         let size = |frames| {
             let fold = if self.recording.has(OutputChoice::Fold) {
-                Motion::fold_file_size(&self.units.sheet, frames) + orders
+                Motion::fold_file_size(self.subject.sheet(), frames) + orders
             } else {
                 0
             };
-            fold + self.recording.space(&self.units.sheet, frames)
+            fold + self.recording.space(self.subject.sheet(), frames)
         };
         let needed = size(self.frames);
         if needed <= available {
@@ -115,21 +114,14 @@ impl Study {
         })
     }
 
-    /// The motion in the frame of the exact compact state: one rigid motion, applied to every frame alike.
+    /// The motion where it is shown.
     pub(crate) fn place(&self, computed: &Computed) -> Motion {
-        let exact = self.units.compact();
-        let fit = match computed.frames.last() {
-            Some(last) => RigidMotion::best_fit(&last.positions, &exact),
-            None => RigidMotion::IDENTITY,
-        };
         let mut frames = computed.frames.clone();
-        for position in frames.iter_mut().flat_map(|f| &mut f.positions) {
-            *position = fit.apply(*position);
-        }
+        self.subject.place(&mut frames);
         Motion {
-            sheet: self.units.sheet.clone(),
+            sheet: self.subject.sheet().clone(),
             frames,
-            compact_order: self.units.compact_order(),
+            compact_order: self.subject.compact_order(),
         }
     }
 
@@ -143,7 +135,7 @@ impl Study {
         let last = motion.frames.last().map_or(&[][..], |f| &f.positions);
         Ok(Checked {
             series: self.series(motion, computed, &collision.separation_series),
-            compact: fitted_box(last, &self.units.compact()),
+            compact: self.subject.measured_box(last),
             collision,
             layer_orders,
         })

@@ -6,6 +6,7 @@ use foldmotion_pattern::Case;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+pub use crate::pattern_scene::{PatternScene, UnknownChoice};
 pub use crate::record_scene::{
     CameraChoice, CameraScene, ColourChoice, HoldScene, LoopChoice, OutputChoice, OwnCamera,
     RecordScene, ThickenedScene,
@@ -18,6 +19,8 @@ pub use crate::record_scene::{
 pub struct Scene {
     /// Title of the study; the file's name where it is left out.
     pub title: Option<String>,
+    /// A crease pattern of a file, in place of profile, sheet and division.
+    pub pattern: Option<PatternScene>,
     /// The curve Γ in the x–z plane.
     #[serde(default)]
     pub profile: ProfileScene,
@@ -260,7 +263,7 @@ pub enum DivisionChoice {
 pub struct MaterialScene {
     /// The constants to start from; keys beside it replace single ones.
     pub preset: Option<PresetChoice>,
-    /// Thickness of the sheet in profile.unit: layers then come no closer than this. Not with motion.gap.
+    /// Thickness of the sheet in profile.unit or the unit of the pattern: layers then come no closer than this. Not with motion.gap.
     pub thickness: Option<f64>,
     /// EA of the bars; 20 where left out.
     pub axial_stiffness: Option<f64>,
@@ -307,7 +310,8 @@ pub struct MotionScene {
     pub frames: Option<i64>,
     /// Whether layers keep apart; quasi-static engine only, where it is on unless set to false.
     pub contact: Option<bool>,
-    /// Closest approach of layers, in units of h; 1e-3 where left out.
+    /// Closest approach of layers, in units of h or, of a pattern, its mean edge; 1e-3 where left out, less where a pattern
+    /// has small facets.
     pub gap: Option<f64>,
     /// How stage 1 unfolds the profile; `auto` where left out.
     pub unfold: Option<UnfoldChoice>,
@@ -345,7 +349,7 @@ impl UnfoldChoice {
 pub struct StepScene {
     /// `unfold` or `fold`.
     pub stage: StageChoice,
-    /// The creases, by their place in the unit; `all` where left out.
+    /// The creases, by their place in the unit or by the way they fold; `all` where left out.
     pub creases: Option<CreasesChoice>,
     /// First and last row, both included, or one; every row where left out.
     pub rows: Option<Vec<i64>>,
@@ -369,7 +373,7 @@ pub enum StageChoice {
     Fold,
 }
 
-/// Creases by their place in the unit.
+/// Creases by their place in the unit, or by the way they fold.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum CreasesChoice {
@@ -385,6 +389,10 @@ pub enum CreasesChoice {
     Verticals,
     /// Beside and across pads.
     Pads,
+    /// Mountain creases.
+    Mountains,
+    /// Valley creases.
+    Valleys,
 }
 
 /// How a crease moves within its step.
@@ -411,6 +419,6 @@ pub enum EngineChoice {
 #[derive(Debug, Clone, Default, PartialEq, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct CheckScene {
-    /// τ in units of h: facets that overlap by no more touch; 1e-6 where left out.
+    /// τ in units of h or, of a pattern, its mean edge: facets that overlap by no more touch; 1e-6 where left out.
     pub touch_tolerance: Option<f64>,
 }

@@ -15,6 +15,7 @@ use crate::engine::Computed;
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct FrameFigures {
     pub(crate) time: f64,
+    pub(crate) stage: Stage,
     pub(crate) peak_strain: f64,
     pub(crate) mean_strain: f64,
     pub(crate) peak_bending_deg: f64,
@@ -42,12 +43,13 @@ impl Study {
         let figures = |(index, frame): (usize, &Frame)| {
             let positions = self.model.to_model(&frame.positions);
             self.model.follow_angles(&positions, &mut angles);
-            let (stage, local) = stage_at(frame.time);
+            let (stage, local) = stage_at(frame.time, self.subject.stages());
             self.schedule.targets(stage, local, &mut targets);
             let strain = bar_strain(&motion.sheet, &frame.positions);
             let contact = computed.contacts.get(index);
             FrameFigures {
                 time: frame.time,
+                stage,
                 peak_strain: strain.peak,
                 mean_strain: strain.mean,
                 peak_bending_deg: facet_bending(&motion.sheet, &frame.positions).peak_deg(),
@@ -62,8 +64,9 @@ impl Study {
     }
 }
 
-fn stage_at(time: f64) -> (Stage, f64) {
-    if time <= 1.0 {
+/// The stage of a motion time and the time within it; where two of `stages` meet, the end of the first.
+fn stage_at(time: f64, stages: &[Stage]) -> (Stage, f64) {
+    if time <= 1.0 && stages.contains(&Stage::Unfold) {
         (Stage::Unfold, time)
     } else {
         (Stage::Fold, (time - 1.0).min(1.0))
@@ -88,7 +91,7 @@ pub(crate) fn write_csv(series: &[FrameFigures], out: &mut impl Write) -> io::Re
             out,
             "{:?},{},{:?},{:?},{:?},{:?},{:?},{:?},{:?},{:?},{},{separation}",
             f.time,
-            stage_at(f.time).0.name(),
+            f.stage.name(),
             f.peak_strain,
             f.mean_strain,
             f.peak_bending_deg,

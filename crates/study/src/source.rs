@@ -8,19 +8,6 @@ use toml::{Spanned, Table, Value};
 use crate::scene::RecordScene;
 use crate::{Scene, StudyError};
 
-/// Keys of the scene format that this version does not act on yet: refused by name, never ignored.
-///
-/// (table, key, the only value refused, or none for all; what to do instead).
-const LATER: &[(&str, &str, Option<&str>, &str)] = &[(
-    "pattern",
-    "file",
-    None,
-    "describe the sheet by [profile] and [sheet]",
-)];
-
-/// Outputs of the scene format that this version does not write yet.
-const LATER_OUTPUTS: &[&str] = &["html"];
-
 /// A scene file as text.
 #[derive(Debug, Clone)]
 pub struct SceneSource {
@@ -39,11 +26,15 @@ struct Override {
 }
 
 impl SceneSource {
-    /// Reads a scene file.
+    /// Reads a scene file. A crease pattern (.fold, .svg) is a scene of its own, of which `[pattern]` names this file and
+    /// all else is left out.
     ///
     /// # Errors
     /// [`StudyError::Read`].
     pub fn read(path: &Path) -> Result<Self, StudyError> {
+        if let Some(pattern) = Self::of_pattern(path) {
+            return Ok(pattern);
+        }
         let text = std::fs::read_to_string(path).map_err(|source| StudyError::Read {
             path: path.to_owned(),
             source,
@@ -107,6 +98,15 @@ impl SceneSource {
         source
     }
 
+    /// Gives a key the text `value`, as if by `--set`.
+    pub(crate) fn give(&mut self, key: &str, value: &str) {
+        self.overrides.push(Override {
+            flag: "--set".to_owned(),
+            key: key.to_owned(),
+            value: Value::String(value.to_owned()),
+        });
+    }
+
     /// A path of the scene: relative ones are beside the scene file.
     pub(crate) fn beside(&self, path: &str) -> PathBuf {
         self.path.parent().unwrap_or(Path::new("")).join(path)
@@ -139,7 +139,6 @@ impl SceneSource {
                 message,
             })?;
         }
-        self.refuse_later(&table)?;
         // The file itself first, so that its own errors carry their line.
         let scene: Result<Scene, _> = toml::from_str(&self.text);
         if self.overrides.is_empty() {
@@ -164,33 +163,6 @@ impl SceneSource {
             .map(|over| format!("{} {}", over.flag, over.key))
             .collect();
         names.join(", ")
-    }
-
-    fn refuse_later(&self, table: &Table) -> Result<(), StudyError> {
-        for &(group, key, value, remedy) in LATER {
-            let Some(found) = table.get(group).and_then(|t| t.get(key)) else {
-                continue;
-            };
-            let text = found
-                .as_str()
-                .map_or_else(|| found.to_string(), str::to_owned);
-            if value.is_none_or(|v| v == text) {
-                let message = format!("not available in this version; {remedy}");
-                return Err(self.value_error(&format!("{group}.{key}"), message));
-            }
-        }
-        let outputs = table
-            .get("record")
-            .and_then(|t| t.get("outputs"))
-            .and_then(Value::as_array);
-        for output in outputs.into_iter().flatten().filter_map(Value::as_str) {
-            if LATER_OUTPUTS.contains(&output) {
-                let message =
-                    format!("output \"{output}\" is not available in this version; leave it out");
-                return Err(self.value_error("record.outputs", message));
-            }
-        }
-        Ok(())
     }
 
     /// An error about the value of a key: with its file, line and value, or the `--set` that gave it.
@@ -316,24 +288,6 @@ mod tests {
             .unwrap_err()
             .to_string();
         assert!(text.contains("test.toml:2"), "{text}");
-    }
-
-    #[test]
-    fn keys_of_later_versions_are_refused_by_name_and_value() {
-        for (text, key) in [("[record]\noutputs = [\"html\"]\n", "record.outputs")] {
-            let error = source(text).scene().unwrap_err();
-            let message = error.to_string();
-            assert!(
-                message.contains(key) && message.contains("not available"),
-                "{message}"
-            );
-            assert_eq!(error.status(), 2);
-        }
-        assert!(
-            source("[motion]\nengine = \"dynamic\"\ncontact = false\n")
-                .scene()
-                .is_ok()
-        );
     }
 
     #[test]

@@ -68,6 +68,7 @@ fn our_own_motion_reads_back_bitwise() {
         unit: "m",
         target_angles: units.compact_angles(),
         layer_orders: &[(2, units.compact_order())],
+        keys: &serde_json::Map::new(),
     };
     let mut bytes = Vec::new();
     motion.write_fold(&header, &mut bytes).unwrap();

@@ -37,12 +37,7 @@ impl Imported {
     /// other keys as they are. Lists that say how elements lie to each other are left out.
     pub fn fold(&self, creator: &str) -> String {
         let lists = Lists::new(self);
-        let mut file = Map::new();
-        for (key, value) in &self.keys {
-            if !OWN.contains(&key.as_str()) {
-                file.insert(key.clone(), lists.reordered(key, value));
-            }
-        }
+        let mut file = lists.kept();
         let edges = |of: &dyn Fn(usize) -> Value| -> Value {
             lists.edges.iter().map(|&edge| of(edge)).collect()
         };
@@ -97,6 +92,12 @@ impl Imported {
         format!("{{\n{}\n}}\n", lines.join(",\n"))
     }
 
+    /// The keys of the FOLD file that were not read, as they stand in a file whose faces are the triangles of the sheet:
+    /// as in [`Self::fold`].
+    pub fn keys_of_triangles(&self) -> Map<String, Value> {
+        Lists::of_triangles(self).kept()
+    }
+
     fn target_degrees(&self, edge: usize) -> Option<f64> {
         match self.sheet.edges[edge].assignment {
             Assignment::Border | Assignment::Free => None,
@@ -135,6 +136,24 @@ impl<'a> Lists<'a> {
             faces,
             face_facets,
         }
+    }
+
+    fn of_triangles(imported: &'a Imported) -> Self {
+        let sheet = &imported.sheet;
+        Self {
+            imported,
+            edges: (0..sheet.edges.len()).collect(),
+            faces: json!(sheet.faces),
+            face_facets: sheet.face_facets.clone(),
+        }
+    }
+
+    /// The keys that were not read.
+    fn kept(&self) -> Map<String, Value> {
+        let keys = self.imported.keys.iter();
+        let kept = keys.filter(|(key, _)| !OWN.contains(&key.as_str()));
+        kept.map(|(key, value)| (key.clone(), self.reordered(key, value)))
+            .collect()
     }
 
     /// A list of the file in the order of the sheet; any other value as it is.

@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 use std::f64::consts::{PI, TAU};
+use std::path::Path;
 
 use foldmotion_pattern::{
     Assignment, CreaseKind, ImportOptions, Imported, import_fold, import_svg,
@@ -206,5 +207,30 @@ fn the_fold_percentage_scales_every_target() {
     }
     for fraction in [-1.01, 1.5, f64::NAN, f64::INFINITY] {
         assert!(svg.angles_at(fraction).is_err());
+    }
+}
+
+#[test]
+fn the_stored_examples_are_these_patterns() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes/imported");
+    for (name, pattern) in [
+        ("miura", miura(4, 4)),
+        ("bird-base", bird_base()),
+        ("square-twist", square_twist()),
+        ("pop-up", pop_up()),
+        ("frame", frame()),
+    ] {
+        let fold = serde_json::to_string(&pattern.fold()).unwrap() + "\n";
+        for (ending, text) in [("svg", pattern.svg()), ("fold", fold)] {
+            let path = folder.join(format!("{name}.{ending}"));
+            if std::env::var_os("UPDATE_EXAMPLES").is_some() {
+                std::fs::write(&path, &text).unwrap();
+            }
+            let stored = std::fs::read_to_string(&path).unwrap_or_default();
+            assert!(
+                stored == text,
+                "{name}.{ending} is not current: run the tests once with UPDATE_EXAMPLES=1"
+            );
+        }
     }
 }

@@ -6,6 +6,7 @@ use glam::DVec3;
 mod step;
 mod timing;
 mod unfold_path;
+mod waypoints;
 
 pub use step::{CreaseGroup, ScheduleStep};
 pub use timing::Ease;
@@ -13,6 +14,7 @@ pub use unfold_path::UnfoldPath;
 
 use timing::Timing;
 use unfold_path::FollowedPath;
+use waypoints::Waypoints;
 
 use crate::{Model, SolverError};
 
@@ -62,12 +64,13 @@ impl Stage {
 /// In `unfold` every crease goes from its deployed angle to 0, in `fold` from 0 to its compact angle: θ* = θ_deployed
 /// (1 − p(s)), then θ* = θ_compact p(s), where p(s) = s unless a [`ScheduleStep`] names the crease; then it is 0 before
 /// the step, 1 after it and follows its [`Ease`] in between. Given an [`UnfoldPath`], the row creases follow it in `unfold`
-/// instead, at the progress p(s). Facet hinges are held at 0 throughout. Hinges are numbered
+/// instead, at the progress p(s). Given waypoints, every crease passes through them in `fold`, at the progress p(s). Facet hinges are held at 0 throughout. Hinges are numbered
 /// as in [`crate::Model`]: the edges of the sheet that join two triangles, in the order of the sheet.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Schedule {
     hinges: Vec<[Turn; 2]>,
     unfold_path: Option<FollowedPath>,
+    waypoints: Option<Waypoints>,
 }
 
 /// The turn of a hinge in one stage; at its other end the sheet is planar and the hinge at 0.
@@ -121,6 +124,7 @@ impl Schedule {
         Ok(Self {
             hinges,
             unfold_path: None,
+            waypoints: None,
         })
     }
 
@@ -145,6 +149,30 @@ impl Schedule {
             .map(|turns| turns[unfold].angle)
             .collect();
         self.unfold_path = Some(FollowedPath::new(sheet, path, &deployed)?);
+        Ok(self)
+    }
+
+    /// The same schedule, with the creases passing through `angles` in `fold`: lists of one angle for each edge, radians,
+    /// evenly spaced in the progress of the stage, which ends at the last. Steps go on timing them.
+    ///
+    /// `sheet` is the one the schedule was made for. No waypoints change nothing.
+    ///
+    /// # Errors
+    /// [`SolverError::Count`], [`SolverError::NotFinite`], [`SolverError::AngleOutOfRange`].
+    pub fn with_waypoints(
+        mut self,
+        sheet: &Sheet,
+        angles: &[Vec<f64>],
+    ) -> Result<Self, SolverError> {
+        self.check_sheet(sheet)?;
+        let waypoints = Waypoints::new(sheet, angles)?;
+        let Some(ends) = waypoints.last() else {
+            return Ok(self);
+        };
+        for (turns, &end) in self.hinges.iter_mut().zip(ends) {
+            turns[Stage::Fold.index()].angle = end;
+        }
+        self.waypoints = Some(waypoints);
         Ok(self)
     }
 
@@ -244,7 +272,10 @@ impl Schedule {
         match (stage, &self.unfold_path) {
             (Stage::Unfold, Some(path)) => path.angle(hinge, progress).unwrap_or(0.0),
             (Stage::Unfold, None) => angle * (1.0 - progress),
-            (Stage::Fold, _) => angle * progress,
+            (Stage::Fold, _) => match &self.waypoints {
+                Some(waypoints) => waypoints.angle(hinge, progress),
+                None => angle * progress,
+            },
         }
     }
 
@@ -265,7 +296,8 @@ impl Schedule {
             let Turn { angle, timing } = ends[stage.index()];
             let rate = match (stage, &self.unfold_path) {
                 (Stage::Unfold, Some(path)) => path.fastest(hinge),
-                _ => None,
+                (Stage::Unfold, None) => None,
+                (Stage::Fold, _) => self.waypoints.as_ref().map(|w| w.fastest(hinge)),
             };
             let angle = rate.unwrap_or(angle.abs());
             match turns.iter_mut().find(|turn| turn.timing == timing) {

@@ -1,6 +1,6 @@
 //! A step of the schedule: which creases move when.
 
-use foldmotion_pattern::{CreaseKind, Edge, Sheet};
+use foldmotion_pattern::{Assignment, CreaseKind, Edge, Sheet};
 
 use super::Stage;
 use super::timing::{Ease, Timing};
@@ -9,7 +9,7 @@ use crate::SolverError;
 /// The shortest step, in stage-local time.
 const MIN_DURATION: f64 = 1e-6;
 
-/// Creases named by their place in the unit.
+/// Creases named by their place in the unit, or by the way they fold.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 pub enum CreaseGroup {
     /// Every crease.
@@ -25,10 +25,15 @@ pub enum CreaseGroup {
     Verticals,
     /// Beside and across pads ([`CreaseKind::Pad`]).
     Pads,
+    /// Mountain creases.
+    Mountains,
+    /// Valley creases.
+    Valleys,
 }
 
 impl CreaseGroup {
-    fn contains(self, kind: CreaseKind) -> bool {
+    fn contains(self, edge: &Edge) -> bool {
+        let kind = edge.kind;
         match self {
             Self::All => true,
             Self::Rows => kind == CreaseKind::Row,
@@ -36,6 +41,8 @@ impl CreaseGroup {
             Self::Diagonals => kind == CreaseKind::Diagonal,
             Self::Verticals => kind == CreaseKind::Vertical,
             Self::Pads => kind == CreaseKind::Pad,
+            Self::Mountains => edge.assignment == Assignment::Mountain,
+            Self::Valleys => edge.assignment == Assignment::Valley,
         }
     }
 }
@@ -48,7 +55,7 @@ impl CreaseGroup {
 pub struct ScheduleStep {
     /// The stage.
     pub stage: Stage,
-    /// The creases, by kind.
+    /// The creases.
     pub creases: CreaseGroup,
     /// Those of these rows only, first and last, counted from 0 ([`Edge::row`]: a crease between two rows belongs to
     /// the later one); none: of every row.
@@ -72,7 +79,7 @@ impl ScheduleStep {
         };
         edge.is_hinge()
             && edge.is_crease()
-            && self.creases.contains(edge.kind)
+            && self.creases.contains(edge)
             && within(self.rows, edge.row)
             && within(self.columns, edge.column)
     }

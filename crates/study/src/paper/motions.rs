@@ -97,7 +97,10 @@ fn fold(study: &Study, contact: bool, done: Done<'_>) -> Result<Folding, StudyEr
             area: checked.compact.area,
             volume: checked.compact.volume,
         },
-        rms_to_exact: checked.compact.rms_to_exact / study.units.unit.height,
+        rms_to_exact: checked
+            .compact
+            .rms_to_exact
+            .map_or(0.0, |rms| rms / study.subject.sheet().unit_length),
         error: error_of(study, &checked.compact),
     };
     let mut states = Vec::new();
@@ -109,8 +112,11 @@ fn fold(study: &Study, contact: bool, done: Done<'_>) -> Result<Folding, StudyEr
 }
 
 fn error_of(study: &Study, measured: &foldmotion_check::FittedBox) -> ErrorReport {
-    let closed = study.closed_form.map_or([0.0; 3], |form| form.extents);
-    let error = relative_error(measured, closed.into(), study.units.unit.height);
+    let closed = study
+        .subject
+        .closed_form()
+        .map_or([0.0; 3], |form| form.extents);
+    let error = relative_error(measured, closed.into(), study.subject.sheet().unit_length);
     ErrorReport {
         extents: error.extents.into(),
         area: error.area,

@@ -10,7 +10,7 @@ use super::printed::{TABLE_1, TABLE_2};
 use super::record::{CaseRow, CountRow, DivisionRow, PrintedCounts, PrintedDivision};
 use super::targets::{CASES, sheet};
 use crate::report::BoxReport;
-use crate::{Study, StudyError};
+use crate::{StudyError, UnitStudy};
 
 /// Timings are the least of this many.
 const TIMED: usize = 5;
@@ -81,7 +81,7 @@ pub(super) fn cases() -> Result<Vec<CaseRow>, StudyError> {
     Ok(rows)
 }
 
-fn case_row(model: &str, study: &Study) -> Option<CaseRow> {
+fn case_row(model: &str, study: &UnitStudy) -> Option<CaseRow> {
     let units = &study.units;
     Some(CaseRow {
         model: model.to_owned(),
@@ -204,7 +204,8 @@ mod tests {
     fn every_case_of_a_target_is_deployed_on_the_same_polygon_over_the_same_width() {
         for model in models() {
             let [first, others @ ..] = CASES.map(|case| sheet(model.name, case).unwrap());
-            let corners = |study: &Study| Aabb::around(study.deployed.iter().copied()).extents();
+            let corners =
+                |study: &UnitStudy| Aabb::around(study.deployed.iter().copied()).extents();
             for study in others {
                 assert_eq!(study.division.points, first.division.points);
                 let difference = (corners(&study) - corners(&first)).abs().max_element();

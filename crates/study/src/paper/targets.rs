@@ -4,7 +4,7 @@ use std::path::Path;
 
 use foldmotion_pattern::{Case, ProfileModel, find_model};
 
-use crate::{SceneSource, Study, StudyError};
+use crate::{SceneSource, Study, StudyError, UnitStudy};
 
 /// The cases of tables and figures.
 pub(super) const CASES: [Case; 4] = [Case::E, Case::T, Case::S, Case::SII];
@@ -31,9 +31,14 @@ pub(super) fn study(scene: String) -> Result<Study, StudyError> {
     Study::resolve(&SceneSource::new(Path::new("paper.toml"), scene))
 }
 
+/// The sheet of such a scene.
+pub(super) fn unit_study(scene: String) -> Result<UnitStudy, StudyError> {
+    UnitStudy::resolve(&SceneSource::new(Path::new("paper.toml"), scene))
+}
+
 /// The sheet of `model` in `case` with its exact states; nothing is simulated.
-pub(super) fn sheet(model: &str, case: Case) -> Result<Study, StudyError> {
-    study(scene(model, case, ""))
+pub(super) fn sheet(model: &str, case: Case) -> Result<UnitStudy, StudyError> {
+    unit_study(scene(model, case, ""))
 }
 
 /// What a part about `scene` is made from: the scene and the curve it names.

@@ -12,7 +12,7 @@ use super::record::UnfoldingRow;
 use super::store::Store;
 use super::targets::{inputs, sheet};
 use crate::reporting::verdict_name;
-use crate::{Study, StudyError};
+use crate::{StudyError, UnitStudy};
 
 /// Frames from deployed to planar: the straight paths between them are what is judged.
 const FRAMES: usize = 960;
@@ -64,7 +64,7 @@ fn judge_all(model: &str, done: Done<'_>) -> Result<Vec<UnfoldingRow>, StudyErro
 /// Judges the motion in which the turns of the chain at time t are `turns_at(t)`.
 fn judge(
     model: &str,
-    study: &Study,
+    study: &UnitStudy,
     turns_at: impl Fn(f64) -> Vec<f64>,
     done: Done<'_>,
 ) -> Result<UnfoldingRow, StudyError> {
@@ -85,10 +85,10 @@ fn judge(
 }
 
 /// One column of the sheet over the chain with those turns.
-fn motion(study: &Study, turns_at: impl Fn(f64) -> Vec<f64>) -> Result<Motion, StudyError> {
+fn motion(study: &UnitStudy, turns_at: impl Fn(f64) -> Vec<f64>) -> Result<Motion, StudyError> {
     let height = study.units.unit.height;
     let fault = |e: foldmotion_pattern::PatternError| StudyError::Parse {
-        place: study.title.clone(),
+        place: study.profile_source.clone(),
         message: e.to_string(),
     };
     let unit = Unit::new(Case::E, height, height, None, None).map_err(fault)?;

@@ -4,7 +4,7 @@ use foldmotion_geometry::RigidMotion;
 use foldmotion_pattern::CompactBox;
 use glam::DVec3;
 
-use crate::Study;
+use crate::UnitStudy;
 
 /// Points of the profile in a figure.
 const POINTS: u32 = 240;
@@ -24,7 +24,7 @@ pub(crate) struct Known {
     pub(crate) profile: Vec<DVec3>,
 }
 
-impl Study {
+impl UnitStudy {
     pub(crate) fn known(&self) -> Known {
         let point = |k: u32| {
             let p = self.profile.position(f64::from(k) / f64::from(POINTS));

@@ -91,7 +91,7 @@ pub(super) fn recording(record: &RecordScene) -> Result<Recording, StudyError> {
         source: &source,
         scene: &scene,
     };
-    resolver.recording()
+    resolver.recording(resolver.title(None))
 }
 
 /// A motion read from a file.

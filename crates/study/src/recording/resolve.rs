@@ -17,10 +17,10 @@ const TURN: f64 = 360.0;
 
 impl Resolver<'_> {
     /// What is written of the motion, and how.
-    pub(crate) fn recording(&self) -> Result<Recording, StudyError> {
+    pub(crate) fn recording(&self, title: String) -> Result<Recording, StudyError> {
         let record = &self.scene.record;
         let mut scene = self.scene.clone();
-        scene.title = Some(self.title());
+        scene.title = Some(title);
         let film = self.film()?;
         Ok(Recording {
             outputs: self.outputs(&film)?,

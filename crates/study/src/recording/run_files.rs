@@ -14,7 +14,7 @@ use crate::results::{CERTIFICATE, MOTION, Results, write_error};
 use crate::run::{Checked, Progress, VERSION};
 use crate::scene::OutputChoice;
 use crate::series::{panels, write_csv};
-use crate::{Study, StudyError};
+use crate::{Study, StudyError, UnitStudy};
 
 impl Study {
     /// Writes everything the scene asks for and answers the SHA-256 of the motion.
@@ -40,7 +40,7 @@ impl Study {
             marks: marks(motion, &checked.collision),
             title: &self.title,
             unit: self.unit_name,
-            known: Some(self.known()),
+            known: self.subject.units().map(UnitStudy::known),
             origin: Origin::of_scene(&self.recording.scene, sha256.clone()),
         };
         recorder.write(results, progress)?;
@@ -57,8 +57,9 @@ impl Study {
             title: &self.title,
             creator: &format!("foldmotion {VERSION}"),
             unit: self.unit_name,
-            target_angles: self.units.compact_angles(),
+            target_angles: self.subject.end_angles(),
             layer_orders: &checked.layer_orders,
+            keys: &self.subject.kept_keys(),
         };
         let mut out = HashedWriter::new(out);
         motion.write_fold(&header, &mut out)?;

@@ -8,7 +8,7 @@ use super::panel::{Cell, Pose, common_scale};
 use super::pattern::{Place, WORDS, draw};
 use super::{Composed, page};
 use crate::paper::targets::{CASES, sheet};
-use crate::{Study, StudyError};
+use crate::{StudyError, UnitStudy};
 
 /// Figure 6.
 pub(super) fn figure6() -> Result<Composed, StudyError> {
@@ -54,7 +54,7 @@ pub(super) fn figure8() -> Result<Composed, StudyError> {
     ))
 }
 
-fn counts(study: &Study) -> String {
+fn counts(study: &UnitStudy) -> String {
     format!("{} × {}", study.units.rows, study.units.columns)
 }
 
@@ -71,7 +71,7 @@ fn four_cases(blocks: [(&str, &str); 2]) -> Result<Drawing, StudyError> {
             1.2 * WORDS,
             Anchor::Start,
         );
-        let studies: Vec<Study> = CASES
+        let studies: Vec<UnitStudy> = CASES
             .iter()
             .map(|&case| sheet(model, case))
             .collect::<Result<_, _>>()?;

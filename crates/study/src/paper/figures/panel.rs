@@ -4,7 +4,7 @@ use foldmotion_pattern::{LayerOrder, Sheet};
 use foldmotion_record::{Camera, Drawing, PIXELS_A_UNIT, Style, View, picture};
 use glam::{DVec2, DVec3};
 
-use crate::{Study, StudyError};
+use crate::{StudyError, UnitStudy};
 
 /// The width of lines in pictures, in units of the page, at most.
 const LINE_WIDTH: f64 = 0.9;
@@ -23,7 +23,7 @@ pub(super) struct Pose<'a> {
 
 impl<'a> Pose<'a> {
     /// A state without coincident facets.
-    pub(super) fn new(study: &'a Study, positions: Vec<DVec3>) -> Self {
+    pub(super) fn new(study: &'a UnitStudy, positions: Vec<DVec3>) -> Self {
         Self {
             sheet: &study.units.sheet,
             positions,
@@ -32,17 +32,17 @@ impl<'a> Pose<'a> {
     }
 
     /// The deployed state.
-    pub(super) fn deployed(study: &'a Study) -> Self {
+    pub(super) fn deployed(study: &'a UnitStudy) -> Self {
         Self::new(study, study.deployed.clone())
     }
 
     /// The exact compact state.
-    pub(super) fn compact(study: &'a Study) -> Self {
+    pub(super) fn compact(study: &'a UnitStudy) -> Self {
         Self::new(study, study.units.compact()).layered(study)
     }
 
     /// The same with the order of the facets that coincide in the compact state.
-    pub(super) fn layered(self, study: &Study) -> Self {
+    pub(super) fn layered(self, study: &UnitStudy) -> Self {
         Self {
             order: study.units.compact_order(),
             ..self

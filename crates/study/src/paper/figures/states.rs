@@ -8,7 +8,7 @@ use super::panel::{Cell, Pose, common_scale};
 use super::pattern::WORDS;
 use super::{Composed, page};
 use crate::paper::targets::sheet;
-use crate::{Study, StudyError};
+use crate::{StudyError, UnitStudy};
 
 /// Strips that stand for the smooth surface.
 const STRIPS: u32 = 240;
@@ -70,7 +70,7 @@ pub(super) fn figure2() -> Result<Composed, StudyError> {
 }
 
 /// Γ swept along the width as a sheet of narrow strips without creases, and its positions.
-fn swept_surface(study: &Study) -> (Sheet, Vec<DVec3>) {
+fn swept_surface(study: &UnitStudy) -> (Sheet, Vec<DVec3>) {
     let width = study.units.unit.width * study.units.columns as f64;
     let corner = |k: u32| {
         let [column, step] = [k % 2, k / 2];

@@ -10,7 +10,7 @@ use crate::paper::motions::{CERTIFIED, Folding, STRIP_TIMES, finished};
 use crate::paper::store::Store;
 use crate::paper::targets::{CASES, sheet};
 use crate::recording::turned;
-use crate::{Study, StudyError};
+use crate::{StudyError, UnitStudy};
 
 /// Width and height of a state's cell.
 const CELL: DVec2 = DVec2::new(230.0, 150.0);
@@ -77,7 +77,12 @@ pub(super) fn figure_a1(store: &Store) -> Result<Composed, StudyError> {
     ))
 }
 
-fn words_of(drawing: &mut foldmotion_record::Drawing, at: DVec2, study: &Study, folding: &Folding) {
+fn words_of(
+    drawing: &mut foldmotion_record::Drawing,
+    at: DVec2,
+    study: &UnitStudy,
+    folding: &Folding,
+) {
     let case = format!("case {}", study.units.unit.case.name());
     drawing.words(at, case, WORDS, Anchor::Start);
     let below = at + DVec2::new(0.0, 16.0);
@@ -86,7 +91,7 @@ fn words_of(drawing: &mut foldmotion_record::Drawing, at: DVec2, study: &Study, 
 }
 
 /// A state of a motion, turned as its stage is shown: upright until it is nearly flat, then as the compact state lies.
-fn pose<'a>(study: &'a Study, (time, positions): &(f64, Vec<DVec3>)) -> Pose<'a> {
+fn pose<'a>(study: &'a UnitStudy, (time, positions): &(f64, Vec<DVec3>)) -> Pose<'a> {
     let pose = Pose::new(study, turned(&study.known(), *time, positions));
     if *time > 1.0 {
         pose.layered(study)

@@ -7,8 +7,8 @@ use glam::DVec2;
 use super::panel::{Cell, Pose, common_scale};
 use super::pattern::{WORDS, draw_unit};
 use super::{Composed, page};
-use crate::paper::targets::{LAMBDA, sheet, study};
-use crate::{Study, StudyError};
+use crate::paper::targets::{LAMBDA, sheet, unit_study};
+use crate::{StudyError, UnitStudy};
 
 /// The profile the units are shown on.
 const MODEL: &str = "shelter";
@@ -77,8 +77,8 @@ pub(super) fn figure5() -> Result<Composed, StudyError> {
 }
 
 /// The shelter of unmodified rectangles.
-fn plain(columns: usize) -> Result<Study, StudyError> {
-    study(format!(
+fn plain(columns: usize) -> Result<UnitStudy, StudyError> {
+    unit_study(format!(
         "[profile]\nmodel = \"{MODEL}\"\n[sheet]\ncase = \"plain\"\ncolumns = {columns}\nwidth = {WIDTH}\n"
     ))
 }
@@ -115,7 +115,7 @@ fn line(
     top: f64,
     letters: [&str; 4],
     name: &str,
-    study: &Study,
+    study: &UnitStudy,
 ) -> Result<(), StudyError> {
     two_units(
         drawing,

@@ -1,0 +1,79 @@
+//! What the report says of an imported pattern.
+
+use foldmotion_pattern::Assignment;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use crate::ImportedStudy;
+
+/// An imported crease pattern.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct ImportReport {
+    /// The file, as the scene names it.
+    pub file: String,
+    /// By how much of its fold angles it folds, in percent.
+    pub fold_percent: f64,
+    /// Stages that the frames of the file give; 1 where it has none.
+    pub stages: usize,
+    /// The facet that stays in place; null where none does.
+    pub fixed_facet: Option<u32>,
+    /// Mean length of its edges, the unit of tolerances and separations, in `length_unit`.
+    pub mean_edge: f64,
+    /// Mountain creases.
+    pub mountains: usize,
+    /// Valley creases.
+    pub valleys: usize,
+    /// Hinges that nothing drives and nothing holds.
+    pub free_hinges: usize,
+    /// Border edges, those of cuts and holes among them.
+    pub borders: usize,
+    /// V − E + F: 1 for a sheet without holes, one less for each hole or open cut.
+    pub euler_characteristic: i64,
+    /// What was changed or left out while it was read.
+    pub warnings: Vec<String>,
+}
+
+impl ImportReport {
+    pub(crate) fn new(study: &ImportedStudy) -> Self {
+        let imported = &study.imported;
+        let edges = &imported.sheet.edges;
+        let count = |letter| edges.iter().filter(|e| e.assignment == letter).count();
+        Self {
+            file: study.file.clone(),
+            fold_percent: study.fold_percent,
+            stages: study.waypoints.len(),
+            fixed_facet: study.fixed,
+            mean_edge: imported.sheet.unit_length,
+            mountains: count(Assignment::Mountain),
+            valleys: count(Assignment::Valley),
+            free_hinges: count(Assignment::Free),
+            borders: count(Assignment::Border),
+            euler_characteristic: imported.euler_characteristic(),
+            warnings: imported.warnings.iter().map(|w| w.to_string()).collect(),
+        }
+    }
+
+    /// Its lines in the table.
+    pub(crate) fn lines(&self, unit: &str) -> String {
+        let stages = match self.stages {
+            1 => String::new(),
+            n => format!(" in {n} stages"),
+        };
+        let mut lines = format!(
+            "pattern of {}, folded by {} %{stages}; mean edge {:.6} {unit}; {} mountain, {} valley, {} free, {} border edges\n",
+            self.file,
+            self.fold_percent,
+            self.mean_edge,
+            self.mountains,
+            self.valleys,
+            self.free_hinges,
+            self.borders
+        );
+        for warning in &self.warnings {
+            lines.push_str("note: ");
+            lines.push_str(warning);
+            lines.push('\n');
+        }
+        lines
+    }
+}
