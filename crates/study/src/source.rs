@@ -320,7 +320,10 @@ mod tests {
 
     #[test]
     fn keys_of_later_versions_are_refused_by_name_and_value() {
-        for (text, key) in [("[record]\noutputs = [\"html\"]\n", "record.outputs")] {
+        for (text, key) in [
+            ("[record]\noutputs = [\"html\"]\n", "record.outputs"),
+            ("[pattern]\nfile = \"crane.fold\"\n", "pattern.file"),
+        ] {
             let error = source(text).scene().unwrap_err();
             let message = error.to_string();
             assert!(
