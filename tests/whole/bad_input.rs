@@ -214,6 +214,13 @@ fn values_of_the_later_tables_are_refused_too() {
             "[division]\nmax_iterations = 0",
             &["division.max_iterations = 0"],
         ),
+    ];
+    refuses_all(cases);
+}
+
+#[test]
+fn values_of_record_are_refused_by_key_line_and_value() {
+    let cases: &[(&str, &[&str])] = &[
         ("[record]\nsize = [0, 480]", &["record.size = [0, 480]"]),
         ("[record]\nsize = [480, 100000]", &["record.size"]),
         ("[record]\nfps = 0.0", &["record.fps = 0.0"]),
@@ -258,6 +265,11 @@ fn values_of_the_later_tables_are_refused_too() {
             &["record.thickened = -1.0", "positive"],
         ),
     ];
+    refuses_all(cases);
+}
+
+/// (what is added to the good scene, words the message must have).
+fn refuses_all(cases: &[(&str, &[&str])]) {
     for (text, words) in cases {
         let message = refusal(&format!("{GOOD}{text}\n"));
         for word in *words {

@@ -59,9 +59,9 @@ pub(crate) struct RecordArguments {
     /// OBJ and STL as solids of this thickness, in the motion's unit
     #[arg(long, value_name = "THICKNESS")]
     pub(crate) thickened: Option<f64>,
-    /// Figures without the box of the last state
-    #[arg(long)]
-    pub(crate) no_box: bool,
+    /// Whether figures show the box of the compact state; true where left out
+    #[arg(long = "box", value_name = "true|false")]
+    pub(crate) bounds: Option<bool>,
     /// Threads to use; all cores where left out
     #[arg(long, value_parser = parse_threads)]
     pub(crate) threads: Option<usize>,
@@ -84,7 +84,7 @@ const FLAGS: [&str; 13] = [
     "transparent",
     "caption",
     "thickened",
-    "no_box",
+    "bounds",
 ];
 
 /// How films run.
@@ -134,7 +134,7 @@ impl RecordArguments {
             at: self.at.clone(),
             thickened: self.thickened.map(ThickenedScene::By),
             profile: None,
-            bounds: self.no_box.then_some(false),
+            bounds: self.bounds,
         }
     }
 

@@ -1,5 +1,11 @@
 //! Visible areas and lines against rays.
 
+#![expect(
+    clippy::unwrap_used,
+    clippy::cast_sign_loss,
+    reason = "what cannot be made must fail its test; random numbers are not negative"
+)]
+
 mod common;
 
 use common::*;

@@ -242,7 +242,7 @@ fn picture_name(index: usize) -> String {
 }
 
 fn picture_id(index: usize) -> Ref {
-    Ref::new(FIRST_PICTURE.saturating_add(index as i32))
+    Ref::new(FIRST_PICTURE.saturating_add(i32::try_from(index).unwrap_or(i32::MAX)))
 }
 
 fn write_picture(pdf: &mut Pdf, id: Ref, image: &Image) {

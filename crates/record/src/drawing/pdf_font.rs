@@ -102,7 +102,8 @@ impl PdfFont {
         let bytes = deflated(&subset);
         let mut stream = pdf.stream(file, &bytes);
         stream.filter(pdf_writer::Filter::FlateDecode);
-        stream.pair(Name(b"Length1"), subset.len() as i32);
+        let length = i32::try_from(subset.len()).unwrap_or(i32::MAX);
+        stream.pair(Name(b"Length1"), length);
         stream.finish();
         let mut characters = UnicodeCmap::new(Name(b"FoldmotionLetters"), SYSTEM);
         for (&letter, &(_, id)) in &self.letters {

@@ -25,6 +25,9 @@ const ROOM: f64 = 1.5;
 /// The colour of the curve to compare with: bluish green (Okabe and Ito 2008).
 const TARGET: [u8; 3] = [0, 158, 115];
 
+/// Lines of one look.
+type Look = (Stroke, Vec<[DVec2; 2]>);
+
 /// Draws states of a sheet.
 pub(super) struct Painter<'a> {
     pub(super) paper: &'a Paper<'a>,
@@ -116,17 +119,17 @@ impl Painter<'_> {
         let (options, width) = (self.options, self.layout.line_width);
         for level in visible.lines.chunk_by(|a, b| a.level == b.level) {
             // The border comes last, where it goes over the ends of creases.
-            let mut looks: BTreeMap<(u8, [u8; 3]), (Stroke, Vec<[DVec2; 2]>)> = BTreeMap::new();
+            let mut looks: BTreeMap<(u8, [u8; 3]), Look> = BTreeMap::new();
             for line in level.iter().filter(|line| self.has_room(line, surface)) {
                 let assignment = self.paper.sheet.edges[line.edge as usize].assignment;
                 let value = pose.bars.get(line.edge as usize);
-                let (rank, stroke) = match value.and_then(|&value| self.color_of(value)) {
-                    Some(color) => (4, Stroke::new(color, 3.0 * width)),
-                    None => {
-                        let color = options.style.line(assignment);
-                        let stroke = options.lines.stroke(assignment, color, width);
-                        (rank(assignment), stroke)
-                    }
+                let value = value.and_then(|&value| self.color_of(value));
+                let (rank, stroke) = if let Some(color) = value {
+                    (4, Stroke::new(color, 3.0 * width))
+                } else {
+                    let color = options.style.line(assignment);
+                    let stroke = options.lines.stroke(assignment, color, width);
+                    (rank(assignment), stroke)
                 };
                 let look = looks.entry((rank, stroke.color));
                 let (_, parts) = look.or_insert_with(|| (stroke, Vec::new()));

@@ -19,6 +19,7 @@ pub(super) struct Grid {
 
 impl Grid {
     /// The grid of `boxes`, each from its low to its high corner; about as many cells as boxes.
+    #[expect(clippy::cast_sign_loss, reason = "clamped to at least 1 before")]
     pub(super) fn new(boxes: &[[DVec2; 2]]) -> Self {
         let corners = boxes.iter().flatten();
         let (low, high) = corners.fold((DVec2::INFINITY, DVec2::NEG_INFINITY), |(l, h), p| {

@@ -23,6 +23,7 @@ use self::plane::outside;
 use self::plane::{Plane, Rings};
 pub(crate) use self::plane::{doubled_area, perimeter};
 use crate::Surface;
+use crate::screen_face::ScreenFace;
 
 /// Visible parts whose doubled area is smaller are rounding, in square pixels.
 const LEAST_AREA: f64 = 1e-7;
@@ -78,7 +79,7 @@ impl Surface<'_> {
         let Some(plane) = Plane::new(points.map(|p| p.truncate())) else {
             return Visible::default();
         };
-        let boxes: Vec<_> = self.faces().iter().map(|face| face.extent()).collect();
+        let boxes: Vec<_> = self.faces().iter().map(ScreenFace::extent).collect();
         let scene = Scene {
             surface: self,
             plane,
@@ -116,7 +117,12 @@ impl Scene<'_> {
     fn visible(&self) -> Visible {
         let faces = || (0..self.boxes.len() as u32).into_par_iter();
         let mut seen: Vec<Seen> = faces().map(|face| self.seen_of(face)).collect();
-        let depths: Vec<f64> = self.surface.faces().iter().map(|f| f.middle()).collect();
+        let depths: Vec<f64> = self
+            .surface
+            .faces()
+            .iter()
+            .map(ScreenFace::middle)
+            .collect();
         let levels = order::levels(&seen, &depths);
         let level = |face: u32| levels[face as usize];
         let gaps: Vec<_> = faces()

@@ -14,6 +14,9 @@ use crate::results::{Results, write_error};
 use crate::run::VERSION;
 use crate::scene::{ColourChoice, OutputChoice};
 
+/// The size of letters, millimetres: that of captions in print.
+const LETTERS: f64 = 2.4;
+
 /// States in a row, at most.
 const COLUMNS: usize = 5;
 
@@ -54,6 +57,9 @@ impl Recorder<'_> {
             style: recording.film.style.clone(),
             unit: self.unit.to_owned(),
             legend: values.map(legend),
+            // All creases look alike over colours that stand for values.
+            has_key: values.is_none(),
+            letters: LETTERS,
             ..StripOptions::default()
         };
         if recording.colour == ColourChoice::Grey {
@@ -79,6 +85,10 @@ impl Recorder<'_> {
 
     fn pose(&self, time: f64) -> Pose<'_> {
         let mut pose = Pose::at(self.motion, &self.marks, time);
+        if ![0.0, 1.0, 2.0].contains(&time) {
+            // Names of stages would leave less room for the states.
+            pose.label = format!("t = {time}");
+        }
         if let Some(quantity) = Quantity::of(self.recording.colour) {
             pose.values = quantity.values(&self.motion.sheet, &pose.positions);
         }

@@ -18,26 +18,21 @@ impl Recorder<'_> {
         progress: Progress<'_>,
     ) -> Result<(), StudyError> {
         let has = |output| self.recording.has(output);
-        let mut gif = match has(OutputChoice::Gif) {
-            true => Some(Gif::new(results.create_file("motion.gif")?)),
-            false => None,
-        };
-        let mut mp4 = match has(OutputChoice::Mp4) {
-            true => Some(Mp4::new(results.create_file("motion.mp4")?)?),
-            false => None,
-        };
+        let (mut gif, mut mp4, mut frames) = (None, None, None);
+        if has(OutputChoice::Gif) {
+            gif = Some(Gif::new(results.create_file("motion.gif")?));
+        }
+        if has(OutputChoice::Mp4) {
+            mp4 = Some(Mp4::new(results.create_file("motion.mp4")?)?);
+        }
         let mut names: Vec<String> = Vec::new();
-        let mut frames = match has(OutputChoice::Png) {
-            true => {
-                let folder = results.create_subfolder(FRAMES)?;
-                let names = &mut names;
-                Some(Frames::new(move |name: &str, bytes: &[u8]| {
-                    names.push(format!("{FRAMES}/{name}"));
-                    fs::write(folder.join(name), bytes)
-                }))
-            }
-            false => None,
-        };
+        if has(OutputChoice::Png) {
+            let (folder, names) = (results.create_subfolder(FRAMES)?, &mut names);
+            frames = Some(Frames::new(move |name: &str, bytes: &[u8]| {
+                names.push(format!("{FRAMES}/{name}"));
+                fs::write(folder.join(name), bytes)
+            }));
+        }
         let mut reels: Vec<&mut dyn Reel> = Vec::new();
         reels.extend(gif.as_mut().map(|reel| reel as &mut dyn Reel));
         reels.extend(mp4.as_mut().map(|reel| reel as &mut dyn Reel));

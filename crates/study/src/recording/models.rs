@@ -4,14 +4,14 @@ use std::io::BufWriter;
 
 use foldmotion_pattern::Motion;
 use foldmotion_record::{
-    GlbOptions, RecordError, Solid, glb, obj, positions_at, solid, stl, surface_of,
+    GlbOptions, RecordError, Solid, Style, glb, obj, positions_at, solid, stl, surface_of,
 };
 
 use super::Recorder;
 use crate::StudyError;
 use crate::results::Results;
 use crate::run::VERSION;
-use crate::scene::OutputChoice;
+use crate::scene::{ColourChoice, OutputChoice};
 
 /// Seconds of a stage that a film jumps over: a GLB has no jumps.
 const SHORTEST_STAGE: f64 = 0.01;
@@ -48,7 +48,10 @@ impl Recorder<'_> {
     fn glb(&self, results: &mut Results) -> Result<(), StudyError> {
         let mut options = GlbOptions {
             seconds: self.recording.film.seconds.map(|s| s.max(SHORTEST_STAGE)),
-            style: self.recording.film.style.clone(),
+            style: match self.recording.colour {
+                ColourChoice::Grey => Style::grey(),
+                _ => Style::default(),
+            },
             title: self.title.to_owned(),
             provenance: self.origin.text(),
             ..GlbOptions::default()
@@ -84,7 +87,9 @@ impl Recorder<'_> {
     fn solid(&self, time: f64) -> Result<Solid, RecordError> {
         let metres = self.metres();
         let mut positions = positions_at(self.motion, time);
-        positions.iter_mut().for_each(|p| *p *= metres);
+        for position in &mut positions {
+            *position *= metres;
+        }
         match self.recording.thickness {
             Some(thickness) => solid(&self.motion.sheet, &positions, thickness * metres),
             None => surface_of(&self.motion.sheet, &positions),

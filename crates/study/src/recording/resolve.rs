@@ -12,8 +12,25 @@ use crate::study::Resolver;
 /// The states of a figure, at most.
 const MOST_STATES: usize = 100;
 
+/// The colour of creases over colours that stand for values.
+const LIGHT: [u8; 3] = [236; 3];
+
 /// How far a turntable goes round, degrees.
 const TURN: f64 = 360.0;
+
+/// Colours and lines of pictures and figures: over colours that stand for values all creases are light.
+fn style(colour: ColourChoice) -> Style {
+    match colour {
+        ColourChoice::Paper => Style::default(),
+        ColourChoice::Grey => Style::grey(),
+        ColourChoice::Strain | ColourChoice::Bending => Style {
+            mountain: LIGHT,
+            valley: LIGHT,
+            line_width: 0.9,
+            ..Style::default()
+        },
+    }
+}
 
 impl Resolver<'_> {
     /// What is written of the motion, and how.
@@ -76,10 +93,7 @@ impl Resolver<'_> {
             turn,
             has_caption: scene.caption.unwrap_or(false),
             is_transparent: scene.transparent.unwrap_or(false),
-            style: match scene.colour {
-                Some(ColourChoice::Grey) => Style::grey(),
-                _ => Style::default(),
-            },
+            style: style(scene.colour.unwrap_or(ColourChoice::Paper)),
             ..standard
         };
         film.check().map_err(|e| {
@@ -100,13 +114,11 @@ impl Resolver<'_> {
             return Ok(standard);
         };
         let side = |n: i64| u32::try_from(n).ok().filter(|n| (1..=65_535).contains(n));
-        match (side(width), side(height)) {
-            (Some(width), Some(height)) => Ok([width, height]),
-            _ => {
-                let message = "both sides must lie between 1 and 65535 pixels";
-                Err(self.fault("record.size", message))
-            }
+        if let (Some(width), Some(height)) = (side(width), side(height)) {
+            return Ok([width, height]);
         }
+        let message = "both sides must lie between 1 and 65535 pixels";
+        Err(self.fault("record.size", message))
     }
 
     fn camera(&self) -> Result<(View, f64), StudyError> {
