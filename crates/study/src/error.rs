@@ -97,7 +97,7 @@ pub enum StudyError {
         /// The file.
         path: PathBuf,
         /// What is wrong, and with which element.
-        error: ImportError,
+        error: Box<ImportError>,
     },
     /// A part of the paper of that name does not exist.
     #[error("{name:?}: no part of the paper; there is: {known}")]

@@ -49,7 +49,7 @@ impl ImportReport {
             free_hinges: count(Assignment::Free),
             borders: count(Assignment::Border),
             euler_characteristic: imported.euler_characteristic(),
-            warnings: imported.warnings.iter().map(|w| w.to_string()).collect(),
+            warnings: imported.warnings.iter().map(ToString::to_string).collect(),
         }
     }
 

@@ -11,7 +11,7 @@ use foldmotion_pattern::{
 use foldmotion_solver::{Schedule, ScheduleStep, Stage};
 
 use crate::pattern_scene::{PatternScene, UnknownChoice};
-use crate::scene::{CreasesChoice, StageChoice};
+use crate::scene::{CreasesChoice, DivisionScene, ProfileScene, SheetScene, StageChoice};
 use crate::study::Resolver;
 use crate::{SceneSource, StudyError};
 
@@ -109,9 +109,9 @@ impl Resolver<'_> {
     fn refuse_keys_of_units(&self) -> Result<(), StudyError> {
         let scene = self.scene;
         let tables = [
-            ("profile", scene.profile != Default::default()),
-            ("sheet", scene.sheet != Default::default()),
-            ("division", scene.division != Default::default()),
+            ("profile", scene.profile != ProfileScene::default()),
+            ("sheet", scene.sheet != SheetScene::default()),
+            ("division", scene.division != DivisionScene::default()),
         ];
         if let Some((table, _)) = tables.into_iter().find(|(_, given)| *given) {
             let message = format!(
@@ -157,7 +157,10 @@ impl Resolver<'_> {
             ImportError::CurveTolerance { .. } => {
                 self.fault("pattern.curve_tolerance", error.to_string())
             }
-            error => StudyError::Import { path, error },
+            error => StudyError::Import {
+                path,
+                error: Box::new(error),
+            },
         })
     }
 

@@ -56,16 +56,13 @@ impl Study {
             source,
             scene: &scene,
         };
-        let (subject, schedule) = match &scene.pattern {
-            Some(pattern) => {
-                let imported = resolver.imported(pattern)?;
-                let schedule = resolver.imported_schedule(&imported)?;
-                (Subject::Imported(Box::new(imported)), schedule)
-            }
-            None => {
-                let (units, schedule) = resolver.unit_study()?;
-                (Subject::Units(Box::new(units)), schedule)
-            }
+        let (subject, schedule) = if let Some(pattern) = &scene.pattern {
+            let imported = resolver.imported(pattern)?;
+            let schedule = resolver.imported_schedule(&imported)?;
+            (Subject::Imported(Box::new(imported)), schedule)
+        } else {
+            let (units, schedule) = resolver.unit_study()?;
+            (Subject::Units(Box::new(units)), schedule)
         };
         let sheet = subject.sheet();
         let title = resolver.title(subject.title());
