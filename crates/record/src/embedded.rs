@@ -17,6 +17,7 @@ pub fn embedded(bytes: &[u8]) -> Option<String> {
         [b'g', b'l', b'T', b'F', ..] => glb(bytes),
         [_, _, _, _, b'f', b't', b'y', b'p', ..] => mp4(bytes),
         [b'#', b' ', ..] => obj(bytes),
+        [b'<', b'!', b'd' | b'D', ..] => html(bytes),
         _ => xml(bytes),
     };
     text.filter(|text| !text.is_empty())
@@ -100,11 +101,23 @@ fn obj(bytes: &[u8]) -> Option<String> {
     Some(lines.join("\n"))
 }
 
+/// The scene in the JSON of the script element `provenance`.
+fn html(bytes: &[u8]) -> Option<String> {
+    const START: &[u8] = b"<script type=\"application/json\" id=\"provenance\">";
+    let from = find(bytes, START)? + START.len();
+    let rest = &bytes[from..];
+    let data: Value = serde_json::from_slice(&rest[..find(rest, b"</script>")?]).ok()?;
+    data.get("scene")?.as_str().map(str::to_owned)
+}
+
+fn find(bytes: &[u8], part: &[u8]) -> Option<usize> {
+    bytes.windows(part.len()).position(|w| w == part)
+}
+
 /// The element `foldmotion:scene`, in an SVG or in the metadata of a PDF, which are not compressed.
 fn xml(bytes: &[u8]) -> Option<String> {
     const START: &[u8] = b"<foldmotion:scene>";
     const END: &[u8] = b"</foldmotion:scene>";
-    let find = |bytes: &[u8], part: &[u8]| bytes.windows(part.len()).position(|w| w == part);
     let from = find(bytes, START)? + START.len();
     let rest = &bytes[from..];
     let text = std::str::from_utf8(&rest[..find(rest, END)?]).ok()?;

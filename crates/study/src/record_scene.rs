@@ -66,11 +66,13 @@ pub enum OutputChoice {
     Obj,
     /// `state-0.5.stl`: likewise.
     Stl,
+    /// `motion.html`: the motion, its plots, report and certificate as one page for browsers.
+    Html,
 }
 
 impl OutputChoice {
     /// Every output.
-    pub const ALL: [Self; 10] = [
+    pub const ALL: [Self; 11] = [
         Self::Fold,
         Self::Gif,
         Self::Csv,
@@ -81,6 +83,7 @@ impl OutputChoice {
         Self::Glb,
         Self::Obj,
         Self::Stl,
+        Self::Html,
     ];
 
     /// Its name in scene files, which is also how its files end.
@@ -96,6 +99,7 @@ impl OutputChoice {
             Self::Glb => "glb",
             Self::Obj => "obj",
             Self::Stl => "stl",
+            Self::Html => "html",
         }
     }
 }

@@ -492,6 +492,15 @@ pub struct SecondsReport {
     pub total: f64,
 }
 
+impl SecondsReport {
+    /// Of a report that tells none.
+    pub(crate) const NONE: Self = Self {
+        check: 0.0,
+        record: 0.0,
+        total: 0.0,
+    };
+}
+
 impl Report {
     /// The exit status: 3 undecided or not converged, 1 a penetration, else 0.
     pub fn status(&self) -> u8 {

@@ -16,6 +16,7 @@ const NAMES: &[&str] = &[
     "motion.gif",
     "motion.mp4",
     "motion.glb",
+    "motion.html",
     "motion.csv",
     "plots.svg",
     "figure.svg",

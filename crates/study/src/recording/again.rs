@@ -91,7 +91,7 @@ impl<'a> Asked<'a> {
             .find(|output| output.name() == ending.to_ascii_lowercase());
         let output = output.ok_or_else(|| StudyError::Origin {
             path: file.to_owned(),
-            message: "its ending tells no kind of file; call it as it was: gif, mp4, png, svg, pdf, glb or obj".to_owned(),
+            message: "its ending tells no kind of file; call it as it was: gif, mp4, png, svg, pdf, glb, obj or html".to_owned(),
         })?;
         Ok(Self {
             file,
@@ -124,7 +124,7 @@ impl<'a> Asked<'a> {
                 format!("figure.{}", self.output.name())
             }
             (OutputChoice::Obj, Some(time)) => state_name(time, self.output),
-            (OutputChoice::Gif | OutputChoice::Mp4 | OutputChoice::Glb, _) => {
+            (OutputChoice::Gif | OutputChoice::Mp4 | OutputChoice::Glb | OutputChoice::Html, _) => {
                 format!("motion.{}", self.output.name())
             }
             _ => return Err(self.fault("files of this kind are not made again".to_owned())),

@@ -8,6 +8,7 @@ mod known;
 mod models;
 mod motion_file;
 mod origin;
+mod page;
 mod resolve;
 mod run_files;
 mod space;
@@ -26,6 +27,7 @@ pub use self::motion_file::{MotionRecord, record_file};
 use self::colours::Quantity;
 pub(crate) use self::known::{Known, turned};
 use self::origin::Origin;
+use self::page::Beside;
 
 /// The states of figures and models of a whole motion.
 const STATES: [f64; 5] = [0.0, 0.5, 1.0, 1.5, 2.0];
@@ -69,13 +71,14 @@ pub(crate) struct Recorder<'a> {
     /// What the study says beside the motion, if there is one.
     pub(crate) known: Option<Known>,
     pub(crate) origin: Origin,
+    /// Whether the lengths of the sheet at rest are known.
+    pub(crate) has_rest_lengths: bool,
+    /// What a page shows beside the motion.
+    pub(crate) beside: Beside,
 }
 
 impl Recorder<'_> {
-    /// Writes every figure, model and film of the recording into `results`; all films in one pass.
-    ///
-    /// A page would be written here: `OutputChoice::Html` after the models, from `motion`, `marks`, `values` and
-    /// `origin`.
+    /// Writes every figure, model, page and film of the recording into `results`; all films in one pass.
     pub(crate) fn write(
         &self,
         results: &mut Results,
@@ -85,6 +88,8 @@ impl Recorder<'_> {
         self.figures(values.as_ref(), results)?;
         proceed(progress)?;
         self.models(results)?;
+        proceed(progress)?;
+        self.page(results)?;
         proceed(progress)?;
         self.films(values.as_ref(), results, progress)
     }

@@ -1,12 +1,14 @@
 //! Records a motion file, whoever made it.
 
-use std::path::Path;
+use std::fs;
+use std::path::{Path, PathBuf};
 
 use foldmotion_pattern::{FoldError, FoldFile, LayerOrder, Motion};
 use foldmotion_record::Marks;
 
+use super::page::LARGEST_FOLD;
 use super::run_files::marks;
-use super::{Origin, Recorder, Recording};
+use super::{Beside, Origin, Recorder, Recording};
 use crate::check_file::Input;
 use crate::results::{CERTIFICATE, FRAMES, Results};
 use crate::run::{Phase, Progress};
@@ -74,7 +76,7 @@ pub(super) fn recording(record: &RecordScene) -> Result<Recording, StudyError> {
     let source = SceneSource::of_flags(&record);
     if let Some(output) = refused {
         let message = format!(
-            "{} comes from running a scene (foldmotion run); of a motion there is gif, mp4, png, svg, pdf, glb, obj and stl",
+            "{} comes from running a scene (foldmotion run); of a motion there is gif, mp4, png, svg, pdf, glb, obj, stl and html",
             output.name()
         );
         return Err(source.value_error("record.outputs", message));
@@ -98,6 +100,7 @@ pub(super) fn recording(record: &RecordScene) -> Result<Recording, StudyError> {
 pub(super) struct ReadMotion {
     pub(super) motion: Motion,
     pub(super) sha256: String,
+    path: PathBuf,
     /// The name of the file.
     pub(super) name: String,
     title: Option<String>,
@@ -153,6 +156,7 @@ impl ReadMotion {
         let name = path.file_name().unwrap_or_default().to_string_lossy();
         Ok(Self {
             sha256,
+            path: path.to_owned(),
             name: name.into_owned(),
             title: file.title,
             unit: file.unit,
@@ -180,8 +184,33 @@ impl ReadMotion {
             unit: self.unit.as_deref().unwrap_or("unit"),
             known: None,
             origin: Origin::of_motion(self.name.clone(), record, self.sha256.clone()),
+            has_rest_lengths: self.is_flat,
+            beside: self.beside(recording)?,
         };
         recorder.write(results, progress)
+    }
+
+    /// What a page shows beside the motion; nothing where none is asked for.
+    fn beside(&self, recording: &Recording) -> Result<Beside, StudyError> {
+        if !recording.has(OutputChoice::Html) {
+            return Ok(Beside::default());
+        }
+        let read = |path: &Path| {
+            fs::read(path).map_err(|source| StudyError::Read {
+                path: path.to_owned(),
+                source,
+            })
+        };
+        let bytes = read(&self.path)?;
+        let certificate = match self.is_judged {
+            true => String::from_utf8(read(&self.path.with_file_name(CERTIFICATE))?).ok(),
+            false => None,
+        };
+        Ok(Beside {
+            fold: (bytes.len() as u64 <= LARGEST_FOLD).then_some(bytes),
+            certificate,
+            ..Beside::default()
+        })
     }
 
     /// Refuses what this motion cannot show.

@@ -96,7 +96,7 @@ impl Origin {
         let bytes = std::fs::read(path).map_err(failed)?;
         let text = embedded(&bytes).ok_or_else(|| {
             fault(
-                "it says nothing of its origin: gif, mp4, png, svg, pdf, glb and obj files of foldmotion do; of a stl use \
+                "it says nothing of its origin: gif, mp4, png, svg, pdf, glb, obj and html files of foldmotion do; of a stl use \
                  the obj or another file beside it"
                     .to_owned(),
             )

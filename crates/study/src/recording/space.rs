@@ -1,6 +1,6 @@
 //! How much room the files of a recording take on a disk, estimated before it begins.
 
-use foldmotion_pattern::Sheet;
+use foldmotion_pattern::{Motion, Sheet};
 use foldmotion_record::{FilmOptions, MAX_TARGETS};
 
 use super::{Recording, STATES};
@@ -14,6 +14,9 @@ const BYTES_A_FACET: u64 = 400;
 
 /// Bytes of a vertex and of a triangle in an OBJ file.
 const OBJ: [u64; 2] = [70, 24];
+
+/// Bytes of a page beside what moves: the library, scripts and tables.
+const LIBRARY: u64 = 1_000_000;
 
 /// Bytes of a triangle in an STL file.
 const STL: u64 = 50;
@@ -43,6 +46,10 @@ impl Recording {
                 states * plates * (vertices + OBJ[1] * faces)
             }
             OutputChoice::Stl => states * plates * STL * faces,
+            OutputChoice::Html => {
+                // The motion file inside is packed to a third and written in base 64.
+                Motion::fold_file_size(sheet, frames) / 2 + LIBRARY + 24 * faces * frames as u64
+            }
         };
         self.outputs.iter().map(size).sum()
     }

@@ -1,0 +1,72 @@
+//! `motion.html`: the motion beside its plots, report and certificate.
+
+use foldmotion_record::{Page, PageOptions, Panel, Provenance, page};
+
+use super::Recorder;
+use super::colours::Quantity;
+use crate::StudyError;
+use crate::results::Results;
+use crate::run::VERSION;
+use crate::scene::OutputChoice;
+
+/// Motion files inside a page, at most: 256 MiB, which a browser still unpacks.
+pub(super) const LARGEST_FOLD: u64 = 1 << 28;
+
+/// Seconds of a stage that a film jumps over: a page has no jumps.
+const SHORTEST_STAGE: f64 = 0.01;
+
+/// What a page shows beside the motion.
+#[derive(Debug, Default)]
+pub(crate) struct Beside {
+    /// The text of the report; a page leaves out its times, threads and device.
+    pub(crate) report: Option<String>,
+    /// The text of the certificate.
+    pub(crate) certificate: Option<String>,
+    /// The motion file, to download.
+    pub(crate) fold: Option<Vec<u8>>,
+    /// The plots.
+    pub(crate) panels: Vec<Panel>,
+}
+
+impl Recorder<'_> {
+    pub(super) fn page(&self, results: &mut Results) -> Result<(), StudyError> {
+        if !self.recording.has(OutputChoice::Html) {
+            return Ok(());
+        }
+        let film = &self.recording.film;
+        let options = PageOptions {
+            seconds: film.seconds.map(|s| s.max(SHORTEST_STAGE)),
+            view: film.view,
+            style: film.style.clone(),
+            provenance: Provenance {
+                title: self.title.to_owned(),
+                producer: format!("foldmotion {VERSION}"),
+                scene: self.origin.text(),
+                hash: self.origin.sha256.clone(),
+            },
+            ..PageOptions::default()
+        };
+        let mut quantities = vec![Quantity::Bending];
+        if self.has_rest_lengths {
+            quantities.insert(0, Quantity::Strain);
+        }
+        let values: Vec<_> = quantities
+            .into_iter()
+            .map(|quantity| quantity.of_motion(self.motion))
+            .collect();
+        let content = Page {
+            motion: self.motion,
+            marks: &self.marks,
+            values: &values,
+            panels: &self.beside.panels,
+            report: self.beside.report.as_deref(),
+            certificate: self.beside.certificate.as_deref(),
+            fold: self.beside.fold.as_deref(),
+        };
+        results.write("motion.html", |out| {
+            page(&content, &options, out)
+                .map(drop)
+                .map_err(StudyError::from)
+        })
+    }
+}
