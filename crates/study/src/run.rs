@@ -89,7 +89,8 @@ impl Study {
 
     fn require_space(&self, results: &Results) -> Result<(), StudyError> {
         let available = results.available()?;
-        let orders = BYTES_AN_ORDER * self.subject.compact_order().len() as u64;
+        let orders =
+            BYTES_AN_ORDER * self.subject.compact_order().map_or(0, LayerOrder::len) as u64;
         let size = |frames| {
             let fold = if self.recording.has(OutputChoice::Fold) {
                 Motion::fold_file_size(self.subject.sheet(), frames) + orders
@@ -121,7 +122,7 @@ impl Study {
         Motion {
             sheet: self.subject.sheet().clone(),
             frames,
-            compact_order: self.subject.compact_order(),
+            compact_order: self.subject.compact_order().cloned().unwrap_or_default(),
         }
     }
 

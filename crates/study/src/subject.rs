@@ -84,11 +84,8 @@ impl Subject {
     }
 
     /// The exact order of the layers in the compact state, where it is known.
-    pub fn compact_order(&self) -> LayerOrder {
-        match self {
-            Self::Units(study) => study.units.compact_order(),
-            Self::Imported(_) => LayerOrder::default(),
-        }
+    pub fn compact_order(&self) -> Option<&LayerOrder> {
+        Some(&self.units()?.compact_order)
     }
 
     /// The pattern check.

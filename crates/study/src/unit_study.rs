@@ -4,7 +4,7 @@ use std::time::Instant;
 
 use foldmotion_geometry::{Division, Fit, Profile};
 use foldmotion_pattern::{
-    Case, CompactBox, Facing, PatternCheck, PatternError, ProfileModel, Unit, UnitSheet,
+    Case, CompactBox, Facing, LayerOrder, PatternCheck, PatternError, ProfileModel, Unit, UnitSheet,
 };
 use foldmotion_solver::{Schedule, ScheduleStep, Stage};
 use glam::DVec3;
@@ -14,6 +14,9 @@ use crate::scene::{CaseChoice, DivisionChoice, FacingChoice};
 use crate::study::Resolver;
 use crate::unfolding::Unfolding;
 use crate::{SceneSource, StudyError};
+
+/// Entries of the order of the compact state, at most: about 1 GB.
+const MOST_ORDERED: usize = 50_000_000;
 
 /// A sheet of units on a divided profile.
 #[derive(Debug, Clone)]
@@ -36,6 +39,8 @@ pub struct UnitStudy {
     pub pattern: PatternCheck,
     /// The closed form of the compact box, where the case has one.
     pub closed_form: Option<CompactBox>,
+    /// The exact order of the layers in the compact state.
+    pub compact_order: LayerOrder,
     /// The deployed state, at which the motion starts.
     pub deployed: Vec<DVec3>,
     /// How stage 1 moves the row creases.
@@ -97,6 +102,7 @@ impl Resolver<'_> {
         let study = UnitStudy {
             pattern: units.check(),
             closed_form: units.closed_form(),
+            compact_order: self.compact_order(&units)?,
             profile,
             profile_source,
             division,
@@ -108,6 +114,18 @@ impl Resolver<'_> {
             unfolding,
         };
         Ok((study, schedule))
+    }
+
+    /// The order of the layers in the compact state, which check and films hold in memory.
+    fn compact_order(&self, units: &UnitSheet) -> Result<LayerOrder, StudyError> {
+        units.compact_order_within(MOST_ORDERED).ok_or_else(|| {
+            let message = format!(
+                "more than {} pairs of facets would coincide in the compact state, too many to check; fewer columns, or a \
+                 case whose columns lie beside each other (S, SII)",
+                MOST_ORDERED / 2
+            );
+            self.fault("sheet.columns", message)
+        })
     }
 
     /// Divides the profile and lays out the sheet.
