@@ -44,7 +44,7 @@ pub(crate) struct RecordArguments {
     /// How films run; forward where left out
     #[arg(long = "loop", value_name = "HOW", value_enum)]
     pub(crate) playback: Option<Loop>,
-    /// iso, front, side, top, turntable, or AZIMUTH,ELEVATION[,TURN] in degrees; iso where left out
+    /// iso, front, side, top, turntable, or AZIMUTH,ELEVATION in degrees, or those and TURN; iso where left out
     #[arg(long, value_parser = parse_camera, allow_hyphen_values = true)]
     pub(crate) camera: Option<CameraScene>,
     /// What colours show; paper where left out
