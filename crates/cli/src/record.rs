@@ -27,13 +27,18 @@ pub(crate) struct RecordArguments {
     #[arg(long, value_delimiter = ',', value_parser = parse_output)]
     pub(crate) outputs: Option<Vec<OutputChoice>>,
     /// Motion times of the states in svg, pdf, obj and stl, such as 0,0.5,1,1.5,2
-    #[arg(long, value_delimiter = ',', value_name = "T,…")]
+    #[arg(
+        long,
+        value_delimiter = ',',
+        value_name = "T,…",
+        allow_negative_numbers = true
+    )]
     pub(crate) at: Option<Vec<f64>>,
     /// Pixels of films and pictures; 960x720 where left out
     #[arg(long, value_name = "WxH", value_parser = parse_size)]
     pub(crate) size: Option<[i64; 2]>,
     /// Film frames a second; 30 where left out
-    #[arg(long)]
+    #[arg(long, allow_negative_numbers = true)]
     pub(crate) fps: Option<f64>,
     /// Seconds of the two stages; 3,5 where left out
     #[arg(long, value_name = "A,B", value_parser = parse_numbers::<2>)]
@@ -44,7 +49,7 @@ pub(crate) struct RecordArguments {
     /// How films run; forward where left out
     #[arg(long = "loop", value_name = "HOW", value_enum)]
     pub(crate) playback: Option<Loop>,
-    /// iso, front, side, top, turntable, or AZIMUTH,ELEVATION[,TURN] in degrees; iso where left out
+    /// iso, front, side, top, turntable, or AZIMUTH,ELEVATION in degrees, or those and TURN; iso where left out
     #[arg(long, value_parser = parse_camera, allow_hyphen_values = true)]
     pub(crate) camera: Option<CameraScene>,
     /// What colours show; paper where left out
@@ -57,7 +62,7 @@ pub(crate) struct RecordArguments {
     #[arg(long)]
     pub(crate) caption: bool,
     /// OBJ and STL as solids of this thickness, in the motion's unit
-    #[arg(long, value_name = "THICKNESS")]
+    #[arg(long, value_name = "THICKNESS", allow_negative_numbers = true)]
     pub(crate) thickened: Option<f64>,
     /// Whether figures show the box of the compact state; true where left out
     #[arg(long = "box", value_name = "true|false")]

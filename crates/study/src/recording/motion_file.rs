@@ -45,6 +45,7 @@ pub fn record_file(
 ) -> Result<MotionRecord, StudyError> {
     let recording = recording(record)?;
     let read = ReadMotion::read(path, progress)?;
+    read.require_states(&recording)?;
     let mut results = Results::of(folder, ours(&recording), None)?;
     results.require(recording.space(&read.motion.sheet, read.motion.frames.len()))?;
     read.record(&recording, &mut results, progress)?;
@@ -174,7 +175,6 @@ impl ReadMotion {
         results: &mut Results,
         progress: Progress<'_>,
     ) -> Result<(), StudyError> {
-        self.require_states(recording)?;
         let record = &recording.scene.record;
         let recorder = Recorder {
             recording,
