@@ -26,7 +26,8 @@ pub struct PatternScene {
     /// Bézier curves become chords that stray from them by no more than this, in parts of the diagonal; without it they are
     /// unknown elements.
     pub curve_tolerance: Option<f64>,
-    /// The facet that stays in place, as [index]; [] for none; what the file says where left out.
+    /// The index of the facet that stays in place, as a list of one; an empty one for none; what the file says where left
+    /// out.
     pub fixed: Option<Vec<i64>>,
 }
 
