@@ -27,6 +27,8 @@ const SUFFICIENT_DECREASE: f64 = 1e-4;
 const MAX_HALVINGS: usize = 14;
 /// The share of the energy that is taken for rounding.
 const ENERGY_ROUNDING: f64 = 1e-13;
+/// Positions are known to this share of the bars' lengths.
+const LENGTH_ROUNDING: f64 = 8.0 * f64::EPSILON;
 /// μ over the mean diagonal of K: where it starts, its range, and by how much it falls after a step that needed it.
 const INERTIA: f64 = 1e-5;
 const LEAST_INERTIA: f64 = 1e-9;
@@ -64,6 +66,8 @@ pub(super) struct Newton<'a> {
     matrix: StiffnessMatrix,
     elements: ElementMap,
     support: [u32; 3],
+    /// Σ k l₀² over the bars.
+    bar_stiffness: f64,
     inertia: f64,
     /// The Hessian in the matrix, with the mean of its diagonal, while the state is the one it was assembled at.
     assembled: Option<(Curvature, f64)>,
@@ -85,6 +89,11 @@ impl<'a> Newton<'a> {
             elements: ElementMap::new(model, &matrix),
             matrix,
             support: supporting_triangle(model),
+            bar_stiffness: model
+                .bars
+                .iter()
+                .map(|bar| bar.stiffness * bar.rest_length * bar.rest_length)
+                .sum(),
             inertia: INERTIA,
             assembled: None,
             chord: None,
@@ -303,11 +312,12 @@ impl<'a> Newton<'a> {
         }
         let mut length = self.limited(&state.positions, direction, (LARGEST_MOVE / reach).min(1.0));
         let residual = largest(gradient);
+        let rounding = self.energy_rounding(energy);
         for _halving in 0..MAX_HALVINGS {
             if let Some(trial) = state.moved(self.model, direction, length, LARGEST_TURN) {
                 let trial_energy = self.energy(&trial, targets);
                 let falls = trial_energy <= energy + SUFFICIENT_DECREASE * length * slope;
-                let is_level = (trial_energy - energy).abs() <= ENERGY_ROUNDING * energy.abs();
+                let is_level = (trial_energy - energy).abs() <= rounding;
                 if falls || is_level {
                     let trial_gradient = self.gradient(&trial, targets);
                     if falls || largest(&trial_gradient) < residual {
@@ -324,6 +334,13 @@ impl<'a> Newton<'a> {
             length *= 0.5;
         }
         None
+    }
+
+    /// What rounding may change of `energy`: a share of it, and the work of the bars' forces F on what positions are known
+    /// to, of which Σ |F| l₀ ≤ √(2 U Σ k l₀²). The second counts in a sheet that is nearly at rest.
+    fn energy_rounding(&self, energy: f64) -> f64 {
+        let forces = (2.0 * energy.abs() * self.bar_stiffness).sqrt();
+        ENERGY_ROUNDING * energy.abs() + LENGTH_ROUNDING * forces
     }
 
     /// How much of `length` × `direction` contact allows.
