@@ -226,10 +226,6 @@ fn values_of_record_are_refused_by_key_line_and_value() {
         ("[record]\nfps = 0.0", &["record.fps = 0.0"]),
         ("[record]\nseconds = [1.0, -1.0]", &["record.seconds"]),
         ("[record]\nhold = nan", &["record.hold = nan"]),
-        (
-            "[record]\noutputs = [\"html\"]",
-            &["record.outputs", "not available"],
-        ),
         ("[record]\noutputs = [\"film\"]", &["scene.toml:10"]),
         (
             "[record]\noutputs = [\"mp4\"]\nsize = [8, 8]",
@@ -300,6 +296,19 @@ fn lambda_and_offset_out_of_range_are_refused() {
             message.contains(&format!("sheet.offset = {offset}")),
             "{message}"
         );
+    }
+}
+
+/// All columns of case E lie in one plane when compact: every two layers there are a pair.
+#[test]
+fn a_sheet_whose_layers_no_check_can_hold_is_refused_before_it_is_folded() {
+    let many = GOOD
+        .replace("rows = 3", "rows = 200")
+        .replace("columns = 2", "columns = 200")
+        .replace("width = 2.0\n", "");
+    let text = refusal(&many);
+    for word in ["sheet.columns = 200", "coincide", "S, SII"] {
+        assert!(text.contains(word), "{word:?} is missing in: {text}");
     }
 }
 

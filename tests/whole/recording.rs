@@ -17,7 +17,7 @@ const SMALL: [&str; 5] = [
     "motion.frames=20",
 ];
 
-const ALL: &str = "record.outputs=[\"fold\", \"gif\", \"csv\", \"mp4\", \"png\", \"svg\", \"pdf\", \"glb\", \"obj\", \"stl\"]";
+const ALL: &str = "record.outputs=[\"fold\", \"gif\", \"csv\", \"mp4\", \"png\", \"svg\", \"pdf\", \"glb\", \"obj\", \"stl\", \"html\"]";
 
 fn run(folder: &Path, set: &[&str]) -> Report {
     let scene = Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenes/one-unit.toml");
@@ -109,6 +109,15 @@ fn one_run_writes_every_output_and_other_readers_open_them() {
     let stl = fs::read(folder.join("state-2.stl")).unwrap();
     let triangles = u32::from_le_bytes(stl[80..84].try_into().unwrap());
     assert_eq!(stl.len(), 84 + 50 * triangles as usize);
+    let page = fs::read_to_string(folder.join("motion.html")).unwrap();
+    for part in [
+        &report.title,
+        "Certificate",
+        "closed form",
+        "id=\"fold-file\"",
+    ] {
+        assert!(page.contains(part), "{part}");
+    }
 }
 
 #[test]
@@ -122,6 +131,7 @@ fn every_file_of_a_run_is_made_again_with_the_same_bytes() {
         "figure.svg",
         "figure.pdf",
         "motion.glb",
+        "motion.html",
         "state-1.5.obj",
     ] {
         let made = again(&folder.join(name), None, &out);
@@ -256,6 +266,7 @@ fn any_fold_motion_is_recorded_in_metres_and_made_again() {
             OutputChoice::Glb,
             OutputChoice::Obj,
             OutputChoice::Stl,
+            OutputChoice::Html,
         ])
     };
     let folder = home.path().join("out");
@@ -279,6 +290,7 @@ fn any_fold_motion_is_recorded_in_metres_and_made_again() {
         "motion.gif",
         "figure.pdf",
         "motion.glb",
+        "motion.html",
         "state-1.obj",
         "frames/0002.png",
     ] {
