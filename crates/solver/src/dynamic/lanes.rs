@@ -266,11 +266,12 @@ fn rows<S: Simd>(quads: &[Quad; WIDTH]) -> [S::f64s; 4] {
 }
 
 /// The element whose quad stands at each place of a part, since taking quads apart may exchange lanes.
+#[expect(clippy::cast_sign_loss, reason = "places count from 0")]
 #[inline(always)]
 fn elements<S: Simd>(simd: S) -> [usize; WIDTH] {
     let mut quads = [[0.0; 4]; WIDTH];
-    for place in 0..S::F64_LANES {
-        quads[place] = [place as f64; 4];
+    for (place, quad) in quads.iter_mut().enumerate() {
+        *quad = [place as f64; 4];
     }
     let [x, ..] = simd.deinterleave_shfl_f64s(rows::<S>(&quads));
     let places = Lanes { simd, value: x }.to_array();

@@ -168,9 +168,9 @@ impl BlockRows<'_> {
                 } = part.face(&scratch.positions, record);
                 let area = square.sqrt();
                 let (la, lb, lc) = (length(ea), length(eb), length(ec));
-                let wa = part.gathered(&self.weights, &record.edges[0]) * la;
-                let wb = part.gathered(&self.weights, &record.edges[1]) * lb;
-                let wc = part.gathered(&self.weights, &record.edges[2]) * lc;
+                let wa = part.gathered(self.weights, &record.edges[0]) * la;
+                let wb = part.gathered(self.weights, &record.edges[1]) * lb;
+                let wc = part.gathered(self.weights, &record.edges[2]) * lc;
                 // |q| of each side, and |q_b + q_c| at a and so on.
                 let (qa, qb, qc) = (one.over(la), one.over(lb), one.over(lc));
                 let oa = length_of_sum(qb, qc, eb.dot(ec) * qb * qc);

@@ -202,9 +202,10 @@ impl ReadMotion {
             })
         };
         let bytes = read(&self.path)?;
-        let certificate = match self.is_judged {
-            true => String::from_utf8(read(&self.path.with_file_name(CERTIFICATE))?).ok(),
-            false => None,
+        let certificate = if self.is_judged {
+            String::from_utf8(read(&self.path.with_file_name(CERTIFICATE))?).ok()
+        } else {
+            None
         };
         Ok(Beside {
             fold: (bytes.len() as u64 <= LARGEST_FOLD).then_some(bytes),
