@@ -5,20 +5,11 @@
     reason = "a test stops where something is missing"
 )]
 
+mod common;
+
 use std::path::Path;
-use std::process::{Command, Output};
 
-fn foldmotion(folder: &Path, arguments: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_foldmotion"))
-        .args(arguments)
-        .current_dir(folder)
-        .output()
-        .unwrap()
-}
-
-fn text(bytes: &[u8]) -> String {
-    String::from_utf8(bytes.to_vec()).unwrap()
-}
+use common::{foldmotion, text};
 
 /// A triangle pair that folds, as FOLD.
 const MOTION: &str = r#"{"frame_classes": ["creasePattern"], "vertices_coords": [[0, 0], [1, 0], [1, 1], [0, 1]],
