@@ -7,8 +7,6 @@
 
 mod common;
 
-use std::path::Path;
-
 use common::{foldmotion, text};
 
 /// A triangle pair that folds, as FOLD.
