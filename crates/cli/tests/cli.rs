@@ -7,8 +7,6 @@
 
 mod common;
 
-use std::path::Path;
-
 use common::{foldmotion, text};
 
 fn scene(name: &str) -> String {
