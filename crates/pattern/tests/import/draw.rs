@@ -13,7 +13,7 @@ pub(crate) struct Pattern {
 }
 
 impl Pattern {
-    fn add(&mut self, letter: char, points: &[[f64; 2]]) {
+    pub(crate) fn add(&mut self, letter: char, points: &[[f64; 2]]) {
         for pair in points.windows(2) {
             self.creases.push((pair[0], pair[1], letter));
         }

@@ -8,8 +8,11 @@
 
 mod bad_fold;
 mod bad_svg;
+mod crane;
 mod draw;
+mod flat_crane;
 mod fold;
+mod folded;
 mod geometry;
 mod patterns;
 mod round_trip;

@@ -1,16 +1,17 @@
 //! Known patterns, as SVG and as FOLD: counts, angles, Kawasaki, Maekawa.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::f64::consts::{PI, TAU};
 use std::path::Path;
 
 use foldmotion_pattern::{
-    Assignment, CreaseKind, ImportOptions, Imported, import_fold, import_svg,
+    Assignment, CreaseKind, Edge, ImportOptions, Imported, import_fold, import_svg,
 };
 
+use crate::crane::crane;
 use crate::draw::{Pattern, bird_base, frame, miura, pop_up, square_twist};
 
-fn both(pattern: &Pattern) -> [Imported; 2] {
+pub(crate) fn both(pattern: &Pattern) -> [Imported; 2] {
     let options = ImportOptions::default();
     [
         import_svg(pattern.svg().as_bytes(), &options).unwrap(),
@@ -188,9 +189,28 @@ fn a_frame_keeps_its_hole() {
 
 #[test]
 fn both_formats_say_the_same() {
-    for pattern in [miura(4, 5), bird_base(), square_twist(), pop_up(), frame()] {
+    for pattern in [
+        miura(4, 5),
+        bird_base(),
+        crane(),
+        square_twist(),
+        pop_up(),
+        frame(),
+    ] {
         let [svg, fold] = both(&pattern);
         assert_eq!(counts(&svg), counts(&fold));
+        let lines = |i: &Imported| -> BTreeSet<([[i64; 2]; 2], char)> {
+            let key = |v: u32| (i.sheet.vertices[v as usize] * 1e9).round().as_i64vec2();
+            let drawn = i.sheet.edges.iter().zip(&i.edge_sources);
+            let drawn = drawn.filter(|(_, source)| source.is_some());
+            let line = |edge: &Edge| {
+                let mut ends = edge.vertices.map(|v| key(v).to_array());
+                ends.sort_unstable();
+                (ends, edge.assignment.letter())
+            };
+            drawn.map(|(edge, _)| line(edge)).collect()
+        };
+        assert_eq!(lines(&svg), lines(&fold));
         let sum = |i: &Imported| i.targets.iter().sum::<f64>();
         assert!((sum(&svg) - sum(&fold)).abs() < 1e-9);
         assert!((svg.sheet.unit_length - fold.sheet.unit_length).abs() < 1e-12);
@@ -216,6 +236,7 @@ fn the_stored_examples_are_these_patterns() {
     for (name, pattern) in [
         ("miura", miura(4, 4)),
         ("bird-base", bird_base()),
+        ("crane", crane()),
         ("square-twist", square_twist()),
         ("pop-up", pop_up()),
         ("frame", frame()),
