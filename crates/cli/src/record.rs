@@ -154,7 +154,7 @@ impl RecordArguments {
 fn parse_output(text: &str) -> Result<OutputChoice, String> {
     let mut all = OutputChoice::ALL.into_iter();
     all.find(|output| output.name() == text)
-        .ok_or_else(|| "there is gif, mp4, png, svg, pdf, glb, obj and stl".to_owned())
+        .ok_or_else(|| "there is gif, mp4, png, svg, pdf, glb, obj, stl and html".to_owned())
 }
 
 fn parse_size(text: &str) -> Result<[i64; 2], String> {

@@ -57,8 +57,8 @@ pub enum ImportError {
         /// The first bad byte.
         byte: usize,
     },
-    /// Not XML, or a document type, whose entities are not read.
-    #[error("this is no XML that is read here (DTDs are not): {message}")]
+    /// Not XML, or a document type with entities, which are not read.
+    #[error("this is no XML that is read here (entities are not): {message}")]
     Xml {
         /// What is wrong, with line and column.
         message: String,

@@ -48,6 +48,17 @@ fn entity_bombs_are_refused_with_the_document_type() {
 }
 
 #[test]
+fn a_document_type_without_entities_is_no_harm() {
+    let drawing = document("", "<rect width=\"4\" height=\"4\" stroke=\"#000\"/>");
+    let doctype = "<!DOCTYPE svg PUBLIC \"-//W3C//DTD SVG 1.1//EN\" \"http://www.w3.org/Graphics/SVG/1.1/DTD/svg11.dtd\">";
+    let typed = import_svg(
+        format!("{doctype}{drawing}").as_bytes(),
+        &ImportOptions::default(),
+    );
+    assert_eq!(typed.unwrap().sheet.facets.len(), 1);
+}
+
+#[test]
 fn nothing_drawn_and_nothing_bounded_are_told_apart() {
     assert_eq!(error(&document("", "")), ImportError::Empty);
     assert_eq!(

@@ -119,7 +119,7 @@ pub(crate) fn miura(m: usize, n: usize) -> Pattern {
     pattern
 }
 
-/// The bird base, from which the crane is folded: the square of side 2.
+/// A bird base with its outer middle lines creased: the square of side 2.
 pub(crate) fn bird_base() -> Pattern {
     // The kites' creases meet the middle lines at 1 − tan 22.5°.
     let p = 2.0 - SQRT_2;

@@ -44,6 +44,8 @@ pub fn import_svg(bytes: &[u8], options: &ImportOptions) -> Result<Imported, Imp
     })?;
     let parsing = ParsingOptions {
         nodes_limit: MOST_NODES,
+        // Drawing programs name a document type; one that defines entities could grow without bound.
+        allow_dtd: !text.contains("<!ENTITY"),
         ..ParsingOptions::default()
     };
     let document = Document::parse_with_options(text, parsing).map_err(|e| ImportError::Xml {
