@@ -168,6 +168,16 @@ impl StudyError {
             _ => 3,
         }
     }
+
+    /// The dotted key of the scene at fault, where it is one's.
+    pub fn key(&self) -> Option<&str> {
+        match self {
+            Self::Value { key, .. } => Some(key),
+            Self::Undivided { .. } => Some("division"),
+            Self::Import { .. } => Some("pattern.file"),
+            _ => None,
+        }
+    }
 }
 
 impl From<SolverError> for StudyError {

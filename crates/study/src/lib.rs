@@ -7,6 +7,7 @@ pub mod certificate;
 mod certify;
 mod check_file;
 mod digest;
+mod draft;
 mod engine;
 mod error;
 mod gap;
@@ -37,6 +38,7 @@ mod verify_file;
 
 pub use certificate::Certificate;
 pub use check_file::{CheckOptions, check_file};
+pub use draft::{Draft, UnitDraft};
 pub use error::StudyError;
 pub use foldmotion_pattern::{
     CutError, CutOptions, PaperSize, ProfileModel, models, parse_millimetres,

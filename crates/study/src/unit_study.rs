@@ -4,13 +4,13 @@ use std::time::Instant;
 
 use foldmotion_geometry::{Division, Fit, Profile};
 use foldmotion_pattern::{
-    Case, CompactBox, Facing, LayerOrder, PatternCheck, PatternError, ProfileModel, Unit, UnitSheet,
+    Case, CompactBox, LayerOrder, PatternCheck, PatternError, ProfileModel, Unit, UnitSheet,
 };
 use foldmotion_solver::{Schedule, ScheduleStep, Stage};
 use glam::DVec3;
 
 use crate::profile::DividedProfile;
-use crate::scene::{CaseChoice, DivisionChoice, FacingChoice};
+use crate::scene::{CaseChoice, DivisionChoice};
 use crate::study::Resolver;
 use crate::unfolding::Unfolding;
 use crate::{SceneSource, StudyError};
@@ -64,8 +64,8 @@ impl UnitStudy {
 
 /// Γ divided and the sheet of units: what is folded, before anything says how.
 pub(crate) struct ResolvedSheet {
-    profile_source: String,
-    divided: DividedProfile,
+    pub(crate) profile_source: String,
+    pub(crate) divided: DividedProfile,
     division_seconds: f64,
     pub(crate) units: UnitSheet,
 }
@@ -80,10 +80,7 @@ impl Resolver<'_> {
             units,
         } = self.sheet()?;
         let (profile, division) = (divided.profile, divided.division);
-        let facing = match self.scene.sheet.facing {
-            Some(FacingChoice::Right) => Facing::Right,
-            _ => Facing::Left,
-        };
+        let facing = self.scene.facing();
         let deployed = units
             .deployed(&division.points, facing)
             .map_err(|e| self.pattern_error(&e))?;

@@ -1,0 +1,1 @@
+//! The design panel: profile, sheet, material, motion; the crease pattern; closed forms.

@@ -1,0 +1,1 @@
+//! The timeline: stages, scrubbing, playing, and curves on the same axis.

@@ -1,0 +1,1 @@
+//! The sheet in space: camera, drawing on the GPU, picking.

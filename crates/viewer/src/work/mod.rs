@@ -1,0 +1,1 @@
+//! Work in the background: drafts, runs, sheets held in the hand.
