@@ -52,6 +52,14 @@ pub(crate) enum Command {
     ///
     /// Exit status: 0 done, 2 bad input, 3 the files could not be written or interrupted.
     Pattern(PatternArguments),
+    /// Open the window: look at a fold, scrub it, change its scene, run it, record it
+    ///
+    /// Opens a scene, a crease pattern (.fold, .svg) or a motion (.fold with frames); without one, what was last open.
+    /// Needs a display and a graphics adapter; Mesa's software Vulkan is enough.
+    ///
+    /// Exit status: 0 closed, 2 bad input, 3 there is no window.
+    #[cfg(feature = "viewer")]
+    View(ViewArguments),
     /// List the built-in profiles
     Models,
     /// Write a commented scene to start from
@@ -85,6 +93,20 @@ pub(crate) struct RunArguments {
     /// Print exactly report.json on stdout
     #[arg(long)]
     pub(crate) json: bool,
+}
+
+/// `foldmotion view`.
+#[cfg(feature = "viewer")]
+#[derive(Debug, Args)]
+pub(crate) struct ViewArguments {
+    /// A scene, a crease pattern or a motion
+    pub(crate) file: Option<PathBuf>,
+    /// Print times of frames and states, and memory, on stderr when the window is closed
+    #[arg(long)]
+    pub(crate) timings: bool,
+    /// Threads to use; all cores where left out
+    #[arg(long, value_parser = parse_threads)]
+    pub(crate) threads: Option<usize>,
 }
 
 /// Where the dynamic engine runs.

@@ -55,6 +55,8 @@ fn main() -> ExitCode {
         Command::Record(record) => record_motion(&record),
         Command::Paper(paper) => rebuild_paper(&paper),
         Command::Pattern(pattern) => write_pattern(&pattern),
+        #[cfg(feature = "viewer")]
+        Command::View(view) => open_window(view),
         Command::Models => list_models(),
         Command::Init { file } => init::write_scene(&file).map(|()| 0),
     };
@@ -249,6 +251,29 @@ fn write_pattern(arguments: &PatternArguments) -> Result<u8, Failure> {
         print(&format!("pattern in {}\n", folder.display()))?;
     }
     Ok(0)
+}
+
+#[cfg(feature = "viewer")]
+fn open_window(arguments: arguments::ViewArguments) -> Result<u8, Failure> {
+    use foldmotion_viewer::{ViewOptions, view};
+    use_threads(arguments.threads)?;
+    // A file that is not there is said here, not in a window that may not open.
+    if let Some(file) = &arguments.file
+        && let Err(error) = std::fs::File::open(file)
+    {
+        return Err(Failure {
+            message: format!("{}: cannot be read: {error}", file.display()),
+            status: BAD_INPUT,
+        });
+    }
+    let options = ViewOptions {
+        file: arguments.file,
+        timings: arguments.timings,
+    };
+    view(options).map(|()| 0).map_err(|error| Failure {
+        message: error.to_string(),
+        status: FAILED,
+    })
 }
 
 fn list_models() -> Result<u8, Failure> {

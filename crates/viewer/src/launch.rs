@@ -1,0 +1,97 @@
+//! From the command line to the window.
+
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::path::PathBuf;
+use std::time::Instant;
+
+use eframe::egui::{IconData, ViewportBuilder};
+
+use crate::{Viewer, ViewerError};
+
+/// What the user asked of the window.
+#[derive(Debug, Clone, Default)]
+pub struct ViewOptions {
+    /// A scene, a crease pattern or a motion to open.
+    pub file: Option<PathBuf>,
+    /// Print times on stderr at the end: to the first picture, of frames, of states; and memory.
+    pub timings: bool,
+}
+
+/// Opens the window; returns when it is closed.
+///
+/// # Errors
+/// [`ViewerError`]: no display, no library, no graphics adapter, or the window failed.
+pub fn view(options: ViewOptions) -> Result<(), ViewerError> {
+    let started = Instant::now();
+    require_display()?;
+    let viewport = ViewportBuilder::default()
+        .with_app_id("foldmotion")
+        .with_inner_size([1360.0, 860.0])
+        .with_min_inner_size([640.0, 420.0])
+        .with_icon(icon());
+    let native = eframe::NativeOptions {
+        viewport,
+        renderer: eframe::Renderer::Wgpu,
+        ..eframe::NativeOptions::default()
+    };
+    let window = AssertUnwindSafe(|| {
+        eframe::run_native(
+            "foldmotion",
+            native,
+            Box::new(move |creation| Ok(Box::new(Viewer::new(creation, options, started)))),
+        )
+    });
+    // Window libraries panic where a shared library is missing.
+    match catch_unwind(window) {
+        Ok(Ok(())) => Ok(()),
+        Ok(Err(error)) => Err(ViewerError::of(&error)),
+        Err(panic) => Err(ViewerError::of_panic(words(panic.as_ref()))),
+    }
+}
+
+/// What a panic said.
+pub(crate) fn words(panic: &(dyn std::any::Any + Send)) -> String {
+    let text = panic.downcast_ref::<&str>().map(|s| (*s).to_owned());
+    text.or_else(|| panic.downcast_ref::<String>().cloned())
+        .unwrap_or_else(|| "it panicked".to_owned())
+}
+
+/// # Errors
+/// [`ViewerError::NoDisplay`] where no server is named.
+#[cfg(all(unix, not(target_os = "macos")))]
+fn require_display() -> Result<(), ViewerError> {
+    let is_set = |name| std::env::var_os(name).is_some_and(|value| !value.is_empty());
+    if is_set("DISPLAY") || is_set("WAYLAND_DISPLAY") || is_set("WAYLAND_SOCKET") {
+        return Ok(());
+    }
+    Err(ViewerError::NoDisplay {
+        reason: "none is named".to_owned(),
+    })
+}
+
+#[cfg(not(all(unix, not(target_os = "macos"))))]
+fn require_display() -> Result<(), ViewerError> {
+    Ok(())
+}
+
+/// A folded sheet, drawn here: two facets, light and dark, on nothing.
+fn icon() -> IconData {
+    const SIDE: u32 = 64;
+    let colour = |x: f32, y: f32| -> [u8; 4] {
+        let ridge = 0.5 + 0.18 * (y - 0.5);
+        let slope = if x < ridge { x / ridge } else { (1.0 - x) / (1.0 - ridge) };
+        let top = 0.62 - 0.44 * slope;
+        match (y > top && y < top + 0.42, x < ridge) {
+            (true, true) => [255, 246, 226, 255],
+            (true, false) => [148, 172, 192, 255],
+            _ => [0, 0, 0, 0],
+        }
+    };
+    let place = |k: u32| (k as f32 + 0.5) / SIDE as f32;
+    let rgba = (0..SIDE * SIDE).flat_map(|k| colour(place(k % SIDE), place(k / SIDE)));
+    IconData {
+        rgba: rgba.collect(),
+        width: SIDE,
+        height: SIDE,
+    }
+}

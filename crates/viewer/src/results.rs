@@ -1,0 +1,160 @@
+//! The results of a run: the verdict first, then what it rests on.
+
+use eframe::egui::{Color32, CornerRadius, Frame, Grid, Link, Margin, RichText, ScrollArea, Ui};
+use foldmotion_study::Report;
+use foldmotion_study::report::{PenetrationReport, StageReport};
+
+/// Draws `report`; answers a motion time that was clicked.
+pub(crate) fn results(ui: &mut Ui, report: &Report) -> Option<f64> {
+    let mut chosen = None;
+    ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
+        chosen = verdict(ui, report);
+        ui.add_space(6.0);
+        boxes(ui, report);
+        for stage in &report.stages {
+            ui.add_space(6.0);
+            chosen = stage_rows(ui, stage).or(chosen);
+        }
+        ui.add_space(6.0);
+        engine(ui, report);
+    });
+    chosen
+}
+
+/// The colour of a verdict: good, fair or bad on the ground at hand.
+pub(crate) fn verdict_colour(ui: &Ui, verdict: &str) -> Color32 {
+    let is_dark = ui.visuals().dark_mode;
+    match (verdict, is_dark) {
+        ("free" | "touching", true) => Color32::from_rgb(92, 196, 120),
+        ("free" | "touching", false) => Color32::from_rgb(20, 118, 52),
+        ("penetrating", _) => ui.visuals().error_fg_color,
+        _ => ui.visuals().warn_fg_color,
+    }
+}
+
+fn verdict(ui: &mut Ui, report: &Report) -> Option<f64> {
+    let collision = &report.collision;
+    let colour = verdict_colour(ui, &collision.verdict);
+    let mut chosen = None;
+    let frame = Frame::new()
+        .fill(colour.gamma_multiply(0.14))
+        .corner_radius(CornerRadius::same(4))
+        .inner_margin(Margin::same(8));
+    frame.show(ui, |ui| {
+        ui.set_width(ui.available_width());
+        ui.label(RichText::new(&collision.verdict).size(20.0).strong().color(colour));
+        ui.label(format!(
+            "{} pairs tested between {} frames, tolerance {:.0e} h",
+            collision.pairs_tested, report.path.frames, collision.tolerance
+        ))
+        .on_hover_text(
+            "free: no two facets come within the tolerance; touching: they do, and leave on the side they came from; \
+             penetrating: deeper, or out on the other side; undecided: not proved either way",
+        );
+        if let Some(first) = &collision.first {
+            chosen = penetration(ui, first);
+        }
+        if collision.penetrating_pairs > 1 {
+            ui.label(format!("{} pairs of facets penetrate", collision.penetrating_pairs));
+        }
+        if collision.undecided_pairs > 0 {
+            ui.label(format!("{} pairs were not decided", collision.undecided_pairs));
+        }
+        if let (Some(distance), Some(t)) = (collision.min_separation, collision.min_separation_t) {
+            chosen = time_link(ui, &format!("smallest separation {distance:.2e} h at"), t).or(chosen);
+        }
+        if let Some(jam) = &report.jam {
+            let words = format!("jammed, {:.1}° from its target, at", jam.fold_angle_error_deg);
+            chosen = time_link(ui, &words, jam.t).or(chosen);
+        }
+    });
+    chosen
+}
+
+fn penetration(ui: &mut Ui, first: &PenetrationReport) -> Option<f64> {
+    let units = first.units.as_ref().map_or_else(String::new, |[a, b]| {
+        format!(
+            " (row {}, column {} and row {}, column {})",
+            a.row, a.column, b.row, b.column
+        )
+    });
+    let words = format!(
+        "{}: facets {} and {}{units}, {:.2e} h deep, at",
+        first.kind, first.facets[0], first.facets[1], first.depth
+    );
+    time_link(ui, &words, first.t)
+}
+
+/// Words that end in a motion time, which can be clicked.
+fn time_link(ui: &mut Ui, words: &str, t: f64) -> Option<f64> {
+    ui.horizontal_wrapped(|ui| {
+        ui.spacing_mut().item_spacing.x = 4.0;
+        ui.label(words);
+        let link = ui.add(Link::new(format!("t = {t:.4}")));
+        link.on_hover_text("go there").clicked().then_some(t)
+    })
+    .inner
+}
+
+fn boxes(ui: &mut Ui, report: &Report) {
+    let unit = &report.length_unit;
+    ui.strong(format!("compact box, {unit}"));
+    Grid::new("compact box").num_columns(4).striped(true).show(ui, |ui| {
+        let about = "equations 3 to 7 of the paper";
+        let heads = [("", ""), ("measured", ""), ("closed form", about), ("error", about)];
+        for (head, about) in heads {
+            let label = ui.weak(head);
+            if !about.is_empty() {
+                label.on_hover_text(about);
+            }
+        }
+        ui.end_row();
+        let (compact, form) = (&report.compact, report.closed_form.as_ref());
+        let error = compact.relative_error.as_ref();
+        let mut row = |name: &str, value: f64, form: Option<f64>, error: Option<f64>| {
+            ui.label(name);
+            ui.label(format!("{value:.5}"));
+            ui.label(form.map_or_else(|| "–".to_owned(), |v| format!("{v:.5}")));
+            ui.label(error.map_or_else(|| "–".to_owned(), |v| format!("{v:+.1e}")));
+            ui.end_row();
+        };
+        for (k, name) in ["x, growing", "y, width", "z, flaps"].into_iter().enumerate() {
+            let form = form.map(|f| f.extents[k]);
+            row(name, compact.extents[k], form, error.map(|e| e.extents[k]));
+        }
+        row("area x·z", compact.area, form.map(|f| f.area), error.map(|e| e.area));
+        row("volume", compact.volume, form.map(|f| f.volume), error.map(|e| e.volume));
+    });
+}
+
+fn stage_rows(ui: &mut Ui, stage: &StageReport) -> Option<f64> {
+    let mut chosen = None;
+    ui.strong(format!("stage {}", stage.name));
+    if !stage.converged {
+        let words = format!("no equilibrium beyond t = {:.4}", stage.reached_t);
+        ui.colored_label(ui.visuals().warn_fg_color, words);
+    }
+    let strain = format!("largest strain {:.2e} at", stage.peak_strain);
+    chosen = time_link(ui, &strain, stage.peak_strain_t).or(chosen);
+    let bending = format!("largest facet bending {:.2}° at", stage.peak_facet_bending_deg);
+    chosen = time_link(ui, &bending, stage.peak_facet_bending_t).or(chosen);
+    let e = &stage.peak_energy;
+    ui.label(format!(
+        "energy at most: bars {:.1e}, creases {:.1e}, facets {:.1e}, contact {:.1e}",
+        e.bars, e.creases, e.facets, e.contact
+    ))
+    .on_hover_text("in units of EA·h at EA = 1");
+    chosen
+}
+
+fn engine(ui: &mut Ui, report: &Report) {
+    let engine = &report.engine;
+    let gap = engine.contact_gap.map_or_else(
+        || "layers may pass through each other".to_owned(),
+        |gap| format!("layers keep {gap:.0e} h apart"),
+    );
+    ui.weak(format!(
+        "{} engine on {} ({gap}): {:.2} s for {} steps; check {:.2} s",
+        engine.name, engine.device, engine.seconds, engine.steps, report.seconds.check
+    ));
+}

@@ -1,0 +1,115 @@
+//! What is drawn under the timeline: figures of every frame.
+
+/// Curves of one kind over motion time.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Panel {
+    /// What is drawn, with its unit.
+    pub(crate) title: String,
+    /// What a tooltip says of it.
+    pub(crate) about: &'static str,
+    pub(crate) is_logarithmic: bool,
+    pub(crate) curves: Vec<Curve>,
+    /// A level to compare with, and its name.
+    pub(crate) reference: Option<(f64, &'static str)>,
+}
+
+/// One curve.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Curve {
+    pub(crate) name: &'static str,
+    /// Motion time and value, in order of time; values that are no number leave a gap.
+    pub(crate) points: Vec<[f64; 2]>,
+}
+
+/// The panels of a motion.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub(crate) struct Curves {
+    pub(crate) panels: Vec<Panel>,
+}
+
+impl Panel {
+    /// Whether `value` can be drawn.
+    pub(super) fn shows(&self, value: f64) -> bool {
+        value.is_finite() && (!self.is_logarithmic || value > 0.0)
+    }
+
+    /// A value on the scale of the panel: itself, or its decimal logarithm.
+    pub(super) fn level(&self, value: f64) -> f64 {
+        if self.is_logarithmic { value.log10() } else { value }
+    }
+
+    /// The lowest and the highest level drawn; linear panels begin at 0 where nothing is below.
+    pub(super) fn levels(&self) -> [f64; 2] {
+        let values = self.curves.iter().flat_map(|c| c.points.iter().map(|p| p[1]));
+        let values = values.chain(self.reference.map(|(value, _)| value));
+        let levels = values.filter(|&v| self.shows(v)).map(|v| self.level(v));
+        let start = if self.is_logarithmic {
+            [f64::INFINITY, f64::NEG_INFINITY]
+        } else {
+            [0.0, 0.0]
+        };
+        let [low, high] = levels.fold(start, |[low, high], v| [low.min(v), high.max(v)]);
+        if !(low.is_finite() && high.is_finite()) {
+            return [0.0, 1.0];
+        }
+        if high - low < 1e-12 * high.abs().max(1e-12) {
+            return [low, low + high.abs().max(1e-9)];
+        }
+        [low, high]
+    }
+}
+
+impl Curve {
+    /// The value at motion time `t`, between the frames along a straight line.
+    pub(super) fn at(&self, t: f64) -> Option<f64> {
+        let next = self.points.partition_point(|p| p[0] < t);
+        let after = self.points.get(next)?;
+        if after[0] == t || next == 0 {
+            return (after[0] == t).then_some(after[1]);
+        }
+        let before = self.points[next - 1];
+        let part = (t - before[0]) / (after[0] - before[0]);
+        Some(before[1] + part * (after[1] - before[1]))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn panel(is_logarithmic: bool, values: &[f64]) -> Panel {
+        let points = values.iter().enumerate().map(|(k, &v)| [k as f64, v]);
+        Panel {
+            title: String::new(),
+            about: "",
+            is_logarithmic,
+            curves: vec![Curve {
+                name: "a",
+                points: points.collect(),
+            }],
+            reference: None,
+        }
+    }
+
+    #[test]
+    fn levels_hold_every_value_that_can_be_drawn() {
+        assert_eq!(panel(false, &[1.0, 3.0, f64::NAN]).levels(), [0.0, 3.0]);
+        assert_eq!(panel(true, &[0.0, 0.01, 10.0]).levels(), [-2.0, 1.0]);
+        assert_eq!(panel(true, &[0.0, -1.0]).levels(), [0.0, 1.0]);
+        let mut with = panel(false, &[1.0]);
+        with.reference = Some((5.0, "closed form"));
+        assert_eq!(with.levels(), [0.0, 5.0]);
+        let [low, high] = panel(true, &[7.0, 7.0]).levels();
+        assert!(low < high, "a constant has a scale too");
+    }
+
+    #[test]
+    fn values_between_frames_lie_on_a_line() {
+        let curve = &panel(false, &[1.0, 3.0, 2.0]).curves[0];
+        assert_eq!(curve.at(0.5), Some(2.0));
+        assert_eq!(curve.at(1.0), Some(3.0));
+        assert_eq!(curve.at(0.0), Some(1.0));
+        assert_eq!(curve.at(-0.1), None);
+        assert_eq!(curve.at(2.1), None);
+    }
+}

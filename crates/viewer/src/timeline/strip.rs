@@ -1,0 +1,214 @@
+//! One panel of curves, drawn along the axis of the timeline.
+
+use eframe::egui::{
+    Align2, Color32, FontId, Pos2, Rect, Response, Sense, Shape, Stroke, StrokeKind, Ui, Visuals,
+    WidgetInfo, pos2, vec2,
+};
+
+use super::axis::Axis;
+use super::curves::{Curve, Panel};
+
+/// Height of a panel, points.
+pub(super) const HEIGHT: f32 = 62.0;
+
+/// The colours of curves, apart for every common colour blindness (Okabe and Ito 2008).
+const COLOURS: [[u8; 3]; 5] = [
+    [0, 114, 178],
+    [213, 94, 0],
+    [0, 158, 115],
+    [204, 121, 167],
+    [230, 159, 0],
+];
+
+/// The colour of the curve `index`, lighter on dark ground.
+fn colour(index: usize, visuals: &Visuals) -> Color32 {
+    let [r, g, b] = COLOURS[index % COLOURS.len()];
+    let colour = Color32::from_rgb(r, g, b);
+    if visuals.dark_mode {
+        colour.lerp_to_gamma(Color32::WHITE, 0.25)
+    } else {
+        colour
+    }
+}
+
+/// Draws `panel`; answers the response of its area, in which one scrubs.
+pub(super) fn strip(ui: &mut Ui, panel: &Panel, axis: &Axis, time: f64) -> Response {
+    let width = ui.available_width();
+    let (rect, response) = ui.allocate_exact_size(vec2(width, HEIGHT), Sense::click_and_drag());
+    let name = format!("{} over motion time", panel.title);
+    response.widget_info(|| {
+        let words = readings(panel, time);
+        WidgetInfo::labeled(eframe::egui::accesskit::Role::Image, true, format!("{name}: {words}"))
+    });
+    if ui.is_rect_visible(rect) {
+        paint(ui, panel, axis, time, rect);
+    }
+    response.on_hover_text(panel.about)
+}
+
+fn paint(ui: &Ui, panel: &Panel, axis: &Axis, time: f64, rect: Rect) {
+    let visuals = ui.visuals();
+    let area = Rect::from_x_y_ranges(axis.span, rect.y_range()).shrink2(vec2(0.0, 4.0));
+    let painter = ui.painter();
+    painter.rect(
+        area,
+        2.0,
+        visuals.extreme_bg_color,
+        visuals.widgets.noninteractive.bg_stroke,
+        StrokeKind::Inside,
+    );
+    let weak = visuals.weak_text_color();
+    let levels = panel.levels();
+    let font = FontId::proportional(10.0);
+    let y = |level: f64| {
+        let part = (level - levels[0]) / (levels[1] - levels[0]);
+        area.bottom() - 3.0 - (area.height() - 6.0) * part as f32
+    };
+    for (level, anchor) in [(levels[1], Align2::RIGHT_TOP), (levels[0], Align2::RIGHT_BOTTOM)] {
+        let value = if panel.is_logarithmic { 10_f64.powf(level) } else { level };
+        let at = if level == levels[1] { area.top() } else { area.bottom() };
+        painter.text(pos2(area.left() - 5.0, at), anchor, number(value), font.clone(), weak);
+    }
+    for whole in [0.0, 1.0, 2.0] {
+        if (axis.times[0]..=axis.times[1]).contains(&whole) {
+            let stroke = Stroke::new(1.0, weak.gamma_multiply(0.35));
+            painter.vline(axis.x(whole), area.y_range(), stroke);
+        }
+    }
+    if let Some((value, _)) = panel.reference
+        && panel.shows(value)
+    {
+        let at = y(panel.level(value));
+        let ends = [pos2(area.left(), at), pos2(area.right(), at)];
+        painter.extend(Shape::dashed_line(&ends, Stroke::new(1.0, weak), 4.0, 3.0));
+    }
+    for (index, curve) in panel.curves.iter().enumerate() {
+        let stroke = Stroke::new(1.4, colour(index, visuals));
+        for piece in pieces(panel, curve, axis, &y) {
+            painter.line(piece, stroke);
+        }
+    }
+    painter.vline(axis.x(time), area.y_range(), visuals.selection.stroke);
+    legend(ui, panel, time, area);
+}
+
+/// The curve on the screen, in pieces between gaps: of the points that fall on the same column of points only the lowest
+/// and the highest, so that a motion of thousands of frames costs no more than what is seen.
+fn pieces(panel: &Panel, curve: &Curve, axis: &Axis, y: &impl Fn(f64) -> f32) -> Vec<Vec<Pos2>> {
+    let mut pieces: Vec<Vec<Pos2>> = Vec::new();
+    let mut is_open = false;
+    let mut column: Option<(f32, f32, f32, f32)> = None;
+    let mut flush = |column: &mut Option<(f32, f32, f32, f32)>, is_open: &mut bool| {
+        let Some((x, low, high, last)) = column.take() else { return };
+        if !*is_open {
+            pieces.push(Vec::new());
+        }
+        *is_open = true;
+        if let Some(piece) = pieces.last_mut() {
+            if low < high {
+                piece.extend([pos2(x, low), pos2(x, high)]);
+            }
+            piece.push(pos2(x, last));
+        }
+    };
+    for &[t, value] in &curve.points {
+        if !panel.shows(value) {
+            flush(&mut column, &mut is_open);
+            is_open = false;
+            continue;
+        }
+        let (x, at) = (axis.x(t), y(panel.level(value)));
+        column = match column {
+            Some((first, low, high, _)) if x - first < 1.0 => {
+                Some((first, low.min(at), high.max(at), at))
+            }
+            _ => {
+                flush(&mut column, &mut is_open);
+                Some((x, at, at, at))
+            }
+        };
+    }
+    flush(&mut column, &mut is_open);
+    pieces
+}
+
+/// Title, and the values at `time` in the colours of their curves.
+fn legend(ui: &Ui, panel: &Panel, time: f64, area: Rect) {
+    let visuals = ui.visuals();
+    let font = FontId::proportional(11.0);
+    let painter = ui.painter().with_clip_rect(area);
+    let mut x = area.left() + 5.0;
+    let mut write = |text: String, colour: Color32| {
+        let place = painter.text(pos2(x, area.top() + 2.0), Align2::LEFT_TOP, text, font.clone(), colour);
+        x = place.right() + 8.0;
+    };
+    write(panel.title.clone(), visuals.text_color());
+    for (index, curve) in panel.curves.iter().enumerate() {
+        let value = curve.at(time).filter(|v| v.is_finite());
+        let value = value.map_or_else(|| "–".to_owned(), number);
+        write(format!("{} {value}", curve.name), colour(index, visuals));
+    }
+    if let Some((value, name)) = panel.reference {
+        write(format!("{name} {}", number(value)), visuals.weak_text_color());
+    }
+}
+
+/// The values at `time` in words.
+fn readings(panel: &Panel, time: f64) -> String {
+    let value = |curve: &Curve| {
+        let value = curve.at(time).filter(|v| v.is_finite());
+        format!("{} {}", curve.name, value.map_or_else(|| "none".to_owned(), number))
+    };
+    panel.curves.iter().map(value).collect::<Vec<_>>().join(", ")
+}
+
+/// Three digits.
+pub(crate) fn number(value: f64) -> String {
+    let size = value.abs();
+    if size == 0.0 {
+        "0".to_owned()
+    } else if !(1e-3..1e4).contains(&size) {
+        format!("{value:.1e}")
+    } else if size < 1.0 {
+        format!("{value:.3}")
+    } else if size < 100.0 {
+        format!("{value:.2}")
+    } else {
+        format!("{value:.0}")
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use eframe::egui::Rangef;
+
+    #[test]
+    fn numbers_are_short() {
+        let numbers = [0.0, 0.25, 3.14159, 123.4, 1.5e-7, 2.5e6].map(number);
+        assert_eq!(numbers, ["0", "0.250", "3.14", "123", "1.5e-7", "2.5e6"]);
+    }
+
+    #[test]
+    fn a_long_curve_keeps_its_peaks_and_gaps_in_few_points() {
+        let mut points: Vec<[f64; 2]> = (0..=20_000).map(|k| [f64::from(k) / 10_000.0, 1.0]).collect();
+        points[7_777][1] = 9.0;
+        points[15_000][1] = f64::NAN;
+        let panel = Panel {
+            title: String::new(),
+            about: "",
+            is_logarithmic: false,
+            curves: vec![Curve { name: "a", points }],
+            reference: None,
+        };
+        let axis = Axis {
+            times: [0.0, 2.0],
+            span: Rangef::new(0.0, 300.0),
+        };
+        let pieces = pieces(&panel, &panel.curves[0], &axis, &|level| level as f32);
+        assert_eq!(pieces.len(), 2, "a value that is no number is a gap");
+        let all: Vec<Pos2> = pieces.concat();
+        assert!(all.len() < 1_000, "{}", all.len());
+        assert!(all.iter().any(|p| p.y == 9.0), "the peak is drawn");
+    }
+}
