@@ -13,10 +13,12 @@ mod gather;
 mod locality;
 mod material;
 mod model;
+mod moment;
 pub mod quasi_static;
 mod schedule;
 
 pub use error::SolverError;
 pub use material::Material;
 pub use model::{Bar, EnergyByKind, FaceAngles, Hinge, HingeKind, Model};
+pub use moment::{Moment, Watcher};
 pub use schedule::{CreaseGroup, Ease, Schedule, ScheduleStep, Stage, UnfoldPath};

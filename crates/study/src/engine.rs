@@ -1,9 +1,9 @@
 //! The engines behind one face: what a run needs to know of a computed motion, whichever engine computed it.
 
 use foldmotion_pattern::Frame;
-use foldmotion_solver::Stage;
 use foldmotion_solver::dynamic::{self, DynamicOptions};
 use foldmotion_solver::quasi_static::{Contact, Jam, QuasiStaticOptions, run_quasi_static};
+use foldmotion_solver::{Stage, Watcher};
 
 use crate::scene::EngineChoice;
 use crate::{Study, StudyError};
@@ -48,22 +48,22 @@ pub(crate) struct ContactFigures {
 }
 
 impl Study {
-    /// Moves the sheet through its stages and records it at `extra_times` too. `progress` is told the motion time.
+    /// Moves the sheet through its stages and records it at `extra_times` too. `watcher` is told its states.
     pub(crate) fn fold(
         &self,
         extra_times: &[f64],
-        progress: &(dyn Fn(f64) -> bool + Sync),
+        watcher: Watcher<'_>,
     ) -> Result<Computed, StudyError> {
         match self.engine {
-            EngineChoice::Dynamic => self.fold_dynamically(extra_times, progress),
-            EngineChoice::QuasiStatic => self.fold_in_equilibrium(extra_times, progress),
+            EngineChoice::Dynamic => self.fold_dynamically(extra_times, watcher),
+            EngineChoice::QuasiStatic => self.fold_in_equilibrium(extra_times, watcher),
         }
     }
 
     fn fold_dynamically(
         &self,
         extra_times: &[f64],
-        progress: &(dyn Fn(f64) -> bool + Sync),
+        watcher: Watcher<'_>,
     ) -> Result<Computed, StudyError> {
         let options = DynamicOptions {
             stages: self.subject.stages().to_vec(),
@@ -77,7 +77,7 @@ impl Study {
             &self.schedule,
             &self.subject.start(),
             &options,
-            progress,
+            watcher,
         )?;
         let stages = run.stages.iter().map(|s| StageSummary {
             stage: s.stage,
@@ -100,7 +100,7 @@ impl Study {
     fn fold_in_equilibrium(
         &self,
         extra_times: &[f64],
-        progress: &(dyn Fn(f64) -> bool + Sync),
+        watcher: Watcher<'_>,
     ) -> Result<Computed, StudyError> {
         let contact = self.contact_gap.map(|gap| Contact { gap });
         let options = QuasiStaticOptions {
@@ -115,7 +115,7 @@ impl Study {
             &self.schedule,
             &self.subject.start(),
             &options,
-            progress,
+            watcher,
         )?;
         let stages = run.stages.iter().map(|s| StageSummary {
             stage: s.stage,

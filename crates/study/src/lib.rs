@@ -1,7 +1,8 @@
 //! Scene file → study → run → results: the only place that knows the order of the steps.
 //!
 //! A [`SceneSource`] is the text the user wrote, a [`Scene`] what it says, a [`Study`] everything resolved and ready
-//! to run; [`Study::run`] folds, checks, reports and records.
+//! to run; [`Study::run`] folds, checks, reports and records, [`Study::compute`] folds and checks, for whoever shows the
+//! [`Folded`] motion.
 
 pub mod certificate;
 mod certify;
@@ -10,6 +11,7 @@ mod digest;
 mod draft;
 mod engine;
 mod error;
+mod folded;
 mod gap;
 mod imported_report;
 mod imported_study;
@@ -40,18 +42,21 @@ pub use certificate::Certificate;
 pub use check_file::{CheckOptions, check_file};
 pub use draft::{Draft, UnitDraft};
 pub use error::StudyError;
+pub use folded::{Findings, Folded};
 pub use foldmotion_pattern::{
     CutError, CutOptions, PaperSize, ProfileModel, models, parse_millimetres,
 };
+pub use foldmotion_solver::Moment;
 pub use foldmotion_solver::dynamic::Device;
 pub use imported_study::ImportedStudy;
 pub use pattern_files::{PatternFormat, PatternOptions, PatternScale, PatternStudy};
 pub use recording::{Again, MotionRecord, Recording, record_again, record_file};
 pub use report::Report;
 pub use rows::draw_clashes;
-pub use run::{Phase, Progress};
+pub use run::{Phase, Progress, Watch};
 pub use scene::Scene;
 pub use schema::{certificate_schema, paper_schema, report_schema, scene_schema};
+pub use series::FrameFigures;
 pub use source::SceneSource;
 pub use study::Study;
 pub use subject::Subject;

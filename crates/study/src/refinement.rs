@@ -5,12 +5,12 @@
 //! more frames there.
 
 use foldmotion_check::{CollisionReport, Verdict, straying};
-use foldmotion_pattern::{Frame, Motion};
+use foldmotion_pattern::Frame;
 
-use crate::engine::Computed;
+use crate::folded::Folded;
 use crate::report::PathReport;
-use crate::run::{Checked, timed};
-use crate::{Phase, Progress, Study, StudyError};
+use crate::run::timed;
+use crate::{Phase, Study, StudyError, Watch};
 
 /// Runs of the engine with more frames, at most; each divides the straying of a path by 16.
 const MOST_ROUNDS: usize = 4;
@@ -22,20 +22,14 @@ const LARGEST_STRAY: f64 = 2.0;
 /// Shorter intervals are not divided.
 const SHORTEST: f64 = 1e-9;
 
-/// A motion and what was found out about it.
-pub(crate) struct Folded {
-    pub(crate) computed: Computed,
-    pub(crate) motion: Motion,
-    pub(crate) checked: Checked,
-    pub(crate) path: PathReport,
-    /// Seconds of all its runs.
-    pub(crate) engine_seconds: f64,
-    pub(crate) check_seconds: f64,
-}
-
 impl Study {
-    /// Folds and checks, with more frames where the first ones leave the verdict open.
-    pub(crate) fn fold_and_check(&self, progress: Progress<'_>) -> Result<Folded, StudyError> {
+    /// Folds and checks, with more frames where the first ones leave the verdict open; writes nothing.
+    ///
+    /// A motion that did not converge or jammed is a result too, as far as it came.
+    ///
+    /// # Errors
+    /// [`StudyError::Solver`], [`StudyError::Check`], and [`StudyError::Interrupted`] where `watch` ended it.
+    pub fn compute(&self, watch: &dyn Watch) -> Result<Folded, StudyError> {
         let mut extra_times = self.subject.times_of_interest();
         let asked = extra_times.len();
         let start = self.subject.start_time();
@@ -43,23 +37,27 @@ impl Study {
         let mut rounds = 0;
         loop {
             let (computed, seconds) = timed(|| {
-                self.fold(&extra_times, &|t| {
-                    progress(Phase::Fold, (t - start) / (2.0 - start))
+                self.fold(&extra_times, &|moment| {
+                    watch.state(moment);
+                    watch.progress(Phase::Fold, (moment.time - start) / (2.0 - start))
                 })
             })?;
             engine_seconds += seconds;
             let motion = self.place(&computed);
-            let (checked, seconds) = timed(|| self.check(&motion, &computed, progress))?;
+            let progress = |phase, done| watch.progress(phase, done);
+            let (findings, seconds) = timed(|| self.check(&motion, &computed, &progress))?;
             check_seconds += seconds;
             let strays = straying(&motion.frames);
-            let more = self.times_between(&checked.collision, &motion.frames, &strays);
+            let more = self.times_between(&findings.collision, &motion.frames, &strays);
             if more.is_empty() || rounds == MOST_ROUNDS {
                 let path =
                     self.path_report(&motion.frames, &strays, rounds, extra_times.len() - asked);
+                let last = motion.frames.last().map_or(&[][..], |f| &f.positions);
                 return Ok(Folded {
+                    compact: self.subject.measured_box(last),
                     computed,
                     motion,
-                    checked,
+                    findings,
                     path,
                     engine_seconds,
                     check_seconds,

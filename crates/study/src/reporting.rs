@@ -10,7 +10,7 @@ use foldmotion_solver::quasi_static::Jam;
 use glam::{DVec2, DVec3};
 
 use crate::engine::StageSummary;
-use crate::refinement::Folded;
+use crate::folded::Folded;
 use crate::report::{
     BoxReport, CollisionSection, CompactReport, DivisionReport, EnergyReport, EngineReport,
     ErrorReport, FitReport, ImportReport, JamReport, MapReport, PatternReport, PenetrationReport,
@@ -35,7 +35,7 @@ impl Study {
         let units = self.subject.units();
         let sheet = units.map(|study| &study.units);
         let Folded {
-            computed, checked, ..
+            computed, findings, ..
         } = folded;
         Report {
             title: self.title.clone(),
@@ -52,15 +52,15 @@ impl Study {
             division: units.map(division_report),
             pattern: self.pattern_report(),
             closed_form: self.subject.closed_form().map(BoxReport::from),
-            compact: self.compact_report(&checked.compact, folded.motion.frames.last()),
+            compact: self.compact_report(&folded.compact, folded.motion.frames.last()),
             unfold: units.map(|study| unfold_report(&study.unfolding)),
             stages: computed
                 .stages
                 .iter()
-                .map(|s| stage_report(s, &checked.series))
+                .map(|s| stage_report(s, &findings.series))
                 .collect(),
             jam: computed.jam.as_ref().map(|j| self.jam_report(j)),
-            collision: self.collision_section(&checked.collision),
+            collision: self.collision_section(&findings.collision),
             path: folded.path,
             engine: EngineReport {
                 name: match self.engine {

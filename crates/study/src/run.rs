@@ -4,14 +4,16 @@ use std::io::Write as _;
 use std::path::Path;
 use std::time::Instant;
 
-use foldmotion_check::{CheckError, Checker, CollisionReport, FittedBox};
+use foldmotion_check::{CheckError, Checker, CollisionReport};
 use foldmotion_pattern::{LayerOrder, Motion};
+use foldmotion_solver::Moment;
 
 use crate::engine::Computed;
+use crate::folded::{Findings, Folded};
+use crate::recording::Recording;
 use crate::report::SecondsReport;
 use crate::results::{REPORT, Results, write_error};
 use crate::scene::OutputChoice;
-use crate::series::FrameFigures;
 use crate::{Report, Study, StudyError};
 
 /// A part of a run, as progress names it.
@@ -45,20 +47,30 @@ impl Phase {
 /// Told how much of a phase is done, from 0 to 1; answers whether to go on.
 pub type Progress<'a> = &'a (dyn Fn(Phase, f64) -> bool + Sync);
 
+/// Watches a run. Whoever only wants its progress gives a [`Progress`].
+pub trait Watch: Sync {
+    /// Told how much of a phase is done, from 0 to 1; answers whether to go on.
+    fn progress(&self, phase: Phase, done: f64) -> bool;
+
+    /// Told that the engine has come to a state, some hundred times a second for a small sheet. Its positions are worked
+    /// out where they are asked for. They lie where the engine has them: [`Subject::show`](crate::Subject::show) moves
+    /// them to where they are shown.
+    fn state(&self, moment: &Moment<'_>) {
+        let _ = moment;
+    }
+}
+
+impl<F: Fn(Phase, f64) -> bool + Sync> Watch for F {
+    fn progress(&self, phase: Phase, done: f64) -> bool {
+        self(phase, done)
+    }
+}
+
 /// FOLD's `file_creator` and the report's `version` name this.
 pub(crate) const VERSION: &str = env!("CARGO_PKG_VERSION");
 
 /// Bytes of an entry of `faceOrders` at most on average.
 const BYTES_AN_ORDER: u64 = 20;
-
-/// What was found out about a motion.
-pub(crate) struct Checked {
-    pub(crate) collision: CollisionReport,
-    /// The order of the triangles that coincide, by the index of the frame.
-    pub(crate) layer_orders: Vec<(usize, LayerOrder)>,
-    pub(crate) series: Vec<FrameFigures>,
-    pub(crate) compact: FittedBox,
-}
 
 impl Study {
     /// Folds, checks, reports and records; writes the results into `folder` and returns the report.
@@ -69,36 +81,70 @@ impl Study {
     /// [`StudyError`] of the step that failed; the folder is then as it was.
     pub fn run(&self, folder: &Path, progress: Progress<'_>) -> Result<Report, StudyError> {
         let started = Instant::now();
-        let mut results = Results::create(folder)?;
+        let results = Results::create(folder)?;
         self.require_space(&results)?;
-        let folded = self.fold_and_check(progress)?;
-        let (_, record_seconds) = timed(|| self.record(&folded, &mut results, progress))?;
+        let folded = self.compute(&progress)?;
+        self.finish(&folded, results, started, progress)
+    }
+
+    /// Writes the results of `folded`, computed by [`Self::compute`], into `folder`, as [`Self::run`] does.
+    ///
+    /// # Errors
+    /// [`StudyError`] of the file that failed; the folder is then as it was.
+    pub fn write(
+        &self,
+        folded: &Folded,
+        folder: &Path,
+        progress: Progress<'_>,
+    ) -> Result<Report, StudyError> {
+        let now = Instant::now();
+        let started = now.checked_sub(folded.duration()).unwrap_or(now);
+        let results = Results::create(folder)?;
+        self.require_space(&results)?;
+        self.finish(folded, results, started, progress)
+    }
+
+    /// The rest of a run that began at `started`.
+    fn finish(
+        &self,
+        folded: &Folded,
+        mut results: Results,
+        started: Instant,
+        progress: Progress<'_>,
+    ) -> Result<Report, StudyError> {
+        let folder = results.folder().to_owned();
+        let (_, record_seconds) =
+            timed(|| self.record(&self.recording, folded, &mut results, progress))?;
         let seconds = SecondsReport {
             check: folded.check_seconds,
             record: record_seconds,
             total: started.elapsed().as_secs_f64(),
         };
-        let report = self.report(&folded, seconds, results.written());
+        let report = self.report(folded, seconds, results.written());
         results.write(REPORT, |out| {
             out.write_all(report.to_json().as_bytes())
-                .map_err(|e| write_error(folder, REPORT, e))
+                .map_err(|e| write_error(&folder, REPORT, e))
         })?;
         results.publish()?;
         Ok(report)
     }
 
-    fn require_space(&self, results: &Results) -> Result<(), StudyError> {
-        let available = results.available()?;
+    /// Bytes of the files of `recording` at most, for a motion of `frames` frames.
+    pub(crate) fn space(&self, recording: &Recording, frames: usize) -> u64 {
+        let sheet = self.subject.sheet();
         let orders =
             BYTES_AN_ORDER * self.subject.compact_order().map_or(0, LayerOrder::len) as u64;
-        let size = |frames| {
-            let fold = if self.recording.has(OutputChoice::Fold) {
-                Motion::fold_file_size(self.subject.sheet(), frames) + orders
-            } else {
-                0
-            };
-            fold + self.recording.space(self.subject.sheet(), frames)
+        let fold = if recording.has(OutputChoice::Fold) {
+            Motion::fold_file_size(sheet, frames) + orders
+        } else {
+            0
         };
+        fold + recording.space(sheet, frames)
+    }
+
+    fn require_space(&self, results: &Results) -> Result<(), StudyError> {
+        let available = results.available()?;
+        let size = |frames| self.space(&self.recording, frames);
         let needed = size(self.frames);
         if needed <= available {
             return Ok(());
@@ -131,12 +177,10 @@ impl Study {
         motion: &Motion,
         computed: &Computed,
         progress: Progress<'_>,
-    ) -> Result<Checked, StudyError> {
+    ) -> Result<Findings, StudyError> {
         let (collision, layer_orders) = self.judge(motion, progress)?;
-        let last = motion.frames.last().map_or(&[][..], |f| &f.positions);
-        Ok(Checked {
+        Ok(Findings {
             series: self.series(motion, computed, &collision.separation_series),
-            compact: self.subject.measured_box(last),
             collision,
             layer_orders,
         })

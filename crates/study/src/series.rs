@@ -11,20 +11,27 @@ use foldmotion_solver::{EnergyByKind, Stage};
 use crate::Study;
 use crate::engine::Computed;
 
-/// One frame.
+/// Figures of one frame.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct FrameFigures {
-    pub(crate) time: f64,
-    pub(crate) stage: Stage,
-    pub(crate) peak_strain: f64,
-    pub(crate) mean_strain: f64,
-    pub(crate) peak_bending_deg: f64,
-    /// In units of EA·h for EA = 1.
-    pub(crate) energy: EnergyByKind,
-    pub(crate) contact_energy: f64,
-    pub(crate) contacts: usize,
+pub struct FrameFigures {
+    /// Its motion time.
+    pub time: f64,
+    /// Its stage.
+    pub stage: Stage,
+    /// The largest |l / l₀ − 1| of an edge, l₀ in the crease pattern; NaN where that is not known.
+    pub peak_strain: f64,
+    /// The mean of them.
+    pub mean_strain: f64,
+    /// The largest |fold angle| inside a facet, degrees.
+    pub peak_bending_deg: f64,
+    /// In units of EA·h for EA = 1; 0 for a motion of unknown material.
+    pub energy: EnergyByKind,
+    /// Of the contact barriers.
+    pub contact_energy: f64,
+    /// Pairs in contact.
+    pub contacts: usize,
     /// Smallest distance of facets that share no vertex, units of h; NaN where all facets share vertices.
-    pub(crate) separation: f64,
+    pub separation: f64,
 }
 
 impl Study {

@@ -142,6 +142,19 @@ impl Subject {
         }
     }
 
+    /// Moves a state of a run under way to where it is shown: a pattern with its fixed facet to its place. Where units
+    /// will be shown is known at the end of the run only.
+    pub fn show(&self, positions: Vec<DVec3>) -> Vec<DVec3> {
+        let mut frame = Frame {
+            time: 0.0,
+            positions,
+        };
+        if self.imported().is_some() {
+            self.place(std::slice::from_mut(&mut frame));
+        }
+        frame.positions
+    }
+
     /// The box of a state: of units in the frame of the exact compact state, of a pattern along its principal axes.
     pub(crate) fn measured_box(&self, positions: &[DVec3]) -> FittedBox {
         match self {

@@ -15,20 +15,17 @@ use super::options::{Device, DynamicOptions, Run, StageOutcome, StageStatus};
 use super::recorder::Recorder;
 use super::relaxation::{Progress, Relaxation};
 use super::state::State;
-use crate::{Model, Schedule, SolverError, Stage};
+use crate::{Model, Moment, Schedule, SolverError, Stage, Watcher};
 
 /// The share of the stable time step that is used: covers what the bound only estimates (see `stability`) and the
 /// change of geometry until it is evaluated again.
 pub(super) const SAFETY: f64 = 0.9;
 
-/// Looks at a relaxation between two calls of `progress`.
-const LOOKS_A_REPORT: u64 = 20;
-
 /// Moves the sheet of `model` along `schedule` from `start` (one position a vertex, in the sheet's unit) through the stages
 /// asked for.
 ///
-/// `progress` is called with the motion time now and then; answering false ends the run. The result does not depend on
-/// the number of threads, bit for bit.
+/// `progress` is called before every increment and at every look at the residual (every ten steps); answering false ends
+/// the run. The result does not depend on it or on the number of threads, bit for bit.
 ///
 /// # Errors
 /// [`SolverError::Count`], [`SolverError::NotFinite`], [`SolverError::Frames`], [`SolverError::Option`] for input that
@@ -39,7 +36,7 @@ pub fn run(
     schedule: &Schedule,
     start: &[DVec3],
     options: &DynamicOptions,
-    progress: &(dyn Fn(f64) -> bool + Sync),
+    progress: Watcher<'_>,
 ) -> Result<Run, SolverError> {
     options.validate()?;
     schedule.check_start(model, start)?;
@@ -52,7 +49,7 @@ fn run_on_device(
     schedule: &Schedule,
     start: &[DVec3],
     options: &DynamicOptions,
-    progress: &(dyn Fn(f64) -> bool + Sync),
+    progress: Watcher<'_>,
 ) -> Result<Run, SolverError> {
     #[cfg(not(feature = "gpu"))]
     {
@@ -89,7 +86,7 @@ fn run_here(
     schedule: &Schedule,
     start: &[DVec3],
     options: &DynamicOptions,
-    progress: &(dyn Fn(f64) -> bool + Sync),
+    progress: Watcher<'_>,
     #[cfg(feature = "gpu")] drive: Option<GpuDrive<'_>>,
 ) -> Result<Run, SolverError> {
     let mut state = State::at_rest(model, &model.to_model(start));
@@ -134,7 +131,7 @@ fn run_here(
 struct Engine<'a, 'm> {
     schedule: &'a Schedule,
     options: &'a DynamicOptions,
-    progress: &'a (dyn Fn(f64) -> bool + Sync),
+    progress: Watcher<'a>,
     state: State<'m>,
     recorder: Recorder<'m>,
     targets: Vec<f64>,
@@ -174,7 +171,7 @@ impl Engine<'_, '_> {
 
     /// Damped steps while the targets go from their values at `from` to those at `to`; how many.
     fn ramp(&mut self, stage: Stage, from: f64, to: f64) -> Result<u64, SolverError> {
-        self.report(stage, from)?;
+        report(self.progress, stage, from, &self.state)?;
         self.state.damping = 1.0;
         self.state.use_unit_masses();
         let dt = SAFETY * self.state.stable_time_step();
@@ -219,7 +216,6 @@ impl Engine<'_, '_> {
         }
         let budget = self.options.step_budget.saturating_sub(*spent);
         let mut relaxation = Relaxation::new(&mut self.state, tolerance);
-        let mut looks = 0u64;
         let mut status = StageStatus::OutOfSteps;
         while relaxation.steps() < budget {
             if relaxation
@@ -234,12 +230,7 @@ impl Engine<'_, '_> {
                 self.recorder
                     .settling(stage, &relaxation.state().positions());
             }
-            looks += 1;
-            if looks.is_multiple_of(LOOKS_A_REPORT) && !(self.progress)(stage.start_time() + s) {
-                return Err(SolverError::Cancelled {
-                    time: stage.start_time() + s,
-                });
-            }
+            report(self.progress, stage, s, relaxation.state())?;
         }
         *spent += relaxation.steps();
         Ok(status)
@@ -259,13 +250,13 @@ impl Engine<'_, '_> {
         };
         let budget = self.options.step_budget.saturating_sub(*spent);
         let time = stage.start_time() + s;
-        let (recorder, progress) = (&mut self.recorder, self.progress);
+        let (recorder, progress, model) = (&mut self.recorder, self.progress, self.state.model);
         let is_recorded = s == 1.0;
         let mut look = |positions: &[DVec3]| {
             if is_recorded {
                 recorder.settling(stage, positions);
             }
-            if progress(time) {
+            if progress(&Moment::new(time, &|| model.to_sheet(positions))) {
                 Ok(())
             } else {
                 Err(SolverError::Cancelled { time })
@@ -289,14 +280,21 @@ impl Engine<'_, '_> {
             None
         })
     }
+}
 
-    fn report(&self, stage: Stage, s: f64) -> Result<(), SolverError> {
-        let time = stage.start_time() + s;
-        if (self.progress)(time) {
-            Ok(())
-        } else {
-            Err(SolverError::Cancelled { time })
-        }
+/// Tells `progress` that `state` is reached.
+fn report(
+    progress: Watcher<'_>,
+    stage: Stage,
+    s: f64,
+    state: &State<'_>,
+) -> Result<(), SolverError> {
+    let time = stage.start_time() + s;
+    let positions = || state.model.to_sheet(&state.positions());
+    if progress(&Moment::new(time, &positions)) {
+        Ok(())
+    } else {
+        Err(SolverError::Cancelled { time })
     }
 }
 

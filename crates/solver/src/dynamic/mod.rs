@@ -1,6 +1,7 @@
 //! The dynamic engine: the sheet as masses, springs and dampers, moved by explicit steps.
 //!
-//! [`run`] folds a sheet; [`State`] is the moving sheet itself, for whoever wants to step it.
+//! [`run`] folds a sheet; [`Hand`] follows a hand that scrubs and pulls; [`State`] is the moving sheet itself, for whoever
+//! wants to step it.
 //!
 //! Forces as Origami Simulator defines them (Ghassaei, Demaine, Gershenfeld 2018): of a bar with ends a and b on its
 //! first end k (l − l₀) towards b, plus 2 ζ √(k m) (vb − va), a damper on the whole relative velocity, so that it
@@ -18,6 +19,7 @@ mod cost;
 mod engine;
 #[cfg(feature = "gpu")]
 pub mod gpu;
+mod hand;
 mod increments;
 mod lanes;
 mod layout;
@@ -32,6 +34,7 @@ mod state;
 
 pub use cost::StepCost;
 pub use engine::run;
+pub use hand::{Hand, Pull};
 pub use lanes::instruction_set;
 pub use options::{Device, DynamicOptions, Run, StageOutcome, StageStatus};
 pub use state::State;

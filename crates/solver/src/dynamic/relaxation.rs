@@ -40,29 +40,54 @@ pub(super) enum Progress {
 pub(super) struct Relaxation<'a, 'm> {
     state: &'a mut State<'m>,
     tolerance: f64,
-    damping: f64,
-    dt: f64,
-    steps: u64,
+    past: Past,
     was_below: bool,
+}
+
+/// What a relaxation remembers of its steps.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Past {
+    /// c and Δt of the last one.
+    pub(super) damping: f64,
+    pub(super) dt: f64,
+    /// How many there were.
+    steps: u64,
+}
+
+impl Past {
+    /// No step yet.
+    pub(super) const NONE: Self = Self {
+        damping: 0.0,
+        dt: DT,
+        steps: 0,
+    };
 }
 
 impl<'a, 'm> Relaxation<'a, 'm> {
     /// Starts to settle `state` to `tolerance`, without the dampers of its bars.
     pub(super) fn new(state: &'a mut State<'m>, tolerance: f64) -> Self {
+        Self::resumed(state, tolerance, Past::NONE)
+    }
+
+    /// Goes on after the steps of `past`.
+    pub(super) fn resumed(state: &'a mut State<'m>, tolerance: f64, past: Past) -> Self {
         state.damping = 0.0;
         Self {
             state,
             tolerance,
-            damping: 0.0,
-            dt: DT,
-            steps: 0,
+            past,
             was_below: false,
         }
     }
 
+    /// What it remembers.
+    pub(super) fn past(&self) -> Past {
+        self.past
+    }
+
     /// Steps taken so far.
     pub(super) fn steps(&self) -> u64 {
-        self.steps
+        self.past.steps
     }
 
     /// The state as it moves.
@@ -95,17 +120,26 @@ impl<'a, 'm> Relaxation<'a, 'm> {
         Ok(progress)
     }
 
-    fn step(&mut self) -> Result<f64, (usize, f64)> {
-        if self.steps.is_multiple_of(STEPS_A_BOUND) {
+    /// The state, to be moved from outside between two steps.
+    pub(super) fn state_mut(&mut self) -> &mut State<'m> {
+        self.state
+    }
+
+    /// One step, and a bound on the way of any node.
+    ///
+    /// # Errors
+    /// As [`Self::advance`].
+    pub(super) fn step(&mut self) -> Result<f64, (usize, f64)> {
+        if self.past.steps.is_multiple_of(STEPS_A_BOUND) {
             self.state.scale_masses();
         }
-        if self.steps > 1 {
-            self.damping = self.critical_damping();
+        if self.past.steps > 1 {
+            self.past.damping = self.critical_damping();
         }
-        self.steps += 1;
+        self.past.steps += 1;
         // No node goes far in a step, so that its path is seen.
-        self.dt = DT.min(PATH_STEP / self.state.largest_speed());
-        self.state.step_with(self.dt, self.damping)
+        self.past.dt = DT.min(PATH_STEP / self.state.largest_speed());
+        self.state.step_with(self.past.dt, self.past.damping)
     }
 
     /// 2 √λ of the last step; the damping as it was where nothing moved.
@@ -113,9 +147,9 @@ impl<'a, 'm> Relaxation<'a, 'm> {
         let work = self.state.sum(|totals| totals.work);
         let path = self.state.sum(|totals| totals.path);
         if path > 0.0 {
-            2.0 * (work / (path * self.dt)).max(0.0).sqrt()
+            2.0 * (work / (path * self.past.dt)).max(0.0).sqrt()
         } else {
-            self.damping
+            self.past.damping
         }
     }
 }

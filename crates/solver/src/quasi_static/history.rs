@@ -72,6 +72,11 @@ impl History {
         self.last = state;
     }
 
+    /// The stage-local time of the last equilibrium.
+    pub(super) fn last_time(&self) -> f64 {
+        self.states.back().map_or(0.0, |(s, _)| *s)
+    }
+
     /// The state at `s` extrapolated; none where a hinge would turn too far.
     pub(super) fn extrapolate(&self, model: &Model, s: f64) -> Option<Configuration> {
         let ahead = self.foretell(s, self.used);

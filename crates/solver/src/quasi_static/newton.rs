@@ -105,17 +105,18 @@ impl<'a> Newton<'a> {
 
     /// Moves `state` to the equilibrium at `targets`, or as far as it gets in `max_iterations`.
     ///
-    /// `visit` is told every state on the way. Between two of them no layer touches another on the straight way.
+    /// `visit` is told every state on the way and may end it. Between two of them no layer touches another on the straight
+    /// way.
     ///
     /// # Errors
-    /// Those of [`StiffnessMatrix::new`].
+    /// Those of [`StiffnessMatrix::new`] and of `visit`.
     pub(super) fn settle(
         &mut self,
         state: &mut Configuration,
         targets: &[f64],
         tolerance: Tolerance,
         max_iterations: usize,
-        visit: &mut dyn FnMut(&Configuration),
+        visit: &mut dyn FnMut(&Configuration) -> Result<(), SolverError>,
     ) -> Result<Settled, SolverError> {
         if let Some(contact) = &mut self.contact {
             contact.prepare(&state.positions);
@@ -152,7 +153,7 @@ impl<'a> Newton<'a> {
             energy = step.energy;
             gradient = step.gradient;
             iterations += 1;
-            visit(state);
+            visit(state)?;
         }
     }
 

@@ -10,7 +10,7 @@ use super::jam::find_jam;
 use super::newton::{Newton, Settled, Tolerance};
 use super::outcome::{FrameFigures, QuasiStaticRun, StageOutcome};
 use super::{QuasiStaticOptions, barrier_force, force_scale, rounding_force};
-use crate::{HingeKind, Model, Schedule, SolverError, Stage};
+use crate::{HingeKind, Model, Moment, Schedule, SolverError, Stage, Watcher};
 
 /// The last Newton step of an equilibrium moves no node further, in unit lengths: without contact, and with it.
 const STEP_TOLERANCE: f64 = 1e-9;
@@ -52,7 +52,8 @@ const MOST_STIFFENING: f64 = 1e4;
 /// At every load step the sheet is brought to the nearest minimum of its energy downhill from the last state, itself
 /// extrapolated. Load steps hit every t = 2k/frames and every time asked for; between them they shorten where Newton's method fails and grow
 /// again where it is easy. Where short ones fail too, the sheet snaps: the search is given time to descend to the next
-/// equilibrium, however far. `progress` is told t after each load step and ends the run by returning false.
+/// equilibrium, however far. `progress` is told after each load step and after each Newton step within it, and ends the run
+/// by returning false.
 ///
 /// With contact, the frames at t = 2k/frames keep the whole gap and the straight ways between frames half of it: where
 /// they would not, states of the search are recorded as frames between.
@@ -68,7 +69,7 @@ pub fn run_quasi_static(
     schedule: &Schedule,
     start: &[DVec3],
     options: &QuasiStaticOptions,
-    progress: &(dyn Fn(f64) -> bool + Sync),
+    progress: Watcher<'_>,
 ) -> Result<QuasiStaticRun, SolverError> {
     options.validate()?;
     schedule.check_start(model, start)?;
@@ -108,6 +109,20 @@ pub fn run_quasi_static(
     Ok(run.outcome)
 }
 
+/// Tells `progress` of `state`, sought after the equilibrium at `time` was reached.
+fn report(
+    progress: Watcher<'_>,
+    model: &Model,
+    time: f64,
+    state: &Configuration,
+) -> Result<(), SolverError> {
+    if progress(&Moment::new(time, &|| model.to_sheet(&state.positions))) {
+        Ok(())
+    } else {
+        Err(SolverError::Cancelled { time })
+    }
+}
+
 /// The stage-local times at which a stage records its state, in order, from the first after its start to its end.
 fn recorded_times(options: &QuasiStaticOptions, stage: Stage) -> Vec<f64> {
     let frames = (options.frames / 2) as f64;
@@ -127,7 +142,7 @@ struct Run<'a> {
     model: &'a Model,
     schedule: &'a Schedule,
     options: &'a QuasiStaticOptions,
-    progress: &'a (dyn Fn(f64) -> bool + Sync),
+    progress: Watcher<'a>,
     newton: Newton<'a>,
     /// The last equilibrium, and the targets of the load step at hand.
     state: Configuration,
@@ -193,9 +208,7 @@ impl Run<'_> {
             }
             (self.state, s, outcome.reached) = (trial.state, next, to);
             recorded += usize::from(reaches);
-            if !(self.progress)(to) {
-                return Err(SolverError::Cancelled { time: to });
-            }
+            report(self.progress, self.model, to, &self.state)?;
         }
         outcome.converged = recorded == goals.len();
         let converged = outcome.converged;
@@ -233,10 +246,13 @@ impl Run<'_> {
         if keeps_way {
             way.extend([self.state.clone(), state.clone()]);
         }
+        let (progress, model) = (self.progress, self.model);
+        let reached = stage.start_time() + history.last_time();
         let mut visit = |state: &Configuration| {
             if keeps_way {
                 way.push(state.clone());
             }
+            report(progress, model, reached, state)
         };
         let budget = self.options.max_iterations * if is_short { SNAP_BUDGET } else { 1 };
         let tolerance = self.tolerance();

@@ -4,5 +4,6 @@
 
 mod energy;
 mod folding;
+mod hand;
 mod motion;
 mod sheets;

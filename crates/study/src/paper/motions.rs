@@ -79,29 +79,29 @@ fn fold(study: &Study, contact: bool, done: Done<'_>) -> Result<Folding, StudyEr
         Phase::Check => 0.5 + 0.5 * part,
         _ => 0.5 * part,
     };
-    let folded = study.fold_and_check(&|phase, part| done(share(phase, part)))?;
-    let (computed, checked) = (&folded.computed, &folded.checked);
-    let strains = checked.series.iter().map(|figures| figures.peak_strain);
+    let folded = study.compute(&|phase, part| done(share(phase, part)))?;
+    let (computed, findings) = (&folded.computed, &folded.findings);
+    let strains = findings.series.iter().map(|figures| figures.peak_strain);
     let reached_t = folded.motion.frames.last().map_or(0.0, |f: &Frame| f.time);
     let row = MotionRow {
-        verdict: verdict_name(checked.collision.verdict).to_owned(),
-        first_penetration_t: checked.collision.first.as_ref().map(|p| p.time),
-        min_separation: checked.collision.min_separation.map(|s| s.distance),
+        verdict: verdict_name(findings.collision.verdict).to_owned(),
+        first_penetration_t: findings.collision.first.as_ref().map(|p| p.time),
+        min_separation: findings.collision.min_separation.map(|s| s.distance),
         frames: folded.motion.frames.len(),
         converged: computed.stages.len() == 2 && computed.stages.iter().all(|s| s.converged),
         reached_t,
         jam_t: computed.jam.as_ref().map(|jam| jam.time),
         peak_strain: strains.fold(0.0, f64::max),
         compact: BoxReport {
-            extents: checked.compact.extents.into(),
-            area: checked.compact.area,
-            volume: checked.compact.volume,
+            extents: folded.compact.extents.into(),
+            area: folded.compact.area,
+            volume: folded.compact.volume,
         },
-        rms_to_exact: checked
+        rms_to_exact: folded
             .compact
             .rms_to_exact
             .map_or(0.0, |rms| rms / study.subject.sheet().unit_length),
-        error: error_of(study, &checked.compact),
+        error: error_of(study, &folded.compact),
     };
     let mut states = Vec::new();
     if contact {

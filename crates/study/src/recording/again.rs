@@ -152,8 +152,8 @@ impl<'a> Asked<'a> {
         let source = SceneSource::new(self.file, text);
         let mut study = Study::resolve(&source)?;
         study.recording.outputs = vec![self.output];
-        let folded = study.fold_and_check(progress)?;
-        study.record(&folded, results, progress)
+        let folded = study.compute(&progress)?;
+        study.record(&study.recording, &folded, results, progress)
     }
 
     /// Records the motion it was made from into `results`; answers its SHA-256.

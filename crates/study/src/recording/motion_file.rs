@@ -58,7 +58,7 @@ pub fn record_file(
 }
 
 /// Pictures of an earlier, longer film would mislead; other files are left alone.
-fn ours(recording: &Recording) -> fn(&str) -> bool {
+pub(super) fn ours(recording: &Recording) -> fn(&str) -> bool {
     if recording.has(OutputChoice::Png) {
         |name| name.starts_with(FRAMES)
     } else {

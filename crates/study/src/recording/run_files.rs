@@ -1,100 +1,165 @@
 //! The files of a run beside its report.
 
 use std::io::{self, Write};
+use std::path::Path;
 
 use foldmotion_check::{CollisionReport, penetration_spans};
 use foldmotion_pattern::{FoldHeader, Motion};
 use foldmotion_record::{Marks, plots};
 
+use super::motion_file::ours;
 use super::page::LARGEST_FOLD;
-use super::{Beside, Origin, Recorder};
+use super::{Beside, Origin, Recorder, Recording};
 use crate::certify::{CheckedMotion, MotionFile};
 use crate::digest::HashedWriter;
-use crate::refinement::Folded;
+use crate::folded::{Findings, Folded};
 use crate::report::SecondsReport;
 use crate::results::{CERTIFICATE, MOTION, Results, write_error};
-use crate::run::{Checked, Progress, VERSION};
-use crate::scene::OutputChoice;
+use crate::run::{Progress, VERSION};
+use crate::scene::{OutputChoice, RecordScene};
 use crate::series::{panels, write_csv};
-use crate::{Study, StudyError, UnitStudy};
+use crate::study::Resolver;
+use crate::{Certificate, Scene, SceneSource, Study, StudyError, UnitStudy};
 
 impl Study {
-    /// Writes everything the scene asks for and answers the SHA-256 of the motion.
+    /// Records `folded` as `record` says, in the place of `[record]` of the scene, into `folder`; answers the names of the
+    /// files. Other files there stay, but for pictures of an earlier film where there are new ones.
+    ///
+    /// # Errors
+    /// [`StudyError`]: values that cannot be used, each named as a flag, and files that cannot be written; the folder is
+    /// then as it was.
+    pub fn record_as(
+        &self,
+        folded: &Folded,
+        record: &RecordScene,
+        folder: &Path,
+        progress: Progress<'_>,
+    ) -> Result<Vec<String>, StudyError> {
+        let recording = self.recording_as(record)?;
+        let mut results = Results::of(folder, ours(&recording), None)?;
+        results.require(self.space(&recording, folded.motion.frames.len()))?;
+        self.record(&recording, folded, &mut results, progress)?;
+        let files = results.written().to_vec();
+        results.publish()?;
+        Ok(files)
+    }
+
+    /// `record` in the place of `[record]` of the scene.
+    fn recording_as(&self, record: &RecordScene) -> Result<Recording, StudyError> {
+        let source = SceneSource::of_flags(record);
+        let scene = Scene {
+            record: record.clone(),
+            ..self.recording.scene.clone()
+        };
+        let resolver = Resolver {
+            source: &source,
+            scene: &scene,
+        };
+        resolver.recording(self.title.clone())
+    }
+
+    /// Writes everything that `recording` asks for and answers the SHA-256 of the motion.
     pub(crate) fn record(
         &self,
+        recording: &Recording,
         folded: &Folded,
         results: &mut Results,
         progress: Progress<'_>,
     ) -> Result<String, StudyError> {
-        let (motion, checked) = (&folded.motion, &folded.checked);
-        let sha256 = self.record_fold(motion, checked, results)?;
-        if self.recording.has(OutputChoice::Csv) {
-            record_series(checked, results)?;
+        let (motion, findings) = (&folded.motion, &folded.findings);
+        let (sha256, beside) = self.record_fold(recording, folded, results)?;
+        if recording.has(OutputChoice::Csv) {
+            record_series(findings, results)?;
         }
         let recorder = Recorder {
-            recording: &self.recording,
+            recording,
             motion,
-            marks: marks(motion, &checked.collision),
+            marks: marks(motion, &findings.collision),
             title: &self.title,
             unit: self.unit_name,
             known: self.subject.units().map(UnitStudy::known),
-            origin: Origin::of_scene(&self.recording.scene, sha256.clone()),
+            origin: Origin::of_scene(&recording.scene, sha256.clone()),
             has_rest_lengths: true,
-            beside: self.beside(folded, &sha256, results)?,
+            beside,
         };
         recorder.write(results, progress)?;
         Ok(sha256)
     }
 
-    fn write_fold(
-        &self,
-        motion: &Motion,
-        checked: &Checked,
-        out: impl Write,
-    ) -> io::Result<String> {
+    fn write_fold(&self, folded: &Folded, out: impl Write) -> io::Result<String> {
         let header = FoldHeader {
             title: &self.title,
             creator: &format!("foldmotion {VERSION}"),
             unit: self.unit_name,
             target_angles: self.subject.end_angles(),
-            layer_orders: &checked.layer_orders,
+            layer_orders: &folded.findings.layer_orders,
             keys: &self.subject.kept_keys(),
         };
         let mut out = HashedWriter::new(out);
-        motion.write_fold(&header, &mut out)?;
+        folded.motion.write_fold(&header, &mut out)?;
         Ok(out.digest())
     }
 
-    /// Writes the motion and its certificate where they are asked for, and answers the SHA-256 of the motion.
-    fn record_fold(
-        &self,
-        motion: &Motion,
-        checked: &Checked,
-        results: &mut Results,
-    ) -> Result<String, StudyError> {
-        let folder = results.folder().to_owned();
-        let failed = |e| write_error(&folder, MOTION, e);
-        if !self.recording.has(OutputChoice::Fold) {
-            return self.write_fold(motion, checked, io::sink()).map_err(failed);
-        }
-        let mut sha256 = String::new();
-        results.write(MOTION, |out| {
-            sha256 = self.write_fold(motion, checked, out).map_err(failed)?;
-            Ok(())
-        })?;
-        let certificate = self.certificate(motion, checked, &sha256);
-        results.write(CERTIFICATE, |out| {
-            out.write_all(certificate.as_bytes())
-                .map_err(|e| write_error(&folder, CERTIFICATE, e))
-        })?;
-        Ok(sha256)
+    /// The SHA-256 of the motion file of `folded`.
+    pub(crate) fn digest(&self, folded: &Folded) -> Result<String, StudyError> {
+        let failed = |e| write_error(Path::new(""), MOTION, e);
+        self.write_fold(folded, io::sink()).map_err(failed)
     }
 
-    fn certificate(&self, motion: &Motion, checked: &Checked, sha256: &str) -> String {
+    /// Writes the motion and its certificate where they are asked for; answers the SHA-256 of the motion and what a page
+    /// shows beside it.
+    fn record_fold(
+        &self,
+        recording: &Recording,
+        folded: &Folded,
+        results: &mut Results,
+    ) -> Result<(String, Beside), StudyError> {
+        let folder = results.folder().to_owned();
+        let failed = |e| write_error(&folder, MOTION, e);
+        let [has_file, has_page] =
+            [OutputChoice::Fold, OutputChoice::Html].map(|o| recording.has(o));
+        let motion = &folded.motion;
+        let size = Motion::fold_file_size(&motion.sheet, motion.frames.len());
+        let mut sha256 = String::new();
+        let mut fold = None;
+        if has_page && size <= LARGEST_FOLD {
+            let mut bytes = Vec::new();
+            sha256 = self.write_fold(folded, &mut bytes).map_err(failed)?;
+            if has_file {
+                results.write(MOTION, |out| out.write_all(&bytes).map_err(failed))?;
+            }
+            fold = Some(bytes);
+        } else if has_file {
+            results.write(MOTION, |out| {
+                sha256 = self.write_fold(folded, out).map_err(failed)?;
+                Ok(())
+            })?;
+        } else {
+            sha256 = self.digest(folded)?;
+        }
+        if !has_file && !has_page {
+            return Ok((sha256, Beside::default()));
+        }
+        let certificate = self.certificate(folded, sha256.clone()).to_json();
+        if has_file {
+            results.write(CERTIFICATE, |out| {
+                out.write_all(certificate.as_bytes())
+                    .map_err(|e| write_error(&folder, CERTIFICATE, e))
+            })?;
+        }
+        if !has_page {
+            return Ok((sha256, Beside::default()));
+        }
+        let beside = self.beside(folded, certificate, fold);
+        Ok((sha256, beside))
+    }
+
+    pub(crate) fn certificate(&self, folded: &Folded, sha256: String) -> Certificate {
+        let motion = &folded.motion;
         let times: Vec<f64> = motion.frames.iter().map(|f| f.time).collect();
         let checked = CheckedMotion {
             name: MOTION,
-            sha256: sha256.to_owned(),
+            sha256,
             file: MotionFile {
                 title: Some(self.title.clone()),
                 sheet: &motion.sheet,
@@ -105,49 +170,34 @@ impl Study {
                 has_unit_length: true,
             },
             times: &times,
-            collision: &checked.collision,
+            collision: &folded.findings.collision,
         };
-        checked.certificate().to_json()
+        checked.certificate()
     }
 
-    /// What a page shows beside the motion; nothing where none is asked for.
-    fn beside(
-        &self,
-        folded: &Folded,
-        sha256: &str,
-        results: &Results,
-    ) -> Result<Beside, StudyError> {
-        if !self.recording.has(OutputChoice::Html) {
-            return Ok(Beside::default());
-        }
-        let (motion, checked) = (&folded.motion, &folded.checked);
-        let mut fold = None;
-        if Motion::fold_file_size(&motion.sheet, motion.frames.len()) <= LARGEST_FOLD {
-            let mut bytes = Vec::new();
-            self.write_fold(motion, checked, &mut bytes)
-                .map_err(|e| write_error(results.folder(), MOTION, e))?;
-            fold = Some(bytes);
-        }
-        let first = checked.collision.first.as_ref().map(|p| p.time);
+    /// What a page shows beside the motion.
+    fn beside(&self, folded: &Folded, certificate: String, fold: Option<Vec<u8>>) -> Beside {
+        let findings = &folded.findings;
+        let first = findings.collision.first.as_ref().map(|p| p.time);
         // A page leaves out seconds and files.
         let report = self.report(folded, SecondsReport::NONE, &[]);
-        Ok(Beside {
+        Beside {
             report: Some(report.to_json()),
-            certificate: Some(self.certificate(motion, checked, sha256)),
+            certificate: Some(certificate),
             fold,
-            panels: panels(&checked.series, first),
-        })
+            panels: panels(&findings.series, first),
+        }
     }
 }
 
 /// `motion.csv` and `plots.svg`.
-fn record_series(checked: &Checked, results: &mut Results) -> Result<(), StudyError> {
-    let first = checked.collision.first.as_ref().map(|p| p.time);
+fn record_series(findings: &Findings, results: &mut Results) -> Result<(), StudyError> {
+    let first = findings.collision.first.as_ref().map(|p| p.time);
     let folder = results.folder().to_owned();
     results.write("motion.csv", |out| {
-        write_csv(&checked.series, out).map_err(|e| write_error(&folder, "motion.csv", e))
+        write_csv(&findings.series, out).map_err(|e| write_error(&folder, "motion.csv", e))
     })?;
-    let svg = plots(&panels(&checked.series, first))?;
+    let svg = plots(&panels(&findings.series, first))?;
     results.write("plots.svg", |out| {
         out.write_all(svg.as_bytes())
             .map_err(|e| write_error(&folder, "plots.svg", e))

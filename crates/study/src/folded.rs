@@ -1,0 +1,86 @@
+//! A motion and what was found out about it, before anything is written.
+
+use std::time::Duration;
+
+use foldmotion_check::{CollisionReport, FittedBox};
+use foldmotion_pattern::{LayerOrder, Motion};
+use foldmotion_solver::quasi_static::Jam;
+
+use crate::engine::Computed;
+use crate::report::{PathReport, SecondsReport};
+use crate::series::FrameFigures;
+use crate::{Certificate, Report, Study, StudyError};
+
+/// What was found out about a motion.
+#[derive(Debug, Clone)]
+pub struct Findings {
+    /// The verdict, with its evidence.
+    pub collision: CollisionReport,
+    /// The order of the triangles that coincide, by the index of the frame.
+    pub layer_orders: Vec<(usize, LayerOrder)>,
+    /// Strain, bending, energy and separation, one a frame.
+    pub series: Vec<FrameFigures>,
+}
+
+/// A motion that a study computed, and what was found out about it: the result of [`Study::compute`].
+#[derive(Debug)]
+pub struct Folded {
+    /// The motion where it is shown.
+    pub motion: Motion,
+    /// What was found out about it.
+    pub findings: Findings,
+    /// The box of its last state.
+    pub compact: FittedBox,
+    pub(crate) computed: Computed,
+    pub(crate) path: PathReport,
+    /// Seconds of all its runs.
+    pub(crate) engine_seconds: f64,
+    pub(crate) check_seconds: f64,
+}
+
+impl Folded {
+    /// Whether every stage reached its end in equilibrium.
+    pub fn is_converged(&self) -> bool {
+        self.computed.stages.iter().all(|stage| stage.converged)
+    }
+
+    /// Where contact stopped the motion.
+    pub fn jam(&self) -> Option<&Jam> {
+        self.computed.jam.as_ref()
+    }
+
+    /// How long it took.
+    pub fn duration(&self) -> Duration {
+        let seconds = self.engine_seconds + self.check_seconds;
+        Duration::try_from_secs_f64(seconds).unwrap_or_default()
+    }
+}
+
+impl Study {
+    /// The report of `folded` where nothing is written: without files and the seconds they take.
+    pub fn report_of(&self, folded: &Folded) -> Report {
+        let seconds = SecondsReport {
+            check: folded.check_seconds,
+            record: 0.0,
+            total: folded.duration().as_secs_f64(),
+        };
+        self.report(folded, seconds, &[])
+    }
+
+    /// The certificate of `folded`, as it is written beside its motion file.
+    ///
+    /// # Errors
+    /// [`StudyError::Output`] where the motion has a position that is no number.
+    pub fn certificate_of(&self, folded: &Folded) -> Result<Certificate, StudyError> {
+        Ok(self.certificate(folded, self.digest(folded)?))
+    }
+
+    /// The box of every frame of `motion`: of units in the frame of the exact compact state, of a pattern along its
+    /// principal axes.
+    pub fn boxes(&self, motion: &Motion) -> Vec<FittedBox> {
+        let frames = motion.frames.iter();
+        frames
+            .map(|frame| self.subject.measured_box(&frame.positions))
+            .collect()
+    }
+}
