@@ -4,10 +4,9 @@ use std::fs::OpenOptions;
 use std::io::{ErrorKind, Write as _};
 use std::path::Path;
 
-use crate::{BAD_INPUT, FAILED, Failure};
+use foldmotion_study::FIRST_SCENE;
 
-/// The scene written: it runs as it stands.
-pub(crate) const SCENE: &str = include_str!("init.toml");
+use crate::{BAD_INPUT, FAILED, Failure};
 
 /// Writes the scene; an existing file is kept.
 pub(crate) fn write_scene(path: &Path) -> Result<(), Failure> {
@@ -26,7 +25,7 @@ pub(crate) fn write_scene(path: &Path) -> Result<(), Failure> {
                 FAILED,
             ),
         })?;
-    file.write_all(SCENE.as_bytes()).map_err(|e| {
+    file.write_all(FIRST_SCENE.as_bytes()).map_err(|e| {
         failure(
             format!("{}: cannot be written: {e}", path.display()),
             FAILED,

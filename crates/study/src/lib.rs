@@ -58,6 +58,7 @@ pub use scene::Scene;
 pub use schema::{certificate_schema, paper_schema, report_schema, scene_schema};
 pub use series::FrameFigures;
 pub use source::SceneSource;
+pub use source::{FIRST_SCENE, SceneSource};
 pub use study::Study;
 pub use subject::Subject;
 pub use unfolding::Unfolding;

@@ -8,6 +8,9 @@ use toml::{Spanned, Table, Value};
 use crate::scene::RecordScene;
 use crate::{Scene, StudyError};
 
+/// A commented scene to start from: a shelter, with every key and its default. It runs as it stands.
+pub const FIRST_SCENE: &str = include_str!("first_scene.toml");
+
 /// A scene file as text.
 #[derive(Debug, Clone)]
 pub struct SceneSource {
@@ -105,6 +108,11 @@ impl SceneSource {
             key: key.to_owned(),
             value: Value::String(value.to_owned()),
         });
+    }
+
+    /// The text, without its overrides.
+    pub fn text(&self) -> &str {
+        &self.text
     }
 
     /// A path of the scene: relative ones are beside the scene file.
