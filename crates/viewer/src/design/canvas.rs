@@ -1,0 +1,132 @@
+//! The profile canvas: Γ, its division, and the points that shape it under the hand.
+
+use eframe::egui::{self, Align2, FontId, Stroke, Ui, vec2};
+use foldmotion_geometry::Profile;
+use foldmotion_study::scene::ProfileScene;
+use foldmotion_study::{Draft, UnitDraft};
+use glam::DVec2;
+
+use super::curve::{add_handle, handles, own_profile, vectors};
+use super::form::Form;
+use super::handles::{Hand, MOST_HANDLES};
+use super::plane::{Plane, View, bounds, canvas};
+
+/// Samples of the curve that are drawn.
+const SAMPLES: usize = 600;
+/// Division points that are drawn, at most.
+const MOST_DIVISION_POINTS: usize = 2000;
+
+/// What the canvas remembers.
+#[derive(Debug, Default)]
+pub(super) struct Canvas {
+    pub(super) view: View,
+    pub(super) hand: Hand,
+    traced: Option<Traced>,
+}
+
+/// The curve that was drawn last, and what it was drawn from.
+#[derive(Debug)]
+struct Traced {
+    scene: ProfileScene,
+    /// The draft it comes from, where the scene alone does not give it.
+    draft_number: Option<u64>,
+    profile: Option<Profile>,
+    points: Vec<DVec2>,
+}
+
+impl Traced {
+    fn new(form: &Form<'_>) -> Self {
+        let scene = &form.scene.profile;
+        let from_file = scene.file.is_some();
+        let profile = if from_file {
+            form.draft.and_then(Draft::units).map(|draft| draft.profile.clone())
+        } else {
+            own_profile(scene)
+        };
+        let sample = |profile: &Profile| {
+            let at = |k: usize| profile.position(k as f64 / SAMPLES as f64);
+            (0..=SAMPLES).map(at).collect()
+        };
+        Self {
+            scene: scene.clone(),
+            draft_number: from_file.then_some(form.draft_number),
+            points: profile.as_ref().map(sample).unwrap_or_default(),
+            profile,
+        }
+    }
+
+    fn is_of(&self, form: &Form<'_>) -> bool {
+        let number = form.scene.profile.file.is_some().then_some(form.draft_number);
+        self.draft_number == number && self.scene == form.scene.profile
+    }
+}
+
+impl Canvas {
+    /// The canvas, and what the user did on it.
+    pub(super) fn show(&mut self, form: &mut Form<'_>, ui: &mut Ui) {
+        if !self.traced.as_ref().is_some_and(|traced| traced.is_of(form)) {
+            self.traced = Some(Traced::new(form));
+        }
+        let points = handles(&form.scene.profile).map(|points| vectors(points)).unwrap_or_default();
+        let curve = self.traced.as_ref().map(|traced| traced.points.as_slice()).unwrap_or_default();
+        let size = bounds(curve.iter().chain(&points).copied());
+        let height = (ui.available_width() * 0.66).clamp(170.0, 300.0);
+        let (response, painter) = canvas(ui, height, "profile canvas");
+        let plane = self.view.plane(ui, &response, size);
+        plane.paint_grid(ui, &painter);
+        self.paint_curve(form, ui, &painter, &plane);
+        if points.len() > MOST_HANDLES {
+            note(ui, &painter, &plane, "too many points to move by hand");
+            return;
+        }
+        self.hand.paint_polygon(form, ui, &painter, &plane, &points);
+        self.hand.show(form, ui, &painter, &plane, &points, &mut self.view);
+        if response.double_clicked()
+            && let Some(place) = response.interact_pointer_pos()
+            && !points.is_empty()
+        {
+            let place = plane.to_plane(place);
+            let place = super::handles::rounded_on(&plane, place);
+            if let Some(index) = add_handle(&mut form.scene.profile, place) {
+                self.hand.select(index);
+                form.record("add point", response.id, false);
+            }
+        }
+        if response.clicked() {
+            self.hand.select_none();
+        }
+        if points.is_empty() && curve.is_empty() {
+            note(ui, &painter, &plane, "no curve yet");
+        }
+    }
+
+    /// Γ, and on it the points of the division with their segments.
+    fn paint_curve(&self, form: &Form<'_>, ui: &Ui, painter: &egui::Painter, plane: &Plane) {
+        let Some(traced) = &self.traced else { return };
+        let line = traced.points.iter().map(|&p| plane.to_screen(p)).collect();
+        painter.line(line, Stroke::new(2.0, ui.visuals().text_color()));
+        let draft = form.draft.and_then(Draft::units);
+        let (Some(profile), Some(draft)) = (&traced.profile, draft) else {
+            return;
+        };
+        let colour = ui.visuals().hyperlink_color;
+        let chords = chords(profile, draft).map(|p| plane.to_screen(p));
+        let chords: Vec<_> = chords.collect();
+        for place in &chords {
+            painter.circle_filled(*place, 2.5, colour);
+        }
+        painter.line(chords, Stroke::new(1.2, colour));
+    }
+}
+
+/// The points that divide the curve, in the lengths of the scene.
+fn chords<'a>(profile: &'a Profile, draft: &'a UnitDraft) -> impl Iterator<Item = DVec2> + 'a {
+    let parameters = draft.division.parameters.iter().take(MOST_DIVISION_POINTS);
+    parameters.map(|&u| profile.position(u))
+}
+
+fn note(ui: &Ui, painter: &egui::Painter, plane: &Plane, text: &str) {
+    let colour = ui.visuals().weak_text_color();
+    let place = plane.rect.center_top() + vec2(0.0, 4.0);
+    painter.text(place, Align2::CENTER_TOP, text, FontId::proportional(11.0), colour);
+}

@@ -1,0 +1,234 @@
+//! The scene under the hand: rows of controls, what is wrong beside each, and the change they make.
+
+use std::borrow::Cow;
+use std::collections::BTreeSet;
+
+use eframe::egui::{self, Align, Id, Layout, RichText, Ui, UiBuilder, vec2};
+use foldmotion_study::{Draft, Scene};
+
+use super::{Change, Facts, Fault};
+
+/// Width of the labels on the left of the controls.
+pub(super) const LABEL_WIDTH: f32 = 104.0;
+/// Tables of a scene that have a section; faults elsewhere stand at the top of the panel.
+const TABLES: [&str; 8] = [
+    "profile", "sheet", "division", "material", "motion", "check", "record", "pattern",
+];
+
+/// A key of the scene, as a row shows it.
+#[derive(Debug, Clone)]
+pub(super) struct Field {
+    /// The dotted key.
+    pub(super) key: Cow<'static, str>,
+    /// What stands on its left; also its accessible name.
+    pub(super) name: &'static str,
+    /// What "undo" calls a change of it.
+    pub(super) undo: &'static str,
+    /// What it means.
+    pub(super) tip: &'static str,
+}
+
+impl Field {
+    pub(super) fn new(
+        key: impl Into<Cow<'static, str>>,
+        name: &'static str,
+        undo: &'static str,
+        tip: &'static str,
+    ) -> Self {
+        Self {
+            key: key.into(),
+            name,
+            undo,
+            tip,
+        }
+    }
+}
+
+/// The scene being edited in this frame.
+pub(super) struct Form<'a> {
+    /// The copy that controls write into.
+    pub(super) scene: Scene,
+    pub(super) draft: Option<&'a Draft>,
+    pub(super) draft_number: u64,
+    id: Id,
+    faults: &'a [Fault],
+    /// Keys whose faults a control showed in the frame before, and those of this one.
+    claimed: BTreeSet<String>,
+    claims: BTreeSet<String>,
+    gesture: Option<Id>,
+    change: Option<(&'static str, bool)>,
+}
+
+impl<'a> Form<'a> {
+    pub(super) fn new(
+        ui: &Ui,
+        facts: &Facts<'a>,
+        gesture: Option<Id>,
+        claimed: BTreeSet<String>,
+    ) -> Self {
+        Self {
+            scene: facts.scene.clone(),
+            draft: facts.draft,
+            draft_number: facts.draft_number,
+            id: ui.make_persistent_id("design"),
+            faults: facts.faults,
+            claimed,
+            claims: BTreeSet::new(),
+            gesture,
+            change: None,
+        }
+    }
+
+    /// The change made, the gesture under way, and the keys whose faults were shown by a control.
+    pub(super) fn finish(self, ui: &Ui) -> (Option<Change>, Option<Id>, BTreeSet<String>) {
+        if self.claims != self.claimed {
+            ui.request_repaint();
+        }
+        let change = self.change.map(|(label, continues)| Change {
+            scene: self.scene,
+            label,
+            continues,
+        });
+        (change, self.gesture, self.claims)
+    }
+
+    /// Notes that the scene was changed by the control `by`; `ongoing` while its drag or key press goes on.
+    pub(super) fn record(&mut self, label: &'static str, by: Id, ongoing: bool) {
+        let continues = ongoing && self.gesture == Some(by);
+        self.gesture = ongoing.then_some(by);
+        self.change = Some((label, continues));
+    }
+
+    /// An id that stays the same whatever is shown above.
+    pub(super) fn id(&self, key: &str) -> Id {
+        self.id.with(key)
+    }
+
+    /// A part of the panel with ids of its own, which stay the same whatever is shown above.
+    pub(super) fn part<R>(
+        &mut self,
+        ui: &mut Ui,
+        key: &str,
+        add: impl FnOnce(&mut Self, &mut Ui) -> R,
+    ) -> R {
+        let builder = UiBuilder::new().scope_id(self.id(key));
+        ui.scope_builder(builder, |ui| add(self, ui)).inner
+    }
+
+    /// A section that opens and closes; faults of its `tables` that no control shows stand at its top.
+    pub(super) fn section(
+        &mut self,
+        ui: &mut Ui,
+        title: &'static str,
+        open: bool,
+        tables: &[&str],
+        add: impl FnOnce(&mut Self, &mut Ui),
+    ) {
+        let wrong = self.faults.iter().any(|f| is_within(f, tables));
+        let mut text = RichText::new(title).strong();
+        if wrong {
+            text = text.color(ui.visuals().error_fg_color);
+        }
+        let shown = egui::CollapsingHeader::new(text)
+            .id_salt(self.id(title))
+            .default_open(open)
+            .show_unindented(ui, |ui| {
+                self.part(ui, title, |form, ui| {
+                    form.unclaimed(ui, tables);
+                    add(form, ui);
+                    ui.add_space(6.0);
+                });
+            });
+        if shown.body_returned.is_none() {
+            self.unclaimed(ui, tables);
+        }
+    }
+
+    /// A row: the name of a key on the left, its control on the right, what is wrong with it below.
+    pub(super) fn row(
+        &mut self,
+        ui: &mut Ui,
+        field: &Field,
+        add: impl FnOnce(&mut Self, &mut Ui, Id),
+    ) {
+        self.part(ui, &field.key, |form, ui| {
+            ui.horizontal(|ui| {
+                let label = name(ui, field.name, field.tip);
+                add(form, ui, label);
+            });
+        });
+        self.faults_of(ui, &field.key);
+    }
+
+    /// What is wrong with a key, in red, below its control.
+    pub(super) fn faults_of(&mut self, ui: &mut Ui, key: &str) {
+        for fault in self.faults {
+            if let Some(at) = fault.key.as_deref().filter(|at| is_at(at, key)) {
+                self.claims.insert(at.to_owned());
+                message(ui, fault);
+            }
+        }
+    }
+
+    /// What is wrong with a key itself, not with an element of it.
+    pub(super) fn faults_exactly_at(&mut self, ui: &mut Ui, key: &str) {
+        for fault in self.faults {
+            if fault.key.as_deref() == Some(key) {
+                self.claims.insert(key.to_owned());
+                message(ui, fault);
+            }
+        }
+    }
+
+    /// Faults that belong to no section.
+    pub(super) fn general_faults(&mut self, ui: &mut Ui) {
+        for fault in self.faults {
+            if !is_within(fault, &TABLES) {
+                message(ui, fault);
+            }
+        }
+    }
+
+    fn unclaimed(&self, ui: &mut Ui, tables: &[&str]) {
+        for fault in self.faults {
+            let is_claimed = fault.key.as_ref().is_some_and(|key| self.claimed.contains(key));
+            if is_within(fault, tables) && !is_claimed {
+                message(ui, fault);
+            }
+        }
+    }
+}
+
+/// The name of a row, as wide as every other; its id.
+pub(super) fn name(ui: &mut Ui, text: &str, tip: &str) -> Id {
+    let size = vec2(LABEL_WIDTH, ui.spacing().interact_size.y);
+    let layout = Layout::left_to_right(Align::Center);
+    let label = ui.allocate_ui_with_layout(size, layout, |ui| {
+        ui.set_min_size(size);
+        ui.add(egui::Label::new(text).truncate())
+    });
+    let label = label.inner;
+    let id = label.id;
+    if !tip.is_empty() {
+        label.on_hover_text(tip);
+    }
+    id
+}
+
+fn message(ui: &mut Ui, fault: &Fault) {
+    let text = RichText::new(&fault.message)
+        .small()
+        .color(ui.visuals().error_fg_color);
+    ui.add(egui::Label::new(text).wrap());
+}
+
+/// Whether a fault at the key `at` is one of `key` or of an element of it.
+fn is_at(at: &str, key: &str) -> bool {
+    let rest = at.strip_prefix(key);
+    rest.is_some_and(|rest| rest.is_empty() || rest.starts_with('.'))
+}
+
+fn is_within(fault: &Fault, tables: &[&str]) -> bool {
+    let table = fault.key.as_deref().and_then(|key| key.split('.').next());
+    table.is_some_and(|table| tables.contains(&table))
+}

@@ -1,0 +1,241 @@
+//! Fields of numbers that may be left out.
+
+use std::ops::RangeInclusive;
+
+use eframe::egui::{self, Id, Ui, vec2};
+use foldmotion_study::Scene;
+
+use super::form::{Field, Form};
+
+/// Room for the button that leaves a key out again.
+pub(super) const RESET_WIDTH: f32 = 20.0;
+
+/// How a number is shown and dragged.
+#[derive(Debug, Clone)]
+pub(super) struct Number {
+    /// Where a drag ends; what is typed may lie beyond.
+    comfort: RangeInclusive<f64>,
+    /// The value that holds where the key is left out.
+    default: Option<f64>,
+    /// What stands in the empty field where there is no such number.
+    hint: &'static str,
+    /// A change by one point of a drag; a two-hundredth of the value where left out.
+    speed: Option<f64>,
+    whole: bool,
+}
+
+impl Number {
+    pub(super) fn within(comfort: RangeInclusive<f64>) -> Self {
+        Self {
+            comfort,
+            default: None,
+            hint: "none",
+            speed: None,
+            whole: false,
+        }
+    }
+
+    pub(super) fn default(mut self, value: impl Into<Option<f64>>) -> Self {
+        self.default = value.into();
+        self
+    }
+
+    pub(super) fn hint(mut self, hint: &'static str) -> Self {
+        self.hint = hint;
+        self
+    }
+
+    pub(super) fn speed(mut self, speed: f64) -> Self {
+        self.speed = Some(speed);
+        self
+    }
+
+    pub(super) fn whole(mut self) -> Self {
+        self.whole = true;
+        self.speed(0.1)
+    }
+
+    /// The field, `width` wide; an empty one is `None`. The response says what happened, whether `value` changed is for the
+    /// caller to compare.
+    fn show(&self, ui: &mut Ui, width: f32, value: &mut Option<f64>) -> egui::Response {
+        let start = self.default.unwrap_or_else(|| 1.0_f64.clamp(*self.comfort.start(), *self.comfort.end()));
+        let editing = ui.memory(|memory| memory.has_focus(ui.next_auto_id()));
+        let is_left_out = value.is_none();
+        let (hint, default) = (self.hint, self.default);
+        let text = move |number: f64, _: RangeInclusive<usize>| match (editing, is_left_out) {
+            (true, true) => String::new(),
+            (true, false) => format!("{number}"),
+            (false, true) => default.map_or_else(|| hint.to_owned(), short),
+            (false, false) => short(number),
+        };
+        if is_left_out {
+            ui.visuals_mut().override_text_color = Some(ui.visuals().weak_text_color());
+        }
+        let size = value.or(self.default).unwrap_or(0.0).abs();
+        let speed = self.speed.unwrap_or(size.max(0.02) / 200.0);
+        let round = |number: f64| if self.whole { number.round() } else { number };
+        let get_set = |new: Option<f64>| {
+            if let Some(new) = new {
+                *value = Some(round(new)).filter(|number| number.is_finite());
+            }
+            value.unwrap_or(start)
+        };
+        let field = egui::DragValue::from_get_set(get_set)
+            .speed(speed)
+            .update_while_editing(false)
+            .min_size(vec2(width, ui.spacing().interact_size.y))
+            .clip_text(true)
+            .custom_formatter(text)
+            .custom_parser(parsed);
+        let response = ui.add(field);
+        if response.dragged() {
+            *value = value.map(|number| number.clamp(*self.comfort.start(), *self.comfort.end()));
+        }
+        response
+    }
+}
+
+/// A number from text; an empty text is one that is not finite, and stands for a key left out.
+fn parsed(text: &str) -> Option<f64> {
+    let text = text.trim().replace('−', "-");
+    if text.is_empty() {
+        return Some(f64::INFINITY);
+    }
+    text.parse().ok().filter(|number: &f64| number.is_finite())
+}
+
+/// A number in at most six digits.
+pub(super) fn short(number: f64) -> String {
+    let size = number.abs();
+    if size != 0.0 && !(1e-3..1e7).contains(&size) {
+        return format!("{number:.3e}");
+    }
+    let digits = (5 - size.max(1.0).log10().floor() as i32).clamp(0, 5);
+    let text = format!("{number:.*}", digits as usize);
+    if text.contains('.') {
+        text.trim_end_matches('0').trim_end_matches('.').to_owned()
+    } else {
+        text
+    }
+}
+
+impl Form<'_> {
+    /// A row with one number.
+    pub(super) fn number(
+        &mut self,
+        ui: &mut Ui,
+        field: &Field,
+        number: &Number,
+        of: impl Fn(&mut Scene) -> &mut Option<f64>,
+    ) {
+        self.row(ui, field, |form, ui, label| {
+            let width = ui.available_width() - RESET_WIDTH - ui.spacing().item_spacing.x;
+            form.number_cell(ui, field.undo, label, number, width, &of);
+            let is_given = of(&mut form.scene).is_some();
+            if form.reset(ui, field, is_given) {
+                *of(&mut form.scene) = None;
+            }
+        });
+    }
+
+    /// A row with one whole number.
+    pub(super) fn whole(
+        &mut self,
+        ui: &mut Ui,
+        field: &Field,
+        number: Number,
+        of: impl Fn(&mut Scene) -> &mut Option<i64>,
+    ) {
+        let number = number.whole();
+        self.row(ui, field, |form, ui, label| {
+            let width = ui.available_width() - RESET_WIDTH - ui.spacing().item_spacing.x;
+            let value = *of(&mut form.scene);
+            if let Some(new) = form.whole_cell(ui, field.undo, label, &number, width, value) {
+                *of(&mut form.scene) = new;
+            }
+            if form.reset(ui, field, value.is_some()) {
+                *of(&mut form.scene) = None;
+            }
+        });
+    }
+
+    /// A field of a number in a row, named by the label.
+    pub(super) fn number_cell(
+        &mut self,
+        ui: &mut Ui,
+        undo: &'static str,
+        label: Id,
+        number: &Number,
+        width: f32,
+        of: impl Fn(&mut Scene) -> &mut Option<f64>,
+    ) {
+        let before = *of(&mut self.scene);
+        let mut value = before;
+        let response = ui.scope(|ui| number.show(ui, width, &mut value)).inner;
+        if value != before {
+            *of(&mut self.scene) = value;
+            self.record(undo, response.id, response.dragged());
+        }
+        response.labelled_by(label);
+    }
+
+    /// A field of a whole number in a row; its new value if it has changed.
+    pub(super) fn whole_cell(
+        &mut self,
+        ui: &mut Ui,
+        undo: &'static str,
+        label: Id,
+        number: &Number,
+        width: f32,
+        before: Option<i64>,
+    ) -> Option<Option<i64>> {
+        let mut value = before.map(|whole| whole as f64);
+        let response = ui.scope(|ui| number.show(ui, width, &mut value)).inner;
+        let after = value.map(|number| number as i64);
+        let is_changed = after != before;
+        if is_changed {
+            self.record(undo, response.id, response.dragged());
+        }
+        response.labelled_by(label);
+        is_changed.then_some(after)
+    }
+
+    /// A required number, named by the label; its new value if it has changed.
+    pub(super) fn required_cell(
+        &mut self,
+        ui: &mut Ui,
+        undo: &'static str,
+        name: &str,
+        number: &Number,
+        width: f32,
+        before: f64,
+    ) -> Option<f64> {
+        let mut value = Some(before);
+        let response = ui.scope(|ui| number.show(ui, width, &mut value)).inner;
+        let after = value.filter(|&after| after != before);
+        if after.is_some() {
+            self.record(undo, response.id, response.dragged());
+        }
+        response.accessible_name(name);
+        after
+    }
+
+    /// The button that leaves a key out again; nothing but room for it where it is left out already.
+    pub(super) fn reset(&mut self, ui: &mut Ui, field: &Field, is_given: bool) -> bool {
+        let size = vec2(RESET_WIDTH, ui.spacing().interact_size.y);
+        if !is_given {
+            ui.allocate_space(size);
+            return false;
+        }
+        let button = egui::Button::new("⟲").frame(false).min_size(size);
+        let response = ui
+            .add(button)
+            .accessible_name(format!("default of {}", field.name))
+            .on_hover_text("leave it out: back to the default");
+        let clicked = response.clicked();
+        if clicked {
+            self.record(field.undo, response.id, false);
+        }
+        clicked
+    }
+}

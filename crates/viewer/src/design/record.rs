@@ -1,0 +1,344 @@
+//! The section of what is recorded.
+
+use eframe::egui::Ui;
+use foldmotion_study::scene::{
+    CameraChoice, CameraScene, ColourChoice, HoldScene, LoopChoice, OutputChoice, OwnCamera,
+    ThickenedScene,
+};
+
+use super::choice::Way;
+use super::form::{Field, Form};
+use super::number::{Number, RESET_WIDTH, short};
+
+const DEFAULT_OUTPUTS: [OutputChoice; 3] = [OutputChoice::Fold, OutputChoice::Gif, OutputChoice::Csv];
+const DEFAULT_SIZE: [i64; 2] = [960, 720];
+const DEFAULT_SECONDS: [f64; 2] = [3.0, 5.0];
+const DEFAULT_HOLD: f64 = 0.5;
+
+const COLOURS: [Way<ColourChoice>; 4] = [
+    (ColourChoice::Paper, "paper", "the two sides of the paper"),
+    (ColourChoice::Grey, "grey", "the same in greys"),
+    (ColourChoice::Strain, "strain", "the largest strain of a triangle's edges"),
+    (ColourChoice::Bending, "bending", "the largest bend of a facet"),
+];
+
+const LOOPS: [Way<LoopChoice>; 2] = [
+    (LoopChoice::Forward, "forward", "from the first state to the last"),
+    (LoopChoice::BackAndForth, "back and forth", "to the last and back, without a jump"),
+];
+
+const CAMERAS: [(Option<CameraChoice>, &str); 6] = [
+    (Some(CameraChoice::Iso), "iso"),
+    (Some(CameraChoice::Front), "front"),
+    (Some(CameraChoice::Side), "side"),
+    (Some(CameraChoice::Top), "top"),
+    (Some(CameraChoice::Turntable), "turntable"),
+    (None, "own"),
+];
+
+pub(super) fn show(form: &mut Form<'_>, ui: &mut Ui) {
+    form.section(ui, "Record", false, &["record"], |form, ui| {
+        show_outputs(form, ui);
+        show_size(form, ui);
+        show_times(form, ui);
+        show_camera(form, ui);
+        show_looks(form, ui);
+        show_states(form, ui);
+        show_thickened(form, ui);
+    });
+}
+
+fn show_outputs(form: &mut Form<'_>, ui: &mut Ui) {
+    form.part(ui, "record.outputs", |form, ui| {
+        ui.horizontal_wrapped(|ui| {
+            ui.spacing_mut().item_spacing.x = 6.0;
+            for output in OutputChoice::ALL {
+                let given = form.scene.record.outputs.as_deref();
+                let mut is_on = given.unwrap_or(&DEFAULT_OUTPUTS).contains(&output);
+                let tip = tip_of(output);
+                let response = ui.checkbox(&mut is_on, output.name()).on_hover_text(tip);
+                if response.changed() {
+                    let outputs = form.scene.record.outputs.get_or_insert(DEFAULT_OUTPUTS.to_vec());
+                    outputs.retain(|&other| other != output);
+                    if is_on {
+                        outputs.push(output);
+                    }
+                    form.record("change the outputs", response.id, false);
+                }
+            }
+        });
+    });
+    form.faults_of(ui, "record.outputs");
+}
+
+fn tip_of(output: OutputChoice) -> &'static str {
+    match output {
+        OutputChoice::Fold => "motion.fold and certificate.json",
+        OutputChoice::Gif => "motion.gif",
+        OutputChoice::Csv => "motion.csv and plots.svg",
+        OutputChoice::Mp4 => "motion.mp4: H.264",
+        OutputChoice::Png => "frames/0001.png on",
+        OutputChoice::Svg => "figure.svg: states side by side",
+        OutputChoice::Pdf => "figure.pdf: the same",
+        OutputChoice::Glb => "motion.glb: glTF with the motion as morph targets",
+        OutputChoice::Obj => "a file for each of the states",
+        OutputChoice::Stl => "a file for each of the states",
+        OutputChoice::Html => "motion.html: the motion as one page for browsers",
+    }
+}
+
+/// Two fields in a row; what they were changed to.
+fn pair(
+    form: &mut Form<'_>,
+    ui: &mut Ui,
+    field: &Field,
+    names: [&str; 2],
+    number: &Number,
+    given: Option<[f64; 2]>,
+    default: [f64; 2],
+) -> Option<Option<[f64; 2]>> {
+    let mut changed = None;
+    form.row(ui, field, |form, ui, _| {
+        let spacing = ui.spacing().item_spacing.x;
+        let width = (ui.available_width() - RESET_WIDTH - 2.0 * spacing) / 2.0;
+        let mut values = given.unwrap_or(default);
+        for (index, name) in names.into_iter().enumerate() {
+            let cell = form.required_cell(ui, field.undo, name, number, width, values[index]);
+            if let Some(new) = cell {
+                values[index] = new;
+                changed = Some(Some(values));
+            }
+        }
+        if form.reset(ui, field, given.is_some()) {
+            changed = Some(None);
+        }
+    });
+    changed
+}
+
+fn show_size(form: &mut Form<'_>, ui: &mut Ui) {
+    let field = Field::new("record.size", "pixels", "change the size", "pixels across and down");
+    let given = form.scene.record.size.map(|size| size.map(|pixels| pixels as f64));
+    let number = Number::within(16.0..=4096.0).whole();
+    let default = DEFAULT_SIZE.map(|pixels| pixels as f64);
+    let names = ["pixels across", "pixels down"];
+    if let Some(new) = pair(form, ui, &field, names, &number, given, default) {
+        form.scene.record.size = new.map(|size| size.map(|pixels| pixels as i64));
+    }
+}
+
+fn show_times(form: &mut Form<'_>, ui: &mut Ui) {
+    let field = Field::new("record.seconds", "seconds", "change the seconds", "seconds a stage: unfold, fold");
+    let number = Number::within(0.0..=60.0).speed(0.05);
+    let given = form.scene.record.seconds;
+    let names = ["seconds to unfold", "seconds to fold"];
+    if let Some(new) = pair(form, ui, &field, names, &number, given, DEFAULT_SECONDS) {
+        form.scene.record.seconds = new;
+    }
+    let field = Field::new(
+        "record.fps",
+        "frames a second",
+        "change the frame rate",
+        "film frames a second",
+    );
+    let number = Number::within(1.0..=60.0).default(30.0).speed(0.2);
+    form.number(ui, &field, &number, |scene| &mut scene.record.fps);
+    show_hold(form, ui);
+    let field = Field::new("record.loop", "films run", "change how films run", "how films run");
+    form.menu(ui, &field, &LOOPS, |scene| &mut scene.record.playback);
+}
+
+fn show_hold(form: &mut Form<'_>, ui: &mut Ui) {
+    let field = Field::new(
+        "record.hold",
+        "hold",
+        "change the hold",
+        "seconds the deployed, the flat and the compact state stand still; one number for all, or three",
+    );
+    let text = match form.scene.record.hold {
+        None => String::new(),
+        Some(HoldScene::Each(seconds)) => short(seconds),
+        Some(HoldScene::States(states)) => states.map(short).join(", "),
+    };
+    let Some(entered) = form.text(ui, &field, "0.5", &text) else {
+        return;
+    };
+    let hold = match numbers(&entered).as_deref() {
+        Some([]) => None,
+        Some(&[seconds]) => Some(HoldScene::Each(seconds)),
+        Some(&[a, b, c]) => Some(HoldScene::States([a, b, c])),
+        _ => form.scene.record.hold.or(Some(HoldScene::Each(DEFAULT_HOLD))),
+    };
+    form.scene.record.hold = hold;
+}
+
+/// Numbers parted by commas or spaces; none where one cannot be read.
+fn numbers(text: &str) -> Option<Vec<f64>> {
+    let parts = text.split([',', ' ', ';']).filter(|part| !part.is_empty());
+    let number = |part: &str| part.parse().ok().filter(|number: &f64| number.is_finite());
+    parts.map(number).collect()
+}
+
+fn show_camera(form: &mut Form<'_>, ui: &mut Ui) {
+    let field = Field::new("record.camera", "camera", "change the camera", "where the viewer stands");
+    let given = form.scene.record.camera;
+    let shown = match given {
+        None => Some(CameraChoice::Iso),
+        Some(CameraScene::Preset(preset)) => Some(preset),
+        Some(CameraScene::Own(_)) => None,
+    };
+    form.part(ui, "record.camera", |form, ui| {
+        ui.horizontal_wrapped(|ui| {
+            ui.spacing_mut().item_spacing.x = 3.0;
+            ui.label(field.name).on_hover_text(field.tip);
+            ui.add_space(4.0);
+            for (way, name) in CAMERAS {
+                let option = ui.selectable_label(way == shown, name);
+                let option = option.accessible_name(format!("camera {name}"));
+                if option.clicked() && way != shown {
+                    form.scene.record.camera = match way {
+                        Some(CameraChoice::Iso) => None,
+                        Some(preset) => Some(CameraScene::Preset(preset)),
+                        None => Some(CameraScene::Own(OwnCamera {
+                            azimuth: -60.0,
+                            elevation: 30.0,
+                            turn: None,
+                        })),
+                    };
+                    form.record(field.undo, option.id, false);
+                }
+            }
+        });
+    });
+    if let Some(CameraScene::Own(own)) = given {
+        show_own_camera(form, ui, own);
+    }
+    form.faults_of(ui, "record.camera");
+}
+
+fn show_own_camera(form: &mut Form<'_>, ui: &mut Ui, own: OwnCamera) {
+    let before = own;
+    let mut own = own;
+    let angles = [
+        ("azimuth", "counter-clockwise seen from above, degrees: -90 is front", 360.0),
+        ("elevation", "above the ground, degrees: 90 is top", 90.0),
+        ("turn", "how far films go round, degrees", 3600.0),
+    ];
+    for (name, tip, most) in angles {
+        let number = Number::within(-most..=most).speed(0.5);
+        form.part(ui, &format!("camera {name}"), |form, ui| {
+            ui.horizontal(|ui| {
+                super::form::name(ui, name, tip);
+                let width = ui.available_width() - RESET_WIDTH - ui.spacing().item_spacing.x;
+                let value = match name {
+                    "azimuth" => own.azimuth,
+                    "elevation" => own.elevation,
+                    _ => own.turn.unwrap_or(0.0),
+                };
+                let spoken = format!("camera {name}");
+                let new = form.required_cell(ui, "change the camera", &spoken, &number, width, value);
+                match (name, new) {
+                    ("azimuth", Some(new)) => own.azimuth = new,
+                    ("elevation", Some(new)) => own.elevation = new,
+                    (_, Some(new)) => own.turn = Some(new),
+                    (_, None) => {}
+                }
+            });
+        });
+    }
+    if own != before {
+        form.scene.record.camera = Some(CameraScene::Own(own));
+    }
+}
+
+fn show_looks(form: &mut Form<'_>, ui: &mut Ui) {
+    let field = Field::new("record.colour", "colour", "change the colours", "what colours show");
+    form.menu(ui, &field, &COLOURS, |scene| &mut scene.record.colour);
+    let field = Field::new(
+        "record.caption",
+        "caption in films",
+        "switch the caption",
+        "whether films tell stage and t",
+    );
+    form.switch(ui, &field, false, |scene| &mut scene.record.caption);
+    let field = Field::new(
+        "record.transparent",
+        "no background",
+        "switch the background",
+        "png pictures and figures without a background",
+    );
+    form.switch(ui, &field, false, |scene| &mut scene.record.transparent);
+    let field = Field::new(
+        "record.profile",
+        "profile in figures",
+        "switch the profile",
+        "figures show the profile over the deployed state",
+    );
+    form.switch(ui, &field, false, |scene| &mut scene.record.profile);
+    let field = Field::new(
+        "record.box",
+        "box in figures",
+        "switch the box",
+        "figures show the box of the compact state, its sizes and its closed form",
+    );
+    form.switch(ui, &field, true, |scene| &mut scene.record.bounds);
+}
+
+fn show_states(form: &mut Form<'_>, ui: &mut Ui) {
+    let field = Field::new(
+        "record.at",
+        "states at",
+        "change the states",
+        "the motion times of the states in figures, OBJ and STL, rising: 0 deployed, 1 flat, 2 compact",
+    );
+    let given = form.scene.record.at.clone().unwrap_or_default();
+    let text = given.iter().map(|t| format!("{t}")).collect::<Vec<_>>().join(", ");
+    if let Some(entered) = form.text(ui, &field, "0, 0.5, 1, 1.5, 2", &text)
+        && let Some(times) = numbers(&entered)
+    {
+        form.scene.record.at = (!times.is_empty()).then_some(times);
+    }
+}
+
+fn show_thickened(form: &mut Form<'_>, ui: &mut Ui) {
+    let given = form.scene.record.thickened;
+    let field = Field::new(
+        "record.thickened",
+        "solids",
+        "change the solids",
+        "OBJ and STL as solids: as thick as the material, or as given here",
+    );
+    form.row(ui, &field, |form, ui, _| {
+        let kind = match given {
+            None | Some(ThickenedScene::ByMaterial(false)) => 0,
+            Some(ThickenedScene::ByMaterial(true)) => 1,
+            Some(ThickenedScene::By(_)) => 2,
+        };
+        let ways = [
+            ("no", None),
+            ("by material", Some(ThickenedScene::ByMaterial(true))),
+            ("own", Some(ThickenedScene::By(0.01))),
+        ];
+        for (index, (name, way)) in ways.into_iter().enumerate() {
+            let option = ui.selectable_label(index == kind, name);
+            let option = option.accessible_name(format!("solids {name}"));
+            if option.clicked() && index != kind {
+                form.scene.record.thickened = way;
+                form.record(field.undo, option.id, false);
+            }
+        }
+    });
+    if let Some(ThickenedScene::By(thickness)) = given {
+        form.part(ui, "own thickness", |form, ui| {
+            ui.horizontal(|ui| {
+                super::form::name(ui, "thick", "thickness of solids, in the unit of length");
+                let width = ui.available_width() - RESET_WIDTH - ui.spacing().item_spacing.x;
+                let number = Number::within(0.0..=1e3).speed(1e-4);
+                let cell = form.required_cell(ui, field.undo, "thickness of solids", &number, width, thickness);
+                if let Some(new) = cell {
+                    form.scene.record.thickened = Some(ThickenedScene::By(new));
+                }
+            });
+        });
+    }
+}

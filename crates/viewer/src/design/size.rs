@@ -1,0 +1,109 @@
+//! The size of the unit that the scene as it stands would have: w and h, also while no draft can be made of it.
+
+use foldmotion_pattern::{Case, PatternError, Unit};
+use foldmotion_study::scene::{CaseChoice, DivisionChoice};
+use foldmotion_study::{Draft, ProfileModel};
+
+use super::curve::{columns_case, model};
+use super::form::Form;
+
+/// λ with which case SII is tried where the scene gives none.
+pub(super) const USUAL_LAMBDA: f64 = 0.7;
+
+/// A unit and how many there are.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Size {
+    /// w; none where case and profile ask for a width that is not given.
+    pub(super) width: Option<f64>,
+    /// h.
+    pub(super) height: f64,
+    /// Nr.
+    pub(super) rows: usize,
+    /// Nc.
+    pub(super) columns: usize,
+}
+
+impl Size {
+    /// That of the scene with another case; none where nothing says how high rows are.
+    pub(super) fn of(form: &Form<'_>, case: Option<CaseChoice>) -> Option<Self> {
+        let scene = &form.scene;
+        let built_in = model(scene);
+        let rows = rows(form, built_in)?;
+        let columns = positive(scene.sheet.columns)
+            .or_else(|| built_in.map(|model| model.columns.of(columns_case(case))))?;
+        let height = height(form, built_in, rows)?;
+        let width = match (scene.sheet.width, case, built_in) {
+            (Some(width), _, _) => Some(width / columns as f64),
+            (None, None | Some(CaseChoice::E | CaseChoice::Auto), _) => Some(height),
+            (None, _, Some(model)) => Some(model.columns.e as f64 * height / columns as f64),
+            (None, _, None) => None,
+        };
+        Some(Self {
+            width,
+            height,
+            rows,
+            columns,
+        })
+    }
+
+    /// The unit of a case; none where the width is not known.
+    pub(super) fn unit(
+        &self,
+        case: Case,
+        lambda: Option<f64>,
+        offset: Option<f64>,
+    ) -> Option<Result<Unit, PatternError>> {
+        let (lambda, offset) = match case {
+            Case::SII => (lambda.or(Some(USUAL_LAMBDA)), offset),
+            _ => (None, None),
+        };
+        Some(Unit::new(case, self.width?, self.height, lambda, offset))
+    }
+
+    /// Why a case contradicts w/h, if it does.
+    pub(super) fn contradiction(&self, case: Case) -> Option<String> {
+        match self.unit(case, None, None)? {
+            Err(error @ PatternError::CaseContradictsUnit { .. }) => Some(error.to_string()),
+            _ => None,
+        }
+    }
+}
+
+/// The case that a choice stands for by itself.
+pub(super) fn own_case(choice: CaseChoice) -> Option<Case> {
+    match choice {
+        CaseChoice::E => Some(Case::E),
+        CaseChoice::T => Some(Case::T),
+        CaseChoice::S => Some(Case::S),
+        CaseChoice::SII => Some(Case::SII),
+        CaseChoice::Plain => Some(Case::Plain),
+        CaseChoice::Auto => None,
+    }
+}
+
+/// Nr.
+fn rows(form: &Form<'_>, built_in: Option<&ProfileModel>) -> Option<usize> {
+    let drafted = || Some(form.draft.and_then(Draft::units)?.units.rows);
+    let splits = form.scene.division.method == Some(DivisionChoice::DouglasPeucker)
+        && form.scene.division.tolerance.is_some();
+    if splits {
+        return drafted();
+    }
+    positive(form.scene.sheet.rows)
+        .or_else(|| built_in.map(|model| model.rows))
+        .or_else(drafted)
+}
+
+/// h, the mean of the rows: from the length of the polygon where that is known, else as last divided.
+fn height(form: &Form<'_>, built_in: Option<&ProfileModel>, rows: usize) -> Option<f64> {
+    let length = form.scene.profile.length.or_else(|| built_in.map(ProfileModel::length));
+    let height = match length {
+        Some(length) => length / rows as f64,
+        None => form.draft.and_then(Draft::units)?.division.mean_length,
+    };
+    (height > 0.0 && height.is_finite()).then_some(height)
+}
+
+fn positive(count: Option<i64>) -> Option<usize> {
+    usize::try_from(count?).ok().filter(|&count| count > 0)
+}
