@@ -12,7 +12,7 @@ const LEAST_RANGE: f64 = 1e-3;
 
 /// A quantity that colours show.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Quantity {
+pub enum Quantity {
     /// The largest |l / l₀ − 1| of a triangle's edges, per cent; l₀ in the crease pattern.
     Strain,
     /// The largest |fold angle| of a triangle's edges inside its facet, degrees.
@@ -21,7 +21,7 @@ pub(crate) enum Quantity {
 
 impl Quantity {
     /// What `colour` shows, if it is a quantity.
-    pub(crate) fn of(colour: ColourChoice) -> Option<Self> {
+    pub fn of(colour: ColourChoice) -> Option<Self> {
         match colour {
             ColourChoice::Paper | ColourChoice::Grey => None,
             ColourChoice::Strain => Some(Self::Strain),
@@ -29,7 +29,8 @@ impl Quantity {
         }
     }
 
-    fn title(self) -> &'static str {
+    /// Its name with its unit.
+    pub fn title(self) -> &'static str {
         match self {
             Self::Strain => "largest bar strain, %",
             Self::Bending => "facet bending, degrees",
@@ -37,7 +38,7 @@ impl Quantity {
     }
 
     /// One value a triangle of `sheet`, its vertices at `positions`.
-    pub(crate) fn values(self, sheet: &Sheet, positions: &[DVec3]) -> Vec<f64> {
+    pub fn values(self, sheet: &Sheet, positions: &[DVec3]) -> Vec<f64> {
         let mut values = vec![0.0_f64; sheet.faces.len()];
         let angles = match self {
             Self::Strain => Vec::new(),
@@ -64,7 +65,7 @@ impl Quantity {
     }
 
     /// The values of every frame, on a scale from 0 to a round number.
-    pub(crate) fn of_motion(self, motion: &Motion) -> Values {
+    pub fn of_motion(self, motion: &Motion) -> Values {
         let frames = motion.frames.par_iter();
         let frames: Vec<Vec<f64>> = frames
             .map(|frame| self.values(&motion.sheet, &frame.positions))

@@ -24,7 +24,7 @@ use crate::{Scene, StudyError};
 pub use self::again::{Again, record_again};
 pub use self::motion_file::{MotionRecord, record_file};
 
-use self::colours::Quantity;
+pub use self::colours::Quantity;
 pub(crate) use self::known::{Known, turned};
 use self::origin::Origin;
 use self::page::Beside;

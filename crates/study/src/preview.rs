@@ -1,0 +1,61 @@
+//! A quick look at a motion: folded in equilibrium without contact, and not checked.
+
+use foldmotion_pattern::Motion;
+
+use crate::scene::EngineChoice;
+use crate::{Phase, Study, StudyError, Watch};
+
+/// Frames of a preview: enough that straight paths between them do not show.
+const FRAMES: usize = 120;
+
+impl Study {
+    /// Folds the sheet as quickly as it can be: quasi-static, layers free to pass through each other, few frames.
+    ///
+    /// What comes of it is the motion of this study with `motion.contact = false`, for the eye: nothing is proved of it.
+    ///
+    /// # Errors
+    /// [`StudyError`] of the engine; [`StudyError::Interrupted`] where `watch` ends it.
+    pub fn preview(&self, watch: &dyn Watch) -> Result<Motion, StudyError> {
+        let quick = Self {
+            engine: EngineChoice::QuasiStatic,
+            contact_gap: None,
+            frames: FRAMES,
+            ..self.clone()
+        };
+        let start = self.subject.start_time();
+        let times = self.subject.times_of_interest();
+        let computed = quick.fold(&times, &|moment| {
+            watch.state(moment);
+            watch.progress(Phase::Fold, (moment.time - start) / (2.0 - start))
+        })?;
+        Ok(quick.place(&computed))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::path::Path;
+
+    use foldmotion_check::fitted_box;
+
+    use super::*;
+    use crate::SceneSource;
+
+    #[test]
+    fn a_preview_of_a_scene_with_contact_reaches_the_exact_compact_state() {
+        let scene = "[profile]\nmodel = \"shelter\"\n[sheet]\ncase = \"SII\"\nlambda = 0.7\n";
+        let source = SceneSource::new(Path::new("a.toml"), scene.to_owned());
+        let study = Study::resolve(&source).unwrap();
+        assert!(study.contact_gap.is_some());
+        let motion = study.preview(&|_, _| true).unwrap();
+        let last = motion.frames.last().unwrap();
+        assert_eq!(last.time, 2.0);
+        let exact = study.subject.units().unwrap().units.compact();
+        let rms = fitted_box(&last.positions, &exact).rms_to_exact.unwrap();
+        assert!(rms < 1e-6, "{rms}");
+        assert!(matches!(
+            study.preview(&|_, _| false),
+            Err(StudyError::Interrupted)
+        ));
+    }
+}

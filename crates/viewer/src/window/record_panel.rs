@@ -1,0 +1,124 @@
+//! Recording what is seen: which files, how large, where.
+
+use std::path::PathBuf;
+
+use eframe::egui::{Button, Checkbox, DragValue, Grid, TextEdit, Ui};
+use foldmotion_study::scene::{CameraChoice, OutputChoice, OwnCamera, RecordScene};
+
+use crate::view3d::Orbit;
+
+/// Outputs that can be asked for in the window, with what they are.
+const OUTPUTS: [(OutputChoice, &str); 9] = [
+    (OutputChoice::Gif, "film, GIF"),
+    (OutputChoice::Mp4, "film, MP4"),
+    (OutputChoice::Png, "film as pictures, PNG"),
+    (OutputChoice::Svg, "figure of states, SVG"),
+    (OutputChoice::Pdf, "figure of states, PDF"),
+    (OutputChoice::Glb, "3D file with the motion, GLB"),
+    (OutputChoice::Obj, "3D state, OBJ"),
+    (OutputChoice::Stl, "3D state, STL"),
+    (OutputChoice::Html, "page for any browser, HTML"),
+];
+
+/// What is to be recorded.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct RecordPanel {
+    outputs: Vec<OutputChoice>,
+    size: [u32; 2],
+    seconds: f64,
+    /// Only the state at hand in figures and models, not the five of a whole motion.
+    only_now: bool,
+    /// The folder, as typed.
+    pub(crate) folder: String,
+}
+
+/// What the user wants of the panel.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) enum Wish {
+    /// The files, as the scene's `[record]` says them, into the folder.
+    Record(Box<RecordScene>, PathBuf),
+    /// To choose the folder.
+    Choose,
+    /// To leave.
+    Close,
+}
+
+impl RecordPanel {
+    pub(crate) fn new(folder: String) -> Self {
+        Self {
+            outputs: vec![OutputChoice::Gif],
+            size: [960, 720],
+            seconds: 8.0,
+            only_now: false,
+            folder,
+        }
+    }
+
+    /// The panel; `scene` is what the scene says of recording, `orbit` the camera as it stands, `time` the state at hand.
+    pub(crate) fn show(
+        &mut self,
+        ui: &mut Ui,
+        scene: &RecordScene,
+        orbit: &Orbit,
+        time: f64,
+    ) -> Option<Wish> {
+        let mut wish = None;
+        ui.label("the camera is the one of the view; the rest is as the scene's record section says");
+        ui.add_space(4.0);
+        for (output, name) in OUTPUTS {
+            let is_there = output != OutputChoice::Mp4 || cfg!(feature = "h264");
+            let mut is_on = self.outputs.contains(&output);
+            let check = ui.add_enabled(is_there, Checkbox::new(&mut is_on, name));
+            if check.on_disabled_hover_text("this program was built without the feature h264").changed() {
+                self.outputs.retain(|&o| o != output);
+                if is_on {
+                    self.outputs.push(output);
+                }
+            }
+        }
+        ui.add_space(4.0);
+        Grid::new("record").num_columns(2).show(ui, |ui| {
+            let label = ui.label("width, pixels");
+            ui.add(DragValue::new(&mut self.size[0]).range(16..=4096)).labelled_by(label.id);
+            ui.end_row();
+            let label = ui.label("height, pixels");
+            ui.add(DragValue::new(&mut self.size[1]).range(16..=4096)).labelled_by(label.id);
+            ui.end_row();
+            let label = ui.label("film, seconds");
+            let field = DragValue::new(&mut self.seconds).range(0.1..=600.0).speed(0.1);
+            ui.add(field).labelled_by(label.id);
+            ui.end_row();
+        });
+        ui.checkbox(&mut self.only_now, format!("figures and models of t = {time:.4} only"));
+        ui.add_space(4.0);
+        let label = ui.label("folder");
+        ui.horizontal(|ui| {
+            ui.add(TextEdit::singleline(&mut self.folder).desired_width(300.0)).labelled_by(label.id);
+            if ui.button("Choose…").clicked() {
+                wish = Some(Wish::Choose);
+            }
+        });
+        ui.separator();
+        ui.horizontal(|ui| {
+            let is_ready = !self.outputs.is_empty() && !self.folder.trim().is_empty();
+            if ui.add_enabled(is_ready, Button::new("Record now")).clicked() {
+                let record = self.record(scene, orbit, time);
+                wish = Some(Wish::Record(Box::new(record), PathBuf::from(self.folder.trim())));
+            }
+            if ui.button("Close").clicked() {
+                wish = Some(Wish::Close);
+            }
+        });
+        wish
+    }
+
+    /// `[record]` of what is asked for.
+    fn record(&self, scene: &RecordScene, orbit: &Orbit, time: f64) -> RecordScene {
+        RecordScene {
+            outputs: Some(self.outputs.clone()),
+            size: Some(self.size.map(i64::from).to_vec()),
+            camera: Some(CameraChoice::Own(OwnCamera::default())),
+            ..scene.clone()
+        }
+    }
+}
