@@ -10,7 +10,7 @@ struct View {
     scale: vec4f,
     // Pixels across and down, half the width of creases in pixels, 1 where colours are to be encoded as sRGB.
     picture: vec4f,
-    // Half the distance of layers, the pull of lines towards the viewer (lengths), brightness of marks.
+    // The distance of layers, the pull of lines towards the viewer (lengths), brightness of marks.
     layers: vec4f,
     front: vec4f,
     back: vec4f,
@@ -20,9 +20,9 @@ struct View {
 }
 
 @group(0) @binding(0) var<uniform> view: View;
-// The vertices, row by row; the depth of each triangle in its stack in half layers.
+// The vertices, row by row; the layers before each triangle in its stack, seen from its front and from its back.
 @group(0) @binding(1) var places: texture_2d<f32>;
-@group(0) @binding(2) var lifts: texture_2d<f32>;
+@group(0) @binding(2) var layers: texture_2d<f32>;
 
 const NONE = 0xffffffffu;
 // The light of the films (Lambert's cosine wrapped around the sphere), fixed to the viewer.
@@ -71,10 +71,11 @@ fn normal(a: vec3f, b: vec3f, c: vec3f) -> vec3f {
     return n / max(length(n), 1e-20);
 }
 
-// The depth that triangle `face` gets by the order of layers where its front is seen: so much that layers come apart
-// alike across them, however they are seen, down to a slant of 15°.
-fn lifted(face: u32, cosine: f32) -> f32 {
-    return cell(lifts, face).x * view.layers.x / max(abs(cosine), 0.26);
+// The depth that triangle `face` gets by the order of layers: so much that they come apart alike across them, however
+// they are seen, down to a slant of 15°. The first layer stays where it is. `side`: 1 where its front is seen.
+fn sunk(face: u32, side: f32, cosine: f32) -> f32 {
+    let before = cell(layers, face).xy;
+    return -select(before.y, before.x, side > 0.0) * view.layers.x / max(abs(cosine), 0.26);
 }
 
 fn decoded(colour: vec3f) -> vec3f {
@@ -129,7 +130,7 @@ fn face_vertex(
     let side = facing(seen(a, 0.0).xy, seen(b, 0.0).xy, seen(c, 0.0).xy);
     let n = side * normal(a, b, c);
     let turned = vec3f(dot(view.right.xyz, n), dot(view.up.xyz, n), dot(view.toward.xyz, n));
-    let lift = side * lifted(face, turned.z);
+    let lift = sunk(face, side, turned.z);
     let at = seen(select(select(c, b, k == 1u), a, k == 0u), lift);
     return Face(vec4f(at.xyz * at.w, at.w), painted(paint, side, turned));
 }
@@ -169,7 +170,8 @@ fn left_of(line: Track) -> vec2f {
 // A corner of a line: `u` pixels along and `v` across to the left, at `depth` over that of the line there.
 fn corner(line: Track, u: f32, v: f32, depth: f32, half_width: f32, ink: vec4f) -> Line {
     let xy = line.start.xy + u * line.along + v * left_of(line);
-    let z = line.start.z + clamp(u, 0.0, line.extent) * line.slope + depth;
+    // Beyond its ends a line goes on, but one that is seen end on not far.
+    let z = line.start.z + clamp(u, -0.5 * line.extent, 1.5 * line.extent) * line.slope + depth;
     let at = vec4f(2.0 * xy / view.picture.xy, clamp(z, 0.0, 1.0), 1.0);
     return Line(at, vec4f(u, v, line.extent, half_width), ink);
 }
@@ -184,7 +186,8 @@ struct Beside {
     lift: f32,
 }
 
-fn beside(line: Track, start: vec3f, end: vec3f, apex: u32, face: u32) -> Beside {
+// `front`: 1 where the front of the triangle is seen when it lies to the left, −1 to the right.
+fn beside(line: Track, start: vec3f, end: vec3f, apex: u32, face: u32, front: f32) -> Beside {
     if face == NONE {
         return Beside(0.0, 0.0, -1.0);
     }
@@ -195,7 +198,7 @@ fn beside(line: Track, start: vec3f, end: vec3f, apex: u32, face: u32) -> Beside
     let foot = line.start.z + dot(aside, line.along) * line.slope;
     let slope = select(0.0, (at.z - foot) / reach, abs(reach) > 0.02);
     let cosine = dot(normal(start, end, third), view.toward.xyz);
-    return Beside(reach, slope, sign(reach) * lifted(face, cosine) * view.scale.z);
+    return Beside(reach, slope, sunk(face, front * reach, cosine) * view.scale.z);
 }
 
 // Six vertices a half of a crease. Each half lies in the plane of the triangle that is seen on its side, at the depth of
@@ -212,10 +215,8 @@ fn crease_vertex(
     let start = place(ends.x);
     let end = place(ends.y);
     let line = track(pixel(start, 0.0), pixel(end, 0.0));
-    let left = beside(line, start, end, apexes.x, faces.x);
-    var right = beside(line, start, end, apexes.y, faces.y);
-    // The front of the right one is seen where it lies to the right.
-    right.lift = select(-right.lift, right.lift, faces.y == NONE);
+    let left = beside(line, start, end, apexes.x, faces.x, 1.0);
+    let right = beside(line, start, end, apexes.y, faces.y, -1.0);
     let half_width = view.picture.z;
     let reach = half_width + 0.5;
     let side = select(-1.0, 1.0, index < 6u);

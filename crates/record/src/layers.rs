@@ -16,8 +16,11 @@ pub struct Layers {
     /// normal: neighbours in a stack of four have lifts −3, −1, 1 and 3 where they face alike. 0 for triangles of no
     /// stack.
     pub lifts: Vec<i32>,
-    /// Triangles below each one in its stack.
+    /// Triangles in the longest chain below each one in its stack, which has one upper side for all.
     pub heights: Vec<i32>,
+    /// Triangles in the longest chains before each one in its stack, as a viewer of its front and of its back sees it.
+    /// Sunk by these, a stack's outermost layer stays where it is.
+    pub before: Vec<[i32; 2]>,
     /// Triangles that lie on each other, each pair once.
     pub pairs: Vec<[u32; 2]>,
 }
@@ -50,7 +53,8 @@ impl Layers {
             };
             above[low].push(high);
         }
-        let heights = heights(&mut above);
+        let mut below = reversed(&above);
+        let [heights, depths] = [&mut above, &mut below].map(heights);
         let mut tops = vec![0; count];
         for face in 0..count {
             tops[stacks[face]] = heights[face].max(tops[stacks[face]]);
@@ -63,8 +67,17 @@ impl Layers {
         let mut pairs: Vec<[u32; 2]> = pairs.collect();
         pairs.sort_unstable();
         pairs.dedup();
+        let before = |face: usize| {
+            let [above, below] = [depths[face], heights[face]];
+            if facings[face] > 0.0 {
+                [above, below]
+            } else {
+                [below, above]
+            }
+        };
         Self {
             lifts: (0..count).map(lift).collect(),
+            before: (0..count).map(before).collect(),
             heights,
             pairs,
         }
@@ -108,8 +121,19 @@ fn normals(sheet: &Sheet, folded: &[DVec3]) -> Vec<DVec3> {
     sheet.faces.iter().map(normal).collect()
 }
 
+/// The same arrows, each from its end to its start.
+fn reversed(arrows: &[Vec<usize>]) -> Vec<Vec<usize>> {
+    let mut reversed = vec![Vec::new(); arrows.len()];
+    for (start, ends) in arrows.iter().enumerate() {
+        for &end in ends {
+            reversed[end].push(start);
+        }
+    }
+    reversed
+}
+
 /// The longest chain below each triangle (Kahn 1962, Topological sorting of large networks).
-fn heights(above: &mut [Vec<usize>]) -> Vec<i32> {
+fn heights(above: &mut Vec<Vec<usize>>) -> Vec<i32> {
     let mut below = vec![0_usize; above.len()];
     for list in above.iter_mut() {
         list.sort_unstable();
@@ -139,7 +163,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn lifts_keep_every_order_of_every_case_and_heights_count_from_the_lowest() {
+    fn lifts_and_layers_before_keep_every_order_of_every_case_from_both_sides() {
         for (case, width) in [
             (Case::E, 1.0),
             (Case::T, 0.8),
@@ -151,7 +175,7 @@ mod tests {
             let (order, folded) = (units.compact_order(), units.compact());
             let layers = Layers::new(&units.sheet, &order, &folded);
             let normals = normals(&units.sheet, &folded);
-            assert!(!order.is_empty() && layers.heights.contains(&0));
+            assert!(!order.is_empty());
             for (f, g, sign) in order.iter() {
                 let [f, g] = [f as usize, g as usize];
                 let facing = if normals[f].dot(normals[g]) > 0.0 {
@@ -161,6 +185,10 @@ mod tests {
                 };
                 let above = facing * layers.lifts[f] - layers.lifts[g];
                 assert!(above * i32::from(sign) > 0, "{case:?} {f} over {g}");
+                // From g's front, and from behind it.
+                let of_f = if facing > 0 { [0, 1] } else { [1, 0] }.map(|k| layers.before[f][k]);
+                let [front, back] = [0, 1].map(|k| layers.before[g][k] - of_f[k]);
+                assert!(front * i32::from(sign) > 0 && back * i32::from(sign) < 0);
             }
         }
     }

@@ -4,6 +4,7 @@ use eframe::egui::{self, EventFilter, Key, PointerButton, Pos2, Rect, Response, 
 use glam::{DVec2, DVec3};
 
 use super::eye::Eye;
+use super::pick::Hit;
 use super::picture::{Handle, Picture};
 use super::{Seen, View3d};
 
@@ -158,46 +159,36 @@ impl View3d {
         eye: &Eye,
     ) -> Seen {
         let pointer = response.hover_pos().filter(|_| !response.dragged());
-        let state = self.state.as_ref();
-        let half_layer = state.map_or(0.0, |s| s.half_layer(picture.sheet.unit_length));
-        let lifts = state.map_or(&[][..], |state| &state.lifts);
         self.points.follow(picture, eye);
-        let hit = pointer.map(|at| {
-            self.points
-                .hit(picture, lifts, half_layer, within(rect, at))
-        });
-        self.take_vertex(ui, &response, rect, picture, half_layer);
+        let hit = self.hit(picture, pointer.map(|at| within(rect, at)));
+        self.take_vertex(ui, &response, rect, picture);
         let pull = self.pull(&response, rect, picture, eye);
-        let vertex = hit.and_then(|hit| hit.vertex);
+        let vertex = hit.vertex;
         self.mark(ui, &response, rect, vertex.filter(|_| picture.can_pull));
         Seen {
             vertex,
-            face: hit.and_then(|hit| hit.face),
+            face: hit.face,
             pull,
             response,
         }
     }
 
+    fn hit(&self, picture: &Picture<'_>, at: Option<DVec2>) -> Hit {
+        match (&self.state, at) {
+            (Some(state), Some(at)) => self.points.hit(picture, state, at),
+            _ => Hit::default(),
+        }
+    }
+
     /// Takes the vertex where a drag begins, lets it go where it ends.
-    fn take_vertex(
-        &mut self,
-        ui: &Ui,
-        response: &Response,
-        rect: Rect,
-        picture: &Picture<'_>,
-        half_layer: f64,
-    ) {
+    fn take_vertex(&mut self, ui: &Ui, response: &Response, rect: Rect, picture: &Picture<'_>) {
         let is_held = response.dragged_by(PointerButton::Primary) && picture.can_pull;
         if !is_held {
             self.pulled = None;
         } else if response.drag_started() && !ui.input(|input| input.modifiers.shift) {
             let origin = ui.input(|input| input.pointer.press_origin());
-            let lifts = self.state.as_ref().map_or(&[][..], |state| &state.lifts);
-            let hit = origin.map(|at| {
-                self.points
-                    .hit(picture, lifts, half_layer, within(rect, at))
-            });
-            self.pulled = hit.and_then(|hit| hit.vertex);
+            let hit = self.hit(picture, origin.map(|at| within(rect, at)));
+            self.pulled = hit.vertex;
         }
     }
 

@@ -45,6 +45,12 @@ impl Picture<'_> {
     pub(super) fn is_whole(&self) -> bool {
         self.positions.len() == self.sheet.vertices.len() && !self.positions.is_empty()
     }
+
+    /// Whether there are layers and they belong to the sheet.
+    pub(super) fn has_layers(&self) -> bool {
+        let count = self.layers.map(|layers| layers.before.len());
+        count == Some(self.sheet.faces.len())
+    }
 }
 
 /// What triangles are painted with.

@@ -84,7 +84,6 @@ fn at(corner: Pos2, point: DVec3) -> Pos2 {
 fn mesh(picture: &Picture<'_>, eye: &Eye, corner: Pos2, state: Option<&State>) -> Mesh {
     let sheet = picture.sheet;
     let points: Vec<DVec3> = picture.positions.iter().map(|&p| eye.project(p)).collect();
-    let half_layer = state.map_or(0.0, |state| state.half_layer(sheet.unit_length));
     let mut lines = vec![Vec::new(); sheet.faces.len()];
     for edge in sheet
         .edges
@@ -101,10 +100,10 @@ fn mesh(picture: &Picture<'_>, eye: &Eye, corner: Pos2, state: Option<&State>) -
             let corners = sheet.faces[index].map(|v| points[v as usize]);
             let n = normal(picture, eye, index);
             let side = if is_front(corners) { 1.0 } else { -1.0 };
-            let lift = state.map_or(0.0, |state| f64::from(state.lifts[index]));
+            let sunk = state.map_or(0.0, |state| state.sunk(index, side, sheet.unit_length));
             let depth = corners.iter().map(|p| p.z).sum::<f64>() / 3.0;
             let light = painted(picture, paints[index], side, side * n);
-            (depth + side * lift * half_layer, index, light)
+            (depth - sunk, index, light)
         })
         .collect();
     faces.sort_by(|(a, i, _), (b, j, _)| a.total_cmp(b).then(j.cmp(i)));

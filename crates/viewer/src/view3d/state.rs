@@ -7,8 +7,9 @@ use glam::DVec3;
 use super::eye::Ball;
 use super::picture::Picture;
 
-/// Layers are moved apart by [`TIE_TOLERANCE`], but all of a stack by no more than this, in units of `unit_length`.
-const HIGHEST_STACK: f64 = 0.2;
+/// The lowest layer of a stack sinks by no more than this, in units of `unit_length`: else layers come closer than
+/// [`TIE_TOLERANCE`].
+const DEEPEST: f64 = 0.2;
 
 /// Cosines of the angle between neighbours of a stack: moved apart in full, and not at all.
 const PARALLEL: [f64; 2] = [0.966, 0.866];
@@ -18,14 +19,14 @@ const PARALLEL: [f64; 2] = [0.966, 0.866];
 pub(super) struct State {
     sheet_key: u64,
     state_key: u64,
-    /// Neighbours in a stack.
+    /// Each triangle of a stack and the nearest to it.
     pairs: Vec<[u32; 2]>,
-    /// The largest lift.
-    top: i32,
+    /// The most layers before a triangle.
+    most: i32,
     /// Around the sheet.
     pub(super) ball: Ball,
-    /// Half layers by which each triangle lies to the front of its stack, less where the stack is open.
-    pub(super) lifts: Vec<f32>,
+    /// Layers before each triangle seen from its front and its back, fewer where the stack is open.
+    pub(super) before: Vec<[f32; 2]>,
     /// Whether every place is finite.
     pub(super) is_finite: bool,
 }
@@ -36,9 +37,9 @@ impl State {
             sheet_key: picture.sheet_key,
             state_key: picture.state_key,
             pairs: picture.layers.map(neighbours).unwrap_or_default(),
-            top: picture.layers.map_or(0, highest),
+            most: picture.layers.map_or(0, most_before),
             ball: Ball::around([]),
-            lifts: Vec::new(),
+            before: Vec::new(),
             is_finite: false,
         };
         state.take(picture);
@@ -62,53 +63,70 @@ impl State {
         let positions = picture.positions;
         self.is_finite = positions.iter().all(|p| p.is_finite());
         self.ball = Ball::around(positions.iter().copied());
-        self.lifts = match picture.layers {
-            Some(layers) if picture.is_whole() => {
+        self.before = match picture.layers {
+            Some(layers) if picture.is_whole() && picture.has_layers() => {
                 closed(picture.sheet, positions, layers, &self.pairs)
             }
-            _ => vec![0.0; picture.sheet.faces.len()],
+            _ => vec![[0.0; 2]; picture.sheet.faces.len()],
         };
     }
 
-    /// Half the distance of layers.
-    pub(super) fn half_layer(&self, unit_length: f64) -> f64 {
-        let most = HIGHEST_STACK / f64::from(self.top.max(1));
-        unit_length * (0.5 * TIE_TOLERANCE).min(0.5 * most)
+    /// The distance of layers.
+    pub(super) fn layer(&self, unit_length: f64) -> f64 {
+        unit_length * TIE_TOLERANCE.min(DEEPEST / f64::from(self.most.max(1)))
+    }
+
+    /// How far triangle `face` sinks behind the first of its stack where the front (`side` > 0) or the back is seen.
+    pub(super) fn sunk(&self, face: usize, side: f64, unit_length: f64) -> f64 {
+        let [front, back] = self.before.get(face).copied().unwrap_or_default();
+        f64::from(if side > 0.0 { front } else { back }) * self.layer(unit_length)
     }
 }
 
-fn highest(layers: &Layers) -> i32 {
-    let lifts = layers.lifts.iter();
-    lifts.map(|lift| lift.abs()).max().unwrap_or(0)
+fn most_before(layers: &Layers) -> i32 {
+    layers.before.iter().flatten().copied().max().unwrap_or(0)
 }
 
-/// Pairs with nothing between them: those of all pairs would grow with the square of a stack.
+/// Each triangle of a stack with the one that has the fewest layers between: all pairs would grow with the square of
+/// the stack.
 fn neighbours(layers: &Layers) -> Vec<[u32; 2]> {
-    let height = |face: u32| layers.heights.get(face as usize).copied();
-    let is_next = |&&[f, g]: &&[u32; 2]| match (height(f), height(g)) {
-        (Some(f), Some(g)) => f.abs_diff(g) == 1,
-        _ => false,
-    };
-    layers.pairs.iter().filter(is_next).copied().collect()
+    let mut nearest: Vec<Option<(u32, u32)>> = vec![None; layers.heights.len()];
+    for &[f, g] in &layers.pairs {
+        let heights = [f, g].map(|face| layers.heights.get(face as usize));
+        let [Some(of_f), Some(of_g)] = heights else {
+            continue;
+        };
+        let apart = of_f.abs_diff(*of_g);
+        for (one, other) in [(f, g), (g, f)] {
+            let place = &mut nearest[one as usize];
+            if place.is_none_or(|(least, _)| apart < least) {
+                *place = Some((apart, other));
+            }
+        }
+    }
+    let pairs = (0..).zip(nearest);
+    pairs
+        .filter_map(|(face, nearest)| Some([face, nearest?.1]))
+        .collect()
 }
 
-/// The lift of each triangle, as far as it is parallel to a neighbour of its stack.
-fn closed(sheet: &Sheet, positions: &[DVec3], layers: &Layers, pairs: &[[u32; 2]]) -> Vec<f32> {
-    let normal = |face: &[u32; 3]| {
-        let [a, b, c] = face.map(|v| positions[v as usize]);
+/// The layers before each triangle, as far as it is parallel to its neighbour.
+fn closed(
+    sheet: &Sheet,
+    positions: &[DVec3],
+    layers: &Layers,
+    pairs: &[[u32; 2]],
+) -> Vec<[f32; 2]> {
+    let normal = |face: u32| {
+        let [a, b, c] = sheet.faces[face as usize].map(|v| positions[v as usize]);
         (b - a).cross(c - a).normalize_or_zero()
     };
-    let normals: Vec<DVec3> = sheet.faces.iter().map(normal).collect();
-    let mut parts = vec![0.0_f64; sheet.faces.len()];
+    let mut before = vec![[0.0; 2]; sheet.faces.len()];
     let [full, none] = PARALLEL;
-    for &[f, g] in pairs {
-        let [f, g] = [f as usize, g as usize];
-        let cosine = normals[f].dot(normals[g]).abs();
-        let part = ((cosine - none) / (full - none)).clamp(0.0, 1.0);
-        parts[f] = parts[f].max(part);
-        parts[g] = parts[g].max(part);
+    for &[face, other] in pairs {
+        let cosine = normal(face).dot(normal(other)).abs();
+        let part = ((cosine - none) / (full - none)).clamp(0.0, 1.0) as f32;
+        before[face as usize] = layers.before[face as usize].map(|count| part * count as f32);
     }
-    let lifts = layers.lifts.iter().chain(std::iter::repeat(&0));
-    let lift = |(part, &lift): (f64, &i32)| (part * f64::from(lift)) as f32;
-    parts.into_iter().zip(lifts).map(lift).collect()
+    before
 }

@@ -67,10 +67,10 @@ pub(super) struct Table {
 }
 
 impl Table {
-    /// For `count` cells of one float or four.
+    /// For `count` cells of two floats or four.
     pub(super) fn new(device: &wgpu::Device, count: usize, width: u32) -> Self {
         let format = match width {
-            1 => wgpu::TextureFormat::R32Float,
+            2 => wgpu::TextureFormat::Rg32Float,
             _ => wgpu::TextureFormat::Rgba32Float,
         };
         let texture = device.create_texture(&wgpu::TextureDescriptor {

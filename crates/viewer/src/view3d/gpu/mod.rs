@@ -23,8 +23,8 @@ use super::picture::Picture;
 use super::segments::{Segment, segments};
 use super::state::State;
 
-/// Lines are this part of half a layer's distance before their paper.
-const PULL: f64 = 0.4;
+/// Lines are this part of the distance of layers before their paper.
+const PULL: f64 = 0.2;
 
 /// Floats of the shader's `View`.
 pub(super) const VIEW_FLOATS: usize = 48;
@@ -60,7 +60,7 @@ pub(super) struct Gpu {
     pipelines: Pipelines,
     uniform: wgpu::Buffer,
     places: Table,
-    lifts: Table,
+    layers: Table,
     bind_group: wgpu::BindGroup,
     corners: Buffer,
     paints: Buffer,
@@ -99,15 +99,15 @@ impl Gpu {
             usage: wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST,
             mapped_at_creation: false,
         });
-        let (places, lifts) = (Table::new(&device, 1, 4), Table::new(&device, 1, 1));
-        let bind_group = bind(&device, &pipelines, &uniform, [&places, &lifts]);
+        let (places, layers) = (Table::new(&device, 1, 4), Table::new(&device, 1, 2));
+        let bind_group = bind(&device, &pipelines, &uniform, [&places, &layers]);
         Self {
             watch: Watch::over(&device),
             format,
             pipelines,
             uniform,
             places,
-            lifts,
+            layers,
             bind_group,
             corners: Buffer::instances("corners"),
             paints: Buffer::instances("paints"),
@@ -179,8 +179,8 @@ impl Gpu {
             self.drawn.creases = None;
             self.drawn.paints = None;
             self.places = Table::new(&self.device, sheet.vertices.len(), 4);
-            self.lifts = Table::new(&self.device, sheet.faces.len(), 1);
-            let tables = [&self.places, &self.lifts];
+            self.layers = Table::new(&self.device, sheet.faces.len(), 2);
+            let tables = [&self.places, &self.layers];
             self.bind_group = bind(&self.device, &self.pipelines, &self.uniform, tables);
             self.corners.write(&self.device, &self.queue, &sheet.faces);
         }
@@ -206,7 +206,7 @@ impl Gpu {
         };
         let places = picture.positions.iter().flat_map(place).collect();
         self.places.write(&self.queue, places);
-        self.lifts.write(&self.queue, view.state.lifts.clone());
+        self.layers.write(&self.queue, view.state.before.concat());
         true
     }
 
@@ -303,7 +303,7 @@ fn bind(
     uniform: &wgpu::Buffer,
     tables: [&Table; 2],
 ) -> wgpu::BindGroup {
-    let [places, lifts] = tables.map(Table::view);
+    let [places, layers] = tables.map(Table::view);
     let entry = |binding, resource| wgpu::BindGroupEntry { binding, resource };
     device.create_bind_group(&wgpu::BindGroupDescriptor {
         label: Some("sheet"),
@@ -311,7 +311,7 @@ fn bind(
         entries: &[
             entry(0, uniform.as_entire_binding()),
             entry(1, wgpu::BindingResource::TextureView(&places)),
-            entry(2, wgpu::BindingResource::TextureView(&lifts)),
+            entry(2, wgpu::BindingResource::TextureView(&layers)),
         ],
     })
 }
@@ -319,7 +319,7 @@ fn bind(
 /// The shader's `View`.
 fn numbers(picture: &Picture<'_>, view: &View<'_>, origin: DVec3, encodes: bool) -> Vec<f32> {
     let style: &Style = picture.style;
-    let half_layer = view.state.half_layer(picture.sheet.unit_length);
+    let layer = view.state.layer(picture.sheet.unit_length);
     let half_width = 0.5 * style.line_width as f32 * view.pixels_per_point;
     let [width, height] = view.size.map(|side| side as f32);
     let light = |[r, g, b]: [u8; 3]| Rgba::from(Color32::from_rgb(r, g, b)).to_array();
@@ -332,7 +332,7 @@ fn numbers(picture: &Picture<'_>, view: &View<'_>, origin: DVec3, encodes: bool)
         toward,
         scale,
         [width, height, half_width, encodes],
-        [half_layer as f32, (PULL * half_layer) as f32, pulse, 0.0],
+        [layer as f32, (PULL * layer) as f32, pulse, 0.0],
         light(style.front),
         light(style.back),
         light(style.mark),

@@ -303,7 +303,7 @@ fn the_compact_state_shows_the_layers_that_films_show_from_all_around() {
 fn without_the_order_of_layers_the_same_comparison_fails() {
     let mut gpu = Gpu::new(&device()).unwrap();
     let mut subject = Subject::new(Case::E, 1.0, 4, 3);
-    subject.layers.lifts.fill(0);
+    subject.layers.before.fill([0; 2]);
     let positions = subject.units.compact();
     let [faces, _] = apart(&mut gpu, &mut subject, &positions, 1, "unordered");
     assert!(faces > 1e-2, "{faces}");
