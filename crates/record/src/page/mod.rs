@@ -6,7 +6,6 @@
 
 mod certificate;
 mod html;
-mod layers;
 mod payload;
 mod policy;
 mod report;

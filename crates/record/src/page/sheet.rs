@@ -7,11 +7,10 @@ use foldmotion_pattern::{Assignment, Edge, Motion};
 use glam::DVec3;
 use serde_json::{Value, json};
 
-use super::layers::layers;
 use super::payload::Payload;
 use super::{Page, PageOptions, ROUNDING};
 use crate::colour_map::colour_of;
-use crate::{KeyFrames, Values, View};
+use crate::{KeyFrames, Layers, Values, View};
 
 /// Steps of the range of values; one more stands for no number.
 const LEVELS: u8 = 254;
@@ -73,7 +72,8 @@ fn add_sheet(motion: &Motion, payload: &mut Payload) -> Vec<Value> {
     });
     payload.indices("facets", facets);
     payload.bytes("lines", lines(motion));
-    let layers = layers(motion);
+    let folded = motion.frames.last().map_or(&[][..], |f| &f.positions);
+    let layers = Layers::new(&motion.sheet, &motion.compact_order, folded);
     payload.steps("lifts", layers.lifts);
     payload.indices("pairs", layers.pairs.into_iter().flatten());
     kinds

@@ -1,1 +1,287 @@
 //! The sheet in space: camera, drawing on the GPU, picking.
+//!
+//! A picture is drawn again only when something changed: an idle window costs nothing. Where there is no GPU, or it
+//! fails, egui's painter draws the same plainly.
+
+mod creases;
+mod eye;
+mod gpu;
+mod hand;
+mod orbit;
+mod paints;
+mod pick;
+mod picture;
+mod plain;
+mod segments;
+mod state;
+#[cfg(test)]
+mod tests;
+
+use eframe::egui::emath::GuiRounding as _;
+use eframe::egui::{self, Color32, Rect, Response, Role, Sense, TextureId, Ui, pos2};
+use eframe::egui_wgpu::{RenderState, wgpu};
+use foldmotion_record::View;
+use glam::{DVec2, DVec3};
+
+use self::eye::Eye;
+use self::gpu::Gpu;
+use self::orbit::Turning;
+use self::pick::Points;
+use self::plain::Plain;
+use self::state::State;
+
+pub(crate) use self::creases::CreaseClasses;
+pub(crate) use self::orbit::Orbit;
+#[expect(unused_imports, reason = "the window's face to the view")]
+pub(crate) use self::picture::{Colours, Handle, Overlay, Picture, Shape};
+
+/// Times that drawing is tried again on one device.
+const TRIES: u32 = 3;
+
+/// The 3D view of a window.
+#[derive(Debug, Default)]
+pub(crate) struct View3d {
+    orbit: Orbit,
+    turning: Option<Turning>,
+    /// Points to fit as soon as the size is known.
+    fitting: Option<Vec<DVec3>>,
+    /// The middle of the sheet, about which the view turns.
+    pivot: DVec3,
+    was_shown: bool,
+    state: Option<State>,
+    points: Points,
+    /// The vertex that is being pulled.
+    pulled: Option<u32>,
+    plain: Plain,
+    gpu: Option<Gpu>,
+    device: Option<wgpu::Device>,
+    failures: u32,
+    fault: Option<String>,
+}
+
+/// What the user did with the view and what is under the pointer.
+#[derive(Debug)]
+pub(crate) struct Seen {
+    /// Of the whole view.
+    pub(crate) response: Response,
+    /// The vertex under the pointer: within 12 points and not hidden by paper.
+    pub(crate) vertex: Option<u32>,
+    /// The triangle under the pointer.
+    pub(crate) face: Option<u32>,
+    /// The vertex that is being pulled, and where to: in the plane through it parallel to the screen.
+    pub(crate) pull: Option<Handle>,
+}
+
+impl View3d {
+    /// The camera; while it turns, where to.
+    pub(crate) fn orbit(&self) -> Orbit {
+        self.turning.as_ref().map_or(self.orbit, Turning::end)
+    }
+
+    /// Sets the camera at once.
+    pub(crate) fn set_orbit(&mut self, orbit: Orbit) {
+        self.orbit = orbit;
+        self.turning = None;
+        self.was_shown = true;
+    }
+
+    /// Turns into a view, see [`View::NAMES`].
+    pub(crate) fn look(&mut self, view: View) {
+        let mut to = self.orbit();
+        to.stand(view, self.pivot);
+        self.turn_into(to);
+    }
+
+    /// Shows what is near larger, or not.
+    pub(crate) fn set_perspective(&mut self, perspective: bool) {
+        self.orbit.perspective = perspective;
+        let to = Orbit {
+            perspective,
+            ..self.orbit()
+        };
+        self.turn_into(to);
+    }
+
+    /// Shows all `points` as large as they fit.
+    pub(crate) fn fit(&mut self, points: Vec<DVec3>) {
+        self.fitting = Some(points);
+    }
+
+    /// Shows all `factor` times as large.
+    pub(crate) fn zoom(&mut self, factor: f64) {
+        let mut to = self.orbit();
+        to.zoom(factor, DVec2::ZERO, self.widths());
+        self.turn_into(to);
+    }
+
+    /// Pictures that the GPU drew.
+    pub(crate) fn drawn(&self) -> u64 {
+        self.gpu.as_ref().map_or(0, |gpu| gpu.count)
+    }
+
+    /// Why the GPU does not draw, where it should.
+    pub(crate) fn fault(&self) -> Option<&str> {
+        self.fault.as_deref()
+    }
+
+    fn turn_into(&mut self, to: Orbit) {
+        self.turning = (to != self.orbit).then(|| Turning::new(self.orbit, to));
+    }
+
+    /// The least and the largest width of the view.
+    fn widths(&self) -> [f64; 2] {
+        let radius = self.state.as_ref().map_or(1.0, |state| state.ball.radius);
+        [1e-3, 1e2].map(|part| part * radius.max(f64::MIN_POSITIVE))
+    }
+
+    /// Shows `picture` in all the room of `ui`. `render_state`: of the window, none where it draws without a GPU.
+    pub(crate) fn show(
+        &mut self,
+        ui: &mut Ui,
+        render_state: Option<&RenderState>,
+        picture: &Picture<'_>,
+    ) -> Seen {
+        let size = ui.available_size().max(egui::Vec2::splat(1.0));
+        let (rect, response) = ui.allocate_exact_size(size, Sense::click_and_drag());
+        let rect = rect.round_to_pixels(ui.pixels_per_point());
+        name(&response);
+        self.follow(picture);
+        let size = DVec2::new(f64::from(rect.width()), f64::from(rect.height()));
+        self.move_camera(ui, &response, rect, picture);
+        let ball = self.state.as_ref().map(|state| state.ball);
+        let overlays = segments::segments(picture);
+        let ends = overlays.iter().flat_map(|segment| segment.ends);
+        let ball = ball.unwrap_or_else(|| eye::Ball::around([])).with(ends);
+        let eye = Eye::new(&self.orbit, size, ball);
+        ui.painter().rect_filled(rect, 0.0, picture.background);
+        if !self.is_drawable(picture) {
+            return Seen {
+                response,
+                vertex: None,
+                face: None,
+                pull: None,
+            };
+        }
+        match self.texture(ui, render_state, picture, &eye, rect) {
+            Some(texture) => {
+                let whole = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
+                ui.painter().image(texture, rect, whole, Color32::WHITE);
+            }
+            None => {
+                let painter = ui.painter_at(rect);
+                self.plain
+                    .paint(&painter, rect, picture, &eye, self.state.as_ref());
+                self.note(ui, rect, render_state.is_some());
+            }
+        }
+        self.look_under_pointer(ui, response, rect, picture, &eye)
+    }
+
+    fn is_drawable(&self, picture: &Picture<'_>) -> bool {
+        picture.is_whole() && self.state.as_ref().is_some_and(|state| state.is_finite)
+    }
+
+    /// Follows the sheet and its state.
+    fn follow(&mut self, picture: &Picture<'_>) {
+        match &mut self.state {
+            Some(state) => {
+                state.follow(picture);
+            }
+            None => self.state = Some(State::new(picture)),
+        }
+        if self.is_drawable(picture) {
+            self.pivot = self
+                .state
+                .as_ref()
+                .map_or(self.pivot, |state| state.ball.middle);
+            if !self.was_shown {
+                self.fitting = Some(picture.positions.to_vec());
+            }
+        }
+    }
+
+    /// What the GPU drew, none where there is none.
+    fn texture(
+        &mut self,
+        ui: &Ui,
+        render_state: Option<&RenderState>,
+        picture: &Picture<'_>,
+        eye: &Eye,
+        rect: Rect,
+    ) -> Option<TextureId> {
+        let render_state = render_state?;
+        if self.device.as_ref() != Some(&render_state.device) {
+            // Another device, such as after a loss: all is made anew.
+            self.device = Some(render_state.device.clone());
+            self.gpu = None;
+            self.failures = 0;
+        }
+        if self.failures > TRIES {
+            return None;
+        }
+        match self.drawn_by_gpu(ui, render_state, picture, eye, rect) {
+            Ok(texture) => {
+                self.fault = None;
+                Some(texture)
+            }
+            Err(reason) => {
+                self.gpu = None;
+                self.failures += 1;
+                self.fault = Some(reason);
+                ui.ctx().request_repaint();
+                None
+            }
+        }
+    }
+
+    fn drawn_by_gpu(
+        &mut self,
+        ui: &Ui,
+        render_state: &RenderState,
+        picture: &Picture<'_>,
+        eye: &Eye,
+        rect: Rect,
+    ) -> Result<TextureId, String> {
+        let gpu = match self.gpu.take() {
+            Some(gpu) => gpu,
+            None => Gpu::new(render_state)?,
+        };
+        let gpu = self.gpu.insert(gpu);
+        let state = self.state.as_ref().ok_or("no state")?;
+        let most = render_state.device.limits().max_texture_dimension_2d as f32;
+        let wanted = rect.size() * ui.pixels_per_point();
+        let part = (most / wanted.max_elem()).min(1.0);
+        let view = gpu::View {
+            eye,
+            state,
+            size: [wanted.x, wanted.y].map(|side| pixels(side * part)),
+            pixels_per_point: ui.pixels_per_point() * part,
+        };
+        gpu.show(picture, &view)
+    }
+
+    /// Says why the picture is a plain one.
+    fn note(&self, ui: &Ui, rect: Rect, has_gpu: bool) {
+        let text = match &self.fault {
+            Some(reason) if has_gpu => format!("drawn without the GPU: {reason}"),
+            _ => "drawn without a GPU".to_owned(),
+        };
+        let colour = ui.visuals().weak_text_color();
+        let font = egui::TextStyle::Small.resolve(ui.style());
+        let at = rect.left_bottom() + egui::vec2(8.0, -8.0);
+        let painter = ui.painter_at(rect);
+        let galley = painter.layout(text, font, colour, (rect.width() - 16.0).max(1.0));
+        painter.galley(at - egui::vec2(0.0, galley.size().y), galley, colour);
+    }
+}
+
+/// Whole pixels of a side, at least one.
+#[expect(clippy::cast_sign_loss, reason = "at least 1 before")]
+fn pixels(side: f32) -> u32 {
+    side.round().max(1.0) as u32
+}
+
+/// Names the view to those who do not see it.
+fn name(response: &Response) {
+    response.widget_info(|| egui::WidgetInfo::labeled(Role::Canvas, true, "3D view"));
+}

@@ -1,0 +1,138 @@
+//! Which creases are drawn.
+
+use foldmotion_pattern::{Assignment, CreaseKind, Edge, Sheet};
+
+/// Creases that are drawn: those whose assignment and whose kind are on. The diagonals inside facets never are.
+#[expect(
+    clippy::struct_excessive_bools,
+    reason = "one switch a class in the window"
+)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct CreaseClasses {
+    /// Mountain creases.
+    pub(crate) mountains: bool,
+    /// Valley creases.
+    pub(crate) valleys: bool,
+    /// The border of the sheet.
+    pub(crate) border: bool,
+    /// Hinges that nothing drives.
+    pub(crate) free: bool,
+    /// On the boundary between two rows.
+    pub(crate) row: bool,
+    /// Between a flap and a tuck.
+    pub(crate) diagonal: bool,
+    /// Along a corner or a mid line.
+    pub(crate) vertical: bool,
+    /// Beside or across a pad.
+    pub(crate) pad: bool,
+    /// Between two columns.
+    pub(crate) column: bool,
+}
+
+impl Default for CreaseClasses {
+    fn default() -> Self {
+        Self {
+            mountains: true,
+            valleys: true,
+            border: true,
+            free: true,
+            row: true,
+            diagonal: true,
+            vertical: true,
+            pad: true,
+            column: true,
+        }
+    }
+}
+
+impl CreaseClasses {
+    /// Whether `edge` is drawn.
+    pub(crate) fn shows(&self, edge: &Edge) -> bool {
+        let assigned = match edge.assignment {
+            Assignment::Mountain => self.mountains,
+            Assignment::Valley => self.valleys,
+            Assignment::Border => self.border,
+            Assignment::Free => self.free,
+            Assignment::Facet => false,
+        };
+        let of_kind = match edge.kind {
+            CreaseKind::Row => self.row,
+            CreaseKind::Diagonal => self.diagonal,
+            CreaseKind::Vertical => self.vertical,
+            CreaseKind::Pad => self.pad,
+            CreaseKind::Column => self.column,
+            CreaseKind::Imported | CreaseKind::Border | CreaseKind::Facet => true,
+        };
+        assigned && of_kind
+    }
+
+    /// What the shader's `crease_vertex` reads of every crease that is drawn: its ends, the third corners of the
+    /// triangles on its left and right, these, its ink.
+    pub(super) fn lines(&self, sheet: &Sheet) -> Vec<[u32; 7]> {
+        let line = |edge: &Edge| {
+            let [a, b] = edge.vertices;
+            let faces = edge.faces;
+            let apex = |face: Option<u32>| face.and_then(|face| sheet.apex(face, edge));
+            let [left, right] = faces.map(|face| apex(face).unwrap_or(a));
+            let [of_left, of_right] = faces.map(|face| face.unwrap_or(u32::MAX));
+            [a, b, left, right, of_left, of_right, ink(edge.assignment)]
+        };
+        let shown = sheet.edges.iter().filter(|edge| self.shows(edge));
+        shown.map(line).collect()
+    }
+}
+
+/// The place of its colour in the shader's `inks`.
+pub(super) fn ink(assignment: Assignment) -> u32 {
+    match assignment {
+        Assignment::Mountain => 1,
+        Assignment::Valley => 2,
+        Assignment::Border | Assignment::Facet | Assignment::Free => 0,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use foldmotion_pattern::{Case, Unit, UnitSheet};
+
+    use super::*;
+
+    #[test]
+    fn a_class_that_is_off_takes_its_creases_and_no_others_and_facets_are_never_drawn() {
+        let unit = Unit::new(Case::S, 1.6, 1.0, None, None).unwrap();
+        let sheet = UnitSheet::new(unit, 3, 2).unwrap().sheet;
+        let count = |is: &dyn Fn(&Edge) -> bool| sheet.edges.iter().filter(|edge| is(edge)).count();
+        let drawn = count(&|edge| edge.assignment != Assignment::Facet);
+        let all = CreaseClasses::default();
+        assert_eq!(all.lines(&sheet).len(), drawn);
+        let without = CreaseClasses {
+            valleys: false,
+            row: false,
+            ..all
+        };
+        let taken = count(&|edge| {
+            edge.assignment != Assignment::Facet
+                && (edge.assignment == Assignment::Valley || edge.kind == CreaseKind::Row)
+        });
+        assert!(taken > 0);
+        assert_eq!(without.lines(&sheet).len(), drawn - taken);
+    }
+
+    #[test]
+    fn a_line_names_the_third_corners_of_its_triangles() {
+        let unit = Unit::new(Case::E, 1.0, 1.0, None, None).unwrap();
+        let sheet = UnitSheet::new(unit, 2, 1).unwrap().sheet;
+        for [a, b, left, right, of_left, of_right, _] in CreaseClasses::default().lines(&sheet) {
+            for (apex, face) in [(left, of_left), (right, of_right)] {
+                if face == u32::MAX {
+                    continue;
+                }
+                let mut corners = sheet.faces[face as usize];
+                let mut named = [a, b, apex];
+                corners.sort_unstable();
+                named.sort_unstable();
+                assert_eq!(corners, named);
+            }
+        }
+    }
+}

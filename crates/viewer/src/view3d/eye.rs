@@ -1,0 +1,186 @@
+//! The projection of a view: lengths to points on the screen and back, and its numbers for the shader.
+
+use glam::{DVec2, DVec3};
+
+use super::Orbit;
+
+/// A ball that holds all that is drawn.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Ball {
+    pub(super) middle: DVec3,
+    pub(super) radius: f64,
+}
+
+impl Ball {
+    /// The ball about the box around `points`; about the origin where there is none.
+    pub(super) fn around(points: impl IntoIterator<Item = DVec3>) -> Self {
+        let (mut low, mut high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
+        for point in points {
+            low = low.min(point);
+            high = high.max(point);
+        }
+        let (middle, radius) = (0.5 * (low + high), 0.5 * (high - low).length());
+        if middle.is_finite() && radius.is_finite() {
+            return Self { middle, radius };
+        }
+        Self {
+            middle: DVec3::ZERO,
+            radius: 1.0,
+        }
+    }
+
+    /// About the same middle, with all `points` in it.
+    pub(super) fn with(self, points: impl IntoIterator<Item = DVec3>) -> Self {
+        let distances = points.into_iter().map(|p| (p - self.middle).length());
+        let radius = distances
+            .filter(|d| d.is_finite())
+            .fold(self.radius, f64::max);
+        Self { radius, ..self }
+    }
+}
+
+/// A view of a size.
+///
+/// A place at depth d towards the viewer from the centre is divided by w = 1 − d / D, D the distance of the eye (1 / D
+/// = 0 in a parallel view). Its nearness d / w is linear over every plane on the screen and grows with d.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Eye {
+    axes: [DVec3; 3],
+    centre: DVec3,
+    /// Points on the screen a length, at the depth of the centre.
+    pub(super) scale: f64,
+    size: DVec2,
+    /// 1 / D.
+    inverse_distance: f64,
+    ball: Ball,
+}
+
+impl Eye {
+    /// `size`: of the view in points.
+    pub(super) fn new(orbit: &Orbit, size: DVec2, ball: Ball) -> Self {
+        let distance = orbit.eye_distance(ball.middle, ball.radius);
+        Self {
+            axes: orbit.axes(),
+            centre: orbit.centre,
+            scale: size.x / orbit.width,
+            size,
+            inverse_distance: if orbit.perspective {
+                1.0 / distance
+            } else {
+                0.0
+            },
+            ball,
+        }
+    }
+
+    /// Points to the right and down from the upper left corner, and the nearness.
+    pub(super) fn project(&self, point: DVec3) -> DVec3 {
+        let [x, y, depth] = self.axes.map(|axis| axis.dot(point - self.centre));
+        let w = 1.0 - depth * self.inverse_distance;
+        let (x, y) = (self.scale * x / w, self.scale * y / w);
+        DVec3::new(0.5 * self.size.x + x, 0.5 * self.size.y - y, depth / w)
+    }
+
+    /// The point seen at `at` in the plane through `point` parallel to the screen.
+    pub(super) fn beside(&self, point: DVec3, at: DVec2) -> DVec3 {
+        let [right, up, toward] = self.axes;
+        let depth = toward.dot(point - self.centre);
+        let across = (at - 0.5 * self.size) * (1.0 - depth * self.inverse_distance) / self.scale;
+        self.centre + right * across.x - up * across.y + toward * depth
+    }
+
+    /// Lengths right and up of the centre that are seen at `at`.
+    pub(super) fn across(&self, at: DVec2) -> DVec2 {
+        let across = (at - 0.5 * self.size) / self.scale;
+        DVec2::new(across.x, -across.y)
+    }
+
+    /// Right, up and towards the viewer.
+    pub(super) fn axes(&self) -> [DVec3; 3] {
+        self.axes
+    }
+
+    /// The first four rows of the shader's `View`, for places given from `origin`.
+    pub(super) fn rows(&self, origin: DVec3) -> [[f32; 4]; 4] {
+        let row = |axis: DVec3| {
+            let [x, y, z] = axis.as_vec3().to_array();
+            [x, y, z, axis.dot(origin - self.centre) as f32]
+        };
+        let [right, up, toward] = self.axes.map(row);
+        let across = 2.0 * self.scale / self.size;
+        let middle = self.axes[2].dot(self.ball.middle - self.centre);
+        // A tenth more than the ball for layers and lines.
+        let ends = [-1.1, 1.1].map(|side| {
+            let depth = middle + side * self.ball.radius;
+            (depth / (1.0 - depth * self.inverse_distance)).abs()
+        });
+        let range = 0.5 / ends[0].max(ends[1]).max(f64::MIN_POSITIVE);
+        let scale = [across.x, across.y, range, self.inverse_distance].map(|x| x as f32);
+        [right, up, toward, scale]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn eye(perspective: bool) -> Eye {
+        let orbit = Orbit {
+            centre: DVec3::new(1.0, 2.0, 3.0),
+            width: 8.0,
+            perspective,
+            ..Orbit::default()
+        };
+        Eye::new(
+            &orbit,
+            DVec2::new(400.0, 300.0),
+            Ball::around([DVec3::ZERO, DVec3::ONE * 5.0]),
+        )
+    }
+
+    #[test]
+    fn a_parallel_eye_projects_as_the_camera_of_films_does() {
+        let orbit = Orbit {
+            centre: DVec3::new(1.0, 2.0, 3.0),
+            width: 8.0,
+            ..Orbit::default()
+        };
+        let camera = orbit.camera([400, 300]).unwrap();
+        for point in [DVec3::ZERO, DVec3::X, DVec3::new(-2.0, 5.0, 1.0)] {
+            let apart = (camera.project(point) - eye(false).project(point)).truncate();
+            assert!(apart.length() < 1e-9);
+        }
+    }
+
+    #[test]
+    fn what_is_seen_beside_a_point_is_at_its_depth_and_projects_back() {
+        for perspective in [false, true] {
+            let eye = eye(perspective);
+            let (point, at) = (DVec3::new(2.0, 1.0, 4.0), DVec2::new(33.0, 250.0));
+            let beside = eye.beside(point, at);
+            assert!((eye.project(beside).truncate() - at).length() < 1e-9);
+            assert!((eye.axes()[2].dot(beside - point)).abs() < 1e-12);
+        }
+    }
+
+    #[test]
+    fn the_eye_of_a_perspective_stays_outside_however_near_one_looks() {
+        for width in [1e-3, 1.0, 50.0] {
+            let orbit = Orbit {
+                centre: DVec3::splat(2.5),
+                width,
+                perspective: true,
+                ..Orbit::default()
+            };
+            let ball = Ball::around([DVec3::ZERO, DVec3::ONE * 5.0]);
+            let eye = Eye::new(&orbit, DVec2::ONE, ball);
+            let nearest = ball.middle + eye.axes()[2] * ball.radius;
+            let behind = eye.project(ball.middle - eye.axes()[2]);
+            assert!(
+                eye.project(nearest).z > eye.project(ball.middle).z,
+                "{width}"
+            );
+            assert!(behind.z < eye.project(ball.middle).z);
+        }
+    }
+}

@@ -1,0 +1,119 @@
+//! The sheet in the memory of the GPU. Vertex places and lifts are tables in textures: every device can read these in a
+//! vertex pass.
+
+use eframe::egui_wgpu::wgpu;
+
+/// Cells in a row of a table.
+const ROW: u32 = 512;
+
+/// A buffer that grows.
+#[derive(Debug)]
+pub(super) struct Buffer {
+    label: &'static str,
+    usage: wgpu::BufferUsages,
+    buffer: Option<wgpu::Buffer>,
+    /// Records written.
+    pub(super) count: u32,
+}
+
+impl Buffer {
+    pub(super) fn instances(label: &'static str) -> Self {
+        Self {
+            label,
+            usage: wgpu::BufferUsages::VERTEX,
+            buffer: None,
+            count: 0,
+        }
+    }
+
+    /// Holds `records` from now on.
+    pub(super) fn write<T: bytemuck::NoUninit>(
+        &mut self,
+        device: &wgpu::Device,
+        queue: &wgpu::Queue,
+        records: &[T],
+    ) {
+        let bytes: &[u8] = bytemuck::cast_slice(records);
+        self.count = records.len() as u32;
+        if bytes.is_empty() {
+            return;
+        }
+        let size = bytes.len() as u64;
+        let buffer = match self.buffer.take() {
+            Some(buffer) if buffer.size() >= size => buffer,
+            _ => device.create_buffer(&wgpu::BufferDescriptor {
+                label: Some(self.label),
+                size: size.next_power_of_two(),
+                usage: self.usage | wgpu::BufferUsages::COPY_DST,
+                mapped_at_creation: false,
+            }),
+        };
+        queue.write_buffer(&buffer, 0, bytes);
+        self.buffer = Some(buffer);
+    }
+
+    /// What was written, none where that is nothing.
+    pub(super) fn written(&self) -> Option<&wgpu::Buffer> {
+        self.buffer.as_ref().filter(|_| self.count > 0)
+    }
+}
+
+/// A list that vertex passes look up.
+#[derive(Debug)]
+pub(super) struct Table {
+    texture: wgpu::Texture,
+    /// Floats a cell.
+    width: u32,
+}
+
+impl Table {
+    /// For `count` cells of two floats or four.
+    pub(super) fn new(device: &wgpu::Device, count: usize, width: u32) -> Self {
+        let format = match width {
+            2 => wgpu::TextureFormat::Rg32Float,
+            _ => wgpu::TextureFormat::Rgba32Float,
+        };
+        let texture = device.create_texture(&wgpu::TextureDescriptor {
+            label: Some("table"),
+            size: wgpu::Extent3d {
+                width: ROW,
+                height: (count as u32).div_ceil(ROW).max(1),
+                depth_or_array_layers: 1,
+            },
+            mip_level_count: 1,
+            sample_count: 1,
+            dimension: wgpu::TextureDimension::D2,
+            format,
+            usage: wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_DST,
+            view_formats: &[],
+        });
+        Self { texture, width }
+    }
+
+    pub(super) fn view(&self) -> wgpu::TextureView {
+        let default = wgpu::TextureViewDescriptor::default();
+        self.texture.create_view(&default)
+    }
+
+    /// Holds `floats` from now on.
+    pub(super) fn write(&self, queue: &wgpu::Queue, mut floats: Vec<f32>) {
+        let size = self.texture.size();
+        let cells = (size.width * size.height * self.width) as usize;
+        floats.resize(cells, 0.0);
+        queue.write_texture(
+            self.texture.as_image_copy(),
+            bytemuck::cast_slice(&floats),
+            wgpu::TexelCopyBufferLayout {
+                offset: 0,
+                bytes_per_row: Some(4 * ROW * self.width),
+                rows_per_image: None,
+            },
+            size,
+        );
+    }
+
+    /// Cells that a device of this limit can hold.
+    pub(super) fn most(limits: &wgpu::Limits) -> usize {
+        (limits.max_texture_dimension_2d * ROW) as usize
+    }
+}

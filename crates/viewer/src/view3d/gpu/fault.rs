@@ -1,0 +1,68 @@
+//! Errors of the GPU: caught where they arise, none panics.
+
+use std::future::Future;
+use std::pin::pin;
+use std::sync::{Arc, Mutex, PoisonError};
+use std::task::{Context, Poll, Waker};
+
+use eframe::egui_wgpu::wgpu;
+
+/// Letters of a message.
+const LONGEST: usize = 240;
+
+/// Tells whether a device was lost.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Watch {
+    lost: Arc<Mutex<Option<String>>>,
+}
+
+impl Watch {
+    /// Watches `device`. A device has one watcher, the last.
+    pub(super) fn over(device: &wgpu::Device) -> Self {
+        let watch = Self::default();
+        let lost = Arc::clone(&watch.lost);
+        device.set_device_lost_callback(move |reason, message| {
+            let mut lost = lost.lock().unwrap_or_else(PoisonError::into_inner);
+            lost.get_or_insert_with(|| line(&format!("device lost ({reason:?}): {message}")));
+        });
+        watch
+    }
+
+    /// Why it was lost.
+    pub(super) fn loss(&self) -> Option<String> {
+        let lost = self.lost.lock().unwrap_or_else(PoisonError::into_inner);
+        lost.clone()
+    }
+}
+
+/// What `work` gives, or the first error that it raises on `device`.
+///
+/// # Errors
+/// The driver's or wgpu's words.
+pub(super) fn caught<T>(device: &wgpu::Device, work: impl FnOnce() -> T) -> Result<T, String> {
+    let memory = device.push_error_scope(wgpu::ErrorFilter::OutOfMemory);
+    let inner = device.push_error_scope(wgpu::ErrorFilter::Internal);
+    let validation = device.push_error_scope(wgpu::ErrorFilter::Validation);
+    let done = work();
+    let errors = [now(validation.pop()), now(inner.pop()), now(memory.pop())];
+    match errors.into_iter().flatten().next() {
+        Some(error) => Err(line(&error.to_string())),
+        None => Ok(done),
+    }
+}
+
+/// `words` as one short line of plain letters: wgpu underlines code with what few fonts have.
+fn line(words: &str) -> String {
+    let plain = words.split_whitespace().filter(|word| word.is_ascii());
+    let line = plain.collect::<Vec<_>>().join(" ");
+    line.chars().take(LONGEST).collect()
+}
+
+/// The answer of a future that is ready at once, as those of error scopes are but in browsers.
+fn now<T>(future: impl Future<Output = Option<T>>) -> Option<T> {
+    let mut context = Context::from_waker(Waker::noop());
+    match pin!(future).poll(&mut context) {
+        Poll::Ready(answer) => answer,
+        Poll::Pending => None,
+    }
+}

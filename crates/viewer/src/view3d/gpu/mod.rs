@@ -1,0 +1,344 @@
+//! The sheet drawn on the GPU, when something changed.
+
+mod buffers;
+mod fault;
+mod pipelines;
+mod target;
+#[cfg(test)]
+pub(super) mod tests;
+
+use eframe::egui::{Color32, Rgba, TextureId};
+use eframe::egui_wgpu::{RenderState, wgpu};
+use foldmotion_record::Style;
+use glam::DVec3;
+
+use self::buffers::{Buffer, Table};
+use self::fault::{Watch, caught};
+use self::pipelines::Pipelines;
+use self::target::{Shelf, Target, drawn_format};
+use super::CreaseClasses;
+use super::eye::Eye;
+use super::paints::{PaintKey, paints};
+use super::picture::Picture;
+use super::segments::{Segment, segments};
+use super::state::State;
+
+/// Lines are this part of the distance of layers before their paper.
+const PULL: f64 = 0.2;
+
+/// Floats of the shader's `View`.
+pub(super) const VIEW_FLOATS: usize = 48;
+
+/// What a frame is drawn from besides the picture.
+pub(super) struct View<'a> {
+    pub(super) eye: &'a Eye,
+    pub(super) state: &'a State,
+    /// In pixels.
+    pub(super) size: [u32; 2],
+    pub(super) pixels_per_point: f32,
+}
+
+/// What the picture was drawn from.
+#[derive(Debug, PartialEq, Default)]
+struct Drawn {
+    sheet_key: Option<u64>,
+    state_key: Option<u64>,
+    creases: Option<CreaseClasses>,
+    paints: Option<PaintKey>,
+    segments: Vec<Segment>,
+    view: Vec<f32>,
+    background: Color32,
+    size: [u32; 2],
+}
+
+/// The sheet on one device.
+pub(super) struct Gpu {
+    device: wgpu::Device,
+    queue: wgpu::Queue,
+    watch: Watch,
+    format: wgpu::TextureFormat,
+    pipelines: Pipelines,
+    uniform: wgpu::Buffer,
+    places: Table,
+    layers: Table,
+    bind_group: wgpu::BindGroup,
+    corners: Buffer,
+    paints: Buffer,
+    creases: Buffer,
+    segments: Buffer,
+    target: Option<Target>,
+    shelf: Shelf,
+    origin: DVec3,
+    drawn: Drawn,
+    /// Pictures drawn so far.
+    pub(super) count: u64,
+}
+
+impl std::fmt::Debug for Gpu {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("Gpu")
+            .field("drawn", &self.drawn)
+            .finish_non_exhaustive()
+    }
+}
+
+impl Gpu {
+    /// # Errors
+    /// What the driver or wgpu says.
+    pub(super) fn new(state: &RenderState) -> Result<Self, String> {
+        caught(&state.device, || Self::open(state))
+    }
+
+    fn open(state: &RenderState) -> Self {
+        let (device, queue) = (state.device.clone(), state.queue.clone());
+        let format = drawn_format(state);
+        let pipelines = Pipelines::new(&device, format);
+        let uniform = device.create_buffer(&wgpu::BufferDescriptor {
+            label: Some("view"),
+            size: 4 * VIEW_FLOATS as u64,
+            usage: wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST,
+            mapped_at_creation: false,
+        });
+        let (places, layers) = (Table::new(&device, 1, 4), Table::new(&device, 1, 2));
+        let bind_group = bind(&device, &pipelines, &uniform, [&places, &layers]);
+        Self {
+            watch: Watch::over(&device),
+            format,
+            pipelines,
+            uniform,
+            places,
+            layers,
+            bind_group,
+            corners: Buffer::instances("corners"),
+            paints: Buffer::instances("paints"),
+            creases: Buffer::instances("creases"),
+            segments: Buffer::instances("segments"),
+            target: None,
+            shelf: Shelf::new(state),
+            origin: DVec3::ZERO,
+            drawn: Drawn::default(),
+            count: 0,
+            device,
+            queue,
+        }
+    }
+
+    /// Whether it belongs to the device of `state`.
+    pub(super) fn belongs_to(&self, state: &RenderState) -> bool {
+        self.device == state.device
+    }
+
+    /// Why its device was lost, if it was.
+    pub(super) fn loss(&self) -> Option<String> {
+        self.watch.loss()
+    }
+
+    /// The picture, drawn again if it changed.
+    ///
+    /// # Errors
+    /// What the driver or wgpu says, and where the sheet is too large for the device.
+    pub(super) fn show(
+        &mut self,
+        picture: &Picture<'_>,
+        view: &View<'_>,
+    ) -> Result<TextureId, String> {
+        let limits = self.device.limits();
+        let most = Table::most(&limits);
+        let largest = picture.positions.len().max(picture.sheet.faces.len());
+        if largest > most {
+            return Err(format!(
+                "{largest} vertices or triangles: the GPU holds {most}"
+            ));
+        }
+        let device = self.device.clone();
+        caught(&device, || self.follow(picture, view))?;
+        if let Some(reason) = self.loss() {
+            return Err(reason);
+        }
+        self.shelf.id().ok_or_else(|| "no picture".to_owned())
+    }
+
+    fn follow(&mut self, picture: &Picture<'_>, view: &View<'_>) {
+        let mut is_new = self.take_sheet(picture);
+        is_new |= self.take_state(picture, view);
+        is_new |= self.take_paints(picture);
+        is_new |= self.take_view(picture, view);
+        is_new |= self.take_size(view.size);
+        if is_new {
+            self.draw();
+        }
+    }
+
+    /// Whether the sheet or its creases changed.
+    fn take_sheet(&mut self, picture: &Picture<'_>) -> bool {
+        let (key, sheet) = (Some(picture.sheet_key), picture.sheet);
+        let is_other = self.drawn.sheet_key != key;
+        if is_other {
+            self.drawn.sheet_key = key;
+            self.drawn.state_key = None;
+            self.drawn.creases = None;
+            self.drawn.paints = None;
+            self.places = Table::new(&self.device, sheet.vertices.len(), 4);
+            self.layers = Table::new(&self.device, sheet.faces.len(), 2);
+            let tables = [&self.places, &self.layers];
+            self.bind_group = bind(&self.device, &self.pipelines, &self.uniform, tables);
+            self.corners.write(&self.device, &self.queue, &sheet.faces);
+        }
+        let is_drawn = self.drawn.creases == Some(picture.creases);
+        if !is_drawn {
+            self.drawn.creases = Some(picture.creases);
+            let lines = picture.creases.lines(sheet);
+            self.creases.write(&self.device, &self.queue, &lines);
+        }
+        is_other || !is_drawn
+    }
+
+    fn take_state(&mut self, picture: &Picture<'_>, view: &View<'_>) -> bool {
+        let key = Some(picture.state_key);
+        if self.drawn.state_key == key {
+            return false;
+        }
+        self.drawn.state_key = key;
+        self.origin = view.state.ball.middle;
+        let place = |p: &DVec3| {
+            let [x, y, z] = (*p - self.origin).as_vec3().to_array();
+            [x, y, z, 0.0]
+        };
+        let places = picture.positions.iter().flat_map(place).collect();
+        self.places.write(&self.queue, places);
+        self.layers.write(&self.queue, view.state.before.concat());
+        true
+    }
+
+    fn take_paints(&mut self, picture: &Picture<'_>) -> bool {
+        let wanted = PaintKey::of(picture);
+        if self.drawn.paints.as_ref() == Some(&wanted) {
+            return false;
+        }
+        self.drawn.paints = Some(wanted);
+        self.paints
+            .write(&self.device, &self.queue, &paints(picture));
+        true
+    }
+
+    fn take_view(&mut self, picture: &Picture<'_>, view: &View<'_>) -> bool {
+        let segments = segments(picture);
+        let numbers = numbers(picture, view, self.origin, !self.format.is_srgb());
+        let is_same = self.drawn.segments == segments
+            && self.drawn.view == numbers
+            && self.drawn.background == picture.background;
+        if is_same {
+            return false;
+        }
+        let floats = |s: &Segment| s.floats(self.origin, view.pixels_per_point);
+        let records: Vec<[f32; Segment::FLOATS]> = segments.iter().map(floats).collect();
+        self.segments.write(&self.device, &self.queue, &records);
+        let bytes = bytemuck::cast_slice(&numbers);
+        self.queue.write_buffer(&self.uniform, 0, bytes);
+        self.drawn.segments = segments;
+        self.drawn.view = numbers;
+        self.drawn.background = picture.background;
+        true
+    }
+
+    fn take_size(&mut self, size: [u32; 2]) -> bool {
+        if self
+            .target
+            .as_ref()
+            .is_some_and(|target| target.size == size)
+        {
+            return false;
+        }
+        let target = Target::new(&self.device, size, self.format);
+        self.shelf.put(&self.device, &target.shown());
+        self.target = Some(target);
+        true
+    }
+
+    fn draw(&mut self) {
+        let Some(target) = &self.target else { return };
+        let default = wgpu::CommandEncoderDescriptor::default();
+        let mut encoder = self.device.create_command_encoder(&default);
+        let mut pass = target.begin(&mut encoder, self.background());
+        pass.set_bind_group(0, &self.bind_group, &[]);
+        if let (Some(corners), Some(paints)) = (self.corners.written(), self.paints.written()) {
+            pass.set_pipeline(&self.pipelines.faces);
+            pass.set_vertex_buffer(0, corners.slice(..));
+            pass.set_vertex_buffer(1, paints.slice(..));
+            pass.draw(0..3, 0..self.corners.count);
+        }
+        let lines = [
+            (&self.pipelines.creases, &self.creases, 12),
+            (&self.pipelines.hidden, &self.segments, 6),
+            (&self.pipelines.overlays, &self.segments, 6),
+        ];
+        for (pipeline, buffer, vertices) in lines {
+            if let Some(instances) = buffer.written() {
+                pass.set_pipeline(pipeline);
+                pass.set_vertex_buffer(0, instances.slice(..));
+                pass.draw(0..vertices, 0..buffer.count);
+            }
+        }
+        drop(pass);
+        self.queue.submit([encoder.finish()]);
+        self.count += 1;
+    }
+
+    fn background(&self) -> wgpu::Color {
+        let colour = self.drawn.background;
+        let [r, g, b] = if self.format.is_srgb() {
+            let [r, g, b, _] = Rgba::from(colour.to_opaque()).to_array();
+            [r, g, b]
+        } else {
+            [colour.r(), colour.g(), colour.b()].map(|byte| f32::from(byte) / 255.0)
+        };
+        let [r, g, b] = [r, g, b].map(f64::from);
+        wgpu::Color { r, g, b, a: 1.0 }
+    }
+}
+
+fn bind(
+    device: &wgpu::Device,
+    pipelines: &Pipelines,
+    uniform: &wgpu::Buffer,
+    tables: [&Table; 2],
+) -> wgpu::BindGroup {
+    let [places, layers] = tables.map(Table::view);
+    let entry = |binding, resource| wgpu::BindGroupEntry { binding, resource };
+    device.create_bind_group(&wgpu::BindGroupDescriptor {
+        label: Some("sheet"),
+        layout: &pipelines.bindings,
+        entries: &[
+            entry(0, uniform.as_entire_binding()),
+            entry(1, wgpu::BindingResource::TextureView(&places)),
+            entry(2, wgpu::BindingResource::TextureView(&layers)),
+        ],
+    })
+}
+
+/// The shader's `View`.
+fn numbers(picture: &Picture<'_>, view: &View<'_>, origin: DVec3, encodes: bool) -> Vec<f32> {
+    let style: &Style = picture.style;
+    let layer = view.state.layer(picture.sheet.unit_length);
+    let half_width = 0.5 * style.line_width as f32 * view.pixels_per_point;
+    let [width, height] = view.size.map(|side| side as f32);
+    let light = |[r, g, b]: [u8; 3]| Rgba::from(Color32::from_rgb(r, g, b)).to_array();
+    let [right, up, toward, scale] = view.eye.rows(origin);
+    let encodes = f32::from(u8::from(encodes));
+    let pulse = picture.pulse.clamp(0.0, 1.0);
+    let rows = [
+        right,
+        up,
+        toward,
+        scale,
+        [width, height, half_width, encodes],
+        [layer as f32, (PULL * layer) as f32, pulse, 0.0],
+        light(style.front),
+        light(style.back),
+        light(style.mark),
+        light(style.border),
+        light(style.mountain),
+        light(style.valley),
+    ];
+    rows.concat()
+}

@@ -1,0 +1,102 @@
+//! What is under the pointer, found on the processor.
+
+use foldmotion_record::TIE_TOLERANCE;
+use glam::{DVec2, DVec3};
+
+use super::eye::Eye;
+use super::picture::Picture;
+use super::state::State;
+
+/// How far a vertex may be from the pointer, in points.
+const REACH: f64 = 12.0;
+
+/// What is under the pointer.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub(super) struct Hit {
+    pub(super) vertex: Option<u32>,
+    pub(super) face: Option<u32>,
+}
+
+/// The vertices on the screen, projected when state or view change.
+#[derive(Debug, Default)]
+pub(super) struct Points {
+    key: Option<(u64, u64, Eye)>,
+    points: Vec<DVec3>,
+}
+
+impl Points {
+    pub(super) fn follow(&mut self, picture: &Picture<'_>, eye: &Eye) {
+        let key = Some((picture.sheet_key, picture.state_key, *eye));
+        if self.key != key {
+            self.key = key;
+            self.points.clear();
+            let points = picture.positions.iter().map(|&p| eye.project(p));
+            self.points.extend(points);
+        }
+    }
+
+    /// Where `vertex` is seen.
+    pub(super) fn at(&self, vertex: u32) -> Option<DVec2> {
+        self.points.get(vertex as usize).map(|p| p.truncate())
+    }
+
+    /// What is seen at `at`.
+    pub(super) fn hit(&self, picture: &Picture<'_>, state: &State, at: DVec2) -> Hit {
+        let slack = TIE_TOLERANCE * picture.sheet.unit_length;
+        let near = |point: &DVec3| point.truncate().distance_squared(at);
+        let mut vertices: Vec<(u32, &DVec3)> = (0..).zip(&self.points).collect();
+        vertices.retain(|(_, point)| near(point) <= REACH * REACH);
+        // The nearest to the pointer, of those at one place the nearest to the viewer.
+        vertices.sort_by(|(_, p), (_, q)| {
+            let far = |point: &DVec3| near(point).sqrt().round();
+            far(p).total_cmp(&far(q)).then(q.z.total_cmp(&p.z))
+        });
+        let seen = vertices.into_iter().find(|&(vertex, point)| {
+            let others = |face: &[u32; 3]| !face.contains(&vertex);
+            let front = self.front(picture, state, point.truncate(), others);
+            front.is_none_or(|(_, depth)| depth <= point.z + slack)
+        });
+        let front = self.front(picture, state, at, |_| true);
+        Hit {
+            vertex: seen.map(|(vertex, _)| vertex),
+            face: front.map(|(face, _)| face),
+        }
+    }
+
+    /// The nearest triangle to the viewer at `at` of those `asked`, and its nearness there.
+    fn front(
+        &self,
+        picture: &Picture<'_>,
+        state: &State,
+        at: DVec2,
+        asked: impl Fn(&[u32; 3]) -> bool,
+    ) -> Option<(u32, f64)> {
+        let mut front: Option<(u32, f64)> = None;
+        for (index, face) in (0..).zip(&picture.sheet.faces) {
+            let corners = face.map(|v| self.points.get(v as usize).copied());
+            let [Some(a), Some(b), Some(c)] = corners else {
+                continue;
+            };
+            let Some((depth, side)) = depth_at([a, b, c], at) else {
+                continue;
+            };
+            let depth = depth - state.sunk(index as usize, side, picture.sheet.unit_length);
+            if front.is_none_or(|(_, nearest)| depth > nearest) && asked(face) {
+                front = Some((index, depth));
+            }
+        }
+        front
+    }
+}
+
+/// The nearness of a triangle at `at`, and 1 or −1: whether its front or its back is seen. None beside it.
+fn depth_at([a, b, c]: [DVec3; 3], at: DVec2) -> Option<(f64, f64)> {
+    let flat = |p: DVec3| p.truncate() - at;
+    let [fa, fb, fc] = [a, b, c].map(flat);
+    let parts = [fb.perp_dot(fc), fc.perp_dot(fa), fa.perp_dot(fb)];
+    let area: f64 = parts.iter().sum();
+    let covers = area != 0.0 && parts.iter().all(|part| part * area >= 0.0);
+    let depth = (parts[0] * a.z + parts[1] * b.z + parts[2] * c.z) / area;
+    // y runs down on the screen: a triangle counter-clockwise from its front has a negative area.
+    covers.then_some((depth, if area < 0.0 { 1.0 } else { -1.0 }))
+}

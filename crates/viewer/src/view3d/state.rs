@@ -1,0 +1,132 @@
+//! What is derived from a sheet and its state once, not once a frame.
+
+use foldmotion_pattern::Sheet;
+use foldmotion_record::{Layers, TIE_TOLERANCE};
+use glam::DVec3;
+
+use super::eye::Ball;
+use super::picture::Picture;
+
+/// The lowest layer of a stack sinks by no more than this, in units of `unit_length`: else layers come closer than
+/// [`TIE_TOLERANCE`].
+const DEEPEST: f64 = 0.2;
+
+/// Cosines of the angle between neighbours of a stack: moved apart in full, and not at all.
+const PARALLEL: [f64; 2] = [0.966, 0.866];
+
+/// A sheet in a state.
+#[derive(Debug)]
+pub(super) struct State {
+    sheet_key: u64,
+    state_key: u64,
+    /// Each triangle of a stack and the nearest to it.
+    pairs: Vec<[u32; 2]>,
+    /// The most layers before a triangle.
+    most: i32,
+    /// Around the sheet.
+    pub(super) ball: Ball,
+    /// Layers before each triangle seen from its front and its back, fewer where the stack is open.
+    pub(super) before: Vec<[f32; 2]>,
+    /// Whether every place is finite.
+    pub(super) is_finite: bool,
+}
+
+impl State {
+    pub(super) fn new(picture: &Picture<'_>) -> Self {
+        let mut state = Self {
+            sheet_key: picture.sheet_key,
+            state_key: picture.state_key,
+            pairs: picture.layers.map(neighbours).unwrap_or_default(),
+            most: picture.layers.map_or(0, most_before),
+            ball: Ball::around([]),
+            before: Vec::new(),
+            is_finite: false,
+        };
+        state.take(picture);
+        state
+    }
+
+    /// Follows `picture`; whether another sheet came.
+    pub(super) fn follow(&mut self, picture: &Picture<'_>) -> bool {
+        if self.sheet_key != picture.sheet_key {
+            *self = Self::new(picture);
+            return true;
+        }
+        if self.state_key != picture.state_key {
+            self.take(picture);
+        }
+        false
+    }
+
+    fn take(&mut self, picture: &Picture<'_>) {
+        self.state_key = picture.state_key;
+        let positions = picture.positions;
+        self.is_finite = positions.iter().all(|p| p.is_finite());
+        self.ball = Ball::around(positions.iter().copied());
+        self.before = match picture.layers {
+            Some(layers) if picture.is_whole() && picture.has_layers() => {
+                closed(picture.sheet, positions, layers, &self.pairs)
+            }
+            _ => vec![[0.0; 2]; picture.sheet.faces.len()],
+        };
+    }
+
+    /// The distance of layers.
+    pub(super) fn layer(&self, unit_length: f64) -> f64 {
+        unit_length * TIE_TOLERANCE.min(DEEPEST / f64::from(self.most.max(1)))
+    }
+
+    /// How far triangle `face` sinks behind the first of its stack where the front (`side` > 0) or the back is seen.
+    pub(super) fn sunk(&self, face: usize, side: f64, unit_length: f64) -> f64 {
+        let [front, back] = self.before.get(face).copied().unwrap_or_default();
+        f64::from(if side > 0.0 { front } else { back }) * self.layer(unit_length)
+    }
+}
+
+fn most_before(layers: &Layers) -> i32 {
+    layers.before.iter().flatten().copied().max().unwrap_or(0)
+}
+
+/// Each triangle of a stack with the one that has the fewest layers between: all pairs would grow with the square of
+/// the stack.
+fn neighbours(layers: &Layers) -> Vec<[u32; 2]> {
+    let mut nearest: Vec<Option<(u32, u32)>> = vec![None; layers.heights.len()];
+    for &[f, g] in &layers.pairs {
+        let heights = [f, g].map(|face| layers.heights.get(face as usize));
+        let [Some(of_f), Some(of_g)] = heights else {
+            continue;
+        };
+        let apart = of_f.abs_diff(*of_g);
+        for (one, other) in [(f, g), (g, f)] {
+            let place = &mut nearest[one as usize];
+            if place.is_none_or(|(least, _)| apart < least) {
+                *place = Some((apart, other));
+            }
+        }
+    }
+    let pairs = (0..).zip(nearest);
+    pairs
+        .filter_map(|(face, nearest)| Some([face, nearest?.1]))
+        .collect()
+}
+
+/// The layers before each triangle, as far as it is parallel to its neighbour.
+fn closed(
+    sheet: &Sheet,
+    positions: &[DVec3],
+    layers: &Layers,
+    pairs: &[[u32; 2]],
+) -> Vec<[f32; 2]> {
+    let normal = |face: u32| {
+        let [a, b, c] = sheet.faces[face as usize].map(|v| positions[v as usize]);
+        (b - a).cross(c - a).normalize_or_zero()
+    };
+    let mut before = vec![[0.0; 2]; sheet.faces.len()];
+    let [full, none] = PARALLEL;
+    for &[face, other] in pairs {
+        let cosine = normal(face).dot(normal(other)).abs();
+        let part = ((cosine - none) / (full - none)).clamp(0.0, 1.0) as f32;
+        before[face as usize] = layers.before[face as usize].map(|count| part * count as f32);
+    }
+    before
+}

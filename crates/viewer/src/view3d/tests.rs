@@ -1,0 +1,382 @@
+//! The view in a window, driven without one.
+
+use eframe::egui::{Key, Modifiers, PointerButton, Pos2, Vec2, pos2};
+use eframe::egui_wgpu::RenderState;
+use egui_kittest::Harness;
+use egui_kittest::kittest::Queryable as _;
+use foldmotion_pattern::{Case, Facing};
+use foldmotion_record::{Image, View};
+use glam::{DVec2, DVec3};
+
+use super::gpu::tests::{Subject, device, keep};
+use super::*;
+
+/// A view and what it saw last.
+struct Window {
+    view: View3d,
+    subject: Subject,
+    positions: Vec<DVec3>,
+    state_key: u64,
+    render_state: Option<RenderState>,
+    can_pull: bool,
+    /// Pull, vertex and face that were seen.
+    pull: Option<Handle>,
+    vertex: Option<u32>,
+    face: Option<u32>,
+}
+
+impl Window {
+    fn new(subject: Subject, positions: Vec<DVec3>) -> Self {
+        Self {
+            view: View3d::default(),
+            subject,
+            positions,
+            state_key: 1,
+            render_state: None,
+            can_pull: false,
+            pull: None,
+            vertex: None,
+            face: None,
+        }
+    }
+
+    fn show(&mut self, ui: &mut Ui) {
+        let mut picture = self.subject.picture(&self.positions, self.state_key);
+        picture.can_pull = self.can_pull;
+        picture.background = ui.visuals().extreme_bg_color;
+        let seen = self.view.show(ui, self.render_state.as_ref(), &picture);
+        (self.vertex, self.face) = (seen.vertex, seen.face);
+        self.pull = seen.pull.or(self.pull);
+    }
+}
+
+fn flat() -> Window {
+    let subject = Subject::new(Case::E, 1.0, 3, 2);
+    let flat = subject.units.sheet.planar();
+    Window::new(subject, flat)
+}
+
+fn harness(window: Window) -> Harness<'static, Window> {
+    Harness::builder()
+        .with_size(Vec2::new(400.0, 300.0))
+        .build_ui_state(|ui, window: &mut Window| window.show(ui), window)
+}
+
+/// Where `point` is seen, on the screen.
+fn on_screen(harness: &Harness<'_, Window>, point: DVec3) -> Pos2 {
+    let rect = harness.get_by_label("3D view").rect();
+    let orbit = harness.state().view.orbit();
+    let size = DVec2::new(f64::from(rect.width()), f64::from(rect.height()));
+    let eye = Eye::new(&orbit, size, eye::Ball::around([]));
+    let at = eye.project(point);
+    rect.min + Vec2::new(at.x as f32, at.y as f32)
+}
+
+fn drag(harness: &mut Harness<'_, Window>, button: PointerButton, from: Pos2, to: Pos2) {
+    let press = |pos, pressed| eframe::egui::Event::PointerButton {
+        pos,
+        button,
+        pressed,
+        modifiers: Modifiers::NONE,
+    };
+    harness.hover_at(from);
+    harness.step();
+    harness.event(press(from, true));
+    harness.step();
+    for part in [0.3, 0.6, 1.0] {
+        harness.hover_at(from.lerp(to, part));
+        harness.step();
+    }
+    harness.event(press(to, false));
+    harness.run();
+}
+
+#[test]
+fn without_a_gpu_the_view_is_drawn_and_named() {
+    let mut harness = harness(flat());
+    harness.run();
+    harness.get_by_label("3D view");
+    assert!(harness.state().view.fault().is_none() && harness.state().view.drawn() == 0);
+}
+
+#[test]
+fn the_first_picture_shows_the_whole_sheet() {
+    let mut harness = harness(flat());
+    harness.run();
+    let rect = harness.get_by_label("3D view").rect();
+    for &point in &harness.state().positions {
+        assert!(rect.contains(on_screen(&harness, point)));
+    }
+}
+
+#[test]
+fn the_vertex_and_the_facet_under_the_pointer_are_found() {
+    let mut window = flat();
+    window.view.look(View::Top);
+    let mut harness = harness(window);
+    harness.run();
+    let place = harness.state().positions[4];
+    let at = on_screen(&harness, place);
+    harness.hover_at(at + Vec2::new(3.0, -2.0));
+    harness.run();
+    assert_eq!(harness.state().vertex, Some(4));
+    let sheet = &harness.state().subject.units.sheet;
+    let face = sheet.faces[5];
+    let middle = face
+        .map(|v| harness.state().positions[v as usize])
+        .iter()
+        .sum::<DVec3>()
+        / 3.0;
+    harness.hover_at(on_screen(&harness, middle));
+    harness.run();
+    assert_eq!(harness.state().face, Some(5));
+    harness.hover_at(pos2(1.0, 1.0));
+    harness.run();
+    assert_eq!([harness.state().vertex, harness.state().face], [None; 2]);
+}
+
+#[test]
+fn a_vertex_behind_paper_is_not_taken() {
+    let subject = Subject::new(Case::S, 1.6, 3, 2);
+    let compact = subject.units.compact();
+    let mut harness = harness(Window::new(subject, compact));
+    harness.run();
+    let hidden = hidden_vertices(harness.state());
+    assert!(hidden.len() > 3, "{hidden:?}");
+    for vertex in hidden {
+        let at = on_screen(&harness, harness.state().positions[vertex as usize]);
+        harness.hover_at(at);
+        harness.step();
+        harness.step();
+        assert_ne!(harness.state().vertex, Some(vertex));
+    }
+}
+
+/// Vertices that lie clearly behind a triangle, by rays towards the viewer.
+fn hidden_vertices(window: &Window) -> Vec<u32> {
+    let [_, _, toward] = window.view.orbit().axes();
+    let sheet = &window.subject.units.sheet;
+    let hides = |face: &[u32; 3], point: DVec3| {
+        let [a, b, c] = face.map(|v| window.positions[v as usize]);
+        let n = (b - a).cross(c - a);
+        let distance = n.dot(a - point) / n.dot(toward);
+        let hit = point + distance * toward;
+        let inside = |p: DVec3, q: DVec3| (q - p).cross(hit - p).dot(n) > 0.02;
+        distance > 0.1 && inside(a, b) && inside(b, c) && inside(c, a)
+    };
+    let is_hidden = |&vertex: &u32| {
+        let point = window.positions[vertex as usize];
+        sheet.faces.iter().any(|face| hides(face, point))
+    };
+    (0..window.positions.len() as u32)
+        .filter(is_hidden)
+        .collect()
+}
+
+#[test]
+fn drags_turn_and_move_and_the_wheel_zooms_about_the_pointer() {
+    let mut harness = harness(flat());
+    harness.run();
+    let before = harness.state().view.orbit();
+    let (from, to) = (pos2(200.0, 150.0), pos2(250.0, 170.0));
+    drag(&mut harness, PointerButton::Primary, from, to);
+    let turned = harness.state().view.orbit();
+    assert!(turned.azimuth < before.azimuth && turned.elevation > before.elevation);
+    assert_eq!(turned.width, before.width);
+    let point = harness.state().positions[3];
+    let was = on_screen(&harness, point);
+    drag(&mut harness, PointerButton::Secondary, from, to);
+    let moved = on_screen(&harness, point) - was;
+    assert!((moved - (to - from)).length() < 1e-2, "{moved}");
+    let at = on_screen(&harness, point);
+    harness.hover_at(at);
+    harness.step();
+    harness.event(eframe::egui::Event::MouseWheel {
+        unit: eframe::egui::MouseWheelUnit::Point,
+        delta: Vec2::new(0.0, 60.0),
+        source: eframe::egui::MouseWheelSource::Unknown,
+        phase: eframe::egui::TouchPhase::Move,
+        modifiers: Modifiers::NONE,
+    });
+    harness.run();
+    assert!(harness.state().view.orbit().width < 0.9 * turned.width);
+    assert!((on_screen(&harness, point) - at).length() < 1e-2);
+}
+
+#[test]
+fn a_pulled_vertex_follows_the_pointer_in_the_plane_of_the_screen_and_the_camera_stays() {
+    let mut window = flat();
+    window.can_pull = true;
+    let mut harness = harness(window);
+    harness.run();
+    let orbit = harness.state().view.orbit();
+    let place = harness.state().positions[4];
+    let from = on_screen(&harness, place);
+    let to = from + Vec2::new(40.0, -25.0);
+    drag(&mut harness, PointerButton::Primary, from, to);
+    let pull = harness.state().pull.unwrap();
+    assert_eq!(harness.state().view.orbit(), orbit);
+    assert_eq!(pull.vertex, 4);
+    assert!((on_screen(&harness, pull.target) - to).length() < 1e-2);
+    assert!(orbit.axes()[2].dot(pull.target - place).abs() < 1e-9);
+    // Beside every vertex a drag turns.
+    drag(
+        &mut harness,
+        PointerButton::Primary,
+        pos2(20.0, 20.0),
+        pos2(60.0, 30.0),
+    );
+    assert_ne!(harness.state().view.orbit(), orbit);
+}
+
+#[test]
+fn arrow_keys_turn_the_view_that_has_the_focus() {
+    let mut harness = harness(flat());
+    harness.run();
+    let before = harness.state().view.orbit();
+    harness.key_press(Key::ArrowLeft);
+    harness.run();
+    assert_eq!(harness.state().view.orbit(), before, "it has no focus yet");
+    harness.get_by_label("3D view").focus();
+    harness.run();
+    harness.key_press(Key::ArrowLeft);
+    harness.run();
+    assert!((before.azimuth - harness.state().view.orbit().azimuth - 5.0).abs() < 1e-9);
+}
+
+#[test]
+fn presets_are_turned_into_within_a_moment_and_then_nothing_moves() {
+    let mut harness = harness(flat());
+    harness.run();
+    harness.state_mut().view.look(View::Front);
+    let frames = harness.run();
+    assert!(frames > 1);
+    let orbit = harness.state().view.orbit;
+    assert_eq!([orbit.azimuth, orbit.elevation], [-90.0, 0.0]);
+    assert_eq!(harness.run(), 1);
+}
+
+#[test]
+fn places_that_are_missing_or_not_finite_leave_the_view_empty() {
+    for positions in [vec![], vec![DVec3::ZERO], vec![DVec3::NAN; 1000]] {
+        let mut window = flat();
+        let count = window.positions.len();
+        window.positions = positions;
+        window.positions.truncate(count);
+        let mut harness = harness(window);
+        harness.run();
+        assert_eq!(harness.state().face, None);
+    }
+}
+
+/// Drawn by the GPU.
+fn with_gpu(mut window: Window, size: [f32; 2], is_dark: bool) -> Harness<'static, Window> {
+    let state = device();
+    window.render_state = Some(state.clone());
+    let theme = if is_dark {
+        eframe::egui::Theme::Dark
+    } else {
+        eframe::egui::Theme::Light
+    };
+    Harness::builder()
+        .with_size(Vec2::from(size))
+        .with_theme(theme)
+        .renderer(egui_kittest::wgpu::WgpuTestRenderer::from_render_state(
+            state,
+        ))
+        .build_ui_state(|ui, window: &mut Window| window.show(ui), window)
+}
+
+fn render(harness: &mut Harness<'_, Window>, name: &str) {
+    harness.run();
+    let image = harness.render().unwrap();
+    let image = Image {
+        width: image.width(),
+        height: image.height(),
+        pixels: image.pixels().map(|p| [p[0], p[1], p[2]]).collect(),
+    };
+    keep(&image, name);
+}
+
+#[test]
+#[cfg_attr(
+    not(gpu_tests),
+    ignore = "no GPU: set FOLDMOTION_GPU_TESTS=yes where there is one"
+)]
+fn an_idle_frame_draws_nothing_and_every_change_draws_once() {
+    let mut harness = with_gpu(flat(), [400.0, 300.0], true);
+    harness.run();
+    assert_eq!(harness.state().view.fault(), None);
+    let mut drawn = harness.state().view.drawn();
+    assert!(drawn > 0);
+    harness.run_steps(5);
+    assert_eq!(harness.state().view.drawn(), drawn);
+    let mut changes: Vec<(&str, Box<dyn Fn(&mut Window)>)> = Vec::new();
+    changes.push(("state", Box::new(|w| w.state_key += 1)));
+    changes.push(("camera", Box::new(|w| w.view.orbit.azimuth += 3.0)));
+    changes.push(("style", Box::new(|w| w.subject.style.line_width = 3.0)));
+    for (what, change) in changes {
+        change(harness.state_mut());
+        harness.run_steps(3);
+        drawn += 1;
+        assert_eq!(harness.state().view.drawn(), drawn, "{what}");
+    }
+    harness.set_size(Vec2::new(300.0, 200.0));
+    harness.run_steps(3);
+    assert_eq!(harness.state().view.drawn(), drawn + 1, "size");
+}
+
+#[test]
+#[cfg_attr(
+    not(gpu_tests),
+    ignore = "no GPU: set FOLDMOTION_GPU_TESTS=yes where there is one"
+)]
+fn a_lost_device_is_told_and_another_one_draws_again() {
+    let mut window = flat();
+    let state = device();
+    window.render_state = Some(state.clone());
+    let mut harness = harness(window);
+    harness.run();
+    assert_eq!(harness.state().view.fault(), None);
+    state.device.destroy();
+    harness.state_mut().view.look(View::Top);
+    harness.run();
+    assert!(harness.state().view.fault().is_some());
+    harness.get_by_label("3D view");
+    harness.state_mut().render_state = Some(device());
+    harness.run();
+    assert_eq!(harness.state().view.fault(), None);
+    assert!(harness.state().view.drawn() > 0);
+}
+
+/// Shelter-like states, kept as pictures to be looked at.
+#[test]
+#[cfg_attr(
+    not(gpu_tests),
+    ignore = "no GPU: set FOLDMOTION_GPU_TESTS=yes where there is one"
+)]
+fn every_way_to_colour_is_drawn_in_dark_and_light() {
+    let arch: Vec<DVec2> = (0..=7)
+        .map(|k| {
+            let turn = std::f64::consts::PI * f64::from(k) / 7.0;
+            DVec2::new(-2.2 * turn.cos(), 2.2 * turn.sin())
+        })
+        .collect();
+    for (name, is_dark) in [("dark", true), ("light", false)] {
+        let subject = Subject::new(Case::S, 1.6, 7, 5);
+        let deployed = subject.units.deployed(&arch, Facing::Left);
+        let window = Window::new(subject, deployed.unwrap_or_default());
+        let mut harness = with_gpu(window, [800.0, 560.0], is_dark);
+        render(&mut harness, &format!("deployed-{name}"));
+        assert_eq!(harness.state().view.fault(), None);
+        let compact = harness.state().subject.units.compact();
+        harness.state_mut().positions = compact.clone();
+        harness.state_mut().state_key += 1;
+        harness.state_mut().view.fit(compact);
+        render(&mut harness, &format!("compact-{name}"));
+        harness.state_mut().view.set_perspective(true);
+        render(&mut harness, &format!("perspective-{name}"));
+        harness.state_mut().render_state = None;
+        render(&mut harness, &format!("plain-{name}"));
+    }
+}
