@@ -227,7 +227,7 @@ impl Form<'_> {
             ui.allocate_space(size);
             return false;
         }
-        let button = egui::Button::new("⟲").frame(false).min_size(size);
+        let button = egui::Button::new("×").frame(false).min_size(size);
         let response = ui
             .add(button)
             .accessible_name(format!("default of {}", field.name))

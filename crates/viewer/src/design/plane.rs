@@ -16,7 +16,7 @@ const MARGIN: f32 = 22.0;
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Plane {
     pub(super) rect: Rect,
-    centre: DVec2,
+    pub(super) centre: DVec2,
     /// Points a unit of length.
     pub(super) scale: f64,
 }

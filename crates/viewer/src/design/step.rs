@@ -61,19 +61,39 @@ fn show_head(ui: &mut Ui, index: usize, count: usize) -> Option<(Order, Id)> {
     let number = index + 1;
     ui.label(RichText::new(format!("step {number}")).strong());
     let buttons = [
-        ("⏶", "up", Order::Up, index > 0),
-        ("⏷", "down", Order::Down, index + 1 < count),
-        ("🗙", "remove", Order::Remove, true),
+        ("up", Order::Up, index > 0),
+        ("down", Order::Down, index + 1 < count),
+        ("remove", Order::Remove, true),
     ];
     let mut asked = None;
-    for (sign, name, order, is_possible) in buttons {
-        let button = ui.add_enabled(is_possible, egui::Button::new(sign).small());
+    for (name, order, is_possible) in buttons {
+        let button = ui.add_enabled_ui(is_possible, |ui| sign_button(ui, order)).inner;
         let button = button.accessible_name(format!("{name} step {number}")).on_hover_text(name);
         if button.clicked() {
             asked = Some((order, button.id));
         }
     }
     asked
+}
+
+/// A small button with a painted sign: fonts at hand have no arrows.
+fn sign_button(ui: &mut Ui, order: Order) -> egui::Response {
+    let (rect, response) = ui.allocate_exact_size(vec2(18.0, 18.0), egui::Sense::click());
+    response.widget_info(|| egui::WidgetInfo::labeled(egui::accesskit::Role::Button, ui.is_enabled(), ""));
+    let visuals = ui.style().interact(&response);
+    let painter = ui.painter();
+    painter.rect_filled(rect, visuals.corner_radius, visuals.weak_bg_fill);
+    let stroke = Stroke::new(1.5, visuals.fg_stroke.color);
+    let at = |x: f32, y: f32| rect.center() + vec2(x, y);
+    match order {
+        Order::Up => painter.line(vec![at(-4.0, 2.0), at(0.0, -2.5), at(4.0, 2.0)], stroke),
+        Order::Down => painter.line(vec![at(-4.0, -2.0), at(0.0, 2.5), at(4.0, -2.0)], stroke),
+        Order::Remove => {
+            painter.line_segment([at(-3.5, -3.5), at(3.5, 3.5)], stroke);
+            painter.line_segment([at(-3.5, 3.5), at(3.5, -3.5)], stroke)
+        }
+    };
+    response
 }
 
 /// Which creases of which stage.
