@@ -63,8 +63,13 @@ pub(super) fn bench_of(
             bench.changes.push(change);
         }
     };
-    let builder = Harness::builder().with_size(vec2(360.0, height)).with_theme(theme);
-    let mut harness = builder.with_max_steps(12).build_ui_state(show, state);
+    let builder = Harness::builder()
+        .with_size(vec2(360.0, height))
+        .with_theme(theme);
+    let mut harness = builder
+        .with_step_dt(0.05)
+        .with_max_steps(40)
+        .build_ui_state(show, state);
     harness.run();
     harness
 }
@@ -86,7 +91,10 @@ impl Bench {
     }
 
     pub(super) fn labels(&self) -> Vec<(&'static str, bool)> {
-        self.changes.iter().map(|change| (change.label, change.continues)).collect()
+        self.changes
+            .iter()
+            .map(|change| (change.label, change.continues))
+            .collect()
     }
 }
 

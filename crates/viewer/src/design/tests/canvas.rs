@@ -34,7 +34,10 @@ fn a_dragged_control_point_moves_by_the_drag_over_the_scale() {
     assert!(labels.len() >= 2, "{labels:?}");
     assert!(labels.iter().all(|(label, _)| *label == "move point"));
     let continues: Vec<bool> = labels.iter().map(|(_, continues)| *continues).collect();
-    assert!(!continues[0] && continues[1..].iter().all(|c| *c), "{continues:?}");
+    assert!(
+        !continues[0] && continues[1..].iter().all(|c| *c),
+        "{continues:?}"
+    );
 }
 
 #[test]
@@ -44,7 +47,12 @@ fn two_drags_are_two_changes_to_undo() {
         let from = harness.get_by_label("control point 3").rect().center();
         drag(&mut harness, from, vec2(12.0, 6.0), 3);
     }
-    let starts = harness.state().labels().iter().filter(|(_, continues)| !continues).count();
+    let starts = harness
+        .state()
+        .labels()
+        .iter()
+        .filter(|(_, continues)| !continues)
+        .count();
     assert_eq!(starts, 2);
 }
 
@@ -73,6 +81,7 @@ fn double_click(harness: &mut egui_kittest::Harness<'static, Bench>, at: Pos2) {
                 modifiers: Modifiers::NONE,
             });
         }
+        harness.step();
     }
     harness.run();
 }
@@ -115,14 +124,20 @@ fn a_model_is_turned_into_control_points_of_the_same_curve() {
         for k in 0..=100 {
             let u = f64::from(k) / 100.0;
             let error = before.position(u).distance(after.position(u));
-            assert!(error <= 1e-12 * before.magnitude(), "{} at {u}: {error}", model.name);
+            assert!(
+                error <= 1e-12 * before.magnitude(),
+                "{} at {u}: {error}",
+                model.name
+            );
         }
         let heights = |bench: &Bench| bench.draft.as_ref().unwrap().units().unwrap().units.unit;
         let unit = heights(harness.state());
         harness.state_mut().redraft();
         assert_eq!(harness.state().faults, [], "{}", model.name);
         let again = heights(harness.state());
-        assert!((unit.height - again.height).abs() < 1e-9 && (unit.width - again.width).abs() < 1e-9);
+        assert!(
+            (unit.height - again.height).abs() < 1e-9 && (unit.width - again.width).abs() < 1e-9
+        );
     }
 }
 
@@ -158,7 +173,9 @@ fn the_wheel_zooms_and_the_right_button_moves_the_view_but_not_the_scene() {
 
 #[test]
 fn a_curve_through_points_is_moved_by_its_points() {
-    let mut harness = bench("[profile]\npoints = [[0.0, 0.0], [1.0, 1.0], [2.0, 0.0]]\n[sheet]\nrows = 4\ncolumns = 2\n");
+    let mut harness = bench(
+        "[profile]\npoints = [[0.0, 0.0], [1.0, 1.0], [2.0, 0.0]]\n[sheet]\nrows = 4\ncolumns = 2\n",
+    );
     let from = harness.get_by_label("point 2").rect().center();
     drag(&mut harness, from, vec2(0.0, 18.0), 3);
     let moved = harness.state().scene.profile.points.clone().unwrap();

@@ -3,6 +3,6 @@
 mod bench;
 mod canvas;
 mod controls;
-mod scenes;
 #[cfg(gpu_tests)]
 mod pictures;
+mod scenes;

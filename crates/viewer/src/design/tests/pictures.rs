@@ -14,15 +14,26 @@ use super::bench::{Bench, bench_of, click, scenes};
 fn colours(harness: &mut Harness<'static, Bench>, name: &str) -> usize {
     let picture = harness.render().unwrap();
     if let Ok(folder) = std::env::var("FOLDMOTION_PICTURES") {
-        picture.save(Path::new(&folder).join(format!("{name}.png"))).unwrap();
+        picture
+            .save(Path::new(&folder).join(format!("{name}.png")))
+            .unwrap();
     }
-    picture.pixels().map(|pixel| pixel.0).collect::<BTreeSet<_>>().len()
+    picture
+        .pixels()
+        .map(|pixel| pixel.0)
+        .collect::<BTreeSet<_>>()
+        .len()
 }
 
 #[test]
 fn the_panel_is_drawn_dark_and_light() {
     for (theme, name) in [(Theme::Dark, "dark"), (Theme::Light, "light")] {
-        for scene in ["shelter-sii", "omega-sii", "shelter-unequal", "imported/frame"] {
+        for scene in [
+            "shelter-sii",
+            "omega-sii",
+            "shelter-unequal",
+            "imported/frame",
+        ] {
             let path = scenes().join(scene).with_extension("toml");
             let source = SceneSource::read(&path).unwrap();
             let mut harness = bench_of(&source, theme, 1400.0);

@@ -11,9 +11,13 @@ use super::bench::{bench_of, scenes};
 fn all() -> Vec<PathBuf> {
     let files = |folder: PathBuf| {
         let entries = std::fs::read_dir(folder).unwrap();
-        entries.map(|entry| entry.unwrap().path()).filter(|path| path.is_file())
+        entries
+            .map(|entry| entry.unwrap().path())
+            .filter(|path| path.is_file())
     };
-    let mut paths: Vec<PathBuf> = files(scenes()).chain(files(scenes().join("imported"))).collect();
+    let mut paths: Vec<PathBuf> = files(scenes())
+        .chain(files(scenes().join("imported")))
+        .collect();
     paths.sort();
     paths
 }
