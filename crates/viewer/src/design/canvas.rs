@@ -39,7 +39,9 @@ impl Traced {
         let scene = &form.scene.profile;
         let from_file = scene.file.is_some();
         let profile = if from_file {
-            form.draft.and_then(Draft::units).map(|draft| draft.profile.clone())
+            form.draft
+                .and_then(Draft::units)
+                .map(|draft| draft.profile.clone())
         } else {
             own_profile(scene)
         };
@@ -56,7 +58,12 @@ impl Traced {
     }
 
     fn is_of(&self, form: &Form<'_>) -> bool {
-        let number = form.scene.profile.file.is_some().then_some(form.draft_number);
+        let number = form
+            .scene
+            .profile
+            .file
+            .is_some()
+            .then_some(form.draft_number);
         self.draft_number == number && self.scene == form.scene.profile
     }
 }
@@ -64,11 +71,21 @@ impl Traced {
 impl Canvas {
     /// The canvas, and what the user did on it.
     pub(super) fn show(&mut self, form: &mut Form<'_>, ui: &mut Ui) {
-        if !self.traced.as_ref().is_some_and(|traced| traced.is_of(form)) {
+        if !self
+            .traced
+            .as_ref()
+            .is_some_and(|traced| traced.is_of(form))
+        {
             self.traced = Some(Traced::new(form));
         }
-        let points = handles(&form.scene.profile).map(|points| vectors(points)).unwrap_or_default();
-        let curve = self.traced.as_ref().map(|traced| traced.points.as_slice()).unwrap_or_default();
+        let points = handles(&form.scene.profile)
+            .map(|points| vectors(points))
+            .unwrap_or_default();
+        let curve = self
+            .traced
+            .as_ref()
+            .map(|traced| traced.points.as_slice())
+            .unwrap_or_default();
         let size = bounds(curve.iter().chain(&points).copied());
         let height = (ui.available_width() * 0.66).clamp(170.0, 300.0);
         let (response, painter) = canvas(ui, height, "profile canvas");
@@ -80,7 +97,8 @@ impl Canvas {
             return;
         }
         self.hand.paint_polygon(form, ui, &painter, &plane, &points);
-        self.hand.show(form, ui, &painter, &plane, &points, &mut self.view);
+        self.hand
+            .show(form, ui, &painter, &plane, &points, &mut self.view);
         if response.double_clicked()
             && let Some(place) = response.interact_pointer_pos()
             && !points.is_empty()
@@ -128,5 +146,11 @@ fn chords<'a>(profile: &'a Profile, draft: &'a UnitDraft) -> impl Iterator<Item 
 fn note(ui: &Ui, painter: &egui::Painter, plane: &Plane, text: &str) {
     let colour = ui.visuals().weak_text_color();
     let place = plane.rect.center_top() + vec2(0.0, 4.0);
-    painter.text(place, Align2::CENTER_TOP, text, FontId::proportional(11.0), colour);
+    painter.text(
+        place,
+        Align2::CENTER_TOP,
+        text,
+        FontId::proportional(11.0),
+        colour,
+    );
 }

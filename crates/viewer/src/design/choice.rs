@@ -4,7 +4,7 @@ use eframe::egui::{self, RichText, TextEdit, Ui};
 use foldmotion_study::Scene;
 
 use super::form::{Field, Form};
-use super::number::RESET_WIDTH;
+use super::number::control_width;
 
 /// One way to choose, with its name and what it means.
 pub(super) type Way<T> = (T, &'static str, &'static str);
@@ -29,12 +29,16 @@ impl Form<'_> {
             let menu = egui::ComboBox::from_id_salt(&*field.key)
                 .selected_text(text)
                 .truncate()
-                .width(ui.available_width());
+                .width(control_width(ui));
             let mut chosen = None;
             let response = menu.show_ui(ui, |ui| {
                 for (index, (way, name, tip)) in ways.iter().enumerate() {
                     let is_chosen = Some(*way) == given || (index == 0 && given.is_none());
-                    let text = if index == 0 { format!("{name} (default)") } else { (*name).to_owned() };
+                    let text = if index == 0 {
+                        format!("{name} (default)")
+                    } else {
+                        (*name).to_owned()
+                    };
                     let mut option = ui.selectable_label(is_chosen, text);
                     if !tip.is_empty() {
                         option = option.on_hover_text(*tip);
@@ -88,7 +92,7 @@ impl Form<'_> {
             let edit = TextEdit::singleline(&mut text)
                 .id(id)
                 .hint_text(hint)
-                .desired_width(ui.available_width() - RESET_WIDTH);
+                .desired_width(control_width(ui) - 8.0);
             let response = ui.add(edit).labelled_by(label);
             if response.lost_focus() {
                 ui.data_mut(|data| data.remove::<String>(id));

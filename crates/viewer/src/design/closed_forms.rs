@@ -5,7 +5,8 @@ use foldmotion_pattern::{Case, CompactBox, PatternError, Sheet};
 use foldmotion_study::{Draft, UnitDraft};
 use glam::DVec3;
 
-use super::form::{Form, name};
+use super::form::{Form, NOTE_SIZE, name, note};
+use super::number::scientific;
 use super::size::Size;
 
 /// What was measured of the draft last.
@@ -48,9 +49,22 @@ impl Counts {
             "{} vertices, {} facets, {} creases",
             self.vertices, self.facets, self.creases
         );
-        fact(ui, "sheet", &text, "mountain and valley creases of the pattern");
-        let foldable = if self.is_flat_foldable { "flat-foldable" } else { "not flat-foldable" };
-        let developable = if self.is_developable { "developable" } else { "not developable" };
+        fact(
+            ui,
+            "sheet",
+            &text,
+            "mountain and valley creases of the pattern",
+        );
+        let foldable = if self.is_flat_foldable {
+            "flat-foldable"
+        } else {
+            "not flat-foldable"
+        };
+        let developable = if self.is_developable {
+            "developable"
+        } else {
+            "not developable"
+        };
         fact(
             ui,
             "vertices",
@@ -71,10 +85,12 @@ impl Measures {
         self.of = Some(form.draft_number);
         self.counts = Counts::of(draft);
         if let Draft::Units(units) = draft {
-            let [low, high] = units.deployed.iter().fold(
-                [DVec3::INFINITY, DVec3::NEG_INFINITY],
-                |[low, high], &p| [low.min(p), high.max(p)],
-            );
+            let [low, high] = units
+                .deployed
+                .iter()
+                .fold([DVec3::INFINITY, DVec3::NEG_INFINITY], |[low, high], &p| {
+                    [low.min(p), high.max(p)]
+                });
             self.deployed = high - low;
             let columns = units.units.columns as f64;
             self.flat = [units.division.length(), columns * units.units.unit.width];
@@ -91,6 +107,9 @@ impl Measures {
             };
             show_unit(draft, ui);
             show_cases(form, ui);
+            if !draft.units.has_equal_rows() {
+                ui.label(note(ui, "the table is that of equal rows"));
+            }
             self.show_sizes(draft, ui);
             self.counts.show(ui);
         });
@@ -98,10 +117,25 @@ impl Measures {
 
     fn show_sizes(&self, draft: &UnitDraft, ui: &mut Ui) {
         let [x, y, z] = self.deployed.to_array();
-        fact(ui, "deployed", &sizes(&[x, y, z]), "extents of the deployed state along x, y and z");
-        fact(ui, "flat", &sizes(&self.flat), "Nr h and W: the crease pattern");
+        fact(
+            ui,
+            "deployed",
+            &sizes(&[x, y, z]),
+            "extents of the deployed state along x, y and z",
+        );
+        fact(
+            ui,
+            "flat",
+            &sizes(&self.flat),
+            "Nr h and W: the crease pattern",
+        );
         let Some(compact) = draft.closed_form else {
-            fact(ui, "compact", "no closed form", "the unmodified rectangle has none");
+            fact(
+                ui,
+                "compact",
+                "no closed form",
+                "the unmodified rectangle has none",
+            );
             return;
         };
         fact(
@@ -117,7 +151,7 @@ impl Measures {
         }
         fact(
             ui,
-            "deployed/compact",
+            "size ratio",
             &ratios.join(", "),
             "box of the deployed state over the compact one: area in the x–z plane (equations 3 to 5), and volume \
              (equations 6 and 7) where the compact state is not flat",
@@ -128,8 +162,18 @@ impl Measures {
 fn show_unit(draft: &UnitDraft, ui: &mut Ui) {
     let unit = &draft.units.unit;
     let ratio = unit.width / unit.height;
-    let text = format!("{} × {}, w/h = {}", brief(unit.width), brief(unit.height), brief(ratio));
-    fact(ui, "unit w × h", &text, "w = W/Nc and h, the mean length of a segment");
+    let text = format!(
+        "{} × {}, w/h = {}",
+        brief(unit.width),
+        brief(unit.height),
+        brief(ratio)
+    );
+    fact(
+        ui,
+        "unit w × h",
+        &text,
+        "w = W/Nc and h, the mean length of a segment",
+    );
     let text = format!(
         "{}: a = {}, s = {}, 2d = {}",
         draft.units.case_name(),
@@ -137,36 +181,56 @@ fn show_unit(draft: &UnitDraft, ui: &mut Ui) {
         brief(unit.side_pad),
         brief(unit.centre_pad)
     );
-    fact(ui, "case", &text, "flap a, side pad s, centre pad 2d: a column is s | a | 2d | a | s wide (figures 2 to 5)");
+    fact(
+        ui,
+        "case",
+        &text,
+        "flap a, side pad s, centre pad 2d: a column is s | a | 2d | a | s wide (figures 2 to 5)",
+    );
 }
 
 /// What every case would give, beside each other.
 fn show_cases(form: &mut Form<'_>, ui: &mut Ui) {
     form.part(ui, "cases beside each other", |form, ui| {
-        egui::Grid::new("cases").num_columns(5).striped(true).spacing([8.0, 2.0]).show(ui, |ui| {
-            let heads = [
-                ("case", "the case"),
-                ("a", "width of a flap: h/2 of E and S, w/2 of T, λh/2 of SII"),
-                ("x × y × z", "the compact box: Nr h − (Nr − 1) a, Nc (2s + 2d), a"),
-                ("A", "area in the x–z plane (equations 3, 4, 5)"),
-                ("V", "volume (equations 6, 7); 0 where the compact state is flat"),
-            ];
-            for (head, tip) in heads {
-                ui.label(RichText::new(head).small().weak()).on_hover_text(tip);
-            }
-            ui.end_row();
-            for case in [Case::E, Case::T, Case::S, Case::SII] {
-                show_case(form, ui, case);
+        egui::Grid::new("cases")
+            .num_columns(5)
+            .striped(true)
+            .min_col_width(22.0)
+            .min_row_height(15.0)
+            .spacing([9.0, 1.0])
+            .show(ui, |ui| {
+                let heads = [
+                    ("case", "the case"),
+                    (
+                        "a",
+                        "width of a flap: h/2 of E and S, w/2 of T, λh/2 of SII",
+                    ),
+                    (
+                        "x × y × z",
+                        "the compact box: Nr h − (Nr − 1) a, Nc (2s + 2d), a",
+                    ),
+                    ("A", "area in the x–z plane (equations 3, 4, 5)"),
+                    (
+                        "V",
+                        "volume (equations 6, 7); 0 where the compact state is flat",
+                    ),
+                ];
+                for (head, tip) in heads {
+                    ui.label(note(ui, head)).on_hover_text(tip);
+                }
                 ui.end_row();
-            }
-        });
+                for case in [Case::E, Case::T, Case::S, Case::SII] {
+                    show_case(form, ui, case);
+                    ui.end_row();
+                }
+            });
     });
 }
 
 fn show_case(form: &Form<'_>, ui: &mut Ui, case: Case) {
     let sheet = &form.scene.sheet;
     let size = Size::of(form, sheet.case);
-    let small = |text: String| RichText::new(text).small();
+    let small = |text: String| RichText::new(text).size(NOTE_SIZE);
     let unit = size.and_then(|size| Some((size, size.unit(case, sheet.lambda, sheet.offset)?)));
     match unit {
         Some((size, Ok(unit))) => {
@@ -181,7 +245,9 @@ fn show_case(form: &Form<'_>, ui: &mut Ui, case: Case) {
         }
         other => {
             let why = match other {
-                Some((_, Err(PatternError::CaseContradictsUnit { need, .. }))) => format!("needs {need}"),
+                Some((_, Err(PatternError::CaseContradictsUnit { need, .. }))) => {
+                    format!("needs {need}")
+                }
                 Some((_, Err(_))) => "λ or d out of range".to_owned(),
                 _ => "w is not known".to_owned(),
             };
@@ -209,14 +275,14 @@ fn sizes(sizes: &[f64]) -> String {
 }
 
 fn times(ratio: f64) -> String {
-    format!("{} ×", brief(ratio))
+    format!("{}×", brief(ratio))
 }
 
 /// A number in four digits.
 pub(super) fn brief(number: f64) -> String {
     let size = number.abs();
     if size != 0.0 && !(1e-3..1e6).contains(&size) {
-        return format!("{number:.2e}");
+        return scientific(number, 2);
     }
     let digits = (3 - size.max(1.0).log10().floor() as i32).clamp(0, 3);
     let text = format!("{number:.*}", digits as usize);
@@ -226,4 +292,3 @@ pub(super) fn brief(number: f64) -> String {
         text
     }
 }
-

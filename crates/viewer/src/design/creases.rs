@@ -54,7 +54,10 @@ impl Creases {
         };
         if let Some((made, mesh)) = &mut self.made {
             let shift = corner - made.place;
-            let moved = Origin { place: corner, ..*made };
+            let moved = Origin {
+                place: corner,
+                ..*made
+            };
             if moved == origin {
                 if shift != Vec2::ZERO {
                     Arc::make_mut(mesh).translate(shift);
@@ -73,7 +76,11 @@ fn mesh(ui: &Ui, sheet: &Sheet, plane: &Plane, place: impl Fn(DVec2) -> DVec2) -
     let [mountain, valley] = crease_colours(ui);
     let border = Stroke::new(1.4, ui.visuals().text_color());
     let free = Stroke::new(1.0, ui.visuals().weak_text_color());
-    let on_screen: Vec<Pos2> = sheet.vertices.iter().map(|&v| plane.to_screen(place(v))).collect();
+    let on_screen: Vec<Pos2> = sheet
+        .vertices
+        .iter()
+        .map(|&v| plane.to_screen(place(v)))
+        .collect();
     let mut shapes = Vec::with_capacity(sheet.edges.len());
     for edge in sheet.edges.iter().take(MOST_EDGES) {
         let ends = edge.vertices.map(|v| on_screen[v as usize]);
@@ -82,7 +89,9 @@ fn mesh(ui: &Ui, sheet: &Sheet, plane: &Plane, place: impl Fn(DVec2) -> DVec2) -
         }
         match edge.assignment {
             Assignment::Facet => {}
-            Assignment::Mountain => shapes.push(Shape::line_segment(ends, Stroke::new(1.1, mountain))),
+            Assignment::Mountain => {
+                shapes.push(Shape::line_segment(ends, Stroke::new(1.1, mountain)))
+            }
             Assignment::Border => shapes.push(Shape::line_segment(ends, border)),
             Assignment::Free => shapes.push(Shape::line_segment(ends, free)),
             Assignment::Valley => {

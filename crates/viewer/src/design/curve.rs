@@ -26,8 +26,13 @@ impl Origin {
     /// That of a scene; a scene without a curve is taken to be about to name a model.
     pub(super) fn of(scene: &ProfileScene) -> Self {
         match scene {
-            ProfileScene { control_points: Some(_), .. } => Self::ControlPoints,
-            ProfileScene { points: Some(_), .. } => Self::Points,
+            ProfileScene {
+                control_points: Some(_),
+                ..
+            } => Self::ControlPoints,
+            ProfileScene {
+                points: Some(_), ..
+            } => Self::Points,
             ProfileScene { file: Some(_), .. } => Self::File,
             _ => Self::Model,
         }
@@ -117,7 +122,9 @@ fn written(profile: &Profile) -> (Vec<[f64; 2]>, Option<Vec<f64>>, Closure) {
             (points, knots) = spline;
         }
     }
-    if closure == Closure::Corner && let Some(last) = points.len().checked_sub(1) {
+    if closure == Closure::Corner
+        && let Some(last) = points.len().checked_sub(1)
+    {
         points[last] = points[0];
     }
     let is_uniform = Nurbs::clamped(points.clone()).is_ok_and(|plain| plain.knots() == knots);
@@ -136,7 +143,10 @@ pub(super) fn into_points(scene: &mut Scene, profile: Option<&Profile>) -> bool 
         _ => {
             let at = |k: usize| profile.position(k as f64 / TAKEN_POINTS as f64);
             let last = TAKEN_POINTS - usize::from(profile.is_closed());
-            (0..=last).map(at).map(|p| rounded(p, profile.magnitude()).into()).collect()
+            (0..=last)
+                .map(at)
+                .map(|p| rounded(p, profile.magnitude()).into())
+                .collect()
         }
     };
     scene.profile = ProfileScene {
@@ -207,7 +217,11 @@ pub(super) fn add_handle(scene: &mut ProfileScene, place: DVec2) -> Option<usize
     let is_closed = scene.closed.is_some();
     let points = handles_mut(scene)?;
     let ends = vectors(points);
-    let count = if is_closed { ends.len() } else { ends.len().saturating_sub(1) };
+    let count = if is_closed {
+        ends.len()
+    } else {
+        ends.len().saturating_sub(1)
+    };
     let distance = |k: &usize| to_segment(place, ends[*k], ends[(*k + 1) % ends.len()]);
     let nearest = (0..count).min_by(|a, b| distance(a).total_cmp(&distance(b)))?;
     points.insert(nearest + 1, place.into());
@@ -309,7 +323,11 @@ mod tests {
             for k in 0..=500 {
                 let u = f64::from(k) / 500.0;
                 let error = before.position(u).distance(after.position(u));
-                assert!(error <= 1e-12 * before.magnitude(), "{} at {u}: {error}", model.name);
+                assert!(
+                    error <= 1e-12 * before.magnitude(),
+                    "{} at {u}: {error}",
+                    model.name
+                );
             }
         }
     }
@@ -355,7 +373,10 @@ mod tests {
             for k in 0..=500 {
                 let u = f64::from(k) / 500.0;
                 let error = before.position(u).distance(after.position(u));
-                assert!(error <= 1e-12 * before.magnitude(), "{name} at {u}: {error}");
+                assert!(
+                    error <= 1e-12 * before.magnitude(),
+                    "{name} at {u}: {error}"
+                );
             }
         }
     }
@@ -390,7 +411,10 @@ mod tests {
             let mut scene = scene_of(model);
             assert!(into_points(&mut scene, None));
             assert!(own_profile(&scene.profile).is_some(), "{}", model.name);
-            assert_eq!(own_profile(&scene.profile).unwrap().closure(), before.closure());
+            assert_eq!(
+                own_profile(&scene.profile).unwrap().closure(),
+                before.closure()
+            );
         }
     }
 }

@@ -8,6 +8,8 @@ use foldmotion_study::{Draft, Scene};
 
 use super::{Change, Facts, Fault};
 
+/// Size of the letters of notes and faults.
+pub(super) const NOTE_SIZE: f32 = 11.0;
 /// Width of the labels on the left of the controls.
 pub(super) const LABEL_WIDTH: f32 = 104.0;
 /// Tables of a scene that have a section; faults elsewhere stand at the top of the panel.
@@ -46,6 +48,7 @@ impl Field {
 
 /// The scene being edited in this frame.
 pub(super) struct Form<'a> {
+    original: &'a Scene,
     /// The copy that controls write into.
     pub(super) scene: Scene,
     pub(super) draft: Option<&'a Draft>,
@@ -67,6 +70,7 @@ impl<'a> Form<'a> {
         claimed: BTreeSet<String>,
     ) -> Self {
         Self {
+            original: facts.scene,
             scene: facts.scene.clone(),
             draft: facts.draft,
             draft_number: facts.draft_number,
@@ -84,7 +88,9 @@ impl<'a> Form<'a> {
         if self.claims != self.claimed {
             ui.request_repaint();
         }
-        let change = self.change.map(|(label, continues)| Change {
+        // A text that could not be read leaves the scene as it was.
+        let change = self.change.filter(|_| self.scene != *self.original);
+        let change = change.map(|(label, continues)| Change {
             scene: self.scene,
             label,
             continues,
@@ -191,7 +197,10 @@ impl<'a> Form<'a> {
 
     fn unclaimed(&self, ui: &mut Ui, tables: &[&str]) {
         for fault in self.faults {
-            let is_claimed = fault.key.as_ref().is_some_and(|key| self.claimed.contains(key));
+            let is_claimed = fault
+                .key
+                .as_ref()
+                .is_some_and(|key| self.claimed.contains(key));
             if is_within(fault, tables) && !is_claimed {
                 message(ui, fault);
             }
@@ -215,9 +224,15 @@ pub(super) fn name(ui: &mut Ui, text: &str, tip: &str) -> Id {
     id
 }
 
+/// A text beside the controls, smaller and paler than they are.
+pub(super) fn note(ui: &Ui, text: impl Into<String>) -> RichText {
+    let colour = ui.visuals().weak_text_color();
+    RichText::new(text).size(NOTE_SIZE).color(colour)
+}
+
 fn message(ui: &mut Ui, fault: &Fault) {
     let text = RichText::new(&fault.message)
-        .small()
+        .size(NOTE_SIZE)
         .color(ui.visuals().error_fg_color);
     ui.add(egui::Label::new(text).wrap());
 }

@@ -54,7 +54,11 @@ impl Hand {
             return;
         }
         let again = points.first().filter(|_| profile.closed.is_some());
-        let line = points.iter().chain(again).map(|&p| plane.to_screen(p)).collect();
+        let line = points
+            .iter()
+            .chain(again)
+            .map(|&p| plane.to_screen(p))
+            .collect();
         let colour = ui.visuals().weak_text_color();
         painter.line(line, Stroke::new(1.0, colour));
     }
@@ -80,7 +84,11 @@ impl Hand {
             }
             let rect = Rect::from_center_size(place, vec2(REACH, REACH));
             let response = ui.interact(rect, id, Sense::click_and_drag());
-            let kind = if form.scene.profile.control_points.is_some() { "control point" } else { "point" };
+            let kind = if form.scene.profile.control_points.is_some() {
+                "control point"
+            } else {
+                "point"
+            };
             response.widget_info(|| {
                 let name = format!("{kind} {}", index + 1);
                 egui::WidgetInfo::labeled(egui::accesskit::Role::GraphicsObject, true, name)
@@ -92,7 +100,9 @@ impl Hand {
         }
         match deed {
             Some((index, Deed::Move(point, ongoing), id)) => {
-                if let Some(moved) = handles_mut(&mut form.scene.profile).and_then(|p| p.get_mut(index)) {
+                if let Some(moved) =
+                    handles_mut(&mut form.scene.profile).and_then(|p| p.get_mut(index))
+                {
                     *moved = point.into();
                     form.record("move point", id, ongoing);
                 }
@@ -115,7 +125,11 @@ impl Hand {
     ) {
         let is_selected = self.selected == Some(index);
         let visuals = ui.visuals();
-        let fill = if is_selected { visuals.selection.bg_fill } else { visuals.extreme_bg_color };
+        let fill = if is_selected {
+            visuals.selection.bg_fill
+        } else {
+            visuals.extreme_bg_color
+        };
         let lively = is_selected || response.hovered() || response.dragged();
         let stroke = if lively {
             Stroke::new(2.0, visuals.strong_text_color())
@@ -168,13 +182,15 @@ impl Hand {
     pub(super) fn show_fields(&mut self, form: &mut Form<'_>, ui: &mut Ui) {
         let Some(index) = self.selected else {
             let text = "drag points; double-click adds one, right-click removes it";
-            ui.add(egui::Label::new(egui::RichText::new(text).small().weak()).wrap());
+            ui.add(egui::Label::new(super::form::note(ui, text)).wrap());
             return;
         };
-        let Some(&[x, z]) = super::curve::handles(&form.scene.profile).and_then(|p| p.get(index)) else {
+        let Some(&[x, z]) = super::curve::handles(&form.scene.profile).and_then(|p| p.get(index))
+        else {
             return;
         };
-        let number = Number::within(-1e6..=1e6).speed(round_step((x.abs().max(z.abs()) / 500.0).max(1e-3)));
+        let number =
+            Number::within(-1e6..=1e6).speed(round_step((x.abs().max(z.abs()) / 500.0).max(1e-3)));
         form.part(ui, "selected point", |form, ui| {
             ui.horizontal(|ui| {
                 super::form::name(ui, &format!("point {}", index + 1), "the selected point");
@@ -183,7 +199,8 @@ impl Hand {
                 for (axis, name) in ["x", "z"].into_iter().enumerate() {
                     ui.label(name);
                     let spoken = format!("point {name}");
-                    let cell = form.required_cell(ui, "move point", &spoken, &number, width, place[axis]);
+                    let cell =
+                        form.required_cell(ui, "move point", &spoken, &number, width, place[axis]);
                     if let Some(new) = cell {
                         place[axis] = new;
                     }
@@ -210,7 +227,13 @@ fn keyed(ui: &Ui, response: &Response, plane: &Plane, point: DVec2) -> Option<De
     let mut removes = false;
     ui.input(|input| {
         for event in &input.events {
-            let Event::Key { key, pressed: true, modifiers, .. } = event else {
+            let Event::Key {
+                key,
+                pressed: true,
+                modifiers,
+                ..
+            } = event
+            else {
                 continue;
             };
             let step = if modifiers.shift { 10.0 * step } else { step };

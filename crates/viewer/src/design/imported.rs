@@ -6,8 +6,8 @@ use foldmotion_study::{Draft, ImportedStudy, Scene};
 
 use super::choice::Way;
 use super::closed_forms::{Measures, fact};
-use super::form::{Field, Form};
-use super::number::{Number, short};
+use super::form::{Field, Form, NOTE_SIZE};
+use super::number::{Number, control_width, short};
 use super::profile::UNITS;
 
 const UNKNOWNS: [Way<UnknownChoice>; 2] = [
@@ -21,15 +21,21 @@ fn of(scene: &mut Scene) -> &mut PatternScene {
 }
 
 pub(super) fn show(measures: &mut Measures, form: &mut Form<'_>, ui: &mut Ui) {
-    form.section(ui, "Pattern", true, &["pattern", "profile", "sheet", "division"], |form, ui| {
-        show_file(form, ui);
-        show_fold(form, ui);
-        show_reading(form, ui);
-        if let Some(Draft::Imported(study)) = form.draft {
-            measures.update(form);
-            show_facts(study, measures, ui);
-        }
-    });
+    form.section(
+        ui,
+        "Pattern",
+        true,
+        &["pattern", "profile", "sheet", "division"],
+        |form, ui| {
+            show_file(form, ui);
+            show_fold(form, ui);
+            show_reading(form, ui);
+            if let Some(Draft::Imported(study)) = form.draft {
+                measures.update(form);
+                show_facts(study, measures, ui);
+            }
+        },
+    );
 }
 
 fn show_file(form: &mut Form<'_>, ui: &mut Ui) {
@@ -52,17 +58,24 @@ fn show_file(form: &mut Form<'_>, ui: &mut Ui) {
     let given = form.scene.pattern.as_ref().and_then(|pattern| pattern.unit);
     form.row(ui, &field, |form, ui, label| {
         let shown = UNITS.iter().find(|way| Some(way.0) == given);
-        let text = shown.map_or(RichText::new("as the file says").weak(), |way| RichText::new(way.1));
+        let text = shown.map_or(RichText::new("as the file says").weak(), |way| {
+            RichText::new(way.1)
+        });
         let menu = eframe::egui::ComboBox::from_id_salt("unit")
             .selected_text(text)
-            .width(ui.available_width());
+            .width(control_width(ui));
         let mut chosen = None;
         let response = menu.show_ui(ui, |ui| {
-            if ui.selectable_label(given.is_none(), "as the file says").clicked() {
+            if ui
+                .selectable_label(given.is_none(), "as the file says")
+                .clicked()
+            {
                 chosen = Some(None);
             }
             for (unit, name, tip) in UNITS {
-                let option = ui.selectable_label(given == Some(unit), name).on_hover_text(tip);
+                let option = ui
+                    .selectable_label(given == Some(unit), name)
+                    .on_hover_text(tip);
                 if option.clicked() {
                     chosen = Some(Some(unit));
                 }
@@ -100,7 +113,11 @@ fn show_fold(form: &mut Form<'_>, ui: &mut Ui) {
     );
     form.row(ui, &field, |form, ui, label| {
         let width = ui.available_width() - 70.0;
-        let given = form.scene.pattern.as_ref().and_then(|pattern| pattern.fixed.clone());
+        let given = form
+            .scene
+            .pattern
+            .as_ref()
+            .and_then(|pattern| pattern.fixed.clone());
         let is_none = given.as_ref().is_some_and(Vec::is_empty);
         let first = given.as_ref().and_then(|list| list.first().copied());
         let hint = if is_none { "none" } else { "by file" };
@@ -108,7 +125,9 @@ fn show_fold(form: &mut Form<'_>, ui: &mut Ui) {
         if let Some(new) = form.whole_cell(ui, field.undo, label, &number, width, first) {
             of(&mut form.scene).fixed = new.map(|facet| vec![facet]);
         }
-        let none = ui.selectable_label(is_none, "none").on_hover_text("no facet stays in place");
+        let none = ui
+            .selectable_label(is_none, "none")
+            .on_hover_text("no facet stays in place");
         if none.clicked() {
             of(&mut form.scene).fixed = (!is_none).then(Vec::new);
             form.record(field.undo, none.id, false);
@@ -151,17 +170,29 @@ fn show_facts(study: &ImportedStudy, measures: &Measures, ui: &mut Ui) {
         fact(ui, "title", title, "what the file calls itself");
     }
     let length = format!("{} {}", short(imported.sheet.unit_length), study.unit_name);
-    fact(ui, "mean edge", &length, "what gap and tolerances are measured in");
+    fact(
+        ui,
+        "mean edge",
+        &length,
+        "what gap and tolerances are measured in",
+    );
     measures.counts.show(ui);
     let stages = study.waypoints.len();
     if stages > 1 {
         fact(ui, "stages", &stages.to_string(), "of the file");
     }
     if let Some(facet) = study.fixed {
-        fact(ui, "stays", &format!("facet {facet}"), "the facet that stays in place");
+        fact(
+            ui,
+            "stays",
+            &format!("facet {facet}"),
+            "the facet that stays in place",
+        );
     }
     for warning in &imported.warnings {
-        let text = RichText::new(warning.to_string()).small().color(ui.visuals().warn_fg_color);
+        let text = RichText::new(warning.to_string())
+            .size(NOTE_SIZE)
+            .color(ui.visuals().warn_fg_color);
         ui.add(eframe::egui::Label::new(text).wrap());
     }
 }

@@ -5,6 +5,8 @@
 use glam::DVec2;
 
 const DEGREE: usize = 3;
+/// Two knots are equal or at least this far apart, over the domain.
+const NARROWEST_SPAN: f64 = 1e-9;
 
 /// Control points and knots.
 pub(super) type Spline = (Vec<DVec2>, Vec<f64>);
@@ -13,13 +15,17 @@ pub(super) type Spline = (Vec<DVec2>, Vec<f64>);
 ///
 /// Q_i = (1 − α_i) P_{i−1} + α_i P_i,  α_i = (u − t_i) / (t_{i+3} − t_i) for k − 2 ≤ i ≤ k, else 1 before and 0 behind.
 ///
-/// Precondition: n ≥ 4 control points and n + 4 knots that do not fall. None where `u` lies outside the domain [t_3, t_n)
-/// or is a knot three times already.
+/// A knot closer than 1e-9 of the domain takes the place of `u`, for knots are equal or that far apart. Precondition: n ≥ 4
+/// control points and n + 4 knots that do not fall. None where `u` lies outside the domain [t_3, t_n) or is a knot three
+/// times already.
 pub(super) fn inserted(points: &[DVec2], knots: &[f64], u: f64) -> Option<Spline> {
     let count = points.len();
     if count <= DEGREE || knots.len() != count + DEGREE + 1 {
         return None;
     }
+    let closest = NARROWEST_SPAN * (knots[count] - knots[DEGREE]);
+    let near = knots.iter().copied().find(|t| (t - u).abs() <= closest);
+    let u = near.unwrap_or(u);
     let is_within = knots[DEGREE] <= u && u < knots[count];
     let multiplicity = knots.iter().filter(|&&t| t == u).count();
     if !is_within || multiplicity >= DEGREE {
@@ -99,14 +105,23 @@ mod tests {
             let profile = model.profile().unwrap();
             let curve = profile.curve();
             for u in [0.0, 1e-3, 0.25, 1.0 / 3.0, 0.5, 0.777, 0.999] {
-                let Some((points, knots)) = inserted(curve.control_points(), curve.knots(), u) else {
-                    assert_eq!(u, 0.0, "{}: only the clamped start takes no knot", model.name);
+                let Some((points, knots)) = inserted(curve.control_points(), curve.knots(), u)
+                else {
+                    assert_eq!(
+                        u, 0.0,
+                        "{}: only the clamped start takes no knot",
+                        model.name
+                    );
                     continue;
                 };
                 assert_eq!(points.len(), curve.control_points().len() + 1);
                 let more = Nurbs::with_knots(points, knots).unwrap();
                 let error = largest_difference(curve, &more);
-                assert!(error <= 1e-12 * profile.magnitude(), "{} {u}: {error}", model.name);
+                assert!(
+                    error <= 1e-12 * profile.magnitude(),
+                    "{} {u}: {error}",
+                    model.name
+                );
             }
         }
     }

@@ -1,11 +1,11 @@
 //! The section of the material.
 
-use eframe::egui::{RichText, Ui};
+use eframe::egui::Ui;
 use foldmotion_solver::Material;
 use foldmotion_study::Scene;
 use foldmotion_study::scene::PresetChoice;
 
-use super::form::{Field, Form};
+use super::form::{Field, Form, note};
 use super::number::Number;
 
 /// A key of a constant.
@@ -32,10 +32,26 @@ pub(super) fn show(form: &mut Form<'_>, ui: &mut Ui) {
 
 fn show_presets(form: &mut Form<'_>, ui: &mut Ui) {
     let ways = [
-        (None, "standard", "Origami Simulator's constants, without its face-angle springs"),
-        (Some(PresetChoice::OrigamiSimulator), "Origami Simulator", "its constants, face-angle springs included"),
-        (Some(PresetChoice::Paper), "paper", "stiff bars, soft creases: strains below a per cent"),
-        (Some(PresetChoice::NearRigid), "near rigid", "bars that strain by less than a thousandth"),
+        (
+            None,
+            "standard",
+            "Origami Simulator's constants, without its face-angle springs",
+        ),
+        (
+            Some(PresetChoice::OrigamiSimulator),
+            "Origami Simulator",
+            "its constants, face-angle springs included",
+        ),
+        (
+            Some(PresetChoice::Paper),
+            "paper",
+            "stiff bars, soft creases: strains below a per cent",
+        ),
+        (
+            Some(PresetChoice::NearRigid),
+            "near rigid",
+            "bars that strain by less than a thousandth",
+        ),
     ];
     let given = form.scene.material.preset;
     form.part(ui, "material.preset", |form, ui| {
@@ -52,7 +68,7 @@ fn show_presets(form: &mut Form<'_>, ui: &mut Ui) {
     });
     form.faults_of(ui, "material.preset");
     let text = "only ratios shape the fold; a key below replaces that of the material above";
-    ui.label(RichText::new(text).small().weak());
+    ui.label(note(ui, text));
 }
 
 fn show_constants(form: &mut Form<'_>, ui: &mut Ui, standard: &Material) {

@@ -79,7 +79,9 @@ pub(crate) struct DesignPanel {
 impl DesignPanel {
     /// Shows the panel. The change is what the user did in this frame, if anything; the caller applies it.
     pub(crate) fn show(&mut self, ui: &mut egui::Ui, facts: &Facts<'_>) -> Option<Change> {
-        if !ui.input(|input| input.pointer.any_down()) && ui.input(|input| input.keys_down.is_empty()) {
+        if !ui.input(|input| input.pointer.any_down())
+            && ui.input(|input| input.keys_down.is_empty())
+        {
             self.gesture = None;
         }
         let mut form = Form::new(ui, facts, self.gesture, std::mem::take(&mut self.claims));

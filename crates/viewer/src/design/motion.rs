@@ -1,22 +1,42 @@
 //! The section of the motion: engine, contact, schedule, check.
 
-use eframe::egui::{RichText, Ui};
+use eframe::egui::Ui;
 use foldmotion_study::scene::{EngineChoice, StageChoice, StepScene, UnfoldChoice};
 
 use super::choice::Way;
-use super::form::{Field, Form};
+use super::form::{Field, Form, note};
 use super::number::Number;
 use super::step::{Order, show_step};
 
 const ENGINES: [Way<EngineChoice>; 2] = [
-    (EngineChoice::QuasiStatic, "quasi-static", "equilibrium along the schedule, layers kept apart"),
-    (EngineChoice::Dynamic, "dynamic", "mass, spring, damper in explicit steps, without contact"),
+    (
+        EngineChoice::QuasiStatic,
+        "quasi-static",
+        "equilibrium along the schedule, layers kept apart",
+    ),
+    (
+        EngineChoice::Dynamic,
+        "dynamic",
+        "mass, spring, damper in explicit steps, without contact",
+    ),
 ];
 
 const UNFOLDS: [Way<UnfoldChoice>; 3] = [
-    (UnfoldChoice::Auto, "auto", "uniform where that is proved not to cross, else energy"),
-    (UnfoldChoice::Uniform, "uniform", "all fold angles scaled together"),
-    (UnfoldChoice::Energy, "energy", "a path on which the profile does not cross itself (Cantarella et al. 2004)"),
+    (
+        UnfoldChoice::Auto,
+        "auto",
+        "uniform where that is proved not to cross, else energy",
+    ),
+    (
+        UnfoldChoice::Uniform,
+        "uniform",
+        "all fold angles scaled together",
+    ),
+    (
+        UnfoldChoice::Energy,
+        "energy",
+        "a path on which the profile does not cross itself (Cantarella et al. 2004)",
+    ),
 ];
 
 pub(super) fn show(form: &mut Form<'_>, ui: &mut Ui) {
@@ -39,13 +59,20 @@ pub(super) fn show(form: &mut Form<'_>, ui: &mut Ui) {
             "τ in units of h: facets that overlap by no more only touch",
         );
         let number = Number::within(0.0..=0.1).default(1e-6);
-        form.number(ui, &field, &number, |scene| &mut scene.check.touch_tolerance);
+        form.number(ui, &field, &number, |scene| {
+            &mut scene.check.touch_tolerance
+        });
         show_steps(form, ui);
     });
 }
 
 fn show_engine(form: &mut Form<'_>, ui: &mut Ui) {
-    let field = Field::new("motion.engine", "engine", "change the engine", "what moves the sheet");
+    let field = Field::new(
+        "motion.engine",
+        "engine",
+        "change the engine",
+        "what moves the sheet",
+    );
     form.menu(ui, &field, &ENGINES, |scene| &mut scene.motion.engine);
     let field = Field::new(
         "motion.frames",
@@ -79,7 +106,7 @@ fn show_contact(form: &mut Form<'_>, ui: &mut Ui) {
 fn show_steps(form: &mut Form<'_>, ui: &mut Ui) {
     ui.add_space(2.0);
     let text = "Schedule: creases that no step names follow the ramp of their stage";
-    ui.label(RichText::new(text).small().weak());
+    ui.label(note(ui, text));
     form.faults_exactly_at(ui, "motion.step");
     let count = form.scene.motion.step.len();
     let mut order = None;
@@ -107,7 +134,9 @@ fn show_steps(form: &mut Form<'_>, ui: &mut Ui) {
         form.record(label, id, false);
     }
     form.part(ui, "add step", |form, ui| {
-        let add = ui.button("add step").on_hover_text("some creases, and when in their stage they move");
+        let add = ui
+            .button("add step")
+            .on_hover_text("some creases, and when in their stage they move");
         if add.clicked() {
             form.scene.motion.step.push(StepScene {
                 stage: StageChoice::Fold,

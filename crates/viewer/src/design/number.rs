@@ -58,7 +58,9 @@ impl Number {
     /// The field, `width` wide; an empty one is `None`. The response says what happened, whether `value` changed is for the
     /// caller to compare.
     fn show(&self, ui: &mut Ui, width: f32, value: &mut Option<f64>) -> egui::Response {
-        let start = self.default.unwrap_or_else(|| 1.0_f64.clamp(*self.comfort.start(), *self.comfort.end()));
+        let start = self
+            .default
+            .unwrap_or_else(|| 1.0_f64.clamp(*self.comfort.start(), *self.comfort.end()));
         let editing = ui.memory(|memory| memory.has_focus(ui.next_auto_id()));
         let is_left_out = value.is_none();
         let (hint, default) = (self.hint, self.default);
@@ -108,7 +110,7 @@ fn parsed(text: &str) -> Option<f64> {
 pub(super) fn short(number: f64) -> String {
     let size = number.abs();
     if size != 0.0 && !(1e-3..1e7).contains(&size) {
-        return format!("{number:.3e}");
+        return scientific(number, 3);
     }
     let digits = (5 - size.max(1.0).log10().floor() as i32).clamp(0, 5);
     let text = format!("{number:.*}", digits as usize);
@@ -117,6 +119,23 @@ pub(super) fn short(number: f64) -> String {
     } else {
         text
     }
+}
+
+/// A number as a power of ten, with at most so many digits behind the point.
+pub(super) fn scientific(number: f64, digits: usize) -> String {
+    let text = format!("{number:.digits$e}");
+    match text.split_once('e') {
+        Some((size, power)) if size.contains('.') => {
+            let size = size.trim_end_matches('0').trim_end_matches('.');
+            format!("{size}e{power}")
+        }
+        _ => text,
+    }
+}
+
+/// The width of a control that leaves room for a reset button.
+pub(super) fn control_width(ui: &Ui) -> f32 {
+    ui.available_width() - RESET_WIDTH - ui.spacing().item_spacing.x
 }
 
 impl Form<'_> {
@@ -129,7 +148,7 @@ impl Form<'_> {
         of: impl Fn(&mut Scene) -> &mut Option<f64>,
     ) {
         self.row(ui, field, |form, ui, label| {
-            let width = ui.available_width() - RESET_WIDTH - ui.spacing().item_spacing.x;
+            let width = control_width(ui);
             form.number_cell(ui, field.undo, label, number, width, &of);
             let is_given = of(&mut form.scene).is_some();
             if form.reset(ui, field, is_given) {
@@ -148,7 +167,7 @@ impl Form<'_> {
     ) {
         let number = number.whole();
         self.row(ui, field, |form, ui, label| {
-            let width = ui.available_width() - RESET_WIDTH - ui.spacing().item_spacing.x;
+            let width = control_width(ui);
             let value = *of(&mut form.scene);
             if let Some(new) = form.whole_cell(ui, field.undo, label, &number, width, value) {
                 *of(&mut form.scene) = new;
@@ -200,7 +219,26 @@ impl Form<'_> {
         is_changed.then_some(after)
     }
 
-    /// A required number, named by the label; its new value if it has changed.
+    /// A field of a number under a name of its own; its new value if it has changed.
+    pub(super) fn named_cell(
+        &mut self,
+        ui: &mut Ui,
+        undo: &'static str,
+        name: &str,
+        number: &Number,
+        width: f32,
+        before: Option<f64>,
+    ) -> Option<Option<f64>> {
+        let mut value = before;
+        let response = ui.scope(|ui| number.show(ui, width, &mut value)).inner;
+        if value != before {
+            self.record(undo, response.id, response.dragged());
+        }
+        response.accessible_name(name);
+        (value != before).then_some(value)
+    }
+
+    /// A field of a number that cannot be left out; its new value if it has changed.
     pub(super) fn required_cell(
         &mut self,
         ui: &mut Ui,
@@ -210,14 +248,8 @@ impl Form<'_> {
         width: f32,
         before: f64,
     ) -> Option<f64> {
-        let mut value = Some(before);
-        let response = ui.scope(|ui| number.show(ui, width, &mut value)).inner;
-        let after = value.filter(|&after| after != before);
-        if after.is_some() {
-            self.record(undo, response.id, response.dragged());
-        }
-        response.accessible_name(name);
-        after
+        self.named_cell(ui, undo, name, number, width, Some(before))
+            .flatten()
     }
 
     /// The button that leaves a key out again; nothing but room for it where it is left out already.
@@ -227,7 +259,7 @@ impl Form<'_> {
             ui.allocate_space(size);
             return false;
         }
-        let button = egui::Button::new("⟲").frame(false).min_size(size);
+        let button = egui::Button::new("×").frame(false).min_size(size);
         let response = ui
             .add(button)
             .accessible_name(format!("default of {}", field.name))

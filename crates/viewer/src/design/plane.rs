@@ -16,7 +16,7 @@ const MARGIN: f32 = 22.0;
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Plane {
     pub(super) rect: Rect,
-    centre: DVec2,
+    pub(super) centre: DVec2,
     /// Points a unit of length.
     pub(super) scale: f64,
 }
@@ -25,7 +25,9 @@ impl Plane {
     /// The plane in which the box from `low` to `high` fills `rect`.
     fn fitted(rect: Rect, [low, high]: [DVec2; 2]) -> Self {
         let room = rect.shrink(MARGIN.min(rect.size().min_elem() / 4.0)).size();
-        let size = (high - low).max(DVec2::splat(1e-9 * (low.abs().max(high.abs()).max_element() + 1e-90)));
+        let size = (high - low).max(DVec2::splat(
+            1e-9 * (low.abs().max(high.abs()).max_element() + 1e-90),
+        ));
         let scale = (f64::from(room.x) / size.x).min(f64::from(room.y) / size.y);
         Self {
             rect,
@@ -37,7 +39,13 @@ impl Plane {
     /// The place of a point on the screen, kept within what can be drawn.
     pub(super) fn to_screen(&self, point: DVec2) -> Pos2 {
         let offset = (point - self.centre) * self.scale;
-        let kept = |x: f64| if x.is_nan() { 0.0 } else { x.clamp(-1e4, 1e4) as f32 };
+        let kept = |x: f64| {
+            if x.is_nan() {
+                0.0
+            } else {
+                x.clamp(-1e4, 1e4) as f32
+            }
+        };
         self.rect.center() + vec2(kept(offset.x), -kept(offset.y))
     }
 
@@ -58,10 +66,15 @@ impl Plane {
         let weak = ui.visuals().weak_text_color().gamma_multiply(0.25);
         let font = egui::FontId::proportional(9.0);
         let text = ui.visuals().weak_text_color();
-        let (low, high) = (self.to_plane(self.rect.left_bottom()), self.to_plane(self.rect.right_top()));
+        let (low, high) = (
+            self.to_plane(self.rect.left_bottom()),
+            self.to_plane(self.rect.right_top()),
+        );
         let lines = |low: f64, high: f64| {
             let first = (low / step).ceil();
-            (0..200).map(move |k| (first + f64::from(k)) * step).take_while(move |&x| x <= high)
+            (0..200)
+                .map(move |k| (first + f64::from(k)) * step)
+                .take_while(move |&x| x <= high)
         };
         let stroke = |at: f64| {
             let width = if at.abs() < step / 2.0 { 1.6 } else { 0.8 };
@@ -71,21 +84,37 @@ impl Plane {
             let at = self.to_screen(DVec2::new(x, self.centre.y)).x;
             painter.vline(at, self.rect.y_range(), stroke(x));
             let place = pos2(at + 2.0, self.rect.bottom() - 1.0);
-            painter.text(place, egui::Align2::LEFT_BOTTOM, label(x, step), font.clone(), text);
+            painter.text(
+                place,
+                egui::Align2::LEFT_BOTTOM,
+                label(x, step),
+                font.clone(),
+                text,
+            );
         }
         for z in lines(low.y, high.y) {
             let at = self.to_screen(DVec2::new(self.centre.x, z)).y;
             painter.hline(self.rect.x_range(), at, stroke(z));
             if at < self.rect.bottom() - 14.0 {
                 let place = pos2(self.rect.left() + 2.0, at);
-                painter.text(place, egui::Align2::LEFT_BOTTOM, label(z, step), font.clone(), text);
+                painter.text(
+                    place,
+                    egui::Align2::LEFT_BOTTOM,
+                    label(z, step),
+                    font.clone(),
+                    text,
+                );
             }
         }
     }
 }
 
 fn label(at: f64, step: f64) -> String {
-    if at.abs() < step / 2.0 { "0".to_owned() } else { short(at) }
+    if at.abs() < step / 2.0 {
+        "0".to_owned()
+    } else {
+        short(at)
+    }
 }
 
 /// 1, 2 or 5 times a power of ten, no smaller than `least`.
@@ -138,7 +167,11 @@ impl View {
         let rect = response.rect;
         let fitted = Plane::fitted(rect, bounds);
         let mut plane = match self.chosen {
-            Some((centre, scale)) => Plane { rect, centre, scale },
+            Some((centre, scale)) => Plane {
+                rect,
+                centre,
+                scale,
+            },
             None => fitted,
         };
         let moves = [egui::PointerButton::Secondary, egui::PointerButton::Middle];
@@ -175,16 +208,28 @@ pub(super) fn canvas(ui: &mut Ui, height: f32, name: &str) -> (Response, egui::P
     response.widget_info(|| egui::WidgetInfo::labeled(egui::accesskit::Role::Canvas, true, name));
     let painter = ui.painter_at(rect);
     let edge = ui.visuals().widgets.noninteractive.bg_stroke;
-    painter.rect(rect, 3.0, ui.visuals().extreme_bg_color, edge, egui::StrokeKind::Inside);
+    painter.rect(
+        rect,
+        3.0,
+        ui.visuals().extreme_bg_color,
+        edge,
+        egui::StrokeKind::Inside,
+    );
     (response, painter)
 }
 
 /// Red for mountains, blue for valleys, as in the paper; both read on dark and on light ground.
 pub(super) fn crease_colours(ui: &Ui) -> [Color32; 2] {
     if ui.visuals().dark_mode {
-        [Color32::from_rgb(255, 105, 97), Color32::from_rgb(105, 170, 255)]
+        [
+            Color32::from_rgb(255, 105, 97),
+            Color32::from_rgb(105, 170, 255),
+        ]
     } else {
-        [Color32::from_rgb(200, 30, 30), Color32::from_rgb(30, 80, 200)]
+        [
+            Color32::from_rgb(200, 30, 30),
+            Color32::from_rgb(30, 80, 200),
+        ]
     }
 }
 
@@ -216,7 +261,13 @@ mod tests {
 
     #[test]
     fn steps_of_grids_are_1_2_or_5_times_a_power_of_ten() {
-        for (least, step) in [(0.9, 1.0), (1.1, 2.0), (2.1, 5.0), (5.1, 10.0), (0.03, 0.05)] {
+        for (least, step) in [
+            (0.9, 1.0),
+            (1.1, 2.0),
+            (2.1, 5.0),
+            (5.1, 10.0),
+            (0.03, 0.05),
+        ] {
             assert!((round_step(least) / step - 1.0).abs() < 1e-12, "{least}");
         }
     }
@@ -228,7 +279,10 @@ mod tests {
             let place = plane.to_screen(DVec2::new(x, 0.0));
             assert!(place.x.is_finite() && place.y.is_finite());
         }
-        assert_eq!(bounds([DVec2::NAN]), [DVec2::splat(-1.0), DVec2::splat(1.0)]);
+        assert_eq!(
+            bounds([DVec2::NAN]),
+            [DVec2::splat(-1.0), DVec2::splat(1.0)]
+        );
         for size in [0.0, 1e-100, 1e100] {
             let fitted = Plane::fitted(plane.rect, [DVec2::splat(-size), DVec2::splat(size)]);
             assert!(fitted.scale.is_finite() && fitted.scale > 0.0);

@@ -6,7 +6,7 @@ use foldmotion_study::Draft;
 use glam::DVec2;
 
 use super::creases::{Creases, MOST_EDGES};
-use super::form::Form;
+use super::form::{Form, NOTE_SIZE};
 use super::plane::{Plane, View, bounds, canvas};
 
 /// How the pattern is turned: its long side lies across, its front faces the viewer.
@@ -23,7 +23,9 @@ enum Turn {
 
 impl Turn {
     fn of(draft: &Draft) -> Self {
-        let Draft::Units(draft) = draft else { return Self::None };
+        let Draft::Units(draft) = draft else {
+            return Self::None;
+        };
         let units = &draft.units;
         let is_long = draft.division.length() >= units.unit.width * units.columns as f64;
         if is_long { Self::Half } else { Self::Quarter }
@@ -69,9 +71,11 @@ impl Preview {
             form.part(ui, "pattern buttons", |_, ui| {
                 ui.horizontal(|ui| {
                     let [mountain, valley] = super::plane::crease_colours(ui);
-                    ui.label(RichText::new("— mountain").small().color(mountain));
-                    ui.label(RichText::new("- - valley").small().color(valley));
-                    let fit = ui.small_button("fit pattern").on_hover_text("show the whole pattern");
+                    ui.label(RichText::new("— mountain").size(NOTE_SIZE).color(mountain));
+                    ui.label(RichText::new("- - valley").size(NOTE_SIZE).color(valley));
+                    let fit = ui
+                        .small_button("fit pattern")
+                        .on_hover_text("show the whole pattern");
                     if fit.clicked() {
                         self.view.fit();
                     }
@@ -99,16 +103,28 @@ impl Preview {
         let sheet = draft.sheet();
         let turn = self.turn;
         let place = |v| turn.apply(v);
-        painter.add(self.creases.shape(ui, form.draft_number, sheet, &plane, place));
+        painter.add(
+            self.creases
+                .shape(ui, form.draft_number, sheet, &plane, place),
+        );
         if sheet.edges.len() > MOST_EDGES {
             let colour = ui.visuals().weak_text_color();
             let at = plane.rect.center_top();
-            painter.text(at, Align2::CENTER_TOP, "the first creases only", FontId::proportional(11.0), colour);
+            painter.text(
+                at,
+                Align2::CENTER_TOP,
+                "the first creases only",
+                FontId::proportional(11.0),
+                colour,
+            );
         }
         if let Some(at) = response.hover_pos() {
             let found = found(draft, turn.undo(plane.to_plane(at)));
             if let Some((corners, text)) = found {
-                let corners: Vec<_> = corners.iter().map(|&c| plane.to_screen(turn.apply(c))).collect();
+                let corners: Vec<_> = corners
+                    .iter()
+                    .map(|&c| plane.to_screen(turn.apply(c)))
+                    .collect();
                 mark(ui, &painter, &plane, corners, &text);
             }
         }
@@ -153,7 +169,10 @@ fn unit_at(units: &UnitSheet, at: DVec2) -> Option<(Vec<DVec2>, String)> {
                 DVec2::new(bottom, left),
             ];
             let kind = UnitSheet::unit_name(row as u32);
-            let text = format!("row {row}, column {column}: {kind}, case {}", unit.case.name());
+            let text = format!(
+                "row {row}, column {column}: {kind}, case {}",
+                unit.case.name()
+            );
             return Some((corners, text));
         }
         top = bottom;
@@ -164,12 +183,17 @@ fn unit_at(units: &UnitSheet, at: DVec2) -> Option<(Vec<DVec2>, String)> {
 fn facet_at(sheet: &Sheet, at: DVec2) -> Option<(Vec<DVec2>, String)> {
     let is_inside = |face: &[u32; 3]| {
         let [a, b, c] = face.map(|v| sheet.vertices[v as usize]);
-        [(a, b), (b, c), (c, a)].into_iter().all(|(p, q)| (q - p).perp_dot(at - p) >= 0.0)
+        [(a, b), (b, c), (c, a)]
+            .into_iter()
+            .all(|(p, q)| (q - p).perp_dot(at - p) >= 0.0)
     };
     let face = sheet.faces.iter().position(is_inside)?;
     let facet = sheet.face_facets[face];
     let polygon = &sheet.facets[facet as usize].polygon;
-    let corners = polygon.iter().map(|&v| sheet.vertices[v as usize]).collect();
+    let corners = polygon
+        .iter()
+        .map(|&v| sheet.vertices[v as usize])
+        .collect();
     Some((corners, format!("facet {facet}")))
 }
 
@@ -186,11 +210,18 @@ mod tests {
         for (row, column) in [(0, 0), (1, 1), (2, 0)] {
             let at = DVec2::new(-(f64::from(row) + 0.5), (f64::from(column) + 0.5) * 1.6);
             let (corners, text) = unit_at(&units, at).unwrap();
-            assert!(text.starts_with(&format!("row {row}, column {column}")), "{text}");
+            assert!(
+                text.starts_with(&format!("row {row}, column {column}")),
+                "{text}"
+            );
             let centre = corners.iter().sum::<DVec2>() / 4.0;
             assert!(centre.distance(at) < 1e-12);
         }
-        for outside in [DVec2::new(0.1, 0.5), DVec2::new(-3.1, 0.5), DVec2::new(-1.0, 3.3)] {
+        for outside in [
+            DVec2::new(0.1, 0.5),
+            DVec2::new(-3.1, 0.5),
+            DVec2::new(-1.0, 3.3),
+        ] {
             assert!(unit_at(&units, outside).is_none());
         }
     }

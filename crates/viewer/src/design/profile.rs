@@ -10,13 +10,21 @@ use super::choice::Way;
 use super::curve::{
     Origin, into_control_points, into_file, into_model, into_points, model, own_profile,
 };
-use super::form::{Field, Form};
-use super::number::{Number, short};
+use super::form::{Field, Form, note};
+use super::number::{Number, control_width, short};
 
 const CLOSED: [Way<Option<Closed>>; 3] = [
     (None, "open", "two ends"),
-    (Some(Closed::Corner), "with a corner", "returns to its start, with a corner there"),
-    (Some(Closed::Smooth), "smoothly", "returns to its start with both derivatives"),
+    (
+        Some(Closed::Corner),
+        "with a corner",
+        "returns to its start, with a corner there",
+    ),
+    (
+        Some(Closed::Smooth),
+        "smoothly",
+        "returns to its start with both derivatives",
+    ),
 ];
 
 /// Units of length, the default first.
@@ -59,15 +67,25 @@ impl ProfileSection {
         self.names_file &= at != Origin::File;
         let shown = if self.names_file { Origin::File } else { at };
         let ways = [
-            (Origin::Model, "built-in", "a profile of figure 6 and table 1 of the paper"),
-            (Origin::ControlPoints, "control points", "a cubic NURBS with unit weights (section 2 of the paper)"),
+            (
+                Origin::Model,
+                "built-in",
+                "a profile of figure 6 and table 1 of the paper",
+            ),
+            (
+                Origin::ControlPoints,
+                "control points",
+                "a cubic NURBS with unit weights (section 2 of the paper)",
+            ),
             (Origin::Points, "points", "a cubic spline through points"),
             (Origin::File, "file", "points of a .csv, .dat or .dxf file"),
         ];
         form.part(ui, "profile origin", |form, ui| {
             ui.horizontal_wrapped(|ui| {
                 for (origin, name, tip) in ways {
-                    let option = ui.selectable_label(origin == shown, name).on_hover_text(tip);
+                    let option = ui
+                        .selectable_label(origin == shown, name)
+                        .on_hover_text(tip);
                     if option.clicked() && origin != shown {
                         self.names_file = origin == Origin::File;
                         if turn_into(form, origin) {
@@ -87,7 +105,11 @@ impl ProfileSection {
     fn show_buttons(&mut self, form: &mut Form<'_>, ui: &mut Ui) {
         form.part(ui, "profile buttons", |form, ui| {
             ui.horizontal(|ui| {
-                if ui.small_button("fit").on_hover_text("show the whole profile").clicked() {
+                if ui
+                    .small_button("fit")
+                    .on_hover_text("show the whole profile")
+                    .clicked()
+                {
                     self.canvas.view.fit();
                 }
                 if Origin::of(&form.scene.profile) != Origin::ControlPoints {
@@ -109,7 +131,10 @@ impl ProfileSection {
 
 /// Writes the curve in another way; false where it stays as it is for now.
 fn turn_into(form: &mut Form<'_>, origin: Origin) -> bool {
-    let drawn = form.draft.and_then(Draft::units).map(|draft| &draft.profile);
+    let drawn = form
+        .draft
+        .and_then(Draft::units)
+        .map(|draft| &draft.profile);
     match origin {
         Origin::Model => {
             let name = models().first().map_or("shelter", |model| model.name);
@@ -138,7 +163,7 @@ fn show_models(form: &mut Form<'_>, ui: &mut Ui) {
         let menu = egui::ComboBox::from_id_salt("model")
             .selected_text(text)
             .truncate()
-            .width(ui.available_width());
+            .width(control_width(ui));
         let mut chosen = None;
         let response = menu.show_ui(ui, |ui| {
             for model in models() {
@@ -190,7 +215,7 @@ fn show_division(form: &Form<'_>, ui: &mut Ui) {
     };
     let tip = "|R_max| = max |h_k - h| / h (equation 1 of the paper); fit: the largest distance of the curve from its \
                segments, and the mean one";
-    let label = egui::Label::new(RichText::new(text).small().weak()).wrap();
+    let label = egui::Label::new(note(ui, text)).wrap();
     ui.add(label).on_hover_text(tip);
 }
 
@@ -227,7 +252,12 @@ fn show_keys(form: &mut Form<'_>, ui: &mut Ui) {
     );
     let number = Number::within(1e-6..=1e6).default(length).hint("as drawn");
     form.number(ui, &field, &number, |scene| &mut scene.profile.length);
-    let field = Field::new("profile.unit", "unit", "change the unit", "the unit of length");
+    let field = Field::new(
+        "profile.unit",
+        "unit",
+        "change the unit",
+        "the unit of length",
+    );
     form.menu(ui, &field, &UNITS, |scene| &mut scene.profile.unit);
 }
 

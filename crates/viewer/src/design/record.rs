@@ -8,9 +8,10 @@ use foldmotion_study::scene::{
 
 use super::choice::Way;
 use super::form::{Field, Form};
-use super::number::{Number, RESET_WIDTH, short};
+use super::number::{Number, control_width, short};
 
-const DEFAULT_OUTPUTS: [OutputChoice; 3] = [OutputChoice::Fold, OutputChoice::Gif, OutputChoice::Csv];
+const DEFAULT_OUTPUTS: [OutputChoice; 3] =
+    [OutputChoice::Fold, OutputChoice::Gif, OutputChoice::Csv];
 const DEFAULT_SIZE: [i64; 2] = [960, 720];
 const DEFAULT_SECONDS: [f64; 2] = [3.0, 5.0];
 const DEFAULT_HOLD: f64 = 0.5;
@@ -18,13 +19,29 @@ const DEFAULT_HOLD: f64 = 0.5;
 const COLOURS: [Way<ColourChoice>; 4] = [
     (ColourChoice::Paper, "paper", "the two sides of the paper"),
     (ColourChoice::Grey, "grey", "the same in greys"),
-    (ColourChoice::Strain, "strain", "the largest strain of a triangle's edges"),
-    (ColourChoice::Bending, "bending", "the largest bend of a facet"),
+    (
+        ColourChoice::Strain,
+        "strain",
+        "the largest strain of a triangle's edges",
+    ),
+    (
+        ColourChoice::Bending,
+        "bending",
+        "the largest bend of a facet",
+    ),
 ];
 
 const LOOPS: [Way<LoopChoice>; 2] = [
-    (LoopChoice::Forward, "forward", "from the first state to the last"),
-    (LoopChoice::BackAndForth, "back and forth", "to the last and back, without a jump"),
+    (
+        LoopChoice::Forward,
+        "forward",
+        "from the first state to the last",
+    ),
+    (
+        LoopChoice::BackAndForth,
+        "back and forth",
+        "to the last and back, without a jump",
+    ),
 ];
 
 const CAMERAS: [(Option<CameraChoice>, &str); 6] = [
@@ -58,7 +75,11 @@ fn show_outputs(form: &mut Form<'_>, ui: &mut Ui) {
                 let tip = tip_of(output);
                 let response = ui.checkbox(&mut is_on, output.name()).on_hover_text(tip);
                 if response.changed() {
-                    let outputs = form.scene.record.outputs.get_or_insert(DEFAULT_OUTPUTS.to_vec());
+                    let outputs = form
+                        .scene
+                        .record
+                        .outputs
+                        .get_or_insert(DEFAULT_OUTPUTS.to_vec());
                     outputs.retain(|&other| other != output);
                     if is_on {
                         outputs.push(output);
@@ -99,14 +120,14 @@ fn pair(
 ) -> Option<Option<[f64; 2]>> {
     let mut changed = None;
     form.row(ui, field, |form, ui, _| {
-        let spacing = ui.spacing().item_spacing.x;
-        let width = (ui.available_width() - RESET_WIDTH - 2.0 * spacing) / 2.0;
-        let mut values = given.unwrap_or(default);
+        let width = (control_width(ui) - ui.spacing().item_spacing.x) / 2.0;
         for (index, name) in names.into_iter().enumerate() {
-            let cell = form.required_cell(ui, field.undo, name, number, width, values[index]);
-            if let Some(new) = cell {
-                values[index] = new;
-                changed = Some(Some(values));
+            let number = number.clone().default(default[index]);
+            let value = given.map(|values| values[index]);
+            if let Some(new) = form.named_cell(ui, field.undo, name, &number, width, value) {
+                let mut values = given.unwrap_or(default);
+                values[index] = new.unwrap_or(default[index]);
+                changed = Some(new.map(|_| values));
             }
         }
         if form.reset(ui, field, given.is_some()) {
@@ -117,8 +138,17 @@ fn pair(
 }
 
 fn show_size(form: &mut Form<'_>, ui: &mut Ui) {
-    let field = Field::new("record.size", "pixels", "change the size", "pixels across and down");
-    let given = form.scene.record.size.map(|size| size.map(|pixels| pixels as f64));
+    let field = Field::new(
+        "record.size",
+        "pixels",
+        "change the size",
+        "pixels across and down",
+    );
+    let given = form
+        .scene
+        .record
+        .size
+        .map(|size| size.map(|pixels| pixels as f64));
     let number = Number::within(16.0..=4096.0).whole();
     let default = DEFAULT_SIZE.map(|pixels| pixels as f64);
     let names = ["pixels across", "pixels down"];
@@ -128,7 +158,12 @@ fn show_size(form: &mut Form<'_>, ui: &mut Ui) {
 }
 
 fn show_times(form: &mut Form<'_>, ui: &mut Ui) {
-    let field = Field::new("record.seconds", "seconds", "change the seconds", "seconds a stage: unfold, fold");
+    let field = Field::new(
+        "record.seconds",
+        "seconds",
+        "change the seconds",
+        "seconds a stage: unfold, fold",
+    );
     let number = Number::within(0.0..=60.0).speed(0.05);
     let given = form.scene.record.seconds;
     let names = ["seconds to unfold", "seconds to fold"];
@@ -144,7 +179,12 @@ fn show_times(form: &mut Form<'_>, ui: &mut Ui) {
     let number = Number::within(1.0..=60.0).default(30.0).speed(0.2);
     form.number(ui, &field, &number, |scene| &mut scene.record.fps);
     show_hold(form, ui);
-    let field = Field::new("record.loop", "films run", "change how films run", "how films run");
+    let field = Field::new(
+        "record.loop",
+        "films run",
+        "change how films run",
+        "how films run",
+    );
     form.menu(ui, &field, &LOOPS, |scene| &mut scene.record.playback);
 }
 
@@ -167,7 +207,11 @@ fn show_hold(form: &mut Form<'_>, ui: &mut Ui) {
         Some([]) => None,
         Some(&[seconds]) => Some(HoldScene::Each(seconds)),
         Some(&[a, b, c]) => Some(HoldScene::States([a, b, c])),
-        _ => form.scene.record.hold.or(Some(HoldScene::Each(DEFAULT_HOLD))),
+        _ => form
+            .scene
+            .record
+            .hold
+            .or(Some(HoldScene::Each(DEFAULT_HOLD))),
     };
     form.scene.record.hold = hold;
 }
@@ -180,7 +224,12 @@ fn numbers(text: &str) -> Option<Vec<f64>> {
 }
 
 fn show_camera(form: &mut Form<'_>, ui: &mut Ui) {
-    let field = Field::new("record.camera", "camera", "change the camera", "where the viewer stands");
+    let field = Field::new(
+        "record.camera",
+        "camera",
+        "change the camera",
+        "where the viewer stands",
+    );
     let given = form.scene.record.camera;
     let shown = match given {
         None => Some(CameraChoice::Iso),
@@ -220,7 +269,11 @@ fn show_own_camera(form: &mut Form<'_>, ui: &mut Ui, own: OwnCamera) {
     let before = own;
     let mut own = own;
     let angles = [
-        ("azimuth", "counter-clockwise seen from above, degrees: -90 is front", 360.0),
+        (
+            "azimuth",
+            "counter-clockwise seen from above, degrees: -90 is front",
+            360.0,
+        ),
         ("elevation", "above the ground, degrees: 90 is top", 90.0),
         ("turn", "how far films go round, degrees", 3600.0),
     ];
@@ -229,14 +282,15 @@ fn show_own_camera(form: &mut Form<'_>, ui: &mut Ui, own: OwnCamera) {
         form.part(ui, &format!("camera {name}"), |form, ui| {
             ui.horizontal(|ui| {
                 super::form::name(ui, name, tip);
-                let width = ui.available_width() - RESET_WIDTH - ui.spacing().item_spacing.x;
+                let width = control_width(ui);
                 let value = match name {
                     "azimuth" => own.azimuth,
                     "elevation" => own.elevation,
                     _ => own.turn.unwrap_or(0.0),
                 };
                 let spoken = format!("camera {name}");
-                let new = form.required_cell(ui, "change the camera", &spoken, &number, width, value);
+                let new =
+                    form.required_cell(ui, "change the camera", &spoken, &number, width, value);
                 match (name, new) {
                     ("azimuth", Some(new)) => own.azimuth = new,
                     ("elevation", Some(new)) => own.elevation = new,
@@ -252,7 +306,12 @@ fn show_own_camera(form: &mut Form<'_>, ui: &mut Ui, own: OwnCamera) {
 }
 
 fn show_looks(form: &mut Form<'_>, ui: &mut Ui) {
-    let field = Field::new("record.colour", "colour", "change the colours", "what colours show");
+    let field = Field::new(
+        "record.colour",
+        "colour",
+        "change the colours",
+        "what colours show",
+    );
     form.menu(ui, &field, &COLOURS, |scene| &mut scene.record.colour);
     let field = Field::new(
         "record.caption",
@@ -292,7 +351,11 @@ fn show_states(form: &mut Form<'_>, ui: &mut Ui) {
         "the motion times of the states in figures, OBJ and STL, rising: 0 deployed, 1 flat, 2 compact",
     );
     let given = form.scene.record.at.clone().unwrap_or_default();
-    let text = given.iter().map(|t| format!("{t}")).collect::<Vec<_>>().join(", ");
+    let text = given
+        .iter()
+        .map(|t| format!("{t}"))
+        .collect::<Vec<_>>()
+        .join(", ");
     if let Some(entered) = form.text(ui, &field, "0, 0.5, 1, 1.5, 2", &text)
         && let Some(times) = numbers(&entered)
     {
@@ -332,9 +395,16 @@ fn show_thickened(form: &mut Form<'_>, ui: &mut Ui) {
         form.part(ui, "own thickness", |form, ui| {
             ui.horizontal(|ui| {
                 super::form::name(ui, "thick", "thickness of solids, in the unit of length");
-                let width = ui.available_width() - RESET_WIDTH - ui.spacing().item_spacing.x;
+                let width = control_width(ui);
                 let number = Number::within(0.0..=1e3).speed(1e-4);
-                let cell = form.required_cell(ui, field.undo, "thickness of solids", &number, width, thickness);
+                let cell = form.required_cell(
+                    ui,
+                    field.undo,
+                    "thickness of solids",
+                    &number,
+                    width,
+                    thickness,
+                );
                 if let Some(new) = cell {
                     form.scene.record.thickened = Some(ThickenedScene::By(new));
                 }

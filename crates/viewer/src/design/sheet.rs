@@ -1,45 +1,105 @@
 //! The section of the sheet and the division.
 
-use eframe::egui::{RichText, Ui};
+use eframe::egui::Ui;
 use foldmotion_study::scene::{
     CaseChoice, DivisionChoice, FacingChoice, FoldingChoice, UnequalChoice,
 };
 
 use super::choice::Way;
 use super::curve::{columns_case, model};
-use super::form::{Field, Form};
+use super::form::{Field, Form, note};
 use super::number::{Number, short};
 use super::size::{Size, USUAL_LAMBDA, own_case};
 
 const CASES: [Way<CaseChoice>; 6] = [
-    (CaseChoice::E, "E", "square units, w = h (section 2 of the paper)"),
-    (CaseChoice::T, "T", "tall units, w < h, split mid vertices (figure 3)"),
-    (CaseChoice::S, "S", "short units, w > h, side pads (figure 4)"),
-    (CaseChoice::SII, "SII", "short units with side and centre pads (figure 5)"),
-    (CaseChoice::Plain, "plain", "unmodified rectangles (figures 3a-d, 4a-d)"),
-    (CaseChoice::Auto, "auto", "E where w = h, T below, S above, or SII if lambda is given"),
+    (
+        CaseChoice::E,
+        "E",
+        "square units, w = h (section 2 of the paper)",
+    ),
+    (
+        CaseChoice::T,
+        "T",
+        "tall units, w < h, split mid vertices (figure 3)",
+    ),
+    (
+        CaseChoice::S,
+        "S",
+        "short units, w > h, side pads (figure 4)",
+    ),
+    (
+        CaseChoice::SII,
+        "SII",
+        "short units with side and centre pads (figure 5)",
+    ),
+    (
+        CaseChoice::Plain,
+        "plain",
+        "unmodified rectangles (figures 3a-d, 4a-d)",
+    ),
+    (
+        CaseChoice::Auto,
+        "auto",
+        "E where w = h, T below, S above, or SII if lambda is given",
+    ),
 ];
 
 const FACINGS: [Way<FacingChoice>; 2] = [
-    (FacingChoice::Left, "left", "on the left of the curve, seen along it"),
+    (
+        FacingChoice::Left,
+        "left",
+        "on the left of the curve, seen along it",
+    ),
     (FacingChoice::Right, "right", "on the right of it"),
 ];
 
 const UNEQUAL: [Way<UnequalChoice>; 3] = [
-    (UnequalChoice::Refuse, "refuse", "rows of unequal height are refused"),
-    (UnequalChoice::OwnCase, "own case", "each row takes E, T or S by its own w/h"),
-    (UnequalChoice::CommonFlap, "common flap", "all rows have one flap width, a = lambda min(h, w) / 2"),
+    (
+        UnequalChoice::Refuse,
+        "refuse",
+        "rows of unequal height are refused",
+    ),
+    (
+        UnequalChoice::OwnCase,
+        "own case",
+        "each row takes E, T or S by its own w/h",
+    ),
+    (
+        UnequalChoice::CommonFlap,
+        "common flap",
+        "all rows have one flap width, a = lambda min(h, w) / 2",
+    ),
 ];
 
 const FOLDINGS: [Way<FoldingChoice>; 2] = [
-    (FoldingChoice::Waterbomb, "waterbomb", "every unit folds: the paper's compact state"),
-    (FoldingChoice::Map, "map", "the lines between units fold, columns first, then rows"),
+    (
+        FoldingChoice::Waterbomb,
+        "waterbomb",
+        "every unit folds: the paper's compact state",
+    ),
+    (
+        FoldingChoice::Map,
+        "map",
+        "the lines between units fold, columns first, then rows",
+    ),
 ];
 
 const DIVISIONS: [Way<DivisionChoice>; 3] = [
-    (DivisionChoice::EqualLength, "equal length", "segments of equal length (equations 1 and 2)"),
-    (DivisionChoice::Parametric, "parametric", "even in the parameter of the curve"),
-    (DivisionChoice::DouglasPeucker, "Douglas-Peucker", "split where the curve is farthest from its segment"),
+    (
+        DivisionChoice::EqualLength,
+        "equal length",
+        "segments of equal length (equations 1 and 2)",
+    ),
+    (
+        DivisionChoice::Parametric,
+        "parametric",
+        "even in the parameter of the curve",
+    ),
+    (
+        DivisionChoice::DouglasPeucker,
+        "Douglas-Peucker",
+        "split where the curve is farthest from its segment",
+    ),
 ];
 
 /// What the section remembers.
@@ -66,7 +126,8 @@ impl SheetSection {
         form.part(ui, "sheet.case", |form, ui| {
             ui.horizontal_wrapped(|ui| {
                 ui.spacing_mut().item_spacing.x = 3.0;
-                ui.label("case").on_hover_text("how the units are creased; w/h says which can be");
+                ui.label("case")
+                    .on_hover_text("how the units are creased; w/h says which can be");
                 ui.add_space(4.0);
                 for (case, name, tip) in CASES {
                     let why_not = own_case(case)
@@ -141,13 +202,17 @@ fn show_counts(form: &mut Form<'_>, ui: &mut Ui) {
     let number = Number::within(1.0..=1000.0).default(columns).hint("needed");
     form.whole(ui, &field, number, |scene| &mut scene.sheet.columns);
     let text = match size {
-        Some(Size { width: Some(w), height: h, .. }) => {
+        Some(Size {
+            width: Some(w),
+            height: h,
+            ..
+        }) => {
             format!("w = {}, h = {}, w/h = {}", short(w), short(h), short(w / h))
         }
         Some(Size { height: h, .. }) => format!("h = {}; w needs a width", short(h)),
         None => "w and h are not known yet".to_owned(),
     };
-    ui.label(RichText::new(text).small().weak())
+    ui.label(note(ui, text))
         .on_hover_text("the unit: w = W/Nc, h the mean length of a segment");
 }
 
@@ -191,7 +256,7 @@ fn show_widths(form: &mut Form<'_>, ui: &mut Ui) {
         form.number(ui, &field, &number, |scene| &mut scene.sheet.offset);
         if let Some(limit) = limit {
             let text = format!("0 < λ < 1; 0 ≤ d < {}", short(limit));
-            ui.label(RichText::new(text).small().weak());
+            ui.label(note(ui, text));
         }
     }
 }
@@ -249,5 +314,7 @@ fn show_division(form: &mut Form<'_>, ui: &mut Ui) {
         "iterations of the division at most",
     );
     let number = Number::within(1.0..=10_000.0).default(200.0);
-    form.whole(ui, &field, number, |scene| &mut scene.division.max_iterations);
+    form.whole(ui, &field, number, |scene| {
+        &mut scene.division.max_iterations
+    });
 }

@@ -96,7 +96,11 @@ fn rows(form: &Form<'_>, built_in: Option<&ProfileModel>) -> Option<usize> {
 
 /// h, the mean of the rows: from the length of the polygon where that is known, else as last divided.
 fn height(form: &Form<'_>, built_in: Option<&ProfileModel>, rows: usize) -> Option<f64> {
-    let length = form.scene.profile.length.or_else(|| built_in.map(ProfileModel::length));
+    let length = form
+        .scene
+        .profile
+        .length
+        .or_else(|| built_in.map(ProfileModel::length));
     let height = match length {
         Some(length) => length / rows as f64,
         None => form.draft.and_then(Draft::units)?.division.mean_length,

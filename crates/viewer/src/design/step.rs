@@ -9,10 +9,26 @@ use super::number::Number;
 
 const CREASES: [Way<CreasesChoice>; 8] = [
     (CreasesChoice::All, "all", "every crease"),
-    (CreasesChoice::Rows, "rows", "on the boundaries between rows"),
-    (CreasesChoice::Columns, "columns", "between the columns of a map"),
-    (CreasesChoice::Diagonals, "diagonals", "between flaps and tucks"),
-    (CreasesChoice::Verticals, "verticals", "along corner and mid lines"),
+    (
+        CreasesChoice::Rows,
+        "rows",
+        "on the boundaries between rows",
+    ),
+    (
+        CreasesChoice::Columns,
+        "columns",
+        "between the columns of a map",
+    ),
+    (
+        CreasesChoice::Diagonals,
+        "diagonals",
+        "between flaps and tucks",
+    ),
+    (
+        CreasesChoice::Verticals,
+        "verticals",
+        "along corner and mid lines",
+    ),
     (CreasesChoice::Pads, "pads", "beside and across pads"),
     (CreasesChoice::Mountains, "mountains", "mountain creases"),
     (CreasesChoice::Valleys, "valleys", "valley creases"),
@@ -42,7 +58,10 @@ pub(super) fn show_step(
     count: usize,
 ) -> Option<(Order, Id)> {
     let ground = ui.visuals().faint_bg_color;
-    let frame = Frame::new().fill(ground).inner_margin(Margin::same(5)).corner_radius(3.0);
+    let frame = Frame::new()
+        .fill(ground)
+        .inner_margin(Margin::same(5))
+        .corner_radius(3.0);
     frame
         .show(ui, |ui| {
             ui.set_width(ui.available_width());
@@ -61,14 +80,18 @@ fn show_head(ui: &mut Ui, index: usize, count: usize) -> Option<(Order, Id)> {
     let number = index + 1;
     ui.label(RichText::new(format!("step {number}")).strong());
     let buttons = [
-        ("⏶", "up", Order::Up, index > 0),
-        ("⏷", "down", Order::Down, index + 1 < count),
-        ("🗙", "remove", Order::Remove, true),
+        ("up", Order::Up, index > 0),
+        ("down", Order::Down, index + 1 < count),
+        ("remove", Order::Remove, true),
     ];
     let mut asked = None;
-    for (sign, name, order, is_possible) in buttons {
-        let button = ui.add_enabled(is_possible, egui::Button::new(sign).small());
-        let button = button.accessible_name(format!("{name} step {number}")).on_hover_text(name);
+    for (name, order, is_possible) in buttons {
+        let button = ui
+            .add_enabled_ui(is_possible, |ui| sign_button(ui, order))
+            .inner;
+        let button = button
+            .accessible_name(format!("{name} step {number}"))
+            .on_hover_text(name);
         if button.clicked() {
             asked = Some((order, button.id));
         }
@@ -76,14 +99,43 @@ fn show_head(ui: &mut Ui, index: usize, count: usize) -> Option<(Order, Id)> {
     asked
 }
 
+/// A small button with a painted sign: fonts at hand have no arrows.
+fn sign_button(ui: &mut Ui, order: Order) -> egui::Response {
+    let (rect, response) = ui.allocate_exact_size(vec2(18.0, 18.0), egui::Sense::click());
+    response.widget_info(|| {
+        egui::WidgetInfo::labeled(egui::accesskit::Role::Button, ui.is_enabled(), "")
+    });
+    let visuals = ui.style().interact(&response);
+    let painter = ui.painter();
+    painter.rect_filled(rect, visuals.corner_radius, visuals.weak_bg_fill);
+    let stroke = Stroke::new(1.5, visuals.fg_stroke.color);
+    let at = |x: f32, y: f32| rect.center() + vec2(x, y);
+    match order {
+        Order::Up => painter.line(vec![at(-4.0, 2.0), at(0.0, -2.5), at(4.0, 2.0)], stroke),
+        Order::Down => painter.line(vec![at(-4.0, -2.0), at(0.0, 2.5), at(4.0, -2.0)], stroke),
+        Order::Remove => {
+            painter.line_segment([at(-3.5, -3.5), at(3.5, 3.5)], stroke);
+            painter.line_segment([at(-3.5, 3.5), at(3.5, -3.5)], stroke)
+        }
+    };
+    response
+}
+
 /// Which creases of which stage.
 fn show_what(form: &mut Form<'_>, ui: &mut Ui, index: usize) {
     let key = |key: &str| format!("motion.step.{index}.{key}");
     let is_imported = form.scene.pattern.is_some();
-    let Some(step) = form.scene.motion.step.get(index) else { return };
+    let Some(step) = form.scene.motion.step.get(index) else {
+        return;
+    };
     let stage = step.stage;
     if !is_imported || stage == StageChoice::Unfold {
-        let field = Field::new(key("stage"), "stage", "change the stage", "unfold: deployed to flat; fold: flat to compact");
+        let field = Field::new(
+            key("stage"),
+            "stage",
+            "change the stage",
+            "unfold: deployed to flat; fold: flat to compact",
+        );
         form.row(ui, &field, |form, ui, _| {
             for (way, name) in [(StageChoice::Unfold, "unfold"), (StageChoice::Fold, "fold")] {
                 let option = ui.selectable_label(way == stage, name);
@@ -96,21 +148,48 @@ fn show_what(form: &mut Form<'_>, ui: &mut Ui, index: usize) {
             }
         });
     }
-    let field = Field::new(key("creases"), "creases", "change the creases", "by their place in the unit or the way they fold");
+    let field = Field::new(
+        key("creases"),
+        "creases",
+        "change the creases",
+        "by their place in the unit or the way they fold",
+    );
     let is_of_units = !is_imported
         || form.scene.motion.step.get(index).is_some_and(|step| {
-            IMPORTED_CREASES.iter().all(|way| step.creases.is_some_and(|c| c != way.0))
+            IMPORTED_CREASES
+                .iter()
+                .all(|way| step.creases.is_some_and(|c| c != way.0))
         });
-    let ways = if is_of_units { &CREASES[..] } else { &IMPORTED_CREASES[..] };
-    form.menu(ui, &field, ways, |scene| &mut scene.motion.step[index].creases);
-    let lists: [(&str, &'static str, fn(&mut StepScene) -> &mut Option<Vec<i64>>); 2] = [
+    let ways = if is_of_units {
+        &CREASES[..]
+    } else {
+        &IMPORTED_CREASES[..]
+    };
+    form.menu(ui, &field, ways, |scene| {
+        &mut scene.motion.step[index].creases
+    });
+    let lists: [(
+        &str,
+        &'static str,
+        fn(&mut StepScene) -> &mut Option<Vec<i64>>,
+    ); 2] = [
         ("rows", "rows", |step| &mut step.rows),
         ("columns", "columns", |step| &mut step.columns),
     ];
     for (at, name, of) in lists {
-        let is_given = form.scene.motion.step.get_mut(index).is_some_and(|step| of(step).is_some());
+        let is_given = form
+            .scene
+            .motion
+            .step
+            .get_mut(index)
+            .is_some_and(|step| of(step).is_some());
         if !is_imported || is_given {
-            let field = Field::new(key(at), name, "change the range", "the first and the last, from 0, both included");
+            let field = Field::new(
+                key(at),
+                name,
+                "change the range",
+                "the first and the last, from 0, both included",
+            );
             show_range(form, ui, &field, index, of);
         }
     }
@@ -126,13 +205,15 @@ fn show_range(
 ) {
     form.row(ui, field, |form, ui, label| {
         let width = (ui.available_width() - 24.0) / 2.0;
-        let Some(step) = form.scene.motion.step.get_mut(index) else { return };
+        let Some(step) = form.scene.motion.step.get_mut(index) else {
+            return;
+        };
         let range = of(step).clone().unwrap_or_default();
         let (first, last) = (range.first().copied(), range.get(1).copied());
         let ends = Number::within(0.0..=1000.0).whole();
         let number = ends.clone().hint("all");
         let new_first = form.whole_cell(ui, field.undo, label, &number, width, first);
-        ui.label("to");
+        ui.label("–");
         let number = ends.default(first.map(|first| first as f64)).hint("all");
         let new_last = form.whole_cell(ui, field.undo, label, &number, width, last);
         if new_first.is_none() && new_last.is_none() {
@@ -155,15 +236,33 @@ fn show_range(
 /// When in the stage, and how.
 fn show_when(form: &mut Form<'_>, ui: &mut Ui, index: usize) {
     let key = |key: &str| format!("motion.step.{index}.{key}");
-    let Some(step) = form.scene.motion.step.get(index) else { return };
+    let Some(step) = form.scene.motion.step.get(index) else {
+        return;
+    };
     paint_part(ui, step.from.unwrap_or(0.0), step.to.unwrap_or(1.0));
     let part = Number::within(0.0..=1.0).speed(0.005);
-    let field = Field::new(key("from"), "from", "change the time of the step", "the part of the stage at which they begin to move");
-    form.number(ui, &field, &part.clone().default(0.0), |scene| &mut scene.motion.step[index].from);
-    let field = Field::new(key("to"), "to", "change the time of the step", "the part of the stage at which they arrive");
-    form.number(ui, &field, &part.default(1.0), |scene| &mut scene.motion.step[index].to);
+    let field = Field::new(
+        key("from"),
+        "from",
+        "change the time of the step",
+        "the part of the stage at which they begin to move",
+    );
+    form.number(ui, &field, &part.clone().default(0.0), |scene| {
+        &mut scene.motion.step[index].from
+    });
+    let field = Field::new(
+        key("to"),
+        "to",
+        "change the time of the step",
+        "the part of the stage at which they arrive",
+    );
+    form.number(ui, &field, &part.default(1.0), |scene| {
+        &mut scene.motion.step[index].to
+    });
     let field = Field::new(key("ease"), "ease", "change the ease", "how they move");
-    form.menu(ui, &field, &EASES, |scene| &mut scene.motion.step[index].ease);
+    form.menu(ui, &field, &EASES, |scene| {
+        &mut scene.motion.step[index].ease
+    });
 }
 
 /// A bar: the stage, and the part of it in which the step moves.
@@ -171,9 +270,18 @@ fn paint_part(ui: &mut Ui, from: f64, to: f64) {
     let size = vec2(ui.available_width(), 8.0);
     let (rect, response) = ui.allocate_exact_size(size, egui::Sense::hover());
     let at = |part: f64| rect.left() + rect.width() * part.clamp(0.0, 1.0) as f32;
-    let part = Rect::from_min_max(pos2(at(from), rect.top()), pos2(at(to).max(at(from) + 1.0), rect.bottom()));
+    let part = Rect::from_min_max(
+        pos2(at(from), rect.top()),
+        pos2(at(to).max(at(from) + 1.0), rect.bottom()),
+    );
     let painter = ui.painter_at(rect);
-    painter.rect(rect, 2.0, ui.visuals().extreme_bg_color, Stroke::NONE, egui::StrokeKind::Inside);
+    painter.rect(
+        rect,
+        2.0,
+        ui.visuals().extreme_bg_color,
+        Stroke::NONE,
+        egui::StrokeKind::Inside,
+    );
     painter.rect_filled(part, 2.0, ui.visuals().selection.bg_fill);
     response.on_hover_text("the part of its stage in which the step moves");
 }

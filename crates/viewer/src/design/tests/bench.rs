@@ -1,0 +1,139 @@
+//! A panel over a scene that takes every change, as the window does.
+
+use std::path::{Path, PathBuf};
+
+use eframe::egui::{self, vec2};
+use egui_kittest::Harness;
+use egui_kittest::kittest::Queryable as _;
+use foldmotion_study::{Draft, Scene, SceneSource};
+
+use super::super::{Change, DesignPanel, Facts, Fault};
+
+/// What the window holds beside the panel.
+pub(super) struct Bench {
+    panel: DesignPanel,
+    pub(super) scene: Scene,
+    pub(super) draft: Option<Draft>,
+    pub(super) draft_number: u64,
+    pub(super) faults: Vec<Fault>,
+    pub(super) changes: Vec<Change>,
+}
+
+/// A panel 360 points wide and tall enough to show all of it.
+pub(super) fn bench(text: &str) -> Harness<'static, Bench> {
+    bench_in(text, Path::new("test.toml"), egui::Theme::Dark, 2600.0)
+}
+
+/// The scenes that come with the project.
+pub(super) fn scenes() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes")
+}
+
+pub(super) fn bench_in(
+    text: &str,
+    path: &Path,
+    theme: egui::Theme,
+    height: f32,
+) -> Harness<'static, Bench> {
+    bench_of(&SceneSource::new(path, text.to_owned()), theme, height)
+}
+
+pub(super) fn bench_of(
+    source: &SceneSource,
+    theme: egui::Theme,
+    height: f32,
+) -> Harness<'static, Bench> {
+    let state = Bench {
+        panel: DesignPanel::default(),
+        scene: source.scene().unwrap(),
+        draft: Draft::resolve(source).ok(),
+        draft_number: 1,
+        faults: Vec::new(),
+        changes: Vec::new(),
+    };
+    let show = |ui: &mut egui::Ui, bench: &mut Bench| {
+        let facts = Facts {
+            scene: &bench.scene,
+            draft: bench.draft.as_ref(),
+            draft_number: bench.draft_number,
+            faults: &bench.faults,
+        };
+        if let Some(change) = bench.panel.show(ui, &facts) {
+            bench.scene = change.scene.clone();
+            bench.changes.push(change);
+        }
+    };
+    let builder = Harness::builder()
+        .with_size(vec2(360.0, height))
+        .with_theme(theme);
+    let mut harness = builder
+        .with_step_dt(0.05)
+        .with_max_steps(40)
+        .build_ui_state(show, state);
+    harness.run();
+    harness
+}
+
+impl Bench {
+    /// Makes the draft of the scene as it is, as the window does in the background.
+    pub(super) fn redraft(&mut self) {
+        let text = toml::to_string(&self.scene).unwrap();
+        let source = SceneSource::new(Path::new("test.toml"), text);
+        self.draft_number += 1;
+        self.faults.clear();
+        match Draft::resolve(&source) {
+            Ok(draft) => self.draft = Some(draft),
+            Err(error) => self.faults.push(Fault {
+                key: error.key().map(str::to_owned),
+                message: error.to_string(),
+            }),
+        }
+    }
+
+    pub(super) fn labels(&self) -> Vec<(&'static str, bool)> {
+        self.changes
+            .iter()
+            .map(|change| (change.label, change.continues))
+            .collect()
+    }
+}
+
+/// Opens or closes a section, or presses a button.
+pub(super) fn click(harness: &mut Harness<'static, Bench>, label: &str) {
+    harness.get_by_label(label).click();
+    harness.run();
+}
+
+/// Types a text into the field of that name and leaves it.
+pub(super) fn enter(harness: &mut Harness<'static, Bench>, label: &str, text: &str) {
+    harness.get_by_label(label).focus();
+    harness.run();
+    harness.key_combination_modifiers(egui::Modifiers::COMMAND, &[egui::Key::A]);
+    harness.key_press(egui::Key::Backspace);
+    harness.run();
+    if !text.is_empty() {
+        harness.get_by_label(label).type_text(text);
+        harness.run();
+    }
+    harness.key_press(egui::Key::Enter);
+    harness.run();
+}
+
+/// Drags from one place to another in `steps` moves.
+pub(super) fn drag(
+    harness: &mut Harness<'static, Bench>,
+    from: egui::Pos2,
+    way: egui::Vec2,
+    steps: u16,
+) {
+    harness.hover_at(from);
+    harness.run();
+    harness.drag_at(from);
+    harness.step();
+    for step in 1..=steps {
+        harness.hover_at(from + way * f32::from(step) / f32::from(steps));
+        harness.step();
+    }
+    harness.drop_at(from + way);
+    harness.run();
+}

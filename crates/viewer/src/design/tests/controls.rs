@@ -1,0 +1,292 @@
+//! Fields, menus, sections and what stands beside them.
+
+use egui_kittest::kittest::{NodeT as _, Queryable as _};
+use foldmotion_study::Scene;
+use foldmotion_study::scene::{CaseChoice, CreasesChoice, EngineChoice, OutputChoice, StageChoice};
+
+use super::super::Fault;
+use super::bench::{bench, bench_in, click, drag, enter, scenes};
+
+const SHELTER: &str =
+    "[profile]\nmodel = \"shelter\"\n[sheet]\nwidth = 5.0\ncolumns = 3\ncase = \"S\"\n";
+
+#[test]
+fn a_panel_that_nobody_touches_changes_nothing() {
+    let harness = bench(SHELTER);
+    assert!(harness.state().changes.is_empty());
+}
+
+#[test]
+fn a_typed_width_becomes_the_width_and_an_empty_field_leaves_it_out() {
+    let mut harness = bench(SHELTER);
+    enter(&mut harness, "width W", "6.25");
+    assert_eq!(harness.state().scene.sheet.width, Some(6.25));
+    assert_eq!(harness.state().labels(), [("change the width", false)]);
+    enter(&mut harness, "width W", "");
+    assert_eq!(harness.state().scene.sheet.width, None);
+}
+
+#[test]
+fn entering_a_field_and_leaving_it_writes_nothing() {
+    let mut harness = bench(
+        "[profile]\nmodel = \"shelter\"\n[sheet]\nwidth = 5.123456789012345\ncolumns = 3\ncase = \"S\"\n",
+    );
+    for field in ["width W", "rows Nr", "columns Nc", "length", "tolerance"] {
+        harness.get_by_label(field).focus();
+        harness.run();
+        harness.key_press(eframe::egui::Key::Enter);
+        harness.run();
+    }
+    assert!(
+        harness.state().changes.is_empty(),
+        "{:?}",
+        harness.state().labels()
+    );
+}
+
+#[test]
+fn what_is_no_number_is_not_taken() {
+    let mut harness = bench(SHELTER);
+    for text in ["five", "NaN", "1e999"] {
+        enter(&mut harness, "width W", text);
+        assert_eq!(harness.state().scene.sheet.width, Some(5.0), "{text}");
+    }
+}
+
+#[test]
+fn a_typed_value_may_lie_beyond_where_a_drag_ends() {
+    let mut harness = bench(SHELTER);
+    enter(&mut harness, "rows Nr", "4000");
+    assert_eq!(harness.state().scene.sheet.rows, Some(4000));
+}
+
+#[test]
+fn a_key_is_left_out_again_by_its_button() {
+    let mut harness = bench(SHELTER);
+    click(&mut harness, "default of width W");
+    assert_eq!(harness.state().scene.sheet.width, None);
+}
+
+#[test]
+fn a_case_is_chosen_and_brings_what_it_needs() {
+    let mut harness = bench(SHELTER);
+    click(&mut harness, "case SII");
+    let sheet = &harness.state().scene.sheet;
+    assert_eq!(
+        (sheet.case, sheet.lambda),
+        (Some(CaseChoice::SII), Some(0.7))
+    );
+    enter(&mut harness, "λ", "0.6");
+    click(&mut harness, "case S");
+    let sheet = &harness.state().scene.sheet;
+    assert_eq!((sheet.case, sheet.lambda), (Some(CaseChoice::S), None));
+    click(&mut harness, "case SII");
+    assert_eq!(harness.state().scene.sheet.lambda, Some(0.6));
+    click(&mut harness, "case auto");
+    assert_eq!(harness.state().scene.sheet.case, None);
+}
+
+#[test]
+fn cases_that_contradict_the_unit_cannot_be_chosen() {
+    let harness = bench(SHELTER);
+    let disabled = |case: &str| harness.get_by_label(case).accesskit_node().is_disabled();
+    let cases = [
+        "case E",
+        "case T",
+        "case S",
+        "case SII",
+        "case plain",
+        "case auto",
+    ];
+    let expected = [true, true, false, false, false, false];
+    assert_eq!(cases.map(disabled), expected);
+}
+
+#[test]
+fn the_case_at_hand_stays_enabled_while_it_contradicts() {
+    let harness =
+        bench("[profile]\nmodel = \"shelter\"\n[sheet]\nwidth = 5.0\ncolumns = 3\ncase = \"T\"\n");
+    assert!(harness.state().draft.is_none());
+    assert!(
+        !harness
+            .get_by_label("case T")
+            .accesskit_node()
+            .is_disabled()
+    );
+    assert!(
+        harness
+            .get_by_label("case E")
+            .accesskit_node()
+            .is_disabled()
+    );
+}
+
+#[test]
+fn a_fault_stands_once_at_its_control_or_else_in_its_section_or_at_the_top() {
+    let mut harness = bench(SHELTER);
+    let fault = |key: Option<&str>, message: &str| Fault {
+        key: key.map(str::to_owned),
+        message: message.to_owned(),
+    };
+    harness.state_mut().faults = vec![
+        fault(Some("sheet.width"), "too wide"),
+        fault(Some("division"), "not divided"),
+        fault(None, "no such file"),
+        fault(Some("record.fps"), "too fast"),
+    ];
+    harness.run();
+    let y = |label: &str| harness.get_by_label(label).rect().center().y;
+    assert!(y("no such file") < y("Profile"));
+    assert!(y("width W") < y("too wide") && y("too wide") < y("rows Nr"));
+    assert!(y("Sheet") < y("not divided") && y("not divided") < y("width W"));
+    assert!(
+        y("Record") < y("too fast"),
+        "below the header of a closed section"
+    );
+}
+
+#[test]
+fn a_fault_that_comes_and_goes_does_not_take_the_focus() {
+    let mut harness = bench(SHELTER);
+    harness.get_by_label("rows Nr").focus();
+    harness.run();
+    harness.state_mut().faults = vec![Fault {
+        key: Some("sheet.width".to_owned()),
+        message: "too wide".to_owned(),
+    }];
+    harness.run();
+    assert!(harness.get_by_label("rows Nr").is_focused());
+}
+
+#[test]
+fn steps_are_added_filled_moved_and_removed() {
+    let mut harness = bench(SHELTER);
+    click(&mut harness, "Motion");
+    click(&mut harness, "add step");
+    click(&mut harness, "add step");
+    let steps = |scene: &Scene| scene.motion.step.len();
+    assert_eq!(steps(&harness.state().scene), 2);
+    let first = harness
+        .get_all_by_label("from")
+        .next()
+        .unwrap()
+        .rect()
+        .center();
+    harness.hover_at(first);
+    harness.run();
+    harness.get_all_by_label("to").next().unwrap();
+    harness.get_all_by_label("unfold").next().unwrap().click();
+    harness.run();
+    assert_eq!(
+        harness.state().scene.motion.step[0].stage,
+        StageChoice::Unfold
+    );
+    click(&mut harness, "down step 1");
+    assert_eq!(
+        harness.state().scene.motion.step[1].stage,
+        StageChoice::Unfold
+    );
+    click(&mut harness, "remove step 1");
+    assert_eq!(steps(&harness.state().scene), 1);
+    enter(&mut harness, "from", "0.25");
+    enter(&mut harness, "to", "0.5");
+    let step = &harness.state().scene.motion.step[0];
+    assert_eq!((step.from, step.to), (Some(0.25), Some(0.5)));
+    let labels: Vec<&str> = harness
+        .state()
+        .labels()
+        .into_iter()
+        .map(|(label, _)| label)
+        .collect();
+    assert_eq!(labels[..2], ["add step", "add step"]);
+    assert!(labels.contains(&"move step") && labels.contains(&"remove step"));
+}
+
+#[test]
+fn a_menu_sets_a_key_and_its_default_leaves_it_out() {
+    let mut harness = bench(SHELTER);
+    click(&mut harness, "Motion");
+    click(&mut harness, "engine");
+    click(&mut harness, "dynamic");
+    assert_eq!(
+        harness.state().scene.motion.engine,
+        Some(EngineChoice::Dynamic)
+    );
+    click(&mut harness, "engine");
+    click(&mut harness, "quasi-static (default)");
+    assert_eq!(harness.state().scene.motion.engine, None);
+}
+
+#[test]
+fn outputs_start_from_those_that_are_written_anyway() {
+    let mut harness = bench(SHELTER);
+    click(&mut harness, "Record");
+    click(&mut harness, "mp4");
+    let outputs = harness.state().scene.record.outputs.clone().unwrap();
+    let expected = [
+        OutputChoice::Fold,
+        OutputChoice::Gif,
+        OutputChoice::Csv,
+        OutputChoice::Mp4,
+    ];
+    assert_eq!(outputs, expected);
+}
+
+#[test]
+fn a_switch_that_says_what_holds_anyway_leaves_the_key_out() {
+    let mut harness = bench(SHELTER);
+    click(&mut harness, "Motion");
+    click(&mut harness, "layers keep apart");
+    assert_eq!(harness.state().scene.motion.contact, Some(false));
+    click(&mut harness, "layers keep apart");
+    assert_eq!(harness.state().scene.motion.contact, None);
+}
+
+#[test]
+fn a_scene_of_an_imported_pattern_shows_its_keys_in_place_of_the_sheet() {
+    let path = scenes().join("imported/frame.toml");
+    let text = std::fs::read_to_string(&path).unwrap();
+    let mut harness = bench_in(&text, &path, eframe::egui::Theme::Dark, 2600.0);
+    assert!(harness.query_by_label("Sheet").is_none());
+    enter(&mut harness, "fold %", "-40");
+    let pattern = harness.state().scene.pattern.clone().unwrap();
+    assert_eq!(pattern.fold_percent, Some(-40.0));
+    click(&mut harness, "Motion");
+    assert!(harness.query_by_label("unfolds").is_none());
+    assert_eq!(
+        harness.state().scene.motion.step[0].creases,
+        Some(CreasesChoice::Mountains)
+    );
+}
+
+#[test]
+fn a_text_is_taken_when_it_is_complete() {
+    let mut harness = bench(SHELTER);
+    click(&mut harness, "Record");
+    enter(&mut harness, "states at", "0, 1.25, 2");
+    assert_eq!(harness.state().scene.record.at, Some(vec![0.0, 1.25, 2.0]));
+    assert_eq!(harness.state().changes.len(), 1);
+}
+
+#[test]
+fn a_field_under_a_drag_is_one_change_to_undo() {
+    let mut harness = bench(SHELTER);
+    let from = harness.get_by_label("width W").rect().center();
+    drag(&mut harness, from, eframe::egui::vec2(40.0, 0.0), 5);
+    assert!(harness.state().scene.sheet.width.unwrap() > 5.0);
+    let continues: Vec<bool> = harness
+        .state()
+        .labels()
+        .iter()
+        .map(|label| label.1)
+        .collect();
+    assert!(continues.len() > 2 && !continues[0] && continues[1..].iter().all(|c| *c));
+}
+
+#[test]
+fn a_text_that_cannot_be_read_changes_nothing() {
+    let mut harness = bench(SHELTER);
+    click(&mut harness, "Record");
+    enter(&mut harness, "states at", "0, half, 2");
+    assert!(harness.state().changes.is_empty());
+}

@@ -1,0 +1,8 @@
+//! The panel driven headless: controls found by their names, the scene as they leave it.
+
+mod bench;
+mod canvas;
+mod controls;
+#[cfg(gpu_tests)]
+mod pictures;
+mod scenes;
