@@ -1,0 +1,220 @@
+//! Tables: keys that change, go, or come.
+
+use toml_edit::{InlineTable, Item};
+
+use super::comments::{apart, has_comment, last_position, text_of};
+use super::value::{Keys, Value};
+use super::{Place, array, literal};
+
+/// Writes what differs between two tables into the one that says `old`.
+pub(super) fn edit(table: &mut toml_edit::Table, old: &Keys, new: &Keys, place: &mut Place<'_>) {
+    for (key, _) in old.iter().filter(|(key, _)| new.get(key).is_none()) {
+        remove(table, key, place);
+    }
+    for (key, value) in new.iter() {
+        let before = old.get(key);
+        if before == Some(value) {
+            continue;
+        }
+        match table.get_mut(key) {
+            Some(item) => edit_item(item, before, value, place),
+            None => insert(table, key, value, new, place),
+        }
+    }
+}
+
+fn edit_item(item: &mut Item, before: Option<&Value>, value: &Value, place: &mut Place<'_>) {
+    match (item, value) {
+        (Item::Table(table), Value::Table(new)) => {
+            let mut place = place.within(table);
+            edit(table, &keys_in(before), new, &mut place);
+        }
+        (Item::ArrayOfTables(tables), Value::List(new)) if literal::is_list_of_tables(new) => {
+            array::edit_tables(tables, list_in(before), new, place);
+        }
+        (Item::Value(written), value) => edit_value(written, before, value),
+        (item, value) => *item = Item::Value(literal::literal(value)),
+    }
+}
+
+/// Writes what differs between two values into the one that says `before`.
+pub(super) fn edit_value(written: &mut toml_edit::Value, before: Option<&Value>, value: &Value) {
+    match (written, value) {
+        (toml_edit::Value::InlineTable(table), Value::Table(new)) => {
+            edit_inline(table, &keys_in(before), new);
+        }
+        (toml_edit::Value::Array(list), Value::List(new)) => {
+            array::edit(list, list_in(before), new);
+        }
+        (written, value) => {
+            let decor = written.decor().clone();
+            *written = literal::in_place_of(written, value);
+            *written.decor_mut() = decor;
+        }
+    }
+}
+
+fn edit_inline(table: &mut InlineTable, old: &Keys, new: &Keys) {
+    let mut respaced = false;
+    for (key, _) in old.iter().filter(|(key, _)| new.get(key).is_none()) {
+        respaced |= table.remove(key).is_some();
+    }
+    for (key, value) in new.iter() {
+        let before = old.get(key);
+        if before == Some(value) {
+            continue;
+        }
+        match table.get_mut(key) {
+            Some(written) => edit_value(written, before, value),
+            None => {
+                table.insert(key, literal::literal(value));
+                respaced = true;
+            }
+        }
+    }
+    if respaced && !has_comment(&table.to_string()) {
+        let decor = table.decor().clone();
+        table.fmt();
+        *table.decor_mut() = decor;
+    }
+}
+
+fn keys_in(value: Option<&Value>) -> Keys {
+    value.and_then(Value::as_table).cloned().unwrap_or_default()
+}
+
+fn list_in(value: Option<&Value>) -> &[Value] {
+    value.and_then(Value::as_list).unwrap_or_default()
+}
+
+/// Removes a key; the comments above it stay above whatever follows.
+fn remove(table: &mut toml_edit::Table, key: &str, place: &mut Place<'_>) {
+    let next = next_value(table, key);
+    let Some((removed, item)) = table.remove_entry(key) else {
+        return;
+    };
+    match &item {
+        Item::Table(inner) => return array::keep_above(inner, place),
+        Item::ArrayOfTables(tables) => {
+            return tables
+                .iter()
+                .for_each(|inner| array::keep_above(inner, place));
+        }
+        _ => {}
+    }
+    let above = text_of(removed.leaf_decor().prefix());
+    if !has_comment(&above) {
+        return;
+    }
+    match next.and_then(|next| table.key_mut(&next)) {
+        Some(mut next) => {
+            let own = text_of(next.leaf_decor().prefix());
+            next.leaf_decor_mut().set_prefix(above + &own);
+        }
+        None => place.keep(above),
+    }
+}
+
+/// The key of the value behind another.
+fn next_value(table: &toml_edit::Table, key: &str) -> Option<String> {
+    let behind = table.iter().skip_while(|(other, _)| *other != key).skip(1);
+    let mut values = behind.filter(|(_, item)| item.is_value());
+    values.next().map(|(other, _)| other.to_owned())
+}
+
+/// Inserts a key behind the one that it follows in a scene.
+fn insert(
+    table: &mut toml_edit::Table,
+    key: &str,
+    value: &Value,
+    order: &Keys,
+    place: &mut Place<'_>,
+) {
+    let before = order
+        .iter()
+        .map(|(other, _)| other)
+        .take_while(|&other| other != key);
+    let present: Vec<&str> = before.filter(|&other| table.contains_key(other)).collect();
+    match value {
+        Value::Table(keys) if place.root => {
+            let header = present
+                .iter()
+                .rev()
+                .find_map(|&other| last_position(&table[other]));
+            let mut inner = literal::table(keys, header.unwrap_or(0));
+            if header.is_none() && !has_values(table) {
+                inner.decor_mut().set_prefix(take_head(table));
+            }
+            table.insert(key, Item::Table(inner));
+        }
+        _ => insert_value(table, key, value, place),
+    }
+    reorder(table, key, present.last().copied());
+}
+
+fn insert_value(table: &mut toml_edit::Table, key: &str, value: &Value, place: &Place<'_>) {
+    let above = if place.root && !has_values(table) {
+        take_head(table)
+    } else {
+        indent(table)
+    };
+    let item = literal::item(value, !table.is_dotted(), place.position);
+    let headed = !item.is_value();
+    table.insert(key, item);
+    if headed {
+        return;
+    }
+    if let Some(mut key) = table.key_mut(key) {
+        key.leaf_decor_mut().set_prefix(above);
+    }
+    if table.is_implicit() {
+        // Its header appears with its first value: before those of its parts.
+        table.set_implicit(false);
+        let first = table
+            .iter()
+            .filter_map(|(_, item)| last_position(item))
+            .min();
+        table.set_position(first.or(Some(place.position)));
+    }
+}
+
+fn has_values(table: &toml_edit::Table) -> bool {
+    table.iter().any(|(_, item)| item.is_value())
+}
+
+/// The space before the first value on its line.
+fn indent(table: &toml_edit::Table) -> String {
+    let value = table.iter().find(|(_, item)| item.is_value());
+    let key = value.and_then(|(key, _)| table.key(key));
+    let space = text_of(key.and_then(|key| key.leaf_decor().prefix()));
+    space
+        .rfind('\n')
+        .map_or("", |end| &space[end + 1..])
+        .to_owned()
+}
+
+/// What stands at the head of the file, which the first header gives up.
+fn take_head(root: &mut toml_edit::Table) -> String {
+    let tables = root.iter_mut().filter_map(|(_, item)| match item {
+        Item::Table(table) if !table.is_dotted() => Some(table),
+        _ => None,
+    });
+    let Some(first) = tables.min_by_key(|table| table.position().unwrap_or(isize::MAX)) else {
+        return String::new();
+    };
+    let space = text_of(first.decor().prefix());
+    let head = apart(&space).to_owned();
+    let rest = space[head.len()..].trim_start_matches('\n');
+    first.decor_mut().set_prefix(format!("\n{rest}"));
+    head
+}
+
+/// Moves the key that came last behind another, or to the front.
+fn reorder(table: &mut toml_edit::Table, key: &str, after: Option<&str>) {
+    let mut keys: Vec<String> = table.iter().map(|(key, _)| key.to_owned()).collect();
+    keys.pop();
+    let index = after.and_then(|after| keys.iter().position(|other| other == after));
+    keys.insert(index.map_or(0, |index| index + 1), key.to_owned());
+    let rank = |key: &toml_edit::Key| keys.iter().position(|other| other == key.get());
+    table.sort_values_by(|a, _, b, _| rank(a).cmp(&rank(b)));
+}

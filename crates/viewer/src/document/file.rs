@@ -1,0 +1,160 @@
+//! The file of a scene: written whole or not at all; and files that a scene names, seen from where it lies.
+
+use std::fs::{File, OpenOptions};
+use std::io::{self, ErrorKind, Write as _};
+use std::path::{Component, Path, PathBuf};
+
+use foldmotion_study::{Scene, StudyError};
+use thiserror::Error;
+
+/// Why a scene was not saved.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub(crate) enum SaveError {
+    /// It has no file.
+    #[error("the scene has no file yet; choose one")]
+    NoFile,
+    /// The file is not as it was when it was last read or written.
+    #[error("{}: another program has changed it; overwrite it, or read it again", path.display())]
+    Changed {
+        /// The file.
+        path: PathBuf,
+    },
+    /// Saving would destroy a crease pattern.
+    #[error("{}: a scene is no crease pattern; give the file a name that ends in .toml", path.display())]
+    Ending {
+        /// The file.
+        path: PathBuf,
+    },
+    /// The file cannot be written.
+    #[error("{}: cannot be written: {source}", path.display())]
+    Write {
+        /// The file.
+        path: PathBuf,
+        /// Why.
+        source: io::Error,
+    },
+}
+
+/// Scenes larger than this are no scenes.
+const MOST_BYTES: u64 = 16 << 20;
+
+/// Whether a file is a crease pattern by its name.
+pub(super) fn is_pattern(path: &Path) -> bool {
+    let ending = path.extension().and_then(|e| e.to_str());
+    ending.is_some_and(|e| e.eq_ignore_ascii_case("fold") || e.eq_ignore_ascii_case("svg"))
+}
+
+/// Refuses what is no file, or too large for a scene.
+pub(super) fn check_readable(path: &Path) -> Result<(), StudyError> {
+    let checked = std::fs::metadata(path).and_then(|metadata| {
+        if !metadata.is_file() {
+            return Err(io::Error::other("it is no file"));
+        }
+        if metadata.len() > MOST_BYTES && !is_pattern(path) {
+            let size = metadata.len();
+            let message = format!("it has {size} bytes: scenes have {MOST_BYTES} at most");
+            return Err(io::Error::other(message));
+        }
+        File::open(path).map(drop)
+    });
+    checked.map_err(|source| StudyError::Read {
+        path: path.to_owned(),
+        source,
+    })
+}
+
+/// Writes a file beside `path` and moves it into its place: a crash leaves the old one or the new one.
+///
+/// A link stays a link; permissions stay.
+pub(crate) fn write_whole(path: &Path, text: &str) -> io::Result<()> {
+    let target = path.canonicalize().unwrap_or_else(|_| path.to_owned());
+    let permissions = std::fs::metadata(&target).map(|m| m.permissions()).ok();
+    if permissions.as_ref().is_some_and(|p| p.readonly()) {
+        return Err(io::Error::new(
+            ErrorKind::PermissionDenied,
+            "it is read-only",
+        ));
+    }
+    let name = target.file_name().unwrap_or_default().to_string_lossy();
+    let beside = target.with_file_name(format!(".{name}.{}.part", std::process::id()));
+    let written = || -> io::Result<()> {
+        let mut file = OpenOptions::new()
+            .write(true)
+            .create(true)
+            .truncate(true)
+            .open(&beside)?;
+        file.write_all(text.as_bytes())?;
+        if let Some(permissions) = permissions {
+            file.set_permissions(permissions)?;
+        }
+        file.sync_all()?;
+        std::fs::rename(&beside, &target)
+    };
+    written().inspect_err(|_| {
+        // What is half written is of no use, and the first error says why.
+        let _ = std::fs::remove_file(&beside);
+    })
+}
+
+/// The scene with the relative files it names, seen from `old`, named as they are seen from `new`.
+pub(super) fn moved(scene: &Scene, old: &Path, new: &Path) -> Scene {
+    let mut moved = scene.clone();
+    if resolved(old) == resolved(new) {
+        return moved;
+    }
+    let profile = moved.profile.file.as_mut();
+    let pattern = moved.pattern.as_mut().map(|pattern| &mut pattern.file);
+    for file in profile.into_iter().chain(pattern) {
+        if !file.is_empty() && Path::new(file.as_str()).is_relative() {
+            *file = seen_from(new, &old.join(file.as_str()));
+        }
+    }
+    moved
+}
+
+/// How a scene in `folder` names a file: by the way to it, or from the root where they share no folder.
+pub(super) fn seen_from(folder: &Path, file: &Path) -> String {
+    let folder = resolved(folder);
+    // A link keeps its own name.
+    let file = match file.file_name() {
+        Some(name) => resolved(&folder_of(file)).join(name),
+        None => resolved(file),
+    };
+    let pairs = folder.components().zip(file.components());
+    let shared = pairs.take_while(|(a, b)| a == b);
+    let named = |c: &Component<'_>| matches!(c, Component::Normal(_));
+    let common: Vec<Component<'_>> = shared.map(|(a, _)| a).collect();
+    if !common.iter().any(named) {
+        return file.to_string_lossy().into_owned();
+    }
+    let up = folder.components().skip(common.len()).map(|_| "..".into());
+    let down = file.components().skip(common.len());
+    let down = down.map(|c| c.as_os_str().to_string_lossy().into_owned());
+    let way: Vec<String> = up.chain(down).collect();
+    way.join("/")
+}
+
+/// The path from the root, without links as far as it exists.
+fn resolved(path: &Path) -> PathBuf {
+    let whole = std::path::absolute(path).unwrap_or_else(|_| path.to_owned());
+    if let Ok(real) = whole.canonicalize() {
+        return real;
+    }
+    match (whole.parent(), whole.components().next_back()) {
+        (Some(parent), Some(Component::ParentDir)) => {
+            let parent = resolved(parent);
+            parent.parent().unwrap_or(&parent).to_owned()
+        }
+        (Some(parent), Some(last)) => resolved(parent).join(last),
+        _ => whole,
+    }
+}
+
+/// The folder that a path lies in.
+pub(super) fn folder_of(path: &Path) -> PathBuf {
+    match path.parent() {
+        Some(folder) if !folder.as_os_str().is_empty() => folder.to_owned(),
+        _ => PathBuf::from("."),
+    }
+}
