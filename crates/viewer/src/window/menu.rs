@@ -1,0 +1,212 @@
+//! The menus and the line at the foot of the window.
+
+use std::path::PathBuf;
+use std::time::Duration;
+
+use eframe::egui::{Button, Color32, MenuBar, ProgressBar, RichText, Ui};
+
+use super::Viewer;
+use super::dialogs::Then;
+use crate::settings::{Command, keys_of, name_of};
+
+/// How long a notice is said.
+const NOTICE: Duration = Duration::from_secs(12);
+
+/// Menus with their commands; none stands for a line between.
+const MENUS: [(&str, &[Option<Command>]); 4] = [
+    (
+        "Edit",
+        &[Some(Command::Undo), Some(Command::Redo), None, Some(Command::PanelText)],
+    ),
+    (
+        "Motion",
+        &[
+            Some(Command::Run),
+            Some(Command::Cancel),
+            Some(Command::Hand),
+            None,
+            Some(Command::Record),
+            None,
+            Some(Command::Play),
+            Some(Command::Start),
+            Some(Command::Planar),
+            Some(Command::Compact),
+            Some(Command::Loop),
+        ],
+    ),
+    (
+        "View",
+        &[
+            Some(Command::ViewFront),
+            Some(Command::ViewSide),
+            Some(Command::ViewTop),
+            Some(Command::ViewIsometric),
+            Some(Command::Fit),
+            Some(Command::Perspective),
+            None,
+            Some(Command::ColourPlain),
+            Some(Command::ColourStrain),
+            Some(Command::ColourBending),
+            Some(Command::ColourUnit),
+            Some(Command::ColourLayer),
+            None,
+            Some(Command::Creases),
+            Some(Command::Profile),
+            Some(Command::CompactBox),
+            Some(Command::ClosedFormBox),
+        ],
+    ),
+    (
+        "Window",
+        &[
+            Some(Command::PanelDesign),
+            Some(Command::PanelPlots),
+            Some(Command::PanelVerdict),
+            Some(Command::PanelRecord),
+            None,
+            Some(Command::Presentation),
+            Some(Command::DarkLight),
+            None,
+            Some(Command::Help),
+        ],
+    ),
+];
+
+impl Viewer {
+    pub(super) fn menu(&mut self, ui: &mut Ui) {
+        let mut wanted = None;
+        MenuBar::new().ui(ui, |ui| {
+            ui.menu_button("File", |ui| self.file_menu(ui, &mut wanted));
+            for (name, commands) in MENUS {
+                ui.menu_button(name, |ui| {
+                    for command in commands {
+                        match command {
+                            Some(command) => self.item(ui, *command, &mut wanted),
+                            None => drop(ui.separator()),
+                        }
+                    }
+                });
+            }
+            ui.separator();
+            self.run_button(ui, &mut wanted);
+        });
+        if let Some(command) = wanted {
+            let ctx = ui.ctx().clone();
+            self.perform(command, &ctx);
+        }
+    }
+
+    fn file_menu(&mut self, ui: &mut Ui, wanted: &mut Option<Command>) {
+        self.item(ui, Command::New, wanted);
+        self.item(ui, Command::Open, wanted);
+        let mut chosen: Option<PathBuf> = None;
+        ui.menu_button("Open recent", |ui| {
+            let recent = self.settings.recent.paths();
+            if recent.is_empty() {
+                ui.weak("none yet");
+            }
+            for path in recent {
+                if ui.button(path.display().to_string()).clicked() {
+                    chosen = Some(path);
+                }
+            }
+        });
+        ui.separator();
+        self.item(ui, Command::Save, wanted);
+        self.item(ui, Command::SaveAs, wanted);
+        ui.separator();
+        self.item(ui, Command::Quit, wanted);
+        if let Some(path) = chosen {
+            let ctx = ui.ctx().clone();
+            self.unless_unsaved(Then::Open(path), &ctx);
+        }
+    }
+
+    fn item(&self, ui: &mut Ui, command: Command, wanted: &mut Option<Command>) {
+        let keys = keys_of(ui.ctx(), command);
+        let (name, is_on) = match command {
+            Command::Undo => (self.document.can_undo().map(|label| format!("Undo {label}")), self.document.can_undo().is_some()),
+            Command::Redo => (self.document.can_redo().map(|label| format!("Redo {label}")), self.document.can_redo().is_some()),
+            Command::Run => (None, self.resolved.study.is_some() && self.jobs.run.is_none()),
+            Command::Cancel => (None, self.is_busy()),
+            _ => (None, true),
+        };
+        let name = name.unwrap_or_else(|| name_of(command).to_owned());
+        let button = Button::new(name).shortcut_text(keys);
+        if ui.add_enabled(is_on, button).clicked() {
+            *wanted = Some(command);
+            ui.close();
+        }
+    }
+
+    fn run_button(&mut self, ui: &mut Ui, wanted: &mut Option<Command>) {
+        if let Some((_, run)) = &self.jobs.run {
+            let stand = run.stand();
+            let phase = stand.phase.map_or("start", |phase| phase.name());
+            let bar = ProgressBar::new(stand.done as f32).desired_width(150.0);
+            ui.add(bar.text(format!("{phase} {:.0} %", 100.0 * stand.done)));
+            if ui.button("Cancel").on_hover_text("Esc").clicked() {
+                *wanted = Some(Command::Cancel);
+            }
+            let mut follows = self.shown.follows_run;
+            let follow = ui.checkbox(&mut follows, "follow");
+            if follow.on_hover_text("show the sheet as it is computed").changed() {
+                self.shown.follows_run = follows;
+            }
+        } else {
+            let is_on = self.resolved.study.is_some() && self.shown.file.is_none();
+            let button = Button::new(RichText::new("▶ Run").strong());
+            let hint = format!("fold, check and report ({})", keys_of(ui.ctx(), Command::Run));
+            if ui.add_enabled(is_on, button).on_hover_text(hint).clicked() {
+                *wanted = Some(Command::Run);
+            }
+            ui.checkbox(&mut self.settings.view.folds_at_once, "preview")
+                .on_hover_text("fold the sheet after every edit, without contact and unchecked");
+        }
+    }
+
+    /// What is the matter, at the foot of the window.
+    pub(super) fn status(&mut self, ui: &mut Ui) {
+        ui.horizontal(|ui| {
+            let is_old = self.notice.as_ref().is_some_and(|(_, _, since)| since.elapsed() > NOTICE);
+            if is_old {
+                self.notice = None;
+            }
+            if let Some((words, is_good, _)) = &self.notice {
+                let colour = if *is_good { ui.visuals().text_color() } else { ui.visuals().error_fg_color };
+                ui.colored_label(colour, words);
+                ui.ctx().request_repaint_after(NOTICE);
+                return;
+            }
+            if let Some(fault) = self.resolved.faults.first() {
+                ui.colored_label(ui.visuals().error_fg_color, &fault.message);
+                return;
+            }
+            self.facts(ui);
+        });
+    }
+
+    fn facts(&self, ui: &mut Ui) {
+        let Some(act) = self.act() else { return };
+        let sheet = &act.motion().sheet;
+        let words = format!(
+            "{} vertices, {} facets, {} frames",
+            sheet.vertices.len(),
+            sheet.facets.len(),
+            act.motion().frames.len()
+        );
+        ui.weak(words);
+        if self.resolved.drafts.is_busy() {
+            ui.weak("resolving…");
+        } else if self.jobs.preview.is_some() {
+            ui.weak("folding a preview…");
+        } else if self.jobs.opening.is_some() {
+            ui.weak("opening…");
+        } else if self.jobs.judging.is_some() {
+            ui.weak("checking…");
+        }
+        if let Some(fault) = self.view3d.fault() {
+            ui.colored_label(Color32::from_rgb(200, 120, 0), fault);
+        }
+    }
+}
