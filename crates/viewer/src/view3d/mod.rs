@@ -19,12 +19,12 @@ mod tests;
 
 use eframe::egui::emath::GuiRounding as _;
 use eframe::egui::{self, Color32, Rect, Response, Role, Sense, TextureId, Ui, pos2};
-use eframe::egui_wgpu::{RenderState, wgpu};
+use eframe::egui_wgpu::RenderState;
 use foldmotion_record::View;
 use glam::{DVec2, DVec3};
 
 use self::eye::Eye;
-use self::gpu::Gpu;
+use self::gpu::{Gpu, Watch};
 use self::orbit::Turning;
 use self::pick::Points;
 use self::plain::Plain;
@@ -54,7 +54,7 @@ pub(crate) struct View3d {
     pulled: Option<u32>,
     plain: Plain,
     gpu: Option<Gpu>,
-    device: Option<wgpu::Device>,
+    watch: Option<Watch>,
     failures: u32,
     fault: Option<String>,
 }
@@ -210,16 +210,30 @@ impl View3d {
         rect: Rect,
     ) -> Option<TextureId> {
         let render_state = render_state?;
-        if self.device.as_ref() != Some(&render_state.device) {
+        let watch = self
+            .watch
+            .take()
+            .filter(|w| w.is_over(&render_state.device));
+        let watch = watch.unwrap_or_else(|| {
             // Another device, such as after a loss: all is made anew.
-            self.device = Some(render_state.device.clone());
             self.gpu = None;
             self.failures = 0;
-        }
+            Watch::over(&render_state.device)
+        });
+        let loss = watch.loss();
+        self.watch = Some(watch);
         if self.failures > TRIES {
             return None;
         }
-        match self.drawn_by_gpu(ui, render_state, picture, eye, rect) {
+        let drawn = match loss {
+            // Nothing is drawn on this device again.
+            Some(reason) => {
+                self.failures = TRIES;
+                Err(reason)
+            }
+            None => self.drawn_by_gpu(ui, render_state, picture, eye, rect),
+        };
+        match drawn {
             Ok(texture) => {
                 self.fault = None;
                 Some(texture)

@@ -11,25 +11,36 @@ use eframe::egui_wgpu::wgpu;
 const LONGEST: usize = 240;
 
 /// Tells whether a device was lost.
-#[derive(Debug, Clone, Default)]
-pub(super) struct Watch {
+#[derive(Debug)]
+pub(in super::super) struct Watch {
+    device: wgpu::Device,
     lost: Arc<Mutex<Option<String>>>,
 }
 
 impl Watch {
     /// Watches `device`. A device has one watcher, the last.
-    pub(super) fn over(device: &wgpu::Device) -> Self {
-        let watch = Self::default();
-        let lost = Arc::clone(&watch.lost);
+    pub(in super::super) fn over(device: &wgpu::Device) -> Self {
+        let lost: Arc<Mutex<Option<String>>> = Arc::default();
+        let told = Arc::clone(&lost);
         device.set_device_lost_callback(move |reason, message| {
-            let mut lost = lost.lock().unwrap_or_else(PoisonError::into_inner);
-            lost.get_or_insert_with(|| line(&format!("device lost ({reason:?}): {message}")));
+            let mut told = told.lock().unwrap_or_else(PoisonError::into_inner);
+            told.get_or_insert_with(|| line(&format!("device lost ({reason:?}) {message}")));
         });
-        watch
+        Self {
+            device: device.clone(),
+            lost,
+        }
     }
 
-    /// Why it was lost.
-    pub(super) fn loss(&self) -> Option<String> {
+    /// Whether it watches `device`.
+    pub(in super::super) fn is_over(&self, device: &wgpu::Device) -> bool {
+        self.device == *device
+    }
+
+    /// Why it was lost, if it was.
+    pub(in super::super) fn loss(&self) -> Option<String> {
+        // A loss is told when the device is asked, which takes no time. What it answers does not matter here.
+        let _ = self.device.poll(wgpu::PollType::Poll);
         let lost = self.lost.lock().unwrap_or_else(PoisonError::into_inner);
         lost.clone()
     }

@@ -13,7 +13,8 @@ use foldmotion_record::Style;
 use glam::DVec3;
 
 use self::buffers::{Buffer, Table};
-use self::fault::{Watch, caught};
+pub(super) use self::fault::Watch;
+use self::fault::caught;
 use self::pipelines::Pipelines;
 use self::target::{Shelf, Target, drawn_format};
 use super::CreaseClasses;
@@ -55,7 +56,6 @@ struct Drawn {
 pub(super) struct Gpu {
     device: wgpu::Device,
     queue: wgpu::Queue,
-    watch: Watch,
     format: wgpu::TextureFormat,
     pipelines: Pipelines,
     uniform: wgpu::Buffer,
@@ -102,7 +102,6 @@ impl Gpu {
         let (places, layers) = (Table::new(&device, 1, 4), Table::new(&device, 1, 2));
         let bind_group = bind(&device, &pipelines, &uniform, [&places, &layers]);
         Self {
-            watch: Watch::over(&device),
             format,
             pipelines,
             uniform,
@@ -121,16 +120,6 @@ impl Gpu {
             device,
             queue,
         }
-    }
-
-    /// Whether it belongs to the device of `state`.
-    pub(super) fn belongs_to(&self, state: &RenderState) -> bool {
-        self.device == state.device
-    }
-
-    /// Why its device was lost, if it was.
-    pub(super) fn loss(&self) -> Option<String> {
-        self.watch.loss()
     }
 
     /// The picture, drawn again if it changed.
@@ -152,9 +141,6 @@ impl Gpu {
         }
         let device = self.device.clone();
         caught(&device, || self.follow(picture, view))?;
-        if let Some(reason) = self.loss() {
-            return Err(reason);
-        }
         self.shelf.id().ok_or_else(|| "no picture".to_owned())
     }
 

@@ -72,7 +72,7 @@ pub(in super::super) struct Subject {
 
 impl Subject {
     pub(in super::super) fn new(case: Case, width: f64, rows: usize, columns: usize) -> Self {
-        let unit = Unit::new(case, width, 1.0, None, None).unwrap();
+        let unit = Unit::new(case, width, 1.0, (case == Case::SII).then_some(0.7), None).unwrap();
         let units = UnitSheet::new(unit, rows, columns).unwrap();
         let order = units.compact_order();
         let layers = Layers::new(&units.sheet, &order, &units.compact());
