@@ -96,7 +96,7 @@ impl Canvas {
             note(ui, &painter, &plane, "too many points to move by hand");
             return;
         }
-        self.hand.paint_polygon(form, ui, &painter, &plane, &points);
+        Hand::paint_polygon(form, ui, &painter, &plane, &points);
         self.hand
             .show(form, ui, &painter, &plane, &points, &mut self.view);
         if response.double_clicked()

@@ -6,7 +6,7 @@ use foldmotion_study::{Draft, UnitDraft};
 use glam::DVec3;
 
 use super::form::{Form, NOTE_SIZE, name, note};
-use super::number::scientific;
+use super::number::{decimal, scientific};
 use super::size::Size;
 
 /// What was measured of the draft last.
@@ -197,7 +197,7 @@ fn show_cases(form: &mut Form<'_>, ui: &mut Ui) {
             .striped(true)
             .min_col_width(22.0)
             .min_row_height(15.0)
-            .spacing([9.0, 1.0])
+            .spacing([14.0, 1.0])
             .show(ui, |ui| {
                 let heads = [
                     ("case", "the case"),
@@ -260,12 +260,12 @@ fn show_case(form: &Form<'_>, ui: &mut Ui, case: Case) {
 
 /// A name and what is known of it.
 pub(super) fn fact(ui: &mut Ui, title: &str, text: &str, tip: &str) {
-    ui.horizontal(|ui| {
-        let before = ui.spacing().interact_size.y;
-        ui.spacing_mut().interact_size.y = 16.0;
-        name(ui, title, tip);
-        ui.spacing_mut().interact_size.y = before;
-        ui.add(egui::Label::new(text).wrap()).on_hover_text(tip);
+    ui.scope(|ui| {
+        ui.spacing_mut().interact_size.y = 17.0;
+        ui.horizontal(|ui| {
+            name(ui, title, tip);
+            ui.add(egui::Label::new(text).wrap()).on_hover_text(tip);
+        });
     });
 }
 
@@ -284,11 +284,5 @@ pub(super) fn brief(number: f64) -> String {
     if size != 0.0 && !(1e-3..1e6).contains(&size) {
         return scientific(number, 2);
     }
-    let digits = (3 - size.max(1.0).log10().floor() as i32).clamp(0, 3);
-    let text = format!("{number:.*}", digits as usize);
-    if text.contains('.') {
-        text.trim_end_matches('0').trim_end_matches('.').to_owned()
-    } else {
-        text
-    }
+    decimal(number, 4)
 }

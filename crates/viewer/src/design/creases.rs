@@ -100,7 +100,8 @@ fn mesh(ui: &Ui, sheet: &Sheet, plane: &Plane, place: impl Fn(DVec2) -> DVec2) -
                 if is_short {
                     shapes.push(Shape::line_segment(ends, stroke));
                 } else {
-                    shapes.extend(Shape::dashed_line(&ends, stroke, 4.0, 2.5));
+                    let dashes = Shape::dashed_line(&ends, stroke, 4.0, 2.5);
+                    shapes.extend(dashes);
                 }
             }
         }

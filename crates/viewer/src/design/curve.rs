@@ -90,13 +90,11 @@ pub(super) fn into_control_points(scene: &mut Scene, profile: Option<&Profile>) 
         return false;
     };
     take_over_counts(scene);
-    let plain = model(scene).and_then(|model| match model.shape {
-        Shape::ControlPoints(points) => Some(points.to_vec()),
-        _ => None,
-    });
-    let (points, knots, closure) = match plain {
-        Some(points) => (points, None, profile.closure()),
-        None => written(&profile),
+    let shape = model(scene).map(|model| model.shape);
+    let (points, knots, closure) = if let Some(Shape::ControlPoints(points)) = shape {
+        (points.to_vec(), None, profile.closure())
+    } else {
+        written(&profile)
     };
     scene.profile = ProfileScene {
         control_points: Some(points),
@@ -185,12 +183,12 @@ pub(super) fn into_file(scene: &mut Scene, file: String) {
 fn take_over_counts(scene: &mut Scene) {
     let Some(model) = model(scene) else { return };
     let length = *scene.profile.length.get_or_insert(model.length());
-    let rows = *scene.sheet.rows.get_or_insert(model.rows as i64);
+    let rows = *scene.sheet.rows.get_or_insert(count(model.rows));
     let case = scene.sheet.case;
     scene
         .sheet
         .columns
-        .get_or_insert(model.columns.of(columns_case(case)) as i64);
+        .get_or_insert(count(model.columns.of(columns_case(case))));
     if !matches!(case, None | Some(CaseChoice::E | CaseChoice::Auto)) {
         let width = model.columns.e as f64 * length / rows.max(1) as f64;
         scene.sheet.width.get_or_insert(width);
@@ -291,6 +289,10 @@ pub(super) fn vectors(points: &[[f64; 2]]) -> Vec<DVec2> {
     points.iter().copied().map(DVec2::from).collect()
 }
 
+fn count(count: usize) -> i64 {
+    i64::try_from(count).unwrap_or(i64::MAX)
+}
+
 fn closed(closure: Closure) -> Option<Closed> {
     match closure {
         Closure::Open => None,
@@ -352,8 +354,8 @@ mod tests {
         into_control_points(&mut scene, None);
         let model = models()[0];
         assert_eq!(scene.profile.length, Some(model.length()));
-        assert_eq!(scene.sheet.rows, Some(model.rows as i64));
-        assert_eq!(scene.sheet.columns, Some(model.columns.t as i64));
+        assert_eq!(scene.sheet.rows, Some(count(model.rows)));
+        assert_eq!(scene.sheet.columns, Some(count(model.columns.t)));
         let h = model.length() / model.rows as f64;
         assert_eq!(scene.sheet.width, Some(model.columns.e as f64 * h));
     }

@@ -42,7 +42,6 @@ impl Hand {
 
     /// The lines from control point to control point.
     pub(super) fn paint_polygon(
-        &self,
         form: &Form<'_>,
         ui: &Ui,
         painter: &egui::Painter,

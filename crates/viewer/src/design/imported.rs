@@ -7,7 +7,7 @@ use foldmotion_study::{Draft, ImportedStudy, Scene};
 use super::choice::Way;
 use super::closed_forms::{Measures, fact};
 use super::form::{Field, Form, NOTE_SIZE};
-use super::number::{Number, control_width, short};
+use super::number::{Number, Spoken, control_width, short};
 use super::profile::UNITS;
 
 const UNKNOWNS: [Way<UnknownChoice>; 2] = [
@@ -119,11 +119,12 @@ fn show_fold(form: &mut Form<'_>, ui: &mut Ui) {
             .as_ref()
             .and_then(|pattern| pattern.fixed.clone());
         let is_none = given.as_ref().is_some_and(Vec::is_empty);
-        let first = given.as_ref().and_then(|list| list.first().copied());
+        let mut first = given.as_ref().and_then(|list| list.first().copied());
         let hint = if is_none { "none" } else { "by file" };
         let number = Number::within(0.0..=1e6).whole().hint(hint);
-        if let Some(new) = form.whole_cell(ui, field.undo, label, &number, width, first) {
-            of(&mut form.scene).fixed = new.map(|facet| vec![facet]);
+        let spoken = Spoken::By(label);
+        if form.whole_cell(ui, field.undo, spoken, &number, width, &mut first) {
+            of(&mut form.scene).fixed = first.map(|facet| vec![facet]);
         }
         let none = ui
             .selectable_label(is_none, "none")

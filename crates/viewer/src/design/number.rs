@@ -112,8 +112,13 @@ pub(super) fn short(number: f64) -> String {
     if size != 0.0 && !(1e-3..1e7).contains(&size) {
         return scientific(number, 3);
     }
-    let digits = (5 - size.max(1.0).log10().floor() as i32).clamp(0, 5);
-    let text = format!("{number:.*}", digits as usize);
+    decimal(number, 6)
+}
+
+/// A number as a decimal fraction of so many digits, without noughts at its end.
+pub(super) fn decimal(number: f64, digits: usize) -> String {
+    let whole_digits = format!("{}", number.abs().trunc()).len();
+    let text = format!("{number:.*}", digits.saturating_sub(whole_digits));
     if text.contains('.') {
         text.trim_end_matches('0').trim_end_matches('.').to_owned()
     } else {
@@ -138,6 +143,15 @@ pub(super) fn control_width(ui: &Ui) -> f32 {
     ui.available_width() - RESET_WIDTH - ui.spacing().item_spacing.x
 }
 
+/// What names a field to those who do not see it.
+#[derive(Debug, Clone, Copy)]
+pub(super) enum Spoken<'a> {
+    /// The label on its left.
+    By(Id),
+    /// A name of its own.
+    As(&'a str),
+}
+
 impl Form<'_> {
     /// A row with one number.
     pub(super) fn number(
@@ -149,9 +163,11 @@ impl Form<'_> {
     ) {
         self.row(ui, field, |form, ui, label| {
             let width = control_width(ui);
-            form.number_cell(ui, field.undo, label, number, width, &of);
-            let is_given = of(&mut form.scene).is_some();
-            if form.reset(ui, field, is_given) {
+            let mut value = *of(&mut form.scene);
+            if form.cell(ui, field.undo, Spoken::By(label), number, width, &mut value) {
+                *of(&mut form.scene) = value;
+            }
+            if form.reset(ui, field, value.is_some()) {
                 *of(&mut form.scene) = None;
             }
         });
@@ -168,9 +184,16 @@ impl Form<'_> {
         let number = number.whole();
         self.row(ui, field, |form, ui, label| {
             let width = control_width(ui);
-            let value = *of(&mut form.scene);
-            if let Some(new) = form.whole_cell(ui, field.undo, label, &number, width, value) {
-                *of(&mut form.scene) = new;
+            let mut value = *of(&mut form.scene);
+            if form.whole_cell(
+                ui,
+                field.undo,
+                Spoken::By(label),
+                &number,
+                width,
+                &mut value,
+            ) {
+                *of(&mut form.scene) = value;
             }
             if form.reset(ui, field, value.is_some()) {
                 *of(&mut form.scene) = None;
@@ -178,64 +201,45 @@ impl Form<'_> {
         });
     }
 
-    /// A field of a number in a row, named by the label.
-    pub(super) fn number_cell(
+    /// A field of a number; whether it has changed.
+    pub(super) fn cell(
         &mut self,
         ui: &mut Ui,
         undo: &'static str,
-        label: Id,
+        spoken: Spoken<'_>,
         number: &Number,
         width: f32,
-        of: impl Fn(&mut Scene) -> &mut Option<f64>,
-    ) {
-        let before = *of(&mut self.scene);
-        let mut value = before;
-        let response = ui.scope(|ui| number.show(ui, width, &mut value)).inner;
-        if value != before {
-            *of(&mut self.scene) = value;
+        value: &mut Option<f64>,
+    ) -> bool {
+        let before = *value;
+        let response = ui.scope(|ui| number.show(ui, width, value)).inner;
+        let is_changed = *value != before;
+        if is_changed {
             self.record(undo, response.id, response.dragged());
         }
-        response.labelled_by(label);
+        match spoken {
+            Spoken::By(label) => response.labelled_by(label),
+            Spoken::As(name) => response.accessible_name(name),
+        };
+        is_changed
     }
 
-    /// A field of a whole number in a row; its new value if it has changed.
+    /// A field of a whole number; whether it has changed.
     pub(super) fn whole_cell(
         &mut self,
         ui: &mut Ui,
         undo: &'static str,
-        label: Id,
+        spoken: Spoken<'_>,
         number: &Number,
         width: f32,
-        before: Option<i64>,
-    ) -> Option<Option<i64>> {
-        let mut value = before.map(|whole| whole as f64);
-        let response = ui.scope(|ui| number.show(ui, width, &mut value)).inner;
-        let after = value.map(|number| number as i64);
-        let is_changed = after != before;
+        value: &mut Option<i64>,
+    ) -> bool {
+        let mut number_of = value.map(|whole| whole as f64);
+        let is_changed = self.cell(ui, undo, spoken, number, width, &mut number_of);
         if is_changed {
-            self.record(undo, response.id, response.dragged());
+            *value = number_of.map(|number| number as i64);
         }
-        response.labelled_by(label);
-        is_changed.then_some(after)
-    }
-
-    /// A field of a number under a name of its own; its new value if it has changed.
-    pub(super) fn named_cell(
-        &mut self,
-        ui: &mut Ui,
-        undo: &'static str,
-        name: &str,
-        number: &Number,
-        width: f32,
-        before: Option<f64>,
-    ) -> Option<Option<f64>> {
-        let mut value = before;
-        let response = ui.scope(|ui| number.show(ui, width, &mut value)).inner;
-        if value != before {
-            self.record(undo, response.id, response.dragged());
-        }
-        response.accessible_name(name);
-        (value != before).then_some(value)
+        is_changed
     }
 
     /// A field of a number that cannot be left out; its new value if it has changed.
@@ -248,8 +252,9 @@ impl Form<'_> {
         width: f32,
         before: f64,
     ) -> Option<f64> {
-        self.named_cell(ui, undo, name, number, width, Some(before))
-            .flatten()
+        let mut value = Some(before);
+        let is_changed = self.cell(ui, undo, Spoken::As(name), number, width, &mut value);
+        value.filter(|_| is_changed)
     }
 
     /// The button that leaves a key out again; nothing but room for it where it is left out already.

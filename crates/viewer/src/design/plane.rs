@@ -37,7 +37,7 @@ impl Plane {
     }
 
     /// The place of a point on the screen, kept within what can be drawn.
-    pub(super) fn to_screen(&self, point: DVec2) -> Pos2 {
+    pub(super) fn to_screen(self, point: DVec2) -> Pos2 {
         let offset = (point - self.centre) * self.scale;
         let kept = |x: f64| {
             if x.is_nan() {
@@ -50,7 +50,7 @@ impl Plane {
     }
 
     /// The point at a place on the screen.
-    pub(super) fn to_plane(&self, place: Pos2) -> DVec2 {
+    pub(super) fn to_plane(self, place: Pos2) -> DVec2 {
         let offset = place - self.rect.center();
         self.centre + self.vector(offset)
     }

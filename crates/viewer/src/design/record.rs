@@ -8,7 +8,7 @@ use foldmotion_study::scene::{
 
 use super::choice::Way;
 use super::form::{Field, Form};
-use super::number::{Number, control_width, short};
+use super::number::{Number, Spoken, control_width, short};
 
 const DEFAULT_OUTPUTS: [OutputChoice; 3] =
     [OutputChoice::Fold, OutputChoice::Gif, OutputChoice::Csv];
@@ -102,39 +102,40 @@ fn tip_of(output: OutputChoice) -> &'static str {
         OutputChoice::Svg => "figure.svg: states side by side",
         OutputChoice::Pdf => "figure.pdf: the same",
         OutputChoice::Glb => "motion.glb: glTF with the motion as morph targets",
-        OutputChoice::Obj => "a file for each of the states",
-        OutputChoice::Stl => "a file for each of the states",
+        OutputChoice::Obj | OutputChoice::Stl => "a file for each of the states",
         OutputChoice::Html => "motion.html: the motion as one page for browsers",
     }
 }
 
-/// Two fields in a row; what they were changed to.
+/// Two fields in a row; whether they have changed.
 fn pair(
     form: &mut Form<'_>,
     ui: &mut Ui,
     field: &Field,
     names: [&str; 2],
     number: &Number,
-    given: Option<[f64; 2]>,
     default: [f64; 2],
-) -> Option<Option<[f64; 2]>> {
-    let mut changed = None;
+    value: &mut Option<[f64; 2]>,
+) -> bool {
+    let before = *value;
     form.row(ui, field, |form, ui, _| {
         let width = (control_width(ui) - ui.spacing().item_spacing.x) / 2.0;
         for (index, name) in names.into_iter().enumerate() {
             let number = number.clone().default(default[index]);
-            let value = given.map(|values| values[index]);
-            if let Some(new) = form.named_cell(ui, field.undo, name, &number, width, value) {
-                let mut values = given.unwrap_or(default);
-                values[index] = new.unwrap_or(default[index]);
-                changed = Some(new.map(|_| values));
+            let mut one = value.map(|values| values[index]);
+            if form.cell(ui, field.undo, Spoken::As(name), &number, width, &mut one) {
+                *value = one.map(|one| {
+                    let mut values = before.unwrap_or(default);
+                    values[index] = one;
+                    values
+                });
             }
         }
-        if form.reset(ui, field, given.is_some()) {
-            changed = Some(None);
+        if form.reset(ui, field, before.is_some()) {
+            *value = None;
         }
     });
-    changed
+    *value != before
 }
 
 fn show_size(form: &mut Form<'_>, ui: &mut Ui) {
@@ -144,16 +145,13 @@ fn show_size(form: &mut Form<'_>, ui: &mut Ui) {
         "change the size",
         "pixels across and down",
     );
-    let given = form
-        .scene
-        .record
-        .size
-        .map(|size| size.map(|pixels| pixels as f64));
+    let given = form.scene.record.size;
+    let mut value = given.map(|size| size.map(|pixels| pixels as f64));
     let number = Number::within(16.0..=4096.0).whole();
     let default = DEFAULT_SIZE.map(|pixels| pixels as f64);
     let names = ["pixels across", "pixels down"];
-    if let Some(new) = pair(form, ui, &field, names, &number, given, default) {
-        form.scene.record.size = new.map(|size| size.map(|pixels| pixels as i64));
+    if pair(form, ui, &field, names, &number, default, &mut value) {
+        form.scene.record.size = value.map(|size| size.map(|pixels| pixels as i64));
     }
 }
 
@@ -165,10 +163,18 @@ fn show_times(form: &mut Form<'_>, ui: &mut Ui) {
         "seconds a stage: unfold, fold",
     );
     let number = Number::within(0.0..=60.0).speed(0.05);
-    let given = form.scene.record.seconds;
+    let mut value = form.scene.record.seconds;
     let names = ["seconds to unfold", "seconds to fold"];
-    if let Some(new) = pair(form, ui, &field, names, &number, given, DEFAULT_SECONDS) {
-        form.scene.record.seconds = new;
+    if pair(
+        form,
+        ui,
+        &field,
+        names,
+        &number,
+        DEFAULT_SECONDS,
+        &mut value,
+    ) {
+        form.scene.record.seconds = value;
     }
     let field = Field::new(
         "record.fps",

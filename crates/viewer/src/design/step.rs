@@ -5,7 +5,7 @@ use foldmotion_study::scene::{CreasesChoice, EaseChoice, StageChoice, StepScene}
 
 use super::choice::Way;
 use super::form::{Field, Form};
-use super::number::Number;
+use super::number::{Number, Spoken};
 
 const CREASES: [Way<CreasesChoice>; 8] = [
     (CreasesChoice::All, "all", "every crease"),
@@ -41,6 +41,9 @@ const EASES: [Way<EaseChoice>; 2] = [
     (EaseChoice::Linear, "linear", "at constant speed"),
     (EaseChoice::Smooth, "smooth", "from rest to rest"),
 ];
+
+/// The first and the last row or column of a step.
+type Range = fn(&mut StepScene) -> &mut Option<Vec<i64>>;
 
 /// What is to become of a step in the list.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -168,15 +171,11 @@ fn show_what(form: &mut Form<'_>, ui: &mut Ui, index: usize) {
     form.menu(ui, &field, ways, |scene| {
         &mut scene.motion.step[index].creases
     });
-    let lists: [(
-        &str,
-        &'static str,
-        fn(&mut StepScene) -> &mut Option<Vec<i64>>,
-    ); 2] = [
-        ("rows", "rows", |step| &mut step.rows),
-        ("columns", "columns", |step| &mut step.columns),
+    let lists: [(&'static str, Range); 2] = [
+        ("rows", |step| &mut step.rows),
+        ("columns", |step| &mut step.columns),
     ];
-    for (at, name, of) in lists {
+    for (name, of) in lists {
         let is_given = form
             .scene
             .motion
@@ -185,7 +184,7 @@ fn show_what(form: &mut Form<'_>, ui: &mut Ui, index: usize) {
             .is_some_and(|step| of(step).is_some());
         if !is_imported || is_given {
             let field = Field::new(
-                key(at),
+                key(name),
                 name,
                 "change the range",
                 "the first and the last, from 0, both included",
@@ -196,38 +195,34 @@ fn show_what(form: &mut Form<'_>, ui: &mut Ui, index: usize) {
 }
 
 /// The first and the last row or column.
-fn show_range(
-    form: &mut Form<'_>,
-    ui: &mut Ui,
-    field: &Field,
-    index: usize,
-    of: fn(&mut StepScene) -> &mut Option<Vec<i64>>,
-) {
-    form.row(ui, field, |form, ui, label| {
+fn show_range(form: &mut Form<'_>, ui: &mut Ui, field: &Field, index: usize, of: Range) {
+    form.row(ui, field, |form, ui, _| {
         let width = (ui.available_width() - 24.0) / 2.0;
         let Some(step) = form.scene.motion.step.get_mut(index) else {
             return;
         };
         let range = of(step).clone().unwrap_or_default();
-        let (first, last) = (range.first().copied(), range.get(1).copied());
         let ends = Number::within(0.0..=1000.0).whole();
+        let (mut first, mut last) = (range.first().copied(), range.get(1).copied());
+        let [spoken_first, spoken_last] =
+            ["first", "last"].map(|end| format!("{end} of {}", field.name));
         let number = ends.clone().hint("all");
-        let new_first = form.whole_cell(ui, field.undo, label, &number, width, first);
+        let spoken = Spoken::As(&spoken_first);
+        let first_changed = form.whole_cell(ui, field.undo, spoken, &number, width, &mut first);
         ui.label("–");
         let number = ends.default(first.map(|first| first as f64)).hint("all");
-        let new_last = form.whole_cell(ui, field.undo, label, &number, width, last);
-        if new_first.is_none() && new_last.is_none() {
-            return;
-        }
-        let (first, last) = (new_first.unwrap_or(first), new_last.unwrap_or(last));
+        let spoken = Spoken::As(&spoken_last);
+        let last_changed = form.whole_cell(ui, field.undo, spoken, &number, width, &mut last);
         let range = match (first, last) {
-            (None, None) => None,
-            (None, Some(last)) if new_last.is_some() => Some(vec![0, last]),
-            (None, Some(_)) => None,
+            // Without a first one there is no last one; and a last one alone begins at 0.
+            (None, Some(last)) if last_changed => Some(vec![0, last]),
+            (None, _) => None,
             (Some(first), None) => Some(vec![first]),
             (Some(first), Some(last)) => Some(vec![first, last]),
         };
-        if let Some(step) = form.scene.motion.step.get_mut(index) {
+        if (first_changed || last_changed)
+            && let Some(step) = form.scene.motion.step.get_mut(index)
+        {
             *of(step) = range;
         }
     });
@@ -278,7 +273,7 @@ fn paint_part(ui: &mut Ui, from: f64, to: f64) {
     painter.rect(
         rect,
         2.0,
-        ui.visuals().extreme_bg_color,
+        ui.visuals().widgets.inactive.weak_bg_fill,
         Stroke::NONE,
         egui::StrokeKind::Inside,
     );

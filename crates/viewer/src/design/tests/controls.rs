@@ -290,3 +290,34 @@ fn a_text_that_cannot_be_read_changes_nothing() {
     enter(&mut harness, "states at", "0, half, 2");
     assert!(harness.state().changes.is_empty());
 }
+
+#[test]
+fn the_rows_of_a_step_are_one_or_a_range_or_all() {
+    let mut harness = bench(SHELTER);
+    click(&mut harness, "Motion");
+    click(&mut harness, "add step");
+    let mut rows = |label: &str, text: &str| {
+        enter(&mut harness, label, text);
+        harness.state().scene.motion.step[0].rows.clone()
+    };
+    assert_eq!(rows("first of rows", "2"), Some(vec![2]));
+    assert_eq!(rows("last of rows", "4"), Some(vec![2, 4]));
+    assert_eq!(rows("first of rows", ""), None);
+    assert_eq!(rows("last of rows", "3"), Some(vec![0, 3]));
+}
+
+#[test]
+fn the_closed_forms_of_every_case_that_the_unit_allows_stand_beside_each_other() {
+    let harness = bench(SHELTER);
+    // Nr = 7, Nc = 3, W = 5, h = 1: equation 6 gives V = Nc (Nr + 1) / 4 (w - h) h² = 4.
+    assert!(harness.query_by_label("4 × 2 × 0.5").is_some());
+    assert!(harness.query_by_label("needs w = h").is_some());
+    assert!(harness.query_by_label("needs w < h").is_some());
+    // SII: a = 0.35, x = 7 - 6 a, y = W - 2 Nc a.
+    assert!(harness.query_by_label("4.9 × 2.9 × 0.35").is_some());
+    assert!(
+        harness
+            .query_by_label("208 vertices, 223 facets, 378 creases")
+            .is_none()
+    );
+}

@@ -5,6 +5,7 @@ use std::path::Path;
 
 use eframe::egui::Theme;
 use egui_kittest::Harness;
+use egui_kittest::kittest::Queryable as _;
 use foldmotion_study::SceneSource;
 
 use super::super::Fault;
@@ -26,6 +27,33 @@ fn colours(harness: &mut Harness<'static, Bench>, name: &str) -> usize {
 }
 
 #[test]
+fn a_narrow_panel_shows_a_selected_point_the_unit_under_the_pointer_and_faults() {
+    let path = scenes().join("omega-sii.toml");
+    for (theme, name) in [(Theme::Dark, "dark"), (Theme::Light, "light")] {
+        let mut harness = bench_of(&SceneSource::read(&path).unwrap(), theme, 1400.0);
+        harness.set_size(eframe::egui::vec2(320.0, 1400.0));
+        harness.run();
+        click(&mut harness, "control point 5");
+        let message = "omega.toml:9:9: sheet.width = -4.8: must be a positive, finite number";
+        harness.state_mut().faults = vec![
+            Fault {
+                key: Some("sheet.width".to_owned()),
+                message: message.to_owned(),
+            },
+            Fault {
+                key: Some("division".to_owned()),
+                message: "the profile cannot be divided".to_owned(),
+            },
+        ];
+        harness.run();
+        let pattern = harness.get_by_label("crease pattern").rect();
+        harness.hover_at(pattern.center() + eframe::egui::vec2(40.0, 8.0));
+        harness.run();
+        assert!(colours(&mut harness, &format!("narrow-{name}")) > 20);
+    }
+}
+
+#[test]
 fn the_panel_is_drawn_dark_and_light() {
     for (theme, name) in [(Theme::Dark, "dark"), (Theme::Light, "light")] {
         for scene in [
@@ -40,7 +68,7 @@ fn the_panel_is_drawn_dark_and_light() {
             let short = scene.replace('/', "-");
             assert!(colours(&mut harness, &format!("{short}-{name}")) > 20);
             for section in ["Profile", "Sheet", "Closed forms", "Pattern"] {
-                if egui_kittest::kittest::Queryable::query_by_label(&harness, section).is_some() {
+                if harness.query_by_label(section).is_some() {
                     click(&mut harness, section);
                 }
             }
