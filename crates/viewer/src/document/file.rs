@@ -66,8 +66,9 @@ pub(super) fn check_readable(path: &Path) -> Result<(), StudyError> {
 
 /// Writes a file beside `path` and moves it into its place: a crash leaves the old one or the new one.
 ///
-/// A link stays a link; permissions stay.
-pub(crate) fn write_whole(path: &Path, text: &str) -> io::Result<()> {
+/// A link stays a link; permissions stay. Where it is to be `durable`, a power cut does no worse, and it takes as long as
+/// the disk does.
+pub(crate) fn write_whole(path: &Path, text: &str, durable: bool) -> io::Result<()> {
     let target = path.canonicalize().unwrap_or_else(|_| path.to_owned());
     let permissions = std::fs::metadata(&target).map(|m| m.permissions()).ok();
     if permissions.as_ref().is_some_and(|p| p.readonly()) {
@@ -88,7 +89,9 @@ pub(crate) fn write_whole(path: &Path, text: &str) -> io::Result<()> {
         if let Some(permissions) = permissions {
             file.set_permissions(permissions)?;
         }
-        file.sync_all()?;
+        if durable {
+            file.sync_all()?;
+        }
         std::fs::rename(&beside, &target)
     };
     written().inspect_err(|_| {

@@ -300,7 +300,7 @@ impl Document {
 }
 
 fn write(path: &Path, text: &str) -> Result<(), SaveError> {
-    write_whole(path, text).map_err(|source| SaveError::Write {
+    write_whole(path, text, true).map_err(|source| SaveError::Write {
         path: path.to_owned(),
         source,
     })

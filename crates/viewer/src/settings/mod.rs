@@ -1,1 +1,202 @@
 //! What the window remembers: recent files, looks, unsaved scenes; and how a file is chosen.
+
+mod help;
+mod picker;
+mod recent;
+mod shortcuts;
+mod theme;
+mod unsaved;
+
+use eframe::Storage;
+use serde::de::DeserializeOwned;
+use serde::{Deserialize, Serialize};
+use serde_json::{Map, Value};
+
+pub(crate) use help::show_help;
+pub(crate) use picker::{Picked, Picker};
+pub(crate) use recent::Recent;
+pub(crate) use shortcuts::{Command, keys_of, name_of, pressed};
+pub(crate) use theme::{Look, SCALES, apply};
+pub(crate) use unsaved::{UnsavedScene, UnsavedScenes};
+
+/// The key under which the settings are stored.
+const KEY: &str = "settings";
+
+/// What the window remembers from one start to the next.
+#[derive(Debug, Clone, Default, PartialEq, Serialize)]
+pub(crate) struct Settings {
+    /// Files opened and saved.
+    pub(crate) recent: Recent,
+    /// Dark, light, or as the system is.
+    pub(crate) look: Look,
+    /// How large everything is.
+    pub(crate) scale: Scale,
+    /// How the sheet is shown.
+    pub(crate) view: ViewSettings,
+    /// Which panels are open.
+    pub(crate) panels: PanelSettings,
+}
+
+/// The size of everything, one of [`SCALES`].
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub(crate) struct Scale(f32);
+
+impl Default for Scale {
+    fn default() -> Self {
+        Self(SCALES[0])
+    }
+}
+
+impl Scale {
+    /// The factor; the nearest of [`SCALES`] whatever was stored.
+    pub(crate) fn factor(self) -> f32 {
+        let far = |scale: &f32| (scale - self.0).abs();
+        let nearest = SCALES.into_iter().min_by(|a, b| far(a).total_cmp(&far(b)));
+        nearest.unwrap_or(SCALES[0])
+    }
+
+    /// The next larger size; the smallest after the largest.
+    pub(crate) fn next(self) -> Self {
+        let larger = SCALES.into_iter().find(|&scale| scale > self.factor());
+        Self(larger.unwrap_or(SCALES[0]))
+    }
+}
+
+/// How the sheet is shown.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+pub(crate) struct ViewSettings {
+    pub(crate) perspective: bool,
+    pub(crate) creases: bool,
+    pub(crate) profile: bool,
+    pub(crate) compact_box: bool,
+    pub(crate) closed_form_box: bool,
+}
+
+impl Default for ViewSettings {
+    fn default() -> Self {
+        Self {
+            perspective: true,
+            creases: true,
+            profile: false,
+            compact_box: false,
+            closed_form_box: false,
+        }
+    }
+}
+
+/// Which panels are open.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+pub(crate) struct PanelSettings {
+    pub(crate) design: bool,
+    pub(crate) plots: bool,
+    pub(crate) verdict: bool,
+    pub(crate) record: bool,
+    pub(crate) text: bool,
+}
+
+impl Default for PanelSettings {
+    fn default() -> Self {
+        Self {
+            design: true,
+            plots: true,
+            verdict: true,
+            record: false,
+            text: false,
+        }
+    }
+}
+
+impl Settings {
+    /// What was stored; what is missing or cannot be read is as at the first start.
+    pub(crate) fn load(storage: Option<&dyn Storage>) -> Self {
+        let stored = storage.and_then(|storage| storage.get_string(KEY));
+        stored.map_or_else(Self::default, |json| Self::from_json(&json))
+    }
+
+    pub(crate) fn store(&self, storage: &mut dyn Storage) {
+        // Numbers, words and lists of them always serialise.
+        if let Ok(json) = serde_json::to_string(self) {
+            storage.set_string(KEY, json);
+        }
+    }
+
+    fn from_json(json: &str) -> Self {
+        let Ok(Value::Object(stored)) = serde_json::from_str(json) else {
+            return Self::default();
+        };
+        Self {
+            recent: field(&stored, "recent"),
+            look: field(&stored, "look"),
+            scale: field(&stored, "scale"),
+            view: field(&stored, "view"),
+            panels: field(&stored, "panels"),
+        }
+    }
+}
+
+/// A field of its own: what another version wrote there costs this one only.
+fn field<T: DeserializeOwned + Default>(stored: &Map<String, Value>, name: &str) -> T {
+    let value = stored.get(name).cloned();
+    value
+        .and_then(|value| serde_json::from_value(value).ok())
+        .unwrap_or_default()
+}
+
+#[cfg(test)]
+mod tests {
+    use std::path::Path;
+
+    use egui_kittest::Harness;
+
+    use super::*;
+
+    /// Draws what is shown, to be looked at where FOLDMOTION_PICTURES says; how light it is at a place.
+    pub(super) fn drawn<S>(harness: &mut Harness<'_, S>, name: &str, [x, y]: [u32; 2]) -> u8 {
+        let picture = harness.render().unwrap();
+        if let Some(folder) = std::env::var_os("FOLDMOTION_PICTURES") {
+            picture
+                .save(Path::new(&folder).join(format!("{name}.png")))
+                .unwrap();
+        }
+        picture.get_pixel(x, y).0[0]
+    }
+
+    #[test]
+    fn settings_read_back_as_they_were_stored() {
+        let mut settings = Settings::default();
+        settings.look = Look::Light;
+        settings.scale = settings.scale.next();
+        settings.view.creases = false;
+        settings.panels.text = true;
+        settings.recent.add(&std::env::current_dir().unwrap());
+        let json = serde_json::to_string(&settings).unwrap();
+        assert_eq!(Settings::from_json(&json), settings);
+    }
+
+    #[test]
+    fn what_another_version_wrote_falls_back_field_by_field() {
+        let json = r#"{"recent": 3, "look": "sepia", "scale": 1e9, "new": [], "view": {"creases": false, "later": 1}, "panels": {"text": "yes"}}"#;
+        let settings = Settings::from_json(json);
+        assert_eq!(settings.look, Look::System);
+        assert_eq!(settings.recent, Recent::default());
+        assert_eq!(settings.scale.factor(), 2.0);
+        assert!(!settings.view.creases && settings.view.perspective);
+        assert_eq!(settings.panels, PanelSettings::default());
+        for broken in ["", "[]", "null", "{\"look\":"] {
+            assert_eq!(Settings::from_json(broken), Settings::default());
+        }
+    }
+
+    #[test]
+    fn sizes_go_round() {
+        let mut scale = Scale::default();
+        let mut seen = Vec::new();
+        for _ in 0..=SCALES.len() {
+            seen.push(scale.factor());
+            scale = scale.next();
+        }
+        assert_eq!(seen, [1.0, 1.25, 1.5, 2.0, 1.0]);
+    }
+}

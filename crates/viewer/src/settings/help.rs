@@ -1,0 +1,198 @@
+//! The help sheet: keys, mouse, words, version, how to cite.
+
+use eframe::egui::{Context, Grid, Id, Key, Modal, Modifiers, RichText, ScrollArea, Ui};
+
+use super::shortcuts::{Group, SHORTCUTS};
+
+/// The groups of the two columns.
+const COLUMNS: [&[Group]; 2] = [
+    &[Group::File, Group::Edit, Group::Motion, Group::Time],
+    &[Group::View, Group::Colours, Group::Window],
+];
+
+/// What the mouse does, where.
+const MOUSE: [(&str, &[(&str, &str)]); 2] = [
+    (
+        "Mouse in the 3D view",
+        &[
+            ("drag", "turn"),
+            ("right or middle drag, shift and drag", "move"),
+            ("wheel, pinch", "nearer or farther"),
+            ("double click", "fit to the window"),
+            ("drag a vertex, in the dynamic engine by hand", "pull it"),
+        ],
+    ),
+    (
+        "Mouse on the profile",
+        &[
+            ("drag a point", "move it"),
+            ("double click", "add a point"),
+            ("right click on a point, Delete", "remove it"),
+            ("right or middle drag", "move the canvas"),
+            ("wheel, pinch", "nearer or farther"),
+        ],
+    ),
+];
+
+const WORDS: [(&str, &str); 3] = [
+    (
+        "Touching",
+        "facets lie on each other and leave on the side they came from",
+    ),
+    (
+        "Penetrating",
+        "facets overlap by more than the tolerance, or leave on the other side",
+    ),
+    ("Free", "no facets come within the tolerance of each other"),
+];
+
+const CITE: &str = "Please cite foldmotion with its version, and the paper it implements: Constructing foldable \
+                    cylindrical surfaces via unfolded waterbomb origami units. CITATION.cff has the entries.";
+
+/// Shows the help sheet while it is open.
+pub(crate) fn show_help(ctx: &Context, open: &mut bool) {
+    if !*open {
+        return;
+    }
+    let room = ctx.content_rect().size();
+    let modal = Modal::new(Id::new("help")).show(ctx, |ui| {
+        ui.set_width((room.x - 60.0).clamp(200.0, 760.0));
+        ui.heading("Help");
+        let mut scroll = ScrollArea::vertical().auto_shrink([false, true]);
+        scroll = scroll.max_height((room.y - 120.0).max(80.0));
+        scroll.show(ui, contents);
+        ui.separator();
+        let close = ui.button("Close").clicked();
+        close || ui.input_mut(|input| input.consume_key(Modifiers::NONE, Key::F1))
+    });
+    if modal.should_close() || modal.inner {
+        *open = false;
+    }
+}
+
+fn contents(ui: &mut Ui) {
+    ui.columns(2, |columns| {
+        for (ui, groups) in columns.iter_mut().zip(COLUMNS) {
+            for &group in groups {
+                keys(ui, group);
+            }
+        }
+    });
+    ui.columns(2, |columns| {
+        for (ui, (title, gestures)) in columns.iter_mut().zip(MOUSE) {
+            table(
+                ui,
+                title,
+                gestures
+                    .iter()
+                    .map(|&(how, what)| (what.to_owned(), how.to_owned())),
+            );
+        }
+    });
+    title(ui, "Words");
+    for (word, meaning) in WORDS {
+        ui.horizontal_wrapped(|ui| {
+            ui.strong(word);
+            ui.label(meaning);
+        });
+    }
+    title(ui, &format!("foldmotion {}", env!("CARGO_PKG_VERSION")));
+    ui.label(CITE);
+}
+
+/// The commands of a group with their keys.
+fn keys(ui: &mut Ui, group: Group) {
+    let rows = SHORTCUTS.iter().filter(|shortcut| shortcut.group == group);
+    let ctx = ui.ctx().clone();
+    let rows = rows.map(|shortcut| {
+        let keys: Vec<String> = shortcut
+            .keys
+            .iter()
+            .map(|keys| ctx.format_shortcut(keys))
+            .collect();
+        (shortcut.name.to_owned(), keys.join(" or "))
+    });
+    let rows: Vec<_> = rows.collect();
+    table(ui, group.name(), rows.into_iter());
+}
+
+fn table(ui: &mut Ui, name: &str, rows: impl Iterator<Item = (String, String)>) {
+    title(ui, name);
+    let half = 0.5 * ui.available_width() - 12.0;
+    Grid::new(name)
+        .num_columns(2)
+        .min_col_width(half)
+        .max_col_width(half)
+        .show(ui, |ui| {
+            for (what, how) in rows {
+                ui.label(what);
+                ui.label(RichText::new(how).weak());
+                ui.end_row();
+            }
+        });
+}
+
+fn title(ui: &mut Ui, text: &str) {
+    ui.add_space(8.0);
+    ui.strong(text);
+}
+
+#[cfg(test)]
+mod tests {
+    use eframe::egui::{Theme, vec2};
+    use egui_kittest::Harness;
+    use egui_kittest::kittest::Queryable as _;
+
+    use super::super::tests::drawn;
+    use super::super::{Look, apply};
+    use super::*;
+
+    fn harness(look: Look) -> Harness<'static, bool> {
+        let builder = Harness::builder().with_size(vec2(900.0, 1000.0));
+        let builder = builder.with_context_setup(move |ctx| apply(ctx, look, 1.0));
+        builder.build_ui_state(|ui, open| show_help(ui.ctx(), open), true)
+    }
+
+    #[test]
+    fn the_sheet_lists_every_command_with_its_keys() {
+        let mut harness = harness(Look::Dark);
+        harness.run();
+        for shortcut in SHORTCUTS {
+            harness.get_by_label(shortcut.name);
+            let listed = COLUMNS
+                .iter()
+                .any(|groups| groups.contains(&shortcut.group));
+            assert!(listed, "{shortcut:?}");
+        }
+        harness.get_by_label_contains("F5");
+        harness.get_by_label(&format!("foldmotion {}", env!("CARGO_PKG_VERSION")));
+    }
+
+    #[test]
+    fn escape_f1_and_the_button_close_the_sheet() {
+        for close in [Key::Escape, Key::F1] {
+            let mut harness = harness(Look::Dark);
+            harness.run();
+            harness.key_press(close);
+            harness.run();
+            assert!(!harness.state(), "{close:?}");
+        }
+        let mut harness = harness(Look::Light);
+        harness.run();
+        harness.get_by_label("Close").click();
+        harness.run();
+        assert!(!harness.state());
+    }
+
+    #[test]
+    #[cfg_attr(not(gpu_tests), ignore = "no adapter: set FOLDMOTION_GPU_TESTS=yes")]
+    fn the_sheet_is_drawn_dark_and_light() {
+        for (look, theme) in [(Look::Dark, Theme::Dark), (Look::Light, Theme::Light)] {
+            let mut harness = harness(look);
+            harness.run();
+            assert_eq!(harness.ctx.theme(), theme);
+            let lit = drawn(&mut harness, &format!("help-{}", look.name()), [450, 500]);
+            assert_eq!(lit < 128, theme == Theme::Dark, "{lit}");
+        }
+    }
+}

@@ -1,0 +1,227 @@
+//! The picker on screen.
+
+use eframe::egui::text::CCursorRange;
+use eframe::egui::text_edit::TextEditState;
+use eframe::egui::{
+    Button, Context, Id, Key, Modal, Modifiers, RichText, ScrollArea, TextEdit, TextStyle, Ui,
+    text::CCursor,
+};
+
+use super::{Picked, Picker};
+
+/// Crumbs shown of a long path.
+const MOST_CRUMBS: usize = 6;
+
+impl Picker {
+    /// Shows the picker; tells when it is done, after which it is not to be shown again.
+    pub(crate) fn show(&mut self, ctx: &Context) -> Option<Picked> {
+        let room = ctx.content_rect().size();
+        let modal = Modal::new(Id::new("picker")).show(ctx, |ui| {
+            ui.set_width((room.x - 60.0).clamp(240.0, 640.0));
+            let picked = self.press_keys(ui);
+            ui.heading(&self.title);
+            self.crumbs(ui);
+            ui.separator();
+            let height = (room.y - 240.0).clamp(80.0, 380.0);
+            let chosen = ui.horizontal_top(|ui| {
+                self.list_places(ui, height);
+                self.list(ui, height)
+            });
+            ui.separator();
+            picked.or(chosen.inner).or(self.foot(ui))
+        });
+        if modal.inner.is_some() {
+            return modal.inner;
+        }
+        if modal.should_close() {
+            // Escape answers the question first.
+            if self.overwrites.take().is_none() {
+                return Some(Picked::Cancelled);
+            }
+        }
+        None
+    }
+
+    /// Keys that move through the list, unless another control has the focus.
+    fn press_keys(&mut self, ui: &Ui) -> Option<Picked> {
+        let focused = ui.memory(|memory| memory.focused());
+        if self.overwrites.is_some() || focused.is_some_and(|id| id != text_id()) {
+            return None;
+        }
+        let pressed = |key| ui.input_mut(|input| input.consume_key(Modifiers::NONE, key));
+        for (key, by) in [
+            (Key::ArrowDown, 1),
+            (Key::ArrowUp, -1),
+            (Key::PageDown, 12),
+            (Key::PageUp, -12),
+        ] {
+            if pressed(key) {
+                self.step(by);
+            }
+        }
+        if self.typed.is_empty() && pressed(Key::Backspace) {
+            self.up();
+        } else if !self.typed.is_empty() && pressed(Key::Tab) {
+            self.complete();
+        }
+        if pressed(Key::Enter) {
+            self.enter()
+        } else {
+            None
+        }
+    }
+
+    /// The folders on the way to this one.
+    fn crumbs(&mut self, ui: &mut Ui) {
+        let mut way: Vec<_> = self.folder.ancestors().map(ToOwned::to_owned).collect();
+        let hidden = way.len() > MOST_CRUMBS;
+        way.truncate(MOST_CRUMBS);
+        ui.horizontal_wrapped(|ui| {
+            ui.spacing_mut().item_spacing.x = 3.0;
+            if hidden {
+                ui.weak("…");
+            }
+            for folder in way.into_iter().rev() {
+                let name = folder
+                    .file_name()
+                    .map(|name| name.to_string_lossy().into_owned());
+                let name = name.unwrap_or_else(|| folder.display().to_string());
+                let tip = folder.display().to_string();
+                if ui.button(name).on_hover_text(tip).clicked() {
+                    self.go(&folder);
+                }
+            }
+        });
+    }
+
+    /// Home and recent folders.
+    fn list_places(&mut self, ui: &mut Ui, height: f32) {
+        ui.vertical(|ui| {
+            ui.set_width(110.0);
+            ui.set_height(height);
+            for (name, folder) in self.places.clone() {
+                let button = Button::new(&name).frame(false).truncate();
+                let tip = folder.display().to_string();
+                if ui.add(button).on_hover_text(tip).clicked() {
+                    self.go(&folder);
+                }
+            }
+        });
+    }
+
+    /// Folders and files; only the rows in sight are laid out.
+    fn list(&mut self, ui: &mut Ui, height: f32) -> Option<Picked> {
+        let row = ui
+            .text_style_height(&TextStyle::Button)
+            .max(ui.spacing().interact_size.y);
+        let mut scroll = ScrollArea::vertical()
+            .auto_shrink([false, false])
+            .max_height(height);
+        if std::mem::take(&mut self.scrolls) {
+            let pitch = row + ui.spacing().item_spacing.y;
+            let above = self.selected.unwrap_or(0) as f32 * pitch - 0.5 * height;
+            scroll = scroll.vertical_scroll_offset(above.max(0.0));
+        }
+        if self.shown.is_empty() {
+            ui.weak("nothing to choose here");
+            return None;
+        }
+        let mut entered = false;
+        scroll.show_rows(ui, row, self.shown.len(), |ui, rows| {
+            for row in rows {
+                let entry = &self.entries[self.shown[row]];
+                let name = if entry.is_folder {
+                    RichText::new(format!("{}/", entry.name)).strong()
+                } else {
+                    RichText::new(&entry.name)
+                };
+                let button = Button::selectable(self.selected == Some(row), name).truncate();
+                let response = ui.add(button);
+                if response.clicked() {
+                    self.selected = Some(row);
+                    self.name_selected();
+                }
+                if response.double_clicked() {
+                    self.selected = Some(row);
+                    entered = true;
+                    break;
+                }
+            }
+        });
+        if entered { self.enter() } else { None }
+    }
+
+    /// The text field, what is wrong, and the buttons; or the question whether to overwrite.
+    fn foot(&mut self, ui: &mut Ui) -> Option<Picked> {
+        if let Some(path) = self.overwrites.clone() {
+            let name = path.file_name().unwrap_or_default().to_string_lossy();
+            ui.label(format!("{name} exists already. Overwrite it?"));
+            return ui
+                .horizontal(|ui| {
+                    if ui.button("Keep it").clicked() {
+                        self.overwrites = None;
+                    }
+                    ui.button("Overwrite")
+                        .clicked()
+                        .then_some(Picked::File(path))
+                })
+                .inner;
+        }
+        ui.horizontal(|ui| {
+            let label = ui.label(if self.saves { "Name" } else { "Name or path" });
+            let tabs = !self.typed.is_empty();
+            let field = TextEdit::singleline(&mut self.typed)
+                .id(text_id())
+                .lock_focus(tabs);
+            let field = ui
+                .add(field.desired_width(f32::INFINITY))
+                .labelled_by(label.id);
+            if field.changed() {
+                self.message = None;
+                self.filter();
+            }
+            if std::mem::take(&mut self.focuses) {
+                field.request_focus();
+                put_cursor_last(ui, &self.typed);
+            }
+        });
+        if let Some(message) = &self.message {
+            ui.colored_label(ui.visuals().error_fg_color, message);
+        }
+        self.buttons(ui)
+    }
+
+    fn buttons(&mut self, ui: &mut Ui) -> Option<Picked> {
+        ui.horizontal(|ui| {
+            let action = if self.saves { "Save" } else { "Open" };
+            let entered = ui.button(action).clicked();
+            let cancelled = ui.button("Cancel").clicked();
+            if ui.checkbox(&mut self.hidden, "hidden files").changed() {
+                self.read();
+            }
+            if !self.endings.is_empty() {
+                ui.weak(format!(".{}", self.endings.join(" .")));
+            }
+            if cancelled {
+                Some(Picked::Cancelled)
+            } else if entered {
+                self.enter()
+            } else {
+                None
+            }
+        })
+        .inner
+    }
+}
+
+fn text_id() -> Id {
+    Id::new("picker text")
+}
+
+/// What was completed is gone on with at its end.
+fn put_cursor_last(ui: &Ui, text: &str) {
+    let mut state = TextEditState::load(ui.ctx(), text_id()).unwrap_or_default();
+    let end = CCursor::new(text.chars().count());
+    state.cursor.set_char_range(Some(CCursorRange::one(end)));
+    state.store(ui.ctx(), text_id());
+}

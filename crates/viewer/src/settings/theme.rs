@@ -1,0 +1,164 @@
+//! How the window looks: dark or light, and how large.
+
+use eframe::egui::{self, Color32, CornerRadius, Stroke, Style, Theme, ThemePreference, vec2};
+use serde::{Deserialize, Serialize};
+
+/// Sizes of everything; the larger ones for a room to read.
+pub(crate) const SCALES: [f32; 4] = [1.0, 1.25, 1.5, 2.0];
+
+/// Dark or light.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub(crate) enum Look {
+    /// As the system is.
+    #[default]
+    System,
+    /// Light text on a dark ground.
+    Dark,
+    /// Dark text on a light ground.
+    Light,
+}
+
+impl Look {
+    /// Every look.
+    pub(crate) const ALL: [Self; 3] = [Self::System, Self::Dark, Self::Light];
+
+    /// Its name in menus.
+    pub(crate) fn name(self) -> &'static str {
+        match self {
+            Self::System => "as the system",
+            Self::Dark => "dark",
+            Self::Light => "light",
+        }
+    }
+}
+
+/// Dresses the window. To be called at the start and when either has changed: keyboard zoom stays in between.
+pub(crate) fn apply(ctx: &egui::Context, look: Look, scale: f32) {
+    for theme in [Theme::Dark, Theme::Light] {
+        ctx.set_style_of(theme, style_of(theme));
+    }
+    ctx.set_theme(match look {
+        Look::System => ThemePreference::System,
+        Look::Dark => ThemePreference::Dark,
+        Look::Light => ThemePreference::Light,
+    });
+    ctx.set_zoom_factor(scale);
+}
+
+/// The colours that make the difference between dark and light.
+struct Palette {
+    ground: Color32,
+    raised: Color32,
+    sunken: Color32,
+    line: Color32,
+    text: Color32,
+    accent: Color32,
+    chosen: Color32,
+}
+
+const DARK: Palette = Palette {
+    ground: Color32::from_rgb(30, 31, 34),
+    raised: Color32::from_rgb(38, 40, 44),
+    sunken: Color32::from_rgb(21, 22, 24),
+    line: Color32::from_rgb(58, 61, 66),
+    text: Color32::from_rgb(214, 216, 219),
+    accent: Color32::from_rgb(92, 164, 224),
+    chosen: Color32::from_rgb(34, 74, 110),
+};
+
+const LIGHT: Palette = Palette {
+    ground: Color32::from_rgb(245, 246, 247),
+    raised: Color32::from_rgb(255, 255, 255),
+    sunken: Color32::from_rgb(255, 255, 255),
+    line: Color32::from_rgb(205, 208, 213),
+    text: Color32::from_rgb(38, 41, 46),
+    accent: Color32::from_rgb(20, 98, 165),
+    chosen: Color32::from_rgb(194, 221, 245),
+};
+
+fn style_of(theme: Theme) -> Style {
+    let palette = match theme {
+        Theme::Dark => &DARK,
+        Theme::Light => &LIGHT,
+    };
+    let mut style = theme.default_style();
+    style.spacing.item_spacing = vec2(8.0, 5.0);
+    style.spacing.button_padding = vec2(7.0, 3.0);
+    style.spacing.interact_size.y = 22.0;
+    let rounded = CornerRadius::same(4);
+    let visuals = &mut style.visuals;
+    visuals.panel_fill = palette.ground;
+    visuals.window_fill = palette.raised;
+    visuals.window_stroke = Stroke::new(1.0, palette.line);
+    visuals.window_corner_radius = rounded;
+    visuals.menu_corner_radius = rounded;
+    visuals.extreme_bg_color = palette.sunken;
+    visuals.hyperlink_color = palette.accent;
+    visuals.selection.bg_fill = palette.chosen;
+    visuals.selection.stroke = Stroke::new(1.0, palette.text);
+    let widgets = &mut visuals.widgets;
+    widgets.noninteractive.bg_stroke = Stroke::new(1.0, palette.line);
+    widgets.noninteractive.fg_stroke = Stroke::new(1.0, palette.text);
+    widgets.inactive.fg_stroke = Stroke::new(1.0, palette.text);
+    widgets.hovered.bg_stroke = Stroke::new(1.0, palette.accent);
+    widgets.active.bg_stroke = Stroke::new(1.0, palette.accent);
+    for state in [
+        &mut widgets.noninteractive,
+        &mut widgets.inactive,
+        &mut widgets.hovered,
+        &mut widgets.active,
+        &mut widgets.open,
+    ] {
+        state.corner_radius = rounded;
+        state.expansion = 0.0;
+    }
+    style
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Relative luminance and contrast as WCAG 2.1 defines them.
+    fn contrast(a: Color32, b: Color32) -> f64 {
+        let channel = |c: u8| {
+            let c = f64::from(c) / 255.0;
+            if c <= 0.04045 {
+                c / 12.92
+            } else {
+                ((c + 0.055) / 1.055).powf(2.4)
+            }
+        };
+        let luminance = |c: Color32| {
+            0.2126 * channel(c.r()) + 0.7152 * channel(c.g()) + 0.0722 * channel(c.b())
+        };
+        let (a, b) = (luminance(a), luminance(b));
+        (a.max(b) + 0.05) / (a.min(b) + 0.05)
+    }
+
+    #[test]
+    fn text_stands_out_from_every_ground_it_is_on() {
+        assert!(contrast(Color32::BLACK, Color32::WHITE) > 20.9);
+        for palette in [&DARK, &LIGHT] {
+            for ground in [
+                palette.ground,
+                palette.raised,
+                palette.sunken,
+                palette.chosen,
+            ] {
+                assert!(contrast(palette.text, ground) > 7.0);
+            }
+            assert!(contrast(palette.accent, palette.ground) > 4.5);
+        }
+    }
+
+    #[test]
+    fn a_look_is_applied_to_the_window() {
+        let ctx = egui::Context::default();
+        apply(&ctx, Look::Light, 1.5);
+        assert_eq!(ctx.theme(), Theme::Light);
+        apply(&ctx, Look::Dark, 1.0);
+        assert_eq!(ctx.theme(), Theme::Dark);
+    }
+}
