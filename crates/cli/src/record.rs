@@ -188,6 +188,8 @@ fn parse_camera(text: &str) -> Result<CameraScene, String> {
             azimuth,
             elevation,
             turn,
+            centre: None,
+            width: None,
         })
     };
     let preset = match text {

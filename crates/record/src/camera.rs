@@ -180,6 +180,36 @@ impl Camera {
         Self::fit(view, points, size, margin)
     }
 
+    /// The camera with `centre` in the middle of the picture and the length `width` across it, of a picture of `size`;
+    /// where one is none, it stays as it is.
+    ///
+    /// # Errors
+    /// [`RecordError::Extent`] where they do not project to finite pixels.
+    pub fn aimed(
+        self,
+        centre: Option<DVec3>,
+        width: Option<f64>,
+        size: [u32; 2],
+    ) -> Result<Self, RecordError> {
+        let pixels = DVec2::from(size.map(f64::from));
+        let middle = pixels * 0.5;
+        let scale = width.map_or(self.scale, |width| pixels.x / width);
+        let across = match centre {
+            Some(centre) => DVec2::new(self.right.dot(centre), -self.up.dot(centre)),
+            None => (middle - self.origin) / self.scale,
+        };
+        let origin = middle - scale * across;
+        if !(scale.is_normal() && scale > 0.0 && origin.is_finite()) {
+            let [width, height] = (pixels / scale).to_array();
+            return Err(RecordError::Extent { width, height });
+        }
+        Ok(Self {
+            scale,
+            origin,
+            ..self
+        })
+    }
+
     /// The camera turned by `degrees`, counter-clockwise seen from above, about the vertical through `middle`, which
     /// stays where it is on the screen.
     #[must_use]
@@ -247,6 +277,34 @@ mod tests {
             elevation: 0.0,
         };
         assert!(Camera::fit(nowhere, [DVec3::ONE], [9, 9], 0.0).is_err());
+    }
+
+    #[test]
+    fn an_aimed_camera_shows_its_centre_in_the_middle_and_its_width_across() {
+        let points = [DVec3::ZERO, DVec3::new(3.0, 1.0, 0.5)];
+        let (centre, size) = (DVec3::new(2.0, -1.0, 0.3), [400, 100]);
+        let view = View::Around {
+            azimuth: -37.0,
+            elevation: 21.0,
+        };
+        let fitted = Camera::fit(view, points, size, 0.1).unwrap();
+        let camera = fitted.aimed(Some(centre), Some(8.0), size).unwrap();
+        let place = |point: DVec3| camera.project(point).truncate();
+        assert!((place(centre) - DVec2::new(200.0, 50.0)).length() < 1e-9);
+        let [right, up, _] = view.axes();
+        assert!((place(centre + 4.0 * right) - DVec2::new(400.0, 50.0)).length() < 1e-9);
+        assert!((place(centre + up) - DVec2::ZERO - DVec2::new(200.0, 0.0)).length() < 1e-9);
+        // What is not asked for stays.
+        let same = fitted.aimed(None, None, size).unwrap();
+        assert!((same.project(points[1]) - fitted.project(points[1])).length() < 1e-9);
+        let wider = fitted.aimed(None, Some(1.0), size).unwrap();
+        let middle = |camera: Camera| (DVec2::new(200.0, 50.0) - camera.origin) / camera.scale;
+        assert!((middle(wider) - middle(fitted)).length() < 1e-12);
+        for width in [0.0, -1.0, f64::NAN, f64::INFINITY, 1e-320] {
+            assert!(fitted.aimed(None, Some(width), size).is_err(), "{width}");
+        }
+        let lost = DVec3::new(f64::NAN, 0.0, 0.0);
+        assert!(fitted.aimed(Some(lost), None, size).is_err());
     }
 
     #[test]

@@ -47,7 +47,12 @@ pub struct FilmOptions {
     pub view: View,
     /// The part of the picture's sides kept free on each side.
     pub margin: f64,
-    /// Degrees by which the camera turns about the vertical through the middle of the motion, evenly over the film.
+    /// The point in the middle of the picture, in the motion's unit; where none, the middle of all that is seen.
+    pub centre: Option<DVec3>,
+    /// The length across the picture; where none, all of the motion is seen from its own middle.
+    pub width: Option<f64>,
+    /// Degrees by which the camera turns about the vertical through `centre`, or the middle of the motion, evenly over the
+    /// film.
     pub turn: f64,
     /// Whether the stage and the time are written into the picture.
     pub has_caption: bool,
@@ -69,6 +74,8 @@ impl Default for FilmOptions {
             playback: Playback::Once,
             view: View::default(),
             margin: 0.04,
+            centre: None,
+            width: None,
             turn: 0.0,
             has_caption: false,
             is_transparent: false,

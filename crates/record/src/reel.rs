@@ -78,7 +78,7 @@ pub trait Reel: Send {
 
 /// Films `scene` into all `reels` at once.
 ///
-/// The camera sees all of the motion, also while it turns. `progress` gets the part done, from 0 to 1, and answers
+/// The camera sees all of the motion, also while it turns, unless it is aimed by `centre` and `width`. `progress` gets the part done, from 0 to 1, and answers
 /// whether to go on. The order of the compact state also decides between layers at other times, wherever they come
 /// within [`crate::TIE_TOLERANCE`] of each other. The bytes do not depend on the number of threads.
 ///
@@ -162,13 +162,14 @@ impl<'a> Set<'a> {
             (DVec3::INFINITY, DVec3::NEG_INFINITY),
             |(low, high), point| (low.min(point), high.max(point)),
         );
-        let middle = (low + high) * 0.5;
+        let middle = options.centre.unwrap_or((low + high) * 0.5);
         let (view, size, margin) = (options.view, options.size, options.margin);
         let camera = if options.turn == 0.0 {
             Camera::fit(view, points, size, margin)?
         } else {
             Camera::fit_turning(view, points, middle, size, margin)?
         };
+        let camera = camera.aimed(options.centre, options.width, size)?;
         let legend = scene.values.map(|values| Overlay::legend(values, size));
         Ok(Self {
             paper: Paper::new(&motion.sheet, &motion.compact_order),

@@ -46,13 +46,47 @@ pub fn check_file(
     options: &CheckOptions,
     progress: Progress<'_>,
 ) -> Result<Certificate, StudyError> {
+    let judged = judge_file(path, *options, progress)?;
+    progress(Phase::Check, 1.0);
+    Ok(judged.certificate(path))
+}
+
+/// A motion file with what was found of it.
+pub(crate) struct JudgedFile {
+    file: FoldFile,
+    pub(crate) sha256: String,
+    pub(crate) times: Vec<f64>,
+    pub(crate) collision: CollisionReport,
+}
+
+impl JudgedFile {
+    /// The certificate of the file, which stands at `path`.
+    pub(crate) fn certificate(&self, path: &Path) -> Certificate {
+        let name = path.file_name().unwrap_or_default().to_string_lossy();
+        let motion = CheckedMotion {
+            name: &name,
+            sha256: self.sha256.clone(),
+            file: MotionFile::from(&self.file),
+            times: &self.times,
+            collision: &self.collision,
+        };
+        motion.certificate()
+    }
+}
+
+/// Reads the file at `path` twice and judges its motion.
+pub(crate) fn judge_file(
+    path: &Path,
+    options: CheckOptions,
+    progress: Progress<'_>,
+) -> Result<JudgedFile, StudyError> {
     let (file, described) = {
         let mut input = Input::open(path, Phase::Read, progress)?;
         let file = FoldFile::read(&mut input);
         (input.unless_stopped(file)?, input.digest())
     };
     let mut input = Input::open(path, Phase::Check, progress)?;
-    let judge = RefCell::new(Judge::new(&file, *options));
+    let judge = RefCell::new(Judge::new(&file, options));
     let read = file.frames(&mut input, &mut |frame, order| {
         judge.borrow_mut().take(&frame, order)
     });
@@ -65,17 +99,13 @@ pub fn check_file(
     if sha256 != described {
         return Err(input.failure(&"it changed while it was read"));
     }
-    let (report, times) = judge.finish().map_err(|e| motion_error(path, &e))?;
-    let name = path.file_name().unwrap_or_default().to_string_lossy();
-    progress(Phase::Check, 1.0);
-    let motion = CheckedMotion {
-        name: &name,
+    let (collision, times) = judge.finish().map_err(|e| motion_error(path, &e))?;
+    Ok(JudgedFile {
+        file,
         sha256,
-        file: MotionFile::from(&file),
-        times: &times,
-        collision: &report,
-    };
-    Ok(motion.certificate())
+        times,
+        collision,
+    })
 }
 
 impl Certificate {
@@ -172,7 +202,7 @@ impl Read for Input<'_> {
     }
 }
 
-fn motion_error(path: &Path, message: &dyn std::fmt::Display) -> StudyError {
+pub(crate) fn motion_error(path: &Path, message: &dyn std::fmt::Display) -> StudyError {
     StudyError::Motion {
         path: path.to_owned(),
         message: message.to_string(),

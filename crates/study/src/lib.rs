@@ -15,6 +15,7 @@ mod folded;
 mod gap;
 mod imported_report;
 mod imported_study;
+mod opened;
 pub mod paper;
 mod pattern_files;
 mod pattern_scene;
@@ -50,6 +51,7 @@ pub use foldmotion_pattern::{
 pub use foldmotion_solver::Moment;
 pub use foldmotion_solver::dynamic::Device;
 pub use imported_study::ImportedStudy;
+pub use opened::{Opened, OpenedMotion};
 pub use pattern_files::{PatternFormat, PatternOptions, PatternScale, PatternStudy};
 pub use recording::{Again, MotionRecord, Quantity, Recording, record_again, record_file};
 pub use report::Report;

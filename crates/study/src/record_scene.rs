@@ -132,7 +132,8 @@ pub enum LoopChoice {
 #[serde(
     untagged,
     expecting = "camera must be \"iso\", \"front\", \"side\", \"top\", \"turntable\", or a table such as \
-                 { azimuth = -60, elevation = 32 } in degrees, with turn = 360 to go round"
+                 { azimuth = -60, elevation = 32 } in degrees, with turn = 360 to go round, centre = [x, y, z] and width = w for \
+                 a picture of your own"
 )]
 pub enum CameraScene {
     /// By name.
@@ -167,6 +168,12 @@ pub struct OwnCamera {
     pub elevation: f64,
     /// How far films go round the motion, evenly; 0 where left out.
     pub turn: Option<f64>,
+    /// The point [x, y, z] in the middle of films and pictures, in the motion's unit; the middle of the motion where left
+    /// out.
+    pub centre: Option<[f64; 3]>,
+    /// The length shown across films and pictures, in the motion's unit; as much as all of the motion needs where left out.
+    /// With a centre figures show as much of each state, and more where it is larger.
+    pub width: Option<f64>,
 }
 
 /// What colours show.

@@ -53,7 +53,10 @@ struct Need {
 
 impl Need {
     fn new(pose: &Pose<'_>, options: &StripOptions, letters: f64) -> Result<Self, RecordError> {
-        let extent = options.view.extent(pose.points());
+        let mut extent = options.view.extent(pose.points());
+        if let Some([low, high]) = options.frame {
+            extent = [extent[0].min(low), extent[1].max(high)];
+        }
         let (mut text, mut lines) = (0.0, 0);
         for line in pose.captions() {
             text = f64::max(text, words_width(line, letters)?);

@@ -49,6 +49,8 @@ pub struct StripOptions {
     pub columns: usize,
     /// Where the viewer stands.
     pub view: View,
+    /// Across the view, see [`View::extent`]: what each state shows at least; where none, the state as large as it is.
+    pub frame: Option<[DVec2; 2]>,
     /// Colours; [`Style::grey`] for print without them. Its width of lines and its background do not count here.
     pub style: Style,
     /// How mountains and valleys are told apart.
@@ -74,6 +76,7 @@ impl Default for StripOptions {
             height: 240.0,
             columns: 5,
             view: View::default(),
+            frame: None,
             style: Style::default(),
             lines: LineStyle::default(),
             line_width: 0.15,

@@ -174,7 +174,7 @@ impl<'a> Asked<'a> {
         let mut read = ReadMotion::read(&path, progress)?;
         // It may have been renamed since.
         name.clone_into(&mut read.name);
-        read.record(&recording, results, progress)?;
+        read.record(&recording, read.marks.clone(), results, progress)?;
         Ok(read.sha256)
     }
 

@@ -3,9 +3,9 @@
 use std::io::Write as _;
 
 use foldmotion_record::{
-    Bounds, Drawing, LineStyle, Pose, Provenance, RecordError, StripOptions, strip,
+    Bounds, Drawing, FilmOptions, LineStyle, Pose, Provenance, RecordError, StripOptions, strip,
 };
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 
 use super::colours::legend;
 use super::{Quantity, Recorder, Shown, turned};
@@ -54,6 +54,7 @@ impl Recorder<'_> {
         let mut options = StripOptions {
             columns: COLUMNS,
             view: recording.film.view,
+            frame: frame(&recording.film),
             style: recording.film.style.clone(),
             unit: self.unit.to_owned(),
             legend: values.map(legend),
@@ -92,7 +93,9 @@ impl Recorder<'_> {
         if let Some(quantity) = Quantity::of(self.recording.colour) {
             pose.values = quantity.values(&self.motion.sheet, &pose.positions);
         }
-        if let Some(known) = &self.known {
+        if let Some(known) = &self.known
+            && self.recording.film.centre.is_none()
+        {
             pose.positions = turned(known, time, &pose.positions);
             if self.recording.has_profile && time == 0.0 {
                 pose.target.clone_from(&known.profile);
@@ -124,6 +127,14 @@ impl Recorder<'_> {
             words: words.unwrap_or_default(),
         }
     }
+}
+
+/// What an aimed camera shows, across the view.
+fn frame(film: &FilmOptions) -> Option<[DVec2; 2]> {
+    let [middle, _] = film.view.extent([film.centre?]);
+    let [across, down] = film.size.map(f64::from);
+    let half = 0.5 * film.width? * DVec2::new(1.0, down / across);
+    Some([middle - half, middle + half])
 }
 
 /// Four digits.

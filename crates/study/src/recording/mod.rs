@@ -23,6 +23,7 @@ use crate::{Scene, StudyError};
 
 pub use self::again::{Again, record_again};
 pub use self::motion_file::{MotionRecord, record_file};
+pub(crate) use self::motion_file::{ReadMotion, stage_time};
 
 pub use self::colours::Quantity;
 pub(crate) use self::known::{Known, turned};

@@ -3,6 +3,7 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use foldmotion_check::CollisionReport;
 use foldmotion_pattern::{FoldError, FoldFile, LayerOrder, Motion};
 use foldmotion_record::Marks;
 
@@ -43,18 +44,9 @@ pub fn record_file(
     folder: &Path,
     progress: Progress<'_>,
 ) -> Result<MotionRecord, StudyError> {
-    let recording = recording(record)?;
-    let read = ReadMotion::read(path, progress)?;
-    read.require_states(&recording)?;
-    let mut results = Results::of(folder, ours(&recording), None)?;
-    results.require(recording.space(&read.motion.sheet, read.motion.frames.len()))?;
-    read.record(&recording, &mut results, progress)?;
-    let files = results.written().to_vec();
-    results.publish()?;
-    Ok(MotionRecord {
-        files,
-        is_judged: read.is_judged,
-    })
+    // What cannot be recorded is refused before a long file is read.
+    recording(record)?;
+    ReadMotion::read(path, progress)?.record_into(folder, record, None, progress)
 }
 
 /// Pictures of an earlier, longer film would mislead; other files are left alone.
@@ -98,27 +90,40 @@ pub(super) fn recording(record: &RecordScene) -> Result<Recording, StudyError> {
 }
 
 /// A motion read from a file.
-pub(super) struct ReadMotion {
-    pub(super) motion: Motion,
-    pub(super) sha256: String,
-    path: PathBuf,
+#[derive(Debug)]
+pub(crate) struct ReadMotion {
+    pub(crate) motion: Motion,
+    pub(crate) sha256: String,
+    pub(crate) path: PathBuf,
     /// The name of the file.
-    pub(super) name: String,
-    title: Option<String>,
-    unit: Option<String>,
-    marks: Marks,
+    pub(crate) name: String,
+    pub(crate) title: Option<String>,
+    pub(crate) unit: Option<String>,
+    pub(super) marks: Marks,
     is_judged: bool,
     /// Whether the crease pattern is known: lengths at rest.
-    is_flat: bool,
+    pub(crate) is_flat: bool,
+    /// Whether the file gives the times of its frames.
+    pub(crate) has_times: bool,
 }
 
 impl ReadMotion {
-    pub(super) fn read(path: &Path, progress: Progress<'_>) -> Result<Self, StudyError> {
+    pub(crate) fn read(path: &Path, progress: Progress<'_>) -> Result<Self, StudyError> {
         let (file, described) = {
             let mut input = Input::open(path, Phase::Read, progress)?;
             let file = FoldFile::read(&mut input);
             (input.unless_stopped(file)?, input.digest())
         };
+        Self::read_frames(path, file, &described, progress)
+    }
+
+    /// Reads the frames of `file`, read from `path` when it had the SHA-256 `described`.
+    pub(crate) fn read_frames(
+        path: &Path,
+        file: FoldFile,
+        described: &str,
+        progress: Progress<'_>,
+    ) -> Result<Self, StudyError> {
         let mut input = Input::open(path, Phase::Read, progress)?;
         let positions = file.frame_count().saturating_mul(file.sheet.vertices.len());
         if positions > MOST_POSITIONS {
@@ -164,14 +169,38 @@ impl ReadMotion {
             is_judged: judged.is_some(),
             marks: judged.unwrap_or_default(),
             is_flat: file.rest.iter().all(|p| p.z == file.rest[0].z),
+            has_times: file.has_times,
             motion,
         })
+    }
+
+    /// Records it into `folder` as `record` says; `judged` takes the place of the verdict beside the file.
+    pub(crate) fn record_into(
+        &self,
+        folder: &Path,
+        record: &RecordScene,
+        judged: Option<&CollisionReport>,
+        progress: Progress<'_>,
+    ) -> Result<MotionRecord, StudyError> {
+        let recording = recording(record)?;
+        self.require_states(&recording)?;
+        let mut results = Results::of(folder, ours(&recording), None)?;
+        let frames = self.motion.frames.len();
+        results.require(recording.space(&self.motion.sheet, frames))?;
+        let marks = judged.map(|collision| marks(&self.motion, collision));
+        let is_judged = self.is_judged || marks.is_some();
+        let marks = marks.unwrap_or_else(|| self.marks.clone());
+        self.record(&recording, marks, &mut results, progress)?;
+        let files = results.written().to_vec();
+        results.publish()?;
+        Ok(MotionRecord { files, is_judged })
     }
 
     /// Records it into `results`.
     pub(super) fn record(
         &self,
         recording: &Recording,
+        marks: Marks,
         results: &mut Results,
         progress: Progress<'_>,
     ) -> Result<(), StudyError> {
@@ -179,7 +208,7 @@ impl ReadMotion {
         let recorder = Recorder {
             recording,
             motion: &self.motion,
-            marks: self.marks.clone(),
+            marks,
             title: self.title.as_deref().unwrap_or(&self.name),
             unit: self.unit.as_deref().unwrap_or("unit"),
             known: None,
@@ -294,6 +323,6 @@ fn as_one_stage(motion: &mut Motion) {
     }
 }
 
-fn stage_time(index: f64, count: usize) -> f64 {
+pub(crate) fn stage_time(index: f64, count: usize) -> f64 {
     1.0 + index / count.saturating_sub(1).max(1) as f64
 }

@@ -1,6 +1,7 @@
 //! From `[record]` to a [`Recording`], with errors that name the key.
 
 use foldmotion_record::{FilmOptions, Mp4, Playback, RecordError, Style, View};
+use glam::DVec3;
 
 use super::Recording;
 use crate::StudyError;
@@ -14,6 +15,10 @@ const MOST_STATES: usize = 100;
 
 /// The colour of creases over colours that stand for values.
 const LIGHT: [u8; 3] = [236; 3];
+
+/// The narrowest picture, and the widest and farthest one, in the motion's unit: pixels stay finite.
+const NARROWEST: f64 = 1e-9;
+const FARTHEST: f64 = 1e9;
 
 /// How far a turntable goes round, degrees.
 const TURN: f64 = 360.0;
@@ -76,6 +81,7 @@ impl Resolver<'_> {
         let scene = &self.scene.record;
         let standard = FilmOptions::default();
         let (view, turn) = self.camera()?;
+        let (centre, width) = self.aim()?;
         let film = FilmOptions {
             size: self.size(standard.size)?,
             fps: scene.fps.unwrap_or(standard.fps),
@@ -91,6 +97,8 @@ impl Resolver<'_> {
             },
             view,
             turn,
+            centre,
+            width,
             has_caption: scene.caption.unwrap_or(false),
             is_transparent: scene.transparent.unwrap_or(false),
             style: style(scene.colour.unwrap_or(ColourChoice::Paper)),
@@ -138,6 +146,26 @@ impl Resolver<'_> {
                 (view, own.turn.unwrap_or(0.0))
             }
         })
+    }
+
+    /// The point in the middle of the picture and the length across it.
+    fn aim(&self) -> Result<(Option<DVec3>, Option<f64>), StudyError> {
+        let Some(CameraScene::Own(own)) = self.scene.record.camera else {
+            return Ok((None, None));
+        };
+        let is_near = |c: f64| c.abs() <= FARTHEST;
+        if !own.centre.iter().flatten().copied().all(is_near) {
+            let message = format!("centre must be three numbers within ±{FARTHEST:e}");
+            return Err(self.fault("record.camera", message));
+        }
+        if !own
+            .width
+            .is_none_or(|w| (NARROWEST..=FARTHEST).contains(&w))
+        {
+            let message = format!("width must lie between {NARROWEST:e} and {FARTHEST:e}");
+            return Err(self.fault("record.camera", message));
+        }
+        Ok((own.centre.map(DVec3::from), own.width))
     }
 
     /// The motion times asked for, rising.

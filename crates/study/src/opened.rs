@@ -1,0 +1,187 @@
+//! Opens any file: a scene, a crease pattern, or a motion.
+
+use std::path::Path;
+use std::sync::Arc;
+
+use foldmotion_check::{CollisionReport, bar_strain, facet_bending};
+use foldmotion_pattern::{FoldFile, Frame, Motion};
+use foldmotion_solver::{EnergyByKind, Stage};
+
+use crate::check_file::{CheckOptions, Input, judge_file, motion_error};
+use crate::folded::Findings;
+use crate::recording::{ReadMotion, stage_time};
+use crate::scene::RecordScene;
+use crate::series::FrameFigures;
+use crate::{Certificate, MotionRecord, Phase, Progress, SceneSource, StudyError};
+
+/// What a file turned out to be.
+#[derive(Debug)]
+pub enum Opened {
+    /// A scene, or a crease pattern as a scene of its own.
+    Scene(SceneSource),
+    /// A motion.
+    Motion(Arc<OpenedMotion>),
+}
+
+impl Opened {
+    /// Reads the file at `path`: a FOLD file with frames in which a vertex moves is a motion; other FOLD files and SVG
+    /// files are crease patterns, all else is a scene.
+    ///
+    /// # Errors
+    /// [`StudyError::Read`]; of a motion [`StudyError::Motion`], [`StudyError::LargeMotion`]; [`StudyError::Interrupted`]
+    /// where `progress` returned false. What is wrong with a scene or a pattern, resolving it tells.
+    pub fn read(path: &Path, progress: Progress<'_>) -> Result<Self, StudyError> {
+        let is_fold = path
+            .extension()
+            .is_some_and(|ending| ending.eq_ignore_ascii_case("fold"));
+        if is_fold && let Some(motion) = OpenedMotion::read(path, progress)? {
+            return Ok(Self::Motion(Arc::new(motion)));
+        }
+        SceneSource::read(path).map(Self::Scene)
+    }
+}
+
+/// A motion of a file.
+#[derive(Debug)]
+pub struct OpenedMotion {
+    read: ReadMotion,
+}
+
+impl OpenedMotion {
+    /// The motion in the file; none where it is a crease pattern.
+    fn read(path: &Path, progress: Progress<'_>) -> Result<Option<Self>, StudyError> {
+        let (file, described) = {
+            let mut input = Input::open(path, Phase::Read, progress)?;
+            let file = FoldFile::read(&mut input);
+            if input.is_stopped {
+                return Err(StudyError::Interrupted);
+            }
+            let Ok(file) = file else {
+                return Ok(None);
+            };
+            (file, input.digest())
+        };
+        if file.frame_count() < 2 {
+            return Ok(None);
+        }
+        let read = ReadMotion::read_frames(path, file, &described, progress)?;
+        let mut pairs = read.motion.frames.windows(2);
+        let moves = pairs.any(|pair| pair[0].positions != pair[1].positions);
+        Ok(moves.then_some(Self { read }))
+    }
+
+    /// The motion: with times of its own, or as one stage from t = 1 to t = 2. The order of its layers is the last one
+    /// that the file claims.
+    pub fn motion(&self) -> &Motion {
+        &self.read.motion
+    }
+
+    /// Its title, the name of its file where it has none.
+    pub fn title(&self) -> &str {
+        self.read.title.as_deref().unwrap_or(&self.read.name)
+    }
+
+    /// FOLD's name of its unit of length.
+    pub fn unit_name(&self) -> &str {
+        self.read.unit.as_deref().unwrap_or("unit")
+    }
+
+    /// Whether the lengths of its edges at rest are known, and strain with them.
+    pub fn has_rest_lengths(&self) -> bool {
+        self.read.is_flat
+    }
+
+    /// Judges it as `foldmotion check` does, and measures its frames. The file is read again, in bounded memory.
+    ///
+    /// # Errors
+    /// Those of [`check_file`](crate::check_file), and [`StudyError::Motion`] where the file has changed since.
+    pub fn check(
+        &self,
+        options: &CheckOptions,
+        progress: Progress<'_>,
+    ) -> Result<(Findings, Certificate), StudyError> {
+        let path = &self.read.path;
+        let judged = judge_file(path, *options, progress)?;
+        if judged.sha256 != self.read.sha256 {
+            return Err(motion_error(path, &"it has changed since it was opened"));
+        }
+        let certificate = judged.certificate(path);
+        let mut collision = judged.collision;
+        if !self.read.has_times {
+            as_one_stage(&mut collision, judged.times.len());
+        }
+        let motion = self.motion();
+        let order = &motion.compact_order;
+        let last = motion.frames.len().saturating_sub(1);
+        let findings = Findings {
+            series: self.series(&collision),
+            layer_orders: (!order.is_empty())
+                .then(|| (last, order.clone()))
+                .into_iter()
+                .collect(),
+            collision,
+        };
+        progress(Phase::Check, 1.0);
+        Ok((findings, certificate))
+    }
+
+    /// Records it into `folder` as `record` says; keys of it are named as flags in errors. Other files there stay. Facets
+    /// that penetrate are marked as `findings` of it say, else as a certificate beside the file does.
+    ///
+    /// # Errors
+    /// Those of [`record_file`](crate::record_file).
+    pub fn record_as(
+        &self,
+        findings: Option<&Findings>,
+        record: &RecordScene,
+        folder: &Path,
+        progress: Progress<'_>,
+    ) -> Result<MotionRecord, StudyError> {
+        let collision = findings.map(|findings| &findings.collision);
+        self.read.record_into(folder, record, collision, progress)
+    }
+
+    fn series(&self, collision: &CollisionReport) -> Vec<FrameFigures> {
+        let motion = self.motion();
+        let separations = &collision.separation_series;
+        let figures = |(index, frame): (usize, &Frame)| {
+            let strain = self
+                .has_rest_lengths()
+                .then(|| bar_strain(&motion.sheet, &frame.positions));
+            FrameFigures {
+                time: frame.time,
+                stage: if frame.time < 1.0 {
+                    Stage::Unfold
+                } else {
+                    Stage::Fold
+                },
+                peak_strain: strain.as_ref().map_or(f64::NAN, |s| s.peak),
+                mean_strain: strain.as_ref().map_or(f64::NAN, |s| s.mean),
+                peak_bending_deg: facet_bending(&motion.sheet, &frame.positions).peak_deg(),
+                energy: EnergyByKind::default(),
+                contact_energy: 0.0,
+                contacts: 0,
+                separation: separations.get(index).copied().unwrap_or(f64::NAN),
+            }
+        };
+        motion.frames.iter().enumerate().map(figures).collect()
+    }
+}
+
+/// Times that are numbers of frames become those of one stage, as the motion's did.
+fn as_one_stage(collision: &mut CollisionReport, frames: usize) {
+    let penetrations = collision
+        .first
+        .iter_mut()
+        .chain(&mut collision.penetrations);
+    for penetration in penetrations {
+        penetration.time = stage_time(penetration.time, frames);
+        penetration.passed = stage_time(penetration.passed, frames);
+    }
+    for undecided in &mut collision.undecided {
+        undecided.time = stage_time(undecided.time, frames);
+    }
+    if let Some(separation) = &mut collision.min_separation {
+        separation.time = stage_time(separation.time, frames);
+    }
+}

@@ -1,0 +1,118 @@
+//! What the scene at hand folds: at once as a draft, then as the study that can be run.
+
+use std::sync::Arc;
+use std::time::Duration;
+
+use foldmotion_study::{Draft, SceneSource, Study};
+
+use super::latest::Latest;
+use super::{Wake, WorkError};
+
+/// How long a scene rests before its study is resolved: while a hand drags, drafts have the processor to themselves.
+const REST: Duration = Duration::from_millis(120);
+
+/// Resolves scenes in the background; the latest one wins.
+#[derive(Debug)]
+pub(crate) struct Drafts {
+    drafts: Latest<SceneSource, Arc<Draft>>,
+    studies: Latest<SceneSource, Arc<Study>>,
+    asked: u64,
+}
+
+/// A resolved scene, by the number that [`Drafts::ask`] gave it.
+#[derive(Debug)]
+pub(crate) enum Resolved {
+    /// What it folds, or why nothing.
+    Draft(u64, Result<Arc<Draft>, WorkError>),
+    /// The study to run, or why there is none.
+    Study(u64, Result<Arc<Study>, WorkError>),
+}
+
+impl Drafts {
+    /// Nothing asked yet.
+    pub(crate) fn new(wake: Wake) -> Self {
+        let draft = |source: SceneSource| Ok(Draft::resolve(&source).map(Arc::new)?);
+        let study = |source: SceneSource| Ok(Study::resolve(&source).map(Arc::new)?);
+        Self {
+            drafts: Latest::new("foldmotion draft", Duration::ZERO, wake.clone(), draft),
+            studies: Latest::new("foldmotion study", REST, wake, study),
+            asked: 0,
+        }
+    }
+
+    /// Asks for `source` in the place of those before it; answers its number, from 1.
+    pub(crate) fn ask(&mut self, source: SceneSource) -> u64 {
+        self.asked += 1;
+        self.drafts.ask(self.asked, source.clone());
+        self.studies.ask(self.asked, source);
+        self.asked
+    }
+
+    /// What has been resolved since it was last asked: at most a draft and a study.
+    pub(crate) fn take(&self) -> impl Iterator<Item = Resolved> {
+        let draft = self
+            .drafts
+            .take()
+            .map(|(n, draft)| Resolved::Draft(n, draft));
+        let study = self
+            .studies
+            .take()
+            .map(|(n, study)| Resolved::Study(n, study));
+        draft.into_iter().chain(study)
+    }
+
+    /// Whether something is still to come.
+    pub(crate) fn is_busy(&self) -> bool {
+        self.drafts.is_busy() || self.studies.is_busy()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::job::tests::wait;
+    use super::super::run::tests::source;
+    use super::*;
+
+    fn answers(drafts: &Drafts) -> (Option<Resolved>, Option<Resolved>) {
+        wait(|| !drafts.is_busy());
+        let (mut draft, mut study) = (None, None);
+        for answer in drafts.take() {
+            match answer {
+                Resolved::Draft(..) => draft = Some(answer),
+                Resolved::Study(..) => study = Some(answer),
+            }
+        }
+        (draft, study)
+    }
+
+    #[test]
+    fn the_last_of_many_scenes_is_resolved_as_draft_and_study() {
+        let mut drafts = Drafts::new(Wake::new(|| {}));
+        for frames in (2..40).step_by(2) {
+            drafts.ask(source(&format!("[motion]\nframes = {frames}\n")));
+        }
+        let asked = drafts.ask(source("[motion]\nframes = 48\n"));
+        let (draft, study) = answers(&drafts);
+        let Some(Resolved::Draft(n, Ok(draft))) = draft else {
+            panic!("{draft:?}")
+        };
+        assert_eq!(n, asked);
+        let Some(Resolved::Study(n, Ok(study))) = study else {
+            panic!("{study:?}")
+        };
+        assert_eq!((n, study.frames), (asked, 48));
+        assert_eq!(draft.sheet(), study.subject.sheet());
+    }
+
+    #[test]
+    fn an_error_names_its_key_and_a_draft_does_not_need_what_only_runs_need() {
+        let mut drafts = Drafts::new(Wake::new(|| {}));
+        drafts.ask(source("[motion]\nframes = 3\n"));
+        let (draft, study) = answers(&drafts);
+        assert!(matches!(draft, Some(Resolved::Draft(1, Ok(_)))));
+        let Some(Resolved::Study(1, Err(error))) = study else {
+            panic!("{study:?}")
+        };
+        assert_eq!(error.key(), Some("motion.frames"));
+    }
+}

@@ -1,0 +1,203 @@
+//! A piece of work with a result: how far it is, stopping it, what came of it.
+
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, Mutex};
+use std::thread::JoinHandle;
+
+use foldmotion_study::Phase;
+
+use super::lock::lock;
+use super::threads::{part_from, spread, start};
+use super::{Wake, WorkError};
+
+/// How far a job is.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Stand {
+    /// What it does; none before it has begun.
+    pub(crate) phase: Option<Phase>,
+    /// How much of that is done, from 0 to 1.
+    pub(crate) done: f64,
+}
+
+/// Work in the background that ends with a `T`. Dropping it stops it.
+#[derive(Debug)]
+pub(crate) struct Job<T> {
+    shared: Arc<Shared<T>>,
+    thread: Option<JoinHandle<()>>,
+}
+
+#[derive(Debug)]
+struct Shared<T> {
+    ticket: Ticket,
+    outcome: Mutex<Option<Result<T, WorkError>>>,
+    is_done: AtomicBool,
+}
+
+/// What the work itself holds: it reports and learns whether to go on.
+#[derive(Debug, Clone)]
+pub(super) struct Ticket(Arc<Inner>);
+
+#[derive(Debug)]
+struct Inner {
+    is_stopped: AtomicBool,
+    stand: Mutex<Stand>,
+    wake: Wake,
+}
+
+impl Ticket {
+    /// Reports, and answers whether to go on.
+    pub(super) fn progress(&self, phase: Phase, done: f64) -> bool {
+        *lock(&self.0.stand) = Stand {
+            phase: Some(phase),
+            done: done.clamp(0.0, 1.0),
+        };
+        self.0.wake.soon();
+        !self.0.is_stopped.load(Ordering::Relaxed)
+    }
+}
+
+impl<T: Send + 'static> Job<T> {
+    /// Starts `work` on threads of its own.
+    pub(super) fn start(
+        name: &str,
+        wake: Wake,
+        work: impl FnOnce(&Ticket) -> Result<T, WorkError> + Send + 'static,
+    ) -> Self {
+        let stand = Stand {
+            phase: None,
+            done: 0.0,
+        };
+        let shared = Arc::new(Shared {
+            ticket: Ticket(Arc::new(Inner {
+                is_stopped: AtomicBool::new(false),
+                stand: Mutex::new(stand),
+                wake,
+            })),
+            outcome: Mutex::new(None),
+            is_done: AtomicBool::new(false),
+        });
+        let held = Arc::clone(&shared);
+        let thread = start(name, move || {
+            let outcome = spread(|| work(&held.ticket));
+            held.finish(outcome);
+        });
+        match thread {
+            Ok(thread) => Self {
+                shared,
+                thread: Some(thread),
+            },
+            Err(error) => {
+                shared.finish(Err(error));
+                Self {
+                    shared,
+                    thread: None,
+                }
+            }
+        }
+    }
+}
+
+impl<T> Shared<T> {
+    fn finish(&self, outcome: Result<T, WorkError>) {
+        *lock(&self.outcome) = Some(outcome);
+        self.is_done.store(true, Ordering::Release);
+        self.ticket.0.wake.now();
+    }
+}
+
+impl<T> Job<T> {
+    /// How far it is.
+    pub(crate) fn stand(&self) -> Stand {
+        *lock(&self.shared.ticket.0.stand)
+    }
+
+    /// Whether it has ended.
+    pub(crate) fn is_done(&self) -> bool {
+        self.shared.is_done.load(Ordering::Acquire)
+    }
+
+    /// Tells it to stop; it then ends as [`WorkError::Stopped`].
+    pub(crate) fn stop(&self) {
+        let inner = &self.shared.ticket.0;
+        inner.is_stopped.store(true, Ordering::Relaxed);
+    }
+
+    /// What came of it, once it has ended; none if that was taken before.
+    pub(crate) fn take(&self) -> Option<Result<T, WorkError>> {
+        lock(&self.shared.outcome).take()
+    }
+}
+
+impl<T> Drop for Job<T> {
+    fn drop(&mut self) {
+        self.stop();
+        part_from(self.thread.take());
+    }
+}
+
+#[cfg(test)]
+pub(super) mod tests {
+    use std::thread::sleep;
+    use std::time::{Duration, Instant};
+
+    use super::*;
+
+    /// Waits until `is` or fails.
+    pub(in crate::work) fn wait(is: impl Fn() -> bool) {
+        let started = Instant::now();
+        while !is() {
+            assert!(
+                started.elapsed() < Duration::from_secs(120),
+                "it never came"
+            );
+            sleep(Duration::from_millis(1));
+        }
+    }
+
+    fn quiet() -> Wake {
+        Wake::new(|| {})
+    }
+
+    #[test]
+    fn a_job_reports_wakes_and_gives_its_result_once() {
+        let woken = Arc::new(AtomicBool::new(false));
+        let seen = Arc::clone(&woken);
+        let wake = Wake::new(move || seen.store(true, Ordering::Relaxed));
+        let job = Job::start("job", wake, |ticket| {
+            assert!(ticket.progress(Phase::Check, 0.25));
+            Ok(7)
+        });
+        wait(|| job.is_done());
+        assert_eq!(job.stand().phase, Some(Phase::Check));
+        assert_eq!(job.stand().done, 0.25);
+        assert!(matches!(job.take(), Some(Ok(7))));
+        assert!(job.take().is_none() && job.is_done());
+        assert!(woken.load(Ordering::Relaxed));
+    }
+
+    #[test]
+    fn a_panic_is_an_error_that_says_what_it_said() {
+        let job: Job<()> = Job::start("job", quiet(), |_| panic!("out of {}", "luck"));
+        wait(|| job.is_done());
+        let text = job.take().unwrap().unwrap_err().to_string();
+        assert!(text.contains("out of luck"), "{text}");
+    }
+
+    #[test]
+    fn a_job_that_is_stopped_or_dropped_ends() {
+        let endless = |ticket: &Ticket| {
+            while ticket.progress(Phase::Fold, 0.0) {
+                sleep(Duration::from_millis(1));
+            }
+            Err::<(), _>(WorkError::Stopped)
+        };
+        let job = Job::start("job", quiet(), endless);
+        job.stop();
+        wait(|| job.is_done());
+        assert!(matches!(job.take(), Some(Err(WorkError::Stopped))));
+        let job = Job::start("job", quiet(), endless);
+        let shared = Arc::clone(&job.shared);
+        drop(job);
+        wait(|| shared.is_done.load(Ordering::Relaxed));
+    }
+}

@@ -1,0 +1,106 @@
+//! The latest state of a sheet that moves elsewhere.
+
+use std::collections::VecDeque;
+use std::sync::{Arc, Mutex};
+use std::time::{Duration, Instant};
+
+use glam::DVec3;
+
+use super::lock::lock;
+
+/// The shortest time between two states that are kept: faster than any screen.
+const SPACING: Duration = Duration::from_micros(8_000);
+/// Over how long states are counted.
+const WINDOW: Duration = Duration::from_secs(1);
+
+/// A state of the sheet.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct State {
+    /// Which one it is, from 1.
+    pub(crate) serial: u64,
+    /// Its motion time.
+    pub(crate) time: f64,
+    /// One position a vertex, in the sheet's unit.
+    pub(crate) positions: Arc<Vec<DVec3>>,
+}
+
+/// Where a worker leaves the sheet's latest state. Clones share it.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Live(Arc<Mutex<Inner>>);
+
+#[derive(Debug, Default)]
+struct Inner {
+    state: Option<State>,
+    /// When the last states came.
+    times: VecDeque<Instant>,
+}
+
+impl Live {
+    /// The latest state, if it is another than that of `serial`; 0 for any.
+    pub(crate) fn newer(&self, serial: u64) -> Option<State> {
+        let inner = lock(&self.0);
+        inner.state.clone().filter(|state| state.serial != serial)
+    }
+
+    /// How many states came in the last second.
+    pub(crate) fn rate(&self) -> usize {
+        let now = Instant::now();
+        let inner = lock(&self.0);
+        let recent = inner.times.iter().filter(|&&time| now - time < WINDOW);
+        recent.count()
+    }
+
+    /// Leaves the state in which the sheet comes to rest.
+    pub(super) fn show_last(&self, time: f64, positions: Vec<DVec3>) {
+        self.put(time, positions);
+    }
+
+    /// Leaves a state; `positions` are asked for unless one came just before. Answers whether they were.
+    pub(super) fn show(&self, time: f64, positions: impl FnOnce() -> Vec<DVec3>) -> bool {
+        let now = Instant::now();
+        let is_due = |inner: &Inner| inner.times.back().is_none_or(|last| now - *last >= SPACING);
+        if !is_due(&lock(&self.0)) {
+            return false;
+        }
+        // Not under the lock: the window must not wait for a large sheet.
+        self.put(time, positions());
+        true
+    }
+
+    fn put(&self, time: f64, positions: Vec<DVec3>) {
+        let now = Instant::now();
+        let mut inner = lock(&self.0);
+        let serial = inner.state.as_ref().map_or(0, |state| state.serial) + 1;
+        inner.state = Some(State {
+            serial,
+            time,
+            positions: Arc::new(positions),
+        });
+        let is_old = |first: &Instant| now - *first >= WINDOW;
+        while inner.times.front().is_some_and(is_old) {
+            inner.times.pop_front();
+        }
+        inner.times.push_back(now);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn states_are_numbered_bounded_in_rate_and_counted() {
+        let live = Live::default();
+        assert!(live.newer(0).is_none() && live.rate() == 0);
+        let started = Instant::now();
+        let mut shown = 0_u64;
+        while shown < 5 {
+            shown += u64::from(live.show(shown as f64, || vec![DVec3::X]));
+        }
+        assert!(started.elapsed() >= 4 * SPACING);
+        let state = live.newer(4).unwrap();
+        assert_eq!((state.serial, state.time), (5, 4.0));
+        assert!(live.newer(5).is_none());
+        assert!(live.rate() <= 5);
+    }
+}

@@ -1,0 +1,77 @@
+//! Waking the window when there is something new to draw.
+
+use std::fmt;
+use std::sync::{Arc, Mutex};
+use std::time::{Duration, Instant};
+
+use super::lock::lock;
+
+/// The shortest time between two calls for what comes often: faster than any screen.
+const SPACING: Duration = Duration::from_micros(8_333);
+
+/// Wakes the window. Clones share the rate.
+#[derive(Clone)]
+pub(crate) struct Wake {
+    call: Arc<dyn Fn() + Send + Sync>,
+    last: Arc<Mutex<Option<Instant>>>,
+}
+
+impl Wake {
+    /// Wakes by `call`.
+    pub(crate) fn new(call: impl Fn() + Send + Sync + 'static) -> Self {
+        Self {
+            call: Arc::new(call),
+            last: Arc::default(),
+        }
+    }
+
+    /// Wakes at once.
+    pub(crate) fn now(&self) {
+        *lock(&self.last) = Some(Instant::now());
+        (self.call)();
+    }
+
+    /// Wakes unless it did so less than a hundredth of a second ago: for what comes again soon.
+    pub(crate) fn soon(&self) {
+        let now = Instant::now();
+        let mut last = lock(&self.last);
+        if last.is_some_and(|last| now - last < SPACING) {
+            return;
+        }
+        *last = Some(now);
+        drop(last);
+        (self.call)();
+    }
+}
+
+impl fmt::Debug for Wake {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Wake").finish_non_exhaustive()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::atomic::{AtomicUsize, Ordering};
+
+    use super::*;
+
+    #[test]
+    fn what_comes_often_wakes_at_a_bounded_rate_and_what_comes_once_always() {
+        let count = Arc::new(AtomicUsize::new(0));
+        let counted = Arc::clone(&count);
+        let wake = Wake::new(move || {
+            counted.fetch_add(1, Ordering::Relaxed);
+        });
+        let started = Instant::now();
+        for _ in 0..10_000 {
+            wake.clone().soon();
+        }
+        let most = started.elapsed().as_micros() / SPACING.as_micros() + 1;
+        let often = count.load(Ordering::Relaxed);
+        assert!((1..=most as usize).contains(&often), "{often} of {most}");
+        wake.now();
+        wake.now();
+        assert_eq!(count.load(Ordering::Relaxed), often + 2);
+    }
+}
