@@ -269,6 +269,7 @@ fn open_window(arguments: arguments::ViewArguments) -> Result<u8, Failure> {
     let options = ViewOptions {
         file: arguments.file,
         timings: arguments.timings,
+        ..ViewOptions::default()
     };
     view(options).map(|()| 0).map_err(|error| Failure {
         message: error.to_string(),

@@ -6,7 +6,9 @@ use foldmotion_pattern::{Case, Facing, Unit, UnitSheet};
 use foldmotion_solver::quasi_static::{
     QuasiStaticOptions, QuasiStaticRun, force_scale, run_quasi_static,
 };
-use foldmotion_solver::{HingeKind, Material, Model, Moment, Schedule, SolverError, Stage, dynamic};
+use foldmotion_solver::{
+    HingeKind, Material, Model, Moment, Schedule, SolverError, Stage, dynamic,
+};
 use glam::{DVec2, DVec3};
 
 struct Scene {

@@ -37,7 +37,9 @@ pub enum ViewerError {
         reason: String,
     },
     /// The window ended with an error.
-    #[error("the window failed: {reason}; unsaved scenes are offered again at the next start; {WITHOUT}")]
+    #[error(
+        "the window failed: {reason}; unsaved scenes are offered again at the next start; {WITHOUT}"
+    )]
     Window {
         /// What it said.
         reason: String,

@@ -15,6 +15,8 @@ pub struct ViewOptions {
     pub file: Option<PathBuf>,
     /// Print times on stderr at the end: to the first picture, of frames, of states; and memory.
     pub timings: bool,
+    /// The folder in which unsaved scenes are kept; the system's folder of this program's data where none is given.
+    pub unsaved: Option<PathBuf>,
 }
 
 /// Opens the window; returns when it is closed.
@@ -79,7 +81,11 @@ fn icon() -> IconData {
     const SIDE: u32 = 64;
     let colour = |x: f32, y: f32| -> [u8; 4] {
         let ridge = 0.5 + 0.18 * (y - 0.5);
-        let slope = if x < ridge { x / ridge } else { (1.0 - x) / (1.0 - ridge) };
+        let slope = if x < ridge {
+            x / ridge
+        } else {
+            (1.0 - x) / (1.0 - ridge)
+        };
         let top = 0.62 - 0.44 * slope;
         match (y > top && y < top + 0.42, x < ridge) {
             (true, true) => [255, 246, 226, 255],

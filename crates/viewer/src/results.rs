@@ -4,6 +4,8 @@ use eframe::egui::{Color32, CornerRadius, Frame, Grid, Link, Margin, RichText, S
 use foldmotion_study::Report;
 use foldmotion_study::report::{PenetrationReport, StageReport};
 
+use crate::work::Judged;
+
 /// Draws `report`; answers a motion time that was clicked.
 pub(crate) fn results(ui: &mut Ui, report: &Report) -> Option<f64> {
     let mut chosen = None;
@@ -18,6 +20,47 @@ pub(crate) fn results(ui: &mut Ui, report: &Report) -> Option<f64> {
         ui.add_space(6.0);
         engine(ui, report);
     });
+    chosen
+}
+
+/// What is known of a motion file; a motion time that was clicked.
+pub(crate) fn file_results(ui: &mut Ui, title: &str, judged: Option<&Judged>) -> Option<f64> {
+    ui.strong(title);
+    let Some(judged) = judged else {
+        ui.label("its collisions are being checked");
+        return None;
+    };
+    let certificate = &judged.certificate;
+    let collision = &judged.findings.collision;
+    let colour = verdict_colour(ui, &certificate.verdict);
+    ui.label(
+        RichText::new(&certificate.verdict)
+            .size(20.0)
+            .strong()
+            .color(colour),
+    );
+    ui.label(format!(
+        "{} pairs tested between {} frames, tolerance {:.0e} units of length",
+        certificate.pairs_tested.total, certificate.frames, certificate.tolerance
+    ));
+    let mut chosen = None;
+    if let Some(first) = &collision.first {
+        let words = format!(
+            "triangles {} and {}, {:.2e} deep, at",
+            first.faces[0], first.faces[1], first.depth
+        );
+        chosen = time_link(ui, &words, first.time);
+    }
+    if collision.penetrations.len() > 1 {
+        ui.label(format!(
+            "{} pairs of triangles penetrate",
+            collision.penetrations.len()
+        ));
+    }
+    if let Some(separation) = &collision.min_separation {
+        let words = format!("smallest separation {:.2e} at", separation.distance);
+        chosen = time_link(ui, &words, separation.time).or(chosen);
+    }
     chosen
 }
 
@@ -99,32 +142,53 @@ fn time_link(ui: &mut Ui, words: &str, t: f64) -> Option<f64> {
 fn boxes(ui: &mut Ui, report: &Report) {
     let unit = &report.length_unit;
     ui.strong(format!("compact box, {unit}"));
-    Grid::new("compact box").num_columns(4).striped(true).show(ui, |ui| {
-        let about = "equations 3 to 7 of the paper";
-        let heads = [("", ""), ("measured", ""), ("closed form", about), ("error", about)];
-        for (head, about) in heads {
-            let label = ui.weak(head);
-            if !about.is_empty() {
-                label.on_hover_text(about);
+    Grid::new("compact box")
+        .num_columns(4)
+        .striped(true)
+        .show(ui, |ui| {
+            let about = "equations 3 to 7 of the paper";
+            let heads = [
+                ("", ""),
+                ("measured", ""),
+                ("closed form", about),
+                ("error", about),
+            ];
+            for (head, about) in heads {
+                let label = ui.weak(head);
+                if !about.is_empty() {
+                    label.on_hover_text(about);
+                }
             }
-        }
-        ui.end_row();
-        let (compact, form) = (&report.compact, report.closed_form.as_ref());
-        let error = compact.relative_error.as_ref();
-        let mut row = |name: &str, value: f64, form: Option<f64>, error: Option<f64>| {
-            ui.label(name);
-            ui.label(format!("{value:.5}"));
-            ui.label(form.map_or_else(|| "–".to_owned(), |v| format!("{v:.5}")));
-            ui.label(error.map_or_else(|| "–".to_owned(), |v| format!("{v:+.1e}")));
             ui.end_row();
-        };
-        for (k, name) in ["x, growing", "y, width", "z, flaps"].into_iter().enumerate() {
-            let form = form.map(|f| f.extents[k]);
-            row(name, compact.extents[k], form, error.map(|e| e.extents[k]));
-        }
-        row("area x·z", compact.area, form.map(|f| f.area), error.map(|e| e.area));
-        row("volume", compact.volume, form.map(|f| f.volume), error.map(|e| e.volume));
-    });
+            let (compact, form) = (&report.compact, report.closed_form.as_ref());
+            let error = compact.relative_error.as_ref();
+            let mut row = |name: &str, value: f64, form: Option<f64>, error: Option<f64>| {
+                ui.label(name);
+                ui.label(format!("{value:.5}"));
+                ui.label(form.map_or_else(|| "–".to_owned(), |v| format!("{v:.5}")));
+                ui.label(error.map_or_else(|| "–".to_owned(), |v| format!("{v:+.1e}")));
+                ui.end_row();
+            };
+            for (k, name) in ["x, growing", "y, width", "z, flaps"]
+                .into_iter()
+                .enumerate()
+            {
+                let form = form.map(|f| f.extents[k]);
+                row(name, compact.extents[k], form, error.map(|e| e.extents[k]));
+            }
+            row(
+                "area x·z",
+                compact.area,
+                form.map(|f| f.area),
+                error.map(|e| e.area),
+            );
+            row(
+                "volume",
+                compact.volume,
+                form.map(|f| f.volume),
+                error.map(|e| e.volume),
+            );
+        });
 }
 
 fn stage_rows(ui: &mut Ui, stage: &StageReport) -> Option<f64> {
@@ -136,7 +200,10 @@ fn stage_rows(ui: &mut Ui, stage: &StageReport) -> Option<f64> {
     }
     let strain = format!("largest strain {:.2e} at", stage.peak_strain);
     chosen = time_link(ui, &strain, stage.peak_strain_t).or(chosen);
-    let bending = format!("largest facet bending {:.2}° at", stage.peak_facet_bending_deg);
+    let bending = format!(
+        "largest facet bending {:.2}° at",
+        stage.peak_facet_bending_deg
+    );
     chosen = time_link(ui, &bending, stage.peak_facet_bending_t).or(chosen);
     let e = &stage.peak_energy;
     ui.label(format!(

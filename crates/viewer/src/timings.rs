@@ -140,11 +140,17 @@ mod tests {
         }
         timings.rate("quasi-static run", 240.0);
         let text = timings.summary();
-        assert!(text.contains("first picture") && text.contains("240 states"), "{text}");
+        assert!(
+            text.contains("first picture") && text.contains("240 states"),
+            "{text}"
+        );
         if thread_time().is_some() {
             assert_eq!(timings.frame_times(false).unwrap().count, 4);
             assert_eq!(timings.frame_times(true).unwrap().count, FRAMES);
-            assert!(text.contains("while work runs") && text.contains("memory"), "{text}");
+            assert!(
+                text.contains("while work runs") && text.contains("memory"),
+                "{text}"
+            );
         }
     }
 }

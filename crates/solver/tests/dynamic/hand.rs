@@ -100,7 +100,7 @@ fn a_pulled_vertex_moves_towards_the_point_and_back_when_let_go() {
         }));
         settle(&mut hand);
         let pulled = hand.positions();
-let [was, is] = [before[vertex], pulled[vertex]].map(|p| p.distance(point));
+        let [was, is] = [before[vertex], pulled[vertex]].map(|p| p.distance(point));
         assert!(is < 0.9 * was, "vertex {vertex}: {is} of {was}");
         let middle = |p: &[DVec3]| p.iter().sum::<DVec3>() / p.len() as f64;
         assert!(

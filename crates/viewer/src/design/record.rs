@@ -258,6 +258,8 @@ fn show_camera(form: &mut Form<'_>, ui: &mut Ui) {
                             azimuth: -60.0,
                             elevation: 30.0,
                             turn: None,
+                            centre: None,
+                            width: None,
                         })),
                     };
                     form.record(field.undo, option.id, false);

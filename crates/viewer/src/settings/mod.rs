@@ -6,6 +6,7 @@ mod recent;
 mod shortcuts;
 mod theme;
 mod unsaved;
+mod view;
 
 use eframe::Storage;
 use serde::de::DeserializeOwned;
@@ -18,6 +19,7 @@ pub(crate) use recent::Recent;
 pub(crate) use shortcuts::{Command, keys_of, name_of, pressed};
 pub(crate) use theme::{Look, SCALES, apply};
 pub(crate) use unsaved::{UnsavedScene, UnsavedScenes};
+pub(crate) use view::{Colour, PanelSettings, ViewSettings};
 
 /// The key under which the settings are stored.
 const KEY: &str = "settings";
@@ -59,52 +61,6 @@ impl Scale {
     pub(crate) fn next(self) -> Self {
         let larger = SCALES.into_iter().find(|&scale| scale > self.factor());
         Self(larger.unwrap_or(SCALES[0]))
-    }
-}
-
-/// How the sheet is shown.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(default)]
-pub(crate) struct ViewSettings {
-    pub(crate) perspective: bool,
-    pub(crate) creases: bool,
-    pub(crate) profile: bool,
-    pub(crate) compact_box: bool,
-    pub(crate) closed_form_box: bool,
-}
-
-impl Default for ViewSettings {
-    fn default() -> Self {
-        Self {
-            perspective: true,
-            creases: true,
-            profile: false,
-            compact_box: false,
-            closed_form_box: false,
-        }
-    }
-}
-
-/// Which panels are open.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(default)]
-pub(crate) struct PanelSettings {
-    pub(crate) design: bool,
-    pub(crate) plots: bool,
-    pub(crate) verdict: bool,
-    pub(crate) record: bool,
-    pub(crate) text: bool,
-}
-
-impl Default for PanelSettings {
-    fn default() -> Self {
-        Self {
-            design: true,
-            plots: true,
-            verdict: true,
-            record: false,
-            text: false,
-        }
     }
 }
 
@@ -182,7 +138,7 @@ mod tests {
         assert_eq!(settings.look, Look::System);
         assert_eq!(settings.recent, Recent::default());
         assert_eq!(settings.scale.factor(), 2.0);
-        assert!(!settings.view.creases && settings.view.perspective);
+        assert!(!settings.view.creases && settings.view.profile);
         assert_eq!(settings.panels, PanelSettings::default());
         for broken in ["", "[]", "null", "{\"look\":"] {
             assert_eq!(Settings::from_json(broken), Settings::default());

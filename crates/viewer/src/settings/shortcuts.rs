@@ -14,6 +14,7 @@ pub(crate) enum Command {
     Redo,
     Run,
     Cancel,
+    Hand,
     Record,
     Play,
     PreviousFrame,
@@ -150,6 +151,12 @@ pub(super) const SHORTCUTS: &[Shortcut] = &[
         "Cancel the run",
         Group::Motion,
         &[plain(Key::Escape)],
+    ),
+    row(
+        Command::Hand,
+        "Take the sheet in the hand",
+        Group::Motion,
+        &[plain(Key::H)],
     ),
     row(Command::Record, "Record…", Group::Motion, &[ctrl(Key::E)]),
     row(

@@ -23,6 +23,14 @@ impl Look {
     /// Every look.
     pub(crate) const ALL: [Self; 3] = [Self::System, Self::Dark, Self::Light];
 
+    /// Light where the window is dark, dark where it is light.
+    pub(crate) fn other(ctx: &egui::Context) -> Self {
+        match ctx.theme() {
+            Theme::Dark => Self::Light,
+            Theme::Light => Self::Dark,
+        }
+    }
+
     /// Its name in menus.
     pub(crate) fn name(self) -> &'static str {
         match self {

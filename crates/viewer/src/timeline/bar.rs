@@ -42,15 +42,13 @@ impl Timeline {
         let axis = Axis::within(ui.available_rect_before_wrap(), playback.range);
         let response = bar(ui, playback, marks, &axis);
         moved |= keys(ui, &response, playback, marks) | scrub(&response, &axis, playback);
-        ScrollArea::vertical()
-            .auto_shrink(false)
-            .show(ui, |ui| {
-                ui.spacing_mut().item_spacing.y = 0.0;
-                for panel in &curves.panels {
-                    let response = strip(ui, panel, &axis, playback.time);
-                    moved |= scrub(&response, &axis, playback);
-                }
-            });
+        ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
+            ui.spacing_mut().item_spacing.y = 0.0;
+            for panel in &curves.panels {
+                let response = strip(ui, panel, &axis, playback.time);
+                moved |= scrub(&response, &axis, playback);
+            }
+        });
         moved
     }
 }
@@ -85,7 +83,11 @@ fn keys(ui: &Ui, response: &Response, playback: &mut Playback, marks: &Marks) ->
 fn buttons(ui: &mut Ui, playback: &mut Playback, marks: &Marks) -> bool {
     let mut moved = false;
     ui.horizontal(|ui| {
-        let (sign, name) = if playback.is_playing { ("⏸", "Pause") } else { ("▶", "Play") };
+        let (sign, name) = if playback.is_playing {
+            ("⏸", "Pause")
+        } else {
+            ("▶", "Play")
+        };
         let button = |ui: &mut Ui, sign: &str, name: &str, hint: &str| {
             ui.add(Button::new(sign).min_size(vec2(26.0, 0.0)))
                 .accessible_name(name)
@@ -108,7 +110,11 @@ fn buttons(ui: &mut Ui, playback: &mut Playback, marks: &Marks) -> bool {
         let mut time = playback.time;
         let field = DragValue::new(&mut time).range(playback.range[0]..=playback.range[1]);
         let field = ui.add(field.speed(0.002).fixed_decimals(4));
-        if field.labelled_by(label.id).on_hover_text("motion time: 0 deployed, 1 planar, 2 compact").changed() {
+        if field
+            .labelled_by(label.id)
+            .on_hover_text("motion time: 0 deployed, 1 planar, 2 compact")
+            .changed()
+        {
             playback.go_to(time);
             moved = true;
         }
@@ -116,8 +122,11 @@ fn buttons(ui: &mut Ui, playback: &mut Playback, marks: &Marks) -> bool {
         ui.separator();
         let label = ui.label("speed");
         let [slowest, fastest] = Playback::SPEEDS;
-        let field = DragValue::new(&mut playback.speed).range(slowest..=fastest).speed(0.02);
-        ui.add(field.max_decimals(3).suffix("×")).labelled_by(label.id);
+        let field = DragValue::new(&mut playback.speed)
+            .range(slowest..=fastest)
+            .speed(0.02);
+        ui.add(field.max_decimals(3).suffix("×"))
+            .labelled_by(label.id);
         ComboBox::from_id_salt("repeat")
             .selected_text(playback.repeat.name())
             .width(100.0)
@@ -165,7 +174,11 @@ fn bar(ui: &mut Ui, playback: &Playback, marks: &Marks, axis: &Axis) -> Response
     let weak = visuals.weak_text_color();
     if marks.frames.len() as f32 * 3.0 < axis.span.span() {
         for &t in &marks.frames {
-            painter.vline(axis.x(t), middle - 2.0..=middle + 2.0, Stroke::new(1.0, weak.gamma_multiply(0.5)));
+            painter.vline(
+                axis.x(t),
+                middle - 2.0..=middle + 2.0,
+                Stroke::new(1.0, weak.gamma_multiply(0.5)),
+            );
         }
     }
     for (t, name) in [(0.0, "deployed"), (1.0, "planar"), (2.0, "compact")] {
@@ -178,13 +191,25 @@ fn bar(ui: &mut Ui, playback: &Playback, marks: &Marks, axis: &Axis) -> Response
     }
     let marked = visuals.error_fg_color;
     for &t in marks.penetrations.iter().chain(&marks.jam) {
-        painter.vline(axis.x(t), middle - 7.0..=middle + 7.0, Stroke::new(1.5, marked));
+        painter.vline(
+            axis.x(t),
+            middle - 7.0..=middle + 7.0,
+            Stroke::new(1.5, marked),
+        );
     }
     let x = axis.x(time);
-    let knob = if response.dragged() || response.hovered() { 8.0 } else { 7.0 };
+    let knob = if response.dragged() || response.hovered() {
+        8.0
+    } else {
+        7.0
+    };
     let colour = visuals.selection.stroke.color;
     painter.add(Shape::circle_filled(pos2(x, middle), knob, colour));
-    let rim = if response.has_focus() { visuals.strong_text_color() } else { visuals.window_fill };
+    let rim = if response.has_focus() {
+        visuals.strong_text_color()
+    } else {
+        visuals.window_fill
+    };
     painter.circle_stroke(pos2(x, middle), knob, Stroke::new(1.5, rim));
     response
 }

@@ -35,12 +35,19 @@ impl Panel {
 
     /// A value on the scale of the panel: itself, or its decimal logarithm.
     pub(super) fn level(&self, value: f64) -> f64 {
-        if self.is_logarithmic { value.log10() } else { value }
+        if self.is_logarithmic {
+            value.log10()
+        } else {
+            value
+        }
     }
 
     /// The lowest and the highest level drawn; linear panels begin at 0 where nothing is below.
     pub(super) fn levels(&self) -> [f64; 2] {
-        let values = self.curves.iter().flat_map(|c| c.points.iter().map(|p| p[1]));
+        let values = self
+            .curves
+            .iter()
+            .flat_map(|c| c.points.iter().map(|p| p[1]));
         let values = values.chain(self.reference.map(|(value, _)| value));
         let levels = values.filter(|&v| self.shows(v)).map(|v| self.level(v));
         let start = if self.is_logarithmic {

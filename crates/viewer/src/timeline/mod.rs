@@ -9,3 +9,4 @@ mod strip;
 pub(crate) use self::bar::{Marks, Timeline};
 pub(crate) use self::curves::{Curve, Curves, Panel};
 pub(crate) use self::playback::{Playback, Repeat};
+pub(crate) use self::strip::number;

@@ -85,7 +85,12 @@ impl Playback {
                 // Folded onto the range; long pauses of the window may be many lengths.
                 let turned = (time - first).rem_euclid(2.0 * length.max(1e-9));
                 self.is_backward = turned > length;
-                self.time = first + if self.is_backward { 2.0 * length - turned } else { turned };
+                self.time = first
+                    + if self.is_backward {
+                        2.0 * length - turned
+                    } else {
+                        turned
+                    };
             }
         }
         self.time = self.time.clamp(first, last);
@@ -160,7 +165,10 @@ mod tests {
         playback.advance(1.0);
         assert_eq!(playback.time, 1.5);
         playback.advance(9.0);
-        assert!(playback.time == 2.0 && !playback.is_playing, "the end stops it");
+        assert!(
+            playback.time == 2.0 && !playback.is_playing,
+            "the end stops it"
+        );
     }
 
     #[test]
@@ -203,6 +211,9 @@ mod tests {
         assert_eq!(playback.time, 2.0);
         playback.repeat = Repeat::Once;
         playback.toggle();
-        assert!(playback.time == 1.0 && playback.is_playing, "it starts over");
+        assert!(
+            playback.time == 1.0 && playback.is_playing,
+            "it starts over"
+        );
     }
 }

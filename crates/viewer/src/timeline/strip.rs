@@ -38,7 +38,11 @@ pub(super) fn strip(ui: &mut Ui, panel: &Panel, axis: &Axis, time: f64) -> Respo
     let name = format!("{} over motion time", panel.title);
     response.widget_info(|| {
         let words = readings(panel, time);
-        WidgetInfo::labeled(eframe::egui::accesskit::Role::Image, true, format!("{name}: {words}"))
+        WidgetInfo::labeled(
+            eframe::egui::accesskit::Role::Image,
+            true,
+            format!("{name}: {words}"),
+        )
     });
     if ui.is_rect_visible(rect) {
         paint(ui, panel, axis, time, rect);
@@ -64,10 +68,27 @@ fn paint(ui: &Ui, panel: &Panel, axis: &Axis, time: f64, rect: Rect) {
         let part = (level - levels[0]) / (levels[1] - levels[0]);
         area.bottom() - 3.0 - (area.height() - 6.0) * part as f32
     };
-    for (level, anchor) in [(levels[1], Align2::RIGHT_TOP), (levels[0], Align2::RIGHT_BOTTOM)] {
-        let value = if panel.is_logarithmic { 10_f64.powf(level) } else { level };
-        let at = if level == levels[1] { area.top() } else { area.bottom() };
-        painter.text(pos2(area.left() - 5.0, at), anchor, number(value), font.clone(), weak);
+    for (level, anchor) in [
+        (levels[1], Align2::RIGHT_TOP),
+        (levels[0], Align2::RIGHT_BOTTOM),
+    ] {
+        let value = if panel.is_logarithmic {
+            10_f64.powf(level)
+        } else {
+            level
+        };
+        let at = if level == levels[1] {
+            area.top()
+        } else {
+            area.bottom()
+        };
+        painter.text(
+            pos2(area.left() - 5.0, at),
+            anchor,
+            number(value),
+            font.clone(),
+            weak,
+        );
     }
     for whole in [0.0, 1.0, 2.0] {
         if (axis.times[0]..=axis.times[1]).contains(&whole) {
@@ -99,7 +120,9 @@ fn pieces(panel: &Panel, curve: &Curve, axis: &Axis, y: &impl Fn(f64) -> f32) ->
     let mut is_open = false;
     let mut column: Option<(f32, f32, f32, f32)> = None;
     let mut flush = |column: &mut Option<(f32, f32, f32, f32)>, is_open: &mut bool| {
-        let Some((x, low, high, last)) = column.take() else { return };
+        let Some((x, low, high, last)) = column.take() else {
+            return;
+        };
         if !*is_open {
             pieces.push(Vec::new());
         }
@@ -139,7 +162,13 @@ fn legend(ui: &Ui, panel: &Panel, time: f64, area: Rect) {
     let painter = ui.painter().with_clip_rect(area);
     let mut x = area.left() + 5.0;
     let mut write = |text: String, colour: Color32| {
-        let place = painter.text(pos2(x, area.top() + 2.0), Align2::LEFT_TOP, text, font.clone(), colour);
+        let place = painter.text(
+            pos2(x, area.top() + 2.0),
+            Align2::LEFT_TOP,
+            text,
+            font.clone(),
+            colour,
+        );
         x = place.right() + 8.0;
     };
     write(panel.title.clone(), visuals.text_color());
@@ -149,7 +178,10 @@ fn legend(ui: &Ui, panel: &Panel, time: f64, area: Rect) {
         write(format!("{} {value}", curve.name), colour(index, visuals));
     }
     if let Some((value, name)) = panel.reference {
-        write(format!("{name} {}", number(value)), visuals.weak_text_color());
+        write(
+            format!("{name} {}", number(value)),
+            visuals.weak_text_color(),
+        );
     }
 }
 
@@ -157,9 +189,18 @@ fn legend(ui: &Ui, panel: &Panel, time: f64, area: Rect) {
 fn readings(panel: &Panel, time: f64) -> String {
     let value = |curve: &Curve| {
         let value = curve.at(time).filter(|v| v.is_finite());
-        format!("{} {}", curve.name, value.map_or_else(|| "none".to_owned(), number))
+        format!(
+            "{} {}",
+            curve.name,
+            value.map_or_else(|| "none".to_owned(), number)
+        )
     };
-    panel.curves.iter().map(value).collect::<Vec<_>>().join(", ")
+    panel
+        .curves
+        .iter()
+        .map(value)
+        .collect::<Vec<_>>()
+        .join(", ")
 }
 
 /// Three digits.
@@ -191,7 +232,9 @@ mod tests {
 
     #[test]
     fn a_long_curve_keeps_its_peaks_and_gaps_in_few_points() {
-        let mut points: Vec<[f64; 2]> = (0..=20_000).map(|k| [f64::from(k) / 10_000.0, 1.0]).collect();
+        let mut points: Vec<[f64; 2]> = (0..=20_000)
+            .map(|k| [f64::from(k) / 10_000.0, 1.0])
+            .collect();
         points[7_777][1] = 9.0;
         points[15_000][1] = f64::NAN;
         let panel = Panel {

@@ -1,13 +1,15 @@
 //! Which creases are drawn.
 
 use foldmotion_pattern::{Assignment, CreaseKind, Edge, Sheet};
+use serde::{Deserialize, Serialize};
 
 /// Creases that are drawn: those whose assignment and whose kind are on. The diagonals inside facets never are.
 #[expect(
     clippy::struct_excessive_bools,
     reason = "one switch a class in the window"
 )]
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(default)]
 pub(crate) struct CreaseClasses {
     /// Mountain creases.
     pub(crate) mountains: bool,
@@ -46,6 +48,19 @@ impl Default for CreaseClasses {
 }
 
 impl CreaseClasses {
+    /// None at all.
+    pub(crate) const NONE: Self = Self {
+        mountains: false,
+        valleys: false,
+        border: false,
+        free: false,
+        row: false,
+        diagonal: false,
+        vertical: false,
+        pad: false,
+        column: false,
+    };
+
     /// Whether `edge` is drawn.
     pub(crate) fn shows(&self, edge: &Edge) -> bool {
         let assigned = match edge.assignment {

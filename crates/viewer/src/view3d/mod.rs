@@ -32,7 +32,6 @@ use self::state::State;
 
 pub(crate) use self::creases::CreaseClasses;
 pub(crate) use self::orbit::Orbit;
-#[expect(unused_imports, reason = "the window's face to the view")]
 pub(crate) use self::picture::{Colours, Handle, Overlay, Picture, Shape};
 
 /// Times that drawing is tried again on one device.
@@ -41,6 +40,7 @@ const TRIES: u32 = 3;
 /// The 3D view of a window.
 #[derive(Debug, Default)]
 pub(crate) struct View3d {
+    id: Option<egui::Id>,
     orbit: Orbit,
     turning: Option<Turning>,
     /// Points to fit as soon as the size is known.
@@ -73,6 +73,11 @@ pub(crate) struct Seen {
 }
 
 impl View3d {
+    /// Of the view, by which it is found to have the focus; none before it was shown.
+    pub(crate) fn id(&self) -> Option<egui::Id> {
+        self.id
+    }
+
     /// The camera; while it turns, where to.
     pub(crate) fn orbit(&self) -> Orbit {
         self.turning.as_ref().map_or(self.orbit, Turning::end)
@@ -145,6 +150,7 @@ impl View3d {
         let (rect, response) = ui.allocate_exact_size(size, Sense::click_and_drag());
         let rect = rect.round_to_pixels(ui.pixels_per_point());
         name(&response);
+        self.id = Some(response.id);
         self.follow(picture);
         let size = DVec2::new(f64::from(rect.width()), f64::from(rect.height()));
         self.move_camera(ui, &response, rect, picture);

@@ -1,16 +1,19 @@
 //! The motion at hand, wherever it comes from, with all that the window shows of it.
 
+use std::path::PathBuf;
 use std::sync::Arc;
 
-use foldmotion_check::{CollisionReport, FittedBox, PenetrationSpan, penetration_spans};
-use foldmotion_geometry::RigidMotion;
-use foldmotion_pattern::{Frame, LayerOrder, Motion};
+use foldmotion_check::{CollisionReport, PenetrationSpan, penetration_spans};
+use foldmotion_geometry::{Profile, RigidMotion};
+use foldmotion_pattern::{Frame, LayerOrder, Motion, UnitSheet};
 use foldmotion_record::{Layers, positions_at};
-use foldmotion_study::{Draft, Folded, Report, Study, UnitDraft};
+use foldmotion_study::scene::RecordScene;
+use foldmotion_study::{Draft, Folded, OpenedMotion, Report, Study, UnitDraft};
 use glam::DVec3;
 
 use super::figures::curves;
 use crate::timeline::{Curves, Marks};
+use crate::work::{Finished, Job, Judged, Wake, record, record_opened};
 
 /// Points of the profile that are drawn.
 const PROFILE_POINTS: u32 = 240;
@@ -28,6 +31,11 @@ pub(crate) enum Source {
         folded: Arc<Folded>,
         report: Box<Report>,
     },
+    /// A motion file, with what was found of it once it is judged.
+    File {
+        motion: Arc<OpenedMotion>,
+        judged: Option<Box<Judged>>,
+    },
 }
 
 /// A motion with all that the window shows of it.
@@ -44,6 +52,8 @@ pub(crate) struct Act {
     meetings: Vec<DVec3>,
     /// Γ where the deployed state stands.
     pub(crate) profile: Vec<DVec3>,
+    /// From where the engine starts to where the motion is shown.
+    pub(crate) place: RigidMotion,
     /// The lower corner and the sides of the measured box of the last state, and of the closed form.
     pub(crate) boxes: [Option<[DVec3; 2]>; 2],
 }
@@ -77,19 +87,43 @@ impl Act {
     }
 
     /// A run.
-    pub(crate) fn run(draft: &Draft, study: Arc<Study>, folded: Arc<Folded>, key: u64) -> Self {
-        let report = Box::new(study.report_of(&folded));
-        let boxes = study.boxes(&folded.motion);
-        let (unit, closed_form) = (study.unit_name, study.subject.closed_form());
-        let source = Source::Run {
+    pub(crate) fn run(finished: &Finished, key: u64) -> Self {
+        let Finished {
             study,
-            folded: Arc::clone(&folded),
+            folded,
             report,
+            boxes,
+        } = finished;
+        let source = Source::Run {
+            study: Arc::clone(study),
+            folded: Arc::clone(folded),
+            report: Box::new(report.clone()),
         };
-        let mut act = Self::new(source, key).beside(draft);
-        act.curves = curves(&folded.findings.series, &boxes, closed_form, unit);
+        let mut act = Self::new(source, key);
+        if let Some(units) = study.subject.units() {
+            act = act.with_units(&units.units, &units.profile, &units.deployed);
+        }
+        let closed_form = study.subject.closed_form();
+        let series = &folded.findings.series;
+        act.curves = curves(series, boxes, closed_form, study.unit_name);
         act.judge(&folded.findings.collision);
         act.marks.jam = folded.jam().map(|jam| jam.time);
+        act
+    }
+
+    /// A motion file; `judged`: what was found of it, once it was.
+    pub(crate) fn file(motion: Arc<OpenedMotion>, judged: Option<Judged>, key: u64) -> Self {
+        let unit = motion.unit_name().to_owned();
+        let findings = judged.as_ref().map(|judged| Arc::clone(&judged.findings));
+        let source = Source::File {
+            motion,
+            judged: judged.map(Box::new),
+        };
+        let mut act = Self::new(source, key);
+        if let Some(findings) = findings {
+            act.curves = curves(&findings.series, &[], None, &unit);
+            act.judge(&findings.collision);
+        }
         act
     }
 
@@ -103,10 +137,14 @@ impl Act {
             spans: Vec::new(),
             meetings: Vec::new(),
             profile: Vec::new(),
+            place: RigidMotion::IDENTITY,
             boxes: [None; 2],
         };
         let motion = act.motion();
-        let last = motion.frames.last().map_or(&[][..], |frame| &frame.positions);
+        let last = motion
+            .frames
+            .last()
+            .map_or(&[][..], |frame| &frame.positions);
         let layers = Layers::new(&motion.sheet, &motion.compact_order, last);
         let measured = bounds(last);
         let frames: Vec<f64> = motion.frames.iter().map(|frame| frame.time).collect();
@@ -118,22 +156,26 @@ impl Act {
     }
 
     /// What the draft adds: the profile and the box of the closed form.
-    fn beside(mut self, draft: &Draft) -> Self {
-        let Some(units) = draft.units() else {
-            return self;
-        };
+    fn beside(self, draft: &Draft) -> Self {
+        match draft.units() {
+            Some(d) => self.with_units(&d.units, &d.profile, &d.deployed),
+            None => self,
+        }
+    }
+
+    fn with_units(mut self, units: &UnitSheet, profile: &Profile, deployed: &[DVec3]) -> Self {
         let first = self.motion().frames.first();
-        if let Some(first) = first.filter(|f| f.positions.len() == units.deployed.len()) {
-            let place = RigidMotion::best_fit(&units.deployed, &first.positions);
+        if let Some(first) = first.filter(|frame| frame.positions.len() == deployed.len()) {
+            self.place = RigidMotion::best_fit(deployed, &first.positions);
             let point = |k: u32| {
-                let p = units.profile.position(f64::from(k) / f64::from(PROFILE_POINTS));
-                place.apply(DVec3::new(p.x, 0.0, p.y))
+                let p = profile.position(f64::from(k) / f64::from(PROFILE_POINTS));
+                self.place.apply(DVec3::new(p.x, 0.0, p.y))
             };
             self.profile = (0..=PROFILE_POINTS).map(point).collect();
         }
-        if units.closed_form.is_some() {
+        if units.closed_form().is_some() {
             // The last state lies where it best fits the exact one, so the exact one's box is in place.
-            self.boxes[1] = bounds(&units.units.compact());
+            self.boxes[1] = bounds(&units.compact());
         }
         self
     }
@@ -152,7 +194,66 @@ impl Act {
         match &self.source {
             Source::Exact(motion) | Source::Preview(motion) => motion,
             Source::Run { folded, .. } => &folded.motion,
+            Source::File { motion, .. } => motion.motion(),
         }
+    }
+
+    /// The motion file it comes from.
+    pub(crate) fn opened(&self) -> Option<&Arc<OpenedMotion>> {
+        match &self.source {
+            Source::File { motion, .. } => Some(motion),
+            _ => None,
+        }
+    }
+
+    /// Whether nothing is known between its states.
+    pub(crate) fn is_exact(&self) -> bool {
+        matches!(self.source, Source::Exact(_))
+    }
+
+    /// Whether it is more than a preview.
+    pub(crate) fn can_be_recorded(&self) -> bool {
+        matches!(self.source, Source::Run { .. } | Source::File { .. })
+    }
+
+    /// Records it in the background; none where it cannot be.
+    pub(crate) fn record(
+        &self,
+        scene: &RecordScene,
+        folder: PathBuf,
+        wake: Wake,
+    ) -> Option<Job<Vec<String>>> {
+        let scene = scene.clone();
+        match &self.source {
+            Source::Run { study, folded, .. } => Some(record(
+                Arc::clone(study),
+                Arc::clone(folded),
+                scene,
+                folder,
+                wake,
+            )),
+            Source::File { motion, judged } => {
+                let findings = judged.as_ref().map(|judged| Arc::clone(&judged.findings));
+                Some(record_opened(
+                    Arc::clone(motion),
+                    findings,
+                    scene,
+                    folder,
+                    wake,
+                ))
+            }
+            Source::Exact(_) | Source::Preview(_) => None,
+        }
+    }
+
+    /// Points that show how far the motion reaches: of its first, middle and last states.
+    pub(crate) fn reach(&self) -> Vec<DVec3> {
+        let frames = &self.motion().frames;
+        let some = [0, frames.len() / 2, frames.len().saturating_sub(1)];
+        some.iter()
+            .filter_map(|&k| frames.get(k))
+            .flat_map(|frame| frame.positions.iter().copied())
+            .collect()
     }
 
     /// The first and the last motion time that can be shown: those of the whole motion, however far it came.

@@ -9,7 +9,7 @@ use foldmotion_record::View;
 use super::dialogs::{Dialog, Then};
 use super::{Viewer, moving_part};
 use crate::document::{Document, SaveError};
-use crate::settings::{Colour, Command, Picker, apply};
+use crate::settings::{Colour, Command, Look, Picker, apply};
 use crate::timeline::Repeat;
 use crate::work::{Hold, Run, open};
 
@@ -68,7 +68,8 @@ impl Viewer {
             }
             _ => return false,
         }
-        self.shown.follows_run &= matches!(command, Command::Slower | Command::Faster | Command::Loop);
+        self.shown.follows_run &=
+            matches!(command, Command::Slower | Command::Faster | Command::Loop);
         true
     }
 
@@ -118,7 +119,7 @@ impl Viewer {
 
     fn change_look(&mut self, command: Command, ctx: &Context) {
         if command == Command::DarkLight {
-            self.settings.look = self.settings.look.other(ctx);
+            self.settings.look = Look::other(ctx);
         } else {
             self.settings.scale = self.settings.scale.next();
         }
@@ -172,11 +173,17 @@ impl Viewer {
             return;
         }
         let (Some(study), Some(act)) = (self.resolved.study.clone(), self.act()) else {
-            self.say("the sheet cannot be taken in the hand before the scene is resolved", false);
+            self.say(
+                "the sheet cannot be taken in the hand before the scene is resolved",
+                false,
+            );
             return;
         };
         if self.shown.file.is_some() || self.is_stale(&act) {
-            self.say("only the sheet of the scene as it stands can be taken in the hand", false);
+            self.say(
+                "only the sheet of the scene as it stands can be taken in the hand",
+                false,
+            );
             return;
         }
         self.jobs.best_rate = 0;
@@ -196,26 +203,38 @@ impl Viewer {
     }
 
     pub(super) fn choose_file(&mut self) {
-        let recent = self.settings.recent.paths();
+        let recent = self.settings.recent.folders();
         let folder = self.folder();
         self.dialog = Dialog::Open(Picker::open("Open", &OPENED, &folder, &recent));
     }
 
     pub(super) fn choose_place(&mut self) {
         let name = match self.document.path() {
-            Some(path) => path.file_name().unwrap_or_default().to_string_lossy().into_owned(),
-            None => Path::new(&self.document.name()).with_extension("toml").display().to_string(),
+            Some(path) => path
+                .file_name()
+                .unwrap_or_default()
+                .to_string_lossy()
+                .into_owned(),
+            None => Path::new(&self.document.name())
+                .with_extension("toml")
+                .display()
+                .to_string(),
         };
-        let recent = self.settings.recent.paths();
+        let recent = self.settings.recent.folders();
         let folder = self.folder();
-        self.dialog = Dialog::Save(Picker::save("Save as", &["toml"], &folder, &name, &recent), None);
+        self.dialog = Dialog::Save(
+            Picker::save("Save as", &["toml"], &folder, &name, &recent),
+            None,
+        );
     }
 
     /// The folder of the scene; where the program was started for one that has none.
     fn folder(&self) -> PathBuf {
         let beside = self.document.place().parent().map(Path::to_owned);
         let folder = beside.filter(|folder| folder.is_dir());
-        folder.or_else(|| std::env::current_dir().ok()).unwrap_or_default()
+        folder
+            .or_else(|| std::env::current_dir().ok())
+            .unwrap_or_default()
     }
 
     fn save_document(&mut self) {
@@ -266,7 +285,7 @@ impl Viewer {
     /// Opens the first file that was dropped on the window.
     pub(super) fn take_dropped_files(&mut self, ctx: &Context) {
         let dropped = ctx.input(|i| i.raw.dropped_files.clone());
-        let path = dropped.iter().find_map(|file| file.path().map(Path::to_owned));
+        let path = dropped.first().map(|file| file.path().to_owned());
         if let Some(path) = path {
             self.unless_unsaved(Then::Open(path), ctx);
         }

@@ -6,7 +6,7 @@ use eframe::egui::{Button, Context, Id, Modal, RichText, Ui, ViewportCommand, Wi
 use foldmotion_study::scene::RecordScene;
 
 use super::Viewer;
-use super::record_panel::Wish;
+use super::record_panel::{Seen, Wish};
 use crate::settings::{Picked, Picker, show_help};
 
 /// The dialog that is open.
@@ -75,7 +75,13 @@ impl Viewer {
     fn ask_unsaved(&mut self, ctx: &Context, then: Then) {
         let words = format!("{} has unsaved edits", self.document.name());
         let answers = ["Save", "Discard edits", "Cancel"];
-        match ask(ctx, "unsaved", &words, "discarded edits cannot be brought back", &answers) {
+        match ask(
+            ctx,
+            "unsaved",
+            &words,
+            "discarded edits cannot be brought back",
+            &answers,
+        ) {
             Some(0) => match self.document.save() {
                 Ok(()) => {
                     self.saved();
@@ -102,7 +108,13 @@ impl Viewer {
     fn ask_changed(&mut self, ctx: &Context) {
         let words = format!("{} was changed by another program", self.document.name());
         let about = "reading it again can be undone; overwriting it cannot";
-        match ask(ctx, "changed", &words, about, &["Read it again", "Overwrite it", "Cancel"]) {
+        match ask(
+            ctx,
+            "changed",
+            &words,
+            about,
+            &["Read it again", "Overwrite it", "Cancel"],
+        ) {
             Some(0) => {
                 if let Err(error) = self.document.reload() {
                     self.say(error.to_string(), false);
@@ -119,14 +131,19 @@ impl Viewer {
 
     /// Offers what was left unsaved.
     fn ask_restore(&mut self, ctx: &Context) {
-        let Some(unsaved) = &mut self.unsaved else { return };
-        let left: Vec<String> = unsaved.left().map(crate::settings::UnsavedScene::describe).collect();
+        let Some(unsaved) = &mut self.unsaved else {
+            return;
+        };
+        let left: Vec<String> = unsaved
+            .left()
+            .map(crate::settings::UnsavedScene::describe)
+            .collect();
         if left.is_empty() {
             return;
         }
         let mut chosen = None;
         let mut is_over = false;
-        Modal::new(Id::new("restore")).show(ctx, |ui| {
+        Modal::new(Id::unique("restore")).show(ctx, |ui| {
             ui.set_max_width(460.0);
             ui.heading("Unsaved edits");
             ui.label("the window was closed, or ended, with edits that were not saved");
@@ -173,32 +190,54 @@ impl Viewer {
         let act = self.act();
         let is_ready = act.as_ref().is_some_and(|act| act.can_be_recorded());
         let record: RecordScene = self.document.scene().record.clone();
-        let orbit = self.view3d.orbit();
+        let seen = Seen {
+            orbit: self.view3d.orbit(),
+            time: self.playback.time,
+            colour: self.settings.view.colour,
+            is_file: self.shown.file.is_some(),
+        };
         let mut is_open = true;
         let mut wish = None;
-        Window::new("Record").open(&mut is_open).resizable(false).show(ctx, |ui: &mut Ui| {
-            if let Some((_, job)) = &self.jobs.recording {
-                ui.label("recording…");
-                ui.add(eframe::egui::ProgressBar::new(job.stand().done as f32).show_percentage());
-                if ui.button("Stop").clicked() {
-                    job.stop();
+        Window::new("Record")
+            .open(&mut is_open)
+            .resizable(false)
+            .show(ctx, |ui: &mut Ui| {
+                if let Some((_, job)) = &self.jobs.recording {
+                    ui.label("recording…");
+                    ui.add(
+                        eframe::egui::ProgressBar::new(job.stand().done as f32).show_percentage(),
+                    );
+                    if ui.button("Stop").clicked() {
+                        job.stop();
+                    }
+                } else if !is_ready {
+                    ui.label("a preview is not recorded: run the scene first");
+                    if ui
+                        .add_enabled(
+                            self.resolved.study.is_some() && self.jobs.run.is_none(),
+                            Button::new("Run"),
+                        )
+                        .clicked()
+                    {
+                        self.run();
+                    }
+                } else {
+                    wish = self.record_panel.show(ui, &record, &seen);
                 }
-            } else if !is_ready {
-                ui.label("a preview is not recorded: run the scene first");
-                if ui.add_enabled(self.resolved.study.is_some() && self.jobs.run.is_none(), Button::new("Run")).clicked() {
-                    self.run();
-                }
-            } else {
-                wish = self.record_panel.show(ui, &record, &orbit, self.playback.time);
-            }
-        });
+            });
         self.settings.panels.record = is_open;
         match wish {
             Some(Wish::Record(record, folder)) => self.record(&record, folder),
             Some(Wish::Choose) => {
-                let recent = self.settings.recent.paths();
+                let recent = self.settings.recent.folders();
                 let folder = std::env::current_dir().unwrap_or_default();
-                self.dialog = Dialog::Folder(Picker::save("Folder of the recording", &[], &folder, "recording", &recent));
+                self.dialog = Dialog::Folder(Picker::save(
+                    "Folder of the recording",
+                    &[],
+                    &folder,
+                    "recording",
+                    &recent,
+                ));
             }
             Some(Wish::Close) => self.settings.panels.record = false,
             None => {}
@@ -215,9 +254,16 @@ impl Viewer {
 
     /// Asks before the window closes with unsaved edits; they are kept for the next start either way.
     pub(super) fn title(&mut self, ctx: &Context) {
-        let mark = if self.document.is_modified() { "• " } else { "" };
+        let mark = if self.document.is_modified() {
+            "• "
+        } else {
+            ""
+        };
         let name = match &self.shown.file {
-            Some(act) => act.title(),
+            Some(act) => act
+                .opened()
+                .map(|motion| motion.title().to_owned())
+                .unwrap_or_default(),
             None => self.document.name(),
         };
         let title = format!("{mark}{name} — foldmotion");
@@ -231,7 +277,7 @@ impl Viewer {
 /// A question with its answers; the index of the one that was chosen, the last for Escape.
 fn ask(ctx: &Context, id: &str, words: &str, about: &str, answers: &[&str]) -> Option<usize> {
     let mut chosen = None;
-    let modal = Modal::new(Id::new(id)).show(ctx, |ui| {
+    let modal = Modal::new(Id::unique(id)).show(ctx, |ui| {
         ui.set_max_width(420.0);
         ui.label(RichText::new(words).strong().size(15.0));
         ui.label(about);

@@ -16,7 +16,12 @@ const NOTICE: Duration = Duration::from_secs(12);
 const MENUS: [(&str, &[Option<Command>]); 4] = [
     (
         "Edit",
-        &[Some(Command::Undo), Some(Command::Redo), None, Some(Command::PanelText)],
+        &[
+            Some(Command::Undo),
+            Some(Command::Redo),
+            None,
+            Some(Command::PanelText),
+        ],
     ),
     (
         "Motion",
@@ -101,12 +106,13 @@ impl Viewer {
         self.item(ui, Command::Open, wanted);
         let mut chosen: Option<PathBuf> = None;
         ui.menu_button("Open recent", |ui| {
-            let recent = self.settings.recent.paths();
+            let recent = self.settings.recent.existing_first();
             if recent.is_empty() {
                 ui.weak("none yet");
             }
-            for path in recent {
-                if ui.button(path.display().to_string()).clicked() {
+            for (path, is_there) in recent {
+                let button = Button::new(path.display().to_string());
+                if ui.add_enabled(is_there, button).clicked() {
                     chosen = Some(path);
                 }
             }
@@ -125,9 +131,22 @@ impl Viewer {
     fn item(&self, ui: &mut Ui, command: Command, wanted: &mut Option<Command>) {
         let keys = keys_of(ui.ctx(), command);
         let (name, is_on) = match command {
-            Command::Undo => (self.document.can_undo().map(|label| format!("Undo {label}")), self.document.can_undo().is_some()),
-            Command::Redo => (self.document.can_redo().map(|label| format!("Redo {label}")), self.document.can_redo().is_some()),
-            Command::Run => (None, self.resolved.study.is_some() && self.jobs.run.is_none()),
+            Command::Undo => (
+                self.document
+                    .can_undo()
+                    .map(|label| format!("Undo {label}")),
+                self.document.can_undo().is_some(),
+            ),
+            Command::Redo => (
+                self.document
+                    .can_redo()
+                    .map(|label| format!("Redo {label}")),
+                self.document.can_redo().is_some(),
+            ),
+            Command::Run => (
+                None,
+                self.resolved.study.is_some() && self.jobs.run.is_none(),
+            ),
             Command::Cancel => (None, self.is_busy()),
             _ => (None, true),
         };
@@ -150,13 +169,19 @@ impl Viewer {
             }
             let mut follows = self.shown.follows_run;
             let follow = ui.checkbox(&mut follows, "follow");
-            if follow.on_hover_text("show the sheet as it is computed").changed() {
+            if follow
+                .on_hover_text("show the sheet as it is computed")
+                .changed()
+            {
                 self.shown.follows_run = follows;
             }
         } else {
             let is_on = self.resolved.study.is_some() && self.shown.file.is_none();
             let button = Button::new(RichText::new("▶ Run").strong());
-            let hint = format!("fold, check and report ({})", keys_of(ui.ctx(), Command::Run));
+            let hint = format!(
+                "fold, check and report ({})",
+                keys_of(ui.ctx(), Command::Run)
+            );
             if ui.add_enabled(is_on, button).on_hover_text(hint).clicked() {
                 *wanted = Some(Command::Run);
             }
@@ -168,12 +193,19 @@ impl Viewer {
     /// What is the matter, at the foot of the window.
     pub(super) fn status(&mut self, ui: &mut Ui) {
         ui.horizontal(|ui| {
-            let is_old = self.notice.as_ref().is_some_and(|(_, _, since)| since.elapsed() > NOTICE);
+            let is_old = self
+                .notice
+                .as_ref()
+                .is_some_and(|(_, _, since)| since.elapsed() > NOTICE);
             if is_old {
                 self.notice = None;
             }
             if let Some((words, is_good, _)) = &self.notice {
-                let colour = if *is_good { ui.visuals().text_color() } else { ui.visuals().error_fg_color };
+                let colour = if *is_good {
+                    ui.visuals().text_color()
+                } else {
+                    ui.visuals().error_fg_color
+                };
                 ui.colored_label(colour, words);
                 ui.ctx().request_repaint_after(NOTICE);
                 return;

@@ -105,7 +105,9 @@ struct Jobs {
 impl std::fmt::Debug for Viewer {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         let mut debug = f.debug_struct("Viewer");
-        debug.field("document", &self.document).finish_non_exhaustive()
+        debug
+            .field("document", &self.document)
+            .finish_non_exhaustive()
     }
 }
 
@@ -154,7 +156,9 @@ impl Viewer {
             settings,
             wake,
         };
-        viewer.view3d.set_perspective(viewer.settings.view.perspective);
+        viewer
+            .view3d
+            .set_perspective(viewer.settings.view.perspective);
         viewer.begin(options.file);
         viewer
     }
@@ -164,7 +168,11 @@ impl Viewer {
         match file {
             Some(path) => self.open(path),
             None => {
-                if self.unsaved.as_ref().is_some_and(|u| u.left().next().is_some()) {
+                if self
+                    .unsaved
+                    .as_ref()
+                    .is_some_and(|u| u.left().next().is_some())
+                {
                     self.dialog = Dialog::Restore;
                 }
             }
@@ -179,7 +187,10 @@ impl Viewer {
         let scene = moving_part(self.document.scene());
         let is_of_scene = |act: &&(Scene, Arc<Act>)| act.0 == scene;
         let run = self.shown.run.as_ref();
-        let best = run.filter(is_of_scene).or(self.shown.draft.as_ref()).or(run);
+        let best = run
+            .filter(is_of_scene)
+            .or(self.shown.draft.as_ref())
+            .or(run);
         best.map(|(_, act)| Arc::clone(act))
     }
 
@@ -201,7 +212,9 @@ impl Viewer {
         let count = act.motion().sheet.vertices.len();
         match live.and_then(crate::work::Live::latest) {
             Some(state) if state.positions.len() == count => {
-                self.shown.pose.show_live(&state, act, self.jobs.hold.is_none());
+                self.shown
+                    .pose
+                    .show_live(&state, act, self.jobs.hold.is_none());
             }
             _ => self.shown.pose.show(act, self.playback.time),
         }
@@ -211,7 +224,11 @@ impl Viewer {
         let act = self.act();
         let (none, no_curves) = (Marks::default(), Curves::default());
         let (marks, curves) = act.as_ref().map_or((&none, &no_curves), |act| {
-            let curves = if self.settings.panels.plots { &act.curves } else { &no_curves };
+            let curves = if self.settings.panels.plots {
+                &act.curves
+            } else {
+                &no_curves
+            };
             (&act.marks, curves)
         });
         if let Some(act) = &act {
@@ -228,18 +245,26 @@ impl Viewer {
 
     fn side_panels(&mut self, ui: &mut Ui) {
         if self.settings.panels.design {
-            Panel::left("design").default_size(348.0).size_range(280.0..=620.0).show(ui, |ui| {
-                if self.settings.panels.text {
-                    self.text_panel(ui);
-                } else {
-                    ScrollArea::vertical().auto_shrink(false).show(ui, |ui| self.design_panel(ui));
-                }
-            });
+            Panel::left("design")
+                .default_size(348.0)
+                .size_range(280.0..=620.0)
+                .show(ui, |ui| {
+                    if self.settings.panels.text {
+                        self.text_panel(ui);
+                    } else {
+                        ScrollArea::vertical()
+                            .auto_shrink(false)
+                            .show(ui, |ui| self.design_panel(ui));
+                    }
+                });
         }
         if self.settings.panels.verdict {
-            Panel::right("verdict").default_size(300.0).size_range(220.0..=520.0).show(ui, |ui| {
-                self.verdict_panel(ui);
-            });
+            Panel::right("verdict")
+                .default_size(300.0)
+                .size_range(220.0..=520.0)
+                .show(ui, |ui| {
+                    self.verdict_panel(ui);
+                });
         }
     }
 
@@ -257,9 +282,14 @@ impl Viewer {
             faults: &self.resolved.faults,
         };
         if let Some(change) = self.design.show(ui, &facts)
-            && !self.document.change(change.scene, change.label, change.continues)
+            && !self
+                .document
+                .change(change.scene, change.label, change.continues)
         {
-            self.say("the scene's text has an error; mend it there first (F7)", false);
+            self.say(
+                "the scene's text has an error; mend it there first (F7)",
+                false,
+            );
         }
     }
 
@@ -279,7 +309,10 @@ impl Viewer {
     fn findings(&mut self, ui: &mut Ui, act: &Act) -> Option<f64> {
         ui.add_space(6.0);
         if self.is_stale(act) {
-            ui.colored_label(ui.visuals().warn_fg_color, "of the scene before the last edits");
+            ui.colored_label(
+                ui.visuals().warn_fg_color,
+                "of the scene before the last edits",
+            );
         }
         match &act.source {
             act::Source::Run { report, .. } => results(ui, report),
@@ -309,7 +342,10 @@ impl Viewer {
 
     fn is_busy(&self) -> bool {
         let jobs = &self.jobs;
-        jobs.run.is_some() || jobs.hold.is_some() || jobs.recording.is_some() || jobs.judging.is_some()
+        jobs.run.is_some()
+            || jobs.hold.is_some()
+            || jobs.recording.is_some()
+            || jobs.judging.is_some()
     }
 }
 
@@ -327,19 +363,28 @@ impl eframe::App for Viewer {
         self.timings.frame(self.is_busy(), self.view3d.drawn() > 0);
         let ctx = ui.ctx().clone();
         self.poll(&ctx);
-        let canvas = Some(self.view3d.id());
+        let canvas = self.view3d.id();
         for command in crate::settings::pressed(&ctx, canvas) {
             self.perform(command, &ctx);
         }
         self.take_dropped_files(&ctx);
-        self.playback.advance(f64::from(ctx.input(|i| i.stable_dt).min(0.1)));
+        self.playback
+            .advance(f64::from(ctx.input(|i| i.stable_dt).min(0.1)));
         if self.playback.is_playing {
             ctx.request_repaint();
         }
         Panel::top("menu").show(ui, |ui| self.menu(ui));
         Panel::bottom("status").show(ui, |ui| self.status(ui));
-        let height = if self.settings.panels.plots { 240.0 } else { 72.0 };
-        let timeline = Panel::bottom(if self.settings.panels.plots { "plots" } else { "bar" });
+        let height = if self.settings.panels.plots {
+            240.0
+        } else {
+            72.0
+        };
+        let timeline = Panel::bottom(if self.settings.panels.plots {
+            "plots"
+        } else {
+            "bar"
+        });
         timeline
             .resizable(self.settings.panels.plots)
             .default_size(height)

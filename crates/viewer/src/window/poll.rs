@@ -9,7 +9,7 @@ use super::act::Act;
 use super::{Viewer, moving_part};
 use crate::design::Fault;
 use crate::document::Document;
-use crate::work::{Finished, Job, Resolved, Run, WorkError, judge, preview};
+use crate::work::{Finished, Job, Resolved, WorkError, judge, preview};
 
 /// Sheets with more vertices are not folded at once after every edit.
 const LARGEST_PREVIEW: usize = 20_000;
@@ -55,7 +55,11 @@ impl Viewer {
         match answer {
             Resolved::Draft(number, Ok(draft)) if number == asked => {
                 let scene = moving_part(self.document.scene());
-                let is_new = self.resolved.draft.as_ref().is_none_or(|(_, of, _)| *of != scene);
+                let is_new = self
+                    .resolved
+                    .draft
+                    .as_ref()
+                    .is_none_or(|(_, of, _)| *of != scene);
                 self.resolved.draft = Some((number, scene.clone(), Arc::clone(&draft)));
                 self.resolved.faults.clear();
                 if is_new {
@@ -83,8 +87,12 @@ impl Viewer {
 
     /// Starts a preview of the scene as it stands.
     pub(super) fn fold_at_once(&mut self) {
-        let Some(study) = self.resolved.study.clone() else { return };
-        let Some((_, scene, draft)) = &self.resolved.draft else { return };
+        let Some(study) = self.resolved.study.clone() else {
+            return;
+        };
+        let Some((_, scene, draft)) = &self.resolved.draft else {
+            return;
+        };
         let is_run = self.shown.run.as_ref().is_some_and(|(of, _)| of == scene);
         let is_small = study.subject.sheet().vertices.len() <= LARGEST_PREVIEW;
         if !self.settings.view.folds_at_once || is_run || !is_small {
@@ -95,7 +103,9 @@ impl Viewer {
     }
 
     fn take_preview(&mut self) {
-        let Some((scene, draft, motion)) = self.jobs.preview.take_if_done() else { return };
+        let Some((scene, draft, motion)) = self.jobs.preview.take_if_done() else {
+            return;
+        };
         match motion {
             Ok(motion) => {
                 let key = self.shown.key();
@@ -109,12 +119,16 @@ impl Viewer {
     }
 
     fn take_run(&mut self) {
-        let Some((_, run)) = &self.jobs.run else { return };
+        let Some((_, run)) = &self.jobs.run else {
+            return;
+        };
         self.jobs.best_rate = self.jobs.best_rate.max(run.live().rate());
         if !run.is_done() {
             return;
         }
-        let Some((scene, run)) = self.jobs.run.take() else { return };
+        let Some((scene, run)) = self.jobs.run.take() else {
+            return;
+        };
         self.timings.rate("run", self.jobs.best_rate as f64);
         match run.take() {
             Some(Ok(finished)) => self.finish_run(scene, &finished),
@@ -131,12 +145,13 @@ impl Viewer {
         let verdict = finished.report.collision.verdict.clone();
         let words = match &finished.report.jam {
             Some(jam) => format!("jammed at t = {:.4}; {verdict} as far as it came", jam.t),
-            None => format!("{verdict}, {:.2} s", finished.folded.duration().as_secs_f64()),
+            None => format!(
+                "{verdict}, {:.2} s",
+                finished.folded.duration().as_secs_f64()
+            ),
         };
-        let draft = self.resolved.draft.as_ref().filter(|(_, of, _)| *of == scene);
-        let draft = draft.map(|(_, _, draft)| Arc::clone(draft));
         let key = self.shown.key();
-        let act = Act::run(draft.as_deref(), finished, key);
+        let act = Act::run(finished, key);
         self.shown.run = Some((scene, Arc::new(act)));
         self.settle_view();
         if self.shown.follows_run {
@@ -147,7 +162,9 @@ impl Viewer {
     }
 
     fn take_opened(&mut self) {
-        let Some((path, opened)) = self.jobs.opening.take_if_done() else { return };
+        let Some((path, opened)) = self.jobs.opening.take_if_done() else {
+            return;
+        };
         match opened {
             Ok(Opened::Motion(motion)) => {
                 self.settings.recent.add(&path);
@@ -188,13 +205,18 @@ impl Viewer {
     }
 
     fn take_judged(&mut self) {
-        let Some(job) = self.jobs.judging.take_if(|job| job.is_done()) else { return };
-        let Some(act) = self.shown.file.clone() else { return };
+        let Some(job) = self.jobs.judging.take_if(|job| job.is_done()) else {
+            return;
+        };
+        let act = self.shown.file.clone();
+        let Some(motion) = act.as_ref().and_then(|act| act.opened()) else {
+            return;
+        };
         match job.take() {
             Some(Ok(judged)) => {
                 let key = self.shown.key();
-                let motion = act.file_motion();
-                self.shown.file = motion.map(|motion| Arc::new(Act::file(motion, Some(judged), key)));
+                let act = Act::file(Arc::clone(motion), Some(judged), key);
+                self.shown.file = Some(Arc::new(act));
             }
             Some(Err(WorkError::Stopped)) | None => {}
             Some(Err(error)) => self.say(format!("it could not be judged: {error}"), false),
@@ -202,7 +224,9 @@ impl Viewer {
     }
 
     fn take_recording(&mut self) {
-        let Some((folder, files)) = self.jobs.recording.take_if_done() else { return };
+        let Some((folder, files)) = self.jobs.recording.take_if_done() else {
+            return;
+        };
         match files {
             Ok(files) => {
                 let words = format!("recorded {} in {}", files.join(", "), folder.display());

@@ -7,7 +7,8 @@ use foldmotion_study::Quantity;
 use glam::DVec3;
 
 use super::act::Act;
-use super::looks::Colour;
+use crate::settings::Colour;
+use crate::work::State;
 
 /// The state that is shown.
 #[derive(Debug, Default)]
@@ -28,7 +29,7 @@ enum Of {
     /// A motion at a time.
     Act(u64, f64),
     /// The state of a run, or in the hand, by its serial number.
-    Live(u64),
+    Live(u64, bool),
 }
 
 impl Pose {
@@ -42,13 +43,24 @@ impl Pose {
         self.penetrating = act.penetrating(t);
     }
 
-    /// Takes a state that is computed while it is shown.
-    pub(crate) fn show_live(&mut self, serial: u64, positions: impl FnOnce() -> Vec<DVec3>) {
-        let of = Of::Live(serial);
+    /// Takes a state that is computed while it is shown: where the engine has it, or, in the hand, where `act` is shown.
+    pub(crate) fn show_live(&mut self, state: &State, act: &Act, is_in_hand: bool) {
+        let of = Of::Live(state.serial, is_in_hand);
         if self.of == Some(of) {
             return;
         }
-        self.set(of, Arc::new(positions()));
+        let positions = if is_in_hand {
+            Arc::clone(&state.positions)
+        } else {
+            Arc::new(
+                state
+                    .positions
+                    .iter()
+                    .map(|&p| act.place.apply(p))
+                    .collect(),
+            )
+        };
+        self.set(of, positions);
         self.penetrating = (Vec::new(), Vec::new());
     }
 
@@ -70,11 +82,17 @@ impl Pose {
             Colour::Bending => Quantity::Bending,
             Colour::Plain | Colour::Unit | Colour::Layer => return None,
         };
-        if self.ranges.is_none_or(|(key, q, _)| (key, q) != (act.key, quantity)) {
+        if self
+            .ranges
+            .is_none_or(|(key, q, _)| (key, q) != (act.key, quantity))
+        {
             let range = quantity.of_motion(act.motion()).range;
             self.ranges = Some((act.key, quantity, range));
         }
-        let is_known = self.values.as_ref().is_some_and(|(key, q, _)| (*key, *q) == (self.key, quantity));
+        let is_known = self
+            .values
+            .as_ref()
+            .is_some_and(|(key, q, _)| (*key, *q) == (self.key, quantity));
         if !is_known {
             let values = quantity.values(sheet, &self.positions);
             self.values = Some((self.key, quantity, values));

@@ -3,8 +3,9 @@
 use std::path::PathBuf;
 
 use eframe::egui::{Button, Checkbox, DragValue, Grid, TextEdit, Ui};
-use foldmotion_study::scene::{CameraChoice, OutputChoice, OwnCamera, RecordScene};
+use foldmotion_study::scene::{CameraScene, ColourChoice, OutputChoice, OwnCamera, RecordScene};
 
+use crate::settings::Colour;
 use crate::view3d::Orbit;
 
 /// Outputs that can be asked for in the window, with what they are.
@@ -43,33 +44,34 @@ pub(crate) enum Wish {
     Close,
 }
 
-impl RecordPanel {
-    pub(crate) fn new(folder: String) -> Self {
+impl Default for RecordPanel {
+    fn default() -> Self {
         Self {
             outputs: vec![OutputChoice::Gif],
             size: [960, 720],
             seconds: 8.0,
             only_now: false,
-            folder,
+            folder: String::new(),
         }
     }
+}
 
-    /// The panel; `scene` is what the scene says of recording, `orbit` the camera as it stands, `time` the state at hand.
-    pub(crate) fn show(
-        &mut self,
-        ui: &mut Ui,
-        scene: &RecordScene,
-        orbit: &Orbit,
-        time: f64,
-    ) -> Option<Wish> {
+impl RecordPanel {
+    /// The panel; `scene` is what the scene says of recording.
+    pub(crate) fn show(&mut self, ui: &mut Ui, scene: &RecordScene, seen: &Seen) -> Option<Wish> {
         let mut wish = None;
-        ui.label("the camera is the one of the view; the rest is as the scene's record section says");
+        ui.label(
+            "the camera is the one of the view; the rest is as the scene's record section says",
+        );
         ui.add_space(4.0);
         for (output, name) in OUTPUTS {
             let is_there = output != OutputChoice::Mp4 || cfg!(feature = "h264");
             let mut is_on = self.outputs.contains(&output);
             let check = ui.add_enabled(is_there, Checkbox::new(&mut is_on, name));
-            if check.on_disabled_hover_text("this program was built without the feature h264").changed() {
+            if check
+                .on_disabled_hover_text("this program was built without the feature h264")
+                .changed()
+            {
                 self.outputs.retain(|&o| o != output);
                 if is_on {
                     self.outputs.push(output);
@@ -79,21 +81,27 @@ impl RecordPanel {
         ui.add_space(4.0);
         Grid::new("record").num_columns(2).show(ui, |ui| {
             let label = ui.label("width, pixels");
-            ui.add(DragValue::new(&mut self.size[0]).range(16..=4096)).labelled_by(label.id);
+            ui.add(DragValue::new(&mut self.size[0]).range(16..=4096))
+                .labelled_by(label.id);
             ui.end_row();
             let label = ui.label("height, pixels");
-            ui.add(DragValue::new(&mut self.size[1]).range(16..=4096)).labelled_by(label.id);
+            ui.add(DragValue::new(&mut self.size[1]).range(16..=4096))
+                .labelled_by(label.id);
             ui.end_row();
             let label = ui.label("film, seconds");
-            let field = DragValue::new(&mut self.seconds).range(0.1..=600.0).speed(0.1);
+            let field = DragValue::new(&mut self.seconds)
+                .range(0.1..=600.0)
+                .speed(0.1);
             ui.add(field).labelled_by(label.id);
             ui.end_row();
         });
-        ui.checkbox(&mut self.only_now, format!("figures and models of t = {time:.4} only"));
+        let words = format!("figures and models of t = {:.4} only", seen.time);
+        ui.checkbox(&mut self.only_now, words);
         ui.add_space(4.0);
         let label = ui.label("folder");
         ui.horizontal(|ui| {
-            ui.add(TextEdit::singleline(&mut self.folder).desired_width(300.0)).labelled_by(label.id);
+            ui.add(TextEdit::singleline(&mut self.folder).desired_width(300.0))
+                .labelled_by(label.id);
             if ui.button("Choose…").clicked() {
                 wish = Some(Wish::Choose);
             }
@@ -101,9 +109,15 @@ impl RecordPanel {
         ui.separator();
         ui.horizontal(|ui| {
             let is_ready = !self.outputs.is_empty() && !self.folder.trim().is_empty();
-            if ui.add_enabled(is_ready, Button::new("Record now")).clicked() {
-                let record = self.record(scene, orbit, time);
-                wish = Some(Wish::Record(Box::new(record), PathBuf::from(self.folder.trim())));
+            if ui
+                .add_enabled(is_ready, Button::new("Record now"))
+                .clicked()
+            {
+                let record = self.record(scene, seen);
+                wish = Some(Wish::Record(
+                    Box::new(record),
+                    PathBuf::from(self.folder.trim()),
+                ));
             }
             if ui.button("Close").clicked() {
                 wish = Some(Wish::Close);
@@ -113,12 +127,42 @@ impl RecordPanel {
     }
 
     /// `[record]` of what is asked for.
-    fn record(&self, scene: &RecordScene, orbit: &Orbit, time: f64) -> RecordScene {
+    fn record(&self, scene: &RecordScene, seen: &Seen) -> RecordScene {
+        let orbit = &seen.orbit;
+        let camera = OwnCamera {
+            azimuth: orbit.azimuth,
+            elevation: orbit.elevation,
+            turn: None,
+            centre: Some(orbit.centre.to_array()),
+            width: Some(orbit.width),
+        };
         RecordScene {
             outputs: Some(self.outputs.clone()),
-            size: Some(self.size.map(i64::from).to_vec()),
-            camera: Some(CameraChoice::Own(OwnCamera::default())),
+            size: Some(self.size.map(i64::from)),
+            seconds: Some([self.seconds; 2].map(|seconds| 0.5 * seconds)),
+            camera: Some(CameraScene::Own(camera)),
+            colour: match seen.colour {
+                Colour::Strain => Some(ColourChoice::Strain),
+                Colour::Bending => Some(ColourChoice::Bending),
+                Colour::Plain | Colour::Unit | Colour::Layer => scene.colour,
+            },
+            at: if self.only_now {
+                Some(vec![seen.time])
+            } else {
+                scene.at.clone()
+            },
+            profile: if seen.is_file { None } else { scene.profile },
             ..scene.clone()
         }
     }
+}
+
+/// What is seen as recording is asked for.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Seen {
+    pub(crate) orbit: Orbit,
+    pub(crate) time: f64,
+    pub(crate) colour: Colour,
+    /// Whether it is a motion file, with no scene.
+    pub(crate) is_file: bool,
 }

@@ -1,20 +1,21 @@
 //! The middle of the window: the sheet, how it is shown, and what is said over it.
 
+use std::sync::Arc;
 use std::time::Duration;
 
 use eframe::egui::{
-    Align, Align2, Color32, CornerRadius, FontId, Frame, Layout, Margin, Painter, Rect, RichText,
-    ScrollArea, Stroke, StrokeKind, Ui, pos2, vec2,
+    Align2, Checkbox, Color32, ComboBox, FontId, Painter, Rect, RichText, ScrollArea, Stroke,
+    StrokeKind, Ui, pos2, vec2,
 };
 use eframe::egui_wgpu::RenderState;
-use foldmotion_record::{Style, View, colour_of};
+use foldmotion_record::{Style, colour_of};
 
 use super::Viewer;
-use super::act::Source;
-use super::looks::Colour;
-use crate::settings::Command;
+use super::act::{Act, Source};
+use crate::results::verdict_colour;
+use crate::settings::{Colour, Command, keys_of, name_of};
 use crate::timeline::number;
-use crate::view3d::{Colours, Overlay, Picture, Shape};
+use crate::view3d::{Colours, CreaseClasses, Handle, Overlay, Picture, Shape};
 
 /// How long a flash of penetrating facets lasts, seconds.
 const FLASH: f64 = 0.9;
@@ -23,19 +24,27 @@ impl Viewer {
     /// The tools over the view, and the view.
     pub(super) fn scene_view(&mut self, ui: &mut Ui, render_state: Option<&RenderState>) {
         self.tools(ui);
-        if self.act.is_none() {
+        let Some(act) = self.act() else {
             ui.centered_and_justified(|ui| {
-                ui.label(RichText::new("no sheet yet: the design panel says what is missing").weak());
+                let words = if self.resolved.faults.is_empty() {
+                    "…"
+                } else {
+                    "no sheet yet: the foot of the window says what is wrong"
+                };
+                ui.label(RichText::new(words).weak());
             });
             return;
-        }
+        };
+        self.pose(&act);
         let rect = ui.available_rect_before_wrap();
-        let can_pull = self.hold.is_some();
-        let pull = self.picture(ui, render_state, can_pull);
-        if let Some(hold) = &self.hold {
-            hold.pull(pull.map(|handle| (handle.vertex, self.from_shown(handle.target))));
+        let pull = self.picture(ui, render_state, &act);
+        if pull != self.shown.pulled
+            && let Some(hold) = &self.jobs.hold
+        {
+            hold.pull(pull.map(|handle| (handle.vertex, handle.target)));
         }
-        self.words_over(&ui.painter_at(rect), ui, rect);
+        self.shown.pulled = pull;
+        self.words_over(ui, rect, &act);
     }
 
     /// Draws the sheet; answers the vertex that is pulled.
@@ -43,14 +52,13 @@ impl Viewer {
         &mut self,
         ui: &mut Ui,
         render_state: Option<&RenderState>,
-        can_pull: bool,
-    ) -> Option<crate::view3d::Handle> {
-        let act = self.act.as_ref()?;
-        let looks = &self.looks;
+        act: &Act,
+    ) -> Option<Handle> {
+        let looks = &self.settings.view;
         let sheet = &act.motion().sheet;
-        let (faces, points) = self.pose.penetrating.clone();
-        let positions = std::sync::Arc::clone(&self.pose.positions);
-        let state_key = self.pose.key;
+        let (faces, points) = self.shown.pose.penetrating.clone();
+        let positions = Arc::clone(&self.shown.pose.positions);
+        let state_key = self.shown.pose.key;
         let visuals = ui.visuals();
         let background = visuals.panel_fill;
         let style = style(visuals.dark_mode);
@@ -58,30 +66,53 @@ impl Viewer {
         let weak = visuals.weak_text_color();
         let marked = visuals.error_fg_color;
         let mut overlays: Vec<Overlay<'_>> = Vec::new();
-        if looks.has_profile && !act.profile.is_empty() {
-            overlays.push(Overlay { shape: Shape::Path(&act.profile), colour: accent, width: 2.0 });
+        if looks.profile && !act.profile.is_empty() {
+            overlays.push(Overlay {
+                shape: Shape::Path(&act.profile),
+                colour: accent,
+                width: 2.0,
+            });
         }
         for (wanted, bounds, colour) in [
-            (looks.has_box, act.boxes[0], weak),
-            (looks.has_closed_form, act.boxes[1], accent),
+            (looks.compact_box, act.boxes[0], weak),
+            (looks.closed_form_box, act.boxes[1], accent),
         ] {
             if let Some([low, sides]) = bounds.filter(|_| wanted && self.playback.time > 1.0) {
                 let edges = glam::DMat3::from_diagonal(sides);
                 let edges = [edges.x_axis, edges.y_axis, edges.z_axis];
-                overlays.push(Overlay { shape: Shape::Box(low, edges), colour, width: 1.2 });
+                overlays.push(Overlay {
+                    shape: Shape::Box(low, edges),
+                    colour,
+                    width: 1.2,
+                });
             }
         }
         if !points.is_empty() {
-            overlays.push(Overlay { shape: Shape::Dots(&points), colour: marked, width: 9.0 });
+            overlays.push(Overlay {
+                shape: Shape::Dots(&points),
+                colour: marked,
+                width: 9.0,
+            });
         }
         let pulse = if faces.is_empty() { 0.0 } else { flash(ui) };
-        let colours = match (looks.colour, self.pose.values(act, sheet, looks.colour)) {
-            (_, Some((values, range, _))) => Colours::Values { values, range, key: state_key },
+        let colours = match (
+            looks.colour,
+            self.shown.pose.values(act, sheet, looks.colour),
+        ) {
+            (_, Some((values, range, _))) => Colours::Values {
+                values,
+                range,
+                key: state_key,
+            },
             (Colour::Unit, _) => Colours::Units,
             (Colour::Layer, _) => Colours::Layers,
             _ => Colours::Plain,
         };
-        let creases = if looks.has_creases { looks.creases } else { looks.creases.none() };
+        let creases = if looks.creases {
+            looks.classes
+        } else {
+            CreaseClasses::NONE
+        };
         let picture = Picture {
             sheet,
             sheet_key: act.key,
@@ -95,59 +126,85 @@ impl Viewer {
             overlays: &overlays,
             flash: &faces,
             pulse,
-            handle: None,
-            can_pull,
+            handle: self.shown.pulled,
+            can_pull: self.jobs.hold.is_some(),
         };
-        let seen = self.view3d.show(ui, render_state, &picture);
-        seen.pull
+        self.view3d.show(ui, render_state, &picture).pull
     }
 
     /// What is shown, and what it is worth.
-    fn words_over(&mut self, painter: &Painter, ui: &Ui, rect: Rect) {
-        let Some(act) = &self.act else { return };
+    fn words_over(&mut self, ui: &Ui, rect: Rect, act: &Act) {
+        let painter = ui.painter_at(rect);
         let visuals = ui.visuals();
-        let (badge, colour) = match (&self.run, &self.hold, &act.source) {
-            (Some(run), _, _) if self.follows_run => (
-                format!("running: t = {:.3}, {} states", run.time(), run.states()),
-                visuals.selection.stroke.color,
-            ),
-            (_, Some(_), _) => (
-                "in the hand: drag the timeline, pull a vertex".to_owned(),
-                visuals.selection.stroke.color,
-            ),
-            (_, _, Source::Exact(_)) => (
-                "exact states: deployed, planar, compact".to_owned(),
-                visuals.weak_text_color(),
-            ),
-            (_, _, Source::Preview(_)) => (
-                "preview: without contact, not checked".to_owned(),
-                visuals.warn_fg_color,
-            ),
-            (_, _, Source::Run { report, .. }) => {
-                let verdict = &report.collision.verdict;
-                (verdict.clone(), crate::results::verdict_colour(ui, verdict))
-            }
-            (_, _, Source::File(file)) => {
-                let verdict = file.verdict.clone().unwrap_or_else(|| "not checked".to_owned());
-                let colour = crate::results::verdict_colour(ui, &verdict);
-                (verdict, colour)
-            }
-        };
+        let (badge, colour) = self.badge(ui, act);
         let corner = rect.left_top() + vec2(12.0, 10.0);
         let time = format!("t = {:.4}", self.shown_time());
         let font = FontId::proportional(18.0);
-        let place = painter.text(corner, Align2::LEFT_TOP, time, font, visuals.strong_text_color());
+        let place = painter.text(
+            corner,
+            Align2::LEFT_TOP,
+            time,
+            font,
+            visuals.strong_text_color(),
+        );
         let below = place.left_bottom() + vec2(0.0, 3.0);
-        let place = painter.text(below, Align2::LEFT_TOP, badge, FontId::proportional(13.0), colour);
-        if self.is_stale() {
+        let small = FontId::proportional(13.0);
+        let place = painter.text(below, Align2::LEFT_TOP, badge, small.clone(), colour);
+        if self.is_stale(act) {
             let words = "of the scene before the last edits";
             let below = place.left_bottom() + vec2(0.0, 2.0);
-            painter.text(below, Align2::LEFT_TOP, words, FontId::proportional(13.0), visuals.warn_fg_color);
+            painter.text(below, Align2::LEFT_TOP, words, small, visuals.warn_fg_color);
         }
         let sheet = &act.motion().sheet;
-        if let Some((_, range, title)) = self.pose.values(act, sheet, self.looks.colour) {
-            scale(painter, ui, rect, range, title);
+        let colour = self.settings.view.colour;
+        if let Some((_, range, title)) = self.shown.pose.values(act, sheet, colour) {
+            scale(&painter, ui, rect, range, title);
         }
+    }
+
+    /// What the sheet that is shown is worth, and in which colour that is said.
+    fn badge(&self, ui: &Ui, act: &Act) -> (String, Color32) {
+        let visuals = ui.visuals();
+        let accent = visuals.hyperlink_color;
+        if let Some(hold) = &self.jobs.hold {
+            let held = hold.held();
+            let mut words = "in the hand: drag the timeline, or pull a vertex".to_owned();
+            if held.mishaps > 0 {
+                words += "; it ran away and was taken back";
+            }
+            return (words, accent);
+        }
+        if let Some((_, run)) = self.jobs.run.as_ref().filter(|_| self.shown.follows_run) {
+            let words = format!("running, {} states a second", run.live().rate());
+            return (words, accent);
+        }
+        let judged = |verdict: &str| (verdict.to_owned(), verdict_colour(ui, verdict));
+        match &act.source {
+            Source::Exact(_) => (
+                "exact states: deployed, planar, compact".to_owned(),
+                visuals.weak_text_color(),
+            ),
+            Source::Preview(_) => (
+                "preview: without contact, not checked".to_owned(),
+                visuals.warn_fg_color,
+            ),
+            Source::Run { report, .. } => judged(&report.collision.verdict),
+            Source::File { judged: found, .. } => match found {
+                Some(found) => judged(&found.certificate.verdict),
+                None => ("not checked yet".to_owned(), visuals.weak_text_color()),
+            },
+        }
+    }
+
+    /// The motion time of what is shown.
+    pub(super) fn shown_time(&self) -> f64 {
+        let run = self.jobs.run.as_ref().filter(|_| self.shown.follows_run);
+        let live = match (&self.jobs.hold, run) {
+            (Some(hold), _) => hold.live().latest(),
+            (None, Some((_, run))) => run.live().latest(),
+            _ => None,
+        };
+        live.map_or(self.playback.time, |state| state.time)
     }
 
     /// Buttons over the view.
@@ -156,27 +213,27 @@ impl Viewer {
         ScrollArea::horizontal().auto_shrink([false, true]).show(ui, |ui| {
             ui.horizontal(|ui| {
                 let views = [
-                    ("front", Command::ViewFront, View::Front),
-                    ("side", Command::ViewSide, View::Side),
-                    ("top", Command::ViewTop, View::Top),
-                    ("iso", Command::ViewIso, View::Iso),
+                    ("front", Command::ViewFront),
+                    ("side", Command::ViewSide),
+                    ("top", Command::ViewTop),
+                    ("iso", Command::ViewIsometric),
+                    ("fit", Command::Fit),
                 ];
-                for (name, wanted, _) in views {
-                    if ui.button(name).on_hover_text(wanted.hint()).clicked() {
+                for (name, wanted) in views {
+                    let keys = keys_of(ui.ctx(), wanted);
+                    let hint = format!("{} ({keys})", name_of(wanted));
+                    if ui.button(name).on_hover_text(hint).clicked() {
                         command = Some(wanted);
                     }
                 }
-                if ui.button("fit").on_hover_text(Command::Fit.hint()).clicked() {
-                    command = Some(Command::Fit);
-                }
                 ui.separator();
                 let label = ui.label("colour");
-                eframe::egui::ComboBox::from_id_salt("colour")
-                    .selected_text(self.looks.colour.name())
+                ComboBox::from_id_salt("colour")
+                    .selected_text(self.settings.view.colour.name())
                     .width(76.0)
                     .show_ui(ui, |ui| {
                         for colour in Colour::ALL {
-                            ui.selectable_value(&mut self.looks.colour, colour, colour.name())
+                            ui.selectable_value(&mut self.settings.view.colour, colour, colour.name())
                                 .on_hover_text(colour.about());
                         }
                     })
@@ -185,7 +242,7 @@ impl Viewer {
                 ui.menu_button("creases", |ui| self.crease_switches(ui));
                 ui.menu_button("overlays", |ui| self.overlay_switches(ui));
                 ui.separator();
-                let mut is_held = self.hold.is_some();
+                let mut is_held = self.jobs.hold.is_some();
                 let hand = ui.toggle_value(&mut is_held, "hand").on_hover_text(
                     "moves the sheet as masses and springs: the timeline sets the fold, a vertex can be pulled (H)",
                 );
@@ -200,10 +257,10 @@ impl Viewer {
     }
 
     fn crease_switches(&mut self, ui: &mut Ui) {
-        let looks = &mut self.looks;
-        ui.checkbox(&mut looks.has_creases, "creases");
+        let looks = &mut self.settings.view;
+        ui.checkbox(&mut looks.creases, "creases");
         ui.separator();
-        let classes = &mut looks.creases;
+        let classes = &mut looks.classes;
         for (value, name) in [
             (&mut classes.mountains, "mountain"),
             (&mut classes.valleys, "valley"),
@@ -215,18 +272,18 @@ impl Viewer {
             (&mut classes.pad, "pads"),
             (&mut classes.column, "columns"),
         ] {
-            ui.add_enabled(looks.has_creases, eframe::egui::Checkbox::new(value, name));
+            ui.add_enabled(looks.creases, Checkbox::new(value, name));
         }
     }
 
     fn overlay_switches(&mut self, ui: &mut Ui) {
-        let looks = &mut self.looks;
-        ui.checkbox(&mut looks.has_profile, "profile curve");
-        ui.checkbox(&mut looks.has_box, "compact box, measured");
-        ui.checkbox(&mut looks.has_closed_form, "compact box, closed form")
+        let looks = &mut self.settings.view;
+        ui.checkbox(&mut looks.profile, "profile curve");
+        ui.checkbox(&mut looks.compact_box, "compact box, measured");
+        ui.checkbox(&mut looks.closed_form_box, "compact box, closed form")
             .on_hover_text("equations 3 to 7 of the paper; shown while the sheet folds");
         if ui.checkbox(&mut looks.perspective, "perspective").changed() {
-            self.view3d.set_perspective(self.looks.perspective);
+            self.view3d.set_perspective(looks.perspective);
         }
     }
 }
@@ -259,7 +316,10 @@ fn scale(painter: &Painter, ui: &Ui, rect: Rect, range: [f64; 2], title: &str) {
     for k in 0..STEPS {
         let [r, g, b] = colour_of(f64::from(k) / f64::from(STEPS - 1));
         let width = SIZE[0] / STEPS as f32;
-        let place = Rect::from_min_size(bar.min + vec2(k as f32 * width, 0.0), vec2(width + 0.5, SIZE[1]));
+        let place = Rect::from_min_size(
+            bar.min + vec2(k as f32 * width, 0.0),
+            vec2(width + 0.5, SIZE[1]),
+        );
         painter.rect_filled(place, 0.0, Color32::from_rgb(r, g, b));
     }
     let visuals = ui.visuals();
@@ -267,8 +327,20 @@ fn scale(painter: &Painter, ui: &Ui, rect: Rect, range: [f64; 2], title: &str) {
     painter.rect_stroke(bar, 0.0, stroke, StrokeKind::Outside);
     let font = FontId::proportional(11.0);
     let ink = visuals.text_color();
-    painter.text(bar.center_top() - vec2(0.0, 4.0), Align2::CENTER_BOTTOM, title, font.clone(), ink);
+    painter.text(
+        bar.center_top() - vec2(0.0, 4.0),
+        Align2::CENTER_BOTTOM,
+        title,
+        font.clone(),
+        ink,
+    );
     for (x, value) in [(bar.left(), range[0]), (bar.right(), range[1])] {
-        painter.text(pos2(x, bar.bottom() + 4.0), Align2::CENTER_TOP, number(value), font.clone(), ink);
+        painter.text(
+            pos2(x, bar.bottom() + 4.0),
+            Align2::CENTER_TOP,
+            number(value),
+            font.clone(),
+            ink,
+        );
     }
 }

@@ -9,7 +9,11 @@ impl Viewer {
         ui.horizontal(|ui| {
             let label = ui.strong("scene as text");
             ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-                if ui.button("Design").on_hover_text("back to the design panel (F7)").clicked() {
+                if ui
+                    .button("Design")
+                    .on_hover_text("back to the design panel (F7)")
+                    .clicked()
+                {
                     self.settings.panels.text = false;
                 }
             });
@@ -22,20 +26,23 @@ impl Viewer {
         }
         let mut text = self.document.text().to_owned();
         let height = ui.available_height();
-        ScrollArea::both().auto_shrink(false).max_height(height).show(ui, |ui| {
-            let font: FontId = TextStyle::Monospace.resolve(ui.style());
-            let editor = TextEdit::multiline(&mut text)
-                .font(font)
-                .desired_width(f32::INFINITY)
-                .desired_rows(40)
-                .code_editor();
-            let response = ui.add(editor).accessible_name("Scene as text");
-            if response.changed() {
-                self.document.set_text(&text, true);
-            }
-            if response.lost_focus() {
-                self.document.settle();
-            }
-        });
+        ScrollArea::both()
+            .auto_shrink(false)
+            .max_height(height)
+            .show(ui, |ui| {
+                let font: FontId = TextStyle::Monospace.resolve(ui.style());
+                let editor = TextEdit::multiline(&mut text)
+                    .font(font)
+                    .desired_width(f32::INFINITY)
+                    .desired_rows(40)
+                    .code_editor();
+                let response = ui.add(editor).accessible_name("Scene as text");
+                if response.changed() {
+                    self.document.set_text(&text, true);
+                }
+                if response.lost_focus() {
+                    self.document.settle();
+                }
+            });
     }
 }

@@ -1,4 +1,4 @@
-//! How the sheet is shown; remembered from one start to the next.
+//! How the sheet is shown, and which panels are open.
 
 use serde::{Deserialize, Serialize};
 
@@ -22,6 +22,7 @@ pub(crate) enum Colour {
 }
 
 impl Colour {
+    /// Every one.
     pub(crate) const ALL: [Self; 5] = [
         Self::Plain,
         Self::Strain,
@@ -51,50 +52,65 @@ impl Colour {
             Self::Layer => "the place of each facet in the compact stack",
         }
     }
-
-    /// The next one.
-    pub(crate) fn next(self) -> Self {
-        let at = Self::ALL.iter().position(|&c| c == self).unwrap_or(0);
-        Self::ALL[(at + 1) % Self::ALL.len()]
-    }
 }
 
-/// How the sheet is shown, and which panels are open.
-#[expect(clippy::struct_excessive_bools, reason = "one switch each in the window")]
+/// How the sheet is shown.
+#[expect(
+    clippy::struct_excessive_bools,
+    reason = "one switch each in the window"
+)]
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
-pub(crate) struct Looks {
+pub(crate) struct ViewSettings {
     pub(crate) colour: Colour,
-    pub(crate) creases: CreaseClasses,
-    /// All creases, on or off at once.
-    pub(crate) has_creases: bool,
-    pub(crate) has_profile: bool,
-    pub(crate) has_box: bool,
-    pub(crate) has_closed_form: bool,
     pub(crate) perspective: bool,
-    pub(crate) design: bool,
-    pub(crate) results: bool,
-    pub(crate) curves: bool,
+    /// All creases, on or off at once.
+    pub(crate) creases: bool,
+    pub(crate) classes: CreaseClasses,
+    pub(crate) profile: bool,
+    pub(crate) compact_box: bool,
+    pub(crate) closed_form_box: bool,
     /// Whether the sheet is folded anew, without contact, after every edit.
     pub(crate) folds_at_once: bool,
     pub(crate) repeat: Repeat,
 }
 
-impl Default for Looks {
+impl Default for ViewSettings {
     fn default() -> Self {
         Self {
             colour: Colour::default(),
-            creases: CreaseClasses::default(),
-            has_creases: true,
-            has_profile: true,
-            has_box: false,
-            has_closed_form: true,
             perspective: false,
-            design: true,
-            results: true,
-            curves: true,
+            creases: true,
+            classes: CreaseClasses::default(),
+            profile: true,
+            compact_box: false,
+            closed_form_box: true,
             folds_at_once: true,
             repeat: Repeat::default(),
+        }
+    }
+}
+
+/// Which panels are open.
+#[expect(clippy::struct_excessive_bools, reason = "one switch a panel")]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+pub(crate) struct PanelSettings {
+    pub(crate) design: bool,
+    pub(crate) plots: bool,
+    pub(crate) verdict: bool,
+    pub(crate) record: bool,
+    pub(crate) text: bool,
+}
+
+impl Default for PanelSettings {
+    fn default() -> Self {
+        Self {
+            design: true,
+            plots: true,
+            verdict: true,
+            record: false,
+            text: false,
         }
     }
 }
