@@ -3,6 +3,7 @@
 use eframe::egui::{Context, Grid, Id, Key, Modal, Modifiers, RichText, ScrollArea, Ui};
 
 use super::shortcuts::{Group, SHORTCUTS};
+use super::theme::modal_frame;
 
 /// The groups of the two columns.
 const COLUMNS: [&[Group]; 2] = [
@@ -55,11 +56,13 @@ pub(crate) fn show_help(ctx: &Context, open: &mut bool) {
         return;
     }
     let room = ctx.content_rect().size();
-    let modal = Modal::new(Id::new("help")).show(ctx, |ui| {
-        ui.set_width((room.x - 60.0).clamp(200.0, 760.0));
+    let modal = Modal::new(Id::unique("help")).frame(modal_frame(ctx));
+    let modal = modal.show(ctx, |ui| {
+        ui.set_width((room.x - 80.0).clamp(200.0, 760.0));
         ui.heading("Help");
-        let mut scroll = ScrollArea::vertical().auto_shrink([false, true]);
-        scroll = scroll.max_height((room.y - 120.0).max(80.0));
+        let height = (room.y - 140.0).max(80.0);
+        let scroll = ScrollArea::vertical().auto_shrink([false, true]);
+        let scroll = scroll.max_height(height).min_scrolled_height(height);
         scroll.show(ui, contents);
         ui.separator();
         let close = ui.button("Close").clicked();
@@ -119,17 +122,18 @@ fn keys(ui: &mut Ui, group: Group) {
 fn table(ui: &mut Ui, name: &str, rows: impl Iterator<Item = (String, String)>) {
     title(ui, name);
     let half = 0.5 * ui.available_width() - 12.0;
-    Grid::new(name)
-        .num_columns(2)
+    let grid = Grid::new(name).num_columns(2).spacing([8.0, 2.0]);
+    let grid = grid
+        .min_row_height(16.0)
         .min_col_width(half)
-        .max_col_width(half)
-        .show(ui, |ui| {
-            for (what, how) in rows {
-                ui.label(what);
-                ui.label(RichText::new(how).weak());
-                ui.end_row();
-            }
-        });
+        .max_col_width(half);
+    grid.show(ui, |ui| {
+        for (what, how) in rows {
+            ui.label(what);
+            ui.label(RichText::new(how).weak());
+            ui.end_row();
+        }
+    });
 }
 
 fn title(ui: &mut Ui, text: &str) {
@@ -149,7 +153,14 @@ mod tests {
 
     fn harness(look: Look) -> Harness<'static, bool> {
         let builder = Harness::builder().with_size(vec2(900.0, 1000.0));
-        let builder = builder.with_context_setup(move |ctx| apply(ctx, look, 1.0));
+        let theme = if look == Look::Light {
+            Theme::Light
+        } else {
+            Theme::Dark
+        };
+        let builder = builder
+            .with_theme(theme)
+            .with_context_setup(move |ctx| apply(ctx, look, 1.0));
         builder.build_ui_state(|ui, open| show_help(ui.ctx(), open), true)
     }
 
