@@ -1,8 +1,8 @@
 //! The help sheet: keys, mouse, words, version, how to cite.
 
-use eframe::egui::{Context, Grid, Id, Key, Modal, Modifiers, RichText, ScrollArea, Ui};
+use eframe::egui::{Context, Grid, Id, Key, Modal, Modifiers, ScrollArea, Ui};
 
-use super::shortcuts::{Group, SHORTCUTS};
+use super::shortcuts::{Group, SHORTCUTS, written};
 use super::theme::modal_frame;
 
 /// The groups of the two columns.
@@ -11,26 +11,26 @@ const COLUMNS: [&[Group]; 2] = [
     &[Group::View, Group::Colours, Group::Window],
 ];
 
-/// What the mouse does, where.
+/// What the mouse does, where, and how.
 const MOUSE: [(&str, &[(&str, &str)]); 2] = [
     (
         "Mouse in the 3D view",
         &[
-            ("drag", "turn"),
-            ("right or middle drag, shift and drag", "move"),
-            ("wheel, pinch", "nearer or farther"),
-            ("double click", "fit to the window"),
-            ("drag a vertex, in the dynamic engine by hand", "pull it"),
+            ("turn", "drag"),
+            ("move", "right or shift drag"),
+            ("nearer, farther", "wheel or pinch"),
+            ("fit to the window", "double click"),
+            ("pull a vertex by hand", "drag it"),
         ],
     ),
     (
         "Mouse on the profile",
         &[
-            ("drag a point", "move it"),
-            ("double click", "add a point"),
-            ("right click on a point, Delete", "remove it"),
-            ("right or middle drag", "move the canvas"),
-            ("wheel, pinch", "nearer or farther"),
+            ("move a point", "drag it"),
+            ("add a point", "double click"),
+            ("remove a point", "right click on it, Delete"),
+            ("move the canvas", "right or middle drag"),
+            ("nearer, farther", "wheel or pinch"),
         ],
     ),
 ];
@@ -83,13 +83,9 @@ fn contents(ui: &mut Ui) {
     });
     ui.columns(2, |columns| {
         for (ui, (title, gestures)) in columns.iter_mut().zip(MOUSE) {
-            table(
-                ui,
-                title,
-                gestures
-                    .iter()
-                    .map(|&(how, what)| (what.to_owned(), how.to_owned())),
-            );
+            let rows = gestures.iter();
+            let rows = rows.map(|&(what, how)| (what.to_owned(), how.to_owned()));
+            table(ui, title, rows);
         }
     });
     title(ui, "Words");
@@ -108,11 +104,8 @@ fn keys(ui: &mut Ui, group: Group) {
     let rows = SHORTCUTS.iter().filter(|shortcut| shortcut.group == group);
     let ctx = ui.ctx().clone();
     let rows = rows.map(|shortcut| {
-        let keys: Vec<String> = shortcut
-            .keys
-            .iter()
-            .map(|keys| ctx.format_shortcut(keys))
-            .collect();
+        let keys = shortcut.keys.iter().map(|&keys| written(&ctx, keys));
+        let keys: Vec<String> = keys.collect();
         (shortcut.name.to_owned(), keys.join(" or "))
     });
     let rows: Vec<_> = rows.collect();
@@ -130,7 +123,7 @@ fn table(ui: &mut Ui, name: &str, rows: impl Iterator<Item = (String, String)>) 
     grid.show(ui, |ui| {
         for (what, how) in rows {
             ui.label(what);
-            ui.label(RichText::new(how).weak());
+            ui.label(how);
             ui.end_row();
         }
     });

@@ -66,6 +66,10 @@ impl Scale {
 /// How the sheet is shown.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
+#[expect(
+    clippy::struct_excessive_bools,
+    reason = "a switch for each part of the picture"
+)]
 pub(crate) struct ViewSettings {
     pub(crate) perspective: bool,
     pub(crate) creases: bool,
@@ -89,6 +93,7 @@ impl Default for ViewSettings {
 /// Which panels are open.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
+#[expect(clippy::struct_excessive_bools, reason = "a switch a panel")]
 pub(crate) struct PanelSettings {
     pub(crate) design: bool,
     pub(crate) plots: bool,

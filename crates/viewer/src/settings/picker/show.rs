@@ -3,8 +3,8 @@
 use eframe::egui::text::CCursorRange;
 use eframe::egui::text_edit::TextEditState;
 use eframe::egui::{
-    Button, Context, Id, Key, Modal, Modifiers, RichText, ScrollArea, TextEdit, TextStyle, Ui,
-    text::CCursor,
+    Button, Context, Id, Key, Memory, Modal, Modifiers, RichText, ScrollArea, TextEdit, TextStyle,
+    Ui, text::CCursor,
 };
 
 use super::super::theme::modal_frame;
@@ -46,7 +46,7 @@ impl Picker {
 
     /// Keys that move through the list, unless another control has the focus.
     fn press_keys(&mut self, ui: &Ui) -> Option<Picked> {
-        let focused = ui.memory(|memory| memory.focused());
+        let focused = ui.memory(Memory::focused);
         if self.overwrites.is_some() || focused.is_some_and(|id| id != text_id()) {
             return None;
         }
