@@ -350,7 +350,7 @@ pub(crate) fn keys_of(ctx: &Context, command: Command) -> String {
 /// Keys as the system writes them; signs as signs.
 pub(super) fn written(ctx: &Context, keys: KeyboardShortcut) -> String {
     let sign = keys.logical_key.symbol_or_name();
-    if keys.modifiers.is_none() && sign.is_ascii() {
+    if keys.modifiers.is_none() && (sign.is_ascii() || keys.logical_key == Key::Minus) {
         sign.to_owned()
     } else {
         ctx.format_shortcut(&keys)

@@ -290,7 +290,7 @@ mod tests {
         if let Some(folder) = std::env::var_os(FOLDER) {
             let mut window = UnsavedScenes::in_folder(Path::new(&folder)).unwrap();
             window.keep(&edited(9)).unwrap();
-            std::thread::sleep(Duration::from_secs(60));
+            std::thread::sleep(Duration::from_mins(1));
         }
         let folder = tempfile::tempdir().unwrap();
         let name = "settings::unsaved::tests::a_scene_of_a_killed_process_is_offered_and_that_of_a_living_one_is_not";
