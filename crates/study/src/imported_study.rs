@@ -264,4 +264,9 @@ impl SceneSource {
         source.give("pattern.file", name);
         Some(source)
     }
+
+    /// Whether [`Self::read`] takes a file for a crease pattern.
+    pub fn is_pattern(path: &Path) -> bool {
+        Self::of_pattern(path).is_some()
+    }
 }

@@ -1,10 +1,10 @@
 //! The file of a scene: written whole or not at all; and files that a scene names, seen from where it lies.
 
-use std::fs::{File, OpenOptions};
+use std::fs::{File, OpenOptions, Permissions};
 use std::io::{self, ErrorKind, Write as _};
 use std::path::{Component, Path, PathBuf};
 
-use foldmotion_study::{Scene, StudyError};
+use foldmotion_study::{Scene, SceneSource, StudyError};
 use thiserror::Error;
 
 /// Why a scene was not saved.
@@ -39,19 +39,13 @@ pub(crate) enum SaveError {
 /// Scenes larger than this are no scenes.
 const MOST_BYTES: u64 = 16 << 20;
 
-/// Whether a file is a crease pattern by its name.
-pub(super) fn is_pattern(path: &Path) -> bool {
-    let ending = path.extension().and_then(|e| e.to_str());
-    ending.is_some_and(|e| e.eq_ignore_ascii_case("fold") || e.eq_ignore_ascii_case("svg"))
-}
-
 /// Refuses what is no file, or too large for a scene.
 pub(super) fn check_readable(path: &Path) -> Result<(), StudyError> {
     let checked = std::fs::metadata(path).and_then(|metadata| {
         if !metadata.is_file() {
             return Err(io::Error::other("it is no file"));
         }
-        if metadata.len() > MOST_BYTES && !is_pattern(path) {
+        if metadata.len() > MOST_BYTES && !SceneSource::is_pattern(path) {
             let size = metadata.len();
             let message = format!("it has {size} bytes: scenes have {MOST_BYTES} at most");
             return Err(io::Error::other(message));
@@ -71,7 +65,7 @@ pub(super) fn check_readable(path: &Path) -> Result<(), StudyError> {
 pub(crate) fn write_whole(path: &Path, text: &str, durable: bool) -> io::Result<()> {
     let target = path.canonicalize().unwrap_or_else(|_| path.to_owned());
     let permissions = std::fs::metadata(&target).map(|m| m.permissions()).ok();
-    if permissions.as_ref().is_some_and(|p| p.readonly()) {
+    if permissions.as_ref().is_some_and(Permissions::readonly) {
         return Err(io::Error::new(
             ErrorKind::PermissionDenied,
             "it is read-only",

@@ -50,7 +50,7 @@ impl Document {
     pub(crate) fn open(path: &Path) -> Result<Self, StudyError> {
         file::check_readable(path)?;
         let source = SceneSource::read(path)?;
-        if !file::is_pattern(path) {
+        if !SceneSource::is_pattern(path) {
             return Ok(Self::with(
                 path.to_owned(),
                 Some(path.to_owned()),
@@ -100,6 +100,18 @@ impl Document {
         name.to_string_lossy().into_owned()
     }
 
+    /// The folder that it lies in.
+    pub(crate) fn folder(&self) -> PathBuf {
+        file::folder_of(&self.place)
+    }
+
+    /// The name it is to be saved under, unless another is chosen.
+    pub(crate) fn name_to_save(&self) -> String {
+        let place = self.place.with_extension("toml");
+        let name = place.file_name().unwrap_or_default();
+        name.to_string_lossy().into_owned()
+    }
+
     pub(crate) fn text(&self) -> &str {
         &self.text
     }
@@ -136,7 +148,7 @@ impl Document {
 
     /// How the scene names a file, so that it is found from where the scene lies.
     pub(crate) fn name_of(&self, path: &Path) -> String {
-        file::seen_from(&file::folder_of(&self.place), path)
+        file::seen_from(&self.folder(), path)
     }
 
     /// Makes the text say `scene`: only what differs is written. False, and nothing is changed, where the text has errors
@@ -151,12 +163,13 @@ impl Document {
             return false;
         };
         let says = SceneSource::new(&self.place, text.clone()).scene();
-        if says.is_ok_and(|says| says == scene) {
-            self.put(text.into(), label, continues);
-            true
-        } else {
-            false
+        if !says.is_ok_and(|says| says == scene) {
+            return false;
         }
+        self.record(text.into(), label, continues);
+        self.scene = scene;
+        self.error = None;
+        true
     }
 
     /// Replaces the text, as edited by hand.
@@ -194,16 +207,21 @@ impl Document {
     }
 
     fn put(&mut self, text: Arc<str>, label: &str, continues: bool) {
-        if text == self.text {
-            return;
+        if text != self.text {
+            self.record(text, label, continues);
+            self.read_text();
         }
+    }
+
+    fn record(&mut self, text: Arc<str>, label: &str, continues: bool) {
         let step = Step {
             label: label.to_owned(),
             before: self.text.clone(),
             after: text.clone(),
         };
         self.history.record(step, continues);
-        self.take(text);
+        self.text = text;
+        self.revision += 1;
     }
 
     fn take(&mut self, text: Arc<str>) {
@@ -258,17 +276,17 @@ impl Document {
     /// # Errors
     /// [`SaveError::Ending`] for the name of a crease pattern, [`SaveError::Write`]; the scene is then as before.
     pub(crate) fn save_as(&mut self, path: &Path) -> Result<(), SaveError> {
-        if file::is_pattern(path) {
+        if SceneSource::is_pattern(path) {
             return Err(SaveError::Ending {
                 path: path.to_owned(),
             });
         }
-        let (old, new) = (file::folder_of(&self.place), file::folder_of(path));
+        let (old, new) = (self.folder(), file::folder_of(path));
         let moved = |text: &str| moved_text(text, &old, &new);
         let text = moved(&self.text).unwrap_or_else(|| self.text.to_string());
         write(path, &text)?;
         self.history.rewrite(moved);
-        self.place = path.to_owned();
+        path.clone_into(&mut self.place);
         self.path = Some(path.to_owned());
         self.saved = text.into();
         self.history.settle();

@@ -121,6 +121,7 @@ fn a_crease_pattern_opens_as_a_scene_that_names_it_and_is_never_overwritten() {
     let mut document = Document::open(&scenes().join("imported/crane.fold")).unwrap();
     assert_eq!(document.text(), "[pattern]\nfile = \"crane.fold\"\n");
     assert_eq!((document.path(), document.is_modified()), (None, false));
+    assert_eq!(document.name_to_save(), "crane.toml");
     assert!(foldmotion_study::Study::resolve(&document.source()).is_ok());
     let folder = tempfile::tempdir().unwrap();
     let pattern = folder.path().join("x.FOLD");

@@ -1,8 +1,9 @@
 //! The help sheet: keys, mouse, words, version, how to cite.
 
-use eframe::egui::{Context, Grid, Id, Key, Modal, Modifiers, RichText, ScrollArea, Ui};
+use eframe::egui::{Context, Grid, Id, Key, Modal, Modifiers, ScrollArea, Ui};
 
-use super::shortcuts::{Group, SHORTCUTS};
+use super::shortcuts::{Group, SHORTCUTS, written};
+use super::theme::modal_frame;
 
 /// The groups of the two columns.
 const COLUMNS: [&[Group]; 2] = [
@@ -10,26 +11,26 @@ const COLUMNS: [&[Group]; 2] = [
     &[Group::View, Group::Colours, Group::Window],
 ];
 
-/// What the mouse does, where.
+/// What the mouse does, where, and how.
 const MOUSE: [(&str, &[(&str, &str)]); 2] = [
     (
         "Mouse in the 3D view",
         &[
-            ("drag", "turn"),
-            ("right or middle drag, shift and drag", "move"),
-            ("wheel, pinch", "nearer or farther"),
-            ("double click", "fit to the window"),
-            ("drag a vertex, in the dynamic engine by hand", "pull it"),
+            ("turn", "drag"),
+            ("move", "right or shift drag"),
+            ("nearer, farther", "wheel or pinch"),
+            ("fit to the window", "double click"),
+            ("pull a vertex by hand", "drag it"),
         ],
     ),
     (
         "Mouse on the profile",
         &[
-            ("drag a point", "move it"),
-            ("double click", "add a point"),
-            ("right click on a point, Delete", "remove it"),
-            ("right or middle drag", "move the canvas"),
-            ("wheel, pinch", "nearer or farther"),
+            ("move a point", "drag it"),
+            ("add a point", "double click"),
+            ("remove a point", "right click on it, Delete"),
+            ("move the canvas", "right or middle drag"),
+            ("nearer, farther", "wheel or pinch"),
         ],
     ),
 ];
@@ -55,11 +56,13 @@ pub(crate) fn show_help(ctx: &Context, open: &mut bool) {
         return;
     }
     let room = ctx.content_rect().size();
-    let modal = Modal::new(Id::new("help")).show(ctx, |ui| {
-        ui.set_width((room.x - 60.0).clamp(200.0, 760.0));
+    let modal = Modal::new(Id::unique("help")).frame(modal_frame(ctx));
+    let modal = modal.show(ctx, |ui| {
+        ui.set_width((room.x - 80.0).clamp(200.0, 760.0));
         ui.heading("Help");
-        let mut scroll = ScrollArea::vertical().auto_shrink([false, true]);
-        scroll = scroll.max_height((room.y - 120.0).max(80.0));
+        let height = (room.y - 140.0).max(80.0);
+        let scroll = ScrollArea::vertical().auto_shrink([false, true]);
+        let scroll = scroll.max_height(height).min_scrolled_height(height);
         scroll.show(ui, contents);
         ui.separator();
         let close = ui.button("Close").clicked();
@@ -80,13 +83,9 @@ fn contents(ui: &mut Ui) {
     });
     ui.columns(2, |columns| {
         for (ui, (title, gestures)) in columns.iter_mut().zip(MOUSE) {
-            table(
-                ui,
-                title,
-                gestures
-                    .iter()
-                    .map(|&(how, what)| (what.to_owned(), how.to_owned())),
-            );
+            let rows = gestures.iter();
+            let rows = rows.map(|&(what, how)| (what.to_owned(), how.to_owned()));
+            table(ui, title, rows);
         }
     });
     title(ui, "Words");
@@ -105,11 +104,8 @@ fn keys(ui: &mut Ui, group: Group) {
     let rows = SHORTCUTS.iter().filter(|shortcut| shortcut.group == group);
     let ctx = ui.ctx().clone();
     let rows = rows.map(|shortcut| {
-        let keys: Vec<String> = shortcut
-            .keys
-            .iter()
-            .map(|keys| ctx.format_shortcut(keys))
-            .collect();
+        let keys = shortcut.keys.iter().map(|&keys| written(&ctx, keys));
+        let keys: Vec<String> = keys.collect();
         (shortcut.name.to_owned(), keys.join(" or "))
     });
     let rows: Vec<_> = rows.collect();
@@ -119,17 +115,18 @@ fn keys(ui: &mut Ui, group: Group) {
 fn table(ui: &mut Ui, name: &str, rows: impl Iterator<Item = (String, String)>) {
     title(ui, name);
     let half = 0.5 * ui.available_width() - 12.0;
-    Grid::new(name)
-        .num_columns(2)
+    let grid = Grid::new(name).num_columns(2).spacing([8.0, 2.0]);
+    let grid = grid
+        .min_row_height(16.0)
         .min_col_width(half)
-        .max_col_width(half)
-        .show(ui, |ui| {
-            for (what, how) in rows {
-                ui.label(what);
-                ui.label(RichText::new(how).weak());
-                ui.end_row();
-            }
-        });
+        .max_col_width(half);
+    grid.show(ui, |ui| {
+        for (what, how) in rows {
+            ui.label(what);
+            ui.label(how);
+            ui.end_row();
+        }
+    });
 }
 
 fn title(ui: &mut Ui, text: &str) {
@@ -149,7 +146,14 @@ mod tests {
 
     fn harness(look: Look) -> Harness<'static, bool> {
         let builder = Harness::builder().with_size(vec2(900.0, 1000.0));
-        let builder = builder.with_context_setup(move |ctx| apply(ctx, look, 1.0));
+        let theme = if look == Look::Light {
+            Theme::Light
+        } else {
+            Theme::Dark
+        };
+        let builder = builder
+            .with_theme(theme)
+            .with_context_setup(move |ctx| apply(ctx, look, 1.0));
         builder.build_ui_state(|ui, open| show_help(ui.ctx(), open), true)
     }
 

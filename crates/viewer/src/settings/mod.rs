@@ -52,7 +52,8 @@ impl Default for Scale {
 impl Scale {
     /// The factor; the nearest of [`SCALES`] whatever was stored.
     pub(crate) fn factor(self) -> f32 {
-        let far = |scale: &f32| (scale - self.0).abs();
+        let wanted = self.0.clamp(SCALES[0], SCALES[SCALES.len() - 1]);
+        let far = |scale: &f32| (scale - wanted).abs();
         let nearest = SCALES.into_iter().min_by(|a, b| far(a).total_cmp(&far(b)));
         nearest.unwrap_or(SCALES[0])
     }

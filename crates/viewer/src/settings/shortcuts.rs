@@ -1,6 +1,6 @@
 //! Every command of the window with its keys: one table that input is matched against and the help sheet shows.
 
-use eframe::egui::{Context, Event, Id, Key, KeyboardShortcut, Modifiers};
+use eframe::egui::{Context, Event, Id, Key, KeyboardShortcut, Memory, Modifiers, Popup};
 
 /// What can be asked of the window.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -351,7 +351,17 @@ pub(crate) fn name_of(command: Command) -> &'static str {
 /// The keys of a command as the system writes them, such as `Ctrl+S`.
 pub(crate) fn keys_of(ctx: &Context, command: Command) -> String {
     let keys = of(command).and_then(|shortcut| shortcut.keys.first());
-    keys.map_or_else(String::new, |keys| ctx.format_shortcut(keys))
+    keys.map_or_else(String::new, |&keys| written(ctx, keys))
+}
+
+/// Keys as the system writes them; signs as signs.
+pub(super) fn written(ctx: &Context, keys: KeyboardShortcut) -> String {
+    let sign = keys.logical_key.symbol_or_name();
+    if keys.modifiers.is_none() && (sign.is_ascii() || keys.logical_key == Key::Minus) {
+        sign.to_owned()
+    } else {
+        ctx.format_shortcut(&keys)
+    }
 }
 
 fn of(command: Command) -> Option<&'static Shortcut> {
@@ -368,7 +378,9 @@ pub(crate) fn pressed(ctx: &Context, canvas: Option<Id>) -> Vec<Command> {
     if ctx.memory(|memory| memory.top_modal_layer().is_some()) {
         return Vec::new();
     }
-    let focus = match ctx.memory(|memory| memory.focused()) {
+    let focus = match ctx.memory(Memory::focused) {
+        // Escape closes a menu before it cancels a run.
+        None if Popup::is_any_open(ctx) => Focus::Control,
         None => Focus::None,
         Some(_) if ctx.text_edit_focused() => Focus::Text,
         focused if focused == canvas => Focus::Canvas,
@@ -409,7 +421,7 @@ fn command_of(event: &Event, focus: Focus) -> Option<Command> {
     };
     let shortcut = SHORTCUTS.iter().find(|shortcut| {
         let mut keys = shortcut.keys.iter();
-        keys.any(|keys| matches(keys, key, modifiers) && !is_kept(keys, focus))
+        keys.any(|&keys| matches(keys, key, modifiers) && !is_kept(keys, focus))
     })?;
     let repeats = matches!(
         shortcut.command,
@@ -419,7 +431,7 @@ fn command_of(event: &Event, focus: Focus) -> Option<Command> {
 }
 
 /// Whether these keys were pressed; signs may need shift, as `?` does on many keyboards.
-fn matches(keys: &KeyboardShortcut, key: Key, mut modifiers: Modifiers) -> bool {
+fn matches(keys: KeyboardShortcut, key: Key, mut modifiers: Modifiers) -> bool {
     if matches!(key, Key::Plus | Key::Questionmark | Key::Equals) {
         modifiers.shift = keys.modifiers.shift;
     }
@@ -427,7 +439,7 @@ fn matches(keys: &KeyboardShortcut, key: Key, mut modifiers: Modifiers) -> bool 
 }
 
 /// Whether what has the focus needs these keys itself.
-fn is_kept(keys: &KeyboardShortcut, focus: Focus) -> bool {
+fn is_kept(keys: KeyboardShortcut, focus: Focus) -> bool {
     let is_arrow = matches!(keys.logical_key, Key::ArrowLeft | Key::ArrowRight);
     let zooms = matches!(keys.logical_key, Key::Plus | Key::Equals | Key::Minus);
     let presses = matches!(keys.logical_key, Key::Space | Key::Enter | Key::Escape);
@@ -471,7 +483,7 @@ mod tests {
                     let Event::Key { key, modifiers, .. } = event else {
                         return false;
                     };
-                    matches(other, key, modifiers)
+                    matches(*other, key, modifiers)
                 })
             });
             assert_eq!(found.count(), 1, "{keys:?}");
@@ -500,23 +512,24 @@ mod tests {
         let input = RawInput {
             events: vec![
                 key(Key::S, Modifiers::COMMAND),
-                key(Key::S, CTRL_SHIFT),
-                key(Key::S, Modifiers::NONE),
+                key(Key::Z, CTRL_SHIFT),
+                key(Key::A, Modifiers::NONE),
                 key(Key::Questionmark, Modifiers::SHIFT),
                 key(Key::B, Modifiers::SHIFT),
                 key(Key::B, Modifiers::ALT),
             ],
             ..RawInput::default()
         };
-        let _ = ctx.run_ui(input, |ui| {
+        let output = ctx.run_ui(input, |ui| {
             commands.extend(pressed(ui.ctx(), None));
             left = ui.input(|input| input.events.len());
         });
+        output.drop_without_applying_deltas();
         assert_eq!(
             commands,
             [
                 Command::Save,
-                Command::SaveAs,
+                Command::Redo,
                 Command::Help,
                 Command::ClosedFormBox
             ]
@@ -571,6 +584,7 @@ mod tests {
     fn keys_are_written_as_the_system_does() {
         let ctx = Context::default();
         assert!(["Ctrl+S", "⌘S", "Cmd+S"].contains(&&*keys_of(&ctx, Command::Save)));
+        assert_eq!(keys_of(&ctx, Command::Faster), "+");
         assert_eq!(name_of(Command::Save), "Save");
     }
 }

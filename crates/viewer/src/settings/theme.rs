@@ -54,6 +54,11 @@ pub(crate) fn apply(ctx: &egui::Context, look: Look, scale: f32) {
     ctx.set_zoom_factor(scale);
 }
 
+/// What stands around a modal.
+pub(super) fn modal_frame(ctx: &egui::Context) -> egui::Frame {
+    egui::Frame::window(&ctx.global_style()).inner_margin(14.0)
+}
+
 /// The colours that make the difference between dark and light.
 struct Palette {
     ground: Color32,
@@ -72,7 +77,7 @@ const DARK: Palette = Palette {
     line: Color32::from_rgb(58, 61, 66),
     text: Color32::from_rgb(214, 216, 219),
     accent: Color32::from_rgb(92, 164, 224),
-    chosen: Color32::from_rgb(34, 74, 110),
+    chosen: Color32::from_rgb(30, 62, 94),
 };
 
 const LIGHT: Palette = Palette {

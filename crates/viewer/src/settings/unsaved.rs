@@ -282,6 +282,46 @@ mod tests {
         assert_eq!(fourth.left().count(), 0);
     }
 
+    /// Where the other process of the test below keeps its scene.
+    const FOLDER: &str = "FOLDMOTION_TEST_UNSAVED";
+
+    #[test]
+    fn a_scene_of_a_killed_process_is_offered_and_that_of_a_living_one_is_not() {
+        if let Some(folder) = std::env::var_os(FOLDER) {
+            let mut window = UnsavedScenes::in_folder(Path::new(&folder)).unwrap();
+            window.keep(&edited(9)).unwrap();
+            std::thread::sleep(Duration::from_mins(1));
+        }
+        let folder = tempfile::tempdir().unwrap();
+        let name = "settings::unsaved::tests::a_scene_of_a_killed_process_is_offered_and_that_of_a_living_one_is_not";
+        let mut other = std::process::Command::new(std::env::current_exe().unwrap())
+            .args(["--exact", name])
+            .env(FOLDER, folder.path())
+            .stdout(std::process::Stdio::null())
+            .spawn()
+            .unwrap();
+        let is_kept = || {
+            let entries = std::fs::read_dir(folder.path()).unwrap();
+            entries
+                .flatten()
+                .any(|e| e.path().extension().is_some_and(|e| e == "json"))
+        };
+        while !is_kept() {
+            assert!(other.try_wait().unwrap().is_none());
+            std::thread::sleep(Duration::from_millis(10));
+        }
+        let offered = || {
+            UnsavedScenes::in_folder(folder.path())
+                .unwrap()
+                .left()
+                .count()
+        };
+        assert_eq!(offered(), 0);
+        other.kill().unwrap();
+        other.wait().unwrap();
+        assert_eq!(offered(), 1);
+    }
+
     #[test]
     fn ten_are_kept_and_what_is_discarded_is_gone() {
         let folder = tempfile::tempdir().unwrap();

@@ -31,6 +31,12 @@ impl Change {
     fn shared(&self) -> usize {
         self.old.len().min(self.new.len())
     }
+
+    /// The elements that come, each with its index.
+    fn inserted<'a>(&self, new: &'a [Value]) -> impl Iterator<Item = (usize, &'a Value)> + use<'a> {
+        let start = self.new.start + self.shared();
+        (start..).zip(&new[start..self.new.end.max(start)])
+    }
 }
 
 /// Changes the elements of a list that says `old`.
@@ -57,8 +63,8 @@ pub(super) fn edit(list: &mut Array, old: &[Value], new: &[Value]) {
     for _ in shared..change.old.len() {
         remove(list, change.old.start + shared);
     }
-    for index in change.new.start + shared..change.new.end {
-        insert(list, index, literal::literal(&new[index]));
+    for (index, value) in change.inserted(new) {
+        insert(list, index, literal::literal(value));
     }
 }
 
@@ -163,10 +169,10 @@ pub(super) fn edit_tables(
         let removed = tables.remove(change.old.start + shared);
         keep_above(&removed, place);
     }
-    for index in change.new.start + shared..change.new.end {
+    for (index, value) in change.inserted(new) {
         let neighbour = tables.get(index.saturating_sub(1));
         let at = neighbour.and_then(toml_edit::Table::position);
-        if let Value::Table(inner) = &new[index] {
+        if let Value::Table(inner) = value {
             tables.insert(index, literal::table(inner, at.unwrap_or(place.position)));
         }
     }

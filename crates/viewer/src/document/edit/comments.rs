@@ -41,15 +41,12 @@ pub(super) fn take_all(document: &mut DocumentMut) -> String {
 pub(super) fn adopt(document: &mut DocumentMut, orphans: Vec<Orphan>) {
     for Orphan { position, comment } in orphans.into_iter().rev() {
         let next = next_position(document.as_table(), position);
-        match next.and_then(|next| table_at(document.as_table_mut(), next)) {
-            Some(table) => {
-                let own = text_of(table.decor().prefix());
-                table.decor_mut().set_prefix(comment + &own);
-            }
-            None => {
-                let own = text_of(Some(document.trailing()));
-                document.set_trailing(comment + &own);
-            }
+        if let Some(table) = next.and_then(|next| table_at(document.as_table_mut(), next)) {
+            let own = text_of(table.decor().prefix());
+            table.decor_mut().set_prefix(comment + &own);
+        } else {
+            let own = text_of(Some(document.trailing()));
+            document.set_trailing(comment + &own);
         }
     }
 }

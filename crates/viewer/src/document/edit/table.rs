@@ -64,12 +64,11 @@ fn edit_inline(table: &mut InlineTable, old: &Keys, new: &Keys) {
         if before == Some(value) {
             continue;
         }
-        match table.get_mut(key) {
-            Some(written) => edit_value(written, before, value),
-            None => {
-                table.insert(key, literal::literal(value));
-                respaced = true;
-            }
+        if let Some(written) = table.get_mut(key) {
+            edit_value(written, before, value);
+        } else {
+            table.insert(key, literal::literal(value));
+            respaced = true;
         }
     }
     if respaced && !has_comment(&table.to_string()) {

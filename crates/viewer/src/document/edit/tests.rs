@@ -1,5 +1,6 @@
 //! Texts of every style, edited to say what other scenes say.
 
+use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
 use foldmotion_study::{FIRST_SCENE, Scene, SceneSource};
@@ -151,10 +152,10 @@ fn written(table: &Table, style: Style) -> String {
                 match value {
                     Value::Table(inner) => {
                         for (k, v) in inner {
-                            lines += &format!("{key}.{k} = {} # beside\n", inline(v));
+                            writeln!(lines, "{key}.{k} = {} # beside", inline(v)).unwrap();
                         }
                     }
-                    other => lines += &format!("{key} = {}\n", inline(other)),
+                    other => writeln!(lines, "{key} = {}", inline(other)).unwrap(),
                 }
             }
             lines
@@ -201,7 +202,7 @@ proptest! {
                 text += "\n";
                 continue;
             }
-            text += &format!("# above {number}.\n{line}  # beside {number}.\n");
+            writeln!(text, "# above {number}.\n{line}  # beside {number}.").unwrap();
             beside.push((line.split('=').next().unwrap().trim().to_owned(), number));
         }
         let b: Scene = b.try_into().unwrap();
@@ -261,11 +262,11 @@ fn a_changed_value_stands_in_its_place_with_its_comment() {
     let text = by(FIRST_SCENE, |scene| scene.sheet.rows = Some(9));
     assert_eq!(text, FIRST_SCENE.replace("rows = 7 ", "rows = 9 "));
     let whole = by("[sheet]\nwidth = 5 # W\n", |scene| {
-        scene.sheet.width = Some(6.0)
+        scene.sheet.width = Some(6.0);
     });
     assert_eq!(whole, "[sheet]\nwidth = 6 # W\n");
     let part = by("[sheet]\nwidth = 5 # W\n", |scene| {
-        scene.sheet.width = Some(0.1 + 0.2)
+        scene.sheet.width = Some(0.1 + 0.2);
     });
     assert_eq!(part, "[sheet]\nwidth = 0.30000000000000004 # W\n");
 }
@@ -314,7 +315,7 @@ fn a_point_between_others_leaves_their_lines_as_they_are() {
     );
     assert!(more.contains("\n    [1.0, 0.5],"), "{more}");
     let moved = by(text, |scene| {
-        scene.profile.control_points.as_mut().unwrap()[1][1] = 0.5
+        scene.profile.control_points.as_mut().unwrap()[1][1] = 0.5;
     });
     assert_eq!(moved, text.replace("[2, 0]", "[2, 0.5]"));
     let line = by("[profile]\npoints = [[0, 0], [1, 1]]\n", |scene| {

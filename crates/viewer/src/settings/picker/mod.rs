@@ -21,6 +21,10 @@ pub(crate) enum Picked {
 
 /// A modal in which a file is chosen.
 #[derive(Debug)]
+#[expect(
+    clippy::struct_excessive_bools,
+    reason = "what is asked of the next frame is a switch each"
+)]
 pub(crate) struct Picker {
     title: String,
     saves: bool,

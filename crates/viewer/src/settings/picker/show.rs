@@ -3,10 +3,11 @@
 use eframe::egui::text::CCursorRange;
 use eframe::egui::text_edit::TextEditState;
 use eframe::egui::{
-    Button, Context, Id, Key, Modal, Modifiers, RichText, ScrollArea, TextEdit, TextStyle, Ui,
-    text::CCursor,
+    Button, Context, Id, Key, Memory, Modal, Modifiers, RichText, ScrollArea, TextEdit, TextStyle,
+    Ui, text::CCursor,
 };
 
+use super::super::theme::modal_frame;
 use super::{Picked, Picker};
 
 /// Crumbs shown of a long path.
@@ -16,16 +17,17 @@ impl Picker {
     /// Shows the picker; tells when it is done, after which it is not to be shown again.
     pub(crate) fn show(&mut self, ctx: &Context) -> Option<Picked> {
         let room = ctx.content_rect().size();
-        let modal = Modal::new(Id::new("picker")).show(ctx, |ui| {
-            ui.set_width((room.x - 60.0).clamp(240.0, 640.0));
+        let modal = Modal::new(Id::unique("picker")).frame(modal_frame(ctx));
+        let modal = modal.show(ctx, |ui| {
+            ui.set_width((room.x - 80.0).clamp(240.0, 640.0));
             let picked = self.press_keys(ui);
             ui.heading(&self.title);
             self.crumbs(ui);
             ui.separator();
-            let height = (room.y - 240.0).clamp(80.0, 380.0);
+            let height = (room.y - 260.0).clamp(80.0, 380.0);
             let chosen = ui.horizontal_top(|ui| {
                 self.list_places(ui, height);
-                self.list(ui, height)
+                ui.vertical(|ui| self.list(ui, height)).inner
             });
             ui.separator();
             picked.or(chosen.inner).or(self.foot(ui))
@@ -44,7 +46,7 @@ impl Picker {
 
     /// Keys that move through the list, unless another control has the focus.
     fn press_keys(&mut self, ui: &Ui) -> Option<Picked> {
-        let focused = ui.memory(|memory| memory.focused());
+        let focused = ui.memory(Memory::focused);
         if self.overwrites.is_some() || focused.is_some_and(|id| id != text_id()) {
             return None;
         }
@@ -118,9 +120,11 @@ impl Picker {
             .auto_shrink([false, false])
             .max_height(height);
         if std::mem::take(&mut self.scrolls) {
-            let pitch = row + ui.spacing().item_spacing.y;
+            let gap = ui.spacing().item_spacing.y;
+            let pitch = row + gap;
             let above = self.selected.unwrap_or(0) as f32 * pitch - 0.5 * height;
-            scroll = scroll.vertical_scroll_offset(above.max(0.0));
+            let most = self.shown.len() as f32 * pitch - gap - height;
+            scroll = scroll.vertical_scroll_offset(above.min(most).max(0.0));
         }
         if self.shown.is_empty() {
             ui.weak("nothing to choose here");
@@ -215,7 +219,7 @@ impl Picker {
 }
 
 fn text_id() -> Id {
-    Id::new("picker text")
+    Id::unique("picker text")
 }
 
 /// What was completed is gone on with at its end.
