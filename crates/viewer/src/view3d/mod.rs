@@ -210,15 +210,12 @@ impl View3d {
         rect: Rect,
     ) -> Option<TextureId> {
         let render_state = render_state?;
-        let watch = self
-            .watch
-            .take()
-            .filter(|w| w.is_over(&render_state.device));
+        let watch = self.watch.take().filter(|w| w.is_over(render_state));
         let watch = watch.unwrap_or_else(|| {
             // Another device, such as after a loss: all is made anew.
             self.gpu = None;
             self.failures = 0;
-            Watch::over(&render_state.device)
+            Watch::over(render_state)
         });
         let loss = watch.loss();
         self.watch = Some(watch);
