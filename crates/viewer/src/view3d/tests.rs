@@ -126,7 +126,7 @@ fn on_screen(harness: &Harness<'_, Window>, point: DVec3) -> Pos2 {
 }
 
 fn drag(harness: &mut Harness<'_, Window>, button: PointerButton, from: Pos2, to: Pos2) {
-    let press = |pos, pressed| eframe::egui::Event::PointerButton {
+    let press = |pos, pressed| egui::Event::PointerButton {
         pos,
         button,
         pressed,
@@ -244,11 +244,11 @@ fn drags_turn_and_move_and_the_wheel_zooms_about_the_pointer() {
     let at = on_screen(&harness, point);
     harness.hover_at(at);
     harness.step();
-    harness.event(eframe::egui::Event::MouseWheel {
-        unit: eframe::egui::MouseWheelUnit::Point,
+    harness.event(egui::Event::MouseWheel {
+        unit: egui::MouseWheelUnit::Point,
         delta: Vec2::new(0.0, 60.0),
-        source: eframe::egui::MouseWheelSource::Unknown,
-        phase: eframe::egui::TouchPhase::Move,
+        source: egui::MouseWheelSource::Unknown,
+        phase: egui::TouchPhase::Move,
         modifiers: Modifiers::NONE,
     });
     harness.run();
@@ -332,9 +332,9 @@ fn with_gpu(mut window: Window, size: [f32; 2], is_dark: bool) -> Harness<'stati
     let state = device();
     window.render_state = Some(state.clone());
     let theme = if is_dark {
-        eframe::egui::Theme::Dark
+        egui::Theme::Dark
     } else {
-        eframe::egui::Theme::Light
+        egui::Theme::Light
     };
     Harness::builder()
         .with_size(Vec2::from(size))
@@ -356,6 +356,8 @@ fn render(harness: &mut Harness<'_, Window>, name: &str) {
     keep(&image, name);
 }
 
+type Change = fn(&mut Window);
+
 #[test]
 #[cfg_attr(
     not(gpu_tests),
@@ -369,10 +371,12 @@ fn an_idle_frame_draws_nothing_and_every_change_draws_once() {
     assert!(drawn > 0);
     harness.run_steps(5);
     assert_eq!(harness.state().view.drawn(), drawn);
-    let mut changes: Vec<(&str, Box<dyn Fn(&mut Window)>)> = Vec::new();
-    changes.push(("state", Box::new(|w| w.state_key += 1)));
-    changes.push(("camera", Box::new(|w| w.view.orbit.azimuth += 3.0)));
-    changes.push(("style", Box::new(|w| w.subject.style.line_width = 3.0)));
+    let changes: [(&str, Change); 4] = [
+        ("state", |w| w.state_key += 1),
+        ("camera", |w| w.view.orbit.azimuth += 3.0),
+        ("style", |w| w.subject.style.line_width = 3.0),
+        ("colours", |w| w.dress = Dress::Units),
+    ];
     for (what, change) in changes {
         change(harness.state_mut());
         harness.run_steps(3);
@@ -470,4 +474,47 @@ fn every_state_colour_and_look_is_drawn() {
 fn half_folded(window: &Window) -> Vec<DVec3> {
     let pairs = window.positions.iter().zip(window.subject.units.compact());
     pairs.map(|(a, b)| a.lerp(b, 0.6)).collect()
+}
+
+/// Prints what a frame takes, with its state new in each: of the view alone on the processor, and until it is drawn.
+#[test]
+#[ignore = "measures and proves nothing: run it alone, with FOLDMOTION_GPU_TESTS=yes"]
+fn how_long_a_frame_takes() {
+    let wait = || eframe::egui_wgpu::wgpu::PollType::wait_indefinitely();
+    for (rows, columns) in [(7, 5), (35, 5), (100, 5)] {
+        let subject = Subject::new(Case::S, 1.6, rows, columns);
+        let flat = subject.units.sheet.planar();
+        let (vertices, faces) = (flat.len(), subject.units.sheet.faces.len());
+        let mut harness = with_gpu(Window::new(subject, flat), [1016.0, 716.0], true);
+        harness.run();
+        let device = harness
+            .state()
+            .render_state
+            .as_ref()
+            .unwrap()
+            .device
+            .clone();
+        let mut shown = Vec::new();
+        let mut drawn = Vec::new();
+        let mut idle = Vec::new();
+        for _ in 0..20 {
+            harness.state_mut().state_key += 1;
+            let start = std::time::Instant::now();
+            harness.step();
+            shown.push(start.elapsed().as_secs_f64() * 1e3);
+            device.poll(wait()).unwrap();
+            drawn.push(start.elapsed().as_secs_f64() * 1e3);
+            let start = std::time::Instant::now();
+            harness.step();
+            idle.push(start.elapsed().as_secs_f64() * 1e3);
+        }
+        let median = |times: &mut Vec<f64>| {
+            times.sort_by(f64::total_cmp);
+            times[times.len() / 2]
+        };
+        let [shown, drawn, idle] = [&mut shown, &mut drawn, &mut idle].map(median);
+        println!(
+            "{rows}x{columns}, {vertices} vertices, {faces} triangles: frame {shown:.2} ms on the processor, {drawn:.2} ms until drawn, idle {idle:.2} ms"
+        );
+    }
 }

@@ -21,8 +21,8 @@ use super::CreaseClasses;
 use super::eye::Eye;
 use super::paints::{PaintKey, paints};
 use super::picture::Picture;
+use super::pose::Pose;
 use super::segments::{Segment, segments};
-use super::state::State;
 
 /// Lines are this part of the distance of layers before their paper.
 const PULL: f64 = 0.2;
@@ -33,7 +33,7 @@ pub(super) const VIEW_FLOATS: usize = 48;
 /// What a frame is drawn from besides the picture.
 pub(super) struct View<'a> {
     pub(super) eye: &'a Eye,
-    pub(super) state: &'a State,
+    pub(super) pose: &'a Pose,
     /// In pixels.
     pub(super) size: [u32; 2],
     pub(super) pixels_per_point: f32,
@@ -185,14 +185,14 @@ impl Gpu {
             return false;
         }
         self.drawn.state_key = key;
-        self.origin = view.state.ball.middle;
+        self.origin = view.pose.ball.middle;
         let place = |p: &DVec3| {
             let [x, y, z] = (*p - self.origin).as_vec3().to_array();
             [x, y, z, 0.0]
         };
         let places = picture.positions.iter().flat_map(place).collect();
         self.places.write(&self.queue, places);
-        self.layers.write(&self.queue, view.state.before.concat());
+        self.layers.write(&self.queue, view.pose.before.concat());
         true
     }
 
@@ -305,7 +305,7 @@ fn bind(
 /// The shader's `View`.
 fn numbers(picture: &Picture<'_>, view: &View<'_>, origin: DVec3, encodes: bool) -> Vec<f32> {
     let style: &Style = picture.style;
-    let layer = view.state.layer(picture.sheet.unit_length);
+    let layer = view.pose.layer(picture.sheet.unit_length);
     let half_width = 0.5 * style.line_width as f32 * view.pixels_per_point;
     let [width, height] = view.size.map(|side| side as f32);
     let light = |[r, g, b]: [u8; 3]| Rgba::from(Color32::from_rgb(r, g, b)).to_array();

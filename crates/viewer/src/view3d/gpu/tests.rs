@@ -114,18 +114,14 @@ pub(in super::super) fn device() -> RenderState {
 
 /// Draws `picture` in pixels.
 fn drawn(gpu: &mut Gpu, picture: &Picture<'_>, orbit: &Orbit) -> Image {
-    let state = State::new(picture);
+    let pose = Pose::new(picture);
     let size = DVec2::from(SIZE.map(f64::from));
-    let eye = Eye::new(
-        orbit,
-        size,
-        state
-            .ball
-            .with(segments(picture).iter().flat_map(|s| s.ends)),
-    );
+    let lines = segments(picture);
+    let ball = pose.ball.with(lines.iter().flat_map(|line| line.ends));
+    let eye = Eye::new(orbit, size, ball);
     let view = View {
         eye: &eye,
-        state: &state,
+        pose: &pose,
         size: SIZE,
         pixels_per_point: 1.0,
     };
@@ -419,8 +415,8 @@ fn overlays_are_drawn_before_paper_and_dimmed_behind_it_and_handles_never() {
     let middle = orbit.centre;
     let line = |z: f64| {
         [
-            middle + DVec3::new(-0.5, 0.1, z),
-            middle + DVec3::new(0.5, 0.1, z),
+            middle + DVec3::new(-0.5, 0.0, z),
+            middle + DVec3::new(0.5, 0.0, z),
         ]
     };
     let colour = |gpu: &mut Gpu, overlays: &[Overlay<'_>], handle| {
@@ -429,11 +425,7 @@ fn overlays_are_drawn_before_paper_and_dimmed_behind_it_and_handles_never() {
             handle,
             ..picture
         };
-        let at = orbit
-            .camera(SIZE)
-            .unwrap()
-            .project(middle + DVec3::new(0.0, 0.1, 0.0));
-        drawn(gpu, &picture, &orbit).pixel(at.x.round() as u32, at.y.round() as u32)
+        drawn(gpu, &picture, &orbit).pixel(SIZE[0] / 2, SIZE[1] / 2)
     };
     let [above, below] = [1.0, -1.0].map(line);
     let before = colour(&mut gpu, &path(&above), None);
@@ -444,7 +436,7 @@ fn overlays_are_drawn_before_paper_and_dimmed_behind_it_and_handles_never() {
         behind[1] < paper[1] && behind[1] > 100,
         "{behind:?} on {paper:?}"
     );
-    let dots = [middle + DVec3::new(0.0, 0.1, -1.0)];
+    let dots = [middle + DVec3::new(0.0, 0.0, -1.0)];
     let dot = [Overlay {
         shape: Shape::Dots(&dots),
         colour: RED,
