@@ -31,9 +31,9 @@ const AMBIENT = 0.42;
 // The part of a colour that the back of a tinted triangle keeps.
 const TINTED_BACK = 0.62;
 
+// Rows of tables have 512 cells.
 fn cell(source: texture_2d<f32>, index: u32) -> vec4f {
-    let width = textureDimensions(source).x;
-    return textureLoad(source, vec2u(index % width, index / width), 0);
+    return textureLoad(source, vec2u(index & 511u, index >> 9u), 0);
 }
 
 fn place(vertex: u32) -> vec3f {

@@ -54,7 +54,7 @@ impl Layers {
             above[low].push(high);
         }
         let mut below = reversed(&above);
-        let [heights, depths] = [&mut above, &mut below].map(heights);
+        let [heights, depths] = [&mut above, &mut below].map(|arrows| heights(arrows));
         let mut tops = vec![0; count];
         for face in 0..count {
             tops[stacks[face]] = heights[face].max(tops[stacks[face]]);
@@ -133,7 +133,7 @@ fn reversed(arrows: &[Vec<usize>]) -> Vec<Vec<usize>> {
 }
 
 /// The longest chain below each triangle (Kahn 1962, Topological sorting of large networks).
-fn heights(above: &mut Vec<Vec<usize>>) -> Vec<i32> {
+fn heights(above: &mut [Vec<usize>]) -> Vec<i32> {
     let mut below = vec![0_usize; above.len()];
     for list in above.iter_mut() {
         list.sort_unstable();

@@ -174,8 +174,8 @@ impl View3d {
     }
 
     fn hit(&self, picture: &Picture<'_>, at: Option<DVec2>) -> Hit {
-        match (&self.state, at) {
-            (Some(state), Some(at)) => self.points.hit(picture, state, at),
+        match (&self.pose, at) {
+            (Some(pose), Some(at)) => self.points.hit(picture, pose, at),
             _ => Hit::default(),
         }
     }

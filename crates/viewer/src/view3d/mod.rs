@@ -12,8 +12,8 @@ mod paints;
 mod pick;
 mod picture;
 mod plain;
+mod pose;
 mod segments;
-mod state;
 #[cfg(test)]
 mod tests;
 
@@ -28,7 +28,7 @@ use self::gpu::{Gpu, Watch};
 use self::orbit::Turning;
 use self::pick::Points;
 use self::plain::Plain;
-use self::state::State;
+use self::pose::Pose;
 
 pub(crate) use self::creases::CreaseClasses;
 pub(crate) use self::orbit::Orbit;
@@ -48,7 +48,7 @@ pub(crate) struct View3d {
     /// The middle of the sheet, about which the view turns.
     pivot: DVec3,
     was_shown: bool,
-    state: Option<State>,
+    pose: Option<Pose>,
     points: Points,
     /// The vertex that is being pulled.
     pulled: Option<u32>,
@@ -135,7 +135,7 @@ impl View3d {
 
     /// The least and the largest width of the view.
     fn widths(&self) -> [f64; 2] {
-        let radius = self.state.as_ref().map_or(1.0, |state| state.ball.radius);
+        let radius = self.pose.as_ref().map_or(1.0, |pose| pose.ball.radius);
         [1e-3, 1e2].map(|part| part * radius.max(f64::MIN_POSITIVE))
     }
 
@@ -154,7 +154,7 @@ impl View3d {
         self.follow(picture);
         let size = DVec2::new(f64::from(rect.width()), f64::from(rect.height()));
         self.move_camera(ui, &response, rect, picture);
-        let ball = self.state.as_ref().map(|state| state.ball);
+        let ball = self.pose.as_ref().map(|pose| pose.ball);
         let overlays = segments::segments(picture);
         let ends = overlays.iter().flat_map(|segment| segment.ends);
         let ball = ball.unwrap_or_else(|| eye::Ball::around([])).with(ends);
@@ -168,38 +168,35 @@ impl View3d {
                 pull: None,
             };
         }
-        match self.texture(ui, render_state, picture, &eye, rect) {
-            Some(texture) => {
-                let whole = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
-                ui.painter().image(texture, rect, whole, Color32::WHITE);
-            }
-            None => {
-                let painter = ui.painter_at(rect);
-                self.plain
-                    .paint(&painter, rect, picture, &eye, self.state.as_ref());
-                self.note(ui, rect, render_state.is_some());
-            }
+        if let Some(texture) = self.texture(ui, render_state, picture, &eye, rect) {
+            let whole = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
+            ui.painter().image(texture, rect, whole, Color32::WHITE);
+        } else {
+            let painter = ui.painter_at(rect);
+            self.plain
+                .paint(&painter, rect, picture, &eye, self.pose.as_ref());
+            self.note(ui, rect, render_state.is_some());
         }
         self.look_under_pointer(ui, response, rect, picture, &eye)
     }
 
     fn is_drawable(&self, picture: &Picture<'_>) -> bool {
-        picture.is_whole() && self.state.as_ref().is_some_and(|state| state.is_finite)
+        picture.is_whole() && self.pose.as_ref().is_some_and(|pose| pose.is_finite)
     }
 
     /// Follows the sheet and its state.
     fn follow(&mut self, picture: &Picture<'_>) {
-        match &mut self.state {
-            Some(state) => {
-                state.follow(picture);
+        match &mut self.pose {
+            Some(pose) => {
+                pose.follow(picture);
             }
-            None => self.state = Some(State::new(picture)),
+            None => self.pose = Some(Pose::new(picture)),
         }
         if self.is_drawable(picture) {
             self.pivot = self
-                .state
+                .pose
                 .as_ref()
-                .map_or(self.pivot, |state| state.ball.middle);
+                .map_or(self.pivot, |pose| pose.ball.middle);
             if !self.was_shown {
                 self.fitting = Some(picture.positions.to_vec());
             }
@@ -216,15 +213,12 @@ impl View3d {
         rect: Rect,
     ) -> Option<TextureId> {
         let render_state = render_state?;
-        let watch = self
-            .watch
-            .take()
-            .filter(|w| w.is_over(&render_state.device));
+        let watch = self.watch.take().filter(|w| w.is_over(render_state));
         let watch = watch.unwrap_or_else(|| {
             // Another device, such as after a loss: all is made anew.
             self.gpu = None;
             self.failures = 0;
-            Watch::over(&render_state.device)
+            Watch::over(render_state)
         });
         let loss = watch.loss();
         self.watch = Some(watch);
@@ -267,13 +261,13 @@ impl View3d {
             None => Gpu::new(render_state)?,
         };
         let gpu = self.gpu.insert(gpu);
-        let state = self.state.as_ref().ok_or("no state")?;
+        let pose = self.pose.as_ref().ok_or("no pose")?;
         let most = render_state.device.limits().max_texture_dimension_2d as f32;
         let wanted = rect.size() * ui.pixels_per_point();
         let part = (most / wanted.max_elem()).min(1.0);
         let view = gpu::View {
             eye,
-            state,
+            pose,
             size: [wanted.x, wanted.y].map(|side| pixels(side * part)),
             pixels_per_point: ui.pixels_per_point() * part,
         };

@@ -96,14 +96,25 @@ fn of_units(sheet: &Sheet) -> Vec<u32> {
     sheet.face_facets.iter().map(paint).collect()
 }
 
+/// From the lowest to the highest of all stacks; what lies in none is paper.
 fn of_layers(sheet: &Sheet, layers: Option<&Layers>) -> Vec<u32> {
-    let heights = layers.map_or(&[][..], |layers| &layers.heights);
-    let top = heights.iter().copied().max().unwrap_or(0);
-    if top == 0 || heights.len() != sheet.faces.len() {
+    let layers = layers.filter(|layers| layers.heights.len() == sheet.faces.len());
+    let Some(layers) = layers else {
         return vec![PAPER; sheet.faces.len()];
-    }
-    let paint = |&height: &i32| packed(TINT, colour_of(f64::from(height) / f64::from(top)));
-    heights.iter().map(paint).collect()
+    };
+    let top = layers.heights.iter().copied().max().unwrap_or(0).max(1);
+    let paint = |(&height, before): (&i32, &[i32; 2])| {
+        if *before == [0; 2] {
+            return PAPER;
+        }
+        packed(TINT, colour_of(f64::from(height) / f64::from(top)))
+    };
+    layers
+        .heights
+        .iter()
+        .zip(&layers.before)
+        .map(paint)
+        .collect()
 }
 
 #[cfg(test)]

@@ -5,7 +5,7 @@ use glam::{DVec2, DVec3};
 
 use super::eye::Eye;
 use super::picture::Picture;
-use super::state::State;
+use super::pose::Pose;
 
 /// How far a vertex may be from the pointer, in points.
 const REACH: f64 = 12.0;
@@ -41,7 +41,7 @@ impl Points {
     }
 
     /// What is seen at `at`.
-    pub(super) fn hit(&self, picture: &Picture<'_>, state: &State, at: DVec2) -> Hit {
+    pub(super) fn hit(&self, picture: &Picture<'_>, pose: &Pose, at: DVec2) -> Hit {
         let slack = TIE_TOLERANCE * picture.sheet.unit_length;
         let near = |point: &DVec3| point.truncate().distance_squared(at);
         let mut vertices: Vec<(u32, &DVec3)> = (0..).zip(&self.points).collect();
@@ -53,10 +53,10 @@ impl Points {
         });
         let seen = vertices.into_iter().find(|&(vertex, point)| {
             let others = |face: &[u32; 3]| !face.contains(&vertex);
-            let front = self.front(picture, state, point.truncate(), others);
+            let front = self.front(picture, pose, point.truncate(), others);
             front.is_none_or(|(_, depth)| depth <= point.z + slack)
         });
-        let front = self.front(picture, state, at, |_| true);
+        let front = self.front(picture, pose, at, |_| true);
         Hit {
             vertex: seen.map(|(vertex, _)| vertex),
             face: front.map(|(face, _)| face),
@@ -67,7 +67,7 @@ impl Points {
     fn front(
         &self,
         picture: &Picture<'_>,
-        state: &State,
+        pose: &Pose,
         at: DVec2,
         asked: impl Fn(&[u32; 3]) -> bool,
     ) -> Option<(u32, f64)> {
@@ -80,7 +80,7 @@ impl Points {
             let Some((depth, side)) = depth_at([a, b, c], at) else {
                 continue;
             };
-            let depth = depth - state.sunk(index as usize, side, picture.sheet.unit_length);
+            let depth = depth - pose.sunk(index as usize, side, picture.sheet.unit_length);
             if front.is_none_or(|(_, nearest)| depth > nearest) && asked(face) {
                 front = Some((index, depth));
             }

@@ -13,8 +13,8 @@ use super::creases::ink;
 use super::eye::Eye;
 use super::paints::{MARK, PaintKey, TINT, VALUE, paints, unpacked};
 use super::picture::Picture;
+use super::pose::Pose;
 use super::segments::segments;
-use super::state::State;
 
 /// The light of the films and of the shader.
 const LIGHT: DVec3 = DVec3::new(-0.52, 0.66, 0.54);
@@ -23,7 +23,7 @@ const TINTED_BACK: f32 = 0.62;
 
 /// What the triangles were drawn from.
 #[derive(Debug, PartialEq)]
-struct Key {
+struct Source {
     sheet_key: u64,
     state_key: u64,
     creases: CreaseClasses,
@@ -37,7 +37,7 @@ struct Key {
 /// The triangles, kept as long as they stay.
 #[derive(Debug, Default)]
 pub(super) struct Plain {
-    key: Option<Key>,
+    source: Option<Source>,
     mesh: Arc<Mesh>,
 }
 
@@ -48,9 +48,9 @@ impl Plain {
         rect: Rect,
         picture: &Picture<'_>,
         eye: &Eye,
-        state: Option<&State>,
+        pose: Option<&Pose>,
     ) {
-        let key = Some(Key {
+        let source = Some(Source {
             sheet_key: picture.sheet_key,
             state_key: picture.state_key,
             creases: picture.creases,
@@ -60,9 +60,9 @@ impl Plain {
             eye: *eye,
             corner: rect.min,
         });
-        if self.key != key {
-            self.key = key;
-            self.mesh = Arc::new(mesh(picture, eye, rect.min, state));
+        if self.source != source {
+            self.source = source;
+            self.mesh = Arc::new(mesh(picture, eye, rect.min, pose));
         }
         painter.add(Shape::Mesh(Arc::clone(&self.mesh)));
         for segment in segments(picture) {
@@ -81,7 +81,7 @@ fn at(corner: Pos2, point: DVec3) -> Pos2 {
 }
 
 /// The triangles and their lines from the farthest to the nearest.
-fn mesh(picture: &Picture<'_>, eye: &Eye, corner: Pos2, state: Option<&State>) -> Mesh {
+fn mesh(picture: &Picture<'_>, eye: &Eye, corner: Pos2, pose: Option<&Pose>) -> Mesh {
     let sheet = picture.sheet;
     let points: Vec<DVec3> = picture.positions.iter().map(|&p| eye.project(p)).collect();
     let mut lines = vec![Vec::new(); sheet.faces.len()];
@@ -100,7 +100,7 @@ fn mesh(picture: &Picture<'_>, eye: &Eye, corner: Pos2, state: Option<&State>) -
             let corners = sheet.faces[index].map(|v| points[v as usize]);
             let n = normal(picture, eye, index);
             let side = if is_front(corners) { 1.0 } else { -1.0 };
-            let sunk = state.map_or(0.0, |state| state.sunk(index, side, sheet.unit_length));
+            let sunk = pose.map_or(0.0, |pose| pose.sunk(index, side, sheet.unit_length));
             let depth = corners.iter().map(|p| p.z).sum::<f64>() / 3.0;
             let light = painted(picture, paints[index], side, side * n);
             (depth - sunk, index, light)

@@ -11,6 +11,16 @@ use glam::{DVec2, DVec3};
 use super::gpu::tests::{Subject, device, keep};
 use super::*;
 
+/// What a window shows of its sheet.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Dress {
+    Plain,
+    Strain,
+    Units,
+    Layers,
+    Overlays,
+}
+
 /// A view and what it saw last.
 struct Window {
     view: View3d,
@@ -19,6 +29,7 @@ struct Window {
     state_key: u64,
     render_state: Option<RenderState>,
     can_pull: bool,
+    dress: Dress,
     /// Pull, vertex and face that were seen.
     pull: Option<Handle>,
     vertex: Option<u32>,
@@ -34,16 +45,58 @@ impl Window {
             state_key: 1,
             render_state: None,
             can_pull: false,
+            dress: Dress::Plain,
             pull: None,
             vertex: None,
             face: None,
         }
     }
 
+    /// Goes to another state and fits it.
+    fn take(&mut self, positions: Vec<DVec3>) {
+        self.view.fit(positions.clone());
+        self.positions = positions;
+        self.state_key += 1;
+    }
+
     fn show(&mut self, ui: &mut Ui) {
         let mut picture = self.subject.picture(&self.positions, self.state_key);
         picture.can_pull = self.can_pull;
         picture.background = ui.visuals().extreme_bg_color;
+        let values: Vec<f64> = (0..picture.sheet.faces.len()).map(|k| k as f64).collect();
+        let range = [0.0, values.len() as f64];
+        let (low, high) = (DVec3::new(-2.2, 0.0, 0.0), DVec3::new(2.2, 8.0, 2.2));
+        let edges = [DVec3::X, DVec3::Y, DVec3::Z].map(|axis| axis * (high - low));
+        let colour = ui.visuals().hyperlink_color;
+        let overlay = |shape, width| Overlay {
+            shape,
+            colour,
+            width,
+        };
+        let path = [low, 0.5 * (low + high), high];
+        let overlays = [
+            overlay(Shape::Box(low, edges), 1.5),
+            overlay(Shape::Path(&path), 2.0),
+            overlay(Shape::Dots(&path), 8.0),
+        ];
+        picture.colours = match self.dress {
+            Dress::Strain => Colours::Values {
+                values: &values,
+                range,
+                key: 0,
+            },
+            Dress::Units => Colours::Units,
+            Dress::Layers => Colours::Layers,
+            Dress::Plain | Dress::Overlays => Colours::Plain,
+        };
+        if self.dress == Dress::Overlays {
+            picture.overlays = &overlays;
+            picture.flash = &[3, 40, 41, 42];
+            picture.handle = Some(Handle {
+                vertex: 30,
+                target: high,
+            });
+        }
         let seen = self.view.show(ui, self.render_state.as_ref(), &picture);
         (self.vertex, self.face) = (seen.vertex, seen.face);
         self.pull = seen.pull.or(self.pull);
@@ -73,7 +126,7 @@ fn on_screen(harness: &Harness<'_, Window>, point: DVec3) -> Pos2 {
 }
 
 fn drag(harness: &mut Harness<'_, Window>, button: PointerButton, from: Pos2, to: Pos2) {
-    let press = |pos, pressed| eframe::egui::Event::PointerButton {
+    let press = |pos, pressed| egui::Event::PointerButton {
         pos,
         button,
         pressed,
@@ -191,11 +244,11 @@ fn drags_turn_and_move_and_the_wheel_zooms_about_the_pointer() {
     let at = on_screen(&harness, point);
     harness.hover_at(at);
     harness.step();
-    harness.event(eframe::egui::Event::MouseWheel {
-        unit: eframe::egui::MouseWheelUnit::Point,
+    harness.event(egui::Event::MouseWheel {
+        unit: egui::MouseWheelUnit::Point,
         delta: Vec2::new(0.0, 60.0),
-        source: eframe::egui::MouseWheelSource::Unknown,
-        phase: eframe::egui::TouchPhase::Move,
+        source: egui::MouseWheelSource::Unknown,
+        phase: egui::TouchPhase::Move,
         modifiers: Modifiers::NONE,
     });
     harness.run();
@@ -279,9 +332,9 @@ fn with_gpu(mut window: Window, size: [f32; 2], is_dark: bool) -> Harness<'stati
     let state = device();
     window.render_state = Some(state.clone());
     let theme = if is_dark {
-        eframe::egui::Theme::Dark
+        egui::Theme::Dark
     } else {
-        eframe::egui::Theme::Light
+        egui::Theme::Light
     };
     Harness::builder()
         .with_size(Vec2::from(size))
@@ -303,6 +356,8 @@ fn render(harness: &mut Harness<'_, Window>, name: &str) {
     keep(&image, name);
 }
 
+type Change = fn(&mut Window);
+
 #[test]
 #[cfg_attr(
     not(gpu_tests),
@@ -316,10 +371,12 @@ fn an_idle_frame_draws_nothing_and_every_change_draws_once() {
     assert!(drawn > 0);
     harness.run_steps(5);
     assert_eq!(harness.state().view.drawn(), drawn);
-    let mut changes: Vec<(&str, Box<dyn Fn(&mut Window)>)> = Vec::new();
-    changes.push(("state", Box::new(|w| w.state_key += 1)));
-    changes.push(("camera", Box::new(|w| w.view.orbit.azimuth += 3.0)));
-    changes.push(("style", Box::new(|w| w.subject.style.line_width = 3.0)));
+    let changes: [(&str, Change); 4] = [
+        ("state", |w| w.state_key += 1),
+        ("camera", |w| w.view.orbit.azimuth += 3.0),
+        ("style", |w| w.subject.style.line_width = 3.0),
+        ("colours", |w| w.dress = Dress::Units),
+    ];
     for (what, change) in changes {
         change(harness.state_mut());
         harness.run_steps(3);
@@ -344,9 +401,18 @@ fn a_lost_device_is_told_and_another_one_draws_again() {
     harness.run();
     assert_eq!(harness.state().view.fault(), None);
     state.device.destroy();
+    // The loss is told when what was under way is done.
+    let wait = eframe::egui_wgpu::wgpu::PollType::wait_indefinitely();
+    let _ = state.device.poll(wait);
     harness.state_mut().view.look(View::Top);
     harness.run();
-    assert!(harness.state().view.fault().is_some());
+    assert!(
+        harness
+            .state()
+            .view
+            .fault()
+            .is_some_and(|f| f.contains("lost"))
+    );
     harness.get_by_label("3D view");
     harness.state_mut().render_state = Some(device());
     harness.run();
@@ -354,34 +420,101 @@ fn a_lost_device_is_told_and_another_one_draws_again() {
     assert!(harness.state().view.drawn() > 0);
 }
 
-/// Shelter-like states, kept as pictures to be looked at.
+/// A shelter of seven rows and five columns.
+fn shelter() -> Window {
+    let subject = Subject::new(Case::S, 1.6, 7, 5);
+    let arch: Vec<DVec2> = (0..=7)
+        .map(|k| {
+            let (sin, cos) = (std::f64::consts::PI * f64::from(k) / 7.0).sin_cos();
+            DVec2::new(-2.247 * cos, 2.247 * sin)
+        })
+        .collect();
+    let deployed = subject.units.deployed(&arch, Facing::Left).unwrap();
+    Window::new(subject, deployed)
+}
+
 #[test]
 #[cfg_attr(
     not(gpu_tests),
     ignore = "no GPU: set FOLDMOTION_GPU_TESTS=yes where there is one"
 )]
-fn every_way_to_colour_is_drawn_in_dark_and_light() {
-    let arch: Vec<DVec2> = (0..=7)
-        .map(|k| {
-            let turn = std::f64::consts::PI * f64::from(k) / 7.0;
-            DVec2::new(-2.2 * turn.cos(), 2.2 * turn.sin())
-        })
-        .collect();
-    for (name, is_dark) in [("dark", true), ("light", false)] {
-        let subject = Subject::new(Case::S, 1.6, 7, 5);
-        let deployed = subject.units.deployed(&arch, Facing::Left);
-        let window = Window::new(subject, deployed.unwrap_or_default());
-        let mut harness = with_gpu(window, [800.0, 560.0], is_dark);
-        render(&mut harness, &format!("deployed-{name}"));
-        assert_eq!(harness.state().view.fault(), None);
+fn every_state_colour_and_look_is_drawn() {
+    for (theme, is_dark) in [("dark", true), ("light", false)] {
+        let mut harness = with_gpu(shelter(), [800.0, 560.0], is_dark);
+        let mut drawn = 0;
+        let mut look = |harness: &mut Harness<'static, Window>, name: &str| {
+            render(harness, &format!("{name}-{theme}"));
+            assert_eq!(harness.state().view.fault(), None, "{name}");
+            assert!(harness.state().view.drawn() > drawn, "{name}");
+            drawn = harness.state().view.drawn();
+        };
+        look(&mut harness, "deployed");
+        harness.state_mut().dress = Dress::Strain;
+        look(&mut harness, "strain");
+        harness.state_mut().dress = Dress::Units;
+        look(&mut harness, "units");
+        let half = half_folded(harness.state());
+        harness.state_mut().dress = Dress::Overlays;
+        harness.state_mut().take(half);
+        look(&mut harness, "half");
         let compact = harness.state().subject.units.compact();
-        harness.state_mut().positions = compact.clone();
-        harness.state_mut().state_key += 1;
-        harness.state_mut().view.fit(compact);
-        render(&mut harness, &format!("compact-{name}"));
+        harness.state_mut().dress = Dress::Plain;
+        harness.state_mut().take(compact);
+        look(&mut harness, "compact");
+        harness.state_mut().dress = Dress::Layers;
+        look(&mut harness, "layers");
         harness.state_mut().view.set_perspective(true);
-        render(&mut harness, &format!("perspective-{name}"));
+        look(&mut harness, "perspective");
         harness.state_mut().render_state = None;
-        render(&mut harness, &format!("plain-{name}"));
+        render(&mut harness, &format!("plain-{theme}"));
+    }
+}
+
+/// Halfway between deployed and compact along straight lines: of no engine, but of layers that come together.
+fn half_folded(window: &Window) -> Vec<DVec3> {
+    let pairs = window.positions.iter().zip(window.subject.units.compact());
+    pairs.map(|(a, b)| a.lerp(b, 0.6)).collect()
+}
+
+/// Prints what a frame takes, with its state new in each: of the view alone on the processor, and until it is drawn.
+#[test]
+#[ignore = "measures and proves nothing: run it alone, with FOLDMOTION_GPU_TESTS=yes"]
+fn how_long_a_frame_takes() {
+    let wait = || eframe::egui_wgpu::wgpu::PollType::wait_indefinitely();
+    for (rows, columns) in [(7, 5), (35, 5), (100, 5)] {
+        let subject = Subject::new(Case::S, 1.6, rows, columns);
+        let flat = subject.units.sheet.planar();
+        let (vertices, faces) = (flat.len(), subject.units.sheet.faces.len());
+        let mut harness = with_gpu(Window::new(subject, flat), [1016.0, 716.0], true);
+        harness.run();
+        let device = harness
+            .state()
+            .render_state
+            .as_ref()
+            .unwrap()
+            .device
+            .clone();
+        let mut shown = Vec::new();
+        let mut drawn = Vec::new();
+        let mut idle = Vec::new();
+        for _ in 0..20 {
+            harness.state_mut().state_key += 1;
+            let start = std::time::Instant::now();
+            harness.step();
+            shown.push(start.elapsed().as_secs_f64() * 1e3);
+            device.poll(wait()).unwrap();
+            drawn.push(start.elapsed().as_secs_f64() * 1e3);
+            let start = std::time::Instant::now();
+            harness.step();
+            idle.push(start.elapsed().as_secs_f64() * 1e3);
+        }
+        let median = |times: &mut Vec<f64>| {
+            times.sort_by(f64::total_cmp);
+            times[times.len() / 2]
+        };
+        let [shown, drawn, idle] = [&mut shown, &mut drawn, &mut idle].map(median);
+        println!(
+            "{rows}x{columns}, {vertices} vertices, {faces} triangles: frame {shown:.2} ms on the processor, {drawn:.2} ms until drawn, idle {idle:.2} ms"
+        );
     }
 }

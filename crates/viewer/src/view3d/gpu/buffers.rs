@@ -3,7 +3,7 @@
 
 use eframe::egui_wgpu::wgpu;
 
-/// Cells in a row of a table.
+/// Cells in a row of a table, as the shader counts them.
 const ROW: u32 = 512;
 
 /// A buffer that grows.
@@ -11,7 +11,7 @@ const ROW: u32 = 512;
 pub(super) struct Buffer {
     label: &'static str,
     usage: wgpu::BufferUsages,
-    buffer: Option<wgpu::Buffer>,
+    held: Option<wgpu::Buffer>,
     /// Records written.
     pub(super) count: u32,
 }
@@ -21,7 +21,7 @@ impl Buffer {
         Self {
             label,
             usage: wgpu::BufferUsages::VERTEX,
-            buffer: None,
+            held: None,
             count: 0,
         }
     }
@@ -39,7 +39,7 @@ impl Buffer {
             return;
         }
         let size = bytes.len() as u64;
-        let buffer = match self.buffer.take() {
+        let buffer = match self.held.take() {
             Some(buffer) if buffer.size() >= size => buffer,
             _ => device.create_buffer(&wgpu::BufferDescriptor {
                 label: Some(self.label),
@@ -49,12 +49,12 @@ impl Buffer {
             }),
         };
         queue.write_buffer(&buffer, 0, bytes);
-        self.buffer = Some(buffer);
+        self.held = Some(buffer);
     }
 
     /// What was written, none where that is nothing.
     pub(super) fn written(&self) -> Option<&wgpu::Buffer> {
-        self.buffer.as_ref().filter(|_| self.count > 0)
+        self.held.as_ref().filter(|_| self.count > 0)
     }
 }
 

@@ -5,36 +5,41 @@ use std::pin::pin;
 use std::sync::{Arc, Mutex, PoisonError};
 use std::task::{Context, Poll, Waker};
 
-use eframe::egui_wgpu::wgpu;
+use eframe::egui::mutex::RwLock;
+use eframe::egui_wgpu::{RenderState, Renderer, wgpu};
 
 /// Letters of a message.
 const LONGEST: usize = 240;
 
 /// Tells whether a device was lost.
-#[derive(Debug)]
 pub(in super::super) struct Watch {
     device: wgpu::Device,
+    /// Tells devices apart: those of two instances may compare as equal.
+    renderer: Arc<RwLock<Renderer>>,
     lost: Arc<Mutex<Option<String>>>,
 }
 
 impl Watch {
-    /// Watches `device`. A device has one watcher, the last.
-    pub(in super::super) fn over(device: &wgpu::Device) -> Self {
+    /// Watches the device of `state`. A device has one watcher, the last.
+    pub(in super::super) fn over(state: &RenderState) -> Self {
         let lost: Arc<Mutex<Option<String>>> = Arc::default();
         let told = Arc::clone(&lost);
-        device.set_device_lost_callback(move |reason, message| {
-            let mut told = told.lock().unwrap_or_else(PoisonError::into_inner);
-            told.get_or_insert_with(|| line(&format!("device lost ({reason:?}) {message}")));
-        });
+        state
+            .device
+            .set_device_lost_callback(move |reason, message| {
+                let mut told = told.lock().unwrap_or_else(PoisonError::into_inner);
+                told.get_or_insert_with(|| line(&format!("device lost ({reason:?}) {message}")));
+            });
         Self {
-            device: device.clone(),
+            device: state.device.clone(),
+            renderer: Arc::clone(&state.renderer),
             lost,
         }
     }
 
-    /// Whether it watches `device`.
-    pub(in super::super) fn is_over(&self, device: &wgpu::Device) -> bool {
-        self.device == *device
+    /// Whether it watches the device of `state`.
+    pub(in super::super) fn is_over(&self, state: &RenderState) -> bool {
+        Arc::ptr_eq(&self.renderer, &state.renderer)
     }
 
     /// Why it was lost, if it was.
@@ -43,6 +48,14 @@ impl Watch {
         let _ = self.device.poll(wgpu::PollType::Poll);
         let lost = self.lost.lock().unwrap_or_else(PoisonError::into_inner);
         lost.clone()
+    }
+}
+
+impl std::fmt::Debug for Watch {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("Watch")
+            .field("lost", &self.lost)
+            .finish_non_exhaustive()
     }
 }
 

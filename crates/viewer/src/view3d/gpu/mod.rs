@@ -6,10 +6,10 @@ mod pipelines;
 mod target;
 #[cfg(test)]
 pub(super) mod tests;
+mod view;
 
 use eframe::egui::{Color32, Rgba, TextureId};
 use eframe::egui_wgpu::{RenderState, wgpu};
-use foldmotion_record::Style;
 use glam::DVec3;
 
 use self::buffers::{Buffer, Table};
@@ -17,27 +17,12 @@ pub(super) use self::fault::Watch;
 use self::fault::caught;
 use self::pipelines::Pipelines;
 use self::target::{Shelf, Target, drawn_format};
+pub(super) use self::view::View;
+use self::view::{VIEW_FLOATS, numbers};
 use super::CreaseClasses;
-use super::eye::Eye;
 use super::paints::{PaintKey, paints};
 use super::picture::Picture;
 use super::segments::{Segment, segments};
-use super::state::State;
-
-/// Lines are this part of the distance of layers before their paper.
-const PULL: f64 = 0.2;
-
-/// Floats of the shader's `View`.
-pub(super) const VIEW_FLOATS: usize = 48;
-
-/// What a frame is drawn from besides the picture.
-pub(super) struct View<'a> {
-    pub(super) eye: &'a Eye,
-    pub(super) state: &'a State,
-    /// In pixels.
-    pub(super) size: [u32; 2],
-    pub(super) pixels_per_point: f32,
-}
 
 /// What the picture was drawn from.
 #[derive(Debug, PartialEq, Default)]
@@ -185,14 +170,14 @@ impl Gpu {
             return false;
         }
         self.drawn.state_key = key;
-        self.origin = view.state.ball.middle;
+        self.origin = view.pose.ball.middle;
         let place = |p: &DVec3| {
             let [x, y, z] = (*p - self.origin).as_vec3().to_array();
             [x, y, z, 0.0]
         };
         let places = picture.positions.iter().flat_map(place).collect();
         self.places.write(&self.queue, places);
-        self.layers.write(&self.queue, view.state.before.concat());
+        self.layers.write(&self.queue, view.pose.before.concat());
         true
     }
 
@@ -300,31 +285,4 @@ fn bind(
             entry(2, wgpu::BindingResource::TextureView(&layers)),
         ],
     })
-}
-
-/// The shader's `View`.
-fn numbers(picture: &Picture<'_>, view: &View<'_>, origin: DVec3, encodes: bool) -> Vec<f32> {
-    let style: &Style = picture.style;
-    let layer = view.state.layer(picture.sheet.unit_length);
-    let half_width = 0.5 * style.line_width as f32 * view.pixels_per_point;
-    let [width, height] = view.size.map(|side| side as f32);
-    let light = |[r, g, b]: [u8; 3]| Rgba::from(Color32::from_rgb(r, g, b)).to_array();
-    let [right, up, toward, scale] = view.eye.rows(origin);
-    let encodes = f32::from(u8::from(encodes));
-    let pulse = picture.pulse.clamp(0.0, 1.0);
-    let rows = [
-        right,
-        up,
-        toward,
-        scale,
-        [width, height, half_width, encodes],
-        [layer as f32, (PULL * layer) as f32, pulse, 0.0],
-        light(style.front),
-        light(style.back),
-        light(style.mark),
-        light(style.border),
-        light(style.mountain),
-        light(style.valley),
-    ];
-    rows.concat()
 }

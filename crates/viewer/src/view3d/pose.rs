@@ -16,7 +16,7 @@ const PARALLEL: [f64; 2] = [0.966, 0.866];
 
 /// A sheet in a state.
 #[derive(Debug)]
-pub(super) struct State {
+pub(super) struct Pose {
     sheet_key: u64,
     state_key: u64,
     /// Each triangle of a stack and the nearest to it.
@@ -31,9 +31,9 @@ pub(super) struct State {
     pub(super) is_finite: bool,
 }
 
-impl State {
+impl Pose {
     pub(super) fn new(picture: &Picture<'_>) -> Self {
-        let mut state = Self {
+        let mut pose = Self {
             sheet_key: picture.sheet_key,
             state_key: picture.state_key,
             pairs: picture.layers.map(neighbours).unwrap_or_default(),
@@ -42,8 +42,8 @@ impl State {
             before: Vec::new(),
             is_finite: false,
         };
-        state.take(picture);
-        state
+        pose.take(picture);
+        pose
     }
 
     /// Follows `picture`; whether another sheet came.
