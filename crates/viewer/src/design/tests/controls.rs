@@ -341,7 +341,11 @@ fn nothing_is_wider_than_a_narrow_panel() {
         for node in harness.root().children_recursive() {
             let node = node.accesskit_node();
             let right = node.raw_bounds().map_or(0.0, |bounds| bounds.x1);
-            assert!(right <= 320.0, "{scene}: {:?} ends at {right}", node.label());
+            assert!(
+                right <= 320.0,
+                "{scene}: {:?} ends at {right}",
+                node.label()
+            );
         }
     }
 }
