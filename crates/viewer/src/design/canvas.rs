@@ -142,8 +142,9 @@ impl Canvas {
         let colour = ui.visuals().hyperlink_color;
         let chords = chords(profile, draft).map(|p| plane.to_screen(p));
         let chords: Vec<_> = chords.collect();
+        let radius = if chords.len() > 60 { 1.8 } else { 2.5 };
         for place in &chords {
-            painter.circle_filled(*place, 2.5, colour);
+            painter.circle_filled(*place, radius, colour);
         }
         painter.line(chords, Stroke::new(1.2, colour));
     }

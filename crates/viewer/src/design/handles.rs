@@ -98,15 +98,15 @@ impl Hand {
             }
         }
         if let Some((index, deed, id)) = deed {
-            self.apply(form, index, deed, id);
+            self.apply(form, index, &deed, id);
         }
     }
 
     /// Does to the scene what was done to a point.
-    fn apply(&mut self, form: &mut Form<'_>, index: usize, deed: Deed, id: Id) {
+    fn apply(&mut self, form: &mut Form<'_>, index: usize, deed: &Deed, id: Id) {
         let profile = &mut form.scene.profile;
         match deed {
-            Deed::Move(point, ongoing) => {
+            &Deed::Move(point, ongoing) => {
                 if let Some(moved) = handles_mut(profile).and_then(|p| p.get_mut(index)) {
                     *moved = point.into();
                     form.record("move point", id, ongoing);
