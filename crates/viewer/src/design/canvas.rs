@@ -8,7 +8,7 @@ use glam::DVec2;
 
 use super::curve::{add_handle, handles, own_profile, vectors};
 use super::form::Form;
-use super::handles::{Hand, MOST_HANDLES};
+use super::handles::{Hand, MOST_HANDLES, rounded_on};
 use super::plane::{Plane, View, bounds, canvas};
 
 /// Samples of the curve that are drawn.
@@ -87,6 +87,7 @@ impl Canvas {
             .map(|traced| traced.points.as_slice())
             .unwrap_or_default();
         let size = bounds(curve.iter().chain(&points).copied());
+        let is_bare = points.is_empty() && curve.is_empty();
         let height = (ui.available_width() * 0.66).clamp(170.0, 300.0);
         let (response, painter) = canvas(ui, height, "profile canvas");
         let plane = self.view.plane(ui, &response, size);
@@ -99,22 +100,33 @@ impl Canvas {
         Hand::paint_polygon(form, ui, &painter, &plane, &points);
         self.hand
             .show(form, ui, &painter, &plane, &points, &mut self.view);
-        if response.double_clicked()
-            && let Some(place) = response.interact_pointer_pos()
-            && !points.is_empty()
-        {
-            let place = plane.to_plane(place);
-            let place = super::handles::rounded_on(&plane, place);
-            if let Some(index) = add_handle(&mut form.scene.profile, place) {
-                self.hand.select(index);
-                form.record("add point", response.id, false);
-            }
-        }
+        self.add_point(form, &response, &plane, points.is_empty());
         if response.clicked() {
             self.hand.select_none();
         }
-        if points.is_empty() && curve.is_empty() {
+        if is_bare {
             note(ui, &painter, &plane, "no curve yet");
+        }
+    }
+
+    /// Adds a point where there was a double click.
+    fn add_point(
+        &mut self,
+        form: &mut Form<'_>,
+        response: &egui::Response,
+        plane: &Plane,
+        has_none: bool,
+    ) {
+        if has_none || !response.double_clicked() {
+            return;
+        }
+        let Some(place) = response.interact_pointer_pos() else {
+            return;
+        };
+        let place = rounded_on(plane, plane.to_plane(place));
+        if let Some(index) = add_handle(&mut form.scene.profile, place) {
+            self.hand.select(index);
+            form.record("add point", response.id, false);
         }
     }
 
@@ -130,8 +142,9 @@ impl Canvas {
         let colour = ui.visuals().hyperlink_color;
         let chords = chords(profile, draft).map(|p| plane.to_screen(p));
         let chords: Vec<_> = chords.collect();
+        let radius = if chords.len() > 60 { 1.8 } else { 2.5 };
         for place in &chords {
-            painter.circle_filled(*place, 2.5, colour);
+            painter.circle_filled(*place, radius, colour);
         }
         painter.line(chords, Stroke::new(1.2, colour));
     }

@@ -90,7 +90,7 @@ fn mesh(ui: &Ui, sheet: &Sheet, plane: &Plane, place: impl Fn(DVec2) -> DVec2) -
         match edge.assignment {
             Assignment::Facet => {}
             Assignment::Mountain => {
-                shapes.push(Shape::line_segment(ends, Stroke::new(1.1, mountain)))
+                shapes.push(Shape::line_segment(ends, Stroke::new(1.1, mountain)));
             }
             Assignment::Border => shapes.push(Shape::line_segment(ends, border)),
             Assignment::Free => shapes.push(Shape::line_segment(ends, free)),

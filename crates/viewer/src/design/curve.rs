@@ -136,16 +136,14 @@ pub(super) fn into_points(scene: &mut Scene, profile: Option<&Profile>) -> bool 
         return false;
     };
     take_over_counts(scene);
-    let points = match model(scene).map(|model| model.shape) {
-        Some(Shape::Points(points)) => points.to_vec(),
-        _ => {
-            let at = |k: usize| profile.position(k as f64 / TAKEN_POINTS as f64);
-            let last = TAKEN_POINTS - usize::from(profile.is_closed());
-            (0..=last)
-                .map(at)
-                .map(|p| rounded(p, profile.magnitude()).into())
-                .collect()
-        }
+    let shape = model(scene).map(|model| model.shape);
+    let points = if let Some(Shape::Points(points)) = shape {
+        points.to_vec()
+    } else {
+        let at = |k: usize| profile.position(k as f64 / TAKEN_POINTS as f64);
+        let last = TAKEN_POINTS - usize::from(profile.is_closed());
+        let size = profile.magnitude();
+        (0..=last).map(|k| rounded(at(k), size).into()).collect()
     };
     scene.profile = ProfileScene {
         points: Some(points),

@@ -11,7 +11,7 @@ use super::{Change, Facts, Fault};
 /// Size of the letters of notes and faults.
 pub(super) const NOTE_SIZE: f32 = 11.0;
 /// Width of the labels on the left of the controls.
-pub(super) const LABEL_WIDTH: f32 = 104.0;
+pub(super) const LABEL_WIDTH: f32 = 100.0;
 /// Tables of a scene that have a section; faults elsewhere stand at the top of the panel.
 const TABLES: [&str; 8] = [
     "profile", "sheet", "division", "material", "motion", "check", "record", "pattern",

@@ -1,7 +1,7 @@
 //! Control points, and points the curve runs through, under the hand.
 
 use eframe::egui::{
-    self, Event, EventFilter, Key, PointerButton, Rect, Response, Sense, Stroke, Ui, Vec2, vec2,
+    self, Event, EventFilter, Id, Key, PointerButton, Rect, Response, Sense, Stroke, Ui, Vec2, vec2,
 };
 use glam::DVec2;
 
@@ -97,20 +97,27 @@ impl Hand {
                 deed = Some((index, done, id));
             }
         }
+        if let Some((index, deed, id)) = deed {
+            self.apply(form, index, &deed, id);
+        }
+    }
+
+    /// Does to the scene what was done to a point.
+    fn apply(&mut self, form: &mut Form<'_>, index: usize, deed: &Deed, id: Id) {
+        let profile = &mut form.scene.profile;
         match deed {
-            Some((index, Deed::Move(point, ongoing), id)) => {
-                if let Some(moved) =
-                    handles_mut(&mut form.scene.profile).and_then(|p| p.get_mut(index))
-                {
+            &Deed::Move(point, ongoing) => {
+                if let Some(moved) = handles_mut(profile).and_then(|p| p.get_mut(index)) {
                     *moved = point.into();
                     form.record("move point", id, ongoing);
                 }
             }
-            Some((index, Deed::Remove, id)) if remove_handle(&mut form.scene.profile, index) => {
-                self.selected = None;
-                form.record("remove point", id, false);
+            Deed::Remove => {
+                if remove_handle(profile, index) {
+                    self.selected = None;
+                    form.record("remove point", id, false);
+                }
             }
-            _ => {}
         }
     }
 

@@ -3,6 +3,7 @@
 //! The panel edits a copy of the scene and hands it back as a [`Change`]; it holds no scene of its own. What it draws of
 //! the sheet comes from the last [`Draft`] that could be made, which may be older than the scene.
 
+mod camera;
 mod canvas;
 mod choice;
 mod closed_forms;

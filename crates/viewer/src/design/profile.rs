@@ -17,12 +17,12 @@ const CLOSED: [Way<Option<Closed>>; 3] = [
     (None, "open", "two ends"),
     (
         Some(Closed::Corner),
-        "with a corner",
+        "corner",
         "returns to its start, with a corner there",
     ),
     (
         Some(Closed::Smooth),
-        "smoothly",
+        "smooth",
         "returns to its start with both derivatives",
     ),
 ];

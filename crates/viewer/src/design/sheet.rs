@@ -1,6 +1,7 @@
 //! The section of the sheet and the division.
 
 use eframe::egui::Ui;
+use foldmotion_study::Draft;
 use foldmotion_study::scene::{
     CaseChoice, DivisionChoice, FacingChoice, FoldingChoice, UnequalChoice,
 };
@@ -241,7 +242,12 @@ fn show_widths(form: &mut Form<'_>, ui: &mut Ui) {
     }
     let sheet = &form.scene.sheet;
     if means_something && sheet.lambda.is_some() || is_common_flap || sheet.offset.is_some() {
-        let limit = size.map(|(w, h)| w / 2.0 - sheet.lambda.unwrap_or(USUAL_LAMBDA) * h / 2.0);
+        let limit = if is_common_flap {
+            let draft = form.draft.and_then(Draft::units);
+            draft.map(|draft| draft.units.unit.width / 2.0 - draft.units.unit.flap)
+        } else {
+            size.map(|(w, h)| w / 2.0 - sheet.lambda.unwrap_or(USUAL_LAMBDA) * h / 2.0)
+        };
         let limit = limit.filter(|&limit| limit > 0.0);
         let field = Field::new(
             "sheet.offset",
@@ -255,7 +261,8 @@ fn show_widths(form: &mut Form<'_>, ui: &mut Ui) {
             .speed(limit.unwrap_or(1.0) / 200.0);
         form.number(ui, &field, &number, |scene| &mut scene.sheet.offset);
         if let Some(limit) = limit {
-            let text = format!("0 < λ < 1; 0 ≤ d < {}", short(limit));
+            let most = if is_common_flap { "≤" } else { "<" };
+            let text = format!("0 < λ {most} 1; 0 ≤ d < {}", short(limit));
             ui.label(note(ui, text));
         }
     }

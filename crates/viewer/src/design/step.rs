@@ -5,7 +5,7 @@ use foldmotion_study::scene::{CreasesChoice, EaseChoice, StageChoice, StepScene}
 
 use super::choice::Way;
 use super::form::{Field, Form};
-use super::number::{Number, Spoken};
+use super::number::{Number, Spoken, control_width};
 
 const CREASES: [Way<CreasesChoice>; 8] = [
     (CreasesChoice::All, "all", "every crease"),
@@ -197,7 +197,7 @@ fn show_what(form: &mut Form<'_>, ui: &mut Ui, index: usize) {
 /// The first and the last row or column.
 fn show_range(form: &mut Form<'_>, ui: &mut Ui, field: &Field, index: usize, of: Range) {
     form.row(ui, field, |form, ui, _| {
-        let width = (ui.available_width() - 24.0) / 2.0;
+        let width = (control_width(ui) - 24.0) / 2.0;
         let Some(step) = form.scene.motion.step.get_mut(index) else {
             return;
         };

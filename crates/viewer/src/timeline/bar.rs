@@ -83,25 +83,19 @@ fn keys(ui: &Ui, response: &Response, playback: &mut Playback, marks: &Marks) ->
 fn buttons(ui: &mut Ui, playback: &mut Playback, marks: &Marks) -> bool {
     let mut moved = false;
     ui.horizontal(|ui| {
-        let (sign, name) = if playback.is_playing {
-            ("⏸", "Pause")
-        } else {
-            ("▶", "Play")
-        };
-        let button = |ui: &mut Ui, sign: &str, name: &str, hint: &str| {
-            ui.add(Button::new(sign).min_size(vec2(26.0, 0.0)))
-                .accessible_name(name)
-                .on_hover_text(hint)
-                .clicked()
-        };
-        if button(ui, "⏮", "Previous frame", "previous frame (comma)") {
+        if icon(ui, Icon::Back, "Previous frame", "previous frame (comma)") {
             playback.step(&marks.frames, false);
             moved = true;
         }
-        if button(ui, sign, name, "play or pause (space)") {
+        let (sign, name) = if playback.is_playing {
+            (Icon::Pause, "Pause")
+        } else {
+            (Icon::Play, "Play")
+        };
+        if icon(ui, sign, name, "play or pause (space)") {
             playback.toggle();
         }
-        if button(ui, "⏭", "Next frame", "next frame (period)") {
+        if icon(ui, Icon::On, "Next frame", "next frame (period)") {
             playback.step(&marks.frames, true);
             moved = true;
         }
@@ -139,6 +133,46 @@ fn buttons(ui: &mut Ui, playback: &mut Playback, marks: &Marks) -> bool {
             .accessible_name("At the end");
     });
     moved
+}
+
+/// Signs of buttons, drawn: not every font has them.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Icon {
+    Back,
+    Play,
+    Pause,
+    On,
+}
+
+/// A button with a sign; whether it was clicked.
+fn icon(ui: &mut Ui, icon: Icon, name: &str, hint: &str) -> bool {
+    let button = Button::new("").min_size(vec2(28.0, 22.0));
+    let response = ui.add(button).accessible_name(name).on_hover_text(hint);
+    let colour = ui.style().interact(&response).fg_stroke.color;
+    let centre = response.rect.center();
+    let painter = ui.painter();
+    let triangle = |x: f32, way: f32| {
+        let corner = |dx: f32, dy: f32| centre + vec2(x + way * dx, dy);
+        let corners = vec![corner(-4.0, -5.0), corner(4.5, 0.0), corner(-4.0, 5.0)];
+        painter.add(Shape::convex_polygon(corners, colour, Stroke::NONE));
+    };
+    let bar = |x: f32| {
+        let size = vec2(3.0, 10.0);
+        painter.rect_filled(Rect::from_center_size(centre + vec2(x, 0.0), size), 0.5, colour);
+    };
+    match icon {
+        Icon::Play => triangle(0.0, 1.0),
+        Icon::Pause => [-3.0, 3.0].into_iter().for_each(bar),
+        Icon::Back => {
+            bar(-5.0);
+            triangle(1.5, -1.0);
+        }
+        Icon::On => {
+            triangle(-1.5, 1.0);
+            bar(5.0);
+        }
+    }
+    response.clicked()
 }
 
 /// What the sheet does at motion time `t`.

@@ -177,7 +177,7 @@ impl Viewer {
             }
         } else {
             let is_on = self.resolved.study.is_some() && self.shown.file.is_none();
-            let button = Button::new(RichText::new("▶ Run").strong());
+            let button = Button::new(RichText::new("Run").strong());
             let hint = format!(
                 "fold, check and report ({})",
                 keys_of(ui.ctx(), Command::Run)

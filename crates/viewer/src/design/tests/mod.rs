@@ -3,6 +3,5 @@
 mod bench;
 mod canvas;
 mod controls;
-#[cfg(gpu_tests)]
 mod pictures;
 mod scenes;

@@ -27,6 +27,7 @@ fn colours(harness: &mut Harness<'static, Bench>, name: &str) -> usize {
 }
 
 #[test]
+#[cfg_attr(not(gpu_tests), ignore = "needs a GPU and FOLDMOTION_GPU_TESTS=yes")]
 fn a_narrow_panel_shows_a_selected_point_the_unit_under_the_pointer_and_faults() {
     let path = scenes().join("omega-sii.toml");
     for (theme, name) in [(Theme::Dark, "dark"), (Theme::Light, "light")] {
@@ -54,6 +55,34 @@ fn a_narrow_panel_shows_a_selected_point_the_unit_under_the_pointer_and_faults()
 }
 
 #[test]
+#[cfg_attr(not(gpu_tests), ignore = "needs a GPU and FOLDMOTION_GPU_TESTS=yes")]
+fn steps_own_camera_and_cases_that_contradict_are_drawn() {
+    let text = "[profile]\nmodel = \"bunny\"\n[sheet]\ncase = \"S\"\nwidth = 30.0\n[material]\npreset = \"paper\"\n\
+                fold_stiffness = 1.5\n[[motion.step]]\nstage = \"fold\"\nrows = [0, 3]\nto = 0.5\n[[motion.step]]\n\
+                stage = \"unfold\"\ncreases = \"diagonals\"\nfrom = 0.25\nto = 0.75\nease = \"smooth\"\n[record]\n\
+                size = [640, 480]\nthickened = 0.02\ncamera = { azimuth = 30.0, elevation = 20.0 }\n";
+    for (theme, name) in [(Theme::Dark, "dark"), (Theme::Light, "light")] {
+        let mut harness = bench_of(
+            &SceneSource::new("own.toml".as_ref(), text.to_owned()),
+            theme,
+            1900.0,
+        );
+        for section in [
+            "Sheet",
+            "Closed forms",
+            "Crease pattern",
+            "Material",
+            "Motion",
+            "Record",
+        ] {
+            click(&mut harness, section);
+        }
+        assert!(colours(&mut harness, &format!("own-{name}")) > 20);
+    }
+}
+
+#[test]
+#[cfg_attr(not(gpu_tests), ignore = "needs a GPU and FOLDMOTION_GPU_TESTS=yes")]
 fn the_panel_is_drawn_dark_and_light() {
     for (theme, name) in [(Theme::Dark, "dark"), (Theme::Light, "light")] {
         for scene in [

@@ -2,11 +2,11 @@
 
 use std::path::PathBuf;
 
-use eframe::egui::Theme;
+use eframe::egui::{Event, Key, Modifiers, PointerButton, Theme, pos2, vec2};
 use egui_kittest::kittest::Queryable as _;
 use foldmotion_study::SceneSource;
 
-use super::bench::{bench_of, scenes};
+use super::bench::{bench_of, drag, scenes};
 
 fn all() -> Vec<PathBuf> {
     let files = |folder: PathBuf| {
@@ -54,4 +54,83 @@ fn an_empty_scene_is_shown() {
         harness.run();
     }
     assert!(harness.state().draft.is_none());
+}
+
+/// Whole numbers below `below`, the same ones in every run (Marsaglia 2003).
+struct Dice(u32);
+
+impl Dice {
+    fn below(&mut self, below: u16) -> u16 {
+        self.0 ^= self.0 << 13;
+        self.0 ^= self.0 >> 17;
+        self.0 ^= self.0 << 5;
+        (self.0 % u32::from(below)) as u16
+    }
+}
+
+#[test]
+fn a_hand_that_presses_and_types_anywhere_breaks_nothing() {
+    const KEYS: [Key; 7] = [
+        Key::ArrowUp,
+        Key::ArrowLeft,
+        Key::Delete,
+        Key::Tab,
+        Key::Enter,
+        Key::Escape,
+        Key::Backspace,
+    ];
+    let mut dice = Dice(2_463_534_242);
+    for scene in ["omega-sii", "shelter-unequal", "map-fold", "imported/frame"] {
+        let source = SceneSource::read(&scenes().join(scene).with_extension("toml")).unwrap();
+        let mut harness = bench_of(&source, Theme::Dark, 2400.0);
+        for section in ["Material", "Motion", "Record"] {
+            harness.get_by_label(section).click();
+            harness.run();
+        }
+        for _ in 0..120 {
+            let at = pos2(f32::from(dice.below(360)), f32::from(dice.below(2400)));
+            match dice.below(6) {
+                0 => {
+                    let way = vec2(
+                        f32::from(dice.below(80)) - 40.0,
+                        f32::from(dice.below(80)) - 40.0,
+                    );
+                    drag(&mut harness, at, way, 2);
+                }
+                1 => {
+                    harness.event(Event::Text(
+                        ["7", "-", "x", "1e308"][usize::from(dice.below(4))].to_owned(),
+                    ));
+                    harness.key_press(KEYS[usize::from(dice.below(7))]);
+                }
+                turn => {
+                    let button = if turn == 2 {
+                        PointerButton::Secondary
+                    } else {
+                        PointerButton::Primary
+                    };
+                    harness.hover_at(at);
+                    for pressed in [true, false] {
+                        let modifiers = Modifiers::NONE;
+                        harness.event(Event::PointerButton {
+                            pos: at,
+                            button,
+                            pressed,
+                            modifiers,
+                        });
+                    }
+                }
+            }
+            harness.run_ok();
+            harness.state_mut().redraft();
+            harness.run_ok();
+        }
+        assert!(harness.state().changes.len() > 5, "{scene}");
+        let real = harness
+            .state()
+            .changes
+            .windows(2)
+            .all(|pair| pair[0].scene != pair[1].scene);
+        assert!(real, "{scene}: every change changes something");
+    }
 }

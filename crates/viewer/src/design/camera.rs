@@ -1,0 +1,100 @@
+//! Where the viewer of what is recorded stands.
+
+use eframe::egui::Ui;
+use foldmotion_study::scene::{CameraChoice, CameraScene, OwnCamera};
+
+use super::form::{Field, Form};
+use super::number::{Number, control_width};
+
+const CAMERAS: [(Option<CameraChoice>, &str); 6] = [
+    (Some(CameraChoice::Iso), "iso"),
+    (Some(CameraChoice::Front), "front"),
+    (Some(CameraChoice::Side), "side"),
+    (Some(CameraChoice::Top), "top"),
+    (Some(CameraChoice::Turntable), "turntable"),
+    (None, "own"),
+];
+
+pub(super) fn show(form: &mut Form<'_>, ui: &mut Ui) {
+    let field = Field::new(
+        "record.camera",
+        "camera",
+        "change the camera",
+        "where the viewer stands",
+    );
+    let given = form.scene.record.camera;
+    let shown = match given {
+        None => Some(CameraChoice::Iso),
+        Some(CameraScene::Preset(preset)) => Some(preset),
+        Some(CameraScene::Own(_)) => None,
+    };
+    form.part(ui, "record.camera", |form, ui| {
+        ui.horizontal_wrapped(|ui| {
+            ui.spacing_mut().item_spacing.x = 3.0;
+            ui.label(field.name).on_hover_text(field.tip);
+            ui.add_space(4.0);
+            for (way, name) in CAMERAS {
+                let option = ui.selectable_label(way == shown, name);
+                let option = option.accessible_name(format!("camera {name}"));
+                if option.clicked() && way != shown {
+                    form.scene.record.camera = match way {
+                        Some(CameraChoice::Iso) => None,
+                        Some(preset) => Some(CameraScene::Preset(preset)),
+                        None => Some(CameraScene::Own(OwnCamera {
+                            azimuth: -60.0,
+                            elevation: 30.0,
+                            turn: None,
+                            centre: None,
+                            width: None,
+                        })),
+                    };
+                    form.record(field.undo, option.id, false);
+                }
+            }
+        });
+    });
+    if let Some(CameraScene::Own(own)) = given {
+        show_own_camera(form, ui, own);
+    }
+    form.faults_of(ui, "record.camera");
+}
+
+fn show_own_camera(form: &mut Form<'_>, ui: &mut Ui, own: OwnCamera) {
+    let before = own;
+    let mut own = own;
+    let angles = [
+        (
+            "azimuth",
+            "counter-clockwise seen from above, degrees: -90 is front",
+            360.0,
+        ),
+        ("elevation", "above the ground, degrees: 90 is top", 90.0),
+        ("turn", "how far films go round, degrees", 3600.0),
+    ];
+    for (name, tip, most) in angles {
+        let number = Number::within(-most..=most).speed(0.5);
+        form.part(ui, &format!("camera {name}"), |form, ui| {
+            ui.horizontal(|ui| {
+                super::form::name(ui, name, tip);
+                let width = control_width(ui);
+                let value = match name {
+                    "azimuth" => own.azimuth,
+                    "elevation" => own.elevation,
+                    _ => own.turn.unwrap_or(0.0),
+                };
+                let spoken = format!("camera {name}");
+                let new =
+                    form.required_cell(ui, "change the camera", &spoken, &number, width, value);
+                match (name, new) {
+                    ("azimuth", Some(new)) => own.azimuth = new,
+                    ("elevation", Some(new)) => own.elevation = new,
+                    (_, Some(new)) => own.turn = Some(new),
+                    (_, None) => {}
+                }
+            });
+        });
+    }
+    if own != before {
+        form.scene.record.camera = Some(CameraScene::Own(own));
+    }
+}
