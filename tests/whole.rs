@@ -34,3 +34,5 @@ mod schemas;
 mod unfolding;
 #[path = "whole/verify.rs"]
 mod verify;
+#[path = "whole/window.rs"]
+mod window;

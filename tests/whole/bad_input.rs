@@ -249,6 +249,22 @@ fn values_of_record_are_refused_by_key_line_and_value() {
             &["scene.toml:10", "record.camera", "elevation"],
         ),
         (
+            "[record]\ncamera = { azimuth = 0.0, elevation = 0.0, width = 0.0 }",
+            &["scene.toml:10", "record.camera", "width"],
+        ),
+        (
+            "[record]\ncamera = { azimuth = 0.0, elevation = 0.0, width = inf }",
+            &["scene.toml:10", "record.camera", "width"],
+        ),
+        (
+            "[record]\ncamera = { azimuth = 0.0, elevation = 0.0, centre = [0.0, nan, 0.0] }",
+            &["scene.toml:10", "record.camera", "centre"],
+        ),
+        (
+            "[record]\ncamera = { azimuth = 0.0, elevation = 0.0, centre = [0.0, 0.0] }",
+            &["scene.toml:10", "camera must be"],
+        ),
+        (
             "[record]\ncamera = { azimuth = 0.0, elevation = 0.0, turn = nan }",
             &["record.camera", "turn"],
         ),

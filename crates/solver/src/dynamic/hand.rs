@@ -18,7 +18,7 @@ const STEPS_A_LOOK: usize = 10;
 /// The furthest the motion time moves in a step.
 const PACE: f64 = 1e-3;
 /// The lag of a crease, radians, at which the time moves at half its pace.
-const LAG: f64 = 0.15;
+const LAG: f64 = 0.3;
 /// The largest force of the hand, over the axial stiffness: the strain of a bar that it would hold by itself.
 const GRIP: f64 = 0.25;
 /// The distance in unit lengths at which the hand pulls its hardest.

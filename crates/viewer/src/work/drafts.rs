@@ -14,7 +14,7 @@ const REST: Duration = Duration::from_millis(120);
 /// Resolves scenes in the background; the latest one wins.
 #[derive(Debug)]
 pub(crate) struct Drafts {
-    drafts: Latest<SceneSource, Arc<Draft>>,
+    quick: Latest<SceneSource, Arc<Draft>>,
     studies: Latest<SceneSource, Arc<Study>>,
     asked: u64,
 }
@@ -34,7 +34,7 @@ impl Drafts {
         let draft = |source: SceneSource| Ok(Draft::resolve(&source).map(Arc::new)?);
         let study = |source: SceneSource| Ok(Study::resolve(&source).map(Arc::new)?);
         Self {
-            drafts: Latest::new("foldmotion draft", Duration::ZERO, wake.clone(), draft),
+            quick: Latest::new("foldmotion draft", Duration::ZERO, wake.clone(), draft),
             studies: Latest::new("foldmotion study", REST, wake, study),
             asked: 0,
         }
@@ -43,7 +43,7 @@ impl Drafts {
     /// Asks for `source` in the place of those before it; answers its number, from 1.
     pub(crate) fn ask(&mut self, source: SceneSource) -> u64 {
         self.asked += 1;
-        self.drafts.ask(self.asked, source.clone());
+        self.quick.ask(self.asked, source.clone());
         self.studies.ask(self.asked, source);
         self.asked
     }
@@ -63,7 +63,7 @@ impl Drafts {
 
     /// Whether something is still to come.
     pub(crate) fn is_busy(&self) -> bool {
-        self.drafts.is_busy() || self.studies.is_busy()
+        self.quick.is_busy() || self.studies.is_busy()
     }
 }
 

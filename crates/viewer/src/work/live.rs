@@ -9,7 +9,7 @@ use glam::DVec3;
 use super::lock::lock;
 
 /// The shortest time between two states that are kept: faster than any screen.
-const SPACING: Duration = Duration::from_micros(8_000);
+const SPACING: Duration = Duration::from_millis(8);
 /// Over how long states are counted.
 const WINDOW: Duration = Duration::from_secs(1);
 
