@@ -301,6 +301,11 @@ impl Document {
         Ok(())
     }
 
+    /// Goes back to the text as it was last read or written; that can be undone.
+    pub(crate) fn give_up(&mut self) {
+        self.put(self.saved.clone(), "edits given up", false);
+    }
+
     /// Reads its file again; that can be undone.
     ///
     /// # Errors

@@ -158,7 +158,11 @@ fn icon(ui: &mut Ui, icon: Icon, name: &str, hint: &str) -> bool {
     };
     let bar = |x: f32| {
         let size = vec2(3.0, 10.0);
-        painter.rect_filled(Rect::from_center_size(centre + vec2(x, 0.0), size), 0.5, colour);
+        painter.rect_filled(
+            Rect::from_center_size(centre + vec2(x, 0.0), size),
+            0.5,
+            colour,
+        );
     };
     match icon {
         Icon::Play => triangle(0.0, 1.0),

@@ -13,7 +13,7 @@ use glam::DVec3;
 
 use super::figures::curves;
 use crate::timeline::{Curves, Marks};
-use crate::work::{Finished, Job, Judged, Wake, record, record_opened};
+use crate::work::{Finished, Job, Judged, Wake, record, record_opened, write};
 
 /// Points of the profile that are drawn.
 const PROFILE_POINTS: u32 = 240;
@@ -243,6 +243,16 @@ impl Act {
                 ))
             }
             Source::Exact(_) | Source::Preview(_) => None,
+        }
+    }
+
+    /// Writes all results of a run in the background; none of what is no run.
+    pub(crate) fn write(&self, folder: PathBuf, wake: Wake) -> Option<Job<Vec<String>>> {
+        match &self.source {
+            Source::Run { study, folded, .. } => {
+                Some(write(Arc::clone(study), Arc::clone(folded), folder, wake))
+            }
+            _ => None,
         }
     }
 

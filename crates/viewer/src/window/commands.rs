@@ -268,7 +268,10 @@ impl Viewer {
             Then::New => self.take_document(Document::new()),
             Then::ChooseFile => self.choose_file(),
             Then::Open(path) => self.open(path),
-            Then::Quit => ctx.send_viewport_cmd(ViewportCommand::Close),
+            Then::Quit => {
+                self.is_closing = true;
+                ctx.send_viewport_cmd(ViewportCommand::Close);
+            }
         }
     }
 

@@ -7,6 +7,7 @@ use foldmotion_study::scene::RecordScene;
 
 use super::Viewer;
 use super::record_panel::{Seen, Wish};
+use crate::document::SaveError;
 use crate::settings::{Picked, Picker, show_help};
 
 /// The dialog that is open.
@@ -72,21 +73,31 @@ impl Viewer {
         }
     }
 
+    /// Closing the window with unsaved edits asks first.
+    pub(super) fn ask_before_closing(&mut self, ctx: &Context) {
+        let is_asked = ctx.input(|i| i.viewport().close_requested());
+        if is_asked && !self.is_closing && self.document.is_modified() {
+            ctx.send_viewport_cmd(ViewportCommand::CancelClose);
+            self.dialog = Dialog::Unsaved(Then::Quit);
+        }
+    }
+
     fn ask_unsaved(&mut self, ctx: &Context, then: Then) {
         let words = format!("{} has unsaved edits", self.document.name());
-        let answers = ["Save", "Discard edits", "Cancel"];
-        match ask(
-            ctx,
-            "unsaved",
-            &words,
-            "discarded edits cannot be brought back",
-            &answers,
-        ) {
-            Some(0) => match self.document.save() {
+        let about = "discarded edits cannot be brought back";
+        let answers: &[&str] = if then == Then::Quit {
+            &["Save", "Discard edits", "Keep for the next start", "Cancel"]
+        } else {
+            &["Save", "Discard edits", "Cancel"]
+        };
+        let chosen = ask(ctx, "unsaved", &words, about, answers);
+        match chosen.map(|index| answers[index]) {
+            Some("Save") => match self.document.save() {
                 Ok(()) => {
                     self.saved();
                     self.go_on(then, ctx);
                 }
+                Err(SaveError::Changed { .. }) => self.dialog = Dialog::Changed,
                 Err(_) => {
                     self.choose_place();
                     if let Dialog::Save(_, next) = &mut self.dialog {
@@ -94,12 +105,14 @@ impl Viewer {
                     }
                 }
             },
-            Some(1) => {
+            Some("Discard edits") => {
+                self.document.give_up();
                 if let Some(unsaved) = &mut self.unsaved {
                     unsaved.forget();
                 }
                 self.go_on(then, ctx);
             }
+            Some("Keep for the next start") => self.go_on(then, ctx),
             Some(_) => {}
             None => self.dialog = Dialog::Unsaved(then),
         }

@@ -57,6 +57,8 @@ pub struct Viewer {
     /// What went wrong or well, and since when it is said.
     notice: Option<(String, bool, Instant)>,
     shows_help: bool,
+    /// Whether the window closes without asking again.
+    is_closing: bool,
 }
 
 /// What became of the scene.
@@ -153,6 +155,7 @@ impl Viewer {
             record_panel: RecordPanel::default(),
             notice: None,
             shows_help: false,
+            is_closing: false,
             settings,
             wake,
         };
@@ -315,7 +318,10 @@ impl Viewer {
             );
         }
         match &act.source {
-            act::Source::Run { report, .. } => results(ui, report),
+            act::Source::Run { report, .. } => {
+                self.write_button(ui, act);
+                results(ui, report)
+            }
             act::Source::File { judged, motion } => {
                 crate::results::file_results(ui, motion.title(), judged.as_deref())
             }
@@ -332,6 +338,21 @@ impl Viewer {
                 }
                 None
             }
+        }
+    }
+
+    /// Writes the results of a run where `foldmotion run` would.
+    fn write_button(&mut self, ui: &mut Ui, act: &Act) {
+        let folder = PathBuf::from("out").join(self.document.source().stem());
+        let hint = format!(
+            "report.json, certificate.json, motion.fold and what the scene records, into {}",
+            folder.display()
+        );
+        let is_free = self.jobs.recording.is_none();
+        let button = egui::Button::new("Write results");
+        if ui.add_enabled(is_free, button).on_hover_text(hint).clicked() {
+            let job = act.write(folder.clone(), self.wake.clone());
+            self.jobs.recording = job.map(|job| (folder, job));
         }
     }
 
@@ -392,6 +413,7 @@ impl eframe::App for Viewer {
         self.side_panels(ui);
         CentralPanel::default().show(ui, |ui| self.scene_view(ui, frame.wgpu_render_state()));
         self.dialogs(&ctx);
+        self.ask_before_closing(&ctx);
         self.title(&ctx);
     }
 

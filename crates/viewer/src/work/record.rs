@@ -4,7 +4,7 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use foldmotion_study::scene::RecordScene;
-use foldmotion_study::{Findings, Folded, OpenedMotion, Report, Study};
+use foldmotion_study::{Findings, Folded, OpenedMotion, Study};
 
 use super::{Job, Wake};
 
@@ -37,16 +37,18 @@ pub(crate) fn record_opened(
     })
 }
 
-/// Writes the results of a run into `folder` as `foldmotion run` does.
+/// Writes the results of a run into `folder` as `foldmotion run` does; ends with the names of the files.
 pub(crate) fn write(
     study: Arc<Study>,
     folded: Arc<Folded>,
     folder: PathBuf,
     wake: Wake,
-) -> Job<Report> {
+) -> Job<Vec<String>> {
     Job::start("foldmotion write", wake, move |ticket| {
         let progress = |phase, done| ticket.progress(phase, done);
-        Ok(study.write(&folded, &folder, &progress)?)
+        let mut files = study.write(&folded, &folder, &progress)?.files;
+        files.push("report.json".to_owned());
+        Ok(files)
     })
 }
 
