@@ -168,9 +168,10 @@ mod tests {
             (Case::E, 1.0),
             (Case::T, 0.8),
             (Case::S, 1.6),
-            (Case::SII, 1.6),
+            (Case::SII, 1.7),
         ] {
-            let unit = Unit::new(case, width, 1.0, None, None).unwrap();
+            let unit =
+                Unit::new(case, width, 1.0, (case == Case::SII).then_some(0.7), None).unwrap();
             let units = UnitSheet::new(unit, 5, 2).unwrap();
             let (order, folded) = (units.compact_order(), units.compact());
             let layers = Layers::new(&units.sheet, &order, &folded);

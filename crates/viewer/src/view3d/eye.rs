@@ -48,7 +48,7 @@ pub(super) struct Eye {
     axes: [DVec3; 3],
     centre: DVec3,
     /// Points on the screen a length, at the depth of the centre.
-    pub(super) scale: f64,
+    scale: f64,
     size: DVec2,
     /// 1 / D.
     inverse_distance: f64,
@@ -87,12 +87,6 @@ impl Eye {
         let depth = toward.dot(point - self.centre);
         let across = (at - 0.5 * self.size) * (1.0 - depth * self.inverse_distance) / self.scale;
         self.centre + right * across.x - up * across.y + toward * depth
-    }
-
-    /// Lengths right and up of the centre that are seen at `at`.
-    pub(super) fn across(&self, at: DVec2) -> DVec2 {
-        let across = (at - 0.5 * self.size) / self.scale;
-        DVec2::new(across.x, -across.y)
     }
 
     /// Right, up and towards the viewer.
