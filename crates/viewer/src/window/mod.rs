@@ -350,7 +350,11 @@ impl Viewer {
         );
         let is_free = self.jobs.recording.is_none();
         let button = egui::Button::new("Write results");
-        if ui.add_enabled(is_free, button).on_hover_text(hint).clicked() {
+        if ui
+            .add_enabled(is_free, button)
+            .on_hover_text(hint)
+            .clicked()
+        {
             let job = act.write(folder.clone(), self.wake.clone());
             self.jobs.recording = job.map(|job| (folder, job));
         }

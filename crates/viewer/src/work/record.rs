@@ -116,8 +116,8 @@ mod tests {
         let findings = Some(judged.findings);
         let job = record_opened(motion, findings, view(&pictures), at("again"), quiet());
         assert!(done(&job).unwrap().contains(&"frames/0001.png".to_owned()));
-        let report = done(&write(study, folded, at("whole"), quiet())).unwrap();
-        assert!(report.files.contains(&"frames/0001.png".to_owned()));
+        let files = done(&write(study, folded, at("whole"), quiet())).unwrap();
+        assert!(files.contains(&"frames/0001.png".to_owned()));
         assert!(at("whole/report.json").is_file());
     }
 
