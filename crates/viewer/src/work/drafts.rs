@@ -51,7 +51,7 @@ impl Drafts {
     /// What has been resolved since it was last asked: at most a draft and a study.
     pub(crate) fn take(&self) -> impl Iterator<Item = Resolved> {
         let draft = self
-            .drafts
+            .quick
             .take()
             .map(|(n, draft)| Resolved::Draft(n, draft));
         let study = self
