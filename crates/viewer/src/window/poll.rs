@@ -63,6 +63,8 @@ impl Viewer {
                 self.resolved.draft = Some((number, scene.clone(), Arc::clone(&draft)));
                 self.resolved.faults.clear();
                 if is_new {
+                    // What is in the hand is the sheet before.
+                    self.jobs.hold = None;
                     let key = self.shown.key();
                     self.shown.draft = Some((scene, Arc::new(Act::exact(&draft, key))));
                     self.settle_view();
@@ -188,8 +190,8 @@ impl Viewer {
 
     /// Goes on with another scene.
     pub(super) fn take_document(&mut self, document: Document) {
-        self.keep_unsaved();
         self.document = document;
+        self.keep_unsaved();
         self.resolved.asked = None;
         self.resolved.draft = None;
         self.resolved.study = None;
