@@ -9,7 +9,7 @@ use super::axis::Axis;
 use super::curves::{Curve, Panel};
 
 /// Height of a panel, points.
-pub(super) const HEIGHT: f32 = 62.0;
+pub(super) const HEIGHT: f32 = 40.0;
 
 /// The colours of curves, apart for every common colour blindness (Okabe and Ito 2008).
 const COLOURS: [[u8; 3]; 5] = [
@@ -52,7 +52,7 @@ pub(super) fn strip(ui: &mut Ui, panel: &Panel, axis: &Axis, time: f64) -> Respo
 
 fn paint(ui: &Ui, panel: &Panel, axis: &Axis, time: f64, rect: Rect) {
     let visuals = ui.visuals();
-    let area = Rect::from_x_y_ranges(axis.span, rect.y_range()).shrink2(vec2(0.0, 4.0));
+    let area = Rect::from_x_y_ranges(axis.span, rect.y_range()).shrink2(vec2(0.0, 2.0));
     let painter = ui.painter();
     painter.rect(
         area,
@@ -109,7 +109,8 @@ fn paint(ui: &Ui, panel: &Panel, axis: &Axis, time: f64, rect: Rect) {
             painter.line(piece, stroke);
         }
     }
-    painter.vline(axis.x(time), area.y_range(), visuals.selection.stroke);
+    let now = Stroke::new(1.0, visuals.strong_text_color());
+    painter.vline(axis.x(time), area.y_range(), now);
     legend(ui, panel, time, area);
 }
 

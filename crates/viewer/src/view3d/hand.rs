@@ -153,7 +153,7 @@ impl View3d {
     pub(super) fn look_under_pointer(
         &mut self,
         ui: &Ui,
-        response: Response,
+        response: &Response,
         rect: Rect,
         picture: &Picture<'_>,
         eye: &Eye,
@@ -161,15 +161,14 @@ impl View3d {
         let pointer = response.hover_pos().filter(|_| !response.dragged());
         self.points.follow(picture, eye);
         let hit = self.hit(picture, pointer.map(|at| within(rect, at)));
-        self.take_vertex(ui, &response, rect, picture);
-        let pull = self.pull(&response, rect, picture, eye);
+        self.take_vertex(ui, response, rect, picture);
+        let pull = self.pull(response, rect, picture, eye);
         let vertex = hit.vertex;
-        self.mark(ui, &response, rect, vertex.filter(|_| picture.can_pull));
+        self.mark(ui, response, rect, vertex.filter(|_| picture.can_pull));
         Seen {
             vertex,
             face: hit.face,
             pull,
-            response,
         }
     }
 

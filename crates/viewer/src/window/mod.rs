@@ -20,8 +20,7 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use eframe::egui::{self, CentralPanel, Panel, ScrollArea, Ui};
-use foldmotion_pattern::Motion;
-use foldmotion_study::{Draft, Opened, Scene, Study};
+use foldmotion_study::{Draft, Opened, Preview, Scene, Study};
 
 use crate::ViewOptions;
 use crate::design::{DesignPanel, Facts, Fault};
@@ -89,12 +88,14 @@ struct Shown {
     follows_run: bool,
     /// The vertex that is pulled, and where to.
     pulled: Option<crate::view3d::Handle>,
+    /// The triangle and the vertex under the pointer.
+    pointed: Option<(u32, Option<u32>)>,
 }
 
 /// What is done in the background.
 #[derive(Default)]
 struct Jobs {
-    preview: Option<(Scene, Arc<Draft>, Job<Motion>)>,
+    preview: Option<(Scene, Arc<Draft>, Job<Preview>)>,
     run: Option<(Scene, Run)>,
     hold: Option<Hold>,
     opening: Option<(PathBuf, Job<Opened>)>,
@@ -213,11 +214,10 @@ impl Viewer {
             _ => None,
         };
         let count = act.motion().sheet.vertices.len();
-        match live.and_then(crate::work::Live::latest) {
+        match live.and_then(|live| live.newer(0)) {
             Some(state) if state.positions.len() == count => {
-                self.shown
-                    .pose
-                    .show_live(&state, act, self.jobs.hold.is_none());
+                let is_in_hand = self.jobs.hold.is_some();
+                self.shown.pose.show_live(&state, act, is_in_hand);
             }
             _ => self.shown.pose.show(act, self.playback.time),
         }

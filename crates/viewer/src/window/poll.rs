@@ -64,8 +64,8 @@ impl Viewer {
                 self.resolved.faults.clear();
                 if is_new {
                     let key = self.shown.key();
-                    self.shown.draft = Some((scene, Arc::new(Act::exact(&draft, key))));
-                    self.settle_view();
+                    let act = Arc::new(Act::exact(&draft, key));
+                    self.change_act(|shown| shown.draft = Some((scene, act)));
                 }
             }
             Resolved::Study(number, Ok(study)) if number == asked => {
@@ -103,15 +103,14 @@ impl Viewer {
     }
 
     fn take_preview(&mut self) {
-        let Some((scene, draft, motion)) = self.jobs.preview.take_if_done() else {
+        let Some((scene, draft, preview)) = self.jobs.preview.take_if_done() else {
             return;
         };
-        match motion {
-            Ok(motion) => {
+        match preview {
+            Ok(preview) => {
                 let key = self.shown.key();
-                let act = Act::preview(&draft, motion, key);
-                self.shown.draft = Some((scene, Arc::new(act)));
-                self.settle_view();
+                let act = Act::preview(&draft, preview, &scene, key);
+                self.change_act(|shown| shown.draft = Some((scene, Arc::new(act))));
             }
             Err(WorkError::Stopped) => {}
             Err(error) => self.say(format!("the preview failed: {error}"), false),
@@ -152,8 +151,7 @@ impl Viewer {
         };
         let key = self.shown.key();
         let act = Act::run(finished, key);
-        self.shown.run = Some((scene, Arc::new(act)));
-        self.settle_view();
+        self.change_act(|shown| shown.run = Some((scene, Arc::new(act))));
         if self.shown.follows_run {
             self.playback.go_to(2.0);
             self.shown.follows_run = false;
@@ -171,9 +169,9 @@ impl Viewer {
                 self.jobs.stop();
                 self.jobs.judging = Some(judge(Arc::clone(&motion), self.wake.clone()));
                 let key = self.shown.key();
-                self.shown.file = Some(Arc::new(Act::file(motion, None, key)));
                 self.shown.fits = true;
-                self.settle_view();
+                let act = Arc::new(Act::file(motion, None, key));
+                self.change_act(|shown| shown.file = Some(act));
             }
             Ok(Opened::Scene(_)) => match Document::open(&path) {
                 Ok(document) => {
@@ -246,12 +244,22 @@ impl Viewer {
         }
     }
 
-    /// Fits the view to a motion that came, where that is due.
-    fn settle_view(&mut self) {
+    /// Takes another motion; the view is fitted to it where that is due, and else goes with the sheet where the other
+    /// motion is shown elsewhere.
+    fn change_act(&mut self, change: impl FnOnce(&mut super::Shown)) {
+        let before = self.act();
+        change(&mut self.shown);
         let Some(act) = self.act() else { return };
         self.playback.set_range(act.range());
-        if std::mem::take(&mut self.shown.fits) {
+        if self.shown.fits {
             self.view3d.fit(act.reach());
+            // Exact states lie elsewhere than the motion that follows them.
+            self.shown.fits = act.is_exact();
+        } else if let Some(before) = before.filter(|before| before.key != act.key) {
+            let t = self.playback.time;
+            if let (Some(from), Some(to)) = (before.middle(t), act.middle(t)) {
+                self.view3d.follow_by(to - from);
+            }
         }
     }
 }
