@@ -162,14 +162,12 @@ fn legend(ui: &Ui, panel: &Panel, time: f64, area: Rect) {
     let font = FontId::proportional(11.0);
     let painter = ui.painter().with_clip_rect(area);
     let mut x = area.left() + 5.0;
+    let ground = visuals.extreme_bg_color.gamma_multiply(0.85);
     let mut write = |text: String, colour: Color32| {
-        let place = painter.text(
-            pos2(x, area.top() + 2.0),
-            Align2::LEFT_TOP,
-            text,
-            font.clone(),
-            colour,
-        );
+        let galley = painter.layout_no_wrap(text, font.clone(), colour);
+        let place = Rect::from_min_size(pos2(x, area.top() + 2.0), galley.size());
+        painter.rect_filled(place.expand2(vec2(3.0, 0.0)), 2.0, ground);
+        painter.galley(place.min, galley, colour);
         x = place.right() + 8.0;
     };
     write(panel.title.clone(), visuals.text_color());

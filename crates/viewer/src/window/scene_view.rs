@@ -67,7 +67,8 @@ impl Viewer {
         let weak = visuals.weak_text_color();
         let marked = visuals.error_fg_color;
         let mut overlays: Vec<Overlay<'_>> = Vec::new();
-        if looks.profile && !act.profile.is_empty() {
+        // The profile is what the deployed sheet follows, the box what the folding one comes to.
+        if looks.profile && !act.profile.is_empty() && self.playback.time <= 1.0 {
             overlays.push(Overlay {
                 shape: Shape::Path(&act.profile),
                 colour: accent,
