@@ -77,6 +77,12 @@ mod tests {
         let exact = study.subject.units().unwrap().units.compact();
         let rms = fitted_box(&last.positions, &exact).rms_to_exact.unwrap();
         assert!(rms < 1e-6, "{rms}");
+        let closed_form = study.subject.closed_form().unwrap();
+        let reached = boxes.last().unwrap();
+        assert!((reached.volume / closed_form.volume - 1.0).abs() < 1e-5);
+        // Flat, it has no height.
+        let flat = motion.frames.iter().position(|f| f.time == 1.0).unwrap();
+        assert!(boxes[flat].volume < 1e-6 * boxes[0].volume);
         assert!(matches!(
             study.preview(&|_, _| false),
             Err(StudyError::Interrupted)

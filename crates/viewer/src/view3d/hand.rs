@@ -209,7 +209,7 @@ impl View3d {
 
     /// Rings the vertex that can be taken, and the view where it has the focus.
     fn mark(&self, ui: &Ui, response: &Response, rect: Rect, vertex: Option<u32>) {
-        let stroke = ui.visuals().selection.stroke;
+        let stroke = egui::Stroke::new(1.0, ui.visuals().hyperlink_color);
         if let Some(at) = vertex.and_then(|vertex| self.points.at(vertex)) {
             let at = rect.min + egui::vec2(at.x as f32, at.y as f32);
             ui.painter_at(rect)

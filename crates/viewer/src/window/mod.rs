@@ -28,7 +28,7 @@ use crate::document::Document;
 use crate::results::results;
 use crate::settings::{Settings, UnsavedScenes, apply};
 use crate::timeline::{Curves, Marks, Playback, Timeline};
-use crate::timings::Timings;
+use crate::timings::{Pace, Timings};
 use crate::view3d::View3d;
 use crate::work::{Drafts, Hold, Job, Judged, Run, Wake};
 
@@ -217,6 +217,9 @@ impl Viewer {
         match live.and_then(|live| live.newer(0)) {
             Some(state) if state.positions.len() == count => {
                 let is_in_hand = self.jobs.hold.is_some();
+                if !is_in_hand {
+                    self.playback.time = state.time;
+                }
                 self.shown.pose.show_live(&state, act, is_in_hand);
             }
             _ => self.shown.pose.show(act, self.playback.time),
@@ -385,7 +388,14 @@ fn moving_part(scene: &Scene) -> Scene {
 
 impl eframe::App for Viewer {
     fn ui(&mut self, ui: &mut Ui, frame: &mut eframe::Frame) {
-        self.timings.frame(self.is_busy(), self.view3d.drawn() > 0);
+        let pace = if self.is_busy() {
+            Pace::Busy
+        } else if self.playback.is_playing {
+            Pace::Playing
+        } else {
+            Pace::Idle
+        };
+        self.timings.frame(pace, self.view3d.drawn() > 0);
         let ctx = ui.ctx().clone();
         self.poll(&ctx);
         let canvas = self.view3d.id();
