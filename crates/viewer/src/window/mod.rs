@@ -226,6 +226,19 @@ impl Viewer {
         }
     }
 
+    /// The timeline, with room for curves where there are any.
+    fn timeline_panel(&mut self, ui: &mut Ui) {
+        let act = self.act();
+        let has_curves = act.is_some_and(|act| !act.curves.panels.is_empty());
+        let (name, height) = if has_curves && self.settings.panels.plots {
+            ("plots", 312.0)
+        } else {
+            ("bar", 72.0)
+        };
+        let panel = Panel::bottom(name).resizable(name == "plots");
+        panel.default_size(height).show(ui, |ui| self.timeline(ui));
+    }
+
     fn timeline(&mut self, ui: &mut Ui) {
         let act = self.act();
         let (none, no_curves) = (Marks::default(), Curves::default());
@@ -410,20 +423,7 @@ impl eframe::App for Viewer {
         }
         Panel::top("menu").show(ui, |ui| self.menu(ui));
         Panel::bottom("status").show(ui, |ui| self.status(ui));
-        let height = if self.settings.panels.plots {
-            240.0
-        } else {
-            72.0
-        };
-        let timeline = Panel::bottom(if self.settings.panels.plots {
-            "plots"
-        } else {
-            "bar"
-        });
-        timeline
-            .resizable(self.settings.panels.plots)
-            .default_size(height)
-            .show(ui, |ui| self.timeline(ui));
+        self.timeline_panel(ui);
         self.side_panels(ui);
         CentralPanel::default().show(ui, |ui| self.scene_view(ui, frame.wgpu_render_state()));
         self.dialogs(&ctx);

@@ -187,6 +187,8 @@ impl Viewer {
     /// Goes on with another scene.
     pub(super) fn take_document(&mut self, document: Document) {
         self.keep_unsaved();
+        // What cannot be read can only be mended as text.
+        self.settings.panels.text |= document.parse_error().is_some();
         self.document = document;
         self.resolved.asked = None;
         self.resolved.draft = None;
