@@ -47,7 +47,13 @@ pub(super) fn strip(ui: &mut Ui, panel: &Panel, axis: &Axis, time: f64) -> Respo
     if ui.is_rect_visible(rect) {
         paint(ui, panel, axis, time, rect);
     }
-    response.on_hover_text(panel.about)
+    // Not over the curves, where it would cover what one scrubs.
+    let is_beside = response.hover_pos().is_some_and(|at| at.x < axis.span.min);
+    if is_beside {
+        response.on_hover_text(panel.about)
+    } else {
+        response
+    }
 }
 
 fn paint(ui: &Ui, panel: &Panel, axis: &Axis, time: f64, rect: Rect) {

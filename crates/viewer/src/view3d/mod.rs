@@ -149,7 +149,7 @@ impl View3d {
         let size = ui.available_size().max(egui::Vec2::splat(1.0));
         let (rect, response) = ui.allocate_exact_size(size, Sense::click_and_drag());
         let rect = rect.round_to_pixels(ui.pixels_per_point());
-        name(&response);
+        name(&response, &self.orbit());
         self.id = Some(response.id);
         self.follow(picture);
         let size = DVec2::new(f64::from(rect.width()), f64::from(rect.height()));
@@ -294,7 +294,23 @@ fn pixels(side: f32) -> u32 {
     side.round().max(1.0) as u32
 }
 
-/// Names the view to those who do not see it.
-fn name(response: &Response) {
-    response.widget_info(|| egui::WidgetInfo::labeled(Role::Canvas, true, "3D view"));
+/// Names the view, and from where the sheet is seen, to those who do not see it.
+fn name(response: &Response, orbit: &Orbit) {
+    response.widget_info(|| {
+        let from = format!(
+            "from azimuth {:.0}°, elevation {:.0}°, {:.2} wide{}",
+            orbit.azimuth,
+            orbit.elevation,
+            orbit.width,
+            if orbit.perspective {
+                ", in perspective"
+            } else {
+                ""
+            }
+        );
+        egui::WidgetInfo {
+            current_text_value: Some(from),
+            ..egui::WidgetInfo::labeled(Role::Canvas, true, "3D view")
+        }
+    });
 }

@@ -96,6 +96,11 @@ impl Viewer {
 
     fn switch(&mut self, command: Command) {
         let (view, panels) = (&mut self.settings.view, &mut self.settings.panels);
+        if command == Command::PanelDesign && panels.text {
+            // It stands where the text stands.
+            (panels.text, panels.design) = (false, true);
+            return;
+        }
         let switch = match command {
             Command::Perspective => &mut view.perspective,
             Command::Creases => &mut view.creases,

@@ -229,7 +229,7 @@ impl Viewer {
                     if ui
                         .add_enabled(
                             self.resolved.study.is_some() && self.jobs.run.is_none(),
-                            Button::new("Run"),
+                            Button::new("Run the scene"),
                         )
                         .clicked()
                     {

@@ -191,10 +191,12 @@ impl Viewer {
         let scene = moving_part(self.document.scene());
         let is_of_scene = |act: &&(Scene, Arc<Act>)| act.0 == scene;
         let run = self.shown.run.as_ref();
-        let best = run
-            .filter(is_of_scene)
-            .or(self.shown.draft.as_ref())
-            .or(run);
+        let draft = self.shown.draft.as_ref();
+        // A run says more than the draft of the same scene, even once both are old.
+        let is_best = |draft: &&(Scene, Arc<Act>)| {
+            is_of_scene(draft) || run.is_none_or(|run| run.0 != draft.0)
+        };
+        let best = run.filter(is_of_scene).or(draft.filter(is_best)).or(run);
         best.map(|(_, act)| Arc::clone(act))
     }
 
@@ -203,6 +205,11 @@ impl Viewer {
         let scene = moving_part(self.document.scene());
         let mut acts = self.shown.run.iter().chain(&self.shown.draft);
         self.shown.file.is_none() && !acts.any(|(of, other)| other.key == act.key && *of == scene)
+    }
+
+    /// Whether what the scene moves is about to be shown.
+    fn is_resolving(&self) -> bool {
+        self.resolved.drafts.is_busy() || self.jobs.preview.is_some()
     }
 
     /// Brings the pose up to date with what is shown now.
@@ -263,7 +270,7 @@ impl Viewer {
     }
 
     fn side_panels(&mut self, ui: &mut Ui) {
-        if self.settings.panels.design {
+        if self.settings.panels.design || self.settings.panels.text {
             Panel::left("design")
                 .default_size(348.0)
                 .size_range(280.0..=620.0)
@@ -352,9 +359,21 @@ impl Viewer {
                 if ui.add_enabled(can_run, button).clicked() {
                     self.run();
                 }
-                None
+                self.last_run(ui)
             }
         }
+    }
+
+    /// What was found out about the run of a scene before this one; a motion time that was clicked.
+    fn last_run(&self, ui: &mut Ui) -> Option<f64> {
+        let (_, last) = self.shown.run.as_ref()?;
+        let act::Source::Run { report, .. } = &last.source else {
+            return None;
+        };
+        ui.separator();
+        let words = "the last run, of the scene before the last edits";
+        ui.colored_label(ui.visuals().warn_fg_color, words);
+        results(ui, report)
     }
 
     /// Writes the results of a run where `foldmotion run` would.

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use eframe::egui::Context;
-use foldmotion_study::{Opened, StudyError};
+use foldmotion_study::{Draft, Opened, Scene, StudyError};
 
 use super::act::Act;
 use super::{Viewer, moving_part};
@@ -63,9 +63,9 @@ impl Viewer {
                 self.resolved.draft = Some((number, scene.clone(), Arc::clone(&draft)));
                 self.resolved.faults.clear();
                 if is_new {
-                    let key = self.shown.key();
-                    let act = Arc::new(Act::exact(&draft, key));
-                    self.change_act(|shown| shown.draft = Some((scene, act)));
+                    // What is in the hand is the sheet before.
+                    self.jobs.hold = None;
+                    self.show_exact(scene, &draft);
                 }
             }
             Resolved::Study(number, Ok(study)) if number == asked => {
@@ -83,6 +83,23 @@ impl Viewer {
             }
             _ => {}
         }
+    }
+
+    /// Shows the exact states of a new draft where one of them is due; between them the motion before stays until the next
+    /// preview comes.
+    fn show_exact(&mut self, scene: Scene, draft: &Draft) {
+        let t = self.playback.time;
+        let is_of_size = |act: &Act| act.motion().sheet.faces.len() == draft.sheet().faces.len();
+        let stays = self
+            .shown
+            .draft
+            .as_ref()
+            .is_some_and(|(_, act)| is_of_size(act));
+        if stays && t.fract() != 0.0 && self.settings.view.folds_at_once {
+            return;
+        }
+        let act = Arc::new(Act::exact(draft, self.shown.key()));
+        self.change_act(|shown| shown.draft = Some((scene, act)));
     }
 
     /// Starts a preview of the scene as it stands.
@@ -140,7 +157,7 @@ impl Viewer {
         }
     }
 
-    fn finish_run(&mut self, scene: foldmotion_study::Scene, finished: &Finished) {
+    fn finish_run(&mut self, scene: Scene, finished: &Finished) {
         let verdict = finished.report.collision.verdict.clone();
         let words = match &finished.report.jam {
             Some(jam) => format!("jammed at t = {:.4}; {verdict} as far as it came", jam.t),
@@ -186,10 +203,10 @@ impl Viewer {
 
     /// Goes on with another scene.
     pub(super) fn take_document(&mut self, document: Document) {
-        self.keep_unsaved();
         // What cannot be read can only be mended as text.
         self.settings.panels.text |= document.parse_error().is_some();
         self.document = document;
+        self.keep_unsaved();
         self.resolved.asked = None;
         self.resolved.draft = None;
         self.resolved.study = None;

@@ -3,9 +3,10 @@
 use std::sync::Arc;
 use std::time::Duration;
 
+use eframe::egui::accesskit::Role;
 use eframe::egui::{
-    Align2, Checkbox, Color32, ComboBox, FontId, Painter, Rect, RichText, ScrollArea, Stroke,
-    StrokeKind, Ui, pos2, vec2,
+    Align2, Checkbox, Color32, ComboBox, FontId, Painter, Rect, RichText, ScrollArea, Sense,
+    Stroke, StrokeKind, Ui, WidgetInfo, pos2, vec2,
 };
 use eframe::egui_wgpu::RenderState;
 use foldmotion_pattern::{Facet, FacetKind, Sheet};
@@ -147,18 +148,37 @@ impl Viewer {
         let place = painter.text(
             corner,
             Align2::LEFT_TOP,
-            time,
+            &time,
             font,
             visuals.strong_text_color(),
         );
         let below = place.left_bottom() + vec2(0.0, 3.0);
         let small = FontId::proportional(13.0);
-        let place = painter.text(below, Align2::LEFT_TOP, badge, small.clone(), colour);
-        if self.is_stale(act) {
+        let mut place = painter.text(below, Align2::LEFT_TOP, &badge, small.clone(), colour);
+        let mut spoken = format!("{time}, {badge}");
+        if self.is_stale(act) && !self.is_resolving() {
             let words = "of the scene before the last edits";
             let below = place.left_bottom() + vec2(0.0, 2.0);
-            painter.text(below, Align2::LEFT_TOP, words, small, visuals.warn_fg_color);
+            place = painter.text(
+                below,
+                Align2::LEFT_TOP,
+                words,
+                small.clone(),
+                visuals.warn_fg_color,
+            );
+            spoken = format!("{spoken}, {words}");
         }
+        let penetrating = self.shown.pose.penetrating.0.len();
+        if penetrating > 0 {
+            let words = format!("{penetrating} triangles penetrate here");
+            let below = place.left_bottom() + vec2(0.0, 2.0);
+            let colour = visuals.error_fg_color;
+            place = painter.text(below, Align2::LEFT_TOP, &words, small, colour);
+            spoken = format!("{spoken}, {words}");
+        }
+        let area = Rect::from_two_pos(corner, place.max);
+        ui.interact(area, ui.id().with("words over"), Sense::hover())
+            .widget_info(|| WidgetInfo::labeled(Role::Label, true, &spoken));
         let sheet = &act.motion().sheet;
         if let Some(words) = self.pointed_words(sheet) {
             let corner = rect.left_bottom() + vec2(12.0, -10.0);

@@ -1,6 +1,6 @@
 //! The scene as text, for what has no control and for scenes with errors.
 
-use eframe::egui::{Align, FontId, Layout, ScrollArea, TextEdit, TextStyle, Ui};
+use eframe::egui::{Align, FontId, Id, Layout, ScrollArea, TextEdit, TextStyle, Ui};
 
 use super::Viewer;
 
@@ -32,6 +32,8 @@ impl Viewer {
             .show(ui, |ui| {
                 let font: FontId = TextStyle::Monospace.resolve(ui.style());
                 let editor = TextEdit::multiline(&mut text)
+                    // Its own id: what is said above it comes and goes, the focus stays.
+                    .id(Id::unique("scene text"))
                     .font(font)
                     .desired_width(f32::INFINITY)
                     .desired_rows(40)

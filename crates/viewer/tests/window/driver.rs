@@ -1,0 +1,411 @@
+//! A window under the hand: finds controls by their names, and waits for what comes from the background.
+
+use std::path::{Path, PathBuf};
+use std::thread::sleep;
+use std::time::{Duration, Instant};
+
+use eframe::egui::accesskit::{Role, Toggled};
+use eframe::egui::{Event, Key, Modifiers, Pos2, Rect, Vec2, ViewportCommand, ViewportId, vec2};
+use egui_kittest::kittest::{NodeT as _, Queryable as _};
+use egui_kittest::{Harness, HarnessBuilder, Node};
+use foldmotion_viewer::{ViewOptions, Viewer};
+use tempfile::TempDir;
+
+use crate::storage::Storage;
+
+/// How long anything from the background may take on the slowest machine.
+const PATIENCE: Duration = Duration::from_secs(25);
+
+/// A sheet that is folded and checked in a moment.
+pub const SMALL: &str = "\
+# A small shelter.
+title = \"Small shelter\"
+
+[profile]
+model = \"shelter\"
+length = 4.0   # metres
+
+[sheet]
+width = 4.0
+rows = 4
+columns = 2
+case = \"S\"
+
+[motion]
+frames = 8
+";
+
+/// The same with control points to drag.
+pub const ARCH: &str = "\
+[profile]
+control_points = [[3.0, 0.0], [2.0, 0.0], [2.0, 2.5], [0.0, 3.5], [-2.0, 2.5], [-3.0, 0.0]]
+
+[sheet]
+rows = 4
+columns = 2
+
+[motion]
+frames = 8
+";
+
+/// Unmodified tall rectangles pass through each other (figures 3a-d of the paper).
+pub const PENETRATING: &str = "\
+[profile]
+model = \"shelter\"
+length = 4.0
+
+[sheet]
+width = 2.0
+rows = 4
+columns = 3
+case = \"plain\"
+
+[motion]
+contact = false
+frames = 24
+";
+
+/// The scenes that come with the project.
+pub fn scenes() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes")
+}
+
+/// A window with a folder of its own.
+pub struct Window {
+    pub harness: Harness<'static, Viewer>,
+    pub folder: TempDir,
+}
+
+impl Window {
+    /// A window that was started without a file.
+    pub fn empty() -> Self {
+        Self::start(tempfile::tempdir().unwrap(), None, None)
+    }
+
+    /// A window over a file of this text.
+    pub fn over(text: &str) -> Self {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("scene.toml");
+        std::fs::write(&path, text).unwrap();
+        Self::start(folder, Some(path), None)
+    }
+
+    /// A window over a file.
+    pub fn of(path: &Path) -> Self {
+        Self::start(tempfile::tempdir().unwrap(), Some(path.to_owned()), None)
+    }
+
+    /// A window over a file, or none, that keeps its unsaved scenes in `folder` and remembers what `storage` does.
+    pub fn start(folder: TempDir, file: Option<PathBuf>, storage: Option<&Storage>) -> Self {
+        let builder = Harness::builder().with_size(vec2(1500.0, 1800.0));
+        Self::built(builder, folder, file, storage)
+    }
+
+    pub fn built(
+        builder: HarnessBuilder<Viewer>,
+        folder: TempDir,
+        file: Option<PathBuf>,
+        storage: Option<&Storage>,
+    ) -> Self {
+        let options = ViewOptions {
+            file,
+            timings: false,
+            unsaved: Some(folder.path().join("unsaved")),
+        };
+        let storage = storage.map(Storage::shared);
+        let builder = builder.with_step_dt(0.05).with_max_steps(12);
+        let harness = builder.build_eframe(|creation| {
+            creation.storage = storage.map(|storage| storage as &dyn eframe::Storage);
+            Viewer::new(creation, options, Instant::now())
+        });
+        Self { harness, folder }
+    }
+
+    /// The scene's file in a window [`Self::over`] a text.
+    pub fn path(&self) -> PathBuf {
+        self.folder.path().join("scene.toml")
+    }
+
+    /// Waits until `is_so`.
+    #[track_caller]
+    pub fn until(&mut self, what: &str, is_so: impl Fn(&Self) -> bool) {
+        let started = Instant::now();
+        while !is_so(self) {
+            assert!(
+                started.elapsed() < PATIENCE,
+                "{what}: never; the window shows\n{}",
+                self.all_words()
+            );
+            sleep(Duration::from_millis(4));
+            self.harness.step();
+        }
+        self.harness.check_accessibility();
+    }
+
+    /// Waits until something that is shown says `words`.
+    #[track_caller]
+    pub fn until_said(&mut self, words: &str) {
+        self.until(words, |window| window.says(words));
+    }
+
+    /// Waits until a preview of the motion is shown.
+    #[track_caller]
+    pub fn until_preview(&mut self) {
+        self.until("a preview", |window| {
+            window.says("preview: without contact, not checked")
+                && !window.says("before the last edits")
+                && window.is_at_rest()
+        });
+    }
+
+    /// Runs the scene, and waits for its verdict.
+    #[track_caller]
+    pub fn run_scene(&mut self) {
+        self.until("the scene is resolved", |window| window.is_enabled("Run"));
+        self.press(Key::F5);
+        self.until("the run has ended", |window| {
+            window.says("pairs tested between") && !window.has("Cancel")
+        });
+    }
+
+    fn is_at_rest(&self) -> bool {
+        !self.says("resolving…") && !self.says("folding a preview…")
+    }
+
+    /// Lets everything settle that was asked for.
+    pub fn settle(&mut self) {
+        let _ = self.harness.try_run();
+        self.harness.check_accessibility();
+    }
+
+    /// Everything that is shown in words.
+    pub fn all_words(&self) -> String {
+        let nodes = self.harness.root().children_recursive();
+        let words = nodes.filter_map(|node| {
+            let node = node.accesskit_node();
+            let label = if node.role() == Role::Label {
+                node.value()
+            } else {
+                node.label()
+            };
+            label.map(|label| format!("{:?} {label}", node.role()))
+        });
+        words.collect::<Vec<_>>().join("\n")
+    }
+
+    /// Whether something that is shown says `words` somewhere.
+    pub fn says(&self, words: &str) -> bool {
+        self.harness
+            .query_all_by_label_contains(words)
+            .next()
+            .is_some()
+    }
+
+    /// Where something is said.
+    pub fn rects_saying<'a>(&'a self, words: &'a str) -> impl Iterator<Item = Rect> + 'a {
+        let found = self.harness.query_all_by_label_contains(words);
+        found.map(|node| node.rect())
+    }
+
+    /// What is said over the view: the motion time, and what the sheet is worth.
+    pub fn words_over(&self) -> String {
+        let found = self.harness.query_all_by_label_contains("t = ");
+        let words = found.filter_map(|node| node.value());
+        words
+            .filter(|words| words.starts_with("t = ") && words.contains(", "))
+            .collect()
+    }
+
+    /// Whether there is a control or text of exactly this name.
+    pub fn has(&self, label: &str) -> bool {
+        self.harness.query_all_by_label(label).next().is_some()
+    }
+
+    /// Whether the button can be pressed.
+    pub fn is_enabled(&self, label: &str) -> bool {
+        let mut found = self.harness.query_all_by_label(label);
+        found.any(|node| !node.accesskit_node().is_disabled())
+    }
+
+    /// Whether a switch is on.
+    #[track_caller]
+    pub fn is_on(&self, label: &str) -> bool {
+        self.harness.get_by_label(label).accesskit_node().toggled() == Some(Toggled::True)
+    }
+
+    /// Whether the switches of this name are on; buttons of it are none.
+    pub fn switches(&self, label: &str) -> Vec<bool> {
+        let found = self.harness.query_all_by_label(label);
+        let found = found.filter_map(|node| node.accesskit_node().toggled());
+        found.map(|toggled| toggled == Toggled::True).collect()
+    }
+
+    /// What a field or menu shows.
+    #[track_caller]
+    pub fn value(&self, label: &str) -> String {
+        self.harness.get_by_label(label).value().unwrap_or_default()
+    }
+
+    /// Motion time, as the timeline has it.
+    pub fn time(&self) -> f64 {
+        let bar = self.harness.get_by_label("Motion time");
+        bar.accesskit_node().numeric_value().unwrap()
+    }
+
+    #[track_caller]
+    pub fn node<'a>(&'a self, label: &'a str) -> Node<'a> {
+        self.harness.get_by_label(label)
+    }
+
+    #[track_caller]
+    pub fn click(&mut self, label: &str) {
+        self.harness.get_by_label(label).click();
+        self.settle();
+    }
+
+    /// Chooses from a menu of the menu bar; `item` is how the entry begins.
+    #[track_caller]
+    pub fn choose(&mut self, menu: &str, item: &str) {
+        let menu = self.harness.get_all_by_label(menu).next();
+        menu.unwrap().click();
+        self.settle();
+        let entries = self.harness.query_all_by_label_contains(item);
+        let entry = entries.last();
+        entry.unwrap_or_else(|| panic!("a menu has {item}")).click();
+        self.settle();
+    }
+
+    pub fn press(&mut self, key: Key) {
+        self.harness.key_press(key);
+        self.settle();
+    }
+
+    pub fn press_with(&mut self, modifiers: Modifiers, key: Key) {
+        self.harness.key_press_modifiers(modifiers, key);
+        self.settle();
+    }
+
+    /// Presses keys and shows one frame, no more.
+    pub fn strike(&mut self, modifiers: Modifiers, key: Key) {
+        self.harness.event(Event::Key {
+            key,
+            physical_key: None,
+            pressed: true,
+            repeat: false,
+            modifiers,
+        });
+        self.harness.step();
+    }
+
+    pub fn undo(&mut self) {
+        self.press_with(Modifiers::COMMAND, Key::Z);
+    }
+
+    /// Types a text in the place of what is in the field, and leaves it.
+    #[track_caller]
+    pub fn enter(&mut self, label: &str, text: &str) {
+        self.type_into(label, text);
+        self.press(Key::Enter);
+    }
+
+    /// Types a text in the place of what is in the field, and stays there.
+    #[track_caller]
+    pub fn type_into(&mut self, label: &str, text: &str) {
+        self.harness.get_by_label(label).focus();
+        self.settle();
+        if !self.value(label).is_empty() {
+            self.press_with(Modifiers::COMMAND, Key::A);
+            self.press(Key::Backspace);
+        }
+        if !text.is_empty() {
+            self.harness.get_by_label(label).type_text(text);
+            self.settle();
+        }
+    }
+
+    /// Presses a link of these words.
+    #[track_caller]
+    pub fn follow_link(&mut self, words: &str) {
+        let mut links = self.harness.query_all_by_role_and_label(Role::Link, words);
+        links
+            .next()
+            .unwrap_or_else(|| panic!("a link {words}"))
+            .click();
+        drop(links);
+        self.settle();
+    }
+
+    /// Drags from one place along a way.
+    pub fn drag(&mut self, from: Pos2, way: Vec2) {
+        const STEPS: u16 = 4;
+        self.harness.hover_at(from);
+        self.harness.step();
+        self.harness.drag_at(from);
+        self.harness.step();
+        for step in 1..=STEPS {
+            self.harness
+                .hover_at(from + way * f32::from(step) / f32::from(STEPS));
+            self.harness.step();
+        }
+        self.harness.drop_at(from + way);
+        self.settle();
+    }
+
+    /// The scene's text, read where it is shown as text.
+    pub fn text(&mut self) -> String {
+        let is_shown = self.has("Scene as text");
+        if !is_shown {
+            self.press(Key::F7);
+        }
+        let text = self.value("Scene as text");
+        if !is_shown {
+            self.press(Key::F7);
+        }
+        text
+    }
+
+    /// Types a text in the place of the scene's.
+    pub fn set_text(&mut self, text: &str) {
+        let is_shown = self.has("Scene as text");
+        if !is_shown {
+            self.press(Key::F7);
+        }
+        self.type_into("Scene as text", text);
+        if !is_shown {
+            self.press(Key::F7);
+        }
+    }
+
+    /// What the window asked of the system in the last frame.
+    fn asked(&self) -> &[ViewportCommand] {
+        &self.harness.output().viewport_output[&ViewportId::ROOT].commands
+    }
+
+    /// The title of the window.
+    pub fn title(&self) -> String {
+        let titles = self.asked().iter().filter_map(|command| match command {
+            ViewportCommand::Title(title) => Some(title.clone()),
+            _ => None,
+        });
+        titles.last().unwrap_or_default()
+    }
+
+    /// Whether the window asked to be closed, or not to be, in the last frame.
+    pub fn asked_for(&self, command: &ViewportCommand) -> bool {
+        self.asked().contains(command)
+    }
+
+    /// Hides how long a run took, which is never the same.
+    #[cfg(gpu_tests)]
+    pub fn hide_seconds(&mut self) {
+        self.press(Key::Escape);
+        self.until("the notice goes", |window| !window.says(" s"));
+    }
+
+    /// Ends the window as a crash would, and starts another over the same unsaved scenes.
+    pub fn killed(self, file: Option<PathBuf>) -> Self {
+        let Self { harness, folder } = self;
+        drop(harness);
+        Self::start(folder, file, None)
+    }
+}

@@ -1,0 +1,15 @@
+//! The whole window, driven without a screen: what is asked of it by mouse and keys, and what it shows then.
+
+mod commands;
+mod driver;
+mod edits;
+mod files;
+mod hand;
+mod looks;
+mod openings;
+mod pictures;
+mod records;
+mod runs;
+mod storage;
+mod timeline;
+mod unsaved;

@@ -1,0 +1,78 @@
+//! What the window looks like: small pictures, compared with those that were looked at.
+#![cfg(gpu_tests)]
+
+use eframe::egui::{Key, Modifiers, Theme, vec2};
+use egui_kittest::{Harness, SnapshotOptions};
+
+use crate::driver::{SMALL, Window};
+
+/// A window as small as it may be, drawn by the GPU.
+fn drawn(theme: Theme, text: &str) -> Window {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("scene.toml");
+    std::fs::write(&path, text).unwrap();
+    let builder = Harness::builder()
+        .with_size(vec2(800.0, 560.0))
+        .with_theme(theme)
+        .with_render_cursor(false)
+        .wgpu();
+    Window::built(builder, folder, Some(path), None)
+}
+
+/// Compares with the picture of that name: edges and shades may differ between drivers, what is drawn may not.
+fn compare(window: &mut Window, name: &str) {
+    window.harness.remove_cursor();
+    // The camera comes to rest.
+    window.harness.run_steps(12);
+    let options = SnapshotOptions::new()
+        .threshold(2.0)
+        .max_failed_pixels(1500);
+    window.harness.snapshot_options(name, &options);
+}
+
+#[test]
+fn the_deployed_sheet_in_dark() {
+    let mut window = drawn(Theme::Dark, SMALL);
+    window.until_preview();
+    compare(&mut window, "deployed-dark");
+}
+
+#[test]
+fn the_deployed_sheet_in_light() {
+    let mut window = drawn(Theme::Light, SMALL);
+    window.press(Key::F10);
+    window.until_preview();
+    compare(&mut window, "deployed-light");
+}
+
+#[test]
+fn half_folded_with_strain_after_a_run() {
+    let mut window = drawn(Theme::Dark, SMALL);
+    window.run_scene();
+    window.press(Key::F2);
+    window.enter("t", "1.5");
+    window.press(Key::Num6);
+    window.hide_seconds();
+    compare(&mut window, "half-folded-strain");
+}
+
+#[test]
+fn compact_with_its_boxes() {
+    let mut window = drawn(Theme::Dark, SMALL);
+    window.until_preview();
+    window.press(Key::F4);
+    window.press(Key::End);
+    window.press(Key::B);
+    window.press(Key::F);
+    compare(&mut window, "compact-boxes");
+}
+
+#[test]
+fn the_record_dialog() {
+    let mut window = drawn(Theme::Light, SMALL);
+    window.press(Key::F10);
+    window.run_scene();
+    window.press_with(Modifiers::COMMAND, Key::E);
+    window.hide_seconds();
+    compare(&mut window, "record-light");
+}

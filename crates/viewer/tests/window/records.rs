@@ -1,0 +1,117 @@
+//! What is seen is recorded.
+
+use std::path::Path;
+
+use eframe::egui::{Key, Modifiers};
+use foldmotion_study::scene::{OutputChoice, RecordScene};
+use foldmotion_study::{SceneSource, Study};
+
+use crate::driver::{SMALL, Window};
+
+/// The files of the same motion that do not depend on the camera, as `foldmotion record` writes them.
+fn recorded(output: OutputChoice, folder: &Path) {
+    let source = SceneSource::new(Path::new("scene.toml"), SMALL.to_owned());
+    let study = Study::resolve(&source).unwrap();
+    let folded = study.compute(&|_, _| true).unwrap();
+    let record = RecordScene {
+        outputs: Some(vec![output]),
+        ..RecordScene::default()
+    };
+    let files = study.record_as(&folded, &record, folder, &|_, _| true);
+    assert!(!files.unwrap().is_empty());
+}
+
+#[test]
+fn a_run_is_recorded_as_film_figure_and_model() {
+    let mut window = Window::over(SMALL);
+    window.run_scene();
+    window.press_with(Modifiers::COMMAND, Key::E);
+    let folder = window.folder.path().join("seen");
+    window.enter("folder", &folder.display().to_string());
+    window.enter("width, pixels", "120");
+    window.enter("height, pixels", "90");
+    window.enter("film, seconds", "0.5");
+    assert!(window.is_on("film, GIF"));
+    window.click("figure of states, SVG");
+    window.click("3D file with the motion, GLB");
+    window.click("Record now");
+    window.until_said("recorded ");
+    let mut files: Vec<_> = std::fs::read_dir(&folder)
+        .unwrap()
+        .map(|entry| entry.unwrap().path())
+        .collect();
+    files.sort();
+    let of = |ending: &str| {
+        let mut of = files
+            .iter()
+            .filter(|path| path.extension().is_some_and(|e| e == ending));
+        of.next()
+            .unwrap_or_else(|| panic!("no {ending} in {files:?}"))
+    };
+    let gif = std::fs::read(of("gif")).unwrap();
+    assert_eq!(&gif[..6], b"GIF89a");
+    assert_eq!(gif[6..10], [120, 0, 90, 0], "as large as was asked");
+    let svg = std::fs::read_to_string(of("svg")).unwrap();
+    assert!(
+        svg.contains("<svg") && svg.contains("<path"),
+        "{}",
+        &svg[..200]
+    );
+    let glb = std::fs::read(of("glb")).unwrap();
+    let other = window.folder.path().join("other");
+    recorded(OutputChoice::Glb, &other);
+    let name = of("glb").file_name().unwrap();
+    assert!(
+        glb == std::fs::read(other.join(name)).unwrap(),
+        "the same model"
+    );
+}
+
+#[test]
+fn a_preview_is_not_recorded_and_the_way_out_is_shown() {
+    let mut window = Window::over(SMALL);
+    window.until_preview();
+    window.press_with(Modifiers::COMMAND, Key::E);
+    assert!(window.has("a preview is not recorded: run the scene first"));
+    assert!(!window.has("Record now"));
+    window.click("Run the scene");
+    window.until("it can be recorded", |w| w.is_enabled("Record now"));
+    window.click("Close");
+    assert!(!window.has("Record now"));
+}
+
+#[test]
+fn nothing_is_recorded_without_an_output_or_a_folder() {
+    let mut window = Window::over(SMALL);
+    window.run_scene();
+    window.press(Key::F6);
+    assert!(window.is_enabled("Record now"));
+    window.click("film, GIF");
+    assert!(!window.is_enabled("Record now"), "{}", window.all_words());
+    window.click("film, GIF");
+    window.enter("folder", "");
+    assert!(!window.is_enabled("Record now"));
+}
+
+#[test]
+fn a_folder_that_cannot_be_written_is_an_error_that_names_it() {
+    let mut window = Window::over(SMALL);
+    window.run_scene();
+    window.press(Key::F6);
+    let file = window.path().join("below-a-file");
+    window.enter("folder", &file.display().to_string());
+    window.click("Record now");
+    window.until_said("recording failed");
+    assert!(window.says("scene.toml"));
+}
+
+#[test]
+fn the_folder_is_chosen_in_the_window() {
+    let mut window = Window::over(SMALL);
+    window.run_scene();
+    window.press(Key::F6);
+    window.click("Choose…");
+    let folder = window.folder.path().join("chosen");
+    window.enter("Name", &folder.display().to_string());
+    assert_eq!(window.value("folder"), folder.display().to_string());
+}

@@ -1,0 +1,133 @@
+//! Scenes are run in the background, and their verdicts shown.
+
+use std::path::Path;
+
+use eframe::egui::Key;
+use foldmotion_study::{Report, SceneSource, Study};
+
+use crate::driver::{PENETRATING, SMALL, Window, scenes};
+
+/// The report of the same scene by the library.
+fn report_of(text: &str) -> Report {
+    let source = SceneSource::new(Path::new("scene.toml"), text.to_owned());
+    let study = Study::resolve(&source).unwrap();
+    study.report_of(&study.compute(&|_, _| true).unwrap())
+}
+
+#[test]
+fn a_run_shows_the_numbers_that_the_library_computes() {
+    let mut window = Window::over(SMALL);
+    window.run_scene();
+    let report = report_of(SMALL);
+    let collision = &report.collision;
+    assert!(window.has(&collision.verdict), "{}", window.all_words());
+    let tested = format!(
+        "{} pairs tested between {} frames",
+        collision.pairs_tested, report.path.frames
+    );
+    assert!(window.says(&tested), "{tested}\n{}", window.all_words());
+    for extent in report.compact.extents {
+        assert!(window.has(&format!("{extent:.5}")), "{extent}");
+    }
+    let strain = format!("largest strain {:.2e} at", report.stages[0].peak_strain);
+    assert!(window.has(&strain), "{strain}");
+    assert!(window.says("bar strain, % over motion time"));
+    assert!(!window.says("of the scene before"));
+}
+
+#[test]
+fn a_run_is_followed_and_then_shown_at_its_end() {
+    let mut window = Window::of(&scenes().join("shelter-s.toml"));
+    window.until("the scene is resolved", |w| w.is_enabled("Run"));
+    window.press(Key::F5);
+    assert!(window.has("Cancel") && window.is_on("follow"));
+    window.until_said("states a second");
+    let first = window.words_over();
+    window.until("another state", |w| w.words_over() != first);
+    window.click("follow");
+    assert!(!window.says("states a second"));
+    window.click("Cancel");
+    window.until_said("the run was stopped");
+    window.until("it may run again", |w| w.is_enabled("Run"));
+    assert!(!window.says("pairs tested"));
+}
+
+#[test]
+fn escape_cancels_a_run_and_a_second_run_has_to_wait() {
+    let mut window = Window::of(&scenes().join("shelter-s.toml"));
+    window.until("the scene is resolved", |w| w.is_enabled("Run"));
+    window.press(Key::F5);
+    window.press(Key::F5);
+    assert!(window.says("cancel it first"));
+    window.press(Key::Escape);
+    window.until_said("the run was stopped");
+}
+
+#[test]
+fn an_edit_during_a_run_is_taken_and_the_result_is_marked_until_it_is_undone() {
+    let mut window = Window::over(&SMALL.replace("frames = 8", "frames = 200"));
+    window.until_preview();
+    window.press(Key::F5);
+    window.enter("width W", "6.5");
+    assert!(window.text().contains("width = 6.5"), "taken while it runs");
+    window.until("the run has ended", |w| {
+        w.says("pairs tested between") && !w.has("Cancel")
+    });
+    assert!(
+        window.says("of the scene before the last edits"),
+        "{}",
+        window.all_words()
+    );
+    window.until_preview();
+    assert!(window.says("the last run, of the scene before the last edits"));
+    window.undo();
+    window.until("the run's own scene again", |w| {
+        !w.says("before the last edits")
+    });
+    let verdict = report_of(SMALL).collision.verdict;
+    assert!(
+        window.words_over().ends_with(&verdict),
+        "{}",
+        window.words_over()
+    );
+}
+
+#[test]
+fn a_run_stays_in_sight_while_an_edit_cannot_be_drawn() {
+    let mut window = Window::over(SMALL);
+    window.run_scene();
+    window.enter("width W", "-1");
+    window.until_said("of the scene before the last edits");
+    assert!(window.says("pairs tested between"));
+    assert!(!window.says("preview: without contact"));
+}
+
+#[test]
+fn penetrations_are_shown_and_the_time_of_the_first_is_a_link() {
+    let mut window = Window::over(PENETRATING);
+    window.run_scene();
+    let report = report_of(PENETRATING);
+    assert_eq!(report.collision.verdict, "penetrating");
+    let first = report.collision.first.unwrap();
+    assert!(window.has("penetrating"), "{}", window.all_words());
+    window.press(Key::Home);
+    assert_eq!(window.time(), 0.0);
+    window.follow_link(&format!("t = {:.4}", first.t));
+    assert!(
+        (window.time() - first.t).abs() < 1e-12,
+        "{} {}",
+        window.time(),
+        first.t
+    );
+    assert!(window.says("penetrate here"), "{}", window.words_over());
+}
+
+#[test]
+fn a_scene_that_cannot_be_run_says_why() {
+    let mut window = Window::over(&SMALL.replace("frames = 8", "frames = 3"));
+    window.until_said("motion.frames");
+    assert!(!window.is_enabled("Run"));
+    window.press(Key::F5);
+    assert!(window.says("motion.frames"));
+    assert!(!window.has("Cancel"));
+}

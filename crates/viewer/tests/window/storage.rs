@@ -1,0 +1,30 @@
+//! What a window remembers, kept in memory.
+
+use std::collections::BTreeMap;
+
+/// A storage that the windows of a test share, one after the other.
+#[derive(Debug, Default)]
+pub struct Storage(BTreeMap<String, String>);
+
+impl Storage {
+    /// As it is now, for a window that may live as long as the program.
+    pub fn shared(&self) -> &'static Self {
+        Box::leak(Box::new(Self(self.0.clone())))
+    }
+}
+
+impl eframe::Storage for Storage {
+    fn get_string(&self, key: &str) -> Option<String> {
+        self.0.get(key).cloned()
+    }
+
+    fn set_string(&mut self, key: &str, value: String) {
+        self.0.insert(key.to_owned(), value);
+    }
+
+    fn remove_string(&mut self, key: &str) {
+        self.0.remove(key);
+    }
+
+    fn flush(&mut self) {}
+}
