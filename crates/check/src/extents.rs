@@ -31,6 +31,11 @@ pub fn fitted_box(positions: &[DVec3], exact: &[DVec3]) -> FittedBox {
     measured(Aabb::around(fitted()), Some(rms))
 }
 
+/// Measures the box along x, y and z as they are.
+pub fn upright_box(positions: &[DVec3]) -> FittedBox {
+    measured(Aabb::around(positions.iter().copied()), None)
+}
+
 fn measured(bounds: Aabb, rms_to_exact: Option<f64>) -> FittedBox {
     let extents = bounds.extents().max(DVec3::ZERO);
     FittedBox {

@@ -36,7 +36,9 @@ pub use collision::{
     penetration_spans,
 };
 pub use error::CheckError;
-pub use extents::{FittedBox, RelativeError, fitted_box, principal_box, relative_error};
+pub use extents::{
+    FittedBox, RelativeError, fitted_box, principal_box, relative_error, upright_box,
+};
 pub use layers::{Claims, Cluster, LayerConflict, LayerProof, LayerRule, RuleCounts};
 pub use straightness::straying;
 pub use strain::{BarStrain, FacetBending, bar_strain, facet_bending};

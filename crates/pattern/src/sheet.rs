@@ -107,6 +107,21 @@ pub enum FacetKind {
     Plain,
 }
 
+impl FacetKind {
+    /// Its name in words.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Flap => "flap",
+            Self::Tuck => "tuck",
+            Self::TopPad => "top pad",
+            Self::BottomPad => "bottom pad",
+            Self::Wall => "wall",
+            Self::Unit => "unit",
+            Self::Plain => "facet",
+        }
+    }
+}
+
 /// A facet of the crease pattern: a triangle, a quadrilateral, or a whole unit; of an imported sheet any polygon.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Facet {

@@ -2,13 +2,14 @@
 
 use std::time::Duration;
 
-use foldmotion_check::{CollisionReport, FittedBox};
-use foldmotion_pattern::{LayerOrder, Motion};
+use foldmotion_check::{CollisionReport, FittedBox, upright_box};
+use foldmotion_pattern::{Frame, LayerOrder, Motion};
 use foldmotion_solver::quasi_static::Jam;
 
 use crate::engine::Computed;
 use crate::report::{PathReport, SecondsReport};
 use crate::series::FrameFigures;
+use crate::subject::Subject;
 use crate::{Certificate, Report, Study, StudyError};
 
 /// What was found out about a motion.
@@ -75,12 +76,13 @@ impl Study {
         Ok(self.certificate(folded, self.digest(folded)?))
     }
 
-    /// The box of every frame of `motion`: of units in the frame of the exact compact state, of a pattern along its
-    /// principal axes.
+    /// The box of every frame of `motion`: of units along the axes of the place where the motion is shown, in which the last
+    /// state best fits the exact compact one; of a pattern along its principal axes.
     pub fn boxes(&self, motion: &Motion) -> Vec<FittedBox> {
-        let frames = motion.frames.iter();
-        frames
-            .map(|frame| self.subject.measured_box(&frame.positions))
-            .collect()
+        let measure = |frame: &Frame| match &self.subject {
+            Subject::Units(_) => upright_box(&frame.positions),
+            Subject::Imported(_) => self.subject.measured_box(&frame.positions),
+        };
+        motion.frames.iter().map(measure).collect()
     }
 }

@@ -53,6 +53,7 @@ pub use foldmotion_solver::dynamic::Device;
 pub use imported_study::ImportedStudy;
 pub use opened::{Opened, OpenedMotion};
 pub use pattern_files::{PatternFormat, PatternOptions, PatternScale, PatternStudy};
+pub use preview::Preview;
 pub use recording::{Again, MotionRecord, Quantity, Recording, record_again, record_file};
 pub use report::Report;
 pub use rows::draw_clashes;

@@ -1,12 +1,24 @@
 //! A quick look at a motion: folded in equilibrium without contact, and not checked.
 
+use foldmotion_check::FittedBox;
 use foldmotion_pattern::Motion;
 
 use crate::scene::EngineChoice;
-use crate::{Phase, Study, StudyError, Watch};
+use crate::{FrameFigures, Phase, Study, StudyError, Watch};
 
 /// Frames of a preview: enough that straight paths between them do not show.
 const FRAMES: usize = 120;
+
+/// A motion for the eye.
+#[derive(Debug, Clone)]
+pub struct Preview {
+    /// The motion where it is shown.
+    pub motion: Motion,
+    /// Strain, bending and energy, one a frame; separations are not known.
+    pub series: Vec<FrameFigures>,
+    /// The box of every frame.
+    pub boxes: Vec<FittedBox>,
+}
 
 impl Study {
     /// Folds the sheet as quickly as it can be: quasi-static, layers free to pass through each other, few frames.
@@ -15,7 +27,7 @@ impl Study {
     ///
     /// # Errors
     /// [`StudyError`] of the engine; [`StudyError::Interrupted`] where `watch` ends it.
-    pub fn preview(&self, watch: &dyn Watch) -> Result<Motion, StudyError> {
+    pub fn preview(&self, watch: &dyn Watch) -> Result<Preview, StudyError> {
         let quick = Self {
             engine: EngineChoice::QuasiStatic,
             contact_gap: None,
@@ -28,7 +40,12 @@ impl Study {
             watch.state(moment);
             watch.progress(Phase::Fold, (moment.time - start) / (2.0 - start))
         })?;
-        Ok(quick.place(&computed))
+        let motion = quick.place(&computed);
+        Ok(Preview {
+            series: quick.series(&motion, &computed, &[]),
+            boxes: quick.boxes(&motion),
+            motion,
+        })
     }
 }
 
@@ -47,12 +64,25 @@ mod tests {
         let source = SceneSource::new(Path::new("a.toml"), scene.to_owned());
         let study = Study::resolve(&source).unwrap();
         assert!(study.contact_gap.is_some());
-        let motion = study.preview(&|_, _| true).unwrap();
+        let Preview {
+            motion,
+            series,
+            boxes,
+        } = study.preview(&|_, _| true).unwrap();
+        assert_eq!(series.len(), motion.frames.len());
+        assert_eq!(boxes.len(), motion.frames.len());
+        assert!(series.iter().all(|f| f.separation.is_nan()));
         let last = motion.frames.last().unwrap();
         assert_eq!(last.time, 2.0);
         let exact = study.subject.units().unwrap().units.compact();
         let rms = fitted_box(&last.positions, &exact).rms_to_exact.unwrap();
         assert!(rms < 1e-6, "{rms}");
+        let closed_form = study.subject.closed_form().unwrap();
+        let reached = boxes.last().unwrap();
+        assert!((reached.volume / closed_form.volume - 1.0).abs() < 1e-5);
+        // Flat, it has no height.
+        let flat = motion.frames.iter().position(|f| f.time == 1.0).unwrap();
+        assert!(boxes[flat].volume < 1e-6 * boxes[0].volume);
         assert!(matches!(
             study.preview(&|_, _| false),
             Err(StudyError::Interrupted)

@@ -6,27 +6,52 @@ use std::time::{Duration, Instant};
 /// Frames remembered.
 const FRAMES: usize = 4096;
 
+/// What the window does in a frame.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Pace {
+    /// Only what the user does.
+    Idle,
+    /// A motion plays: one frame follows the other.
+    Playing,
+    /// Something runs in the background.
+    Busy,
+}
+
+impl Pace {
+    const ALL: [Self; 3] = [Self::Idle, Self::Playing, Self::Busy];
+
+    fn name(self) -> &'static str {
+        match self {
+            Self::Idle => "idle",
+            Self::Playing => "while a motion plays",
+            Self::Busy => "while work runs",
+        }
+    }
+}
+
 /// Times of the window since its start.
 #[derive(Debug)]
 pub(crate) struct Timings {
     started: Instant,
     first_picture: Option<Duration>,
-    /// Processor time of this thread at the last frame.
-    last: Option<Duration>,
-    /// Of each of the last frames, while something ran in the background, or not.
-    frames: [Vec<Duration>; 2],
-    next: [usize; 2],
+    /// When the last frame began, its pace, and the processor time of this thread then.
+    last: Option<(Instant, Pace, Option<Duration>)>,
+    /// Of each of the last frames of a pace: processor time, and time to the next.
+    frames: [Vec<[Duration; 2]>; 3],
+    count: [usize; 3],
     /// States a second of every run, and of sheets held in the hand.
     rates: Vec<(&'static str, f64)>,
 }
 
-/// How long frames took.
+/// How long frames took, in milliseconds.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct FrameTimes {
     pub(crate) count: usize,
     pub(crate) mean_ms: f64,
     /// 95 of 100 took no longer.
     pub(crate) most_ms: f64,
+    /// The time from one to the next.
+    pub(crate) spacing_ms: f64,
 }
 
 impl Timings {
@@ -35,30 +60,30 @@ impl Timings {
             started,
             first_picture: None,
             last: None,
-            frames: [Vec::new(), Vec::new()],
-            next: [0; 2],
+            frames: [Vec::new(), Vec::new(), Vec::new()],
+            count: [0; 3],
             rates: Vec::new(),
         }
     }
 
-    /// Takes note that a frame begins: what the thread did since the last one began belongs to that one.
-    pub(crate) fn frame(&mut self, is_busy: bool, has_picture: bool) {
+    /// Takes note that a frame of `pace` begins: what the thread did since the last one began belongs to that one.
+    pub(crate) fn frame(&mut self, pace: Pace, has_picture: bool) {
         if has_picture && self.first_picture.is_none() {
             self.first_picture = Some(self.started.elapsed());
         }
-        let now = thread_time();
-        if let (Some(last), Some(now)) = (self.last, now) {
-            let kind = usize::from(is_busy);
-            let (frames, next) = (&mut self.frames[kind], &mut self.next[kind]);
-            let spent = now.saturating_sub(last);
+        let now = (Instant::now(), pace, thread_time());
+        if let Some((began, of, spent_before)) = self.last.replace(now)
+            && let (Some(before), Some(after)) = (spent_before, now.2)
+        {
+            let (frames, count) = (&mut self.frames[of as usize], &mut self.count[of as usize]);
+            let times = [after.saturating_sub(before), now.0 - began];
             if frames.len() < FRAMES {
-                frames.push(spent);
+                frames.push(times);
             } else {
-                frames[*next % FRAMES] = spent;
+                frames[*count % FRAMES] = times;
             }
-            *next += 1;
+            *count += 1;
         }
-        self.last = now;
     }
 
     /// Takes note of how often the state of a run was refreshed.
@@ -66,17 +91,20 @@ impl Timings {
         self.rates.push((what, states_a_second));
     }
 
-    /// Of the frames while something ran in the background, or nothing did.
-    pub(crate) fn frame_times(&self, is_busy: bool) -> Option<FrameTimes> {
-        let mut times = self.frames[usize::from(is_busy)].clone();
+    /// Of the last frames of `pace`.
+    pub(crate) fn frame_times(&self, pace: Pace) -> Option<FrameTimes> {
+        let frames = &self.frames[pace as usize];
+        let count = frames.len();
+        let mut times: Vec<Duration> = frames.iter().map(|times| times[0]).collect();
         times.sort_unstable();
-        let count = times.len();
         let most = times.get((count * 95 / 100).min(count.checked_sub(1)?))?;
-        let ms = |d: &Duration| d.as_secs_f64() * 1e3;
+        let ms = |d: Duration| d.as_secs_f64() * 1e3;
+        let mean = |k: usize| frames.iter().map(|times| ms(times[k])).sum::<f64>() / count as f64;
         Some(FrameTimes {
             count,
-            mean_ms: times.iter().map(ms).sum::<f64>() / count as f64,
-            most_ms: ms(most),
+            mean_ms: mean(0),
+            most_ms: ms(*most),
+            spacing_ms: mean(1),
         })
     }
 
@@ -87,17 +115,25 @@ impl Timings {
         if let Some(first) = self.first_picture {
             let _ = writeln!(text, "first picture after {:.2} s", first.as_secs_f64());
         }
-        for (is_busy, name) in [(false, "idle"), (true, "while work runs")] {
-            if let Some(times) = self.frame_times(is_busy) {
-                let _ = writeln!(
-                    text,
-                    "thread of the window, {name}: {:.2} ms a frame, 95 % within {:.2} ms, {} frames",
-                    times.mean_ms, times.most_ms, times.count
-                );
-            }
+        for pace in Pace::ALL {
+            let Some(times) = self.frame_times(pace) else {
+                continue;
+            };
+            let _ = write!(
+                text,
+                "thread of the window, {}: {:.2} ms a frame, 95 % within {:.2} ms, {} frames",
+                pace.name(),
+                times.mean_ms,
+                times.most_ms,
+                times.count
+            );
+            let _ = match pace {
+                Pace::Idle => writeln!(text),
+                _ => writeln!(text, ", one every {:.1} ms", times.spacing_ms),
+            };
         }
         for (what, rate) in &self.rates {
-            let _ = writeln!(text, "{what}: {rate:.0} states a second");
+            let _ = writeln!(text, "{what}: {rate:.0} states in its best second");
         }
         if let Some([now, most]) = memory() {
             let _ = writeln!(text, "memory {now:.0} MB, at most {most:.0} MB");
@@ -129,24 +165,24 @@ mod tests {
     use super::*;
 
     #[test]
-    fn frames_are_counted_by_kind_and_the_summary_names_them() {
+    fn frames_are_counted_by_pace_and_the_summary_names_them() {
         let mut timings = Timings::new(Instant::now());
-        assert!(timings.frame_times(false).is_none());
+        assert!(timings.frame_times(Pace::Idle).is_none());
         for _ in 0..5 {
-            timings.frame(false, true);
+            timings.frame(Pace::Idle, true);
         }
         for _ in 0..FRAMES + 10 {
-            timings.frame(true, true);
+            timings.frame(Pace::Busy, true);
         }
-        timings.rate("quasi-static run", 240.0);
+        timings.rate("run", 240.0);
         let text = timings.summary();
         assert!(
             text.contains("first picture") && text.contains("240 states"),
             "{text}"
         );
         if thread_time().is_some() {
-            assert_eq!(timings.frame_times(false).unwrap().count, 4);
-            assert_eq!(timings.frame_times(true).unwrap().count, FRAMES);
+            let count = |pace| timings.frame_times(pace).map(|times| times.count);
+            assert_eq!(Pace::ALL.map(count), [Some(5), None, Some(FRAMES)]);
             assert!(
                 text.contains("while work runs") && text.contains("memory"),
                 "{text}"

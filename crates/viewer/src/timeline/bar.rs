@@ -241,7 +241,7 @@ fn bar(ui: &mut Ui, playback: &Playback, marks: &Marks, axis: &Axis) -> Response
     } else {
         7.0
     };
-    let colour = visuals.selection.stroke.color;
+    let colour = visuals.hyperlink_color;
     painter.add(Shape::circle_filled(pos2(x, middle), knob, colour));
     let rim = if response.has_focus() {
         visuals.strong_text_color()

@@ -28,6 +28,12 @@ pub(crate) struct Curves {
 }
 
 impl Panel {
+    /// Whether there is anything to draw.
+    pub(crate) fn has_values(&self) -> bool {
+        let mut values = self.curves.iter().flat_map(|curve| &curve.points);
+        values.any(|p| self.shows(p[1]))
+    }
+
     /// Whether `value` can be drawn.
     pub(super) fn shows(&self, value: f64) -> bool {
         value.is_finite() && (!self.is_logarithmic || value > 0.0)

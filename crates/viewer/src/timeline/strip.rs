@@ -9,7 +9,7 @@ use super::axis::Axis;
 use super::curves::{Curve, Panel};
 
 /// Height of a panel, points.
-pub(super) const HEIGHT: f32 = 62.0;
+pub(super) const HEIGHT: f32 = 40.0;
 
 /// The colours of curves, apart for every common colour blindness (Okabe and Ito 2008).
 const COLOURS: [[u8; 3]; 5] = [
@@ -47,12 +47,18 @@ pub(super) fn strip(ui: &mut Ui, panel: &Panel, axis: &Axis, time: f64) -> Respo
     if ui.is_rect_visible(rect) {
         paint(ui, panel, axis, time, rect);
     }
-    response.on_hover_text(panel.about)
+    // Not over the curves, where it would cover what one scrubs.
+    let is_beside = response.hover_pos().is_some_and(|at| at.x < axis.span.min);
+    if is_beside {
+        response.on_hover_text(panel.about)
+    } else {
+        response
+    }
 }
 
 fn paint(ui: &Ui, panel: &Panel, axis: &Axis, time: f64, rect: Rect) {
     let visuals = ui.visuals();
-    let area = Rect::from_x_y_ranges(axis.span, rect.y_range()).shrink2(vec2(0.0, 4.0));
+    let area = Rect::from_x_y_ranges(axis.span, rect.y_range()).shrink2(vec2(0.0, 2.0));
     let painter = ui.painter();
     painter.rect(
         area,
@@ -109,7 +115,8 @@ fn paint(ui: &Ui, panel: &Panel, axis: &Axis, time: f64, rect: Rect) {
             painter.line(piece, stroke);
         }
     }
-    painter.vline(axis.x(time), area.y_range(), visuals.selection.stroke);
+    let now = Stroke::new(1.0, visuals.strong_text_color());
+    painter.vline(axis.x(time), area.y_range(), now);
     legend(ui, panel, time, area);
 }
 
@@ -161,14 +168,12 @@ fn legend(ui: &Ui, panel: &Panel, time: f64, area: Rect) {
     let font = FontId::proportional(11.0);
     let painter = ui.painter().with_clip_rect(area);
     let mut x = area.left() + 5.0;
+    let ground = visuals.extreme_bg_color.gamma_multiply(0.85);
     let mut write = |text: String, colour: Color32| {
-        let place = painter.text(
-            pos2(x, area.top() + 2.0),
-            Align2::LEFT_TOP,
-            text,
-            font.clone(),
-            colour,
-        );
+        let galley = painter.layout_no_wrap(text, font.clone(), colour);
+        let place = Rect::from_min_size(pos2(x, area.top() + 2.0), galley.size());
+        painter.rect_filled(place.expand2(vec2(3.0, 0.0)), 2.0, ground);
+        painter.galley(place.min, galley, colour);
         x = place.right() + 8.0;
     };
     write(panel.title.clone(), visuals.text_color());

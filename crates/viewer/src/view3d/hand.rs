@@ -153,7 +153,7 @@ impl View3d {
     pub(super) fn look_under_pointer(
         &mut self,
         ui: &Ui,
-        response: Response,
+        response: &Response,
         rect: Rect,
         picture: &Picture<'_>,
         eye: &Eye,
@@ -161,15 +161,14 @@ impl View3d {
         let pointer = response.hover_pos().filter(|_| !response.dragged());
         self.points.follow(picture, eye);
         let hit = self.hit(picture, pointer.map(|at| within(rect, at)));
-        self.take_vertex(ui, &response, rect, picture);
-        let pull = self.pull(&response, rect, picture, eye);
+        self.take_vertex(ui, response, rect, picture);
+        let pull = self.pull(response, rect, picture, eye);
         let vertex = hit.vertex;
-        self.mark(ui, &response, rect, vertex.filter(|_| picture.can_pull));
+        self.mark(ui, response, rect, vertex.filter(|_| picture.can_pull));
         Seen {
             vertex,
             face: hit.face,
             pull,
-            response,
         }
     }
 
@@ -210,7 +209,7 @@ impl View3d {
 
     /// Rings the vertex that can be taken, and the view where it has the focus.
     fn mark(&self, ui: &Ui, response: &Response, rect: Rect, vertex: Option<u32>) {
-        let stroke = ui.visuals().selection.stroke;
+        let stroke = egui::Stroke::new(1.0, ui.visuals().hyperlink_color);
         if let Some(at) = vertex.and_then(|vertex| self.points.at(vertex)) {
             let at = rect.min + egui::vec2(at.x as f32, at.y as f32);
             ui.painter_at(rect)

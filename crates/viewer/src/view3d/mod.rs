@@ -62,8 +62,6 @@ pub(crate) struct View3d {
 /// What the user did with the view and what is under the pointer.
 #[derive(Debug)]
 pub(crate) struct Seen {
-    /// Of the whole view.
-    pub(crate) response: Response,
     /// The vertex under the pointer: within 12 points and not hidden by paper.
     pub(crate) vertex: Option<u32>,
     /// The triangle under the pointer.
@@ -90,6 +88,15 @@ impl View3d {
         self.was_shown = true;
     }
 
+    /// Moves with a sheet that is shown elsewhere from now on.
+    pub(crate) fn follow_by(&mut self, way: DVec3) {
+        let orbit = self.orbit();
+        self.set_orbit(Orbit {
+            centre: orbit.centre + way,
+            ..orbit
+        });
+    }
+
     /// Turns into a view, see [`View::NAMES`].
     pub(crate) fn look(&mut self, view: View) {
         let mut to = self.orbit();
@@ -110,13 +117,6 @@ impl View3d {
     /// Shows all `points` as large as they fit.
     pub(crate) fn fit(&mut self, points: Vec<DVec3>) {
         self.fitting = Some(points);
-    }
-
-    /// Shows all `factor` times as large.
-    pub(crate) fn zoom(&mut self, factor: f64) {
-        let mut to = self.orbit();
-        to.zoom(factor, DVec2::ZERO, self.widths());
-        self.turn_into(to);
     }
 
     /// Pictures that the GPU drew.
@@ -162,7 +162,6 @@ impl View3d {
         ui.painter().rect_filled(rect, 0.0, picture.background);
         if !self.is_drawable(picture) {
             return Seen {
-                response,
                 vertex: None,
                 face: None,
                 pull: None,
@@ -177,7 +176,7 @@ impl View3d {
                 .paint(&painter, rect, picture, &eye, self.pose.as_ref());
             self.note(ui, rect, render_state.is_some());
         }
-        self.look_under_pointer(ui, response, rect, picture, &eye)
+        self.look_under_pointer(ui, &response, rect, picture, &eye)
     }
 
     fn is_drawable(&self, picture: &Picture<'_>) -> bool {

@@ -1,6 +1,8 @@
 //! The camera as a hand moves it: a turntable.
 
-use foldmotion_record::{Camera, RecordError, View};
+use foldmotion_record::View;
+#[cfg(test)]
+use foldmotion_record::{Camera, RecordError};
 use glam::{DVec2, DVec3};
 
 /// Seconds that a preset takes to turn into.
@@ -77,7 +79,8 @@ impl Orbit {
     ///
     /// # Errors
     /// Those of [`Camera::centred`].
-    pub(crate) fn camera(&self, size: [u32; 2]) -> Result<Camera, RecordError> {
+    #[cfg(test)]
+    pub(super) fn camera(&self, size: [u32; 2]) -> Result<Camera, RecordError> {
         let middle = self.view().extent([self.centre]);
         Camera::centred(self.view(), middle, size, f64::from(size[0]) / self.width)
     }

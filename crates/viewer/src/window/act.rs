@@ -8,7 +8,7 @@ use foldmotion_geometry::{Profile, RigidMotion};
 use foldmotion_pattern::{Frame, LayerOrder, Motion, UnitSheet};
 use foldmotion_record::{Layers, positions_at};
 use foldmotion_study::scene::RecordScene;
-use foldmotion_study::{Draft, Folded, OpenedMotion, Report, Study, UnitDraft};
+use foldmotion_study::{Draft, Folded, OpenedMotion, Preview, Report, Scene, Study, UnitDraft};
 use glam::DVec3;
 
 use super::figures::curves;
@@ -82,8 +82,22 @@ impl Act {
     }
 
     /// A motion that was folded quickly.
-    pub(crate) fn preview(draft: &Draft, motion: Motion, key: u64) -> Self {
-        Self::new(Source::Preview(motion), key).beside(draft)
+    pub(crate) fn preview(draft: &Draft, preview: Preview, scene: &Scene, key: u64) -> Self {
+        let Preview {
+            motion,
+            series,
+            boxes,
+        } = preview;
+        let (closed_form, unit) = match draft {
+            Draft::Units(units) => {
+                let unit = scene.profile.unit.unwrap_or_default();
+                (units.closed_form, unit.name())
+            }
+            Draft::Imported(study) => (None, study.unit_name),
+        };
+        let mut act = Self::new(Source::Preview(motion), key).beside(draft);
+        act.curves = curves(&series, &boxes, closed_form, unit);
+        act
     }
 
     /// A run.
@@ -254,6 +268,11 @@ impl Act {
             }
             _ => None,
         }
+    }
+
+    /// The middle of the box around the state at motion time `t`.
+    pub(crate) fn middle(&self, t: f64) -> Option<DVec3> {
+        bounds(&self.state(t)).map(|[low, sides]| low + 0.5 * sides)
     }
 
     /// Points that show how far the motion reaches: of its first, middle and last states.

@@ -5,6 +5,8 @@ use std::sync::Arc;
 
 use eframe::egui::{Context, ViewportCommand};
 use foldmotion_record::View;
+use foldmotion_study::UnitDraft;
+use foldmotion_study::scene::ProfileScene;
 
 use super::dialogs::{Dialog, Then};
 use super::{Viewer, moving_part};
@@ -15,6 +17,9 @@ use crate::work::{Hold, Run, open};
 
 /// Endings of files that can be opened.
 const OPENED: [&str; 3] = ["toml", "fold", "svg"];
+
+/// Endings of outlines of profiles.
+const OUTLINES: [&str; 3] = ["csv", "dat", "dxf"];
 
 impl Viewer {
     /// Does what was asked for.
@@ -214,17 +219,7 @@ impl Viewer {
     }
 
     pub(super) fn choose_place(&mut self) {
-        let name = match self.document.path() {
-            Some(path) => path
-                .file_name()
-                .unwrap_or_default()
-                .to_string_lossy()
-                .into_owned(),
-            None => Path::new(&self.document.name())
-                .with_extension("toml")
-                .display()
-                .to_string(),
-        };
+        let name = self.document.name_to_save();
         let recent = self.settings.recent.folders();
         let folder = self.folder();
         self.dialog = Dialog::Save(
@@ -290,12 +285,47 @@ impl Viewer {
         }
     }
 
-    /// Opens the first file that was dropped on the window.
+    /// Opens the first file that was dropped on the window; an outline becomes the profile of the scene.
     pub(super) fn take_dropped_files(&mut self, ctx: &Context) {
         let dropped = ctx.input(|i| i.raw.dropped_files.clone());
-        let path = dropped.first().map(|file| file.path().to_owned());
-        if let Some(path) = path {
+        let Some(path) = dropped.first().map(|file| file.path().to_owned()) else {
+            return;
+        };
+        let ending = path.extension().unwrap_or_default().to_ascii_lowercase();
+        if OUTLINES.iter().any(|outline| ending == *outline) && self.shown.file.is_none() {
+            self.take_outline(&path);
+        } else {
             self.unless_unsaved(Then::Open(path), ctx);
+        }
+    }
+
+    /// Makes the outline in a file the profile. Rows, columns and width stay what they are, which a built-in profile brought.
+    fn take_outline(&mut self, path: &Path) {
+        let mut scene = self.document.scene().clone();
+        scene.profile = ProfileScene {
+            file: Some(self.document.name_of(path)),
+            unit: scene.profile.unit,
+            length: scene.profile.length,
+            ..ProfileScene::default()
+        };
+        let units = self
+            .resolved
+            .draft
+            .as_ref()
+            .and_then(|(_, _, draft)| draft.units());
+        if let Some(UnitDraft { units, .. }) = units {
+            let sheet = &mut scene.sheet;
+            sheet.rows = sheet.rows.or(i64::try_from(units.rows).ok());
+            sheet.columns = sheet.columns.or(i64::try_from(units.columns).ok());
+            sheet.width = sheet
+                .width
+                .or(Some(units.unit.width * units.columns as f64));
+        }
+        if !self.document.change(scene, "take an outline", false) {
+            self.say(
+                "the scene's text has an error; mend it there first (F7)",
+                false,
+            );
         }
     }
 }

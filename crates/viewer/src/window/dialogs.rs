@@ -214,6 +214,7 @@ impl Viewer {
         let mut wish = None;
         Window::new("Record")
             .open(&mut is_open)
+            .default_pos(ctx.content_rect().center() - eframe::egui::vec2(200.0, 220.0))
             .resizable(false)
             .show(ctx, |ui: &mut Ui| {
                 if let Some((_, job)) = &self.jobs.recording {

@@ -62,6 +62,9 @@ fn figures(series: &[FrameFigures]) -> Vec<Panel> {
             vec![curve("smallest", |f| f.separation)],
         ),
     ]
+    .into_iter()
+    .filter(|panel| panel.has_values())
+    .collect()
 }
 
 fn box_panels(

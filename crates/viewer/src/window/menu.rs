@@ -7,7 +7,7 @@ use eframe::egui::{Button, Color32, MenuBar, ProgressBar, RichText, Ui};
 
 use super::Viewer;
 use super::dialogs::Then;
-use crate::settings::{Command, keys_of, name_of};
+use crate::settings::{Command, Look, apply, keys_of, name_of};
 
 /// How long a notice is said.
 const NOTICE: Duration = Duration::from_secs(12);
@@ -84,6 +84,9 @@ impl Viewer {
             ui.menu_button("File", |ui| self.file_menu(ui, &mut wanted));
             for (name, commands) in MENUS {
                 ui.menu_button(name, |ui| {
+                    if name == "Window" {
+                        self.look_menu(ui);
+                    }
                     for command in commands {
                         match command {
                             Some(command) => self.item(ui, *command, &mut wanted),
@@ -126,6 +129,18 @@ impl Viewer {
             let ctx = ui.ctx().clone();
             self.unless_unsaved(Then::Open(path), &ctx);
         }
+    }
+
+    fn look_menu(&mut self, ui: &mut Ui) {
+        ui.menu_button("Colours of the window", |ui| {
+            for look in Look::ALL {
+                if ui.radio(self.settings.look == look, look.name()).clicked() {
+                    self.settings.look = look;
+                    apply(ui.ctx(), look, self.settings.scale.factor());
+                }
+            }
+        });
+        ui.separator();
     }
 
     fn item(&self, ui: &mut Ui, command: Command, wanted: &mut Option<Command>) {

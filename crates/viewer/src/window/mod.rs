@@ -20,8 +20,7 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use eframe::egui::{self, CentralPanel, Panel, ScrollArea, Ui};
-use foldmotion_pattern::Motion;
-use foldmotion_study::{Draft, Opened, Scene, Study};
+use foldmotion_study::{Draft, Opened, Preview, Scene, Study};
 
 use crate::ViewOptions;
 use crate::design::{DesignPanel, Facts, Fault};
@@ -29,7 +28,7 @@ use crate::document::Document;
 use crate::results::results;
 use crate::settings::{Settings, UnsavedScenes, apply};
 use crate::timeline::{Curves, Marks, Playback, Timeline};
-use crate::timings::Timings;
+use crate::timings::{Pace, Timings};
 use crate::view3d::View3d;
 use crate::work::{Drafts, Hold, Job, Judged, Run, Wake};
 
@@ -89,12 +88,14 @@ struct Shown {
     follows_run: bool,
     /// The vertex that is pulled, and where to.
     pulled: Option<crate::view3d::Handle>,
+    /// The triangle and the vertex under the pointer.
+    pointed: Option<(u32, Option<u32>)>,
 }
 
 /// What is done in the background.
 #[derive(Default)]
 struct Jobs {
-    preview: Option<(Scene, Arc<Draft>, Job<Motion>)>,
+    preview: Option<(Scene, Arc<Draft>, Job<Preview>)>,
     run: Option<(Scene, Run)>,
     hold: Option<Hold>,
     opening: Option<(PathBuf, Job<Opened>)>,
@@ -206,6 +207,11 @@ impl Viewer {
         self.shown.file.is_none() && !acts.any(|(of, other)| other.key == act.key && *of == scene)
     }
 
+    /// Whether what the scene moves is about to be shown.
+    fn is_resolving(&self) -> bool {
+        self.resolved.drafts.is_busy() || self.jobs.preview.is_some()
+    }
+
     /// Brings the pose up to date with what is shown now.
     fn pose(&mut self, act: &Act) {
         let run = self.jobs.run.as_ref().filter(|_| self.shown.follows_run);
@@ -215,14 +221,29 @@ impl Viewer {
             _ => None,
         };
         let count = act.motion().sheet.vertices.len();
-        match live.and_then(crate::work::Live::latest) {
+        match live.and_then(|live| live.newer(0)) {
             Some(state) if state.positions.len() == count => {
-                self.shown
-                    .pose
-                    .show_live(&state, act, self.jobs.hold.is_none());
+                let is_in_hand = self.jobs.hold.is_some();
+                if !is_in_hand {
+                    self.playback.time = state.time;
+                }
+                self.shown.pose.show_live(&state, act, is_in_hand);
             }
             _ => self.shown.pose.show(act, self.playback.time),
         }
+    }
+
+    /// The timeline, with room for curves where there are any.
+    fn timeline_panel(&mut self, ui: &mut Ui) {
+        let act = self.act();
+        let has_curves = act.is_some_and(|act| !act.curves.panels.is_empty());
+        let (name, height) = if has_curves && self.settings.panels.plots {
+            ("plots", 312.0)
+        } else {
+            ("bar", 72.0)
+        };
+        let panel = Panel::bottom(name).resizable(name == "plots");
+        panel.default_size(height).show(ui, |ui| self.timeline(ui));
     }
 
     fn timeline(&mut self, ui: &mut Ui) {
@@ -399,7 +420,14 @@ fn moving_part(scene: &Scene) -> Scene {
 
 impl eframe::App for Viewer {
     fn ui(&mut self, ui: &mut Ui, frame: &mut eframe::Frame) {
-        self.timings.frame(self.is_busy(), self.view3d.drawn() > 0);
+        let pace = if self.is_busy() {
+            Pace::Busy
+        } else if self.playback.is_playing {
+            Pace::Playing
+        } else {
+            Pace::Idle
+        };
+        self.timings.frame(pace, self.view3d.drawn() > 0);
         let ctx = ui.ctx().clone();
         self.poll(&ctx);
         let canvas = self.view3d.id();
@@ -414,20 +442,7 @@ impl eframe::App for Viewer {
         }
         Panel::top("menu").show(ui, |ui| self.menu(ui));
         Panel::bottom("status").show(ui, |ui| self.status(ui));
-        let height = if self.settings.panels.plots {
-            240.0
-        } else {
-            72.0
-        };
-        let timeline = Panel::bottom(if self.settings.panels.plots {
-            "plots"
-        } else {
-            "bar"
-        });
-        timeline
-            .resizable(self.settings.panels.plots)
-            .default_size(height)
-            .show(ui, |ui| self.timeline(ui));
+        self.timeline_panel(ui);
         self.side_panels(ui);
         CentralPanel::default().show(ui, |ui| self.scene_view(ui, frame.wgpu_render_state()));
         self.dialogs(&ctx);

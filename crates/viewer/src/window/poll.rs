@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use eframe::egui::Context;
-use foldmotion_study::{Opened, StudyError};
+use foldmotion_study::{Draft, Opened, Scene, StudyError};
 
 use super::act::Act;
 use super::{Viewer, moving_part};
@@ -65,9 +65,7 @@ impl Viewer {
                 if is_new {
                     // What is in the hand is the sheet before.
                     self.jobs.hold = None;
-                    let key = self.shown.key();
-                    self.shown.draft = Some((scene, Arc::new(Act::exact(&draft, key))));
-                    self.settle_view();
+                    self.show_exact(scene, &draft);
                 }
             }
             Resolved::Study(number, Ok(study)) if number == asked => {
@@ -85,6 +83,23 @@ impl Viewer {
             }
             _ => {}
         }
+    }
+
+    /// Shows the exact states of a new draft where one of them is due; between them the motion before stays until the next
+    /// preview comes.
+    fn show_exact(&mut self, scene: Scene, draft: &Draft) {
+        let t = self.playback.time;
+        let is_of_size = |act: &Act| act.motion().sheet.faces.len() == draft.sheet().faces.len();
+        let stays = self
+            .shown
+            .draft
+            .as_ref()
+            .is_some_and(|(_, act)| is_of_size(act));
+        if stays && t.fract() != 0.0 && self.settings.view.folds_at_once {
+            return;
+        }
+        let act = Arc::new(Act::exact(draft, self.shown.key()));
+        self.change_act(|shown| shown.draft = Some((scene, act)));
     }
 
     /// Starts a preview of the scene as it stands.
@@ -105,15 +120,14 @@ impl Viewer {
     }
 
     fn take_preview(&mut self) {
-        let Some((scene, draft, motion)) = self.jobs.preview.take_if_done() else {
+        let Some((scene, draft, preview)) = self.jobs.preview.take_if_done() else {
             return;
         };
-        match motion {
-            Ok(motion) => {
+        match preview {
+            Ok(preview) => {
                 let key = self.shown.key();
-                let act = Act::preview(&draft, motion, key);
-                self.shown.draft = Some((scene, Arc::new(act)));
-                self.settle_view();
+                let act = Act::preview(&draft, preview, &scene, key);
+                self.change_act(|shown| shown.draft = Some((scene, Arc::new(act))));
             }
             Err(WorkError::Stopped) => {}
             Err(error) => self.say(format!("the preview failed: {error}"), false),
@@ -143,7 +157,7 @@ impl Viewer {
         }
     }
 
-    fn finish_run(&mut self, scene: foldmotion_study::Scene, finished: &Finished) {
+    fn finish_run(&mut self, scene: Scene, finished: &Finished) {
         let verdict = finished.report.collision.verdict.clone();
         let words = match &finished.report.jam {
             Some(jam) => format!("jammed at t = {:.4}; {verdict} as far as it came", jam.t),
@@ -154,8 +168,7 @@ impl Viewer {
         };
         let key = self.shown.key();
         let act = Act::run(finished, key);
-        self.shown.run = Some((scene, Arc::new(act)));
-        self.settle_view();
+        self.change_act(|shown| shown.run = Some((scene, Arc::new(act))));
         if self.shown.follows_run {
             self.playback.go_to(2.0);
             self.shown.follows_run = false;
@@ -173,9 +186,9 @@ impl Viewer {
                 self.jobs.stop();
                 self.jobs.judging = Some(judge(Arc::clone(&motion), self.wake.clone()));
                 let key = self.shown.key();
-                self.shown.file = Some(Arc::new(Act::file(motion, None, key)));
                 self.shown.fits = true;
-                self.settle_view();
+                let act = Arc::new(Act::file(motion, None, key));
+                self.change_act(|shown| shown.file = Some(act));
             }
             Ok(Opened::Scene(_)) => match Document::open(&path) {
                 Ok(document) => {
@@ -190,6 +203,8 @@ impl Viewer {
 
     /// Goes on with another scene.
     pub(super) fn take_document(&mut self, document: Document) {
+        // What cannot be read can only be mended as text.
+        self.settings.panels.text |= document.parse_error().is_some();
         self.document = document;
         self.keep_unsaved();
         self.resolved.asked = None;
@@ -249,12 +264,22 @@ impl Viewer {
         }
     }
 
-    /// Fits the view to a motion that came, where that is due.
-    fn settle_view(&mut self) {
+    /// Takes another motion; the view is fitted to it where that is due, and else goes with the sheet where the other
+    /// motion is shown elsewhere.
+    fn change_act(&mut self, change: impl FnOnce(&mut super::Shown)) {
+        let before = self.act();
+        change(&mut self.shown);
         let Some(act) = self.act() else { return };
         self.playback.set_range(act.range());
-        if std::mem::take(&mut self.shown.fits) {
+        if self.shown.fits {
             self.view3d.fit(act.reach());
+            // Exact states lie elsewhere than the motion that follows them.
+            self.shown.fits = act.is_exact();
+        } else if let Some(before) = before.filter(|before| before.key != act.key) {
+            let t = self.playback.time;
+            if let (Some(from), Some(to)) = (before.middle(t), act.middle(t)) {
+                self.view3d.follow_by(to - from);
+            }
         }
     }
 }

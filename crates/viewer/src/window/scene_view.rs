@@ -9,6 +9,7 @@ use eframe::egui::{
     Stroke, StrokeKind, Ui, WidgetInfo, pos2, vec2,
 };
 use eframe::egui_wgpu::RenderState;
+use foldmotion_pattern::{Facet, FacetKind, Sheet};
 use foldmotion_record::{Style, colour_of};
 
 use super::Viewer;
@@ -63,11 +64,12 @@ impl Viewer {
         let visuals = ui.visuals();
         let background = visuals.panel_fill;
         let style = style(visuals.dark_mode);
-        let accent = visuals.selection.stroke.color;
+        let accent = visuals.hyperlink_color;
         let weak = visuals.weak_text_color();
         let marked = visuals.error_fg_color;
         let mut overlays: Vec<Overlay<'_>> = Vec::new();
-        if looks.profile && !act.profile.is_empty() {
+        // The profile is what the deployed sheet follows, the box what the folding one comes to.
+        if looks.profile && !act.profile.is_empty() && self.playback.time <= 1.0 {
             overlays.push(Overlay {
                 shape: Shape::Path(&act.profile),
                 colour: accent,
@@ -130,7 +132,9 @@ impl Viewer {
             handle: self.shown.pulled,
             can_pull: self.jobs.hold.is_some(),
         };
-        self.view3d.show(ui, render_state, &picture).pull
+        let seen = self.view3d.show(ui, render_state, &picture);
+        self.shown.pointed = seen.face.map(|face| (face, seen.vertex));
+        seen.pull
     }
 
     /// What is shown, and what it is worth.
@@ -152,7 +156,7 @@ impl Viewer {
         let small = FontId::proportional(13.0);
         let mut place = painter.text(below, Align2::LEFT_TOP, &badge, small.clone(), colour);
         let mut spoken = format!("{time}, {badge}");
-        if self.is_stale(act) {
+        if self.is_stale(act) && !self.is_resolving() {
             let words = "of the scene before the last edits";
             let below = place.left_bottom() + vec2(0.0, 2.0);
             place = painter.text(
@@ -176,10 +180,38 @@ impl Viewer {
         ui.interact(area, ui.id().with("words over"), Sense::hover())
             .widget_info(|| WidgetInfo::labeled(Role::Label, true, &spoken));
         let sheet = &act.motion().sheet;
+        if let Some(words) = self.pointed_words(sheet) {
+            let corner = rect.left_bottom() + vec2(12.0, -10.0);
+            let font = FontId::proportional(12.0);
+            painter.text(
+                corner,
+                Align2::LEFT_BOTTOM,
+                words,
+                font,
+                visuals.text_color(),
+            );
+        }
         let colour = self.settings.view.colour;
         if let Some((_, range, title)) = self.shown.pose.values(act, sheet, colour) {
             scale(&painter, ui, rect, range, title);
         }
+    }
+
+    /// What is under the pointer.
+    fn pointed_words(&self, sheet: &Sheet) -> Option<String> {
+        let (face, vertex) = self.shown.pointed?;
+        let facet = *sheet.face_facets.get(face as usize)?;
+        let Facet {
+            row, column, kind, ..
+        } = sheet.facets.get(facet as usize)?;
+        let mut words = match kind {
+            FacetKind::Plain => format!("facet {facet}"),
+            kind => format!("facet {facet}: {}, row {row}, column {column}", kind.name()),
+        };
+        if let Some(vertex) = vertex {
+            words += &format!("; vertex {vertex}");
+        }
+        Some(words)
     }
 
     /// What the sheet that is shown is worth, and in which colour that is said.
@@ -220,8 +252,8 @@ impl Viewer {
     pub(super) fn shown_time(&self) -> f64 {
         let run = self.jobs.run.as_ref().filter(|_| self.shown.follows_run);
         let live = match (&self.jobs.hold, run) {
-            (Some(hold), _) => hold.live().latest(),
-            (None, Some((_, run))) => run.live().latest(),
+            (Some(hold), _) => hold.live().newer(0),
+            (None, Some((_, run))) => run.live().newer(0),
             _ => None,
         };
         live.map_or(self.playback.time, |state| state.time)

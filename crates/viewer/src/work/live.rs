@@ -42,11 +42,6 @@ impl Live {
         inner.state.clone().filter(|state| state.serial != serial)
     }
 
-    /// The latest state.
-    pub(crate) fn latest(&self) -> Option<State> {
-        lock(&self.0).state.clone()
-    }
-
     /// How many states came in the last second.
     pub(crate) fn rate(&self) -> usize {
         let now = Instant::now();

@@ -19,7 +19,7 @@ mod wake;
 
 pub(crate) use drafts::{Drafts, Resolved};
 pub(crate) use error::WorkError;
-pub(crate) use hold::{Held, Hold};
+pub(crate) use hold::Hold;
 pub(crate) use job::{Job, Stand};
 pub(crate) use live::{Live, State};
 pub(crate) use open::{Judged, judge, open};

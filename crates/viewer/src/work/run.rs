@@ -13,7 +13,6 @@ use super::{Job, Live, Stand, Wake, WorkError};
 pub(crate) struct Run {
     job: Job<Finished>,
     live: Live,
-    study: Arc<Study>,
 }
 
 /// What came of a run.
@@ -49,12 +48,7 @@ impl Run {
                 study: Arc::clone(&run),
             })
         });
-        Self { job, live, study }
-    }
-
-    /// What is run.
-    pub(crate) fn study(&self) -> &Arc<Study> {
-        &self.study
+        Self { job, live }
     }
 
     /// Where the sheet is.
