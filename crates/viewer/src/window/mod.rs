@@ -243,6 +243,8 @@ impl Viewer {
             ("bar", 72.0)
         };
         let panel = Panel::bottom(name).resizable(name == "plots");
+        // A small window is for the sheet first.
+        let height = height.min(0.45 * ui.available_height()).max(72.0);
         panel.default_size(height).show(ui, |ui| self.timeline(ui));
     }
 
