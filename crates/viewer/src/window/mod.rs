@@ -56,6 +56,8 @@ pub struct Viewer {
     /// What went wrong or well, and since when it is said.
     notice: Option<(String, bool, Instant)>,
     shows_help: bool,
+    /// Whether the text is shown because the scene could not be read.
+    mends_text: bool,
     /// Whether the window closes without asking again.
     is_closing: bool,
 }
@@ -156,6 +158,7 @@ impl Viewer {
             record_panel: RecordPanel::default(),
             notice: None,
             shows_help: false,
+            mends_text: false,
             is_closing: false,
             settings,
             wake,
@@ -275,7 +278,7 @@ impl Viewer {
                 .default_size(348.0)
                 .size_range(280.0..=620.0)
                 .show(ui, |ui| {
-                    if self.settings.panels.text {
+                    if self.settings.panels.text || self.mends_text {
                         self.text_panel(ui);
                     } else {
                         ScrollArea::vertical()

@@ -177,7 +177,7 @@ impl Viewer {
             spoken = format!("{spoken}, {words}");
         }
         let area = Rect::from_two_pos(corner, place.max);
-        ui.interact(area, ui.id().with("words over"), Sense::hover())
+        ui.interact(area, ui.scope_id().with("words over"), Sense::hover())
             .widget_info(|| WidgetInfo::labeled(Role::Label, true, &spoken));
         let sheet = &act.motion().sheet;
         if let Some(words) = self.pointed_words(sheet) {
