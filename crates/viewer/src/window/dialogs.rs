@@ -63,7 +63,9 @@ impl Viewer {
                 None => self.dialog = Dialog::Save(picker, then),
             },
             Dialog::Folder(mut picker) => match picker.show(ctx) {
-                Some(Picked::File(path)) => self.record_panel.folder = path.display().to_string(),
+                Some(Picked::File(path)) => {
+                    self.record_panel.folder = Some(path.display().to_string())
+                }
                 Some(Picked::Cancelled) => {}
                 None => self.dialog = Dialog::Folder(picker),
             },
@@ -196,10 +198,9 @@ impl Viewer {
         if !self.settings.panels.record {
             return;
         }
-        if self.record_panel.folder.is_empty() {
-            let stem = self.document.source().stem();
-            self.record_panel.folder = std::path::Path::new("out").join(stem).display().to_string();
-        }
+        let stem = self.document.source().stem();
+        let beside = || PathBuf::from("out").join(stem).display().to_string();
+        self.record_panel.folder.get_or_insert_with(beside);
         let act = self.act();
         let is_ready = act.as_ref().is_some_and(|act| act.can_be_recorded());
         let record: RecordScene = self.document.scene().record.clone();

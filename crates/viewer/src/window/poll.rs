@@ -212,6 +212,7 @@ impl Viewer {
         self.resolved.study = None;
         self.resolved.faults.clear();
         self.jobs.stop();
+        self.record_panel.folder = None;
         let next_key = self.shown.next_key;
         self.shown = super::Shown {
             fits: true,

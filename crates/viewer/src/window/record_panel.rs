@@ -29,8 +29,8 @@ pub(crate) struct RecordPanel {
     seconds: f64,
     /// Only the state at hand in figures and models, not the five of a whole motion.
     only_now: bool,
-    /// The folder, as typed.
-    pub(crate) folder: String,
+    /// The folder, as typed; none until the panel is shown for a scene.
+    pub(crate) folder: Option<String>,
 }
 
 /// What the user wants of the panel.
@@ -51,7 +51,7 @@ impl Default for RecordPanel {
             size: [960, 720],
             seconds: 8.0,
             only_now: false,
-            folder: String::new(),
+            folder: None,
         }
     }
 }
@@ -60,6 +60,7 @@ impl RecordPanel {
     /// The panel; `scene` is what the scene says of recording.
     pub(crate) fn show(&mut self, ui: &mut Ui, scene: &RecordScene, seen: &Seen) -> Option<Wish> {
         let mut wish = None;
+        let mut folder = self.folder.take().unwrap_or_default();
         ui.label(
             "the camera is the one of the view; the rest is as the scene's record section says",
         );
@@ -100,7 +101,7 @@ impl RecordPanel {
         ui.add_space(4.0);
         let label = ui.label("folder");
         ui.horizontal(|ui| {
-            ui.add(TextEdit::singleline(&mut self.folder).desired_width(300.0))
+            ui.add(TextEdit::singleline(&mut folder).desired_width(300.0))
                 .labelled_by(label.id);
             if ui.button("Choose…").clicked() {
                 wish = Some(Wish::Choose);
@@ -108,21 +109,19 @@ impl RecordPanel {
         });
         ui.separator();
         ui.horizontal(|ui| {
-            let is_ready = !self.outputs.is_empty() && !self.folder.trim().is_empty();
+            let is_ready = !self.outputs.is_empty() && !folder.trim().is_empty();
             if ui
                 .add_enabled(is_ready, Button::new("Record now"))
                 .clicked()
             {
                 let record = self.record(scene, seen);
-                wish = Some(Wish::Record(
-                    Box::new(record),
-                    PathBuf::from(self.folder.trim()),
-                ));
+                wish = Some(Wish::Record(Box::new(record), PathBuf::from(folder.trim())));
             }
             if ui.button("Close").clicked() {
                 wish = Some(Wish::Close);
             }
         });
+        self.folder = Some(folder);
         wish
     }
 
