@@ -241,7 +241,10 @@ fn without_a_display_the_window_says_what_to_install_and_what_works_without() {
         .unwrap();
     let err = text(&output.stderr);
     assert_eq!(output.status.code(), Some(3), "{err}");
-    assert!(err.contains("xvfb") && err.contains("foldmotion run"), "{err}");
+    assert!(
+        err.contains("xvfb") && err.contains("foldmotion run"),
+        "{err}"
+    );
     assert_eq!(text(&output.stdout), "");
 }
 
