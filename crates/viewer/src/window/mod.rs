@@ -84,6 +84,8 @@ struct Shown {
     file: Option<Arc<Act>>,
     pose: Pose,
     next_key: u64,
+    /// The title of the window.
+    title: String,
     /// Whether the view is to be fitted to the next motion.
     fits: bool,
     /// Whether the view follows the run under way.

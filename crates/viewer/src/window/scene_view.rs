@@ -4,9 +4,10 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use eframe::egui::accesskit::Role;
+use eframe::egui::epaint::RectShape;
 use eframe::egui::{
     Align2, Checkbox, Color32, ComboBox, FontId, Painter, Rect, RichText, ScrollArea, Sense,
-    Stroke, StrokeKind, Ui, WidgetInfo, pos2, vec2,
+    Stroke, StrokeKind, Ui, Vec2, WidgetInfo, pos2, vec2,
 };
 use eframe::egui_wgpu::RenderState;
 use foldmotion_pattern::{Facet, FacetKind, Sheet};
@@ -141,44 +142,25 @@ impl Viewer {
     fn words_over(&mut self, ui: &Ui, rect: Rect, act: &Act) {
         let painter = ui.painter_at(rect);
         let visuals = ui.visuals();
-        let (badge, colour) = self.badge(ui, act);
-        let corner = rect.left_top() + vec2(12.0, 10.0);
-        let time = format!("t = {:.4}", self.shown_time());
-        let font = FontId::proportional(18.0);
-        let place = painter.text(
-            corner,
-            Align2::LEFT_TOP,
-            &time,
-            font,
-            visuals.strong_text_color(),
-        );
-        let below = place.left_bottom() + vec2(0.0, 3.0);
-        let small = FontId::proportional(13.0);
-        let mut place = painter.text(below, Align2::LEFT_TOP, &badge, small.clone(), colour);
-        let mut spoken = format!("{time}, {badge}");
-        if self.is_stale(act) && !self.is_resolving() {
-            let words = "of the scene before the last edits";
-            let below = place.left_bottom() + vec2(0.0, 2.0);
-            place = painter.text(
-                below,
-                Align2::LEFT_TOP,
-                words,
-                small.clone(),
-                visuals.warn_fg_color,
-            );
-            spoken = format!("{spoken}, {words}");
+        let lines = self.lines_over(ui, act);
+        // Its place is known once the words are laid out, over which it would lie.
+        let ground = painter.add(RectShape::filled(Rect::NOTHING, 0.0, Color32::TRANSPARENT));
+        let mut area = Rect::from_min_size(rect.left_top() + vec2(12.0, 8.0), Vec2::ZERO);
+        for (words, size, colour) in &lines {
+            let font = FontId::proportional(*size);
+            let room = (rect.width() - 24.0).max(1.0);
+            let galley = painter.layout(words.clone(), font, *colour, room);
+            let at = area.left_bottom() + vec2(0.0, 2.0);
+            area |= Rect::from_min_size(at, galley.size());
+            painter.galley(at, galley, *colour);
         }
-        let penetrating = self.shown.pose.penetrating.0.len();
-        if penetrating > 0 {
-            let words = format!("{penetrating} triangles penetrate here");
-            let below = place.left_bottom() + vec2(0.0, 2.0);
-            let colour = visuals.error_fg_color;
-            place = painter.text(below, Align2::LEFT_TOP, &words, small, colour);
-            spoken = format!("{spoken}, {words}");
-        }
-        let area = Rect::from_two_pos(corner, place.max);
+        let colour = visuals.panel_fill.gamma_multiply(0.7);
+        painter.set(ground, RectShape::filled(area.expand(4.0), 4.0, colour));
         ui.interact(area, ui.scope_id().with("words over"), Sense::hover())
-            .widget_info(|| WidgetInfo::labeled(Role::Label, true, &spoken));
+            .widget_info(|| {
+                let words: Vec<&str> = lines.iter().map(|line| line.0.as_str()).collect();
+                WidgetInfo::labeled(Role::Label, true, words.join(", "))
+            });
         let sheet = &act.motion().sheet;
         if let Some(words) = self.pointed_words(sheet) {
             let corner = rect.left_bottom() + vec2(12.0, -10.0);
@@ -212,6 +194,28 @@ impl Viewer {
             words += &format!("; vertex {vertex}");
         }
         Some(words)
+    }
+
+    /// The lines over the view, with the size of their letters and their colour.
+    fn lines_over(&self, ui: &Ui, act: &Act) -> Vec<(String, f32, Color32)> {
+        const SMALL: f32 = 13.0;
+        let visuals = ui.visuals();
+        let (badge, colour) = self.badge(ui, act);
+        let time = format!("t = {:.4}", self.shown_time());
+        let mut lines = vec![
+            (time, 18.0, visuals.strong_text_color()),
+            (badge, SMALL, colour),
+        ];
+        if self.is_stale(act) && !self.is_resolving() {
+            let words = "of the scene before the last edits".to_owned();
+            lines.push((words, SMALL, visuals.warn_fg_color));
+        }
+        let penetrating = self.shown.pose.penetrating.0.len();
+        if penetrating > 0 {
+            let words = format!("{penetrating} triangles penetrate here");
+            lines.push((words, SMALL, visuals.error_fg_color));
+        }
+        lines
     }
 
     /// What the sheet that is shown is worth, and in which colour that is said.

@@ -1,5 +1,4 @@
 //! What the window looks like: small pictures, compared with those that were looked at.
-#![cfg(gpu_tests)]
 
 use eframe::egui::{Key, Modifiers, Theme, vec2};
 use egui_kittest::{Harness, SnapshotOptions};
@@ -24,6 +23,7 @@ fn compare(window: &mut Window, name: &str) {
     window.harness.remove_cursor();
     // The camera comes to rest.
     window.harness.run_steps(12);
+    window.hide_seconds();
     let options = SnapshotOptions::new()
         .threshold(2.0)
         .max_failed_pixels(1500);
@@ -31,6 +31,7 @@ fn compare(window: &mut Window, name: &str) {
 }
 
 #[test]
+#[cfg_attr(not(gpu_tests), ignore = "no adapter: set FOLDMOTION_GPU_TESTS=yes")]
 fn the_deployed_sheet_in_dark() {
     let mut window = drawn(Theme::Dark, SMALL);
     window.until_preview();
@@ -38,25 +39,26 @@ fn the_deployed_sheet_in_dark() {
 }
 
 #[test]
+#[cfg_attr(not(gpu_tests), ignore = "no adapter: set FOLDMOTION_GPU_TESTS=yes")]
 fn the_deployed_sheet_in_light() {
     let mut window = drawn(Theme::Light, SMALL);
-    window.press(Key::F10);
     window.until_preview();
     compare(&mut window, "deployed-light");
 }
 
 #[test]
+#[cfg_attr(not(gpu_tests), ignore = "no adapter: set FOLDMOTION_GPU_TESTS=yes")]
 fn half_folded_with_strain_after_a_run() {
     let mut window = drawn(Theme::Dark, SMALL);
     window.run_scene();
     window.press(Key::F2);
     window.enter("t", "1.5");
     window.press(Key::Num6);
-    window.hide_seconds();
     compare(&mut window, "half-folded-strain");
 }
 
 #[test]
+#[cfg_attr(not(gpu_tests), ignore = "no adapter: set FOLDMOTION_GPU_TESTS=yes")]
 fn compact_with_its_boxes() {
     let mut window = drawn(Theme::Dark, SMALL);
     window.until_preview();
@@ -68,11 +70,10 @@ fn compact_with_its_boxes() {
 }
 
 #[test]
+#[cfg_attr(not(gpu_tests), ignore = "no adapter: set FOLDMOTION_GPU_TESTS=yes")]
 fn the_record_dialog() {
     let mut window = drawn(Theme::Light, SMALL);
-    window.press(Key::F10);
     window.run_scene();
     window.press_with(Modifiers::COMMAND, Key::E);
-    window.hide_seconds();
     compare(&mut window, "record-light");
 }
