@@ -228,3 +228,32 @@ fn a_crease_pattern_is_run_by_itself_whatever_the_case_of_its_ending() {
     let pattern = foldmotion(home.path(), &["pattern", "card.SVG"]);
     assert_eq!(pattern.status.code(), Some(2), "{}", text(&pattern.stderr));
 }
+
+#[cfg(all(feature = "viewer", unix, not(target_os = "macos")))]
+#[test]
+fn without_a_display_the_window_says_what_to_install_and_what_works_without() {
+    let home = tempfile::tempdir().unwrap();
+    let output = common::command(home.path(), &["view", &scene("one-unit")])
+        .env_remove("DISPLAY")
+        .env_remove("WAYLAND_DISPLAY")
+        .env_remove("WAYLAND_SOCKET")
+        .output()
+        .unwrap();
+    let err = text(&output.stderr);
+    assert_eq!(output.status.code(), Some(3), "{err}");
+    assert!(
+        err.contains("xvfb") && err.contains("foldmotion run"),
+        "{err}"
+    );
+    assert_eq!(text(&output.stdout), "");
+}
+
+#[cfg(feature = "viewer")]
+#[test]
+fn a_file_that_is_not_there_is_bad_input_before_a_window_opens() {
+    let home = tempfile::tempdir().unwrap();
+    let output = foldmotion(home.path(), &["view", "nothing.toml"]);
+    let err = text(&output.stderr);
+    assert_eq!(output.status.code(), Some(2), "{err}");
+    assert!(err.contains("nothing.toml"), "{err}");
+}

@@ -3,12 +3,14 @@
 use std::path::Path;
 use std::process::{Command, Output};
 
+pub(crate) fn command(folder: &Path, arguments: &[&str]) -> Command {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_foldmotion"));
+    command.args(arguments).current_dir(folder);
+    command
+}
+
 pub(crate) fn foldmotion(folder: &Path, arguments: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_foldmotion"))
-        .args(arguments)
-        .current_dir(folder)
-        .output()
-        .unwrap()
+    command(folder, arguments).output().unwrap()
 }
 
 pub(crate) fn text(bytes: &[u8]) -> String {

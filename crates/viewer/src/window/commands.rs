@@ -46,6 +46,7 @@ impl Viewer {
             Command::Record => self.settings.panels.record = true,
             Command::DarkLight | Command::Presentation => self.change_look(command, ctx),
             Command::Help => self.shows_help = true,
+            Command::PanelText if self.mends_text => self.mends_text = false,
             _ if self.move_time(command) || self.look(command) => {}
             _ => self.switch(command),
         }

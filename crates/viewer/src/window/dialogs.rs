@@ -282,9 +282,10 @@ impl Viewer {
             None => self.document.name(),
         };
         let title = format!("{mark}{name} — foldmotion");
-        let is_new = ctx.input(|i| i.viewport().title.as_ref() != Some(&title));
-        if is_new {
-            ctx.send_viewport_cmd(ViewportCommand::Title(title));
+        // The system may hand another text back.
+        if self.shown.title != title {
+            ctx.send_viewport_cmd(ViewportCommand::Title(title.clone()));
+            self.shown.title = title;
         }
     }
 }

@@ -56,6 +56,8 @@ pub struct Viewer {
     /// What went wrong or well, and since when it is said.
     notice: Option<(String, bool, Instant)>,
     shows_help: bool,
+    /// Whether the text is shown because the scene could not be read.
+    mends_text: bool,
     /// Whether the window closes without asking again.
     is_closing: bool,
 }
@@ -82,6 +84,8 @@ struct Shown {
     file: Option<Arc<Act>>,
     pose: Pose,
     next_key: u64,
+    /// The title of the window.
+    title: String,
     /// Whether the view is to be fitted to the next motion.
     fits: bool,
     /// Whether the view follows the run under way.
@@ -156,6 +160,7 @@ impl Viewer {
             record_panel: RecordPanel::default(),
             notice: None,
             shows_help: false,
+            mends_text: false,
             is_closing: false,
             settings,
             wake,
@@ -238,7 +243,7 @@ impl Viewer {
         let act = self.act();
         let has_curves = act.is_some_and(|act| !act.curves.panels.is_empty());
         let (name, height) = if has_curves && self.settings.panels.plots {
-            ("plots", 312.0)
+            ("plots", 312.0_f32)
         } else {
             ("bar", 72.0)
         };
@@ -277,7 +282,7 @@ impl Viewer {
                 .default_size(348.0)
                 .size_range(280.0..=620.0)
                 .show(ui, |ui| {
-                    if self.settings.panels.text {
+                    if self.settings.panels.text || self.mends_text {
                         self.text_panel(ui);
                     } else {
                         ScrollArea::vertical()

@@ -204,7 +204,7 @@ impl Viewer {
     /// Goes on with another scene.
     pub(super) fn take_document(&mut self, document: Document) {
         // What cannot be read can only be mended as text.
-        self.settings.panels.text |= document.parse_error().is_some();
+        self.mends_text = document.parse_error().is_some();
         self.document = document;
         self.keep_unsaved();
         self.resolved.asked = None;

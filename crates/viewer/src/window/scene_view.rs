@@ -156,7 +156,7 @@ impl Viewer {
         }
         let colour = visuals.panel_fill.gamma_multiply(0.7);
         painter.set(ground, RectShape::filled(area.expand(4.0), 4.0, colour));
-        ui.interact(area, ui.id().with("words over"), Sense::hover())
+        ui.interact(area, ui.scope_id().with("words over"), Sense::hover())
             .widget_info(|| {
                 let words: Vec<&str> = lines.iter().map(|line| line.0.as_str()).collect();
                 WidgetInfo::labeled(Role::Label, true, words.join(", "))

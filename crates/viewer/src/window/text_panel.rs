@@ -15,6 +15,7 @@ impl Viewer {
                     .clicked()
                 {
                     self.settings.panels.text = false;
+                    self.mends_text = false;
                 }
             });
             label

@@ -50,7 +50,7 @@ fn tab_reaches_the_controls() {
     let mut window = Window::over(SMALL);
     window.until_preview();
     let mut reached = BTreeSet::new();
-    for _ in 0..150 {
+    for _ in 0..300 {
         window.harness.key_press(Key::Tab);
         window.harness.run_steps(1);
         let focused = window.harness.root().children_recursive();
