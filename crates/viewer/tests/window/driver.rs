@@ -5,16 +5,17 @@ use std::thread::sleep;
 use std::time::{Duration, Instant};
 
 use eframe::egui::accesskit::{Role, Toggled};
-use eframe::egui::{Event, Key, Modifiers, Pos2, Rect, Vec2, ViewportCommand, ViewportId, vec2};
+use eframe::egui::{Event, Key, Modifiers, Pos2, Rect, Vec2, ViewportCommand, vec2};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use egui_kittest::{Harness, HarnessBuilder, Node};
 use foldmotion_viewer::{ViewOptions, Viewer};
 use tempfile::TempDir;
 
 use crate::storage::Storage;
+use crate::system::System;
 
 /// How long anything from the background may take on the slowest machine.
-const PATIENCE: Duration = Duration::from_secs(25);
+const PATIENCE: Duration = Duration::from_mins(2);
 
 /// A sheet that is folded and checked in a moment.
 pub const SMALL: &str = "\
@@ -74,6 +75,7 @@ pub fn scenes() -> PathBuf {
 pub struct Window {
     pub harness: Harness<'static, Viewer>,
     pub folder: TempDir,
+    system: System,
 }
 
 impl Window {
@@ -113,12 +115,19 @@ impl Window {
             unsaved: Some(folder.path().join("unsaved")),
         };
         let storage = storage.map(Storage::shared);
+        let system = System::default();
+        let plugin = system.clone();
         let builder = builder.with_step_dt(0.05).with_max_steps(12);
+        let builder = builder.with_context_setup(|ctx| ctx.add_plugin(plugin));
         let harness = builder.build_eframe(|creation| {
             creation.storage = storage.map(|storage| storage as &dyn eframe::Storage);
             Viewer::new(creation, options, Instant::now())
         });
-        Self { harness, folder }
+        Self {
+            harness,
+            folder,
+            system,
+        }
     }
 
     /// The scene's file in a window [`Self::over`] a text.
@@ -376,23 +385,14 @@ impl Window {
         }
     }
 
-    /// What the window asked of the system in the last frame.
-    fn asked(&self) -> &[ViewportCommand] {
-        &self.harness.output().viewport_output[&ViewportId::ROOT].commands
-    }
-
     /// The title of the window.
     pub fn title(&self) -> String {
-        let titles = self.asked().iter().filter_map(|command| match command {
-            ViewportCommand::Title(title) => Some(title.clone()),
-            _ => None,
-        });
-        titles.last().unwrap_or_default()
+        self.system.title()
     }
 
-    /// Whether the window asked to be closed, or not to be, in the last frame.
+    /// Whether the window asked for it since it was last asked here.
     pub fn asked_for(&self, command: &ViewportCommand) -> bool {
-        self.asked().contains(command)
+        self.system.was_asked_for(command)
     }
 
     /// Hides how long a run took, which is never the same.
@@ -408,7 +408,9 @@ impl Window {
 
     /// Ends the window as a crash would, and starts another over the same unsaved scenes.
     pub fn killed(self, file: Option<PathBuf>) -> Self {
-        let Self { harness, folder } = self;
+        let Self {
+            harness, folder, ..
+        } = self;
         drop(harness);
         Self::start(folder, file, None)
     }

@@ -180,7 +180,9 @@ fn recent_files_are_remembered_and_opened_again() {
     let mut window = Window::start(folder, Some(path.clone()), Some(&storage));
     window.until_preview();
     window.harness.state_mut().save(&mut storage);
-    let Window { harness, folder } = window;
+    let Window {
+        harness, folder, ..
+    } = window;
     drop(harness);
     let mut window = Window::start(folder, None, Some(&storage));
     window.click("File");

@@ -11,5 +11,6 @@ mod pictures;
 mod records;
 mod runs;
 mod storage;
+mod system;
 mod timeline;
 mod unsaved;

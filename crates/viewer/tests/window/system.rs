@@ -1,0 +1,41 @@
+//! What the window asks of the system, frame by frame.
+
+use std::sync::{Arc, Mutex};
+
+use eframe::egui::{Context, FullOutput, Plugin, ViewportCommand, ViewportId};
+
+/// Notes what is asked for.
+#[derive(Debug, Clone, Default)]
+pub struct System(Arc<Mutex<Vec<ViewportCommand>>>);
+
+impl System {
+    /// The title that was asked for last.
+    pub fn title(&self) -> String {
+        let asked = self.0.lock().unwrap();
+        let titles = asked.iter().filter_map(|command| match command {
+            ViewportCommand::Title(title) => Some(title.clone()),
+            _ => None,
+        });
+        titles.last().unwrap_or_default()
+    }
+
+    /// Whether it was asked for since this was last asked for.
+    pub fn was_asked_for(&self, command: &ViewportCommand) -> bool {
+        let mut asked = self.0.lock().unwrap();
+        let before = asked.len();
+        asked.retain(|other| other != command);
+        asked.len() < before
+    }
+}
+
+impl Plugin for System {
+    fn debug_name(&self) -> &'static str {
+        "system"
+    }
+
+    fn output_hook(&mut self, _: &Context, output: &mut FullOutput) {
+        if let Some(root) = output.viewport_output.get(&ViewportId::ROOT) {
+            self.0.lock().unwrap().extend(root.commands.iter().cloned());
+        }
+    }
+}
