@@ -159,7 +159,7 @@ impl Viewer {
         self.jobs.hold = None;
         self.jobs.best_rate = 0;
         let scene = moving_part(self.document.scene());
-        self.jobs.run = Some((scene, Run::start(study, self.wake.clone())));
+        self.jobs.run = Some((scene, Run::start(&study, self.wake.clone())));
         self.shown.follows_run = true;
         self.playback.is_playing = false;
     }
