@@ -68,6 +68,8 @@ struct Palette {
     text: Color32,
     accent: Color32,
     chosen: Color32,
+    warning: Color32,
+    error: Color32,
 }
 
 const DARK: Palette = Palette {
@@ -78,6 +80,8 @@ const DARK: Palette = Palette {
     text: Color32::from_rgb(214, 216, 219),
     accent: Color32::from_rgb(92, 164, 224),
     chosen: Color32::from_rgb(30, 62, 94),
+    warning: Color32::from_rgb(255, 166, 66),
+    error: Color32::from_rgb(255, 112, 102),
 };
 
 const LIGHT: Palette = Palette {
@@ -88,6 +92,8 @@ const LIGHT: Palette = Palette {
     text: Color32::from_rgb(38, 41, 46),
     accent: Color32::from_rgb(20, 98, 165),
     chosen: Color32::from_rgb(194, 221, 245),
+    warning: Color32::from_rgb(158, 80, 0),
+    error: Color32::from_rgb(190, 24, 24),
 };
 
 fn style_of(theme: Theme) -> Style {
@@ -108,6 +114,8 @@ fn style_of(theme: Theme) -> Style {
     visuals.menu_corner_radius = rounded;
     visuals.extreme_bg_color = palette.sunken;
     visuals.hyperlink_color = palette.accent;
+    visuals.warn_fg_color = palette.warning;
+    visuals.error_fg_color = palette.error;
     visuals.selection.bg_fill = palette.chosen;
     visuals.selection.stroke = Stroke::new(1.0, palette.text);
     let widgets = &mut visuals.widgets;
@@ -162,7 +170,9 @@ mod tests {
             ] {
                 assert!(contrast(palette.text, ground) > 7.0);
             }
-            assert!(contrast(palette.accent, palette.ground) > 4.5);
+            for colour in [palette.accent, palette.warning, palette.error] {
+                assert!(contrast(colour, palette.ground) > 4.5, "{colour:?}");
+            }
         }
     }
 

@@ -247,11 +247,13 @@ impl Viewer {
         let act = self.act();
         let has_curves = act.is_some_and(|act| !act.curves.panels.is_empty());
         let (name, height) = if has_curves && self.settings.panels.plots {
-            ("plots", 312.0)
+            ("plots", 312.0_f32)
         } else {
             ("bar", 72.0)
         };
         let panel = Panel::bottom(name).resizable(name == "plots");
+        // A small window is for the sheet first.
+        let height = height.min(0.45 * ui.available_height()).max(72.0);
         panel.default_size(height).show(ui, |ui| self.timeline(ui));
     }
 

@@ -65,20 +65,14 @@ impl RecordPanel {
             "the camera is the one of the view; the rest is as the scene's record section says",
         );
         ui.add_space(4.0);
-        for (output, name) in OUTPUTS {
-            let is_there = output != OutputChoice::Mp4 || cfg!(feature = "h264");
-            let mut is_on = self.outputs.contains(&output);
-            let check = ui.add_enabled(is_there, Checkbox::new(&mut is_on, name));
-            if check
-                .on_disabled_hover_text("this program was built without the feature h264")
-                .changed()
-            {
-                self.outputs.retain(|&o| o != output);
-                if is_on {
-                    self.outputs.push(output);
+        Grid::new("outputs").num_columns(2).show(ui, |ui| {
+            for pair in OUTPUTS.chunks(2) {
+                for &(output, name) in pair {
+                    self.switch(ui, output, name);
                 }
+                ui.end_row();
             }
-        }
+        });
         ui.add_space(4.0);
         Grid::new("record").num_columns(2).show(ui, |ui| {
             let label = ui.label("width, pixels");
@@ -123,6 +117,22 @@ impl RecordPanel {
         });
         self.folder = Some(folder);
         wish
+    }
+
+    /// Whether an output is wanted.
+    fn switch(&mut self, ui: &mut Ui, output: OutputChoice, name: &str) {
+        let is_there = output != OutputChoice::Mp4 || cfg!(feature = "h264");
+        let mut is_on = self.outputs.contains(&output);
+        let check = ui.add_enabled(is_there, Checkbox::new(&mut is_on, name));
+        if check
+            .on_disabled_hover_text("this program was built without the feature h264")
+            .changed()
+        {
+            self.outputs.retain(|&o| o != output);
+            if is_on {
+                self.outputs.push(output);
+            }
+        }
     }
 
     /// `[record]` of what is asked for.

@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 
 use eframe::App as _;
-use eframe::egui::{Key, Theme};
+use eframe::egui::{Key, Theme, vec2};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 
 use crate::driver::{SMALL, Window};
@@ -50,7 +50,7 @@ fn tab_reaches_the_controls() {
     let mut window = Window::over(SMALL);
     window.until_preview();
     let mut reached = BTreeSet::new();
-    for _ in 0..150 {
+    for _ in 0..300 {
         window.harness.key_press(Key::Tab);
         window.harness.run_steps(1);
         let focused = window.harness.root().children_recursive();
@@ -96,4 +96,19 @@ fn help_opens_over_everything_and_closes() {
     );
     window.press(Key::Escape);
     assert!(!window.has("Mouse in the 3D view"));
+}
+
+#[test]
+fn the_smallest_window_has_room_for_the_record_dialog() {
+    let mut window = Window::over(SMALL);
+    window.run_scene();
+    // As small as the system lets it become.
+    window.harness.set_size(vec2(640.0, 420.0));
+    window.press(Key::F6);
+    window.settle();
+    let room = window.harness.ctx.content_rect();
+    for label in ["Record now", "film, GIF", "folder"] {
+        let rect = window.node(label).rect();
+        assert!(room.contains_rect(rect), "{label} at {rect:?} in {room:?}");
+    }
 }

@@ -133,8 +133,12 @@ fn it_plays_at_its_speed_and_ends_as_was_chosen() {
 #[test]
 fn curves_are_scrubbed_as_the_bar_is_and_say_their_values() {
     let mut window = shown();
-    assert!(!window.says("over motion time"), "a preview has no figures");
+    assert!(
+        !window.says("separation, h over"),
+        "a preview is not checked"
+    );
     window.run_scene();
+    assert!(window.says("separation, h over"));
     let strip = window
         .rects_saying("bar strain, % over motion time")
         .next()
