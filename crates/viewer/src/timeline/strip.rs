@@ -231,8 +231,8 @@ mod tests {
 
     #[test]
     fn numbers_are_short() {
-        let numbers = [0.0, 0.25, 3.14159, 123.4, 1.5e-7, 2.5e6].map(number);
-        assert_eq!(numbers, ["0", "0.250", "3.14", "123", "1.5e-7", "2.5e6"]);
+        let numbers = [0.0, 0.25, 4.567, 123.4, 1.5e-7, 2.5e6].map(number);
+        assert_eq!(numbers, ["0", "0.250", "4.57", "123", "1.5e-7", "2.5e6"]);
     }
 
     #[test]

@@ -1,7 +1,6 @@
 //! What each command does.
 
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
 
 use eframe::egui::{Context, ViewportCommand};
 use foldmotion_record::View;
@@ -87,12 +86,24 @@ impl Viewer {
             Command::ViewTop => self.view3d.look(View::Top),
             Command::ViewIsometric => self.view3d.look(View::Iso),
             Command::Fit => {
-                let shown = Arc::clone(&self.shown.pose.positions);
-                self.view3d.fit(shown.to_vec());
+                let mut shown = self.shown.pose.positions.to_vec();
+                shown.extend(self.shown_boxes());
+                self.view3d.fit(shown);
             }
             _ => return false,
         }
         true
+    }
+
+    /// The corners of the boxes that are shown.
+    fn shown_boxes(&self) -> Vec<glam::DVec3> {
+        let looks = &self.settings.view;
+        let wanted = [looks.compact_box, looks.closed_form_box];
+        let boxes = self.act().map_or([None; 2], |act| act.boxes);
+        let is_shown = self.playback.time > 1.0;
+        let boxes = boxes.into_iter().zip(wanted);
+        let shown = boxes.filter_map(|(bounds, wanted)| bounds.filter(|_| wanted && is_shown));
+        shown.flat_map(corners).collect()
     }
 
     fn switch(&mut self, command: Command) {
@@ -159,7 +170,7 @@ impl Viewer {
         self.jobs.hold = None;
         self.jobs.best_rate = 0;
         let scene = moving_part(self.document.scene());
-        self.jobs.run = Some((scene, Run::start(study, self.wake.clone())));
+        self.jobs.run = Some((scene, Run::start(&study, self.wake.clone())));
         self.shown.follows_run = true;
         self.playback.is_playing = false;
     }
@@ -329,4 +340,10 @@ impl Viewer {
             );
         }
     }
+}
+
+/// The corners of a box, from its lower corner and its sides.
+fn corners([low, sides]: [glam::DVec3; 2]) -> impl Iterator<Item = glam::DVec3> {
+    let part = |k: u32, axis: u32| f64::from((k >> axis) & 1);
+    (0..8).map(move |k| low + sides * glam::DVec3::new(part(k, 0), part(k, 1), part(k, 2)))
 }

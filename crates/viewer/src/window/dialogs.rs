@@ -64,7 +64,7 @@ impl Viewer {
             },
             Dialog::Folder(mut picker) => match picker.show(ctx) {
                 Some(Picked::File(path)) => {
-                    self.record_panel.folder = Some(path.display().to_string())
+                    self.record_panel.folder = Some(path.display().to_string());
                 }
                 Some(Picked::Cancelled) => {}
                 None => self.dialog = Dialog::Folder(picker),

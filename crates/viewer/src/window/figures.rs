@@ -63,7 +63,7 @@ fn figures(series: &[FrameFigures]) -> Vec<Panel> {
         ),
     ]
     .into_iter()
-    .filter(|panel| panel.has_values())
+    .filter(Panel::has_values)
     .collect()
 }
 

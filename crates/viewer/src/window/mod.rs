@@ -38,6 +38,10 @@ use self::pose::Pose;
 use self::record_panel::RecordPanel;
 
 /// The window.
+#[expect(
+    clippy::struct_excessive_bools,
+    reason = "what is open over the window, each by itself"
+)]
 pub struct Viewer {
     document: Document,
     settings: Settings,

@@ -186,14 +186,12 @@ impl Viewer {
         let Facet {
             row, column, kind, ..
         } = sheet.facets.get(facet as usize)?;
-        let mut words = match kind {
-            FacetKind::Plain => format!("facet {facet}"),
-            kind => format!("facet {facet}: {}, row {row}, column {column}", kind.name()),
+        let place = match kind {
+            FacetKind::Plain => String::new(),
+            kind => format!(": {}, row {row}, column {column}", kind.name()),
         };
-        if let Some(vertex) = vertex {
-            words += &format!("; vertex {vertex}");
-        }
-        Some(words)
+        let corner = vertex.map_or_else(String::new, |vertex| format!("; vertex {vertex}"));
+        Some(format!("facet {facet}{place}{corner}"))
     }
 
     /// The lines over the view, with the size of their letters and their colour.

@@ -30,9 +30,9 @@ pub(crate) struct Finished {
 
 impl Run {
     /// Starts to fold and check `study`.
-    pub(crate) fn start(study: Arc<Study>, wake: Wake) -> Self {
+    pub(crate) fn start(study: &Arc<Study>, wake: Wake) -> Self {
         let live = Live::default();
-        let (run, shown, woken) = (Arc::clone(&study), live.clone(), wake.clone());
+        let (run, shown, woken) = (Arc::clone(study), live.clone(), wake.clone());
         let job = Job::start("foldmotion run", wake, move |ticket| {
             let watcher = Watcher {
                 study: &run,
@@ -124,7 +124,7 @@ pub(super) mod tests {
     fn a_run_shows_states_of_its_motion_and_ends_as_the_study_alone() {
         for engine in ["quasi-static", "dynamic"] {
             let study = study(engine);
-            let run = Run::start(Arc::clone(&study), Wake::new(|| {}));
+            let run = Run::start(&study, Wake::new(|| {}));
             wait(|| run.is_done());
             let state = run.live().newer(0).unwrap();
             assert_eq!(state.positions.len(), study.subject.sheet().vertices.len());
@@ -139,7 +139,7 @@ pub(super) mod tests {
 
     #[test]
     fn a_run_that_is_stopped_says_so() {
-        let run = Run::start(study("dynamic"), Wake::new(|| {}));
+        let run = Run::start(&study("dynamic"), Wake::new(|| {}));
         run.stop();
         wait(|| run.is_done());
         assert!(matches!(run.take(), Some(Err(WorkError::Stopped))));

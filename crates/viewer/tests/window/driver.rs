@@ -18,7 +18,7 @@ use crate::system::System;
 const PATIENCE: Duration = Duration::from_mins(2);
 
 /// A sheet that is folded and checked in a moment.
-pub const SMALL: &str = "\
+pub(crate) const SMALL: &str = "\
 # A small shelter.
 title = \"Small shelter\"
 
@@ -37,7 +37,7 @@ frames = 8
 ";
 
 /// The same with control points to drag.
-pub const ARCH: &str = "\
+pub(crate) const ARCH: &str = "\
 [profile]
 control_points = [[3.0, 0.0], [2.0, 0.0], [2.0, 2.5], [0.0, 3.5], [-2.0, 2.5], [-3.0, 0.0]]
 
@@ -50,7 +50,7 @@ frames = 8
 ";
 
 /// Unmodified short rectangles pass through each other (figures 4a-d of the paper).
-pub const PENETRATING: &str = "\
+pub(crate) const PENETRATING: &str = "\
 [profile]
 model = \"shelter\"
 length = 4.0
@@ -67,25 +67,25 @@ frames = 24
 ";
 
 /// The scenes that come with the project.
-pub fn scenes() -> PathBuf {
+pub(crate) fn scenes() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes")
 }
 
 /// A window with a folder of its own.
-pub struct Window {
-    pub harness: Harness<'static, Viewer>,
-    pub folder: TempDir,
+pub(crate) struct Window {
+    pub(crate) harness: Harness<'static, Viewer>,
+    pub(crate) folder: TempDir,
     system: System,
 }
 
 impl Window {
     /// A window that was started without a file.
-    pub fn empty() -> Self {
+    pub(crate) fn empty() -> Self {
         Self::start(tempfile::tempdir().unwrap(), None, None)
     }
 
     /// A window over a file of this text.
-    pub fn over(text: &str) -> Self {
+    pub(crate) fn over(text: &str) -> Self {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("scene.toml");
         std::fs::write(&path, text).unwrap();
@@ -93,17 +93,17 @@ impl Window {
     }
 
     /// A window over a file.
-    pub fn of(path: &Path) -> Self {
+    pub(crate) fn of(path: &Path) -> Self {
         Self::start(tempfile::tempdir().unwrap(), Some(path.to_owned()), None)
     }
 
     /// A window over a file, or none, that keeps its unsaved scenes in `folder` and remembers what `storage` does.
-    pub fn start(folder: TempDir, file: Option<PathBuf>, storage: Option<&Storage>) -> Self {
+    pub(crate) fn start(folder: TempDir, file: Option<PathBuf>, storage: Option<&Storage>) -> Self {
         let builder = Harness::builder().with_size(vec2(1500.0, 1800.0));
         Self::built(builder, folder, file, storage)
     }
 
-    pub fn built(
+    pub(crate) fn built(
         builder: HarnessBuilder<Viewer>,
         folder: TempDir,
         file: Option<PathBuf>,
@@ -131,13 +131,13 @@ impl Window {
     }
 
     /// The scene's file in a window [`Self::over`] a text.
-    pub fn path(&self) -> PathBuf {
+    pub(crate) fn path(&self) -> PathBuf {
         self.folder.path().join("scene.toml")
     }
 
     /// Waits until `is_so`.
     #[track_caller]
-    pub fn until(&mut self, what: &str, is_so: impl Fn(&Self) -> bool) {
+    pub(crate) fn until(&mut self, what: &str, is_so: impl Fn(&Self) -> bool) {
         let started = Instant::now();
         while !is_so(self) {
             assert!(
@@ -153,13 +153,13 @@ impl Window {
 
     /// Waits until something that is shown says `words`.
     #[track_caller]
-    pub fn until_said(&mut self, words: &str) {
+    pub(crate) fn until_said(&mut self, words: &str) {
         self.until(words, |window| window.says(words));
     }
 
     /// Waits until a preview of the motion is shown.
     #[track_caller]
-    pub fn until_preview(&mut self) {
+    pub(crate) fn until_preview(&mut self) {
         self.until("a preview", |window| {
             window.says("preview: without contact, not checked")
                 && !window.words_over().contains("before the last edits")
@@ -169,7 +169,7 @@ impl Window {
 
     /// Runs the scene, and waits for its verdict.
     #[track_caller]
-    pub fn run_scene(&mut self) {
+    pub(crate) fn run_scene(&mut self) {
         self.until("the scene is resolved", |window| window.is_enabled("Run"));
         self.press(Key::F5);
         self.until("the run has ended", |window| {
@@ -182,13 +182,13 @@ impl Window {
     }
 
     /// Lets everything settle that was asked for.
-    pub fn settle(&mut self) {
+    pub(crate) fn settle(&mut self) {
         let _ = self.harness.try_run();
         self.harness.check_accessibility();
     }
 
     /// Everything that is shown in words.
-    pub fn all_words(&self) -> String {
+    pub(crate) fn all_words(&self) -> String {
         let nodes = self.harness.root().children_recursive();
         let words = nodes.filter_map(|node| {
             let node = node.accesskit_node();
@@ -203,7 +203,7 @@ impl Window {
     }
 
     /// Whether something that is shown says `words` somewhere.
-    pub fn says(&self, words: &str) -> bool {
+    pub(crate) fn says(&self, words: &str) -> bool {
         self.harness
             .query_all_by_label_contains(words)
             .next()
@@ -211,13 +211,13 @@ impl Window {
     }
 
     /// Where something is said.
-    pub fn rects_saying<'a>(&'a self, words: &'a str) -> impl Iterator<Item = Rect> + 'a {
+    pub(crate) fn rects_saying<'a>(&'a self, words: &'a str) -> impl Iterator<Item = Rect> + 'a {
         let found = self.harness.query_all_by_label_contains(words);
         found.map(|node| node.rect())
     }
 
     /// What is said over the view: the motion time, and what the sheet is worth.
-    pub fn words_over(&self) -> String {
+    pub(crate) fn words_over(&self) -> String {
         let found = self.harness.query_all_by_label_contains("t = ");
         let words = found.filter_map(|node| node.value());
         words
@@ -226,24 +226,24 @@ impl Window {
     }
 
     /// Whether there is a control or text of exactly this name.
-    pub fn has(&self, label: &str) -> bool {
+    pub(crate) fn has(&self, label: &str) -> bool {
         self.harness.query_all_by_label(label).next().is_some()
     }
 
     /// Whether the button can be pressed.
-    pub fn is_enabled(&self, label: &str) -> bool {
+    pub(crate) fn is_enabled(&self, label: &str) -> bool {
         let mut found = self.harness.query_all_by_label(label);
         found.any(|node| !node.accesskit_node().is_disabled())
     }
 
     /// Whether a switch is on.
     #[track_caller]
-    pub fn is_on(&self, label: &str) -> bool {
+    pub(crate) fn is_on(&self, label: &str) -> bool {
         self.harness.get_by_label(label).accesskit_node().toggled() == Some(Toggled::True)
     }
 
     /// Whether the switches of this name are on; buttons of it are none.
-    pub fn switches(&self, label: &str) -> Vec<bool> {
+    pub(crate) fn switches(&self, label: &str) -> Vec<bool> {
         let found = self.harness.query_all_by_label(label);
         let found = found.filter_map(|node| node.accesskit_node().toggled());
         found.map(|toggled| toggled == Toggled::True).collect()
@@ -251,30 +251,30 @@ impl Window {
 
     /// What a field or menu shows.
     #[track_caller]
-    pub fn value(&self, label: &str) -> String {
+    pub(crate) fn value(&self, label: &str) -> String {
         self.harness.get_by_label(label).value().unwrap_or_default()
     }
 
     /// Motion time, as the timeline has it.
-    pub fn time(&self) -> f64 {
+    pub(crate) fn time(&self) -> f64 {
         let bar = self.harness.get_by_label("Motion time");
         bar.accesskit_node().numeric_value().unwrap()
     }
 
     #[track_caller]
-    pub fn node<'a>(&'a self, label: &'a str) -> Node<'a> {
+    pub(crate) fn node<'a>(&'a self, label: &'a str) -> Node<'a> {
         self.harness.get_by_label(label)
     }
 
     #[track_caller]
-    pub fn click(&mut self, label: &str) {
+    pub(crate) fn click(&mut self, label: &str) {
         self.harness.get_by_label(label).click();
         self.settle();
     }
 
     /// Chooses from a menu of the menu bar; `item` is how the entry begins.
     #[track_caller]
-    pub fn choose(&mut self, menu: &str, item: &str) {
+    pub(crate) fn choose(&mut self, menu: &str, item: &str) {
         let menu = self.harness.get_all_by_label(menu).next();
         menu.unwrap().click();
         self.settle();
@@ -284,18 +284,18 @@ impl Window {
         self.settle();
     }
 
-    pub fn press(&mut self, key: Key) {
+    pub(crate) fn press(&mut self, key: Key) {
         self.harness.key_press(key);
         self.settle();
     }
 
-    pub fn press_with(&mut self, modifiers: Modifiers, key: Key) {
+    pub(crate) fn press_with(&mut self, modifiers: Modifiers, key: Key) {
         self.harness.key_press_modifiers(modifiers, key);
         self.settle();
     }
 
     /// Presses keys and shows one frame, no more.
-    pub fn strike(&mut self, modifiers: Modifiers, key: Key) {
+    pub(crate) fn strike(&mut self, modifiers: Modifiers, key: Key) {
         self.harness.event(Event::Key {
             key,
             physical_key: None,
@@ -306,20 +306,20 @@ impl Window {
         self.harness.step();
     }
 
-    pub fn undo(&mut self) {
+    pub(crate) fn undo(&mut self) {
         self.press_with(Modifiers::COMMAND, Key::Z);
     }
 
     /// Types a text in the place of what is in the field, and leaves it.
     #[track_caller]
-    pub fn enter(&mut self, label: &str, text: &str) {
+    pub(crate) fn enter(&mut self, label: &str, text: &str) {
         self.type_into(label, text);
         self.press(Key::Enter);
     }
 
     /// Types a text in the place of what is in the field, and stays there.
     #[track_caller]
-    pub fn type_into(&mut self, label: &str, text: &str) {
+    pub(crate) fn type_into(&mut self, label: &str, text: &str) {
         self.harness.get_by_label(label).focus();
         self.settle();
         if !self.value(label).is_empty() {
@@ -334,7 +334,7 @@ impl Window {
 
     /// Presses a link of these words.
     #[track_caller]
-    pub fn follow_link(&mut self, words: &str) {
+    pub(crate) fn follow_link(&mut self, words: &str) {
         let mut links = self.harness.query_all_by_role_and_label(Role::Link, words);
         links
             .next()
@@ -345,7 +345,7 @@ impl Window {
     }
 
     /// Drags from one place along a way.
-    pub fn drag(&mut self, from: Pos2, way: Vec2) {
+    pub(crate) fn drag(&mut self, from: Pos2, way: Vec2) {
         const STEPS: u16 = 4;
         self.harness.hover_at(from);
         self.harness.step();
@@ -361,7 +361,7 @@ impl Window {
     }
 
     /// The scene's text, read where it is shown as text.
-    pub fn text(&mut self) -> String {
+    pub(crate) fn text(&mut self) -> String {
         let is_shown = self.has("Scene as text");
         if !is_shown {
             self.press(Key::F7);
@@ -374,7 +374,7 @@ impl Window {
     }
 
     /// Types a text in the place of the scene's.
-    pub fn set_text(&mut self, text: &str) {
+    pub(crate) fn set_text(&mut self, text: &str) {
         let is_shown = self.has("Scene as text");
         if !is_shown {
             self.press(Key::F7);
@@ -386,17 +386,17 @@ impl Window {
     }
 
     /// The title of the window.
-    pub fn title(&self) -> String {
+    pub(crate) fn title(&self) -> String {
         self.system.title()
     }
 
     /// Whether the window asked for it since it was last asked here.
-    pub fn asked_for(&self, command: &ViewportCommand) -> bool {
+    pub(crate) fn asked_for(&self, command: &ViewportCommand) -> bool {
         self.system.was_asked_for(command)
     }
 
     /// Hides how long a run took, which is never the same.
-    pub fn hide_seconds(&mut self) {
+    pub(crate) fn hide_seconds(&mut self) {
         let rows: Vec<Rect> = ["free, ", " engine on "]
             .iter()
             .flat_map(|words| self.rects_saying(words).collect::<Vec<_>>())
@@ -407,7 +407,7 @@ impl Window {
     }
 
     /// Ends the window as a crash would, and starts another over the same unsaved scenes.
-    pub fn killed(self, file: Option<PathBuf>) -> Self {
+    pub(crate) fn killed(self, file: Option<PathBuf>) -> Self {
         let Self {
             harness, folder, ..
         } = self;

@@ -12,7 +12,7 @@ use crate::driver::{ARCH, SMALL, Window};
 use crate::storage::Storage;
 
 /// A window over [`SMALL`] with an edit that is not saved.
-pub fn edited() -> (Window, String) {
+pub(crate) fn edited() -> (Window, String) {
     let mut window = Window::over(SMALL);
     window.until_preview();
     window.enter("width W", "6.5");

@@ -1,5 +1,10 @@
 //! The whole window, driven without a screen: what is asked of it by mouse and keys, and what it shows then.
 
+#![expect(
+    clippy::unwrap_used,
+    reason = "a test stops where something is missing"
+)]
+
 mod commands;
 mod driver;
 mod edits;

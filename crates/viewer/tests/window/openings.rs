@@ -2,7 +2,6 @@
 
 use std::sync::Arc;
 
-use eframe::egui::Key;
 use foldmotion_study::{SceneSource, Study};
 
 use crate::driver::{SMALL, Window, scenes};

@@ -4,11 +4,11 @@ use std::collections::BTreeMap;
 
 /// A storage that the windows of a test share, one after the other.
 #[derive(Debug, Default)]
-pub struct Storage(BTreeMap<String, String>);
+pub(crate) struct Storage(BTreeMap<String, String>);
 
 impl Storage {
     /// As it is now, for a window that may live as long as the program.
-    pub fn shared(&self) -> &'static Self {
+    pub(crate) fn shared(&self) -> &'static Self {
         Box::leak(Box::new(Self(self.0.clone())))
     }
 }

@@ -6,21 +6,21 @@ use eframe::egui::{Context, FullOutput, Plugin, ViewportCommand, ViewportId};
 
 /// Notes what is asked for.
 #[derive(Debug, Clone, Default)]
-pub struct System(Arc<Mutex<Vec<ViewportCommand>>>);
+pub(crate) struct System(Arc<Mutex<Vec<ViewportCommand>>>);
 
 impl System {
     /// The title that was asked for last.
-    pub fn title(&self) -> String {
+    pub(crate) fn title(&self) -> String {
         let asked = self.0.lock().unwrap();
-        let titles = asked.iter().filter_map(|command| match command {
+        let mut titles = asked.iter().filter_map(|command| match command {
             ViewportCommand::Title(title) => Some(title.clone()),
             _ => None,
         });
-        titles.last().unwrap_or_default()
+        titles.next_back().unwrap_or_default()
     }
 
     /// Whether it was asked for since this was last asked for.
-    pub fn was_asked_for(&self, command: &ViewportCommand) -> bool {
+    pub(crate) fn was_asked_for(&self, command: &ViewportCommand) -> bool {
         let mut asked = self.0.lock().unwrap();
         let before = asked.len();
         asked.retain(|other| other != command);
