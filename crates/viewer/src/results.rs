@@ -133,7 +133,7 @@ fn time_link(ui: &mut Ui, words: &str, t: f64) -> Option<f64> {
     ui.horizontal_wrapped(|ui| {
         ui.spacing_mut().item_spacing.x = 4.0;
         ui.label(words);
-        let link = ui.add(Link::new(format!("t = {t:.4}")));
+        let link = ui.add(Link::new(format!("t\u{a0}=\u{a0}{t:.4}")));
         link.on_hover_text("go there").clicked().then_some(t)
     })
     .inner

@@ -167,14 +167,16 @@ fn legend(ui: &Ui, panel: &Panel, time: f64, area: Rect) {
     let visuals = ui.visuals();
     let font = FontId::proportional(11.0);
     let painter = ui.painter().with_clip_rect(area);
-    let mut x = area.left() + 5.0;
-    let ground = visuals.extreme_bg_color.gamma_multiply(0.85);
+    // Its place is known once the words are laid out, over which it would lie.
+    let ground = painter.add(Shape::Noop);
+    let corner = area.left_top() + vec2(5.0, 2.0);
+    let mut place = Rect::from_min_size(corner, vec2(0.0, 0.0));
     let mut write = |text: String, colour: Color32| {
         let galley = painter.layout_no_wrap(text, font.clone(), colour);
-        let place = Rect::from_min_size(pos2(x, area.top() + 2.0), galley.size());
-        painter.rect_filled(place.expand2(vec2(3.0, 0.0)), 2.0, ground);
-        painter.galley(place.min, galley, colour);
-        x = place.right() + 8.0;
+        let gap = if place.width() > 0.0 { 8.0 } else { 0.0 };
+        let at = place.right_top() + vec2(gap, 0.0);
+        place |= Rect::from_min_size(at, galley.size());
+        painter.galley(at, galley, colour);
     };
     write(panel.title.clone(), visuals.text_color());
     for (index, curve) in panel.curves.iter().enumerate() {
@@ -188,6 +190,11 @@ fn legend(ui: &Ui, panel: &Panel, time: f64, area: Rect) {
             visuals.weak_text_color(),
         );
     }
+    let colour = visuals.extreme_bg_color.gamma_multiply(0.85);
+    painter.set(
+        ground,
+        Shape::rect_filled(place.expand2(vec2(3.0, 0.0)), 2.0, colour),
+    );
 }
 
 /// The values at `time` in words.

@@ -86,7 +86,7 @@ impl Viewer {
 
     fn ask_unsaved(&mut self, ctx: &Context, then: Then) {
         let words = format!("{} has unsaved edits", self.document.name());
-        let about = "discarded edits cannot be brought back";
+        let about = "what is discarded is not offered again";
         let answers: &[&str] = if then == Then::Quit {
             &["Save", "Discard edits", "Keep for the next start", "Cancel"]
         } else {

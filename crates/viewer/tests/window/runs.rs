@@ -112,7 +112,7 @@ fn penetrations_are_shown_and_the_time_of_the_first_is_a_link() {
     assert!(window.has("penetrating"), "{}", window.all_words());
     window.press(Key::Home);
     assert_eq!(window.time(), 0.0);
-    window.follow_link(&format!("t = {:.4}", first.t));
+    window.follow_link(&format!("t\u{a0}=\u{a0}{:.4}", first.t));
     assert!(
         (window.time() - first.t).abs() < 1e-12,
         "{} {}",
