@@ -317,7 +317,7 @@ impl Act {
 }
 
 /// Pairs of the order of the exact compact state, at most: it is built while a hand waits.
-const MOST_ORDERED: usize = 2_000_000;
+const MOST_ORDERED: usize = 500_000;
 
 /// The lower corner and the sides of the box around `points`.
 fn bounds(points: &[DVec3]) -> Option<[DVec3; 2]> {
