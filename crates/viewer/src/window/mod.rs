@@ -218,7 +218,9 @@ impl Viewer {
 
     /// Whether what the scene moves is about to be shown.
     fn is_resolving(&self) -> bool {
-        self.resolved.drafts.is_busy() || self.jobs.preview.is_some()
+        let revision = self.document.revision();
+        let is_asked = self.resolved.asked.is_some_and(|(of, _)| of == revision);
+        !is_asked || self.resolved.drafts.is_busy() || self.jobs.preview.is_some()
     }
 
     /// Brings the pose up to date with what is shown now.

@@ -75,6 +75,9 @@ fn a_bad_value_says_so_under_its_control_and_the_sheet_stays() {
     let mut window = Window::over(SMALL);
     window.until_preview();
     window.enter("width W", "-1");
+    window.until("the fault of the width is shown", |window| {
+        window.rects_saying("sheet.width").next().is_some()
+    });
     window.until_said("of the scene before the last edits");
     assert!(window.says("preview: without contact, not checked"));
     let below = window.node("width W").rect();
