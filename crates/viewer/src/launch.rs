@@ -55,7 +55,7 @@ pub fn view(options: ViewOptions) -> Result<(), ViewerError> {
 pub(crate) fn words(panic: &(dyn std::any::Any + Send)) -> String {
     let text = panic.downcast_ref::<&str>().map(|s| (*s).to_owned());
     text.or_else(|| panic.downcast_ref::<String>().cloned())
-        .unwrap_or_else(|| "it panicked".to_owned())
+        .unwrap_or_else(|| "it said nothing".to_owned())
 }
 
 /// # Errors

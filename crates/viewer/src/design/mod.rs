@@ -55,6 +55,16 @@ pub(crate) struct Fault {
     pub(crate) message: String,
 }
 
+impl Fault {
+    /// The fault that `error` says, at `key` where it is one's.
+    pub(crate) fn new(key: Option<&str>, error: &impl ToString) -> Self {
+        Self {
+            key: key.map(str::to_owned),
+            message: error.to_string(),
+        }
+    }
+}
+
 /// An edit of the scene.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Change {

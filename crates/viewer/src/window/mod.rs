@@ -30,7 +30,7 @@ use crate::settings::{Settings, UnsavedScenes, apply};
 use crate::timeline::{Curves, Marks, Playback, Timeline};
 use crate::timings::{Pace, Timings};
 use crate::view3d::View3d;
-use crate::work::{Drafts, Hold, Job, Judged, Run, Wake};
+use crate::work::{Drafts, Hold, Job, Judged, Run, State, Wake};
 
 use self::act::Act;
 use self::dialogs::Dialog;
@@ -223,16 +223,20 @@ impl Viewer {
         !is_asked || self.resolved.drafts.is_busy() || self.jobs.preview.is_some()
     }
 
+    /// The state that is computed while it is shown: in the hand, or of the run that is followed.
+    fn live(&self) -> Option<State> {
+        let run = self.jobs.run.as_ref().filter(|_| self.shown.follows_run);
+        match (&self.jobs.hold, run) {
+            (Some(hold), _) => hold.live().newer(0),
+            (None, Some((_, run))) => run.live().newer(0),
+            (None, None) => None,
+        }
+    }
+
     /// Brings the pose up to date with what is shown now.
     fn pose(&mut self, act: &Act) {
-        let run = self.jobs.run.as_ref().filter(|_| self.shown.follows_run);
-        let live = match (&self.jobs.hold, run) {
-            (Some(hold), _) => Some(hold.live()),
-            (None, Some((_, run))) => Some(run.live()),
-            _ => None,
-        };
         let count = act.motion().sheet.vertices.len();
-        match live.and_then(|live| live.newer(0)) {
+        match self.live() {
             Some(state) if state.positions.len() == count => {
                 let is_in_hand = self.jobs.hold.is_some();
                 if !is_in_hand {
@@ -283,12 +287,13 @@ impl Viewer {
     }
 
     fn side_panels(&mut self, ui: &mut Ui) {
-        if self.settings.panels.design || self.settings.panels.text {
+        let shows_text = self.settings.panels.text || self.mends_text;
+        if self.settings.panels.design || shows_text {
             Panel::left("design")
                 .default_size(348.0)
                 .size_range(280.0..=620.0)
                 .show(ui, |ui| {
-                    if self.settings.panels.text || self.mends_text {
+                    if shows_text {
                         self.text_panel(ui);
                     } else {
                         ScrollArea::vertical()

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use eframe::egui::Context;
-use foldmotion_study::{Draft, Opened, Scene, StudyError};
+use foldmotion_study::{Draft, Opened, Scene};
 
 use super::act::Act;
 use super::{Viewer, moving_part};
@@ -40,7 +40,7 @@ impl Viewer {
             return;
         }
         if let Some(error) = self.document.parse_error() {
-            self.resolved.faults = vec![fault_of(error)];
+            self.resolved.faults = vec![Fault::new(error.key(), error)];
             self.resolved.study = None;
             self.resolved.asked = Some((revision, 0));
             return;
@@ -76,7 +76,7 @@ impl Viewer {
             Resolved::Draft(number, Err(error)) | Resolved::Study(number, Err(error))
                 if number == asked =>
             {
-                let fault = fault_of_work(&error);
+                let fault = Fault::new(error.key(), &error);
                 if !self.resolved.faults.contains(&fault) {
                     self.resolved.faults.push(fault);
                 }
@@ -150,7 +150,7 @@ impl Viewer {
             Some(Ok(finished)) => self.finish_run(scene, &finished),
             Some(Err(WorkError::Stopped)) => self.say("the run was stopped", true),
             Some(Err(error)) => {
-                self.resolved.faults.push(fault_of_work(&error));
+                self.resolved.faults.push(Fault::new(error.key(), &error));
                 self.say(format!("the run failed: {error}"), false);
             }
             None => {}
@@ -322,19 +322,5 @@ impl<A, B, T> TakeIfDone for Option<(A, B, Job<T>)> {
     fn take_if_done(&mut self) -> Option<Self::Done> {
         let (a, b, job) = self.take_if(|(_, _, job)| job.is_done())?;
         Some((a, b, job.take()?))
-    }
-}
-
-fn fault_of(error: &StudyError) -> Fault {
-    Fault {
-        key: error.key().map(str::to_owned),
-        message: error.to_string(),
-    }
-}
-
-fn fault_of_work(error: &WorkError) -> Fault {
-    Fault {
-        key: error.key().map(str::to_owned),
-        message: error.to_string(),
     }
 }

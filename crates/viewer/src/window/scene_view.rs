@@ -252,13 +252,7 @@ impl Viewer {
 
     /// The motion time of what is shown.
     pub(super) fn shown_time(&self) -> f64 {
-        let run = self.jobs.run.as_ref().filter(|_| self.shown.follows_run);
-        let live = match (&self.jobs.hold, run) {
-            (Some(hold), _) => hold.live().newer(0),
-            (None, Some((_, run))) => run.live().newer(0),
-            _ => None,
-        };
-        live.map_or(self.playback.time, |state| state.time)
+        self.live().map_or(self.playback.time, |state| state.time)
     }
 
     /// Buttons over the view.

@@ -5,6 +5,8 @@ use std::any::Any;
 use foldmotion_solver::SolverError;
 use foldmotion_study::StudyError;
 
+use crate::launch::words;
+
 /// Why a worker has no result.
 #[derive(Debug, thiserror::Error)]
 pub(crate) enum WorkError {
@@ -34,12 +36,8 @@ pub(crate) enum WorkError {
 impl WorkError {
     /// Of a panic's payload.
     pub(super) fn of_panic(payload: &(dyn Any + Send)) -> Self {
-        let text = payload
-            .downcast_ref::<&str>()
-            .map(|text| (*text).to_owned());
-        let text = text.or_else(|| payload.downcast_ref::<String>().cloned());
         Self::Panic {
-            message: text.unwrap_or_else(|| "it said nothing".to_owned()),
+            message: words(payload),
         }
     }
 

@@ -50,7 +50,7 @@ struct Shared {
 }
 
 /// What the hand wants.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 struct Wish {
     /// Counts the wishes.
     serial: u64,
@@ -127,9 +127,14 @@ impl Hold {
 }
 
 impl Shared {
+    /// Takes note of a wish; one that changes nothing does not wake a sheet at rest.
     fn want(&self, change: impl FnOnce(&mut Wish)) {
         let mut wish = lock(&self.wish);
+        let before = *wish;
         change(&mut wish);
+        if *wish == before {
+            return;
+        }
         wish.serial += 1;
         drop(wish);
         self.wished.notify_one();
@@ -256,6 +261,19 @@ mod tests {
         });
         hold.pull(None);
         assert_eq!(start.len(), settled(&hold, 1.5).len());
+    }
+
+    #[test]
+    fn a_sheet_at_rest_is_not_woken_by_the_same_wish_again() {
+        let hold = Hold::start(study(), None, Wake::new(|| {}));
+        settled(&hold, 0.0);
+        let wished = || lock(&hold.shared.wish).serial;
+        let before = wished();
+        hold.aim(0.0);
+        hold.pull(None);
+        assert_eq!(wished(), before);
+        hold.aim(0.25);
+        assert_eq!(wished(), before + 1);
     }
 
     #[test]
