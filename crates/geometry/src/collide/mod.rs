@@ -55,8 +55,10 @@
 
 mod certify;
 mod closest;
+mod contact;
 mod meeting;
 mod moving;
+mod passing;
 mod patch;
 mod pose;
 #[cfg(test)]
@@ -66,8 +68,10 @@ mod walk;
 
 pub use certify::{Crossing, Effort, Outcome, Passage, Side, certify};
 pub use closest::{Approach, Approaches, closest_approach, enough_clearance};
+pub use contact::contact_times;
 pub use meeting::{Meeting, MeetingSearch, edge_edge, vertex_facet};
 pub use moving::MovingPair;
+pub use passing::{Passing, edge_passings, sign_of_volume, vertex_passings};
 pub use pose::{Axis, Feature, PairPose};
 pub use tree::Tree;
 

@@ -1,0 +1,221 @@
+//! When two moving features are within a distance of each other.
+
+use glam::DVec3;
+
+use super::{Limits, MovingPair, PairPose, moving::Leaf};
+use crate::distance::{Closest, triangle_triangle};
+
+/// Stretches of time in which the features move by less than this share of the distance count by their ends.
+const RESOLUTION: f64 = 1.0 / 64.0;
+/// Shorter stretches are not cut.
+const SHORTEST: f64 = 1.0 / (1u64 << 44) as f64;
+/// The most stretches looked at.
+const BUDGET: u32 = 1 << 16;
+
+/// The stretches of time in which two features are within `distance` of each other, in order; they share no end.
+///
+/// A feature is a triangle with moving corners; an edge is one with two equal corners, a vertex one with three. In each
+/// stretch the features are within 65/64 of the distance throughout; outside, farther than 63/64 of it, but for
+/// approaches shorter than 2⁻⁴⁴ and where the budget ended: what is not shown to be near counts as far.
+pub fn contact_times(pair: &MovingPair, distance: f64, limits: &Limits) -> Vec<[f64; 2]> {
+    let moved = greatest_motion(pair);
+    let mut near: Vec<[f64; 2]> = Vec::new();
+    let mut keep = |from: f64, to: f64| match near.last_mut() {
+        Some(last) if last[1] == from => last[1] = to,
+        _ => near.push([from, to]),
+    };
+    let mut open = vec![(Instant::new(pair, 0.0), Instant::new(pair, 1.0))];
+    for _ in 0..BUDGET {
+        let Some((from, to)) = open.pop() else {
+            break;
+        };
+        if stays_farther(&from, &to, distance, limits) {
+            continue;
+        }
+        if stays_within(&from, &to, distance) {
+            keep(from.time, to.time);
+            continue;
+        }
+        let length = to.time - from.time;
+        if length * moved <= RESOLUTION * distance || length <= SHORTEST {
+            if from.closest.distance.min(to.closest.distance) <= distance {
+                keep(from.time, to.time);
+            }
+            continue;
+        }
+        let middle = Instant::new(pair, f64::midpoint(from.time, to.time));
+        open.push((middle, to));
+        open.push((from, middle));
+    }
+    near
+}
+
+/// The longest way of a corner of one triangle as seen from a corner of the other.
+fn greatest_motion(pair: &MovingPair) -> f64 {
+    let moved = |start: &[DVec3; 3], end: &[DVec3; 3]| [0, 1, 2].map(|i| end[i] - start[i]);
+    let a = moved(&pair.start.a, &pair.end.a);
+    let b = moved(&pair.start.b, &pair.end.b);
+    let ways = a.iter().flat_map(|u| b.iter().map(|v| u.distance(*v)));
+    ways.fold(0.0, f64::max)
+}
+
+#[derive(Clone, Copy)]
+struct Instant {
+    time: f64,
+    pose: PairPose,
+    closest: Closest,
+}
+
+impl Instant {
+    fn new(pair: &MovingPair, time: f64) -> Self {
+        let pose = pair.at(time);
+        let closest = triangle_triangle(&pose.a, &pose.b);
+        Self {
+            time,
+            pose,
+            closest,
+        }
+    }
+
+    fn direction(&self) -> Option<DVec3> {
+        (self.closest.on_b - self.closest.on_a).try_normalize()
+    }
+
+    /// What the closest points are made of: the shares of the corners.
+    fn shares(&self) -> [[f64; 3]; 2] {
+        [
+            shares(self.closest.on_a, &self.pose.a),
+            shares(self.closest.on_b, &self.pose.b),
+        ]
+    }
+}
+
+/// Whether a direction shows the features to be farther apart than `distance` throughout.
+fn stays_farther(from: &Instant, to: &Instant, distance: f64, limits: &Limits) -> bool {
+    let (Some(d0), Some(d1)) = (from.direction(), to.direction()) else {
+        return false;
+    };
+    let leaf = Leaf {
+        from: &from.pose,
+        to: &to.pose,
+    };
+    let farther = distance + limits.margin;
+    leaf.least_gap_at_rest(d0, limits) > farther
+        || leaf.least_gap_at_rest(d1, limits) > farther
+        || leaf.least_gap(d0, d1, limits) > farther
+}
+
+/// Whether two points, one of each feature, whose shares of the corners change evenly, are within `distance` throughout.
+///
+/// Their difference is a quadratic in time that stays in the hull of its Bernstein coefficients.
+fn stays_within(from: &Instant, to: &Instant, distance: f64) -> bool {
+    if from.closest.distance.max(to.closest.distance) > distance {
+        return false;
+    }
+    let ([a0, b0], [a1, b1]) = (from.shares(), to.shares());
+    let at = |shares: &[f64; 3], corners: &[DVec3; 3]| {
+        corners[0] * shares[0] + corners[1] * shares[1] + corners[2] * shares[2]
+    };
+    let (p, q) = (&from.pose, &to.pose);
+    let middle = (at(&a0, &q.a) + at(&a1, &p.a) - at(&b0, &q.b) - at(&b1, &p.b)) * 0.5;
+    middle.length() <= distance
+}
+
+/// Shares of the corners that make up a point of a triangle, or nearly.
+fn shares(point: DVec3, corners: &[DVec3; 3]) -> [f64; 3] {
+    let [p, q, r] = *corners;
+    let (u, v, w) = (q - p, r - p, point - p);
+    let n = u.cross(v);
+    let squared = n.length_squared();
+    if squared > 0.0 {
+        let y = w.cross(v).dot(n) / squared;
+        let z = u.cross(w).dot(n) / squared;
+        return clamped([1.0 - y - z, y, z]);
+    }
+    let far = if u.length_squared() >= v.length_squared() {
+        1
+    } else {
+        2
+    };
+    let along = corners[far] - p;
+    let squared = along.length_squared();
+    let share = if squared > 0.0 {
+        w.dot(along) / squared
+    } else {
+        0.0
+    };
+    let mut shares = [1.0 - share, 0.0, 0.0];
+    shares[far] = share;
+    clamped(shares)
+}
+
+fn clamped(shares: [f64; 3]) -> [f64; 3] {
+    let inside = shares.map(|s| s.clamp(0.0, 1.0));
+    let sum: f64 = inside.iter().sum();
+    inside.map(|s| s / sum)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::collide::random::Random;
+
+    const LIMITS: Limits = Limits {
+        tolerance: 1e-6,
+        margin: 1e-13,
+        budget: 1000,
+    };
+
+    fn feature(random: &mut Random, corners: usize) -> [DVec3; 3] {
+        let p = [(); 3].map(|()| random.vector());
+        [p[0], p[1.min(corners - 1)], p[2.min(corners - 1)]]
+    }
+
+    #[test]
+    fn features_are_near_exactly_in_the_stretches_told() {
+        let mut random = Random::new(81);
+        let mut stretches = 0;
+        for case in 0..400 {
+            let (m, n) = (1 + case % 3, 1 + case / 3 % 3);
+            let mut pose = || PairPose {
+                a: feature(&mut random, m),
+                b: feature(&mut random, n),
+                shared: 0,
+            };
+            let pair = MovingPair {
+                start: pose(),
+                end: pose(),
+            };
+            let distance = 0.3;
+            let near = contact_times(&pair, distance, &LIMITS);
+            stretches += near.len();
+            assert!(near.windows(2).all(|w| w[0][1] < w[1][0]), "{near:?}");
+            for k in 0..=300 {
+                let t = f64::from(k) / 300.0;
+                let pose = pair.at(t);
+                let found = triangle_triangle(&pose.a, &pose.b).distance;
+                if near.iter().any(|s| s[0] <= t && t <= s[1]) {
+                    assert!(found <= distance * 65.0 / 64.0 + 1e-9, "{case} {t} {found}");
+                } else {
+                    assert!(found >= distance * 63.0 / 64.0 - 1e-9, "{case} {t} {found}");
+                }
+            }
+        }
+        assert!(stretches > 100, "{stretches}");
+    }
+
+    #[test]
+    fn a_point_that_slides_far_along_a_plate_in_contact_is_near_in_one_stretch() {
+        let plate = [DVec3::ZERO, DVec3::X * 4.0, DVec3::Y * 4.0];
+        let at = |x: f64| PairPose {
+            a: [DVec3::new(x, 0.5, 4e-7); 3],
+            b: plate,
+            shared: 0,
+        };
+        let pair = MovingPair {
+            start: at(0.25),
+            end: at(3.0),
+        };
+        assert_eq!(contact_times(&pair, 1e-6, &LIMITS), [[0.0, 1.0]]);
+    }
+}
