@@ -23,6 +23,7 @@
 //!   thickness of the material.
 
 mod collision;
+mod crossings;
 mod error;
 mod extents;
 mod layers;

@@ -12,15 +12,16 @@ use rayon::prelude::*;
 
 use super::{
     frame::Placed,
-    judge::{Judgement, Question, Witness, starts_deep},
+    judge::{Judgement, Question, Witness, may_be_near, starts_deep},
     pair::{Pair, facets_share_a_vertex},
     report::{
-        CollisionOptions, CollisionReport, FilterCounts, PairCounts, Penetration, Separation,
-        Undecided, Verdict,
+        CollisionOptions, CollisionReport, FilterCounts, PairCounts, Penetration, PenetrationKind,
+        Separation, Undecided, Verdict,
     },
 };
 use crate::{
     CheckError,
+    crossings::{self, Crossings},
     layers::{Claims, FaceEdges, LayerPair, front_normal},
 };
 
@@ -52,6 +53,9 @@ pub struct Checker<'a> {
     /// Pairs of layers that were found in an order that contradicts others.
     pub(super) contradicting: BTreeSet<[u32; 2]>,
     touching: BTreeSet<(u32, u32)>,
+    /// Pairs that may have been within τ in the last interval, in order.
+    near: Vec<[u32; 2]>,
+    crossings: Crossings,
     /// The closest approach so far, a length.
     nearest: Option<Separation>,
     pub(super) report: CollisionReport,
@@ -100,12 +104,22 @@ impl<'a> Checker<'a> {
             contradicting: BTreeSet::new(),
             penetrating: BTreeSet::new(),
             touching: BTreeSet::new(),
+            near: Vec::new(),
+            crossings: Crossings::new(
+                sheet,
+                &Limits {
+                    tolerance: value * sheet.unit_length,
+                    margin: 0.0,
+                    budget: options.budget,
+                },
+            ),
             nearest: None,
             report: empty_report(value),
         };
         let limits = checker.limits(checker.last.extent)?;
         checker.measure_separation();
         checker.judge_first_frame(&limits)?;
+        checker.count_crossings(None);
         checker.find_layers();
         Ok(checker)
     }
@@ -129,6 +143,7 @@ impl<'a> Checker<'a> {
         let start = std::mem::replace(&mut self.last, next);
         self.measure_separation();
         self.judge_interval(&start, &limits);
+        self.count_crossings(Some(&start));
         self.frames += 1;
         self.find_layers();
         Ok(())
@@ -246,6 +261,14 @@ impl<'a> Checker<'a> {
                 return Err(CheckError::DuplicateFace { f, g });
             }
             let pose = pair.pose(&self.last.positions);
+            let at_rest = MovingPair {
+                start: pose,
+                end: pose,
+            };
+            if may_be_near(&pair, &at_rest, 0.0, limits) {
+                self.near.push([f, g]);
+                self.touching.insert((f, g));
+            }
             match Side::at_start(&pose, limits) {
                 Some(Side::Contact(axes)) => {
                     self.touching.insert((f, g));
@@ -274,6 +297,7 @@ impl<'a> Checker<'a> {
         let all = faces * faces.saturating_sub(1) / 2;
         self.report.decided_by.boxes += all - pairs.len() as u64;
         self.unfollowed.clear();
+        self.near.clear();
         pairs.retain(|pair| {
             let is_lost = self.penetrating.contains(&key(pair));
             if is_lost {
@@ -333,8 +357,12 @@ impl<'a> Checker<'a> {
                 side,
                 effort,
                 is_touching,
+                is_near,
                 approach,
             } => {
+                if is_near {
+                    self.near.push(pair.faces);
+                }
                 match effort {
                     Effort::AxisAtRest => decided_by.axis_at_rest += 1,
                     Effort::TurningAxis => decided_by.turning_axis += 1,
@@ -368,6 +396,64 @@ impl<'a> Checker<'a> {
                 });
             }
         }
+    }
+
+    /// Counts the passages of the sheet through itself in the interval that begins at `start`, or at the first frame.
+    fn count_crossings(&mut self, start: Option<&Placed>) {
+        let lost: BTreeSet<_> = self.penetrating.iter().chain(&self.unfollowed).collect();
+        let first = start.unwrap_or(&self.last);
+        let times = [first.time, self.last.time];
+        let interval = crossings::Interval {
+            times,
+            positions: [&first.positions, &self.last.positions],
+            near: &self.near,
+            is_lost: &|[f, g]| lost.contains(&(f, g)),
+        };
+        let found = match start {
+            None => self.crossings.begin(&interval),
+            Some(_) => self.crossings.advance(&interval),
+        };
+        let frame = self.frames - 1;
+        for crossing in found.crossings {
+            self.crosses(crossing, frame);
+        }
+        for [f, g] in found.unsure {
+            let is_new = !self.unfollowed.contains(&(f, g)) && !self.penetrating.contains(&(f, g));
+            if is_new {
+                self.loses((f, g));
+                self.report.undecided.push(Undecided {
+                    time: times[0],
+                    frame,
+                    faces: [f, g],
+                });
+            }
+        }
+    }
+
+    /// Records a part that passes through the sheet beside each of the triangles.
+    fn crosses(&mut self, crossing: crossings::Crossing, frame: usize) {
+        let [f, g] = crossing.faces;
+        if !self.penetrating.insert((f, g)) {
+            return;
+        }
+        self.loses((f, g));
+        self.report.penetrations.push(Penetration {
+            time: crossing.since,
+            passed: crossing.passed,
+            frame,
+            faces: crossing.faces,
+            vertices: crossing.witness.vertices,
+            point: crossing.witness.point + self.origin,
+            depth: crossing.witness.depth / self.sheet.unit_length,
+            kind: PenetrationKind::ThroughEdge,
+            conflict: None,
+        });
+    }
+
+    /// A pair has no side any more.
+    fn loses(&mut self, pair: (u32, u32)) {
+        self.sides.retain(|(other, _)| *other != pair);
+        self.unfollowed.push(pair);
     }
 
     fn penetrates(&mut self, pair: &Pair, frame: usize, times: [f64; 2], witness: Witness) {

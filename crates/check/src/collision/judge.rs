@@ -2,11 +2,14 @@
 
 use foldmotion_geometry::collide::{
     Approach, Axis, Crossing, Effort, Feature, Limits, MovingPair, Outcome, PairPose, Side,
-    certify, closest_approach, enough_clearance,
+    certify, closest_approach, contact_times, enough_clearance,
 };
 use glam::DVec3;
 
 use super::{meeting::Meeting, pair::Pair, report::PenetrationKind};
+
+/// Pairs nearer than this share of τ are near.
+const NEAR: f64 = 1.01;
 
 /// What an interval did to a pair.
 #[derive(Debug)]
@@ -15,6 +18,8 @@ pub(super) enum Judgement {
         side: Side,
         effort: Effort,
         is_touching: bool,
+        /// Whether what the triangles do not share may come within τ.
+        is_near: bool,
         /// The closest approach, where it may be news.
         approach: Option<Approach>,
     },
@@ -83,10 +88,14 @@ impl Question<'_> {
         // Free is claimed only where it is proved, to the hundredth of τ to which distances are searched.
         let is_proved_free =
             found.is_some_and(|found| found.is_complete) && distance > 1.01 * tolerance;
+        let is_near = may_be_near(pair, moving, passage.clearance, self.limits);
         Judgement::Passed {
             side: passage.side,
             effort: passage.effort,
-            is_touching: passage.in_contact || (may_touch && !is_proved_free),
+            is_touching: passage.in_contact
+                || (may_touch && !is_proved_free)
+                || (pair.shared > 0 && is_near),
+            is_near,
             approach: approach.filter(|_| distance < wanted),
         }
     }
@@ -111,6 +120,52 @@ impl Question<'_> {
             depth,
             approach: None,
         }
+    }
+}
+
+/// Whether simplices of the two triangles without a common vertex may come within τ of each other.
+///
+/// `clearance`: how far what the triangles do not share stays apart, where they share at most a vertex.
+pub(super) fn may_be_near(
+    pair: &Pair,
+    moving: &MovingPair,
+    clearance: f64,
+    limits: &Limits,
+) -> bool {
+    let reach = NEAR * limits.tolerance;
+    let is_apart = match pair.shared {
+        0 | 1 => clearance > reach,
+        _ => moving.stays_within_right_angle(limits),
+    };
+    !is_apart
+        && disjoint_parts(pair.shared)
+            .iter()
+            .any(|&[a, b]| !contact_times(&part(moving, a, b), reach, limits).is_empty())
+}
+
+/// Corners of the two triangles that span the largest simplices without a common vertex, shared corners first.
+fn disjoint_parts(shared: usize) -> &'static [[[usize; 3]; 2]] {
+    match shared {
+        0 => &[[[0, 1, 2], [0, 1, 2]]],
+        1 => &[[[1, 2, 2], [0, 1, 2]], [[0, 1, 2], [1, 2, 2]]],
+        _ => &[
+            [[2, 2, 2], [0, 1, 2]],
+            [[0, 1, 2], [2, 2, 2]],
+            [[0, 2, 2], [1, 2, 2]],
+            [[1, 2, 2], [0, 2, 2]],
+        ],
+    }
+}
+
+fn part(moving: &MovingPair, a: [usize; 3], b: [usize; 3]) -> MovingPair {
+    let of = |pose: &PairPose| PairPose {
+        a: a.map(|i| pose.a[i]),
+        b: b.map(|j| pose.b[j]),
+        shared: 0,
+    };
+    MovingPair {
+        start: of(&moving.start),
+        end: of(&moving.end),
     }
 }
 

@@ -51,6 +51,8 @@ pub enum PenetrationKind {
     AroundVertex,
     /// Facets leave contact on the other side, without an instant found at which they are deeper than τ.
     PassedThrough,
+    /// A part passes through an interior edge or vertex of the sheet, beside each of the triangles there.
+    ThroughEdge,
     /// The order of coincident layers contradicts itself, or what the file claims of it.
     LayerOrder,
 }

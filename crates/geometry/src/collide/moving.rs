@@ -17,6 +17,15 @@ pub struct MovingPair {
 }
 
 impl MovingPair {
+    /// For triangles that share an edge: whether they are proved to stay folded by less than 90°.
+    pub fn stays_within_right_angle(&self, limits: &Limits) -> bool {
+        let leaf = Leaf {
+            from: &self.start,
+            to: &self.end,
+        };
+        leaf.hinge_stays_within_right_angle(limits)
+    }
+
     /// The pose at t in [0, 1].
     pub fn at(&self, t: f64) -> PairPose {
         if t <= 0.0 {
@@ -95,13 +104,34 @@ impl Leaf<'_> {
     /// cos θ the opposite sign of g = (e × l)·(e × r), a quartic. Either f ≠ 0 throughout, or g < 0 throughout
     /// (the fold angle stays within ±90°), by the Bernstein coefficients.
     pub(super) fn hinge_stays_open(&self, limits: &Limits) -> bool {
+        let hinge = Hinge::new(self);
+        let f = hinge.sines();
+        let margin = 8.0 * limits.margin * hinge.squared;
+        f.iter().all(|&c| c > margin)
+            || f.iter().all(|&c| c < -margin)
+            || hinge.stays_within_right_angle(limits)
+    }
+
+    /// Whether two triangles that share an edge stay folded by less than 90°.
+    pub(super) fn hinge_stays_within_right_angle(&self, limits: &Limits) -> bool {
+        Hinge::new(self).stays_within_right_angle(limits)
+    }
+}
+
+/// Two triangles that share an edge, over a stretch of time: the Bernstein coefficients of their normals, as long as twice
+/// their areas.
+struct Hinge {
+    normals: [[DVec3; 3]; 2],
+    /// From the start of the edge to the second apex, at both ends.
+    r: [DVec3; 2],
+    /// The largest squared length of an edge that starts there.
+    squared: f64,
+}
+
+impl Hinge {
+    fn new(leaf: &Leaf<'_>) -> Self {
         let vectors = |p: &PairPose| [p.a[1] - p.a[0], p.a[2] - p.a[0], p.b[2] - p.a[0]];
-        let [e0, l0, r0] = vectors(self.from);
-        let [e1, l1, r1] = vectors(self.to);
-        let squared = [e0, l0, r0, e1, l1, r1]
-            .iter()
-            .map(|v| v.length_squared())
-            .fold(0.0, f64::max);
+        let ([e0, l0, r0], [e1, l1, r1]) = (vectors(leaf.from), vectors(leaf.to));
         let normal = |v0: DVec3, v1: DVec3| {
             [
                 e0.cross(v0),
@@ -109,17 +139,28 @@ impl Leaf<'_> {
                 e1.cross(v1),
             ]
         };
-        let (n, m) = (normal(l0, l1), normal(r0, r1));
-        let f = [
+        let all = [e0, l0, r0, e1, l1, r1].map(|v| v.length_squared());
+        Self {
+            normals: [normal(l0, l1), normal(r0, r1)],
+            r: [r0, r1],
+            squared: all.into_iter().fold(0.0, f64::max),
+        }
+    }
+
+    /// f = det(e, l, r).
+    fn sines(&self) -> [f64; 4] {
+        let ([n, _], [r0, r1]) = (self.normals, self.r);
+        [
             n[0].dot(r0),
             (n[0].dot(r1) + 2.0 * n[1].dot(r0)) / 3.0,
             (2.0 * n[1].dot(r1) + n[2].dot(r0)) / 3.0,
             n[2].dot(r1),
-        ];
-        let f_margin = 8.0 * limits.margin * squared;
-        if f.iter().all(|&c| c > f_margin) || f.iter().all(|&c| c < -f_margin) {
-            return true;
-        }
+        ]
+    }
+
+    /// Whether g = (e × l)·(e × r) < 0 throughout.
+    fn stays_within_right_angle(&self, limits: &Limits) -> bool {
+        let [n, m] = self.normals;
         let g = [
             n[0].dot(m[0]),
             f64::midpoint(n[0].dot(m[1]), n[1].dot(m[0])),
@@ -127,8 +168,8 @@ impl Leaf<'_> {
             f64::midpoint(n[1].dot(m[2]), n[2].dot(m[1])),
             n[2].dot(m[2]),
         ];
-        let g_margin = 8.0 * limits.margin * squared * squared.sqrt();
-        g.iter().all(|&c| c < -g_margin)
+        let margin = 8.0 * limits.margin * self.squared * self.squared.sqrt();
+        g.iter().all(|&c| c < -margin)
     }
 }
 

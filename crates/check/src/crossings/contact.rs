@@ -1,0 +1,113 @@
+//! Contacts: stretches of time in which two simplices are within reach of each other.
+
+use foldmotion_geometry::{
+    collide::{Limits, MovingPair, Passing, contact_times},
+    triangle_triangle,
+};
+
+use super::cell::{Cell, Ends};
+use super::topology::Topology;
+
+/// A cell in an interval.
+#[derive(Debug)]
+pub(super) struct Watched {
+    pub(super) passings: Vec<Passing>,
+    /// Whether rounding hides a passage.
+    pub(super) is_unsure: bool,
+    /// Whether the simplices are within reach at the frame at the end.
+    pub(super) is_near: bool,
+    /// When they are within reach, as shares of the interval; empty until asked for.
+    pub(super) times: Vec<[f64; 2]>,
+}
+
+/// What is balanced when a contact ends.
+#[derive(Debug, Clone)]
+pub(super) struct Contact {
+    pub(super) number: u64,
+    /// The motion time at which it begins.
+    pub(super) since: f64,
+    /// The motion time of the last passage.
+    pub(super) passed: Option<f64>,
+    /// The signed number of passages.
+    pub(super) sum: i64,
+    /// Unknown numbers of turns, with their signs.
+    pub(super) terms: Vec<(u32, i64)>,
+}
+
+/// A contact in an interval.
+#[derive(Debug)]
+pub(super) struct Stretch {
+    /// Shares of the interval.
+    pub(super) times: [f64; 2],
+    /// Whether it lasts at the frame at the end.
+    pub(super) is_open: bool,
+    pub(super) contact: Contact,
+}
+
+impl Contact {
+    pub(super) fn new(number: u64, since: f64) -> Self {
+        Self {
+            number,
+            since,
+            passed: None,
+            sum: 0,
+            terms: Vec::new(),
+        }
+    }
+}
+
+impl Stretch {
+    pub(super) fn overlaps(&self, [from, to]: [f64; 2]) -> bool {
+        self.times[0] <= to && from <= self.times[1]
+    }
+}
+
+impl Watched {
+    pub(super) fn new(cell: Cell, topology: &Topology, ends: Ends<'_>, reach: f64) -> Self {
+        let pose = cell.moving(topology, ends).end;
+        let passings = cell.passings(topology, ends);
+        Self {
+            is_unsure: passings.is_none(),
+            passings: passings.unwrap_or_default(),
+            is_near: triangle_triangle(&pose.a, &pose.b).distance <= reach,
+            times: Vec::new(),
+        }
+    }
+
+    /// Finds the times of contact; they end at the end of the interval exactly where the frame shows a contact.
+    pub(super) fn time(&mut self, pair: &MovingPair, reach: f64, limits: &Limits) {
+        let mut times = contact_times(pair, reach, limits);
+        let start = triangle_triangle(&pair.start.a, &pair.start.b).distance <= reach;
+        hold(&mut times, 0.0, start);
+        hold(&mut times, 1.0, self.is_near);
+        self.times = times;
+    }
+
+    /// The times of contact, joined with those of the cells on the rim and the instants of passages.
+    pub(super) fn all_times<'a>(&self, rim: impl Iterator<Item = &'a Self>) -> Vec<[f64; 2]> {
+        let instants = self.passings.iter().map(|p| [p.time; 2]);
+        let mut all: Vec<[f64; 2]> = self.times.iter().copied().chain(instants).collect();
+        all.extend(rim.flat_map(|seen| seen.times.iter().copied()));
+        all.sort_by(|p, q| p[0].total_cmp(&q[0]));
+        let mut joined: Vec<[f64; 2]> = Vec::with_capacity(all.len());
+        for [from, to] in all {
+            match joined.last_mut() {
+                Some(last) if last[1] >= from => last[1] = last[1].max(to),
+                _ => joined.push([from, to]),
+            }
+        }
+        joined
+    }
+}
+
+/// Makes the times say at one end of the interval what the frame there shows.
+fn hold(times: &mut Vec<[f64; 2]>, end: f64, is_near: bool) {
+    let found = times.iter().position(|t| t.contains(&end));
+    match (found, is_near) {
+        (None, true) => {
+            times.push([end; 2]);
+            times.sort_by(|p, q| p[0].total_cmp(&q[0]));
+        }
+        (Some(_), _) | (None, false) => {}
+    }
+}

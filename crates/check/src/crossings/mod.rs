@@ -1,0 +1,430 @@
+//! Whether parts of the sheet pass through each other, counted on the sheet as a whole.
+//!
+//! A pair of triangles that stays on one side of each other proves nothing of the sheet: a facet may pass through an
+//! edge between two triangles beside each of them. This module decides whether it does, without directions.
+//!
+//! # Definition
+//!
+//! Let f(p, q, t) = x_p(t) − x_q(t) for points p, q of the sheet in simplices without a common vertex, and let N be
+//! the set of (p, q, t) with |f| ≤ τ. The sheet *penetrates itself* where no map u, |u| ≤ τ, continuous in (p, q, t), takes
+//! f + u off 0: where no push by τ undoes all meetings. (This is the deleted product obstruction of van Kampen 1932,
+//! with a tolerance and over time.) It speaks of points; where the edges of the triangles run does not matter.
+//!
+//! Off N there is nothing to undo. In N the obstruction is counted on *cells*, pairs of simplices whose dimensions add up to 2
+//! over time or to 3 at an instant: how often a vertex passes through a facet, an edge through an edge, and an edge
+//! pierces a facet, with signs. A push near a vertex and an edge within τ of each other changes the counts as one turn
+//! of the vertex around the edge does: by 1 in every facet at the edge and every edge at the vertex, at once. So:
+//!
+//! - for every vertex and facet, and every two edges, and every longest stretch of time in which they are within τ: the
+//!   signed number of passages, plus a whole number for each stretch within in which the vertex is within τ of an edge of the facet
+//!   (an end of one edge of the other edge), is 0. The whole number is the same for all that meet at that edge and
+//!   vertex: around a true boundary there is one facet, and it is free; at an interior edge it leads from one facet to
+//!   the next, and a passage through the sheet stays one.
+//! - stretches in contact at the first frame begin with an unknown number of passages, such that the piercings at that
+//!   instant are undone by them; stretches in contact at the last frame may end with any.
+//!
+//! These are linear equations in whole numbers. Where they have no solution the sheet penetrates; the first
+//! equation without one, in order of time, is the witness. Where they have one, pushes undo every passage (obstructions of higher
+//! order, which need a contact set of dimension 4 or more that closes up in itself, are not looked for).
+//!
+//! # What tolerances and rounding do
+//!
+//! - All vertices are moved by a fixed random offset of at most τ/4096, so that no two events coincide; what is proved
+//!   of the moved motion for τ (1 − 1/32) holds of the given one for τ.
+//! - "Within τ" is told to 1/64 (`contact_times`). What is not shown to be near counts as far: that can only
+//!   leave an equation without a solution.
+//! - Passages are counted exactly (`vertex_passings`, `edge_passings`); where rounding hides one the pair is undecided.
+//! - Pairs of triangles shown to be farther apart than τ have no cells; those found penetrating or undecided by their
+//!   sides have cells that are not counted.
+
+mod cell;
+mod contact;
+#[cfg(test)]
+mod random;
+mod system;
+mod topology;
+mod witness;
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use foldmotion_geometry::collide::Limits;
+use foldmotion_pattern::Sheet;
+use glam::DVec3;
+use rayon::prelude::*;
+
+use cell::{Cell, Ends, cells_of, piercing, piercing_terms, turn};
+use contact::{Contact, Stretch, Watched};
+use system::System;
+use topology::Topology;
+pub(crate) use witness::Witness;
+
+/// Offsets are at most this share of τ in each coordinate.
+const OFFSET: f64 = 1.0 / 4096.0;
+/// Contacts are those within this share of τ.
+const CONTACT: f64 = 31.0 / 32.0;
+/// Fewer cells than this are not worth a thread.
+const CELLS_A_TASK: usize = 64;
+
+/// Counts the passages of a sheet through itself, frame by frame.
+#[derive(Debug)]
+pub(crate) struct Crossings {
+    topology: Topology,
+    /// What the vertices are moved by.
+    offsets: Vec<DVec3>,
+    /// The distance within which features are in contact.
+    reach: f64,
+    limits: Limits,
+    system: System,
+    /// Passings through whose contact lasts at the last frame.
+    open: BTreeMap<Cell, Contact>,
+    /// Passings by whose contact lasts: the unknown, and the contacts it stands in.
+    open_turns: BTreeMap<Cell, (u32, BTreeSet<u64>)>,
+    contacts: u64,
+}
+
+/// A passage that nothing undoes.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Crossing {
+    /// Triangles that hold the features that meet, the smaller index first.
+    pub(crate) faces: [u32; 2],
+    pub(crate) witness: Witness,
+    /// The motion time at which the contact begins.
+    pub(crate) since: f64,
+    /// The motion time of the last passage in it.
+    pub(crate) passed: f64,
+}
+
+/// What a frame brought.
+#[derive(Debug, Default)]
+pub(crate) struct Found {
+    pub(crate) crossings: Vec<Crossing>,
+    /// Pairs of triangles with passages that rounding hides.
+    pub(crate) unsure: Vec<[u32; 2]>,
+}
+
+/// Two frames, and the pairs of triangles to look at.
+#[derive(Clone, Copy)]
+pub(crate) struct Interval<'a> {
+    pub(crate) times: [f64; 2],
+    /// Positions relative to the same origin.
+    pub(crate) positions: [&'a [DVec3]; 2],
+    /// Pairs that may be within τ.
+    pub(crate) near: &'a [[u32; 2]],
+    /// Pairs that are not counted.
+    pub(crate) is_lost: &'a (dyn Fn([u32; 2]) -> bool + Sync),
+}
+
+impl Crossings {
+    pub(crate) fn new(sheet: &Sheet, limits: &Limits) -> Self {
+        let reach = CONTACT * limits.tolerance;
+        let offset = OFFSET * limits.tolerance;
+        Self {
+            topology: Topology::new(&sheet.faces, sheet.vertices.len()),
+            offsets: (0..sheet.vertices.len() as u64)
+                .map(|v| [0, 1, 2].map(|k| offset * scattered(3 * v + k)).into())
+                .collect(),
+            reach,
+            limits: *limits,
+            system: System::default(),
+            open: BTreeMap::new(),
+            open_turns: BTreeMap::new(),
+            contacts: 0,
+        }
+    }
+
+    /// Takes in the first frame: the interval's two frames are the same.
+    pub(crate) fn begin(&mut self, interval: &Interval<'_>) -> Found {
+        let positions = self.moved(interval.positions[0]);
+        let ends = Ends([&positions, &positions]);
+        let watched = self.watch(interval, ends);
+        let mut unknowns = BTreeMap::new();
+        for (&cell, seen) in &watched {
+            if seen.is_near && !matches!(cell, Cell::VertexEdge { .. }) {
+                let unknown = self.system.new_unknown();
+                unknowns.insert(cell, unknown);
+                let mut contact = self.contact(interval.times[0]);
+                contact.terms.push((unknown, 1));
+                self.open.insert(cell, contact);
+            }
+        }
+        let mut found = Found::default();
+        for (edge, face) in self.edges_and_facets(interval.near) {
+            let terms = piercing_terms(&self.topology, edge, face);
+            if terms.iter().any(|&(cell, _)| self.is_lost(cell, interval)) {
+                continue;
+            }
+            let Some(pierced) = piercing(&self.topology, edge, face, &positions) else {
+                found.unsure.extend(self.first_pair(edge, face));
+                continue;
+            };
+            let known = terms
+                .iter()
+                .filter_map(|(cell, sign)| Some((*unknowns.get(cell)?, *sign)));
+            if self.system.add(&known.collect::<Vec<_>>(), pierced) {
+                continue;
+            }
+            let witness = Witness::of_piercing(&self.topology, edge, face, &positions);
+            found
+                .crossings
+                .extend(self.first_pair(edge, face).map(|faces| Crossing {
+                    faces,
+                    witness,
+                    since: interval.times[0],
+                    passed: interval.times[0],
+                }));
+        }
+        found
+    }
+
+    /// Takes in the next frame.
+    pub(crate) fn advance(&mut self, interval: &Interval<'_>) -> Found {
+        let [start, end] = interval.positions.map(|positions| self.moved(positions));
+        let ends = Ends([&start, &end]);
+        let mut watched = self.watch(interval, ends);
+        let mut found = Found::default();
+        let has_events = watched.values().any(|seen| !seen.passings.is_empty());
+        let is_touched = watched.values().any(|seen| seen.is_near) || !self.open.is_empty();
+        if !has_events && !is_touched && watched.values().all(|seen| !seen.is_unsure) {
+            return found;
+        }
+        self.time_contacts(&mut watched, ends);
+        let mut stretches = self.stretches(&watched, interval, &mut found);
+        self.add_turns(&watched, &mut stretches);
+        self.close(stretches, (interval, ends), &mut found);
+        found
+    }
+
+    fn moved(&self, positions: &[DVec3]) -> Vec<DVec3> {
+        let places = positions.iter().zip(&self.offsets);
+        places.map(|(p, offset)| *p + *offset).collect()
+    }
+
+    /// Whether one of the pairs of triangles around a cell is not counted.
+    fn is_lost(&self, cell: Cell, interval: &Interval<'_>) -> bool {
+        cell.faces(&self.topology)
+            .any(|pair| (interval.is_lost)(pair))
+    }
+
+    /// The first triangle at an edge, with the one given.
+    fn first_pair(&self, edge: u32, face: u32) -> Option<[u32; 2]> {
+        let first = self.topology.edge_faces[edge as usize].first()?;
+        Some([*first.min(&face), *first.max(&face)])
+    }
+
+    fn contact(&mut self, since: f64) -> Contact {
+        self.contacts += 1;
+        Contact::new(self.contacts, since)
+    }
+
+    /// The cells of the pairs, those lost left out, with their passages and whether they are in contact at the end.
+    fn watch(&self, interval: &Interval<'_>, ends: Ends<'_>) -> BTreeMap<Cell, Watched> {
+        let pairs = interval.near.par_iter().with_min_len(CELLS_A_TASK);
+        let mut cells: Vec<Cell> = pairs
+            .flat_map_iter(|&faces| cells_of(&self.topology, faces))
+            .collect();
+        cells.par_sort_unstable();
+        cells.dedup();
+        let is_counted =
+            |cell: &Cell| matches!(cell, Cell::VertexEdge { .. }) || !self.is_lost(*cell, interval);
+        let mut watched = cells
+            .into_par_iter()
+            .with_min_len(CELLS_A_TASK)
+            .filter(is_counted)
+            .map(|cell| (cell, Watched::new(cell, &self.topology, ends, self.reach)))
+            .collect::<Vec<_>>()
+            .into_iter()
+            .collect();
+        self.agree_with_rim(&mut watched);
+        watched
+    }
+
+    /// What is near an edge of a facet is near the facet, also where rounding says otherwise.
+    fn agree_with_rim(&self, watched: &mut BTreeMap<Cell, Watched>) {
+        let near_edges = watched.iter().filter_map(|(cell, seen)| match cell {
+            Cell::VertexEdge { vertex, edge } if seen.is_near => Some((*vertex, *edge)),
+            _ => None,
+        });
+        for (vertex, edge) in near_edges.collect::<Vec<_>>() {
+            for (cell, _) in turn(&self.topology, vertex, edge) {
+                if let Some(seen) = watched.get_mut(&cell) {
+                    seen.is_near = true;
+                }
+            }
+        }
+    }
+
+    /// When the cells are in contact.
+    fn time_contacts(&self, watched: &mut BTreeMap<Cell, Watched>, ends: Ends<'_>) {
+        let mut list: Vec<_> = watched.iter_mut().collect();
+        list.par_iter_mut()
+            .with_min_len(CELLS_A_TASK)
+            .for_each(|(cell, seen)| {
+                let pair = cell.moving(&self.topology, ends);
+                seen.time(&pair, self.reach, &self.limits);
+            });
+    }
+
+    /// The stretches of contact of all cells of passing through, with their passages.
+    fn stretches(
+        &mut self,
+        watched: &BTreeMap<Cell, Watched>,
+        interval: &Interval<'_>,
+        found: &mut Found,
+    ) -> BTreeMap<Cell, Vec<Stretch>> {
+        let mut all = BTreeMap::new();
+        let mut open = std::mem::take(&mut self.open);
+        for (&cell, seen) in watched {
+            if matches!(cell, Cell::VertexEdge { .. }) {
+                continue;
+            }
+            let earlier = open.remove(&cell);
+            if seen.is_unsure {
+                found.unsure.extend(cell.faces(&self.topology).next());
+                continue;
+            }
+            let rim = cell.rim(&self.topology);
+            let by = rim.iter().filter_map(|cell| watched.get(cell));
+            let times = seen.all_times(by);
+            let stretches = self.stretches_of(&times, seen, earlier, interval);
+            all.insert(cell, stretches);
+        }
+        // What is in contact but not watched any more was lost: it is not counted.
+        all
+    }
+
+    fn stretches_of(
+        &mut self,
+        times: &[[f64; 2]],
+        seen: &Watched,
+        mut earlier: Option<Contact>,
+        interval: &Interval<'_>,
+    ) -> Vec<Stretch> {
+        let mut stretches = Vec::with_capacity(times.len());
+        for &[from, to] in times {
+            let continued = if from == 0.0 { earlier.take() } else { None };
+            let mut contact = continued.unwrap_or_else(|| self.contact(interval.at(from)));
+            let within = seen.passings.iter();
+            for passing in within.filter(|p| (from..=to).contains(&p.time)) {
+                contact.sum += i64::from(passing.sign);
+                contact.passed = Some(interval.at(passing.time));
+            }
+            stretches.push(Stretch {
+                times: [from, to],
+                is_open: to == 1.0 && seen.is_near,
+                contact,
+            });
+        }
+        // A contact that lasted to the frame before and is not seen at its beginning ended there.
+        stretches.extend(earlier.map(|contact| Stretch {
+            times: [0.0, 0.0],
+            is_open: false,
+            contact,
+        }));
+        stretches
+    }
+
+    /// Lets every vertex that passes by an edge turn around it.
+    fn add_turns(
+        &mut self,
+        watched: &BTreeMap<Cell, Watched>,
+        stretches: &mut BTreeMap<Cell, Vec<Stretch>>,
+    ) {
+        let mut earlier = std::mem::take(&mut self.open_turns);
+        for (&cell, seen) in watched {
+            let Cell::VertexEdge { vertex, edge } = cell else {
+                continue;
+            };
+            for &times in &seen.times {
+                let mut around = Vec::new();
+                for (through, sign) in turn(&self.topology, vertex, edge) {
+                    let mut list = stretches.get(&through).into_iter().flatten();
+                    let met = list.find(|stretch| stretch.overlaps(times));
+                    around.extend(met.map(|stretch| (through, stretch.contact.number, sign)));
+                }
+                let met: BTreeSet<u64> = around.iter().map(|&(_, number, _)| number).collect();
+                let before = earlier.remove(&cell).filter(|_| times[0] == 0.0);
+                let unknown = match before {
+                    Some((unknown, known)) if known == met => unknown,
+                    _ => self.new_turn(stretches, &around),
+                };
+                if times[1] == 1.0 && seen.is_near {
+                    self.open_turns.insert(cell, (unknown, met));
+                }
+            }
+        }
+    }
+
+    /// An unknown number of turns, which stands in the contacts around.
+    fn new_turn(
+        &mut self,
+        stretches: &mut BTreeMap<Cell, Vec<Stretch>>,
+        around: &[(Cell, u64, i64)],
+    ) -> u32 {
+        let unknown = self.system.new_unknown();
+        for &(cell, number, sign) in around {
+            let list = stretches.get_mut(&cell).into_iter().flatten();
+            for stretch in list.filter(|stretch| stretch.contact.number == number) {
+                stretch.contact.terms.push((unknown, sign));
+            }
+        }
+        unknown
+    }
+
+    /// Balances what has ended and keeps the rest.
+    fn close(
+        &mut self,
+        stretches: BTreeMap<Cell, Vec<Stretch>>,
+        (interval, ends): (&Interval<'_>, Ends<'_>),
+        found: &mut Found,
+    ) {
+        for (cell, list) in stretches {
+            for stretch in list {
+                if stretch.is_open {
+                    self.open.insert(cell, stretch.contact);
+                    continue;
+                }
+                let contact = stretch.contact;
+                if self.system.add(&contact.terms, -contact.sum) {
+                    continue;
+                }
+                let witness = Witness::of_passing(&self.topology, cell, ends, stretch.times);
+                let mut pairs = cell.faces(&self.topology);
+                let ended = interval.at(stretch.times[1]);
+                found.crossings.extend(pairs.next().map(|faces| Crossing {
+                    faces,
+                    witness,
+                    since: contact.since,
+                    passed: contact.passed.unwrap_or(ended),
+                }));
+            }
+        }
+    }
+
+    /// Every edge and facet without a common vertex of the pairs, once.
+    fn edges_and_facets(&self, near: &[[u32; 2]]) -> BTreeSet<(u32, u32)> {
+        let both = near.iter().flat_map(|&[f, g]| [(f, g), (g, f)]);
+        both.flat_map(|(f, g)| self.topology.face_edges[f as usize].map(|edge| (edge, g)))
+            .filter(|&(edge, face)| {
+                let corners = self.topology.corners(face);
+                let ends = self.topology.ends(edge);
+                !ends.iter().any(|v| corners.contains(v))
+            })
+            .collect()
+    }
+}
+
+impl Interval<'_> {
+    fn at(&self, t: f64) -> f64 {
+        let [start, end] = self.times;
+        start + (end - start) * t
+    }
+}
+
+/// A number in [−1, 1) that looks random, the same on every machine (`SplitMix64`, Steele, Lea and Flood 2014).
+fn scattered(number: u64) -> f64 {
+    let mut z = number.wrapping_add(1).wrapping_mul(0x9e37_79b9_7f4a_7c15);
+    z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+    z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+    z ^= z >> 31;
+    (z >> 11) as f64 / (1u64 << 52) as f64 - 1.0
+}
