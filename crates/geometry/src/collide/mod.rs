@@ -58,6 +58,8 @@ mod closest;
 mod contact;
 mod meeting;
 mod moving;
+mod number;
+mod passages;
 mod passing;
 mod patch;
 mod pose;

@@ -7,12 +7,12 @@
 use glam::DVec3;
 use robust::{Coord3D, orient3d};
 
-use super::patch::Patch;
+use super::{number::DoubleWord, passages::MovingPatch, patch::Patch};
 
 /// A passage through a feature.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Passing {
-    /// t in (0, 1), to within 2⁻⁴⁶ or better.
+    /// t in (0, 1), to within 2⁻⁴⁰.
     pub time: f64,
     /// 1 or −1: which way (see [`vertex_passings`] and [`edge_passings`]).
     pub sign: i8,
@@ -24,13 +24,13 @@ pub struct Passing {
 /// back of the facet to its front (its corners run counter-clockwise seen from the front). None where a passage cannot
 /// be told from its absence: the vertex touches the facet or its rim to within rounding, or lies in its plane at an end.
 pub fn vertex_passings(vertex: [DVec3; 2], facet: [[DVec3; 2]; 3]) -> Option<Vec<Passing>> {
-    let differences = |end: usize| facet.map(|corner| corner[end] - vertex[end]);
+    let points = [0, 1].map(|end: usize| facet.map(|corner| [corner[end], vertex[end]]));
     let volume = |end: usize| {
         let [p, q, r] = facet.map(|corner| corner[end]);
         move || sign_of_volume([p, q, r, vertex[end]])
     };
     // The volume det(p − v, q − v, r − v) is positive where the vertex is behind.
-    signed(differences(0), differences(1), [volume(0), volume(1)], -1)
+    signed(points, [volume(0), volume(1)], -1)
 }
 
 /// Every passage of two edges through each other over t in [0, 1], in order of time.
@@ -40,9 +40,9 @@ pub fn vertex_passings(vertex: [DVec3; 2], facet: [[DVec3; 2]; 3]) -> Option<Vec
 /// None as for [`vertex_passings`].
 pub fn edge_passings(a: [[DVec3; 2]; 2], b: [[DVec3; 2]; 2]) -> Option<Vec<Passing>> {
     let around = [(0, 0), (1, 0), (1, 1), (0, 1)];
-    let differences = |end: usize| around.map(|(i, j)| a[i][end] - b[j][end]);
+    let points = [0, 1].map(|end: usize| around.map(|(i, j)| [a[i][end], b[j][end]]));
     let volume = |end: usize| move || sign_of_volume([a[0], a[1], b[0], b[1]].map(|p| p[end]));
-    signed(differences(0), differences(1), [volume(0), volume(1)], 1)
+    signed(points, [volume(0), volume(1)], 1)
 }
 
 /// The sign of det(a − d, b − d, c − d), exact; 0 where the four points lie in one plane.
@@ -56,22 +56,24 @@ pub fn sign_of_volume(points: [DVec3; 4]) -> i8 {
     i8::from(value > 0.0) - i8::from(value < 0.0)
 }
 
-/// `ends`: the exact signs of the volume at the two ends, computed only where they are needed.
+/// `points`: for each end the corners of the patch of differences, each as the two points it is the difference of;
+/// `signs`: the exact signs of the volume at the two ends, computed only where they are needed.
 fn signed<const N: usize>(
-    start: [DVec3; N],
-    end: [DVec3; N],
-    ends: [impl Fn() -> i8; 2],
+    points: [[[DVec3; 2]; N]; 2],
+    signs: [impl Fn() -> i8; 2],
     orientation: i8,
 ) -> Option<Vec<Passing>> {
-    let patch = Patch::new(start, end, 0.0)?;
-    if patch.stays_clear(0.0, 1.0) {
+    let [start, end] = points.map(|at| at.map(|[p, q]| p - q));
+    if Patch::new(start, end, 0.0)?.stays_clear(0.0, 1.0) {
         return Some(Vec::new());
     }
-    let ends = ends.map(|sign| sign());
-    if ends.contains(&0) {
+    let signs = signs.map(|sign| sign());
+    if signs.contains(&0) {
         return None;
     }
-    let passages = patch.passages(ends)?;
+    let passages = MovingPatch::<f64, N>::new(points).passages(signs);
+    let passages =
+        passages.or_else(|| MovingPatch::<DoubleWord, N>::new(points).passages(signs))?;
     let passing = |(time, sign): (f64, i8)| Passing {
         time,
         sign: sign * orientation,

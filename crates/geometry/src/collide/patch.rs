@@ -11,8 +11,6 @@
 //!   middle coefficient one more: 8 u Σ |d_i| M_i. [`HEIGHT_ERROR`] allows 12 u.
 //! - Determinant: with P = M_x M_y M_z, the coordinates change it by 72 u P (six terms, three factors each), the
 //!   subtractions and products by 30 u P, the mean of three by 18 u P: 120 u P. [`VOLUME_ERROR`] allows 128 u.
-//! - Component of a cross product, with Q = M_i M_j: two terms of two factors, 16 u Q for the coordinates, 3 u Q for
-//!   products and difference, 1 u Q for the mean of two: 20 u Q. [`CROSS_ERROR`] allows 64 u.
 //!
 //! [`TINY`] covers what underflows.
 
@@ -24,12 +22,6 @@ use super::pose::{highest, lowest};
 const HEIGHT_ERROR: f64 = 6.0 * f64::EPSILON;
 /// Rounding of a Bernstein coefficient of the volume, in units of M_x M_y M_z: 128 u.
 const VOLUME_ERROR: f64 = 64.0 * f64::EPSILON;
-/// Rounding of a component of the cross product of two corners, in units of the reaches it multiplies: 64 u.
-const CROSS_ERROR: f64 = 32.0 * f64::EPSILON;
-/// Shorter stretches are not cut: both times stay multiples of 2⁻⁵².
-const SHORTEST_CUT: f64 = 1.0 / (1u64 << 46) as f64;
-/// The most stretches looked at for the passages of one patch.
-const PASSAGE_BUDGET: u32 = 1 << 14;
 /// More than all underflows of one evaluation together: 2⁻⁹⁶⁰.
 const TINY: f64 = f64::from_bits(63 << 52);
 /// Unit vectors as computed are no longer than this.
@@ -119,9 +111,17 @@ impl<const N: usize> Patch<N> {
     /// With three corners x, y, z of the patch, f = det(x, y, z) = x·n is a cubic in time, n = (y − x) × (z − x). A
     /// point q of the plane has q·n = f, so that |q| ≤ δ needs |f| ≤ δ |n|, and |n| ≤ 4 |M|².
     fn is_never_coplanar(&self, from: &[DVec3; N], to: &[DVec3; N]) -> bool {
-        let coefficients = volumes(from, to);
-        let room = self.volume_error()
-            + self.separation * LONGEST * 4.0 * self.reach.length_squared() * LONGEST;
+        let ([x0, y0, z0], [x1, y1, z1]) = (spanning(from), spanning(to));
+        let volume = |x: DVec3, y: DVec3, z: DVec3| x.dot(y.cross(z));
+        let coefficients = [
+            volume(x0, y0, z0),
+            (volume(x1, y0, z0) + volume(x0, y1, z0) + volume(x0, y0, z1)) / 3.0,
+            (volume(x0, y1, z1) + volume(x1, y0, z1) + volume(x1, y1, z0)) / 3.0,
+            volume(x1, y1, z1),
+        ];
+        let room = VOLUME_ERROR * self.reach.element_product()
+            + self.separation * LONGEST * 4.0 * self.reach.length_squared() * LONGEST
+            + TINY;
         lowest(&coefficients) > room || highest(&coefficients) < -room
     }
 
@@ -129,117 +129,6 @@ impl<const N: usize> Patch<N> {
     fn volume_error(&self) -> f64 {
         VOLUME_ERROR * self.reach.element_product() + TINY
     }
-
-    /// Every time at which the origin passes through the patch, in order, with the sign of the volume afterwards; none
-    /// where rounding hides a passage.
-    ///
-    /// `ends`: the exact signs of the volume at t = 0 and t = 1. A zero of the volume is isolated where the volume is
-    /// monotone and changes its sign; there the origin lies in the patch where all c_k × c_{k+1} point to one side. A
-    /// sign counts only where it is larger than its rounding error.
-    pub(super) fn passages(&self, ends: [i8; 2]) -> Option<Vec<(f64, i8)>> {
-        let mut found = Vec::new();
-        let mut open = vec![([0.0, 1.0], ends)];
-        let mut budget = PASSAGE_BUDGET;
-        while let Some((times, signs)) = open.pop() {
-            budget = budget.checked_sub(1)?;
-            let [from, to] = times.map(|t| self.at(t));
-            if self.stays_clear(times[0], times[1]) {
-                continue;
-            }
-            if self.is_monotone(&from, &to) {
-                if signs[0] != signs[1]
-                    && let Some(time) = self.passage_within(times, signs)?
-                {
-                    found.push((time, signs[1]));
-                }
-                continue;
-            }
-            let (middle, sign) = self.cut(times)?;
-            open.push(([middle, times[1]], [sign, signs[1]]));
-            open.push(([times[0], middle], [signs[0], sign]));
-        }
-        Some(found)
-    }
-
-    /// When the origin passes through the patch at the only zero of the volume in a stretch; the inner `None`: beside it.
-    fn passage_within(&self, mut times: [f64; 2], signs: [i8; 2]) -> Option<Option<f64>> {
-        let mut is_known = false;
-        loop {
-            if !is_known {
-                let [from, to] = times.map(|t| self.at(t));
-                match self.is_origin_inside(&from, &to) {
-                    Some(true) => is_known = true,
-                    Some(false) => return Some(None),
-                    None => {}
-                }
-            }
-            match self.cut(times) {
-                Some((middle, sign)) if sign == signs[0] => times[0] = middle,
-                Some((middle, _)) => times[1] = middle,
-                None => return is_known.then(|| Some(f64::midpoint(times[0], times[1]))),
-            }
-        }
-    }
-
-    /// A time inside a stretch at which the sign of the volume is sure; none where the stretch is too short.
-    fn cut(&self, [from, to]: [f64; 2]) -> Option<(f64, i8)> {
-        let length = to - from;
-        if length < SHORTEST_CUT {
-            return None;
-        }
-        let error = self.volume_error();
-        [0.5, 0.375, 0.625, 0.4375].into_iter().find_map(|share| {
-            let time = from + share * length;
-            let [x, y, z] = spanning(&self.at(time));
-            let value = x.dot(y.cross(z));
-            (value.abs() > error).then_some((time, if value > 0.0 { 1 } else { -1 }))
-        })
-    }
-
-    fn is_monotone(&self, from: &[DVec3; N], to: &[DVec3; N]) -> bool {
-        let v = volumes(from, to);
-        let slopes = [v[1] - v[0], v[2] - v[1], v[3] - v[2]];
-        let error = 3.0 * self.volume_error();
-        lowest(&slopes) > error || highest(&slopes) < -error
-    }
-
-    /// Whether the origin, while it lies in the plane of the patch, is inside the patch; none where it is not sure.
-    fn is_origin_inside(&self, from: &[DVec3; N], to: &[DVec3; N]) -> Option<bool> {
-        let mut is_outside = false;
-        for axis in 0..3 {
-            let others = self.reach[(axis + 1) % 3] * self.reach[(axis + 2) % 3];
-            let error = CROSS_ERROR * others + TINY;
-            let mut counts = [0; 2];
-            for k in 0..N {
-                let (p, q) = ([from[k], to[k]], [from[(k + 1) % N], to[(k + 1) % N]]);
-                let turn = |i: usize, j: usize| p[i].cross(q[j])[axis];
-                let turns = [
-                    turn(0, 0),
-                    f64::midpoint(turn(0, 1), turn(1, 0)),
-                    turn(1, 1),
-                ];
-                counts[0] += usize::from(lowest(&turns) > error);
-                counts[1] += usize::from(highest(&turns) < -error);
-            }
-            if counts.contains(&N) {
-                return Some(true);
-            }
-            is_outside |= counts[0] > 0 && counts[1] > 0;
-        }
-        is_outside.then_some(false)
-    }
-}
-
-/// The Bernstein coefficients of the volume det(x, y, z) of three corners that span the patch.
-fn volumes<const N: usize>(from: &[DVec3; N], to: &[DVec3; N]) -> [f64; 4] {
-    let ([x0, y0, z0], [x1, y1, z1]) = (spanning(from), spanning(to));
-    let volume = |x: DVec3, y: DVec3, z: DVec3| x.dot(y.cross(z));
-    [
-        volume(x0, y0, z0),
-        (volume(x1, y0, z0) + volume(x0, y1, z0) + volume(x0, y0, z1)) / 3.0,
-        (volume(x0, y1, z1) + volume(x1, y0, z1) + volume(x1, y1, z0)) / 3.0,
-        volume(x1, y1, z1),
-    ]
 }
 
 fn spanning<const N: usize>(corners: &[DVec3; N]) -> [DVec3; 3] {
