@@ -11,6 +11,7 @@ use sha2::{Digest as _, Sha256};
 
 use crate::certificate::Certificate;
 use crate::certify::{CheckedMotion, MotionFile};
+use crate::checked_file::CheckedFile;
 use crate::digest::hexadecimal;
 use crate::results::{CERTIFICATE, Results, write_error};
 use crate::{Phase, Progress, StudyError};
@@ -33,7 +34,7 @@ impl Default for CheckOptions {
     }
 }
 
-/// Judges the motion in the FOLD file at `path`, whoever made it, and returns what is proved of it.
+/// Judges the motion in the FOLD file at `path`, whoever made it, and returns what is proved of it and the work done.
 ///
 /// The file is read twice: first everything but the frames, then one frame at a time. Memory is that of the sheet and
 /// a few frames, however many there are.
@@ -45,10 +46,16 @@ pub fn check_file(
     path: &Path,
     options: &CheckOptions,
     progress: Progress<'_>,
-) -> Result<Certificate, StudyError> {
+) -> Result<CheckedFile, StudyError> {
     let judged = judge_file(path, *options, progress)?;
     progress(Phase::Check, 1.0);
-    Ok(judged.certificate(path))
+    let collision = &judged.collision;
+    Ok(CheckedFile {
+        certificate: judged.certificate(path),
+        pairs_tested: collision.pairs_tested,
+        decided_by: collision.decided_by,
+        touching_pairs: collision.touching_pairs,
+    })
 }
 
 /// A motion file with what was found of it.

@@ -41,7 +41,9 @@ pub(crate) fn file_results(ui: &mut Ui, title: &str, judged: Option<&Judged>) ->
     );
     ui.label(format!(
         "{} pairs tested between {} frames, tolerance {:.0e} units of length",
-        certificate.pairs_tested.total, certificate.frames, certificate.tolerance
+        collision.pairs_tested.total(),
+        certificate.frames,
+        certificate.tolerance
     ));
     let mut chosen = None;
     if let Some(first) = &collision.first {

@@ -51,8 +51,38 @@ pub enum PenetrationKind {
     AroundVertex,
     /// Facets leave contact on the other side, without an instant found at which they are deeper than τ.
     PassedThrough,
-    /// The order of coincident layers contradicts itself, or what the file claims of it.
+    /// The order of coincident layers contradicts itself, or what the file claims of it. The last one: see
+    /// [`Self::ALL`].
     LayerOrder,
+}
+
+impl PenetrationKind {
+    /// Every kind, so that a name can be read back; a kind missing here is an error of the compiler.
+    pub const ALL: [Self; Self::LayerOrder as usize + 1] = [
+        Self::VertexFacet,
+        Self::EdgeEdge,
+        Self::FoldedThrough,
+        Self::AroundVertex,
+        Self::PassedThrough,
+        Self::LayerOrder,
+    ];
+
+    /// Its name in reports and certificates.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::VertexFacet => "vertex through facet",
+            Self::EdgeEdge => "edge through edge",
+            Self::FoldedThrough => "folded past a half turn",
+            Self::AroundVertex => "facets crossing around a shared vertex",
+            Self::PassedThrough => "facets changing sides",
+            Self::LayerOrder => "layers out of order",
+        }
+    }
+
+    /// The kind of that name.
+    pub fn of_name(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|kind| kind.name() == name)
+    }
 }
 
 /// The first penetration of a pair of triangles; of kind [`PenetrationKind::LayerOrder`] there may be one besides.
@@ -137,6 +167,14 @@ pub struct FilterCounts {
     pub search: u64,
 }
 
+impl FilterCounts {
+    /// The share of the pairs that needed no search.
+    pub fn share_without_search(&self) -> f64 {
+        let quick = self.boxes + self.axis_at_rest + self.turning_axis;
+        quick as f64 / (quick + self.search).max(1) as f64
+    }
+}
+
 /// The verdict on a motion, with its evidence.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct CollisionReport {
@@ -148,7 +186,7 @@ pub struct CollisionReport {
     pub first: Option<Penetration>,
     /// The first penetration of every pair that has one, in order of time.
     pub penetrations: Vec<Penetration>,
-    /// How many distinct pairs touch.
+    /// How many distinct pairs touch or were not shown to keep apart: a count from above.
     pub touching_pairs: usize,
     /// What could not be decided.
     pub undecided: Vec<Undecided>,

@@ -231,13 +231,5 @@ impl Found {
         self.layers = self.layers.max(next.layers);
         self.pairs = self.pairs.max(next.pairs);
         self.order = self.order.max(next.order);
-        self.doubtful += next.doubtful;
-        let (sum, more) = (&mut self.rules, &next.rules);
-        sum.taco_taco += more.taco_taco;
-        sum.taco_tortilla += more.taco_tortilla;
-        sum.tortilla_tortilla += more.tortilla_tortilla;
-        sum.bent += more.bent;
-        sum.transitivity += more.transitivity;
-        sum.crease += more.crease;
     }
 }

@@ -17,12 +17,14 @@ use super::penetration::{Found, compare};
 use super::span::Span;
 use super::statement;
 use super::walk::{Limits, Side, Walked, depth, walk};
-use crate::collision::{CollisionReport, Penetration, Separation};
+use crate::collision::{CollisionReport, Penetration, Separation, Verdict};
 
 /// The most steps spent on a pair in an interval.
 const BUDGET: u32 = 1 << 16;
 /// Pairs farther than this, in units of τ, are surely not touching; the first prover resolves distances to τ/100.
 const SURELY_APART: f64 = 1.02;
+/// Pairs nearer than this, in units of τ, surely touch: *free* states that none are.
+const SURELY_TOUCHING: f64 = 0.98;
 /// How many refutations are listed; the rest are of the same motion.
 const MOST_LISTED: usize = 20;
 /// To this share of the unit of length the stated points are met.
@@ -76,7 +78,8 @@ impl Judged {
 }
 
 impl<'a> Verifier<'a> {
-    /// Takes in the first frame. `claim`: what the certificate states; its series of separations is not looked at.
+    /// Takes in the first frame. `claim`: what the certificate states; its counts of work and of pairs that touch, and
+    /// its series of separations, are not looked at.
     ///
     /// Preconditions: the sheet's corners are in range; every frame has a finite position for every vertex.
     pub fn new(sheet: &'a Sheet, first: Frame, claim: &'a CollisionReport) -> Self {
@@ -178,8 +181,6 @@ impl<'a> Verifier<'a> {
         self.outcome.touching = [self.surely_touching.len(), self.perhaps_touching.len()];
         let facts = statement::Facts {
             sheet: self.sheet,
-            intervals: self.frames - 1,
-            dropped: &self.dropped,
             touching: self.outcome.touching,
         };
         for refutation in statement::consistency(self.claim, &facts) {
@@ -307,17 +308,24 @@ impl<'a> Verifier<'a> {
         if self.surely_touching.contains(&pair.faces) {
             return false;
         }
-        match keeps_distance(span, apart, BUDGET) {
-            Nearness::Kept => true,
-            Nearness::Nearer { distance, .. } => {
-                let is_sure = distance < 0.98 * self.limits.tolerance;
-                judged.touching = [is_sure, true];
-                false
-            }
-            Nearness::Unproved => {
-                judged.touching = [false, true];
-                false
-            }
+        let is_sure = match keeps_distance(span, apart, BUDGET) {
+            Nearness::Kept => return true,
+            Nearness::Nearer { distance, .. } => distance < SURELY_TOUCHING * self.limits.tolerance,
+            Nearness::Unproved => false,
+        };
+        judged.touching = [is_sure, true];
+        if !is_sure && self.claim.verdict == Verdict::Free {
+            self.keeps_free(span, judged);
+        }
+        false
+    }
+
+    /// Whether a pair near τ keeps as far apart as *free* states.
+    fn keeps_free(&self, span: &Span, judged: &mut Judged) {
+        match keeps_distance(span, SURELY_TOUCHING * self.limits.tolerance, BUDGET) {
+            Nearness::Kept => {}
+            Nearness::Nearer { .. } => judged.touching = [true, true],
+            Nearness::Unproved => judged.unproved = Some("whether they touch"),
         }
     }
 

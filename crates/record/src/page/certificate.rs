@@ -83,9 +83,7 @@ fn statement(certificate: &Value) -> String {
         ("unit of the tolerance", text("/unit_length")),
         ("frames", frames()),
         ("triangles", text("/triangles")),
-        ("pairs of triangles judged", text("/pairs_tested/total")),
         ("smallest separation", separation()),
-        ("pairs that touch", text("/touching_pairs")),
         ("SHA-256 of the motion file", text("/sha256")),
     ])
 }
