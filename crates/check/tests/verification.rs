@@ -5,6 +5,8 @@
 mod layers;
 #[path = "collision/sheets.rs"]
 mod sheets;
+#[path = "verification/stopping.rs"]
+mod stopping;
 
 use std::f64::consts::PI;
 

@@ -139,6 +139,9 @@ fn check_motion(arguments: &CheckArguments) -> Result<u8, Failure> {
     if let Some(tolerance) = arguments.tolerance {
         options.tolerance = tolerance;
     }
+    if let Some(stop_at) = arguments.stop_at {
+        options.stop_at = stop_at;
+    }
     let reporter = Reporter::new(arguments.quiet);
     let checked = check_file(&arguments.motion, &options, &|phase, done| {
         reporter.report(phase.name(), done);

@@ -49,6 +49,8 @@ pub struct Certificate {
     pub faces: usize,
     /// Triangles they were cut into.
     pub triangles: usize,
+    /// Where the check ended early: all below speaks of the frames up to there; null where it speaks of all.
+    pub stopped: Option<StoppedEntry>,
     /// Closest approach of facets that share no vertex; null where all do.
     pub min_separation: Option<SeparationEntry>,
     /// The first penetration of every pair of triangles that has one, in order of time.
@@ -59,6 +61,28 @@ pub struct Certificate {
     pub clusters: Vec<ClusterEntry>,
     /// What the file's `faceOrders` claim.
     pub layer_orders: LayerOrders,
+}
+
+/// Where a check ended early.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct StoppedEntry {
+    /// The last frame judged.
+    pub frame: usize,
+    /// Its motion time.
+    pub t: f64,
+    /// More pairs of triangles than this penetrate up to there.
+    pub stop_at: usize,
+}
+
+impl StoppedEntry {
+    /// It in a sentence.
+    pub fn line(&self) -> String {
+        format!(
+            "the check stopped at frame {}, t = {}: more than {} pairs penetrate up to there; nothing is said of later \
+             frames",
+            self.frame, self.t, self.stop_at
+        )
+    }
 }
 
 /// Two triangles by their numbers here and in the file.
@@ -205,6 +229,9 @@ impl Certificate {
             self.penetrations.len(),
             self.undecided.len()
         );
+        if let Some(stopped) = &self.stopped {
+            let _ = writeln!(out, "{}", stopped.line());
+        }
         if let Some(s) = &self.min_separation {
             let _ = writeln!(
                 out,

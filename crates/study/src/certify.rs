@@ -1,14 +1,14 @@
 //! From a collision report to the certificate of a motion file.
 
 use foldmotion_check::{
-    Cluster, CollisionReport, LayerProof, LayerRule, Penetration, Separation, Undecided,
+    Cluster, CollisionReport, LayerProof, LayerRule, Penetration, Separation, Stopped, Undecided,
 };
 use foldmotion_pattern::{FoldFile, Sheet};
 use glam::DVec3;
 
 use crate::certificate::{
     Certificate, ClusterEntry, FORMAT, LayerOrders, LayersEntry, PenetrationEntry, SeparationEntry,
-    TrianglePair, UndecidedEntry,
+    StoppedEntry, TrianglePair, UndecidedEntry,
 };
 use crate::reporting::verdict_name;
 use crate::run::VERSION;
@@ -122,6 +122,7 @@ impl CheckedMotion<'_> {
             vertices: self.file.sheet.vertices.len(),
             faces: self.file.faces,
             triangles: self.file.sheet.faces.len(),
+            stopped: report.stopped.map(stopped),
             min_separation: report.min_separation.map(|s| self.separation(&s)),
             penetrations: self.penetrations(),
             undecided: report.undecided.iter().map(|u| self.undecided(u)).collect(),
@@ -177,6 +178,14 @@ impl CheckedMotion<'_> {
             t: u.time,
             pair: self.file.pair(u.faces),
         }
+    }
+}
+
+pub(crate) fn stopped(stopped: Stopped) -> StoppedEntry {
+    StoppedEntry {
+        frame: stopped.frame,
+        t: stopped.time,
+        stop_at: stopped.stop_at,
     }
 }
 

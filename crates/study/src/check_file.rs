@@ -24,12 +24,16 @@ const LARGEST: u64 = 16 << 30;
 pub struct CheckOptions {
     /// τ, in units of the sheet's unit of length.
     pub tolerance: f64,
+    /// Once more pairs of triangles than this penetrate, the check ends at the next frame; 0: no limit.
+    pub stop_at: usize,
 }
 
 impl Default for CheckOptions {
     fn default() -> Self {
+        let options = CollisionOptions::default();
         Self {
-            tolerance: CollisionOptions::default().touch_tolerance,
+            tolerance: options.touch_tolerance,
+            stop_at: options.stop_at,
         }
     }
 }
@@ -239,6 +243,7 @@ impl<'a> Judge<'a> {
             file,
             options: CollisionOptions {
                 touch_tolerance: options.tolerance,
+                stop_at: options.stop_at,
                 ..CollisionOptions::default()
             },
             checker: None,
@@ -247,6 +252,15 @@ impl<'a> Judge<'a> {
     }
 
     fn take(&mut self, frame: &Frame, order: &LayerOrder) -> Result<(), Ended> {
+        let before = self.times.last().copied();
+        if let Some(before) = before.filter(|&before| before >= frame.time) {
+            // A check that has stopped looks at no frame any more.
+            return Err(Ended::Check(CheckError::TimeOrder {
+                frame: self.times.len(),
+                time: frame.time,
+                before,
+            }));
+        }
         if let Some(checker) = &mut self.checker {
             checker.advance(frame)?;
         } else {

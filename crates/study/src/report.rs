@@ -6,6 +6,8 @@ use foldmotion_pattern::{CompactBox, SkinPlane, Unit};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use crate::certificate::StoppedEntry;
+
 pub use crate::imported_report::ImportReport;
 
 /// `report.json`. Lengths are in `length_unit`, angles in degrees.
@@ -396,6 +398,9 @@ pub struct CollisionSection {
     /// The first penetration between two facets of one unit, which no path of its neighbours avoids; null where there
     /// is none.
     pub first_within_unit: Option<PenetrationReport>,
+    /// Where the check ended early, as `check.stop_at` says: nothing is said of the frames after; null where all were
+    /// judged.
+    pub stopped: Option<StoppedEntry>,
     /// Pairs of facets (triangles) that penetrate somewhere.
     pub penetrating_pairs: usize,
     /// Pairs of facets (triangles) that touch somewhere, or were not shown to keep apart.
@@ -699,6 +704,9 @@ impl Report {
             "\nverdict: {} (tolerance {:e} {h}; {} pairs tested; {} touch, {} penetrate)",
             c.verdict, c.tolerance, c.pairs_tested, c.touching_pairs, c.penetrating_pairs
         );
+        if let Some(stopped) = &c.stopped {
+            let _ = writeln!(out, "{}", stopped.line());
+        }
         if let (Some(d), Some(t)) = (c.min_separation, c.min_separation_t) {
             let _ = writeln!(
                 out,

@@ -9,6 +9,7 @@ use foldmotion_solver::Stage;
 use foldmotion_solver::quasi_static::Jam;
 use glam::{DVec2, DVec3};
 
+use crate::certify::stopped;
 use crate::engine::StageSummary;
 use crate::folded::Folded;
 use crate::report::{
@@ -177,6 +178,7 @@ impl Study {
                 .iter()
                 .map(|p| self.penetration_report(p))
                 .find(is_within_unit),
+            stopped: collision.stopped.map(stopped),
             penetrating_pairs: collision.penetrations.len(),
             touching_pairs: collision.touching_pairs,
             undecided_pairs: collision.undecided.len(),

@@ -2,8 +2,8 @@
 
 use foldmotion_check::{
     Claims, Cluster, CollisionReport, FilterCounts, LayerConflict, LayerProof, LayerRule,
-    PairCounts, Penetration, PenetrationKind, Refutation, RuleCounts, Separation, Undecided,
-    Verdict,
+    PairCounts, Penetration, PenetrationKind, Refutation, RuleCounts, Separation, Stopped,
+    Undecided, Verdict,
 };
 use foldmotion_pattern::FoldFile;
 
@@ -133,6 +133,10 @@ pub(crate) fn against_times(certificate: &Certificate, times: &[f64]) -> Vec<Ref
     let r = &mut refuted;
     let ends = [times.first(), times.last()].map(|t| t.copied().unwrap_or(0.0));
     require(r, "times", &certificate.times, &ends);
+    if let Some(stopped) = certificate.stopped {
+        let found = times.get(stopped.frame).copied();
+        require(r, "stopped.t", &Some(stopped.t), &found);
+    }
     let penetrations = certificate.penetrations.iter();
     let intervals = penetrations
         .map(|p| {
@@ -199,6 +203,11 @@ pub(crate) fn claim(certificate: &Certificate) -> Result<CollisionReport, Refuta
         faces: s.pair.triangles,
         points: s.points.map(Into::into),
     });
+    let stopped = certificate.stopped.map(|s| Stopped {
+        frame: s.frame,
+        time: s.t,
+        stop_at: s.stop_at,
+    });
     let penetrations = penetrations?;
     Ok(CollisionReport {
         verdict,
@@ -206,6 +215,7 @@ pub(crate) fn claim(certificate: &Certificate) -> Result<CollisionReport, Refuta
         first: penetrations.first().cloned(),
         penetrations,
         touching_pairs: 0,
+        stopped,
         undecided: undecided.collect(),
         min_separation: separation,
         separation_series: Vec::new(),

@@ -217,6 +217,9 @@ impl VerifiedCertificate {
             certificate.penetrations.len(),
             certificate.undecided.len()
         );
+        if let Some(stopped) = &certificate.stopped {
+            let _ = writeln!(out, "{}", stopped.line());
+        }
         let _ = writeln!(
             out,
             "second proof: {} pairs of triangles, {} near, {} followed; {} to {} touch",

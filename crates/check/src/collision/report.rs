@@ -12,6 +12,8 @@ pub struct CollisionOptions {
     pub touch_tolerance: f64,
     /// The most steps spent on one pair in one interval before it is left undecided.
     pub budget: u32,
+    /// Once more pairs than this have penetrated, the intervals after the one at hand are not judged; 0: no limit.
+    pub stop_at: usize,
 }
 
 impl Default for CollisionOptions {
@@ -19,6 +21,7 @@ impl Default for CollisionOptions {
         Self {
             touch_tolerance: 1e-6,
             budget: 1 << 16,
+            stop_at: 4096,
         }
     }
 }
@@ -136,6 +139,17 @@ pub struct Undecided {
     pub faces: [u32; 2],
 }
 
+/// Where a check ended early: nothing is said of the frames after.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Stopped {
+    /// The index of the last frame judged.
+    pub frame: usize,
+    /// Its motion time.
+    pub time: f64,
+    /// More pairs than this have penetrated up to there.
+    pub stop_at: usize,
+}
+
 /// How many pairs were judged, counted once an interval.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
 pub struct PairCounts {
@@ -188,6 +202,8 @@ pub struct CollisionReport {
     pub penetrations: Vec<Penetration>,
     /// How many distinct pairs touch or were not shown to keep apart: a count from above.
     pub touching_pairs: usize,
+    /// Where the check ended early; none where every frame was judged.
+    pub stopped: Option<Stopped>,
     /// What could not be decided.
     pub undecided: Vec<Undecided>,
     /// The closest approach over the whole motion; none where all facets share vertices.

@@ -50,6 +50,9 @@ impl Verifier<'_> {
     ///
     /// `face_of`: the face of the file that a triangle belongs to; `order` is of such faces.
     pub fn hear(&mut self, order: &LayerOrder, face_of: &dyn Fn(u32) -> u32) {
+        if self.is_over {
+            return;
+        }
         let mut heard = BTreeSet::new();
         for index in 0..self.ordering.layers.len() {
             let Layer { faces, is_lost, .. } = self.ordering.layers[index];

@@ -9,6 +9,8 @@ use crate::collision::{CollisionReport, Verdict};
 /// What the second proof knows.
 pub(super) struct Facts<'a> {
     pub(super) sheet: &'a Sheet,
+    /// The last frame proved, and its time.
+    pub(super) last: (usize, f64),
     /// Pairs that surely touch, pairs that may.
     pub(super) touching: [usize; 2],
 }
@@ -23,6 +25,7 @@ pub(super) fn consistency(claim: &CollisionReport, facts: &Facts<'_>) -> Vec<Ref
             says,
         ));
     }
+    refuted.extend(stop_fault(claim, facts.last));
     if claim.min_separation.is_none() && has_measured_pair(facts.sheet) {
         refuted.push(Refutation::new(
             "min_separation",
@@ -32,6 +35,22 @@ pub(super) fn consistency(claim: &CollisionReport, facts: &Facts<'_>) -> Vec<Ref
     }
     order_of_penetrations(claim, &mut refuted);
     refuted
+}
+
+/// Why a check would not have ended where it is said to.
+fn stop_fault(claim: &CollisionReport, (frame, time): (usize, f64)) -> Option<Refutation> {
+    let stopped = claim.stopped?;
+    // Each pair stands once, as is refuted elsewhere.
+    let of_pairs = claim.penetrations.iter().filter(|p| p.conflict.is_none());
+    let count = of_pairs.count();
+    let found = if (stopped.frame, stopped.time) != (frame, time) {
+        format!("frame {frame}, t = {time}")
+    } else if stopped.stop_at == 0 || count <= stopped.stop_at {
+        format!("{count} pairs penetrate up to there")
+    } else {
+        return None;
+    };
+    Some(Refutation::new("stopped", format!("{stopped:?}"), found))
 }
 
 fn order_of_penetrations(claim: &CollisionReport, refuted: &mut Vec<Refutation>) {

@@ -82,6 +82,7 @@ fn statement(certificate: &Value) -> String {
         ("tolerance", text("/tolerance")),
         ("unit of the tolerance", text("/unit_length")),
         ("frames", frames()),
+        ("judged only up to t", text("/stopped/t")),
         ("triangles", text("/triangles")),
         ("smallest separation", separation()),
         ("SHA-256 of the motion file", text("/sha256")),
