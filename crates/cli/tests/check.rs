@@ -319,6 +319,34 @@ fn a_certificate_of_another_format_is_refused_with_the_reason_and_the_remedy() {
     }
 }
 
+#[test]
+fn a_check_that_stops_says_so_and_is_verified_up_to_there() {
+    let home = tempfile::tempdir().unwrap();
+    let set = ["sheet.rows=2", "profile.length=2.0", "check.stop_at=1"];
+    let report = run(home.path(), "shelter-short-plain", &set);
+    let of_run = fs::read(home.path().join("run/certificate.json")).unwrap();
+    let arguments = ["check", "run/motion.fold", "--out", ".", "--stop-at", "1"];
+    let output = foldmotion(home.path(), &arguments);
+    let (out, err) = (text(&output.stdout), text(&output.stderr));
+    assert_eq!(output.status.code(), Some(1), "{err}");
+    assert!(out.contains("the check stopped at frame "), "{out}");
+    let path = home.path().join("certificate.json");
+    assert_eq!(text(&fs::read(&path).unwrap()), text(&of_run));
+    let mut certificate = json_of(&path);
+    assert_eq!(certificate["stopped"], report["collision"]["stopped"]);
+    let frame = certificate["stopped"]["frame"].as_u64().unwrap();
+    assert!(frame < certificate["frames"].as_u64().unwrap() - 1);
+    let verify = ["check", "run/motion.fold", "--verify", "certificate.json"];
+    let output = foldmotion(home.path(), &verify);
+    assert_eq!(output.status.code(), Some(1), "{}", text(&output.stdout));
+    certificate["stopped"]["stop_at"] = json!(1000);
+    fs::write(&path, certificate.to_string()).unwrap();
+    let output = foldmotion(home.path(), &verify);
+    let out = text(&output.stdout);
+    assert_eq!(output.status.code(), Some(2), "{out}");
+    assert!(out.contains("- stopped: "), "{out}");
+}
+
 /// A unit folded flat without contact, and its motion.
 fn flat_unit(home: &Path) -> Value {
     run(home, "one-unit", &["motion.contact=false"]);
