@@ -202,6 +202,7 @@ fn values_of_the_later_tables_are_refused_too() {
             "[check]\ntouch_tolerance = 0.0",
             &["check.touch_tolerance = 0.0"],
         ),
+        ("[check]\nstop_at = -1", &["check.stop_at = -1", "no limit"]),
         (
             "[check]\ntouch_tolerance = 1.0",
             &["check.touch_tolerance = 1.0"],

@@ -37,7 +37,7 @@ fn run(path: &Path, set: &[&str]) -> (Report, Value) {
     // Whoever reads the file comes to the same verdict.
     let path = folder.path().join("motion.fold");
     let checked = check_file(&path, &CheckOptions::default(), &|_, _| true).unwrap();
-    assert_eq!(checked.verdict, report.collision.verdict);
+    assert_eq!(checked.certificate.verdict, report.collision.verdict);
     (report, serde_json::from_str(&text).unwrap())
 }
 

@@ -34,11 +34,11 @@ impl Certified {
     fn of_motion(home: TempDir, motion: &Value) -> Self {
         fs::write(home.path().join("motion.fold"), motion.to_string()).unwrap();
         let path = home.path().join("motion.fold");
-        let certificate = check_file(&path, &CheckOptions::default(), &|_, _| true).unwrap();
+        let checked = check_file(&path, &CheckOptions::default(), &|_, _| true).unwrap();
         Self {
             home,
             motion: motion.clone(),
-            certificate: serde_json::from_str(&certificate.to_json()).unwrap(),
+            certificate: serde_json::from_str(&checked.certificate.to_json()).unwrap(),
         }
     }
 
@@ -70,7 +70,7 @@ impl Certified {
     fn forged_for(&self, motion: &Value) -> Value {
         let path = self.write("motion.fold", motion);
         let sha256 = check_file(&path, &CheckOptions::default(), &|_, _| true)
-            .map_or_else(|_| "0".repeat(64), |certificate| certificate.sha256);
+            .map_or_else(|_| "0".repeat(64), |checked| checked.certificate.sha256);
         let mut certificate = self.certificate.clone();
         certificate["sha256"] = json!(sha256);
         certificate
@@ -130,7 +130,6 @@ fn leaves(value: &Value, at: &str, found: &mut Vec<String>) {
 
 /// Changes one value: numbers by a thousandth (at least 1 where they count), names to others.
 fn change_leaf(certificate: &mut Value, pointer: &str) {
-    let all = certificate["pairs_tested"]["total"].as_u64().unwrap();
     let entry = pointer.split("/point/").next().unwrap();
     let of_layers = certificate.pointer(&format!("{entry}/layers"));
     let is_of_layers = of_layers.is_some_and(|layers| !layers.is_null());
@@ -147,11 +146,6 @@ fn change_leaf(certificate: &mut Value, pointer: &str) {
             })
         }
         Value::String(text) => json!(format!("{text}.")),
-        // Touching is counted from above and what the boxes left out may be a pair dropped before: the certificate
-        // states both only up to the pairs there are.
-        Value::Number(n) if pointer == "/touching_pairs" || pointer == "/decided_by/boxes" => {
-            json!(n.as_u64().unwrap() + 1000 * all)
-        }
         // A little wider it would be another statement, and as true.
         Value::Number(_) if pointer == "/tolerance" => json!(0.2),
         Value::Number(n) if n.is_u64() => {

@@ -33,7 +33,7 @@ mod verification;
 
 pub use collision::{
     Checker, CollisionOptions, CollisionReport, FilterCounts, PairCounts, Penetration,
-    PenetrationKind, PenetrationSpan, Separation, Undecided, Verdict, collisions,
+    PenetrationKind, PenetrationSpan, Separation, Stopped, Undecided, Verdict, collisions,
     penetration_spans,
 };
 pub use error::CheckError;

@@ -5,6 +5,8 @@
 mod layers;
 #[path = "collision/sheets.rs"]
 mod sheets;
+#[path = "verification/stopping.rs"]
+mod stopping;
 
 use std::f64::consts::PI;
 
@@ -80,6 +82,22 @@ fn compact_stacks_touch_twice() {
         (Case::SII, 1.6, Some(0.7)),
     ] {
         assert_eq!(agreed(&compact(case, width, lambda)), Verdict::Touching);
+    }
+}
+
+#[test]
+fn counts_of_work_are_not_part_of_the_statement_but_the_verdict_is() {
+    let free = fold(3, &[&[0.0; 3], &[1.8, 0.0, -1.8], &[0.0; 3]], 7);
+    let touching = accordion(8, 2, 20, 0.0, 0.7);
+    for (motion, lie) in [(free, Verdict::Touching), (touching, Verdict::Free)] {
+        let mut claim = judge(&motion);
+        claim.touching_pairs += 1000;
+        claim.pairs_tested.disjoint = 0;
+        claim.decided_by.search += 7;
+        assert!(verify(&motion, &claim).is_verified());
+        claim.verdict = lie;
+        let refuted = verify(&motion, &claim).refuted;
+        assert!(refuted.iter().any(|r| r.field == "verdict"), "{lie:?}");
     }
 }
 

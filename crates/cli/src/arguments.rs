@@ -129,12 +129,15 @@ pub(crate) struct CheckArguments {
     #[arg(long)]
     pub(crate) out: Option<PathBuf>,
     /// Prove the statement of this certificate.json about the motion again by other means; nothing is written
-    #[arg(long, value_name = "CERTIFICATE", conflicts_with_all = ["out", "tolerance", "json"])]
+    #[arg(long, value_name = "CERTIFICATE", conflicts_with_all = ["out", "tolerance", "stop_at", "json"])]
     pub(crate) verify: Option<PathBuf>,
     /// Overlaps up to this are touching, in the file's foldmotion:unitLength or mean sides of a face; 1e-6 where left
     /// out
     #[arg(long, value_name = "X")]
     pub(crate) tolerance: Option<f64>,
+    /// End the check at the next frame once more than N pairs of triangles penetrate; 0: no limit; 4096 where left out
+    #[arg(long, value_name = "N")]
+    pub(crate) stop_at: Option<usize>,
     /// Threads to use; all cores where left out
     #[arg(long, value_parser = parse_threads)]
     pub(crate) threads: Option<usize>,

@@ -139,17 +139,21 @@ fn check_motion(arguments: &CheckArguments) -> Result<u8, Failure> {
     if let Some(tolerance) = arguments.tolerance {
         options.tolerance = tolerance;
     }
+    if let Some(stop_at) = arguments.stop_at {
+        options.stop_at = stop_at;
+    }
     let reporter = Reporter::new(arguments.quiet);
-    let certificate = check_file(&arguments.motion, &options, &|phase, done| {
+    let checked = check_file(&arguments.motion, &options, &|phase, done| {
         reporter.report(phase.name(), done);
         !INTERRUPTED.load(Ordering::Relaxed)
     })?;
+    let certificate = &checked.certificate;
     certificate.write(&folder)?;
     reporter.finish();
     if arguments.json {
         print(&certificate.to_json())?;
     } else if !arguments.quiet {
-        print(&certificate.table())?;
+        print(&checked.table())?;
         print(&format!("certificate in {}\n", folder.display()))?;
     }
     Ok(certificate.status())

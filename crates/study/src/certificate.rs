@@ -5,13 +5,24 @@ use std::fmt::Write as _;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+/// The format of certificates that this program writes and verifies.
+///
+/// Format 1, which had no key `format`, was that of versions up to 0.1 before the verdict spoke of the sheet: it could call
+/// *touching* what passed through the sheet at an edge inside it, and it stated counts of work.
+pub const FORMAT: u32 = 2;
+
 /// `certificate.json`: what was proved of a motion file, and under which assumptions.
+///
+/// It states what another proof can decide by itself. How the work was done (pairs tested, pairs found to touch, rules
+/// tested) is said by the report of a run and by the terminal.
 ///
 /// Lengths are in the file's unit unless said otherwise. Frames are counted from 0 over the motion; the interval
 /// between frames k and k + 1 is `[k, k + 1]`. The same file gives the same bytes on every run.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[schemars(title = "foldmotion certificate")]
 pub struct Certificate {
+    /// The format of the certificate: 2. Others are refused.
+    pub format: u32,
     /// Version of foldmotion.
     pub version: String,
     /// Name of the motion file.
@@ -38,14 +49,10 @@ pub struct Certificate {
     pub faces: usize,
     /// Triangles they were cut into.
     pub triangles: usize,
-    /// Pairs of triangles judged, counted once an interval.
-    pub pairs_tested: PairsTested,
-    /// What decided the pairs, counted once an interval.
-    pub decided_by: DecidedBy,
+    /// Where the check ended early: all below speaks of the frames up to there; null where it speaks of all.
+    pub stopped: Option<StoppedEntry>,
     /// Closest approach of facets that share no vertex; null where all do.
     pub min_separation: Option<SeparationEntry>,
-    /// Pairs of triangles that touch somewhere.
-    pub touching_pairs: usize,
     /// The first penetration of every pair of triangles that has one, in order of time.
     pub penetrations: Vec<PenetrationEntry>,
     /// Pairs of triangles that could not be decided in an interval.
@@ -56,32 +63,26 @@ pub struct Certificate {
     pub layer_orders: LayerOrders,
 }
 
-/// Pairs of triangles judged, by what they share.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-pub struct PairsTested {
-    /// No vertex.
-    pub disjoint: u64,
-    /// One vertex.
-    pub shared_vertex: u64,
-    /// An edge.
-    pub shared_crease: u64,
-    /// All of them.
-    pub total: u64,
+/// Where a check ended early.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct StoppedEntry {
+    /// The last frame judged.
+    pub frame: usize,
+    /// Its motion time.
+    pub t: f64,
+    /// More pairs of triangles than this penetrate up to there.
+    pub stop_at: usize,
 }
 
-/// What decided the pairs.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct DecidedBy {
-    /// The swept boxes lie apart.
-    pub boxes: u64,
-    /// One axis at rest separates, or the fold angle of a hinge keeps its sign.
-    pub axis_at_rest: u64,
-    /// Axes that turn along separate.
-    pub turning_axis: u64,
-    /// All axes were tried.
-    pub search: u64,
-    /// Share of the pairs that needed no search.
-    pub share_without_search: f64,
+impl StoppedEntry {
+    /// It in a sentence.
+    pub fn line(&self) -> String {
+        format!(
+            "the check stopped at frame {}, t = {}: more than {} pairs penetrate up to there; nothing is said of later \
+             frames",
+            self.frame, self.t, self.stop_at
+        )
+    }
 }
 
 /// Two triangles by their numbers here and in the file.
@@ -159,25 +160,6 @@ pub struct ClusterEntry {
     pub pairs: usize,
     /// proved: every order is known and keeps the rules; unproved: some order is open, no rule is broken; contradicted.
     pub order: String,
-    /// How often each rule was tested, over all frames.
-    pub rules: RulesTested,
-}
-
-/// How often the rules of layer order were tested.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-pub struct RulesTested {
-    /// Two creases folded flat on one line are nested or apart.
-    pub taco_taco: u64,
-    /// A crease folded flat has no layer inside that runs on across it.
-    pub taco_tortilla: u64,
-    /// Layers that run on across one line keep their order.
-    pub tortilla_tortilla: u64,
-    /// A crease that leaves the plane passes through no layer.
-    pub bent: u64,
-    /// Ordered pairs on no cycle over a common region.
-    pub transitivity: u64,
-    /// Creases folded flat to the side of their assignment.
-    pub crease: u64,
 }
 
 /// The file's `faceOrders`, summed over the frames.
@@ -240,21 +222,16 @@ impl Certificate {
         );
         let _ = writeln!(
             out,
-            "\nverdict: {} (tolerance {:e} of the unit of length {:.6}; {} pairs tested; {} touch, {} penetrate, \
-             {} undecided)",
+            "\nverdict: {} (tolerance {:e} of the unit of length {:.6}; {} pairs penetrate, {} are undecided)",
             self.verdict,
             self.tolerance,
             self.unit_length,
-            self.pairs_tested.total,
-            self.touching_pairs,
             self.penetrations.len(),
             self.undecided.len()
         );
-        let _ = writeln!(
-            out,
-            "{:.4} % of the pairs needed no search",
-            100.0 * self.decided_by.share_without_search
-        );
+        if let Some(stopped) = &self.stopped {
+            let _ = writeln!(out, "{}", stopped.line());
+        }
         if let Some(s) = &self.min_separation {
             let _ = writeln!(
                 out,

@@ -1,16 +1,16 @@
 //! From a collision report to the certificate of a motion file.
 
 use foldmotion_check::{
-    Cluster, CollisionReport, LayerProof, LayerRule, Penetration, Separation, Undecided,
+    Cluster, CollisionReport, LayerProof, LayerRule, Penetration, Separation, Stopped, Undecided,
 };
 use foldmotion_pattern::{FoldFile, Sheet};
 use glam::DVec3;
 
 use crate::certificate::{
-    Certificate, ClusterEntry, DecidedBy, LayerOrders, LayersEntry, PairsTested, PenetrationEntry,
-    RulesTested, SeparationEntry, TrianglePair, UndecidedEntry,
+    Certificate, ClusterEntry, FORMAT, LayerOrders, LayersEntry, PenetrationEntry, SeparationEntry,
+    StoppedEntry, TrianglePair, UndecidedEntry,
 };
-use crate::reporting::{kind_name, verdict_name};
+use crate::reporting::verdict_name;
 use crate::run::VERSION;
 
 /// What a motion file is, without its frames: the same whether it was just written or read.
@@ -109,10 +109,8 @@ impl CheckedMotion<'_> {
     pub(crate) fn certificate(self) -> Certificate {
         let report = self.collision;
         let ends = [self.times.first(), self.times.last()];
-        let pairs = report.pairs_tested;
-        let by = report.decided_by;
-        let quick = by.boxes + by.axis_at_rest + by.turning_axis;
         Certificate {
+            format: FORMAT,
             version: VERSION.to_owned(),
             file: self.name.to_owned(),
             verdict: verdict_name(report.verdict).to_owned(),
@@ -124,21 +122,8 @@ impl CheckedMotion<'_> {
             vertices: self.file.sheet.vertices.len(),
             faces: self.file.faces,
             triangles: self.file.sheet.faces.len(),
-            pairs_tested: PairsTested {
-                disjoint: pairs.disjoint,
-                shared_vertex: pairs.shared_vertex,
-                shared_crease: pairs.shared_crease,
-                total: pairs.total(),
-            },
-            decided_by: DecidedBy {
-                boxes: by.boxes,
-                axis_at_rest: by.axis_at_rest,
-                turning_axis: by.turning_axis,
-                search: by.search,
-                share_without_search: quick as f64 / (quick + by.search).max(1) as f64,
-            },
+            stopped: report.stopped.map(stopped),
             min_separation: report.min_separation.map(|s| self.separation(&s)),
-            touching_pairs: report.touching_pairs,
             penetrations: self.penetrations(),
             undecided: report.undecided.iter().map(|u| self.undecided(u)).collect(),
             clusters: report.clusters.iter().map(cluster).collect(),
@@ -170,7 +155,7 @@ impl CheckedMotion<'_> {
                 interval: frames.map(|k| self.times[k]),
                 t: p.time,
                 passed_t: p.passed,
-                kind: kind_name(p.kind).to_owned(),
+                kind: p.kind.name().to_owned(),
                 pair: self.file.pair(p.faces),
                 vertices: p.vertices.clone(),
                 point: p.point.into(),
@@ -196,8 +181,15 @@ impl CheckedMotion<'_> {
     }
 }
 
+pub(crate) fn stopped(stopped: Stopped) -> StoppedEntry {
+    StoppedEntry {
+        frame: stopped.frame,
+        t: stopped.time,
+        stop_at: stopped.stop_at,
+    }
+}
+
 fn cluster(cluster: &Cluster) -> ClusterEntry {
-    let rules = cluster.rules;
     ClusterEntry {
         frames: cluster.frames,
         t: cluster.times,
@@ -205,14 +197,6 @@ fn cluster(cluster: &Cluster) -> ClusterEntry {
         layers: cluster.layers,
         pairs: cluster.pairs,
         order: proof_name(cluster.order).to_owned(),
-        rules: RulesTested {
-            taco_taco: rules.taco_taco,
-            taco_tortilla: rules.taco_tortilla,
-            tortilla_tortilla: rules.tortilla_tortilla,
-            bent: rules.bent,
-            transitivity: rules.transitivity,
-            crease: rules.crease,
-        },
     }
 }
 

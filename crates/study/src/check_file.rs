@@ -11,6 +11,7 @@ use sha2::{Digest as _, Sha256};
 
 use crate::certificate::Certificate;
 use crate::certify::{CheckedMotion, MotionFile};
+use crate::checked_file::CheckedFile;
 use crate::digest::hexadecimal;
 use crate::results::{CERTIFICATE, Results, write_error};
 use crate::{Phase, Progress, StudyError};
@@ -23,17 +24,21 @@ const LARGEST: u64 = 16 << 30;
 pub struct CheckOptions {
     /// τ, in units of the sheet's unit of length.
     pub tolerance: f64,
+    /// Once more pairs of triangles than this penetrate, the check ends at the next frame; 0: no limit.
+    pub stop_at: usize,
 }
 
 impl Default for CheckOptions {
     fn default() -> Self {
+        let options = CollisionOptions::default();
         Self {
-            tolerance: CollisionOptions::default().touch_tolerance,
+            tolerance: options.touch_tolerance,
+            stop_at: options.stop_at,
         }
     }
 }
 
-/// Judges the motion in the FOLD file at `path`, whoever made it, and returns what is proved of it.
+/// Judges the motion in the FOLD file at `path`, whoever made it, and returns what is proved of it and the work done.
 ///
 /// The file is read twice: first everything but the frames, then one frame at a time. Memory is that of the sheet and
 /// a few frames, however many there are.
@@ -45,10 +50,16 @@ pub fn check_file(
     path: &Path,
     options: &CheckOptions,
     progress: Progress<'_>,
-) -> Result<Certificate, StudyError> {
+) -> Result<CheckedFile, StudyError> {
     let judged = judge_file(path, *options, progress)?;
     progress(Phase::Check, 1.0);
-    Ok(judged.certificate(path))
+    let collision = &judged.collision;
+    Ok(CheckedFile {
+        certificate: judged.certificate(path),
+        pairs_tested: collision.pairs_tested,
+        decided_by: collision.decided_by,
+        touching_pairs: collision.touching_pairs,
+    })
 }
 
 /// A motion file with what was found of it.
@@ -232,6 +243,7 @@ impl<'a> Judge<'a> {
             file,
             options: CollisionOptions {
                 touch_tolerance: options.tolerance,
+                stop_at: options.stop_at,
                 ..CollisionOptions::default()
             },
             checker: None,
@@ -240,6 +252,15 @@ impl<'a> Judge<'a> {
     }
 
     fn take(&mut self, frame: &Frame, order: &LayerOrder) -> Result<(), Ended> {
+        let before = self.times.last().copied();
+        if let Some(before) = before.filter(|&before| before >= frame.time) {
+            // A check that has stopped looks at no frame any more.
+            return Err(Ended::Check(CheckError::TimeOrder {
+                frame: self.times.len(),
+                time: frame.time,
+                before,
+            }));
+        }
         if let Some(checker) = &mut self.checker {
             checker.advance(frame)?;
         } else {

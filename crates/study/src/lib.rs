@@ -7,6 +7,7 @@
 pub mod certificate;
 mod certify;
 mod check_file;
+mod checked_file;
 mod digest;
 mod draft;
 mod engine;
@@ -42,6 +43,7 @@ mod verify_file;
 
 pub use certificate::Certificate;
 pub use check_file::{CheckOptions, check_file};
+pub use checked_file::CheckedFile;
 pub use draft::{Draft, UnitDraft};
 pub use error::StudyError;
 pub use folded::{Findings, Folded};

@@ -181,6 +181,9 @@ fn as_one_stage(collision: &mut CollisionReport, frames: usize) {
     for undecided in &mut collision.undecided {
         undecided.time = stage_time(undecided.time, frames);
     }
+    if let Some(stopped) = &mut collision.stopped {
+        stopped.time = stage_time(stopped.time, frames);
+    }
     if let Some(separation) = &mut collision.min_separation {
         separation.time = stage_time(separation.time, frames);
     }

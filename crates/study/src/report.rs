@@ -6,6 +6,8 @@ use foldmotion_pattern::{CompactBox, SkinPlane, Unit};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use crate::certificate::StoppedEntry;
+
 pub use crate::imported_report::ImportReport;
 
 /// `report.json`. Lengths are in `length_unit`, angles in degrees.
@@ -396,9 +398,12 @@ pub struct CollisionSection {
     /// The first penetration between two facets of one unit, which no path of its neighbours avoids; null where there
     /// is none.
     pub first_within_unit: Option<PenetrationReport>,
+    /// Where the check ended early, as `check.stop_at` says: nothing is said of the frames after; null where all were
+    /// judged.
+    pub stopped: Option<StoppedEntry>,
     /// Pairs of facets (triangles) that penetrate somewhere.
     pub penetrating_pairs: usize,
-    /// Pairs of facets (triangles) that touch somewhere.
+    /// Pairs of facets (triangles) that touch somewhere, or were not shown to keep apart.
     pub touching_pairs: usize,
     /// Pairs of facets (triangles) that could not be decided.
     pub undecided_pairs: usize,
@@ -408,6 +413,23 @@ pub struct CollisionSection {
     pub min_separation_t: Option<f64>,
     /// Pairs of triangles tested over intervals between frames.
     pub pairs_tested: u64,
+    /// What decided the pairs, counted once an interval.
+    pub decided_by: DecidedBy,
+}
+
+/// What decided the pairs of triangles.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct DecidedBy {
+    /// The swept boxes lie apart.
+    pub boxes: u64,
+    /// One axis at rest separates, or the fold angle of a hinge keeps its sign.
+    pub axis_at_rest: u64,
+    /// Axes that turn along separate.
+    pub turning_axis: u64,
+    /// All axes were tried.
+    pub search: u64,
+    /// Share of the pairs that needed no search.
+    pub share_without_search: f64,
 }
 
 /// A penetration, where it begins.
@@ -682,6 +704,9 @@ impl Report {
             "\nverdict: {} (tolerance {:e} {h}; {} pairs tested; {} touch, {} penetrate)",
             c.verdict, c.tolerance, c.pairs_tested, c.touching_pairs, c.penetrating_pairs
         );
+        if let Some(stopped) = &c.stopped {
+            let _ = writeln!(out, "{}", stopped.line());
+        }
         if let (Some(d), Some(t)) = (c.min_separation, c.min_separation_t) {
             let _ = writeln!(
                 out,

@@ -1,7 +1,7 @@
 //! From a finished run to its report.
 
 use foldmotion_check::{
-    CollisionReport, FittedBox, Penetration, PenetrationKind, Verdict, relative_error,
+    CollisionReport, FilterCounts, FittedBox, Penetration, Verdict, relative_error,
 };
 use foldmotion_geometry::RigidMotion;
 use foldmotion_pattern::{Frame, Unit, UnitSheet};
@@ -9,13 +9,14 @@ use foldmotion_solver::Stage;
 use foldmotion_solver::quasi_static::Jam;
 use glam::{DVec2, DVec3};
 
+use crate::certify::stopped;
 use crate::engine::StageSummary;
 use crate::folded::Folded;
 use crate::report::{
-    BoxReport, CollisionSection, CompactReport, DivisionReport, EnergyReport, EngineReport,
-    ErrorReport, FitReport, ImportReport, JamReport, MapReport, PatternReport, PenetrationReport,
-    ProfileReport, RowReport, SecondsReport, SkinReport, StageReport, UnfoldReport, UnitName,
-    UnitReport, VertexReport,
+    BoxReport, CollisionSection, CompactReport, DecidedBy, DivisionReport, EnergyReport,
+    EngineReport, ErrorReport, FitReport, ImportReport, JamReport, MapReport, PatternReport,
+    PenetrationReport, ProfileReport, RowReport, SecondsReport, SkinReport, StageReport,
+    UnfoldReport, UnitName, UnitReport, VertexReport,
 };
 use crate::run::VERSION;
 use crate::scene::EngineChoice;
@@ -177,12 +178,14 @@ impl Study {
                 .iter()
                 .map(|p| self.penetration_report(p))
                 .find(is_within_unit),
+            stopped: collision.stopped.map(stopped),
             penetrating_pairs: collision.penetrations.len(),
             touching_pairs: collision.touching_pairs,
             undecided_pairs: collision.undecided.len(),
             min_separation: collision.min_separation.map(|s| s.distance),
             min_separation_t: collision.min_separation.map(|s| s.time),
             pairs_tested: collision.pairs_tested.total(),
+            decided_by: decided_by(collision.decided_by),
         }
     }
 
@@ -205,7 +208,7 @@ impl Study {
         PenetrationReport {
             t: p.time,
             stage: stage.name().to_owned(),
-            kind: kind_name(p.kind).to_owned(),
+            kind: p.kind.name().to_owned(),
             facets,
             faces: p.faces,
             vertex_names: p.vertices.iter().map(vertex_name).collect(),
@@ -273,23 +276,22 @@ fn unfold_report(unfolding: &Unfolding) -> UnfoldReport {
     }
 }
 
+fn decided_by(counts: FilterCounts) -> DecidedBy {
+    DecidedBy {
+        boxes: counts.boxes,
+        axis_at_rest: counts.axis_at_rest,
+        turning_axis: counts.turning_axis,
+        search: counts.search,
+        share_without_search: counts.share_without_search(),
+    }
+}
+
 pub(crate) fn verdict_name(verdict: Verdict) -> &'static str {
     match verdict {
         Verdict::Free => "free",
         Verdict::Touching => "touching",
         Verdict::Penetrating => "penetrating",
         Verdict::Undecided => "undecided",
-    }
-}
-
-pub(crate) fn kind_name(kind: PenetrationKind) -> &'static str {
-    match kind {
-        PenetrationKind::VertexFacet => "vertex through facet",
-        PenetrationKind::EdgeEdge => "edge through edge",
-        PenetrationKind::FoldedThrough => "folded past a half turn",
-        PenetrationKind::AroundVertex => "facets crossing around a shared vertex",
-        PenetrationKind::PassedThrough => "facets changing sides",
-        PenetrationKind::LayerOrder => "layers out of order",
     }
 }
 

@@ -188,7 +188,7 @@ impl Study {
 
     /// The verdict, and the order of the layers at every frame that has some.
     ///
-    /// The order is claimed as the motion file will claim it, so that its check gives the same certificate. In the
+    /// Where the check stops early, later frames get no order. The order is claimed as the motion file will claim it, so that its check gives the same certificate. In the
     /// compact frame of a motion without penetration, layers a gap apart lie in the exact order.
     fn judge(
         &self,
@@ -208,6 +208,10 @@ impl Study {
                 }
                 None => Checker::new(&motion.sheet, frame, &self.collision)?,
             };
+            if judged.is_stopped() {
+                checker = Some(judged);
+                break;
+            }
             let mut order = judged.layer_order();
             let is_last = index + 1 == motion.frames.len();
             if is_last && frame.time == 2.0 && judged.is_clean() {

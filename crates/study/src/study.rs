@@ -264,6 +264,14 @@ impl Resolver<'_> {
             }
             options.touch_tolerance = tolerance;
         }
+        if let Some(stop_at) = self.scene.check.stop_at {
+            options.stop_at = usize::try_from(stop_at).map_err(|_| {
+                self.fault(
+                    "check.stop_at",
+                    "must be 0, for no limit, or a number of pairs",
+                )
+            })?;
+        }
         Ok(options)
     }
 }

@@ -9,7 +9,7 @@ use foldmotion_check::{CollisionReport, Refutation, Verification, Verifier};
 use foldmotion_pattern::{FoldError, FoldFile, Frame};
 use serde_json::Value;
 
-use crate::certificate::Certificate;
+use crate::certificate::{Certificate, FORMAT};
 use crate::check_file::Input;
 use crate::statement::{against_file, against_times, claim};
 use crate::{Phase, Progress, StudyError};
@@ -139,14 +139,35 @@ pub(crate) fn read_certificate(path: &Path) -> Result<Certificate, StudyError> {
     if length as u64 > LARGEST {
         return Err(fault(format!("it is larger than {LARGEST} bytes")));
     }
-    let certificate: Certificate =
-        serde_json::from_str(&text).map_err(|e| fault(format!("no certificate: {e}")))?;
+    let no_certificate = |e: serde_json::Error| fault(format!("no certificate: {e}"));
+    let given: Value = serde_json::from_str(&text).map_err(no_certificate)?;
+    if let Some(reason) = foreign_format(&given) {
+        return Err(fault(reason));
+    }
+    let certificate: Certificate = serde_json::from_str(&text).map_err(no_certificate)?;
     let parsed = |text: &str| serde_json::from_str(text).unwrap_or(Value::Null);
-    match unknown_key(&parsed(&text), &parsed(&certificate.to_json())) {
+    match unknown_key(&given, &parsed(&certificate.to_json())) {
         Some(key) => Err(fault(format!(
             "the key `{key}` is not known: it states what cannot be proved"
         ))),
         None => Ok(certificate),
+    }
+}
+
+/// Why a certificate of another format is refused; none where it has this program's, or is no certificate at all.
+fn foreign_format(given: &Value) -> Option<String> {
+    let remedy = "run `foldmotion check` on the motion again";
+    match given.get("format") {
+        Some(format) if *format == FORMAT => None,
+        None if given.get("verdict").is_none() => None,
+        Some(format) if *format != 1 => Some(format!(
+            "it has format {format}; this program reads format {FORMAT}: {remedy}"
+        )),
+        _ => Some(format!(
+            "it has format 1; this program reads format {FORMAT}. Certificates of format 1 (versions up to 0.1) could \
+             call a sheet touching that passed through itself at an edge inside it, a crease or the diagonal of a \
+             face, and prove nothing of such a sheet: {remedy}"
+        )),
     }
 }
 
@@ -189,14 +210,16 @@ impl VerifiedCertificate {
         }
         let _ = writeln!(
             out,
-            "stated: {} (tolerance {:e} of the unit of length {:.6}; {} touch, {} penetrate, {} undecided)",
+            "stated: {} (tolerance {:e} of the unit of length {:.6}; {} pairs penetrate, {} are undecided)",
             certificate.verdict,
             certificate.tolerance,
             certificate.unit_length,
-            certificate.touching_pairs,
             certificate.penetrations.len(),
             certificate.undecided.len()
         );
+        if let Some(stopped) = &certificate.stopped {
+            let _ = writeln!(out, "{}", stopped.line());
+        }
         let _ = writeln!(
             out,
             "second proof: {} pairs of triangles, {} near, {} followed; {} to {} touch",

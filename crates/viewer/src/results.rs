@@ -41,8 +41,13 @@ pub(crate) fn file_results(ui: &mut Ui, title: &str, judged: Option<&Judged>) ->
     );
     ui.label(format!(
         "{} pairs tested between {} frames, tolerance {:.0e} units of length",
-        certificate.pairs_tested.total, certificate.frames, certificate.tolerance
+        collision.pairs_tested.total(),
+        certificate.frames,
+        certificate.tolerance
     ));
+    if let Some(stopped) = &certificate.stopped {
+        ui.label(stopped.line());
+    }
     let mut chosen = None;
     if let Some(first) = &collision.first {
         let words = format!(
@@ -99,6 +104,9 @@ fn verdict(ui: &mut Ui, report: &Report) -> Option<f64> {
         }
         if collision.penetrating_pairs > 1 {
             ui.label(format!("{} pairs of facets penetrate", collision.penetrating_pairs));
+        }
+        if let Some(stopped) = &collision.stopped {
+            ui.label(stopped.line());
         }
         if collision.undecided_pairs > 0 {
             ui.label(format!("{} pairs were not decided", collision.undecided_pairs));

@@ -16,7 +16,7 @@ use super::{
     pair::{Pair, facets_share_a_vertex},
     report::{
         CollisionOptions, CollisionReport, FilterCounts, PairCounts, Penetration, PenetrationKind,
-        Separation, Undecided, Verdict,
+        Separation, Stopped, Undecided, Verdict,
     },
 };
 use crate::{
@@ -36,6 +36,8 @@ pub struct Checker<'a> {
     /// τ, a length.
     pub(super) tolerance: f64,
     budget: u32,
+    /// Once more pairs have penetrated, no further frame is taken in; 0: no limit.
+    stop_at: usize,
     pub(super) origin: DVec3,
     tree: Tree,
     pub(super) last: Placed,
@@ -93,6 +95,7 @@ impl<'a> Checker<'a> {
             edges: FaceEdges::new(sheet),
             tolerance: value * sheet.unit_length,
             budget: options.budget,
+            stop_at: options.stop_at,
             origin,
             tree: Tree::new(&last.boxes),
             last,
@@ -124,11 +127,15 @@ impl<'a> Checker<'a> {
         Ok(checker)
     }
 
-    /// Takes in the next frame and judges the interval before it.
+    /// Takes in the next frame and judges the interval before it; where more pairs have penetrated than
+    /// [`CollisionOptions::stop_at`], it does nothing, and [`Self::is_stopped`] from then on.
     ///
     /// # Errors
     /// A frame that cannot be judged, as the variants of [`CheckError`] say; the checker is as it was before.
     pub fn advance(&mut self, frame: &Frame) -> Result<(), CheckError> {
+        if self.stops() {
+            return Ok(());
+        }
         let next = Placed::new(self.sheet, frame, self.frames, self.origin)?;
         let (before, time) = (self.last.time, next.time);
         if time.partial_cmp(&before) != Some(std::cmp::Ordering::Greater) {
@@ -147,6 +154,23 @@ impl<'a> Checker<'a> {
         self.frames += 1;
         self.find_layers();
         Ok(())
+    }
+
+    /// Whether a frame was not taken in because too many pairs had penetrated.
+    pub fn is_stopped(&self) -> bool {
+        self.report.stopped.is_some()
+    }
+
+    /// Ends the check at the last frame where too many pairs have penetrated; whether it has ended.
+    fn stops(&mut self) -> bool {
+        if self.stop_at > 0 && self.penetrating.len() > self.stop_at {
+            self.report.stopped = Some(Stopped {
+                frame: self.frames - 1,
+                time: self.last.time,
+                stop_at: self.stop_at,
+            });
+        }
+        self.is_stopped()
     }
 
     /// The report on the frames taken in so far.
@@ -492,6 +516,7 @@ fn empty_report(tolerance: f64) -> CollisionReport {
         first: None,
         penetrations: Vec::new(),
         touching_pairs: 0,
+        stopped: None,
         undecided: Vec::new(),
         min_separation: None,
         separation_series: Vec::new(),

@@ -29,12 +29,16 @@ impl Checker<'_> {
     }
 
     /// Takes in what a file claims of the order at the last frame taken in; at most once a frame.
+    /// Nothing once the check [has stopped](Self::is_stopped).
     ///
     /// `face_of`: the face of the file that a triangle belongs to; `order` is of such faces. A claim of two layers
     /// whose order the motion shows must agree with it, otherwise it is a penetration. Where the motion leaves both
     /// sides open, as at the first frame, the claim decides, for the frames to come too. Claims of faces that are no
     /// layers of each other are counted and ignored.
     pub fn claim(&mut self, order: &LayerOrder, face_of: &dyn Fn(u32) -> u32) {
+        if self.is_stopped() {
+            return;
+        }
         let mut heard = BTreeSet::new();
         for index in 0..self.layers.len() {
             let pair = self.layers[index];

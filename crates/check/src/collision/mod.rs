@@ -13,7 +13,7 @@ pub use checker::Checker;
 use foldmotion_pattern::Motion;
 pub use report::{
     CollisionOptions, CollisionReport, FilterCounts, PairCounts, Penetration, PenetrationKind,
-    Separation, Undecided, Verdict,
+    Separation, Stopped, Undecided, Verdict,
 };
 
 pub use span::{PenetrationSpan, penetration_spans};
@@ -23,7 +23,8 @@ use crate::CheckError;
 /// Judges a motion: every pair of triangles in every interval between frames.
 ///
 /// `progress` is told the share that is done, from 0 to 1, once an interval; where it returns false the check ends.
-/// The whole motion is judged, also after the first penetration; a pair is dropped after its first one. The report
+/// The whole motion is judged, also after the first penetration, unless more pairs than
+/// [`CollisionOptions::stop_at`] penetrate; a pair is dropped after its first penetration. The report
 /// is bitwise the same for any number of threads.
 ///
 /// # Errors
@@ -40,6 +41,9 @@ pub fn collisions(
             return Err(CheckError::Cancelled { intervals: done });
         }
         checker.advance(frame)?;
+        if checker.is_stopped() {
+            break;
+        }
     }
     progress(1.0);
     Ok(checker.finish())

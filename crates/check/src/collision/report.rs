@@ -12,6 +12,8 @@ pub struct CollisionOptions {
     pub touch_tolerance: f64,
     /// The most steps spent on one pair in one interval before it is left undecided.
     pub budget: u32,
+    /// Once more pairs than this have penetrated, the intervals after the one at hand are not judged; 0: no limit.
+    pub stop_at: usize,
 }
 
 impl Default for CollisionOptions {
@@ -19,6 +21,7 @@ impl Default for CollisionOptions {
         Self {
             touch_tolerance: 1e-6,
             budget: 1 << 16,
+            stop_at: 4096,
         }
     }
 }
@@ -53,8 +56,40 @@ pub enum PenetrationKind {
     PassedThrough,
     /// A part passes through an interior edge or vertex of the sheet, beside each of the triangles there.
     ThroughEdge,
-    /// The order of coincident layers contradicts itself, or what the file claims of it.
+    /// The order of coincident layers contradicts itself, or what the file claims of it. The last one: see
+    /// [`Self::ALL`].
     LayerOrder,
+}
+
+impl PenetrationKind {
+    /// Every kind, so that a name can be read back; a kind missing here is an error of the compiler.
+    pub const ALL: [Self; Self::LayerOrder as usize + 1] = [
+        Self::VertexFacet,
+        Self::EdgeEdge,
+        Self::FoldedThrough,
+        Self::AroundVertex,
+        Self::PassedThrough,
+        Self::ThroughEdge,
+        Self::LayerOrder,
+    ];
+
+    /// Its name in reports and certificates.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::VertexFacet => "vertex through facet",
+            Self::EdgeEdge => "edge through edge",
+            Self::FoldedThrough => "folded past a half turn",
+            Self::AroundVertex => "facets crossing around a shared vertex",
+            Self::PassedThrough => "facets changing sides",
+            Self::ThroughEdge => "through an edge between facets",
+            Self::LayerOrder => "layers out of order",
+        }
+    }
+
+    /// The kind of that name.
+    pub fn of_name(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|kind| kind.name() == name)
+    }
 }
 
 /// The first penetration of a pair of triangles; of kind [`PenetrationKind::LayerOrder`] there may be one besides.
@@ -108,6 +143,17 @@ pub struct Undecided {
     pub faces: [u32; 2],
 }
 
+/// Where a check ended early: nothing is said of the frames after.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Stopped {
+    /// The index of the last frame judged.
+    pub frame: usize,
+    /// Its motion time.
+    pub time: f64,
+    /// More pairs than this have penetrated up to there.
+    pub stop_at: usize,
+}
+
 /// How many pairs were judged, counted once an interval.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
 pub struct PairCounts {
@@ -139,6 +185,14 @@ pub struct FilterCounts {
     pub search: u64,
 }
 
+impl FilterCounts {
+    /// The share of the pairs that needed no search.
+    pub fn share_without_search(&self) -> f64 {
+        let quick = self.boxes + self.axis_at_rest + self.turning_axis;
+        quick as f64 / (quick + self.search).max(1) as f64
+    }
+}
+
 /// The verdict on a motion, with its evidence.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct CollisionReport {
@@ -150,8 +204,10 @@ pub struct CollisionReport {
     pub first: Option<Penetration>,
     /// The first penetration of every pair that has one, in order of time.
     pub penetrations: Vec<Penetration>,
-    /// How many distinct pairs touch.
+    /// How many distinct pairs touch or were not shown to keep apart: a count from above.
     pub touching_pairs: usize,
+    /// Where the check ended early; none where every frame was judged.
+    pub stopped: Option<Stopped>,
     /// What could not be decided.
     pub undecided: Vec<Undecided>,
     /// The closest approach over the whole motion; none where all facets share vertices.

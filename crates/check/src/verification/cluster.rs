@@ -1,13 +1,15 @@
 //! The clusters of an instant, and the order in each.
 
-use foldmotion_pattern::{Assignment, Sheet};
+use std::collections::BTreeMap;
+
+use foldmotion_pattern::Sheet;
 use glam::DVec2;
 use rayon::prelude::*;
 
 use super::layer::{Layer, NARROW, Scale, corners};
-use super::line::{Meetings, Stacks, around};
+use super::line::{Key, Meeting, Stacks, around};
 use super::plane::{Plane, holds, inset, least_width, within};
-use crate::{LayerProof, LayerRule, RuleCounts};
+use crate::{LayerProof, LayerRule};
 
 /// Sides of triangles are moved inward by this share of τ, so that neighbours are not counted as lying on each other.
 const INSET: f64 = 0.1;
@@ -33,9 +35,6 @@ pub(super) struct Found {
     pub(super) layers: usize,
     pub(super) pairs: usize,
     pub(super) order: LayerProof,
-    pub(super) rules: RuleCounts,
-    /// How much more or less another proof may count.
-    pub(super) doubtful: u64,
     pub(super) faults: Vec<Fault>,
 }
 
@@ -88,21 +87,13 @@ impl Stacks<'_> {
     }
 
     fn prove(&self, faces: Vec<u32>) -> Found {
-        let mut rules = RuleCounts::default();
         let mut faults = Vec::new();
-        let meetings = self.meetings(&faces);
         let mut is_open = false;
-        for meeting in meetings.found.values() {
+        for meeting in self.meetings(&faces).values() {
             let Some(crosses) = meeting.crosses else {
                 is_open = true;
                 continue;
             };
-            match meeting.rule {
-                LayerRule::TacoTaco => rules.taco_taco += 1,
-                LayerRule::TacoTortilla => rules.taco_tortilla += 1,
-                LayerRule::TortillaTortilla => rules.tortilla_tortilla += 1,
-                _ => rules.bent += 1,
-            }
             if crosses {
                 faults.push(Fault {
                     rule: meeting.rule,
@@ -114,16 +105,11 @@ impl Stacks<'_> {
         let flat = Flat::new(self, &faces);
         faults.extend(flat.rounds(self));
         let pairs = self.pairs(&faces);
-        let known = pairs.clone().filter(|&(f, g)| self.below(f, g).is_some());
-        rules.transitivity = known.count() as u64;
-        rules.crease = pairs
-            .clone()
-            .filter(|&pair| self.is_as_assigned(pair))
-            .count() as u64;
+        is_open |= pairs.clone().any(|(f, g)| self.below(f, g).is_none());
         let pairs = pairs.count();
         let order = if !faults.is_empty() {
             LayerProof::Contradicted
-        } else if is_open || rules.transitivity < pairs as u64 {
+        } else if is_open {
             LayerProof::Unproved
         } else {
             LayerProof::Proved
@@ -135,8 +121,6 @@ impl Stacks<'_> {
             faces,
             pairs,
             order,
-            rules,
-            doubtful: meetings.doubtful,
             faults,
         }
     }
@@ -150,46 +134,25 @@ impl Stacks<'_> {
         faces.iter().flat_map(move |&f| later(f))
     }
 
-    fn meetings(&self, faces: &[u32]) -> Meetings {
+    fn meetings(&self, faces: &[u32]) -> BTreeMap<Key, Meeting> {
         let of_face = |&face: &u32| {
-            let mut meetings = Meetings::default();
+            let mut meetings = BTreeMap::new();
             for i in 0..3 {
                 self.meet(face, i, &mut meetings);
             }
             meetings
         };
-        let parts: Vec<Meetings> = faces.par_iter().map(of_face).collect();
-        let mut all = Meetings::default();
+        let parts: Vec<BTreeMap<Key, Meeting>> = faces.par_iter().map(of_face).collect();
+        let mut all = BTreeMap::new();
         for part in parts {
-            all.doubtful += part.doubtful;
-            for (key, meeting) in part.found {
-                let known = all.found.entry(key).or_insert_with(|| meeting.clone());
+            for (key, meeting) in part {
+                let known: &mut Meeting = all.entry(key).or_insert_with(|| meeting.clone());
                 if known.crosses != Some(true) && meeting.crosses.is_some() {
                     *known = meeting;
                 }
             }
         }
         all
-    }
-
-    /// Whether the crease between two layers is folded flat to the side of its assignment.
-    fn is_as_assigned(&self, (f, g): (u32, u32)) -> bool {
-        let hinges = self.hinges[f as usize].iter().flatten();
-        let between = hinges
-            .filter(|&&(_, beyond)| beyond == g)
-            .map(|&(edge, _)| edge)
-            .next();
-        let (Some(edge), Some(up)) = (between, self.below(f, g)) else {
-            return false;
-        };
-        let Some(plane) = Plane::of(&corners(self.sheet, self.positions, f)) else {
-            return false;
-        };
-        match self.sheet.edges[edge as usize].assignment {
-            Assignment::Valley => plane.normal.dot(up) > 0.0,
-            Assignment::Mountain => plane.normal.dot(up) < 0.0,
-            _ => false,
-        }
     }
 }
 

@@ -38,14 +38,6 @@ pub(super) struct Meeting {
     pub(super) vertices: Vec<u32>,
 }
 
-/// The meetings of a cluster.
-#[derive(Debug, Default)]
-pub(super) struct Meetings {
-    pub(super) found: BTreeMap<Key, Meeting>,
-    /// How many tests came out near a limit: so many more or less may be counted.
-    pub(super) doubtful: u64,
-}
-
 /// Two half-planes that are joined at a line: a hinge, or a triangle that runs on across it.
 struct Chord {
     key: Key,
@@ -109,7 +101,7 @@ impl Stacks<'_> {
     }
 
     /// Tests what meets along side `i` of a triangle, one stretch of it after the other.
-    pub(super) fn meet(&self, face: u32, i: usize, meetings: &mut Meetings) {
+    pub(super) fn meet(&self, face: u32, i: usize, found: &mut BTreeMap<Key, Meeting>) {
         let triangle = corners(self.sheet, self.positions, face);
         let (Some((edge, beyond)), Some(line)) =
             (self.hinges[face as usize][i], Line::of(&triangle, i))
@@ -118,7 +110,7 @@ impl Stacks<'_> {
         };
         let mut chords = vec![self.hinge(&line, edge, [face, beyond], [0.0, line.length])];
         for &(other, _) in &self.around[face as usize] {
-            if let Some(chord) = self.chord(&line, other, &mut meetings.doubtful)
+            if let Some(chord) = self.chord(&line, other)
                 && chords.iter().all(|known| known.key != chord.key)
             {
                 chords.push(chord);
@@ -131,22 +123,18 @@ impl Stacks<'_> {
             let is_there = |c: &&Chord| c.reach[0] < middle && middle < c.reach[1];
             let there: Vec<&Chord> = chords.iter().filter(is_there).collect();
             if there.len() > 1 {
-                self.test(&line, &there, &mut meetings.found);
+                self.test(&line, &there, found);
             }
         }
     }
 
     /// What of a triangle meets the line: a hinge along it, or the triangle across it.
-    fn chord(&self, line: &Line, face: u32, doubtful: &mut u64) -> Option<Chord> {
+    fn chord(&self, line: &Line, face: u32) -> Option<Chord> {
         let narrow = self.scale.narrow();
         let triangle = corners(self.sheet, self.positions, face);
         let places = triangle.map(|p| (line.along.dot(p - line.at), line.inward.dot(p - line.at)));
-        let mut is_more = |value: f64, limit: f64| {
-            *doubtful += u64::from((value - limit).abs() <= self.scale.slack);
-            value > limit
-        };
         let side = places.map(|(_, h)| {
-            let is_off = is_more(h.abs(), narrow);
+            let is_off = h.abs() > narrow;
             if is_off { h.signum() } else { 0.0 }
         });
         let on_line = (0..3).find(|&k| side[k] == 0.0 && side[(k + 1) % 3] == 0.0);
@@ -164,7 +152,7 @@ impl Stacks<'_> {
         let low = ends.iter().copied().fold(f64::INFINITY, f64::min);
         let high = ends.iter().copied().fold(f64::NEG_INFINITY, f64::max);
         let reach = [low.max(0.0), high.min(line.length)];
-        if !is_more(reach[1] - reach[0], narrow) {
+        if reach[1] - reach[0] <= narrow {
             return None;
         }
         if let Some(k) = on_line {

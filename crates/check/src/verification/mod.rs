@@ -37,9 +37,9 @@
 //!   is theirs in common. The deepest stack is counted at the first corners of what two layers share, where it must
 //!   have one.
 //!
-//! Of the counts of a certificate, those of layers tested along lines are the same where nothing lies near the limit of
-//! 10 τ up to which lines count as one; what does is let pass by as much. How deep a stack is, is stated as a number
-//! found: no more than the deepest. `pairs_tested` and `decided_by` are held to sums only. Where a pair lies on the limit
+//! How deep a stack is, is stated as a number found: no more than the deepest. Counts of work (pairs tested, pairs found
+//! to touch, rules tested) depend on the method and are no part of the statement. Between *free* and *touching* a
+//! distance within 2 % of τ decides either way. Where a pair lies on the limit
 //! of what is a layer, or was not followed to an end, a difference at its frame is named and not refuted.
 //!
 //! # Rounding

@@ -50,6 +50,9 @@ impl Verifier<'_> {
     ///
     /// `face_of`: the face of the file that a triangle belongs to; `order` is of such faces.
     pub fn hear(&mut self, order: &LayerOrder, face_of: &dyn Fn(u32) -> u32) {
+        if self.is_over {
+            return;
+        }
         let mut heard = BTreeSet::new();
         for index in 0..self.ordering.layers.len() {
             let Layer { faces, is_lost, .. } = self.ordering.layers[index];
@@ -231,13 +234,5 @@ impl Found {
         self.layers = self.layers.max(next.layers);
         self.pairs = self.pairs.max(next.pairs);
         self.order = self.order.max(next.order);
-        self.doubtful += next.doubtful;
-        let (sum, more) = (&mut self.rules, &next.rules);
-        sum.taco_taco += more.taco_taco;
-        sum.taco_tortilla += more.taco_tortilla;
-        sum.tortilla_tortilla += more.tortilla_tortilla;
-        sum.bent += more.bent;
-        sum.transitivity += more.transitivity;
-        sum.crease += more.crease;
     }
 }

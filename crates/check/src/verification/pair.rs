@@ -1,6 +1,8 @@
 //! Two triangles of the sheet, what they share first.
 
-use foldmotion_pattern::Sheet;
+use std::collections::BTreeMap;
+
+use foldmotion_pattern::{Assignment, Sheet};
 use glam::DVec3;
 
 use super::span::Span;
@@ -51,4 +53,19 @@ impl Pair {
         });
         self.shared == 0 && !p.iter().any(|v| q.contains(v))
     }
+}
+
+/// The assignment of the edge between two triangles.
+pub(super) fn assignments(sheet: &Sheet) -> BTreeMap<[u32; 2], Assignment> {
+    let between = sheet.edges.iter().filter_map(|edge| match edge.faces {
+        [Some(f), Some(g)] => Some(([f.min(g), f.max(g)], edge.assignment)),
+        _ => None,
+    });
+    between.collect()
+}
+
+/// The unit normal of a triangle, on its front.
+pub(super) fn front_normal(sheet: &Sheet, face: u32, positions: &[DVec3]) -> DVec3 {
+    let [p, q, r] = sheet.faces[face as usize].map(|v| positions[v as usize]);
+    (q - p).cross(r - p).normalize_or_zero()
 }

@@ -1,6 +1,4 @@
-//! What a report must say if it says the rest: counts from the topology, and the parts of the verdict.
-
-use std::collections::BTreeMap;
+//! What a report must say if it says the rest: the parts of the verdict.
 
 use foldmotion_pattern::Sheet;
 
@@ -8,41 +6,26 @@ use super::outcome::Refutation;
 use super::pair::Pair;
 use crate::collision::{CollisionReport, Verdict};
 
-/// One pair in this many may be said to touch, though this proof finds it apart.
-const DOUBTFUL_SHARE: usize = 100;
-
 /// What the second proof knows.
 pub(super) struct Facts<'a> {
     pub(super) sheet: &'a Sheet,
-    pub(super) intervals: usize,
-    /// Pairs with a penetration, and the first interval in which they are not judged any more.
-    pub(super) dropped: &'a BTreeMap<[u32; 2], usize>,
+    /// The last frame proved, and its time.
+    pub(super) last: (usize, f64),
     /// Pairs that surely touch, pairs that may.
     pub(super) touching: [usize; 2],
 }
 
-/// Everything the report contradicts itself or the topology in.
+/// Everything the report contradicts itself or what was found in.
 pub(super) fn consistency(claim: &CollisionReport, facts: &Facts<'_>) -> Vec<Refutation> {
     let mut refuted = Vec::new();
-    counts(claim, facts, &mut refuted);
-    let [sure, possible] = facts.touching;
-    // The first proof counts from above: what it cannot prove free touches. Its doubts are granted for a few.
-    let possible = possible + possible / DOUBTFUL_SHARE;
-    if !(sure..=possible).contains(&claim.touching_pairs) {
-        let found = format!("between {sure} and {possible}");
-        refuted.push(Refutation::new(
-            "touching_pairs",
-            claim.touching_pairs,
-            found,
-        ));
-    }
-    if let Some(says) = verdict_fault(claim) {
+    if let Some(says) = verdict_fault(claim, facts.touching) {
         refuted.push(Refutation::new(
             "verdict",
             format!("{:?}", claim.verdict),
             says,
         ));
     }
+    refuted.extend(stop_fault(claim, facts.last));
     if claim.min_separation.is_none() && has_measured_pair(facts.sheet) {
         refuted.push(Refutation::new(
             "min_separation",
@@ -52,6 +35,22 @@ pub(super) fn consistency(claim: &CollisionReport, facts: &Facts<'_>) -> Vec<Ref
     }
     order_of_penetrations(claim, &mut refuted);
     refuted
+}
+
+/// Why a check would not have ended where it is said to.
+fn stop_fault(claim: &CollisionReport, (frame, time): (usize, f64)) -> Option<Refutation> {
+    let stopped = claim.stopped?;
+    // Each pair stands once, as is refuted elsewhere.
+    let of_pairs = claim.penetrations.iter().filter(|p| p.conflict.is_none());
+    let count = of_pairs.count();
+    let found = if (stopped.frame, stopped.time) != (frame, time) {
+        format!("frame {frame}, t = {time}")
+    } else if stopped.stop_at == 0 || count <= stopped.stop_at {
+        format!("{count} pairs penetrate up to there")
+    } else {
+        return None;
+    };
+    Some(Refutation::new("stopped", format!("{stopped:?}"), found))
 }
 
 fn order_of_penetrations(claim: &CollisionReport, refuted: &mut Vec<Refutation>) {
@@ -81,94 +80,26 @@ fn order_of_penetrations(claim: &CollisionReport, refuted: &mut Vec<Refutation>)
     }
 }
 
-/// How many pairs of triangles share one vertex and two.
-fn neighbours(sheet: &Sheet) -> [u64; 2] {
-    let mut around: Vec<Vec<u32>> = vec![Vec::new(); sheet.vertices.len()];
-    for (face, corners) in sheet.faces.iter().enumerate() {
-        for &v in corners {
-            around[v as usize].push(face as u32);
-        }
-    }
-    let mut counts = [0; 2];
-    for (face, corners) in sheet.faces.iter().enumerate() {
-        let others = corners.iter().flat_map(|&v| &around[v as usize]);
-        let mut later: Vec<u32> = others.copied().filter(|&g| g as usize > face).collect();
-        later.sort_unstable();
-        for group in later.chunk_by(|p, q| p == q) {
-            counts[usize::from(group.len() > 1)] += 1;
-        }
-    }
-    counts
-}
-
-fn counts(claim: &CollisionReport, facts: &Facts<'_>, refuted: &mut Vec<Refutation>) {
-    let mut require = |field: &str, stated: u64, found: std::ops::RangeInclusive<u64>| {
-        if !found.contains(&stated) {
-            let (low, high) = (found.start(), found.end());
-            let found = if low == high {
-                low.to_string()
-            } else {
-                format!("between {low} and {high}")
-            };
-            refuted.push(Refutation::new(field, stated, found));
-        }
-    };
-    let intervals = facts.intervals as u64;
-    let mut dropped = [0; 3];
-    for (&faces, &from) in facts.dropped {
-        let shared = Pair::new(facts.sheet, faces).shared.min(2);
-        dropped[shared] += facts.intervals.saturating_sub(from) as u64;
-    }
-    let [vertex, edge] = neighbours(facts.sheet);
-    let pairs = claim.pairs_tested;
-    let exactly = |n: u64| n..=n;
-    require(
-        "pairs_tested.shared_vertex",
-        pairs.shared_vertex,
-        exactly(vertex * intervals - dropped[1]),
-    );
-    require(
-        "pairs_tested.shared_crease",
-        pairs.shared_crease,
-        exactly(edge * intervals - dropped[2]),
-    );
-    let by = claim.decided_by;
-    let total = pairs.total();
-    let decided = by
-        .axis_at_rest
-        .saturating_add(by.turning_axis)
-        .saturating_add(by.search);
-    require("decided_by", decided, exactly(total));
-    let faces = facts.sheet.faces.len() as u64;
-    let all = faces * faces.saturating_sub(1) / 2 * intervals;
-    let known = dropped[1] + dropped[2];
-    // Dropped pairs that share nothing may have been left out by their boxes.
-    let judged = all - known - dropped[0]..=all - known;
-    require(
-        "pairs_tested and decided_by.boxes",
-        by.boxes.saturating_add(total),
-        judged,
-    );
-}
-
-/// What the rest of the report says where the verdict is another.
-fn verdict_fault(claim: &CollisionReport) -> Option<&'static str> {
+/// What the rest of the report, or what was found, says where the verdict is another.
+///
+/// Between *free* and *touching* the pairs decide that come within τ for sure, or may do so.
+fn verdict_fault(claim: &CollisionReport, [sure, possible]: [usize; 2]) -> Option<&'static str> {
     let is_close = claim
         .min_separation
         .is_some_and(|s| s.distance <= claim.tolerance);
-    let expected = if !claim.penetrations.is_empty() {
-        (Verdict::Penetrating, "penetrations are listed")
+    let (is_so, says) = if !claim.penetrations.is_empty() {
+        let is_so = claim.verdict == Verdict::Penetrating;
+        (is_so, "penetrations are listed")
     } else if !claim.undecided.is_empty() {
-        (Verdict::Undecided, "undecided pairs are listed")
-    } else if claim.touching_pairs > 0 || is_close {
-        (
-            Verdict::Touching,
-            "facets touch, none penetrate, none are undecided",
-        )
+        let is_so = claim.verdict == Verdict::Undecided;
+        (is_so, "undecided pairs are listed")
+    } else if claim.verdict == Verdict::Free {
+        (!is_close && sure == 0, "facets touch")
     } else {
-        (Verdict::Free, "nothing touches")
+        let is_so = claim.verdict == Verdict::Touching && (is_close || possible > 0);
+        (is_so, "nothing touches, penetrates or is undecided")
     };
-    (claim.verdict != expected.0).then_some(expected.1)
+    (!is_so).then_some(says)
 }
 
 fn has_measured_pair(sheet: &Sheet) -> bool {

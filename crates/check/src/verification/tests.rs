@@ -48,7 +48,6 @@ fn foreign(text: &str) -> Option<String> {
         "LayerConflict",
         "LayerProof",
         "LayerRule",
-        "RuleCounts",
     ];
     let code = text
         .lines()

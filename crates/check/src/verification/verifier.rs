@@ -8,21 +8,23 @@ use rayon::prelude::*;
 
 use super::boxes::Boxes;
 use super::distance::{Nearness, closest, keeps_distance, on_triangle};
-use super::instant::axes;
+use super::instant::touches_for_sure;
 use super::line;
 use super::ordering::Ordering;
 use super::outcome::{Refutation, Unproved, Verification};
-use super::pair::Pair;
+use super::pair::{Pair, assignments, front_normal};
 use super::penetration::{Found, compare};
 use super::span::Span;
 use super::statement;
 use super::walk::{Limits, Side, Walked, depth, walk};
-use crate::collision::{CollisionReport, Penetration, Separation};
+use crate::collision::{CollisionReport, Penetration, Separation, Verdict};
 
 /// The most steps spent on a pair in an interval.
 const BUDGET: u32 = 1 << 16;
 /// Pairs farther than this, in units of τ, are surely not touching; the first prover resolves distances to τ/100.
 const SURELY_APART: f64 = 1.02;
+/// Pairs nearer than this, in units of τ, surely touch: *free* states that none are.
+const SURELY_TOUCHING: f64 = 0.98;
 /// How many refutations are listed; the rest are of the same motion.
 const MOST_LISTED: usize = 20;
 /// To this share of the unit of length the stated points are met.
@@ -37,6 +39,8 @@ pub struct Verifier<'a> {
     pub(super) last: Frame,
     /// Frames taken in.
     pub(super) frames: usize,
+    /// Whether a frame was given of which nothing is stated.
+    pub(super) is_over: bool,
     /// The sides of the pairs in contact, ordered by pair.
     pub(super) sides: Vec<([u32; 2], Side)>,
     claimed: BTreeMap<[u32; 2], &'a Penetration>,
@@ -76,7 +80,8 @@ impl Judged {
 }
 
 impl<'a> Verifier<'a> {
-    /// Takes in the first frame. `claim`: what the certificate states; its series of separations is not looked at.
+    /// Takes in the first frame. `claim`: what the certificate states; its counts of work and of pairs that touch, and
+    /// its series of separations, are not looked at.
     ///
     /// Preconditions: the sheet's corners are in range; every frame has a finite position for every vertex.
     pub fn new(sheet: &'a Sheet, first: Frame, claim: &'a CollisionReport) -> Self {
@@ -91,6 +96,7 @@ impl<'a> Verifier<'a> {
             },
             last: first,
             frames: 1,
+            is_over: false,
             sides: Vec::new(),
             claimed: of_pairs.map(|p| (p.faces, p)).collect(),
             undecided: claim.undecided.iter().map(|u| (u.faces, u.frame)).collect(),
@@ -106,8 +112,14 @@ impl<'a> Verifier<'a> {
         verifier
     }
 
-    /// Takes in the next frame and proves the interval before it.
+    /// Takes in the next frame and proves the interval before it; nothing is stated, nor proved, of a frame after the
+    /// one at which the check stopped.
     pub fn advance(&mut self, frame: Frame) {
+        let last = self.claim.stopped.map(|stopped| stopped.frame);
+        if last.is_some_and(|last| self.frames > last) {
+            self.is_over = true;
+            return;
+        }
         self.prove_layers();
         let start = std::mem::replace(&mut self.last, frame);
         self.meet_separation(&start);
@@ -178,8 +190,7 @@ impl<'a> Verifier<'a> {
         self.outcome.touching = [self.surely_touching.len(), self.perhaps_touching.len()];
         let facts = statement::Facts {
             sheet: self.sheet,
-            intervals: self.frames - 1,
-            dropped: &self.dropped,
+            last: (self.frames - 1, self.last.time),
             touching: self.outcome.touching,
         };
         for refutation in statement::consistency(self.claim, &facts) {
@@ -307,17 +318,24 @@ impl<'a> Verifier<'a> {
         if self.surely_touching.contains(&pair.faces) {
             return false;
         }
-        match keeps_distance(span, apart, BUDGET) {
-            Nearness::Kept => true,
-            Nearness::Nearer { distance, .. } => {
-                let is_sure = distance < 0.98 * self.limits.tolerance;
-                judged.touching = [is_sure, true];
-                false
-            }
-            Nearness::Unproved => {
-                judged.touching = [false, true];
-                false
-            }
+        let is_sure = match keeps_distance(span, apart, BUDGET) {
+            Nearness::Kept => return true,
+            Nearness::Nearer { distance, .. } => distance < SURELY_TOUCHING * self.limits.tolerance,
+            Nearness::Unproved => false,
+        };
+        judged.touching = [is_sure, true];
+        if !is_sure && self.claim.verdict == Verdict::Free {
+            self.keeps_free(span, judged);
+        }
+        false
+    }
+
+    /// Whether a pair near τ keeps as far apart as *free* states.
+    fn keeps_free(&self, span: &Span, judged: &mut Judged) {
+        match keeps_distance(span, SURELY_TOUCHING * self.limits.tolerance, BUDGET) {
+            Nearness::Kept => {}
+            Nearness::Nearer { .. } => judged.touching = [true, true],
+            Nearness::Unproved => judged.unproved = Some("whether they touch"),
         }
     }
 
@@ -466,28 +484,4 @@ impl<'a> Verifier<'a> {
             (least - stated.distance * unit).abs() <= slack.max(0.01 * self.limits.tolerance);
         (!is_met).then(|| format!("the triangles are {:e} apart there", least / unit))
     }
-}
-
-/// Whether at an end of the interval no axis separates what the triangles do not share.
-fn touches_for_sure(span: &Span) -> bool {
-    [0.0, 1.0].into_iter().any(|t| {
-        let pose = span.at(t);
-        axes(span, &pose)
-            .iter()
-            .all(|axis| axis.room < -1e-9 * span.size)
-    })
-}
-
-/// The assignment of the edge between two triangles.
-fn assignments(sheet: &Sheet) -> BTreeMap<[u32; 2], Assignment> {
-    let between = sheet.edges.iter().filter_map(|edge| match edge.faces {
-        [Some(f), Some(g)] => Some(([f.min(g), f.max(g)], edge.assignment)),
-        _ => None,
-    });
-    between.collect()
-}
-
-fn front_normal(sheet: &Sheet, face: u32, positions: &[DVec3]) -> DVec3 {
-    let [p, q, r] = sheet.faces[face as usize].map(|v| positions[v as usize]);
-    (q - p).cross(r - p).normalize_or_zero()
 }

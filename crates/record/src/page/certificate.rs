@@ -82,10 +82,9 @@ fn statement(certificate: &Value) -> String {
         ("tolerance", text("/tolerance")),
         ("unit of the tolerance", text("/unit_length")),
         ("frames", frames()),
+        ("judged only up to t", text("/stopped/t")),
         ("triangles", text("/triangles")),
-        ("pairs of triangles judged", text("/pairs_tested/total")),
         ("smallest separation", separation()),
-        ("pairs that touch", text("/touching_pairs")),
         ("SHA-256 of the motion file", text("/sha256")),
     ])
 }

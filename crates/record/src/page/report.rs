@@ -163,6 +163,14 @@ fn sizes(report: &Value) -> String {
         ("frames", text(report, "/path/frames")),
         ("straight paths stray", straying()),
         ("smallest separation", separation()),
+        (
+            "pairs of triangles judged",
+            text(report, "/collision/pairs_tested"),
+        ),
+        (
+            "pairs that touch",
+            text(report, "/collision/touching_pairs"),
+        ),
     ])
 }
 
