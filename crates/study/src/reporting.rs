@@ -14,8 +14,8 @@ use crate::folded::Folded;
 use crate::report::{
     BoxReport, CollisionSection, CompactReport, DivisionReport, EnergyReport, EngineReport,
     ErrorReport, FitReport, ImportReport, JamReport, MapReport, PatternReport, PenetrationReport,
-    ProfileReport, RowReport, SecondsReport, SkinReport, StageReport, UnfoldReport, UnitName,
-    UnitReport, VertexReport,
+    ProfileReport, RowReport, SecondsReport, SkinReport, StageReport, StopReport, UnfoldReport,
+    UnitName, UnitReport, VertexReport,
 };
 use crate::run::VERSION;
 use crate::scene::EngineChoice;
@@ -60,6 +60,7 @@ impl Study {
                 .map(|s| stage_report(s, &findings.series))
                 .collect(),
             jam: computed.jam.as_ref().map(|j| self.jam_report(j)),
+            stop: computed.stages.iter().find_map(StopReport::of),
             collision: self.collision_section(&findings.collision),
             path: folded.path,
             engine: EngineReport {

@@ -58,6 +58,7 @@ pub(super) fn section(report: &Value) -> String {
     html.push_str(&compact_box(report));
     html.push_str(&stages(report));
     html.push_str(&jam(report));
+    html.push_str(&stop(report));
     html.push_str(&sizes(report));
     html.push_str(&vertices(report));
     html.push_str("</section>\n");
@@ -127,6 +128,17 @@ fn jam(report: &Value) -> String {
         "<p class=\"warning\">Contact stops the motion at t = {}, {}° short of its target.</p>\n",
         escaped(&time),
         escaped(&short)
+    )
+}
+
+/// Of a motion that ended before its end; a jam says it already.
+fn stop(report: &Value) -> String {
+    let Some(time) = text(report, "/stop/t").filter(|_| text(report, "/jam/t").is_none()) else {
+        return String::new();
+    };
+    format!(
+        "<p class=\"warning\">The motion stopped at t = {}: no equilibrium was found beyond.</p>\n",
+        escaped(&time)
     )
 }
 
