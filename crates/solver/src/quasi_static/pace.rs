@@ -7,9 +7,9 @@ const EASY_ITERATIONS: usize = 10;
 /// After one that took more factorisations than this, shorter ones lead on faster: what they are extrapolated to is nearer.
 const COSTLY_FACTORISATIONS: usize = 8;
 const MOST_SHORTENED: f64 = 8.0;
-/// The longest load step, in stage-local time: as long as that of 240 frames, so that the path does not depend on how few
-/// frames are recorded.
-const LONGEST_STEP: f64 = 1.0 / 120.0;
+/// A stage has at least as many load steps as with 240 frames, so that the path does not depend on how few frames are
+/// recorded.
+const LEAST_STEPS: usize = 120;
 /// By which load steps grow and shrink.
 const STEP_FACTOR: f64 = 2.0;
 /// Load steps shortened to this share of the longest are given the budget of a snap.
@@ -22,6 +22,7 @@ const LEAST_STEP: f64 = 1e-3;
 /// The length of the load steps of one stage, in stage-local time.
 #[derive(Debug, Clone)]
 pub(super) struct Pace {
+    least_steps: usize,
     longest: f64,
     length: f64,
     in_contact: bool,
@@ -30,17 +31,19 @@ pub(super) struct Pace {
 impl Pace {
     /// Of a stage of which `frames` / 2 states are recorded.
     pub(super) fn new(frames: usize, in_contact: bool) -> Self {
-        let longest = LONGEST_STEP.min(2.0 / frames as f64);
+        let least_steps = LEAST_STEPS.max(frames / 2);
+        let longest = 1.0 / least_steps as f64;
         Self {
+            least_steps,
             longest,
             length: longest,
             in_contact,
         }
     }
 
-    /// How many of the longest steps the stage is long.
-    pub(super) fn longest_steps(&self) -> usize {
-        (1.0 / self.longest).ceil() as usize
+    /// How many load steps the stage has if all are of the longest.
+    pub(super) fn least_steps(&self) -> usize {
+        self.least_steps
     }
 
     /// Where the load step from `s` ends, and whether that is `goal`.
@@ -99,7 +102,7 @@ mod tests {
     fn steps_that_stay_costly_however_short_end_the_stage_all_the_same() {
         for frames in [2, 180, 240, 100_000] {
             let mut pace = Pace::new(frames, false);
-            let most = (1.0 / LEAST_STEP) as usize * pace.longest_steps() + 1;
+            let most = 1_000 * pace.least_steps() + 1;
             let (mut s, mut steps) = (0.0, 0);
             while s < 1.0 && steps <= most {
                 s = pace.next(s, 1.0).0;
@@ -123,7 +126,7 @@ mod tests {
             pace.shorten(pace.next(0.0, 1.0).0);
         }
         let least = pace.next(0.0, 1.0).0;
-        assert!((least - LEAST_STEP * LONGEST_STEP).abs() < 1e-15, "{least}");
+        assert!((least - LEAST_STEP / 120.0).abs() < 1e-15, "{least}");
     }
 
     #[test]

@@ -167,7 +167,7 @@ impl Run<'_> {
         let mut history = History::new(0.0, self.state.clone(), in_contact);
         let goals = recorded_times(self.options, stage);
         let mut pace = Pace::new(self.options.frames, in_contact);
-        let budget = self.budget(goals.len().max(pace.longest_steps()));
+        let budget = self.budget(goals.len().max(pace.least_steps()));
         let (mut s, mut recorded) = (0.0, 0);
         while let Some(&goal) = goals.get(recorded) {
             let (next, reaches) = pace.next(s, goal);
