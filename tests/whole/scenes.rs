@@ -207,6 +207,26 @@ fn without_contact_the_quasi_static_engine_ends_on_the_exact_compact_state_at_an
     }
 }
 
+/// Its bars are so stiff that it gives way bit by bit: with these numbers of frames load steps shrank without end.
+#[test]
+fn a_near_rigid_sheet_without_contact_folds_up_whatever_the_number_of_frames() {
+    for frames in [180, 200, 240] {
+        let home = tempfile::tempdir().unwrap();
+        let frames = format!("motion.frames={frames}");
+        let set = [
+            "material.preset=near-rigid",
+            "motion.contact=false",
+            &frames,
+            REPORT_ONLY,
+        ];
+        let report = run("shelter-t", &set, home.path());
+        assert!(report.stages.iter().all(|s| s.converged), "{frames}");
+        assert_eq!((report.unfinished(), report.stop), (None, None));
+        let rms = report.compact.rms_to_exact.unwrap();
+        assert!(rms < 1e-9, "{frames}: {rms}");
+    }
+}
+
 #[test]
 fn contact_stops_short_plain_rectangles_and_names_what_blocks() {
     let home = tempfile::tempdir().unwrap();

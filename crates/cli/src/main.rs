@@ -87,6 +87,9 @@ fn run_scene(arguments: &RunArguments) -> Result<u8, Failure> {
         print(&report.to_json())?;
     } else if !arguments.quiet {
         print(&report.table())?;
+        if let Some(words) = report.unfinished() {
+            print(&format!("{words}; what was reached is kept\n"))?;
+        }
         print(&format!("results in {}\n", folder.display()))?;
     }
     Ok(report.status())

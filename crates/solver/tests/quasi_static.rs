@@ -4,7 +4,7 @@
 use foldmotion_geometry::RigidMotion;
 use foldmotion_pattern::{Case, Facing, Unit, UnitSheet};
 use foldmotion_solver::quasi_static::{
-    QuasiStaticOptions, QuasiStaticRun, force_scale, run_quasi_static,
+    QuasiStaticOptions, QuasiStaticRun, StopReason, force_scale, run_quasi_static,
 };
 use foldmotion_solver::{
     HingeKind, Material, Model, Moment, Schedule, SolverError, Stage, dynamic,
@@ -273,6 +273,35 @@ fn a_search_without_enough_iterations_keeps_what_was_reached_and_says_where_it_e
     assert!(!failed.converged && failed.residual > 0.0 && failed.shortened_steps > 0);
     assert!(failed.reached < 2.0);
     assert_eq!(run.frames.last().unwrap().time, failed.reached);
+    let stop = failed.stop.unwrap();
+    assert_eq!(stop.reason, StopReason::NoEquilibrium);
+    assert!(stop.residual > stop.tolerance, "{stop:?}");
+    assert!(stop.step > 0.0 && stop.step < 1.0 / 120.0, "{stop:?}");
+}
+
+#[test]
+fn a_stage_without_enough_iterations_keeps_what_was_reached_and_says_where_it_ended() {
+    let scene = scene(Case::T, 7, 5, &axial(2_000.0), 1.0);
+    let whole = run(&scene, &frames(24));
+    assert!(whole.is_complete() && whole.stages.iter().all(|stage| stage.stop.is_none()));
+    let short = QuasiStaticOptions {
+        iterations_a_step: 2,
+        ..frames(24)
+    };
+    let ended = run(&scene, &short);
+    assert!(!ended.is_complete());
+    let stage = ended.stages.last().unwrap();
+    let stop = stage.stop.unwrap();
+    assert_eq!(stop.reason, StopReason::OutOfIterations);
+    assert!(
+        stop.residual > stop.tolerance && stop.step > 0.0,
+        "{stop:?}"
+    );
+    assert_eq!(stage.iterations, 240);
+    assert_eq!(ended.frames.last().unwrap().time, stage.reached);
+    // Until then nothing differs.
+    let earlier = &ended.frames[..ended.frames.len() - 1];
+    assert_eq!(earlier, &whole.frames[..earlier.len()]);
 }
 
 #[test]

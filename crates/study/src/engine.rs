@@ -2,7 +2,9 @@
 
 use foldmotion_pattern::Frame;
 use foldmotion_solver::dynamic::{self, DynamicOptions};
-use foldmotion_solver::quasi_static::{Contact, Jam, QuasiStaticOptions, run_quasi_static};
+use foldmotion_solver::quasi_static::{
+    Contact, Jam, QuasiStaticOptions, StopReason, run_quasi_static,
+};
 use foldmotion_solver::{Stage, Watcher};
 
 use crate::scene::EngineChoice;
@@ -38,6 +40,20 @@ pub(crate) struct StageSummary {
     pub(crate) steps: u64,
     /// Load steps of the quasi-static engine, and those that had to be shortened.
     pub(crate) load_steps: Option<[u64; 2]>,
+    /// What ended it where it did not converge.
+    pub(crate) stop: Option<StopSummary>,
+}
+
+/// What ended a stage before its end.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct StopSummary {
+    /// Whether its budget of steps or iterations was used up; else no equilibrium was found.
+    pub(crate) is_out_of_steps: bool,
+    /// The load step that the quasi-static engine tried last, in motion time.
+    pub(crate) step: Option<f64>,
+    /// The unbalanced force left, and how much of it counts as equilibrium.
+    pub(crate) residual: f64,
+    pub(crate) tolerance: f64,
 }
 
 /// Contact at one frame.
@@ -82,10 +98,16 @@ impl Study {
         let stages = run.stages.iter().map(|s| StageSummary {
             stage: s.stage,
             converged: s.is_converged(),
-            reached: s.stage.start_time() + 1.0,
+            reached: s.reached,
             residual: s.residual,
             steps: s.steps,
             load_steps: None,
+            stop: (!s.is_converged()).then_some(StopSummary {
+                is_out_of_steps: true,
+                step: None,
+                residual: s.residual,
+                tolerance: s.tolerance,
+            }),
         });
         Ok(Computed {
             stages: stages.collect(),
@@ -124,6 +146,12 @@ impl Study {
             residual: s.residual,
             steps: s.iterations as u64,
             load_steps: Some([s.load_steps as u64, s.shortened_steps as u64]),
+            stop: s.stop.map(|stop| StopSummary {
+                is_out_of_steps: stop.reason == StopReason::OutOfIterations,
+                step: Some(stop.step),
+                residual: stop.residual,
+                tolerance: stop.tolerance,
+            }),
         });
         let contacts = run.figures.iter().map(|f| ContactFigures {
             energy: f.contact_energy,

@@ -35,6 +35,7 @@ mod schema;
 mod series;
 mod source;
 mod statement;
+mod stop_report;
 mod study;
 mod subject;
 mod unfolding;

@@ -14,6 +14,8 @@ use crate::{Phase, Study, StudyError, Watch};
 
 /// Runs of the engine with more frames, at most; each divides the straying of a path by 16.
 const MOST_ROUNDS: usize = 4;
+/// Frames added in all rounds together, at most: where motions are open all along, each round would quadruple them.
+const MOST_ADDED: usize = 20_000;
 /// Parts an interval is divided into.
 const PARTS: usize = 4;
 /// Straight paths may stray this many times as far as is estimated of them: the estimate was seen to be half of what it
@@ -49,9 +51,10 @@ impl Study {
             check_seconds += seconds;
             let strays = straying(&motion.frames);
             let more = self.times_between(&findings.collision, &motion.frames, &strays);
-            if more.is_empty() || rounds == MOST_ROUNDS {
-                let path =
-                    self.path_report(&motion.frames, &strays, rounds, extra_times.len() - asked);
+            let added = extra_times.len() - asked;
+            let is_spent = rounds == MOST_ROUNDS || added + more.len() > MOST_ADDED;
+            if more.is_empty() || is_spent {
+                let path = self.path_report(&motion.frames, &strays, rounds, added);
                 let last = motion.frames.last().map_or(&[][..], |f| &f.positions);
                 return Ok(Folded {
                     compact: self.subject.measured_box(last),

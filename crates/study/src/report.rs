@@ -9,6 +9,7 @@ use serde::{Deserialize, Serialize};
 use crate::certificate::StoppedEntry;
 
 pub use crate::imported_report::ImportReport;
+pub use crate::stop_report::StopReport;
 
 /// `report.json`. Lengths are in `length_unit`, angles in degrees.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -51,6 +52,9 @@ pub struct Report {
     pub stages: Vec<StageReport>,
     /// Where contact stopped the motion; null where it did not.
     pub jam: Option<JamReport>,
+    /// What ended the motion before its end; null where it was run to its end. A motion that stopped where layers push is
+    /// jammed too.
+    pub stop: Option<StopReport>,
     /// The verdict.
     pub collision: CollisionSection,
     /// The recorded path, between whose frames the verdict takes straight lines.
@@ -536,6 +540,13 @@ impl Report {
         }
     }
 
+    /// Where the motion ended before its end and why, in a few words; none where it was run to its end.
+    pub fn unfinished(&self) -> Option<String> {
+        let jammed = |jam: &JamReport| format!("jammed at t = {:.4}", jam.t);
+        let jam = self.jam.as_ref().map(jammed);
+        jam.or_else(|| self.stop.as_ref().map(StopReport::words))
+    }
+
     /// The text of `report.json`.
     pub fn to_json(&self) -> String {
         // Strings, numbers and lists always serialise.
@@ -550,6 +561,9 @@ impl Report {
         let unit = &self.length_unit;
         // Writing into a string cannot fail.
         let _ = writeln!(out, "{}", self.title);
+        if let Some(words) = self.unfinished() {
+            let _ = writeln!(out, "{words}");
+        }
         self.write_subject(&mut out);
         let _ = writeln!(
             out,
@@ -585,6 +599,9 @@ impl Report {
         }
         if let Some(jam) = &self.jam {
             let _ = writeln!(out, "{}", jam.line());
+        }
+        if let Some(stop) = &self.stop {
+            let _ = writeln!(out, "{}", stop.line());
         }
         self.write_verdict(&mut out);
         self.write_path(&mut out);
@@ -701,8 +718,14 @@ impl Report {
         let h = self.tolerance_unit();
         let _ = writeln!(
             out,
-            "\nverdict: {} (tolerance {:e} {h}; {} pairs tested; {} touch, {} penetrate)",
-            c.verdict, c.tolerance, c.pairs_tested, c.touching_pairs, c.penetrating_pairs
+            "\nverdict{}: {} (tolerance {:e} {h}; {} pairs tested; {} touch, {} penetrate)",
+            self.unfinished()
+                .map_or("", |_| " of the motion as far as it came"),
+            c.verdict,
+            c.tolerance,
+            c.pairs_tested,
+            c.touching_pairs,
+            c.penetrating_pairs
         );
         if let Some(stopped) = &c.stopped {
             let _ = writeln!(out, "{}", stopped.line());

@@ -16,7 +16,7 @@ use crate::report::{
     BoxReport, CollisionSection, CompactReport, DecidedBy, DivisionReport, EnergyReport,
     EngineReport, ErrorReport, FitReport, ImportReport, JamReport, MapReport, PatternReport,
     PenetrationReport, ProfileReport, RowReport, SecondsReport, SkinReport, StageReport,
-    UnfoldReport, UnitName, UnitReport, VertexReport,
+    StopReport, UnfoldReport, UnitName, UnitReport, VertexReport,
 };
 use crate::run::VERSION;
 use crate::scene::EngineChoice;
@@ -61,6 +61,7 @@ impl Study {
                 .map(|s| stage_report(s, &findings.series))
                 .collect(),
             jam: computed.jam.as_ref().map(|j| self.jam_report(j)),
+            stop: computed.stages.iter().find_map(StopReport::of),
             collision: self.collision_section(&findings.collision),
             path: folded.path,
             engine: EngineReport {

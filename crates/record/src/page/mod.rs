@@ -171,7 +171,9 @@ impl<'a> Contents<'a> {
             "generator" => escaped(&self.origin.producer),
             "styles" => STYLES.to_owned(),
             "lead" => section(&self.report, report::lead),
-            "verdict" => certificate::badge(self.verdict()),
+            "verdict" => {
+                section(&self.report, report::ending) + &certificate::badge(self.verdict())
+            }
             "plots" => sections::plotted(self.page.panels)?,
             "report" => section(&self.report, report::section),
             "certificate" => section(&self.certificate, certificate::section),

@@ -58,6 +58,7 @@ pub(super) fn section(report: &Value) -> String {
     html.push_str(&compact_box(report));
     html.push_str(&stages(report));
     html.push_str(&jam(report));
+    html.push_str(&stop(report));
     html.push_str(&sizes(report));
     html.push_str(&vertices(report));
     html.push_str("</section>\n");
@@ -127,6 +128,36 @@ fn jam(report: &Value) -> String {
         "<p class=\"warning\">Contact stops the motion at t = {}, {}° short of its target.</p>\n",
         escaped(&time),
         escaped(&short)
+    )
+}
+
+/// The evidence that the motion stopped before its end.
+fn stop(report: &Value) -> String {
+    let Some(time) = text(report, "/stop/t") else {
+        return String::new();
+    };
+    let force = |key: &str| {
+        let value = report.pointer(key).and_then(Value::as_f64);
+        value.map_or_else(String::new, |value| digits(value, 2))
+    };
+    format!(
+        "<p class=\"warning\">No equilibrium was found beyond t = {}: the unbalanced force left was {}, where {} counts as equilibrium.</p>\n",
+        escaped(&time),
+        force("/stop/residual"),
+        force("/stop/residual_tolerance")
+    )
+}
+
+/// Over the verdict of a motion that jammed or stopped: that the verdict is not one of the whole motion.
+pub(super) fn ending(report: &Value) -> String {
+    let jam = text(report, "/jam/t").map(|t| ("jammed", t));
+    let ending = jam.or_else(|| Some(("stopped", text(report, "/stop/t")?)));
+    let Some((word, time)) = ending else {
+        return String::new();
+    };
+    let time = escaped(&time);
+    format!(
+        "<p class=\"verdict open\"><strong><span aria-hidden=\"true\">!</span> {word} at t = {time}</strong> the verdict is that of the motion as far as it came</p>\n"
     )
 }
 
@@ -201,4 +232,24 @@ fn vertices(report: &Value) -> String {
         "<details>\n<summary>Interior vertices of the crease pattern</summary>\n{}</details>\n",
         table("Interior vertices by type", &head, &rows)
     )
+}
+
+#[cfg(test)]
+mod tests {
+    use serde_json::json;
+
+    use super::*;
+
+    #[test]
+    fn a_motion_that_jammed_or_stopped_is_not_headed_by_its_verdict_alone() {
+        let stop = json!({"t": 1.25, "residual": 0.5, "residual_tolerance": 1e-9});
+        let stopped = json!({"jam": null, "stop": stop});
+        assert!(ending(&stopped).contains("stopped at t = 1.25"));
+        assert!(section(&stopped).contains("No equilibrium was found beyond t = 1.25"));
+        let jammed = json!({"jam": {"t": 1.5}, "stop": null});
+        assert!(ending(&jammed).contains("jammed at t = 1.5"));
+        let folded = json!({"jam": null, "stop": null});
+        assert_eq!(ending(&folded), "");
+        assert!(!section(&folded).contains("No equilibrium"));
+    }
 }

@@ -30,7 +30,7 @@ pub(super) const SAFETY: f64 = 0.9;
 /// # Errors
 /// [`SolverError::Count`], [`SolverError::NotFinite`], [`SolverError::Frames`], [`SolverError::Option`] for input that
 /// does not fit; [`SolverError::Diverged`] where a node runs away; [`SolverError::Cancelled`]. A stage that does not
-/// settle within its step budget is no error but a [`StageStatus::OutOfSteps`].
+/// settle within its step budget is no error but a [`StageStatus::OutOfSteps`]: the run ends there, with what it reached.
 pub fn run(
     model: &Model,
     schedule: &Schedule,
@@ -109,7 +109,11 @@ fn run_here(
     engine.recorder.push(first, 0.0, &engine.state.positions());
     let mut stages = Vec::with_capacity(options.stages.len());
     for &stage in &options.stages {
-        stages.push(engine.run_stage(stage)?);
+        let outcome = engine.run_stage(stage)?;
+        stages.push(outcome);
+        if !outcome.is_converged() {
+            break;
+        }
     }
     let mut frames = engine.recorder.into_frames();
     // The start is given, not computed: it is recorded as it came, to the last bit.
@@ -145,28 +149,48 @@ impl Engine<'_, '_> {
         let mut settling_steps = 0;
         let mut from = 0.0;
         for increment in increments(self.schedule, stage, self.options) {
-            ramp_steps += self.ramp(stage, from, increment.end)?;
-            let tolerance = increment.tolerance;
-            self.settle(stage, increment.end, tolerance, &mut settling_steps)?;
-            if increment.is_recorded {
-                self.recorder
-                    .push(stage, increment.end, &self.state.positions());
+            let (to, tolerance) = (increment.end, increment.tolerance);
+            ramp_steps += self.ramp(stage, from, to)?;
+            let status = self.settle(stage, to, tolerance, &mut settling_steps)?;
+            let is_out_of_steps = status == StageStatus::OutOfSteps;
+            if increment.is_recorded || is_out_of_steps {
+                self.recorder.push(stage, to, &self.state.positions());
             }
-            from = increment.end;
+            if is_out_of_steps {
+                let steps = ramp_steps + settling_steps;
+                return Ok(self.end_stage(stage, to, status, tolerance, steps));
+            }
+            from = to;
         }
         ramp_steps += self.ramp(stage, from, 1.0)?;
         self.recorder.begin_settling(&self.state.positions());
-        let status = self.settle(stage, 1.0, self.options.tolerance, &mut settling_steps)?;
+        let tolerance = self.options.tolerance;
+        let status = self.settle(stage, 1.0, tolerance, &mut settling_steps)?;
         self.recorder.push(stage, 1.0, &self.state.positions());
+        let steps = ramp_steps + settling_steps;
+        Ok(self.end_stage(stage, 1.0, status, tolerance, steps))
+    }
+
+    /// Stops the sheet where the stage ended, at stage-local time `s`, and says how it went.
+    fn end_stage(
+        &mut self,
+        stage: Stage,
+        s: f64,
+        status: StageStatus,
+        tolerance: f64,
+        steps: u64,
+    ) -> StageOutcome {
         self.state.stop();
         self.state.evaluate_forces();
-        Ok(StageOutcome {
+        StageOutcome {
             stage,
             status,
+            reached: stage.start_time() + s,
+            tolerance,
             residual: self.state.residual(),
             fold_angle_error: self.state.fold_angle_error(),
-            steps: ramp_steps + settling_steps,
-        })
+            steps,
+        }
     }
 
     /// Damped steps while the targets go from their values at `from` to those at `to`; how many.

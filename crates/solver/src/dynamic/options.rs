@@ -40,7 +40,7 @@ pub struct DynamicOptions {
     pub ramp_tolerance: f64,
     /// Damped steps over which each increment of the ramp is spread; at least 1.
     pub ramp_steps: usize,
-    /// Settling steps allowed in each stage; ramp steps are not counted.
+    /// Settling steps allowed in each stage; ramp steps are not counted. A stage that needs more ends the run where it is.
     pub step_budget: u64,
 }
 
@@ -89,7 +89,7 @@ impl Default for DynamicOptions {
 pub enum StageStatus {
     /// The residual fell to the tolerance.
     Settled,
-    /// The step budget ended first; the state reached is recorded all the same.
+    /// The step budget ended first, and with it the run; the state reached is recorded all the same.
     OutOfSteps,
 }
 
@@ -98,12 +98,16 @@ pub enum StageStatus {
 pub struct StageOutcome {
     /// Which stage.
     pub stage: Stage,
-    /// Whether its end is an equilibrium.
+    /// Whether it was run to its end and that is an equilibrium.
     pub status: StageStatus,
-    /// The largest unbalanced force on a node at its end over the fold stiffness: how many radians out of balance a
+    /// t of its last state: the end of the stage, or where the step budget ended.
+    pub reached: f64,
+    /// The residual to which that state was to settle.
+    pub tolerance: f64,
+    /// The largest unbalanced force on a node in that state over the fold stiffness: how many radians out of balance a
     /// crease of unit length on an arm of unit length would have to be to make it.
     pub residual: f64,
-    /// The largest |θ − θ*| of any hinge at its end, radians. A settled sheet whose targets fit together has none; one
+    /// The largest |θ − θ*| of any hinge in that state, radians. A settled sheet whose targets fit together has none; one
     /// caught in another equilibrium, or driven to angles that contradict each other, has.
     pub fold_angle_error: f64,
     /// Steps taken, ramp and settling.
@@ -124,7 +128,7 @@ pub struct Run {
     /// sheet took where settling at the end of a stage moved it visibly. Times increase strictly, positions are in
     /// the sheet's unit.
     pub frames: Vec<Frame>,
-    /// One for each stage, in order.
+    /// One for each stage begun, in order.
     pub stages: Vec<StageOutcome>,
     /// Steps of the whole run.
     pub steps: u64,

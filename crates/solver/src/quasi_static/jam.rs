@@ -1,6 +1,6 @@
 //! Whether contact stopped the motion.
 
-use super::outcome::{Jam, QuasiStaticRun};
+use super::outcome::{Jam, QuasiStaticRun, StageOutcome, StopReason};
 
 /// A crease further than this from its target, radians, where layers push, may be kept from it by them.
 const KEPT_FROM_TARGET: f64 = 0.1;
@@ -17,7 +17,11 @@ pub(super) fn find_jam(
 ) -> Option<Jam> {
     let limit = slack.max(KEPT_FROM_TARGET);
     let last = run.figures.last()?;
-    let ended_early = run.stages.iter().any(|stage| !stage.converged);
+    let found_none = |stage: &StageOutcome| {
+        let stop = stage.stop.as_ref();
+        stop.is_some_and(|stop| stop.reason == StopReason::NoEquilibrium)
+    };
+    let ended_early = run.stages.iter().any(found_none);
     let is_kept = last.fold_angle_error > limit;
     if blocking.is_empty() || !(is_kept || ended_early) {
         return None;

@@ -20,13 +20,14 @@ mod jam;
 mod newton;
 mod options;
 mod outcome;
+mod pace;
 mod run;
 mod stiffness_matrix;
 
 pub use contact::Contact;
 pub use hinge_hessian::fold_angle_hessian;
 pub use options::QuasiStaticOptions;
-pub use outcome::{FrameFigures, Jam, QuasiStaticRun, StageOutcome};
+pub use outcome::{FrameFigures, Jam, QuasiStaticRun, StageOutcome, Stop, StopReason};
 pub use run::run_quasi_static;
 
 use configuration::Configuration;

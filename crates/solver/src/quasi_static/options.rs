@@ -19,6 +19,9 @@ pub struct QuasiStaticOptions {
     pub tolerance: f64,
     /// Newton steps taken at one load step before it is shortened.
     pub max_iterations: usize,
+    /// Newton steps allowed in a stage, over the number of states it records or 120 if that is more: after as many it is
+    /// [stopped](super::StopReason::OutOfIterations). Most sheets take 5, a near-rigid one that gives way bit by bit 30.
+    pub iterations_a_step: usize,
     /// Contact of the layers; none lets them pass through each other.
     pub contact: Option<Contact>,
 }
@@ -32,6 +35,7 @@ impl Default for QuasiStaticOptions {
             record_load_steps: false,
             tolerance: 1e-9,
             max_iterations: 60,
+            iterations_a_step: 300,
             contact: None,
         }
     }
@@ -50,7 +54,8 @@ impl QuasiStaticOptions {
             });
         }
         positive("tolerance", self.tolerance)?;
-        positive("max_iterations", self.max_iterations as f64)
+        positive("max_iterations", self.max_iterations as f64)?;
+        positive("iterations_a_step", self.iterations_a_step as f64)
     }
 }
 

@@ -65,6 +65,30 @@ pub struct StageOutcome {
     pub snaps: usize,
     /// Newton iterations, those of failed load steps included.
     pub iterations: usize,
+    /// What ended the stage before its end; none where it converged.
+    pub stop: Option<Stop>,
+}
+
+/// A stage ended before its end, in the state at [`StageOutcome::reached`].
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Stop {
+    /// Why.
+    pub reason: StopReason,
+    /// The last load step tried, in motion time: no equilibrium was found this far on.
+    pub step: f64,
+    /// The largest nodal force that the search left there, in the model's units.
+    pub residual: f64,
+    /// At most this much counts as equilibrium.
+    pub tolerance: f64,
+}
+
+/// Why a stage ended before its end.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum StopReason {
+    /// No equilibrium was found, however short the load step.
+    NoEquilibrium,
+    /// The iterations of [`super::QuasiStaticOptions::iterations_a_step`] were used up.
+    OutOfIterations,
 }
 
 impl StageOutcome {
@@ -78,6 +102,7 @@ impl StageOutcome {
             shortened_steps: 0,
             snaps: 0,
             iterations: 0,
+            stop: None,
         }
     }
 

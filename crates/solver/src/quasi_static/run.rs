@@ -8,7 +8,8 @@ use super::contact::ContactField;
 use super::history::History;
 use super::jam::find_jam;
 use super::newton::{Newton, Settled, Tolerance};
-use super::outcome::{FrameFigures, QuasiStaticRun, StageOutcome};
+use super::outcome::{FrameFigures, QuasiStaticRun, StageOutcome, Stop, StopReason};
+use super::pace::Pace;
 use super::{QuasiStaticOptions, barrier_force, force_scale, rounding_force};
 use crate::{HingeKind, Model, Moment, Schedule, SolverError, Stage, Watcher};
 
@@ -21,24 +22,12 @@ const REMAINDER: f64 = 8.0 * f64::EPSILON;
 const CONTACT_REMAINDER: f64 = 1e-10;
 /// With contact the tolerance of the forces is this many times what it is without.
 const CONTACT_LENIENCE: f64 = 1e3;
-/// A load step that settled within this many iterations is followed by a longer one.
-const EASY_ITERATIONS: usize = 10;
-/// After one that took more factorisations than this, shorter ones lead on faster: what they are extrapolated to is nearer.
-const COSTLY_FACTORISATIONS: usize = 8;
-const MOST_SHORTENED: f64 = 8.0;
-/// After one that took more than this nothing is extrapolated.
+/// After a load step that took more iterations than this nothing is extrapolated.
 const HARD_ITERATIONS: usize = 30;
 /// An extrapolated state with more than this many times the energy of the last one is no help.
 const USELESS_ENERGY: f64 = 100.0;
 /// Stage-local times closer than this are the same but for rounding.
 const SAME_TIME: f64 = 1e-12;
-/// The longest load step, in stage-local time: as long as that of 240 frames, so that the path does not depend on how few
-/// frames are recorded.
-const LONGEST_STEP: f64 = 1.0 / 120.0;
-/// By which load steps grow and shrink.
-const STEP_FACTOR: f64 = 2.0;
-/// Load steps shortened to this share of the spacing of frames are given the budget of a snap.
-const SNAP_STEP: f64 = 0.1;
 /// The iterations allowed in a snap, over those allowed elsewhere.
 const SNAP_BUDGET: usize = 40;
 /// A barrier whose separation falls below this share of its reach is too soft: all become stiffer by a factor, up to a
@@ -58,8 +47,10 @@ const MOST_STIFFENING: f64 = 1e4;
 /// With contact, the frames at t = 2k/frames keep the whole gap and the straight ways between frames half of it: where
 /// they would not, states of the search are recorded as frames between.
 ///
-/// A stage that finds no equilibrium ends the run: what was reached is returned, with
-/// [`StageOutcome::converged`] false. Where contact keeps creases from their targets, [`QuasiStaticRun::jam`] says so.
+/// Every run ends: load steps shrink to no less than a thousandth of the longest, and a stage takes no more Newton
+/// iterations than [`QuasiStaticOptions::iterations_a_step`] allows. A stage that finds no equilibrium in them ends the
+/// run: what was reached is returned, with [`StageOutcome::converged`] false and the evidence in [`StageOutcome::stop`].
+/// Where contact keeps creases from their targets, [`QuasiStaticRun::jam`] says so.
 ///
 /// # Errors
 /// Options out of range, counts that do not fit the model, positions that are not finite, a matrix too large, a gap
@@ -175,25 +166,27 @@ impl Run<'_> {
         let in_contact = self.newton.contact.is_some();
         let mut history = History::new(0.0, self.state.clone(), in_contact);
         let goals = recorded_times(self.options, stage);
-        let spacing = LONGEST_STEP.min(2.0 / self.options.frames as f64);
-        let (mut s, mut length, mut recorded) = (0.0, spacing, 0);
+        let mut pace = Pace::new(self.options.frames, in_contact);
+        let budget = self.budget(goals.len().max(pace.least_steps()));
+        let (mut s, mut recorded) = (0.0, 0);
         while let Some(&goal) = goals.get(recorded) {
-            // A step that would leave less than half of itself before the frame is stretched to it.
-            let reaches = goal - s <= 1.5 * length;
-            let next = if reaches { goal } else { s + length };
-            let is_short = length <= SNAP_STEP * spacing;
-            let trial = self.load_step(stage, next, &history, is_short)?;
+            let (next, reaches) = pace.next(s, goal);
+            let is_short = pace.is_short();
+            let left = budget.saturating_sub(outcome.iterations);
+            let trial = self.load_step(stage, next, &history, is_short, left)?;
             outcome.add(&trial.settled);
             if !trial.settled.converged {
+                let is_spent = outcome.iterations >= budget;
                 let stiffened = self.stiffen_barriers(&trial.state);
-                if is_short && !stiffened {
+                if is_spent || (is_short && !stiffened) {
+                    outcome.stop = Some(self.stop(is_spent, next - s, &trial.settled));
                     outcome.residual = trial.settled.residual;
                     break;
                 }
-                length = (next - s) / STEP_FACTOR;
+                pace.shorten(next - s);
                 continue;
             }
-            length = (length * self.growth(&trial.settled)).min(spacing);
+            pace.adapt(&trial.settled);
             outcome.snaps += usize::from(trial.settled.iterations > self.options.max_iterations);
             let [from, to] = [s, next].map(|s| stage.start_time() + s);
             self.accept(from, to, &trial);
@@ -216,25 +209,35 @@ impl Run<'_> {
         Ok(converged)
     }
 
-    /// By how much longer the next load step may be.
-    fn growth(&self, settled: &Settled) -> f64 {
-        let excess = settled.factorisations as f64 / COSTLY_FACTORISATIONS as f64;
-        if excess > 1.0 && self.newton.contact.is_none() {
-            1.0 / excess.min(MOST_SHORTENED)
-        } else if settled.iterations <= EASY_ITERATIONS {
-            STEP_FACTOR
+    /// The iterations allowed in a stage of at least `load_steps`.
+    fn budget(&self, load_steps: usize) -> usize {
+        self.options.iterations_a_step.saturating_mul(load_steps)
+    }
+
+    /// What ended the stage in a load step of length `step`, the last attempt of which `settled` so.
+    fn stop(&self, is_spent: bool, step: f64, settled: &Settled) -> Stop {
+        let reason = if is_spent {
+            StopReason::OutOfIterations
         } else {
-            1.0
+            StopReason::NoEquilibrium
+        };
+        Stop {
+            reason,
+            step,
+            residual: settled.residual,
+            tolerance: self.tolerance().force,
         }
     }
 
-    /// The equilibrium at `s`, sought from the state extrapolated to it where contact allows, else from the last one.
+    /// The equilibrium at `s`, sought from the state extrapolated to it where contact allows, else from the last one, in
+    /// `most_iterations` at most.
     fn load_step(
         &mut self,
         stage: Stage,
         s: f64,
         history: &History,
         is_short: bool,
+        most_iterations: usize,
     ) -> Result<Trial, SolverError> {
         self.schedule.targets(stage, s, &mut self.targets);
         let keeps_way = self.newton.contact.is_some();
@@ -255,6 +258,7 @@ impl Run<'_> {
             report(progress, model, reached, state)
         };
         let budget = self.options.max_iterations * if is_short { SNAP_BUDGET } else { 1 };
+        let budget = budget.min(most_iterations);
         let tolerance = self.tolerance();
         let settled =
             self.newton

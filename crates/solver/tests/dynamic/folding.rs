@@ -172,20 +172,25 @@ fn a_fold_past_half_a_turn_is_followed() {
 }
 
 #[test]
-fn a_run_out_of_steps_says_so_with_its_residual_and_keeps_what_it_reached() {
-    let options = DynamicOptions {
-        step_budget: 200,
-        ..coarse()
-    };
-    let run = fold(&units(Case::S, 3, 2), &options);
-    assert_eq!(run.stages[1].status, StageStatus::OutOfSteps);
-    assert!(run.stages[1].residual > 1e-8);
-    assert_eq!(run.frames.last().unwrap().time, 2.0);
-    assert!(
-        run.stages.iter().all(|stage| stage.steps < 4_000),
-        "{:?}",
-        run.stages
-    );
+fn a_run_out_of_steps_ends_there_and_says_so_with_its_evidence() {
+    let units = units(Case::S, 3, 2);
+    let whole = fold(&units, &coarse());
+    for step_budget in [0, 200, 2_000] {
+        let options = DynamicOptions {
+            step_budget,
+            ..coarse()
+        };
+        let run = fold(&units, &options);
+        let last = run.stages.last().unwrap();
+        assert_eq!(last.status, StageStatus::OutOfSteps, "{step_budget}");
+        assert!(last.residual > last.tolerance, "{last:?}");
+        let frame = run.frames.last().unwrap();
+        assert_eq!(frame.time, last.reached);
+        assert!(last.reached > 0.0 && last.reached < 2.0, "{last:?}");
+        // Not a frozen sheet that is recorded to the end: what came before is that of the whole run, bit for bit.
+        let earlier = &run.frames[..run.frames.len() - 1];
+        assert_eq!(earlier, &whole.frames[..earlier.len()]);
+    }
 }
 
 #[test]

@@ -159,8 +159,8 @@ impl Viewer {
 
     fn finish_run(&mut self, scene: Scene, finished: &Finished) {
         let verdict = finished.report.collision.verdict.clone();
-        let words = match &finished.report.jam {
-            Some(jam) => format!("jammed at t = {:.4}; {verdict} as far as it came", jam.t),
+        let words = match finished.report.unfinished() {
+            Some(words) => format!("{words}; {verdict} as far as it came"),
             None => format!(
                 "{verdict}, {:.2} s",
                 finished.folded.duration().as_secs_f64()

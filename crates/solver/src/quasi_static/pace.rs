@@ -1,0 +1,141 @@
+//! How long load steps are.
+
+use super::newton::Settled;
+
+/// A load step that settled within this many iterations is followed by a longer one.
+const EASY_ITERATIONS: usize = 10;
+/// After one that took more factorisations than this, shorter ones lead on faster: what they are extrapolated to is nearer.
+const COSTLY_FACTORISATIONS: usize = 8;
+const MOST_SHORTENED: f64 = 8.0;
+/// A stage has at least as many load steps as with 240 frames, so that the path does not depend on how few frames are
+/// recorded.
+const LEAST_STEPS: usize = 120;
+/// By which load steps grow and shrink.
+const STEP_FACTOR: f64 = 2.0;
+/// Load steps shortened to this share of the longest are given the budget of a snap.
+const SNAP_STEP: f64 = 0.1;
+/// No load step is shortened below this share of the longest. Where equilibria follow each other so closely that each
+/// takes many factorisations however short the way to it, as in a near-rigid sheet that gives way bit by bit, steps would
+/// otherwise shrink until time stands still.
+const LEAST_STEP: f64 = 1e-3;
+
+/// The length of the load steps of one stage, in stage-local time.
+#[derive(Debug, Clone)]
+pub(super) struct Pace {
+    least_steps: usize,
+    longest: f64,
+    length: f64,
+    in_contact: bool,
+}
+
+impl Pace {
+    /// Of a stage of which `frames` / 2 states are recorded.
+    pub(super) fn new(frames: usize, in_contact: bool) -> Self {
+        let least_steps = LEAST_STEPS.max(frames / 2);
+        let longest = 1.0 / least_steps as f64;
+        Self {
+            least_steps,
+            longest,
+            length: longest,
+            in_contact,
+        }
+    }
+
+    /// How many load steps the stage has if all are of the longest.
+    pub(super) fn least_steps(&self) -> usize {
+        self.least_steps
+    }
+
+    /// Where the load step from `s` ends, and whether that is `goal`.
+    pub(super) fn next(&self, s: f64, goal: f64) -> (f64, bool) {
+        // A step that would leave less than half of itself before the frame is stretched to it.
+        let reaches = goal - s <= 1.5 * self.length;
+        (if reaches { goal } else { s + self.length }, reaches)
+    }
+
+    /// Whether steps are so short that the sheet is taken to snap.
+    pub(super) fn is_short(&self) -> bool {
+        self.length <= SNAP_STEP * self.longest
+    }
+
+    /// Shortens the steps after one of `length` found no equilibrium.
+    pub(super) fn shorten(&mut self, length: f64) {
+        self.set(length / STEP_FACTOR);
+    }
+
+    /// Lengthens or shortens the steps by what the last one, which found one, took.
+    pub(super) fn adapt(&mut self, settled: &Settled) {
+        self.set(self.length * self.growth(settled));
+    }
+
+    fn set(&mut self, length: f64) {
+        self.length = length.clamp(LEAST_STEP * self.longest, self.longest);
+    }
+
+    /// By how much longer the next load step may be.
+    fn growth(&self, settled: &Settled) -> f64 {
+        let excess = settled.factorisations as f64 / COSTLY_FACTORISATIONS as f64;
+        if excess > 1.0 && !self.in_contact {
+            1.0 / excess.min(MOST_SHORTENED)
+        } else if settled.iterations <= EASY_ITERATIONS {
+            STEP_FACTOR
+        } else {
+            1.0
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn settled(iterations: usize) -> Settled {
+        Settled {
+            converged: true,
+            residual: 0.0,
+            iterations,
+            factorisations: iterations,
+        }
+    }
+
+    #[test]
+    fn steps_that_stay_costly_however_short_end_the_stage_all_the_same() {
+        for frames in [2, 180, 240, 100_000] {
+            let mut pace = Pace::new(frames, false);
+            let most = 1_000 * pace.least_steps() + 1;
+            let (mut s, mut steps) = (0.0, 0);
+            while s < 1.0 && steps <= most {
+                s = pace.next(s, 1.0).0;
+                pace.adapt(&settled(1_000));
+                steps += 1;
+            }
+            assert!(s == 1.0 && steps > most / 2, "{frames}: {s} {steps}");
+        }
+    }
+
+    #[test]
+    fn steps_that_fail_become_short_and_shrink_no_further_than_the_floor() {
+        let mut pace = Pace::new(240, true);
+        let mut failures = 0;
+        while !pace.is_short() {
+            pace.shorten(pace.next(0.0, 1.0).0);
+            failures += 1;
+        }
+        assert_eq!(failures, 4);
+        for _ in 0..100 {
+            pace.shorten(pace.next(0.0, 1.0).0);
+        }
+        let least = pace.next(0.0, 1.0).0;
+        assert!((least - LEAST_STEP / 120.0).abs() < 1e-15, "{least}");
+    }
+
+    #[test]
+    fn easy_steps_grow_to_the_spacing_of_frames_and_no_further() {
+        let mut pace = Pace::new(480, false);
+        pace.shorten(1e-9);
+        for _ in 0..100 {
+            pace.adapt(&settled(2));
+        }
+        assert_eq!(pace.next(0.0, 1.0), (1.0 / 240.0, false));
+    }
+}
