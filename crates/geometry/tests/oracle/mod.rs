@@ -5,5 +5,5 @@ mod polynomial;
 pub(crate) mod queries;
 #[path = "../../src/collide/random.rs"]
 #[expect(dead_code, reason = "shared with the unit tests, which use more of it")]
-mod random;
+pub(crate) mod random;
 pub(crate) mod trial;

@@ -70,7 +70,7 @@ pub(crate) fn answer(query: &Query, separation: f64) -> Meeting {
 }
 
 impl Tally {
-    fn count(mut self, query: &Query, kernel: Kernel) -> Self {
+    pub(crate) fn count(mut self, query: &Query, kernel: Kernel) -> Self {
         let (meets, said) = (query.meets(), kernel(query));
         self.queries += 1;
         self.meets += u64::from(meets);
