@@ -28,6 +28,14 @@ use crate::{
 /// Fewer pairs than this are not worth a thread.
 const PAIRS_A_TASK: usize = 128;
 
+/// A pair that left its side in an interval.
+#[derive(Debug, Clone)]
+struct Suspect {
+    frame: usize,
+    times: [f64; 2],
+    witness: Witness,
+}
+
 /// Judges a motion frame by frame, holding two frames at a time.
 #[derive(Debug)]
 pub struct Checker<'a> {
@@ -57,6 +65,9 @@ pub struct Checker<'a> {
     touching: BTreeSet<(u32, u32)>,
     /// Pairs that may have been within τ in the last interval, in order.
     near: Vec<[u32; 2]>,
+    /// Pairs that left the side they were followed on, without an instant at which they are surely too deep, with the
+    /// last interval in which they did: whether they pass through each other is counted on the sheet.
+    suspects: BTreeMap<(u32, u32), Suspect>,
     crossings: Crossings,
     /// The closest approach so far, a length.
     nearest: Option<Separation>,
@@ -108,6 +119,7 @@ impl<'a> Checker<'a> {
             penetrating: BTreeSet::new(),
             touching: BTreeSet::new(),
             near: Vec::new(),
+            suspects: BTreeMap::new(),
             crossings: Crossings::new(
                 sheet,
                 &Limits {
@@ -306,9 +318,8 @@ impl<'a> Checker<'a> {
                 }
                 Some(apart) => self.sides.push(((f, g), apart)),
                 None => {
-                    let time = self.last.time;
-                    self.unfollowed.push((f, g));
-                    self.penetrates(&pair, 0, [time, time], starts_deep(&pair, &pose, limits));
+                    let times = [self.last.time; 2];
+                    self.leaves_its_side(&pair, times, starts_deep(&pair, &pose, limits));
                 }
             }
         }
@@ -407,31 +418,56 @@ impl<'a> Checker<'a> {
             }
             Judgement::Penetrates(witness) => {
                 decided_by.search += 1;
-                self.unfollowed.push(key(pair));
-                self.penetrates(pair, self.frames - 1, times, witness);
+                self.leaves_its_side(pair, times, witness);
             }
-            Judgement::Undecided { time } => {
+            Judgement::Undecided => {
+                // Its sides are open; what passes through what is counted.
                 decided_by.search += 1;
                 self.unfollowed.push(key(pair));
-                self.report.undecided.push(Undecided {
-                    time: at(time),
-                    frame: self.frames - 1,
-                    faces: pair.faces,
-                });
+                self.near.push(pair.faces);
             }
         }
     }
 
+    /// Takes in that a pair is deeper than τ, or else not where it was followed to.
+    fn leaves_its_side(&mut self, pair: &Pair, times: [f64; 2], witness: Witness) {
+        let frame = self.frames - 1;
+        self.unfollowed.push(key(pair));
+        if let Some(approach) = witness.approach {
+            self.keep_nearer(Separation {
+                distance: approach.closest.distance,
+                time: times[0] + (times[1] - times[0]) * approach.time,
+                faces: pair.faces,
+                points: [approach.closest.on_a, approach.closest.on_b],
+            });
+        }
+        if witness.is_sure(self.tolerance) {
+            self.penetrates(pair.faces, frame, times, witness);
+            return;
+        }
+        self.touching.insert(key(pair));
+        self.near.push(pair.faces);
+        self.suspects.insert(
+            key(pair),
+            Suspect {
+                frame,
+                times,
+                witness,
+            },
+        );
+    }
+
     /// Counts the passages of the sheet through itself in the interval that begins at `start`, or at the first frame.
     fn count_crossings(&mut self, start: Option<&Placed>) {
-        let lost: BTreeSet<_> = self.penetrating.iter().chain(&self.unfollowed).collect();
+        self.near.sort_unstable();
+        self.near.dedup();
         let first = start.unwrap_or(&self.last);
         let times = [first.time, self.last.time];
         let interval = crossings::Interval {
             times,
             positions: [&first.positions, &self.last.positions],
             near: &self.near,
-            is_lost: &|[f, g]| lost.contains(&(f, g)),
+            is_lost: &|[f, g]| self.penetrating.contains(&(f, g)),
         };
         let found = match start {
             None => self.crossings.begin(&interval),
@@ -442,9 +478,7 @@ impl<'a> Checker<'a> {
             self.crosses(crossing, frame);
         }
         for [f, g] in found.unsure {
-            let is_new = !self.unfollowed.contains(&(f, g)) && !self.penetrating.contains(&(f, g));
-            if is_new {
-                self.loses((f, g));
+            if !self.penetrating.contains(&(f, g)) {
                 self.report.undecided.push(Undecided {
                     time: times[0],
                     frame,
@@ -454,18 +488,35 @@ impl<'a> Checker<'a> {
         }
     }
 
-    /// Records a part that passes through the sheet beside each of the triangles.
+    /// Records what passes through the sheet: as its pair of triangles was found to, or else beside each of them.
     fn crosses(&mut self, crossing: crossings::Crossing, frame: usize) {
-        let [f, g] = crossing.faces;
-        if !self.penetrating.insert((f, g)) {
+        let keys = crossing.pairs.iter().map(|&[f, g]| (f, g));
+        if keys.clone().any(|pair| self.penetrating.contains(&pair)) {
             return;
         }
-        self.loses((f, g));
+        let is_meant = |suspect: &Suspect| suspect.times[1] >= crossing.since;
+        let suspect = keys
+            .filter_map(|pair| Some((pair, self.suspects.get(&pair).filter(|s| is_meant(s))?)))
+            .next();
+        if let Some(((f, g), suspect)) = suspect {
+            let Suspect {
+                frame,
+                times,
+                witness,
+            } = suspect.clone();
+            self.penetrates([f, g], frame, times, witness);
+            return;
+        }
+        let Some(&faces) = crossing.pairs.first() else {
+            return;
+        };
+        self.unfollows(faces);
+        self.penetrating.insert((faces[0], faces[1]));
         self.report.penetrations.push(Penetration {
             time: crossing.since,
             passed: crossing.passed,
             frame,
-            faces: crossing.faces,
+            faces,
             vertices: crossing.witness.vertices,
             point: crossing.witness.point + self.origin,
             depth: crossing.witness.depth / self.sheet.unit_length,
@@ -475,27 +526,21 @@ impl<'a> Checker<'a> {
     }
 
     /// A pair has no side any more.
-    fn loses(&mut self, pair: (u32, u32)) {
-        self.sides.retain(|(other, _)| *other != pair);
-        self.unfollowed.push(pair);
+    fn unfollows(&mut self, [f, g]: [u32; 2]) {
+        self.sides.retain(|(other, _)| *other != (f, g));
+        if !self.unfollowed.contains(&(f, g)) {
+            self.unfollowed.push((f, g));
+        }
     }
 
-    fn penetrates(&mut self, pair: &Pair, frame: usize, times: [f64; 2], witness: Witness) {
+    fn penetrates(&mut self, faces: [u32; 2], frame: usize, times: [f64; 2], witness: Witness) {
         let at = |t: f64| times[0] + (times[1] - times[0]) * t;
-        if let Some(approach) = witness.approach {
-            self.keep_nearer(Separation {
-                distance: approach.closest.distance,
-                time: at(approach.time),
-                faces: pair.faces,
-                points: [approach.closest.on_a, approach.closest.on_b],
-            });
-        }
-        self.penetrating.insert(key(pair));
+        self.penetrating.insert((faces[0], faces[1]));
         self.report.penetrations.push(Penetration {
             time: at(witness.contact),
             passed: at(witness.passed),
             frame,
-            faces: pair.faces,
+            faces,
             vertices: witness.vertices,
             point: witness.point + self.origin,
             depth: witness.depth / self.sheet.unit_length,

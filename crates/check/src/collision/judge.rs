@@ -23,14 +23,13 @@ pub(super) enum Judgement {
         /// The closest approach, where it may be news.
         approach: Option<Approach>,
     },
+    /// It gets deeper than τ, or leaves the side it was followed on.
     Penetrates(Witness),
-    Undecided {
-        time: f64,
-    },
+    Undecided,
 }
 
 /// A penetration in the time and the coordinates of the interval.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub(super) struct Witness {
     pub(super) contact: f64,
     pub(super) passed: f64,
@@ -40,6 +39,14 @@ pub(super) struct Witness {
     pub(super) depth: f64,
     /// The closest approach on the way, where it may be news.
     pub(super) approach: Option<Approach>,
+}
+
+impl Witness {
+    /// Whether the triangles are deeper than τ in each other at an instant: no push by τ parts them then.
+    pub(super) fn is_sure(&self, tolerance: f64) -> bool {
+        use PenetrationKind::{EdgeEdge, VertexFacet};
+        matches!(self.kind, EdgeEdge | VertexFacet) && self.depth > tolerance
+    }
 }
 
 /// What a pair is asked.
@@ -71,7 +78,7 @@ impl Question<'_> {
             Outcome::Crossed(crossing) => {
                 return penetrates(self.witness(pair, moving, &crossing));
             }
-            Outcome::Undecided { time } => return Judgement::Undecided { time },
+            Outcome::Undecided { .. } => return Judgement::Undecided,
         };
         let tolerance = self.limits.tolerance;
         let may_touch = pair.shared == 0 && !self.has_touched && passage.clearance <= tolerance;

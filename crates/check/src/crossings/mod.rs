@@ -85,8 +85,8 @@ pub(crate) struct Crossings {
 /// A passage that nothing undoes.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Crossing {
-    /// Triangles that hold the features that meet, the smaller index first.
-    pub(crate) faces: [u32; 2],
+    /// Pairs of triangles that hold the features that meet, the smaller index first.
+    pub(crate) pairs: Vec<[u32; 2]>,
     pub(crate) witness: Witness,
     /// The motion time at which the contact begins.
     pub(crate) since: f64,
@@ -154,7 +154,7 @@ impl Crossings {
                 continue;
             }
             let Some(pierced) = piercing(&self.topology, edge, face, &positions) else {
-                found.unsure.extend(self.first_pair(edge, face));
+                found.unsure.extend(self.pairs_of(edge, face).first());
                 continue;
             };
             let known = terms
@@ -164,14 +164,12 @@ impl Crossings {
                 continue;
             }
             let witness = Witness::of_piercing(&self.topology, edge, face, &positions);
-            found
-                .crossings
-                .extend(self.first_pair(edge, face).map(|faces| Crossing {
-                    faces,
-                    witness,
-                    since: interval.times[0],
-                    passed: interval.times[0],
-                }));
+            found.crossings.push(Crossing {
+                pairs: self.pairs_of(edge, face),
+                witness,
+                since: interval.times[0],
+                passed: interval.times[0],
+            });
         }
         found
     }
@@ -205,10 +203,10 @@ impl Crossings {
             .any(|pair| (interval.is_lost)(pair))
     }
 
-    /// The first triangle at an edge, with the one given.
-    fn first_pair(&self, edge: u32, face: u32) -> Option<[u32; 2]> {
-        let first = self.topology.edge_faces[edge as usize].first()?;
-        Some([*first.min(&face), *first.max(&face)])
+    /// The triangles at an edge, each with the one given.
+    fn pairs_of(&self, edge: u32, face: u32) -> Vec<[u32; 2]> {
+        let around = self.topology.edge_faces[edge as usize].iter();
+        around.map(|&f| [f.min(face), f.max(face)]).collect()
     }
 
     fn contact(&mut self, since: f64) -> Contact {
@@ -388,14 +386,13 @@ impl Crossings {
                     continue;
                 }
                 let witness = Witness::of_passing(&self.topology, cell, ends, stretch.times);
-                let mut pairs = cell.faces(&self.topology);
                 let ended = interval.at(stretch.times[1]);
-                found.crossings.extend(pairs.next().map(|faces| Crossing {
-                    faces,
+                found.crossings.push(Crossing {
+                    pairs: cell.faces(&self.topology).collect(),
                     witness,
                     since: contact.since,
                     passed: contact.passed.unwrap_or(ended),
-                }));
+                });
             }
         }
     }

@@ -124,11 +124,6 @@ impl<const N: usize> Patch<N> {
             + TINY;
         lowest(&coefficients) > room || highest(&coefficients) < -room
     }
-
-    /// What rounding may change a coefficient of the volume by.
-    fn volume_error(&self) -> f64 {
-        VOLUME_ERROR * self.reach.element_product() + TINY
-    }
 }
 
 fn spanning<const N: usize>(corners: &[DVec3; N]) -> [DVec3; 3] {
