@@ -152,71 +152,125 @@ fn closing_fold(random: &mut Random) -> Made {
     (part, frames, truth)
 }
 
-/// Panels of several strips: each between two abscissas, with the heights of its ends at every frame.
+/// A panel between two ends.
 struct Panel {
     ends: [usize; 2],
     strip: usize,
 }
 
-fn layers(random: &mut Random) -> Made {
-    let strips = 1 + random.index(3);
-    let frames = 2 + random.index(3);
-    let mut part = Part::default();
-    let mut panels: Vec<Panel> = Vec::new();
-    let mut heights: Vec<Vec<i64>> = vec![Vec::new(); frames];
-    let mut abscissas: Vec<i64> = Vec::new();
-    let violation = random.index(3) == 0;
-    // The order of the ends from below, with room between them.
-    let mut level = vec![0_i64; frames];
-    for strip in 0..strips {
-        let count = if strips == 1 {
-            3 + random.index(3)
-        } else {
-            2 + random.index(3)
-        };
-        let half = between(random, 6, 16);
-        let first = random.index(2);
-        let (left, right) = (-between(random, 8, 16), between(random, 8, 16));
-        let profile: Vec<[i64; 2]> = (0..count)
-            .map(|i| [if (i + first) % 2 == 0 { left } else { right }, i as i64])
-            .collect();
-        let start = part.corners.len() / 2;
-        part.append(&Part::extruded(&profile, false, [-half, half]));
-        panels.extend((0..count - 1).map(|i| Panel {
+/// Everything between fixed abscissas, from below.
+#[derive(Default)]
+struct Layers {
+    part: Part,
+    panels: Vec<Panel>,
+    abscissas: Vec<i64>,
+    /// Of every end at every frame.
+    heights: Vec<Vec<i64>>,
+}
+
+impl Layers {
+    /// Adds a strip without heights; its panels are the last.
+    fn add_strip(&mut self, abscissas: &[i64], half: i64, strip: usize) {
+        let start = self.abscissas.len();
+        let profile: Vec<_> = abscissas.iter().map(|&x| [x, x]).collect();
+        self.part.append(&Part::extruded(&profile, false, [-half, half]));
+        self.abscissas.extend(abscissas.iter().map(|&x| sixteenths(x)));
+        self.panels.extend((0..abscissas.len() - 1).map(|i| Panel {
             ends: [start + i, start + i + 1],
             strip,
         }));
-        for [x, _] in profile {
-            abscissas.push(sixteenths(x));
+    }
+
+    /// One end is elsewhere at one frame.
+    fn violate(&mut self, random: &mut Random) {
+        let frame = 1 + random.index(self.heights.len() - 1);
+        let vertex = random.index(self.abscissas.len());
+        let by = [-17, -27, 20, 27, -700, 6711, -sixteenths(6), sixteenths(6)][random.index(8)];
+        self.heights[frame][vertex] += by;
+    }
+
+    fn made(self) -> Made {
+        let frames: Vec<Vec<Point>> = self
+            .heights
+            .iter()
+            .map(|heights| {
+                let corners = self.part.corners.iter().enumerate();
+                corners.map(|(i, p)| [p[0], p[1], heights[i / 2]]).collect()
+            })
+            .collect();
+        let (least, nearest) = clearance(&self.panels, &self.abscissas, &self.heights);
+        let mut part = self.part;
+        part.corners.clone_from(&frames[0]);
+        (part, frames, by_height(least, nearest))
+    }
+}
+
+fn layers(random: &mut Random) -> Made {
+    let mut layers = if random.index(3) == 0 { nested(random) } else { stacked(random) };
+    if random.index(3) == 0 {
+        layers.violate(random);
+    }
+    layers.made()
+}
+
+/// Accordions above each other that close, some to exactly flat.
+fn stacked(random: &mut Random) -> Layers {
+    let strips = 1 + random.index(3);
+    let frames = 2 + random.index(3);
+    let mut layers = Layers {
+        heights: vec![Vec::new(); frames],
+        ..Layers::default()
+    };
+    let mut level = vec![0_i64; frames];
+    for strip in 0..strips {
+        let count = if strips == 1 { 3 + random.index(3) } else { 2 + random.index(3) };
+        let first = random.index(2);
+        let ends = [-between(random, 8, 16), between(random, 8, 16)];
+        let abscissas: Vec<i64> = (0..count).map(|i| ends[(i + first) % 2]).collect();
+        layers.add_strip(&abscissas, between(random, 6, 16), strip);
+        for _ in 0..count {
             for (frame, level) in level.iter_mut().enumerate() {
                 let is_last = frame + 1 == frames;
-                let room = match random.index(6) {
-                    _ if frame == 0 => sixteenths(between(random, 1, 4)),
-                    0 | 1 | 2 if is_last => 0,
-                    0 => 0,
+                *level += match random.index(6) {
+                    k if frame == 0 || k > 3 => sixteenths(between(random, 1, 4)),
                     1 => 6711,
+                    k if k == 0 || is_last => 0,
                     _ => sixteenths(between(random, 1, 4)),
                 };
-                *level += room;
-                heights[frame].push(*level);
+                layers.heights[frame].push(*level);
             }
         }
     }
-    if violation {
-        let frame = 1 + random.index(frames - 1);
-        let vertex = random.index(abscissas.len());
-        heights[frame][vertex] += [-17, -27, 20, -sixteenths(6), sixteenths(6)][random.index(5)];
+    layers
+}
+
+/// A fold with an accordion inside, closing together.
+fn nested(random: &mut Random) -> Layers {
+    let frames = 2 + random.index(2);
+    let inner = 1 + random.index(3);
+    let right = between(random, 12, 16);
+    let ends = [-between(random, 8, 15), right - between(random, 2, 6)];
+    let first = random.index(2);
+    let mut layers = Layers::default();
+    layers.add_strip(&[-16, right, -16], between(random, 8, 16), 0);
+    let abscissas: Vec<i64> = (0..=inner).map(|i| ends[(i + first) % 2]).collect();
+    layers.add_strip(&abscissas, between(random, 6, 16), 1);
+    // From below: the lower panel of the fold, what is inside, the upper panel.
+    let upper = layers.panels.remove(1);
+    layers.panels.push(upper);
+    for frame in 0..frames {
+        let high = match random.index(3) {
+            k if frame == 0 || k == 0 => sixteenths(between(random, 8, 16)),
+            1 if frame + 1 < frames => sixteenths(4),
+            _ => [0, 0, 0, 27, 6711][random.index(5)],
+        };
+        let inside = abscissas.iter().enumerate().map(|(i, &x)| {
+            high * (right - x) / (right + 16) * (i as i64 + 1) / (inner as i64 + 2)
+        });
+        let heights = [0, 0, high].into_iter().chain(inside);
+        layers.heights.push(heights.collect());
     }
-    let all: Vec<Vec<Point>> = heights
-        .iter()
-        .map(|heights| {
-            let corners = part.corners.iter().enumerate();
-            corners.map(|(i, p)| [p[0], p[1], heights[i / 2]]).collect()
-        })
-        .collect();
-    let (least, nearest) = clearance(&panels, &abscissas, &heights);
-    part.corners.clone_from(&all[0]);
-    (part, all, by_height(least, nearest))
+    layers
 }
 
 /// The least height of a later panel above an earlier one, and the least distance of panels without a common end.

@@ -36,7 +36,7 @@ fn unit(i: usize) -> Point {
 /// Doubled or halved to a length near the unit; a multiple of 2¹⁰ stays one of 2⁸.
 fn near_unit(mut v: Point) -> Point {
     let largest = |v: Point| v.iter().map(|c| c.abs()).max().unwrap_or(0);
-    while largest(v) < UNIT / 2 {
+    while v != [0; 3] && largest(v) < UNIT / 2 {
         v = v.map(|c| c * 2);
     }
     while largest(v) > 2 * UNIT {
@@ -98,12 +98,16 @@ fn aim(part: &Part, mesh: &Mesh, feature: Feature, random: &mut Random) -> Aim {
         (Feature::InteriorVertex, _) => inner_vertex(mesh, [a, b]).map_or(at(a), at),
         _ => plus(at(a), times(along, share)),
     };
-    let [p, q, r] = corners.map(at);
+    let beside = aimed.map_or_else(|| vec![triangle], |(_, beside)| beside.clone());
+    let normals = beside.iter().map(|&f| {
+        let [p, q, r] = mesh.triangles[f].map(at);
+        normal(p, q, r)
+    });
     Aim {
         at: place,
         along: near_unit(along),
         aside: near_unit(minus(at(c), at(a))),
-        out: normal(p, q, r),
+        out: near_unit(normals.fold([0; 3], plus)),
     }
 }
 
@@ -265,7 +269,60 @@ pub(crate) fn scene(class: Class, random: &mut Random) -> Scene {
     }
 }
 
+/// A plate between the plates of a stack, or a part inside a tube: in, against a side, and out.
+fn within(class: Class, random: &mut Random) -> Option<Scene> {
+    let slip = |random: &mut Random| {
+        let sign = [-1, 1][random.index(2)];
+        sign * [0, 0, 0, 14, 27, 268, 6711][random.index(7)]
+    };
+    let far = sixteenths(44);
+    if class == Class::Stack {
+        let still = Part::stack(random);
+        let moving = Part::plate(random);
+        let level = |random: &mut Random, n: i64| sixteenths(n) + slip(random);
+        let side = [0, 6, 6][random.index(3)];
+        let top = level(random, side);
+        let end = [level(random, 3), level(random, 6), level(random, 0), -far][random.index(4)];
+        let aside = sixteenths(between(random, -8, 8));
+        let path = [
+            [far, 0, sixteenths(3)],
+            [aside, 0, sixteenths(3)],
+            [aside, aside, top],
+            [aside, 0, end],
+            [0, -far, end],
+        ];
+        let count = 3 + random.index(3);
+        let mesh = Mesh::random(&still, random, false);
+        return compose(class, &still, mesh, &moving, &path[..count], random);
+    }
+    let still = Part::tube(random);
+    let [w, h] = [between(random, 2, 6), between(random, 2, 6)];
+    let moving = match random.index(3) {
+        0 => Part::extruded(&[[-w, -h], [w, -h], [w, h], [-w, h]], true, [-8, 8]),
+        1 => Part::extruded(&[[-w, h], [0, -h], [w, h]], false, [-8, 8]),
+        _ => Part::extruded(&[[-w, -h], [w, h]], false, [-6, 12]),
+    };
+    let against = |random: &mut Random| {
+        let x = sixteenths([12 - w, w - 12, 8 - w, 3][random.index(4)]) + slip(random);
+        let z = sixteenths([12 - h, h - 12, h - 8, 0][random.index(4)]) + slip(random);
+        [[x, 0, 0], [0, 0, z], [0, 0, 0]][random.index(3)]
+    };
+    let path = [
+        [0, far, 0],
+        against(random),
+        against(random),
+        against(random),
+        [0, -far, 0],
+    ];
+    let count = 2 + random.index(4);
+    let mesh = Mesh::random(&still, random, false);
+    compose(class, &still, mesh, &moving, &path[..count], random)
+}
+
 fn attempt(class: Class, random: &mut Random) -> Option<Scene> {
+    if matches!(class, Class::Stack | Class::Tube) && random.index(2) == 0 {
+        return within(class, random);
+    }
     let (mut part, feature) = still(class, random);
     if class != Class::Parallel && random.index(3) == 0 {
         // In quarters, so that what is built on it stays exact.
@@ -291,7 +348,21 @@ fn attempt(class: Class, random: &mut Random) -> Option<Scene> {
     if random.index(2) == 0 || class == Class::Beside {
         moving = moving.centred_at(shift);
     }
-    let path = path(class, &aim, random);
+    let kinds = [
+        class,
+        Class::TouchAndBack,
+        Class::Slide,
+        Class::Static,
+        Class::TouchAndBack,
+    ];
+    let kind = match class {
+        Class::Stack | Class::Tube | Class::Thin => kinds[random.index(5)],
+        Class::Interior | Class::Diagonal | Class::Crease | Class::InteriorVertex => {
+            kinds[[0, 0, 0, 1, 2, 3][random.index(6)]]
+        }
+        _ => class,
+    };
+    let path = path(kind, &aim, random);
     compose(class, &part, mesh, &moving, &path, random)
 }
 
