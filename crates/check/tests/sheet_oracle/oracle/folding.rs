@@ -12,7 +12,7 @@ use super::{
     distance::to_f64,
     exact::{Point, UNIT},
     mesh::Mesh,
-    part::{Part, between, sixteenths},
+    part::{Part, below, between, sixteenths},
     random::Random,
     scene::{Scene, Truth},
 };
@@ -173,8 +173,10 @@ impl Layers {
     fn add_strip(&mut self, abscissas: &[i64], half: i64, strip: usize) {
         let start = self.abscissas.len();
         let profile: Vec<_> = abscissas.iter().map(|&x| [x, x]).collect();
-        self.part.append(&Part::extruded(&profile, false, [-half, half]));
-        self.abscissas.extend(abscissas.iter().map(|&x| sixteenths(x)));
+        self.part
+            .append(&Part::extruded(&profile, false, [-half, half]));
+        self.abscissas
+            .extend(abscissas.iter().map(|&x| sixteenths(x)));
         self.panels.extend((0..abscissas.len() - 1).map(|i| Panel {
             ends: [start + i, start + i + 1],
             strip,
@@ -206,7 +208,11 @@ impl Layers {
 }
 
 fn layers(random: &mut Random) -> Made {
-    let mut layers = if random.index(3) == 0 { nested(random) } else { stacked(random) };
+    let mut layers = if random.index(3) == 0 {
+        nested(random)
+    } else {
+        stacked(random)
+    };
     if random.index(3) == 0 {
         layers.violate(random);
     }
@@ -223,7 +229,11 @@ fn stacked(random: &mut Random) -> Layers {
     };
     let mut level = vec![0_i64; frames];
     for strip in 0..strips {
-        let count = if strips == 1 { 3 + random.index(3) } else { 2 + random.index(3) };
+        let count = if strips == 1 {
+            3 + random.index(3)
+        } else {
+            2 + random.index(3)
+        };
         let first = random.index(2);
         let ends = [-between(random, 8, 16), between(random, 8, 16)];
         let abscissas: Vec<i64> = (0..count).map(|i| ends[(i + first) % 2]).collect();
@@ -247,13 +257,15 @@ fn stacked(random: &mut Random) -> Layers {
 /// A fold with an accordion inside, closing together.
 fn nested(random: &mut Random) -> Layers {
     let frames = 2 + random.index(2);
-    let inner = 1 + random.index(3);
+    let inner = 1 + below(random, 3);
     let right = between(random, 12, 16);
     let ends = [-between(random, 8, 15), right - between(random, 2, 6)];
-    let first = random.index(2);
+    let first = below(random, 2);
     let mut layers = Layers::default();
     layers.add_strip(&[-16, right, -16], between(random, 8, 16), 0);
-    let abscissas: Vec<i64> = (0..=inner).map(|i| ends[(i + first) % 2]).collect();
+    let abscissas: Vec<i64> = (0..=inner)
+        .map(|i| if i % 2 == first { ends[0] } else { ends[1] })
+        .collect();
     layers.add_strip(&abscissas, between(random, 6, 16), 1);
     // From below: the lower panel of the fold, what is inside, the upper panel.
     let upper = layers.panels.remove(1);
@@ -264,9 +276,10 @@ fn nested(random: &mut Random) -> Layers {
             1 if frame + 1 < frames => sixteenths(4),
             _ => [0, 0, 0, 27, 6711][random.index(5)],
         };
-        let inside = abscissas.iter().enumerate().map(|(i, &x)| {
-            high * (right - x) / (right + 16) * (i as i64 + 1) / (inner as i64 + 2)
-        });
+        let inside = abscissas
+            .iter()
+            .zip(1..)
+            .map(|(&x, rank)| high * (right - x) / (right + 16) * rank / (inner + 2));
         let heights = [0, 0, high].into_iter().chain(inside);
         layers.heights.push(heights.collect());
     }
@@ -308,7 +321,7 @@ fn height(panel: &Panel, x: i64, abscissas: &[i64], heights: &[i64]) -> i64 {
 
 fn flap(random: &mut Random) -> Made {
     let slope = [0, 0, 8, -8][random.index(4)];
-    let [a, b] = [(); 2].map(|()| between(random, 10, 16));
+    let [a, b] = [(); 2].map(|()| 2 * between(random, 5, 8));
     let profile = [[-a, slope * a / 16], [0, 0], [b, slope * b / 16]];
     let mut part = Part::extruded(&profile, false, [0, 16]);
     let first = part.corners.len();
@@ -380,12 +393,10 @@ fn own_crease(random: &mut Random) -> Made {
     let offset = [0, 0, 0, 17, -27, 268, -6711][random.index(7)];
     let end = end_height(random);
     let start = [UNIT / 2 + offset, UNIT / 2];
+    // Above or below the panel that lies there: the first beyond the crease, the second at z = 0.
     let down = |h: i64| {
-        if h > 0 {
-            [h + offset, h]
-        } else {
-            [h + offset, h + rise(h, slope)]
-        }
+        let x = h + offset;
+        [x, if x < 0 { h - x * slope / 16 } else { h }]
     };
     let mut ends = vec![start];
     let mut lowest = end;
@@ -397,10 +408,10 @@ fn own_crease(random: &mut Random) -> Made {
         lowest = end.min(0);
     } else {
         ends.push(down(end));
-        if random.index(2) == 0 {
-            ends.push(start);
-        } else if random.index(2) == 0 {
-            ends.push(down(end));
+        match random.index(4) {
+            0 | 1 => ends.push(start),
+            2 => ends.push(down(end)),
+            _ => {}
         }
     }
     let slides = ends.len() == 4;
@@ -434,9 +445,4 @@ fn own_crease(random: &mut Random) -> Made {
         by_height(lowest, nearest)
     };
     (part, frames, truth)
-}
-
-/// How far the first panel lies above z = 0 beside the crease.
-fn rise(x: i64, slope: i64) -> i64 {
-    -x * slope / 16
 }

@@ -20,9 +20,17 @@ pub(crate) fn sixteenths(n: i64) -> i64 {
     n * (UNIT / 16)
 }
 
-/// A random whole number of sixteenths between two.
+/// A random whole number below `count`.
+pub(crate) fn below(random: &mut Random, count: u16) -> i64 {
+    i64::try_from(random.index(usize::from(count))).expect("a small number")
+}
+
+/// A random whole number between two, both possible.
 pub(crate) fn between(random: &mut Random, low: i64, high: i64) -> i64 {
-    low + random.index((high - low + 1) as usize) as i64
+    low + below(
+        random,
+        u16::try_from(high - low + 1).expect("a small range"),
+    )
 }
 
 impl Part {
@@ -114,7 +122,7 @@ impl Part {
     pub(crate) fn strip(random: &mut Random) -> Self {
         let bend = [0, 0, 4, 8][random.index(4)];
         let half = between(random, 6, 16);
-        let count = 3 + random.index(3) as i64;
+        let count = 3 + below(random, 3);
         let profile: Vec<_> = (0..count)
             .map(|i| [12 * i - 6 * (count - 1), if i % 2 == 0 { 0 } else { bend }])
             .collect();
@@ -142,7 +150,7 @@ impl Part {
     /// Plates above each other.
     pub(crate) fn stack(random: &mut Random) -> Self {
         let mut all = Self::default();
-        for level in 0..2 + random.index(2) as i64 {
+        for level in 0..2 + below(random, 2) {
             let mut plate = Self::plate(random);
             for corner in &mut plate.corners {
                 corner[2] += sixteenths(6 * level);

@@ -51,8 +51,9 @@ pub(crate) fn motion_of(class: Class, number: u64) -> (Motion, Truth, Option<f64
 fn verify(motion: &Motion, claim: &CollisionReport) -> Verification {
     let (first, rest) = motion.frames.split_first().expect("a motion has frames");
     let mut verifier = Verifier::new(&motion.sheet, first.clone(), claim);
-    rest.iter()
-        .for_each(|frame| verifier.advance(frame.clone()));
+    for frame in rest {
+        verifier.advance(frame.clone());
+    }
     verifier.finish()
 }
 
@@ -277,7 +278,9 @@ pub(crate) fn try_class(class: Class, count: u64) -> Tally {
         .map(|number| try_scene(class, number))
         .collect();
     let mut tally = Tally::default();
-    trials.iter().for_each(|trial| tally.count(trial));
+    for trial in &trials {
+        tally.count(trial);
+    }
     tally
 }
 
