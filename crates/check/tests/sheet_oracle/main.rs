@@ -35,6 +35,11 @@ fn both_proofs_say_what_is_true() {
     for (class, tally) in &tallies {
         println!("{:<16} {tally}", format!("{class:?}"));
     }
+    let mut all = Tally::default();
+    for (_, tally) in &tallies {
+        all.add(tally);
+    }
+    println!("{:<16} {all}", "all");
     let verdicts = ["missed", "false alarm", "wrong nearness", "undecided"];
     assert_eq!(
         listed(&tallies, &verdicts),

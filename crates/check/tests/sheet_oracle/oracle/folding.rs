@@ -187,7 +187,7 @@ impl Layers {
     fn violate(&mut self, random: &mut Random) {
         let frame = 1 + random.index(self.heights.len() - 1);
         let vertex = random.index(self.abscissas.len());
-        let by = [-17, -27, 20, 27, -700, 6711, -sixteenths(6), sixteenths(6)][random.index(8)];
+        let by = [-17, -27, 20, 27, -700, 6711, -sixteenths(6), sixteenths(6)][random.index(10)];
         self.heights[frame][vertex] += by;
     }
 
@@ -213,7 +213,7 @@ fn layers(random: &mut Random) -> Made {
     } else {
         stacked(random)
     };
-    if random.index(3) == 0 {
+    if random.index(2) == 0 {
         layers.violate(random);
     }
     layers.made()
