@@ -187,7 +187,18 @@ impl Layers {
     fn violate(&mut self, random: &mut Random) {
         let frame = 1 + random.index(self.heights.len() - 1);
         let vertex = random.index(self.abscissas.len());
-        let by = [-17, -27, 20, 27, -700, 6711, -sixteenths(6), sixteenths(6)][random.index(10)];
+        let by = [
+            -sixteenths(7),
+            sixteenths(7),
+            -17,
+            -27,
+            20,
+            27,
+            -700,
+            6711,
+            -sixteenths(6),
+            sixteenths(6),
+        ][random.index(10)];
         self.heights[frame][vertex] += by;
     }
 

@@ -428,7 +428,7 @@ fn truth(bodies: &Bodies, nearest: f64, is_thin: bool) -> Truth {
             Truth::Free
         };
     }
-    let small = 0.75 * TOLERANCE;
+    let small = 0.5 * TOLERANCE;
     if bodies.can_be_undone(small, 1) || bodies.can_be_undone(small, 4) {
         return if nearest < 0.7 * TOLERANCE {
             Truth::Touching
