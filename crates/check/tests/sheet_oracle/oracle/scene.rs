@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use foldmotion_pattern::{
     Assignment, CreaseKind, Edge, Facet, FacetKind, Frame, LayerOrder, Motion, Sheet,
 };
-use glam::{DQuat, DVec3};
+use glam::{DQuat, DVec2, DVec3};
 
 use super::{
     exact::{Point, UNIT},
@@ -145,6 +145,11 @@ fn position(weights: &Weights, corners: &[Point]) -> DVec3 {
     DVec3::new(along(0), along(1), along(2))
 }
 
+/// Along a direction in which no polygon stands: the crease pattern must have triangles with an area.
+fn pattern(p: DVec3) -> DVec2 {
+    DVec2::new(p.x + 0.371 * p.z, p.y + 0.613 * p.z)
+}
+
 fn assemble(mesh: &Mesh, frames: &[Vec<Point>], order: &Order) -> Motion {
     let mut number = vec![0_u32; order.vertices.len()];
     for (new, &old) in order.vertices.iter().enumerate() {
@@ -179,7 +184,7 @@ fn assemble(mesh: &Mesh, frames: &[Vec<Point>], order: &Order) -> Motion {
     };
     Motion {
         sheet: Sheet {
-            vertices: positions(&frames[0]).iter().map(|p| p.truncate()).collect(),
+            vertices: positions(&frames[0]).into_iter().map(pattern).collect(),
             edges: edges(&faces, &polygon_of),
             face_facets: polygon_of.iter().map(|&p| p as u32).collect(),
             facets: facets.collect(),
