@@ -1,0 +1,167 @@
+//! The verdict and its second proof against the oracle for sheets.
+//!
+//! `cargo run --release -p foldmotion-check --example sheet_oracle` is the same on 100 000 sheets.
+#![expect(clippy::expect_used, reason = "a test stops where a value is missing")]
+
+mod oracle;
+
+use foldmotion_check::{CollisionOptions, Verdict, collisions};
+use oracle::{
+    class::Class,
+    scene::Truth,
+    trial::{HEADER, Tally, is_right, motion_of, try_class},
+    yardstick::shows_crossing,
+};
+
+/// Scenes of each class.
+const SHARE: u64 = 34;
+
+/// Scenes by class with what is wrong, as the message of a failing test.
+fn listed(tallies: &[(Class, Tally)], what: &[&str]) -> Vec<String> {
+    let wrong = tallies.iter().flat_map(|(class, tally)| {
+        let lists = tally
+            .lists()
+            .into_iter()
+            .filter(|(name, list)| what.contains(name) && !list.is_empty());
+        lists.map(move |(name, list)| format!("{class:?}: {name} {list:?}"))
+    });
+    wrong.collect()
+}
+
+#[test]
+fn both_proofs_say_what_is_true() {
+    let tallies = Class::ALL.map(|class| (class, try_class(class, SHARE)));
+    println!("{HEADER}");
+    for (class, tally) in &tallies {
+        println!("{:<16} {tally}", format!("{class:?}"));
+    }
+    let mut all = Tally::default();
+    for (_, tally) in &tallies {
+        all.add(tally);
+    }
+    println!("{:<16} {all}", "all");
+    let verdicts = ["missed", "false alarm", "wrong nearness", "undecided"];
+    assert_eq!(
+        listed(&tallies, &verdicts),
+        Vec::<String>::new(),
+        "the verdict"
+    );
+    let second = [
+        "right but refuted",
+        "right but unproved",
+        "wrong but verified",
+        "tampering passed",
+    ];
+    assert_eq!(
+        listed(&tallies, &second),
+        Vec::<String>::new(),
+        "the second proof"
+    );
+    let distances = ["separation too large", "separation too small"];
+    assert_eq!(
+        listed(&tallies, &distances),
+        Vec::<String>::new(),
+        "the separation"
+    );
+}
+
+#[test]
+fn the_verdict_of_a_scene_is_that_of_all_its_variations() {
+    for class in Class::ALL {
+        for number in 0..3 {
+            let mut random = class.random(1_000_000 + number);
+            let scene = class.scene(&mut random);
+            for variation in 0..6 {
+                let motion = scene.varied(&mut random);
+                let report = collisions(&motion, &CollisionOptions::default(), &|_| true);
+                let verdict = report.expect("the motion can be judged").verdict;
+                assert!(
+                    is_right(scene.truth, verdict),
+                    "{class:?} {number}, variation {variation}: {:?} but {verdict:?}",
+                    scene.truth
+                );
+            }
+        }
+    }
+}
+
+#[test]
+fn the_classes_have_scenes_of_every_kind() {
+    let mut all = std::collections::BTreeMap::new();
+    for class in Class::ALL {
+        for number in 0..60 {
+            let (motion, truth, _) = motion_of(class, number);
+            *all.entry(truth).or_insert(0) += 1;
+            assert!(
+                (2..=40).contains(&motion.sheet.faces.len()),
+                "{class:?} {number}"
+            );
+            assert!((1..=8).contains(&motion.frames.len()), "{class:?} {number}");
+        }
+    }
+    let count = |truth| all.get(&truth).copied().unwrap_or(0);
+    assert!(count(Truth::Penetrating) > 300, "{all:?}");
+    assert!(count(Truth::Touching) > 200, "{all:?}");
+    assert!(count(Truth::Free) > 60, "{all:?}");
+    assert!(count(Truth::Open) < 20, "{all:?}");
+}
+
+#[test]
+fn the_yardstick_shows_what_lasts_and_nothing_where_all_is_free() {
+    let lasting = [
+        Class::Interior,
+        Class::Diagonal,
+        Class::Crease,
+        Class::InteriorVertex,
+        Class::Along,
+        Class::Flap,
+        Class::OwnCrease,
+    ];
+    for class in Class::ALL {
+        let (mut through, mut shown) = (0, 0);
+        for number in 0..40 {
+            let (motion, truth, _) = motion_of(class, number);
+            let shows = shows_crossing(&motion, &mut class.random(!number));
+            assert!(truth != Truth::Free || !shows, "{class:?} {number}");
+            through += u32::from(truth == Truth::Penetrating);
+            shown += u32::from(truth == Truth::Penetrating && shows);
+        }
+        let demanded = if lasting.contains(&class) {
+            through * 9 / 10
+        } else {
+            0
+        };
+        assert!(shown >= demanded, "{class:?}: {shown} of {through}");
+    }
+}
+
+#[test]
+fn classes_are_found_by_their_names() {
+    for class in Class::ALL {
+        assert_eq!(Class::named(&format!("{class:?}")), Some(class));
+    }
+    assert_eq!(Class::named("Sideways"), None);
+}
+
+/// The yardstick as a judge: what sampled instants show.
+#[test]
+fn a_judge_that_samples_instants_is_caught_both_ways() {
+    let (mut missed, mut alarms) = (0, 0);
+    for class in [Class::Parallel, Class::Slide, Class::TouchAndBack] {
+        for number in 0..60 {
+            let (motion, truth, _) = motion_of(class, number);
+            let shows = shows_crossing(&motion, &mut class.random(!number));
+            let said = if shows {
+                Verdict::Penetrating
+            } else {
+                Verdict::Touching
+            };
+            missed += u32::from(truth == Truth::Penetrating && !is_right(truth, said));
+            alarms += u32::from(truth == Truth::Touching && !is_right(truth, said));
+        }
+    }
+    assert!(
+        missed > 20 && alarms > 20,
+        "{missed} missed, {alarms} alarms"
+    );
+}
