@@ -13,6 +13,7 @@ mod oracle;
 
 use std::{error::Error, fs::File, io::BufWriter, process::ExitCode, time::Instant};
 
+use foldmotion_check::{CollisionOptions, collisions};
 use foldmotion_pattern::FoldHeader;
 use oracle::{
     class::Class,
@@ -65,6 +66,13 @@ fn main() -> Result<ExitCode, Box<dyn Error>> {
     if let (Some(class), Some(number)) = (asked.class, asked.number) {
         println!("{:#?}", try_scene(class, number));
         let (motion, ..) = motion_of(class, number);
+        let report = collisions(&motion, &CollisionOptions::default(), &|_| true)?;
+        for penetration in &report.penetrations {
+            println!("{penetration:?}");
+        }
+        for undecided in &report.undecided {
+            println!("{undecided:?}");
+        }
         println!("{:?}", motion.sheet.faces);
         for frame in &motion.frames {
             println!("t = {}", frame.time);
