@@ -57,6 +57,8 @@ pub struct Checker<'a> {
     pub(super) unfollowed: Vec<(u32, u32)>,
     /// The layers of the last frame, ordered by pair.
     pub(super) layers: Vec<LayerPair>,
+    /// Layers whose order the file or an assignment has claimed, as long as they are in contact.
+    pub(super) claimed: BTreeSet<[u32; 2]>,
     /// Whether the rules were tested at the last frame.
     pub(super) is_proved: bool,
     pub(super) penetrating: BTreeSet<(u32, u32)>,
@@ -114,6 +116,7 @@ impl<'a> Checker<'a> {
             sides: Vec::new(),
             unfollowed: Vec::new(),
             layers: Vec::new(),
+            claimed: BTreeSet::new(),
             is_proved: false,
             contradicting: BTreeSet::new(),
             penetrating: BTreeSet::new(),
@@ -406,6 +409,9 @@ impl<'a> Checker<'a> {
                 if is_touching {
                     self.touching.insert(key(pair));
                 }
+                if matches!(side, Side::Apart(_)) {
+                    self.claimed.remove(&pair.faces);
+                }
                 self.sides.push((key(pair), side));
                 if let Some(approach) = approach {
                     self.keep_nearer(Separation {
@@ -420,11 +426,14 @@ impl<'a> Checker<'a> {
                 decided_by.search += 1;
                 self.leaves_its_side(pair, times, witness);
             }
-            Judgement::Undecided => {
-                // Its sides are open; what passes through what is counted.
+            Judgement::Undecided { is_near } => {
+                // What passes through what is counted, whatever the sides.
                 decided_by.search += 1;
                 self.unfollowed.push(key(pair));
-                self.near.push(pair.faces);
+                if is_near {
+                    self.near.push(pair.faces);
+                    self.touching.insert(key(pair));
+                }
             }
         }
     }
@@ -441,7 +450,8 @@ impl<'a> Checker<'a> {
                 points: [approach.closest.on_a, approach.closest.on_b],
             });
         }
-        if witness.is_sure(self.tolerance) {
+        // The side that a claim names is the only one.
+        if witness.is_sure(self.tolerance) || self.claimed.contains(&pair.faces) {
             self.penetrates(pair.faces, frame, times, witness);
             return;
         }
@@ -490,21 +500,23 @@ impl<'a> Checker<'a> {
 
     /// Records what passes through the sheet: as its pair of triangles was found to, or else beside each of them.
     fn crosses(&mut self, crossing: crossings::Crossing, frame: usize) {
-        let keys = crossing.pairs.iter().map(|&[f, g]| (f, g));
-        if keys.clone().any(|pair| self.penetrating.contains(&pair)) {
-            return;
+        let mut is_named = false;
+        for &[f, g] in &crossing.pairs {
+            let suspect = self.suspects.get(&(f, g));
+            let is_known = self.penetrating.contains(&(f, g));
+            is_named |= is_known;
+            let is_meant = |suspect: &&Suspect| suspect.times[1] >= crossing.since;
+            if let Some(suspect) = suspect.filter(is_meant).filter(|_| !is_known) {
+                let Suspect {
+                    frame,
+                    times,
+                    witness,
+                } = suspect.clone();
+                self.penetrates([f, g], frame, times, witness);
+                is_named = true;
+            }
         }
-        let is_meant = |suspect: &Suspect| suspect.times[1] >= crossing.since;
-        let suspect = keys
-            .filter_map(|pair| Some((pair, self.suspects.get(&pair).filter(|s| is_meant(s))?)))
-            .next();
-        if let Some(((f, g), suspect)) = suspect {
-            let Suspect {
-                frame,
-                times,
-                witness,
-            } = suspect.clone();
-            self.penetrates([f, g], frame, times, witness);
+        if is_named {
             return;
         }
         let Some(&faces) = crossing.pairs.first() else {

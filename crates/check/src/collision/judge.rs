@@ -25,7 +25,11 @@ pub(super) enum Judgement {
     },
     /// It gets deeper than τ, or leaves the side it was followed on.
     Penetrates(Witness),
-    Undecided,
+    /// Its side is open.
+    Undecided {
+        /// Whether what the triangles do not share may come within τ.
+        is_near: bool,
+    },
 }
 
 /// A penetration in the time and the coordinates of the interval.
@@ -78,7 +82,10 @@ impl Question<'_> {
             Outcome::Crossed(crossing) => {
                 return penetrates(self.witness(pair, moving, &crossing));
             }
-            Outcome::Undecided { .. } => return Judgement::Undecided,
+            Outcome::Undecided { .. } => {
+                let is_near = may_be_near(pair, moving, 0.0, self.limits);
+                return Judgement::Undecided { is_near };
+            }
         };
         let tolerance = self.limits.tolerance;
         let may_touch = pair.shared == 0 && !self.has_touched && passage.clearance <= tolerance;
@@ -142,12 +149,25 @@ pub(super) fn may_be_near(
     let reach = NEAR * limits.tolerance;
     let is_apart = match pair.shared {
         0 | 1 => clearance > reach,
-        _ => moving.stays_within_right_angle(limits),
+        _ => moving.stays_within_right_angle(limits) && !is_sliver(pair, moving, reach),
     };
     !is_apart
         && disjoint_parts(pair.shared)
             .iter()
             .any(|&[a, b]| !contact_times(&part(moving, a, b), reach, limits).is_empty())
+}
+
+/// Whether an apex is so near the line of the shared edge at an end that disjoint corners may be near in an open fold.
+fn is_sliver(pair: &Pair, moving: &MovingPair, reach: f64) -> bool {
+    debug_assert_eq!(pair.shared, 2, "the edge is shared");
+    let is_low = |pose: &PairPose, apex: DVec3| {
+        let edge = pose.a[1] - pose.a[0];
+        let area = edge.cross(apex - pose.a[0]);
+        area.length() <= reach * edge.length()
+    };
+    [moving.start, moving.end]
+        .iter()
+        .any(|pose| is_low(pose, pose.a[2]) || is_low(pose, pose.b[2]))
 }
 
 /// Corners of the two triangles that span the largest simplices without a common vertex, shared corners first.

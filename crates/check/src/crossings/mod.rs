@@ -125,7 +125,7 @@ impl Crossings {
                 .collect(),
             reach,
             limits: *limits,
-            system: System::default(),
+            system: System::new(),
             open: BTreeMap::new(),
             open_turns: BTreeMap::new(),
             contacts: 0,
