@@ -2,7 +2,7 @@
 
 use foldmotion_geometry::collide::{
     Approach, Axis, Crossing, Effort, Feature, Limits, MovingPair, Outcome, PairPose, Side,
-    certify, closest_approach, contact_times, enough_clearance,
+    certify, closest_approach, comes_within, enough_clearance,
 };
 use glam::DVec3;
 
@@ -154,7 +154,7 @@ pub(super) fn may_be_near(
     !is_apart
         && disjoint_parts(pair.shared)
             .iter()
-            .any(|&[a, b]| !contact_times(&part(moving, a, b), reach, limits).is_empty())
+            .any(|&[a, b]| comes_within(&part(moving, a, b), reach, limits))
 }
 
 /// Whether an apex is so near the line of the shared edge at an end that disjoint corners may be near in an open fold.

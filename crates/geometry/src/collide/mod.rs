@@ -70,7 +70,7 @@ mod walk;
 
 pub use certify::{Crossing, Effort, Outcome, Passage, Side, certify};
 pub use closest::{Approach, Approaches, closest_approach, enough_clearance};
-pub use contact::contact_times;
+pub use contact::{comes_within, contact_times, feature_distance};
 pub use meeting::{Meeting, MeetingSearch, edge_edge, vertex_facet};
 pub use moving::MovingPair;
 pub use passing::{Passing, edge_passings, sign_of_volume, vertex_passings};
