@@ -37,53 +37,140 @@ impl Closest {
     }
 }
 
+/// Below this sin² of their angle segments count as nearly parallel; triangles below this (2 area / longest²)² as slivers.
+const NEARLY_PARALLEL: f64 = 1e-6;
+
+/// The point of a segment nearest to `point`.
+fn on_segment(point: DVec3, [from, to]: [DVec3; 2]) -> DVec3 {
+    let along = to - from;
+    let squared = along.length_squared();
+    let t = (point - from).dot(along);
+    if t >= squared && squared > 0.0 {
+        to
+    } else if t > 0.0 {
+        from + along * (t / squared)
+    } else {
+        from
+    }
+}
+
 /// The closest points of segments `a` and `b`.
 ///
-/// Ericson 2005, "Real-Time Collision Detection", section 5.1.9. Segments of no length and parallel segments are
-/// allowed; for nearly parallel ones the points may be off along the segments, which changes the distance by rounding
-/// only.
+/// Ericson 2005, "Real-Time Collision Detection", section 5.1.9, whose parameters lose 1 / sin² of the angle to
+/// rounding; segments of an angle below a thousandth therefore go another way. Segments of no length and parallel
+/// segments are allowed. The distance is that of the points given, and off by a few roundings of the coordinates.
 pub fn segment_segment(a: [DVec3; 2], b: [DVec3; 2]) -> Closest {
     let (u, v, w) = (a[1] - a[0], b[1] - b[0], a[0] - b[0]);
     let (uu, uv, vv, uw, vw) = (u.dot(u), u.dot(v), v.dot(v), u.dot(w), v.dot(w));
-    let ratio = |x: f64, y: f64| {
-        if y > 0.0 {
-            (x / y).clamp(0.0, 1.0)
-        } else {
-            0.0
-        }
-    };
-    let mut s = ratio(uv * vw - uw * vv, uu * vv - uv * uv);
-    let t = if vv > 0.0 { (uv * s + vw) / vv } else { 0.0 };
+    let determinant = uu * vv - uv * uv;
+    if determinant <= NEARLY_PARALLEL * uu * vv {
+        return nearly_parallel(a, b);
+    }
+    let mut s = ((uv * vw - uw * vv) / determinant).clamp(0.0, 1.0);
+    let t = (uv * s + vw) / vv;
     let t_inside = t.clamp(0.0, 1.0);
-    if t != t_inside || vv == 0.0 {
-        s = ratio(uv * t_inside - uw, uu);
+    if t != t_inside {
+        s = ((uv * t_inside - uw) / uu).clamp(0.0, 1.0);
     }
     Closest::between(a[0] + u * s, b[0] + v * t_inside)
 }
 
-/// The foot of `point` on the plane of `triangle` where it falls inside the triangle.
+/// The nearest of the four ends above the other segment, and of the points where the lines are closest.
+fn nearly_parallel(a: [DVec3; 2], b: [DVec3; 2]) -> Closest {
+    let mut closest = Closest::between(a[0], on_segment(a[0], b));
+    closest.keep_nearer(Closest::between(a[1], on_segment(a[1], b)));
+    for end in b {
+        closest.keep_nearer(Closest::between(on_segment(end, a), end));
+    }
+    let is_longer = a[0].distance_squared(a[1]) >= b[0].distance_squared(b[1]);
+    let inner = if is_longer {
+        where_lines_cross(a, b)
+    } else {
+        where_lines_cross(b, a).map(Closest::flipped)
+    };
+    if let Some(inner) = inner {
+        closest.keep_nearer(inner);
+    }
+    closest
+}
+
+/// Where two lines are closest, seen along their common normal; within the segments. `a` is the longer one.
+///
+/// With e along a and f the part of b's direction normal to e, b crosses a where (a_0 − b(t))·f = 0: t is off by a
+/// rounding over |f|, b(t)·f by a rounding only.
+fn where_lines_cross(a: [DVec3; 2], b: [DVec3; 2]) -> Option<Closest> {
+    let along = (a[1] - a[0]).try_normalize()?;
+    let v = b[1] - b[0];
+    let across = normal_part(v, along);
+    let squared = across.length_squared();
+    if squared == 0.0 {
+        return None;
+    }
+    let t = ((a[0] - b[0]).dot(across) / squared).clamp(0.0, 1.0);
+    let on_b = b[0] + v * t;
+    Some(Closest::between(on_segment(on_b, a), on_b))
+}
+
+/// The part of v normal to the unit vector `along`, to within a rounding of |v| even where it is small.
+pub(crate) fn normal_part(v: DVec3, along: DVec3) -> DVec3 {
+    let once = v - along * along.dot(v);
+    once - along * along.dot(once)
+}
+
+/// Whether the triangle is so thin that its normal is lost to rounding, given the normal's squared length.
+fn is_sliver(triangle: &[DVec3; 3], squared: f64) -> bool {
+    let [p, q, r] = *triangle;
+    let longest = p
+        .distance_squared(q)
+        .max(q.distance_squared(r))
+        .max(r.distance_squared(p));
+    squared <= NEARLY_PARALLEL * longest * longest
+}
+
+/// The foot of `point` on the plane of `triangle` where it falls inside the triangle; in a sliver, the nearest point
+/// of the section through the foot along the longest edge.
 fn foot_inside(point: DVec3, triangle: &[DVec3; 3]) -> Option<DVec3> {
     let [p, q, r] = *triangle;
     let normal = (q - p).cross(r - p);
     let squared = normal.length_squared();
-    if squared == 0.0 {
-        return None;
+    if is_sliver(triangle, squared) {
+        return foot_in_sliver(point, triangle);
     }
     let foot = point - normal * (normal.dot(point - p) / squared);
     let inside = |from: DVec3, to: DVec3| (to - from).cross(foot - from).dot(normal) >= 0.0;
     (inside(p, q) && inside(q, r) && inside(r, p)).then_some(foot)
 }
 
-/// Where the segment crosses the triangle.
-fn crossing(segment: [DVec3; 2], triangle: &[DVec3; 3]) -> Option<DVec3> {
+/// A point of a sliver: how far from the longest edge the foot lies is not sure, along it the point is the nearest.
+fn foot_in_sliver(point: DVec3, triangle: &[DVec3; 3]) -> Option<DVec3> {
+    let length = |i: usize| triangle[i].distance_squared(triangle[(i + 1) % 3]);
+    let longest = (0..3).reduce(|i, j| if length(j) > length(i) { j } else { i })?;
+    let [from, to, apex] = [0, 1, 2].map(|k| triangle[(longest + k) % 3]);
+    let along = (to - from).try_normalize()?;
+    let height = normal_part(apex - from, along);
+    let squared = height.length_squared();
+    if squared == 0.0 {
+        return None;
+    }
+    let share = ((point - from).dot(height) / squared).clamp(0.0, 1.0);
+    let section = [from, to].map(|end| end + (apex - end) * share);
+    Some(on_segment(point, section))
+}
+
+/// Where the segment crosses the triangle: in a sliver, a point of each.
+fn crossing(segment: [DVec3; 2], triangle: &[DVec3; 3]) -> Option<Closest> {
     let [p, q, r] = *triangle;
     let normal = (q - p).cross(r - p);
     let (s, t) = (normal.dot(segment[0] - p), normal.dot(segment[1] - p));
-    if s * t >= 0.0 {
+    if s == 0.0 || t == 0.0 || (s > 0.0) == (t > 0.0) {
         return None;
     }
     let point = segment[0].lerp(segment[1], s / (s - t));
-    foot_inside(point, triangle).map(|_| point)
+    let foot = foot_inside(point, triangle)?;
+    let squared = normal.length_squared();
+    let far = segment[0].distance(p) + segment[1].distance(p);
+    let is_met = !is_sliver(triangle, squared) || point.distance(foot) <= 8.0 * f64::EPSILON * far;
+    Some(Closest::between(point, if is_met { point } else { foot }))
 }
 
 fn edges(triangle: &[DVec3; 3]) -> [[DVec3; 2]; 3] {
@@ -94,7 +181,8 @@ fn edges(triangle: &[DVec3; 3]) -> [[DVec3; 2]; 3] {
 /// The closest points of two triangles.
 ///
 /// The minimum over the six corners above the other facet and the nine pairs of edges; 0 where an edge crosses a facet.
-/// Triangles of no area are treated as their edges.
+/// Triangles of no area are treated as their edges. The distance is that of the points given, slivers included; where
+/// features tie to within rounding, the points are those of any of them.
 pub fn triangle_triangle(a: &[DVec3; 3], b: &[DVec3; 3]) -> Closest {
     let mut closest = Closest::between(a[0], b[0]);
     for edge_a in edges(a) {
@@ -112,10 +200,15 @@ pub fn triangle_triangle(a: &[DVec3; 3], b: &[DVec3; 3]) -> Closest {
             closest.keep_nearer(Closest::between(corner, foot).flipped());
         }
     }
-    let through_b = edges(a).into_iter().find_map(|edge| crossing(edge, b));
-    let meeting = through_b.or_else(|| edges(b).into_iter().find_map(|edge| crossing(edge, a)));
-    if let Some(point) = meeting {
-        closest.keep_nearer(Closest::between(point, point));
+    for edge in edges(a) {
+        if let Some(meeting) = crossing(edge, b) {
+            closest.keep_nearer(meeting);
+        }
+    }
+    for edge in edges(b) {
+        if let Some(meeting) = crossing(edge, a) {
+            closest.keep_nearer(meeting.flipped());
+        }
     }
     closest
 }

@@ -7,7 +7,8 @@ use glam::DVec3;
 use rayon::prelude::*;
 
 use super::boxes::Boxes;
-use super::distance::{Nearness, closest, keeps_distance, on_triangle};
+use super::closest::{closest, on_triangle};
+use super::distance::{Nearness, keeps_distance};
 use super::instant::axes;
 use super::line;
 use super::ordering::Ordering;
@@ -23,6 +24,8 @@ use crate::collision::{CollisionReport, Penetration, Separation};
 const BUDGET: u32 = 1 << 16;
 /// Pairs farther than this, in units of τ, are surely not touching; the first prover resolves distances to τ/100.
 const SURELY_APART: f64 = 1.02;
+/// What rounding may take off a bound of the distance, in units of ε and the size of the pair, twice over.
+const DISTANCE_ROUNDINGS: f64 = 512.0;
 /// How many refutations are listed; the rest are of the same motion.
 const MOST_LISTED: usize = 20;
 /// To this share of the unit of length the stated points are met.
@@ -35,6 +38,9 @@ pub struct Verifier<'a> {
     pub(super) claim: &'a CollisionReport,
     pub(super) limits: Limits,
     pub(super) last: Frame,
+    /// The greatest distance of a vertex in any frame from the first of the first frame.
+    reach: f64,
+    reference: DVec3,
     /// Frames taken in.
     pub(super) frames: usize,
     /// The sides of the pairs in contact, ordered by pair.
@@ -89,6 +95,8 @@ impl<'a> Verifier<'a> {
                 tolerance: claim.tolerance * unit,
                 budget: BUDGET,
             },
+            reach: 0.0,
+            reference: first.positions[0],
             last: first,
             frames: 1,
             sides: Vec::new(),
@@ -110,6 +118,7 @@ impl<'a> Verifier<'a> {
     pub fn advance(&mut self, frame: Frame) {
         self.prove_layers();
         let start = std::mem::replace(&mut self.last, frame);
+        self.extend_reach();
         self.meet_separation(&start);
         let near = self.near_pairs(&start.positions);
         self.outcome.near += near.len() as u64;
@@ -152,7 +161,7 @@ impl<'a> Verifier<'a> {
             let found = fault.unwrap_or_else(|| "it is at no time of the motion".to_owned());
             self.refute(
                 "min_separation",
-                format!("{:e} at t = {}", separation.distance, separation.time),
+                format!("{:e} at t = {}", separation.attained, separation.time),
                 found,
             );
         }
@@ -181,6 +190,7 @@ impl<'a> Verifier<'a> {
             intervals: self.frames - 1,
             dropped: &self.dropped,
             touching: self.outcome.touching,
+            rounding: DISTANCE_ROUNDINGS * f64::EPSILON * self.reach / self.sheet.unit_length,
         };
         for refutation in statement::consistency(self.claim, &facts) {
             self.outcome.refuted.push(refutation);
@@ -204,6 +214,7 @@ impl<'a> Verifier<'a> {
 
     /// The first frame: which sides are possible, and what is too deep already.
     fn begin(&mut self) {
+        self.extend_reach();
         let first = self.last.positions.clone();
         let assignments = assignments(self.sheet);
         let near = self.near_pairs(&first);
@@ -246,6 +257,12 @@ impl<'a> Verifier<'a> {
         self.find_layers(&near, &BTreeSet::new());
         let first = self.last.clone();
         self.meet_separation(&first);
+    }
+
+    fn extend_reach(&mut self) {
+        let far = self.last.positions.iter();
+        let far = far.map(|p| p.distance(self.reference));
+        self.reach = far.fold(self.reach, f64::max);
     }
 
     /// The pairs whose swept boxes come as near as τ or the stated closest approach.
@@ -295,8 +312,9 @@ impl<'a> Verifier<'a> {
         let apart = SURELY_APART * self.limits.tolerance;
         let limit = self
             .least_distance()
-            .filter(|_| pair.is_measured(self.sheet));
-        if let Some(limit) = limit {
+            .filter(|_| pair.is_measured(self.sheet))
+            .map(|limit| limit - DISTANCE_ROUNDINGS * f64::EPSILON * span.size);
+        if let Some(limit) = limit.filter(|&limit| limit > 0.0) {
             match keeps_distance(span, limit, BUDGET) {
                 Nearness::Kept if limit >= apart => return true,
                 Nearness::Kept => {}
@@ -321,11 +339,10 @@ impl<'a> Verifier<'a> {
         }
     }
 
-    /// What is to be proved of all distances: the stated one, less what the certificate leaves open.
+    /// What is to be proved of all distances: the stated lower bound, to the accuracy of this proof.
     fn least_distance(&self) -> Option<f64> {
         let stated = self.claim.min_separation?.distance * self.sheet.unit_length;
-        let slack = (0.01 * self.limits.tolerance).max(1e-4 * stated);
-        Some(stated - 1.01 * slack).filter(|&limit| limit > 0.0)
+        Some(stated - (1e-3 * self.limits.tolerance).max(1e-5 * stated))
     }
 
     fn follow(&self, pair: &Pair, span: &Span, known: Option<&Side>, judged: &mut Judged) {
@@ -457,13 +474,13 @@ impl<'a> Verifier<'a> {
             }
         }
         let apart = stated.points[0].distance(stated.points[1]);
-        if (apart - stated.distance * unit).abs() > slack {
+        if (apart - stated.attained * unit).abs() > slack {
             return Some(format!("the points are {:e} apart", apart / unit));
         }
         let span = Span::new([a, b], [a, b], 0);
         let least = closest(&span.at(0.0)).distance();
         let is_met =
-            (least - stated.distance * unit).abs() <= slack.max(0.01 * self.limits.tolerance);
+            (least - stated.attained * unit).abs() <= slack.max(0.01 * self.limits.tolerance);
         (!is_met).then(|| format!("the triangles are {:e} apart there", least / unit))
     }
 }
