@@ -13,10 +13,18 @@ pub struct Closest {
     pub on_b: DVec3,
 }
 
-impl Closest {
+/// A point of each set.
+#[derive(Clone, Copy)]
+struct Points {
+    squared: f64,
+    on_a: DVec3,
+    on_b: DVec3,
+}
+
+impl Points {
     fn between(on_a: DVec3, on_b: DVec3) -> Self {
         Self {
-            distance: on_a.distance(on_b),
+            squared: on_a.distance_squared(on_b),
             on_a,
             on_b,
         }
@@ -24,15 +32,25 @@ impl Closest {
 
     fn flipped(self) -> Self {
         Self {
-            distance: self.distance,
             on_a: self.on_b,
             on_b: self.on_a,
+            ..self
         }
     }
 
     fn keep_nearer(&mut self, other: Self) {
-        if other.distance < self.distance {
+        if other.squared < self.squared {
             *self = other;
+        }
+    }
+}
+
+impl From<Points> for Closest {
+    fn from(points: Points) -> Self {
+        Self {
+            distance: points.on_a.distance(points.on_b),
+            on_a: points.on_a,
+            on_b: points.on_b,
         }
     }
 }
@@ -60,6 +78,10 @@ fn on_segment(point: DVec3, [from, to]: [DVec3; 2]) -> DVec3 {
 /// rounding; segments of an angle below a thousandth therefore go another way. Segments of no length and parallel
 /// segments are allowed. The distance is that of the points given, and off by a few roundings of the coordinates.
 pub fn segment_segment(a: [DVec3; 2], b: [DVec3; 2]) -> Closest {
+    of_segments(a, b).into()
+}
+
+fn of_segments(a: [DVec3; 2], b: [DVec3; 2]) -> Points {
     let (u, v, w) = (a[1] - a[0], b[1] - b[0], a[0] - b[0]);
     let (uu, uv, vv, uw, vw) = (u.dot(u), u.dot(v), v.dot(v), u.dot(w), v.dot(w));
     let determinant = uu * vv - uv * uv;
@@ -72,21 +94,21 @@ pub fn segment_segment(a: [DVec3; 2], b: [DVec3; 2]) -> Closest {
     if t != t_inside {
         s = ((uv * t_inside - uw) / uu).clamp(0.0, 1.0);
     }
-    Closest::between(a[0] + u * s, b[0] + v * t_inside)
+    Points::between(a[0] + u * s, b[0] + v * t_inside)
 }
 
 /// The nearest of the four ends above the other segment, and of the points where the lines are closest.
-fn nearly_parallel(a: [DVec3; 2], b: [DVec3; 2]) -> Closest {
-    let mut closest = Closest::between(a[0], on_segment(a[0], b));
-    closest.keep_nearer(Closest::between(a[1], on_segment(a[1], b)));
+fn nearly_parallel(a: [DVec3; 2], b: [DVec3; 2]) -> Points {
+    let mut closest = Points::between(a[0], on_segment(a[0], b));
+    closest.keep_nearer(Points::between(a[1], on_segment(a[1], b)));
     for end in b {
-        closest.keep_nearer(Closest::between(on_segment(end, a), end));
+        closest.keep_nearer(Points::between(on_segment(end, a), end));
     }
     let is_longer = a[0].distance_squared(a[1]) >= b[0].distance_squared(b[1]);
     let inner = if is_longer {
         where_lines_cross(a, b)
     } else {
-        where_lines_cross(b, a).map(Closest::flipped)
+        where_lines_cross(b, a).map(Points::flipped)
     };
     if let Some(inner) = inner {
         closest.keep_nearer(inner);
@@ -94,21 +116,25 @@ fn nearly_parallel(a: [DVec3; 2], b: [DVec3; 2]) -> Closest {
     closest
 }
 
-/// Where two lines are closest, seen along their common normal; within the segments. `a` is the longer one.
+/// Where two lines are closest, seen along their common normal, if it is within the second segment, the shorter one.
 ///
-/// With e along a and f the part of b's direction normal to e, b crosses a where (a_0 − b(t))·f = 0: t is off by a
-/// rounding over |f|, b(t)·f by a rounding only.
-fn where_lines_cross(a: [DVec3; 2], b: [DVec3; 2]) -> Option<Closest> {
-    let along = (a[1] - a[0]).try_normalize()?;
-    let v = b[1] - b[0];
-    let across = normal_part(v, along);
-    let squared = across.length_squared();
-    if squared == 0.0 {
+/// With f the part of b's direction normal to a, b crosses a where (a_0 − b(t))·f = 0: t is off by a rounding over |f|,
+/// b(t)·f by a rounding only.
+fn where_lines_cross(a: [DVec3; 2], b: [DVec3; 2]) -> Option<Points> {
+    let (u, v) = (a[1] - a[0], b[1] - b[0]);
+    let uu = u.length_squared();
+    if uu == 0.0 {
         return None;
     }
-    let t = ((a[0] - b[0]).dot(across) / squared).clamp(0.0, 1.0);
-    let on_b = b[0] + v * t;
-    Some(Closest::between(on_segment(on_b, a), on_b))
+    let once = v - u * (u.dot(v) / uu);
+    let across = once - u * (u.dot(once) / uu);
+    let squared = across.length_squared();
+    let t = (a[0] - b[0]).dot(across);
+    if !(t > 0.0 && t < squared) {
+        return None;
+    }
+    let on_b = b[0] + v * (t / squared);
+    Some(Points::between(on_segment(on_b, a), on_b))
 }
 
 /// The part of v normal to the unit vector `along`, to within a rounding of |v| even where it is small.
@@ -117,65 +143,104 @@ pub(crate) fn normal_part(v: DVec3, along: DVec3) -> DVec3 {
     once - along * along.dot(once)
 }
 
-/// Whether the triangle is so thin that its normal is lost to rounding, given the normal's squared length.
-fn is_sliver(triangle: &[DVec3; 3], squared: f64) -> bool {
-    let [p, q, r] = *triangle;
-    let longest = p
-        .distance_squared(q)
-        .max(q.distance_squared(r))
-        .max(r.distance_squared(p));
-    squared <= NEARLY_PARALLEL * longest * longest
+/// A triangle with what is asked of it several times.
+struct Facet {
+    corners: [DVec3; 3],
+    /// From each corner to the next.
+    sides: [DVec3; 3],
+    normal: DVec3,
+    /// Its squared length.
+    squared: f64,
+    /// Whether it is so thin that its normal is lost to rounding.
+    is_sliver: bool,
 }
 
-/// The foot of `point` on the plane of `triangle` where it falls inside the triangle; in a sliver, the nearest point
-/// of the section through the foot along the longest edge.
-fn foot_inside(point: DVec3, triangle: &[DVec3; 3]) -> Option<DVec3> {
-    let [p, q, r] = *triangle;
-    let normal = (q - p).cross(r - p);
-    let squared = normal.length_squared();
-    if is_sliver(triangle, squared) {
-        return foot_in_sliver(point, triangle);
+impl Facet {
+    fn new(corners: &[DVec3; 3]) -> Self {
+        let [p, q, r] = *corners;
+        let sides = [q - p, r - q, p - r];
+        let normal = sides[0].cross(-sides[2]);
+        let squared = normal.length_squared();
+        let [x, y, z] = sides.map(DVec3::length_squared);
+        let longest = x.max(y).max(z);
+        Self {
+            corners: *corners,
+            sides,
+            normal,
+            squared,
+            is_sliver: squared <= NEARLY_PARALLEL * longest * longest,
+        }
     }
-    let foot = point - normal * (normal.dot(point - p) / squared);
-    let inside = |from: DVec3, to: DVec3| (to - from).cross(foot - from).dot(normal) >= 0.0;
-    (inside(p, q) && inside(q, r) && inside(r, p)).then_some(foot)
-}
 
-/// A point of a sliver: how far from the longest edge the foot lies is not sure, along it the point is the nearest.
-fn foot_in_sliver(point: DVec3, triangle: &[DVec3; 3]) -> Option<DVec3> {
-    let length = |i: usize| triangle[i].distance_squared(triangle[(i + 1) % 3]);
-    let longest = (0..3).reduce(|i, j| if length(j) > length(i) { j } else { i })?;
-    let [from, to, apex] = [0, 1, 2].map(|k| triangle[(longest + k) % 3]);
-    let along = (to - from).try_normalize()?;
-    let height = normal_part(apex - from, along);
-    let squared = height.length_squared();
-    if squared == 0.0 {
-        return None;
+    fn edges(&self) -> [[DVec3; 2]; 3] {
+        let [p, q, r] = self.corners;
+        [[p, q], [q, r], [r, p]]
     }
-    let share = ((point - from).dot(height) / squared).clamp(0.0, 1.0);
-    let section = [from, to].map(|end| end + (apex - end) * share);
-    Some(on_segment(point, section))
-}
 
-/// Where the segment crosses the triangle: in a sliver, a point of each.
-fn crossing(segment: [DVec3; 2], triangle: &[DVec3; 3]) -> Option<Closest> {
-    let [p, q, r] = *triangle;
-    let normal = (q - p).cross(r - p);
-    let (s, t) = (normal.dot(segment[0] - p), normal.dot(segment[1] - p));
-    if s == 0.0 || t == 0.0 || (s > 0.0) == (t > 0.0) {
-        return None;
+    /// The foot of `point` on the plane where it falls inside the triangle; in a sliver, the nearest point of the
+    /// section through the foot along the longest edge.
+    fn foot_inside(&self, point: DVec3) -> Option<DVec3> {
+        if self.is_sliver {
+            return self.foot_in_sliver(point);
+        }
+        let height = self.normal.dot(point - self.corners[0]) / self.squared;
+        let foot = point - self.normal * height;
+        let is_inside =
+            |i: usize| self.sides[i].cross(foot - self.corners[i]).dot(self.normal) >= 0.0;
+        (is_inside(0) && is_inside(1) && is_inside(2)).then_some(foot)
     }
-    let point = segment[0].lerp(segment[1], s / (s - t));
-    let foot = foot_inside(point, triangle)?;
-    let squared = normal.length_squared();
-    let far = segment[0].distance(p) + segment[1].distance(p);
-    let is_met = !is_sliver(triangle, squared) || point.distance(foot) <= 8.0 * f64::EPSILON * far;
-    Some(Closest::between(point, if is_met { point } else { foot }))
-}
 
-fn edges(triangle: &[DVec3; 3]) -> [[DVec3; 2]; 3] {
-    let [p, q, r] = *triangle;
-    [[p, q], [q, r], [r, p]]
+    /// The lowest of three corners that all lie on one side of the plane, where it lies above the facet, and its foot:
+    /// no points are closer, as the gap along the normal is as large as their distance.
+    fn facing(&self, corners: &[DVec3; 3]) -> Option<Points> {
+        if self.is_sliver {
+            return None;
+        }
+        let heights = corners.map(|p| self.normal.dot(p - self.corners[0]));
+        let [x, y, z] = heights;
+        let (low, high) = (x.min(y).min(z), x.max(y).max(z));
+        let least = if low > 0.0 {
+            low
+        } else if high < 0.0 {
+            high
+        } else {
+            return None;
+        };
+        let lowest = (0..3).filter(|&i| heights[i] == least).map(|i| corners[i]);
+        lowest
+            .filter_map(|corner| Some(Points::between(corner, self.foot_inside(corner)?)))
+            .next()
+    }
+
+    /// A point of a sliver: how far from the longest edge the foot lies is not sure, along it the point is the nearest.
+    fn foot_in_sliver(&self, point: DVec3) -> Option<DVec3> {
+        let length = |i: usize| self.sides[i].length_squared();
+        let longest = (1..3).fold(0, |i, j| if length(j) > length(i) { j } else { i });
+        let [from, to, apex] = [0, 1, 2].map(|k| self.corners[(longest + k) % 3]);
+        let along = (to - from).try_normalize()?;
+        let height = normal_part(apex - from, along);
+        let squared = height.length_squared();
+        if squared == 0.0 {
+            return None;
+        }
+        let share = ((point - from).dot(height) / squared).clamp(0.0, 1.0);
+        let section = [from, to].map(|end| end + (apex - end) * share);
+        Some(on_segment(point, section))
+    }
+
+    /// Where the segment crosses the triangle: in a sliver, a point of each.
+    fn crossing(&self, [from, to]: [DVec3; 2]) -> Option<Points> {
+        let height = |end: DVec3| self.normal.dot(end - self.corners[0]);
+        let (s, t) = (height(from), height(to));
+        if s == 0.0 || t == 0.0 || (s > 0.0) == (t > 0.0) {
+            return None;
+        }
+        let point = from.lerp(to, s / (s - t));
+        let foot = self.foot_inside(point)?;
+        let far = from.distance(self.corners[0]) + to.distance(self.corners[0]);
+        let is_met = !self.is_sliver || point.distance(foot) <= 8.0 * f64::EPSILON * far;
+        Some(Points::between(point, if is_met { point } else { foot }))
+    }
 }
 
 /// The closest points of two triangles.
@@ -184,33 +249,33 @@ fn edges(triangle: &[DVec3; 3]) -> [[DVec3; 2]; 3] {
 /// Triangles of no area are treated as their edges. The distance is that of the points given, slivers included; where
 /// features tie to within rounding, the points are those of any of them.
 pub fn triangle_triangle(a: &[DVec3; 3], b: &[DVec3; 3]) -> Closest {
-    let mut closest = Closest::between(a[0], b[0]);
-    for edge_a in edges(a) {
-        for edge_b in edges(b) {
-            closest.keep_nearer(segment_segment(edge_a, edge_b));
+    let (a, b) = (Facet::new(a), Facet::new(b));
+    if let Some(points) = a.facing(&b.corners) {
+        return points.flipped().into();
+    }
+    if let Some(points) = b.facing(&a.corners) {
+        return points.into();
+    }
+    let mut closest = Points::between(a.corners[0], b.corners[0]);
+    for edge_a in a.edges() {
+        for edge_b in b.edges() {
+            closest.keep_nearer(of_segments(edge_a, edge_b));
         }
     }
-    for &corner in a {
-        if let Some(foot) = foot_inside(corner, b) {
-            closest.keep_nearer(Closest::between(corner, foot));
+    for (one, other, is_flipped) in [(&a, &b, false), (&b, &a, true)] {
+        let directed = |found: Points| if is_flipped { found.flipped() } else { found };
+        for corner in one.corners {
+            if let Some(foot) = other.foot_inside(corner) {
+                closest.keep_nearer(directed(Points::between(corner, foot)));
+            }
+        }
+        for edge in one.edges() {
+            if let Some(meeting) = other.crossing(edge) {
+                closest.keep_nearer(directed(meeting));
+            }
         }
     }
-    for &corner in b {
-        if let Some(foot) = foot_inside(corner, a) {
-            closest.keep_nearer(Closest::between(corner, foot).flipped());
-        }
-    }
-    for edge in edges(a) {
-        if let Some(meeting) = crossing(edge, b) {
-            closest.keep_nearer(meeting);
-        }
-    }
-    for edge in edges(b) {
-        if let Some(meeting) = crossing(edge, a) {
-            closest.keep_nearer(meeting.flipped());
-        }
-    }
-    closest
+    closest.into()
 }
 
 #[cfg(test)]
