@@ -56,7 +56,7 @@ impl From<Points> for Closest {
 }
 
 /// Below this sin² of their angle segments count as nearly parallel; triangles below this (2 area / longest²)² as slivers.
-const NEARLY_PARALLEL: f64 = 1e-6;
+const NEARLY_PARALLEL: f64 = 1e-4;
 
 /// The point of a segment nearest to `point`.
 fn on_segment(point: DVec3, [from, to]: [DVec3; 2]) -> DVec3 {
@@ -75,8 +75,8 @@ fn on_segment(point: DVec3, [from, to]: [DVec3; 2]) -> DVec3 {
 /// The closest points of segments `a` and `b`.
 ///
 /// Ericson 2005, "Real-Time Collision Detection", section 5.1.9, whose parameters lose 1 / sin² of the angle to
-/// rounding; segments of an angle below a thousandth therefore go another way. Segments of no length and parallel
-/// segments are allowed. The distance is that of the points given, and off by a few roundings of the coordinates.
+/// rounding; segments of an angle below a hundredth therefore go another way. Segments of no length and parallel
+/// segments are allowed. The distance is that of the points given, and off by some hundred roundings of the lengths at most.
 pub fn segment_segment(a: [DVec3; 2], b: [DVec3; 2]) -> Closest {
     of_segments(a, b).into()
 }
@@ -85,43 +85,46 @@ fn of_segments(a: [DVec3; 2], b: [DVec3; 2]) -> Points {
     let (u, v, w) = (a[1] - a[0], b[1] - b[0], a[0] - b[0]);
     let (uu, uv, vv, uw, vw) = (u.dot(u), u.dot(v), v.dot(v), u.dot(w), v.dot(w));
     let determinant = uu * vv - uv * uv;
-    if determinant <= NEARLY_PARALLEL * uu * vv {
-        return nearly_parallel(a, b);
+    if determinant > NEARLY_PARALLEL * uu * vv {
+        let mut s = ((uv * vw - uw * vv) / determinant).clamp(0.0, 1.0);
+        let t = (uv * s + vw) / vv;
+        let t_inside = t.clamp(0.0, 1.0);
+        if t != t_inside {
+            s = ((uv * t_inside - uw) / uu).clamp(0.0, 1.0);
+        }
+        return Points::between(a[0] + u * s, b[0] + v * t_inside);
     }
-    let mut s = ((uv * vw - uw * vv) / determinant).clamp(0.0, 1.0);
-    let t = (uv * s + vw) / vv;
-    let t_inside = t.clamp(0.0, 1.0);
-    if t != t_inside {
-        s = ((uv * t_inside - uw) / uu).clamp(0.0, 1.0);
-    }
-    Points::between(a[0] + u * s, b[0] + v * t_inside)
-}
-
-/// The nearest of the four ends above the other segment, and of the points where the lines are closest.
-fn nearly_parallel(a: [DVec3; 2], b: [DVec3; 2]) -> Points {
-    let mut closest = Points::between(a[0], on_segment(a[0], b));
-    closest.keep_nearer(Points::between(a[1], on_segment(a[1], b)));
-    for end in b {
-        closest.keep_nearer(Points::between(on_segment(end, a), end));
-    }
-    let is_longer = a[0].distance_squared(a[1]) >= b[0].distance_squared(b[1]);
-    let inner = if is_longer {
-        where_lines_cross(a, b)
-    } else {
-        where_lines_cross(b, a).map(Points::flipped)
-    };
-    if let Some(inner) = inner {
-        closest.keep_nearer(inner);
+    // The nearest of the four ends above the other segment, and of the points where the lines are closest.
+    let on_a = |along: f64| a[0] + u * share(along, uu);
+    let on_b = |along: f64| b[0] + v * share(along, vv);
+    let mut closest = Points::between(a[0], on_b(vw));
+    closest.keep_nearer(Points::between(a[1], on_b(vw + uv)));
+    closest.keep_nearer(Points::between(on_a(-uw), b[0]));
+    closest.keep_nearer(Points::between(on_a(uv - uw), b[1]));
+    if uu >= vv {
+        if let Some(t) = where_crossed(u, v, w) {
+            closest.keep_nearer(Points::between(on_a(uv * t - uw), b[0] + v * t));
+        }
+    } else if let Some(s) = where_crossed(v, u, -w) {
+        closest.keep_nearer(Points::between(a[0] + u * s, on_b(uv * s + vw)));
     }
     closest
 }
 
-/// Where two lines are closest, seen along their common normal, if it is within the second segment, the shorter one.
+/// x / y within [0, 1]; 0 where y is 0.
+fn share(x: f64, y: f64) -> f64 {
+    if y > 0.0 {
+        (x / y).clamp(0.0, 1.0)
+    } else {
+        0.0
+    }
+}
+
+/// Where in (0, 1) the second of two nearly parallel segments crosses the first, seen along their common normal.
 ///
-/// With f the part of b's direction normal to a, b crosses a where (a_0 − b(t))·f = 0: t is off by a rounding over |f|,
-/// b(t)·f by a rounding only.
-fn where_lines_cross(a: [DVec3; 2], b: [DVec3; 2]) -> Option<Points> {
-    let (u, v) = (a[1] - a[0], b[1] - b[0]);
+/// u, v: along them; w: from the start of the second to that of the first, u the longer. With f the part of v normal
+/// to u that is where (w − v t)·f = 0: t is off by a rounding over |f|, v·f t by a rounding only.
+fn where_crossed(u: DVec3, v: DVec3, w: DVec3) -> Option<f64> {
     let uu = u.length_squared();
     if uu == 0.0 {
         return None;
@@ -129,12 +132,8 @@ fn where_lines_cross(a: [DVec3; 2], b: [DVec3; 2]) -> Option<Points> {
     let once = v - u * (u.dot(v) / uu);
     let across = once - u * (u.dot(once) / uu);
     let squared = across.length_squared();
-    let t = (a[0] - b[0]).dot(across);
-    if !(t > 0.0 && t < squared) {
-        return None;
-    }
-    let on_b = b[0] + v * (t / squared);
-    Some(Points::between(on_segment(on_b, a), on_b))
+    let t = w.dot(across);
+    (t > 0.0 && t < squared).then(|| t / squared)
 }
 
 /// The part of v normal to the unit vector `along`, to within a rounding of |v| even where it is small.
@@ -214,32 +213,62 @@ impl Facet {
 
     /// A point of a sliver: how far from the longest edge the foot lies is not sure, along it the point is the nearest.
     fn foot_in_sliver(&self, point: DVec3) -> Option<DVec3> {
+        self.section(point)
+            .map(|section| on_segment(point, section))
+    }
+
+    /// The number of the longest edge, and the part of the next normal to it.
+    fn long_edge(&self) -> (usize, DVec3) {
         let length = |i: usize| self.sides[i].length_squared();
         let longest = (1..3).fold(0, |i, j| if length(j) > length(i) { j } else { i });
+        let along = self.sides[longest].try_normalize().unwrap_or(DVec3::ZERO);
+        let height = normal_part(-self.sides[(longest + 2) % 3], along);
+        (longest, height)
+    }
+
+    /// The normal; of a sliver, the one that is normal to the longest edge to within rounding. Of any length.
+    fn normal_to_long_edge(&self) -> DVec3 {
+        if !self.is_sliver {
+            return self.normal;
+        }
+        let (longest, height) = self.long_edge();
+        self.sides[longest].cross(height)
+    }
+
+    /// Parallel to the longest edge, as far from it as the foot of `point`.
+    fn section(&self, point: DVec3) -> Option<[DVec3; 2]> {
+        let (longest, height) = self.long_edge();
         let [from, to, apex] = [0, 1, 2].map(|k| self.corners[(longest + k) % 3]);
-        let along = (to - from).try_normalize()?;
-        let height = normal_part(apex - from, along);
         let squared = height.length_squared();
         if squared == 0.0 {
             return None;
         }
-        let share = ((point - from).dot(height) / squared).clamp(0.0, 1.0);
-        let section = [from, to].map(|end| end + (apex - end) * share);
-        Some(on_segment(point, section))
+        let share = share((point - from).dot(height), squared);
+        Some([from, to].map(|end| end + (apex - end) * share))
     }
 
     /// Where the segment crosses the triangle: in a sliver, a point of each.
     fn crossing(&self, [from, to]: [DVec3; 2]) -> Option<Points> {
-        let height = |end: DVec3| self.normal.dot(end - self.corners[0]);
+        let normal = self.normal_to_long_edge();
+        let height = |end: DVec3| normal.dot(end - self.corners[0]);
         let (s, t) = (height(from), height(to));
         if s == 0.0 || t == 0.0 || (s > 0.0) == (t > 0.0) {
             return None;
         }
         let point = from.lerp(to, s / (s - t));
-        let foot = self.foot_inside(point)?;
+        if !self.is_sliver {
+            return self
+                .foot_inside(point)
+                .map(|_| Points::between(point, point));
+        }
+        let met = of_segments([from, to], self.section(point)?);
         let far = from.distance(self.corners[0]) + to.distance(self.corners[0]);
-        let is_met = !self.is_sliver || point.distance(foot) <= 8.0 * f64::EPSILON * far;
-        Some(Points::between(point, if is_met { point } else { foot }))
+        let is_met = met.squared <= (8.0 * f64::EPSILON * far).powi(2);
+        Some(if is_met {
+            Points::between(met.on_a, met.on_a)
+        } else {
+            met
+        })
     }
 }
 

@@ -7,9 +7,6 @@ use super::path::{OnPlane, Path};
 use super::span::{Pose, Span};
 use super::walk::SHORTEST_STEP;
 
-/// How often a direction is levelled.
-const LEVELLINGS: usize = 6;
-
 /// What came of the search for a pair nearer than asked.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Nearness {
@@ -24,56 +21,49 @@ pub(super) enum Nearness {
 /// The unit direction from A to B along which they lie apart most clearly; 0 where they meet.
 ///
 /// Along the line of closest points the gap is the distance, unless that line is ill known: a rounding of the points
-/// turns it, and where features tie they may be those of the wrong one. Then corners that should be level lie lower or
-/// higher than the closest points, by what the gap falls short: all within twice that are made level.
+/// turns it, and where features tie they may be those of the wrong one. Then one edge, or two, of the six that should
+/// be level along it are made so, all of them in turn; of the directions found the one with the widest gap is taken.
 fn clearest(pose: &Pose, closest: &Closest, slack: f64) -> DVec3 {
-    let mut best = (closest.on_b - closest.on_a).normalize_or_zero();
-    let mut gap = -pose.overlap(best);
-    for _ in 0..LEVELLINGS {
-        let short = closest.distance() - gap;
-        if short <= slack {
-            break;
+    let line = (closest.on_b - closest.on_a).normalize_or_zero();
+    let gap = -pose.overlap(line);
+    if gap >= closest.distance() - slack {
+        return line;
+    }
+    let (mut best, mut widest) = (line, gap);
+    let mut keep = |direction: DVec3| {
+        let gap = -pose.overlap(direction);
+        if gap > widest {
+            (best, widest) = (direction, gap);
         }
-        let tries = [2.0, 1.2, 16.0].map(|factor| levelled(pose, best, factor * short));
-        let gaps = tries.map(|direction| -pose.overlap(direction));
-        let next = if gaps[1] > gaps[0] { 1 } else { 0 };
-        let next = if gaps[2] > gaps[next] { 2 } else { next };
-        if gaps[next] <= gap {
-            break;
+    };
+    let edge = |k: usize| {
+        let corners = if k < 3 { &pose.a } else { &pose.b };
+        corners[(k + 1) % 3] - corners[k % 3]
+    };
+    for i in 0..6 {
+        keep(levelled(line, &[edge(i)]));
+        for j in 0..i {
+            let level = levelled(line, &[edge(j), edge(i)]);
+            keep(level);
+            keep(-level);
         }
-        (best, gap) = (tries[next], gaps[next]);
     }
     best
 }
 
-/// The direction turned so that the corners of A within `depth` of its highest are level, and those of B of its lowest.
-fn levelled(pose: &Pose, direction: DVec3, depth: f64) -> DVec3 {
-    let height = |p: &DVec3| direction.dot(*p - pose.a[0]);
-    let top = pose.a.iter().map(height).fold(f64::NEG_INFINITY, f64::max);
-    let bottom = pose.b.iter().map(height).fold(f64::INFINITY, f64::min);
-    let mut level = Vec::with_capacity(6);
-    for (corners, extreme) in [(&pose.a, top), (&pose.b, bottom)] {
-        let near = |i: usize| (height(&corners[i]) - extreme).abs() <= depth;
-        for (i, j) in [(0, 1), (1, 2), (2, 0)] {
-            if near(i) && near(j) {
-                level.push(corners[j] - corners[i]);
-            }
-        }
-    }
-    level.sort_by(|p, q| q.length_squared().total_cmp(&p.length_squared()));
+/// The direction turned so that one edge or two are level along it, to within rounding of their lengths.
+///
+/// The longer edge first: of the other, however nearly parallel it is, the part normal to it is what remains.
+fn levelled(direction: DVec3, edges: &[DVec3]) -> DVec3 {
+    let mut sorted = edges.to_vec();
+    sorted.sort_by(|p, q| q.length_squared().total_cmp(&p.length_squared()));
     let mut basis: Vec<DVec3> = Vec::with_capacity(2);
-    for edge in level {
-        // Of a third direction nothing is left but rounding; two are kept.
-        let rest = without(without(edge, &basis), &basis);
-        if basis.len() < 2 && rest.length() > 1e-14 * edge.length() {
-            basis.extend(rest.try_normalize());
-        }
+    for edge in sorted {
+        basis.extend(without(without(edge, &basis), &basis).try_normalize());
     }
-    let turned = if let [u, v] = basis[..] {
-        let normal = u.cross(v);
-        normal * normal.dot(direction).signum()
-    } else {
-        without(without(direction, &basis), &basis)
+    let turned = match basis[..] {
+        [u, v] => u.cross(v),
+        _ => without(without(direction, &basis), &basis),
     };
     turned.normalize_or_zero()
 }

@@ -65,6 +65,7 @@ mod penetration;
 mod plane;
 #[cfg(test)]
 mod random;
+mod separation;
 mod span;
 mod stated_order;
 mod statement;
