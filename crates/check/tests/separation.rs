@@ -280,11 +280,8 @@ fn the_bounds_of_slivers_and_of_near_pairs_hold_what_dense_sampling_finds_in_bot
             found.distance >= least - allowed,
             "{name}: {found:?} far below {least:e}"
         );
-        match verdict {
-            Verdict::Free => assert!(found.distance > TOLERANCE, "{name}: {found:?}"),
-            Verdict::Touching => assert!(found.distance <= TOLERANCE, "{name}: {found:?}"),
-            _ => assert!(found.distance <= TOLERANCE, "{name}: {found:?}"),
-        }
+        let is_free = verdict == Verdict::Free;
+        assert_eq!(is_free, found.distance > TOLERANCE, "{name}: {found:?}");
         verdicts[verdict as usize] += 1;
     }
     assert!(verdicts[0] > 100 && verdicts[1] > 30, "{verdicts:?}");

@@ -205,10 +205,8 @@ impl Facet {
         } else {
             return None;
         };
-        let lowest = (0..3).filter(|&i| heights[i] == least).map(|i| corners[i]);
-        lowest
-            .filter_map(|corner| Some(Points::between(corner, self.foot_inside(corner)?)))
-            .next()
+        let mut lowest = (0..3).filter(|&i| heights[i] == least).map(|i| corners[i]);
+        lowest.find_map(|corner| Some(Points::between(corner, self.foot_inside(corner)?)))
     }
 
     /// A point of a sliver: how far from the longest edge the foot lies is not sure, along it the point is the nearest.

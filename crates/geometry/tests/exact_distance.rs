@@ -142,7 +142,7 @@ impl Random {
     /// Up to ± 2^`bits`.
     fn number(&mut self, bits: u32) -> i64 {
         let size = 1i64 << bits;
-        (self.bits() % (2 * size as u64 + 1)) as i64 - size
+        (self.bits() % (2 * size.cast_unsigned() + 1)).cast_signed() - size
     }
 
     fn point(&mut self, bits: [u32; 3]) -> Point {
