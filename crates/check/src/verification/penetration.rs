@@ -3,7 +3,7 @@
 use foldmotion_pattern::Sheet;
 use glam::DVec3;
 
-use super::distance::on_triangle;
+use super::closest::on_triangle;
 use super::pair::Pair;
 use super::span::{Pose, Span};
 use super::walk::{Crossing, Limits, depth, instants_after, overlaps_from_side};
