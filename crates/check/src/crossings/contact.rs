@@ -80,9 +80,9 @@ impl Watched {
         self.times = times;
     }
 
-    /// The times of contact, joined with those of the cells on the rim and the instants of passages.
+    /// The times of contact, joined with those of the cells on the rim and the times of passages.
     pub(super) fn all_times<'a>(&self, rim: impl Iterator<Item = &'a Self>) -> Vec<[f64; 2]> {
-        let instants = self.passings.iter().map(|p| [p.time; 2]);
+        let instants = self.passings.iter().map(|p| p.times);
         let mut all: Vec<[f64; 2]> = self.times.iter().copied().chain(instants).collect();
         all.extend(rim.flat_map(|seen| seen.times.iter().copied()));
         all.sort_by(|p, q| p[0].total_cmp(&q[0]));

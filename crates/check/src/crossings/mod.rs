@@ -342,9 +342,9 @@ impl Crossings {
             let continued = if from == 0.0 { earlier.take() } else { None };
             let mut contact = continued.unwrap_or_else(|| self.contact(step.at(from)));
             let within = seen.passings.iter();
-            for passing in within.filter(|p| (from..=to).contains(&p.time)) {
+            for passing in within.filter(|p| (from..=to).contains(&p.time())) {
                 contact.sum += i64::from(passing.sign);
-                contact.passed = Some(step.at(passing.time));
+                contact.passed = Some(step.at(passing.time()));
             }
             stretches.push(Stretch {
                 times: [from, to],

@@ -18,8 +18,10 @@ const CROSS_ERROR: f64 = 64.0;
 const TINY: f64 = f64::from_bits(63 << 52);
 /// Shorter stretches are not cut: times stay multiples of 2⁻⁵².
 const SHORTEST_CUT: f64 = 1.0 / (1u64 << 46) as f64;
-/// To this the time of a passage is told.
+/// Stretches are cut until the time of a passage is told to this.
 const RESOLUTION: f64 = 1.0 / (1u64 << 40) as f64;
+/// To this it is told at least: of edges that are nearly parallel the sign of the volume is known only away from its zero.
+const COARSEST: f64 = 1.0 / (1u64 << 24) as f64;
 /// The most stretches looked at.
 const BUDGET: u32 = 1 << 14;
 
@@ -57,12 +59,12 @@ impl<T: Number, const N: usize> MovingPatch<T, N> {
         })
     }
 
-    /// Every time at which the origin passes through the patch, in order, with the sign of the volume afterwards; none
-    /// where rounding hides a passage.
+    /// Every stretch of time, at most [`COARSEST`] long, in which the origin passes through the patch once, in order,
+    /// with the sign of the volume afterwards; none where rounding hides a passage.
     ///
     /// `signs`: the exact signs of the volume at both ends. A zero is isolated where the volume is monotone and changes
     /// its sign; there the origin lies in the patch where all c_k × c_{k+1} point to one side.
-    pub(super) fn passages(&self, signs: [i8; 2]) -> Option<Vec<(f64, i8)>> {
+    pub(super) fn passages(&self, signs: [i8; 2]) -> Option<Vec<([f64; 2], i8)>> {
         let mut found = Vec::new();
         let mut open = vec![Stretch {
             times: [0.0, 1.0],
@@ -77,9 +79,9 @@ impl<T: Number, const N: usize> MovingPatch<T, N> {
             }
             if self.is_monotone(&from, &to) {
                 if stretch.signs[0] != stretch.signs[1]
-                    && let Some(time) = self.passage_within(stretch)?
+                    && let Some(times) = self.passage_within(stretch)?
                 {
-                    found.push((time, stretch.signs[1]));
+                    found.push((times, stretch.signs[1]));
                 }
                 continue;
             }
@@ -115,7 +117,7 @@ impl<T: Number, const N: usize> MovingPatch<T, N> {
     }
 
     /// When the origin passes through the patch at the only zero of the volume in a stretch; the inner `None`: beside it.
-    fn passage_within(&self, stretch: Stretch) -> Option<Option<f64>> {
+    fn passage_within(&self, stretch: Stretch) -> Option<Option<[f64; 2]>> {
         let mut times = stretch.times;
         let mut is_known = false;
         loop {
@@ -126,10 +128,13 @@ impl<T: Number, const N: usize> MovingPatch<T, N> {
                     inside => is_known = inside.is_some(),
                 }
             }
-            if is_known && times[1] - times[0] <= RESOLUTION {
-                return Some(Some(f64::midpoint(times[0], times[1])));
+            let length = times[1] - times[0];
+            if is_known && length <= RESOLUTION {
+                return Some(Some(times));
             }
-            let (middle, sign) = self.cut(times)?;
+            let Some((middle, sign)) = self.cut(times) else {
+                return (is_known && length <= COARSEST).then_some(Some(times));
+            };
             times[usize::from(sign != stretch.signs[0])] = middle;
         }
     }

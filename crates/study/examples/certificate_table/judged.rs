@@ -1,0 +1,90 @@
+//! A scene folded, its motion judged, and the certificate proved again.
+
+use std::error::Error;
+use std::path::{Path, PathBuf};
+use std::time::Instant;
+
+use foldmotion_study::{Report, SceneSource, Study, VerifiedCertificate, verify_file};
+
+/// A scene and what is set otherwise.
+pub(crate) struct Motion {
+    /// Its name in `scenes/`, without the ending.
+    pub(crate) scene: String,
+    /// Whether layers keep apart.
+    pub(crate) has_contact: bool,
+    /// Other settings, as after `--set`.
+    pub(crate) settings: Vec<String>,
+}
+
+/// What came of a motion.
+pub(crate) struct Judged {
+    pub(crate) report: Report,
+    /// The certificate, and what the second proof says of it.
+    pub(crate) verified: VerifiedCertificate,
+    pub(crate) verify_seconds: f64,
+}
+
+/// The folder of scene files.
+pub(crate) fn scenes() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes")
+}
+
+impl Motion {
+    /// Folds, checks and verifies, by the files that `foldmotion run` writes.
+    pub(crate) fn judge(&self) -> Result<Judged, Box<dyn Error>> {
+        let mut source = SceneSource::read(&scenes().join(&self.scene).with_extension("toml"))?;
+        source.set("record.outputs=[\"fold\"]")?;
+        source.set(&format!("motion.contact={}", self.has_contact))?;
+        for setting in &self.settings {
+            source.set(setting)?;
+        }
+        let folder = tempfile::tempdir()?;
+        let report = Study::resolve(&source)?.run(folder.path(), &|_, _| true)?;
+        let started = Instant::now();
+        let verified = verify_file(
+            &folder.path().join("motion.fold"),
+            &folder.path().join("certificate.json"),
+            &|_, _| true,
+        )?;
+        Ok(Judged {
+            report,
+            verified,
+            verify_seconds: started.elapsed().as_secs_f64(),
+        })
+    }
+}
+
+impl Judged {
+    /// The verdict, and up to when where the check ended early.
+    pub(crate) fn verdict(&self) -> String {
+        let certificate = &self.verified.certificate;
+        match &certificate.stopped {
+            None => certificate.verdict.clone(),
+            Some(stopped) => format!("{}, judged up to t = {:.3}", certificate.verdict, stopped.t),
+        }
+    }
+
+    /// Whether the motion came to its end.
+    pub(crate) fn is_finished(&self) -> bool {
+        self.report.unfinished().is_none()
+    }
+
+    /// Whether the motion came to its end, or where it stopped.
+    pub(crate) fn outcome(&self) -> String {
+        match (&self.report.jam, &self.report.stop) {
+            (Some(jam), _) => format!("jam at t = {:.2}", jam.t),
+            (None, Some(stop)) => stop.words(),
+            (None, None) => "folds".to_owned(),
+        }
+    }
+
+    /// What the second proof says.
+    pub(crate) fn second_proof(&self) -> String {
+        let verification = &self.verified.verification;
+        match self.verified.status() {
+            2 => format!("refuted in {}", verification.refuted.len()),
+            3 => format!("open in {}", verification.unproved.len()),
+            _ => "verified".to_owned(),
+        }
+    }
+}

@@ -1,0 +1,161 @@
+//! Computes the tables of docs/certificates.md: folds the shelter in many ways, judges each motion, and proves each
+//! certificate again.
+//!
+//! `cargo run --release -p foldmotion-study --no-default-features --example certificate_table` prints them as Markdown.
+//! `--only WORDS` computes the rows that have all of WORDS, of their first columns and `contact` or `no-contact`, such as
+//! `--only "S near-rigid no-contact"`.
+//!
+//! `--matrix` prints another table instead: every file of `scenes/` with contact, without, and moved by the dynamic
+//! engine; `--only` then names scenes and columns. Exit status 1 where a motion got no certificate, or the second proof
+//! did not confirm it; what it found then goes to stderr.
+
+#![expect(
+    clippy::print_stdout,
+    clippy::print_stderr,
+    reason = "an example that prints its tables"
+)]
+
+mod judged;
+mod matrix;
+mod number;
+mod shelter;
+
+use std::{error::Error, process::ExitCode};
+
+use judged::{Judged, Motion};
+
+/// What is asked for.
+#[derive(Default)]
+struct Asked {
+    matrix: bool,
+    only: Vec<String>,
+}
+
+fn asked() -> Result<Asked, Box<dyn Error>> {
+    let mut asked = Asked::default();
+    let mut arguments = std::env::args().skip(1);
+    while let Some(argument) = arguments.next() {
+        match argument.as_str() {
+            "--matrix" => asked.matrix = true,
+            "--only" => {
+                let words = arguments.next().ok_or("--only needs words")?;
+                asked.only = words.split_whitespace().map(str::to_owned).collect();
+            }
+            other => return Err(format!("{other} is not known").into()),
+        }
+    }
+    Ok(asked)
+}
+
+fn main() -> Result<ExitCode, Box<dyn Error>> {
+    let asked = asked()?;
+    let mut tables = if asked.matrix {
+        vec![matrix::table()?]
+    } else {
+        shelter::tables()
+    };
+    for table in &mut tables {
+        table
+            .rows
+            .retain(|row| asked.only.iter().all(|word| row.has(word)));
+    }
+    if tables.iter().all(|table| table.rows.is_empty()) {
+        return Err(format!("no row has all of {:?}", asked.only).into());
+    }
+    let mut total = Total::default();
+    for table in tables.iter().filter(|table| !table.rows.is_empty()) {
+        table.print(&mut total);
+    }
+    println!("\n{}", total.sentence());
+    Ok(ExitCode::from(u8::from(total.verified < total.motions)))
+}
+
+/// A table of motions.
+struct Table {
+    title: String,
+    /// The columns that name a motion, then those of what came out.
+    columns: [&'static [&'static str]; 2],
+    rows: Vec<Row>,
+    /// What came out, one cell a column.
+    cells: fn(&Judged) -> Vec<String>,
+}
+
+/// A motion to be judged, and the cells that name it.
+struct Row {
+    names: Vec<String>,
+    motion: Motion,
+}
+
+impl Row {
+    fn has(&self, word: &str) -> bool {
+        let contact = ["no-contact", "contact"][usize::from(self.motion.has_contact)];
+        contact == word
+            || self
+                .names
+                .iter()
+                .any(|name| name.split([' ', ',']).any(|part| part == word))
+    }
+}
+
+impl Table {
+    fn print(&self, total: &mut Total) {
+        let columns = self.columns.concat();
+        println!("\n{}\n", self.title);
+        println!("| {} |", columns.join(" | "));
+        println!("|{}", "---|".repeat(columns.len()));
+        for row in &self.rows {
+            let cells = match row.motion.judge() {
+                Ok(judged) => {
+                    total.add(&judged);
+                    (self.cells)(&judged)
+                }
+                Err(error) => {
+                    total.motions += 1;
+                    let mut cells = vec!["-".to_owned(); self.columns[1].len()];
+                    cells[0] = format!("not judged: {error}").replace(['|', '\n'], " ");
+                    cells
+                }
+            };
+            println!("| {} | {} |", row.names.join(" | "), cells.join(" | "));
+        }
+    }
+}
+
+/// What came out of all motions.
+#[derive(Default)]
+struct Total {
+    motions: usize,
+    verified: usize,
+    check_seconds: f64,
+    verify_seconds: f64,
+    computed_with: Option<String>,
+}
+
+impl Total {
+    fn add(&mut self, judged: &Judged) {
+        self.motions += 1;
+        self.check_seconds += judged.report.seconds.check;
+        self.verify_seconds += judged.verify_seconds;
+        if judged.verified.verification.is_verified() {
+            self.verified += 1;
+        } else {
+            eprintln!("{}: {}", judged.report.title, judged.verified.table());
+        }
+        let (report, engine) = (&judged.report, &judged.report.engine);
+        self.computed_with = Some(format!(
+            "foldmotion {} on {}",
+            report.version, engine.instruction_set
+        ));
+    }
+
+    fn sentence(&self) -> String {
+        format!(
+            "Computed with {}. The second proof confirms {} of {} certificates; checks took {:.1} s, second proofs {:.1} s.",
+            self.computed_with.as_deref().unwrap_or("foldmotion"),
+            self.verified,
+            self.motions,
+            self.check_seconds,
+            self.verify_seconds
+        )
+    }
+}
