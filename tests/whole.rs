@@ -32,9 +32,9 @@ mod scenes;
 mod schemas;
 #[path = "whole/unfolding.rs"]
 mod unfolding;
-#[path = "whole/verify.rs"]
-mod verify;
 #[path = "whole/verdict_cases.rs"]
 mod verdict_cases;
+#[path = "whole/verify.rs"]
+mod verify;
 #[path = "whole/window.rs"]
 mod window;

@@ -185,13 +185,19 @@ fn no_verdict_changes_in_24_rotations() {
     for (name, verdict, separation) in CASES {
         for (k, rotation) in rotations().into_iter().enumerate() {
             let motion = rotated(&read(name), rotation);
-            is_true(name, &format!("rotation {k}"), &motion, (verdict, separation));
+            is_true(
+                name,
+                &format!("rotation {k}"),
+                &motion,
+                (verdict, separation),
+            );
         }
     }
 }
 
 #[test]
-fn no_verdict_changes_with_the_diagonals_the_triangles_the_direction_of_time_or_the_order_of_faces() {
+fn no_verdict_changes_with_the_diagonals_the_triangles_the_direction_of_time_or_the_order_of_faces()
+{
     for (name, verdict, separation) in CASES {
         let motion = read(name);
         // Cutting a facet makes pairs of what was one: only the verdict is that of the sheet.

@@ -97,14 +97,10 @@ impl Watched {
     }
 }
 
-/// Makes the times say at one end of the interval what the frame there shows.
+/// Makes the times hold the end of the interval at which the frame shows a contact.
 fn hold(times: &mut Vec<[f64; 2]>, end: f64, is_near: bool) {
-    let found = times.iter().position(|t| t.contains(&end));
-    match (found, is_near) {
-        (None, true) => {
-            times.push([end; 2]);
-            times.sort_by(|p, q| p[0].total_cmp(&q[0]));
-        }
-        (Some(_), _) | (None, false) => {}
+    if is_near && !times.iter().any(|t| t.contains(&end)) {
+        times.push([end; 2]);
+        times.sort_by(|p, q| p[0].total_cmp(&q[0]));
     }
 }

@@ -453,11 +453,15 @@ impl Step {
     }
 }
 
-/// A number in [−1, 1) that looks random, the same on every machine (`SplitMix64`, Steele, Lea and Flood 2014).
+/// A number in [−1, 1) that looks random, the same on every machine.
 fn scattered(number: u64) -> f64 {
+    (scrambled(number) >> 11) as f64 / (1u64 << 52) as f64 - 1.0
+}
+
+/// `SplitMix64` (Steele, Lea and Flood 2014).
+fn scrambled(number: u64) -> u64 {
     let mut z = number.wrapping_add(1).wrapping_mul(0x9e37_79b9_7f4a_7c15);
     z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
     z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-    z ^= z >> 31;
-    (z >> 11) as f64 / (1u64 << 52) as f64 - 1.0
+    z ^ (z >> 31)
 }

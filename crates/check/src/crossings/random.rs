@@ -15,7 +15,14 @@ impl Random {
     }
 
     pub(super) fn index(&mut self, count: usize) -> usize {
-        ((self.number() + 1.0) * 0.5 * count as f64) as usize % count
+        self.0 += 1;
+        (super::scrambled(self.0) % count as u64) as usize
+    }
+
+    /// A whole number from −`most` to `most`.
+    pub(super) fn whole(&mut self, most: i32) -> i64 {
+        let count = 2 * most.unsigned_abs() as usize + 1;
+        i64::from(self.index(count) as u32) - i64::from(most)
     }
 
     pub(super) fn vector(&mut self) -> DVec3 {

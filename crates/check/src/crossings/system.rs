@@ -85,7 +85,7 @@ impl Triangular {
     }
 
     fn residue(&self, number: i64) -> u64 {
-        number.rem_euclid(self.prime as i64).unsigned_abs()
+        number.rem_euclid(self.prime.cast_signed()).unsigned_abs()
     }
 
     fn add(&self, row: &mut Row, unknown: u32, coefficient: u64) {
@@ -154,13 +154,13 @@ mod tests {
         let solution: Vec<i64> = (0..40)
             .map(|_| {
                 system.new_unknown();
-                random.index(7) as i64 - 3
+                random.whole(3)
             })
             .collect();
         let mut is_solved = false;
         for _ in 0..300 {
             let terms: Vec<(u32, i64)> = (0..4)
-                .map(|_| (random.index(40) as u32, random.index(3) as i64 - 1))
+                .map(|_| (random.index(40) as u32, random.whole(1)))
                 .collect();
             let sum: i64 = terms.iter().map(|&(u, c)| c * solution[u as usize]).sum();
             assert!(system.add(&terms, sum));

@@ -139,7 +139,7 @@ impl Hinge {
                 e1.cross(v1),
             ]
         };
-        let all = [e0, l0, r0, e1, l1, r1].map(|v| v.length_squared());
+        let all = [e0, l0, r0, e1, l1, r1].map(DVec3::length_squared);
         Self {
             normals: [normal(l0, l1), normal(r0, r1)],
             r: [r0, r1],

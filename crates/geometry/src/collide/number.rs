@@ -19,7 +19,7 @@ pub(super) trait Number:
 }
 
 impl Number for f64 {
-    const ROUNDOFF: f64 = 0.5 * Self::EPSILON;
+    const ROUNDOFF: Self = 0.5 * Self::EPSILON;
 
     fn new(value: f64) -> Self {
         value

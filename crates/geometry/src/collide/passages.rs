@@ -34,6 +34,14 @@ pub(super) struct MovingPatch<T, const N: usize> {
     reach: DVec3,
 }
 
+/// Where the origin is while it lies in the plane of the patch.
+#[derive(Debug, Clone, Copy)]
+enum Zero {
+    /// In the patch, in this stretch of time.
+    Inside([f64; 2]),
+    Beside,
+}
+
 /// A stretch of time with the signs of the volume at its ends.
 #[derive(Debug, Clone, Copy)]
 struct Stretch {
@@ -79,7 +87,7 @@ impl<T: Number, const N: usize> MovingPatch<T, N> {
             }
             if self.is_monotone(&from, &to) {
                 if stretch.signs[0] != stretch.signs[1]
-                    && let Some(times) = self.passage_within(stretch)?
+                    && let Zero::Inside(times) = self.passage_within(stretch)?
                 {
                     found.push((times, stretch.signs[1]));
                 }
@@ -116,24 +124,24 @@ impl<T: Number, const N: usize> MovingPatch<T, N> {
         VOLUME_ERROR * T::ROUNDOFF * self.reach.element_product() + TINY
     }
 
-    /// When the origin passes through the patch at the only zero of the volume in a stretch; the inner `None`: beside it.
-    fn passage_within(&self, stretch: Stretch) -> Option<Option<[f64; 2]>> {
+    /// Where the origin is at the only zero of the volume in a stretch; none where rounding hides it.
+    fn passage_within(&self, stretch: Stretch) -> Option<Zero> {
         let mut times = stretch.times;
         let mut is_known = false;
         loop {
             if !is_known {
                 let [from, to] = times.map(|t| self.at(t));
                 match self.is_origin_inside(&from, &to) {
-                    Some(false) => return Some(None),
+                    Some(false) => return Some(Zero::Beside),
                     inside => is_known = inside.is_some(),
                 }
             }
             let length = times[1] - times[0];
             if is_known && length <= RESOLUTION {
-                return Some(Some(times));
+                return Some(Zero::Inside(times));
             }
             let Some((middle, sign)) = self.cut(times) else {
-                return (is_known && length <= COARSEST).then_some(Some(times));
+                return (is_known && length <= COARSEST).then_some(Zero::Inside(times));
             };
             times[usize::from(sign != stretch.signs[0])] = middle;
         }
