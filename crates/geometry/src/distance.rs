@@ -270,6 +270,21 @@ impl Facet {
     }
 }
 
+/// The point itself and the point of a triangle closest to it; a triangle of no area is its edges.
+pub fn point_triangle(point: DVec3, triangle: &[DVec3; 3]) -> Closest {
+    let facet = Facet::new(triangle);
+    let foot = facet.foot_inside(point).into_iter();
+    let on_rim = facet
+        .edges()
+        .into_iter()
+        .map(|edge| on_segment(point, edge));
+    let nearest = foot.chain(on_rim).min_by(|p, q| {
+        let squared = |r: &DVec3| point.distance_squared(*r);
+        squared(p).total_cmp(&squared(q))
+    });
+    Points::between(point, nearest.unwrap_or(triangle[0])).into()
+}
+
 /// The closest points of two triangles.
 ///
 /// The minimum over the six corners above the other facet and the nine pairs of edges; 0 where an edge crosses a facet.
@@ -366,6 +381,22 @@ mod tests {
                 let degenerate = [point, point, point];
                 assert!(triangle_triangle(triangle, &degenerate).distance < 1e-12);
             }
+        }
+    }
+
+    #[test]
+    fn a_point_is_as_far_from_a_triangle_as_a_triangle_shrunk_to_it() {
+        let mut random = Random::new(5);
+        for case in 0..400 {
+            let mut triangle = random.triangle(1.0);
+            if case % 4 == 0 {
+                triangle[2] = triangle[0].midpoint(triangle[1]) + random.vector() * 1e-9;
+            }
+            let point = random.vector() * 1.5;
+            let found = point_triangle(point, &triangle);
+            let expected = triangle_triangle(&[point; 3], &triangle).distance;
+            assert!((found.distance - expected).abs() < 1e-13, "{case}");
+            assert_eq!(found.on_a, point);
         }
     }
 

@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use super::{Limits, MovingPair, PairPose, moving::Leaf};
-use crate::distance::{Closest, segment_segment, triangle_triangle};
+use crate::distance::{Closest, point_triangle, segment_segment, triangle_triangle};
 
 /// Stretches of time in which the features move by less than this share of the distance count by their ends.
 const RESOLUTION: f64 = 1.0 / 64.0;
@@ -113,27 +113,6 @@ fn closest(pose: &PairPose) -> Closest {
         }
         _ => triangle_triangle(a, b),
     }
-}
-
-/// The point of a triangle closest to `p`: the foot of p where it lies inside, otherwise on an edge.
-fn point_triangle(p: DVec3, triangle: &[DVec3; 3]) -> Closest {
-    let [u, v, w] = *triangle;
-    let normal = (v - u).cross(w - u);
-    let squared = normal.length_squared();
-    if squared > 0.0 {
-        let foot = p - normal * (normal.dot(p - u) / squared);
-        let is_inside = |from: DVec3, to: DVec3| (to - from).cross(foot - from).dot(normal) >= 0.0;
-        if is_inside(u, v) && is_inside(v, w) && is_inside(w, u) {
-            return Closest {
-                distance: p.distance(foot),
-                on_a: p,
-                on_b: foot,
-            };
-        }
-    }
-    let [first, second, third] = [[u, v], [v, w], [w, u]].map(|edge| segment_segment([p, p], edge));
-    let nearer = |p: Closest, q: Closest| if q.distance < p.distance { q } else { p };
-    nearer(nearer(first, second), third)
 }
 
 #[derive(Clone, Copy)]
