@@ -436,7 +436,11 @@ fn truth(bodies: &Bodies, nearest: f64, is_thin: bool) -> Truth {
             Truth::NotThrough
         };
     }
-    if bodies.can_be_undone(2.0 * TOLERANCE, 4) {
+    // In a narrow wedge displacements of 2 τ lead out through its walls, smaller ones of the right length do not.
+    let tenths = (6..20).map(|tenth| 0.1 * f64::from(tenth) * TOLERANCE);
+    if bodies.can_be_undone(2.0 * TOLERANCE, 4)
+        || tenths.into_iter().any(|r| bodies.can_be_undone(r, 1))
+    {
         return Truth::Open;
     }
     Truth::Penetrating

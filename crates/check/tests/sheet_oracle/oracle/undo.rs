@@ -3,7 +3,7 @@
 //! A contact can be undone where a path near the given one meets nothing. Displaced paths have a displacement of 26
 //! directions or none at each waypoint and are straight between them; which waypoints are reached without contact is
 //! followed from one to the next. A path found is a proof, as contact is decided exactly. That no path is found with
-//! displacements of 2 τ, at waypoints four times as dense, is taken for penetration.
+//! displacements of 2 τ, at waypoints four times as dense, nor of 0.6 τ to 1.9 τ, is taken for penetration.
 
 use super::{
     distance::swept_distance,
