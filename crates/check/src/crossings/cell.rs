@@ -105,9 +105,14 @@ impl Cell {
 
 /// All cells in a pair of triangles, with those of passing by.
 pub(super) fn cells_of(topology: &Topology, [f, g]: [u32; 2]) -> Vec<Cell> {
-    let mut cells = Vec::with_capacity(33);
+    let mut cells = Vec::with_capacity(39);
     for (f, g) in [(f, g), (g, f)] {
         let beyond = topology.corners(g);
+        // A triangle thinner than the reach lets its corners around its own edges.
+        for (i, edge) in topology.face_edges[f as usize].into_iter().enumerate() {
+            let vertex = topology.corners(f)[(i + 2) % 3];
+            cells.push(Cell::VertexEdge { vertex, edge });
+        }
         for vertex in topology.corners(f) {
             if beyond.contains(&vertex) {
                 continue;
