@@ -48,8 +48,12 @@
 //! by at most 256 ε L^(p + 1), which is taken off every bound. Where neither proof nor witness is found in the budget,
 //! the pair is named and nothing is claimed.
 
+mod account;
+mod arcs;
+mod around;
 mod boxes;
 mod cluster;
+mod coupling;
 mod distance;
 mod instant;
 mod layer;
@@ -57,6 +61,7 @@ mod line;
 mod ordering;
 mod outcome;
 mod pair;
+mod parts;
 mod path;
 mod penetration;
 mod plane;
@@ -67,6 +72,8 @@ mod stated_order;
 mod statement;
 #[cfg(test)]
 mod tests;
+mod through;
+mod trail;
 mod verifier;
 mod walk;
 

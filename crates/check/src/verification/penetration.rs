@@ -15,7 +15,7 @@ const TIME_ACCURACY: f64 = 1e-6;
 const DEPTH_ACCURACY: f64 = 1e-5;
 /// Where a contact begins or a pair gets deeper than τ, the pair touches, and the stated point lies on what meets there,
 /// to within this many τ.
-const POINT_TOLERANCES: f64 = 16.0;
+pub(super) const POINT_TOLERANCES: f64 = 16.0;
 
 /// Where a pair gets too deep.
 #[derive(Debug)]
@@ -179,13 +179,16 @@ pub(super) fn compare(
     differences
 }
 
-fn is_kind_right(stated: &Penetration, pair: &Pair, tolerance: f64) -> bool {
-    use PenetrationKind::{AroundVertex, EdgeEdge, FoldedThrough, PassedThrough, VertexFacet};
+pub(super) fn is_kind_right(stated: &Penetration, pair: &Pair, tolerance: f64) -> bool {
+    use PenetrationKind::{
+        AroundVertex, EdgeEdge, FoldedThrough, PassedThrough, ThroughEdge, VertexFacet,
+    };
     match (pair.shared, stated.kind) {
         (0, PassedThrough) => stated.depth <= tolerance,
         (0, VertexFacet | EdgeEdge) | (1, AroundVertex) | (2, FoldedThrough) => {
             stated.depth > tolerance
         }
+        (0..=2, ThroughEdge) => stated.depth >= 0.0,
         _ => false,
     }
 }

@@ -6,6 +6,8 @@ use foldmotion_pattern::{Assignment, Frame, Sheet};
 use glam::DVec3;
 use rayon::prelude::*;
 
+use super::account::{Lost, Pairs};
+use super::around::Around;
 use super::boxes::Boxes;
 use super::distance::{Nearness, closest, keeps_distance, on_triangle};
 use super::instant::touches_for_sure;
@@ -13,10 +15,11 @@ use super::line;
 use super::ordering::Ordering;
 use super::outcome::{Refutation, Unproved, Verification};
 use super::pair::{Pair, assignments, front_normal};
-use super::penetration::{Found, compare};
+use super::penetration::Found;
 use super::span::Span;
 use super::statement;
-use super::walk::{Limits, Side, Walked, depth, walk};
+use super::trail::Trail;
+use super::walk::{Crossing, Limits, Side, Walked, walk};
 use crate::collision::{CollisionReport, Penetration, Separation, Verdict};
 
 /// The most steps spent on a pair in an interval.
@@ -43,10 +46,15 @@ pub struct Verifier<'a> {
     pub(super) is_over: bool,
     /// The sides of the pairs in contact, ordered by pair.
     pub(super) sides: Vec<([u32; 2], Side)>,
-    claimed: BTreeMap<[u32; 2], &'a Penetration>,
+    pub(super) claimed: BTreeMap<[u32; 2], &'a Penetration>,
     pub(super) undecided: BTreeSet<([u32; 2], usize)>,
     /// Pairs with a penetration behind them, and the intervals in which each was judged.
     pub(super) dropped: BTreeMap<[u32; 2], usize>,
+    pub(super) around: Around,
+    /// Pairs not followed to the end of the interval before.
+    pub(super) lost: Pairs,
+    /// Pairs at which something was found to pass through.
+    pub(super) accounted: Pairs,
     surely_touching: BTreeSet<[u32; 2]>,
     perhaps_touching: BTreeSet<[u32; 2]>,
     /// Whether the stated closest approach was met, where one is stated.
@@ -57,24 +65,38 @@ pub struct Verifier<'a> {
 }
 
 /// What was found of a pair in an interval.
-struct Judged {
+pub(super) struct Judged {
     side: Option<Side>,
-    found: Option<Found>,
+    pub(super) lost: Option<Lost>,
+    /// How it was followed, where it was in contact.
+    pub(super) trail: Option<Trail>,
     touching: [bool; 2],
     nearer: Option<(f64, f64)>,
     unproved: Option<&'static str>,
     is_followed: bool,
+    /// Whether nothing is to be said of it.
+    pub(super) is_skipped: bool,
 }
 
 impl Judged {
-    fn apart() -> Self {
+    pub(super) fn apart() -> Self {
         Self {
             side: None,
-            found: None,
+            lost: None,
+            trail: None,
             touching: [false; 2],
             nearer: None,
             unproved: None,
             is_followed: false,
+            is_skipped: false,
+        }
+    }
+
+    pub(super) fn at_rest(trail: Option<Trail>, is_skipped: bool) -> Self {
+        Self {
+            trail,
+            is_skipped,
+            ..Self::apart()
         }
     }
 }
@@ -101,6 +123,9 @@ impl<'a> Verifier<'a> {
             claimed: of_pairs.map(|p| (p.faces, p)).collect(),
             undecided: claim.undecided.iter().map(|u| (u.faces, u.frame)).collect(),
             dropped: BTreeMap::new(),
+            around: Around::new(sheet),
+            lost: BTreeSet::new(),
+            accounted: BTreeSet::new(),
             surely_touching: BTreeSet::new(),
             perhaps_touching: BTreeSet::new(),
             separation_fault: None,
@@ -131,14 +156,15 @@ impl<'a> Verifier<'a> {
             .map(|&faces| Pair::new(self.sheet, faces))
             .filter(|pair| pair.shared < 3)
             .collect();
-        let judged: Vec<Judged> = pairs
+        let mut judged: Vec<Judged> = pairs
             .par_iter()
             .with_min_len(64)
             .map(|pair| self.judge(pair, &start))
             .collect();
         self.sides.clear();
         let times = [start.time, self.last.time];
-        let mut open = BTreeSet::new();
+        self.account(&start, &pairs, &mut judged);
+        let mut open = self.lost.clone();
         for (pair, judged) in pairs.iter().zip(judged) {
             if judged.unproved.is_some() {
                 open.insert(pair.faces);
@@ -153,6 +179,10 @@ impl<'a> Verifier<'a> {
 
     /// What came of it.
     pub fn finish(mut self) -> Verification {
+        if self.frames == 1 {
+            let first = self.last.clone();
+            self.meet_claims(&first, &BTreeMap::new());
+        }
         self.prove_layers();
         self.compare_clusters();
         if let Some(separation) = self
@@ -246,15 +276,11 @@ impl<'a> Verifier<'a> {
                     }
                     self.sides.push((faces, side));
                 }
-                None => {
-                    let depth = depth(&span, &span.at(0.0));
-                    let found = Found::at_first_frame(&span, self.last.time, depth);
-                    self.penetrates(&pair, &found);
-                    self.dropped.insert(faces, 0);
-                }
+                None => self.starts_lost(&pair, &span),
             }
         }
         self.find_layers(&near, &BTreeSet::new());
+        self.uncoupled_at_rest(&near);
         let first = self.last.clone();
         self.meet_separation(&first);
     }
@@ -287,7 +313,10 @@ impl<'a> Verifier<'a> {
         let known = known.ok().map(|index| &self.sides[index].1);
         let interval = self.frames - 1;
         if self.undecided.contains(&(pair.faces, interval)) {
-            return Judged::apart();
+            return Judged {
+                is_skipped: true,
+                ..Judged::apart()
+            };
         }
         let mut judged = Judged::apart();
         let mut is_apart = false;
@@ -354,22 +383,40 @@ impl<'a> Verifier<'a> {
         };
         let was_undecided =
             self.frames > 1 && self.undecided.contains(&(pair.faces, self.frames - 2));
-        let anew = was_undecided
+        let was_lost = was_undecided || self.lost.contains(&pair.faces);
+        let anew = was_lost
             .then(|| Side::at_start(span, &self.limits))
             .flatten();
         let side = known.or(anew.as_ref()).unwrap_or(&fresh);
+        let lost = |crossing: Option<Crossing>| {
+            let found = crossing.map(|crossing| Found::new(span, self.frames - 1, crossing));
+            Lost::new(span, side, found, &self.limits)
+        };
         match walk(span, side, &self.limits) {
-            Walked::Clean { side, is_close } => {
+            Walked::Clean {
+                side,
+                is_close,
+                trail,
+            } => {
                 if pair.shared > 0 && is_close {
                     judged.touching = [touches_for_sure(span), true];
                 }
                 judged.side = (!side.is_apart).then_some(side);
+                judged.trail = trail;
             }
             Walked::Crosses(crossing) => {
-                judged.touching = [false, false];
-                judged.found = Some(Found::new(span, self.frames - 1, crossing));
+                let lost = lost(Some(crossing));
+                judged.touching = if lost.is_deep {
+                    [false; 2]
+                } else {
+                    [judged.touching[0], true]
+                };
+                judged.lost = Some(lost);
             }
-            Walked::Undecided { .. } => judged.unproved = Some("whether they penetrate"),
+            Walked::Undecided { .. } => {
+                judged.touching[1] = true;
+                judged.lost = Some(lost(None));
+            }
         }
     }
 
@@ -402,28 +449,6 @@ impl<'a> Verifier<'a> {
         }
         if let Some(side) = judged.side {
             self.sides.push((faces, side));
-        }
-        if let Some(mut found) = judged.found {
-            found.times = times;
-            self.penetrates(pair, &found);
-            self.dropped.insert(faces, self.frames);
-        }
-    }
-
-    fn penetrates(&mut self, pair: &Pair, found: &Found) {
-        let Some(&stated) = self.claimed.get(&pair.faces) else {
-            let what = format!(
-                "triangles {:?} penetrate after frame {}, t = {}",
-                pair.faces,
-                found.frame,
-                found.at(found.crossing.passed)
-            );
-            self.refute("penetrations", "none of them", what);
-            return;
-        };
-        for (field, stated, found) in compare(stated, found, pair, self.sheet, &self.limits) {
-            let field = format!("penetrations[{:?}].{field}", pair.faces);
-            self.refute(&field, stated, found);
         }
     }
 

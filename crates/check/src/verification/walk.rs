@@ -2,9 +2,10 @@
 
 use glam::DVec3;
 
-use super::instant::{Axis, axes, inner, is_arc_within, joined};
+use super::instant::{Axis, axes, inner, joined};
 use super::path::{OnPlane, Path};
 use super::span::{Pose, Span};
+use super::trail::{Trail, Way};
 
 /// The longest steps tried, in turn: a long one may lose a side that a short one keeps.
 const FIRST_STEPS: [f64; 3] = [1.0, 1.0 / 16.0, 1.0 / 256.0];
@@ -59,6 +60,8 @@ pub(super) enum Walked {
         side: Side,
         /// Whether some step is proved by touching only, or is so short that the first proof may have taken it so.
         is_close: bool,
+        /// How it got there; none where it was never in contact.
+        trail: Option<Trail>,
     },
     Crosses(Crossing),
     Undecided {
@@ -127,6 +130,14 @@ struct Walk<'a> {
     /// The end of the step in which the present contact began.
     first_contact: f64,
     has_touched: bool,
+    trail: Trail,
+}
+
+/// A step that is proved.
+struct Step {
+    side: Side,
+    /// The directions along which it is, where it is in contact.
+    ways: Vec<Way>,
 }
 
 impl<'a> Walk<'a> {
@@ -138,6 +149,7 @@ impl<'a> Walk<'a> {
             time: 0.0,
             pose: span.at(0.0),
             has_touched: !side.is_apart,
+            trail: Trail::new(&side),
             side,
             reached: None,
             last_apart: apart,
@@ -153,12 +165,13 @@ impl<'a> Walk<'a> {
                 return Walked::Clean {
                     side: self.side,
                     is_close: self.has_touched || shortest < CLOSE_STEP,
+                    trail: self.has_touched.then_some(self.trail),
                 };
             }
             let end = self.span.at(self.time + step);
-            if let Some(side) = self.cross(&end, step) {
+            if let Some(leg) = self.cross(&end, step) {
                 shortest = step.min(shortest);
-                self.land(side, end, step);
+                self.land(leg, end, step);
                 // t stays a multiple of the step.
                 if step < first_step && (self.time / (2.0 * step)).fract() == 0.0 {
                     step *= 2.0;
@@ -172,7 +185,8 @@ impl<'a> Walk<'a> {
         Walked::Undecided { time: self.time }
     }
 
-    fn land(&mut self, side: Side, pose: Pose, step: f64) {
+    fn land(&mut self, Step { side, ways }: Step, pose: Pose, step: f64) {
+        self.trail.push([self.time, self.time + step], ways);
         self.time += step;
         self.pose = pose;
         if side.is_apart {
@@ -184,13 +198,16 @@ impl<'a> Walk<'a> {
         self.reached = None;
     }
 
-    fn cross(&mut self, end: &Pose, step: f64) -> Option<Side> {
+    fn cross(&mut self, end: &Pose, step: f64) -> Option<Step> {
         let part = self.span.part(&self.pose, end);
         if self.side.is_apart {
             if let Some(direction) = self.stay_apart(&part, step) {
-                return Some(Side {
-                    is_apart: true,
-                    directions: vec![direction],
+                return Some(Step {
+                    side: Side {
+                        is_apart: true,
+                        directions: vec![direction],
+                    },
+                    ways: Vec::new(),
                 });
             }
             let may_graze = || roomiest(&axes(self.span, end)).is_none();
@@ -238,29 +255,29 @@ impl<'a> Walk<'a> {
     }
 
     /// Along one reachable axis the overlap is at most τ throughout.
-    fn stay_within(&mut self, part: &Span, end: &Pose) -> Option<Side> {
+    fn stay_within(&mut self, part: &Span, end: &Pose) -> Option<Step> {
         let limit = self.limits.tolerance;
         self.reach();
         let reached = self.reached.as_deref().unwrap_or_default();
         let mut landed: Vec<DVec3> = Vec::new();
-        let mut keep = |direction: DVec3| {
+        let mut ways: Vec<Way> = Vec::new();
+        let mut keep = |direction: DVec3, way: Way| {
             if landed.iter().all(|d| d.dot(direction) < 1.0 - 1e-13) {
                 landed.push(direction);
+                ways.push(way);
             }
         };
         for axis in reached {
             if part.bound(axis.feature).gap >= -limit
                 && let Some(direction) = unit_end(part, axis)
             {
-                keep(direction);
+                keep(direction, Way::Along(axis.feature));
             }
         }
-        let is_kept = |from: DVec3, to: DVec3| {
-            Path::straight(from, to).bound(part, corners(part)).gap >= -limit
-        };
         for &direction in &self.side.directions {
-            if is_kept(direction, direction) {
-                keep(direction);
+            let fixed = Path::straight(direction, direction);
+            if fixed.bound(part, corners(part)).gap >= -limit {
+                keep(direction, Way::Fixed(direction));
             }
         }
         if landed.is_empty() {
@@ -268,13 +285,16 @@ impl<'a> Walk<'a> {
         }
         self.has_touched = true;
         let there = axes(part, end);
-        let apart = there.iter().filter(|axis| axis.room > 0.0);
-        let way_out = apart
-            .map(|axis| axis.direction)
-            .find(|&d| landed.iter().any(|&l| is_arc_within(end, l, d, limit)));
-        Some(Side {
-            is_apart: way_out.is_some(),
-            directions: way_out.map_or(landed, |d| vec![d]),
+        let apart = roomiest(&there)
+            .is_some()
+            .then(|| joined(end, &there, &landed, limit));
+        let way_out = apart.and_then(|joined| roomiest(&joined));
+        Some(Step {
+            side: Side {
+                is_apart: way_out.is_some(),
+                directions: way_out.map_or(landed, |d| vec![d]),
+            },
+            ways,
         })
     }
 
