@@ -93,6 +93,12 @@ pub(super) fn normals(pose: &Pose) -> Vec<DVec3> {
     normals
 }
 
+/// The depth: the least overlap of all directions where it is positive.
+pub(super) fn depth(pose: &Pose) -> f64 {
+    let overlaps = normals(pose).into_iter().map(|n| pose.overlap(n));
+    overlaps.fold(f64::INFINITY, f64::min)
+}
+
 /// Which of the nodes are connected to a seed at a level; those above it are not.
 pub(super) fn reached(pose: &Pose, nodes: &[DVec3], seeds: &[DVec3], level: f64) -> Vec<bool> {
     let mut is_reached = vec![false; nodes.len()];

@@ -60,7 +60,7 @@ pub(super) fn uncoupled<'a>(
     for (wall, face) in [(f, g), (g, f)] {
         let corners = around.corners(wall);
         for edge in edges(around.corners(face)) {
-            if edge.iter().any(|v| corners.contains(v)) {
+            if edge.iter().all(|v| corners.contains(v)) {
                 continue;
             }
             for other in around.beyond(face, edge) {
@@ -112,24 +112,36 @@ impl Followed<'_> {
             if here.is_empty() || there.is_empty() {
                 return false;
             }
-            let pose = self.to_edge(wall, edge, t);
-            !are_connected(&pose, &here, &there, CLEAR * self.tolerance)
+            let level = CLEAR * self.tolerance;
+            let mut poses = self.to_edge(wall, edge, t).into_iter();
+            poses.any(|pose| !are_connected(&pose, &here, &there, level))
         })
     }
 
-    /// The first triangle, and the edge in the place of the second.
-    fn to_edge(&self, wall: u32, edge: [u32; 2], t: f64) -> Pose {
+    /// The first triangle, and the edge in the place of the second; what they do not share where they share a vertex.
+    fn to_edge(&self, wall: u32, edge: [u32; 2], t: f64) -> Vec<Pose> {
         let pose = self.span.at(t);
-        let is_first = self.pair.faces[0] == wall;
-        let (a, b, corners) = if is_first {
-            (pose.a, pose.b, self.pair.b)
+        let Pair { faces, a, b, .. } = self.pair;
+        let (of_wall, of_face) = if faces[0] == wall {
+            ((a, pose.a), (b, pose.b))
         } else {
-            (pose.b, pose.a, self.pair.a)
+            ((b, pose.b), (a, pose.a))
         };
-        let mut ends = (0..3).filter(|&i| edge.contains(&corners[i])).map(|i| b[i]);
-        let p = ends.next().unwrap_or(b[0]);
-        let q = ends.next().unwrap_or(b[0]);
-        Pose { a, b: [p, q, q] }
+        let places = |(corners, places): (&[u32; 3], [DVec3; 3]), kept: &dyn Fn(&u32) -> bool| {
+            let both = corners.iter().zip(places);
+            let mut left: Vec<DVec3> = both.filter_map(|(v, p)| kept(v).then_some(p)).collect();
+            left.resize(3, left.last().copied().unwrap_or_default());
+            [left[0], left[1], left[2]]
+        };
+        let whole = places(of_wall, &|_| true);
+        let line = places(of_face, &|v| edge.contains(v));
+        let is_shared = |v: &u32| of_wall.0.contains(v) && edge.contains(v);
+        if !edge.iter().any(is_shared) {
+            return vec![Pose { a: whole, b: line }];
+        }
+        let rest = places(of_wall, &|v| !is_shared(v));
+        let end = places(of_face, &|v| edge.contains(v) && !is_shared(v));
+        vec![Pose { a: rest, b: line }, Pose { a: whole, b: end }]
     }
 }
 

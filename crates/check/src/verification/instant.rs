@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use super::arcs::reached;
-use super::span::{COORDINATES, FEATURES, Feature, Pose, Span};
+use super::span::{COORDINATES, Feature, Pose, Span};
 
 /// An axis at an instant.
 #[derive(Debug, Clone, Copy)]
@@ -23,14 +23,19 @@ pub(super) fn axes(span: &Span, pose: &Pose) -> Vec<Axis> {
     let edges = |t: &[DVec3; 3]| [t[1] - t[0], t[2] - t[1], t[0] - t[2]];
     let (a, b) = (edges(&pose.a), edges(&pose.b));
     let (normal_a, normal_b) = (a[0].cross(a[1]), b[0].cross(b[1]));
-    let mut axes = Vec::with_capacity(2 * FEATURES.len());
-    for feature in FEATURES {
+    let features = span.features();
+    let mut axes = Vec::with_capacity(2 * features.len());
+    for &feature in features {
         let (normal, power) = match feature {
             Feature::NormalA => (normal_a, 2),
             Feature::NormalB => (normal_b, 2),
             Feature::Edges(i, j) => (a[i].cross(b[j]), 2),
             Feature::SideA(i) => (normal_a.cross(a[i]), 3),
             Feature::SideB(j) => (normal_b.cross(b[j]), 3),
+            Feature::AcrossA(j) => (normal_a.cross(b[j]), 3),
+            Feature::AcrossB(i) => (normal_b.cross(a[i]), 3),
+            Feature::BesideA => (a[0].cross(b[0]).cross(a[0]), 3),
+            Feature::BesideB => (a[0].cross(b[0]).cross(b[0]), 3),
             Feature::Coordinate(k) => (COORDINATES[k], 0),
         };
         let length = normal.length();

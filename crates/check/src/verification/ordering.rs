@@ -185,13 +185,18 @@ impl Verifier<'_> {
     fn followed_side(&self, faces: [u32; 2]) -> Option<DVec3> {
         let normal = self.front(faces[0])?;
         let side = self.sides.binary_search_by(|(pair, _)| pair.cmp(&faces));
-        if let Ok(index) = side {
-            return side_of(normal, &self.sides[index].1.directions);
-        }
+        let side = side.map(|index| &self.sides[index].1.directions[..]);
         let positions = &self.last.positions;
         let span = Pair::new(self.sheet, faces).span(positions, positions);
-        let apart = roomiest(&axes(&span, &span.at(0.0)))?;
-        side_of(normal, &[apart])
+        let apart = roomiest(&axes(&span, &span.at(0.0)));
+        let is_reached = |d: &DVec3| side.is_ok_and(|side| side.iter().any(|s| s.dot(*d) > 0.5));
+        match (side, apart) {
+            (Ok(side), apart) => match apart.filter(is_reached) {
+                Some(apart) => side_of(normal, &[apart]),
+                None => side_of(normal, side),
+            },
+            (Err(_), apart) => side_of(normal, &[apart?]),
+        }
     }
 
     /// Proves the order at the last frame, once, and holds what is stated there to it.

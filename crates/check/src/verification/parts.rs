@@ -22,6 +22,7 @@ pub(super) fn disjoint_parts(span: &Span) -> Vec<Span> {
         a: a.map(|i| span.a[i]),
         b: b.map(|j| span.b[j]),
         shared: 0,
+        is_part: true,
         ..*span
     };
     corners.iter().map(part).collect()

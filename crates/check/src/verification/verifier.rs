@@ -10,7 +10,7 @@ use super::account::{Lost, Pairs};
 use super::around::Around;
 use super::boxes::Boxes;
 use super::distance::{Nearness, closest, keeps_distance, on_triangle};
-use super::instant::touches_for_sure;
+use super::instant::{axes, touches_for_sure};
 use super::line;
 use super::ordering::Ordering;
 use super::outcome::{Refutation, Unproved, Verification};
@@ -19,7 +19,7 @@ use super::penetration::Found;
 use super::span::Span;
 use super::statement;
 use super::trail::Trail;
-use super::walk::{Crossing, Limits, Side, Walked, walk};
+use super::walk::{Crossing, Limits, Side, Walked, roomiest, walk};
 use crate::collision::{CollisionReport, Penetration, Separation, Verdict};
 
 /// The most steps spent on a pair in an interval.
@@ -262,7 +262,9 @@ impl<'a> Verifier<'a> {
             match Side::at_start(&span, &self.limits) {
                 Some(side) if side.is_apart => {}
                 Some(mut side) => {
-                    self.surely_touching.insert(faces);
+                    if roomiest(&axes(&span, &span.at(0.0))).is_none() {
+                        self.surely_touching.insert(faces);
+                    }
                     self.perhaps_touching.insert(faces);
                     let front = front_normal(self.sheet, faces[0], &first);
                     let towards = match assignments.get(&faces) {

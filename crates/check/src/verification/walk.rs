@@ -2,6 +2,7 @@
 
 use glam::DVec3;
 
+use super::arcs;
 use super::instant::{Axis, axes, inner, joined};
 use super::path::{OnPlane, Path};
 use super::span::{Pose, Span};
@@ -23,7 +24,7 @@ const FAVOURITES: usize = 4;
 /// On which side of each other two triangles are.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Side {
-    /// Strictly apart: every separating direction can then be reached from every other.
+    /// Apart by more than τ: every separating direction can then be reached from every other.
     pub(super) is_apart: bool,
     /// Unit directions in the part of D(t) that the pair has reached; may be empty where it is apart.
     pub(super) directions: Vec<DVec3>,
@@ -75,7 +76,7 @@ impl Side {
     pub(super) fn at_start(span: &Span, limits: &Limits) -> Option<Self> {
         let pose = span.at(0.0);
         let all = axes(span, &pose);
-        if let Some(best) = roomiest(&all) {
+        if let Some(best) = clear_of(&all, limits.tolerance) {
             return Some(Self {
                 is_apart: true,
                 directions: vec![best],
@@ -97,12 +98,25 @@ pub(super) fn roomiest(axes: &[Axis]) -> Option<DVec3> {
     best.map(|axis| axis.direction)
 }
 
+/// The direction with the most room, if that is more than τ.
+fn clear_of(axes: &[Axis], tolerance: f64) -> Option<DVec3> {
+    let clear = axes.iter().filter(|axis| axis.room > tolerance);
+    let best = clear.reduce(|p, q| if q.room > p.room { q } else { p });
+    best.map(|axis| axis.direction)
+}
+
+/// A direction along which the triangles are strictly apart, on a side.
+fn strictly_apart(axes: &[Axis], side: &[DVec3]) -> Option<DVec3> {
+    let apart = axes.iter().filter(|axis| axis.room > 0.0);
+    let mut apart = apart.map(|axis| axis.direction);
+    apart.find(|d| side.iter().any(|s| s.dot(*d) > 0.5))
+}
+
 /// The depth: the least overlap over all axes (exact where it is positive and the triangles share nothing).
 pub(super) fn depth(span: &Span, pose: &Pose) -> f64 {
-    axes(span, pose)
-        .iter()
-        .map(|axis| pose.overlap(axis.direction))
-        .fold(f64::INFINITY, f64::min)
+    let overlaps = axes(span, pose).into_iter();
+    let overlaps = overlaps.map(|axis| pose.overlap(axis.direction));
+    overlaps.fold(arcs::depth(pose), f64::min)
 }
 
 /// Walks a pair through t in [0, 1] from the side it is on at 0.
@@ -129,6 +143,7 @@ struct Walk<'a> {
     last_apart: Option<(f64, DVec3)>,
     /// The end of the step in which the present contact began.
     first_contact: f64,
+    is_in_contact: bool,
     has_touched: bool,
     trail: Trail,
 }
@@ -136,13 +151,19 @@ struct Walk<'a> {
 /// A step that is proved.
 struct Step {
     side: Side,
+    /// A direction along which the pair is strictly apart at its end.
+    apart: Option<DVec3>,
     /// The directions along which it is, where it is in contact.
     ways: Vec<Way>,
 }
 
 impl<'a> Walk<'a> {
     fn new(span: &'a Span, side: Side, limits: &'a Limits) -> Self {
-        let apart = side.is_apart.then(|| (0.0, first_direction(&side)));
+        let last_apart = if side.is_apart {
+            Some(first_direction(&side))
+        } else {
+            strictly_apart(&axes(span, &span.at(0.0)), &side.directions)
+        };
         Self {
             span,
             limits,
@@ -152,8 +173,9 @@ impl<'a> Walk<'a> {
             trail: Trail::new(&side),
             side,
             reached: None,
-            last_apart: apart,
+            last_apart: last_apart.map(|direction| (0.0, direction)),
             first_contact: 0.0,
+            is_in_contact: last_apart.is_none(),
         }
     }
 
@@ -185,13 +207,14 @@ impl<'a> Walk<'a> {
         Walked::Undecided { time: self.time }
     }
 
-    fn land(&mut self, Step { side, ways }: Step, pose: Pose, step: f64) {
+    fn land(&mut self, Step { side, apart, ways }: Step, pose: Pose, step: f64) {
         self.trail.push([self.time, self.time + step], ways);
         self.time += step;
         self.pose = pose;
-        if side.is_apart {
-            self.last_apart = Some((self.time, first_direction(&side)));
-        } else if self.side.is_apart {
+        if let Some(direction) = apart {
+            self.last_apart = Some((self.time, direction));
+            self.is_in_contact = false;
+        } else if !std::mem::replace(&mut self.is_in_contact, true) {
             self.first_contact = self.time;
         }
         self.side = side;
@@ -207,10 +230,12 @@ impl<'a> Walk<'a> {
                         is_apart: true,
                         directions: vec![direction],
                     },
+                    apart: Some(direction),
                     ways: Vec::new(),
                 });
             }
-            let may_graze = || roomiest(&axes(self.span, end)).is_none();
+            let limit = self.limits.tolerance;
+            let may_graze = || clear_of(&axes(self.span, end), limit).is_none();
             if step > SEARCH_STEP || (step > GRAZING_STEP && !may_graze()) {
                 return None;
             }
@@ -220,9 +245,10 @@ impl<'a> Walk<'a> {
 
     /// Along one axis the triangles are strictly apart throughout; where it points at the end.
     fn stay_apart(&self, part: &Span, step: f64) -> Option<DVec3> {
+        let limit = self.limits.tolerance;
         let free = |from: DVec3, to: DVec3| {
-            let is_apart = Path::straight(from, to).bound(part, corners(part)).is_apart;
-            (part.shared < 2 && is_apart).then_some(to)
+            let bound = Path::straight(from, to).bound(part, corners(part));
+            (part.shared < 2 && bound.room > limit).then_some(to)
         };
         let carried = self.side.directions.iter();
         if let Some(direction) = carried.copied().find_map(|d| free(d, d)) {
@@ -231,7 +257,7 @@ impl<'a> Walk<'a> {
         let middle = part.at(0.5);
         let mut all = axes(part, &middle);
         let centre = inner(part, &all);
-        all.retain(|axis| axis.room > 0.0);
+        all.retain(|axis| axis.room > limit);
         all.sort_by(|p, q| q.room.total_cmp(&p.room));
         let tried = if step > SEARCH_STEP {
             FAVOURITES
@@ -239,7 +265,7 @@ impl<'a> Walk<'a> {
             all.len()
         };
         for axis in all.iter().take(tried) {
-            if part.bound(axis.feature).is_apart {
+            if part.bound(axis.feature).room > limit {
                 return unit_end(part, axis);
             }
             if let Some(direction) = free(axis.direction, axis.direction) {
@@ -285,11 +311,13 @@ impl<'a> Walk<'a> {
         }
         self.has_touched = true;
         let there = axes(part, end);
-        let apart = roomiest(&there)
+        let clear = clear_of(&there, limit)
             .is_some()
             .then(|| joined(end, &there, &landed, limit));
-        let way_out = apart.and_then(|joined| roomiest(&joined));
+        let way_out = clear.and_then(|joined| clear_of(&joined, limit));
+        let apart = way_out.or_else(|| strictly_apart(&there, &landed));
         Some(Step {
+            apart,
             side: Side {
                 is_apart: way_out.is_some(),
                 directions: way_out.map_or(landed, |d| vec![d]),
@@ -306,7 +334,8 @@ impl<'a> Walk<'a> {
         let all = axes(self.span, &self.pose);
         let mut seeds = self.side.directions.clone();
         if self.side.is_apart {
-            let apart = all.iter().filter(|axis| axis.room > 0.0);
+            let limit = self.limits.tolerance;
+            let apart = all.iter().filter(|axis| axis.room > limit);
             seeds.extend(apart.map(|axis| axis.direction));
         }
         self.reached = Some(joined(&self.pose, &all, &seeds, self.limits.tolerance));
@@ -348,10 +377,10 @@ impl<'a> Walk<'a> {
             let all = axes(self.span, &self.span.at(apart));
             direction = roomiest(&all).unwrap_or(direction);
         }
-        let mut contact = if self.side.is_apart {
-            self.time
-        } else {
+        let mut contact = if self.is_in_contact {
             self.first_contact
+        } else {
+            self.time
         };
         for _ in 0..40 {
             let middle = f64::midpoint(apart, contact);
