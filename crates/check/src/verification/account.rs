@@ -6,6 +6,7 @@ use foldmotion_pattern::Frame;
 use rayon::prelude::*;
 
 use super::coupling::{Beside, Followed, Through, uncoupled};
+use super::distance::{Nearness, keeps_distance};
 use super::outcome::Unproved;
 use super::pair::Pair;
 use super::parts::disjoint_parts;
@@ -13,12 +14,14 @@ use super::penetration::{Found, compare};
 use super::span::Span;
 use super::through;
 use super::trail::Trail;
-use super::verifier::{Judged, Verifier};
+use super::verifier::{Judged, SURELY_APART, SURELY_TOUCHING, Verifier};
 use super::walk::{Limits, Side, Walked, depth, walk};
-use crate::collision::{Penetration, PenetrationKind};
+use crate::collision::{Penetration, PenetrationKind, Verdict};
 
 /// A pair without a side with this many times τ surely changes sides.
 const CLEAR: f64 = 2.0;
+/// The most steps for the distance of parts.
+const PART_BUDGET: u32 = 1 << 12;
 
 /// A pair that was not followed to the end of an interval.
 #[derive(Debug)]
@@ -42,8 +45,13 @@ pub(super) struct Evidence {
 }
 
 impl Lost {
-    /// Looks closer at a pair that lost its side.
-    pub(super) fn new(span: &Span, side: &Side, walked: Option<Found>, limits: &Limits) -> Self {
+    /// Looks closer at a pair that lost its side. `is_open`: it may have begun on any.
+    pub(super) fn new(
+        span: &Span,
+        (side, is_open): (&Side, bool),
+        walked: Option<Found>,
+        limits: &Limits,
+    ) -> Self {
         let depth = walked.as_ref().map_or(0.0, |found| found.crossing.depth);
         let is_deep = span.shared == 0 && depth > limits.tolerance;
         let mut lost = Self {
@@ -59,17 +67,27 @@ impl Lost {
             tolerance: CLEAR * limits.tolerance,
             ..*limits
         };
+        let from = |part: &Span| {
+            let all = Side::at_start(part, limits);
+            all.filter(|_| is_open).unwrap_or_else(|| side.clone())
+        };
+        // A part may have been on more sides than the whole.
+        let any = |part: &Span| {
+            let all = Side::at_start(part, &wide);
+            all.filter(|_| span.shared > 0 && !side.is_apart)
+                .unwrap_or_else(|| side.clone())
+        };
         let crosses = |part: &Span| {
             let is_deep = depth_at(part, 0.0) > wide.tolerance;
-            is_deep || matches!(walk(part, side, &wide), Walked::Crosses(_))
+            is_deep || matches!(walk(part, &any(part), &wide), Walked::Crosses(_))
+        };
+        let is_clean = |part: &Span| {
+            let walked = walk(part, &from(part), limits);
+            matches!(walked, Walked::Clean { .. })
         };
         let parts = disjoint_parts(span);
         lost.is_clear = parts.iter().any(crosses);
-        lost.are_parts_clean = span.shared > 0
-            && !lost.is_clear
-            && parts
-                .iter()
-                .all(|part| matches!(walk(part, side, limits), Walked::Clean { .. }));
+        lost.are_parts_clean = span.shared > 0 && !lost.is_clear && parts.iter().all(is_clean);
         lost
     }
 }
@@ -230,6 +248,58 @@ impl Verifier<'_> {
         let first = self.last.clone();
         for evidence in self.uncoupled(&first, &pairs, &judged) {
             self.take(evidence);
+        }
+    }
+
+    /// Whether what two triangles that share vertices do not share comes within τ, where something depends on it.
+    pub(super) fn measure_parts(&self, span: &Span, judged: &mut Judged) {
+        let tolerance = self.limits.tolerance;
+        let least = |limit: f64| {
+            let parts = disjoint_parts(span);
+            let nearest =
+                parts
+                    .iter()
+                    .filter_map(|part| match keeps_distance(part, limit, PART_BUDGET) {
+                        Nearness::Kept => None,
+                        Nearness::Nearer { distance, .. } => Some(distance),
+                        Nearness::Unproved => Some(limit),
+                    });
+            nearest.fold(f64::INFINITY, f64::min)
+        };
+        match self.claim.verdict {
+            Verdict::Touching if self.perhaps_touching.is_empty() => {
+                judged.touching[1] |= least(SURELY_APART * tolerance).is_finite();
+            }
+            Verdict::Free => {
+                let limit = SURELY_TOUCHING * tolerance;
+                judged.touching[0] |= least(limit) < limit;
+                judged.touching[1] |= judged.touching[0];
+            }
+            _ => {}
+        }
+    }
+
+    /// What is to be said of a motion of one frame.
+    pub(super) fn finish_at_rest(&mut self) {
+        let first = self.last.clone();
+        self.meet_claims(&first, &BTreeMap::new());
+        for faces in self.near_pairs(&first.positions) {
+            let pair = Pair::new(self.sheet, faces);
+            let mut judged = Judged::apart();
+            if pair.shared == 1 || pair.shared == 2 {
+                let span = pair.span(&first.positions, &first.positions);
+                self.measure_parts(&span, &mut judged);
+            }
+            self.note_touching(faces, judged.touching);
+        }
+    }
+
+    pub(super) fn note_touching(&mut self, faces: [u32; 2], [sure, possible]: [bool; 2]) {
+        if sure {
+            self.surely_touching.insert(faces);
+        }
+        if possible {
+            self.perhaps_touching.insert(faces);
         }
     }
 

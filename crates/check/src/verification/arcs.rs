@@ -9,7 +9,7 @@
 
 use glam::DVec3;
 
-use super::span::Pose;
+use super::span::{COORDINATES, Pose};
 
 /// Normals with a length below this share of the sides they are made of have no direction.
 const PARALLEL: f64 = 1e-12;
@@ -66,7 +66,7 @@ fn foot(pose: &Pose, from: DVec3) -> Option<DVec3> {
 pub(super) fn normals(pose: &Pose) -> Vec<DVec3> {
     let sides = |t: &[DVec3; 3]| [t[1] - t[0], t[2] - t[1], t[0] - t[2]];
     let (a, b) = (sides(&pose.a), sides(&pose.b));
-    let mut normals = Vec::with_capacity(68);
+    let mut normals = Vec::with_capacity(74);
     let mut push = |u: DVec3, v: DVec3| {
         let n = u.cross(v);
         let length = n.length();
@@ -89,6 +89,15 @@ pub(super) fn normals(pose: &Pose) -> Vec<DVec3> {
         for side in a.into_iter().chain(b) {
             push(n, side);
         }
+    }
+    // Where all lies near a line, products of sides are known badly.
+    let longest = a.into_iter().chain(b);
+    let longest = longest.max_by(|u, v| u.length_squared().total_cmp(&v.length_squared()));
+    for (side, axis) in longest
+        .into_iter()
+        .flat_map(|u| COORDINATES.map(|v| (u, v)))
+    {
+        push(side, axis);
     }
     normals
 }

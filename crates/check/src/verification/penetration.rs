@@ -4,9 +4,10 @@ use foldmotion_pattern::Sheet;
 use glam::DVec3;
 
 use super::distance::on_triangle;
+use super::instant::axes;
 use super::pair::Pair;
 use super::span::{Pose, Span};
-use super::walk::{Crossing, Limits, depth, instants_after, overlaps_from_side};
+use super::walk::{Crossing, Limits, depth, instants_after};
 use crate::collision::{Penetration, PenetrationKind};
 
 /// To this share of an interval two proofs agree about when a contact begins and when it gets too deep.
@@ -104,20 +105,27 @@ impl Found {
 
     /// Whether the pair is as deep as stated.
     ///
-    /// For triangles that share no vertex: the largest depth. Otherwise one of the overlaps from the side on which the
-    /// pair was: which axes count as that side is left to the prover.
-    fn is_as_deep(&self, stated: f64, pair: &Pair) -> bool {
+    /// For triangles that share no vertex: the largest depth. Otherwise one of the overlaps at the instants looked at:
+    /// which axes count as the side on which the pair was is left to the prover.
+    fn is_as_deep(&self, stated: &Penetration, unit: f64, pair: &Pair) -> bool {
         let is_close = |depth: f64| {
-            (stated - depth).abs() <= DEPTH_ACCURACY * depth.abs() + 1e-9 * self.span.size
+            let slack = DEPTH_ACCURACY * depth.abs() + 1e-9 * self.span.size;
+            (stated.depth * unit - depth).abs() <= slack
         };
         if is_close(self.depth(pair)) {
             return true;
         }
-        let mut instants = instants_after(self.crossing.passed);
+        let of_stated = self.share(stated.passed).into_iter();
+        let mut instants = of_stated
+            .chain([self.crossing.passed])
+            .flat_map(instants_after);
         pair.shared > 0
             && instants.any(|t| {
                 let pose = self.span.at(t);
-                overlaps_from_side(&self.span, &pose, &self.crossing.side).any(is_close)
+                let all = axes(&self.span, &pose).into_iter();
+                let along = all.map(|axis| axis.direction);
+                let side = self.crossing.side.iter().copied();
+                along.chain(side).any(|d| is_close(pose.overlap(d)))
             })
     }
 
@@ -158,7 +166,7 @@ pub(super) fn compare(
         let passed = found.at(found.crossing.passed);
         differ("passed_t", stated.passed.to_string(), passed.to_string());
     }
-    if !found.is_as_deep(stated.depth * unit, pair) {
+    if !found.is_as_deep(stated, unit, pair) {
         let depth = found.depth(pair) / unit;
         differ("depth", format!("{:e}", stated.depth), format!("{depth:e}"));
     }

@@ -25,9 +25,9 @@ use crate::collision::{CollisionReport, Penetration, Separation, Verdict};
 /// The most steps spent on a pair in an interval.
 const BUDGET: u32 = 1 << 16;
 /// Pairs farther than this, in units of τ, are surely not touching; the first prover resolves distances to τ/100.
-const SURELY_APART: f64 = 1.02;
+pub(super) const SURELY_APART: f64 = 1.02;
 /// Pairs nearer than this, in units of τ, surely touch: *free* states that none are.
-const SURELY_TOUCHING: f64 = 0.98;
+pub(super) const SURELY_TOUCHING: f64 = 0.98;
 /// How many refutations are listed; the rest are of the same motion.
 const MOST_LISTED: usize = 20;
 /// To this share of the unit of length the stated points are met.
@@ -55,8 +55,8 @@ pub struct Verifier<'a> {
     pub(super) lost: Pairs,
     /// Pairs at which something was found to pass through.
     pub(super) accounted: Pairs,
-    surely_touching: BTreeSet<[u32; 2]>,
-    perhaps_touching: BTreeSet<[u32; 2]>,
+    pub(super) surely_touching: BTreeSet<[u32; 2]>,
+    pub(super) perhaps_touching: BTreeSet<[u32; 2]>,
     /// Whether the stated closest approach was met, where one is stated.
     separation_fault: Option<String>,
     is_separation_met: bool,
@@ -70,7 +70,7 @@ pub(super) struct Judged {
     pub(super) lost: Option<Lost>,
     /// How it was followed, where it was in contact.
     pub(super) trail: Option<Trail>,
-    touching: [bool; 2],
+    pub(super) touching: [bool; 2],
     nearer: Option<(f64, f64)>,
     unproved: Option<&'static str>,
     is_followed: bool,
@@ -180,8 +180,7 @@ impl<'a> Verifier<'a> {
     /// What came of it.
     pub fn finish(mut self) -> Verification {
         if self.frames == 1 {
-            let first = self.last.clone();
-            self.meet_claims(&first, &BTreeMap::new());
+            self.finish_at_rest();
         }
         self.prove_layers();
         self.compare_clusters();
@@ -288,7 +287,7 @@ impl<'a> Verifier<'a> {
     }
 
     /// The pairs whose swept boxes come as near as τ or the stated closest approach.
-    fn near_pairs(&self, start: &[DVec3]) -> Vec<[u32; 2]> {
+    pub(super) fn near_pairs(&self, start: &[DVec3]) -> Vec<[u32; 2]> {
         let stated = self.claim.min_separation.map_or(0.0, |s| s.distance);
         let unit = self.sheet.unit_length;
         let radius = 0.5 * (SURELY_APART * self.limits.tolerance).max(stated * unit);
@@ -392,7 +391,8 @@ impl<'a> Verifier<'a> {
         let side = known.or(anew.as_ref()).unwrap_or(&fresh);
         let lost = |crossing: Option<Crossing>| {
             let found = crossing.map(|crossing| Found::new(span, self.frames - 1, crossing));
-            Lost::new(span, side, found, &self.limits)
+            let is_open = self.frames == 1 || was_lost;
+            Lost::new(span, (side, is_open), found, &self.limits)
         };
         match walk(span, side, &self.limits) {
             Walked::Clean {
@@ -402,6 +402,9 @@ impl<'a> Verifier<'a> {
             } => {
                 if pair.shared > 0 && is_close {
                     judged.touching = [touches_for_sure(span), true];
+                }
+                if pair.shared > 0 && !judged.touching[0] {
+                    self.measure_parts(span, judged);
                 }
                 judged.side = (!side.is_apart).then_some(side);
                 judged.trail = trail;
@@ -426,12 +429,7 @@ impl<'a> Verifier<'a> {
         let faces = pair.faces;
         let at = |t: f64| times[0] + (times[1] - times[0]) * t;
         self.outcome.followed += u64::from(judged.is_followed);
-        if judged.touching[0] {
-            self.surely_touching.insert(faces);
-        }
-        if judged.touching[1] {
-            self.perhaps_touching.insert(faces);
-        }
+        self.note_touching(faces, judged.touching);
         if let Some((time, distance)) = judged.nearer {
             let unit = self.sheet.unit_length;
             let stated = self.claim.min_separation.map_or(0.0, |s| s.distance);

@@ -83,7 +83,13 @@ impl Side {
             });
         }
         let within = all.iter().filter(|x| x.overlap <= limits.tolerance);
-        let directions: Vec<_> = within.map(|x| x.direction).collect();
+        let mut directions: Vec<_> = within.map(|x| x.direction).collect();
+        if directions.is_empty() {
+            let within = arcs::normals(&pose).into_iter();
+            directions = within
+                .filter(|&d| pose.overlap(d) <= limits.tolerance)
+                .collect();
+        }
         let has_some = !directions.is_empty();
         has_some.then_some(Self {
             is_apart: false,
@@ -424,11 +430,7 @@ pub(super) fn instants_after(time: f64) -> impl Iterator<Item = f64> {
 }
 
 /// The overlaps along the axes within 60° of the side, and along the side itself.
-pub(super) fn overlaps_from_side(
-    span: &Span,
-    pose: &Pose,
-    side: &[DVec3],
-) -> impl Iterator<Item = f64> {
+fn overlaps_from_side(span: &Span, pose: &Pose, side: &[DVec3]) -> impl Iterator<Item = f64> {
     let all = axes(span, pose).into_iter().map(|axis| axis.direction);
     let near = all.filter(|d| side.iter().any(|s| s.dot(*d) > 0.5));
     near.chain(side.iter().copied()).map(|d| pose.overlap(d))
