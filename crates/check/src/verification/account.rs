@@ -74,7 +74,7 @@ impl Lost {
         // A part may have been on more sides than the whole.
         let any = |part: &Span| {
             let all = Side::at_start(part, &wide);
-            all.filter(|_| span.shared > 0 && !side.is_apart)
+            all.filter(|_| span.shared > 0 && (!side.is_apart || is_open))
                 .unwrap_or_else(|| side.clone())
         };
         let crosses = |part: &Span| {

@@ -105,8 +105,8 @@ impl Found {
 
     /// Whether the pair is as deep as stated.
     ///
-    /// For triangles that share no vertex: the largest depth. Otherwise one of the overlaps at the instants looked at:
-    /// which axes count as the side on which the pair was is left to the prover.
+    /// For triangles that share no vertex: the largest depth. Otherwise no more than the overlaps at the instants looked
+    /// at: which axes count as the side on which the pair was is left to the prover.
     fn is_as_deep(&self, stated: &Penetration, unit: f64, pair: &Pair) -> bool {
         let is_close = |depth: f64| {
             let slack = DEPTH_ACCURACY * depth.abs() + 1e-9 * self.span.size;
@@ -115,18 +115,23 @@ impl Found {
         if is_close(self.depth(pair)) {
             return true;
         }
+        if pair.shared == 0 {
+            return false;
+        }
         let of_stated = self.share(stated.passed).into_iter();
-        let mut instants = of_stated
+        let instants = of_stated
             .chain([self.crossing.passed])
             .flat_map(instants_after);
-        pair.shared > 0
-            && instants.any(|t| {
-                let pose = self.span.at(t);
-                let all = axes(&self.span, &pose).into_iter();
-                let along = all.map(|axis| axis.direction);
-                let side = self.crossing.side.iter().copied();
-                along.chain(side).any(|d| is_close(pose.overlap(d)))
-            })
+        let overlaps = instants.flat_map(|t| {
+            let pose = self.span.at(t);
+            let all = axes(&self.span, &pose).into_iter();
+            let along = all.map(|axis| axis.direction);
+            let side = self.crossing.side.iter().copied();
+            let both: Vec<f64> = along.chain(side).map(|d| pose.overlap(d)).collect();
+            both
+        });
+        let largest = overlaps.fold(0.0, f64::max);
+        stated.depth * unit <= (1.0 + DEPTH_ACCURACY) * largest
     }
 
     fn depth(&self, pair: &Pair) -> f64 {

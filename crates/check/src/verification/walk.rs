@@ -146,6 +146,8 @@ struct Walk<'a> {
     side: Side,
     /// What can be reached at `time`, once asked for.
     reached: Option<Vec<Axis>>,
+    /// Further directions that can be reached then.
+    others: Vec<DVec3>,
     last_apart: Option<(f64, DVec3)>,
     /// The end of the step in which the present contact began.
     first_contact: f64,
@@ -179,6 +181,7 @@ impl<'a> Walk<'a> {
             trail: Trail::new(&side),
             side,
             reached: None,
+            others: Vec::new(),
             last_apart: last_apart.map(|direction| (0.0, direction)),
             first_contact: 0.0,
             is_in_contact: last_apart.is_none(),
@@ -306,7 +309,7 @@ impl<'a> Walk<'a> {
                 keep(direction, Way::Along(axis.feature));
             }
         }
-        for &direction in &self.side.directions {
+        for &direction in self.side.directions.iter().chain(&self.others) {
             let fixed = Path::straight(direction, direction);
             if fixed.bound(part, corners(part)).gap >= -limit {
                 keep(direction, Way::Fixed(direction));
@@ -344,7 +347,20 @@ impl<'a> Walk<'a> {
             let apart = all.iter().filter(|axis| axis.room > limit);
             seeds.extend(apart.map(|axis| axis.direction));
         }
-        self.reached = Some(joined(&self.pose, &all, &seeds, self.limits.tolerance));
+        let limit = self.limits.tolerance;
+        let reached = joined(&self.pose, &all, &seeds, limit);
+        self.others.clear();
+        if reached.is_empty() {
+            // Where triangles are all but edges, rounding takes their axes.
+            let nodes = arcs::normals(&self.pose);
+            let is_reached = arcs::reached(&self.pose, &nodes, &seeds, limit);
+            let both = nodes.into_iter().zip(is_reached);
+            let within = both.filter(|&(d, is_reached)| {
+                is_reached || (self.side.is_apart && self.pose.overlap(d) <= limit)
+            });
+            self.others = within.map(|(d, _)| d).collect();
+        }
+        self.reached = Some(reached);
     }
 
     /// No step leads on: looks for an instant at which the pair is deeper than τ on its side.
