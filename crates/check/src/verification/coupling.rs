@@ -15,7 +15,7 @@ use super::span::{Pose, Span};
 use super::trail::{Trail, apart};
 
 /// Directions that are connected at this many τ are left alone.
-const CLEAR: f64 = 1.25;
+pub(super) const CLEAR: f64 = 1.25;
 /// Instants looked at in an interval, besides the ends of steps.
 const SAMPLES: u32 = 16;
 /// At most so many ends of steps are looked at.
@@ -119,7 +119,7 @@ impl Followed<'_> {
     }
 
     /// The first triangle, and the edge in the place of the second; what they do not share where they share a vertex.
-    fn to_edge(&self, wall: u32, edge: [u32; 2], t: f64) -> Vec<Pose> {
+    pub(super) fn to_edge(&self, wall: u32, edge: [u32; 2], t: f64) -> Vec<Pose> {
         let pose = self.span.at(t);
         let Pair { faces, a, b, .. } = self.pair;
         let (of_wall, of_face) = if faces[0] == wall {
@@ -146,7 +146,7 @@ impl Followed<'_> {
 }
 
 /// Directions from the wall to the other.
-fn oriented(pair: &Pair, wall: u32, mut directions: Vec<DVec3>) -> Vec<DVec3> {
+pub(super) fn oriented(pair: &Pair, wall: u32, mut directions: Vec<DVec3>) -> Vec<DVec3> {
     if pair.faces[0] != wall {
         for direction in &mut directions {
             *direction = -*direction;

@@ -52,6 +52,7 @@ mod account;
 mod arcs;
 mod around;
 mod boxes;
+mod choice;
 mod cluster;
 mod coupling;
 mod distance;

@@ -15,7 +15,7 @@ pub(super) enum Way {
 }
 
 /// The steps of a walk in order; those along which the pair is strictly apart have no ways.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, Default, PartialEq)]
 pub(super) struct Trail {
     start: Vec<DVec3>,
     steps: Vec<([f64; 2], Vec<Way>)>,

@@ -171,6 +171,7 @@ impl<'a> Verifier<'a> {
             }
             self.record(pair, judged, times);
         }
+        self.narrow_sides();
         let faces = self.sheet.faces.len() as u64;
         self.outcome.pairs += faces * faces.saturating_sub(1) / 2;
         self.frames += 1;
@@ -282,6 +283,7 @@ impl<'a> Verifier<'a> {
         }
         self.find_layers(&near, &BTreeSet::new());
         self.uncoupled_at_rest(&near);
+        self.narrow_sides();
         let first = self.last.clone();
         self.meet_separation(&first);
     }
