@@ -97,6 +97,25 @@ fn depth_at(span: &Span, t: f64) -> f64 {
 }
 
 impl Verifier<'_> {
+    /// Follows a pair from the sides that fit together with others.
+    pub(super) fn follow_narrowed(&self, pair: &Pair, span: &Span, judged: &mut Judged) {
+        let Some(side) = self.narrowed.get(&pair.faces) else {
+            return;
+        };
+        match walk(span, side, &self.limits) {
+            Walked::Clean { side, trail, .. } => {
+                judged.narrowed = (!side.is_apart).then_some(side);
+                judged.trail = trail.or(judged.trail.take());
+            }
+            Walked::Crosses(crossing) => {
+                let found = Found::new(span, self.frames - 1, crossing);
+                let lost = Lost::new(span, (side, false), Some(found), &self.limits);
+                judged.lost_narrowed = Some(lost).filter(|lost| lost.is_clear);
+            }
+            Walked::Undecided { .. } => {}
+        }
+    }
+
     /// Whether a listed penetration accounts for what passes through around a pair up to a time.
     fn is_listed_around(&self, faces: [u32; 2], time: f64) -> bool {
         self.claimed.values().any(|stated| {
@@ -116,6 +135,12 @@ impl Verifier<'_> {
         let mut found = BTreeMap::new();
         self.lost.clear();
         for (pair, judged) in pairs.iter().zip(judged) {
+            if let Some(mut lost) = judged.lost_narrowed.take() {
+                if let Some(found) = &mut lost.found {
+                    found.times = [start.time, self.last.time];
+                }
+                evidence.push(self.evidence_of(pair.faces, &lost));
+            }
             let Some(mut lost) = judged.lost.take() else {
                 continue;
             };

@@ -11,27 +11,40 @@ use super::coupling::{CLEAR, Followed, oriented};
 use super::pair::Pair;
 use super::trail::{Trail, apart};
 use super::verifier::Verifier;
+use super::walk::Side;
 
 /// How often sides are passed on at an instant.
 const MOST_ROUNDS: usize = 8;
 
 impl Verifier<'_> {
-    /// Drops what does not fit together of the sides at the last frame.
+    /// Notes which of the open sides at the last frame fit together.
+    ///
+    /// The order of layers is told from what was followed alone: only what passes through what depends on the choice.
     pub(super) fn narrow_sides(&mut self) {
+        let is_open = |side: &[DVec3]| side.iter().any(|d| d.dot(side[0]) < 0.5);
         for _ in 0..MOST_ROUNDS {
-            let mut has_changed = false;
-            for index in 0..self.sides.len() {
-                let directions = &self.sides[index].1.directions;
-                let is_open = directions.iter().any(|d| d.dot(directions[0]) < 0.5);
-                if !is_open {
-                    continue;
+            let mut changed = Vec::new();
+            for (faces, side) in &self.sides {
+                let known = self.narrowed.get(faces).unwrap_or(side);
+                if is_open(&known.directions) {
+                    let kept = self.fitting(*faces, known.directions.clone());
+                    if kept.len() < known.directions.len() {
+                        changed.push((*faces, kept));
+                    }
                 }
-                let kept = self.fitting(self.sides[index].0, directions.clone());
-                has_changed |= kept.len() < directions.len();
-                self.sides[index].1.directions = kept;
             }
-            if !has_changed {
+            if changed.is_empty() {
                 return;
+            }
+            for (faces, directions) in changed {
+                let is_apart = false;
+                self.narrowed.insert(
+                    faces,
+                    Side {
+                        is_apart,
+                        directions,
+                    },
+                );
             }
         }
     }
@@ -78,6 +91,9 @@ impl Verifier<'_> {
     /// The directions of a pair at the last frame; none where it has no side.
     fn side_of_pair(&self, pair: &Pair) -> Vec<DVec3> {
         let faces = pair.faces;
+        if let Some(narrowed) = self.narrowed.get(&faces) {
+            return narrowed.directions.clone();
+        }
         if let Ok(index) = self.sides.binary_search_by(|(f, _)| f.cmp(&faces)) {
             return self.sides[index].1.directions.clone();
         }

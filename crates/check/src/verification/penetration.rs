@@ -3,9 +3,10 @@
 use foldmotion_pattern::Sheet;
 use glam::DVec3;
 
-use super::distance::on_triangle;
+use super::distance::{closest, on_triangle};
 use super::instant::axes;
 use super::pair::Pair;
+use super::parts::disjoint_parts;
 use super::span::{Pose, Span};
 use super::walk::{Crossing, Limits, depth, instants_after};
 use crate::collision::{Penetration, PenetrationKind};
@@ -88,9 +89,17 @@ impl Found {
     /// Whether the contact may be said to begin when stated: pairs that graze each other on the way, or are within τ
     /// for a while, come into contact more than once; there they must touch, and not be too deep before.
     fn may_begin(&self, stated: &Penetration, pair: &Pair, limits: &Limits) -> bool {
-        let overlap = self.overlap(stated.time, pair);
-        stated.time <= stated.passed
-            && overlap.is_some_and(|o| o.abs() <= POINT_TOLERANCES * limits.tolerance)
+        let near = POINT_TOLERANCES * limits.tolerance;
+        let is_met = match self.share(stated.time) {
+            None => false,
+            Some(share) if pair.shared == 0 => {
+                depth(&self.span, &self.span.at(share)).abs() <= near
+            }
+            Some(share) => disjoint_parts(&self.span)
+                .iter()
+                .any(|part| closest(&part.at(share)).distance() <= near),
+        };
+        stated.time <= stated.passed && is_met
     }
 
     /// Whether the pair may be said to get too deep when stated: which side it was on may be left open by a contact
@@ -210,7 +219,7 @@ pub(super) fn is_kind_right(stated: &Penetration, pair: &Pair, tolerance: f64) -
 ///
 /// `near`: what counts as there. At the first frame (`is_far`) the two may be far through each other already: the point
 /// is then the vertex itself or halfway between the edges.
-fn meeting_fault(
+pub(super) fn meeting_fault(
     stated: &Penetration,
     pair: &Pair,
     pose: &Pose,

@@ -7,10 +7,10 @@ use super::around::{Around, edges};
 use super::distance::{closest, on_triangle};
 use super::pair::Pair;
 use super::parts::is_pierced;
-use super::penetration::{POINT_TOLERANCES, is_kind_right};
+use super::penetration::{POINT_TOLERANCES, is_kind_right, meeting_fault};
 use super::span::Pose;
 use super::walk::instants_after;
-use crate::collision::Penetration;
+use crate::collision::{Penetration, PenetrationKind};
 
 /// Instants looked at in an interval, besides those that draw near to a passage.
 const SAMPLES: u32 = 32;
@@ -85,6 +85,9 @@ impl Interval<'_> {
             let found = "not what the facets share and the depth say";
             return Some(("kind", format!("{:?}", stated.kind), found));
         }
+        if stated.kind != PenetrationKind::ThroughEdge {
+            return self.meeting_fault(stated, pair);
+        }
         let Some([a, b]) = self.features(stated, pair) else {
             let found = "not two simplices of the triangles without a common vertex";
             return Some(("vertices", format!("{:?}", stated.vertices), found));
@@ -105,6 +108,16 @@ impl Interval<'_> {
             return Some(("depth", format!("{:e}", stated.depth), found));
         }
         None
+    }
+
+    fn meeting_fault(&self, stated: &Penetration, pair: &Pair) -> Option<Fault> {
+        let [start, end] = self.frames.map(|frame| &frame.positions[..]);
+        let span = pair.span(start, end);
+        let pose = span.at(self.share(stated.passed));
+        let near = POINT_TOLERANCES * self.tolerance;
+        let point = stated.point - span.origin;
+        let found = meeting_fault(stated, pair, &pose, point, (near, false))?;
+        Some(("point", stated.point.to_string(), found))
     }
 
     /// The simplices named, each as a triangle with corners repeated: the one in the one triangle of the pair, the other

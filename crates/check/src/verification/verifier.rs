@@ -53,6 +53,8 @@ pub struct Verifier<'a> {
     pub(super) around: Around,
     /// Pairs not followed to the end of the interval before.
     pub(super) lost: Pairs,
+    /// Sides that are fewer than those followed, as they fit together with those beyond an edge.
+    pub(super) narrowed: BTreeMap<[u32; 2], Side>,
     /// Pairs at which something was found to pass through.
     pub(super) accounted: Pairs,
     pub(super) surely_touching: BTreeSet<[u32; 2]>,
@@ -68,6 +70,9 @@ pub struct Verifier<'a> {
 pub(super) struct Judged {
     side: Option<Side>,
     pub(super) lost: Option<Lost>,
+    /// Likewise from the sides that fit together with others, which may be fewer.
+    pub(super) narrowed: Option<Side>,
+    pub(super) lost_narrowed: Option<Lost>,
     /// How it was followed, where it was in contact.
     pub(super) trail: Option<Trail>,
     pub(super) touching: [bool; 2],
@@ -83,6 +88,8 @@ impl Judged {
         Self {
             side: None,
             lost: None,
+            narrowed: None,
+            lost_narrowed: None,
             trail: None,
             touching: [false; 2],
             nearer: None,
@@ -126,6 +133,7 @@ impl<'a> Verifier<'a> {
             around: Around::new(sheet),
             lost: BTreeSet::new(),
             accounted: BTreeSet::new(),
+            narrowed: BTreeMap::new(),
             surely_touching: BTreeSet::new(),
             perhaps_touching: BTreeSet::new(),
             separation_fault: None,
@@ -164,6 +172,7 @@ impl<'a> Verifier<'a> {
         self.sides.clear();
         let times = [start.time, self.last.time];
         self.account(&start, &pairs, &mut judged);
+        self.narrowed.clear();
         let mut open = self.lost.clone();
         for (pair, judged) in pairs.iter().zip(judged) {
             if judged.unproved.is_some() {
@@ -402,14 +411,14 @@ impl<'a> Verifier<'a> {
                 is_close,
                 trail,
             } => {
-                if pair.shared > 0 && is_close {
-                    judged.touching = [touches_for_sure(span), true];
-                }
-                if pair.shared > 0 && !judged.touching[0] {
+                if pair.shared > 0 {
+                    judged.touching[0] = is_close && touches_for_sure(span);
+                    judged.touching[1] = judged.touching[0];
                     self.measure_parts(span, judged);
                 }
                 judged.side = (!side.is_apart).then_some(side);
                 judged.trail = trail;
+                self.follow_narrowed(pair, span, judged);
             }
             Walked::Crosses(crossing) => {
                 let lost = lost(Some(crossing));
@@ -451,6 +460,9 @@ impl<'a> Verifier<'a> {
         }
         if let Some(side) = judged.side {
             self.sides.push((faces, side));
+        }
+        if let Some(side) = judged.narrowed {
+            self.narrowed.insert(faces, side);
         }
     }
 

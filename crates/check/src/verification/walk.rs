@@ -18,13 +18,15 @@ const SEARCH_STEP: f64 = 1.0 / 8.0;
 const GRAZING_STEP: f64 = 1.0 / 1024.0;
 /// Pairs that need a shorter step come so close that the first proof may take them to touch.
 const CLOSE_STEP: f64 = 1.0 / 8.0;
+/// The share of their size by which triangles with common vertices are clear of each other.
+const CLEAR_SHARE: f64 = 1e-3;
 /// How many axes a long step tries.
 const FAVOURITES: usize = 4;
 
 /// On which side of each other two triangles are.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Side {
-    /// Apart by more than τ: every separating direction can then be reached from every other.
+    /// Apart by more than τ (`clearance`): every separating direction can then be reached from every other.
     pub(super) is_apart: bool,
     /// Unit directions in the part of D(t) that the pair has reached; may be empty where it is apart.
     pub(super) directions: Vec<DVec3>,
@@ -76,7 +78,7 @@ impl Side {
     pub(super) fn at_start(span: &Span, limits: &Limits) -> Option<Self> {
         let pose = span.at(0.0);
         let all = axes(span, &pose);
-        if let Some(best) = clear_of(&all, limits.tolerance) {
+        if let Some(best) = clear_of(&all, clearance(span, limits)) {
             return Some(Self {
                 is_apart: true,
                 directions: vec![best],
@@ -104,7 +106,18 @@ pub(super) fn roomiest(axes: &[Axis]) -> Option<DVec3> {
     best.map(|axis| axis.direction)
 }
 
-/// The direction with the most room, if that is more than τ.
+/// Triangles with more room than this have one side only.
+///
+/// What corners on a plane through common vertices have of room is none, so that where vertices are common it takes more
+/// than τ.
+fn clearance(span: &Span, limits: &Limits) -> f64 {
+    match span.shared {
+        0 => limits.tolerance,
+        _ => limits.tolerance.max(CLEAR_SHARE * span.size),
+    }
+}
+
+/// The direction with the most room, if that is more than asked for.
 fn clear_of(axes: &[Axis], tolerance: f64) -> Option<DVec3> {
     let clear = axes.iter().filter(|axis| axis.room > tolerance);
     let best = clear.reduce(|p, q| if q.room > p.room { q } else { p });
@@ -243,7 +256,7 @@ impl<'a> Walk<'a> {
                     ways: Vec::new(),
                 });
             }
-            let limit = self.limits.tolerance;
+            let limit = clearance(self.span, self.limits);
             let may_graze = || clear_of(&axes(self.span, end), limit).is_none();
             if step > SEARCH_STEP || (step > GRAZING_STEP && !may_graze()) {
                 return None;
@@ -254,7 +267,7 @@ impl<'a> Walk<'a> {
 
     /// Along one axis the triangles are strictly apart throughout; where it points at the end.
     fn stay_apart(&self, part: &Span, step: f64) -> Option<DVec3> {
-        let limit = self.limits.tolerance;
+        let limit = clearance(self.span, self.limits);
         let free = |from: DVec3, to: DVec3| {
             let bound = Path::straight(from, to).bound(part, corners(part));
             (part.shared < 2 && bound.room > limit).then_some(to)
@@ -320,10 +333,11 @@ impl<'a> Walk<'a> {
         }
         self.has_touched = true;
         let there = axes(part, end);
-        let clear = clear_of(&there, limit)
+        let clear = clearance(self.span, self.limits);
+        let joined = clear_of(&there, clear)
             .is_some()
             .then(|| joined(end, &there, &landed, limit));
-        let way_out = clear.and_then(|joined| clear_of(&joined, limit));
+        let way_out = joined.and_then(|joined| clear_of(&joined, clear));
         let apart = way_out.or_else(|| strictly_apart(&there, &landed));
         Some(Step {
             apart,
@@ -343,8 +357,8 @@ impl<'a> Walk<'a> {
         let all = axes(self.span, &self.pose);
         let mut seeds = self.side.directions.clone();
         if self.side.is_apart {
-            let limit = self.limits.tolerance;
-            let apart = all.iter().filter(|axis| axis.room > limit);
+            let clear = clearance(self.span, self.limits);
+            let apart = all.iter().filter(|axis| axis.room > clear);
             seeds.extend(apart.map(|axis| axis.direction));
         }
         let limit = self.limits.tolerance;
