@@ -34,5 +34,7 @@ mod schemas;
 mod unfolding;
 #[path = "whole/verify.rs"]
 mod verify;
+#[path = "whole/verdict_cases.rs"]
+mod verdict_cases;
 #[path = "whole/window.rs"]
 mod window;

@@ -13,10 +13,18 @@ pub struct Closest {
     pub on_b: DVec3,
 }
 
-impl Closest {
+/// A point of each set.
+#[derive(Clone, Copy)]
+struct Points {
+    squared: f64,
+    on_a: DVec3,
+    on_b: DVec3,
+}
+
+impl Points {
     fn between(on_a: DVec3, on_b: DVec3) -> Self {
         Self {
-            distance: on_a.distance(on_b),
+            squared: on_a.distance_squared(on_b),
             on_a,
             on_b,
         }
@@ -24,100 +32,277 @@ impl Closest {
 
     fn flipped(self) -> Self {
         Self {
-            distance: self.distance,
             on_a: self.on_b,
             on_b: self.on_a,
+            ..self
         }
     }
 
     fn keep_nearer(&mut self, other: Self) {
-        if other.distance < self.distance {
+        if other.squared < self.squared {
             *self = other;
         }
     }
 }
 
+impl From<Points> for Closest {
+    fn from(points: Points) -> Self {
+        Self {
+            distance: points.on_a.distance(points.on_b),
+            on_a: points.on_a,
+            on_b: points.on_b,
+        }
+    }
+}
+
+/// Below this sin² of their angle segments count as nearly parallel; triangles below this (2 area / longest²)² as slivers.
+const NEARLY_PARALLEL: f64 = 1e-4;
+
+/// The point of a segment nearest to `point`.
+fn on_segment(point: DVec3, [from, to]: [DVec3; 2]) -> DVec3 {
+    let along = to - from;
+    let squared = along.length_squared();
+    let t = (point - from).dot(along);
+    if t >= squared && squared > 0.0 {
+        to
+    } else if t > 0.0 {
+        from + along * (t / squared)
+    } else {
+        from
+    }
+}
+
 /// The closest points of segments `a` and `b`.
 ///
-/// Ericson 2005, "Real-Time Collision Detection", section 5.1.9. Segments of no length and parallel segments are
-/// allowed; for nearly parallel ones the points may be off along the segments, which changes the distance by rounding
-/// only.
+/// Ericson 2005, "Real-Time Collision Detection", section 5.1.9, whose parameters lose 1 / sin² of the angle to
+/// rounding; segments of an angle below a hundredth therefore go another way. Segments of no length and parallel
+/// segments are allowed. The distance is that of the points given, and off by some hundred roundings of the lengths at most.
 pub fn segment_segment(a: [DVec3; 2], b: [DVec3; 2]) -> Closest {
+    of_segments(a, b).into()
+}
+
+fn of_segments(a: [DVec3; 2], b: [DVec3; 2]) -> Points {
     let (u, v, w) = (a[1] - a[0], b[1] - b[0], a[0] - b[0]);
     let (uu, uv, vv, uw, vw) = (u.dot(u), u.dot(v), v.dot(v), u.dot(w), v.dot(w));
-    let ratio = |x: f64, y: f64| {
-        if y > 0.0 {
-            (x / y).clamp(0.0, 1.0)
-        } else {
-            0.0
+    let determinant = uu * vv - uv * uv;
+    if determinant > NEARLY_PARALLEL * uu * vv {
+        let mut s = ((uv * vw - uw * vv) / determinant).clamp(0.0, 1.0);
+        let t = (uv * s + vw) / vv;
+        let t_inside = t.clamp(0.0, 1.0);
+        if t != t_inside {
+            s = ((uv * t_inside - uw) / uu).clamp(0.0, 1.0);
         }
-    };
-    let mut s = ratio(uv * vw - uw * vv, uu * vv - uv * uv);
-    let t = if vv > 0.0 { (uv * s + vw) / vv } else { 0.0 };
-    let t_inside = t.clamp(0.0, 1.0);
-    if t != t_inside || vv == 0.0 {
-        s = ratio(uv * t_inside - uw, uu);
+        return Points::between(a[0] + u * s, b[0] + v * t_inside);
     }
-    Closest::between(a[0] + u * s, b[0] + v * t_inside)
+    // The nearest of the four ends above the other segment, and of the points where the lines are closest.
+    let on_a = |along: f64| a[0] + u * share(along, uu);
+    let on_b = |along: f64| b[0] + v * share(along, vv);
+    let mut closest = Points::between(a[0], on_b(vw));
+    closest.keep_nearer(Points::between(a[1], on_b(vw + uv)));
+    closest.keep_nearer(Points::between(on_a(-uw), b[0]));
+    closest.keep_nearer(Points::between(on_a(uv - uw), b[1]));
+    if uu >= vv {
+        if let Some(t) = where_crossed(u, v, w) {
+            closest.keep_nearer(Points::between(on_a(uv * t - uw), b[0] + v * t));
+        }
+    } else if let Some(s) = where_crossed(v, u, -w) {
+        closest.keep_nearer(Points::between(a[0] + u * s, on_b(uv * s + vw)));
+    }
+    closest
 }
 
-/// The foot of `point` on the plane of `triangle` where it falls inside the triangle.
-fn foot_inside(point: DVec3, triangle: &[DVec3; 3]) -> Option<DVec3> {
-    let [p, q, r] = *triangle;
-    let normal = (q - p).cross(r - p);
-    let squared = normal.length_squared();
-    if squared == 0.0 {
+/// x / y within [0, 1]; 0 where y is 0.
+fn share(x: f64, y: f64) -> f64 {
+    if y > 0.0 {
+        (x / y).clamp(0.0, 1.0)
+    } else {
+        0.0
+    }
+}
+
+/// Where in (0, 1) the second of two nearly parallel segments crosses the first, seen along their common normal.
+///
+/// u, v: along them; w: from the start of the second to that of the first, u the longer. With f the part of v normal
+/// to u that is where (w − v t)·f = 0: t is off by a rounding over |f|, v·f t by a rounding only.
+fn where_crossed(u: DVec3, v: DVec3, w: DVec3) -> Option<f64> {
+    let uu = u.length_squared();
+    if uu == 0.0 {
         return None;
     }
-    let foot = point - normal * (normal.dot(point - p) / squared);
-    let inside = |from: DVec3, to: DVec3| (to - from).cross(foot - from).dot(normal) >= 0.0;
-    (inside(p, q) && inside(q, r) && inside(r, p)).then_some(foot)
+    let once = v - u * (u.dot(v) / uu);
+    let across = once - u * (u.dot(once) / uu);
+    let squared = across.length_squared();
+    let t = w.dot(across);
+    (t > 0.0 && t < squared).then(|| t / squared)
 }
 
-/// Where the segment crosses the triangle.
-fn crossing(segment: [DVec3; 2], triangle: &[DVec3; 3]) -> Option<DVec3> {
-    let [p, q, r] = *triangle;
-    let normal = (q - p).cross(r - p);
-    let (s, t) = (normal.dot(segment[0] - p), normal.dot(segment[1] - p));
-    if s * t >= 0.0 {
-        return None;
+/// The part of v normal to the unit vector `along`, to within a rounding of |v| even where it is small.
+pub(crate) fn normal_part(v: DVec3, along: DVec3) -> DVec3 {
+    let once = v - along * along.dot(v);
+    once - along * along.dot(once)
+}
+
+/// A triangle with what is asked of it several times.
+struct Facet {
+    corners: [DVec3; 3],
+    /// From each corner to the next.
+    sides: [DVec3; 3],
+    normal: DVec3,
+    /// Its squared length.
+    squared: f64,
+    /// Whether it is so thin that its normal is lost to rounding.
+    is_sliver: bool,
+}
+
+impl Facet {
+    fn new(corners: &[DVec3; 3]) -> Self {
+        let [p, q, r] = *corners;
+        let sides = [q - p, r - q, p - r];
+        let normal = sides[0].cross(-sides[2]);
+        let squared = normal.length_squared();
+        let [x, y, z] = sides.map(DVec3::length_squared);
+        let longest = x.max(y).max(z);
+        Self {
+            corners: *corners,
+            sides,
+            normal,
+            squared,
+            is_sliver: squared <= NEARLY_PARALLEL * longest * longest,
+        }
     }
-    let point = segment[0].lerp(segment[1], s / (s - t));
-    foot_inside(point, triangle).map(|_| point)
-}
 
-fn edges(triangle: &[DVec3; 3]) -> [[DVec3; 2]; 3] {
-    let [p, q, r] = *triangle;
-    [[p, q], [q, r], [r, p]]
+    fn edges(&self) -> [[DVec3; 2]; 3] {
+        let [p, q, r] = self.corners;
+        [[p, q], [q, r], [r, p]]
+    }
+
+    /// The foot of `point` on the plane where it falls inside the triangle; in a sliver, the nearest point of the
+    /// section through the foot along the longest edge.
+    fn foot_inside(&self, point: DVec3) -> Option<DVec3> {
+        if self.is_sliver {
+            return self.foot_in_sliver(point);
+        }
+        let height = self.normal.dot(point - self.corners[0]) / self.squared;
+        let foot = point - self.normal * height;
+        let is_inside =
+            |i: usize| self.sides[i].cross(foot - self.corners[i]).dot(self.normal) >= 0.0;
+        (is_inside(0) && is_inside(1) && is_inside(2)).then_some(foot)
+    }
+
+    /// The lowest of three corners that all lie on one side of the plane, where it lies above the facet, and its foot:
+    /// no points are closer, as the gap along the normal is as large as their distance.
+    fn facing(&self, corners: &[DVec3; 3]) -> Option<Points> {
+        if self.is_sliver {
+            return None;
+        }
+        let heights = corners.map(|p| self.normal.dot(p - self.corners[0]));
+        let [x, y, z] = heights;
+        let (low, high) = (x.min(y).min(z), x.max(y).max(z));
+        let least = if low > 0.0 {
+            low
+        } else if high < 0.0 {
+            high
+        } else {
+            return None;
+        };
+        let mut lowest = (0..3).filter(|&i| heights[i] == least).map(|i| corners[i]);
+        lowest.find_map(|corner| Some(Points::between(corner, self.foot_inside(corner)?)))
+    }
+
+    /// A point of a sliver: how far from the longest edge the foot lies is not sure, along it the point is the nearest.
+    fn foot_in_sliver(&self, point: DVec3) -> Option<DVec3> {
+        self.section(point)
+            .map(|section| on_segment(point, section))
+    }
+
+    /// The number of the longest edge, and the part of the next normal to it.
+    fn long_edge(&self) -> (usize, DVec3) {
+        let length = |i: usize| self.sides[i].length_squared();
+        let longest = (1..3).fold(0, |i, j| if length(j) > length(i) { j } else { i });
+        let along = self.sides[longest].try_normalize().unwrap_or(DVec3::ZERO);
+        let height = normal_part(-self.sides[(longest + 2) % 3], along);
+        (longest, height)
+    }
+
+    /// The normal; of a sliver, the one that is normal to the longest edge to within rounding. Of any length.
+    fn normal_to_long_edge(&self) -> DVec3 {
+        if !self.is_sliver {
+            return self.normal;
+        }
+        let (longest, height) = self.long_edge();
+        self.sides[longest].cross(height)
+    }
+
+    /// Parallel to the longest edge, as far from it as the foot of `point`.
+    fn section(&self, point: DVec3) -> Option<[DVec3; 2]> {
+        let (longest, height) = self.long_edge();
+        let [from, to, apex] = [0, 1, 2].map(|k| self.corners[(longest + k) % 3]);
+        let squared = height.length_squared();
+        if squared == 0.0 {
+            return None;
+        }
+        let share = share((point - from).dot(height), squared);
+        Some([from, to].map(|end| end + (apex - end) * share))
+    }
+
+    /// Where the segment crosses the triangle: in a sliver, a point of each.
+    fn crossing(&self, [from, to]: [DVec3; 2]) -> Option<Points> {
+        let normal = self.normal_to_long_edge();
+        let height = |end: DVec3| normal.dot(end - self.corners[0]);
+        let (s, t) = (height(from), height(to));
+        if s == 0.0 || t == 0.0 || (s > 0.0) == (t > 0.0) {
+            return None;
+        }
+        let point = from.lerp(to, s / (s - t));
+        if !self.is_sliver {
+            return self
+                .foot_inside(point)
+                .map(|_| Points::between(point, point));
+        }
+        let met = of_segments([from, to], self.section(point)?);
+        let far = from.distance(self.corners[0]) + to.distance(self.corners[0]);
+        let is_met = met.squared <= (8.0 * f64::EPSILON * far).powi(2);
+        Some(if is_met {
+            Points::between(met.on_a, met.on_a)
+        } else {
+            met
+        })
+    }
 }
 
 /// The closest points of two triangles.
 ///
 /// The minimum over the six corners above the other facet and the nine pairs of edges; 0 where an edge crosses a facet.
-/// Triangles of no area are treated as their edges.
+/// Triangles of no area are treated as their edges. The distance is that of the points given, slivers included; where
+/// features tie to within rounding, the points are those of any of them.
 pub fn triangle_triangle(a: &[DVec3; 3], b: &[DVec3; 3]) -> Closest {
-    let mut closest = Closest::between(a[0], b[0]);
-    for edge_a in edges(a) {
-        for edge_b in edges(b) {
-            closest.keep_nearer(segment_segment(edge_a, edge_b));
+    let (a, b) = (Facet::new(a), Facet::new(b));
+    if let Some(points) = a.facing(&b.corners) {
+        return points.flipped().into();
+    }
+    if let Some(points) = b.facing(&a.corners) {
+        return points.into();
+    }
+    let mut closest = Points::between(a.corners[0], b.corners[0]);
+    for edge_a in a.edges() {
+        for edge_b in b.edges() {
+            closest.keep_nearer(of_segments(edge_a, edge_b));
         }
     }
-    for &corner in a {
-        if let Some(foot) = foot_inside(corner, b) {
-            closest.keep_nearer(Closest::between(corner, foot));
+    for (one, other, is_flipped) in [(&a, &b, false), (&b, &a, true)] {
+        let directed = |found: Points| if is_flipped { found.flipped() } else { found };
+        for corner in one.corners {
+            if let Some(foot) = other.foot_inside(corner) {
+                closest.keep_nearer(directed(Points::between(corner, foot)));
+            }
+        }
+        for edge in one.edges() {
+            if let Some(meeting) = other.crossing(edge) {
+                closest.keep_nearer(directed(meeting));
+            }
         }
     }
-    for &corner in b {
-        if let Some(foot) = foot_inside(corner, a) {
-            closest.keep_nearer(Closest::between(corner, foot).flipped());
-        }
-    }
-    let through_b = edges(a).into_iter().find_map(|edge| crossing(edge, b));
-    let meeting = through_b.or_else(|| edges(b).into_iter().find_map(|edge| crossing(edge, a)));
-    if let Some(point) = meeting {
-        closest.keep_nearer(Closest::between(point, point));
-    }
-    closest
+    closest.into()
 }
 
 #[cfg(test)]

@@ -99,9 +99,13 @@ pub struct TrianglePair {
 /// The closest approach.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct SeparationEntry {
-    /// In units of `unit_length`; the true minimum is smaller by at most τ/100 and a ten thousandth of itself.
+    /// A lower bound of the smallest distance, in units of `unit_length`; 0 where facets meet.
     pub distance: f64,
-    /// Motion time.
+    /// An upper bound: the distance of `points` at `t`.
+    pub attained: f64,
+    /// Whether the bounds differ by at most the larger of τ/100 and a ten thousandth of `attained`, and rounding.
+    pub is_tight: bool,
+    /// Motion time of `attained`.
     pub t: f64,
     /// Between which triangles.
     pub pair: TrianglePair,

@@ -139,6 +139,8 @@ impl CheckedMotion<'_> {
     fn separation(&self, s: &Separation) -> SeparationEntry {
         SeparationEntry {
             distance: s.distance,
+            attained: s.attained,
+            is_tight: s.is_tight,
             t: s.time,
             pair: self.file.pair(s.faces),
             points: s.points.map(DVec3::into),

@@ -210,6 +210,8 @@ pub(crate) fn claim(certificate: &Certificate) -> Result<CollisionReport, Refuta
     });
     let separation = certificate.min_separation.map(|s| Separation {
         distance: s.distance,
+        attained: s.attained,
+        is_tight: s.is_tight,
         time: s.t,
         faces: s.pair.triangles,
         points: s.points.map(Into::into),

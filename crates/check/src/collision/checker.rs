@@ -4,7 +4,8 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use foldmotion_geometry::{
     Aabb,
-    collide::{Effort, Limits, MovingPair, Side, Tree},
+    collide::{Effort, Limits, MovingPair, Side, Tree, closest_approach},
+    triangle_triangle,
 };
 use foldmotion_pattern::{Assignment, Frame, Sheet};
 use glam::DVec3;
@@ -12,11 +13,12 @@ use rayon::prelude::*;
 
 use super::{
     frame::Placed,
-    judge::{Judgement, Question, Witness, may_be_near, starts_deep},
+    judge::{Judgement, Nearness, Question, Witness, may_be_near, starts_deep},
+    nearest::Nearest,
     pair::{Pair, facets_share_a_vertex},
     report::{
         CollisionOptions, CollisionReport, FilterCounts, PairCounts, Penetration, PenetrationKind,
-        Separation, Stopped, Undecided, Verdict,
+        Stopped, Undecided, Verdict,
     },
 };
 use crate::{
@@ -57,6 +59,8 @@ pub struct Checker<'a> {
     pub(super) unfollowed: Vec<(u32, u32)>,
     /// The layers of the last frame, ordered by pair.
     pub(super) layers: Vec<LayerPair>,
+    /// Layers whose order the file or an assignment has claimed, as long as they are in contact.
+    pub(super) claimed: BTreeSet<[u32; 2]>,
     /// Whether the rules were tested at the last frame.
     pub(super) is_proved: bool,
     pub(super) penetrating: BTreeSet<(u32, u32)>,
@@ -69,8 +73,8 @@ pub struct Checker<'a> {
     /// last interval in which they did: whether they pass through each other is counted on the sheet.
     suspects: BTreeMap<(u32, u32), Suspect>,
     crossings: Crossings,
-    /// The closest approach so far, a length.
-    nearest: Option<Separation>,
+    /// The closest approach so far.
+    nearest: Nearest,
     pub(super) report: CollisionReport,
 }
 
@@ -101,10 +105,12 @@ impl<'a> Checker<'a> {
             DVec3::ZERO
         };
         let last = Placed::new(sheet, first, 0, origin)?;
+        let tolerance = value * sheet.unit_length;
+        let limits = limits_for(0, last.extent, tolerance, options.budget)?;
         let mut checker = Self {
             sheet,
             edges: FaceEdges::new(sheet),
-            tolerance: value * sheet.unit_length,
+            tolerance,
             budget: options.budget,
             stop_at: options.stop_at,
             origin,
@@ -114,24 +120,17 @@ impl<'a> Checker<'a> {
             sides: Vec::new(),
             unfollowed: Vec::new(),
             layers: Vec::new(),
+            claimed: BTreeSet::new(),
             is_proved: false,
             contradicting: BTreeSet::new(),
             penetrating: BTreeSet::new(),
             touching: BTreeSet::new(),
             near: Vec::new(),
             suspects: BTreeMap::new(),
-            crossings: Crossings::new(
-                sheet,
-                &Limits {
-                    tolerance: value * sheet.unit_length,
-                    margin: 0.0,
-                    budget: options.budget,
-                },
-            ),
-            nearest: None,
+            crossings: Crossings::new(sheet, &limits),
+            nearest: Nearest::new(&limits),
             report: empty_report(value),
         };
-        let limits = checker.limits(checker.last.extent)?;
         checker.measure_separation();
         checker.judge_first_frame(&limits)?;
         checker.count_crossings(None);
@@ -157,7 +156,9 @@ impl<'a> Checker<'a> {
                 before,
             });
         }
-        let limits = self.limits(self.last.extent.max(next.extent))?;
+        let extent = self.last.extent.max(next.extent);
+        let limits = limits_for(self.frames, extent, self.tolerance, self.budget)?;
+        self.nearest.extend(&limits);
         self.prove_layers();
         let start = std::mem::replace(&mut self.last, next);
         self.measure_separation();
@@ -188,6 +189,9 @@ impl<'a> Checker<'a> {
     /// The report on the frames taken in so far.
     pub fn finish(mut self) -> CollisionReport {
         self.prove_layers();
+        if self.frames == 1 {
+            self.bound_only_frame();
+        }
         let by_time = |p: &Penetration, q: &Penetration| {
             let by_times = p
                 .time
@@ -203,14 +207,9 @@ impl<'a> Checker<'a> {
             .sort_by(|p, q| p.frames.cmp(&q.frames).then(p.faces.cmp(&q.faces)));
         report.first = report.penetrations.first().cloned();
         report.touching_pairs = self.touching.len();
-        report.min_separation = self.nearest.map(|nearest| Separation {
-            distance: nearest.distance / unit,
-            points: nearest.points.map(|p| p + self.origin),
-            ..nearest
-        });
-        let is_close = self
-            .nearest
-            .is_some_and(|nearest| nearest.distance <= self.tolerance);
+        report.min_separation = self.nearest.separation(unit, self.origin);
+        let nearest = report.min_separation.as_ref();
+        let is_close = nearest.is_some_and(|nearest| nearest.distance <= report.tolerance);
         report.verdict = if report.first.is_some() {
             Verdict::Penetrating
         } else if !report.undecided.is_empty() {
@@ -223,49 +222,50 @@ impl<'a> Checker<'a> {
         report
     }
 
-    fn limits(&self, extent: f64) -> Result<Limits, CheckError> {
-        let margin = Limits::margin_for(extent);
-        if margin * 100.0 > self.tolerance {
-            return Err(CheckError::ToleranceBelowRounding {
-                frame: self.frames,
-                extent,
-                margin,
-                tolerance: self.tolerance,
-            });
-        }
-        Ok(Limits {
-            tolerance: self.tolerance,
-            margin,
-            budget: self.budget,
-        })
-    }
-
     /// The exact separation at the last frame.
     fn measure_separation(&mut self) {
-        let hint = self.nearest.map(|nearest| nearest.faces);
+        let hint = self.nearest.faces();
         let Some((closest, faces)) = self.last.nearest(self.sheet, &mut self.tree, hint) else {
             return;
         };
         let unit = self.sheet.unit_length;
         self.report.separation_series.push(closest.distance / unit);
-        self.keep_nearer(Separation {
-            distance: closest.distance,
-            time: self.last.time,
-            faces,
-            points: [closest.on_a, closest.on_b],
-        });
+        self.nearest.keep(faces, self.last.time, closest);
     }
 
-    fn keep_nearer(&mut self, candidate: Separation) {
-        let is_nearer = |nearest: &Separation| candidate.distance < nearest.distance;
-        if self.nearest.as_ref().is_none_or(is_nearer) {
-            self.nearest = Some(candidate);
+    fn is_measured(&self, pair: &Pair) -> bool {
+        let [f, g] = pair.faces;
+        pair.shared == 0 && !facets_share_a_vertex(self.sheet, f, g)
+    }
+
+    /// The lower bound of the separation of a motion without an interval.
+    fn bound_only_frame(&mut self) {
+        let (Some(nearest), Ok(limits)) = (
+            self.nearest.distance(),
+            limits_for(0, self.last.extent, self.tolerance, self.budget),
+        ) else {
+            return;
+        };
+        let (radius, time) = (0.5 * nearest, self.last.time);
+        let boxes: Vec<_> = self.last.boxes.iter().map(|b| b.inflated(radius)).collect();
+        self.tree.refit(&boxes);
+        for (f, g) in self.tree.overlapping_pairs(&boxes) {
+            let pair = Pair::new(self.sheet, f, g);
+            if self.is_measured(&pair) {
+                let pose = pair.pose(&self.last.positions);
+                let still = MovingPair {
+                    start: pose,
+                    end: pose,
+                };
+                let nearness = Nearness::from(closest_approach(&still, nearest, &limits));
+                self.nearest.record(pair.faces, [time; 2], &nearness);
+            }
         }
     }
 
     /// Pairs whose boxes, swept from `start` to the last frame, come within τ and within the smallest separation.
     fn candidates(&mut self, start: &Placed) -> Vec<Pair> {
-        let nearest = self.nearest.map_or(0.0, |nearest| nearest.distance);
+        let nearest = self.nearest.distance().unwrap_or(0.0);
         let radius = 0.5 * nearest.max(self.tolerance);
         let swept: Vec<_> = start
             .boxes
@@ -303,11 +303,14 @@ impl<'a> Checker<'a> {
             };
             if may_be_near(&pair, &at_rest, 0.0, limits) {
                 self.near.push([f, g]);
-                self.touching.insert((f, g));
+                // Of triangles that share nothing the intervals find it, by their distance.
+                if pair.shared > 0 || triangle_triangle(&pose.a, &pose.b).distance <= self.tolerance
+                {
+                    self.touching.insert((f, g));
+                }
             }
             match Side::at_start(&pose, limits) {
                 Some(Side::Contact(axes)) => {
-                    self.touching.insert((f, g));
                     let front = front_normal(self.sheet, f, &self.last.positions);
                     let kept = match assignments.get(&(f, g)) {
                         Some(Assignment::Valley) => on_side(&axes, front),
@@ -365,14 +368,10 @@ impl<'a> Checker<'a> {
             fresh = Side::at_start(&moving.start, limits);
             fresh.as_ref()
         };
-        let [f, g] = pair.faces;
-        let is_measured = pair.shared == 0 && !facets_share_a_vertex(self.sheet, f, g);
-        let nearest = self
-            .nearest
-            .map_or(f64::INFINITY, |nearest| nearest.distance);
+        let nearest = self.nearest.distance().unwrap_or(f64::INFINITY);
         let question = Question {
             limits,
-            nearer_than: is_measured.then_some(nearest),
+            nearer_than: self.is_measured(pair).then_some(nearest),
             has_touched: self.touching.contains(&key(pair)),
         };
         question.judge(pair, &moving, side)
@@ -386,14 +385,13 @@ impl<'a> Checker<'a> {
             _ => counts.shared_crease += 1,
         }
         let decided_by = &mut self.report.decided_by;
-        let at = |t: f64| times[0] + (times[1] - times[0]) * t;
         match judgement {
             Judgement::Passed {
                 side,
                 effort,
                 is_touching,
                 is_near,
-                approach,
+                nearness,
             } => {
                 if is_near {
                     self.near.push(pair.faces);
@@ -406,25 +404,25 @@ impl<'a> Checker<'a> {
                 if is_touching {
                     self.touching.insert(key(pair));
                 }
-                self.sides.push((key(pair), side));
-                if let Some(approach) = approach {
-                    self.keep_nearer(Separation {
-                        distance: approach.closest.distance,
-                        time: at(approach.time),
-                        faces: pair.faces,
-                        points: [approach.closest.on_a, approach.closest.on_b],
-                    });
+                if matches!(side, Side::Apart(_)) {
+                    self.claimed.remove(&pair.faces);
                 }
+                self.sides.push((key(pair), side));
+                self.nearest.record(pair.faces, times, &nearness);
             }
             Judgement::Penetrates(witness) => {
                 decided_by.search += 1;
                 self.leaves_its_side(pair, times, witness);
             }
-            Judgement::Undecided => {
-                // Its sides are open; what passes through what is counted.
+            Judgement::Undecided { is_near, nearness } => {
+                self.nearest.record(pair.faces, times, &nearness);
+                // What passes through what is counted, whatever the sides.
                 decided_by.search += 1;
                 self.unfollowed.push(key(pair));
-                self.near.push(pair.faces);
+                if is_near {
+                    self.near.push(pair.faces);
+                    self.touching.insert(key(pair));
+                }
             }
         }
     }
@@ -433,15 +431,9 @@ impl<'a> Checker<'a> {
     fn leaves_its_side(&mut self, pair: &Pair, times: [f64; 2], witness: Witness) {
         let frame = self.frames - 1;
         self.unfollowed.push(key(pair));
-        if let Some(approach) = witness.approach {
-            self.keep_nearer(Separation {
-                distance: approach.closest.distance,
-                time: times[0] + (times[1] - times[0]) * approach.time,
-                faces: pair.faces,
-                points: [approach.closest.on_a, approach.closest.on_b],
-            });
-        }
-        if witness.is_sure(self.tolerance) {
+        self.nearest.record(pair.faces, times, &witness.nearness);
+        // The side that a claim names is the only one.
+        if witness.is_sure(self.tolerance) || self.claimed.contains(&pair.faces) {
             self.penetrates(pair.faces, frame, times, witness);
             return;
         }
@@ -490,28 +482,30 @@ impl<'a> Checker<'a> {
 
     /// Records what passes through the sheet: as its pair of triangles was found to, or else beside each of them.
     fn crosses(&mut self, crossing: crossings::Crossing, frame: usize) {
-        let keys = crossing.pairs.iter().map(|&[f, g]| (f, g));
-        if keys.clone().any(|pair| self.penetrating.contains(&pair)) {
-            return;
+        let mut is_named = false;
+        for &[f, g] in &crossing.pairs {
+            let suspect = self.suspects.get(&(f, g));
+            let is_known = self.penetrating.contains(&(f, g));
+            is_named |= is_known;
+            let is_meant = |suspect: &&Suspect| suspect.times[1] >= crossing.since;
+            if let Some(suspect) = suspect.filter(is_meant).filter(|_| !is_known) {
+                let Suspect {
+                    frame,
+                    times,
+                    witness,
+                } = suspect.clone();
+                self.penetrates([f, g], frame, times, witness);
+                is_named = true;
+            }
         }
-        let is_meant = |suspect: &Suspect| suspect.times[1] >= crossing.since;
-        let suspect = keys
-            .filter_map(|pair| Some((pair, self.suspects.get(&pair).filter(|s| is_meant(s))?)))
-            .next();
-        if let Some(((f, g), suspect)) = suspect {
-            let Suspect {
-                frame,
-                times,
-                witness,
-            } = suspect.clone();
-            self.penetrates([f, g], frame, times, witness);
+        if is_named {
             return;
         }
         let Some(&faces) = crossing.pairs.first() else {
             return;
         };
         self.unfollows(faces);
-        self.penetrating.insert((faces[0], faces[1]));
+        self.meets(faces, [crossing.since, crossing.passed]);
         self.report.penetrations.push(Penetration {
             time: crossing.since,
             passed: crossing.passed,
@@ -525,6 +519,18 @@ impl<'a> Checker<'a> {
         });
     }
 
+    /// A pair penetrates: it meets somewhere, and is not looked at afterwards.
+    fn meets(&mut self, faces: [u32; 2], times: [f64; 2]) {
+        self.penetrating.insert((faces[0], faces[1]));
+        if self.is_measured(&Pair::new(self.sheet, faces[0], faces[1])) {
+            let met = Nearness {
+                approach: None,
+                at_least: 0.0,
+            };
+            self.nearest.record(faces, times, &met);
+        }
+    }
+
     /// A pair has no side any more.
     fn unfollows(&mut self, [f, g]: [u32; 2]) {
         self.sides.retain(|(other, _)| *other != (f, g));
@@ -535,7 +541,7 @@ impl<'a> Checker<'a> {
 
     fn penetrates(&mut self, faces: [u32; 2], frame: usize, times: [f64; 2], witness: Witness) {
         let at = |t: f64| times[0] + (times[1] - times[0]) * t;
-        self.penetrating.insert((faces[0], faces[1]));
+        self.meets(faces, times);
         self.report.penetrations.push(Penetration {
             time: at(witness.contact),
             passed: at(witness.passed),
@@ -552,6 +558,29 @@ impl<'a> Checker<'a> {
 
 fn key(pair: &Pair) -> (u32, u32) {
     (pair.faces[0], pair.faces[1])
+}
+
+/// The numbers a verdict depends on, up to a frame.
+fn limits_for(
+    frame: usize,
+    extent: f64,
+    tolerance: f64,
+    budget: u32,
+) -> Result<Limits, CheckError> {
+    let margin = Limits::margin_for(extent);
+    if margin * 100.0 > tolerance {
+        return Err(CheckError::ToleranceBelowRounding {
+            frame,
+            extent,
+            margin,
+            tolerance,
+        });
+    }
+    Ok(Limits {
+        tolerance,
+        margin,
+        budget,
+    })
 }
 
 fn empty_report(tolerance: f64) -> CollisionReport {

@@ -1,8 +1,8 @@
 //! The judgement of one pair in one interval.
 
 use foldmotion_geometry::collide::{
-    Approach, Axis, Crossing, Effort, Feature, Limits, MovingPair, Outcome, PairPose, Side,
-    certify, closest_approach, contact_times, enough_clearance,
+    Approach, Approaches, Axis, Crossing, Effort, Feature, Limits, MovingPair, Outcome, PairPose,
+    Passage, Side, certify, closest_approach, comes_within, enough_clearance,
 };
 use glam::DVec3;
 
@@ -20,12 +20,41 @@ pub(super) enum Judgement {
         is_touching: bool,
         /// Whether what the triangles do not share may come within τ.
         is_near: bool,
-        /// The closest approach, where it may be news.
-        approach: Option<Approach>,
+        nearness: Nearness,
     },
     /// It gets deeper than τ, or leaves the side it was followed on.
     Penetrates(Witness),
-    Undecided,
+    /// Its side is open.
+    Undecided {
+        /// Whether what the triangles do not share may come within τ.
+        is_near: bool,
+        nearness: Nearness,
+    },
+}
+
+/// What was found of the distance of a pair in an interval.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Nearness {
+    /// The closest approach, where it may be news.
+    pub(super) approach: Option<Approach>,
+    /// The triangles are at least this far apart throughout; infinite for pairs that are not measured.
+    pub(super) at_least: f64,
+}
+
+impl Nearness {
+    pub(super) const NOT_MEASURED: Self = Self {
+        approach: None,
+        at_least: f64::INFINITY,
+    };
+}
+
+impl From<Approaches> for Nearness {
+    fn from(found: Approaches) -> Self {
+        Self {
+            approach: found.nearest,
+            at_least: found.at_least,
+        }
+    }
 }
 
 /// A penetration in the time and the coordinates of the interval.
@@ -37,8 +66,7 @@ pub(super) struct Witness {
     pub(super) vertices: Vec<u32>,
     pub(super) point: DVec3,
     pub(super) depth: f64,
-    /// The closest approach on the way, where it may be news.
-    pub(super) approach: Option<Approach>,
+    pub(super) nearness: Nearness,
 }
 
 impl Witness {
@@ -63,10 +91,8 @@ impl Question<'_> {
     /// Judges a pair from its side; none stands for a pair that starts deeper than τ.
     pub(super) fn judge(&self, pair: &Pair, moving: &MovingPair, side: Option<&Side>) -> Judgement {
         let penetrates = |witness: Witness| {
-            let bound = self.nearer_than;
-            let approaches = bound.map(|bound| closest_approach(moving, bound, self.limits));
             Judgement::Penetrates(Witness {
-                approach: approaches.and_then(|found| found.nearest),
+                nearness: self.nearness(moving),
                 ..witness
             })
         };
@@ -78,32 +104,61 @@ impl Question<'_> {
             Outcome::Crossed(crossing) => {
                 return penetrates(self.witness(pair, moving, &crossing));
             }
-            Outcome::Undecided { .. } => return Judgement::Undecided,
+            Outcome::Undecided { .. } => {
+                return Judgement::Undecided {
+                    is_near: may_be_near(pair, moving, 0.0, self.limits),
+                    nearness: self.nearness(moving),
+                };
+            }
         };
+        self.passed(pair, moving, passage)
+    }
+
+    fn nearness(&self, moving: &MovingPair) -> Nearness {
+        self.nearer_than.map_or(Nearness::NOT_MEASURED, |bound| {
+            Nearness::from(closest_approach(moving, bound, self.limits))
+        })
+    }
+
+    fn passed(&self, pair: &Pair, moving: &MovingPair, passage: Passage) -> Judgement {
+        let is_near = may_be_near(pair, moving, passage.clearance, self.limits);
+        if pair.shared > 0 {
+            return Judgement::Passed {
+                side: passage.side,
+                effort: passage.effort,
+                is_touching: is_near,
+                is_near,
+                nearness: Nearness::NOT_MEASURED,
+            };
+        }
         let tolerance = self.limits.tolerance;
-        let may_touch = pair.shared == 0 && !self.has_touched && passage.clearance <= tolerance;
+        let clearance = passage.clearance - self.limits.margin;
+        let may_touch = !self.has_touched && clearance <= tolerance;
         let wanted = self.nearer_than.unwrap_or(0.0);
         let bound = if may_touch {
             wanted.max(2.0 * tolerance)
         } else {
             wanted
         };
-        let is_news = pair.shared == 0 && passage.clearance < enough_clearance(bound, self.limits);
+        let is_news = clearance < enough_clearance(bound, self.limits);
         let found = is_news.then(|| closest_approach(moving, bound, self.limits));
+        let at_least = found.map_or(0.0, |found| found.at_least).max(clearance);
         let approach = found.and_then(|found| found.nearest);
-        let distance = approach.map_or(f64::INFINITY, |approach| approach.closest.distance);
-        // Free is claimed only where it is proved, to the hundredth of τ to which distances are searched.
-        let is_proved_free =
-            found.is_some_and(|found| found.is_complete) && distance > 1.01 * tolerance;
-        let is_near = may_be_near(pair, moving, passage.clearance, self.limits);
+        let nearness = Nearness {
+            approach: approach.filter(|approach| approach.closest.distance < wanted),
+            at_least: at_least.max(0.0),
+        };
         Judgement::Passed {
             side: passage.side,
             effort: passage.effort,
-            is_touching: passage.in_contact
-                || (may_touch && !is_proved_free)
-                || (pair.shared > 0 && is_near),
+            // Free is claimed only where it is proved.
+            is_touching: may_touch && at_least <= tolerance,
             is_near,
-            approach: approach.filter(|_| distance < wanted),
+            nearness: if self.nearer_than.is_some() {
+                nearness
+            } else {
+                Nearness::NOT_MEASURED
+            },
         }
     }
 
@@ -125,7 +180,7 @@ impl Question<'_> {
             vertices: vertices(pair, &meeting),
             point: meeting.point,
             depth,
-            approach: None,
+            nearness: Nearness::NOT_MEASURED,
         }
     }
 }
@@ -142,12 +197,25 @@ pub(super) fn may_be_near(
     let reach = NEAR * limits.tolerance;
     let is_apart = match pair.shared {
         0 | 1 => clearance > reach,
-        _ => moving.stays_within_right_angle(limits),
+        _ => moving.stays_within_right_angle(limits) && !is_sliver(pair, moving, reach),
     };
     !is_apart
         && disjoint_parts(pair.shared)
             .iter()
-            .any(|&[a, b]| !contact_times(&part(moving, a, b), reach, limits).is_empty())
+            .any(|&[a, b]| comes_within(&part(moving, a, b), reach, limits))
+}
+
+/// Whether an apex is so near the line of the shared edge at an end that disjoint corners may be near in an open fold.
+fn is_sliver(pair: &Pair, moving: &MovingPair, reach: f64) -> bool {
+    debug_assert_eq!(pair.shared, 2, "the edge is shared");
+    let is_low = |pose: &PairPose, apex: DVec3| {
+        let edge = pose.a[1] - pose.a[0];
+        let area = edge.cross(apex - pose.a[0]);
+        area.length() <= reach * edge.length()
+    };
+    [moving.start, moving.end]
+        .iter()
+        .any(|pose| is_low(pose, pose.a[2]) || is_low(pose, pose.b[2]))
 }
 
 /// Corners of the two triangles that span the largest simplices without a common vertex, shared corners first.
@@ -191,7 +259,7 @@ pub(super) fn starts_deep(pair: &Pair, pose: &PairPose, limits: &Limits) -> Witn
         vertices: vertices(pair, &meeting),
         point: meeting.point,
         depth: axis.overlap,
-        approach: None,
+        nearness: Nearness::NOT_MEASURED,
     }
 }
 

@@ -12,8 +12,8 @@ use super::{
     report::{Penetration, PenetrationKind},
 };
 use crate::layers::{
-    Contradiction, LayerConflict, LayerPair, LayerRule, front_normal, layer_pairs, layer_point,
-    order_of, prove,
+    Contradiction, LayerConflict, LayerPair, LayerProof, LayerRule, front_normal, layer_pairs,
+    layer_point, order_of, prove,
 };
 
 impl Checker<'_> {
@@ -82,6 +82,7 @@ impl Checker<'_> {
             Some(_) => {}
             None => {
                 self.layers[index].up = Some(up);
+                self.claimed.insert(faces);
                 self.keep_side(faces, up);
             }
         }
@@ -154,6 +155,7 @@ impl Checker<'_> {
         if self.frames == 1 {
             for LayerPair { faces, up, .. } in self.layers.clone() {
                 if let Some(up) = up {
+                    self.claimed.insert(faces);
                     self.keep_side(faces, up);
                 }
             }
@@ -174,7 +176,15 @@ impl Checker<'_> {
             self.tolerance,
         );
         let frame = self.frames - 1;
+        let (counted, open): (Vec<_>, Vec<_>) = proof
+            .contradictions
+            .into_iter()
+            .partition(|contradiction| self.counts(contradiction));
         for mut cluster in proof.clusters {
+            let holds = |c: &Contradiction| cluster.faces.binary_search(&c.faces[0]).is_ok();
+            if open.iter().any(holds) && !counted.iter().any(holds) {
+                cluster.order = LayerProof::Unproved;
+            }
             cluster.frames = [frame; 2];
             cluster.times = [self.last.time; 2];
             let before =
@@ -184,9 +194,25 @@ impl Checker<'_> {
                 None => self.report.clusters.push(cluster),
             }
         }
-        for contradiction in proof.contradictions {
+        for contradiction in counted {
             self.contradicts(contradiction);
         }
+    }
+
+    /// Whether a contradiction is one of the sheet.
+    ///
+    /// Whether creases and layers pass through each other along a line is decided by what passes through the sheet in the
+    /// motion (`crossings`), which knows every way out of a contact; the side on which a pair was followed knows one. Orders that the
+    /// file or an assignment claims are not in the motion: there the rules decide.
+    fn counts(&self, contradiction: &Contradiction) -> bool {
+        use LayerRule::{Bent, TacoTaco, TacoTortilla, TortillaTortilla};
+        let conflict = &contradiction.conflict;
+        let is_along_line = matches!(
+            conflict.rule,
+            TacoTaco | TacoTortilla | TortillaTortilla | Bent
+        );
+        let is_among = |pair: &[u32; 2]| pair.iter().all(|face| conflict.faces.contains(face));
+        !is_along_line || self.claimed.iter().any(is_among)
     }
 
     /// Records a contradiction, the first of every pair.

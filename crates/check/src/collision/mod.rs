@@ -5,6 +5,7 @@ mod frame;
 mod judge;
 mod layering;
 mod meeting;
+mod nearest;
 mod pair;
 mod report;
 mod span;

@@ -122,8 +122,13 @@ pub struct Penetration {
 /// The closest approach of facets that share no vertex.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Separation {
-    /// In units of h; 0 where facets meet.
+    /// A lower bound of the smallest distance over the whole motion, in units of h; 0 where facets meet.
     pub distance: f64,
+    /// An upper bound: the distance of `points` at `time`, in units of h.
+    pub attained: f64,
+    /// Whether the bounds are as near to each other as promised: within the larger of τ / 100 and a ten thousandth
+    /// of `attained`, and of rounding. False where the budget ended before.
+    pub is_tight: bool,
     /// The motion time.
     pub time: f64,
     /// The triangles, the smaller index first.
@@ -210,9 +215,7 @@ pub struct CollisionReport {
     pub stopped: Option<Stopped>,
     /// What could not be decided.
     pub undecided: Vec<Undecided>,
-    /// The closest approach over the whole motion; none where all facets share vertices.
-    ///
-    /// The distance is attained at `time`; the true minimum is smaller by at most τ / 100 and a ten thousandth.
+    /// The closest approach over the whole motion, between two bounds; none where all facets share vertices.
     pub min_separation: Option<Separation>,
     /// The smallest distance of facets that share no vertex at each frame, in units of h; empty where all do.
     pub separation_series: Vec<f64>,

@@ -1,9 +1,6 @@
 //! Contacts: stretches of time in which two simplices are within reach of each other.
 
-use foldmotion_geometry::{
-    collide::{Limits, MovingPair, Passing, contact_times},
-    triangle_triangle,
-};
+use foldmotion_geometry::collide::{Limits, MovingPair, Passing, contact_times, feature_distance};
 
 use super::cell::{Cell, Ends};
 use super::topology::Topology;
@@ -69,7 +66,7 @@ impl Watched {
         Self {
             is_unsure: passings.is_none(),
             passings: passings.unwrap_or_default(),
-            is_near: triangle_triangle(&pose.a, &pose.b).distance <= reach,
+            is_near: feature_distance(&pose) <= reach,
             times: Vec::new(),
         }
     }
@@ -77,7 +74,7 @@ impl Watched {
     /// Finds the times of contact; they end at the end of the interval exactly where the frame shows a contact.
     pub(super) fn time(&mut self, pair: &MovingPair, reach: f64, limits: &Limits) {
         let mut times = contact_times(pair, reach, limits);
-        let start = triangle_triangle(&pair.start.a, &pair.start.b).distance <= reach;
+        let start = feature_distance(&pair.start) <= reach;
         hold(&mut times, 0.0, start);
         hold(&mut times, 1.0, self.is_near);
         self.times = times;

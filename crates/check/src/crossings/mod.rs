@@ -62,8 +62,18 @@ pub(crate) use witness::Witness;
 const OFFSET: f64 = 1.0 / 4096.0;
 /// Contacts are those within this share of τ.
 const CONTACT: f64 = 31.0 / 32.0;
+/// The most intervals put off.
+const MOST_QUIET: usize = 16;
 /// Fewer cells than this are not worth a thread.
 const CELLS_A_TASK: usize = 64;
+
+/// An interval, with the vertices moved.
+#[derive(Debug)]
+struct Step {
+    times: [f64; 2],
+    positions: [Vec<DVec3>; 2],
+    watched: BTreeMap<Cell, Watched>,
+}
 
 /// Counts the passages of a sheet through itself, frame by frame.
 #[derive(Debug)]
@@ -80,6 +90,10 @@ pub(crate) struct Crossings {
     /// Passings by whose contact lasts: the unknown, and the contacts it stands in.
     open_turns: BTreeMap<Cell, (u32, BTreeSet<u64>)>,
     contacts: u64,
+    /// Intervals put off.
+    quiet: Vec<Step>,
+    /// What passed in them.
+    passed: BTreeSet<Cell>,
 }
 
 /// A passage that nothing undoes.
@@ -125,10 +139,12 @@ impl Crossings {
                 .collect(),
             reach,
             limits: *limits,
-            system: System::default(),
+            system: System::new(),
             open: BTreeMap::new(),
             open_turns: BTreeMap::new(),
             contacts: 0,
+            quiet: Vec::new(),
+            passed: BTreeSet::new(),
         }
     }
 
@@ -175,21 +191,50 @@ impl Crossings {
     }
 
     /// Takes in the next frame.
+    ///
+    /// Where all that passes through something stays in contact, all equations hold without a turn: such intervals are put
+    /// off, as long as no earlier contact lasts, and only looked at once a contact ends in which something passed.
     pub(crate) fn advance(&mut self, interval: &Interval<'_>) -> Found {
-        let [start, end] = interval.positions.map(|positions| self.moved(positions));
-        let ends = Ends([&start, &end]);
-        let mut watched = self.watch(interval, ends);
-        let mut found = Found::default();
-        let has_events = watched.values().any(|seen| !seen.passings.is_empty());
-        let is_touched = watched.values().any(|seen| seen.is_near) || !self.open.is_empty();
-        if !has_events && !is_touched && watched.values().all(|seen| !seen.is_unsure) {
-            return found;
+        let positions = interval.positions.map(|positions| self.moved(positions));
+        let watched = self.watch(interval, Ends([&positions[0], &positions[1]]));
+        let step = Step {
+            times: interval.times,
+            positions,
+            watched,
+        };
+        if self.is_quiet(&step) && self.quiet.len() < MOST_QUIET {
+            let passed = step.watched.iter().filter(|(_, s)| !s.passings.is_empty());
+            self.passed.extend(passed.map(|(cell, _)| *cell));
+            if step.watched.values().any(|seen| seen.is_near) {
+                self.quiet.push(step);
+            } else {
+                self.quiet.clear();
+            }
+            return Found::default();
         }
-        self.time_contacts(&mut watched, ends);
-        let mut stretches = self.stretches(&watched, interval, &mut found);
-        self.add_turns(&watched, &mut stretches);
-        self.close(stretches, (interval, ends), &mut found);
+        self.passed.clear();
+        let mut found = Found::default();
+        for step in std::mem::take(&mut self.quiet).into_iter().chain([step]) {
+            self.take_in(step, &mut found);
+        }
         found
+    }
+
+    /// Whether no contact lasts that was looked at, and none ends in which something passed.
+    fn is_quiet(&self, step: &Step) -> bool {
+        let lasts = |cell: &Cell| step.watched.get(cell).is_some_and(|seen| seen.is_near);
+        let mut seen = step.watched.values();
+        self.open.is_empty()
+            && seen.all(|seen| !seen.is_unsure && (seen.passings.is_empty() || seen.is_near))
+            && self.passed.iter().all(lasts)
+    }
+
+    fn take_in(&mut self, mut step: Step, found: &mut Found) {
+        let ends = Ends([&step.positions[0], &step.positions[1]]);
+        self.time_contacts(&mut step.watched, ends);
+        let mut stretches = self.stretches(&step, found);
+        self.add_turns(&step.watched, &mut stretches);
+        self.close(stretches, &step, found);
     }
 
     fn moved(&self, positions: &[DVec3]) -> Vec<DVec3> {
@@ -263,15 +308,10 @@ impl Crossings {
     }
 
     /// The stretches of contact of all cells of passing through, with their passages.
-    fn stretches(
-        &mut self,
-        watched: &BTreeMap<Cell, Watched>,
-        interval: &Interval<'_>,
-        found: &mut Found,
-    ) -> BTreeMap<Cell, Vec<Stretch>> {
+    fn stretches(&mut self, step: &Step, found: &mut Found) -> BTreeMap<Cell, Vec<Stretch>> {
         let mut all = BTreeMap::new();
         let mut open = std::mem::take(&mut self.open);
-        for (&cell, seen) in watched {
+        for (&cell, seen) in &step.watched {
             if matches!(cell, Cell::VertexEdge { .. }) {
                 continue;
             }
@@ -281,9 +321,9 @@ impl Crossings {
                 continue;
             }
             let rim = cell.rim(&self.topology);
-            let by = rim.iter().filter_map(|cell| watched.get(cell));
+            let by = rim.iter().filter_map(|cell| step.watched.get(cell));
             let times = seen.all_times(by);
-            let stretches = self.stretches_of(&times, seen, earlier, interval);
+            let stretches = self.stretches_of(&times, seen, earlier, step);
             all.insert(cell, stretches);
         }
         // What is in contact but not watched any more was lost: it is not counted.
@@ -295,16 +335,16 @@ impl Crossings {
         times: &[[f64; 2]],
         seen: &Watched,
         mut earlier: Option<Contact>,
-        interval: &Interval<'_>,
+        step: &Step,
     ) -> Vec<Stretch> {
         let mut stretches = Vec::with_capacity(times.len());
         for &[from, to] in times {
             let continued = if from == 0.0 { earlier.take() } else { None };
-            let mut contact = continued.unwrap_or_else(|| self.contact(interval.at(from)));
+            let mut contact = continued.unwrap_or_else(|| self.contact(step.at(from)));
             let within = seen.passings.iter();
             for passing in within.filter(|p| (from..=to).contains(&p.time)) {
                 contact.sum += i64::from(passing.sign);
-                contact.passed = Some(interval.at(passing.time));
+                contact.passed = Some(step.at(passing.time));
             }
             stretches.push(Stretch {
                 times: [from, to],
@@ -369,12 +409,8 @@ impl Crossings {
     }
 
     /// Balances what has ended and keeps the rest.
-    fn close(
-        &mut self,
-        stretches: BTreeMap<Cell, Vec<Stretch>>,
-        (interval, ends): (&Interval<'_>, Ends<'_>),
-        found: &mut Found,
-    ) {
+    fn close(&mut self, stretches: BTreeMap<Cell, Vec<Stretch>>, step: &Step, found: &mut Found) {
+        let ends = Ends([&step.positions[0], &step.positions[1]]);
         for (cell, list) in stretches {
             for stretch in list {
                 if stretch.is_open {
@@ -386,7 +422,7 @@ impl Crossings {
                     continue;
                 }
                 let witness = Witness::of_passing(&self.topology, cell, ends, stretch.times);
-                let ended = interval.at(stretch.times[1]);
+                let ended = step.at(stretch.times[1]);
                 found.crossings.push(Crossing {
                     pairs: cell.faces(&self.topology).collect(),
                     witness,
@@ -410,7 +446,7 @@ impl Crossings {
     }
 }
 
-impl Interval<'_> {
+impl Step {
     fn at(&self, t: f64) -> f64 {
         let [start, end] = self.times;
         start + (end - start) * t

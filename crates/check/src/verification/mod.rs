@@ -24,8 +24,10 @@
 //!   l, r the face normals give det(e, l, r), a cubic, and the in-plane normals (e × l)·(e × r), a quartic: one of them
 //!   keeps its sign unless the fold angle passes ±180°.
 //! - *Distance*: between two instants the gap along directions that go straight from one line of closest points to the
-//!   next is a quadratic, bounded by its coefficients.
-//!
+//!   next is a quadratic, bounded by its coefficients. Where a line of closest points is ill known, the corners that
+//!   should be level along it are made so. The stated lower bound is proved to within the larger of τ / 1000 and a
+//!   hundred thousandth of it, and rounding; that the stated points lie on their triangles and are as far apart as
+//!   stated, to 1e-9 of the unit of length.
 //! - *Layers*: at each frame every pair near each other is looked at; how far two triangles overlap is the distance of 0
 //!   from the rim of their difference { a − b }. The order of two is the side on which this proof followed them.
 //! - *Order along a line*: a side of a layer is cut where what meets its line begins or ends. For each stretch, all
@@ -53,6 +55,7 @@ mod arcs;
 mod around;
 mod boxes;
 mod choice;
+mod closest;
 mod cluster;
 mod coupling;
 mod distance;
@@ -68,6 +71,7 @@ mod penetration;
 mod plane;
 #[cfg(test)]
 mod random;
+mod separation;
 mod span;
 mod stated_order;
 mod statement;

@@ -3,7 +3,7 @@
 
 use glam::DVec3;
 
-use super::distance::closest;
+use super::closest::closest;
 use super::span::{Pose, Span};
 
 /// The largest parts of two triangles that share no vertex, as triangles with corners repeated.

@@ -3,7 +3,7 @@
 use foldmotion_pattern::Sheet;
 use glam::DVec3;
 
-use super::distance::{closest, on_triangle};
+use super::closest::{closest, on_triangle};
 use super::instant::axes;
 use super::pair::Pair;
 use super::parts::disjoint_parts;

@@ -1,7 +1,7 @@
 //! What the certificate states of the order of layers, beside what was found.
 
+use super::closest::on_triangle;
 use super::cluster::{Fault, Found};
-use super::distance::on_triangle;
 use super::layer::corners;
 use super::outcome::Unproved;
 use super::verifier::Verifier;

@@ -13,6 +13,8 @@ pub(super) struct Facts<'a> {
     pub(super) last: (usize, f64),
     /// Pairs that surely touch, pairs that may.
     pub(super) touching: [usize; 2],
+    /// What rounding may change a distance by, in units of length.
+    pub(super) rounding: f64,
 }
 
 /// Everything the report contradicts itself or what was found in.
@@ -33,6 +35,14 @@ pub(super) fn consistency(claim: &CollisionReport, facts: &Facts<'_>) -> Vec<Ref
             "there are facets that share no vertex",
         ));
     }
+    if let Some(says) = separation_fault(claim, facts.rounding) {
+        let stated = claim.min_separation.map(|s| (s.distance, s.attained));
+        refuted.push(Refutation::new(
+            "min_separation",
+            format!("{stated:?}"),
+            says,
+        ));
+    }
     order_of_penetrations(claim, &mut refuted);
     refuted
 }
@@ -51,6 +61,20 @@ fn stop_fault(claim: &CollisionReport, (frame, time): (usize, f64)) -> Option<Re
         return None;
     };
     Some(Refutation::new("stopped", format!("{stopped:?}"), found))
+}
+
+/// What is wrong with the two bounds of the separation.
+fn separation_fault(claim: &CollisionReport, rounding: f64) -> Option<&'static str> {
+    let stated = claim.min_separation?;
+    let open = stated.attained - stated.distance;
+    let accuracy = (0.01 * claim.tolerance).max(1e-4 * stated.attained) + rounding;
+    if !(stated.distance >= 0.0 && open >= 0.0) {
+        Some("a lower bound is at least 0 and at most what is attained")
+    } else if stated.is_tight && open > accuracy {
+        Some("these bounds are not as near as promised")
+    } else {
+        None
+    }
 }
 
 fn order_of_penetrations(claim: &CollisionReport, refuted: &mut Vec<Refutation>) {

@@ -4,7 +4,7 @@ use foldmotion_pattern::Frame;
 use glam::DVec3;
 
 use super::around::{Around, edges};
-use super::distance::{closest, on_triangle};
+use super::closest::{closest, on_triangle};
 use super::pair::Pair;
 use super::parts::is_pierced;
 use super::penetration::{POINT_TOLERANCES, is_kind_right, meeting_fault};

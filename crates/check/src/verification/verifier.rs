@@ -9,7 +9,7 @@ use rayon::prelude::*;
 use super::account::{Lost, Pairs};
 use super::around::Around;
 use super::boxes::Boxes;
-use super::distance::{Nearness, closest, keeps_distance, on_triangle};
+use super::distance::{Nearness, keeps_distance};
 use super::instant::{axes, touches_for_sure};
 use super::line;
 use super::ordering::Ordering;
@@ -20,7 +20,7 @@ use super::span::Span;
 use super::statement;
 use super::trail::Trail;
 use super::walk::{Crossing, Limits, Side, Walked, roomiest, walk};
-use crate::collision::{CollisionReport, Penetration, Separation, Verdict};
+use crate::collision::{CollisionReport, Penetration, Verdict};
 
 /// The most steps spent on a pair in an interval.
 const BUDGET: u32 = 1 << 16;
@@ -28,6 +28,8 @@ const BUDGET: u32 = 1 << 16;
 pub(super) const SURELY_APART: f64 = 1.02;
 /// Pairs nearer than this, in units of τ, surely touch: *free* states that none are.
 pub(super) const SURELY_TOUCHING: f64 = 0.98;
+/// What rounding may take off a bound of the distance, in units of ε and the size of the pair, twice over.
+const DISTANCE_ROUNDINGS: f64 = 512.0;
 /// How many refutations are listed; the rest are of the same motion.
 const MOST_LISTED: usize = 20;
 /// To this share of the unit of length the stated points are met.
@@ -40,6 +42,9 @@ pub struct Verifier<'a> {
     pub(super) claim: &'a CollisionReport,
     pub(super) limits: Limits,
     pub(super) last: Frame,
+    /// The greatest distance of a vertex in any frame from the first of the first frame.
+    reach: f64,
+    reference: DVec3,
     /// Frames taken in.
     pub(super) frames: usize,
     /// Whether a frame was given of which nothing is stated.
@@ -60,8 +65,8 @@ pub struct Verifier<'a> {
     pub(super) surely_touching: BTreeSet<[u32; 2]>,
     pub(super) perhaps_touching: BTreeSet<[u32; 2]>,
     /// Whether the stated closest approach was met, where one is stated.
-    separation_fault: Option<String>,
-    is_separation_met: bool,
+    pub(super) separation_fault: Option<String>,
+    pub(super) is_separation_met: bool,
     pub(super) ordering: Ordering,
     pub(super) outcome: Verification,
 }
@@ -123,6 +128,8 @@ impl<'a> Verifier<'a> {
                 tolerance: claim.tolerance * unit,
                 budget: BUDGET,
             },
+            reach: 0.0,
+            reference: first.positions[0],
             last: first,
             frames: 1,
             is_over: false,
@@ -155,6 +162,7 @@ impl<'a> Verifier<'a> {
         }
         self.prove_layers();
         let start = std::mem::replace(&mut self.last, frame);
+        self.extend_reach();
         self.meet_separation(&start);
         let near = self.near_pairs(&start.positions);
         self.outcome.near += near.len() as u64;
@@ -203,7 +211,7 @@ impl<'a> Verifier<'a> {
             let found = fault.unwrap_or_else(|| "it is at no time of the motion".to_owned());
             self.refute(
                 "min_separation",
-                format!("{:e} at t = {}", separation.distance, separation.time),
+                format!("{:e} at t = {}", separation.attained, separation.time),
                 found,
             );
         }
@@ -231,6 +239,7 @@ impl<'a> Verifier<'a> {
             sheet: self.sheet,
             last: (self.frames - 1, self.last.time),
             touching: self.outcome.touching,
+            rounding: DISTANCE_ROUNDINGS * f64::EPSILON * self.reach / self.sheet.unit_length,
         };
         for refutation in statement::consistency(self.claim, &facts) {
             self.outcome.refuted.push(refutation);
@@ -254,6 +263,7 @@ impl<'a> Verifier<'a> {
 
     /// The first frame: which sides are possible, and what is too deep already.
     fn begin(&mut self) {
+        self.extend_reach();
         let first = self.last.positions.clone();
         let assignments = assignments(self.sheet);
         let near = self.near_pairs(&first);
@@ -295,6 +305,12 @@ impl<'a> Verifier<'a> {
         self.narrow_sides();
         let first = self.last.clone();
         self.meet_separation(&first);
+    }
+
+    fn extend_reach(&mut self) {
+        let far = self.last.positions.iter();
+        let far = far.map(|p| p.distance(self.reference));
+        self.reach = far.fold(self.reach, f64::max);
     }
 
     /// The pairs whose swept boxes come as near as τ or the stated closest approach.
@@ -347,8 +363,9 @@ impl<'a> Verifier<'a> {
         let apart = SURELY_APART * self.limits.tolerance;
         let limit = self
             .least_distance()
-            .filter(|_| pair.is_measured(self.sheet));
-        if let Some(limit) = limit {
+            .filter(|_| pair.is_measured(self.sheet))
+            .map(|limit| limit - DISTANCE_ROUNDINGS * f64::EPSILON * span.size);
+        if let Some(limit) = limit.filter(|&limit| limit > 0.0) {
             match keeps_distance(span, limit, BUDGET) {
                 Nearness::Kept if limit >= apart => return true,
                 Nearness::Kept => {}
@@ -380,11 +397,10 @@ impl<'a> Verifier<'a> {
         }
     }
 
-    /// What is to be proved of all distances: the stated one, less what the certificate leaves open.
+    /// What is to be proved of all distances: the stated lower bound, to the accuracy of this proof.
     fn least_distance(&self) -> Option<f64> {
         let stated = self.claim.min_separation?.distance * self.sheet.unit_length;
-        let slack = (0.01 * self.limits.tolerance).max(1e-4 * stated);
-        Some(stated - 1.01 * slack).filter(|&limit| limit > 0.0)
+        Some(stated - (1e-3 * self.limits.tolerance).max(1e-5 * stated))
     }
 
     fn follow(&self, pair: &Pair, span: &Span, known: Option<&Side>, judged: &mut Judged) {
@@ -464,63 +480,5 @@ impl<'a> Verifier<'a> {
         if let Some(side) = judged.narrowed {
             self.narrowed.insert(faces, side);
         }
-    }
-
-    /// Whether the stated closest approach is what it says, if it falls between `start` and the last frame.
-    fn meet_separation(&mut self, start: &Frame) {
-        let Some(stated) = self
-            .claim
-            .min_separation
-            .filter(|_| !self.is_separation_met)
-        else {
-            return;
-        };
-        let length = self.last.time - start.time;
-        if !(stated.time >= start.time && stated.time <= self.last.time) {
-            return;
-        }
-        let t = if length > 0.0 {
-            (stated.time - start.time) / length
-        } else {
-            0.0
-        };
-        match self.separation_fault(&stated, start, t) {
-            None => self.is_separation_met = true,
-            Some(fault) => self.separation_fault = Some(fault),
-        }
-    }
-
-    fn separation_fault(&self, stated: &Separation, start: &Frame, t: f64) -> Option<String> {
-        let unit = self.sheet.unit_length;
-        let count = self.sheet.faces.len();
-        if stated.faces[0] >= stated.faces[1] || stated.faces[1] as usize >= count {
-            return Some(format!("there are no such triangles {:?}", stated.faces));
-        }
-        let pair = Pair::new(self.sheet, stated.faces);
-        if !pair.is_measured(self.sheet) {
-            return Some("the facets share a vertex".to_owned());
-        }
-        let place = |v: u32| {
-            let (p, q) = (start.positions[v as usize], self.last.positions[v as usize]);
-            p + (q - p) * t
-        };
-        let (a, b) = (pair.a.map(place), pair.b.map(place));
-        let far = a.iter().chain(&b).map(|p| p.length()).fold(0.0, f64::max);
-        let slack = POINT_ACCURACY * unit + 64.0 * f64::EPSILON * far;
-        for (point, triangle) in stated.points.iter().zip([&a, &b]) {
-            let off = point.distance(on_triangle(*point, triangle));
-            if off.is_nan() || off > slack {
-                return Some(format!("a point is {:e} off its facet", off / unit));
-            }
-        }
-        let apart = stated.points[0].distance(stated.points[1]);
-        if (apart - stated.distance * unit).abs() > slack {
-            return Some(format!("the points are {:e} apart", apart / unit));
-        }
-        let span = Span::new([a, b], [a, b], 0);
-        let least = closest(&span.at(0.0)).distance();
-        let is_met =
-            (least - stated.distance * unit).abs() <= slack.max(0.01 * self.limits.tolerance);
-        (!is_met).then(|| format!("the triangles are {:e} apart there", least / unit))
     }
 }

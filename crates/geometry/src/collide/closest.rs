@@ -1,12 +1,12 @@
-//! The closest approach of two moving triangles.
+//! The closest approach of two moving triangles, between bounds.
 
-use glam::DVec3;
+use std::{cmp::Ordering, collections::BinaryHeap};
 
-use super::{Limits, MovingPair, PairPose, moving::Leaf};
+use super::{Limits, MovingPair, PairPose, clearest::Clearest, moving::Leaf};
 use crate::distance::{Closest, triangle_triangle};
 
-/// The shortest step: motions over it are far below τ / 100.
-const SHORTEST_STEP: f64 = 1.0 / (1u64 << 34) as f64;
+/// Stretches of time shorter than this are not divided further.
+const SHORTEST_STRETCH: f64 = 1.0 / (1u64 << 46) as f64;
 
 /// An instant of closest approach.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -17,140 +17,197 @@ pub struct Approach {
     pub closest: Closest,
 }
 
-/// What was found nearer than a bound.
+/// Between what the smallest distance lies, as far as it is below a bound.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Approaches {
-    /// The nearest instant found; none where none is nearer than the bound.
+    /// The nearest instant found, an upper bound of the smallest distance; none where none is nearer than the bound.
     pub nearest: Option<Approach>,
-    /// Whether the budget sufficed to bound the distance from below at all times.
+    /// The triangles are at least this far apart at every t in [0, 1]: at most the bound, at least 0.
+    pub at_least: f64,
+    /// Whether the two are as near to each other as [`accuracy`] says.
     pub is_complete: bool,
 }
 
-/// The closest approach over t in [0, 1], if it is nearer than `bound`.
-///
-/// The distance is attained, so it is an upper bound of the minimum; where the search is complete the minimum is
-/// smaller by at most the larger of τ / 100 and a ten thousandth of it. Between the instants at which the exact distance is taken, the
-/// gap along the line of closest points bounds it from below.
-pub fn closest_approach(pair: &MovingPair, bound: f64, limits: &Limits) -> Approaches {
-    let mut search = Search { best: None, bound };
-    let mut here = search.measure(0.0, &pair.start);
-    let mut pose = pair.start;
-    let (mut time, mut step) = (0.0, 1.0);
-    for _ in 0..limits.budget {
-        if time >= 1.0 || search.bound <= 0.0 {
-            break;
-        }
-        let end = pair.at(time + step);
-        let there = search.measure(time + step, &end);
-        let enough = enough_clearance(search.bound, limits);
-        if least_distance(&pose, &end, &here, &there, limits) >= enough || step <= SHORTEST_STEP {
-            time += step;
-            (pose, here) = (end, there);
-            if (time / (2.0 * step)).fract() == 0.0 && step < 1.0 {
-                step *= 2.0;
-            }
-        } else {
-            step *= 0.5;
-        }
-    }
-    Approaches {
-        nearest: search.best,
-        is_complete: time >= 1.0 || search.bound <= 0.0,
-    }
+/// How near to each other the bounds of a distance are brought: the largest of τ / 100, a ten thousandth of it and four
+/// margins of rounding.
+pub fn accuracy(distance: f64, limits: &Limits) -> f64 {
+    let share = (0.01 * limits.tolerance).max(1e-4 * distance);
+    share.max(4.0 * limits.margin)
 }
 
-/// A lower bound of the distance that makes a search below `bound` pointless, to the precision promised.
+/// A lower bound of the distance that makes a search below `bound` pointless, to within [`accuracy`].
 pub fn enough_clearance(bound: f64, limits: &Limits) -> f64 {
-    bound - (0.01 * limits.tolerance).max(1e-4 * bound)
+    if bound == f64::INFINITY {
+        return bound;
+    }
+    bound - accuracy(bound, limits)
 }
 
-struct Search {
-    best: Option<Approach>,
+/// The closest approach over t in [0, 1], as far as it is nearer than `bound`.
+///
+/// Branch and bound over time, the stretch with the smallest lower bound first. At an instant the distance is bounded
+/// from above by closest points and from below by the gap along a direction; over a stretch, by the gap along the
+/// directions of its two ends, at rest and turning from one to the other.
+///
+/// Precondition: the triangles share no corner.
+pub fn closest_approach(pair: &MovingPair, bound: f64, limits: &Limits) -> Approaches {
+    Search {
+        pair,
+        limits,
+        bound,
+        nearest: None,
+        instants: Vec::new(),
+        open: BinaryHeap::new(),
+    }
+    .run()
+}
+
+/// The triangles at an instant.
+#[derive(Debug)]
+struct Instant {
+    time: f64,
+    pose: PairPose,
+    /// None where they meet.
+    clearest: Option<Clearest>,
+}
+
+/// The time between two instants, by their numbers, and a lower bound of the distance over it.
+#[derive(Debug)]
+struct Stretch {
+    at_least: f64,
+    ends: [usize; 2],
+}
+
+impl Ord for Stretch {
+    /// The greatest is the one with the smallest bound, the first found of those.
+    fn cmp(&self, other: &Self) -> Ordering {
+        let by_bound = other.at_least.total_cmp(&self.at_least);
+        by_bound.then(other.ends.cmp(&self.ends))
+    }
+}
+
+impl PartialOrd for Stretch {
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
+}
+
+impl PartialEq for Stretch {
+    fn eq(&self, other: &Self) -> bool {
+        self.cmp(other) == Ordering::Equal
+    }
+}
+
+impl Eq for Stretch {}
+
+struct Search<'a> {
+    pair: &'a MovingPair,
+    limits: &'a Limits,
+    /// The distance of `nearest`, or what was asked for.
     bound: f64,
+    nearest: Option<Approach>,
+    instants: Vec<Instant>,
+    open: BinaryHeap<Stretch>,
 }
 
-impl Search {
-    fn measure(&mut self, time: f64, pose: &PairPose) -> Closest {
+impl Search<'_> {
+    fn run(mut self) -> Approaches {
+        let ends = [self.measure(0.0), self.measure(1.0)];
+        self.add(ends, 0.0);
+        for _ in 0..self.limits.budget {
+            if !self.divide() {
+                break;
+            }
+        }
+        let open = self.open.peek().map_or(0.0, |stretch| stretch.at_least);
+        let at_least = open.min(self.bound - self.limits.margin).max(0.0);
+        Approaches {
+            nearest: self.nearest,
+            at_least,
+            is_complete: self.is_enough(at_least),
+        }
+    }
+
+    fn is_enough(&self, at_least: f64) -> bool {
+        at_least >= enough_clearance(self.bound, self.limits)
+    }
+
+    /// Halves the stretch with the smallest bound; false where nothing is left to do.
+    fn divide(&mut self) -> bool {
+        let Some(stretch) = self.open.pop() else {
+            return false;
+        };
+        let [from, to] = stretch.ends;
+        let times = [self.instants[from].time, self.instants[to].time];
+        if self.is_enough(stretch.at_least) || times[1] - times[0] <= SHORTEST_STRETCH {
+            self.open.push(stretch);
+            return false;
+        }
+        let middle = self.measure(f64::midpoint(times[0], times[1]));
+        self.add([from, middle], stretch.at_least);
+        self.add([middle, to], stretch.at_least);
+        true
+    }
+
+    fn measure(&mut self, time: f64) -> usize {
+        let pose = self.pair.at(time);
         let closest = triangle_triangle(&pose.a, &pose.b);
         if closest.distance < self.bound {
             self.bound = closest.distance;
-            self.best = Some(Approach { time, closest });
+            self.nearest = Some(Approach { time, closest });
         }
-        closest
+        let slack = 0.1 * accuracy(closest.distance, self.limits);
+        let clearest = Clearest::of(&pose, &closest, slack, self.limits);
+        self.instants.push(Instant {
+            time,
+            pose,
+            clearest,
+        });
+        self.instants.len() - 1
+    }
+
+    /// `known`: a lower bound over a longer stretch.
+    fn add(&mut self, ends: [usize; 2], known: f64) {
+        let [from, to] = ends.map(|i| &self.instants[i]);
+        let at_least = least_distance(from, to, self.limits).max(known);
+        self.open.push(Stretch { at_least, ends });
     }
 }
 
-/// A lower bound of the distance between two instants whose closest points are known.
-fn least_distance(
-    from: &PairPose,
-    to: &PairPose,
-    here: &Closest,
-    there: &Closest,
-    limits: &Limits,
-) -> f64 {
-    let towards = |closest: &Closest| (closest.on_b - closest.on_a).try_normalize();
-    let (Some(d0), Some(d1)): (Option<DVec3>, Option<DVec3>) = (towards(here), towards(there))
-    else {
-        return 0.0;
+/// A lower bound of the distance between two instants; 0 or less where there is none.
+fn least_distance(from: &Instant, to: &Instant, limits: &Limits) -> f64 {
+    let leaf = Leaf {
+        from: &from.pose,
+        to: &to.pose,
     };
-    let leaf = Leaf { from, to };
-    leaf.least_gap(d0, d1, limits)
-        .max(leaf.least_gap_at_rest(d0, limits))
-        .max(leaf.least_gap_at_rest(d1, limits))
-        - limits.margin
+    let gap_of = |d| leaf.least_gap_at_rest(d, limits);
+    let gap = match (from.clearest, to.clearest) {
+        (Some(first), Some(last)) => {
+            let first_gaps = [first.gap, to.pose.gap(first.direction, limits)];
+            let last_gaps = [from.pose.gap(last.direction, limits), last.gap];
+            let turning = leaf.least_gap(first.direction, last.direction, limits);
+            least_of_greater(first_gaps, last_gaps).max(turning)
+        }
+        (Some(one), None) | (None, Some(one)) => gap_of(one.direction),
+        (None, None) => return 0.0,
+    };
+    gap - limits.margin
+}
+
+/// The minimum over s in [0, 1] of the greater of two linear functions, given their values at 0 and 1.
+///
+/// The gap along a direction at rest is concave in time, so it is at least linear between its ends. The greater of two
+/// linear functions is convex, and has its minimum at an end or where they are equal.
+fn least_of_greater(p: [f64; 2], q: [f64; 2]) -> f64 {
+    let least = p[0].max(q[0]).min(p[1].max(q[1]));
+    let (before, after) = (p[0] - q[0], p[1] - q[1]);
+    if (before > 0.0) == (after > 0.0) || before == after {
+        return least;
+    }
+    let s = before / (before - after);
+    least.min(p[0] + (p[1] - p[0]) * s)
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::collide::random::Random;
-
-    const LIMITS: Limits = Limits {
-        tolerance: 1e-6,
-        margin: 1e-13,
-        budget: 20_000,
-    };
-
-    #[test]
-    fn the_closest_approach_is_what_dense_sampling_finds() {
-        let mut random = Random::new(41);
-        for _ in 0..80 {
-            let mut pose = || PairPose {
-                a: random.triangle(1.0),
-                b: random.triangle(1.0).map(|p| p + DVec3::X * 1.5),
-                shared: 0,
-            };
-            let (start, end) = (pose(), pose());
-            let pair = MovingPair { start, end };
-            let found = closest_approach(&pair, f64::INFINITY, &LIMITS);
-            assert!(found.is_complete);
-            let approach = found.nearest.unwrap();
-            let sampled = (0..=2000)
-                .map(|k| pair.at(f64::from(k) / 2000.0))
-                .map(|p| triangle_triangle(&p.a, &p.b).distance)
-                .fold(f64::INFINITY, f64::min);
-            let (least, slack) = (approach.closest.distance, 1e-8 + 2e-4 * sampled);
-            assert!(least <= sampled + slack, "{least} {sampled}");
-            // Corners move by at most 4 in 2000 steps between samples.
-            assert!(least >= sampled - 8e-3, "{least} {sampled}");
-            let there = pair.at(approach.time);
-            assert_eq!(triangle_triangle(&there.a, &there.b).distance, least);
-        }
-    }
-
-    #[test]
-    fn a_pair_farther_than_the_bound_is_left_out() {
-        let a = [DVec3::ZERO, DVec3::X, DVec3::Y];
-        let pose = PairPose {
-            a,
-            b: a.map(|p| p + DVec3::Z),
-            shared: 0,
-        };
-        let pair = MovingPair {
-            start: pose,
-            end: pose,
-        };
-        let nearest = |bound: f64| closest_approach(&pair, bound, &LIMITS).nearest;
-        assert!(nearest(0.9).is_none() && nearest(1.1).is_some());
-    }
-}
+#[path = "closest_tests.rs"]
+mod tests;

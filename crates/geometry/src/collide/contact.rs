@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use super::{Limits, MovingPair, PairPose, moving::Leaf};
-use crate::distance::{Closest, triangle_triangle};
+use crate::distance::{Closest, segment_segment, triangle_triangle};
 
 /// Stretches of time in which the features move by less than this share of the distance count by their ends.
 const RESOLUTION: f64 = 1.0 / 64.0;
@@ -50,6 +50,39 @@ pub fn contact_times(pair: &MovingPair, distance: f64, limits: &Limits) -> Vec<[
     near
 }
 
+/// Whether two features come within `distance` of each other; see [`contact_times`].
+pub fn comes_within(pair: &MovingPair, distance: f64, limits: &Limits) -> bool {
+    let is_near = |instant: &Instant| instant.closest.distance <= distance;
+    let ends = (Instant::new(pair, 0.0), Instant::new(pair, 1.0));
+    if is_near(&ends.0) || is_near(&ends.1) {
+        return true;
+    }
+    let moved = greatest_motion(pair);
+    let mut open = vec![ends];
+    for _ in 0..BUDGET {
+        let Some((from, to)) = open.pop() else {
+            return false;
+        };
+        let length = to.time - from.time;
+        let is_short = length * moved <= RESOLUTION * distance || length <= SHORTEST;
+        if is_short || stays_farther(&from, &to, distance, limits) {
+            continue;
+        }
+        let middle = Instant::new(pair, f64::midpoint(from.time, to.time));
+        if is_near(&middle) {
+            return true;
+        }
+        open.push((middle, to));
+        open.push((from, middle));
+    }
+    true
+}
+
+/// The distance of two features at an instant.
+pub fn feature_distance(pose: &PairPose) -> f64 {
+    closest(pose).distance
+}
+
 /// The longest way of a corner of one triangle as seen from a corner of the other.
 fn greatest_motion(pair: &MovingPair) -> f64 {
     let moved = |start: &[DVec3; 3], end: &[DVec3; 3]| [0, 1, 2].map(|i| end[i] - start[i]);
@@ -57,6 +90,50 @@ fn greatest_motion(pair: &MovingPair) -> f64 {
     let b = moved(&pair.start.b, &pair.end.b);
     let ways = a.iter().flat_map(|u| b.iter().map(|v| u.distance(*v)));
     ways.fold(0.0, f64::max)
+}
+
+/// The closest points, by what the features are.
+fn closest(pose: &PairPose) -> Closest {
+    let (a, b) = (&pose.a, &pose.b);
+    let is_segment = |t: &[DVec3; 3]| t[1] == t[2];
+    match (is_segment(a), is_segment(b)) {
+        (true, true) => segment_segment([a[0], a[1]], [b[0], b[1]]),
+        (true, false) if a[0] == a[1] => point_triangle(a[0], b),
+        (false, true) if b[0] == b[1] => {
+            let Closest {
+                distance,
+                on_a,
+                on_b,
+            } = point_triangle(b[0], a);
+            Closest {
+                distance,
+                on_a: on_b,
+                on_b: on_a,
+            }
+        }
+        _ => triangle_triangle(a, b),
+    }
+}
+
+/// The point of a triangle closest to `p`: the foot of p where it lies inside, otherwise on an edge.
+fn point_triangle(p: DVec3, triangle: &[DVec3; 3]) -> Closest {
+    let [u, v, w] = *triangle;
+    let normal = (v - u).cross(w - u);
+    let squared = normal.length_squared();
+    if squared > 0.0 {
+        let foot = p - normal * (normal.dot(p - u) / squared);
+        let is_inside = |from: DVec3, to: DVec3| (to - from).cross(foot - from).dot(normal) >= 0.0;
+        if is_inside(u, v) && is_inside(v, w) && is_inside(w, u) {
+            return Closest {
+                distance: p.distance(foot),
+                on_a: p,
+                on_b: foot,
+            };
+        }
+    }
+    let [first, second, third] = [[u, v], [v, w], [w, u]].map(|edge| segment_segment([p, p], edge));
+    let nearer = |p: Closest, q: Closest| if q.distance < p.distance { q } else { p };
+    nearer(nearer(first, second), third)
 }
 
 #[derive(Clone, Copy)]
@@ -69,11 +146,10 @@ struct Instant {
 impl Instant {
     fn new(pair: &MovingPair, time: f64) -> Self {
         let pose = pair.at(time);
-        let closest = triangle_triangle(&pose.a, &pose.b);
         Self {
             time,
+            closest: closest(&pose),
             pose,
-            closest,
         }
     }
 

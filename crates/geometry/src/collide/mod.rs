@@ -54,6 +54,7 @@
 //! input and take any that can be subtracted). Facets without area are safe, but may be refused.
 
 mod certify;
+mod clearest;
 mod closest;
 mod contact;
 mod meeting;
@@ -69,8 +70,8 @@ mod tree;
 mod walk;
 
 pub use certify::{Crossing, Effort, Outcome, Passage, Side, certify};
-pub use closest::{Approach, Approaches, closest_approach, enough_clearance};
-pub use contact::contact_times;
+pub use closest::{Approach, Approaches, accuracy, closest_approach, enough_clearance};
+pub use contact::{comes_within, contact_times, feature_distance};
 pub use meeting::{Meeting, MeetingSearch, edge_edge, vertex_facet};
 pub use moving::MovingPair;
 pub use passing::{Passing, edge_passings, sign_of_volume, vertex_passings};
