@@ -88,12 +88,14 @@ impl Interval<'_> {
         if stated.kind != PenetrationKind::ThroughEdge {
             return self.meeting_fault(stated, pair);
         }
-        let Some([a, b]) = self.features(stated, pair) else {
+        let from = self.share(stated.passed);
+        let all = self.features(stated, pair).into_iter();
+        let nearest = all.min_by(|&p, &q| self.apart(p, from).total_cmp(&self.apart(q, from)));
+        let Some([a, b]) = nearest else {
             let found = "not two simplices of the triangles without a common vertex";
             return Some(("vertices", format!("{:?}", stated.vertices), found));
         };
         let near = POINT_TOLERANCES * self.tolerance;
-        let from = self.share(stated.passed);
         if stated.passed >= self.times()[0] && self.apart([a, b], from) > near {
             let found = "the vertices named do not meet then";
             return Some(("passed_t", stated.passed.to_string(), found));
@@ -120,23 +122,23 @@ impl Interval<'_> {
         Some(("point", stated.point.to_string(), found))
     }
 
-    /// The simplices named, each as a triangle with corners repeated: the one in the one triangle of the pair, the other
-    /// in the other.
-    fn features(&self, stated: &Penetration, pair: &Pair) -> Option<[[u32; 3]; 2]> {
+    /// The simplices that may be named, each as a triangle with corners repeated: the one in the one triangle of the pair,
+    /// the other in the other.
+    fn features(&self, stated: &Penetration, pair: &Pair) -> Vec<[[u32; 3]; 2]> {
         let v = &stated.vertices;
-        let splits: Vec<[[u32; 3]; 2]> = match **v {
+        let mut splits: Vec<[[u32; 3]; 2]> = match **v {
             [a, b, c, d] => vec![[[a, a, a], [b, c, d]], [[a, b, b], [c, d, d]]],
             [a, b, c, d, e] => vec![[[a, b, b], [c, d, e]]],
             [a, b, c] => vec![[[a, a, a], [b, c, c]]],
             _ => Vec::new(),
         };
         let lies = |part: &[u32; 3], corners: &[u32; 3]| part.iter().all(|v| corners.contains(v));
-        splits.into_iter().find(|[a, b]| {
+        splits.retain(|[a, b]| {
             let is_disjoint = !a.iter().any(|v| b.contains(v));
-            let is_so =
-                (lies(a, &pair.a) && lies(b, &pair.b)) || (lies(a, &pair.b) && lies(b, &pair.a));
-            is_disjoint && is_so
-        })
+            let is_so = |p, q| lies(a, p) && lies(b, q);
+            is_disjoint && (is_so(&pair.a, &pair.b) || is_so(&pair.b, &pair.a))
+        });
+        splits
     }
 
     fn pose(&self, features: [[u32; 3]; 2], t: f64) -> Pose {
