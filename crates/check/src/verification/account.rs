@@ -15,7 +15,7 @@ use super::span::Span;
 use super::through;
 use super::trail::Trail;
 use super::verifier::{Judged, SURELY_APART, SURELY_TOUCHING, Verifier};
-use super::walk::{Limits, Side, Walked, depth, walk};
+use super::walk::{Limits, Side, Walked, depth, walk, walk_leniently};
 use crate::collision::{Penetration, PenetrationKind, Verdict};
 
 /// A pair without a side with this many times τ surely changes sides.
@@ -102,7 +102,7 @@ impl Verifier<'_> {
         let Some(side) = self.narrowed.get(&pair.faces) else {
             return;
         };
-        match walk(span, side, &self.limits) {
+        match walk_leniently(span, side, &self.limits) {
             Walked::Clean { side, trail, .. } => {
                 judged.narrowed = (!side.is_apart).then_some(side);
                 judged.trail = trail.or(judged.trail.take());

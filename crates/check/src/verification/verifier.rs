@@ -19,7 +19,7 @@ use super::penetration::Found;
 use super::span::Span;
 use super::statement;
 use super::trail::Trail;
-use super::walk::{Crossing, Limits, Side, Walked, roomiest, walk};
+use super::walk::{Crossing, Limits, Side, Walked, roomiest, walk_leniently};
 use crate::collision::{CollisionReport, Penetration, Verdict};
 
 /// The most steps spent on a pair in an interval.
@@ -421,7 +421,7 @@ impl<'a> Verifier<'a> {
             let is_open = self.frames == 1 || was_lost;
             Lost::new(span, (side, is_open), found, &self.limits)
         };
-        match walk(span, side, &self.limits) {
+        match walk_leniently(span, side, &self.limits) {
             Walked::Clean {
                 side,
                 is_close,

@@ -8,6 +8,8 @@ use super::path::{OnPlane, Path};
 use super::span::{Pose, Span};
 use super::trail::{Trail, Way};
 
+/// Sides are kept at this many τ where they are not at τ: the first proof counts at 31/32 τ.
+const LENIENCE: f64 = 33.0 / 32.0;
 /// The longest steps tried, in turn: a long one may lose a side that a short one keeps.
 const FIRST_STEPS: [f64; 3] = [1.0, 1.0 / 16.0, 1.0 / 256.0];
 /// The shortest step.
@@ -136,6 +138,26 @@ pub(super) fn depth(span: &Span, pose: &Pose) -> f64 {
     let overlaps = axes(span, pose).into_iter();
     let overlaps = overlaps.map(|axis| pose.overlap(axis.direction));
     overlaps.fold(arcs::depth(pose), f64::min)
+}
+
+/// Likewise; a pair that loses its side is given a little more than τ.
+pub(super) fn walk_leniently(span: &Span, side: &Side, limits: &Limits) -> Walked {
+    let walked = walk(span, side, limits);
+    let is_deep = |c: &Crossing| span.shared == 0 && c.depth > limits.tolerance;
+    match &walked {
+        Walked::Clean { .. } => walked,
+        Walked::Crosses(crossing) if is_deep(crossing) => walked,
+        _ => {
+            let lenient = Limits {
+                tolerance: LENIENCE * limits.tolerance,
+                ..*limits
+            };
+            match walk(span, side, &lenient) {
+                clean @ Walked::Clean { .. } => clean,
+                _ => walked,
+            }
+        }
+    }
 }
 
 /// Walks a pair through t in [0, 1] from the side it is on at 0.
