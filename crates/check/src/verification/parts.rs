@@ -51,3 +51,37 @@ pub(super) fn is_pierced([p, q]: [DVec3; 2], t: &[DVec3; 3], tolerance: f64) -> 
             closest(&rim).distance() > tolerance
         })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_edge_pierces_a_triangle_for_sure_only_where_it_stands_off_its_rim_and_beyond_it() {
+        let t = [DVec3::ZERO, DVec3::X, DVec3::Y];
+        let pierces = |x: f64, beyond: f64| {
+            let at = |z: f64| DVec3::new(x, 0.25, z);
+            is_pierced([at(1.0), at(-beyond)], &t, 0.1)
+        };
+        assert!(pierces(0.25, 1.0));
+        assert!(!pierces(0.25, 0.05));
+        assert!(!pierces(0.05, 1.0));
+        assert!(!pierces(-0.5, 1.0));
+    }
+
+    #[test]
+    fn the_parts_of_neighbours_have_no_corner_in_common() {
+        let corner = |k: u32| [DVec3::new(f64::from(k), f64::from(k * k), 0.0); 2];
+        for shared in 1..3 {
+            let a = [0, 1, 2].map(corner);
+            let b = [0, 1, 2].map(|k| if k < shared { corner(k) } else { corner(k + 3) });
+            let start = [a.map(|p| p[0]), b.map(|p| p[0])];
+            let span = Span::new(start, start, shared as usize);
+            let parts = disjoint_parts(&span);
+            assert_eq!(parts.len(), 2 * shared as usize);
+            for part in parts {
+                assert!(part.a.iter().all(|p| !part.b.contains(p)), "{part:?}");
+            }
+        }
+    }
+}
