@@ -17,7 +17,7 @@ use foldmotion_check::{CollisionOptions, collisions};
 use foldmotion_pattern::FoldHeader;
 use oracle::{
     class::Class,
-    trial::{HEADER, Tally, motion_of, try_class, try_scene},
+    trial::{HEADER, Tally, motion_of, try_class, try_scene, verify},
 };
 
 /// What is asked for.
@@ -73,6 +73,7 @@ fn main() -> Result<ExitCode, Box<dyn Error>> {
         for undecided in &report.undecided {
             println!("{undecided:?}");
         }
+        println!("{:#?}", verify(&motion, &report));
         println!("{:?}", motion.sheet.faces);
         for frame in &motion.frames {
             println!("t = {}", frame.time);

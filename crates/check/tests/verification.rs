@@ -1,6 +1,8 @@
 //! The second proof against the first.
 #![expect(clippy::unwrap_used, reason = "a test stops where a value is missing")]
 
+#[path = "verification/edges.rs"]
+mod edges;
 #[path = "verification/layers.rs"]
 mod layers;
 #[path = "collision/sheets.rs"]

@@ -127,6 +127,17 @@ fn pairs(certificate: &Certificate) -> impl Iterator<Item = (&'static str, &Tria
         .chain(undecided.map(|u| ("undecided.pair", &u.pair)))
 }
 
+/// When a contact begins, as far as it has to be in the interval: what passes through an edge may have been in contact since
+/// an earlier one.
+fn in_interval(p: &PenetrationEntry, first: f64) -> f64 {
+    let is_long = p.kind == PenetrationKind::ThroughEdge.name();
+    if is_long && (first..p.interval[0]).contains(&p.t) {
+        p.interval[0]
+    } else {
+        p.t
+    }
+}
+
 /// What the times of the frames refute.
 pub(crate) fn against_times(certificate: &Certificate, times: &[f64]) -> Vec<Refutation> {
     let mut refuted = Vec::new();
@@ -144,7 +155,7 @@ pub(crate) fn against_times(certificate: &Certificate, times: &[f64]) -> Vec<Ref
                 "penetrations",
                 p.frames,
                 p.interval,
-                p.t,
+                in_interval(p, ends[0]),
                 p.layers.is_some(),
             )
         })

@@ -2,10 +2,8 @@
 
 use glam::DVec3;
 
-use super::span::{COORDINATES, FEATURES, Feature, Pose, Span};
-
-/// How often an arc is halved before it is taken as leaving D(t).
-const HALVINGS: u32 = 8;
+use super::arcs::reached;
+use super::span::{COORDINATES, Feature, Pose, Span};
 
 /// An axis at an instant.
 #[derive(Debug, Clone, Copy)]
@@ -25,14 +23,19 @@ pub(super) fn axes(span: &Span, pose: &Pose) -> Vec<Axis> {
     let edges = |t: &[DVec3; 3]| [t[1] - t[0], t[2] - t[1], t[0] - t[2]];
     let (a, b) = (edges(&pose.a), edges(&pose.b));
     let (normal_a, normal_b) = (a[0].cross(a[1]), b[0].cross(b[1]));
-    let mut axes = Vec::with_capacity(2 * FEATURES.len());
-    for feature in FEATURES {
+    let features = span.features();
+    let mut axes = Vec::with_capacity(2 * features.len());
+    for &feature in features {
         let (normal, power) = match feature {
             Feature::NormalA => (normal_a, 2),
             Feature::NormalB => (normal_b, 2),
             Feature::Edges(i, j) => (a[i].cross(b[j]), 2),
             Feature::SideA(i) => (normal_a.cross(a[i]), 3),
             Feature::SideB(j) => (normal_b.cross(b[j]), 3),
+            Feature::AcrossA(j) => (normal_a.cross(b[j]), 3),
+            Feature::AcrossB(i) => (normal_b.cross(a[i]), 3),
+            Feature::BesideA => (a[0].cross(b[0]).cross(a[0]), 3),
+            Feature::BesideB => (a[0].cross(b[0]).cross(b[0]), 3),
             Feature::Coordinate(k) => (COORDINATES[k], 0),
         };
         let length = normal.length();
@@ -85,61 +88,18 @@ pub(super) fn inner(span: &Span, axes: &[Axis]) -> Option<DVec3> {
         .try_normalize()
 }
 
-/// Whether the arc from u to v lies in D(t) = { d : overlap ≤ `limit` }.
-///
-/// Along the chord the overlap, not normalised, is convex; normalising divides it by at least half |u + v|. Where that
-/// does not suffice, the arc is halved.
-pub(super) fn is_arc_within(pose: &Pose, u: DVec3, v: DVec3, limit: f64) -> bool {
-    let ends = (u, pose.overlap(u), v, pose.overlap(v));
-    is_piece_within(pose, ends, limit, HALVINGS)
-}
-
-fn is_piece_within(
-    pose: &Pose,
-    (u, over_u, v, over_v): (DVec3, f64, DVec3, f64),
-    limit: f64,
-    halvings: u32,
-) -> bool {
-    let cosine = u.dot(v);
-    let worst = over_u.max(over_v);
-    if worst > limit || cosine < -0.95 {
-        return false;
-    }
-    let shortest = f64::midpoint(1.0, cosine).max(0.0).sqrt();
-    if worst <= limit * shortest {
-        return true;
-    }
-    let Some(middle) = (u + v).try_normalize().filter(|_| halvings > 0) else {
-        return false;
-    };
-    let over = pose.overlap(middle);
-    is_piece_within(pose, (u, over_u, middle, over), limit, halvings - 1)
-        && is_piece_within(pose, (middle, over, v, over_v), limit, halvings - 1)
-}
-
-/// The axes with an overlap of at most `limit` that arcs within D(t) join to a seed, one after the other.
+/// The axes with an overlap of at most `limit` that are connected to a seed in D(t).
 pub(super) fn joined(pose: &Pose, axes: &[Axis], seeds: &[DVec3], limit: f64) -> Vec<Axis> {
-    let mut waiting: Vec<Axis> = axes
+    let low: Vec<Axis> = axes
         .iter()
         .copied()
         .filter(|x| x.overlap <= limit)
         .collect();
-    let mut from = seeds.to_vec();
-    let mut joined: Vec<Axis> = Vec::new();
-    while let Some(direction) = from.pop() {
-        let mut k = 0;
-        while k < waiting.len() {
-            let axis = waiting[k];
-            if is_arc_within(pose, direction, axis.direction, limit) {
-                waiting.swap_remove(k);
-                from.push(axis.direction);
-                joined.push(axis);
-            } else {
-                k += 1;
-            }
-        }
-    }
-    joined
+    let nodes: Vec<DVec3> = low.iter().map(|x| x.direction).collect();
+    let is_reached = reached(pose, &nodes, seeds, limit);
+    let both = low.into_iter().zip(is_reached);
+    both.filter_map(|(axis, is_reached)| is_reached.then_some(axis))
+        .collect()
 }
 
 /// Whether at an end of the interval no axis separates what the triangles do not share.

@@ -160,9 +160,9 @@ impl Verifier<'_> {
             } else if open.contains(&faces) {
                 layer.doubt = Some("on which side of each other they are");
             } else if !layer.is_lost && !self.undecided.contains(&(faces, self.frames - 2)) {
-                layer.up = self.followed_side(faces);
-                let is_unclear = layer.up.is_none();
-                let unclear = is_unclear.then_some("on which side of each other they are");
+                let (up, is_sure) = self.followed_side(faces);
+                layer.up = up;
+                let unclear = (!is_sure).then_some("on which side of each other they are");
                 layer.doubt = layer.doubt.or(unclear);
             }
             if let Some(doubt) = layer.doubt {
@@ -181,17 +181,22 @@ impl Verifier<'_> {
         }
     }
 
-    /// The side of the first on which the second was followed to the last frame.
-    fn followed_side(&self, faces: [u32; 2]) -> Option<DVec3> {
-        let normal = self.front(faces[0])?;
+    /// The side of the first on which the second was followed to the last frame, and whether there is no other: where both
+    /// are left open, the one on which it is strictly apart.
+    fn followed_side(&self, faces: [u32; 2]) -> (Option<DVec3>, bool) {
+        let Some(normal) = self.front(faces[0]) else {
+            return (None, false);
+        };
         let side = self.sides.binary_search_by(|(pair, _)| pair.cmp(&faces));
-        if let Ok(index) = side {
-            return side_of(normal, &self.sides[index].1.directions);
+        let side = side.map(|index| &self.sides[index].1.directions[..]);
+        if let Some(up) = side.ok().and_then(|side| side_of(normal, side)) {
+            return (Some(up), true);
         }
         let positions = &self.last.positions;
         let span = Pair::new(self.sheet, faces).span(positions, positions);
-        let apart = roomiest(&axes(&span, &span.at(0.0)))?;
-        side_of(normal, &[apart])
+        let apart = roomiest(&axes(&span, &span.at(0.0)));
+        let up = apart.and_then(|apart| side_of(normal, &[apart]));
+        (up, up.is_some() && side.is_err())
     }
 
     /// Proves the order at the last frame, once, and holds what is stated there to it.

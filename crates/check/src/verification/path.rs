@@ -21,8 +21,8 @@ pub(super) struct Path {
 pub(super) struct Bound {
     /// The gap min n·b − max n·a, divided by |n|, is at least this at every instant, whatever the triangles share.
     pub(super) gap: f64,
-    /// Whether what they do not share is strictly apart at every instant.
-    pub(super) is_apart: bool,
+    /// What they do not share is apart by at least this at every instant, where positive.
+    pub(super) room: f64,
 }
 
 /// The corners that lie exactly on the plane through what the triangles share.
@@ -149,11 +149,12 @@ impl Path {
         } else {
             f64::NEG_INFINITY
         };
-        let is_apart = match span.shared {
-            0 => sure > 0.0,
-            _ => clear.is_finite() && clear > margin,
+        let room = match span.shared {
+            0 => gap,
+            _ if clear.is_finite() => (clear - margin) / longest,
+            _ => f64::NEG_INFINITY,
         };
-        Bound { gap, is_apart }
+        Bound { gap, room }
     }
 }
 

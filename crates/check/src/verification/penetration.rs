@@ -3,10 +3,12 @@
 use foldmotion_pattern::Sheet;
 use glam::DVec3;
 
-use super::closest::on_triangle;
+use super::closest::{closest, on_triangle};
+use super::instant::axes;
 use super::pair::Pair;
+use super::parts::disjoint_parts;
 use super::span::{Pose, Span};
-use super::walk::{Crossing, Limits, depth, instants_after, overlaps_from_side};
+use super::walk::{Crossing, Limits, depth, instants_after};
 use crate::collision::{Penetration, PenetrationKind};
 
 /// To this share of an interval two proofs agree about when a contact begins and when it gets too deep.
@@ -15,7 +17,7 @@ const TIME_ACCURACY: f64 = 1e-6;
 const DEPTH_ACCURACY: f64 = 1e-5;
 /// Where a contact begins or a pair gets deeper than τ, the pair touches, and the stated point lies on what meets there,
 /// to within this many τ.
-const POINT_TOLERANCES: f64 = 16.0;
+pub(super) const POINT_TOLERANCES: f64 = 16.0;
 
 /// Where a pair gets too deep.
 #[derive(Debug)]
@@ -87,9 +89,17 @@ impl Found {
     /// Whether the contact may be said to begin when stated: pairs that graze each other on the way, or are within τ
     /// for a while, come into contact more than once; there they must touch, and not be too deep before.
     fn may_begin(&self, stated: &Penetration, pair: &Pair, limits: &Limits) -> bool {
-        let overlap = self.overlap(stated.time, pair);
-        stated.time <= stated.passed
-            && overlap.is_some_and(|o| o.abs() <= POINT_TOLERANCES * limits.tolerance)
+        let near = POINT_TOLERANCES * limits.tolerance;
+        let is_met = match self.share(stated.time) {
+            None => false,
+            Some(share) if pair.shared == 0 => {
+                depth(&self.span, &self.span.at(share)).abs() <= near
+            }
+            Some(share) => disjoint_parts(&self.span)
+                .iter()
+                .any(|part| closest(&part.at(share)).distance() <= near),
+        };
+        stated.time <= stated.passed && is_met
     }
 
     /// Whether the pair may be said to get too deep when stated: which side it was on may be left open by a contact
@@ -104,21 +114,33 @@ impl Found {
 
     /// Whether the pair is as deep as stated.
     ///
-    /// For triangles that share no vertex: the largest depth. Otherwise one of the overlaps from the side on which the
-    /// pair was: which axes count as that side is left to the prover.
-    fn is_as_deep(&self, stated: f64, pair: &Pair) -> bool {
+    /// For triangles that share no vertex: the largest depth. Otherwise no more than the overlaps at the instants looked
+    /// at: which axes count as the side on which the pair was is left to the prover.
+    fn is_as_deep(&self, stated: &Penetration, unit: f64, pair: &Pair) -> bool {
         let is_close = |depth: f64| {
-            (stated - depth).abs() <= DEPTH_ACCURACY * depth.abs() + 1e-9 * self.span.size
+            let slack = DEPTH_ACCURACY * depth.abs() + 1e-9 * self.span.size;
+            (stated.depth * unit - depth).abs() <= slack
         };
         if is_close(self.depth(pair)) {
             return true;
         }
-        let mut instants = instants_after(self.crossing.passed);
-        pair.shared > 0
-            && instants.any(|t| {
-                let pose = self.span.at(t);
-                overlaps_from_side(&self.span, &pose, &self.crossing.side).any(is_close)
-            })
+        if pair.shared == 0 {
+            return false;
+        }
+        let of_stated = self.share(stated.passed).into_iter();
+        let instants = of_stated
+            .chain([self.crossing.passed])
+            .flat_map(instants_after);
+        let overlaps = instants.flat_map(|t| {
+            let pose = self.span.at(t);
+            let all = axes(&self.span, &pose).into_iter();
+            let along = all.map(|axis| axis.direction);
+            let side = self.crossing.side.iter().copied();
+            let both: Vec<f64> = along.chain(side).map(|d| pose.overlap(d)).collect();
+            both
+        });
+        let largest = overlaps.fold(0.0, f64::max);
+        stated.depth * unit <= (1.0 + DEPTH_ACCURACY) * largest
     }
 
     fn depth(&self, pair: &Pair) -> f64 {
@@ -158,7 +180,7 @@ pub(super) fn compare(
         let passed = found.at(found.crossing.passed);
         differ("passed_t", stated.passed.to_string(), passed.to_string());
     }
-    if !found.is_as_deep(stated.depth * unit, pair) {
+    if !found.is_as_deep(stated, unit, pair) {
         let depth = found.depth(pair) / unit;
         differ("depth", format!("{:e}", stated.depth), format!("{depth:e}"));
     }
@@ -179,13 +201,16 @@ pub(super) fn compare(
     differences
 }
 
-fn is_kind_right(stated: &Penetration, pair: &Pair, tolerance: f64) -> bool {
-    use PenetrationKind::{AroundVertex, EdgeEdge, FoldedThrough, PassedThrough, VertexFacet};
+pub(super) fn is_kind_right(stated: &Penetration, pair: &Pair, tolerance: f64) -> bool {
+    use PenetrationKind::{
+        AroundVertex, EdgeEdge, FoldedThrough, PassedThrough, ThroughEdge, VertexFacet,
+    };
     match (pair.shared, stated.kind) {
         (0, PassedThrough) => stated.depth <= tolerance,
         (0, VertexFacet | EdgeEdge) | (1, AroundVertex) | (2, FoldedThrough) => {
             stated.depth > tolerance
         }
+        (0..=2, ThroughEdge) => stated.depth >= 0.0,
         _ => false,
     }
 }
@@ -194,7 +219,7 @@ fn is_kind_right(stated: &Penetration, pair: &Pair, tolerance: f64) -> bool {
 ///
 /// `near`: what counts as there. At the first frame (`is_far`) the two may be far through each other already: the point
 /// is then the vertex itself or halfway between the edges.
-fn meeting_fault(
+pub(super) fn meeting_fault(
     stated: &Penetration,
     pair: &Pair,
     pose: &Pose,

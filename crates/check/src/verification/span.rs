@@ -17,6 +17,8 @@ pub(super) struct Span {
     pub(super) origin: DVec3,
     /// No two corners are farther apart at any instant.
     pub(super) size: f64,
+    /// Whether a triangle is an edge or a point, its corners repeated.
+    pub(super) is_part: bool,
 }
 
 /// Two triangles at an instant.
@@ -36,11 +38,23 @@ pub(super) enum Feature {
     SideA(usize),
     SideB(usize),
     Coordinate(usize),
+    /// In A's plane, normal to an edge of B in it.
+    AcrossA(usize),
+    AcrossB(usize),
+    /// In the plane of two edges, normal to that of A.
+    BesideA,
+    BesideB,
 }
 
-/// All of them: the face normals of A − B, those in the planes, and three that never degenerate.
-pub(super) const FEATURES: [Feature; 20] = {
-    use Feature::{Coordinate, Edges, NormalA, NormalB, SideA, SideB};
+/// How many of the features two triangles with an area need.
+const OF_TRIANGLES: usize = 20;
+
+/// All of them: the face normals of A − B, those in the planes, and three that never degenerate; then those needed where
+/// a triangle is an edge or a point.
+const FEATURES: [Feature; 28] = {
+    use Feature::{
+        AcrossA, AcrossB, BesideA, BesideB, Coordinate, Edges, NormalA, NormalB, SideA, SideB,
+    };
     [
         NormalA,
         NormalB,
@@ -62,6 +76,14 @@ pub(super) const FEATURES: [Feature; 20] = {
         Coordinate(0),
         Coordinate(1),
         Coordinate(2),
+        AcrossA(0),
+        AcrossA(1),
+        AcrossA(2),
+        AcrossB(0),
+        AcrossB(1),
+        AcrossB(2),
+        BesideA,
+        BesideB,
     ]
 };
 
@@ -80,6 +102,16 @@ impl Span {
             shared,
             origin,
             size: 2.0 * reach.fold(0.0, f64::max),
+            is_part: false,
+        }
+    }
+
+    /// The features that can be axes.
+    pub(super) fn features(&self) -> &'static [Feature] {
+        if self.is_part {
+            &FEATURES
+        } else {
+            &FEATURES[..OF_TRIANGLES]
         }
     }
 
@@ -120,6 +152,13 @@ impl Span {
             Feature::Edges(i, j) => Path::cross(edge(&self.a, i), edge(&self.b, j)),
             Feature::SideA(i) => normal(&self.a).across(edge(&self.a, i)),
             Feature::SideB(j) => normal(&self.b).across(edge(&self.b, j)),
+            Feature::AcrossA(j) => normal(&self.a).across(edge(&self.b, j)),
+            Feature::AcrossB(i) => normal(&self.b).across(edge(&self.a, i)),
+            Feature::BesideA | Feature::BesideB => {
+                let (a, b) = (edge(&self.a, 0), edge(&self.b, 0));
+                let along = if feature == Feature::BesideA { a } else { b };
+                Path::cross(a, b).across(along)
+            }
             Feature::Coordinate(k) => Path::straight(COORDINATES[k], COORDINATES[k]),
         }
     }
@@ -159,8 +198,11 @@ impl Span {
     pub(super) fn bound(&self, axis: (Feature, f64)) -> Bound {
         let path = self.directed(axis);
         let bound = path.bound(self, self.on_plane(axis.0));
+        if self.may_clear(axis.0) {
+            return bound;
+        }
         Bound {
-            is_apart: bound.is_apart && self.may_clear(axis.0),
+            room: f64::NEG_INFINITY,
             ..bound
         }
     }

@@ -6,25 +6,28 @@ use foldmotion_pattern::{Assignment, Frame, Sheet};
 use glam::DVec3;
 use rayon::prelude::*;
 
+use super::account::{Lost, Pairs};
+use super::around::Around;
 use super::boxes::Boxes;
 use super::distance::{Nearness, keeps_distance};
-use super::instant::touches_for_sure;
+use super::instant::{axes, touches_for_sure};
 use super::line;
 use super::ordering::Ordering;
 use super::outcome::{Refutation, Unproved, Verification};
 use super::pair::{Pair, assignments, front_normal};
-use super::penetration::{Found, compare};
+use super::penetration::Found;
 use super::span::Span;
 use super::statement;
-use super::walk::{Limits, Side, Walked, depth, walk};
+use super::trail::Trail;
+use super::walk::{Crossing, Limits, Side, Walked, roomiest, walk_leniently};
 use crate::collision::{CollisionReport, Penetration, Verdict};
 
 /// The most steps spent on a pair in an interval.
 const BUDGET: u32 = 1 << 16;
 /// Pairs farther than this, in units of τ, are surely not touching; the first prover resolves distances to τ/100.
-const SURELY_APART: f64 = 1.02;
+pub(super) const SURELY_APART: f64 = 1.02;
 /// Pairs nearer than this, in units of τ, surely touch: *free* states that none are.
-const SURELY_TOUCHING: f64 = 0.98;
+pub(super) const SURELY_TOUCHING: f64 = 0.98;
 /// What rounding may take off a bound of the distance, in units of ε and the size of the pair, twice over.
 const DISTANCE_ROUNDINGS: f64 = 512.0;
 /// How many refutations are listed; the rest are of the same motion.
@@ -48,12 +51,19 @@ pub struct Verifier<'a> {
     pub(super) is_over: bool,
     /// The sides of the pairs in contact, ordered by pair.
     pub(super) sides: Vec<([u32; 2], Side)>,
-    claimed: BTreeMap<[u32; 2], &'a Penetration>,
+    pub(super) claimed: BTreeMap<[u32; 2], &'a Penetration>,
     pub(super) undecided: BTreeSet<([u32; 2], usize)>,
     /// Pairs with a penetration behind them, and the intervals in which each was judged.
     pub(super) dropped: BTreeMap<[u32; 2], usize>,
-    surely_touching: BTreeSet<[u32; 2]>,
-    perhaps_touching: BTreeSet<[u32; 2]>,
+    pub(super) around: Around,
+    /// Pairs not followed to the end of the interval before.
+    pub(super) lost: Pairs,
+    /// Sides that are fewer than those followed, as they fit together with those beyond an edge.
+    pub(super) narrowed: BTreeMap<[u32; 2], Side>,
+    /// Pairs at which something was found to pass through.
+    pub(super) accounted: Pairs,
+    pub(super) surely_touching: BTreeSet<[u32; 2]>,
+    pub(super) perhaps_touching: BTreeSet<[u32; 2]>,
     /// Whether the stated closest approach was met, where one is stated.
     pub(super) separation_fault: Option<String>,
     pub(super) is_separation_met: bool,
@@ -62,24 +72,43 @@ pub struct Verifier<'a> {
 }
 
 /// What was found of a pair in an interval.
-struct Judged {
+pub(super) struct Judged {
     side: Option<Side>,
-    found: Option<Found>,
-    touching: [bool; 2],
+    pub(super) lost: Option<Lost>,
+    /// Likewise from the sides that fit together with others, which may be fewer.
+    pub(super) narrowed: Option<Side>,
+    pub(super) lost_narrowed: Option<Lost>,
+    /// How it was followed, where it was in contact.
+    pub(super) trail: Option<Trail>,
+    pub(super) touching: [bool; 2],
     nearer: Option<(f64, f64)>,
     unproved: Option<&'static str>,
     is_followed: bool,
+    /// Whether nothing is to be said of it.
+    pub(super) is_skipped: bool,
 }
 
 impl Judged {
-    fn apart() -> Self {
+    pub(super) fn apart() -> Self {
         Self {
             side: None,
-            found: None,
+            lost: None,
+            narrowed: None,
+            lost_narrowed: None,
+            trail: None,
             touching: [false; 2],
             nearer: None,
             unproved: None,
             is_followed: false,
+            is_skipped: false,
+        }
+    }
+
+    pub(super) fn at_rest(trail: Option<Trail>, is_skipped: bool) -> Self {
+        Self {
+            trail,
+            is_skipped,
+            ..Self::apart()
         }
     }
 }
@@ -108,6 +137,10 @@ impl<'a> Verifier<'a> {
             claimed: of_pairs.map(|p| (p.faces, p)).collect(),
             undecided: claim.undecided.iter().map(|u| (u.faces, u.frame)).collect(),
             dropped: BTreeMap::new(),
+            around: Around::new(sheet),
+            lost: BTreeSet::new(),
+            accounted: BTreeSet::new(),
+            narrowed: BTreeMap::new(),
             surely_touching: BTreeSet::new(),
             perhaps_touching: BTreeSet::new(),
             separation_fault: None,
@@ -139,20 +172,23 @@ impl<'a> Verifier<'a> {
             .map(|&faces| Pair::new(self.sheet, faces))
             .filter(|pair| pair.shared < 3)
             .collect();
-        let judged: Vec<Judged> = pairs
+        let mut judged: Vec<Judged> = pairs
             .par_iter()
             .with_min_len(64)
             .map(|pair| self.judge(pair, &start))
             .collect();
         self.sides.clear();
         let times = [start.time, self.last.time];
-        let mut open = BTreeSet::new();
+        self.account(&start, &pairs, &mut judged);
+        self.narrowed.clear();
+        let mut open = self.lost.clone();
         for (pair, judged) in pairs.iter().zip(judged) {
             if judged.unproved.is_some() {
                 open.insert(pair.faces);
             }
             self.record(pair, judged, times);
         }
+        self.narrow_sides();
         let faces = self.sheet.faces.len() as u64;
         self.outcome.pairs += faces * faces.saturating_sub(1) / 2;
         self.frames += 1;
@@ -161,6 +197,9 @@ impl<'a> Verifier<'a> {
 
     /// What came of it.
     pub fn finish(mut self) -> Verification {
+        if self.frames == 1 {
+            self.finish_at_rest();
+        }
         self.prove_layers();
         self.compare_clusters();
         if let Some(separation) = self
@@ -242,7 +281,9 @@ impl<'a> Verifier<'a> {
             match Side::at_start(&span, &self.limits) {
                 Some(side) if side.is_apart => {}
                 Some(mut side) => {
-                    self.surely_touching.insert(faces);
+                    if roomiest(&axes(&span, &span.at(0.0))).is_none() {
+                        self.surely_touching.insert(faces);
+                    }
                     self.perhaps_touching.insert(faces);
                     let front = front_normal(self.sheet, faces[0], &first);
                     let towards = match assignments.get(&faces) {
@@ -256,15 +297,12 @@ impl<'a> Verifier<'a> {
                     }
                     self.sides.push((faces, side));
                 }
-                None => {
-                    let depth = depth(&span, &span.at(0.0));
-                    let found = Found::at_first_frame(&span, self.last.time, depth);
-                    self.penetrates(&pair, &found);
-                    self.dropped.insert(faces, 0);
-                }
+                None => self.starts_lost(&pair, &span),
             }
         }
         self.find_layers(&near, &BTreeSet::new());
+        self.uncoupled_at_rest(&near);
+        self.narrow_sides();
         let first = self.last.clone();
         self.meet_separation(&first);
     }
@@ -276,7 +314,7 @@ impl<'a> Verifier<'a> {
     }
 
     /// The pairs whose swept boxes come as near as τ or the stated closest approach.
-    fn near_pairs(&self, start: &[DVec3]) -> Vec<[u32; 2]> {
+    pub(super) fn near_pairs(&self, start: &[DVec3]) -> Vec<[u32; 2]> {
         let stated = self.claim.min_separation.map_or(0.0, |s| s.distance);
         let unit = self.sheet.unit_length;
         let radius = 0.5 * (SURELY_APART * self.limits.tolerance).max(stated * unit);
@@ -303,7 +341,10 @@ impl<'a> Verifier<'a> {
         let known = known.ok().map(|index| &self.sides[index].1);
         let interval = self.frames - 1;
         if self.undecided.contains(&(pair.faces, interval)) {
-            return Judged::apart();
+            return Judged {
+                is_skipped: true,
+                ..Judged::apart()
+            };
         }
         let mut judged = Judged::apart();
         let mut is_apart = false;
@@ -370,22 +411,44 @@ impl<'a> Verifier<'a> {
         };
         let was_undecided =
             self.frames > 1 && self.undecided.contains(&(pair.faces, self.frames - 2));
-        let anew = was_undecided
+        let was_lost = was_undecided || self.lost.contains(&pair.faces);
+        let anew = was_lost
             .then(|| Side::at_start(span, &self.limits))
             .flatten();
         let side = known.or(anew.as_ref()).unwrap_or(&fresh);
-        match walk(span, side, &self.limits) {
-            Walked::Clean { side, is_close } => {
-                if pair.shared > 0 && is_close {
-                    judged.touching = [touches_for_sure(span), true];
+        let lost = |crossing: Option<Crossing>| {
+            let found = crossing.map(|crossing| Found::new(span, self.frames - 1, crossing));
+            let is_open = self.frames == 1 || was_lost;
+            Lost::new(span, (side, is_open), found, &self.limits)
+        };
+        match walk_leniently(span, side, &self.limits) {
+            Walked::Clean {
+                side,
+                is_close,
+                trail,
+            } => {
+                if pair.shared > 0 {
+                    judged.touching[0] = is_close && touches_for_sure(span);
+                    judged.touching[1] = judged.touching[0];
+                    self.measure_parts(span, judged);
                 }
                 judged.side = (!side.is_apart).then_some(side);
+                judged.trail = trail;
+                self.follow_narrowed(pair, span, judged);
             }
             Walked::Crosses(crossing) => {
-                judged.touching = [false, false];
-                judged.found = Some(Found::new(span, self.frames - 1, crossing));
+                let lost = lost(Some(crossing));
+                judged.touching = if lost.is_deep {
+                    [false; 2]
+                } else {
+                    [judged.touching[0], true]
+                };
+                judged.lost = Some(lost);
             }
-            Walked::Undecided { .. } => judged.unproved = Some("whether they penetrate"),
+            Walked::Undecided { .. } => {
+                judged.touching[1] = true;
+                judged.lost = Some(lost(None));
+            }
         }
     }
 
@@ -393,12 +456,7 @@ impl<'a> Verifier<'a> {
         let faces = pair.faces;
         let at = |t: f64| times[0] + (times[1] - times[0]) * t;
         self.outcome.followed += u64::from(judged.is_followed);
-        if judged.touching[0] {
-            self.surely_touching.insert(faces);
-        }
-        if judged.touching[1] {
-            self.perhaps_touching.insert(faces);
-        }
+        self.note_touching(faces, judged.touching);
         if let Some((time, distance)) = judged.nearer {
             let unit = self.sheet.unit_length;
             let stated = self.claim.min_separation.map_or(0.0, |s| s.distance);
@@ -419,27 +477,8 @@ impl<'a> Verifier<'a> {
         if let Some(side) = judged.side {
             self.sides.push((faces, side));
         }
-        if let Some(mut found) = judged.found {
-            found.times = times;
-            self.penetrates(pair, &found);
-            self.dropped.insert(faces, self.frames);
-        }
-    }
-
-    fn penetrates(&mut self, pair: &Pair, found: &Found) {
-        let Some(&stated) = self.claimed.get(&pair.faces) else {
-            let what = format!(
-                "triangles {:?} penetrate after frame {}, t = {}",
-                pair.faces,
-                found.frame,
-                found.at(found.crossing.passed)
-            );
-            self.refute("penetrations", "none of them", what);
-            return;
-        };
-        for (field, stated, found) in compare(stated, found, pair, self.sheet, &self.limits) {
-            let field = format!("penetrations[{:?}].{field}", pair.faces);
-            self.refute(&field, stated, found);
+        if let Some(side) = judged.narrowed {
+            self.narrowed.insert(faces, side);
         }
     }
 }

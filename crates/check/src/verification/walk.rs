@@ -2,10 +2,14 @@
 
 use glam::DVec3;
 
-use super::instant::{Axis, axes, inner, is_arc_within, joined};
+use super::arcs;
+use super::instant::{Axis, axes, inner, joined};
 use super::path::{OnPlane, Path};
 use super::span::{Pose, Span};
+use super::trail::{Trail, Way};
 
+/// Sides are kept at this many τ where they are not at τ: the first proof counts at 31/32 τ.
+const LENIENCE: f64 = 33.0 / 32.0;
 /// The longest steps tried, in turn: a long one may lose a side that a short one keeps.
 const FIRST_STEPS: [f64; 3] = [1.0, 1.0 / 16.0, 1.0 / 256.0];
 /// The shortest step.
@@ -16,13 +20,15 @@ const SEARCH_STEP: f64 = 1.0 / 8.0;
 const GRAZING_STEP: f64 = 1.0 / 1024.0;
 /// Pairs that need a shorter step come so close that the first proof may take them to touch.
 const CLOSE_STEP: f64 = 1.0 / 8.0;
+/// The share of their size by which triangles with common vertices are clear of each other.
+const CLEAR_SHARE: f64 = 1e-3;
 /// How many axes a long step tries.
 const FAVOURITES: usize = 4;
 
 /// On which side of each other two triangles are.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Side {
-    /// Strictly apart: every separating direction can then be reached from every other.
+    /// Apart by more than τ (`clearance`): every separating direction can then be reached from every other.
     pub(super) is_apart: bool,
     /// Unit directions in the part of D(t) that the pair has reached; may be empty where it is apart.
     pub(super) directions: Vec<DVec3>,
@@ -59,6 +65,8 @@ pub(super) enum Walked {
         side: Side,
         /// Whether some step is proved by touching only, or is so short that the first proof may have taken it so.
         is_close: bool,
+        /// How it got there; none where it was never in contact.
+        trail: Option<Trail>,
     },
     Crosses(Crossing),
     Undecided {
@@ -72,14 +80,20 @@ impl Side {
     pub(super) fn at_start(span: &Span, limits: &Limits) -> Option<Self> {
         let pose = span.at(0.0);
         let all = axes(span, &pose);
-        if let Some(best) = roomiest(&all) {
+        if let Some(best) = clear_of(&all, clearance(span, limits)) {
             return Some(Self {
                 is_apart: true,
                 directions: vec![best],
             });
         }
         let within = all.iter().filter(|x| x.overlap <= limits.tolerance);
-        let directions: Vec<_> = within.map(|x| x.direction).collect();
+        let mut directions: Vec<_> = within.map(|x| x.direction).collect();
+        if directions.is_empty() {
+            let within = arcs::normals(&pose).into_iter();
+            directions = within
+                .filter(|&d| pose.overlap(d) <= limits.tolerance)
+                .collect();
+        }
         let has_some = !directions.is_empty();
         has_some.then_some(Self {
             is_apart: false,
@@ -94,12 +108,56 @@ pub(super) fn roomiest(axes: &[Axis]) -> Option<DVec3> {
     best.map(|axis| axis.direction)
 }
 
+/// Triangles with more room than this have one side only.
+///
+/// What corners on a plane through common vertices have of room is none, so that where vertices are common it takes more
+/// than τ.
+fn clearance(span: &Span, limits: &Limits) -> f64 {
+    match span.shared {
+        0 => limits.tolerance,
+        _ => limits.tolerance.max(CLEAR_SHARE * span.size),
+    }
+}
+
+/// The direction with the most room, if that is more than asked for.
+fn clear_of(axes: &[Axis], tolerance: f64) -> Option<DVec3> {
+    let clear = axes.iter().filter(|axis| axis.room > tolerance);
+    let best = clear.reduce(|p, q| if q.room > p.room { q } else { p });
+    best.map(|axis| axis.direction)
+}
+
+/// A direction along which the triangles are strictly apart, on a side.
+fn strictly_apart(axes: &[Axis], side: &[DVec3]) -> Option<DVec3> {
+    let apart = axes.iter().filter(|axis| axis.room > 0.0);
+    let mut apart = apart.map(|axis| axis.direction);
+    apart.find(|d| side.iter().any(|s| s.dot(*d) > 0.5))
+}
+
 /// The depth: the least overlap over all axes (exact where it is positive and the triangles share nothing).
 pub(super) fn depth(span: &Span, pose: &Pose) -> f64 {
-    axes(span, pose)
-        .iter()
-        .map(|axis| pose.overlap(axis.direction))
-        .fold(f64::INFINITY, f64::min)
+    let overlaps = axes(span, pose).into_iter();
+    let overlaps = overlaps.map(|axis| pose.overlap(axis.direction));
+    overlaps.fold(arcs::depth(pose), f64::min)
+}
+
+/// Likewise; a pair that loses its side is given a little more than τ.
+pub(super) fn walk_leniently(span: &Span, side: &Side, limits: &Limits) -> Walked {
+    let walked = walk(span, side, limits);
+    let is_deep = |c: &Crossing| span.shared == 0 && c.depth > limits.tolerance;
+    match &walked {
+        Walked::Clean { .. } => walked,
+        Walked::Crosses(crossing) if is_deep(crossing) => walked,
+        _ => {
+            let lenient = Limits {
+                tolerance: LENIENCE * limits.tolerance,
+                ..*limits
+            };
+            match walk(span, side, &lenient) {
+                clean @ Walked::Clean { .. } => clean,
+                _ => walked,
+            }
+        }
+    }
 }
 
 /// Walks a pair through t in [0, 1] from the side it is on at 0.
@@ -123,25 +181,45 @@ struct Walk<'a> {
     side: Side,
     /// What can be reached at `time`, once asked for.
     reached: Option<Vec<Axis>>,
+    /// Further directions that can be reached then.
+    others: Vec<DVec3>,
     last_apart: Option<(f64, DVec3)>,
     /// The end of the step in which the present contact began.
     first_contact: f64,
+    is_in_contact: bool,
     has_touched: bool,
+    trail: Trail,
+}
+
+/// A step that is proved.
+struct Step {
+    side: Side,
+    /// A direction along which the pair is strictly apart at its end.
+    apart: Option<DVec3>,
+    /// The directions along which it is, where it is in contact.
+    ways: Vec<Way>,
 }
 
 impl<'a> Walk<'a> {
     fn new(span: &'a Span, side: Side, limits: &'a Limits) -> Self {
-        let apart = side.is_apart.then(|| (0.0, first_direction(&side)));
+        let last_apart = if side.is_apart {
+            Some(first_direction(&side))
+        } else {
+            strictly_apart(&axes(span, &span.at(0.0)), &side.directions)
+        };
         Self {
             span,
             limits,
             time: 0.0,
             pose: span.at(0.0),
             has_touched: !side.is_apart,
+            trail: Trail::new(&side),
             side,
             reached: None,
-            last_apart: apart,
+            others: Vec::new(),
+            last_apart: last_apart.map(|direction| (0.0, direction)),
             first_contact: 0.0,
+            is_in_contact: last_apart.is_none(),
         }
     }
 
@@ -153,12 +231,13 @@ impl<'a> Walk<'a> {
                 return Walked::Clean {
                     side: self.side,
                     is_close: self.has_touched || shortest < CLOSE_STEP,
+                    trail: self.has_touched.then_some(self.trail),
                 };
             }
             let end = self.span.at(self.time + step);
-            if let Some(side) = self.cross(&end, step) {
+            if let Some(leg) = self.cross(&end, step) {
                 shortest = step.min(shortest);
-                self.land(side, end, step);
+                self.land(leg, end, step);
                 // t stays a multiple of the step.
                 if step < first_step && (self.time / (2.0 * step)).fract() == 0.0 {
                     step *= 2.0;
@@ -172,28 +251,35 @@ impl<'a> Walk<'a> {
         Walked::Undecided { time: self.time }
     }
 
-    fn land(&mut self, side: Side, pose: Pose, step: f64) {
+    fn land(&mut self, Step { side, apart, ways }: Step, pose: Pose, step: f64) {
+        self.trail.push([self.time, self.time + step], ways);
         self.time += step;
         self.pose = pose;
-        if side.is_apart {
-            self.last_apart = Some((self.time, first_direction(&side)));
-        } else if self.side.is_apart {
+        if let Some(direction) = apart {
+            self.last_apart = Some((self.time, direction));
+            self.is_in_contact = false;
+        } else if !std::mem::replace(&mut self.is_in_contact, true) {
             self.first_contact = self.time;
         }
         self.side = side;
         self.reached = None;
     }
 
-    fn cross(&mut self, end: &Pose, step: f64) -> Option<Side> {
+    fn cross(&mut self, end: &Pose, step: f64) -> Option<Step> {
         let part = self.span.part(&self.pose, end);
         if self.side.is_apart {
             if let Some(direction) = self.stay_apart(&part, step) {
-                return Some(Side {
-                    is_apart: true,
-                    directions: vec![direction],
+                return Some(Step {
+                    side: Side {
+                        is_apart: true,
+                        directions: vec![direction],
+                    },
+                    apart: Some(direction),
+                    ways: Vec::new(),
                 });
             }
-            let may_graze = || roomiest(&axes(self.span, end)).is_none();
+            let limit = clearance(self.span, self.limits);
+            let may_graze = || clear_of(&axes(self.span, end), limit).is_none();
             if step > SEARCH_STEP || (step > GRAZING_STEP && !may_graze()) {
                 return None;
             }
@@ -203,9 +289,10 @@ impl<'a> Walk<'a> {
 
     /// Along one axis the triangles are strictly apart throughout; where it points at the end.
     fn stay_apart(&self, part: &Span, step: f64) -> Option<DVec3> {
+        let limit = clearance(self.span, self.limits);
         let free = |from: DVec3, to: DVec3| {
-            let is_apart = Path::straight(from, to).bound(part, corners(part)).is_apart;
-            (part.shared < 2 && is_apart).then_some(to)
+            let bound = Path::straight(from, to).bound(part, corners(part));
+            (part.shared < 2 && bound.room > limit).then_some(to)
         };
         let carried = self.side.directions.iter();
         if let Some(direction) = carried.copied().find_map(|d| free(d, d)) {
@@ -214,7 +301,7 @@ impl<'a> Walk<'a> {
         let middle = part.at(0.5);
         let mut all = axes(part, &middle);
         let centre = inner(part, &all);
-        all.retain(|axis| axis.room > 0.0);
+        all.retain(|axis| axis.room > limit);
         all.sort_by(|p, q| q.room.total_cmp(&p.room));
         let tried = if step > SEARCH_STEP {
             FAVOURITES
@@ -222,7 +309,7 @@ impl<'a> Walk<'a> {
             all.len()
         };
         for axis in all.iter().take(tried) {
-            if part.bound(axis.feature).is_apart {
+            if part.bound(axis.feature).room > limit {
                 return unit_end(part, axis);
             }
             if let Some(direction) = free(axis.direction, axis.direction) {
@@ -238,29 +325,29 @@ impl<'a> Walk<'a> {
     }
 
     /// Along one reachable axis the overlap is at most τ throughout.
-    fn stay_within(&mut self, part: &Span, end: &Pose) -> Option<Side> {
+    fn stay_within(&mut self, part: &Span, end: &Pose) -> Option<Step> {
         let limit = self.limits.tolerance;
         self.reach();
         let reached = self.reached.as_deref().unwrap_or_default();
         let mut landed: Vec<DVec3> = Vec::new();
-        let mut keep = |direction: DVec3| {
+        let mut ways: Vec<Way> = Vec::new();
+        let mut keep = |direction: DVec3, way: Way| {
             if landed.iter().all(|d| d.dot(direction) < 1.0 - 1e-13) {
                 landed.push(direction);
+                ways.push(way);
             }
         };
         for axis in reached {
             if part.bound(axis.feature).gap >= -limit
                 && let Some(direction) = unit_end(part, axis)
             {
-                keep(direction);
+                keep(direction, Way::Along(axis.feature));
             }
         }
-        let is_kept = |from: DVec3, to: DVec3| {
-            Path::straight(from, to).bound(part, corners(part)).gap >= -limit
-        };
-        for &direction in &self.side.directions {
-            if is_kept(direction, direction) {
-                keep(direction);
+        for &direction in self.side.directions.iter().chain(&self.others) {
+            let fixed = Path::straight(direction, direction);
+            if fixed.bound(part, corners(part)).gap >= -limit {
+                keep(direction, Way::Fixed(direction));
             }
         }
         if landed.is_empty() {
@@ -268,13 +355,19 @@ impl<'a> Walk<'a> {
         }
         self.has_touched = true;
         let there = axes(part, end);
-        let apart = there.iter().filter(|axis| axis.room > 0.0);
-        let way_out = apart
-            .map(|axis| axis.direction)
-            .find(|&d| landed.iter().any(|&l| is_arc_within(end, l, d, limit)));
-        Some(Side {
-            is_apart: way_out.is_some(),
-            directions: way_out.map_or(landed, |d| vec![d]),
+        let clear = clearance(self.span, self.limits);
+        let joined = clear_of(&there, clear)
+            .is_some()
+            .then(|| joined(end, &there, &landed, limit));
+        let way_out = joined.and_then(|joined| clear_of(&joined, clear));
+        let apart = way_out.or_else(|| strictly_apart(&there, &landed));
+        Some(Step {
+            apart,
+            side: Side {
+                is_apart: way_out.is_some(),
+                directions: way_out.map_or(landed, |d| vec![d]),
+            },
+            ways,
         })
     }
 
@@ -286,10 +379,24 @@ impl<'a> Walk<'a> {
         let all = axes(self.span, &self.pose);
         let mut seeds = self.side.directions.clone();
         if self.side.is_apart {
-            let apart = all.iter().filter(|axis| axis.room > 0.0);
+            let clear = clearance(self.span, self.limits);
+            let apart = all.iter().filter(|axis| axis.room > clear);
             seeds.extend(apart.map(|axis| axis.direction));
         }
-        self.reached = Some(joined(&self.pose, &all, &seeds, self.limits.tolerance));
+        let limit = self.limits.tolerance;
+        let reached = joined(&self.pose, &all, &seeds, limit);
+        self.others.clear();
+        if reached.is_empty() {
+            // Where triangles are all but edges, rounding takes their axes.
+            let nodes = arcs::normals(&self.pose);
+            let is_reached = arcs::reached(&self.pose, &nodes, &seeds, limit);
+            let both = nodes.into_iter().zip(is_reached);
+            let within = both.filter(|&(d, is_reached)| {
+                is_reached || (self.side.is_apart && self.pose.overlap(d) <= limit)
+            });
+            self.others = within.map(|(d, _)| d).collect();
+        }
+        self.reached = Some(reached);
     }
 
     /// No step leads on: looks for an instant at which the pair is deeper than τ on its side.
@@ -328,10 +435,10 @@ impl<'a> Walk<'a> {
             let all = axes(self.span, &self.span.at(apart));
             direction = roomiest(&all).unwrap_or(direction);
         }
-        let mut contact = if self.side.is_apart {
-            self.time
-        } else {
+        let mut contact = if self.is_in_contact {
             self.first_contact
+        } else {
+            self.time
         };
         for _ in 0..40 {
             let middle = f64::midpoint(apart, contact);
@@ -375,11 +482,7 @@ pub(super) fn instants_after(time: f64) -> impl Iterator<Item = f64> {
 }
 
 /// The overlaps along the axes within 60° of the side, and along the side itself.
-pub(super) fn overlaps_from_side(
-    span: &Span,
-    pose: &Pose,
-    side: &[DVec3],
-) -> impl Iterator<Item = f64> {
+fn overlaps_from_side(span: &Span, pose: &Pose, side: &[DVec3]) -> impl Iterator<Item = f64> {
     let all = axes(span, pose).into_iter().map(|axis| axis.direction);
     let near = all.filter(|d| side.iter().any(|s| s.dot(*d) > 0.5));
     near.chain(side.iter().copied()).map(|d| pose.overlap(d))

@@ -48,7 +48,7 @@ pub(crate) fn motion_of(class: Class, number: u64) -> (Motion, Truth, Option<f64
     (motion, scene.truth, scene.separation)
 }
 
-fn verify(motion: &Motion, claim: &CollisionReport) -> Verification {
+pub(crate) fn verify(motion: &Motion, claim: &CollisionReport) -> Verification {
     let (first, rest) = motion.frames.split_first().expect("a motion has frames");
     let mut verifier = Verifier::new(&motion.sheet, first.clone(), claim);
     for frame in rest {

@@ -1,0 +1,85 @@
+//! Which triangles lie around which edges and vertices of the sheet.
+
+use std::collections::BTreeMap;
+
+use foldmotion_pattern::Sheet;
+
+/// The triangles of the sheet by their corners.
+#[derive(Debug)]
+pub(super) struct Around {
+    pub(super) faces: Vec<[u32; 3]>,
+    at_edge: BTreeMap<[u32; 2], Vec<u32>>,
+    at_vertex: Vec<Vec<u32>>,
+}
+
+impl Around {
+    pub(super) fn new(sheet: &Sheet) -> Self {
+        let mut at_edge: BTreeMap<[u32; 2], Vec<u32>> = BTreeMap::new();
+        let mut at_vertex = vec![Vec::new(); sheet.vertices.len()];
+        for (face, corners) in (0..).zip(&sheet.faces) {
+            for edge in edges(corners) {
+                at_edge.entry(edge).or_default().push(face);
+            }
+            for &v in corners {
+                at_vertex[v as usize].push(face);
+            }
+        }
+        Self {
+            faces: sheet.faces.clone(),
+            at_edge,
+            at_vertex,
+        }
+    }
+
+    /// The triangles beyond an edge of a triangle.
+    pub(super) fn beyond(&self, face: u32, edge: [u32; 2]) -> impl Iterator<Item = u32> {
+        let all = self.at_edge.get(&edge).into_iter().flatten().copied();
+        all.filter(move |&other| other != face)
+    }
+
+    pub(super) fn corners(&self, face: u32) -> &[u32; 3] {
+        &self.faces[face as usize]
+    }
+
+    /// Whether two triangles are the same or have a vertex in common.
+    pub(super) fn meet(&self, f: u32, g: u32) -> bool {
+        let g = self.corners(g);
+        self.corners(f).iter().any(|v| g.contains(v))
+    }
+
+    /// Whether a pair lies around another: each triangle of it meets one of the other's.
+    pub(super) fn is_around(&self, [f, g]: [u32; 2], [p, q]: [u32; 2]) -> bool {
+        (self.meet(f, p) && self.meet(g, q)) || (self.meet(f, q) && self.meet(g, p))
+    }
+
+    /// The triangles that have a vertex among these, each once.
+    pub(super) fn faces_at(&self, vertices: &[u32]) -> Vec<u32> {
+        let mut faces: Vec<u32> = vertices
+            .iter()
+            .flat_map(|&v| self.at_vertex[v as usize].iter().copied())
+            .collect();
+        faces.sort_unstable();
+        faces.dedup();
+        faces
+    }
+
+    /// The edges that have an end among these, each once.
+    pub(super) fn edges_at(&self, vertices: &[u32]) -> Vec<[u32; 2]> {
+        let faces = self.faces_at(vertices);
+        let all = faces.iter().flat_map(|&face| edges(self.corners(face)));
+        let mut ending: Vec<[u32; 2]> = all
+            .filter(|edge| edge.iter().any(|v| vertices.contains(v)))
+            .collect();
+        ending.sort_unstable();
+        ending.dedup();
+        ending
+    }
+}
+
+/// The edges of a triangle, the lower end first.
+pub(super) fn edges(corners: &[u32; 3]) -> [[u32; 2]; 3] {
+    [0, 1, 2].map(|i| {
+        let (p, q) = (corners[i], corners[(i + 1) % 3]);
+        [p.min(q), p.max(q)]
+    })
+}
