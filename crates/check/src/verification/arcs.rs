@@ -203,7 +203,7 @@ mod tests {
     fn two_directions_are_connected_where_a_flood_over_the_sphere_connects_them() {
         let mut random = Random::new(32);
         let mut counts = [0; 2];
-        for k in 0..120 {
+        for k in 0..360 {
             let mut pose = pose(&mut random);
             pose.b = pose.b.map(|p| p * 0.3);
             if k % 2 == 0 {
