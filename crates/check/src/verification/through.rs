@@ -89,7 +89,7 @@ impl Interval<'_> {
             return self.meeting_fault(stated, pair);
         }
         let from = self.share(stated.passed);
-        let all = self.features(stated, pair).into_iter();
+        let all = Self::features(stated, pair).into_iter();
         let nearest = all.min_by(|&p, &q| self.apart(p, from).total_cmp(&self.apart(q, from)));
         let Some([a, b]) = nearest else {
             let found = "not two simplices of the triangles without a common vertex";
@@ -124,7 +124,7 @@ impl Interval<'_> {
 
     /// The simplices that may be named, each as a triangle with corners repeated: the one in the one triangle of the pair,
     /// the other in the other.
-    fn features(&self, stated: &Penetration, pair: &Pair) -> Vec<[[u32; 3]; 2]> {
+    fn features(stated: &Penetration, pair: &Pair) -> Vec<[[u32; 3]; 2]> {
         let v = &stated.vertices;
         let mut splits: Vec<[[u32; 3]; 2]> = match **v {
             [a, b, c, d] => vec![[[a, a, a], [b, c, d]], [[a, b, b], [c, d, d]]],

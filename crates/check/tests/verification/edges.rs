@@ -76,11 +76,14 @@ fn a_wall_that_sinks_through_an_edge_is_found_where_nothing_is_listed() {
     );
 }
 
+/// What is changed in a report.
+type Lie = fn(&mut CollisionReport);
+
 #[test]
 fn what_is_stated_of_a_passage_through_an_edge_is_held_to_what_is_found() {
     let motion = through_the_edge();
     let report = judge(&motion);
-    let lies: [(&str, fn(&mut CollisionReport)); 5] = [
+    let lies: [(&str, Lie); 5] = [
         ("point", |r| r.penetrations[0].point.x += 1e-3),
         ("passed_t", |r| r.penetrations[0].passed -= 1e-2),
         ("depth", |r| r.penetrations[0].depth += 10.0),
