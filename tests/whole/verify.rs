@@ -113,7 +113,8 @@ impl Random {
     }
 }
 
-/// The pointers of all values that are no objects or lists, but for the name of the file, which states nothing.
+/// The pointers of all values that are no objects or lists, but for the name of the file, which states nothing, and whether
+/// bounds are tight: that they are not states less.
 fn leaves(value: &Value, at: &str, found: &mut Vec<String>) {
     match value {
         Value::Object(map) => map
@@ -123,7 +124,7 @@ fn leaves(value: &Value, at: &str, found: &mut Vec<String>) {
             let k: usize = k;
             leaves(v, &format!("{at}/{k}"), found);
         }),
-        _ if at != "/file" => found.push(at.to_owned()),
+        _ if at != "/file" && !at.ends_with("/is_tight") => found.push(at.to_owned()),
         _ => {}
     }
 }
