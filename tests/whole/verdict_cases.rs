@@ -62,7 +62,7 @@ fn judge(motion: &Value) -> Judged {
 
 /// Applies a change to the coordinates of every frame.
 fn change_frames(motion: &mut Value, change: impl Fn(&mut Vec<Value>)) {
-    let mut each = |frame: &mut Value| {
+    let each = |frame: &mut Value| {
         if let Some(coordinates) = frame["vertices_coords"].as_array_mut() {
             change(coordinates);
         }

@@ -271,7 +271,7 @@ impl Facet {
 }
 
 /// The point itself and the point of a triangle closest to it; a triangle of no area is its edges.
-pub fn point_triangle(point: DVec3, triangle: &[DVec3; 3]) -> Closest {
+pub(crate) fn point_triangle(point: DVec3, triangle: &[DVec3; 3]) -> Closest {
     let facet = Facet::new(triangle);
     let foot = facet.foot_inside(point).into_iter();
     let on_rim = facet
