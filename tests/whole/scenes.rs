@@ -277,7 +277,6 @@ fn the_compact_box_converges_linearly_with_the_gap() {
 
 /// Figure 4d: the ends of a mid line of a unit pass each other; C2–C6 in U^O, D1–D6 or D3–D8 in U^E.
 #[test]
-#[ignore = "pairs beside a penetration that is named are not listed any more: the first within a unit is missing"]
 fn a_short_plain_unit_is_found_crossing_at_the_ends_of_a_mid_line() {
     let home = tempfile::tempdir().unwrap();
     let report = run("shelter-short-plain", &[REPORT_ONLY], home.path());

@@ -469,6 +469,7 @@ impl<'a> Checker<'a> {
         for crossing in found.crossings {
             self.crosses(crossing, frame);
         }
+        self.name_uncounted(frame);
         for [f, g] in found.unsure {
             if !self.penetrating.contains(&(f, g)) {
                 self.report.undecided.push(Undecided {
@@ -477,6 +478,22 @@ impl<'a> Checker<'a> {
                     faces: [f, g],
                 });
             }
+        }
+    }
+
+    /// Names the pairs that left their side in this interval where the counts are silent, as what passes there is not counted
+    /// beside a pair that penetrates: there the pair's own finding stands.
+    fn name_uncounted(&mut self, frame: usize) {
+        let is_lost = |[f, g]: [u32; 2]| self.penetrating.contains(&(f, g));
+        let is_uncounted = |&((f, g), suspect): &(&(u32, u32), &Suspect)| {
+            suspect.frame == frame
+                && !is_lost([*f, *g])
+                && !self.crossings.counts([*f, *g], &is_lost)
+        };
+        let found = self.suspects.iter().filter(is_uncounted);
+        let named: Vec<_> = found.map(|(pair, s)| (*pair, s.clone())).collect();
+        for ((f, g), suspect) in named {
+            self.penetrates([f, g], suspect.frame, suspect.times, suspect.witness);
         }
     }
 

@@ -248,6 +248,15 @@ impl Crossings {
             .any(|pair| (interval.is_lost)(pair))
     }
 
+    /// Whether all that can pass through something in a pair of triangles is counted.
+    pub(crate) fn counts(&self, faces: [u32; 2], is_lost: &dyn Fn([u32; 2]) -> bool) -> bool {
+        let is_by = |cell: &Cell| matches!(cell, Cell::VertexEdge { .. });
+        let mut through = cells_of(&self.topology, faces)
+            .into_iter()
+            .filter(|c| !is_by(c));
+        !through.any(|cell| cell.faces(&self.topology).any(is_lost))
+    }
+
     /// The triangles at an edge, each with the one given.
     fn pairs_of(&self, edge: u32, face: u32) -> Vec<[u32; 2]> {
         let around = self.topology.edge_faces[edge as usize].iter();
