@@ -13,30 +13,22 @@ use rayon::prelude::*;
 
 use super::{
     frame::Placed,
-    judge::{Judgement, Nearness, Question, Witness, may_be_near, starts_deep},
+    judge::{Judgement, Nearness, Question, may_be_near, starts_deep},
     nearest::Nearest,
     pair::{Pair, facets_share_a_vertex},
     report::{
-        CollisionOptions, CollisionReport, FilterCounts, PairCounts, Penetration, PenetrationKind,
-        Stopped, Undecided, Verdict,
+        CollisionOptions, CollisionReport, FilterCounts, PairCounts, Penetration, Stopped, Verdict,
     },
+    through::Suspect,
 };
 use crate::{
     CheckError,
-    crossings::{self, Crossings},
+    crossings::Crossings,
     layers::{Claims, FaceEdges, LayerPair, front_normal},
 };
 
 /// Fewer pairs than this are not worth a thread.
 const PAIRS_A_TASK: usize = 128;
-
-/// A pair that left its side in an interval.
-#[derive(Debug, Clone)]
-struct Suspect {
-    frame: usize,
-    times: [f64; 2],
-    witness: Witness,
-}
 
 /// Judges a motion frame by frame, holding two frames at a time.
 #[derive(Debug)]
@@ -66,15 +58,15 @@ pub struct Checker<'a> {
     pub(super) penetrating: BTreeSet<(u32, u32)>,
     /// Pairs of layers that were found in an order that contradicts others.
     pub(super) contradicting: BTreeSet<[u32; 2]>,
-    touching: BTreeSet<(u32, u32)>,
+    pub(super) touching: BTreeSet<(u32, u32)>,
     /// Pairs that may have been within τ in the last interval, in order.
-    near: Vec<[u32; 2]>,
+    pub(super) near: Vec<[u32; 2]>,
     /// Pairs that left the side they were followed on, without an instant at which they are surely too deep, with the
     /// last interval in which they did: whether they pass through each other is counted on the sheet.
-    suspects: BTreeMap<(u32, u32), Suspect>,
-    crossings: Crossings,
+    pub(super) suspects: BTreeMap<(u32, u32), Suspect>,
+    pub(super) crossings: Crossings,
     /// The closest approach so far.
-    nearest: Nearest,
+    pub(super) nearest: Nearest,
     pub(super) report: CollisionReport,
 }
 
@@ -233,7 +225,7 @@ impl<'a> Checker<'a> {
         self.nearest.keep(faces, self.last.time, closest);
     }
 
-    fn is_measured(&self, pair: &Pair) -> bool {
+    pub(super) fn is_measured(&self, pair: &Pair) -> bool {
         let [f, g] = pair.faces;
         pair.shared == 0 && !facets_share_a_vertex(self.sheet, f, g)
     }
@@ -252,11 +244,7 @@ impl<'a> Checker<'a> {
         for (f, g) in self.tree.overlapping_pairs(&boxes) {
             let pair = Pair::new(self.sheet, f, g);
             if self.is_measured(&pair) {
-                let pose = pair.pose(&self.last.positions);
-                let still = MovingPair {
-                    start: pose,
-                    end: pose,
-                };
+                let still = MovingPair::at_rest(pair.pose(&self.last.positions));
                 let nearness = Nearness::from(closest_approach(&still, nearest, &limits));
                 self.nearest.record(pair.faces, [time; 2], &nearness);
             }
@@ -297,11 +285,7 @@ impl<'a> Checker<'a> {
                 return Err(CheckError::DuplicateFace { f, g });
             }
             let pose = pair.pose(&self.last.positions);
-            let at_rest = MovingPair {
-                start: pose,
-                end: pose,
-            };
-            if may_be_near(&pair, &at_rest, 0.0, limits) {
+            if may_be_near(&pair, &MovingPair::at_rest(pose), 0.0, limits) {
                 self.near.push([f, g]);
                 // Of triangles that share nothing the intervals find it, by their distance.
                 if pair.shared > 0 || triangle_triangle(&pose.a, &pose.b).distance <= self.tolerance
@@ -426,154 +410,9 @@ impl<'a> Checker<'a> {
             }
         }
     }
-
-    /// Takes in that a pair is deeper than τ, or else not where it was followed to.
-    fn leaves_its_side(&mut self, pair: &Pair, times: [f64; 2], witness: Witness) {
-        let frame = self.frames - 1;
-        self.unfollowed.push(key(pair));
-        self.nearest.record(pair.faces, times, &witness.nearness);
-        // The side that a claim names is the only one.
-        if witness.is_sure(self.tolerance) || self.claimed.contains(&pair.faces) {
-            self.penetrates(pair.faces, frame, times, witness);
-            return;
-        }
-        self.touching.insert(key(pair));
-        self.near.push(pair.faces);
-        self.suspects.insert(
-            key(pair),
-            Suspect {
-                frame,
-                times,
-                witness,
-            },
-        );
-    }
-
-    /// Counts the passages of the sheet through itself in the interval that begins at `start`, or at the first frame.
-    fn count_crossings(&mut self, start: Option<&Placed>) {
-        self.near.sort_unstable();
-        self.near.dedup();
-        let first = start.unwrap_or(&self.last);
-        let times = [first.time, self.last.time];
-        let interval = crossings::Interval {
-            times,
-            positions: [&first.positions, &self.last.positions],
-            near: &self.near,
-            is_lost: &|[f, g]| self.penetrating.contains(&(f, g)),
-        };
-        let found = match start {
-            None => self.crossings.begin(&interval),
-            Some(_) => self.crossings.advance(&interval),
-        };
-        let frame = self.frames - 1;
-        for crossing in found.crossings {
-            self.crosses(crossing, frame);
-        }
-        self.name_uncounted(frame);
-        for [f, g] in found.unsure {
-            if !self.penetrating.contains(&(f, g)) {
-                self.report.undecided.push(Undecided {
-                    time: times[0],
-                    frame,
-                    faces: [f, g],
-                });
-            }
-        }
-    }
-
-    /// Names the pairs that left their side in this interval where the counts are silent, as what passes there is not counted
-    /// beside a pair that penetrates: there the pair's own finding stands.
-    fn name_uncounted(&mut self, frame: usize) {
-        let is_lost = |[f, g]: [u32; 2]| self.penetrating.contains(&(f, g));
-        let is_uncounted = |&((f, g), suspect): &(&(u32, u32), &Suspect)| {
-            suspect.frame == frame
-                && !is_lost([*f, *g])
-                && !self.crossings.counts([*f, *g], &is_lost)
-        };
-        let found = self.suspects.iter().filter(is_uncounted);
-        let named: Vec<_> = found.map(|(pair, s)| (*pair, s.clone())).collect();
-        for ((f, g), suspect) in named {
-            self.penetrates([f, g], suspect.frame, suspect.times, suspect.witness);
-        }
-    }
-
-    /// Records what passes through the sheet: as its pair of triangles was found to, or else beside each of them.
-    fn crosses(&mut self, crossing: crossings::Crossing, frame: usize) {
-        let mut is_named = false;
-        for &[f, g] in &crossing.pairs {
-            let suspect = self.suspects.get(&(f, g));
-            let is_known = self.penetrating.contains(&(f, g));
-            is_named |= is_known;
-            let is_meant = |suspect: &&Suspect| suspect.times[1] >= crossing.since;
-            if let Some(suspect) = suspect.filter(is_meant).filter(|_| !is_known) {
-                let Suspect {
-                    frame,
-                    times,
-                    witness,
-                } = suspect.clone();
-                self.penetrates([f, g], frame, times, witness);
-                is_named = true;
-            }
-        }
-        if is_named {
-            return;
-        }
-        let Some(&faces) = crossing.pairs.first() else {
-            return;
-        };
-        self.unfollows(faces);
-        self.meets(faces, [crossing.since, crossing.passed]);
-        self.report.penetrations.push(Penetration {
-            time: crossing.since,
-            passed: crossing.passed,
-            frame,
-            faces,
-            vertices: crossing.witness.vertices,
-            point: crossing.witness.point + self.origin,
-            depth: crossing.witness.depth / self.sheet.unit_length,
-            kind: PenetrationKind::ThroughEdge,
-            conflict: None,
-        });
-    }
-
-    /// A pair penetrates: it meets somewhere, and is not looked at afterwards.
-    fn meets(&mut self, faces: [u32; 2], times: [f64; 2]) {
-        self.penetrating.insert((faces[0], faces[1]));
-        if self.is_measured(&Pair::new(self.sheet, faces[0], faces[1])) {
-            let met = Nearness {
-                approach: None,
-                at_least: 0.0,
-            };
-            self.nearest.record(faces, times, &met);
-        }
-    }
-
-    /// A pair has no side any more.
-    fn unfollows(&mut self, [f, g]: [u32; 2]) {
-        self.sides.retain(|(other, _)| *other != (f, g));
-        if !self.unfollowed.contains(&(f, g)) {
-            self.unfollowed.push((f, g));
-        }
-    }
-
-    fn penetrates(&mut self, faces: [u32; 2], frame: usize, times: [f64; 2], witness: Witness) {
-        let at = |t: f64| times[0] + (times[1] - times[0]) * t;
-        self.meets(faces, times);
-        self.report.penetrations.push(Penetration {
-            time: at(witness.contact),
-            passed: at(witness.passed),
-            frame,
-            faces,
-            vertices: witness.vertices,
-            point: witness.point + self.origin,
-            depth: witness.depth / self.sheet.unit_length,
-            kind: witness.kind,
-            conflict: None,
-        });
-    }
 }
 
-fn key(pair: &Pair) -> (u32, u32) {
+pub(super) fn key(pair: &Pair) -> (u32, u32) {
     (pair.faces[0], pair.faces[1])
 }
 

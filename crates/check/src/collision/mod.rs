@@ -9,6 +9,7 @@ mod nearest;
 mod pair;
 mod report;
 mod span;
+mod through;
 
 pub use checker::Checker;
 use foldmotion_pattern::Motion;

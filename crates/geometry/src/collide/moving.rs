@@ -17,6 +17,14 @@ pub struct MovingPair {
 }
 
 impl MovingPair {
+    /// A pair that stays where it is.
+    pub fn at_rest(pose: PairPose) -> Self {
+        Self {
+            start: pose,
+            end: pose,
+        }
+    }
+
     /// For triangles that share an edge: whether they are proved to stay folded by less than 90°.
     pub fn stays_within_right_angle(&self, limits: &Limits) -> bool {
         let leaf = Leaf {
