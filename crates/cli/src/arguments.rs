@@ -135,7 +135,7 @@ pub(crate) struct CheckArguments {
     /// out
     #[arg(long, value_name = "X")]
     pub(crate) tolerance: Option<f64>,
-    /// End the check at the next frame once more than N pairs of triangles penetrate; 0: no limit; 4096 where left out
+    /// End the check at the next frame once more than N pairs of triangles penetrate; 0: no limit; default: 4096
     #[arg(long, value_name = "N")]
     pub(crate) stop_at: Option<usize>,
     /// Threads to use; all cores where left out

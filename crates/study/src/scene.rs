@@ -421,6 +421,6 @@ pub enum EngineChoice {
 pub struct CheckScene {
     /// τ in units of h or, of a pattern, its mean edge: facets that overlap by no more touch; 1e-6 where left out.
     pub touch_tolerance: Option<f64>,
-    /// Once more pairs of triangles than this penetrate, no later frame is judged; 0: no limit; 4096 where left out.
+    /// Once more pairs of triangles than this penetrate, no later frame is judged; 0: no limit; default: 4096.
     pub stop_at: Option<i64>,
 }
