@@ -6,12 +6,12 @@ pub(crate) fn rounded(value: f64, digits: i32) -> String {
         return format!("{value}");
     }
     // Rounding may carry into the next decade: the exponent is that of the rounded number.
-    let text = format!("{value:.*e}", (digits - 1).max(0) as usize);
+    let text = format!("{value:.*e}", places(digits - 1));
     let exponent = text
         .split_once('e')
         .and_then(|(_, exponent)| exponent.parse::<i32>().ok())
         .unwrap_or(0);
-    format!("{value:.*}", (digits - 1 - exponent).max(0) as usize)
+    format!("{value:.*}", places(digits - 1 - exponent))
 }
 
 /// `value` with so many significant digits and an exponent.
@@ -37,4 +37,9 @@ pub(crate) fn above(value: f64) -> f64 {
     } else {
         value
     }
+}
+
+/// A number of decimal places; none where it would be negative.
+fn places(count: i32) -> usize {
+    usize::try_from(count).unwrap_or(0)
 }
