@@ -91,8 +91,10 @@ fn a_bad_value_says_so_under_its_control_and_the_sheet_stays() {
     );
     assert!(!window.is_enabled("Run"));
     window.undo();
+    window.until("the error is gone", |window| {
+        window.rects_saying("sheet.width").next().is_none()
+    });
     window.until_preview();
-    assert!(window.rects_saying("sheet.width").next().is_none());
 }
 
 #[test]
