@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
+use foldmotion_study::report::OutcomeKind;
 use foldmotion_study::{Report, SceneSource, Study};
 
 /// What a scene must come to.
@@ -105,6 +106,12 @@ fn every_scene_comes_to_its_verdict_and_writes_its_files() {
     {
         let folder = home.path().join(scene);
         let report = run(scene, &SMALL_FILM, &folder);
+        let kind = if *status == 1 {
+            OutcomeKind::Collides
+        } else {
+            OutcomeKind::Folded
+        };
+        assert_eq!(report.outcome.kind, kind, "{scene}");
         assert_eq!(
             (report.collision.verdict.as_str(), report.status()),
             (*verdict, *status),
@@ -221,7 +228,8 @@ fn a_near_rigid_sheet_without_contact_folds_up_whatever_the_number_of_frames() {
         ];
         let report = run("shelter-t", &set, home.path());
         assert!(report.stages.iter().all(|s| s.converged), "{frames}");
-        assert_eq!((report.unfinished(), report.stop), (None, None));
+        assert_eq!(report.outcome.kind, OutcomeKind::Folded, "{frames}");
+        assert_eq!(report.stop, None);
         let rms = report.compact.rms_to_exact.unwrap();
         assert!(rms < 1e-9, "{frames}: {rms}");
     }

@@ -81,6 +81,10 @@ pub(crate) struct RunArguments {
     /// Override a key of the scene, such as sheet.columns=5
     #[arg(long = "set", value_name = "KEY=VALUE")]
     pub(crate) set: Vec<String>,
+    /// How much work the engine may do, in seconds (60) or its own steps (20000steps): the motion then ends where it is,
+    /// with exit status 3, and what was reached is kept
+    #[arg(long, value_name = "SECONDS|STEPS")]
+    pub(crate) budget: Option<String>,
     /// Threads to use; all cores where left out
     #[arg(long, value_parser = parse_threads)]
     pub(crate) threads: Option<usize>,

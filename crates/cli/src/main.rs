@@ -73,8 +73,11 @@ fn main() -> ExitCode {
 fn run_scene(arguments: &RunArguments) -> Result<u8, Failure> {
     use_threads(arguments.threads)?;
     watch_for_interrupts()?;
-    let (source, folder) =
+    let (mut source, folder) =
         scene_and_folder(&arguments.scene, &arguments.set, arguments.out.as_ref())?;
+    if let Some(budget) = &arguments.budget {
+        source.set_by_flag("budget", "motion.budget", budget);
+    }
     let mut study = Study::resolve(&source)?;
     study.device = device(arguments.device, &study)?;
     let reporter = Reporter::new(arguments.quiet);
@@ -87,12 +90,19 @@ fn run_scene(arguments: &RunArguments) -> Result<u8, Failure> {
         print(&report.to_json())?;
     } else if !arguments.quiet {
         print(&report.table())?;
-        if let Some(words) = report.unfinished() {
-            print(&format!("{words}; what was reached is kept\n"))?;
-        }
-        print(&format!("results in {}\n", folder.display()))?;
+        let headline = report.outcome.headline();
+        print(&format!("results in {}\n{headline}\n", folder.display()))?;
     }
-    Ok(report.status())
+    Ok(ended(report.status(), &report.outcome.line()))
+}
+
+/// Says on stderr why the exit status is not 0, whatever else is or is not printed.
+fn ended(status: u8, line: &str) -> u8 {
+    if status != 0 {
+        // Nothing is left to do where even stderr is closed.
+        let _ = writeln!(std::io::stderr(), "foldmotion: {line}");
+    }
+    status
 }
 
 /// # Errors
@@ -157,9 +167,10 @@ fn check_motion(arguments: &CheckArguments) -> Result<u8, Failure> {
         print(&certificate.to_json())?;
     } else if !arguments.quiet {
         print(&checked.table())?;
-        print(&format!("certificate in {}\n", folder.display()))?;
+        let verdict = &certificate.verdict;
+        print(&format!("certificate in {}\n{verdict}\n", folder.display()))?;
     }
-    Ok(certificate.status())
+    Ok(ended(certificate.status(), &certificate.line()))
 }
 
 fn verify_certificate(arguments: &CheckArguments, certificate: &Path) -> Result<u8, Failure> {
@@ -172,7 +183,7 @@ fn verify_certificate(arguments: &CheckArguments, certificate: &Path) -> Result<
     if !arguments.quiet {
         print(&verified.table())?;
     }
-    Ok(verified.status())
+    Ok(ended(verified.status(), &verified.line()))
 }
 
 fn record_motion(arguments: &RecordArguments) -> Result<u8, Failure> {

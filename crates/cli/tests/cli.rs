@@ -40,7 +40,7 @@ fn a_run_prints_a_table_and_plain_progress() {
     let output = foldmotion(home.path(), &arguments);
     let (out, err) = (text(&output.stdout), text(&output.stderr));
     assert!(
-        out.contains("closed form") && out.contains("verdict: free"),
+        out.contains("closed form") && out.contains("collisions: free"),
         "{out}"
     );
     assert!(

@@ -21,10 +21,14 @@ pub(crate) struct Overlay {
 }
 
 impl Overlay {
-    /// The stage and the time, in the lower left corner.
+    /// The stage and the time, or `ending` in their place, in the lower left corner.
     #[expect(clippy::cast_sign_loss, reason = "letters have a height")]
-    pub(crate) fn caption(time: f64, size: [u32; 2]) -> Result<Self, RecordError> {
-        let text = format!("{}, t = {time:.2}", stage(time));
+    pub(crate) fn caption(
+        time: f64,
+        ending: Option<&str>,
+        size: [u32; 2],
+    ) -> Result<Self, RecordError> {
+        let text = ending.map_or_else(|| format!("{}, t = {time:.2}", stage(time)), str::to_owned);
         let letters = letters(size);
         let height = (2.0 * letters).round() as u32;
         let words = written(&[(0.5 * letters, &text)], [size[0], height], letters)?;
@@ -165,13 +169,16 @@ mod tests {
             height: 90,
             pixels: vec![[255; 3]; 121 * 90],
         };
-        let overlay = Overlay::caption(0.5, [121, 90]).unwrap();
+        let overlay = Overlay::caption(0.5, None, [121, 90]).unwrap();
         overlay.draw(&mut image, None, [255; 3]);
         let dark = |rows: std::ops::Range<usize>| {
             let part = &image.pixels[rows.start * 121..rows.end * 121];
             part.iter().filter(|p| p[1] < 128).count()
         };
         assert!(dark(72..90) > 30 && dark(0..72) == 0);
+        let ended = Overlay::caption(2.0, Some("jammed at t = 1.2"), [121, 90]).unwrap();
+        let compact = Overlay::caption(2.0, None, [121, 90]).unwrap();
+        assert_ne!(ended.words.pixels, compact.words.pixels);
         let names = [0.0, 0.5, 1.0, 1.5, 2.0, 2.1].map(stage);
         assert!(names.is_sorted_by(|a, b| a != b), "{names:?}");
     }

@@ -56,6 +56,8 @@ pub struct FilmOptions {
     pub turn: f64,
     /// Whether the stage and the time are written into the picture.
     pub has_caption: bool,
+    /// What the caption of the last state says in the place of its stage, such as how the motion ended.
+    pub ending: Option<String>,
     /// Whether pictures are also made without background, for those reels that can show through. Takes twice the time.
     pub is_transparent: bool,
     /// What the film was made from and by what; written into every file where not empty.
@@ -78,6 +80,7 @@ impl Default for FilmOptions {
             width: None,
             turn: 0.0,
             has_caption: false,
+            ending: None,
             is_transparent: false,
             provenance: String::new(),
             style: Style::default(),

@@ -202,9 +202,12 @@ impl<'a> Set<'a> {
         let mut alpha = options
             .is_transparent
             .then(|| uncovered(&image, &options.style, draw));
+        let last = self.scene.motion.frames.last();
+        let is_last = last.is_some_and(|frame| shot.time >= frame.time);
+        let ending = options.ending.as_deref().filter(|_| is_last);
         let caption = options
             .has_caption
-            .then(|| Overlay::caption(shot.time, options.size));
+            .then(|| Overlay::caption(shot.time, ending, options.size));
         let overlays = [self.legend.clone(), caption.transpose()?];
         for overlay in overlays.into_iter().flatten() {
             overlay.draw(&mut image, alpha.as_deref_mut(), options.style.background);

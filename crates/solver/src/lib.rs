@@ -6,6 +6,7 @@
 //! Fold angles are in radians, positive for valleys, followed past ±π. Inside the model lengths are in the sheet's
 //! unit length h, masses are 1.
 
+mod budget;
 pub mod dynamic;
 mod error;
 mod face_angle;
@@ -17,6 +18,7 @@ mod moment;
 pub mod quasi_static;
 mod schedule;
 
+pub use budget::Budget;
 pub use error::SolverError;
 pub use material::Material;
 pub use model::{Bar, EnergyByKind, FaceAngles, Hinge, HingeKind, Model};

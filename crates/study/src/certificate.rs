@@ -198,6 +198,31 @@ impl Certificate {
         }
     }
 
+    /// The verdict with its first evidence, on one line.
+    pub fn line(&self) -> String {
+        let judged = self.stopped.as_ref().map_or_else(String::new, |stopped| {
+            format!(", judged up to t = {:.4}", stopped.t)
+        });
+        let evidence = match (self.penetrations.first(), self.undecided.first()) {
+            (Some(first), _) => {
+                let [a, b] = first.pair.faces;
+                format!(
+                    ": first at t = {:.4}, {}, faces {a} and {b}",
+                    first.t, first.kind
+                )
+            }
+            (None, Some(first)) => {
+                let [a, b] = first.pair.faces;
+                format!(
+                    ": faces {a} and {b} are certified up to t = {:.4} only",
+                    first.t
+                )
+            }
+            (None, None) => String::new(),
+        };
+        format!("{}{judged}{evidence}", self.verdict)
+    }
+
     /// The text of `certificate.json`.
     pub fn to_json(&self) -> String {
         // Strings, numbers and lists always serialise.
@@ -212,7 +237,8 @@ impl Certificate {
         // Writing into a string cannot fail.
         let _ = writeln!(
             out,
-            "{}{}\nsha256 {}",
+            "{}\n\n{}{}\nsha256 {}",
+            self.line(),
             self.file,
             self.title
                 .as_ref()

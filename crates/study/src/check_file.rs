@@ -110,6 +110,9 @@ pub(crate) fn judge_file(
     if sha256 != described {
         return Err(input.failure(&"it changed while it was read"));
     }
+    if judge.times.len() < 2 {
+        return Err(input.failure(&NoMotion(judge.times.len())));
+    }
     let (collision, times) = judge.finish().map_err(|e| motion_error(path, &e))?;
     Ok(JudgedFile {
         file,
@@ -219,6 +222,14 @@ pub(crate) fn motion_error(path: &Path, message: &dyn std::fmt::Display) -> Stud
         message: message.to_string(),
     }
 }
+
+/// A file with fewer states than a motion has: how many.
+#[derive(Debug, Clone, Copy, thiserror::Error)]
+#[error(
+    "it has {0} state(s), in file_frames or the key frame: a motion needs two or more; to fold a crease pattern use \
+     `foldmotion run`"
+)]
+pub(crate) struct NoMotion(pub(crate) usize);
 
 /// Why the second reading ended.
 #[derive(Debug, thiserror::Error)]

@@ -1,11 +1,11 @@
 //! The engines behind one face: what a run needs to know of a computed motion, whichever engine computed it.
 
 use foldmotion_pattern::Frame;
-use foldmotion_solver::dynamic::{self, DynamicOptions};
+use foldmotion_solver::dynamic::{self, DynamicOptions, StageStatus};
 use foldmotion_solver::quasi_static::{
     Contact, Jam, QuasiStaticOptions, StopReason, run_quasi_static,
 };
-use foldmotion_solver::{Stage, Watcher};
+use foldmotion_solver::{Budget, Stage, Watcher};
 
 use crate::scene::EngineChoice;
 use crate::{Study, StudyError};
@@ -47,13 +47,44 @@ pub(crate) struct StageSummary {
 /// What ended a stage before its end.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct StopSummary {
-    /// Whether its budget of steps or iterations was used up; else no equilibrium was found.
-    pub(crate) is_out_of_steps: bool,
+    pub(crate) reason: StopCause,
     /// The load step that the quasi-static engine tried last, in motion time.
     pub(crate) step: Option<f64>,
     /// The unbalanced force left, and how much of it counts as equilibrium.
     pub(crate) residual: f64,
     pub(crate) tolerance: f64,
+}
+
+/// Why a stage ended before its end.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum StopCause {
+    /// No equilibrium was found further on.
+    NoEquilibrium,
+    /// The budget of steps or iterations was used up.
+    OutOfSteps,
+    /// The budget of time was used up.
+    OutOfTime,
+}
+
+impl StopCause {
+    /// Its name in reports.
+    pub(crate) fn name(self) -> &'static str {
+        match self {
+            Self::NoEquilibrium => "no-equilibrium",
+            Self::OutOfSteps => "out-of-steps",
+            Self::OutOfTime => "out-of-time",
+        }
+    }
+}
+
+impl From<StopReason> for StopCause {
+    fn from(reason: StopReason) -> Self {
+        match reason {
+            StopReason::NoEquilibrium => Self::NoEquilibrium,
+            StopReason::OutOfIterations => Self::OutOfSteps,
+            StopReason::OutOfTime => Self::OutOfTime,
+        }
+    }
 }
 
 /// Contact at one frame.
@@ -68,17 +99,19 @@ impl Study {
     pub(crate) fn fold(
         &self,
         extra_times: &[f64],
+        budget: Budget,
         watcher: Watcher<'_>,
     ) -> Result<Computed, StudyError> {
         match self.engine {
-            EngineChoice::Dynamic => self.fold_dynamically(extra_times, watcher),
-            EngineChoice::QuasiStatic => self.fold_in_equilibrium(extra_times, watcher),
+            EngineChoice::Dynamic => self.fold_dynamically(extra_times, budget, watcher),
+            EngineChoice::QuasiStatic => self.fold_in_equilibrium(extra_times, budget, watcher),
         }
     }
 
     fn fold_dynamically(
         &self,
         extra_times: &[f64],
+        budget: Budget,
         watcher: Watcher<'_>,
     ) -> Result<Computed, StudyError> {
         let options = DynamicOptions {
@@ -86,6 +119,7 @@ impl Study {
             device: self.device,
             frames: self.frames,
             extra_times: extra_times.to_vec(),
+            budget,
             ..DynamicOptions::default()
         };
         let run = dynamic::run(
@@ -103,7 +137,11 @@ impl Study {
             steps: s.steps,
             load_steps: None,
             stop: (!s.is_converged()).then_some(StopSummary {
-                is_out_of_steps: true,
+                reason: if s.status == StageStatus::OutOfTime {
+                    StopCause::OutOfTime
+                } else {
+                    StopCause::OutOfSteps
+                },
                 step: None,
                 residual: s.residual,
                 tolerance: s.tolerance,
@@ -122,6 +160,7 @@ impl Study {
     fn fold_in_equilibrium(
         &self,
         extra_times: &[f64],
+        budget: Budget,
         watcher: Watcher<'_>,
     ) -> Result<Computed, StudyError> {
         let contact = self.contact_gap.map(|gap| Contact { gap });
@@ -130,6 +169,7 @@ impl Study {
             frames: self.frames,
             extra_times: extra_times.to_vec(),
             contact,
+            budget,
             ..QuasiStaticOptions::default()
         };
         let run = run_quasi_static(
@@ -147,7 +187,7 @@ impl Study {
             steps: s.iterations as u64,
             load_steps: Some([s.load_steps as u64, s.shortened_steps as u64]),
             stop: s.stop.map(|stop| StopSummary {
-                is_out_of_steps: stop.reason == StopReason::OutOfIterations,
+                reason: stop.reason.into(),
                 step: Some(stop.step),
                 residual: stop.residual,
                 tolerance: stop.tolerance,

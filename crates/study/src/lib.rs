@@ -4,6 +4,7 @@
 //! to run; [`Study::run`] folds, checks, reports and records, [`Study::compute`] folds and checks, for whoever shows the
 //! [`Folded`] motion.
 
+mod budget;
 pub mod certificate;
 mod certify;
 mod check_file;
@@ -12,11 +13,13 @@ mod digest;
 mod draft;
 mod engine;
 mod error;
+mod fold_angles;
 mod folded;
 mod gap;
 mod imported_report;
 mod imported_study;
 mod opened;
+mod outcome;
 pub mod paper;
 mod pattern_files;
 mod pattern_scene;
@@ -42,6 +45,7 @@ mod unfolding;
 mod unit_study;
 mod verify_file;
 
+pub use budget::MotionBudget;
 pub use certificate::Certificate;
 pub use check_file::{CheckOptions, check_file};
 pub use checked_file::CheckedFile;

@@ -2,6 +2,7 @@
 
 use foldmotion_check::FittedBox;
 use foldmotion_pattern::Motion;
+use foldmotion_solver::Budget;
 
 use crate::scene::EngineChoice;
 use crate::{FrameFigures, Phase, Study, StudyError, Watch};
@@ -36,7 +37,7 @@ impl Study {
         };
         let start = self.subject.start_time();
         let times = self.subject.times_of_interest();
-        let computed = quick.fold(&times, &|moment| {
+        let computed = quick.fold(&times, Budget::Standard, &|moment| {
             watch.state(moment);
             watch.progress(Phase::Fold, (moment.time - start) / (2.0 - start))
         })?;

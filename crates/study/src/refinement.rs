@@ -4,10 +4,13 @@
 //! overlap on it, or could not be decided, the motion itself may be clear: the engine then runs again and records
 //! more frames there.
 
-use foldmotion_check::{CollisionReport, Verdict, straying};
-use foldmotion_pattern::Frame;
+use foldmotion_check::{Verdict, straying};
+use foldmotion_pattern::{Frame, Motion};
+use foldmotion_solver::Budget;
 
-use crate::folded::Folded;
+use crate::budget::MotionBudget;
+use crate::engine::{Computed, StageSummary, StopCause};
+use crate::folded::{Findings, Folded};
 use crate::report::PathReport;
 use crate::run::timed;
 use crate::{Phase, Study, StudyError, Watch};
@@ -24,6 +27,35 @@ const LARGEST_STRAY: f64 = 2.0;
 /// Shorter intervals are not divided.
 const SHORTEST: f64 = 1e-9;
 
+/// A run of the engine, judged.
+struct Attempt {
+    computed: Computed,
+    motion: Motion,
+    findings: Findings,
+    /// How far the straight path after each frame strays.
+    strays: Vec<f64>,
+}
+
+impl Attempt {
+    /// Whether the budget ended it before `earlier` ended.
+    fn is_cut_short(&self, earlier: &Self) -> bool {
+        let end = |attempt: &Self| attempt.motion.frames.last().map_or(0.0, |f| f.time);
+        let is_spent = |stage: &StageSummary| {
+            stage
+                .stop
+                .is_some_and(|stop| stop.reason != StopCause::NoEquilibrium)
+        };
+        end(self) < end(earlier) && self.computed.stages.iter().any(is_spent)
+    }
+}
+
+/// Seconds that all runs took.
+#[derive(Debug, Clone, Copy, Default)]
+struct Seconds {
+    engine: f64,
+    check: f64,
+}
+
 impl Study {
     /// Folds and checks, with more frames where the first ones leave the verdict open; writes nothing.
     ///
@@ -32,53 +64,79 @@ impl Study {
     /// # Errors
     /// [`StudyError::Solver`], [`StudyError::Check`], and [`StudyError::Interrupted`] where `watch` ended it.
     pub fn compute(&self, watch: &dyn Watch) -> Result<Folded, StudyError> {
+        let budget = self.budget.map_or(Budget::Standard, MotionBudget::start);
         let mut extra_times = self.subject.times_of_interest();
         let asked = extra_times.len();
-        let start = self.subject.start_time();
-        let (mut engine_seconds, mut check_seconds) = (0.0, 0.0);
+        let mut seconds = Seconds::default();
         let mut rounds = 0;
+        let mut attempt = self.attempt(&extra_times, budget, watch, &mut seconds)?;
         loop {
-            let (computed, seconds) = timed(|| {
-                self.fold(&extra_times, &|moment| {
-                    watch.state(moment);
-                    watch.progress(Phase::Fold, (moment.time - start) / (2.0 - start))
-                })
-            })?;
-            engine_seconds += seconds;
-            let motion = self.place(&computed);
-            let progress = |phase, done| watch.progress(phase, done);
-            let (findings, seconds) = timed(|| self.check(&motion, &computed, &progress))?;
-            check_seconds += seconds;
-            let strays = straying(&motion.frames);
-            let more = self.times_between(&findings.collision, &motion.frames, &strays);
+            let more = self.times_between(&attempt);
             let added = extra_times.len() - asked;
             let is_spent = rounds == MOST_ROUNDS || added + more.len() > MOST_ADDED;
             if more.is_empty() || is_spent {
-                let path = self.path_report(&motion.frames, &strays, rounds, added);
-                let last = motion.frames.last().map_or(&[][..], |f| &f.positions);
-                return Ok(Folded {
-                    compact: self.subject.measured_box(last),
-                    computed,
-                    motion,
-                    findings,
-                    path,
-                    engine_seconds,
-                    check_seconds,
-                });
+                return Ok(self.folded(attempt, rounds, added, seconds));
             }
+            let before = extra_times.len();
             extra_times.extend(more);
+            let refined = self.attempt(&extra_times, budget, watch, &mut seconds)?;
+            if refined.is_cut_short(&attempt) {
+                // The budget ended the further run early: what was reached before it stays.
+                let added = before - asked;
+                return Ok(self.folded(attempt, rounds, added, seconds));
+            }
+            attempt = refined;
             rounds += 1;
+        }
+    }
+
+    /// Folds and checks once, with frames at `extra_times` too.
+    fn attempt(
+        &self,
+        extra_times: &[f64],
+        budget: Budget,
+        watch: &dyn Watch,
+        spent: &mut Seconds,
+    ) -> Result<Attempt, StudyError> {
+        let start = self.subject.start_time();
+        let (computed, seconds) = timed(|| {
+            self.fold(extra_times, budget, &|moment| {
+                watch.state(moment);
+                watch.progress(Phase::Fold, (moment.time - start) / (2.0 - start))
+            })
+        })?;
+        spent.engine += seconds;
+        let motion = self.place(&computed);
+        let progress = |phase, done| watch.progress(phase, done);
+        let (findings, seconds) = timed(|| self.check(&motion, &computed, &progress))?;
+        spent.check += seconds;
+        Ok(Attempt {
+            strays: straying(&motion.frames),
+            computed,
+            motion,
+            findings,
+        })
+    }
+
+    fn folded(&self, attempt: Attempt, rounds: usize, added: usize, seconds: Seconds) -> Folded {
+        let frames = &attempt.motion.frames;
+        let last = frames.last().map_or(&[][..], |f| &f.positions);
+        Folded {
+            compact: self.subject.measured_box(last),
+            path: self.path_report(frames, &attempt.strays, rounds, added),
+            computed: attempt.computed,
+            motion: attempt.motion,
+            findings: attempt.findings,
+            engine_seconds: seconds.engine,
+            check_seconds: seconds.check,
         }
     }
 
     /// Times at which frames are missing: within intervals that could not be decided, or, where every penetration is
     /// shallower than the straight paths may stray there, within theirs.
-    fn times_between(
-        &self,
-        collision: &CollisionReport,
-        frames: &[Frame],
-        strays: &[f64],
-    ) -> Vec<f64> {
+    fn times_between(&self, attempt: &Attempt) -> Vec<f64> {
+        let collision = &attempt.findings.collision;
+        let (frames, strays) = (&attempt.motion.frames, &attempt.strays);
         if !matches!(collision.verdict, Verdict::Undecided | Verdict::Penetrating) {
             return Vec::new();
         }
@@ -124,6 +182,7 @@ impl Study {
             .filter(|(stray, _)| stray.is_finite());
         PathReport {
             frames: frames.len(),
+            end_t: frames.last().map_or(0.0, |frame| frame.time),
             refinements: rounds,
             added_frames: added,
             straying: largest.map(|(stray, _)| stray / self.subject.sheet().unit_length),

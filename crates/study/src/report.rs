@@ -8,7 +8,9 @@ use serde::{Deserialize, Serialize};
 
 use crate::certificate::StoppedEntry;
 
+pub use crate::fold_angles::FoldAngleReport;
 pub use crate::imported_report::ImportReport;
+pub use crate::outcome::{Outcome, OutcomeKind};
 pub use crate::stop_report::StopReport;
 
 /// `report.json`. Lengths are in `length_unit`, angles in degrees.
@@ -19,6 +21,8 @@ pub struct Report {
     pub title: String,
     /// Version of foldmotion.
     pub version: String,
+    /// How the motion ended.
+    pub outcome: Outcome,
     /// FOLD's name of the unit of length.
     pub length_unit: String,
     /// E, T, S, SII or plain; where rows of unequal height have several, joined by `+`. Null for an imported pattern, as
@@ -46,6 +50,8 @@ pub struct Report {
     pub closed_form: Option<BoxReport>,
     /// The compact state reached.
     pub compact: CompactReport,
+    /// How close the creases came to the end of the motion.
+    pub fold_angles: FoldAngleReport,
     /// How stage unfold moves the row creases.
     pub unfold: Option<UnfoldReport>,
     /// The stages of the motion.
@@ -233,7 +239,7 @@ impl From<CompactBox> for BoxReport {
 }
 
 /// The compact state reached, beside the exact one.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct CompactReport {
     /// Measured after the rigid motion that best fits the exact compact state; of an imported pattern along its
     /// principal axes, from the longest spread to the shortest.
@@ -247,6 +253,9 @@ pub struct CompactReport {
     pub rms_to_exact: Option<f64>,
     /// Against the closed form; null where the case has none.
     pub relative_error: Option<ErrorReport>,
+    /// Why the box differs from the closed form, where an extent does by more than a hundredth (of h where the closed form
+    /// is 0).
+    pub explanation: Option<String>,
     /// What touches the two skin planes, after the same rigid motion; null where the case has none.
     pub skin: Option<SkinReport>,
 }
@@ -388,6 +397,8 @@ pub struct JamReport {
     pub facets: Vec<[u32; 2]>,
     /// Their units; none for an imported pattern.
     pub units: Vec<[UnitName; 2]>,
+    /// Those facets in words.
+    pub names: Vec<[String; 2]>,
 }
 
 /// The verdict.
@@ -477,6 +488,8 @@ pub struct UnitName {
 pub struct PathReport {
     /// Frames recorded.
     pub frames: usize,
+    /// Motion time of the last one.
+    pub end_t: f64,
     /// How often the engine ran again because the verdict was open between frames.
     pub refinements: usize,
     /// Frames asked for between the first ones by these runs.
@@ -528,23 +541,9 @@ impl SecondsReport {
 }
 
 impl Report {
-    /// The exit status: 3 undecided or not converged, 1 a penetration, else 0.
+    /// The exit status, that of the outcome.
     pub fn status(&self) -> u8 {
-        let unfinished = self.jam.is_some()
-            || self.stages.iter().any(|s| !s.converged)
-            || self.collision.verdict == "undecided";
-        match (unfinished, self.collision.verdict.as_str()) {
-            (true, _) => 3,
-            (false, "penetrating") => 1,
-            _ => 0,
-        }
-    }
-
-    /// Where the motion ended before its end and why, in a few words; none where it was run to its end.
-    pub fn unfinished(&self) -> Option<String> {
-        let jammed = |jam: &JamReport| format!("jammed at t = {:.4}", jam.t);
-        let jam = self.jam.as_ref().map(jammed);
-        jam.or_else(|| self.stop.as_ref().map(StopReport::words))
+        self.outcome.status()
     }
 
     /// The text of `report.json`.
@@ -560,10 +559,7 @@ impl Report {
         let mut out = String::new();
         let unit = &self.length_unit;
         // Writing into a string cannot fail.
-        let _ = writeln!(out, "{}", self.title);
-        if let Some(words) = self.unfinished() {
-            let _ = writeln!(out, "{words}");
-        }
+        let _ = writeln!(out, "{}\n\n{}", self.outcome.line(), self.title);
         self.write_subject(&mut out);
         let _ = writeln!(
             out,
@@ -597,9 +593,7 @@ impl Report {
                 s.residual
             );
         }
-        if let Some(jam) = &self.jam {
-            let _ = writeln!(out, "{}", jam.line());
-        }
+        let _ = writeln!(out, "{}", self.fold_angles.words());
         if let Some(stop) = &self.stop {
             let _ = writeln!(out, "{}", stop.line());
         }
@@ -655,9 +649,14 @@ impl Report {
 
     fn write_box(&self, out: &mut String) {
         let unit = &self.length_unit;
+        let title = if self.outcome.is_at_end() {
+            "compact box".to_owned()
+        } else {
+            format!("at t={:.4}", self.path.end_t)
+        };
         let _ = writeln!(
             out,
-            "\ncompact box        x            y            z            area         volume"
+            "\n{title:<18} x            y            z            area         volume"
         );
         let row = |name: &str, extents: [f64; 3], area: f64, volume: f64| {
             let mut line = format!("{name:<12}");
@@ -683,6 +682,20 @@ impl Report {
                 let _ = write!(line, " {value:>12.1e}");
             }
             let _ = writeln!(out, "{line}");
+            let absolute = [("x", 0), ("y", 1), ("z", 2)].map(|(name, axis)| {
+                let is_flat = self.closed_form.is_some_and(|f| f.extents[axis] == 0.0);
+                if is_flat { name } else { "" }
+            });
+            if absolute.concat() != "" {
+                let _ = writeln!(
+                    out,
+                    "(errors of {} and what is made of it are absolute, in h, h\u{b2}, h\u{b3}: the closed form is 0)",
+                    absolute.concat()
+                );
+            }
+        }
+        if let Some(words) = &c.explanation {
+            let _ = writeln!(out, "{words}");
         }
         if let Some(rms) = c.rms_to_exact {
             let _ = writeln!(
@@ -713,14 +726,21 @@ impl Report {
         let _ = writeln!(out, "{} frames{refined}; {straying}", p.frames);
     }
 
+    /// Which part of the motion the verdict is about, where it is not all of it.
+    fn part_judged(&self) -> &'static str {
+        match self.outcome.kind {
+            OutcomeKind::Jammed | OutcomeKind::Stopped => " of the motion as far as it came",
+            _ => "",
+        }
+    }
+
     fn write_verdict(&self, out: &mut String) {
         let c = &self.collision;
         let h = self.tolerance_unit();
         let _ = writeln!(
             out,
-            "\nverdict{}: {} (tolerance {:e} {h}; {} pairs tested; {} touch, {} penetrate)",
-            self.unfinished()
-                .map_or("", |_| " of the motion as far as it came"),
+            "\ncollisions{}: {} (tolerance {:e} {h}; {} pairs tested; {} touch, {} penetrate)",
+            self.part_judged(),
             c.verdict,
             c.tolerance,
             c.pairs_tested,
@@ -765,22 +785,15 @@ impl UnfoldReport {
 }
 
 impl JamReport {
-    fn line(&self) -> String {
-        let pairs = self.facets.iter().take(3).enumerate().map(|(index, f)| {
-            let place = |side: usize| {
-                let unit = self.units.get(index).map(|pair| &pair[side]);
-                unit.map_or_else(String::new, |u| {
-                    format!(" (row {} column {})", u.row, u.column)
-                })
-            };
-            format!("{}{} on {}{}", f[0], place(0), f[1], place(1))
-        });
-        format!(
-            "jam: contact stops the motion at t = {:.4}, {:.1} degrees short; facets that block: {}",
-            self.t,
-            self.fold_angle_error_deg,
-            pairs.collect::<Vec<_>>().join(", ")
-        )
+    /// What blocks, in words.
+    pub(crate) fn words(&self) -> String {
+        let pairs = self
+            .names
+            .iter()
+            .take(3)
+            .map(|[a, b]| format!("{a} on {b}"));
+        let pairs = pairs.collect::<Vec<_>>().join(", ");
+        format!("facets that push hardest: {pairs}")
     }
 }
 

@@ -1,10 +1,12 @@
 //! From a finished run to its report.
 
+use std::collections::BTreeSet;
+
 use foldmotion_check::{
     CollisionReport, FilterCounts, FittedBox, Penetration, Verdict, relative_error,
 };
 use foldmotion_geometry::RigidMotion;
-use foldmotion_pattern::{Frame, Unit, UnitSheet};
+use foldmotion_pattern::{Facet, Frame, Unit, UnitSheet};
 use foldmotion_solver::Stage;
 use foldmotion_solver::quasi_static::Jam;
 use glam::{DVec2, DVec3};
@@ -12,11 +14,12 @@ use glam::{DVec2, DVec3};
 use crate::certify::stopped;
 use crate::engine::StageSummary;
 use crate::folded::Folded;
+use crate::outcome::Parts;
 use crate::report::{
     BoxReport, CollisionSection, CompactReport, DecidedBy, DivisionReport, EnergyReport,
-    EngineReport, ErrorReport, FitReport, ImportReport, JamReport, MapReport, PatternReport,
-    PenetrationReport, ProfileReport, RowReport, SecondsReport, SkinReport, StageReport,
-    StopReport, UnfoldReport, UnitName, UnitReport, VertexReport,
+    EngineReport, ErrorReport, FitReport, FoldAngleReport, ImportReport, JamReport, MapReport,
+    Outcome, PatternReport, PenetrationReport, ProfileReport, RowReport, SecondsReport, SkinReport,
+    StageReport, StopReport, UnfoldReport, UnitName, UnitReport, VertexReport,
 };
 use crate::run::VERSION;
 use crate::scene::EngineChoice;
@@ -25,6 +28,9 @@ use crate::{Report, Study, Unfolding, UnitStudy};
 
 /// A vertex this close to a skin plane, in units of a, lies on it: wide enough for layers that keep a gap.
 const SKIN_TOLERANCE: f64 = 0.05;
+
+/// An extent further than this from its closed form is explained: relative, or in h where the closed form is 0.
+const LARGE_ERROR: f64 = 0.01;
 
 impl Study {
     pub(crate) fn report(
@@ -38,9 +44,26 @@ impl Study {
         let Folded {
             computed, findings, ..
         } = folded;
+        let fold_angles = self.fold_angles(folded);
+        let jam = computed.jam.as_ref().map(|j| self.jam_report(j));
+        let stop = computed.stages.iter().find_map(StopReport::of);
+        let collision = self.collision_section(&findings.collision);
+        let undecided = findings.collision.undecided.iter().map(|u| u.time);
+        let outcome = Outcome::of(&Parts {
+            end: folded.motion.frames.last().map_or(0.0, |frame| frame.time),
+            jam: jam.as_ref(),
+            stop: stop.as_ref(),
+            fold_angles: &fold_angles,
+            verdict: findings.collision.verdict,
+            collision: &collision,
+            undecided: undecided.min_by(f64::total_cmp),
+        });
+        let mut compact = self.compact_report(&folded.compact, folded.motion.frames.last());
+        compact.explanation = self.explanation(&compact, &outcome, &fold_angles);
         Report {
             title: self.title.clone(),
             version: VERSION.to_owned(),
+            outcome,
             length_unit: self.unit_name.to_owned(),
             case: sheet.map(UnitSheet::case_name),
             rows: sheet.map(|sheet| sheet.rows),
@@ -53,16 +76,17 @@ impl Study {
             division: units.map(division_report),
             pattern: self.pattern_report(),
             closed_form: self.subject.closed_form().map(BoxReport::from),
-            compact: self.compact_report(&folded.compact, folded.motion.frames.last()),
+            compact,
             unfold: units.map(|study| unfold_report(&study.unfolding)),
             stages: computed
                 .stages
                 .iter()
                 .map(|s| stage_report(s, &findings.series))
                 .collect(),
-            jam: computed.jam.as_ref().map(|j| self.jam_report(j)),
-            stop: computed.stages.iter().find_map(StopReport::of),
-            collision: self.collision_section(&findings.collision),
+            fold_angles,
+            jam,
+            stop,
+            collision,
             path: folded.path,
             engine: EngineReport {
                 name: match self.engine {
@@ -80,6 +104,12 @@ impl Study {
             seconds,
             files: files.to_vec(),
         }
+    }
+
+    fn fold_angles(&self, folded: &Folded) -> FoldAngleReport {
+        let last = folded.motion.frames.last();
+        let positions = last.map_or(&[][..], |frame| &frame.positions);
+        FoldAngleReport::new(self.subject.sheet(), positions, self.subject.end_angles())
     }
 
     fn map_report(&self, sheet: &UnitSheet) -> Option<MapReport> {
@@ -107,8 +137,41 @@ impl Study {
             volume: measured.volume,
             rms_to_exact: measured.rms_to_exact.map(|rms| rms / h),
             relative_error: error,
+            explanation: None,
             skin: last.and_then(|frame| self.skin_report(&frame.positions)),
         }
+    }
+
+    /// Why an extent differs from the closed form by more than [`LARGE_ERROR`].
+    fn explanation(
+        &self,
+        compact: &CompactReport,
+        outcome: &Outcome,
+        fold_angles: &FoldAngleReport,
+    ) -> Option<String> {
+        let error = compact.relative_error?;
+        let is_large = |axis: &usize| error.extents[*axis].abs() > LARGE_ERROR;
+        let axes: Vec<&str> = (0..3)
+            .filter(is_large)
+            .map(|axis| ["x", "y", "z"][axis])
+            .collect();
+        if axes.is_empty() {
+            return None;
+        }
+        let axes = axes.join(", ");
+        if !outcome.is_at_end() {
+            return Some(format!(
+                "{axes}: the sheet did not reach its compact state; this is the box of the last state reached"
+            ));
+        }
+        let gap = self.contact_gap.map_or_else(
+            || "without contact".to_owned(),
+            |gap| format!("every layer keeps a gap of {gap} h from the next"),
+        );
+        Some(format!(
+            "{axes}: {gap}, and {}, which adds up over the length of the sheet",
+            fold_angles.words()
+        ))
     }
 
     fn skin_report(&self, positions: &[DVec3]) -> Option<SkinReport> {
@@ -134,15 +197,36 @@ impl Study {
         let facets = |(faces, _): &([u32; 2], f64)| {
             faces.map(|f| self.subject.sheet().face_facets[f as usize])
         };
-        let facets: Vec<[u32; 2]> = jam.blocking.iter().take(10).map(facets).collect();
+        let mut seen = BTreeSet::new();
+        let facets: Vec<[u32; 2]> = jam.blocking.iter().map(facets).collect();
+        let facets = facets.into_iter().filter(|pair| seen.insert(*pair));
+        let facets: Vec<[u32; 2]> = facets.take(10).collect();
         let units = facets.iter().filter_map(|pair| self.units_of(*pair));
         let units = units.collect();
+        let names = facets.iter().map(|pair| pair.map(|f| self.facet_name(f)));
+        let names = names.collect();
         JamReport {
             t: jam.time,
             fold_angle_error_deg: jam.fold_angle_error.to_degrees(),
             facets,
             units,
+            names,
         }
+    }
+
+    /// A facet in words: its kind and unit where it has one.
+    fn facet_name(&self, facet: u32) -> String {
+        let Some(units) = self.subject.units() else {
+            return format!("facet {facet}");
+        };
+        let Facet {
+            row, column, kind, ..
+        } = units.units.sheet.facets[facet as usize];
+        let unit = UnitSheet::unit_name(row);
+        format!(
+            "{} {facet} of unit {unit} row {row} column {column}",
+            kind.name()
+        )
     }
 
     fn pattern_report(&self) -> PatternReport {

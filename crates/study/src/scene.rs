@@ -315,6 +315,9 @@ pub struct MotionScene {
     pub gap: Option<f64>,
     /// How stage 1 unfolds the profile; `auto` where left out.
     pub unfold: Option<UnfoldChoice>,
+    /// How much work the engine may do, in seconds (60 or "60 s") or in its own steps ("20000 steps"); the motion then
+    /// ends where it is, with exit status 3. Default: 300 Newton iterations a state, or a million steps of settling a stage.
+    pub budget: Option<BudgetScene>,
     /// The schedule: creases that no step names follow the ramp of their stage.
     pub step: Vec<StepScene>,
 }
@@ -423,4 +426,14 @@ pub struct CheckScene {
     pub touch_tolerance: Option<f64>,
     /// Once more pairs of triangles than this penetrate, no later frame is judged; 0: no limit; default: 4096.
     pub stop_at: Option<i64>,
+}
+
+/// Seconds, or words with a unit.
+#[derive(Debug, Clone, PartialEq, Deserialize, Serialize, JsonSchema)]
+#[serde(untagged)]
+pub enum BudgetScene {
+    /// Seconds.
+    Seconds(f64),
+    /// `60 s` or `20000 steps`.
+    Words(String),
 }

@@ -87,6 +87,15 @@ impl SceneSource {
         Ok(())
     }
 
+    /// Adds the value of a flag of the command line, `--name value`, in the place of `key`.
+    pub fn set_by_flag(&mut self, name: &str, key: &str, value: &str) {
+        self.overrides.push(Override {
+            flag: format!("--{name}"),
+            key: key.to_owned(),
+            value: Value::String(value.to_owned()),
+        });
+    }
+
     /// No file, but `[record]` from the command line: each key is named as a flag in errors.
     pub(crate) fn of_flags(record: &RecordScene) -> Self {
         let mut source = Self::new(Path::new("record"), String::new());

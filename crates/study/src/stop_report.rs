@@ -11,7 +11,7 @@ pub struct StopReport {
     /// Motion time of the last state reached; later ones were not computed.
     pub t: f64,
     /// no-equilibrium: none was found further on, however short the load step; out-of-steps: the budget of steps or
-    /// iterations was used up before one was.
+    /// iterations was used up before one was; out-of-time: the budget of time was.
     pub reason: String,
     /// The load step that the quasi-static engine tried last, in motion time; null for the dynamic engine.
     pub load_step: Option<f64>,
@@ -25,40 +25,35 @@ impl StopReport {
     /// What ended `stage` before its end, if anything did.
     pub(crate) fn of(stage: &StageSummary) -> Option<Self> {
         let stop = stage.stop?;
-        let reason = if stop.is_out_of_steps {
-            "out-of-steps"
-        } else {
-            "no-equilibrium"
-        };
         Some(Self {
             t: stage.reached,
-            reason: reason.to_owned(),
+            reason: stop.reason.name().to_owned(),
             load_step: stop.step,
             residual: stop.residual,
             residual_tolerance: stop.tolerance,
         })
     }
 
-    /// Where and why, in a few words.
+    /// Why, in a few words.
     pub fn words(&self) -> String {
-        let budget = if self.reason == "out-of-steps" {
-            " within the budget of steps"
-        } else {
-            ""
-        };
-        format!("stopped at t = {:.4}, no equilibrium found{budget}", self.t)
+        match self.reason.as_str() {
+            "out-of-steps" => {
+                "the budget of steps was used up before the next equilibrium was found"
+            }
+            "out-of-time" => "the budget of time was used up before the next equilibrium was found",
+            _ => "no equilibrium was found further on",
+        }
+        .to_owned()
     }
 
     /// The evidence, a line for the terminal.
     pub(crate) fn line(&self) -> String {
-        let step = self
-            .load_step
-            .map_or_else(String::new, |step| format!(" a load step of {step:.1e} on"));
+        let step = self.load_step.map_or_else(String::new, |step| {
+            format!(" in the last attempt, a load step of {step:.1e}")
+        });
         format!(
-            "{}: unbalanced force {:.1e} left{step}, where {:.1e} counts as equilibrium",
-            self.words(),
-            self.residual,
-            self.residual_tolerance
+            "unbalanced force left{step}: {:.1e}; at most {:.1e} counts as equilibrium",
+            self.residual, self.residual_tolerance
         )
     }
 }
@@ -68,9 +63,9 @@ mod tests {
     use foldmotion_solver::Stage;
 
     use super::*;
-    use crate::engine::StopSummary;
+    use crate::engine::{StopCause, StopSummary};
 
-    fn report(is_out_of_steps: bool, step: Option<f64>) -> Option<StopReport> {
+    fn report(reason: StopCause, step: Option<f64>) -> Option<StopReport> {
         StopReport::of(&StageSummary {
             stage: Stage::Fold,
             converged: false,
@@ -79,7 +74,7 @@ mod tests {
             steps: 7,
             load_steps: None,
             stop: Some(StopSummary {
-                is_out_of_steps,
+                reason,
                 step,
                 residual: 0.5,
                 tolerance: 1e-9,
@@ -88,19 +83,21 @@ mod tests {
     }
 
     #[test]
-    fn a_stop_is_told_with_its_time_its_reason_and_its_evidence() {
-        let none = report(false, Some(1e-5)).map(|stop| stop.line());
-        let none = none.unwrap_or_default();
+    fn a_stop_is_told_with_its_reason_and_its_evidence() {
+        let none = report(StopCause::NoEquilibrium, Some(1e-5)).unwrap();
+        assert_eq!((none.t, none.reason.as_str()), (1.25, "no-equilibrium"));
         assert_eq!(
-            none,
-            "stopped at t = 1.2500, no equilibrium found: unbalanced force 5.0e-1 left a load step of 1.0e-5 on, where \
-             1.0e-9 counts as equilibrium"
+            none.line(),
+            "unbalanced force left in the last attempt, a load step of 1.0e-5: 5.0e-1; at most 1.0e-9 counts as \
+             equilibrium"
         );
-        let spent = report(true, None).map(|stop| stop.line());
+        let spent = report(StopCause::OutOfSteps, None).unwrap();
         assert_eq!(
-            spent.unwrap_or_default(),
-            "stopped at t = 1.2500, no equilibrium found within the budget of steps: unbalanced force 5.0e-1 left, where \
-             1.0e-9 counts as equilibrium"
+            spent.line(),
+            "unbalanced force left: 5.0e-1; at most 1.0e-9 counts as equilibrium"
         );
+        assert!(spent.words().contains("steps"));
+        let late = report(StopCause::OutOfTime, None).unwrap();
+        assert!(late.words().contains("time"), "{}", late.words());
     }
 }

@@ -6,6 +6,7 @@ use foldmotion_solver::{
     CreaseGroup, Ease, Material, Model, Schedule, ScheduleStep, SolverError, Stage,
 };
 
+use crate::budget::MotionBudget;
 use crate::recording::Recording;
 use crate::scene::{CreasesChoice, EaseChoice, EngineChoice, StageChoice, StepScene};
 use crate::subject::Subject;
@@ -39,6 +40,8 @@ pub struct Study {
     pub thickness: Option<f64>,
     /// The states t = 2k/frames are recorded.
     pub frames: usize,
+    /// How much work the engine may do; none: as much as it allows itself.
+    pub budget: Option<MotionBudget>,
     /// How the motion is checked.
     pub collision: CollisionOptions,
     /// What is written beside the report, and how it looks.
@@ -76,6 +79,7 @@ impl Study {
             contact_gap: resolver.contact_gap(&subject)?,
             thickness: scene.material.thickness,
             frames: resolver.frames()?,
+            budget: resolver.budget()?,
             collision: resolver.collision()?,
             recording: resolver.recording(title)?,
             subject,

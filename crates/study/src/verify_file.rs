@@ -10,7 +10,7 @@ use foldmotion_pattern::{FoldError, FoldFile, Frame};
 use serde_json::Value;
 
 use crate::certificate::{Certificate, FORMAT};
-use crate::check_file::Input;
+use crate::check_file::{Input, NoMotion};
 use crate::statement::{against_file, against_times, claim};
 use crate::{Phase, Progress, StudyError};
 
@@ -117,7 +117,8 @@ fn prove(
     if let Some(frame) = disorder {
         return Err(input.failure(&format!("frame {frame} is not later than the one before")));
     }
-    let verifier = verifier.ok_or_else(|| input.failure(&"the motion has no frames"))?;
+    let verifier = verifier.filter(|_| times.len() > 1);
+    let verifier = verifier.ok_or_else(|| input.failure(&NoMotion(times.len())))?;
     Ok((verifier.finish(), times))
 }
 
@@ -199,12 +200,47 @@ impl VerifiedCertificate {
         }
     }
 
+    fn answer(&self) -> &'static str {
+        match self.status() {
+            2 => "REFUTED",
+            3 if !self.verification.unproved.is_empty() => "NOT VERIFIED",
+            _ => "VERIFIED",
+        }
+    }
+
+    /// The answer with its first evidence, on one line.
+    pub fn line(&self) -> String {
+        let (v, answer) = (&self.verification, self.answer());
+        let stated = &self.certificate.verdict;
+        match (v.refuted.first(), v.unproved.first()) {
+            (Some(r), _) => {
+                let Refutation {
+                    field,
+                    stated,
+                    found,
+                } = r;
+                format!("{answer}: {field}: stated {stated}; found {found}")
+            }
+            (None, Some(u)) => format!(
+                "{answer}: triangles {} and {} after frame {}: {}",
+                u.faces[0], u.faces[1], u.frame, u.what
+            ),
+            (None, None) => format!("{answer}: {stated}"),
+        }
+    }
+
     /// The table for the terminal.
     pub fn table(&self) -> String {
         let mut out = String::new();
         let (certificate, v) = (&self.certificate, &self.verification);
         // Writing into a string cannot fail.
-        let _ = writeln!(out, "{}\nsha256 {}", certificate.file, certificate.sha256);
+        let _ = writeln!(
+            out,
+            "{}\n\n{}\nsha256 {}",
+            self.line(),
+            certificate.file,
+            certificate.sha256
+        );
         if let Some(name) = &self.other_name {
             let _ = writeln!(out, "note: the file is called {name} here");
         }
@@ -225,12 +261,6 @@ impl VerifiedCertificate {
             "second proof: {} pairs of triangles, {} near, {} followed; {} to {} touch",
             v.pairs, v.near, v.followed, v.touching[0], v.touching[1]
         );
-        let answer = match self.status() {
-            2 => "REFUTED",
-            3 => "NOT VERIFIED",
-            _ => "VERIFIED",
-        };
-        let _ = writeln!(out, "\n{answer}");
         for r in v.refuted.iter().take(SHOWN) {
             let _ = writeln!(out, "- {}: stated {}; found {}", r.field, r.stated, r.found);
         }
@@ -245,6 +275,7 @@ impl VerifiedCertificate {
         if more > 0 {
             let _ = writeln!(out, "- and {more} more");
         }
+        let _ = writeln!(out, "{}", self.answer());
         out
     }
 }

@@ -2,7 +2,7 @@
 
 use eframe::egui::{Color32, CornerRadius, Frame, Grid, Link, Margin, RichText, ScrollArea, Ui};
 use foldmotion_study::Report;
-use foldmotion_study::report::{PenetrationReport, StageReport};
+use foldmotion_study::report::{OutcomeKind, PenetrationReport, StageReport};
 
 use crate::work::Judged;
 
@@ -10,7 +10,7 @@ use crate::work::Judged;
 pub(crate) fn results(ui: &mut Ui, report: &Report) -> Option<f64> {
     let mut chosen = None;
     ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
-        chosen = verdict(ui, report);
+        chosen = outcome(ui, report);
         ui.add_space(6.0);
         boxes(ui, report);
         for stage in &report.stages {
@@ -80,9 +80,19 @@ pub(crate) fn verdict_colour(ui: &Ui, verdict: &str) -> Color32 {
     }
 }
 
-fn verdict(ui: &mut Ui, report: &Report) -> Option<f64> {
+/// The colour of an outcome: good, bad or open on the ground at hand.
+pub(crate) fn outcome_colour(ui: &Ui, kind: OutcomeKind) -> Color32 {
+    let as_verdict = match kind {
+        OutcomeKind::Folded => "free",
+        OutcomeKind::Collides => "penetrating",
+        _ => "undecided",
+    };
+    verdict_colour(ui, as_verdict)
+}
+
+fn outcome(ui: &mut Ui, report: &Report) -> Option<f64> {
     let collision = &report.collision;
-    let colour = verdict_colour(ui, &collision.verdict);
+    let colour = outcome_colour(ui, report.outcome.kind);
     let mut chosen = None;
     let frame = Frame::new()
         .fill(colour.gamma_multiply(0.14))
@@ -90,10 +100,11 @@ fn verdict(ui: &mut Ui, report: &Report) -> Option<f64> {
         .inner_margin(Margin::same(8));
     frame.show(ui, |ui| {
         ui.set_width(ui.available_width());
-        ui.label(RichText::new(&collision.verdict).size(20.0).strong().color(colour));
+        ui.label(RichText::new(report.outcome.headline()).size(20.0).strong().color(colour));
+        ui.label(&report.outcome.reason);
         ui.label(format!(
-            "{} pairs tested between {} frames, tolerance {:.0e} h",
-            collision.pairs_tested, report.path.frames, collision.tolerance
+            "{}: {} pairs tested between {} frames, tolerance {:.0e} h",
+            collision.verdict, collision.pairs_tested, report.path.frames, collision.tolerance
         ))
         .on_hover_text(
             "free: no two facets come within the tolerance; touching: they do, and leave on the side they came from; \

@@ -38,6 +38,8 @@ const HELD_FRAMES: usize = 16;
 pub struct FoldFile {
     /// `file_title`.
     pub title: Option<String>,
+    /// `foldmotion:outcome`: how the run ended that made the motion, in its own words.
+    pub outcome: Option<String>,
     /// What moves.
     pub sheet: Sheet,
     /// The face of the file each triangle of the sheet belongs to.
@@ -134,6 +136,7 @@ impl FoldFile {
             has_times,
             unit: key.unit,
             title: key.title,
+            outcome: key.outcome,
             sheet: topology.sheet,
             triangle_faces: topology.faces,
             polygons,

@@ -18,6 +18,7 @@ const BUFFER: usize = 1 << 16;
 #[derive(Debug, Default)]
 pub(crate) struct FrameFields {
     pub(crate) title: Option<String>,
+    pub(crate) outcome: Option<String>,
     pub(crate) classes: Vec<String>,
     pub(crate) parent: Option<u64>,
     pub(crate) inherit: bool,
@@ -235,6 +236,7 @@ impl FrameFields {
         }
         match key {
             "file_title" => self.title = Some(map.next_value()?),
+            "foldmotion:outcome" => self.outcome = Some(map.next_value()?),
             "frame_classes" => self.classes = map.next_value()?,
             "frame_parent" => self.parent = Some(map.next_value()?),
             "frame_inherit" => self.inherit = map.next_value()?,
@@ -289,7 +291,7 @@ impl FrameFields {
 
 /// The keys that matter to a motion or a crease pattern.
 fn known(key: &str) -> Option<&'static str> {
-    const KEYS: [&str; 16] = [
+    const KEYS: [&str; 17] = [
         "edges_foldAngle",
         "edges_foldAngles",
         "frame_title",
@@ -298,6 +300,7 @@ fn known(key: &str) -> Option<&'static str> {
         "frame_classes",
         "frame_parent",
         "frame_inherit",
+        "foldmotion:outcome",
         "foldmotion:time",
         "foldmotion:unitLength",
         "vertices_coords",

@@ -172,7 +172,12 @@ impl<'a> Contents<'a> {
             "styles" => STYLES.to_owned(),
             "lead" => section(&self.report, report::lead),
             "verdict" => {
-                section(&self.report, report::ending) + &certificate::badge(self.verdict())
+                let outcome = section(&self.report, report::outcome);
+                if outcome.is_empty() {
+                    certificate::badge(self.verdict())
+                } else {
+                    outcome
+                }
             }
             "plots" => sections::plotted(self.page.panels)?,
             "report" => section(&self.report, report::section),

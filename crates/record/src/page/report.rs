@@ -57,7 +57,6 @@ pub(super) fn section(report: &Value) -> String {
     let mut html = String::from("<section>\n<h2>Report</h2>\n");
     html.push_str(&compact_box(report));
     html.push_str(&stages(report));
-    html.push_str(&jam(report));
     html.push_str(&stop(report));
     html.push_str(&sizes(report));
     html.push_str(&vertices(report));
@@ -119,18 +118,6 @@ fn stages(report: &Value) -> String {
     table("The stages of the motion", &head, &rows)
 }
 
-fn jam(report: &Value) -> String {
-    let Some(time) = text(report, "/jam/t") else {
-        return String::new();
-    };
-    let short = scaled(report, "/jam/fold_angle_error_deg", 1.0);
-    format!(
-        "<p class=\"warning\">Contact stops the motion at t = {}, {}° short of its target.</p>\n",
-        escaped(&time),
-        escaped(&short)
-    )
-}
-
 /// The evidence that the motion stopped before its end.
 fn stop(report: &Value) -> String {
     let Some(time) = text(report, "/stop/t") else {
@@ -148,16 +135,28 @@ fn stop(report: &Value) -> String {
     )
 }
 
-/// Over the verdict of a motion that jammed or stopped: that the verdict is not one of the whole motion.
-pub(super) fn ending(report: &Value) -> String {
-    let jam = text(report, "/jam/t").map(|t| ("jammed", t));
-    let ending = jam.or_else(|| Some(("stopped", text(report, "/stop/t")?)));
-    let Some((word, time)) = ending else {
+/// How the motion ended and why, with a sign, so that no one needs to tell colours apart; nothing for a report without it.
+pub(super) fn outcome(report: &Value) -> String {
+    let (Some(kind), Some(time)) = (
+        text(report, "/outcome/kind"),
+        report.pointer("/outcome/t").and_then(Value::as_f64),
+    ) else {
         return String::new();
     };
-    let time = escaped(&time);
+    let (sign, class) = match kind.as_str() {
+        "folded" => ("✓", "good"),
+        "collides" => ("✗", "bad"),
+        _ => ("!", "open"),
+    };
+    let headline = match kind.as_str() {
+        "folded" => kind,
+        "not-converged" => "did not converge".to_owned(),
+        _ => format!("{} at t = {}", escaped(&kind), digits(time, 5)),
+    };
+    let reason = text(report, "/outcome/reason").unwrap_or_default();
     format!(
-        "<p class=\"verdict open\"><strong><span aria-hidden=\"true\">!</span> {word} at t = {time}</strong> the verdict is that of the motion as far as it came</p>\n"
+        "<p class=\"verdict {class}\"><strong><span aria-hidden=\"true\">{sign}</span> {headline}</strong> {}</p>\n",
+        escaped(&reason)
     )
 }
 
@@ -241,15 +240,29 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_motion_that_jammed_or_stopped_is_not_headed_by_its_verdict_alone() {
+    fn a_page_is_headed_by_the_outcome_and_a_good_sign_stands_only_before_a_folded_sheet() {
+        let ended =
+            |kind: &str| outcome(&json!({"outcome": {"kind": kind, "t": 1.25, "reason": "a < b"}}));
+        assert!(ended("jammed").contains("!</span> jammed at t = 1.25"));
+        assert!(ended("jammed").contains("a &lt; b"));
+        assert!(ended("stopped").contains("stopped at t = 1.25"));
+        assert!(ended("not-converged").contains("did not converge</strong>"));
+        assert!(ended("collides").contains("class=\"verdict bad\""));
+        assert!(ended("folded").contains("class=\"verdict good\""));
+        for kind in [
+            "jammed",
+            "stopped",
+            "not-converged",
+            "collides",
+            "undecided",
+        ] {
+            assert!(!ended(kind).contains("good"), "{kind}");
+        }
+        assert_eq!(outcome(&json!({"title": "no outcome"})), "");
         let stop = json!({"t": 1.25, "residual": 0.5, "residual_tolerance": 1e-9});
-        let stopped = json!({"jam": null, "stop": stop});
-        assert!(ending(&stopped).contains("stopped at t = 1.25"));
-        assert!(section(&stopped).contains("No equilibrium was found beyond t = 1.25"));
-        let jammed = json!({"jam": {"t": 1.5}, "stop": null});
-        assert!(ending(&jammed).contains("jammed at t = 1.5"));
-        let folded = json!({"jam": null, "stop": null});
-        assert_eq!(ending(&folded), "");
-        assert!(!section(&folded).contains("No equilibrium"));
+        assert!(
+            section(&json!({"stop": stop})).contains("No equilibrium was found beyond t = 1.25")
+        );
+        assert!(!section(&json!({"stop": null})).contains("No equilibrium"));
     }
 }

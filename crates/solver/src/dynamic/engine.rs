@@ -15,6 +15,7 @@ use super::options::{Device, DynamicOptions, Run, StageOutcome, StageStatus};
 use super::recorder::Recorder;
 use super::relaxation::{Progress, Relaxation};
 use super::state::State;
+use crate::budget::Allowance;
 use crate::{Model, Moment, Schedule, SolverError, Stage, Watcher};
 
 /// The share of the stable time step that is used: covers what the bound only estimates (see `stability`) and the
@@ -103,6 +104,7 @@ fn run_here(
         state,
         recorder,
         targets,
+        taken: 0,
         #[cfg(feature = "gpu")]
         drive,
     };
@@ -139,6 +141,8 @@ struct Engine<'a, 'm> {
     state: State<'m>,
     recorder: Recorder<'m>,
     targets: Vec<f64>,
+    /// Steps of every kind in all stages.
+    taken: u64,
     #[cfg(feature = "gpu")]
     drive: Option<GpuDrive<'a>>,
 }
@@ -152,11 +156,11 @@ impl Engine<'_, '_> {
             let (to, tolerance) = (increment.end, increment.tolerance);
             ramp_steps += self.ramp(stage, from, to)?;
             let status = self.settle(stage, to, tolerance, &mut settling_steps)?;
-            let is_out_of_steps = status == StageStatus::OutOfSteps;
-            if increment.is_recorded || is_out_of_steps {
+            let is_spent = status != StageStatus::Settled;
+            if increment.is_recorded || is_spent {
                 self.recorder.push(stage, to, &self.state.positions());
             }
-            if is_out_of_steps {
+            if is_spent {
                 let steps = ramp_steps + settling_steps;
                 return Ok(self.end_stage(stage, to, status, tolerance, steps));
             }
@@ -200,6 +204,7 @@ impl Engine<'_, '_> {
         self.state.use_unit_masses();
         let dt = SAFETY * self.state.stable_time_step();
         let steps = self.options.ramp_steps;
+        self.taken += steps as u64;
         #[cfg(feature = "gpu")]
         if let Some(drive) = &mut self.drive {
             drive.load(&self.state);
@@ -231,6 +236,9 @@ impl Engine<'_, '_> {
         tolerance: f64,
         spent: &mut u64,
     ) -> Result<StageStatus, SolverError> {
+        if let Some(status) = self.spent() {
+            return Ok(status);
+        }
         if tolerance == f64::INFINITY {
             return Ok(StageStatus::Settled);
         }
@@ -238,16 +246,16 @@ impl Engine<'_, '_> {
         if let Some(status) = self.settle_on_gpu(stage, s, tolerance, spent)? {
             return Ok(status);
         }
-        let budget = self.options.step_budget.saturating_sub(*spent);
+        let allowance = self.allowance(*spent);
         let mut relaxation = Relaxation::new(&mut self.state, tolerance);
-        let mut status = StageStatus::OutOfSteps;
-        while relaxation.steps() < budget {
+        let mut is_settled = false;
+        while !allowance.is_spent(relaxation.steps()) {
             if relaxation
                 .advance()
                 .map_err(|runaway| diverged(runaway, stage, s))?
                 == Progress::Settled
             {
-                status = StageStatus::Settled;
+                is_settled = true;
                 break;
             }
             if s == 1.0 {
@@ -257,7 +265,35 @@ impl Engine<'_, '_> {
             report(self.progress, stage, s, relaxation.state())?;
         }
         *spent += relaxation.steps();
-        Ok(status)
+        self.taken += relaxation.steps();
+        Ok(if is_settled {
+            StageStatus::Settled
+        } else {
+            self.unsettled()
+        })
+    }
+
+    /// How a search ended whose allowance was spent before the sheet settled.
+    fn unsettled(&self) -> StageStatus {
+        if self.options.budget.is_late() {
+            StageStatus::OutOfTime
+        } else {
+            StageStatus::OutOfSteps
+        }
+    }
+
+    /// How the budget of the run ended, where it has.
+    fn spent(&self) -> Option<StageStatus> {
+        let budget = self.options.budget;
+        let is_spent = budget.is_late() || budget.left(u64::MAX, self.taken) == 0;
+        is_spent.then(|| self.unsettled())
+    }
+
+    /// The settling steps left in a stage that has taken `spent`.
+    fn allowance(&self, spent: u64) -> Allowance {
+        let standard = self.options.step_budget.saturating_sub(spent);
+        let budget = self.options.budget;
+        budget.allowance(budget.left(standard, self.taken))
     }
 
     /// Settles as far as f32 goes; none where the CPU is to go on from there, or there is no GPU.
@@ -269,10 +305,10 @@ impl Engine<'_, '_> {
         tolerance: f64,
         spent: &mut u64,
     ) -> Result<Option<StageStatus>, SolverError> {
+        let allowance = self.allowance(*spent);
         let Some(drive) = &mut self.drive else {
             return Ok(None);
         };
-        let budget = self.options.step_budget.saturating_sub(*spent);
         let time = stage.start_time() + s;
         let (recorder, progress, model) = (&mut self.recorder, self.progress, self.state.model);
         let is_recorded = s == 1.0;
@@ -290,14 +326,15 @@ impl Engine<'_, '_> {
         let rough = drive.settle(
             &mut self.state,
             tolerance,
-            budget,
+            allowance,
             is_recorded,
             time,
             &mut look,
         )?;
         *spent += rough.steps;
+        self.taken += rough.steps;
         Ok(if !rough.is_settled {
-            Some(StageStatus::OutOfSteps)
+            Some(self.unsettled())
         } else if rough.tolerance <= tolerance {
             Some(StageStatus::Settled)
         } else {

@@ -2,7 +2,7 @@
 
 use foldmotion_pattern::Frame;
 
-use crate::{SolverError, Stage};
+use crate::{Budget, SolverError, Stage};
 
 /// Where a run moves the sheet.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -42,6 +42,8 @@ pub struct DynamicOptions {
     pub ramp_steps: usize,
     /// Settling steps allowed in each stage; ramp steps are not counted. A stage that needs more ends the run where it is.
     pub step_budget: u64,
+    /// Steps of every kind or time allowed in the whole run, in the place of [`Self::step_budget`].
+    pub budget: Budget,
 }
 
 impl DynamicOptions {
@@ -80,6 +82,7 @@ impl Default for DynamicOptions {
             ramp_tolerance: 1e-3,
             ramp_steps: 8,
             step_budget: 1_000_000,
+            budget: Budget::Standard,
         }
     }
 }
@@ -91,6 +94,8 @@ pub enum StageStatus {
     Settled,
     /// The step budget ended first, and with it the run; the state reached is recorded all the same.
     OutOfSteps,
+    /// The time of the budget ended first, and with it the run; the state reached is recorded all the same.
+    OutOfTime,
 }
 
 /// How a stage went.

@@ -15,6 +15,7 @@ use super::contact::ContactField;
 use super::element_stiffness::{Curvature, ElementMap, add_stiffness, coupled_nodes};
 use super::hinge_hessian::outer;
 use super::stiffness_matrix::StiffnessMatrix;
+use crate::budget::Allowance;
 use crate::{Model, SolverError};
 
 /// Furthest a node moves in one iteration, in unit lengths.
@@ -103,7 +104,7 @@ impl<'a> Newton<'a> {
         })
     }
 
-    /// Moves `state` to the equilibrium at `targets`, or as far as it gets in `max_iterations`.
+    /// Moves `state` to the equilibrium at `targets`, or as far as it gets within `allowance`.
     ///
     /// `visit` is told every state on the way and may end it. Between two of them no layer touches another on the straight
     /// way.
@@ -115,7 +116,7 @@ impl<'a> Newton<'a> {
         state: &mut Configuration,
         targets: &[f64],
         tolerance: Tolerance,
-        max_iterations: usize,
+        allowance: Allowance,
         visit: &mut dyn FnMut(&Configuration) -> Result<(), SolverError>,
     ) -> Result<Settled, SolverError> {
         if let Some(contact) = &mut self.contact {
@@ -141,7 +142,7 @@ impl<'a> Newton<'a> {
             if is_balanced && is_near {
                 return Ok(settled(true));
             }
-            if iterations == max_iterations || !energy.is_finite() {
+            if allowance.is_spent(iterations as u64) || !energy.is_finite() {
                 return Ok(settled(is_balanced));
             }
             let Some(step) = self.step(state, targets, &gradient, energy)? else {

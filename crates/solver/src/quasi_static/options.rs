@@ -1,7 +1,7 @@
 //! What a quasi-static run is asked for.
 
 use super::Contact;
-use crate::{SolverError, Stage};
+use crate::{Budget, SolverError, Stage};
 
 /// The options of [`super::run_quasi_static`].
 #[derive(Debug, Clone, PartialEq)]
@@ -22,6 +22,8 @@ pub struct QuasiStaticOptions {
     /// Newton steps allowed in a stage, over the number of states it records or 120 if that is more: after as many it is
     /// [stopped](super::StopReason::OutOfIterations). Most sheets take 5, a near-rigid one that gives way bit by bit 30.
     pub iterations_a_step: usize,
+    /// Iterations or time allowed in the whole run, in the place of [`Self::iterations_a_step`].
+    pub budget: Budget,
     /// Contact of the layers; none lets them pass through each other.
     pub contact: Option<Contact>,
 }
@@ -36,6 +38,7 @@ impl Default for QuasiStaticOptions {
             tolerance: 1e-9,
             max_iterations: 60,
             iterations_a_step: 300,
+            budget: Budget::Standard,
             contact: None,
         }
     }

@@ -87,8 +87,22 @@ pub struct Stop {
 pub enum StopReason {
     /// No equilibrium was found, however short the load step.
     NoEquilibrium,
-    /// The iterations of [`super::QuasiStaticOptions::iterations_a_step`] were used up.
+    /// The iterations of [`super::QuasiStaticOptions::iterations_a_step`], or of the budget, were used up.
     OutOfIterations,
+    /// The time of the budget was used up.
+    OutOfTime,
+}
+
+impl StopReason {
+    pub(super) fn of(is_late: bool, is_spent: bool) -> Self {
+        if is_late {
+            Self::OutOfTime
+        } else if is_spent {
+            Self::OutOfIterations
+        } else {
+            Self::NoEquilibrium
+        }
+    }
 }
 
 impl StageOutcome {

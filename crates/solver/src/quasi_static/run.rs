@@ -48,7 +48,7 @@ const MOST_STIFFENING: f64 = 1e4;
 /// they would not, states of the search are recorded as frames between.
 ///
 /// Every run ends: load steps shrink to no less than a thousandth of the longest, and a stage takes no more Newton
-/// iterations than [`QuasiStaticOptions::iterations_a_step`] allows. A stage that finds no equilibrium in them ends the
+/// iterations than [`QuasiStaticOptions::iterations_a_step`] or [`QuasiStaticOptions::budget`] allows. A stage that finds no equilibrium in them ends the
 /// run: what was reached is returned, with [`StageOutcome::converged`] false and the evidence in [`StageOutcome::stop`].
 /// Where contact keeps creases from their targets, [`QuasiStaticRun::jam`] says so.
 ///
@@ -167,19 +167,21 @@ impl Run<'_> {
         let mut history = History::new(0.0, self.state.clone(), in_contact);
         let goals = recorded_times(self.options, stage);
         let mut pace = Pace::new(self.options.frames, in_contact);
-        let budget = self.budget(goals.len().max(pace.least_steps()));
+        let standard = self.standard_budget(goals.len().max(pace.least_steps()));
         let (mut s, mut recorded) = (0.0, 0);
         while let Some(&goal) = goals.get(recorded) {
             let (next, reaches) = pace.next(s, goal);
             let is_short = pace.is_short();
-            let left = budget.saturating_sub(outcome.iterations);
+            let left = self.left(standard, outcome.iterations);
             let trial = self.load_step(stage, next, &history, is_short, left)?;
             outcome.add(&trial.settled);
             if !trial.settled.converged {
-                let is_spent = outcome.iterations >= budget;
+                let is_spent = self.left(standard, outcome.iterations) == 0;
+                let is_late = self.options.budget.is_late();
                 let stiffened = self.stiffen_barriers(&trial.state);
-                if is_spent || (is_short && !stiffened) {
-                    outcome.stop = Some(self.stop(is_spent, next - s, &trial.settled));
+                if is_spent || is_late || (is_short && !stiffened) {
+                    let reason = StopReason::of(is_late, is_spent);
+                    outcome.stop = Some(self.stop(reason, next - s, &trial.settled));
                     outcome.residual = trial.settled.residual;
                     break;
                 }
@@ -209,18 +211,21 @@ impl Run<'_> {
         Ok(converged)
     }
 
-    /// The iterations allowed in a stage of at least `load_steps`.
-    fn budget(&self, load_steps: usize) -> usize {
+    /// The iterations that the engine by itself allows in a stage of at least `load_steps`.
+    fn standard_budget(&self, load_steps: usize) -> usize {
         self.options.iterations_a_step.saturating_mul(load_steps)
     }
 
+    /// The iterations left to a stage that has taken `taken`, of which the engine by itself allows `standard`.
+    fn left(&self, standard: usize, taken: usize) -> usize {
+        let earlier: usize = self.outcome.stages.iter().map(|s| s.iterations).sum();
+        let standard = standard.saturating_sub(taken) as u64;
+        let left = self.options.budget.left(standard, (earlier + taken) as u64);
+        usize::try_from(left).unwrap_or(usize::MAX)
+    }
+
     /// What ended the stage in a load step of length `step`, the last attempt of which `settled` so.
-    fn stop(&self, is_spent: bool, step: f64, settled: &Settled) -> Stop {
-        let reason = if is_spent {
-            StopReason::OutOfIterations
-        } else {
-            StopReason::NoEquilibrium
-        };
+    fn stop(&self, reason: StopReason, step: f64, settled: &Settled) -> Stop {
         Stop {
             reason,
             step,
@@ -257,12 +262,13 @@ impl Run<'_> {
             }
             report(progress, model, reached, state)
         };
-        let budget = self.options.max_iterations * if is_short { SNAP_BUDGET } else { 1 };
-        let budget = budget.min(most_iterations);
+        let iterations = self.options.max_iterations * if is_short { SNAP_BUDGET } else { 1 };
+        let iterations = iterations.min(most_iterations) as u64;
+        let allowance = self.options.budget.allowance(iterations);
         let tolerance = self.tolerance();
         let settled =
             self.newton
-                .settle(&mut state, &self.targets, tolerance, budget, &mut visit)?;
+                .settle(&mut state, &self.targets, tolerance, allowance, &mut visit)?;
         Ok(Trial {
             state,
             settled,

@@ -66,16 +66,12 @@ impl Judged {
 
     /// Whether the motion came to its end.
     pub(crate) fn is_finished(&self) -> bool {
-        self.report.unfinished().is_none()
+        self.report.outcome.is_at_end()
     }
 
     /// Whether the motion came to its end, or where it stopped.
     pub(crate) fn outcome(&self) -> String {
-        match (&self.report.jam, &self.report.stop) {
-            (Some(jam), _) => format!("jam at t = {:.2}", jam.t),
-            (None, Some(stop)) => stop.words(),
-            (None, None) => "folds".to_owned(),
-        }
+        self.report.outcome.headline()
     }
 
     /// What the second proof says.

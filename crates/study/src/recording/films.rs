@@ -47,6 +47,7 @@ impl Recorder<'_> {
         };
         let options = FilmOptions {
             provenance: self.origin.text(),
+            ending: self.ending.clone(),
             // Only pictures can show through.
             is_transparent: self.recording.film.is_transparent && has(OutputChoice::Png),
             ..self.recording.film.clone()

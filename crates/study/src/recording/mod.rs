@@ -76,6 +76,8 @@ pub(crate) struct Recorder<'a> {
     pub(crate) has_rest_lengths: bool,
     /// What a page shows beside the motion.
     pub(crate) beside: Beside,
+    /// How the motion ended, where it did not fold.
+    pub(crate) ending: Option<String>,
 }
 
 impl Recorder<'_> {

@@ -10,7 +10,7 @@ use foldmotion_record::Marks;
 use super::page::LARGEST_FOLD;
 use super::run_files::marks;
 use super::{Beside, Origin, Recorder, Recording};
-use crate::check_file::Input;
+use crate::check_file::{Input, NoMotion};
 use crate::results::{CERTIFICATE, FRAMES, Results};
 use crate::run::{Phase, Progress};
 use crate::scene::{ColourChoice, OutputChoice, RecordScene};
@@ -99,6 +99,8 @@ pub(crate) struct ReadMotion {
     pub(crate) name: String,
     pub(crate) title: Option<String>,
     pub(crate) unit: Option<String>,
+    /// How the run ended that made it, where it did not fold.
+    ending: Option<String>,
     pub(super) marks: Marks,
     is_judged: bool,
     /// Whether the crease pattern is known: lengths at rest.
@@ -145,6 +147,9 @@ impl ReadMotion {
         if sha256 != described {
             return Err(input.failure(&"it changed while it was read"));
         }
+        if frames.len() < 2 {
+            return Err(input.failure(&NoMotion(frames.len())));
+        }
         if let Some(k) = (1..frames.len()).find(|&k| frames[k].time <= frames[k - 1].time) {
             let message = format!("frame {k} of the motion is not later than the one before");
             return Err(input.failure(&message));
@@ -166,6 +171,7 @@ impl ReadMotion {
             name: name.into_owned(),
             title: file.title,
             unit: file.unit,
+            ending: file.outcome.filter(|outcome| outcome != "folded"),
             is_judged: judged.is_some(),
             marks: judged.unwrap_or_default(),
             is_flat: file.rest.iter().all(|p| p.z == file.rest[0].z),
@@ -215,6 +221,7 @@ impl ReadMotion {
             origin: Origin::of_motion(self.name.clone(), record, self.sha256.clone()),
             has_rest_lengths: self.is_flat,
             beside: self.beside(recording)?,
+            ending: self.ending.clone(),
         };
         recorder.write(results, progress)
     }

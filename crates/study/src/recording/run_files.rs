@@ -13,7 +13,7 @@ use super::{Beside, Origin, Recorder, Recording};
 use crate::certify::{CheckedMotion, MotionFile};
 use crate::digest::HashedWriter;
 use crate::folded::{Findings, Folded};
-use crate::report::SecondsReport;
+use crate::report::{OutcomeKind, SecondsReport};
 use crate::results::{CERTIFICATE, MOTION, Results, write_error};
 use crate::run::{Progress, VERSION};
 use crate::scene::{OutputChoice, RecordScene};
@@ -67,6 +67,7 @@ impl Study {
         progress: Progress<'_>,
     ) -> Result<String, StudyError> {
         let (motion, findings) = (&folded.motion, &folded.findings);
+        let outcome = self.report_of(folded).outcome;
         let (sha256, beside) = self.record_fold(recording, folded, results)?;
         if recording.has(OutputChoice::Csv) {
             record_series(findings, results)?;
@@ -81,19 +82,23 @@ impl Study {
             origin: Origin::of_scene(&recording.scene, sha256.clone()),
             has_rest_lengths: true,
             beside,
+            ending: (outcome.kind != OutcomeKind::Folded).then(|| outcome.headline()),
         };
         recorder.write(results, progress)?;
         Ok(sha256)
     }
 
     fn write_fold(&self, folded: &Folded, out: impl Write) -> io::Result<String> {
+        let mut keys = self.subject.kept_keys();
+        let outcome = self.report_of(folded).outcome.headline();
+        keys.insert("foldmotion:outcome".to_owned(), outcome.into());
         let header = FoldHeader {
             title: &self.title,
             creator: &format!("foldmotion {VERSION}"),
             unit: self.unit_name,
             target_angles: self.subject.end_angles(),
             layer_orders: &folded.findings.layer_orders,
-            keys: &self.subject.kept_keys(),
+            keys: &keys,
         };
         let mut out = HashedWriter::new(out);
         folded.motion.write_fold(&header, &mut out)?;

@@ -158,14 +158,9 @@ impl Viewer {
     }
 
     fn finish_run(&mut self, scene: Scene, finished: &Finished) {
-        let verdict = finished.report.collision.verdict.clone();
-        let words = match finished.report.unfinished() {
-            Some(words) => format!("{words}; {verdict} as far as it came"),
-            None => format!(
-                "{verdict}, {:.2} s",
-                finished.folded.duration().as_secs_f64()
-            ),
-        };
+        let outcome = finished.report.outcome.line();
+        let seconds = finished.folded.duration().as_secs_f64();
+        let words = format!("{outcome}, {seconds:.2} s");
         let key = self.shown.key();
         let act = Act::run(finished, key);
         self.change_act(|shown| shown.run = Some((scene, Arc::new(act))));

@@ -15,7 +15,7 @@ use foldmotion_record::{Style, colour_of};
 
 use super::Viewer;
 use super::act::{Act, Source};
-use crate::results::verdict_colour;
+use crate::results::{outcome_colour, verdict_colour};
 use crate::settings::{Colour, Command, keys_of, name_of};
 use crate::timeline::number;
 use crate::view3d::{Colours, CreaseClasses, Handle, Overlay, Picture, Shape};
@@ -242,7 +242,10 @@ impl Viewer {
                 "preview: without contact, not checked".to_owned(),
                 visuals.warn_fg_color,
             ),
-            Source::Run { report, .. } => judged(&report.collision.verdict),
+            Source::Run { report, .. } => (
+                report.outcome.headline(),
+                outcome_colour(ui, report.outcome.kind),
+            ),
             Source::File { judged: found, .. } => match found {
                 Some(found) => judged(&found.certificate.verdict),
                 None => ("not checked yet".to_owned(), visuals.weak_text_color()),

@@ -3,6 +3,7 @@
 use glam::DVec3;
 
 use super::{Gpu, GpuState};
+use crate::budget::Allowance;
 use crate::dynamic::State;
 use crate::dynamic::recorder::PATH_STEP;
 use crate::dynamic::relaxation::DT;
@@ -115,7 +116,7 @@ impl<'a> GpuDrive<'a> {
         &mut self,
         cpu: &mut State<'_>,
         tolerance: f64,
-        budget: u64,
+        allowance: Allowance,
         is_recorded: bool,
         time: f64,
         look: &mut dyn FnMut(&[DVec3]) -> Result<(), SolverError>,
@@ -127,7 +128,7 @@ impl<'a> GpuDrive<'a> {
         };
         let tolerance = tolerance.max(self.floor(&cpu.positions()));
         let mut steps = 0;
-        while steps < budget {
+        while !allowance.is_spent(steps) {
             cpu.scale_masses();
             self.load(cpu);
             self.state.relax(look_steps, DT, PATH_STEP)?;
@@ -137,7 +138,7 @@ impl<'a> GpuDrive<'a> {
                 let totals = self.state.totals()?;
                 let is_settled =
                     totals.residual <= tolerance && totals.largest_speed * DT <= tolerance;
-                if is_settled || steps >= budget || looks * look_steps >= STEPS_A_LOOK {
+                if is_settled || allowance.is_spent(steps) || looks * look_steps >= STEPS_A_LOOK {
                     self.store(cpu, totals.pace[0], time)?;
                     look(&cpu.positions())?;
                     if is_settled {

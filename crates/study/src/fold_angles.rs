@@ -1,0 +1,68 @@
+//! How close the creases came to the fold angles they were driven to.
+
+use std::f64::consts::TAU;
+
+use foldmotion_pattern::{Assignment, Sheet};
+use glam::DVec3;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// Creases that end further than this from their targets, degrees, did not fold to the end. Layers that a gap or the
+/// stiffness of the sheet holds apart keep creases of the built-in scenes up to 5 degrees away.
+pub(crate) const FOLDED_WITHIN_DEG: f64 = 10.0;
+
+/// Differences of the fold angles in the last state from the targets of the end of the motion.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct FoldAngleReport {
+    /// The largest, degrees, of all mountain and valley creases; 0 where there is none.
+    pub largest_error_deg: f64,
+    /// The mean, degrees.
+    pub mean_error_deg: f64,
+    /// The edge of the motion file with the largest; null where there is no mountain or valley crease.
+    pub edge: Option<usize>,
+    /// The sheet counts as folded where no crease is further than this from its target, degrees.
+    pub tolerance_deg: f64,
+}
+
+impl FoldAngleReport {
+    /// Of the state `positions` against `targets`, one an edge, radians. Angles are compared modulo 360 degrees: on which
+    /// side a crease passed 180 degrees is for the collision check to say.
+    pub(crate) fn new(sheet: &Sheet, positions: &[DVec3], targets: &[f64]) -> Self {
+        let angles = sheet.fold_angles(positions);
+        let driven = [Assignment::Mountain, Assignment::Valley];
+        let errors = sheet.edges.iter().zip(angles).zip(targets).enumerate();
+        let errors = errors.filter_map(|(index, ((edge, angle), target))| {
+            let angle = angle.filter(|_| driven.contains(&edge.assignment))?;
+            let turn = (angle - target).rem_euclid(TAU);
+            Some((index, turn.min(TAU - turn).to_degrees()))
+        });
+        let (mut sum, mut count) = (0.0, 0_u32);
+        let mut largest: Option<(usize, f64)> = None;
+        for (index, error) in errors {
+            sum += error;
+            count += 1;
+            if largest.is_none_or(|(_, before)| error > before) {
+                largest = Some((index, error));
+            }
+        }
+        Self {
+            largest_error_deg: largest.map_or(0.0, |(_, error)| error),
+            mean_error_deg: sum / f64::from(count.max(1)),
+            edge: largest.map(|(index, _)| index),
+            tolerance_deg: FOLDED_WITHIN_DEG,
+        }
+    }
+
+    /// Whether every crease came near its target.
+    pub(crate) fn is_folded(&self) -> bool {
+        self.largest_error_deg <= self.tolerance_deg
+    }
+
+    /// How far off the creases are, in words.
+    pub(crate) fn words(&self) -> String {
+        format!(
+            "creases end up to {:.1} degrees from their targets ({:.1} on average)",
+            self.largest_error_deg, self.mean_error_deg
+        )
+    }
+}
