@@ -117,7 +117,7 @@ impl Verifier<'_> {
     }
 
     /// Whether a listed penetration accounts for what passes through around a pair up to a time.
-    fn is_listed_around(&self, faces: [u32; 2], time: f64) -> bool {
+    pub(super) fn is_listed_around(&self, faces: [u32; 2], time: f64) -> bool {
         self.claimed.values().any(|stated| {
             stated.time <= time
                 && self.are_faces(stated.faces)
