@@ -251,16 +251,22 @@ impl Verifier<'_> {
         fault.rule == LayerRule::Transitivity || self.ordering.claimed.iter().any(is_among)
     }
 
-    /// Names layers whose sides are not possible together, unless something passes through around them.
+    /// Names layers whose sides are not possible together, unless something passes through around them, or the side of
+    /// two of them is open: then it may be the other.
     fn leave_order_open(&mut self, fault: &Fault) {
         let faces = &fault.faces;
         let pairs = || {
             let later = |(k, &f): (usize, &u32)| faces[k + 1..].iter().map(move |&g| [f, g]);
             faces.iter().enumerate().flat_map(later)
         };
-        let is_listed = pairs().any(|pair| self.is_listed_around(pair, self.last.time));
-        if let (Some(first), false) = (pairs().next(), is_listed) {
-            self.leave_open(first, "whether the order of layers is possible there");
+        let is_doubtful = |layer: &Layer| layer.doubt.is_some();
+        let is_explained = pairs().any(|pair| {
+            self.ordering.order(pair).is_some_and(is_doubtful)
+                || self.is_listed_around(pair, self.last.time)
+        });
+        if let (Some(first), false) = (pairs().next(), is_explained) {
+            let what = format!("whether the order of layers {faces:?} is possible");
+            self.leave_open(first, &what);
         }
     }
 }
