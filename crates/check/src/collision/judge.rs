@@ -10,6 +10,8 @@ use super::{meeting::Meeting, pair::Pair, report::PenetrationKind};
 
 /// Pairs nearer than this share of τ are near.
 const NEAR: f64 = 1.01;
+/// Features farther than this many τ from each other do not meet.
+const MET: f64 = 8.0;
 
 /// What an interval did to a pair.
 #[derive(Debug)]
@@ -65,11 +67,18 @@ pub(super) struct Witness {
     pub(super) kind: PenetrationKind,
     pub(super) vertices: Vec<u32>,
     pub(super) point: DVec3,
+    /// How far apart what meets is there; 0 for pairs that start deep in each other.
+    gap: f64,
     pub(super) depth: f64,
     pub(super) nearness: Nearness,
 }
 
 impl Witness {
+    /// Whether the triangles meet as they leave their side: what lost it for want of a way may be apart by then.
+    pub(super) fn meets(&self, tolerance: f64) -> bool {
+        self.gap <= MET * tolerance
+    }
+
     /// Whether the triangles are deeper than τ in each other at an instant: no push by τ parts them then.
     pub(super) fn is_sure(&self, tolerance: f64) -> bool {
         use PenetrationKind::{EdgeEdge, VertexFacet};
@@ -179,6 +188,7 @@ impl Question<'_> {
             kind,
             vertices: vertices(pair, &meeting),
             point: meeting.point,
+            gap: meeting.distance,
             depth,
             nearness: Nearness::NOT_MEASURED,
         }
@@ -258,6 +268,7 @@ pub(super) fn starts_deep(pair: &Pair, pose: &PairPose, limits: &Limits) -> Witn
         },
         vertices: vertices(pair, &meeting),
         point: meeting.point,
+        gap: 0.0,
         depth: axis.overlap,
         nearness: Nearness::NOT_MEASURED,
     }

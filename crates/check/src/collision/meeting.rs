@@ -13,7 +13,7 @@ pub(super) struct Meeting {
     pub(super) point: DVec3,
     /// Whether they are two edges.
     pub(super) are_edges: bool,
-    distance: f64,
+    pub(super) distance: f64,
 }
 
 impl Meeting {

@@ -106,7 +106,9 @@ impl Checker<'_> {
             let suspect = self.suspects.get(&(f, g));
             let is_known = self.penetrating.contains(&(f, g));
             is_named |= is_known;
-            let is_meant = |suspect: &&Suspect| suspect.times[1] >= crossing.since;
+            let is_meant = |suspect: &&Suspect| {
+                suspect.times[1] >= crossing.since && suspect.witness.meets(self.tolerance)
+            };
             if let Some(suspect) = suspect.filter(is_meant).filter(|_| !is_known) {
                 let Suspect {
                     frame,

@@ -10,13 +10,12 @@ use super::distance::{Nearness, keeps_distance};
 use super::outcome::Unproved;
 use super::pair::Pair;
 use super::parts::disjoint_parts;
-use super::penetration::{Found, compare};
+use super::penetration::Found;
 use super::span::Span;
-use super::through;
 use super::trail::Trail;
 use super::verifier::{Judged, SURELY_APART, SURELY_TOUCHING, Verifier};
 use super::walk::{Limits, Side, Walked, depth, walk, walk_leniently};
-use crate::collision::{Penetration, PenetrationKind, Verdict};
+use crate::collision::Verdict;
 
 /// A pair without a side with this many times τ surely changes sides.
 const CLEAR: f64 = 2.0;
@@ -42,6 +41,8 @@ pub(super) struct Evidence {
     /// Pairs of triangles at which it does.
     pairs: [[u32; 2]; 2],
     what: String,
+    /// Whether it surely does.
+    is_sure: bool,
 }
 
 impl Lost {
@@ -92,7 +93,7 @@ impl Lost {
     }
 }
 
-fn depth_at(span: &Span, t: f64) -> f64 {
+pub(super) fn depth_at(span: &Span, t: f64) -> f64 {
     depth(span, &span.at(t))
 }
 
@@ -103,7 +104,7 @@ impl Verifier<'_> {
             return;
         };
         match walk_leniently(span, side, &self.limits) {
-            Walked::Clean { side, trail, .. } => {
+            Walked::Clean { side, trail } => {
                 judged.narrowed = (!side.is_apart).then_some(side);
                 judged.trail = trail.or(judged.trail.take());
             }
@@ -117,7 +118,7 @@ impl Verifier<'_> {
     }
 
     /// Whether a listed penetration accounts for what passes through around a pair up to a time.
-    fn is_listed_around(&self, faces: [u32; 2], time: f64) -> bool {
+    pub(super) fn is_listed_around(&self, faces: [u32; 2], time: f64) -> bool {
         self.claimed.values().any(|stated| {
             stated.time <= time
                 && self.are_faces(stated.faces)
@@ -125,7 +126,7 @@ impl Verifier<'_> {
         })
     }
 
-    fn are_faces(&self, [f, g]: [u32; 2]) -> bool {
+    pub(super) fn are_faces(&self, [f, g]: [u32; 2]) -> bool {
         f < g && (g as usize) < self.sheet.faces.len()
     }
 
@@ -158,6 +159,7 @@ impl Verifier<'_> {
         for evidence in evidence {
             self.take(evidence);
         }
+        self.meet_pending(start);
         self.meet_claims(start, &found);
         for (faces, lost) in found {
             if lost.is_deep && !self.dropped.contains_key(&faces) {
@@ -166,13 +168,14 @@ impl Verifier<'_> {
         }
     }
 
-    fn evidence_of(&self, faces: [u32; 2], lost: &Lost) -> Evidence {
+    pub(super) fn evidence_of(&self, faces: [u32; 2], lost: &Lost) -> Evidence {
         let when = lost.found.as_ref().map(|f| f.at(f.crossing.passed));
         let when = when.map_or_else(String::new, |t| format!(", t = {t}"));
         let frame = self.frames - 1;
         Evidence {
             pairs: [faces; 2],
             what: format!("triangles {faces:?} penetrate after frame {frame}{when}"),
+            is_sure: true,
         }
     }
 
@@ -213,6 +216,12 @@ impl Verifier<'_> {
             .pairs
             .iter()
             .any(|&p| self.is_listed_around(p, time));
+        if !is_listed && !evidence.is_sure {
+            if self.questioned.insert(evidence.pairs[0]) {
+                self.leave_open(evidence.pairs[0], &format!("whether {}", evidence.what));
+            }
+            return;
+        }
         if !is_listed {
             self.refute("penetrations", "none of them", evidence.what);
         }
@@ -327,105 +336,6 @@ impl Verifier<'_> {
             self.perhaps_touching.insert(faces);
         }
     }
-
-    /// Holds what is listed at the interval that begins at `start` against what was found.
-    pub(super) fn meet_claims(&mut self, start: &Frame, found: &BTreeMap<[u32; 2], Lost>) {
-        let frame = self.frames - 1;
-        let listed: Vec<&Penetration> = self
-            .claimed
-            .values()
-            .copied()
-            .filter(|p| p.frame == frame && self.are_faces(p.faces))
-            .filter(|p| !self.dropped.contains_key(&p.faces))
-            .filter(|p| !self.undecided.contains(&(p.faces, frame)))
-            .collect();
-        for stated in listed {
-            let pair = Pair::new(self.sheet, stated.faces);
-            self.meet_claim(stated, &pair, start, found.get(&stated.faces));
-            self.dropped.insert(stated.faces, self.frames);
-        }
-    }
-
-    fn meet_claim(
-        &mut self,
-        stated: &Penetration,
-        pair: &Pair,
-        start: &Frame,
-        lost: Option<&Lost>,
-    ) {
-        use PenetrationKind::{EdgeEdge, ThroughEdge, VertexFacet};
-        let own = lost.and_then(|lost| lost.found.as_ref());
-        let is_deep = matches!(stated.kind, EdgeEdge | VertexFacet);
-        if let Some(found) = own.filter(|_| stated.kind != ThroughEdge) {
-            self.compare(stated, found, pair);
-            return;
-        }
-        if is_deep && lost.is_none() {
-            self.refute(
-                "penetrations",
-                format!(
-                    "triangles {:?} penetrate after frame {}",
-                    pair.faces, stated.frame
-                ),
-                "they do not",
-            );
-            return;
-        }
-        let interval = through::Interval {
-            around: &self.around,
-            frames: [start, &self.last],
-            tolerance: self.limits.tolerance,
-            unit: self.sheet.unit_length,
-        };
-        let fault = interval.fault(stated, pair);
-        let is_found = self
-            .accounted
-            .iter()
-            .any(|&faces| self.around.is_around(stated.faces, faces))
-            || interval.is_pierced_around(stated);
-        if let Some((field, stated_value, found)) = fault {
-            let field = format!("penetrations[{:?}].{field}", pair.faces);
-            self.refute(&field, stated_value, found);
-        } else if !is_found {
-            self.leave_open(stated.faces, "whether they penetrate as listed");
-        }
-    }
-
-    pub(super) fn compare(&mut self, stated: &Penetration, found: &Found, pair: &Pair) {
-        for (field, stated, found) in compare(stated, found, pair, self.sheet, &self.limits) {
-            let field = format!("penetrations[{:?}].{field}", pair.faces);
-            self.refute(&field, stated, found);
-        }
-    }
-
-    /// A pair without a side at the first frame.
-    pub(super) fn starts_lost(&mut self, pair: &Pair, span: &Span) {
-        let deepest = depth_at(span, 0.0);
-        let found = Found::at_first_frame(span, self.last.time, deepest);
-        let parts = disjoint_parts(span);
-        let deep_parts = parts.iter().map(|part| depth_at(part, 0.0));
-        let lost = Lost {
-            is_deep: pair.shared == 0,
-            is_clear: deep_parts.fold(0.0, f64::max) > self.limits.tolerance,
-            are_parts_clean: false,
-            found: Some(found),
-        };
-        let first = self.last.time;
-        let is_here = |stated: &Penetration| stated.frame == 0 && stated.passed == first;
-        self.lost.insert(pair.faces);
-        if lost.is_clear {
-            let evidence = self.evidence_of(pair.faces, &lost);
-            self.take(evidence);
-        }
-        let stated = self.claimed.get(&pair.faces).copied();
-        let stated = stated.filter(|p| is_here(p) && p.kind != PenetrationKind::ThroughEdge);
-        if let (Some(stated), Some(found)) = (stated, &lost.found) {
-            self.compare(stated, found, pair);
-            self.dropped.insert(pair.faces, 0);
-        } else if lost.is_deep {
-            self.drop_deep(pair.faces, &lost);
-        }
-    }
 }
 
 impl Evidence {
@@ -434,6 +344,7 @@ impl Evidence {
             face,
             between: [f, g],
             time,
+            is_sure,
         } = *through;
         let t = times[0] + (times[1] - times[0]) * time;
         Self {
@@ -441,6 +352,7 @@ impl Evidence {
             what: format!(
                 "triangle {face} passes through the edge between {f} and {g}, seen at t = {t}"
             ),
+            is_sure,
         }
     }
 }

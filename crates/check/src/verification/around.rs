@@ -4,6 +4,8 @@ use std::collections::BTreeMap;
 
 use foldmotion_pattern::Sheet;
 
+use super::piercing::Surface;
+
 /// The triangles of the sheet by their corners.
 #[derive(Debug)]
 pub(super) struct Around {
@@ -61,6 +63,23 @@ impl Around {
         faces.sort_unstable();
         faces.dedup();
         faces
+    }
+
+    /// The triangles that have a vertex among these, the two at each edge of them, and all around each of these vertices.
+    pub(super) fn surfaces_at(&self, vertices: &[u32]) -> Vec<Surface> {
+        let faces = self.faces_at(vertices);
+        let mut sides: Vec<[u32; 2]> = faces.iter().flat_map(|&f| edges(self.corners(f))).collect();
+        sides.sort_unstable();
+        sides.dedup();
+        let at_edges = sides.iter().filter_map(|side| self.at_edge.get(side));
+        let at_vertices = vertices.iter().map(|&v| &self.at_vertex[v as usize]);
+        let several = at_edges.chain(at_vertices).filter(|faces| faces.len() > 1);
+        let corners = |f: &u32| *self.corners(*f);
+        let several = several.map(|faces| faces.iter().map(corners).collect());
+        let single = faces.iter().map(|f| vec![corners(f)]);
+        let all = single.chain(several);
+        all.filter_map(|triangles: Vec<[u32; 3]>| Surface::of(&triangles))
+            .collect()
     }
 
     /// The edges that have an end among these, each once.

@@ -16,6 +16,9 @@ use super::trail::{Trail, apart};
 
 /// Directions that are connected at this many τ are left alone.
 pub(super) const CLEAR: f64 = 1.25;
+/// Those that are not connected at this many τ either are not so for sure: near a corner of the boundary a push of one
+/// triangle as a whole has farther to go than one that differs from point to point.
+const SURE: f64 = 2.0;
 /// Instants looked at in an interval, besides the ends of steps.
 const SAMPLES: u32 = 16;
 /// At most so many ends of steps are looked at.
@@ -45,6 +48,8 @@ pub(super) struct Through {
     pub(super) between: [u32; 2],
     /// The part of the interval gone.
     pub(super) time: f64,
+    /// Whether it surely does.
+    pub(super) is_sure: bool,
 }
 
 /// Where the first triangle of a pair followed in contact passes through an edge of the second, or the other way round.
@@ -73,11 +78,12 @@ pub(super) fn uncoupled<'a>(
                     Beside::Apart => None,
                 };
                 let beyond = Beyond { pair, span, trail };
-                let time = followed.uncoupled_at((wall, edge), &beyond);
-                all.extend(time.map(|time| Through {
+                let found = followed.uncoupled_at((wall, edge), &beyond);
+                all.extend(found.map(|(time, is_sure)| Through {
                     face: wall,
                     between: [face, other],
                     time,
+                    is_sure,
                 }));
             }
         }
@@ -93,8 +99,12 @@ struct Beyond<'a> {
 }
 
 impl Followed<'_> {
-    /// The first instant looked at at which the sides do not fit together.
-    fn uncoupled_at(&self, (wall, edge): (u32, [u32; 2]), beyond: &Beyond<'_>) -> Option<f64> {
+    /// The first instant looked at at which the sides surely do not fit together, or else do not.
+    fn uncoupled_at(
+        &self,
+        (wall, edge): (u32, [u32; 2]),
+        beyond: &Beyond<'_>,
+    ) -> Option<(f64, bool)> {
         let mut instants: Vec<f64> = (0..=SAMPLES)
             .map(|k| f64::from(k) / f64::from(SAMPLES))
             .collect();
@@ -102,7 +112,7 @@ impl Followed<'_> {
         instants.extend(beyond.trail.into_iter().flat_map(thinned));
         instants.sort_by(f64::total_cmp);
         instants.dedup();
-        instants.into_iter().find(|&t| {
+        let is_uncoupled = |t: f64, level: f64| {
             let here = oriented(self.pair, wall, self.trail.at(&self.span, t));
             let there = match beyond.trail {
                 Some(trail) => trail.at(&beyond.span, t),
@@ -112,10 +122,13 @@ impl Followed<'_> {
             if here.is_empty() || there.is_empty() {
                 return false;
             }
-            let level = CLEAR * self.tolerance;
             let mut poses = self.to_edge(wall, edge, t).into_iter();
-            poses.any(|pose| !are_connected(&pose, &here, &there, level))
-        })
+            poses.any(|pose| !are_connected(&pose, &here, &there, level * self.tolerance))
+        };
+        instants.retain(|&t| is_uncoupled(t, CLEAR));
+        let sure = instants.iter().find(|&&t| is_uncoupled(t, SURE));
+        let first = instants.first().map(|&t| (t, false));
+        sure.map(|&t| (t, true)).or(first)
     }
 
     /// The first triangle, and the edge in the place of the second; what they do not share where they share a vertex.

@@ -101,13 +101,3 @@ pub(super) fn joined(pose: &Pose, axes: &[Axis], seeds: &[DVec3], limit: f64) ->
     both.filter_map(|(axis, is_reached)| is_reached.then_some(axis))
         .collect()
 }
-
-/// Whether at an end of the interval no axis separates what the triangles do not share.
-pub(super) fn touches_for_sure(span: &Span) -> bool {
-    [0.0, 1.0].into_iter().any(|t| {
-        let pose = span.at(t);
-        axes(span, &pose)
-            .iter()
-            .all(|axis| axis.room < -1e-9 * span.size)
-    })
-}

@@ -15,11 +15,11 @@
 //! - Wherever else a pair surely changes sides, or sides do not fit together across an edge, a penetration is listed
 //!   around: of triangles that meet these, with a contact that begins no later than the interval ends.
 //! - What is listed is found: as deep as stated; or by a change of sides; or by sides around that do not fit together, or
-//!   an edge around that pierces a triangle such that no push by τ undoes it. Then what is named meets when and where
-//!   stated.
+//!   an edge around that goes through the sheet (a triangle, the two at an edge, those around a vertex) such that no push
+//!   by τ undoes it. Then what is named meets when and where stated.
 //! - No facets without a common vertex come nearer than stated.
-//! - Which triangles lie on each other at the frames, in which order, and that these orders are possible together but
-//!   where a contradiction is listed.
+//! - Which triangles lie on each other at the frames, and that their orders, where known, are possible together over every
+//!   point, and along every line where the file claims one of them, but for the contradictions listed.
 //! - The file claims nothing else. What is neither proved nor refuted is named.
 //!
 //! # Where it is weaker than the first
@@ -30,7 +30,8 @@
 //!   (a needle through a vertex, corners that meet corners) are not looked for; nor are those of triangles with a common
 //!   vertex beyond what they do not share.
 //! - A pair surely changes sides where it does so at 2 τ too, and sides surely do not fit together where they do not at
-//!   1.25 τ; what keeps its side at 33/32 τ is clean. In between, a pair is named and nothing is claimed.
+//!   2 τ; what keeps its side at 33/32 τ is clean, and sides that fit together at 1.25 τ are. In between, a pair is named
+//!   and nothing is claimed.
 //! - A penetration that is listed accounts for all that passes through around it from then on, and its pair is not
 //!   followed any more.
 //!
@@ -47,6 +48,8 @@
 //!   least over ways along edges of the highest overlap on the way, which has a closed form on an arc.
 //! - *Edges*: at instants, the sides of a triangle to the two on an edge are connected, in the same way, for the triangle
 //!   and the edge, or what they do not share.
+//! - *Piercings*: how often an edge goes through triangles oriented alike, with signs, does not change while its ends keep
+//!   farther than τ off them and it does so off their rim.
 //! - *Parts*: where triangles with common vertices lose their side, the largest simplices in them without a common vertex
 //!   are followed by themselves.
 //! - *Shared vertices* have height 0 exactly and take part like the others; for two triangles on an edge e with apexes
@@ -64,6 +67,8 @@
 //!   hinge, and each layer that runs on across, must close before any that was open when it opened. That is taco–taco,
 //!   taco–tortilla, tortilla–tortilla and bent creases at once. Where a stretch fails, or an order in it is open, what
 //!   meets the hinge is tried one by one, to name it.
+//!   Orders of the file that fail are a contradiction. Where sides as they were followed do, the sheet may still be
+//!   pushed apart another way: what passes through there is shown by *edges*, and the order is not proved.
 //! - *Order over a point*: every three layers that go round are looked for, one three after the other, and no region
 //!   is theirs in common. The deepest stack is counted at the first corners of what two layers share, where it must
 //!   have one.
@@ -91,12 +96,14 @@ mod distance;
 mod instant;
 mod layer;
 mod line;
+mod listed;
 mod ordering;
 mod outcome;
 mod pair;
 mod parts;
 mod path;
 mod penetration;
+mod piercing;
 mod plane;
 #[cfg(test)]
 mod random;

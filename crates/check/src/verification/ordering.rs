@@ -12,7 +12,7 @@ use super::pair::Pair;
 use super::plane::Plane;
 use super::verifier::Verifier;
 use super::walk::{Side, roomiest};
-use crate::{Claims, LayerRule};
+use crate::{Claims, LayerProof, LayerRule};
 
 /// What is known of layers.
 #[derive(Debug, Default)]
@@ -22,6 +22,8 @@ pub(super) struct Ordering {
     hinges: Vec<[Option<(u32, u32)>; 3]>,
     pub(super) clusters: Vec<Found>,
     pub(super) claims: Claims,
+    /// Layers whose order is that of a claim or of an assignment, not of the motion.
+    claimed: BTreeSet<[u32; 2]>,
     /// What claims of the last frame contradict.
     faults: Vec<Fault>,
     /// Why other proofs may see a frame otherwise, and whose pair it is.
@@ -81,6 +83,7 @@ impl Verifier<'_> {
         let faces = layer.faces;
         let Some(known) = layer.up else {
             layer.up = Some(up);
+            self.ordering.claimed.insert(faces);
             self.keep_side(faces, up);
             return;
         };
@@ -175,6 +178,7 @@ impl Verifier<'_> {
         if self.frames == 1 {
             for Layer { faces, up, .. } in self.ordering.layers.clone() {
                 if let Some(up) = up {
+                    self.ordering.claimed.insert(faces);
                     self.keep_side(faces, up);
                 }
             }
@@ -217,7 +221,15 @@ impl Verifier<'_> {
         let frame = self.frames - 1;
         let mut faults = std::mem::take(&mut self.ordering.faults);
         for mut cluster in clusters {
-            faults.append(&mut cluster.faults);
+            let found = std::mem::take(&mut cluster.faults).into_iter();
+            let (mut sure, of_sides): (Vec<_>, Vec<_>) = found.partition(|f| self.is_sure(f));
+            if sure.is_empty() && !of_sides.is_empty() {
+                cluster.order = LayerProof::Unproved;
+            }
+            faults.append(&mut sure);
+            for fault in of_sides {
+                self.leave_order_open(&fault);
+            }
             cluster.frames = [frame; 2];
             cluster.times = [self.last.time; 2];
             let mut known = self.ordering.clusters.iter_mut().rev();
@@ -228,6 +240,34 @@ impl Verifier<'_> {
             }
         }
         self.compare_faults(frame, &faults);
+    }
+
+    /// Whether orders that are not possible together are those of the sheet: claimed, or over one point.
+    ///
+    /// Along a line, sides as they were followed may not be possible together though the sheet can be pushed apart: a
+    /// contact may be left another way. What passes through there is shown by the sides coupled across edges.
+    fn is_sure(&self, fault: &Fault) -> bool {
+        let is_among = |pair: &[u32; 2]| pair.iter().all(|face| fault.faces.contains(face));
+        fault.rule == LayerRule::Transitivity || self.ordering.claimed.iter().any(is_among)
+    }
+
+    /// Names layers whose sides are not possible together, unless something passes through around them, or the side of
+    /// two of them is open: then it may be the other.
+    fn leave_order_open(&mut self, fault: &Fault) {
+        let faces = &fault.faces;
+        let pairs = || {
+            let later = |(k, &f): (usize, &u32)| faces[k + 1..].iter().map(move |&g| [f, g]);
+            faces.iter().enumerate().flat_map(later)
+        };
+        let is_doubtful = |layer: &Layer| layer.doubt.is_some();
+        let is_explained = pairs().any(|pair| {
+            self.ordering.order(pair).is_some_and(is_doubtful)
+                || self.is_listed_around(pair, self.last.time)
+        });
+        if let (Some(first), false) = (pairs().next(), is_explained) {
+            let what = format!("whether the order of layers {faces:?} is possible");
+            self.leave_open(first, &what);
+        }
     }
 }
 

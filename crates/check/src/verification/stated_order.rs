@@ -6,7 +6,7 @@ use super::layer::corners;
 use super::outcome::Unproved;
 use super::verifier::Verifier;
 use crate::collision::{Penetration, PenetrationKind};
-use crate::{Cluster, LayerConflict};
+use crate::{Cluster, LayerConflict, LayerProof};
 
 /// The stated point lies within this many τ of all triangles concerned.
 const POINT_TOLERANCES: f64 = 20.0;
@@ -101,10 +101,16 @@ impl Verifier<'_> {
             Some(&(faces, what)) => self.outcome.unproved.push(Unproved {
                 faces,
                 frame,
-                what: what.to_owned(),
+                what: format!("{what}: {field} state {stated}, found: {found}"),
             }),
             None => self.refute(field, stated, found),
         }
+    }
+
+    /// The first of these frames that is in doubt.
+    fn first_doubt(&self, [from, to]: [usize; 2]) -> Option<usize> {
+        let mut doubtful = self.ordering.doubts.range(from..=to.max(from));
+        doubtful.next().map(|(&frame, _)| frame)
     }
 
     /// Holds the stated clusters and claims to those found.
@@ -115,16 +121,15 @@ impl Verifier<'_> {
         let listed = &self.claim.clusters;
         for k in 0..clusters.len().max(listed.len()) {
             let (frames, differences) = match (listed.get(k), clusters.get(k)) {
-                (Some(stated), Some(found)) => (found.frames, found.differences(stated)),
+                (Some(stated), Some(found)) => {
+                    let is_open = self.first_doubt(found.frames).is_some();
+                    (found.frames, found.differences(stated, is_open))
+                }
                 (Some(s), None) => (s.frames, vec![(name(&s.faces, s.frames), NONE.to_owned())]),
                 (None, Some(f)) => (f.frames, vec![(NONE.to_owned(), name(&f.faces, f.frames))]),
                 (None, None) => continue,
             };
-            let mut doubtful = self
-                .ordering
-                .doubts
-                .range(frames[0]..=frames[1].max(frames[0]));
-            let frame = doubtful.next().map_or(frames[0], |(&frame, _)| frame);
+            let frame = self.first_doubt(frames).unwrap_or(frames[0]);
             for (stated, found) in differences {
                 self.refute_at(frame, "clusters", &stated, &found);
             }
@@ -147,8 +152,9 @@ impl Verifier<'_> {
 }
 
 impl Found {
-    /// In what a stated cluster is another: stated, found.
-    fn differences(&self, stated: &Cluster) -> Vec<(String, String)> {
+    /// In what a stated cluster is another: stated, found. `is_open`: sides are in doubt there, and a stated order that is
+    /// unproved, which says nothing, differs from none.
+    fn differences(&self, stated: &Cluster, is_open: bool) -> Vec<(String, String)> {
         let mut differences = Vec::new();
         let mut require = |is_so: bool, stated: String, found: String| {
             if !is_so {
@@ -176,7 +182,7 @@ impl Found {
             self.pairs.to_string(),
         );
         require(
-            stated.order == self.order,
+            stated.order == self.order || (is_open && stated.order == LayerProof::Unproved),
             format!("order {:?}", stated.order),
             format!("{:?}", self.order),
         );

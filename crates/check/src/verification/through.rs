@@ -6,16 +6,21 @@ use glam::DVec3;
 use super::around::{Around, edges};
 use super::closest::{closest, on_triangle};
 use super::pair::Pair;
-use super::parts::is_pierced;
 use super::penetration::{POINT_TOLERANCES, is_kind_right, meeting_fault};
+use super::piercing::Surface;
 use super::span::Pose;
 use super::walk::instants_after;
 use crate::collision::{Penetration, PenetrationKind};
 
 /// Instants looked at in an interval, besides those that draw near to a passage.
 const SAMPLES: u32 = 32;
+/// Instants looked at in an interval after the one at which something is stated.
+const LATER_SAMPLES: u32 = 4;
 /// The most steps towards the instant at which the stated point is met.
 const MOST_STEPS: u32 = 1 << 14;
+
+/// An edge and what it goes through.
+pub(super) type Piercing = ([u32; 2], Surface);
 
 /// Field, what is stated, what was found.
 type Fault = (&'static str, String, &'static str);
@@ -49,29 +54,56 @@ impl Interval<'_> {
         }
     }
 
-    /// Whether near the stated triangles an edge pierces a triangle so far that no push by τ undoes it.
+    /// Whether near the stated triangles an edge pierces the sheet so far that no push by τ undoes it, at one of the
+    /// instants looked at.
     pub(super) fn is_pierced_around(&self, stated: &Penetration) -> bool {
-        let corners = stated.faces.map(|f| *self.around.corners(f));
-        let sides = [(0, 1), (1, 0)].map(|(a, b)| {
-            let edges = self.around.edges_at(&corners[a]);
-            (edges, self.around.faces_at(&corners[b]))
-        });
         let samples = (0..=SAMPLES).map(|k| f64::from(k) / f64::from(SAMPLES));
         let mut instants = samples.chain(instants_after(self.share(stated.passed)));
-        instants.any(|t| {
-            sides.iter().any(|(edges, faces)| {
-                edges
-                    .iter()
-                    .any(|&edge| faces.iter().any(|&face| self.pierces(edge, face, t)))
-            })
-        })
+        let all = self.piercings(stated);
+        instants.any(|t| all.iter().any(|piercing| self.is_sure(piercing, t)))
     }
 
-    fn pierces(&self, edge: [u32; 2], face: u32, t: f64) -> bool {
-        let corners = self.around.corners(face);
-        let ends = edge.map(|v| self.place(v, t));
-        !edge.iter().any(|v| corners.contains(v))
-            && is_pierced(ends, &corners.map(|v| self.place(v, t)), self.tolerance)
+    /// What goes through what near the stated triangles at the end of the interval, be it by less than τ.
+    pub(super) fn piercings_at_end(&self, stated: &Penetration) -> Vec<Piercing> {
+        let mut all = self.piercings(stated);
+        all.retain(|piercing| self.is_through(piercing, 1.0));
+        all
+    }
+
+    /// Whether a piercing of the interval before goes on in this one until no push by τ undoes it; those that come to an
+    /// end are dropped.
+    pub(super) fn is_pierced_later(&self, piercings: &mut Vec<Piercing>) -> bool {
+        let samples = || (1..=LATER_SAMPLES).map(|k| f64::from(k) / f64::from(LATER_SAMPLES));
+        let lasts = |piercing: &Piercing| {
+            let mut while_through = samples().take_while(|&t| self.is_through(piercing, t));
+            while_through.any(|t| self.is_sure(piercing, t))
+        };
+        if piercings.iter().any(lasts) {
+            return true;
+        }
+        piercings.retain(|piercing| samples().all(|t| self.is_through(piercing, t)));
+        false
+    }
+
+    /// The edges around the one triangle and the surfaces around the other, both ways.
+    fn piercings(&self, stated: &Penetration) -> Vec<Piercing> {
+        let corners = stated.faces.map(|f| *self.around.corners(f));
+        let mut all = Vec::new();
+        for (a, b) in [(0, 1), (1, 0)] {
+            let edges = self.around.edges_at(&corners[a]);
+            for surface in self.around.surfaces_at(&corners[b]) {
+                all.extend(edges.iter().map(|&edge| (edge, surface.clone())));
+            }
+        }
+        all
+    }
+
+    fn is_sure(&self, (edge, surface): &Piercing, t: f64) -> bool {
+        surface.is_pierced(*edge, &|v| self.place(v, t), self.tolerance)
+    }
+
+    fn is_through(&self, (edge, surface): &Piercing, t: f64) -> bool {
+        surface.is_met(*edge, &|v| self.place(v, t), self.tolerance)
     }
 
     /// What is wrong with a stated penetration whatever passes through what.

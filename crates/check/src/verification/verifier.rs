@@ -9,17 +9,19 @@ use rayon::prelude::*;
 use super::account::{Lost, Pairs};
 use super::around::Around;
 use super::boxes::Boxes;
+use super::closest::closest;
 use super::distance::{Nearness, keeps_distance};
-use super::instant::{axes, touches_for_sure};
 use super::line;
 use super::ordering::Ordering;
 use super::outcome::{Refutation, Unproved, Verification};
 use super::pair::{Pair, assignments, front_normal};
+use super::parts::disjoint_parts;
 use super::penetration::Found;
 use super::span::Span;
 use super::statement;
+use super::through::Piercing;
 use super::trail::Trail;
-use super::walk::{Crossing, Limits, Side, Walked, roomiest, walk_leniently};
+use super::walk::{Crossing, Limits, Side, Walked, walk_leniently};
 use crate::collision::{CollisionReport, Penetration, Verdict};
 
 /// The most steps spent on a pair in an interval.
@@ -62,6 +64,10 @@ pub struct Verifier<'a> {
     pub(super) narrowed: BTreeMap<[u32; 2], Side>,
     /// Pairs at which something was found to pass through.
     pub(super) accounted: Pairs,
+    /// Pairs of which it was left open.
+    pub(super) questioned: Pairs,
+    /// What is listed up to here and was not found yet, with what goes through the sheet there.
+    pub(super) pending: Vec<(&'a Penetration, Vec<Piercing>)>,
     pub(super) surely_touching: BTreeSet<[u32; 2]>,
     pub(super) perhaps_touching: BTreeSet<[u32; 2]>,
     /// Whether the stated closest approach was met, where one is stated.
@@ -140,6 +146,8 @@ impl<'a> Verifier<'a> {
             around: Around::new(sheet),
             lost: BTreeSet::new(),
             accounted: BTreeSet::new(),
+            questioned: BTreeSet::new(),
+            pending: Vec::new(),
             narrowed: BTreeMap::new(),
             surely_touching: BTreeSet::new(),
             perhaps_touching: BTreeSet::new(),
@@ -200,6 +208,7 @@ impl<'a> Verifier<'a> {
         if self.frames == 1 {
             self.finish_at_rest();
         }
+        self.leave_pending_open();
         self.prove_layers();
         self.compare_clusters();
         if let Some(separation) = self
@@ -281,10 +290,12 @@ impl<'a> Verifier<'a> {
             match Side::at_start(&span, &self.limits) {
                 Some(side) if side.is_apart => {}
                 Some(mut side) => {
-                    if roomiest(&axes(&span, &span.at(0.0))).is_none() {
-                        self.surely_touching.insert(faces);
-                    }
-                    self.perhaps_touching.insert(faces);
+                    let parts = disjoint_parts(&span).into_iter();
+                    let distances = parts.map(|part| closest(&part.at(0.0)).distance());
+                    let least = distances.fold(f64::INFINITY, f64::min);
+                    let limits = [SURELY_TOUCHING, SURELY_APART];
+                    let touching = limits.map(|share| least < share * self.limits.tolerance);
+                    self.note_touching(faces, touching);
                     let front = front_normal(self.sheet, faces[0], &first);
                     let towards = match assignments.get(&faces) {
                         Some(Assignment::Valley) => front,
@@ -422,14 +433,8 @@ impl<'a> Verifier<'a> {
             Lost::new(span, (side, is_open), found, &self.limits)
         };
         match walk_leniently(span, side, &self.limits) {
-            Walked::Clean {
-                side,
-                is_close,
-                trail,
-            } => {
+            Walked::Clean { side, trail } => {
                 if pair.shared > 0 {
-                    judged.touching[0] = is_close && touches_for_sure(span);
-                    judged.touching[1] = judged.touching[0];
                     self.measure_parts(span, judged);
                 }
                 judged.side = (!side.is_apart).then_some(side);

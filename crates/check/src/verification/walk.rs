@@ -10,16 +10,16 @@ use super::trail::{Trail, Way};
 
 /// Sides are kept at this many τ where they are not at τ: the first proof counts at 31/32 τ.
 const LENIENCE: f64 = 33.0 / 32.0;
-/// The longest steps tried, in turn: a long one may lose a side that a short one keeps.
-const FIRST_STEPS: [f64; 3] = [1.0, 1.0 / 16.0, 1.0 / 256.0];
+/// The longest steps of the walks tried, in turn.
+const FIRST_STEPS: [f64; 4] = [1.0, 1.0, 1.0 / 16.0, 1.0 / 256.0];
+/// Steps are no longer than this share of the time left to where a walk got lost before.
+const APPROACH: f64 = 1.0 / 8.0;
 /// The shortest step.
 pub(super) const SHORTEST_STEP: f64 = 1.0 / (1u64 << 34) as f64;
 /// Longer steps are halved before every axis is tried.
 const SEARCH_STEP: f64 = 1.0 / 8.0;
 /// Longer steps are halved before triangles apart at both ends are taken to touch in between.
 const GRAZING_STEP: f64 = 1.0 / 1024.0;
-/// Pairs that need a shorter step come so close that the first proof may take them to touch.
-const CLOSE_STEP: f64 = 1.0 / 8.0;
 /// The share of their size by which triangles with common vertices are clear of each other.
 const CLEAR_SHARE: f64 = 1e-3;
 /// How many axes a long step tries.
@@ -63,8 +63,6 @@ pub(super) struct Crossing {
 pub(super) enum Walked {
     Clean {
         side: Side,
-        /// Whether some step is proved by touching only, or is so short that the first proof may have taken it so.
-        is_close: bool,
         /// How it got there; none where it was never in contact.
         trail: Option<Trail>,
     },
@@ -161,13 +159,19 @@ pub(super) fn walk_leniently(span: &Span, side: &Side, limits: &Limits) -> Walke
 }
 
 /// Walks a pair through t in [0, 1] from the side it is on at 0.
+///
+/// A long step may lose a side that a short one keeps: from where a walk gets lost on, the next one comes there in ever
+/// shorter steps.
 pub(super) fn walk(span: &Span, side: &Side, limits: &Limits) -> Walked {
     let mut walked = Walked::Undecided { time: 0.0 };
+    let mut lost = Vec::with_capacity(FIRST_STEPS.len());
     for first_step in FIRST_STEPS {
-        walked = Walk::new(span, side.clone(), limits).run(first_step);
-        let is_deep = matches!(&walked, Walked::Crosses(c) if c.depth > limits.tolerance);
-        if is_deep || matches!(walked, Walked::Clean { .. }) {
-            break;
+        walked = Walk::new(span, side.clone(), limits).run(first_step, &lost);
+        match &walked {
+            Walked::Clean { .. } => break,
+            Walked::Crosses(crossing) if crossing.depth > limits.tolerance => break,
+            Walked::Crosses(crossing) => lost.push(crossing.passed),
+            Walked::Undecided { time } => lost.push(*time),
         }
     }
     walked
@@ -223,20 +227,23 @@ impl<'a> Walk<'a> {
         }
     }
 
-    fn run(mut self, first_step: f64) -> Walked {
+    /// `lost`: where others got lost.
+    fn run(mut self, first_step: f64, lost: &[f64]) -> Walked {
         let mut step = first_step;
-        let mut shortest = CLOSE_STEP;
         for _ in 0..self.limits.budget {
             if self.time >= 1.0 {
                 return Walked::Clean {
                     side: self.side,
-                    is_close: self.has_touched || shortest < CLOSE_STEP,
                     trail: self.has_touched.then_some(self.trail),
                 };
             }
+            let left = lost.iter().map(|t| t - self.time);
+            let nearest = left.filter(|&t| t > 0.0).fold(f64::INFINITY, f64::min);
+            while step > SHORTEST_STEP.max(APPROACH * nearest) {
+                step *= 0.5;
+            }
             let end = self.span.at(self.time + step);
             if let Some(leg) = self.cross(&end, step) {
-                shortest = step.min(shortest);
                 self.land(leg, end, step);
                 // t stays a multiple of the step.
                 if step < first_step && (self.time / (2.0 * step)).fract() == 0.0 {
@@ -427,24 +434,24 @@ impl<'a> Walk<'a> {
 
     /// When the present contact began, by bisection.
     fn contact_start(&self) -> f64 {
-        let Some((mut apart, mut direction)) = self.last_apart else {
+        let Some((mut apart, direction)) = self.last_apart else {
             return 0.0;
         };
-        if direction == DVec3::ZERO {
-            // A pair seen for the first time: any direction that separates it will do.
-            let all = axes(self.span, &self.span.at(apart));
-            direction = roomiest(&all).unwrap_or(direction);
-        }
         let mut contact = if self.is_in_contact {
             self.first_contact
         } else {
             self.time
         };
+        let parting = |t: f64| {
+            let all = axes(self.span, &self.span.at(t)).into_iter();
+            all.filter(|axis| axis.room > 0.0)
+                .map(|axis| axis.direction)
+        };
+        // The step that ends in contact is proved along some direction of those along which they were apart.
+        let before: Vec<DVec3> = parting(apart).chain([direction]).collect();
         for _ in 0..40 {
             let middle = f64::midpoint(apart, contact);
-            let all = axes(self.span, &self.span.at(middle));
-            let is_apart = |x: &Axis| x.room > 0.0 && x.direction.dot(direction) > 0.5;
-            if all.iter().any(is_apart) {
+            if parting(middle).any(|d| before.iter().any(|b| b.dot(d) > 0.5)) {
                 apart = middle;
             } else {
                 contact = middle;

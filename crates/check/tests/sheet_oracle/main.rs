@@ -5,11 +5,11 @@
 
 mod oracle;
 
-use foldmotion_check::{CollisionOptions, Verdict, collisions};
+use foldmotion_check::{CollisionOptions, LayerProof, Verdict, collisions};
 use oracle::{
     class::Class,
     scene::Truth,
-    trial::{HEADER, Tally, is_right, motion_of, try_class},
+    trial::{HEADER, Tally, Verified, is_right, motion_of, try_class, try_scene, verify},
     yardstick::shows_crossing,
 };
 
@@ -68,6 +68,75 @@ fn both_proofs_say_what_is_true() {
         Vec::<String>::new(),
         "the separation"
     );
+}
+
+/// Scenes that the second proof refuted though the report was right, by what it took for false.
+const ONCE_REFUTED: [(&str, &[(Class, u64)]); 5] = [
+    (
+        "sides that are not possible together along a line",
+        &[
+            (Class::Crease, 44),
+            (Class::Slide, 0),
+            (Class::Slide, 196),
+            (Class::Tube, 468),
+            (Class::Layers, 32),
+        ],
+    ),
+    (
+        "the point of a pair that is apart by then",
+        &[
+            (Class::Diagonal, 592),
+            (Class::Diagonal, 682),
+            (Class::Slide, 472),
+            (Class::Interior, 3054),
+        ],
+    ),
+    (
+        "the beginning of a contact",
+        &[(Class::Interior, 3793), (Class::Tube, 275)],
+    ),
+    (
+        "depths at other instants",
+        &[(Class::InteriorVertex, 3308), (Class::Crease, 3460)],
+    ),
+    (
+        "a side lost by a long step",
+        &[(Class::InteriorVertex, 1738)],
+    ),
+];
+
+#[test]
+fn scenes_that_were_refuted_though_right_are_proved() {
+    for (what, scenes) in ONCE_REFUTED {
+        for &(class, number) in scenes {
+            let trial = try_scene(class, number);
+            assert!(trial.is_right, "{class:?} {number}");
+            let verified = trial.verified;
+            assert_eq!(
+                verified,
+                Some(Verified::Proved),
+                "{what}: {class:?} {number}"
+            );
+        }
+    }
+}
+
+#[test]
+fn an_order_that_the_sides_contradict_is_not_proved() {
+    let (motion, ..) = motion_of(Class::Slide, 0);
+    let report = collisions(&motion, &CollisionOptions::default(), &|_| true);
+    let mut report = report.expect("the motion can be judged");
+    assert!(
+        report
+            .clusters
+            .iter()
+            .any(|c| c.order == LayerProof::Unproved)
+    );
+    for cluster in &mut report.clusters {
+        cluster.order = LayerProof::Proved;
+    }
+    let refuted = verify(&motion, &report).refuted;
+    assert!(refuted.iter().any(|r| r.field == "clusters"), "{refuted:?}");
 }
 
 #[test]

@@ -345,6 +345,54 @@ fn crossing_around_a_shared_corner_is_found() {
 }
 
 #[test]
+fn a_wall_that_slides_past_a_corner_and_then_sinks_passes_beside_the_plate() {
+    let plate = [
+        DVec3::new(-0.75, -0.625, 0.0),
+        DVec3::new(0.75, -0.625, 0.0),
+        DVec3::new(-0.75, 0.625, 0.0),
+    ];
+    // Past the corner it is 0.8 τ deep, and all along a straight line from one direction to the other 0.57 τ at least.
+    let wall = |x: f64, y: f64, z: f64| {
+        let foot = DVec3::new(x, y, z);
+        let far = foot + DVec3::new(-3.0, 1.5625, 0.0);
+        pose(plate, [far, foot, far + DVec3::Z * 2.5])
+    };
+    let passes = |end: [f64; 2]| MovingPair {
+        start: wall(-0.375, 0.3125, 4e-6),
+        end: wall(end[0], end[1], -1.04e-5),
+    };
+    assert!(has_passed(&passes([0.0, 0.46875])));
+    // Through the plate, well before the corner.
+    assert!(!has_passed(&passes([-0.375, 0.3125])));
+}
+
+#[test]
+fn a_contact_begins_when_the_triangles_meet_whatever_direction_parted_them_before() {
+    let wall = [
+        DVec3::new(-0.75, -1.125, 0.75),
+        DVec3::new(-0.75, -1.125, -0.75),
+        DVec3::new(-0.75, 1.125, 0.75),
+    ];
+    // At 0.55 a direction closes along which they were apart from the start; the corner at x is at the wall at 0.625.
+    let part = |x: f64, z: f64| {
+        let tip = DVec3::new(x, 0.0, z);
+        let others = [(0.8125, 0.0), (0.25, 0.5625)];
+        let others = others.map(|(x, y)| tip + DVec3::new(x, y, -0.8125));
+        pose(wall, [tip, others[0], others[1]])
+    };
+    let pair = MovingPair {
+        start: part(0.1875, -0.75),
+        end: part(-1.3125, 0.75),
+    };
+    match judge(&pair) {
+        Outcome::Crossed(crossing) => {
+            assert!((crossing.contact - 0.625).abs() < 1e-9, "{crossing:?}");
+        }
+        other => panic!("{other:?}"),
+    }
+}
+
+#[test]
 fn an_exhausted_budget_is_undecided() {
     let limits = Limits {
         budget: 2,

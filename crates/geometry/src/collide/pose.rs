@@ -6,6 +6,9 @@ use glam::DVec3;
 
 use super::Limits;
 
+/// Directions with a sine below this are one.
+const PARALLEL: f64 = 1e-6;
+
 /// What an [`Axis`] is built from, and so which vertices meet along it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Feature {
@@ -226,16 +229,29 @@ pub(super) fn turned_along(direction: DVec3, from: &[DVec3; 3], to: &[DVec3; 3])
     (in_plane / squared + cross * (direction.dot(normal) / squared.sqrt())).try_normalize()
 }
 
-/// Whether the arc between unit directions with overlaps at most `overlap` stays within the tolerance.
-///
-/// For d(s) = (1 − s) d_1 + s d_2 the overlap along d(s), not normalised, is convex in s; normalising divides it by at
-/// least |d_1 + d_2| / 2 = √((1 + d_1·d_2) / 2).
+/// Whether the arc between two unit directions stays within the tolerance.
 pub(super) fn are_linked(p: &Axis, q: &Axis, limits: &Limits) -> bool {
     let cosine = p.direction.dot(q.direction);
-    let shortest = f64::midpoint(1.0, cosine).max(0.0).sqrt();
-    let worst = p.overlap.max(q.overlap);
-    cosine > -0.98
-        && (worst <= -limits.margin || worst <= limits.tolerance * shortest - limits.margin)
+    let highest = highest_between(p.overlap, q.overlap, cosine);
+    cosine > -0.98 && highest <= limits.tolerance - limits.margin
+}
+
+/// An upper bound of the overlaps along the arc between two unit directions, from those at its ends and its cosine.
+///
+/// For d(s) = (1 − s) d_1 + s d_2 the overlap along d(s), not normalised, is convex in s and so below its chord, the height
+/// of a fixed vector along d(s). At angle φ of the arc that is x cos φ + y sin φ: largest at an end, or √(x² + y²) where
+/// it rises at the one and falls at the other.
+fn highest_between(start: f64, end: f64, cosine: f64) -> f64 {
+    let sine = (1.0 - cosine * cosine).max(0.0).sqrt();
+    if sine < PARALLEL {
+        return start.max(end);
+    }
+    let rise = (end - start * cosine) / sine;
+    if rise > 0.0 && rise * cosine < start * sine {
+        start.hypot(rise)
+    } else {
+        start.max(end)
+    }
 }
 
 /// |d(s)| for d(s) between `from` and `to` is at least this; none where they are more than 90° apart.
@@ -250,6 +266,27 @@ mod tests {
     use super::*;
     use crate::collide::random::Random;
     use crate::distance::triangle_triangle;
+
+    #[test]
+    fn no_overlap_on_an_arc_is_above_the_bound_from_its_ends() {
+        let mut random = Random::new(14);
+        let mut tight = 0;
+        for _ in 0..2000 {
+            let pose = PairPose {
+                a: random.triangle(1.0),
+                b: random.triangle(1.0),
+                shared: 0,
+            };
+            let [u, v] = [(); 2].map(|()| random.vector().normalize_or(DVec3::X));
+            let bound = highest_between(pose.overlap(u), pose.overlap(v), u.dot(v));
+            let sampled = (0..=100).map(|k| u.lerp(v, f64::from(k) / 100.0));
+            let sampled = sampled.filter_map(DVec3::try_normalize);
+            let highest = sampled.map(|d| pose.overlap(d)).fold(f64::MIN, f64::max);
+            assert!(highest <= bound + 1e-12, "{highest} {bound}");
+            tight += u32::from(highest > bound - 1e-3);
+        }
+        assert!(tight > 500, "{tight}");
+    }
 
     /// The least overlap found by random descent from many directions.
     fn brute_force_depth(pose: &PairPose, random: &mut Random) -> f64 {

@@ -341,10 +341,15 @@ impl<'a> Walk<'a> {
             Side::Apart(_) => self.time,
             Side::Contact(_) => self.first_contact,
         };
+        // Apart along any direction, the triangles are on the side of all along which they are.
+        let last = self.pair.at(apart);
+        let before = separating(&last, self.limits).map(|(d, _)| d);
+        let before: Vec<DVec3> = before.chain([direction]).collect();
         for _ in 0..40 {
             let middle = f64::midpoint(apart, contact);
             let pose = self.pair.at(middle);
-            if separating(&pose, self.limits).any(|(d, _)| d.dot(direction) > 0.5) {
+            let is_before = |d: DVec3| before.iter().any(|b| b.dot(d) > 0.5);
+            if separating(&pose, self.limits).any(|(d, _)| is_before(d)) {
                 apart = middle;
             } else {
                 contact = middle;
