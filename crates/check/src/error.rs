@@ -59,6 +59,21 @@ pub enum CheckError {
         /// The least height that can be judged.
         limit: f64,
     },
+    /// A claim about facets that lie apart from each other contradicts where they are.
+    #[error(
+        "faceOrders has [{f}, {g}, {sign}] at frame {frame}: face {f} lies on the other side of face {g}; turn the sign round \
+         or leave the entry out"
+    )]
+    FalseOrder {
+        /// Which frame.
+        frame: usize,
+        /// The face that is said to lie above or below.
+        f: u32,
+        /// The face whose front is meant.
+        g: u32,
+        /// 1 above, -1 below.
+        sign: i8,
+    },
     /// A corner that does not exist.
     #[error("triangle {face} has the corner {vertex}: the sheet has {vertices} vertices")]
     CornerOutOfRange {

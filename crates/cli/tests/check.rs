@@ -448,3 +448,40 @@ fn a_motion_whose_last_frames_have_their_layers_exchanged_is_refused() {
         (Some(1), &json!("penetrating"))
     );
 }
+
+#[test]
+fn face_orders_of_a_motion_with_contact_are_checked_and_refused_where_they_are_false() {
+    let home = tempfile::tempdir().unwrap();
+    run(home.path(), "one-unit", &[]);
+    let check = ["check", "run/motion.fold", "--out", "run", "--quiet"];
+    assert_eq!(foldmotion(home.path(), &check).status.code(), Some(0));
+    let certificate = json_of(&home.path().join("run/certificate.json"));
+    let count = |key: &str| certificate["layer_orders"][key].as_u64().unwrap();
+    assert!(
+        count("claimed") > 0 && count("ignored") == 0,
+        "{certificate}"
+    );
+    let verify = [
+        "check",
+        "run/motion.fold",
+        "--verify",
+        "run/certificate.json",
+    ];
+    let output = foldmotion(home.path(), &verify);
+    assert_eq!(output.status.code(), Some(0), "{}", text(&output.stdout));
+    let path = home.path().join("run/motion.fold");
+    let mut motion = json_of(&path);
+    for frame in motion["file_frames"].as_array_mut().unwrap() {
+        for entry in frame["faceOrders"].as_array_mut().into_iter().flatten() {
+            entry[2] = json!(-entry[2].as_i64().unwrap());
+        }
+    }
+    fs::write(&path, motion.to_string()).unwrap();
+    let output = foldmotion(home.path(), &check);
+    let err = text(&output.stderr);
+    assert_eq!(output.status.code(), Some(2), "{err}");
+    assert!(
+        err.contains("faceOrders has [") && err.contains("turn the sign"),
+        "{err}"
+    );
+}

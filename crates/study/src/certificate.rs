@@ -171,7 +171,7 @@ pub struct ClusterEntry {
 pub struct LayerOrders {
     /// Entries with a sign of 1 or -1, inherited ones counted at each frame.
     pub claimed: usize,
-    /// Those of faces that do not lie on each other at their frame, or went through each other: they are ignored.
+    /// Those of faces that are not stacked at their frame, or went through each other: they are ignored.
     pub ignored: usize,
 }
 

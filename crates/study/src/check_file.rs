@@ -279,7 +279,7 @@ impl<'a> Judge<'a> {
         }
         if let Some(checker) = &mut self.checker {
             let faces = &self.file.triangle_faces;
-            checker.claim(order, &|triangle| faces[triangle as usize]);
+            checker.claim(order, &|triangle| faces[triangle as usize])?;
         }
         self.times.push(frame.time);
         Ok(())

@@ -221,7 +221,7 @@ impl Study {
                     }
                 }
             }
-            judged.claim(&order, &|triangle| triangle);
+            judged.claim(&order, &|triangle| triangle)?;
             if !order.is_empty() {
                 orders.push((index, order));
             }

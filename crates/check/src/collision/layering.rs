@@ -11,9 +11,10 @@ use super::{
     pair::Pair,
     report::{Penetration, PenetrationKind},
 };
+use crate::CheckError;
 use crate::layers::{
-    Contradiction, LayerConflict, LayerPair, LayerProof, LayerRule, front_normal, layer_pairs,
-    layer_point, order_of, prove,
+    Contradiction, LayerConflict, LayerPair, LayerProof, LayerRule, Stack, front_normal,
+    layer_pairs, layer_point, order_of, prove, unheard,
 };
 
 impl Checker<'_> {
@@ -33,11 +34,18 @@ impl Checker<'_> {
     ///
     /// `face_of`: the face of the file that a triangle belongs to; `order` is of such faces. A claim of two layers
     /// whose order the motion shows must agree with it, otherwise it is a penetration. Where the motion leaves both
-    /// sides open, as at the first frame, the claim decides, for the frames to come too. Claims of faces that are no
-    /// layers of each other are counted and ignored.
-    pub fn claim(&mut self, order: &LayerOrder, face_of: &dyn Fn(u32) -> u32) {
+    /// sides open, as at the first frame, the claim decides, for the frames to come too. A claim of facets that are stacked
+    /// a gap apart must agree with their heights. Claims of other facets are counted and ignored.
+    ///
+    /// # Errors
+    /// [`CheckError::FalseOrder`]: facets that lie apart are stacked the other way, in a motion that has not penetrated.
+    pub fn claim(
+        &mut self,
+        order: &LayerOrder,
+        face_of: &dyn Fn(u32) -> u32,
+    ) -> Result<(), CheckError> {
         if self.is_stopped() {
-            return;
+            return Ok(());
         }
         let mut heard = BTreeSet::new();
         for index in 0..self.layers.len() {
@@ -56,8 +64,24 @@ impl Checker<'_> {
                 self.hear(index, up);
             }
         }
+        let stack = Stack {
+            sheet: self.sheet,
+            positions: &self.last.positions,
+            face_of,
+            tolerance: self.tolerance,
+        };
+        let stacked = stack.compare(unheard(order, |claim| heard.contains(claim)));
         self.report.claims.claimed += order.len();
-        self.report.claims.ignored += order.len() - heard.len();
+        self.report.claims.ignored += order.len() - heard.len() - stacked.held;
+        match stacked.broken {
+            Some((f, g, sign)) if self.is_clean() => Err(CheckError::FalseOrder {
+                frame: self.frames - 1,
+                f,
+                g,
+                sign,
+            }),
+            _ => Ok(()),
+        }
     }
 
     /// Takes in the claim that the first layer of a pair lies below the second along `up`.

@@ -119,6 +119,6 @@ impl Cluster {
 pub struct Claims {
     /// Entries of `faceOrders`.
     pub claimed: usize,
-    /// Those of faces that are no layers of each other at their frame, or have passed through each other.
+    /// Those of faces that are not stacked at their frame, or have passed through each other.
     pub ignored: usize,
 }

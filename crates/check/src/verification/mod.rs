@@ -109,6 +109,7 @@ mod plane;
 mod random;
 mod separation;
 mod span;
+mod stacked;
 mod stated_order;
 mod statement;
 #[cfg(test)]

@@ -10,6 +10,7 @@ use super::instant::axes;
 use super::layer::{self, Layer, Scale, corners, side_of};
 use super::pair::Pair;
 use super::plane::Plane;
+use super::stacked::State;
 use super::verifier::Verifier;
 use super::walk::{Side, roomiest};
 use crate::{Claims, LayerProof, LayerRule};
@@ -73,8 +74,27 @@ impl Verifier<'_> {
                 }
             }
         }
+        let state = State {
+            sheet: self.sheet,
+            positions: &self.last.positions,
+            face_of,
+            scale: Scale::new(self.limits.tolerance, &self.last.positions),
+        };
+        let stacked = state.judge(order, |claim| !heard.contains(&claim));
+        let frame = self.frames - 1;
+        if let Some(faces) = stacked.doubtful {
+            let doubt = (faces, "whether they are stacked as the file claims");
+            self.ordering.doubts.entry(frame).or_insert(doubt);
+        }
         self.ordering.claims.claimed += order.len();
-        self.ordering.claims.ignored += order.len() - heard.len();
+        self.ordering.claims.ignored += order.len() - heard.len() - stacked.held;
+        if let Some(entry) = stacked
+            .broken
+            .filter(|_| self.claim.penetrations.is_empty())
+        {
+            let found = format!("the faces lie the other way round at frame {frame}");
+            self.refute("faceOrders", format!("{entry:?}"), found);
+        }
     }
 
     /// Takes in that the first layer lies below the second along `up`.

@@ -30,13 +30,16 @@ impl Plane {
         self.normal.dot(p - self.origin)
     }
 
+    /// A point as seen along the normal.
+    pub(super) fn seen(&self, p: DVec3) -> DVec2 {
+        let p = p - self.origin;
+        let [x, y] = self.axes;
+        DVec2::new(x.dot(p), y.dot(p))
+    }
+
     /// A triangle as seen along the normal, counter-clockwise.
     pub(super) fn triangle(&self, corners: &[DVec3; 3]) -> [DVec2; 3] {
-        let [x, y] = self.axes;
-        let [p, q, r] = corners.map(|p| {
-            let p = p - self.origin;
-            DVec2::new(x.dot(p), y.dot(p))
-        });
+        let [p, q, r] = corners.map(|p| self.seen(p));
         if (q - p).perp_dot(r - p) < 0.0 {
             [p, r, q]
         } else {

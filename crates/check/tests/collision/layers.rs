@@ -44,7 +44,8 @@ fn judge(sheet: &Sheet, states: &[(Vec<DVec3>, LayerOrder)]) -> (CollisionReport
             let options = CollisionOptions::default();
             checker = Some(Checker::new(sheet, &frame, &options).unwrap());
         }
-        checker.as_mut().unwrap().claim(claims, &|face| face);
+        let checker = checker.as_mut().unwrap();
+        checker.claim(claims, &|face| face).unwrap();
     }
     let checker = checker.unwrap();
     let order = checker.layer_order();
@@ -321,5 +322,52 @@ fn the_order_followed_from_a_motion_does_not_depend_on_threads() {
             .build()
             .unwrap();
         assert_eq!(pool.install(|| judge(&motion.sheet, &states)), expected);
+    }
+}
+
+/// Two unit squares over each other, `gap` apart, the second above the first; its front looks up.
+fn two_squares(gap: f64) -> (Sheet, Vec<DVec3>) {
+    let mut sheet = strip(3, 1);
+    // Without the square between them.
+    let faces = [
+        sheet.faces[0],
+        sheet.faces[1],
+        sheet.faces[4],
+        sheet.faces[5],
+    ];
+    let corner = |v: usize, x: f64, z: f64| DVec3::new(x, sheet.vertices[v].y, z);
+    let mut positions: Vec<DVec3> = (0..8).map(|v| corner(v, 0.0, 0.0)).collect();
+    for (v, x, z) in [(0, 0.0, 0.0), (2, 1.0, 0.0), (4, 0.0, gap), (6, 1.0, gap)] {
+        for v in [v, v + 1] {
+            positions[v] = corner(v, x, z);
+        }
+    }
+    sheet = crate::sheets::sheet(sheet.vertices.clone(), faces.to_vec());
+    (sheet, positions)
+}
+
+#[test]
+fn claims_about_facets_a_gap_apart_are_compared_with_where_they_are() {
+    let claimed = |gap: f64, sign: i8| {
+        let (sheet, positions) = two_squares(gap);
+        let (time, options) = (0.0, CollisionOptions::default());
+        let frame = Frame { time, positions };
+        let mut checker = Checker::new(&sheet, &frame, &options).unwrap();
+        let mut order = LayerOrder::default();
+        order.insert(2, 0, sign);
+        let heard = checker.claim(&order, &|face| face);
+        heard.map(|()| checker.finish().claims)
+    };
+    let claims = claimed(1e-3, 1).unwrap();
+    assert_eq!((claims.claimed, claims.ignored), (1, 0));
+    let error = claimed(1e-3, -1).unwrap_err().to_string();
+    assert!(
+        error.contains("faceOrders has [2, 0, -1] at frame 0"),
+        "{error}"
+    );
+    // Far apart they are no layers of one stack.
+    for sign in [1, -1] {
+        let claims = claimed(0.5, sign).unwrap();
+        assert_eq!((claims.claimed, claims.ignored), (1, 1));
     }
 }

@@ -25,10 +25,10 @@ fn frame(k: usize, (positions, _): &State) -> Frame {
 fn judge(sheet: &Sheet, states: &[State]) -> CollisionReport {
     let options = CollisionOptions::default();
     let mut checker = Checker::new(sheet, &frame(0, &states[0]), &options).unwrap();
-    checker.claim(&states[0].1, &|face| face);
+    checker.claim(&states[0].1, &|face| face).unwrap();
     for (k, state) in states.iter().enumerate().skip(1) {
         checker.advance(&frame(k, state)).unwrap();
-        checker.claim(&state.1, &|face| face);
+        checker.claim(&state.1, &|face| face).unwrap();
     }
     checker.finish()
 }
