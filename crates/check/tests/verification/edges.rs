@@ -112,6 +112,21 @@ fn a_passage_that_is_made_up_is_not_verified() {
     assert!(!verify(&honest, &claim).is_verified());
 }
 
+#[test]
+fn a_wall_that_rests_on_an_edge_and_then_sinks_passes_no_earlier_than_it_sinks() {
+    let down = DVec3::new(0.0, 0.0, -0.5);
+    let moves = [DVec3::ZERO, down, down, down * 2.0];
+    let motion = above_a_roof(0.5, wall(), &moves);
+    assert_eq!(agreed(&motion), Verdict::Penetrating);
+    let mut claim = judge(&motion);
+    for penetration in &mut claim.penetrations {
+        assert_eq!(penetration.frame, 2);
+        penetration.frame = 1;
+        (penetration.time, penetration.passed) = (1.0, 1.5);
+    }
+    assert!(!verify(&motion, &claim).is_verified());
+}
+
 /// A triangle that lands on the one half, slides across the edge to the other and leaves, upwards or downwards.
 fn sliding(leaves: f64) -> Motion {
     let part = [
