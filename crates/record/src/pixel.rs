@@ -25,7 +25,7 @@ impl<'a> Canvas<'a> {
         let inks = style.inks();
         let colour = |(index, face): (usize, &ScreenFace)| match paints.get(index) {
             Some(Paint::Mark) => inks.marked(face.normal),
-            Some(Paint::Flat(light)) => *light,
+            Some(Paint::Value(light)) => Inks::valued(*light, face.normal),
             _ => inks.paper(face.normal),
         };
         let faces: Vec<Vec3> = surface.faces().iter().enumerate().map(colour).collect();

@@ -122,6 +122,7 @@ impl ScreenFace {
     }
 
     /// The samples of the pixel around `centre` that it covers.
+    #[inline]
     pub(crate) fn covered(&self, centre: DVec2) -> Mask {
         let mask = |side: &Side| inside(centre, |point| side.distance(point));
         self.sides
@@ -147,11 +148,13 @@ impl ScreenFace {
     }
 
     /// The depth of its plane.
+    #[inline]
     pub(crate) fn plane(&self, point: DVec2) -> f64 {
         self.offset + self.gradient.dot(point)
     }
 
     /// `f64::clamp` checks its bounds each time.
+    #[inline]
     fn within(&self, depth: f64) -> f64 {
         let depth = if depth > self.nearest {
             self.nearest
@@ -166,6 +169,7 @@ impl ScreenFace {
     }
 
     /// Kept within the corners' depths: the plane of a triangle seen edge-on is steep beyond measure.
+    #[inline]
     pub(crate) fn depth(&self, point: DVec2) -> f64 {
         self.within(self.plane(point))
     }
@@ -201,6 +205,7 @@ impl Side {
         }
     }
 
+    #[inline]
     pub(crate) fn distance(&self, point: DVec2) -> f64 {
         self.n.dot(point) + self.c
     }

@@ -83,6 +83,7 @@ pub(crate) fn members(mut mask: Mask) -> impl Iterator<Item = usize> {
 }
 
 /// The samples of the pixel around `centre` on the positive side of `distance`, a signed distance from a line.
+#[inline]
 pub(crate) fn inside(centre: DVec2, distance: impl Fn(DVec2) -> f64) -> Mask {
     let middle = distance(centre);
     if middle > CORNER {

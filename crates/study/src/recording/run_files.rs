@@ -5,7 +5,7 @@ use std::path::Path;
 
 use foldmotion_check::{CollisionReport, penetration_spans};
 use foldmotion_pattern::{FoldHeader, Motion};
-use foldmotion_record::{Marks, plots};
+use foldmotion_record::{Marks, Spot, plots};
 
 use super::motion_file::ours;
 use super::page::LARGEST_FOLD;
@@ -74,7 +74,7 @@ impl Study {
         let recorder = Recorder {
             recording,
             motion,
-            marks: marks(motion, &findings.collision),
+            marks: marks(motion, &findings.collision, |time| time),
             title: &self.title,
             unit: self.unit_name,
             known: self.subject.units().map(UnitStudy::known),
@@ -204,12 +204,25 @@ fn record_series(findings: &Findings, results: &mut Results) -> Result<(), Study
     })
 }
 
-/// The facets that penetrate each other, while they do.
-pub(super) fn marks(motion: &Motion, collision: &CollisionReport) -> Marks {
+/// The two facets that are the first to penetrate each other, while they do, and where they begin to: all that cross later
+/// would hide it. `shown`: the motion time of a time of `motion`.
+pub(super) fn marks(
+    motion: &Motion,
+    collision: &CollisionReport,
+    shown: impl Fn(f64) -> f64,
+) -> Marks {
     let mut marks = Marks::default();
+    let Some(first) = &collision.first else {
+        return marks;
+    };
+    let [face, _] = first.faces;
+    let spot = Spot::on(motion, face, first.point, first.passed, shown(first.time));
+    spot.into_iter().for_each(|spot| marks.point_out(spot));
     for span in penetration_spans(motion, collision) {
-        for face in span.faces {
-            marks.insert(face, span.from, span.to);
+        if span.faces == first.faces {
+            for face in span.faces {
+                marks.insert(face, shown(span.from), shown(span.to));
+            }
         }
     }
     marks
