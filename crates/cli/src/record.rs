@@ -37,7 +37,7 @@ pub(crate) struct RecordArguments {
     /// Pixels of films and pictures; where left out 960x720 with mp4 or png, else 640x480
     #[arg(long, value_name = "WxH", value_parser = parse_size)]
     pub(crate) size: Option<[i64; 2]>,
-    /// Film frames a second; where left out 30 with mp4 or png, else 15
+    /// Film frames a second; where left out 30 with mp4 or png, else 12.5
     #[arg(long, allow_negative_numbers = true)]
     pub(crate) fps: Option<f64>,
     /// Seconds of the two stages; 3,5 where left out

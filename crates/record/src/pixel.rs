@@ -59,8 +59,9 @@ impl Pixel {
     pub(crate) fn light(&mut self, canvas: &Canvas<'_>, list: &[u32], centre: DVec2) -> Vec3 {
         let surface = canvas.surface;
         self.layers.clear();
-        let layers = list.iter().filter_map(|&face| surface.layer(face, centre));
-        self.layers.extend(layers);
+        for &face in list {
+            surface.find_layer(face, centre, &mut self.layers);
+        }
         let shown = |all, layer: &Layer| all | layer.shown();
         let mut rest = self.layers.iter().fold(0, shown);
         let mut sum = canvas.inks.background * rest.count_zeros() as f32;

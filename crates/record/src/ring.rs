@@ -4,8 +4,10 @@ use glam::DVec2;
 
 use crate::Image;
 
-/// Its radius as a part of the picture's shorter side.
+/// Its radius as a part of the picture's shorter side, and the least one and the least half width of its line in pixels.
 const RADIUS: f64 = 0.035;
+const LEAST_RADIUS: f64 = 5.0;
+const LEAST_HALF: f64 = 0.75;
 
 /// The width of its line, and of the light line on each side of it, as parts of the radius.
 const WIDTH: f64 = 0.2;
@@ -15,8 +17,8 @@ const HALO: f64 = 0.12;
 #[expect(clippy::cast_sign_loss, reason = "kept within the picture's sides")]
 pub(crate) fn ring(image: &mut Image, mut alpha: Option<&mut [u8]>, centre: DVec2, color: [u8; 3]) {
     let [width, height] = [image.width, image.height].map(f64::from);
-    let radius = RADIUS * width.min(height);
-    let [half, halo] = [0.5 * WIDTH * radius, HALO * radius];
+    let radius = (RADIUS * width.min(height)).max(LEAST_RADIUS);
+    let [half, halo] = [(0.5 * WIDTH * radius).max(LEAST_HALF), HALO * radius];
     let reach = radius + half + halo + 1.0;
     let range = |middle: f64, side: f64| {
         let end = |place: f64| place.clamp(0.0, side) as u32;
@@ -58,13 +60,13 @@ mod tests {
             ring(&mut image, Some(&mut alpha), centre, [233, 30, 160]);
             (image, alpha)
         };
-        let centre = DVec2::new(120.0, 50.0);
+        let centre = DVec2::new(120.5, 50.5);
         let (image, alpha) = drawn(centre);
         assert_eq!(image.pixel(120, 50), ground);
-        assert_eq!(image.pixel(123, 50), [233, 30, 160]);
+        assert_eq!(image.pixel(125, 50), [233, 30, 160]);
         for (index, (pixel, alpha)) in image.pixels.iter().zip(&alpha).enumerate() {
             let place = DVec2::new((index % 200) as f64, (index / 200) as f64) + 0.5;
-            let is_far = place.distance(centre) > 6.0;
+            let is_far = place.distance(centre) > 7.5;
             assert!(!is_far || (*pixel == ground && *alpha == 0), "{place}");
         }
         for outside in [DVec2::splat(-500.0), DVec2::splat(1e9)] {

@@ -2,7 +2,7 @@
 
 use glam::{DVec2, DVec3};
 
-use crate::square::{Mask, Square, inside};
+use crate::square::Square;
 
 /// A triangle on the screen.
 #[derive(Debug, Clone)]
@@ -119,16 +119,6 @@ impl ScreenFace {
     /// Inclusive: a point on an edge lies on both its triangles, so no gap opens between them.
     pub(crate) fn covers(&self, point: DVec2) -> bool {
         self.sides.iter().all(|side| side.distance(point) >= 0.0)
-    }
-
-    /// The samples of the pixel around `centre` that it covers.
-    #[inline]
-    pub(crate) fn covered(&self, centre: DVec2) -> Mask {
-        let mask = |side: &Side| inside(centre, |point| side.distance(point));
-        self.sides
-            .iter()
-            .map(mask)
-            .fold(Mask::MAX, |all, one| all & one)
     }
 
     /// Whether it covers all of `square`.

@@ -335,14 +335,15 @@ impl<'a> Surface<'a> {
         depth
     }
 
-    /// Triangle `face` at the samples of the pixel around `centre`, none where it covers no sample.
-    pub(crate) fn layer(&self, face: u32, centre: DVec2) -> Option<Layer> {
+    /// Adds triangle `face` at the samples of the pixel around `centre` to `layers` where it may be seen.
+    pub(crate) fn find_layer(&self, face: u32, centre: DVec2, layers: &mut Vec<Layer>) {
         let surface = self;
         self.arch.dispatch(FindLayer {
             surface,
             face,
             centre,
-        })
+            layers,
+        });
     }
 
     fn outlines(&self, face: u32) -> impl Iterator<Item = &Segment> {

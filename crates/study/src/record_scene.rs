@@ -11,7 +11,7 @@ pub struct RecordScene {
     pub outputs: Option<Vec<OutputChoice>>,
     /// Pixels across and down; where left out [960, 720] if `mp4` or `png` are written, else [640, 480].
     pub size: Option<[i64; 2]>,
-    /// Film frames a second; where left out 30 if `mp4` or `png` are written, else 15.
+    /// Film frames a second; where left out 30 if `mp4` or `png` are written, else 12.5.
     pub fps: Option<f64>,
     /// Seconds a stage; [3, 5] where left out.
     pub seconds: Option<[f64; 2]>,
@@ -48,7 +48,7 @@ pub struct RecordScene {
 }
 
 /// Pixels and frames a second of a GIF alone: drawing and packing it costs about as much as folding.
-const GIF_FILM: ([u32; 2], f64) = ([640, 480], 15.0);
+const GIF_FILM: ([u32; 2], f64) = ([640, 480], 12.5);
 
 /// The same of films that are also written as MP4 or pictures.
 const FULL_FILM: ([u32; 2], f64) = ([960, 720], 30.0);

@@ -12,7 +12,8 @@ use glam::DVec2;
 use pulp::{Simd, WithSimd};
 
 use super::{Layer, Surface};
-use crate::square::{Mask, SAMPLES, Square, at_samples, members, sample};
+use crate::screen_face::ScreenFace;
+use crate::square::{CORNER, Mask, SAMPLES, Square, at_samples, mask, members, sample};
 
 /// The lines of `edges` at the samples of the pixel around `centre`.
 pub(super) struct FindLines<'a> {
@@ -54,44 +55,64 @@ impl WithSimd for FindLines<'_> {
     }
 }
 
-/// Triangle `face` at the samples of the pixel around `centre`.
+/// Triangle `face` at the samples of the pixel around `centre`, added to `layers` where it may be seen.
 pub(super) struct FindLayer<'a> {
     pub(super) surface: &'a Surface<'a>,
     pub(super) face: u32,
     pub(super) centre: DVec2,
+    pub(super) layers: &'a mut Vec<Layer>,
 }
 
 impl WithSimd for FindLayer<'_> {
-    type Output = Option<Layer>;
+    type Output = ();
 
     #[inline(always)]
-    fn with_simd<S: Simd>(self, _: S) -> Option<Layer> {
+    fn with_simd<S: Simd>(self, _: S) {
         let Self {
             surface,
             face,
             centre,
+            layers,
         } = self;
         let screen = surface.face(face);
-        let covered = screen.covered(centre);
+        let covered = covered(screen, centre);
         let mut outlined = 0;
         let mut outlines = [0.0; SAMPLES];
         if covered != Mask::MAX && screen.reach > 0.0 {
             outlined = find_outlines(surface, face, centre, !covered, &mut outlines);
         }
         if covered | outlined == 0 {
-            return None;
+            return;
         }
         let mut depths = at_samples(centre, |point| screen.depth(point));
         for k in members(outlined) {
             depths[k] = outlines[k];
         }
-        Some(Layer {
+        layers.push(Layer {
             face,
             covered,
             outlined,
             depths,
-        })
+        });
     }
+}
+
+/// The samples of the pixel around `centre` that `face` covers.
+#[inline(always)]
+fn covered(face: &ScreenFace, centre: DVec2) -> Mask {
+    let mut covered = Mask::MAX;
+    for side in face.sides() {
+        let middle = side.distance(centre);
+        if middle > CORNER {
+            continue;
+        }
+        if middle < -CORNER {
+            return 0;
+        }
+        let distances = at_samples(centre, |point| side.distance(point));
+        covered &= mask(&distances, |distance| distance >= 0.0);
+    }
+    covered
 }
 
 /// The depth of the nearest outline of `face` that covers each of the samples `asked` of the pixel around `centre`; answers
