@@ -29,7 +29,7 @@ const MAP_LEVELS: u16 = 40;
 const MAP_LIGHTS: [f32; 4] = [1.0, 0.87, 0.74, 1.2];
 
 /// Leading bits of a byte that tell in which cell of the colour cube it lies.
-const CELL_BITS: u32 = 5;
+const CELL_BITS: u32 = 6;
 
 /// The other bits of a byte.
 const CELL_MASK: u8 = u8::MAX >> CELL_BITS;

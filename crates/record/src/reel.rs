@@ -182,7 +182,7 @@ impl<'a> Set<'a> {
             paper: Paper::new(&motion.sheet, &motion.compact_order),
             legend: legend.transpose()?,
             cameras: if options.is_following && !options.is_aimed() {
-                following(motion, &shots, cameras, options)
+                following(motion, &shots, &cameras, options)
             } else {
                 cameras
             },
@@ -257,7 +257,7 @@ impl<'a> Set<'a> {
 fn following(
     motion: &Motion,
     shots: &[Shot],
-    cameras: Vec<Camera>,
+    cameras: &[Camera],
     options: &FilmOptions,
 ) -> Vec<Camera> {
     let centre = DVec2::from(options.size.map(f64::from)) * 0.5;
@@ -269,7 +269,7 @@ fn following(
         let empty = [DVec2::INFINITY, DVec2::NEG_INFINITY];
         points.fold(empty, |[low, high], p| [low.min(p), high.max(p)])
     };
-    let boxes: Vec<[DVec2; 2]> = shots.par_iter().zip(&cameras).map(around).collect();
+    let boxes: Vec<[DVec2; 2]> = shots.par_iter().zip(cameras).map(around).collect();
     let room = (1.0 - 2.0 * options.margin) * centre;
     let frames = frames(&boxes, room, options.fps);
     let near = |(camera, Frame { middle, part }): (&Camera, Frame)| {

@@ -41,12 +41,11 @@ pub(super) fn table(caption: &str, head: &[&str], rows: &[Vec<String>]) -> Strin
         html.push_str("<tr>");
         for (column, cell) in row.iter().enumerate() {
             let cell = escaped(cell);
-            let _ = match column {
-                0 => write!(html, "<th scope=\"row\">{cell}</th>"),
-                _ => {
-                    let name = escaped(head.get(column).copied().unwrap_or_default());
-                    write!(html, "<td data-name=\"{name}\">{cell}</td>")
-                }
+            let _ = if column == 0 {
+                write!(html, "<th scope=\"row\">{cell}</th>")
+            } else {
+                let name = escaped(head.get(column).copied().unwrap_or_default());
+                write!(html, "<td data-name=\"{name}\">{cell}</td>")
             };
         }
         html.push_str("</tr>\n");
