@@ -62,9 +62,21 @@ impl Pixel {
         for &face in list {
             surface.find_layer(face, centre, &mut self.layers);
         }
-        let shown = |all, layer: &Layer| all | layer.shown();
-        let mut rest = self.layers.iter().fold(0, shown);
+        let (mut rest, mut shared) = (0, 0);
+        for layer in &self.layers {
+            shared |= rest & layer.shown();
+            rest |= layer.shown();
+        }
         let mut sum = canvas.inks.background * rest.count_zeros() as f32;
+        if shared == 0 {
+            // Neighbours beside each other: nothing hides anything.
+            for index in 0..self.layers.len() {
+                let Layer { face, .. } = self.layers[index];
+                let seen = self.layers[index].shown();
+                sum += self.sum(canvas, face, surface.lines(face), seen, centre);
+            }
+            return sum / SAMPLES as f32;
+        }
         while rest != 0 {
             let first = rest.trailing_zeros() as usize;
             let Some((face, seen)) = self.front(surface, first) else {

@@ -227,3 +227,47 @@ pub(super) fn marks(
     }
     marks
 }
+
+#[cfg(test)]
+mod tests {
+    use foldmotion_record::Pose;
+
+    use super::*;
+
+    #[test]
+    fn only_the_first_penetration_of_many_is_marked_and_its_place_is_pointed_out() {
+        let scene = include_str!("../../../../scenes/shelter-short-plain.toml");
+        let mut scene: toml::Table = scene.parse().unwrap();
+        let motion: toml::Table = "contact = false\nframes = 48".parse().unwrap();
+        scene.insert("motion".to_owned(), motion.into());
+        let source = SceneSource::new(Path::new("scene.toml"), scene.to_string());
+        let study = Study::resolve(&source).unwrap();
+        let folded = study.compute(&|_, _| true).unwrap();
+        let (motion, collision) = (&folded.motion, &folded.findings.collision);
+        let first = collision.first.as_ref().unwrap();
+        assert!(
+            collision.penetrations.len() > 4,
+            "it crosses in many places"
+        );
+        let marks = marks(motion, collision, |time| time);
+        let facets = |time: f64| {
+            let marked = Pose::at(motion, &marks, time).marked;
+            let faces = (0..marked.len()).filter(|&face| marked[face]);
+            let mut facets: Vec<u32> = faces.map(|f| motion.sheet.face_facets[f]).collect();
+            facets.sort_unstable();
+            facets.dedup();
+            facets
+        };
+        let mut pair = first.faces.map(|f| motion.sheet.face_facets[f as usize]);
+        pair.sort_unstable();
+        assert_eq!(facets(first.passed), pair);
+        for frame in &motion.frames {
+            assert!(facets(frame.time).iter().all(|facet| pair.contains(facet)));
+        }
+        let spot = |time| Pose::at(motion, &marks, time).spot;
+        let place = spot(first.passed).unwrap();
+        let apart = place.distance(first.point) / motion.sheet.unit_length;
+        assert!(apart < 10.0 * collision.tolerance, "{apart} h");
+        assert!(spot(2.0).is_some() && spot(first.time - 1e-6).is_none());
+    }
+}
