@@ -217,7 +217,9 @@ pub(super) fn marks(
     };
     let [face, _] = first.faces;
     let spot = Spot::on(motion, face, first.point, first.passed, shown(first.time));
-    spot.into_iter().for_each(|spot| marks.point_out(spot));
+    if let Some(spot) = spot {
+        marks.point_out(spot);
+    }
     for span in penetration_spans(motion, collision) {
         if span.faces == first.faces {
             for face in span.faces {
