@@ -34,10 +34,10 @@ pub(crate) struct RecordArguments {
         allow_negative_numbers = true
     )]
     pub(crate) at: Option<Vec<f64>>,
-    /// Pixels of films and pictures; 960x720 where left out
+    /// Pixels of films and pictures; where left out 960x720 with mp4 or png, else 640x480
     #[arg(long, value_name = "WxH", value_parser = parse_size)]
     pub(crate) size: Option<[i64; 2]>,
-    /// Film frames a second; 30 where left out
+    /// Film frames a second; where left out 30 with mp4 or png, else 12.5
     #[arg(long, allow_negative_numbers = true)]
     pub(crate) fps: Option<f64>,
     /// Seconds of the two stages; 3,5 where left out
@@ -61,6 +61,12 @@ pub(crate) struct RecordArguments {
     /// Films tell stage and t
     #[arg(long)]
     pub(crate) caption: bool,
+    /// Whether films come nearer where the sheet is small; true where left out
+    #[arg(long, value_name = "true|false")]
+    pub(crate) follow: Option<bool>,
+    /// The size of letters in figures, millimetres; 2.4 where left out
+    #[arg(long, value_name = "MM", allow_negative_numbers = true)]
+    pub(crate) letters: Option<f64>,
     /// OBJ and STL as solids of this thickness, in the motion's unit
     #[arg(long, value_name = "THICKNESS", allow_negative_numbers = true)]
     pub(crate) thickened: Option<f64>,
@@ -76,7 +82,7 @@ pub(crate) struct RecordArguments {
 }
 
 /// What --again takes from the file.
-const FLAGS: [&str; 13] = [
+const FLAGS: [&str; 15] = [
     "outputs",
     "at",
     "size",
@@ -88,6 +94,8 @@ const FLAGS: [&str; 13] = [
     "colour",
     "transparent",
     "caption",
+    "follow",
+    "letters",
     "thickened",
     "bounds",
 ];
@@ -138,8 +146,11 @@ impl RecordArguments {
             caption: self.caption.then_some(true),
             at: self.at.clone(),
             thickened: self.thickened.map(ThickenedScene::By),
+            follow: self.follow,
+            letters: self.letters,
             profile: None,
             bounds: self.bounds,
+            dimensions: None,
         }
     }
 

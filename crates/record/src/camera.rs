@@ -229,6 +229,18 @@ impl Camera {
         }
     }
 
+    /// The camera that shows `part` of the sides of a picture of `size`, around `middle`, pixels from its middle.
+    ///
+    /// Precondition: `part` is above 0.
+    pub(crate) fn framed(&self, middle: DVec2, part: f64, size: [u32; 2]) -> Self {
+        let centre = DVec2::from(size.map(f64::from)) * 0.5;
+        Self {
+            scale: self.scale / part,
+            origin: centre + (self.origin - centre - middle) / part,
+            ..*self
+        }
+    }
+
     /// The point on the screen: pixels to the right, pixels down, depth in pixels (larger is nearer to the viewer).
     pub fn project(&self, point: DVec3) -> DVec3 {
         DVec3::new(

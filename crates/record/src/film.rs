@@ -54,6 +54,8 @@ pub struct FilmOptions {
     /// Degrees by which the camera turns about the vertical through `centre`, or the middle of the motion, evenly over the
     /// film.
     pub turn: f64,
+    /// Whether the camera comes nearer where the sheet is small in the picture; a camera aimed by `centre` or `width` does not.
+    pub is_following: bool,
     /// Whether the stage and the time are written into the picture.
     pub has_caption: bool,
     /// What the caption of the last state says in the place of its stage, such as how the motion ended.
@@ -79,6 +81,7 @@ impl Default for FilmOptions {
             centre: None,
             width: None,
             turn: 0.0,
+            is_following: true,
             has_caption: false,
             ending: None,
             is_transparent: false,
@@ -89,6 +92,11 @@ impl Default for FilmOptions {
 }
 
 impl FilmOptions {
+    /// Whether the camera looks where it was told to.
+    pub(crate) fn is_aimed(&self) -> bool {
+        self.centre.is_some() || self.width.is_some()
+    }
+
     /// Refuses what cannot be filmed.
     ///
     /// # Errors

@@ -24,11 +24,12 @@ const MARK_LEVELS: u16 = 24;
 /// Levels of light that lines and edges are mixed with.
 const MIXING_LEVELS: u16 = 4;
 
-/// Levels of values.
-const MAP_LEVELS: u16 = 128;
+/// Levels of values, and the parts of light that they take.
+const MAP_LEVELS: u16 = 40;
+const MAP_LIGHTS: [f32; 4] = [1.0, 0.87, 0.74, 1.2];
 
 /// Leading bits of a byte that tell in which cell of the colour cube it lies.
-const CELL_BITS: u32 = 5;
+const CELL_BITS: u32 = 6;
 
 /// The other bits of a byte.
 const CELL_MASK: u8 = u8::MAX >> CELL_BITS;
@@ -84,9 +85,11 @@ impl Palette {
             palette.push(line);
         }
         palette.push_color(ink(style.background));
-        for k in 0..MAP_LEVELS {
-            let part = f64::from(k) / f64::from(MAP_LEVELS - 1);
-            palette.push_color(colour_of(part));
+        for light in MAP_LIGHTS {
+            for k in 0..MAP_LEVELS {
+                let part = f64::from(k) / f64::from(MAP_LEVELS - 1);
+                palette.push(light * linear(colour_of(part)));
+            }
         }
         for side in [inks.front, inks.back, inks.mark] {
             for light in levels(MIXING_LEVELS) {

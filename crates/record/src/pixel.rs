@@ -25,7 +25,7 @@ impl<'a> Canvas<'a> {
         let inks = style.inks();
         let colour = |(index, face): (usize, &ScreenFace)| match paints.get(index) {
             Some(Paint::Mark) => inks.marked(face.normal),
-            Some(Paint::Flat(light)) => *light,
+            Some(Paint::Value(light)) => Inks::valued(*light, face.normal),
             _ => inks.paper(face.normal),
         };
         let faces: Vec<Vec3> = surface.faces().iter().enumerate().map(colour).collect();
@@ -59,11 +59,24 @@ impl Pixel {
     pub(crate) fn light(&mut self, canvas: &Canvas<'_>, list: &[u32], centre: DVec2) -> Vec3 {
         let surface = canvas.surface;
         self.layers.clear();
-        let layers = list.iter().filter_map(|&face| surface.layer(face, centre));
-        self.layers.extend(layers);
-        let shown = |all, layer: &Layer| all | layer.shown();
-        let mut rest = self.layers.iter().fold(0, shown);
+        for &face in list {
+            surface.find_layer(face, centre, &mut self.layers);
+        }
+        let (mut rest, mut shared) = (0, 0);
+        for layer in &self.layers {
+            shared |= rest & layer.shown();
+            rest |= layer.shown();
+        }
         let mut sum = canvas.inks.background * rest.count_zeros() as f32;
+        if shared == 0 {
+            // Neighbours beside each other: nothing hides anything.
+            for index in 0..self.layers.len() {
+                let Layer { face, .. } = self.layers[index];
+                let seen = self.layers[index].shown();
+                sum += self.sum(canvas, face, surface.lines(face), seen, centre);
+            }
+            return sum / SAMPLES as f32;
+        }
         while rest != 0 {
             let first = rest.trailing_zeros() as usize;
             let Some((face, seen)) = self.front(surface, first) else {

@@ -5,13 +5,16 @@
 //! not depend on the number of threads.
 
 use foldmotion_pattern::Motion;
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 
 use crate::caption::Overlay;
 use crate::cutout::uncovered;
 use crate::film::check_frames;
+use crate::follow::{Frame, frames};
+use crate::line_width::line_width;
 use crate::raster::raster;
+use crate::ring::ring;
 use crate::shade::Paint;
 use crate::{
     Camera, FilmOptions, Image, Marks, Palette, Paper, RecordError, Shot, Style, Values,
@@ -78,7 +81,9 @@ pub trait Reel: Send {
 
 /// Films `scene` into all `reels` at once.
 ///
-/// The camera sees all of the motion, also while it turns, unless it is aimed by `centre` and `width`. `progress` gets the part done, from 0 to 1, and answers
+/// The camera sees all of the motion, also while it turns, unless it is aimed by `centre` and `width`; with
+/// [`FilmOptions::is_following`] it comes nearer where the sheet is small. Lines are narrower than the style says where facets
+/// are small in the picture. `progress` gets the part done, from 0 to 1, and answers
 /// whether to go on. The order of the compact state also decides between layers at other times, wherever they come
 /// within [`crate::TIE_TOLERANCE`] of each other. The bytes do not depend on the number of threads.
 ///
@@ -140,9 +145,8 @@ struct Set<'a> {
     options: &'a FilmOptions,
     shots: Vec<Shot>,
     paper: Paper<'a>,
-    camera: Camera,
-    /// Where the vertical stands about which the camera turns.
-    middle: DVec3,
+    /// Of each shot.
+    cameras: Vec<Camera>,
     legend: Option<Overlay>,
 }
 
@@ -171,22 +175,31 @@ impl<'a> Set<'a> {
         };
         let camera = camera.aimed(options.centre, options.width, size)?;
         let legend = scene.values.map(|values| Overlay::legend(values, size));
+        let count = (shots.len() - 1).max(1) as f64;
+        let turned = |index: usize| camera.turned(options.turn * index as f64 / count, middle);
+        let cameras: Vec<Camera> = (0..shots.len()).map(turned).collect();
         Ok(Self {
             paper: Paper::new(&motion.sheet, &motion.compact_order),
             legend: legend.transpose()?,
+            cameras: if options.is_following && !options.is_aimed() {
+                following(motion, &shots, &cameras, options)
+            } else {
+                cameras
+            },
             scene,
             options,
             shots,
-            camera,
-            middle,
         })
     }
 
     fn picture(&self, index: usize) -> Result<Picture, RecordError> {
         let (shot, options) = (self.shots[index], self.options);
-        let positions = positions_at(self.scene.motion, shot.time);
-        let part = index as f64 / (self.shots.len() - 1).max(1) as f64;
-        let camera = self.camera.turned(options.turn * part, self.middle);
+        let (motion, camera) = (self.scene.motion, self.cameras[index]);
+        let positions = positions_at(motion, shot.time);
+        let style = Style {
+            line_width: line_width(&motion.sheet, &positions, &camera, options.style.line_width),
+            ..options.style.clone()
+        };
         let paints = self.paints(index);
         let draw = |style: &Style| {
             raster(
@@ -198,10 +211,10 @@ impl<'a> Set<'a> {
                 options.size,
             )
         };
-        let mut image = draw(&options.style);
+        let mut image = draw(&style);
         let mut alpha = options
             .is_transparent
-            .then(|| uncovered(&image, &options.style, draw));
+            .then(|| uncovered(&image, &style, draw));
         let last = self.scene.motion.frames.last();
         let is_last = last.is_some_and(|frame| shot.time >= frame.time);
         let ending = options.ending.as_deref().filter(|_| is_last);
@@ -211,6 +224,11 @@ impl<'a> Set<'a> {
         let overlays = [self.legend.clone(), caption.transpose()?];
         for overlay in overlays.into_iter().flatten() {
             overlay.draw(&mut image, alpha.as_deref_mut(), options.style.background);
+        }
+        let spot = (self.scene.marks).spot_at(&motion.sheet, &positions, shot.time);
+        if let Some(spot) = spot {
+            let centre = camera.project(spot).truncate();
+            ring(&mut image, alpha.as_deref_mut(), centre, style.mark);
         }
         Ok(Picture { shot, image, alpha })
     }
@@ -228,7 +246,7 @@ impl<'a> Set<'a> {
         if let Some(values) = values {
             let colours = values.colours(motion, time);
             for (paint, colour) in paints.iter_mut().zip(colours) {
-                *paint = colour.map_or(Paint::Paper, Paint::Flat);
+                *paint = colour.map_or(Paint::Paper, Paint::Value);
             }
         }
         for (paint, _) in paints.iter_mut().zip(marked).filter(|(_, is)| *is) {
@@ -236,4 +254,29 @@ impl<'a> Set<'a> {
         }
         paints
     }
+}
+
+/// `cameras`, each of which sees all of `motion`, brought nearer where the sheet is small in its shot.
+fn following(
+    motion: &Motion,
+    shots: &[Shot],
+    cameras: &[Camera],
+    options: &FilmOptions,
+) -> Vec<Camera> {
+    let centre = DVec2::from(options.size.map(f64::from)) * 0.5;
+    let around = |(shot, camera): (&Shot, &Camera)| {
+        let positions = positions_at(motion, shot.time);
+        let points = positions
+            .iter()
+            .map(|&p| camera.project(p).truncate() - centre);
+        let empty = [DVec2::INFINITY, DVec2::NEG_INFINITY];
+        points.fold(empty, |[low, high], p| [low.min(p), high.max(p)])
+    };
+    let boxes: Vec<[DVec2; 2]> = shots.par_iter().zip(cameras).map(around).collect();
+    let room = (1.0 - 2.0 * options.margin) * centre;
+    let frames = frames(&boxes, room, options.fps);
+    let near = |(camera, Frame { middle, part }): (&Camera, Frame)| {
+        camera.framed(middle, part, options.size)
+    };
+    cameras.iter().zip(frames).map(near).collect()
 }

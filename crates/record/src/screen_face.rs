@@ -2,7 +2,7 @@
 
 use glam::{DVec2, DVec3};
 
-use crate::square::{Mask, Square, inside};
+use crate::square::Square;
 
 /// A triangle on the screen.
 #[derive(Debug, Clone)]
@@ -121,15 +121,6 @@ impl ScreenFace {
         self.sides.iter().all(|side| side.distance(point) >= 0.0)
     }
 
-    /// The samples of the pixel around `centre` that it covers.
-    pub(crate) fn covered(&self, centre: DVec2) -> Mask {
-        let mask = |side: &Side| inside(centre, |point| side.distance(point));
-        self.sides
-            .iter()
-            .map(mask)
-            .fold(Mask::MAX, |all, one| all & one)
-    }
-
     /// Whether it covers all of `square`.
     pub(crate) fn covers_square(&self, square: &Square) -> bool {
         let is_inside = |side: &Side| side.distance(square.centre) >= side.width(square);
@@ -147,11 +138,13 @@ impl ScreenFace {
     }
 
     /// The depth of its plane.
+    #[inline]
     pub(crate) fn plane(&self, point: DVec2) -> f64 {
         self.offset + self.gradient.dot(point)
     }
 
     /// `f64::clamp` checks its bounds each time.
+    #[inline]
     fn within(&self, depth: f64) -> f64 {
         let depth = if depth > self.nearest {
             self.nearest
@@ -166,6 +159,7 @@ impl ScreenFace {
     }
 
     /// Kept within the corners' depths: the plane of a triangle seen edge-on is steep beyond measure.
+    #[inline]
     pub(crate) fn depth(&self, point: DVec2) -> f64 {
         self.within(self.plane(point))
     }
@@ -201,6 +195,7 @@ impl Side {
         }
     }
 
+    #[inline]
     pub(crate) fn distance(&self, point: DVec2) -> f64 {
         self.n.dot(point) + self.c
     }

@@ -34,12 +34,14 @@ impl Segment {
     }
 
     /// The squared distance of `point` and the parameter of the nearest point, 0 at the start, 1 at the end.
+    #[inline]
     pub(crate) fn nearest(&self, point: DVec2) -> (f64, f64) {
         let from_start = point - self.start;
         let s = (from_start.dot(self.along) * self.inverse_squared).clamp(0.0, 1.0);
         ((from_start - self.along * s).length_squared(), s)
     }
 
+    #[inline]
     pub(crate) fn depth(&self, s: f64) -> f64 {
         self.depths[0] + s * (self.depths[1] - self.depths[0])
     }

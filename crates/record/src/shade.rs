@@ -7,6 +7,9 @@
 //!
 //! of its colour: Lambert's cosine wrapped around the whole sphere, so that no facet turns black and neighbours that
 //! face away from the light still differ. Both sides of the paper are lit alike.
+//!
+//! A colour that stands for a value takes a part of that light only, and none where the facet is seen square on: there it
+//! is the legend's.
 
 use std::sync::LazyLock;
 
@@ -17,6 +20,9 @@ use crate::RecordError;
 
 /// a: what a facet turned away from the light still reflects.
 const AMBIENT: f64 = 0.42;
+
+/// The part of the light that colours of values take.
+const VALUE_LIGHT: f32 = 0.8;
 
 /// l: right, up, towards the viewer.
 const LIGHT: DVec3 = DVec3::new(-0.52, 0.66, 0.54);
@@ -96,8 +102,8 @@ pub(crate) enum Paint {
     Paper,
     /// The colour of marks.
     Mark,
-    /// A colour in linear light that stands for a value: it takes no light, so that a legend tells it.
-    Flat(Vec3),
+    /// A colour in linear light that stands for a value.
+    Value(Vec3),
 }
 
 /// The colours of a [`Style`] in linear light.
@@ -126,6 +132,12 @@ impl Inks {
     pub(crate) fn marked(&self, normal: DVec3) -> Vec3 {
         let seen = if normal.z >= 0.0 { normal } else { -normal };
         self.mark * reflected(seen)
+    }
+
+    /// The colour of a triangle whose value has the colour `light`.
+    pub(crate) fn valued(light: Vec3, normal: DVec3) -> Vec3 {
+        let seen = if normal.z >= 0.0 { normal } else { -normal };
+        light * (1.0 + VALUE_LIGHT * (reflected(seen) / reflected(DVec3::Z) - 1.0))
     }
 
     /// The colour of a line.
@@ -253,6 +265,16 @@ mod tests {
             }
         }
         assert!((reflected(LIGHT.normalize()) - 1.0).abs() < 1e-6);
+    }
+
+    #[test]
+    fn values_seen_square_on_have_the_colour_of_the_legend_and_slants_differ_a_little() {
+        let colour = linear([124, 123, 120]);
+        assert_eq!(Inks::valued(colour, DVec3::Z), colour);
+        assert_eq!(Inks::valued(colour, DVec3::NEG_Z), colour);
+        let toward = Inks::valued(colour, LIGHT.normalize()) / colour;
+        let away = Inks::valued(colour, DVec3::new(0.9, -0.4, 0.1).normalize()) / colour;
+        assert!(toward.x > 1.1 && toward.x < 1.3 && away.x < 0.9 && away.x > 0.65);
     }
 
     #[test]

@@ -9,7 +9,7 @@ pub(crate) const SAMPLES: usize = 16;
 pub(crate) type Mask = u16;
 
 /// How far the corners of a pixel are from its centre.
-const CORNER: f64 = 0.5 * std::f64::consts::SQRT_2;
+pub(crate) const CORNER: f64 = 0.5 * std::f64::consts::SQRT_2;
 
 /// Where the samples of a pixel lie from its centre, x and y: a Hammersley set, which has one in each of the 4 × 4 cells
 /// and in each of 16 rows and columns, so that steep and flat edges get 16 steps where a regular grid has 4.
@@ -80,16 +80,4 @@ pub(crate) fn members(mut mask: Mask) -> impl Iterator<Item = usize> {
         mask &= mask.wrapping_sub(1);
         (k < SAMPLES).then_some(k)
     })
-}
-
-/// The samples of the pixel around `centre` on the positive side of `distance`, a signed distance from a line.
-pub(crate) fn inside(centre: DVec2, distance: impl Fn(DVec2) -> f64) -> Mask {
-    let middle = distance(centre);
-    if middle > CORNER {
-        return Mask::MAX;
-    }
-    if middle < -CORNER {
-        return 0;
-    }
-    mask(&at_samples(centre, distance), |distance| distance >= 0.0)
 }

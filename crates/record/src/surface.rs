@@ -5,11 +5,15 @@
 //! layer order is known: then the order decides. Films ask this at the samples of pixels; figures can ask it at
 //! points of an arrangement of edges. Both get the same answers, from [`Surface::in_front`].
 
-use glam::{DVec2, DVec3};
+mod samples;
 
+use glam::{DVec2, DVec3};
+use pulp::Arch;
+
+use self::samples::{FindLayer, FindLines};
 use crate::screen_face::ScreenFace;
 use crate::segment::Segment;
-use crate::square::{Mask, SAMPLES, Square, at_samples, members, sample};
+use crate::square::{Mask, SAMPLES, Square, members};
 use crate::{Camera, Paper, Style};
 
 /// Triangles of known order closer than this count as coincident, in units of the sheet's `unit_length`.
@@ -109,6 +113,8 @@ pub struct Surface<'a> {
     tie: f64,
     /// Half the width of lines in pixels.
     half_width: f64,
+    /// The instruction set of the machine.
+    arch: Arch,
 }
 
 impl<'a> Surface<'a> {
@@ -145,6 +151,7 @@ impl<'a> Surface<'a> {
             segments,
             tie: TIE_TOLERANCE * sheet.unit_length * camera.scale(),
             half_width,
+            arch: Arch::new(),
         }
     }
 
@@ -328,49 +335,15 @@ impl<'a> Surface<'a> {
         depth
     }
 
-    /// Triangle `face` at the samples of the pixel around `centre`, none where it covers no sample.
-    pub(crate) fn layer(&self, face: u32, centre: DVec2) -> Option<Layer> {
-        let screen = self.face(face);
-        let covered = screen.covered(centre);
-        let mut outlined = 0;
-        let mut outlines = [0.0; SAMPLES];
-        if covered != Mask::MAX && screen.reach > 0.0 {
-            outlined = self.outlined(face, centre, !covered, &mut outlines);
-        }
-        if covered | outlined == 0 {
-            return None;
-        }
-        let mut depths = at_samples(centre, |point| screen.depth(point));
-        for k in members(outlined) {
-            depths[k] = outlines[k];
-        }
-        Some(Layer {
+    /// Adds triangle `face` at the samples of the pixel around `centre` to `layers` where it may be seen.
+    pub(crate) fn find_layer(&self, face: u32, centre: DVec2, layers: &mut Vec<Layer>) {
+        let surface = self;
+        self.arch.dispatch(FindLayer {
+            surface,
             face,
-            covered,
-            outlined,
-            depths,
-        })
-    }
-
-    /// [`Surface::outline_depth`] at the samples `asked` of the pixel around `centre`; answers where there is one.
-    fn outlined(&self, face: u32, centre: DVec2, asked: Mask, depths: &mut [f64; SAMPLES]) -> Mask {
-        let reach = self.half_width + Square::pixel(centre).corner();
-        let mut nearest = [self.half_width * self.half_width; SAMPLES];
-        let mut found = 0;
-        for segment in self.outlines(face) {
-            if segment.nearest(centre).0 > reach * reach {
-                continue;
-            }
-            let distances = at_samples(centre, |point| segment.nearest(point).0);
-            for k in members(asked) {
-                if distances[k] <= nearest[k] {
-                    nearest[k] = distances[k];
-                    depths[k] = segment.depth(segment.nearest(sample(centre, k)).1);
-                    found |= 1 << k;
-                }
-            }
-        }
-        found
+            centre,
+            layers,
+        });
     }
 
     fn outlines(&self, face: u32) -> impl Iterator<Item = &Segment> {
@@ -415,24 +388,13 @@ impl<'a> Surface<'a> {
     /// its samples.
     pub(crate) fn find_lines(&self, edges: &[u32], centre: DVec2, found: &mut Vec<(u32, Mask)>) {
         found.clear();
-        let mut nearest = [self.half_width * self.half_width; SAMPLES];
-        for &edge in edges {
-            if !self.may_have_line(edge, &Square::pixel(centre)) {
-                continue;
-            }
-            let segment = &self.segments[edge as usize];
-            let distances = at_samples(centre, |point| segment.nearest(point).0);
-            let mut nearer = 0;
-            for (k, least) in nearest.iter_mut().enumerate() {
-                let is_nearer = distances[k] < *least;
-                nearer |= Mask::from(is_nearer) << k;
-                *least = if is_nearer { distances[k] } else { *least };
-            }
-            for (_, farther) in &mut *found {
-                *farther &= !nearer;
-            }
-            found.push((edge, nearer));
-        }
+        let surface = self;
+        self.arch.dispatch(FindLines {
+            surface,
+            edges,
+            centre,
+            found,
+        });
     }
 
     /// Whether no other triangle of `list` than `face` is seen in `square`, judged from bounds: true is certain, false

@@ -20,6 +20,7 @@ fn options() -> FilmOptions {
         fps: 20.0,
         seconds: [0.2, 0.3],
         hold: [0.25; 3],
+        is_following: false,
         ..FilmOptions::default()
     }
 }
@@ -60,14 +61,8 @@ fn a_film_reads_back_frame_by_frame_as_the_pictures_it_was_made_of() {
         let positions = positions_at(&motion, shots[frames].time);
         let order = &motion.compact_order;
         let size = options.size;
-        let image = picture(
-            &motion.sheet,
-            &positions,
-            order,
-            &camera,
-            &options.style,
-            size,
-        );
+        let style = shown_style(&motion.sheet, &positions, &camera, &options.style);
+        let image = picture(&motion.sheet, &positions, order, &camera, &style, size);
         let expected = palette.indices(&image.unwrap());
         assert!(canvas == expected, "frame {frames} differs");
         assert_eq!(frame.delay, shots[frames].centiseconds);
@@ -95,6 +90,7 @@ fn the_bytes_are_the_same_for_one_and_two_threads() {
     };
     let options = FilmOptions {
         seconds: [0.0, 1.0],
+        is_following: true,
         ..options()
     };
     let with_threads = |count| {

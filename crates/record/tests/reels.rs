@@ -23,6 +23,7 @@ fn options() -> FilmOptions {
         seconds: [0.2, 0.3],
         hold: [0.1, 0.0, 0.2],
         provenance: "scene square, version 0, hash 12".to_owned(),
+        is_following: false,
         ..FilmOptions::default()
     }
 }
@@ -72,7 +73,8 @@ fn pictures(motion: &Motion, options: &FilmOptions) -> Vec<Image> {
     let draw = |time| {
         let positions = positions_at(motion, time);
         let order = &motion.compact_order;
-        picture(&motion.sheet, &positions, order, &camera, style, size).unwrap()
+        let style = shown_style(&motion.sheet, &positions, &camera, style);
+        picture(&motion.sheet, &positions, order, &camera, &style, size).unwrap()
     };
     let shots = timeline(motion, options).unwrap();
     let repeated = shots.iter().flat_map(|s| vec![s.time; s.repeats as usize]);
@@ -183,6 +185,42 @@ fn captions_and_legends_change_the_picture_and_values_colour_the_facets() {
     let count = |color: [u8; 3]| pixels.chunks(3).filter(|p| **p == color).count();
     // The first and the last colour of the map, on the two facets; the scale holds few pixels of each.
     assert!(count([0, 34, 78]) > 2000 && count([254, 232, 56]) > 2000);
+}
+
+#[test]
+fn a_film_follows_a_sheet_that_grows_unless_it_is_told_not_to_or_aimed() {
+    let mut motion = folding_square(&[0.0, 1.0]);
+    let large = motion.frames[0].positions.clone();
+    motion.frames[0].positions = large.iter().map(|&p| 0.1 * p).collect();
+    motion.frames[1].positions = large;
+    let sheet_pixels = |options: &FilmOptions| {
+        let files = frames(&motion, options, None);
+        let count = |file: &Vec<u8>| {
+            let (pixels, ..) = read(file);
+            pixels.chunks(3).filter(|p| **p != [255; 3]).count()
+        };
+        [&files[0], files.last().unwrap()].map(count)
+    };
+    let still = FilmOptions {
+        seconds: [20.0, 0.3],
+        ..options()
+    };
+    let following = FilmOptions {
+        is_following: true,
+        ..still.clone()
+    };
+    let aimed = FilmOptions {
+        width: Some(2.0),
+        ..following.clone()
+    };
+    let ([small, all], [near, whole]) = (sheet_pixels(&still), sheet_pixels(&following));
+    assert_eq!(whole, all, "the last state fills the picture either way");
+    assert!(near > 10 * small && 10 * near > all, "{small} {near} {all}");
+    let not_following = FilmOptions {
+        width: Some(2.0),
+        ..still
+    };
+    assert_eq!(sheet_pixels(&aimed), sheet_pixels(&not_following));
 }
 
 #[test]

@@ -9,9 +9,9 @@ use serde::{Deserialize, Serialize};
 pub struct RecordScene {
     /// `fold`, `gif` and `csv` where left out.
     pub outputs: Option<Vec<OutputChoice>>,
-    /// Pixels across and down; [960, 720] where left out.
+    /// Pixels across and down; where left out [960, 720] if `mp4` or `png` are written, else [640, 480].
     pub size: Option<[i64; 2]>,
-    /// Film frames a second; 30 where left out.
+    /// Film frames a second; where left out 30 if `mp4` or `png` are written, else 12.5.
     pub fps: Option<f64>,
     /// Seconds a stage; [3, 5] where left out.
     pub seconds: Option<[f64; 2]>,
@@ -22,6 +22,9 @@ pub struct RecordScene {
     pub playback: Option<LoopChoice>,
     /// Where the viewer stands: a preset, or angles; `iso` where left out.
     pub camera: Option<CameraScene>,
+    /// Whether films come nearer where the sheet is small, so that it fills a fair part of the picture; true where left out.
+    /// With false all states have one scale. A camera with centre or width stays where it is.
+    pub follow: Option<bool>,
     /// What colours show; `paper` where left out.
     pub colour: Option<ColourChoice>,
     /// Whether the pictures of `png` and the figures have no background; false where left out.
@@ -38,6 +41,28 @@ pub struct RecordScene {
     /// Whether figures show the box of the compact state, its sizes and its closed form; true where left out.
     #[serde(rename = "box")]
     pub bounds: Option<bool>,
+    /// Whether figures give h, w and the width W of a sheet of equal units at the planar state; true where left out.
+    pub dimensions: Option<bool>,
+    /// The size of letters in figures, millimetres; 2.4 where left out.
+    pub letters: Option<f64>,
+}
+
+/// Pixels and frames a second of a GIF alone: drawing and packing it costs about as much as folding.
+const GIF_FILM: ([u32; 2], f64) = ([640, 480], 12.5);
+
+/// The same of films that are also written as MP4 or pictures.
+const FULL_FILM: ([u32; 2], f64) = ([960, 720], 30.0);
+
+impl RecordScene {
+    /// Pixels across and down, and frames a second, of films where the scene leaves them out.
+    pub fn standard_film(&self) -> ([u32; 2], f64) {
+        let is_full = |output| matches!(output, &OutputChoice::Mp4 | &OutputChoice::Png);
+        if self.outputs.iter().flatten().any(is_full) {
+            FULL_FILM
+        } else {
+            GIF_FILM
+        }
+    }
 }
 
 /// The files a run writes beside its report.

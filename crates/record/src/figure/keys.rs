@@ -14,6 +14,10 @@ const ROW: [f64; 2] = [3.6, 2.0];
 /// The colour of bars and ticks.
 const INK: [u8; 3] = [38, 38, 42];
 
+/// The radius of a ring in sizes of letters, and its sides.
+const RING: f64 = 0.5;
+const RING_SIDES: u32 = 32;
+
 /// Steps of the colour scale.
 const STEPS: u32 = 64;
 
@@ -24,6 +28,7 @@ const BAR: f64 = 0.2;
 enum Key<'a> {
     Line(Assignment, &'static str),
     Mark,
+    Spot,
     Values(&'a Legend),
 }
 
@@ -32,7 +37,7 @@ impl Key<'_> {
     fn sample(&self) -> f64 {
         match self {
             Self::Line(..) => 3.5,
-            Self::Mark => 1.6,
+            Self::Mark | Self::Spot => 1.6,
             Self::Values(_) => 14.0,
         }
     }
@@ -41,6 +46,7 @@ impl Key<'_> {
         match self {
             Self::Line(_, words) => words,
             Self::Mark => "penetrating",
+            Self::Spot => "penetrates first here",
             // The title stands above.
             Self::Values(_) => "",
         }
@@ -66,6 +72,9 @@ fn keys<'a>(poses: &[Pose<'_>], options: &'a StripOptions) -> Vec<Key<'a>> {
     }
     if poses.iter().any(|pose| pose.marked.contains(&true)) {
         keys.push(Key::Mark);
+    }
+    if poses.iter().any(|pose| pose.spot.is_some()) {
+        keys.push(Key::Spot);
     }
     keys.extend(options.legend.as_ref().map(Key::Values));
     keys
@@ -172,17 +181,30 @@ fn draw_key(
         Key::Line(assignment, _) => {
             let color = options.style.line(*assignment);
             let width = 1.5 * layout.line_width;
-            let stroke = options.lines.stroke(*assignment, color, width);
+            let stroke = options.lines.stroke(*assignment, color, width, 0);
             drawing.lines(vec![[at, end]], stroke);
         }
         Key::Mark => {
             let ring = [at - half, end - half, end + half, at + half];
             drawing.area(ring, options.style.mark);
         }
+        Key::Spot => ring(drawing, 0.5 * (at + end), options.style.mark, letters),
         Key::Values(legend) => return values(drawing, legend, [at, end], letters),
     }
     let beside = end + DVec2::new(0.5 * letters, 0.35 * letters);
     drawing.words(beside, key.words(), letters, Anchor::Start);
+}
+
+/// A ring around `centre`, between light lines so that it shows on any ground.
+pub(super) fn ring(drawing: &mut Drawing, centre: DVec2, color: [u8; 3], letters: f64) {
+    let point = |k: u32| {
+        let turn = f64::from(k) / f64::from(RING_SIDES) * std::f64::consts::TAU;
+        centre + DVec2::from_angle(turn) * (RING * letters)
+    };
+    for (color, width) in [([u8::MAX; 3], 0.35), (color, 0.18)] {
+        let stroke = Stroke::new(color, width * letters);
+        drawing.line((0..=RING_SIDES).map(point), stroke);
+    }
 }
 
 /// The colours between two points, the title above, the range below.

@@ -2,15 +2,19 @@
 
 use glam::DVec2;
 
+use super::measure::measures;
 use super::{Pose, StripOptions, UNIT, keys};
-use crate::RecordError;
 use crate::drawing::words_width;
+use crate::{Camera, RecordError};
 
 /// The distance of lines of text, in sizes of letters.
 pub(super) const LINE: f64 = 1.25;
 
-/// Kept free at the page's border and between states, in sizes of letters.
+/// Kept free at the page's border and below states, in sizes of letters.
 const GAP: f64 = 1.0;
+
+/// Kept free between states, in sizes of letters: what is written below and beside them must not run together.
+const BETWEEN: f64 = 1.6;
 
 /// Halvings in the search for the scale: beyond the digits of an f64.
 const HALVINGS: usize = 60;
@@ -21,6 +25,8 @@ pub(super) struct Cell {
     /// The left upper corner.
     pub(super) at: DVec2,
     pub(super) size: DVec2,
+    /// Where the middle of the extent stands.
+    pub(super) middle: DVec2,
     /// Across the view, to the right and up: the middle of what is shown there, in the sheet's unit of length.
     pub(super) extent: [DVec2; 2],
 }
@@ -44,8 +50,9 @@ pub(super) struct Layout {
 #[derive(Debug)]
 struct Need {
     extent: [DVec2; 2],
-    /// Room for the words at the box on each side.
-    margin: DVec2,
+    /// What is written beside the state: where it stands from the middle of the extent at one unit a length, and its box
+    /// there.
+    beside: Vec<(DVec2, [DVec2; 2])>,
     /// The width of the text below.
     text: f64,
     lines: usize,
@@ -62,30 +69,39 @@ impl Need {
             text = f64::max(text, words_width(line, letters)?);
             lines += 1;
         }
-        let mut widest: f64 = 0.0;
-        for size in pose.bounds.iter().flat_map(|bounds| &bounds.sizes) {
-            widest = widest.max(words_width(size, letters)?);
+        let mut beside = Vec::new();
+        if pose.bounds.is_some() || !pose.dimensions.is_empty() {
+            let camera = Camera::centred(options.view, extent, [1, 1], 1.0)?;
+            for measure in measures(pose, &camera) {
+                let boxes = measure.boxes(letters)?;
+                let from_middle = |(place, around)| (place - DVec2::splat(0.5), around);
+                beside.extend(boxes.map(from_middle));
+            }
         }
-        let margin = if widest > 0.0 {
-            DVec2::new(widest + letters, 1.6 * letters)
-        } else {
-            DVec2::ZERO
-        };
         Ok(Self {
             extent,
-            margin,
+            beside,
             text,
             lines,
         })
     }
 
-    /// At `scale`, without the text.
-    fn size(&self, scale: f64) -> DVec2 {
-        (self.extent[1] - self.extent[0]) * scale + 2.0 * self.margin
+    /// All that is shown at `scale` around the middle of the extent, but for the height of the text below.
+    fn around(&self, scale: f64) -> [DVec2; 2] {
+        let half = 0.5 * scale * (self.extent[1] - self.extent[0]);
+        let text = DVec2::new(0.5 * self.text, 0.0);
+        let mut around = [-half.max(text), half.max(text)];
+        for (place, [low, high]) in &self.beside {
+            // What stands on the far side would let a larger scale need less room.
+            around[0] = around[0].min(scale * place.min(DVec2::ZERO) + *low);
+            around[1] = around[1].max(scale * place.max(DVec2::ZERO) + *high);
+        }
+        around
     }
 
-    fn width(&self, scale: f64) -> f64 {
-        self.size(scale).x.max(self.text)
+    fn size(&self, scale: f64) -> DVec2 {
+        let [low, high] = self.around(scale);
+        high - low
     }
 }
 
@@ -164,8 +180,8 @@ fn fitting_scale(rows: &[&[Need]], room: [f64; 2], letters: f64) -> Option<f64> 
 }
 
 fn row_width(row: &[Need], scale: f64, letters: f64) -> f64 {
-    let gaps = GAP * letters * (row.len() - 1) as f64;
-    gaps + row.iter().map(|need| need.width(scale)).sum::<f64>()
+    let gaps = BETWEEN * letters * (row.len() - 1) as f64;
+    gaps + row.iter().map(|need| need.size(scale).x).sum::<f64>()
 }
 
 fn row_height(row: &[Need], scale: f64, letters: f64) -> f64 {
@@ -178,16 +194,18 @@ fn row_height(row: &[Need], scale: f64, letters: f64) -> f64 {
 fn place_row(row: &[Need], [inner, top, gap]: [f64; 3], scale: f64, cells: &mut Vec<Cell>) {
     let high = row.iter().map(|need| need.size(scale).y);
     let high = high.fold(0.0, f64::max);
-    let used: f64 = row.iter().map(|need| need.width(scale)).sum();
+    let used: f64 = row.iter().map(|need| need.size(scale).x).sum();
     let between = (inner - used) / row.len() as f64;
     let mut left = gap + 0.5 * between;
     for need in row {
-        let (size, width) = (need.size(scale), need.width(scale));
+        let size = need.size(scale);
+        let at = DVec2::new(left, top + high - size.y);
         cells.push(Cell {
-            at: DVec2::new(left, top + high - size.y),
-            size: DVec2::new(width, size.y),
+            at,
+            size,
+            middle: at - need.around(scale)[0],
             extent: need.extent,
         });
-        left += width + between;
+        left += size.x + between;
     }
 }

@@ -9,12 +9,14 @@ mod bounds;
 mod keys;
 mod layout;
 mod look;
+mod measure;
 mod paint;
 mod pose;
 
 use glam::DVec2;
 
 pub use self::look::LineStyle;
+pub use self::measure::Dimension;
 pub use self::pose::{Bounds, Pose};
 
 use self::layout::Layout;
@@ -148,10 +150,9 @@ pub fn strip(
             layout: &layout,
         };
         painter.paint(&mut drawing, pose, cell)?;
-        let middle = cell.at.x + 0.5 * cell.size.x;
         for (line, text) in pose.captions().enumerate() {
             let y = cell.at.y + cell.size.y + layout.letters * (1.2 + layout::LINE * line as f64);
-            let at = DVec2::new(middle, y);
+            let at = DVec2::new(cell.middle.x, y);
             drawing.words(at, text, layout.letters, Anchor::Middle);
         }
     }

@@ -2,12 +2,15 @@
 
 use std::collections::BTreeMap;
 
-use foldmotion_pattern::Assignment;
+use foldmotion_pattern::{Assignment, Edge};
 use glam::{DVec2, DVec3};
 
+use super::keys::ring;
 use super::layout::{Cell, Layout};
+use super::measure::measures;
 use super::{Pose, StripOptions};
-use crate::shade::encoded;
+use crate::line_width::line_width;
+use crate::shade::{Inks, encoded, linear};
 use crate::visible::{doubled_area, perimeter};
 use crate::{
     Camera, Drawing, Paper, RecordError, Stroke, Style, Surface, Visible, VisibleLine, colour_of,
@@ -45,7 +48,7 @@ impl Painter<'_> {
     ) -> Result<(), RecordError> {
         let (options, scale) = (self.options, self.layout.scale);
         let camera = Camera::centred(options.view, cell.extent, [1, 1], scale)?;
-        let shift = cell.at + 0.5 * cell.size - DVec2::splat(0.5);
+        let shift = cell.middle - DVec2::splat(0.5);
         let place = |point: DVec3| camera.project(point).truncate() + shift;
         let style = Style {
             line_width: 0.0,
@@ -56,10 +59,29 @@ impl Painter<'_> {
         if let Some(bounds) = &pose.bounds {
             self.back_of_box(drawing, bounds, &camera, shift);
         }
-        self.areas(drawing, pose, &surface, &visible, shift);
-        self.lines(drawing, pose, &surface, &visible, shift);
+        let widest = self.layout.line_width;
+        let width = line_width(self.paper.sheet, &pose.positions, &camera, widest);
+        let seen = Seen {
+            surface: &surface,
+            visible: &visible,
+            shift,
+            width,
+        };
+        self.areas(drawing, pose, &seen);
+        self.lines(drawing, pose, &seen);
         if let Some(bounds) = &pose.bounds {
             self.front_of_box(drawing, bounds, &camera, shift);
+        }
+        for measure in measures(pose, &camera) {
+            measure.draw(drawing, shift, self.layout.letters, self.layout.line_width);
+        }
+        if let Some(spot) = pose.spot {
+            ring(
+                drawing,
+                place(spot),
+                options.style.mark,
+                self.layout.letters,
+            );
         }
         if pose.target.len() > 1 {
             let width = 2.0 * self.layout.line_width;
@@ -69,14 +91,8 @@ impl Painter<'_> {
         Ok(())
     }
 
-    fn areas(
-        &self,
-        drawing: &mut Drawing,
-        pose: &Pose<'_>,
-        surface: &Surface<'_>,
-        visible: &Visible,
-        shift: DVec2,
-    ) {
+    fn areas(&self, drawing: &mut Drawing, pose: &Pose<'_>, seen: &Seen<'_>) {
+        let (surface, visible, shift) = (seen.surface, seen.visible, seen.shift);
         let inks = self.options.style.inks();
         let color = |face: usize| {
             let normal = surface.face(face as u32).normal;
@@ -87,7 +103,10 @@ impl Painter<'_> {
                 .values
                 .get(face)
                 .and_then(|&value| self.color_of(value));
-            value.unwrap_or_else(|| encoded(inks.paper(normal)))
+            encoded(match value {
+                Some(color) => Inks::valued(linear(color), normal),
+                None => inks.paper(normal),
+            })
         };
         for level in visible.areas.chunk_by(|a, b| a.level == b.level) {
             // One path a colour keeps files small.
@@ -108,32 +127,28 @@ impl Painter<'_> {
         }
     }
 
-    fn lines(
-        &self,
-        drawing: &mut Drawing,
-        pose: &Pose<'_>,
-        surface: &Surface<'_>,
-        visible: &Visible,
-        shift: DVec2,
-    ) {
-        let (options, width) = (self.options, self.layout.line_width);
-        for level in visible.lines.chunk_by(|a, b| a.level == b.level) {
+    fn lines(&self, drawing: &mut Drawing, pose: &Pose<'_>, seen: &Seen<'_>) {
+        let (options, width) = (self.options, seen.width);
+        for level in seen.visible.lines.chunk_by(|a, b| a.level == b.level) {
             // The border comes last, where it goes over the ends of creases.
-            let mut looks: BTreeMap<(u8, [u8; 3]), Look> = BTreeMap::new();
-            for line in level.iter().filter(|line| self.has_room(line, surface)) {
-                let assignment = self.paper.sheet.edges[line.edge as usize].assignment;
+            let mut looks: BTreeMap<(u8, [u8; 3], usize), Look> = BTreeMap::new();
+            for line in level.iter().filter(|line| self.has_room(line, seen)) {
+                let edge = &self.paper.sheet.edges[line.edge as usize];
+                let assignment = edge.assignment;
                 let value = pose.bars.get(line.edge as usize);
                 let value = value.and_then(|&value| self.color_of(value));
-                let (rank, stroke) = if let Some(color) = value {
-                    (4, Stroke::new(color, 3.0 * width))
+                let (rank, step, stroke) = if let Some(color) = value {
+                    (4, 0, Stroke::new(color, 3.0 * width))
                 } else {
                     let color = options.style.line(assignment);
-                    let stroke = options.lines.stroke(assignment, color, width);
-                    (rank(assignment), stroke)
+                    let [start, end] = seen.ends(edge);
+                    let step = options.lines.step(assignment, width, start.distance(end));
+                    let stroke = options.lines.stroke(assignment, color, width, step);
+                    (rank(assignment), step, stroke)
                 };
-                let look = looks.entry((rank, stroke.color));
+                let look = looks.entry((rank, stroke.color, step));
                 let (_, parts) = look.or_insert_with(|| (stroke, Vec::new()));
-                parts.push(line.ends.map(|p| p + shift));
+                parts.push(line.ends.map(|p| p + seen.shift));
             }
             for (stroke, parts) in looks.into_values() {
                 drawing.lines(parts, stroke);
@@ -143,7 +158,8 @@ impl Painter<'_> {
 
     /// Whether `line` has room beside it on the screen: creases of facets seen nearly edge-on would run together to a
     /// blot. What bounds the shape always has.
-    fn has_room(&self, line: &VisibleLine, surface: &Surface<'_>) -> bool {
+    fn has_room(&self, line: &VisibleLine, shown: &Seen<'_>) -> bool {
+        let surface = shown.surface;
         let edge = &self.paper.sheet.edges[line.edge as usize];
         let [Some(left), Some(right)] = edge.faces else {
             return true;
@@ -151,15 +167,13 @@ impl Painter<'_> {
         if surface.face(left).faces_viewer() != surface.face(right).faces_viewer() {
             return true;
         }
-        let [start, end] = edge
-            .vertices
-            .map(|v| surface.points()[v as usize].truncate());
+        let [start, end] = shown.ends(edge);
         let along = (end - start).normalize_or_zero();
         let sides = [left, right].into_iter().zip(line.seen);
         sides.filter(|side| side.1).any(|(face, _)| {
             let apex = self.paper.sheet.apex(face, edge);
             let apex = apex.map_or(start, |v| surface.points()[v as usize].truncate());
-            along.perp_dot(apex - start).abs() > ROOM * self.layout.line_width
+            along.perp_dot(apex - start).abs() > ROOM * shown.width
         })
     }
 
@@ -168,6 +182,24 @@ impl Painter<'_> {
         let [low, high] = self.options.legend.as_ref()?.range;
         let part = (value - low) / (high - low);
         (!part.is_nan()).then(|| colour_of(part))
+    }
+}
+
+/// A state on the page.
+struct Seen<'a> {
+    surface: &'a Surface<'a>,
+    visible: &'a Visible,
+    /// From the screen to the page.
+    shift: DVec2,
+    /// Of its lines.
+    width: f64,
+}
+
+impl Seen<'_> {
+    /// The ends of `edge` on the screen.
+    fn ends(&self, edge: &Edge) -> [DVec2; 2] {
+        let points = self.surface.points();
+        edge.vertices.map(|v| points[v as usize].truncate())
     }
 }
 

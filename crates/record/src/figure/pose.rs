@@ -3,6 +3,7 @@
 use foldmotion_pattern::{LayerOrder, Motion, Sheet};
 use glam::DVec3;
 
+use super::measure::Dimension;
 use crate::caption::stage;
 use crate::{Marks, RecordError, positions_at};
 
@@ -38,6 +39,10 @@ pub struct Pose<'a> {
     pub target: Vec<DVec3>,
     /// The box around the state.
     pub bounds: Option<Bounds>,
+    /// Lengths written beside it.
+    pub dimensions: Vec<Dimension>,
+    /// A point that takes a ring.
+    pub spot: Option<DVec3>,
 }
 
 impl<'a> Pose<'a> {
@@ -52,6 +57,8 @@ impl<'a> Pose<'a> {
             bars: Vec::new(),
             target: Vec::new(),
             bounds: None,
+            dimensions: Vec::new(),
+            spot: None,
         }
     }
 
@@ -68,6 +75,7 @@ impl<'a> Pose<'a> {
         };
         Self {
             marked,
+            spot: marks.spot_at(&motion.sheet, &positions, time),
             ..Self::new(positions, &motion.compact_order, label)
         }
     }
@@ -89,7 +97,9 @@ impl<'a> Pose<'a> {
             }
         }
         let corners = self.bounds.iter().flat_map(|b| [b.low, b.high]);
-        let mut points = self.target.iter().copied().chain(corners).enumerate();
+        let ends = (self.dimensions.iter()).flat_map(|d| [d.ends[0], d.ends[1], d.inside]);
+        let others = corners.chain(ends).chain(self.spot);
+        let mut points = self.target.iter().copied().chain(others).enumerate();
         match points.find(|(_, p)| !p.is_finite()) {
             None => Ok(()),
             Some((vertex, position)) => Err(RecordError::NotFinite {
@@ -104,7 +114,8 @@ impl<'a> Pose<'a> {
     pub(super) fn points(&self) -> impl Iterator<Item = DVec3> {
         let corners = self.bounds.iter().flat_map(Bounds::corners);
         let points = self.positions.iter().chain(&self.target).copied();
-        points.chain(corners)
+        let ends = self.dimensions.iter().flat_map(|d| d.ends);
+        points.chain(corners).chain(ends)
     }
 
     /// The lines of text below the state.

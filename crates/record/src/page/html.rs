@@ -25,7 +25,8 @@ pub(super) fn data(value: &Value) -> String {
     value.to_string().replace('<', "\\u003c")
 }
 
-/// A table of texts; the first column holds the names of the rows.
+/// A table of texts; the first column holds the names of the rows. Each cell knows the name of its column: a narrow page
+/// shows cells as lines.
 pub(super) fn table(caption: &str, head: &[&str], rows: &[Vec<String>]) -> String {
     let mut html = format!(
         "<div class=\"wide\"><table>\n<caption>{}</caption>\n<thead><tr>",
@@ -40,9 +41,11 @@ pub(super) fn table(caption: &str, head: &[&str], rows: &[Vec<String>]) -> Strin
         html.push_str("<tr>");
         for (column, cell) in row.iter().enumerate() {
             let cell = escaped(cell);
-            let _ = match column {
-                0 => write!(html, "<th scope=\"row\">{cell}</th>"),
-                _ => write!(html, "<td>{cell}</td>"),
+            let _ = if column == 0 {
+                write!(html, "<th scope=\"row\">{cell}</th>")
+            } else {
+                let name = escaped(head.get(column).copied().unwrap_or_default());
+                write!(html, "<td data-name=\"{name}\">{cell}</td>")
             };
         }
         html.push_str("</tr>\n");

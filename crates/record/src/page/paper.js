@@ -38,12 +38,16 @@ out vec4 colour;
 
 const vec3 LIGHT = vec3(-0.52, 0.66, 0.54);
 
-float reflected() {
-    float wrapped = 0.5 + 0.5 * dot(normalize(vSeen), normalize(LIGHT));
+float reflected(vec3 seen) {
+    float wrapped = 0.5 + 0.5 * dot(seen, normalize(LIGHT));
     return 0.42 + 0.58 * wrapped * wrapped;
 }
 
+// Creases over colours that stand for values: sRGB 176, 176, 180.
+const vec3 NEUTRAL = vec3(0.434, 0.434, 0.456);
+
 vec3 ink(float kind) {
+    if (vPaint.a > 0.75 && kind < 2.5) return NEUTRAL;
     return kind < 1.5 ? mountain : kind < 2.5 ? valley : border;
 }
 
@@ -52,14 +56,19 @@ vec3 encoded(vec3 light) {
 }
 
 void main() {
-    vec3 light = (vSide < 0.0 ? back : front) * reflected();
-    if (vPaint.a > 0.75) light = vPaint.rgb;
-    else if (vPaint.a > 0.25) light = mark * reflected();
+    float part = reflected(normalize(vSeen));
+    vec3 light = (vSide < 0.0 ? back : front) * part;
+    // Square on, a value has the colour of the legend.
+    if (vPaint.a > 0.75) light = vPaint.rgb * (1.0 + 0.8 * (part / reflected(vec3(0.0, 0.0, 1.0)) - 1.0));
+    else if (vPaint.a > 0.25) light = mark * part;
     vec3 slopeX = dFdx(vCorner), slopeY = dFdy(vCorner);
-    vec3 away = vCorner / max(sqrt(slopeX * slopeX + slopeY * slopeY), vec3(1e-9));
+    // The heights of the triangle over its sides, in pixels: lines leave room for paper between them.
+    vec3 heights = 1.0 / max(sqrt(slopeX * slopeX + slopeY * slopeY), vec3(1e-9));
+    vec3 away = vCorner * heights;
     for (int i = 0; i < 3; i += 1) {
         // A crease has a half in each of its triangles, the border all in one.
-        float reach = vLine[i] < 2.5 ? halfWidth : 2.0 * halfWidth;
+        float room = clamp(0.06 * heights[i], 0.25 * halfWidth, halfWidth);
+        float reach = vLine[i] < 2.5 ? room : 2.0 * room;
         float cover = 1.0 - smoothstep(reach - 0.5, reach + 0.5, away[i]);
         if (vLine[i] > 0.5 && halfWidth > 0.0) light = mix(light, ink(vLine[i]), cover);
     }

@@ -6,7 +6,7 @@
 use foldmotion_pattern::{
     Assignment, CreaseKind, Edge, Facet, FacetKind, Frame, LayerOrder, Motion, Sheet,
 };
-use foldmotion_record::{Camera, Image, Style, View, picture};
+use foldmotion_record::{Camera, Image, Style, View, line_width, picture};
 use glam::{DVec2, DVec3};
 
 /// The picture's size in most tests.
@@ -129,5 +129,18 @@ pub(crate) fn folding_square(times: &[f64]) -> Motion {
         frames: times.iter().map(frame).collect(),
         compact_order: LayerOrder::default(),
         sheet,
+    }
+}
+
+/// `style` with lines as narrow as a film draws them.
+pub(crate) fn shown_style(
+    sheet: &Sheet,
+    positions: &[DVec3],
+    camera: &Camera,
+    style: &Style,
+) -> Style {
+    Style {
+        line_width: line_width(sheet, positions, camera, style.line_width),
+        ..style.clone()
     }
 }

@@ -3,19 +3,17 @@
 use std::io::Write as _;
 
 use foldmotion_record::{
-    Bounds, Drawing, FilmOptions, LineStyle, Pose, Provenance, RecordError, StripOptions, strip,
+    Bounds, Dimension, Drawing, FilmOptions, LineStyle, Pose, Provenance, RecordError,
+    StripOptions, strip,
 };
 use glam::{DVec2, DVec3};
 
 use super::colours::legend;
-use super::{Quantity, Recorder, Shown, turned};
+use super::{Quantity, Recorder, Shown, UnitSizes, turned};
 use crate::StudyError;
 use crate::results::{Results, write_error};
 use crate::run::VERSION;
 use crate::scene::{ColourChoice, OutputChoice};
-
-/// The size of letters, millimetres: that of captions in print.
-const LETTERS: f64 = 2.4;
 
 /// States in a row, at most.
 const COLUMNS: usize = 5;
@@ -60,7 +58,7 @@ impl Recorder<'_> {
             legend: values.map(legend),
             // All creases look alike over colours that stand for values.
             has_key: values.is_none(),
-            letters: LETTERS,
+            letters: recording.letters,
             ..StripOptions::default()
         };
         if recording.colour == ColourChoice::Grey {
@@ -97,8 +95,17 @@ impl Recorder<'_> {
             && self.recording.film.centre.is_none()
         {
             pose.positions = turned(known, time, &pose.positions);
+            pose.spot = self
+                .marks
+                .spot_at(&self.motion.sheet, &pose.positions, time);
             if self.recording.has_profile && time == 0.0 {
                 pose.target.clone_from(&known.profile);
+            }
+            if let Some(units) = known
+                .units
+                .filter(|_| self.recording.has_dimensions && time == 1.0)
+            {
+                pose.dimensions = self.dimensions(units, &pose.positions);
             }
         }
         if self.recording.has_box && time >= 2.0 {
@@ -107,11 +114,36 @@ impl Recorder<'_> {
         pose
     }
 
+    /// h and W with w at the edges of the planar state, which lies along the axes with its rows along x.
+    fn dimensions(&self, units: UnitSizes, positions: &[DVec3]) -> Vec<Dimension> {
+        let [low, high] = ends(positions);
+        let UnitSizes {
+            width,
+            height,
+            columns,
+        } = units;
+        let name = self.unit;
+        let of_units = if columns > 1 {
+            format!("W = {columns} w = {} {name}", short(width * columns as f64))
+        } else {
+            format!("w = {} {name}", short(width))
+        };
+        let dimension = |from: DVec3, to: DVec3, words: String| Dimension {
+            ends: [from, to],
+            inside: 0.5 * (low + high),
+            words,
+        };
+        let row = low + height * DVec3::X;
+        let corner = DVec3::new(high.x, low.y, low.z);
+        vec![
+            dimension(low, row, format!("h = {} {name}", short(height))),
+            dimension(corner, DVec3::new(high.x, high.y, low.z), of_units),
+        ]
+    }
+
     /// The box around the compact state, which lies along the axes.
     fn bounds(&self, positions: &[DVec3]) -> Bounds {
-        let points = || positions.iter().copied();
-        let low = points().fold(DVec3::INFINITY, DVec3::min);
-        let high = points().fold(DVec3::NEG_INFINITY, DVec3::max);
+        let [low, high] = ends(positions);
         let unit = self.unit;
         let closed_form = self.known.as_ref().and_then(|known| known.closed_form);
         let words = closed_form.map(|form| {
@@ -127,6 +159,13 @@ impl Recorder<'_> {
             words: words.unwrap_or_default(),
         }
     }
+}
+
+/// The corners of the box around `positions`.
+fn ends(positions: &[DVec3]) -> [DVec3; 2] {
+    let points = || positions.iter().copied();
+    let low = points().fold(DVec3::INFINITY, DVec3::min);
+    [low, points().fold(DVec3::NEG_INFINITY, DVec3::max)]
 }
 
 /// What an aimed camera shows, across the view.

@@ -2,13 +2,19 @@
 
 use std::fs;
 
-use foldmotion_record::{FilmOptions, Frames, Gif, Mp4, Reel, Scene, film};
+use foldmotion_record::{FilmOptions, Frames, Gif, Mp4, Reel, Scene, Style, film};
 
 use super::{Recorder, Shown};
 use crate::StudyError;
 use crate::results::{FRAMES, Results};
 use crate::run::{Phase, Progress};
 use crate::scene::OutputChoice;
+
+/// The shorter side of pictures in which lines have the width of their style; in others they are in proportion.
+const STYLED_SIDE: f64 = 720.0;
+
+/// The narrowest widest line in pixels.
+const NARROWEST: f64 = 0.5;
 
 impl Recorder<'_> {
     pub(super) fn films(
@@ -45,12 +51,17 @@ impl Recorder<'_> {
             marks: &self.marks,
             values,
         };
+        let film_options = &self.recording.film;
         let options = FilmOptions {
+            style: Style {
+                line_width: line_width(film_options),
+                ..film_options.style.clone()
+            },
             provenance: self.origin.text(),
             ending: self.ending.clone(),
             // Only pictures can show through.
-            is_transparent: self.recording.film.is_transparent && has(OutputChoice::Png),
-            ..self.recording.film.clone()
+            is_transparent: film_options.is_transparent && has(OutputChoice::Png),
+            ..film_options.clone()
         };
         film(scene, &options, &mut reels, &|done| {
             progress(Phase::Record, done)
@@ -58,5 +69,32 @@ impl Recorder<'_> {
         drop(frames);
         results.add(names);
         Ok(())
+    }
+}
+
+/// The widest lines of a film, pixels: small and large films of a motion look alike.
+fn line_width(film: &FilmOptions) -> f64 {
+    let [across, down] = film.size.map(f64::from);
+    let width = film.style.line_width;
+    (width * across.min(down) / STYLED_SIDE).max(NARROWEST.min(width))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lines_are_in_proportion_to_the_picture_and_never_vanish() {
+        let width = |size| {
+            line_width(&FilmOptions {
+                size,
+                ..FilmOptions::default()
+            })
+        };
+        let standard = FilmOptions::default().style.line_width;
+        assert_eq!(width([960, 720]), standard);
+        assert_eq!(width([1440, 2000]), 2.0 * standard);
+        assert_eq!(width([640, 480]), standard * 480.0 / 720.0);
+        assert_eq!(width([64, 48]), NARROWEST);
     }
 }

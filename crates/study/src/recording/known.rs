@@ -22,6 +22,19 @@ pub(crate) struct Known {
     pub(crate) closed_form: Option<CompactBox>,
     /// Γ beside the deployed state.
     pub(crate) profile: Vec<DVec3>,
+    /// The sizes of the units, where all are equal.
+    pub(crate) units: Option<UnitSizes>,
+}
+
+/// The sizes of a sheet of equal units.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct UnitSizes {
+    /// w.
+    pub(crate) width: f64,
+    /// h.
+    pub(crate) height: f64,
+    /// Nc.
+    pub(crate) columns: usize,
 }
 
 impl UnitStudy {
@@ -30,7 +43,13 @@ impl UnitStudy {
             let p = self.profile.position(f64::from(k) / f64::from(POINTS));
             DVec3::new(p.x, 0.0, p.y)
         };
+        let sizes = || UnitSizes {
+            width: self.units.unit.width,
+            height: self.units.unit.height,
+            columns: self.units.columns,
+        };
         Known {
+            units: self.units.has_equal_rows().then(sizes),
             deployed: self.deployed.clone(),
             planar: self.units.sheet.planar(),
             compact: self.units.compact(),

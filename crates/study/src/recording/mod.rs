@@ -26,7 +26,7 @@ pub use self::motion_file::{MotionRecord, record_file};
 pub(crate) use self::motion_file::{ReadMotion, stage_time};
 
 pub use self::colours::Quantity;
-pub(crate) use self::known::{Known, turned};
+pub(crate) use self::known::{Known, UnitSizes, turned};
 use self::origin::Origin;
 use self::page::Beside;
 
@@ -50,6 +50,10 @@ pub struct Recording {
     pub has_profile: bool,
     /// Whether figures show the compact box.
     pub has_box: bool,
+    /// Whether figures give the sizes of the sheet of units.
+    pub has_dimensions: bool,
+    /// The size of letters in figures, millimetres.
+    pub letters: f64,
     /// The scene with its title, which recorded files carry.
     pub(crate) scene: Scene,
 }

@@ -193,7 +193,7 @@ impl ReadMotion {
         let mut results = Results::of(folder, ours(&recording), None)?;
         let frames = self.motion.frames.len();
         results.require(recording.space(&self.motion.sheet, frames))?;
-        let marks = judged.map(|collision| marks(&self.motion, collision));
+        let marks = judged.map(|collision| marks(&self.motion, collision, |time| time));
         let is_judged = self.is_judged || marks.is_some();
         let marks = marks.unwrap_or_else(|| self.marks.clone());
         self.record(&recording, marks, &mut results, progress)?;
@@ -307,19 +307,14 @@ fn judged(path: &Path, motion: &Motion, sha256: &str, has_times: bool) -> Option
     if !is_of_motion {
         return None;
     }
-    if has_times {
-        return Some(marks(motion, &report));
-    }
     // The certificate counts frames where the file gives no times.
-    let spans = foldmotion_check::penetration_spans(motion, &report);
-    let mut staged = Marks::default();
-    for span in spans {
-        let [from, to] = [span.from, span.to].map(|index| stage_time(index, frames));
-        span.faces
-            .into_iter()
-            .for_each(|face| staged.insert(face, from, to));
-    }
-    Some(staged)
+    Some(marks(motion, &report, |time| {
+        if has_times {
+            time
+        } else {
+            stage_time(time, frames)
+        }
+    }))
 }
 
 /// Times that are numbers of frames become one stage, from planar to compact.

@@ -1,5 +1,7 @@
 //! From `[record]` to a [`Recording`], with errors that name the key.
 
+use std::ops::RangeInclusive;
+
 use foldmotion_record::{FilmOptions, Mp4, Playback, RecordError, Style, View};
 use glam::DVec3;
 
@@ -13,24 +15,28 @@ use crate::study::Resolver;
 /// The states of a figure, at most.
 const MOST_STATES: usize = 100;
 
-/// The colour of creases over colours that stand for values.
-const LIGHT: [u8; 3] = [236; 3];
+/// The colour of creases over colours that stand for values: a grey between the lightest and the darkest of them.
+const NEUTRAL: [u8; 3] = [176, 176, 180];
 
 /// The narrowest picture, and the widest and farthest one, in the motion's unit: pixels stay finite.
 const NARROWEST: f64 = 1e-9;
 const FARTHEST: f64 = 1e9;
 
+/// The size of letters in figures where the scene gives none, that of captions in print, and what it may be, millimetres.
+const LETTERS: f64 = 2.4;
+const SIZES: RangeInclusive<f64> = 0.5..=20.0;
+
 /// How far a turntable goes round, degrees.
 const TURN: f64 = 360.0;
 
-/// Colours and lines of pictures and figures: over colours that stand for values all creases are light.
+/// Colours and lines of pictures and figures: over colours that stand for values all creases are grey.
 fn style(colour: ColourChoice) -> Style {
     match colour {
         ColourChoice::Paper => Style::default(),
         ColourChoice::Grey => Style::grey(),
         ColourChoice::Strain | ColourChoice::Bending => Style {
-            mountain: LIGHT,
-            valley: LIGHT,
+            mountain: NEUTRAL,
+            valley: NEUTRAL,
             line_width: 0.9,
             ..Style::default()
         },
@@ -52,6 +58,8 @@ impl Resolver<'_> {
             thickness: self.thickness()?,
             has_profile: record.profile.unwrap_or(false),
             has_box: record.bounds.unwrap_or(true),
+            has_dimensions: record.dimensions.unwrap_or(true),
+            letters: self.letters()?,
             scene,
         })
     }
@@ -80,11 +88,12 @@ impl Resolver<'_> {
     fn film(&self) -> Result<FilmOptions, StudyError> {
         let scene = &self.scene.record;
         let standard = FilmOptions::default();
+        let (size, fps) = scene.standard_film();
         let (view, turn) = self.camera()?;
         let (centre, width) = self.aim()?;
         let film = FilmOptions {
-            size: self.size(standard.size)?,
-            fps: scene.fps.unwrap_or(standard.fps),
+            size: self.size(size)?,
+            fps: scene.fps.unwrap_or(fps),
             seconds: scene.seconds.unwrap_or(standard.seconds),
             hold: match scene.hold {
                 None => standard.hold,
@@ -99,6 +108,7 @@ impl Resolver<'_> {
             turn,
             centre,
             width,
+            is_following: scene.follow.unwrap_or(standard.is_following),
             has_caption: scene.caption.unwrap_or(false),
             is_transparent: scene.transparent.unwrap_or(false),
             style: style(scene.colour.unwrap_or(ColourChoice::Paper)),
@@ -166,6 +176,20 @@ impl Resolver<'_> {
             return Err(self.fault("record.camera", message));
         }
         Ok((own.centre.map(DVec3::from), own.width))
+    }
+
+    /// The size of letters in figures.
+    fn letters(&self) -> Result<f64, StudyError> {
+        let letters = self.scene.record.letters.unwrap_or(LETTERS);
+        if SIZES.contains(&letters) {
+            return Ok(letters);
+        }
+        let message = format!(
+            "{letters} must lie between {} and {} millimetres; captions in print have 2 to 3",
+            SIZES.start(),
+            SIZES.end()
+        );
+        Err(self.fault("record.letters", message))
     }
 
     /// The motion times asked for, rising.

@@ -9,7 +9,6 @@ use super::number::{Number, Spoken, control_width, short};
 
 const DEFAULT_OUTPUTS: [OutputChoice; 3] =
     [OutputChoice::Fold, OutputChoice::Gif, OutputChoice::Csv];
-const DEFAULT_SIZE: [i64; 2] = [960, 720];
 const DEFAULT_SECONDS: [f64; 2] = [3.0, 5.0];
 const DEFAULT_HOLD: f64 = 0.5;
 
@@ -136,7 +135,8 @@ fn show_size(form: &mut Form<'_>, ui: &mut Ui) {
     let given = form.scene.record.size;
     let mut value = given.map(|size| size.map(|pixels| pixels as f64));
     let number = Number::within(16.0..=4096.0).whole();
-    let default = DEFAULT_SIZE.map(|pixels| pixels as f64);
+    let (standard, _) = form.scene.record.standard_film();
+    let default = standard.map(f64::from);
     let names = ["pixels across", "pixels down"];
     if pair(form, ui, &field, names, &number, default, &mut value) {
         form.scene.record.size = value.map(|size| size.map(|pixels| pixels as i64));
@@ -170,7 +170,8 @@ fn show_times(form: &mut Form<'_>, ui: &mut Ui) {
         "change the frame rate",
         "film frames a second",
     );
-    let number = Number::within(1.0..=60.0).default(30.0).speed(0.2);
+    let (_, standard) = form.scene.record.standard_film();
+    let number = Number::within(1.0..=60.0).default(standard).speed(0.2);
     form.number(ui, &field, &number, |scene| &mut scene.record.fps);
     show_hold(form, ui);
     let field = Field::new(
@@ -233,6 +234,13 @@ fn show_looks(form: &mut Form<'_>, ui: &mut Ui) {
     );
     form.switch(ui, &field, false, |scene| &mut scene.record.caption);
     let field = Field::new(
+        "record.follow",
+        "films follow",
+        "switch the following camera",
+        "whether films come nearer where the sheet is small in the picture",
+    );
+    form.switch(ui, &field, true, |scene| &mut scene.record.follow);
+    let field = Field::new(
         "record.transparent",
         "no background",
         "switch the background",
@@ -253,6 +261,21 @@ fn show_looks(form: &mut Form<'_>, ui: &mut Ui) {
         "figures show the box of the compact state, its sizes and its closed form",
     );
     form.switch(ui, &field, true, |scene| &mut scene.record.bounds);
+    let field = Field::new(
+        "record.dimensions",
+        "dimensions in figures",
+        "switch the dimensions",
+        "figures give h, w and the width at the planar state",
+    );
+    form.switch(ui, &field, true, |scene| &mut scene.record.dimensions);
+    let field = Field::new(
+        "record.letters",
+        "letters in figures",
+        "change the letters",
+        "the size of letters in figures, millimetres",
+    );
+    let number = Number::within(0.5..=20.0).default(2.4).speed(0.02);
+    form.number(ui, &field, &number, |scene| &mut scene.record.letters);
 }
 
 fn show_states(form: &mut Form<'_>, ui: &mut Ui) {
