@@ -87,6 +87,9 @@ pub(crate) struct RunArguments {
     /// Where the dynamic engine moves the sheet; auto takes a GPU for large sheets where there is a real one
     #[arg(long, value_enum, default_value_t = DeviceChoice::Cpu)]
     pub(crate) device: DeviceChoice,
+    /// Replace files in the folder of results that this command did not make
+    #[arg(long)]
+    pub(crate) force: bool,
     /// No progress and no table
     #[arg(long)]
     pub(crate) quiet: bool,
@@ -129,7 +132,7 @@ pub(crate) struct CheckArguments {
     #[arg(long)]
     pub(crate) out: Option<PathBuf>,
     /// Prove the statement of this certificate.json about the motion again by other means; nothing is written
-    #[arg(long, value_name = "CERTIFICATE", conflicts_with_all = ["out", "tolerance", "stop_at", "json"])]
+    #[arg(long, value_name = "CERTIFICATE", conflicts_with_all = ["out", "tolerance", "stop_at", "json", "force"])]
     pub(crate) verify: Option<PathBuf>,
     /// Overlaps up to this are touching, in the file's foldmotion:unitLength or mean sides of a face; 1e-6 where left
     /// out
@@ -141,6 +144,9 @@ pub(crate) struct CheckArguments {
     /// Threads to use; all cores where left out
     #[arg(long, value_parser = parse_threads)]
     pub(crate) threads: Option<usize>,
+    /// Replace files in the folder of results that this command did not make
+    #[arg(long)]
+    pub(crate) force: bool,
     /// No progress and no table
     #[arg(long)]
     pub(crate) quiet: bool,

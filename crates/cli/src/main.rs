@@ -16,7 +16,7 @@ use clap::Parser as _;
 use foldmotion_study::paper::{PaperPart, paper};
 use foldmotion_study::scene::EngineChoice;
 use foldmotion_study::{
-    CheckOptions, Device, PatternStudy, Phase, SceneSource, Study, check_file, models,
+    CheckOptions, Destination, Device, PatternStudy, Phase, Published, SceneSource, Study, check_file, models,
     record_again, record_file, verify_file,
 };
 use pattern::PatternArguments;
@@ -78,11 +78,13 @@ fn run_scene(arguments: &RunArguments) -> Result<u8, Failure> {
     let mut study = Study::resolve(&source)?;
     study.device = device(arguments.device, &study)?;
     let reporter = Reporter::new(arguments.quiet);
-    let report = study.run(&folder, &|phase, done| {
+    let destination = Destination::from(&folder).replacing(arguments.force);
+    let report = study.run(destination, &|phase, done| {
         reporter.report(phase.name(), done);
         !INTERRUPTED.load(Ordering::Relaxed)
     })?;
     reporter.finish();
+    tell(&report.published, arguments.quiet);
     if arguments.json {
         print(&report.to_json())?;
     } else if !arguments.quiet {
@@ -151,12 +153,15 @@ fn check_motion(arguments: &CheckArguments) -> Result<u8, Failure> {
         !INTERRUPTED.load(Ordering::Relaxed)
     })?;
     let certificate = &checked.certificate;
-    certificate.write(&folder)?;
     reporter.finish();
+    // What was found is said even where it cannot be written.
     if arguments.json {
         print(&certificate.to_json())?;
     } else if !arguments.quiet {
         print(&checked.table())?;
+    }
+    certificate.write(Destination::from(&folder).replacing(arguments.force))?;
+    if !arguments.json && !arguments.quiet {
         print(&format!("certificate in {}\n", folder.display()))?;
     }
     Ok(certificate.status())
@@ -185,7 +190,7 @@ fn record_motion(arguments: &RecordArguments) -> Result<u8, Failure> {
     };
     let (out, motion) = (arguments.out.as_deref(), arguments.motion.as_deref());
     if let Some(file) = &arguments.again {
-        let again = record_again(file, motion, out, &progress)?;
+        let again = record_again(file, motion, out, arguments.force, &progress)?;
         reporter.finish();
         for warning in &again.warnings {
             let _ = writeln!(std::io::stderr(), "foldmotion: warning: {warning}");
@@ -199,8 +204,10 @@ fn record_motion(arguments: &RecordArguments) -> Result<u8, Failure> {
     // The command line has a motion where it has no --again.
     let motion = motion.unwrap_or(Path::new(""));
     let folder = arguments.folder(motion);
-    let record = record_file(motion, &arguments.scene(), &folder, &progress)?;
+    let destination = Destination::from(&folder).replacing(arguments.force);
+    let record = record_file(motion, &arguments.scene(), destination, &progress)?;
     reporter.finish();
+    tell(&record.published, arguments.quiet);
     if !arguments.quiet {
         let marks = if record.is_judged {
             "penetrations are marked"
@@ -244,13 +251,14 @@ fn write_pattern(arguments: &PatternArguments) -> Result<u8, Failure> {
     let (source, folder) =
         scene_and_folder(&arguments.scene, &arguments.set, arguments.out.as_ref())?;
     let study = PatternStudy::resolve(&source);
+    let destination = Destination::from(&folder).replacing(arguments.force);
     if study.is_err()
-        && let Some(figure) = PatternStudy::write_clashes(&source, &folder)?
+        && let Some(figure) = PatternStudy::write_clashes(&source, destination)?
         && !arguments.quiet
     {
         print(&format!("the rows are drawn in {}\n", figure.display()))?;
     }
-    let summary = study?.write(&folder, &arguments.options(), &|_, _| {
+    let summary = study?.write(destination, &arguments.options(), &|_, _| {
         !INTERRUPTED.load(Ordering::Relaxed)
     })?;
     if !arguments.quiet {
@@ -265,13 +273,8 @@ fn open_window(arguments: arguments::ViewArguments) -> Result<u8, Failure> {
     use foldmotion_viewer::{ViewOptions, view};
     use_threads(arguments.threads)?;
     // A file that is not there is said here, not in a window that may not open.
-    if let Some(file) = &arguments.file
-        && let Err(error) = std::fs::File::open(file)
-    {
-        return Err(Failure {
-            message: format!("{}: cannot be read: {error}", file.display()),
-            status: BAD_INPUT,
-        });
+    if let Some(file) = &arguments.file {
+        foldmotion_study::require_file(file)?;
     }
     let options = ViewOptions {
         file: arguments.file,
@@ -326,6 +329,16 @@ fn watch_for_interrupts() -> Result<(), Failure> {
         message: format!("Ctrl-C cannot be watched: {e}"),
         status: FAILED,
     })
+}
+
+/// Says what became of other files in the folder of results.
+fn tell(published: &Published, quiet: bool) {
+    if quiet {
+        return;
+    }
+    for line in published.words() {
+        let _ = writeln!(std::io::stderr(), "foldmotion: {line}");
+    }
 }
 
 /// Prints to stdout; a reader that has gone (`| head`) is no failure.

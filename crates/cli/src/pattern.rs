@@ -60,6 +60,9 @@ pub(crate) struct PatternArguments {
     /// Draw the lines too that cut facets into triangles (they are no creases)
     #[arg(long)]
     facets: bool,
+    /// Replace files in the folder of results that this command did not make
+    #[arg(long)]
+    pub(crate) force: bool,
     /// Print nothing
     #[arg(long)]
     pub(crate) quiet: bool,

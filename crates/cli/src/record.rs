@@ -70,6 +70,9 @@ pub(crate) struct RecordArguments {
     /// Threads to use; all cores where left out
     #[arg(long, value_parser = parse_threads)]
     pub(crate) threads: Option<usize>,
+    /// Replace files in the folder of results that this command did not make
+    #[arg(long)]
+    pub(crate) force: bool,
     /// No progress and no list of files
     #[arg(long)]
     pub(crate) quiet: bool,

@@ -257,3 +257,32 @@ fn a_file_that_is_not_there_is_bad_input_before_a_window_opens() {
     assert_eq!(output.status.code(), Some(2), "{err}");
     assert!(err.contains("nothing.toml"), "{err}");
 }
+
+#[test]
+fn a_second_run_leaves_the_films_of_the_first_and_files_of_the_users_own() {
+    let home = tempfile::tempdir().unwrap();
+    let unit = scene("one-unit");
+    let run = |outputs: &str, more: &[&str]| {
+        let outputs = format!("record.outputs={outputs}");
+        let small = ["--set", "motion.frames=20", "--set", "record.size=[64, 48]"];
+        let arguments = ["run", &unit, "--out", "here", "--set", &outputs];
+        foldmotion(home.path(), &[&arguments[..], &small, more].concat())
+    };
+    assert_eq!(run("[\"fold\", \"gif\"]", &[]).status.code(), Some(0));
+    let own = home.path().join("here/figure.pdf");
+    std::fs::write(&own, "mine").unwrap();
+    let second = run("[\"fold\", \"csv\"]", &[]);
+    assert_eq!(second.status.code(), Some(0));
+    assert!(text(&second.stderr).contains("figure.pdf"), "it is named");
+    assert!(home.path().join("here/motion.gif").exists());
+    let third = run("[\"pdf\"]", &[]);
+    let said = text(&third.stderr);
+    assert_eq!(third.status.code(), Some(2), "{said}");
+    assert!(
+        said.contains("figure.pdf") && said.contains("--force"),
+        "{said}"
+    );
+    assert_eq!(std::fs::read_to_string(&own).unwrap(), "mine");
+    assert_eq!(run("[\"pdf\"]", &["--force"]).status.code(), Some(0));
+    assert!(std::fs::read(&own).unwrap().starts_with(b"%PDF"));
+}

@@ -81,10 +81,10 @@ pub enum StudyError {
         /// What is wrong, and what would help.
         message: String,
     },
-    /// A motion file is too large.
+    /// A file is too large.
     #[error("{}: it has {size} bytes: at most {limit} are read", path.display())]
-    LargeMotion {
-        /// The motion file.
+    LargeFile {
+        /// The file.
         path: PathBuf,
         /// Its bytes.
         size: u64,
@@ -119,6 +119,20 @@ pub enum StudyError {
         action: &'static str,
         /// Why it failed.
         source: io::Error,
+    },
+    /// Files of others stand where results go.
+    #[error(
+        "{}: in the way of the results: {names}; no earlier `foldmotion {command}` made them there, or they were changed since: \
+         move them, choose another folder with --out, or replace them with --force",
+        path.display()
+    )]
+    InTheWay {
+        /// The output folder.
+        path: PathBuf,
+        /// The files.
+        names: String,
+        /// The command whose results they would be.
+        command: &'static str,
     },
     /// The disk cannot hold the results.
     #[error(
@@ -159,11 +173,12 @@ impl StudyError {
             | Self::Motion { .. }
             | Self::Certificate { .. }
             | Self::Origin { .. }
-            | Self::LargeMotion { .. }
+            | Self::LargeFile { .. }
             | Self::Value { .. }
             | Self::Import { .. }
             | Self::Part { .. }
             | Self::Cut(_)
+            | Self::InTheWay { .. }
             | Self::Undivided { .. } => 2,
             _ => 3,
         }

@@ -7,6 +7,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::certificate::StoppedEntry;
+use crate::results::Published;
 
 pub use crate::imported_report::ImportReport;
 pub use crate::stop_report::StopReport;
@@ -65,6 +66,9 @@ pub struct Report {
     pub seconds: SecondsReport,
     /// The files written beside this report.
     pub files: Vec<String>,
+    /// What became of other files in the folder; not part of report.json.
+    #[serde(skip)]
+    pub published: Published,
 }
 
 /// A row of its own height.

@@ -18,6 +18,7 @@ use crate::report::{
     PenetrationReport, ProfileReport, RowReport, SecondsReport, SkinReport, StageReport,
     StopReport, UnfoldReport, UnitName, UnitReport, VertexReport,
 };
+use crate::results::Published;
 use crate::run::VERSION;
 use crate::scene::EngineChoice;
 use crate::series::FrameFigures;
@@ -79,6 +80,7 @@ impl Study {
             },
             seconds,
             files: files.to_vec(),
+            published: Published::default(),
         }
     }
 

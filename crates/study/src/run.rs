@@ -1,7 +1,6 @@
 //! Runs a study: fold, check, report, record.
 
 use std::io::Write as _;
-use std::path::Path;
 use std::time::Instant;
 
 use foldmotion_check::{CheckError, Checker, CollisionReport};
@@ -12,7 +11,7 @@ use crate::engine::Computed;
 use crate::folded::{Findings, Folded};
 use crate::recording::Recording;
 use crate::report::SecondsReport;
-use crate::results::{REPORT, Results, write_error};
+use crate::results::{Destination, Maker, REPORT, Results, is_picture, write_error};
 use crate::scene::OutputChoice;
 use crate::{Report, Study, StudyError};
 
@@ -79,10 +78,13 @@ impl Study {
     ///
     /// # Errors
     /// [`StudyError`] of the step that failed; the folder is then as it was.
-    pub fn run(&self, folder: &Path, progress: Progress<'_>) -> Result<Report, StudyError> {
+    pub fn run<'a>(
+        &self,
+        destination: impl Into<Destination<'a>>,
+        progress: Progress<'_>,
+    ) -> Result<Report, StudyError> {
         let started = Instant::now();
-        let results = Results::create(folder)?;
-        self.require_space(&results)?;
+        let results = self.open_results(destination.into())?;
         let folded = self.compute(&progress)?;
         self.finish(&folded, results, started, progress)
     }
@@ -91,17 +93,24 @@ impl Study {
     ///
     /// # Errors
     /// [`StudyError`] of the file that failed; the folder is then as it was.
-    pub fn write(
+    pub fn write<'a>(
         &self,
         folded: &Folded,
-        folder: &Path,
+        destination: impl Into<Destination<'a>>,
         progress: Progress<'_>,
     ) -> Result<Report, StudyError> {
         let now = Instant::now();
         let started = now.checked_sub(folded.duration()).unwrap_or(now);
-        let results = Results::create(folder)?;
-        self.require_space(&results)?;
+        let results = self.open_results(destination.into())?;
         self.finish(folded, results, started, progress)
+    }
+
+    /// The folder of results, where nothing stands in their way and the disk can hold them.
+    fn open_results(&self, destination: Destination<'_>) -> Result<Results, StudyError> {
+        let results = Results::open(destination, Maker::Run, Some(REPORT))?;
+        results.require_clear(&|name| name == REPORT || self.recording.plans(name))?;
+        self.require_space(&results)?;
+        Ok(results)
     }
 
     /// The rest of a run that began at `started`.
@@ -113,19 +122,24 @@ impl Study {
         progress: Progress<'_>,
     ) -> Result<Report, StudyError> {
         let folder = results.folder().to_owned();
-        let (_, record_seconds) =
+        let (sha256, record_seconds) =
             timed(|| self.record(&self.recording, folded, &mut results, progress))?;
         let seconds = SecondsReport {
             check: folded.check_seconds,
             record: record_seconds,
             total: started.elapsed().as_secs_f64(),
         };
-        let report = self.report(folded, seconds, results.written());
+        let aside = results.set_aside();
+        let mut report = self.report(folded, seconds, results.written());
         results.write(REPORT, |out| {
             out.write_all(report.to_json().as_bytes())
                 .map_err(|e| write_error(&folder, REPORT, e))
         })?;
-        results.publish()?;
+        let has_pictures = self.recording.has(OutputChoice::Png);
+        report.published = results.publish(Some(&sha256), &|file| {
+            file.of.as_deref() != Some(&sha256) || has_pictures && is_picture(&file.name)
+        })?;
+        report.published.aside = aside;
         Ok(report)
     }
 

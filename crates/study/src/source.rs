@@ -6,7 +6,8 @@ use toml::de::{DeTable, DeValue};
 use toml::{Spanned, Table, Value};
 
 use crate::scene::RecordScene;
-use crate::{Scene, StudyError};
+use crate::input_file::LARGEST_SCENE;
+use crate::{Scene, StudyError, input_file};
 
 /// A commented scene to start from: a shelter, with every key and its default. It runs as it stands.
 pub const FIRST_SCENE: &str = include_str!("first_scene.toml");
@@ -33,15 +34,12 @@ impl SceneSource {
     /// all else is left out.
     ///
     /// # Errors
-    /// [`StudyError::Read`].
+    /// [`StudyError::Read`], and [`StudyError::LargeFile`] above 16 MiB.
     pub fn read(path: &Path) -> Result<Self, StudyError> {
         if let Some(pattern) = Self::of_pattern(path) {
             return Ok(pattern);
         }
-        let text = std::fs::read_to_string(path).map_err(|source| StudyError::Read {
-            path: path.to_owned(),
-            source,
-        })?;
+        let text = input_file::read_text(path, LARGEST_SCENE)?;
         Ok(Self::new(path, text))
     }
 

@@ -44,7 +44,14 @@ impl Outline {
         let unreadable = |source: std::io::Error| OutlineError::Read {
             message: source.to_string(),
         };
-        let size = std::fs::metadata(path).map_err(unreadable)?.len();
+        let data = std::fs::metadata(path).map_err(unreadable)?;
+        if !data.is_file() {
+            return Err(OutlineError::Read {
+                message: "it is a folder, a device or a pipe; only regular files are read"
+                    .to_owned(),
+            });
+        }
+        let size = data.len();
         if size > LARGEST_OUTLINE_FILE {
             return Err(OutlineError::TooLarge {
                 size,

@@ -9,6 +9,7 @@ mod models;
 mod motion_file;
 mod origin;
 mod page;
+mod planned;
 mod resolve;
 mod run_files;
 mod space;

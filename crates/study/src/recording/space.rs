@@ -3,6 +3,7 @@
 use foldmotion_pattern::{Motion, Sheet};
 use foldmotion_record::{FilmOptions, MAX_TARGETS};
 
+use super::planned::pictures;
 use super::{Recording, STATES};
 use crate::scene::OutputChoice;
 
@@ -56,14 +57,7 @@ impl Recording {
 }
 
 /// Pixels of all pictures of a film of the whole motion.
-#[expect(
-    clippy::cast_sign_loss,
-    reason = "the film's options were checked to be positive"
-)]
 fn pixels(film: &FilmOptions) -> u64 {
     let [width, height] = film.size.map(u64::from);
-    let seconds = film.seconds.iter().chain(&film.hold).sum::<f64>();
-    let once_or_back = 2.0;
-    let frames = (once_or_back * seconds * film.fps).ceil() as u64 + 3;
-    frames * width * height
+    pictures(film) * width * height
 }
