@@ -35,12 +35,20 @@ fn picture_number(name: &str) -> Option<u64> {
 }
 
 /// Pictures of a film of the whole motion, at most.
+pub(super) fn pictures(film: &FilmOptions) -> u64 {
+    in_seconds(film, film.seconds.iter().chain(&film.hold).sum())
+}
+
+/// Those of them that differ from the one before.
+pub(super) fn moving_pictures(film: &FilmOptions) -> u64 {
+    in_seconds(film, film.seconds.iter().sum())
+}
+
 #[expect(
     clippy::cast_sign_loss,
     reason = "the film's options were checked to be positive"
 )]
-pub(super) fn pictures(film: &FilmOptions) -> u64 {
-    let seconds = film.seconds.iter().chain(&film.hold).sum::<f64>();
+fn in_seconds(film: &FilmOptions, seconds: f64) -> u64 {
     let ways = match film.playback {
         Playback::Once => 1.0,
         Playback::BackAndForth => 2.0,

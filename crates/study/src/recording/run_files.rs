@@ -37,7 +37,8 @@ impl Study {
     ) -> Result<Vec<String>, StudyError> {
         let recording = self.recording_as(record)?;
         let mut results = open_record(&recording, destination.into())?;
-        results.require(self.space(&recording, folded.motion.frames.len()))?;
+        let frames = folded.motion.frames.len();
+        results.require(&self.space_in(&results, &recording, frames, progress)?)?;
         let sha256 = self.record(&recording, folded, &mut results, progress)?;
         publish_record(results, &recording, &sha256).map(|(files, _)| files)
     }
