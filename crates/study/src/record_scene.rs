@@ -3,26 +3,33 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use crate::{choice, exact_array};
+
 /// `[record]`.
 #[derive(Debug, Clone, Default, PartialEq, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct RecordScene {
     /// `fold`, `gif` and `csv` where left out.
+    #[serde(deserialize_with = "choice::list")]
     pub outputs: Option<Vec<OutputChoice>>,
     /// Pixels across and down; [960, 720] where left out.
+    #[serde(deserialize_with = "exact_array::one")]
     pub size: Option<[i64; 2]>,
     /// Film frames a second; 30 where left out.
     pub fps: Option<f64>,
     /// Seconds a stage; [3, 5] where left out.
+    #[serde(deserialize_with = "exact_array::one")]
     pub seconds: Option<[f64; 2]>,
     /// Seconds the deployed, the planar and the compact state stand still, or one number for all; 0.5 where left out.
     pub hold: Option<HoldScene>,
     /// How films run; `forward` where left out.
     #[serde(rename = "loop")]
+    #[serde(deserialize_with = "choice::optional")]
     pub playback: Option<LoopChoice>,
     /// Where the viewer stands: a preset, or angles; `iso` where left out.
     pub camera: Option<CameraScene>,
     /// What colours show; `paper` where left out.
+    #[serde(deserialize_with = "choice::optional")]
     pub colour: Option<ColourChoice>,
     /// Whether the pictures of `png` and the figures have no background; false where left out.
     pub transparent: Option<bool>,
@@ -170,6 +177,7 @@ pub struct OwnCamera {
     pub turn: Option<f64>,
     /// The point [x, y, z] in the middle of films and pictures, in the motion's unit; the middle of the motion where left
     /// out.
+    #[serde(default, deserialize_with = "exact_array::one")]
     pub centre: Option<[f64; 3]>,
     /// The length shown across films and pictures, in the motion's unit; as much as all of the motion needs where left out.
     /// With a centre figures show as much of each state, and more where it is larger.
