@@ -136,7 +136,7 @@ pub(crate) struct CheckArguments {
     pub(crate) verify: Option<PathBuf>,
     /// Overlaps up to this are touching, in the file's foldmotion:unitLength or mean sides of a face; 1e-6 where left
     /// out
-    #[arg(long, value_name = "X")]
+    #[arg(long, value_name = "X", value_parser = parse_tolerance, allow_negative_numbers = true)]
     pub(crate) tolerance: Option<f64>,
     /// End the check at the next frame once more than N pairs of triangles penetrate; 0: no limit; default: 4096
     #[arg(long, value_name = "N")]
@@ -167,12 +167,22 @@ pub(crate) struct PaperArguments {
     /// Threads to use; all cores where left out
     #[arg(long, value_parser = parse_threads)]
     pub(crate) threads: Option<usize>,
+    /// Replace files in the folder of results that this command did not make
+    #[arg(long)]
+    pub(crate) force: bool,
     /// No progress and no summary
     #[arg(long)]
     pub(crate) quiet: bool,
     /// Print exactly paper.json on stdout
     #[arg(long)]
     pub(crate) json: bool,
+}
+
+fn parse_tolerance(text: &str) -> Result<f64, String> {
+    match text.parse() {
+        Ok(tolerance) if tolerance > 0.0 && tolerance < 0.1 => Ok(tolerance),
+        _ => Err("a number above 0 and below 0.1 is needed, such as 1e-6".to_owned()),
+    }
 }
 
 pub(crate) fn parse_threads(text: &str) -> Result<usize, String> {

@@ -9,6 +9,7 @@ use foldmotion_study::{
 
 /// `foldmotion pattern`.
 #[derive(Debug, Args)]
+#[expect(clippy::struct_excessive_bools, reason = "each is a flag of its own")]
 pub(crate) struct PatternArguments {
     /// The scene file
     pub(crate) scene: PathBuf,

@@ -12,6 +12,7 @@ use crate::arguments::parse_threads;
 
 /// `foldmotion record`.
 #[derive(Debug, Args)]
+#[expect(clippy::struct_excessive_bools, reason = "each is a flag of its own")]
 pub(crate) struct RecordArguments {
     /// The motion, a FOLD file with frames
     #[arg(required_unless_present = "again")]
