@@ -11,10 +11,15 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 
+use super::record::PaperRecord;
 use crate::StudyError;
 use crate::digest::sha256;
-use crate::results::{may_run, output_error};
+use crate::results::{listed, may_run, output_error};
 use crate::run::VERSION;
+
+/// The record and the page.
+pub(super) const RECORD: &str = "paper.json";
+pub(super) const PAGE: &str = "index.html";
 
 /// Where the parts lie in the folder.
 const PARTS: &str = "parts";
@@ -112,6 +117,40 @@ impl Store {
     }
 }
 
+/// Refuses a folder with files under the names of the paper's, but without its record: they are of others.
+pub(super) fn require_clear(folder: &Path) -> Result<(), StudyError> {
+    let is_ours = |name: &str| {
+        let figure = name
+            .strip_prefix("fig")
+            .and_then(|rest| rest.split_once('.'));
+        let is_figure = figure.is_some_and(|(_, ending)| matches!(ending, "svg" | "png"));
+        is_figure || [RECORD, PAGE].contains(&name)
+    };
+    let record = fs::read(folder.join(RECORD)).ok();
+    if record.is_some_and(|bytes| serde_json::from_slice::<PaperRecord>(&bytes).is_ok()) {
+        return Ok(());
+    }
+    let mut names: Vec<String> = Vec::new();
+    for entry in fs::read_dir(folder).into_iter().flatten().flatten() {
+        names.extend(
+            entry
+                .file_name()
+                .into_string()
+                .ok()
+                .filter(|name| is_ours(name)),
+        );
+    }
+    if names.is_empty() {
+        return Ok(());
+    }
+    names.sort_unstable();
+    Err(StudyError::InTheWay {
+        path: folder.to_owned(),
+        names: listed(&names),
+        command: "paper",
+    })
+}
+
 /// Removes files that killed processes left half written in `folder`.
 fn remove_left_over(folder: &Path) {
     for entry in fs::read_dir(folder).into_iter().flatten().flatten() {
@@ -186,6 +225,21 @@ mod tests {
         Store::open(home.path()).unwrap();
         let stays = names.map(|name| home.path().join(name).exists());
         assert_eq!(stays, [false, true, true]);
+    }
+
+    #[test]
+    fn files_of_others_under_the_papers_names_are_refused_where_no_record_of_it_lies() {
+        let home = tempfile::tempdir().unwrap();
+        fs::write(home.path().join("notes.txt"), "mine").unwrap();
+        require_clear(home.path()).unwrap();
+        for (name, text) in [(PAGE, "mine"), ("fig3.png", "mine"), (RECORD, "{}")] {
+            fs::write(home.path().join(name), text).unwrap();
+            let error = require_clear(home.path()).unwrap_err();
+            assert!(
+                error.status() == 2 && error.to_string().contains(name),
+                "{error}"
+            );
+        }
     }
 
     #[test]
