@@ -124,6 +124,7 @@ fn a_run_recorded_as_the_window_shows_it_is_a_run_of_that_scene() {
         &window.join("motion.gif"),
         None,
         again.as_deref(),
+        false,
         &|_, _| true,
     );
     assert!(made.unwrap().is_same);

@@ -6,6 +6,7 @@ use std::io::{self, Read, Write as _};
 use std::path::Path;
 
 use foldmotion_check::{CheckError, Checker, CollisionOptions, CollisionReport};
+use foldmotion_geometry::Number;
 use foldmotion_pattern::{FoldError, FoldFile, Frame, LayerOrder};
 use sha2::{Digest as _, Sha256};
 
@@ -283,8 +284,10 @@ impl<'a> Judge<'a> {
             ) => {
                 let face = self.file.triangle_faces[*face];
                 let message = format!(
-                    "{at}: faces_vertices[{face}] has no area: the height of a triangle is {height:e}, more than \
-                     {limit:e} is needed to tell its sides"
+                    "{at}: faces_vertices[{face}] has no area: the height of a triangle is {:.3}, more than {:.3} is \
+                     needed to tell its sides",
+                    Number(*height),
+                    Number(*limit)
                 );
                 motion_error(path, &message)
             }

@@ -71,10 +71,8 @@ pub(crate) fn read(path: &Path, limit: u64) -> Result<Vec<u8>, StudyError> {
 /// The text of a regular file of at most `limit` bytes.
 pub(crate) fn read_text(path: &Path, limit: u64) -> Result<String, StudyError> {
     String::from_utf8(read(path, limit)?).map_err(|e| {
-        let line = e.as_bytes()[..e.utf8_error().valid_up_to()]
-            .iter()
-            .filter(|&&byte| byte == b'\n')
-            .count();
+        let before = &e.as_bytes()[..e.utf8_error().valid_up_to()];
+        let line = String::from_utf8_lossy(before).matches('\n').count();
         let message = format!("line {} is no UTF-8 text", line + 1);
         failed(path, io::Error::new(io::ErrorKind::InvalidData, message))
     })

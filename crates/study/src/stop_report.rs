@@ -1,5 +1,6 @@
 //! A motion that ended before its end, in `report.json` and on the terminal.
 
+use foldmotion_geometry::Number;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -51,14 +52,14 @@ impl StopReport {
 
     /// The evidence, a line for the terminal.
     pub(crate) fn line(&self) -> String {
-        let step = self
-            .load_step
-            .map_or_else(String::new, |step| format!(" a load step of {step:.1e} on"));
+        let step = self.load_step.map_or_else(String::new, |step| {
+            format!(" a load step of {:.2} on", Number(step))
+        });
         format!(
-            "{}: unbalanced force {:.1e} left{step}, where {:.1e} counts as equilibrium",
+            "{}: unbalanced force {:.2} left{step}, where {:.2} counts as equilibrium",
             self.words(),
-            self.residual,
-            self.residual_tolerance
+            Number(self.residual),
+            Number(self.residual_tolerance)
         )
     }
 }
@@ -93,14 +94,14 @@ mod tests {
         let none = none.unwrap_or_default();
         assert_eq!(
             none,
-            "stopped at t = 1.2500, no equilibrium found: unbalanced force 5.0e-1 left a load step of 1.0e-5 on, where \
-             1.0e-9 counts as equilibrium"
+            "stopped at t = 1.2500, no equilibrium found: unbalanced force 0.5 left a load step of 1e-5 on, where \
+             1e-9 counts as equilibrium"
         );
         let spent = report(true, None).map(|stop| stop.line());
         assert_eq!(
             spent.unwrap_or_default(),
-            "stopped at t = 1.2500, no equilibrium found within the budget of steps: unbalanced force 5.0e-1 left, where \
-             1.0e-9 counts as equilibrium"
+            "stopped at t = 1.2500, no equilibrium found within the budget of steps: unbalanced force 0.5 left, where \
+             1e-9 counts as equilibrium"
         );
     }
 }

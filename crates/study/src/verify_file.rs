@@ -4,6 +4,7 @@ use std::fmt::Write as _;
 use std::path::Path;
 
 use foldmotion_check::{CollisionReport, Refutation, Verification, Verifier};
+use foldmotion_geometry::Number;
 use foldmotion_pattern::{FoldError, FoldFile, Frame};
 use serde_json::Value;
 
@@ -196,10 +197,10 @@ impl VerifiedCertificate {
         }
         let _ = writeln!(
             out,
-            "stated: {} (tolerance {:e} of the unit of length {:.6}; {} pairs penetrate, {} are undecided)",
+            "stated: {} (tolerance {} of the unit of length {:.6}; {} pairs penetrate, {} are undecided)",
             certificate.verdict,
-            certificate.tolerance,
-            certificate.unit_length,
+            Number(certificate.tolerance),
+            Number(certificate.unit_length),
             certificate.penetrations.len(),
             certificate.undecided.len()
         );

@@ -51,6 +51,12 @@ pub fn record_again(
             origin.version
         ));
     }
+    if let (Some(_), Some(motion)) = (&origin.scene, motion) {
+        return Err(asked.fault(format!(
+            "it was made by running a scene, which it holds; no motion is needed: leave out {}",
+            motion.display()
+        )));
+    }
     let found = match &origin.scene {
         Some(scene) => asked.run(scene, &mut results, progress)?,
         None => asked.record(&origin, motion, &mut results, progress)?,

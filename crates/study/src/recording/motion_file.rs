@@ -14,7 +14,7 @@ use crate::results::{CERTIFICATE, Destination, Maker, Published, Results, is_pic
 use crate::run::{Phase, Progress};
 use crate::scene::{ColourChoice, OutputChoice, RecordScene};
 use crate::statement::claim;
-use crate::study::Resolver;
+use crate::study::{Resolver, printable};
 use crate::verify_file::read_certificate;
 use crate::{Scene, SceneSource, StudyError, input_file};
 
@@ -28,6 +28,8 @@ pub struct MotionRecord {
     pub files: Vec<String>,
     /// Whether penetrations are marked: a certificate of this very file lies beside it.
     pub is_judged: bool,
+    /// Whether there are some to mark.
+    pub penetrates: bool,
     /// What became of other files in the folder.
     pub published: Published,
 }
@@ -70,7 +72,8 @@ pub(super) fn publish_record(
     let has_pictures = recording.has(OutputChoice::Png);
     let aside = results.set_aside();
     let files = results.written().to_vec();
-    let published = results.publish(Some(sha256), &|file| has_pictures && is_picture(&file.name))?;
+    let published =
+        results.publish(Some(sha256), &|file| has_pictures && is_picture(&file.name))?;
     let published = Published {
         aside,
         others: Vec::new(),
@@ -185,7 +188,7 @@ impl ReadMotion {
             sha256,
             path: path.to_owned(),
             name: name.into_owned(),
-            title: file.title,
+            title: file.title.as_deref().map(printable),
             unit: file.unit,
             is_judged: judged.is_some(),
             marks: judged.unwrap_or_default(),
@@ -207,15 +210,23 @@ impl ReadMotion {
         self.require_states(&recording)?;
         let mut results = open_record(&recording, destination)?;
         let frames = self.motion.frames.len();
-        results.require(recording.space(&self.motion.sheet, frames))?;
+        let space = |films| recording.space(&self.motion.sheet, frames, films);
+        if results.available()? < space(None).total() && recording.has_films() {
+            let films = recording.sample_films(&self.motion, progress)?;
+            results.require(&space(Some(films)))?;
+        } else {
+            results.require(&space(None))?;
+        }
         let marks = judged.map(|collision| marks(&self.motion, collision));
         let is_judged = self.is_judged || marks.is_some();
         let marks = marks.unwrap_or_else(|| self.marks.clone());
+        let penetrates = !marks.is_empty();
         self.record(&recording, marks, &mut results, progress)?;
         let (files, published) = publish_record(results, &recording, &self.sha256)?;
         Ok(MotionRecord {
             files,
             is_judged,
+            penetrates,
             published,
         })
     }
