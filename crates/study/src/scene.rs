@@ -56,7 +56,7 @@ pub struct ProfileScene {
     #[serde(deserialize_with = "exact_array::many")]
     pub points: Option<Vec<[f64; 2]>>,
     /// A file of such points, beside the scene: .csv (x, z a line), .dat (airfoil, Selig's or Lednicer's order) or .dxf (one
-    /// polyline, ASCII).
+    /// polyline or chain of lines, ASCII).
     pub file: Option<String>,
     /// Control points [x, z] of a cubic NURBS with unit weights, at least 4.
     #[serde(deserialize_with = "exact_array::many")]
@@ -151,7 +151,7 @@ pub struct SheetScene {
     /// The case; `auto` where left out.
     #[serde(deserialize_with = "choice::optional")]
     pub case: Option<CaseChoice>,
-    /// λ of case SII, in (0, 1), or of a common flap.
+    /// λ of case SII, in (0, 1), or of a common flap; `auto` leaves it out where w/h makes the case E or T.
     pub lambda: Option<f64>,
     /// d of case SII, 0 ≤ d < w1' = w/2 − λh/2; w1'/2 where left out.
     pub offset: Option<f64>,
