@@ -20,8 +20,12 @@ const OBJ: [u64; 2] = [70, 24];
 /// Bytes of a page beside what moves: the library, scripts and tables.
 const LIBRARY: u64 = 1_000_000;
 
-/// Bytes of a triangle in an STL file.
+/// Bytes of a triangle in an STL file, and before the first one.
 const STL: u64 = 50;
+const STL_HEADER: u64 = 84;
+
+/// Bytes by which a file says where it comes from.
+const ORIGIN: u64 = 4_000;
 
 /// Bytes by which a GLB describes a morph target.
 const TARGET: u64 = 3000;
@@ -111,9 +115,9 @@ impl Recording {
             }
             OutputChoice::Obj => {
                 let vertices = OBJ[0] * sheet.vertices.len() as u64;
-                states * plates * (vertices + OBJ[1] * faces)
+                states * (ORIGIN + plates * (vertices + OBJ[1] * faces))
             }
-            OutputChoice::Stl => states * plates * STL * faces,
+            OutputChoice::Stl => states * (STL_HEADER + plates * STL * faces),
             OutputChoice::Html => {
                 // The motion file inside is packed to a third and written in base 64.
                 Motion::fold_file_size(sheet, frames) / 2 + LIBRARY + 24 * faces * frames as u64
