@@ -213,8 +213,11 @@ impl SceneSource {
         }
     }
 
-    /// `file:line` of a key, or the file where the key is absent.
+    /// The `--set` that gave a key, else its `file:line`, or the file where the key is absent.
     pub fn place_of(&self, key: &str) -> String {
+        if let Some(over) = self.overrides.iter().rev().find(|over| over.key == key) {
+            return over.flag.clone();
+        }
         self.locate(key).map_or_else(
             || self.path.display().to_string(),
             |(span, _)| self.place(span.start),
