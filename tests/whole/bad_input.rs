@@ -295,6 +295,157 @@ fn refuses_all(cases: &[(&str, &[&str])]) {
 }
 
 #[test]
+fn lists_of_a_fixed_number_of_values_take_neither_fewer_nor_more() {
+    let points = ["[0.0, 0.0, 5.0, 1.0]", "[0.0, 0.0, \"x\"]", "[0.0]"];
+    for point in points {
+        for key in ["control_points", "points"] {
+            let text = GOOD
+                .replace("control_points", key)
+                .replace("[0.0, 0.0]", point);
+            let message = refusal(&text);
+            assert!(message.contains("scene.toml:2"), "{point}: {message}");
+        }
+    }
+    let extra = refusal(&GOOD.replace("[0.0, 0.0]", points[0]));
+    assert!(extra.contains("a list of 4, where exactly 2"), "{extra}");
+    refuses_all(&[
+        (
+            "[record]\nsize = [96, 72, 7]",
+            &["scene.toml:10", "exactly 2"],
+        ),
+        (
+            "[record]\nseconds = [1.0, 1.0, 1.0]",
+            &["scene.toml:10", "exactly 2"],
+        ),
+        (
+            "[record]\nhold = [1.0, 1.0, 1.0, 1.0]",
+            &["scene.toml:10", "three"],
+        ),
+        (
+            "[record]\ncamera = { azimuth = 0.0, elevation = 0.0, centre = [0.0, 0.0, 0.0, 0.0] }",
+            &["scene.toml:10", "camera must be"],
+        ),
+    ]);
+    let mut source = SceneSource::new(Path::new("scene.toml"), GOOD.to_owned());
+    source.set("record.size=[96, 72, 7]").unwrap();
+    let message = source.scene().unwrap_err().to_string();
+    assert!(message.contains("exactly 2"), "{message}");
+}
+
+#[test]
+fn lengths_and_tolerances_beyond_what_can_be_computed_are_refused_with_their_bound() {
+    for (from, to, words) in [
+        (
+            "width = 2.0",
+            "width = 1e308",
+            ["sheet.width = 1e308", "1e9"],
+        ),
+        (
+            "width = 2.0",
+            "width = 1e-308",
+            ["sheet.width = 1e-308", "1e-9"],
+        ),
+        (
+            "length = 3.0",
+            "length = 1e-308",
+            ["profile.length = 1e-308", "1e-9"],
+        ),
+        (
+            "length = 3.0",
+            "length = 1e300",
+            ["profile.length = 1e300", "1e9"],
+        ),
+        (
+            "[2.0, 2.0]",
+            "[1e300, 2.0]",
+            ["profile.control_points", "1e100"],
+        ),
+    ] {
+        let message = refusal(&GOOD.replacen(from, to, 1));
+        for word in words {
+            assert!(message.contains(word), "{to}: {word}: {message}");
+        }
+        assert!(message.len() < 400, "{message}");
+    }
+    refuses_all(&[
+        (
+            "[record]\nthickened = 1e308",
+            &["record.thickened = 1e308", "1e9"],
+        ),
+        (
+            "[material]\nthickness = 1e308\n[motion]\ncontact = false",
+            &["material.thickness = 1e308"],
+        ),
+        (
+            "[check]\ntouch_tolerance = 1e-300",
+            &[
+                "check.touch_tolerance = 1e-300",
+                "too small",
+                "rounding takes",
+            ],
+        ),
+    ]);
+}
+
+#[test]
+fn a_value_that_is_none_of_the_words_is_told_the_words() {
+    for closed in ["true", "1", "[1]", "\"yes\""] {
+        let text = GOOD.replace("length = 3.0", &format!("length = 3.0\nclosed = {closed}"));
+        let message = refusal(&text);
+        assert!(message.contains("scene.toml:4"), "{message}");
+        assert!(message.contains("`corner` or `smooth`"), "{message}");
+    }
+    refuses_all(&[
+        ("[motion]\nengine = 3", &["quasi-static", "dynamic"]),
+        ("[record]\noutputs = [\"gif\", true]", &["`true`", "`glb`"]),
+        ("[[motion.step]]\nstage = true", &["`unfold` or `fold`"]),
+    ]);
+}
+
+#[test]
+fn a_key_that_stands_twice_is_named() {
+    let message = refusal(&GOOD.replace("rows = 3", "rows = 3\nrows = 4"));
+    assert!(
+        message.contains("scene.toml:7") && message.contains("`rows`"),
+        "{message}"
+    );
+}
+
+#[test]
+fn a_title_is_one_line_without_control_characters() {
+    for title in ["a\\u001b[31m", "a\\nb", "a\\u0007"] {
+        let message = refusal(&format!("title = \"{title}\"\n{GOOD}"));
+        assert!(
+            message.contains("scene.toml:1") && message.contains("control"),
+            "{message}"
+        );
+        assert!(!message.contains('\u{1b}'), "{message:?}");
+    }
+}
+
+#[test]
+fn lambda_beside_an_open_case_is_left_out_where_the_columns_make_it_e_or_t_and_that_is_said() {
+    let open = GOOD.replace(
+        "case = \"E\"",
+        "case = \"auto\"\nlambda = 0.5\noffset = 0.01",
+    );
+    let resolve = |columns: i64| {
+        let mut source = SceneSource::new(Path::new("scene.toml"), open.clone());
+        source.set(&format!("sheet.columns={columns}")).unwrap();
+        Study::resolve(&source).unwrap()
+    };
+    for (columns, case) in [(1, "SII"), (2, "E"), (3, "T")] {
+        let study = resolve(columns);
+        let units = &study.subject.units().unwrap().units;
+        assert_eq!(units.case_name(), case);
+        let said = study.notes.join("\n");
+        let is_said = said.contains("scene.toml:9") && said.contains("sheet.lambda = 0.5");
+        assert_eq!(is_said, case != "SII", "{said}");
+        assert_eq!(said.contains("sheet.offset"), case != "SII", "{said}");
+    }
+}
+
+#[test]
 fn lambda_and_offset_out_of_range_are_refused() {
     let sii = GOOD
         .replace("width = 2.0", "width = 4.0")
@@ -327,6 +478,13 @@ fn a_sheet_whose_layers_no_check_can_hold_is_refused_before_it_is_folded() {
     for word in ["sheet.columns = 200", "coincide", "S, SII"] {
         assert!(text.contains(word), "{word:?} is missing in: {text}");
     }
+    // It would not fit into memory, so it is told before it is laid out.
+    let more = many.replace("columns = 200", "columns = 4000");
+    assert!(refusal(&more).contains("coincide"));
+    let short = many
+        .replace("columns = 200", "columns = 200000")
+        .replace("case = \"E\"", "case = \"S\"\nwidth = 300000.0");
+    assert!(refusal(&short).contains("200 x 200000 units are more than 1000000"));
 }
 
 #[test]

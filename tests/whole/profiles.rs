@@ -98,6 +98,21 @@ fn an_airfoil_file_and_a_closed_polyline_become_closed_sheets() {
 }
 
 #[test]
+fn a_drawing_may_close_its_polyline_by_a_long_side_and_be_a_chain_of_lines() {
+    let long = "0\nLWPOLYLINE\n90\n4\n70\n1\n10\n0\n20\n0\n10\n1\n20\n3\n10\n2\n20\n3\n10\n9\n20\n0\n0\nEOF\n";
+    let (_folder, source) = beside("plot.dxf", long, "");
+    assert!(UnitStudy::resolve(&source).unwrap().profile.is_closed());
+    let line = |[x, y, u, v]: [i32; 4]| format!("0\nLINE\n10\n{x}\n20\n{y}\n11\n{u}\n21\n{v}\n");
+    let lines = [[2, 1, 1, 0], [0, 0, 1, 0], [2, 1, 4, 1]]
+        .map(line)
+        .concat();
+    let (_folder, source) = beside("plot.dxf", &format!("{lines}0\nEOF\n"), "");
+    let study = UnitStudy::resolve(&source).unwrap();
+    assert!(!study.profile.is_closed());
+    assert_eq!(study.division.points[0], glam::DVec2::ZERO);
+}
+
+#[test]
 fn outlines_with_faults_are_refused_with_file_line_value_and_remedy() {
     let repeated = "0,0\n1,1\n1,1\n2,0\n";
     let crossing = "0,0\n4,4\n4,0\n0,4\n";
@@ -105,7 +120,16 @@ fn outlines_with_faults_are_refused_with_file_line_value_and_remedy() {
         .map(|k| format!("{k},0"))
         .collect::<Vec<_>>()
         .join("\n");
-    let cases: [(&str, &str, &str, &[&str]); 8] = [
+    let cut_off = "0\nLWPOLYLINE\n90\n4\n70\n1\n10\n0\n20\n0\n10\n3\n20\n0\n10\n4\n20\n2\n";
+    let arc = "0\nARC\n10\n0\n20\n0\n40\n1\n0\nEOF\n";
+    let cases: [(&str, &str, &str, &[&str]); 10] = [
+        (
+            "a.dxf",
+            cut_off,
+            "",
+            &["profile.file", "line 18", "cut off"],
+        ),
+        ("a.dxf", arc, "", &["profile.file", "line 2", "ARC"]),
         (
             "a.csv",
             "0,0\n1,oops\n",

@@ -41,7 +41,7 @@ fn everything() -> (TempDir, PathBuf, Report) {
 
 fn again(file: &Path, motion: Option<&Path>, out: &Path) -> Again {
     fs::create_dir_all(out).unwrap();
-    record_again(file, motion, Some(out), &|_, _| true).unwrap()
+    record_again(file, motion, Some(out), false, &|_, _| true).unwrap()
 }
 
 /// The pictures of a GIF, and the hundredths of a second they last together.
@@ -139,7 +139,7 @@ fn every_file_of_a_run_is_made_again_with_the_same_bytes() {
         let bytes = [&made.path, &folder.join(name)].map(|p| fs::read(p).unwrap());
         assert!(bytes[0] == bytes[1], "{name}");
     }
-    let beside = record_again(&folder.join("figure.svg"), None, None, &|_, _| true).unwrap();
+    let beside = record_again(&folder.join("figure.svg"), None, None, false, &|_, _| true).unwrap();
     assert_eq!(beside.path, folder.join("figure-again.svg"));
     assert_eq!(
         fs::read_dir(home.path()).unwrap().count(),
@@ -152,7 +152,7 @@ fn every_file_of_a_run_is_made_again_with_the_same_bytes() {
 fn files_that_do_not_say_where_they_come_from_are_refused() {
     let (home, folder, _) = everything();
     let refusal = |file: &Path| {
-        let error = record_again(file, None, Some(home.path()), &|_, _| true).unwrap_err();
+        let error = record_again(file, None, Some(home.path()), false, &|_, _| true).unwrap_err();
         assert_eq!(error.status(), 2, "{error}");
         error.to_string()
     };
@@ -188,7 +188,7 @@ fn another_version_or_motion_is_told() {
 }
 
 #[test]
-fn pictures_of_a_longer_film_go_and_foreign_files_stay() {
+fn pictures_of_a_longer_film_go_and_other_files_stay() {
     let home = tempfile::tempdir().unwrap();
     let folder = home.path().join("unit");
     run(&folder, &["record.outputs=[\"png\", \"obj\"]"]);
@@ -197,13 +197,21 @@ fn pictures_of_a_longer_film_go_and_foreign_files_stay() {
     run(&folder, &["record.outputs=[\"png\"]", "record.hold=0.0"]);
     let short = fs::read_dir(folder.join("frames")).unwrap().count();
     assert_eq!([long, short], [11, 8]);
+    assert!(
+        folder.join("state-1.obj").exists(),
+        "it shows the same motion"
+    );
+    fs::write(folder.join("frames/9999.png"), "mine").unwrap();
+    let other = ["record.outputs=[]", "motion.frames=22"];
+    let published = run(&folder, &other).published;
+    assert!(published.removed.contains(&"frames/0001.png".to_owned()));
     assert!(!folder.join("state-1.obj").exists());
-    run(&folder, &["record.outputs=[]"]);
+    assert_eq!(published.others, ["frames/9999.png"]);
     let left: Vec<_> = fs::read_dir(folder.join("frames")).unwrap().collect();
-    assert_eq!(left.len(), 1, "only what is not ours is left");
-    fs::remove_file(folder.join("frames/mine.txt")).unwrap();
+    assert_eq!(left.len(), 2, "only what is not ours is left");
+    fs::remove_dir_all(folder.join("frames")).unwrap();
     run(&folder, &["record.outputs=[\"png\"]"]);
-    run(&folder, &["record.outputs=[]"]);
+    run(&folder, &other);
     assert!(!folder.join("frames").exists());
 }
 

@@ -29,7 +29,8 @@ fn study(set: &[&str]) -> Study {
     Study::resolve(&source(set)).unwrap()
 }
 
-/// The bytes of the files in `folder`, by name; of the report, which tells times, none.
+/// The bytes of the files in `folder`, by name; of the report, which tells times, and of the list of what which command
+/// made, none.
 fn files(folder: &Path) -> Vec<(String, Vec<u8>)> {
     let mut found = Vec::new();
     for entry in fs::read_dir(folder).unwrap() {
@@ -37,7 +38,7 @@ fn files(folder: &Path) -> Vec<(String, Vec<u8>)> {
         let name = path.file_name().unwrap().to_string_lossy().into_owned();
         if path.is_dir() {
             found.extend(files(&path));
-        } else if name != "report.json" {
+        } else if name != "report.json" && name != ".foldmotion.json" {
             found.push((name, fs::read(&path).unwrap()));
         }
     }
@@ -123,6 +124,7 @@ fn a_run_recorded_as_the_window_shows_it_is_a_run_of_that_scene() {
         &window.join("motion.gif"),
         None,
         again.as_deref(),
+        false,
         &|_, _| true,
     );
     assert!(made.unwrap().is_same);

@@ -1,5 +1,7 @@
 //! What makes a check impossible.
 
+use foldmotion_geometry::Number;
+
 /// Why a motion cannot be checked.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
@@ -94,7 +96,8 @@ pub enum CheckError {
     },
     /// The tolerance cannot be used.
     #[error(
-        "the touch tolerance is {value:e} units of length: it must be positive, finite and below 0.1"
+        "the touch tolerance is {} units of length: it must be positive, finite and below 0.1",
+        Number(*value)
     )]
     ToleranceOutOfRange {
         /// The tolerance in units of h.
@@ -108,8 +111,11 @@ pub enum CheckError {
     },
     /// Coordinates too large for the tolerance.
     #[error(
-        "frame {frame} reaches {extent:e} from the start, where rounding is {margin:e}: the touch tolerance of \
-         {tolerance:e} must be at least 100 times that"
+        "the touch tolerance of {:.3} is too small: it must be at least 100 times the rounding, {:.3}, of frame {frame}, which \
+         reaches {:.3} from the start",
+        Number(*tolerance),
+        Number(*margin),
+        Number(*extent)
     )]
     ToleranceBelowRounding {
         /// Which frame.

@@ -91,6 +91,9 @@ pub(crate) struct RunArguments {
     /// Where the dynamic engine moves the sheet; auto takes a GPU for large sheets where there is a real one
     #[arg(long, value_enum, default_value_t = DeviceChoice::Cpu)]
     pub(crate) device: DeviceChoice,
+    /// Replace files in the folder of results that this command did not make
+    #[arg(long)]
+    pub(crate) force: bool,
     /// No progress and no table
     #[arg(long)]
     pub(crate) quiet: bool,
@@ -133,11 +136,11 @@ pub(crate) struct CheckArguments {
     #[arg(long)]
     pub(crate) out: Option<PathBuf>,
     /// Prove the statement of this certificate.json about the motion again by other means; nothing is written
-    #[arg(long, value_name = "CERTIFICATE", conflicts_with_all = ["out", "tolerance", "stop_at", "json"])]
+    #[arg(long, value_name = "CERTIFICATE", conflicts_with_all = ["out", "tolerance", "stop_at", "json", "force"])]
     pub(crate) verify: Option<PathBuf>,
     /// Overlaps up to this are touching, in the file's foldmotion:unitLength or mean sides of a face; 1e-6 where left
     /// out
-    #[arg(long, value_name = "X")]
+    #[arg(long, value_name = "X", value_parser = parse_tolerance, allow_negative_numbers = true)]
     pub(crate) tolerance: Option<f64>,
     /// End the check at the next frame once more than N pairs of triangles penetrate; 0: no limit; default: 4096
     #[arg(long, value_name = "N")]
@@ -145,6 +148,9 @@ pub(crate) struct CheckArguments {
     /// Threads to use; all cores where left out
     #[arg(long, value_parser = parse_threads)]
     pub(crate) threads: Option<usize>,
+    /// Replace files in the folder of results that this command did not make
+    #[arg(long)]
+    pub(crate) force: bool,
     /// No progress and no table
     #[arg(long)]
     pub(crate) quiet: bool,
@@ -165,12 +171,22 @@ pub(crate) struct PaperArguments {
     /// Threads to use; all cores where left out
     #[arg(long, value_parser = parse_threads)]
     pub(crate) threads: Option<usize>,
+    /// Replace files in the folder of results that this command did not make
+    #[arg(long)]
+    pub(crate) force: bool,
     /// No progress and no summary
     #[arg(long)]
     pub(crate) quiet: bool,
     /// Print exactly paper.json on stdout
     #[arg(long)]
     pub(crate) json: bool,
+}
+
+fn parse_tolerance(text: &str) -> Result<f64, String> {
+    match text.parse() {
+        Ok(tolerance) if tolerance > 0.0 && tolerance < 0.1 => Ok(tolerance),
+        _ => Err("a number above 0 and below 0.1 is needed, such as 1e-6".to_owned()),
+    }
 }
 
 pub(crate) fn parse_threads(text: &str) -> Result<usize, String> {

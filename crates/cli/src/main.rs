@@ -2,6 +2,7 @@
 
 mod arguments;
 mod init;
+mod interrupt;
 mod pattern;
 mod progress;
 mod record;
@@ -9,22 +10,18 @@ mod record;
 use std::io::Write as _;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
-use std::sync::atomic::{AtomicBool, Ordering};
 
 use arguments::{Arguments, CheckArguments, Command, DeviceChoice, PaperArguments, RunArguments};
 use clap::Parser as _;
 use foldmotion_study::paper::{PaperPart, paper};
 use foldmotion_study::scene::EngineChoice;
 use foldmotion_study::{
-    CheckOptions, Device, PatternStudy, Phase, SceneSource, Study, check_file, models,
-    record_again, record_file, verify_file,
+    CheckOptions, Destination, Device, PatternStudy, Phase, Published, SceneSource, Study,
+    check_file, models, record_again, record_file, verify_file,
 };
 use pattern::PatternArguments;
 use progress::Reporter;
 use record::RecordArguments;
-
-/// Set by Ctrl-C; work stops at its next report of progress.
-static INTERRUPTED: AtomicBool = AtomicBool::new(false);
 
 /// Bad input or usage.
 const BAD_INPUT: u8 = 2;
@@ -64,7 +61,7 @@ fn main() -> ExitCode {
         Ok(status) => ExitCode::from(status),
         Err(failure) => {
             // Nothing is left to do where even stderr is closed.
-            let _ = writeln!(std::io::stderr(), "foldmotion: {}", failure.message);
+            let _ = writeln!(std::io::stderr(), "foldmotion: {}", plain(&failure.message));
             ExitCode::from(failure.status)
         }
     }
@@ -72,20 +69,28 @@ fn main() -> ExitCode {
 
 fn run_scene(arguments: &RunArguments) -> Result<u8, Failure> {
     use_threads(arguments.threads)?;
-    watch_for_interrupts()?;
+    interrupt::watch()?;
     let (mut source, folder) =
         scene_and_folder(&arguments.scene, &arguments.set, arguments.out.as_ref())?;
     if let Some(budget) = &arguments.budget {
         source.set_by_flag("budget", "motion.budget", budget);
     }
+    let reporter = Reporter::new(arguments.quiet);
+    reporter.report(Phase::Read.name(), 0.0);
     let mut study = Study::resolve(&source)?;
     study.device = device(arguments.device, &study)?;
-    let reporter = Reporter::new(arguments.quiet);
-    let report = study.run(&folder, &|phase, done| {
+    if !arguments.quiet {
+        for note in &study.notes {
+            let _ = writeln!(std::io::stderr(), "foldmotion: {}", plain(note));
+        }
+    }
+    let destination = Destination::from(&folder).replacing(arguments.force);
+    let report = study.run(destination, &|phase, done| {
         reporter.report(phase.name(), done);
-        !INTERRUPTED.load(Ordering::Relaxed)
+        interrupt::may_go_on()
     })?;
     reporter.finish();
+    tell(&report.published, arguments.quiet);
     if arguments.json {
         print(&report.to_json())?;
     } else if !arguments.quiet {
@@ -139,7 +144,7 @@ fn scene_and_folder(
 
 fn check_motion(arguments: &CheckArguments) -> Result<u8, Failure> {
     use_threads(arguments.threads)?;
-    watch_for_interrupts()?;
+    interrupt::watch()?;
     if let Some(certificate) = &arguments.verify {
         return verify_certificate(arguments, certificate);
     }
@@ -158,15 +163,18 @@ fn check_motion(arguments: &CheckArguments) -> Result<u8, Failure> {
     let reporter = Reporter::new(arguments.quiet);
     let checked = check_file(&arguments.motion, &options, &|phase, done| {
         reporter.report(phase.name(), done);
-        !INTERRUPTED.load(Ordering::Relaxed)
+        interrupt::may_go_on()
     })?;
     let certificate = &checked.certificate;
-    certificate.write(&folder)?;
     reporter.finish();
+    // What was found is said even where it cannot be written.
     if arguments.json {
         print(&certificate.to_json())?;
     } else if !arguments.quiet {
         print(&checked.table())?;
+    }
+    certificate.write(Destination::from(&folder).replacing(arguments.force))?;
+    if !arguments.json && !arguments.quiet {
         let verdict = &certificate.verdict;
         print(&format!("certificate in {}\n{verdict}\n", folder.display()))?;
     }
@@ -177,7 +185,7 @@ fn verify_certificate(arguments: &CheckArguments, certificate: &Path) -> Result<
     let reporter = Reporter::new(arguments.quiet);
     let verified = verify_file(&arguments.motion, certificate, &|phase, done| {
         reporter.report(phase.name(), done);
-        !INTERRUPTED.load(Ordering::Relaxed)
+        interrupt::may_go_on()
     })?;
     reporter.finish();
     if !arguments.quiet {
@@ -188,18 +196,22 @@ fn verify_certificate(arguments: &CheckArguments, certificate: &Path) -> Result<
 
 fn record_motion(arguments: &RecordArguments) -> Result<u8, Failure> {
     use_threads(arguments.threads)?;
-    watch_for_interrupts()?;
+    interrupt::watch()?;
     let reporter = Reporter::new(arguments.quiet);
     let progress = |phase: Phase, done| {
         reporter.report(phase.name(), done);
-        !INTERRUPTED.load(Ordering::Relaxed)
+        interrupt::may_go_on()
     };
     let (out, motion) = (arguments.out.as_deref(), arguments.motion.as_deref());
     if let Some(file) = &arguments.again {
-        let again = record_again(file, motion, out, &progress)?;
+        let again = record_again(file, motion, out, arguments.force, &progress)?;
         reporter.finish();
         for warning in &again.warnings {
-            let _ = writeln!(std::io::stderr(), "foldmotion: warning: {warning}");
+            let _ = writeln!(
+                std::io::stderr(),
+                "foldmotion: warning: {}",
+                plain(&warning)
+            );
         }
         if !arguments.quiet {
             let same = if again.is_same { "the same" } else { "other" };
@@ -210,31 +222,37 @@ fn record_motion(arguments: &RecordArguments) -> Result<u8, Failure> {
     // The command line has a motion where it has no --again.
     let motion = motion.unwrap_or(Path::new(""));
     let folder = arguments.folder(motion);
-    let record = record_file(motion, &arguments.scene(), &folder, &progress)?;
+    let destination = Destination::from(&folder).replacing(arguments.force);
+    let record = record_file(motion, &arguments.scene(), destination, &progress)?;
     reporter.finish();
+    tell(&record.published, arguments.quiet);
     if !arguments.quiet {
-        let marks = if record.is_judged {
-            "penetrations are marked"
-        } else {
-            "penetrations are not marked: no certificate.json of this motion lies beside it"
+        let marks = match (record.is_judged, record.penetrates) {
+            (true, true) => "penetrations are marked",
+            (true, false) => "its certificate tells no penetration to mark",
+            _ => "penetrations are not marked: no certificate.json of this motion lies beside it",
         };
-        let count = record.files.len();
-        print(&format!("{count} files in {}; {marks}\n", folder.display()))?;
+        let files = match record.files.len() {
+            1 => "1 file".to_owned(),
+            count => format!("{count} files"),
+        };
+        print(&format!("{files} in {}; {marks}\n", folder.display()))?;
     }
     Ok(0)
 }
 
 fn rebuild_paper(arguments: &PaperArguments) -> Result<u8, Failure> {
     use_threads(arguments.threads)?;
-    watch_for_interrupts()?;
+    interrupt::watch()?;
     let parts = match &arguments.only {
         Some(list) => PaperPart::parse_list(list)?,
         None => PaperPart::ALL.to_vec(),
     };
     let reporter = Reporter::new(arguments.quiet);
-    let run = paper(&arguments.out, &parts, &|part, done| {
+    let destination = Destination::from(&arguments.out).replacing(arguments.force);
+    let run = paper(destination, &parts, &|part, done| {
         reporter.report(part.name(), done);
-        !INTERRUPTED.load(Ordering::Relaxed)
+        interrupt::may_go_on()
     })?;
     reporter.finish();
     if arguments.json {
@@ -251,18 +269,19 @@ fn rebuild_paper(arguments: &PaperArguments) -> Result<u8, Failure> {
 }
 
 fn write_pattern(arguments: &PatternArguments) -> Result<u8, Failure> {
-    watch_for_interrupts()?;
+    interrupt::watch()?;
     let (source, folder) =
         scene_and_folder(&arguments.scene, &arguments.set, arguments.out.as_ref())?;
     let study = PatternStudy::resolve(&source);
+    let destination = Destination::from(&folder).replacing(arguments.force);
     if study.is_err()
-        && let Some(figure) = PatternStudy::write_clashes(&source, &folder)?
+        && let Some(figure) = PatternStudy::write_clashes(&source, destination)?
         && !arguments.quiet
     {
         print(&format!("the rows are drawn in {}\n", figure.display()))?;
     }
-    let summary = study?.write(&folder, &arguments.options(), &|_, _| {
-        !INTERRUPTED.load(Ordering::Relaxed)
+    let summary = study?.write(destination, &arguments.options(), &|_, _| {
+        interrupt::may_go_on()
     })?;
     if !arguments.quiet {
         print(&summary)?;
@@ -276,13 +295,8 @@ fn open_window(arguments: arguments::ViewArguments) -> Result<u8, Failure> {
     use foldmotion_viewer::{ViewOptions, view};
     use_threads(arguments.threads)?;
     // A file that is not there is said here, not in a window that may not open.
-    if let Some(file) = &arguments.file
-        && let Err(error) = std::fs::File::open(file)
-    {
-        return Err(Failure {
-            message: format!("{}: cannot be read: {error}", file.display()),
-            status: BAD_INPUT,
-        });
+    if let Some(file) = &arguments.file {
+        foldmotion_study::require_file(file)?;
     }
     let options = ViewOptions {
         file: arguments.file,
@@ -332,16 +346,25 @@ fn use_threads(threads: Option<usize>) -> Result<(), Failure> {
         })
 }
 
-fn watch_for_interrupts() -> Result<(), Failure> {
-    ctrlc::set_handler(|| INTERRUPTED.store(true, Ordering::Relaxed)).map_err(|e| Failure {
-        message: format!("Ctrl-C cannot be watched: {e}"),
-        status: FAILED,
-    })
+/// Says what became of other files in the folder of results.
+fn tell(published: &Published, quiet: bool) {
+    if quiet {
+        return;
+    }
+    for line in published.words() {
+        let _ = writeln!(std::io::stderr(), "foldmotion: {}", plain(&line));
+    }
+}
+
+/// A text without what a terminal would take for a command: names and titles come from files.
+fn plain(text: &str) -> String {
+    let is_command = |letter: char| letter.is_control() && letter != '\n' && letter != '\t';
+    text.replace(is_command, "\u{fffd}")
 }
 
 /// Prints to stdout; a reader that has gone (`| head`) is no failure.
 fn print(text: &str) -> Result<(), Failure> {
-    match std::io::stdout().write_all(text.as_bytes()) {
+    match std::io::stdout().write_all(plain(text).as_bytes()) {
         Err(e) if e.kind() != std::io::ErrorKind::BrokenPipe => Err(Failure {
             message: format!("stdout: {e}"),
             status: FAILED,

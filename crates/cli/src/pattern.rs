@@ -9,6 +9,7 @@ use foldmotion_study::{
 
 /// `foldmotion pattern`.
 #[derive(Debug, Args)]
+#[expect(clippy::struct_excessive_bools, reason = "each is a flag of its own")]
 pub(crate) struct PatternArguments {
     /// The scene file
     pub(crate) scene: PathBuf,
@@ -60,6 +61,9 @@ pub(crate) struct PatternArguments {
     /// Draw the lines too that cut facets into triangles (they are no creases)
     #[arg(long)]
     facets: bool,
+    /// Replace files in the folder of results that this command did not make
+    #[arg(long)]
+    pub(crate) force: bool,
     /// Print nothing
     #[arg(long)]
     pub(crate) quiet: bool,

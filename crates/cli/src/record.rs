@@ -12,6 +12,7 @@ use crate::arguments::parse_threads;
 
 /// `foldmotion record`.
 #[derive(Debug, Args)]
+#[expect(clippy::struct_excessive_bools, reason = "each is a flag of its own")]
 pub(crate) struct RecordArguments {
     /// The motion, a FOLD file with frames
     #[arg(required_unless_present = "again")]
@@ -76,6 +77,9 @@ pub(crate) struct RecordArguments {
     /// Threads to use; all cores where left out
     #[arg(long, value_parser = parse_threads)]
     pub(crate) threads: Option<usize>,
+    /// Replace files in the folder of results that this command did not make
+    #[arg(long)]
+    pub(crate) force: bool,
     /// No progress and no list of files
     #[arg(long)]
     pub(crate) quiet: bool,

@@ -7,7 +7,10 @@
 
 mod common;
 
-use common::{foldmotion, text};
+use std::io::{BufRead as _, BufReader};
+use std::process::{Command, Stdio};
+
+use common::{command, foldmotion, text};
 
 fn scene(name: &str) -> String {
     format!("{}/../../scenes/{name}.toml", env!("CARGO_MANIFEST_DIR"))
@@ -233,7 +236,7 @@ fn a_crease_pattern_is_run_by_itself_whatever_the_case_of_its_ending() {
 #[test]
 fn without_a_display_the_window_says_what_to_install_and_what_works_without() {
     let home = tempfile::tempdir().unwrap();
-    let output = common::command(home.path(), &["view", &scene("one-unit")])
+    let output = command(home.path(), &["view", &scene("one-unit")])
         .env_remove("DISPLAY")
         .env_remove("WAYLAND_DISPLAY")
         .env_remove("WAYLAND_SOCKET")
@@ -256,4 +259,177 @@ fn a_file_that_is_not_there_is_bad_input_before_a_window_opens() {
     let err = text(&output.stderr);
     assert_eq!(output.status.code(), Some(2), "{err}");
     assert!(err.contains("nothing.toml"), "{err}");
+}
+
+#[test]
+fn a_second_run_leaves_the_films_of_the_first_and_files_of_the_users_own() {
+    let home = tempfile::tempdir().unwrap();
+    let unit = scene("one-unit");
+    let run = |outputs: &str, more: &[&str]| {
+        let outputs = format!("record.outputs={outputs}");
+        let small = ["--set", "motion.frames=20", "--set", "record.size=[64, 48]"];
+        let arguments = ["run", &unit, "--out", "here", "--set", &outputs];
+        foldmotion(home.path(), &[&arguments[..], &small, more].concat())
+    };
+    assert_eq!(run("[\"fold\", \"gif\"]", &[]).status.code(), Some(0));
+    let own = home.path().join("here/figure.pdf");
+    std::fs::write(&own, "mine").unwrap();
+    let second = run("[\"fold\", \"csv\"]", &[]);
+    assert_eq!(second.status.code(), Some(0));
+    assert!(text(&second.stderr).contains("figure.pdf"), "it is named");
+    assert!(home.path().join("here/motion.gif").exists());
+    let third = run("[\"pdf\"]", &[]);
+    let said = text(&third.stderr);
+    assert_eq!(third.status.code(), Some(2), "{said}");
+    assert!(
+        said.contains("figure.pdf") && said.contains("--force"),
+        "{said}"
+    );
+    assert_eq!(std::fs::read_to_string(&own).unwrap(), "mine");
+    assert_eq!(run("[\"pdf\"]", &["--force"]).status.code(), Some(0));
+    assert!(std::fs::read(&own).unwrap().starts_with(b"%PDF"));
+}
+
+#[test]
+fn what_is_no_regular_file_is_bad_input_at_once() {
+    let home = tempfile::tempdir().unwrap();
+    let pipe = home.path().join("pipe.toml");
+    let made = Command::new("mkfifo").arg(&pipe).status().unwrap();
+    assert!(made.success());
+    let pipe = pipe.to_string_lossy();
+    for arguments in [
+        &["run", "/dev/zero"][..],
+        &["run", "/dev/urandom"],
+        &["run", &pipe],
+        &["run", "."],
+        &["check", "/dev/zero"],
+        &["check", "/dev/zero", "--verify", "/dev/zero"],
+        &["record", "/dev/zero"],
+        &["record", "--again", "/dev/zero"],
+        &["pattern", &pipe],
+    ] {
+        let output = foldmotion(home.path(), arguments);
+        let said = text(&output.stderr);
+        assert_eq!(output.status.code(), Some(2), "{arguments:?}: {said}");
+        assert!(
+            said.contains("device or a pipe") || said.contains("folder"),
+            "{arguments:?}: {said}"
+        );
+    }
+}
+
+#[test]
+fn a_scene_larger_than_any_is_told_its_size() {
+    let home = tempfile::tempdir().unwrap();
+    let size = (16 << 20) + 5;
+    std::fs::write(home.path().join("a.toml"), vec![b'#'; size]).unwrap();
+    std::fs::write(home.path().join("a.svg"), vec![b' '; size]).unwrap();
+    for name in ["a.toml", "a.svg"] {
+        let output = foldmotion(home.path(), &["run", name]);
+        let said = text(&output.stderr);
+        assert_eq!(output.status.code(), Some(2), "{said}");
+        assert!(said.contains(&format!("{size} bytes")), "{said}");
+    }
+}
+
+/// Lines that cross each other so often that the first equilibrium takes minutes.
+fn crossing_lines() -> String {
+    let mut svg = "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 1000 1000\">".to_owned();
+    let mut line = |[a, b, c, d]: [usize; 4], colour: &str| {
+        svg.push_str(&format!(
+            "<line x1=\"{a}\" y1=\"{b}\" x2=\"{c}\" y2=\"{d}\" stroke=\"{colour}\"/>"
+        ));
+    };
+    for k in 0..=150 {
+        let border = k == 0 || k == 150;
+        let colour = match (border, k % 2) {
+            (true, _) => "#000",
+            (_, 0) => "#f00",
+            _ => "#00f",
+        };
+        line([6 * k, 0, 6 * k, 900], colour);
+        line([0, 6 * k, 900, 6 * k], colour);
+    }
+    svg + "</svg>"
+}
+
+#[test]
+fn an_interrupt_ends_a_run_wherever_it_is_and_leaves_nothing() {
+    let home = tempfile::tempdir().unwrap();
+    std::fs::write(home.path().join("lines.svg"), crossing_lines()).unwrap();
+    for signal in ["-INT", "-TERM"] {
+        let mut run = command(home.path(), &["run", "lines.svg", "--out", "here/lines"]);
+        let mut run = run.stderr(Stdio::piped()).spawn().unwrap();
+        let lines = BufReader::new(run.stderr.take().unwrap()).lines();
+        // It folds when it says so.
+        let mut lines = lines.map(Result::unwrap);
+        assert!(lines.any(|line| line.starts_with("fold")));
+        let killed = Command::new("kill")
+            .arg(signal)
+            .arg(run.id().to_string())
+            .status();
+        assert!(killed.unwrap().success());
+        assert_eq!(run.wait().unwrap().code(), Some(3), "{signal}");
+        assert!(lines.any(|line| line.contains("interrupted")));
+        let left = std::fs::read_dir(home.path().join("here")).unwrap();
+        assert_eq!(left.count(), 0, "{signal}");
+    }
+}
+
+#[test]
+fn flags_and_files_that_do_not_go_together_are_refused_by_name() {
+    let home = tempfile::tempdir().unwrap();
+    let unit = scene("one-unit");
+    let outputs = "record.outputs=[\"fold\", \"obj\"]";
+    let arguments = [
+        "run",
+        &unit,
+        "--out",
+        "here",
+        "--set",
+        outputs,
+        "--set",
+        "motion.frames=20",
+    ];
+    assert_eq!(foldmotion(home.path(), &arguments).status.code(), Some(0));
+    let pattern = scene("imported/miura").replace(".toml", ".svg");
+    let motion = "here/motion.fold";
+    let cases: [(&[&str], &[&str], &str); 3] = [
+        (
+            &["record", motion, "--again", "here/state-1.obj"],
+            &["state-1.obj", motion, "leave out"],
+            "nothing",
+        ),
+        (
+            &["check", motion, "--tolerance", "nan"],
+            &["--tolerance", "nan", "1e-6"],
+            "frame",
+        ),
+        (&["pattern", &pattern], &["miura.svg", "already"], "--set"),
+    ];
+    for (arguments, words, other) in cases {
+        let output = foldmotion(home.path(), arguments);
+        let said = text(&output.stderr);
+        assert_eq!(output.status.code(), Some(2), "{said}");
+        assert!(words.iter().all(|word| said.contains(word)), "{said}");
+        assert!(!said.contains(other), "{said}");
+    }
+}
+
+#[test]
+fn no_control_characters_of_a_file_reach_the_terminal() {
+    let home = tempfile::tempdir().unwrap();
+    let motion = r#"{"file_title": "a\u001b[31mred\u0007", "vertices_coords": [[0, 0], [1, 0], [1, 1], [0, 1]],
+"edges_vertices": [[0, 1], [1, 2], [2, 3], [3, 0], [0, 2]], "edges_assignment": ["B", "B", "B", "B", "V"],
+"faces_vertices": [[0, 1, 2], [0, 2, 3]], "file_frames": [{"frame_parent": 0, "frame_inherit": true},
+{"frame_parent": 0, "frame_inherit": true, "vertices_coords": [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0.5, 0.5, 0.7]]}]}"#;
+    std::fs::write(home.path().join("a.fold"), motion).unwrap();
+    let output = foldmotion(home.path(), &["check", "a.fold"]);
+    let said = text(&output.stdout);
+    assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
+    let is_command = |letter: char| letter.is_control() && letter != '\n';
+    assert!(
+        said.contains("red") && !said.contains(is_command),
+        "{said:?}"
+    );
 }

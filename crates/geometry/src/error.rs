@@ -3,6 +3,8 @@
 use glam::DVec2;
 use thiserror::Error;
 
+use crate::Number;
+
 /// What can be wrong with a profile or its division.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
@@ -17,7 +19,7 @@ pub enum GeometryError {
     },
     /// A control point is NaN, infinite or too large to be squared.
     #[error(
-        "control point {index} is ({x}, {z}); coordinates must be finite and at most {limit:e} in size"
+        "control point {index} is ({}, {}); coordinates must be finite and at most {} in size", Number(*x), Number(*z), Number(*limit)
     )]
     ControlPoint {
         /// Which one, from 0.
@@ -43,7 +45,7 @@ pub enum GeometryError {
     },
     /// A point is NaN, infinite or too large to be squared.
     #[error(
-        "point {index} is ({x}, {z}); coordinates must be finite and at most {limit:e} in size"
+        "point {index} is ({}, {}); coordinates must be finite and at most {} in size", Number(*x), Number(*z), Number(*limit)
     )]
     Point {
         /// Which one, from 0.
@@ -56,7 +58,7 @@ pub enum GeometryError {
         limit: f64,
     },
     /// Two points in a row are the same or nearly so.
-    #[error("points {index} and {next} both stand at ({x}, {z}) or too near to it; remove one", next = index + 1)]
+    #[error("points {index} and {next} both stand at ({}, {}) or too near to it; remove one", Number(*x), Number(*z), next = index + 1)]
     RepeatedPoint {
         /// The first of the two, from 0.
         index: usize,
@@ -67,7 +69,7 @@ pub enum GeometryError {
     },
     /// A closed outline ends far from its start.
     #[error(
-        "the closed outline ends {gap:e} away from its start, more than twice its longest step ({longest:e}); repeat its first point as the last, or do not call it closed"
+        "the closed outline ends {:.6} away from its start, more than twice its longest step ({:.6}); repeat its first point as the last, or do not call it closed", Number(*gap), Number(*longest)
     )]
     EndsApart {
         /// Distance between the first and the last point.
@@ -86,7 +88,7 @@ pub enum GeometryError {
         expected: usize,
     },
     /// A knot is NaN or infinite.
-    #[error("knot {index} is {value}; knots must be finite")]
+    #[error("knot {index} is {}; knots must be finite", Number(*value))]
     KnotNotFinite {
         /// Which one, from 0.
         index: usize,
@@ -95,7 +97,7 @@ pub enum GeometryError {
     },
     /// The knots run backwards.
     #[error(
-        "knot {index} is {value}, below the knot before it, {previous}; knots must not decrease"
+        "knot {index} is {}, below the knot before it, {}; knots must not decrease", Number(*value), Number(*previous)
     )]
     KnotsDecrease {
         /// Which one, from 0.
@@ -107,7 +109,7 @@ pub enum GeometryError {
     },
     /// The curve would have no parameters to run over.
     #[error(
-        "the curve runs from knot {start} to knot {end}; the end must be above the start by a finite amount"
+        "the curve runs from knot {} to knot {}; the end must be above the start by a finite amount", Number(*start), Number(*end)
     )]
     KnotRange {
         /// The knot at which the curve starts (index 3).
@@ -126,7 +128,7 @@ pub enum GeometryError {
         limit: usize,
     },
     /// Two knots differ by so little that derivatives lose their digits.
-    #[error("knots {index} and {next} are {width:e} of the range apart; make them equal or at least {minimum:e} apart", next = index + 1)]
+    #[error("knots {index} and {next} are {:.3} of the range apart; make them equal or at least {} apart", Number(*width), Number(*minimum), next = index + 1)]
     KnotSpanTooNarrow {
         /// The first of the two, from 0.
         index: usize,
@@ -142,7 +144,7 @@ pub enum GeometryError {
     KnotsOfSmoothProfile,
     /// A closed profile with knots of its own misses its start.
     #[error(
-        "the closed profile ends {gap:e} away from its start; clamp its knots (repeat the first and the last four times)"
+        "the closed profile ends {:.6} away from its start; clamp its knots (repeat the first and the last four times)", Number(*gap)
     )]
     NotClosed {
         /// Distance between start and end.
@@ -150,14 +152,14 @@ pub enum GeometryError {
     },
     /// The scale is no positive number or takes the profile out of range.
     #[error(
-        "the profile cannot be scaled by {factor}; a positive, finite factor of moderate size is needed"
+        "the profile cannot be scaled by {}; a positive, finite factor of moderate size is needed", Number(*factor)
     )]
     Scale {
         /// The factor.
         factor: f64,
     },
     /// The length asked for is no positive number.
-    #[error("the requested polygon length is {value}; it must be positive and finite")]
+    #[error("the requested polygon length is {}; it must be positive and finite", Number(*value))]
     Length {
         /// What was asked for.
         value: f64,
@@ -174,7 +176,7 @@ pub enum GeometryError {
     },
     /// Segments too short for f64 to tell their ends apart.
     #[error(
-        "the mean segment is {length:e} long, below {minimum:e}, what f64 resolves at coordinates of this size; use fewer segments"
+        "the mean segment is {:.3} long, below {:.3}, what f64 resolves at coordinates of this size; use fewer segments", Number(*length), Number(*minimum)
     )]
     SegmentTooShort {
         /// The mean length.
@@ -183,14 +185,14 @@ pub enum GeometryError {
         minimum: f64,
     },
     /// The tolerance is no number ≥ 0.
-    #[error("the division tolerance is {value}; it must be a number of at least 0")]
+    #[error("the division tolerance is {}; it must be a number of at least 0", Number(*value))]
     Tolerance {
         /// What was given.
         value: f64,
     },
     /// The tolerance of Douglas and Peucker's method is no distance over the length of the profile.
     #[error(
-        "the tolerance is {tolerance}; as a distance over the length of the profile it must lie between 0 and 1"
+        "the tolerance is {}; as a distance over the length of the profile it must lie between 0 and 1", Number(*tolerance)
     )]
     SplitTolerance {
         /// What was given.
@@ -227,7 +229,7 @@ pub enum GeometryError {
         value: f64,
     },
     /// The curve meets itself.
-    #[error("the profile crosses itself near ({:.6}, {:.6}), at u = {:.6} and u = {:.6}; move its control points apart, or declare it closed if its ends meet", point.x, point.y, parameters[0], parameters[1])]
+    #[error("the profile crosses itself near ({:.6}, {:.6}), at u = {:.6} and u = {:.6}; {}", point.x, point.y, parameters[0], parameters[1], uncrossed(*parameters))]
     CurveCrosses {
         /// The two parameters, ascending.
         parameters: [f64; 2],
@@ -249,7 +251,7 @@ pub enum GeometryError {
     SeamClosed,
     /// The descent that straightens a chain came to its end before it was straight.
     #[error(
-        "the profile could not be straightened: after {steps} steps its segments are {clearance:e} mean segments apart; move its layers apart"
+        "the profile could not be straightened: after {steps} steps its segments are {:.3} mean segments apart; move its layers apart", Number(*clearance)
     )]
     NotStraightened {
         /// Steps made.
@@ -257,4 +259,15 @@ pub enum GeometryError {
         /// The least distance of segments that are no neighbours, in mean segments.
         clearance: f64,
     },
+}
+
+/// What keeps a curve from meeting itself at two parameters.
+fn uncrossed(parameters: [f64; 2]) -> &'static str {
+    /// Ends of a curve meet this near to them, over its parameters.
+    const END: f64 = 0.02;
+    if parameters[0] < END && parameters[1] > 1.0 - END {
+        "its ends meet: close it (closed = \"corner\" or \"smooth\"), or move its points apart"
+    } else {
+        "a profile may not pass through itself there: move its points apart"
+    }
 }

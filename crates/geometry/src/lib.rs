@@ -20,6 +20,7 @@ mod fit;
 mod interpolation;
 mod length_table;
 mod levenberg_marquardt;
+mod number;
 mod nurbs;
 mod orientation;
 mod polygon;
@@ -38,6 +39,7 @@ pub use division::{
 };
 pub use error::GeometryError;
 pub use fit::Fit;
+pub use number::Number;
 pub use nurbs::Nurbs;
 pub use polygon::{Crossing, first_crossing};
 pub use profile::{Closure, Profile};

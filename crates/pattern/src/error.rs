@@ -1,5 +1,6 @@
 //! Why a sheet cannot be made.
 
+use foldmotion_geometry::Number;
 use thiserror::Error;
 
 /// Errors of this crate; each carries the value found and what would be right.
@@ -7,7 +8,7 @@ use thiserror::Error;
 #[non_exhaustive]
 pub enum PatternError {
     /// A size that must be positive and finite is not.
-    #[error("{name} is {value}: it must be a positive, finite number")]
+    #[error("{name} is {}: it must be a positive, finite number", Number(*value))]
     NotPositive {
         /// What was given.
         name: &'static str,
@@ -26,8 +27,10 @@ pub enum PatternError {
     },
     /// Width and height of the unit contradict the case.
     #[error(
-        "case {case} needs units with {need}, but w = {width} and h = {height} (w/h = {ratio:.6}); {remedy}",
-        ratio = width / height
+        "case {case} needs units with {need}, but w = {:.9} and h = {:.9} (w/h = {:.9}); {remedy}",
+        Number(*width),
+        Number(*height),
+        Number(width / height)
     )]
     CaseContradictsUnit {
         /// The case asked for.
@@ -42,21 +45,21 @@ pub enum PatternError {
         remedy: &'static str,
     },
     /// λ is missing or out of range.
-    #[error("lambda is {value}: case SII needs it strictly between 0 and 1")]
+    #[error("lambda is {}: case SII needs it strictly between 0 and 1", Number(*value))]
     LambdaOutOfRange {
         /// The value given, NaN where it is missing.
         value: f64,
     },
     /// λ of a common flap is out of range.
     #[error(
-        "lambda is {value}: one flap width for rows of unequal height needs it above 0 and at most 1"
+        "lambda is {}: one flap width for rows of unequal height needs it above 0 and at most 1", Number(*value)
     )]
     CommonFlapOutOfRange {
         /// The value given.
         value: f64,
     },
     /// d is out of range.
-    #[error("offset d is {value}: it must satisfy 0 <= d < w1' = {limit}")]
+    #[error("offset d is {}: it must satisfy 0 <= d < w1' = {}", Number(*value), Number(*limit))]
     OffsetOutOfRange {
         /// The value given.
         value: f64,
@@ -95,7 +98,7 @@ pub enum PatternError {
         reason: String,
     },
     /// Unit parts too thin for the arithmetic.
-    #[error("{part} of the unit is {value} wide, less than 1e-9 of h = {height}; {remedy}")]
+    #[error("{part} of the unit is {} wide, less than 1e-9 of h = {}; {remedy}", Number(*value), Number(*height))]
     DegenerateUnit {
         /// The part.
         part: &'static str,

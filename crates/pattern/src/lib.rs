@@ -14,6 +14,7 @@ mod error;
 mod fold_file;
 mod fold_read;
 mod import;
+mod layer_count;
 mod layers;
 mod layout;
 mod map;

@@ -2,6 +2,7 @@
 
 use std::fmt::Write as _;
 
+use foldmotion_geometry::Number;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -252,10 +253,10 @@ impl Certificate {
         );
         let _ = writeln!(
             out,
-            "\nverdict: {} (tolerance {:e} of the unit of length {:.6}; {} pairs penetrate, {} are undecided)",
+            "\nverdict: {} (tolerance {} of the unit of length {:.6}; {} pairs penetrate, {} are undecided)",
             self.verdict,
-            self.tolerance,
-            self.unit_length,
+            Number(self.tolerance),
+            Number(self.unit_length),
             self.penetrations.len(),
             self.undecided.len()
         );
@@ -265,15 +266,23 @@ impl Certificate {
         if let Some(s) = &self.min_separation {
             let _ = writeln!(
                 out,
-                "smallest separation of facets that share no vertex: {:.3e} units at t = {:.4}, faces {} and {}",
-                s.distance, s.t, s.pair.faces[0], s.pair.faces[1]
+                "smallest separation of facets that share no vertex: {:.4} units at t = {:.4}, faces {} and {}",
+                Number(s.distance),
+                s.t,
+                s.pair.faces[0],
+                s.pair.faces[1]
             );
         }
         if let Some(p) = self.penetrations.first() {
             let _ = writeln!(
                 out,
-                "first at t = {:.5}: {}, faces {} and {}, vertices {:?}, depth {:.1e} units",
-                p.t, p.kind, p.pair.faces[0], p.pair.faces[1], p.vertices, p.depth
+                "first at t = {:.5}: {}, faces {} and {}, vertices {:?}, depth {:.2} units",
+                p.t,
+                p.kind,
+                p.pair.faces[0],
+                p.pair.faces[1],
+                p.vertices,
+                Number(p.depth)
             );
             if let Some(layers) = &p.layers {
                 let _ = writeln!(out, "  faces {:?} break: {}", layers.faces, layers.rule);

@@ -6,6 +6,7 @@ use std::io::{self, Read, Write as _};
 use std::path::Path;
 
 use foldmotion_check::{CheckError, Checker, CollisionOptions, CollisionReport};
+use foldmotion_geometry::Number;
 use foldmotion_pattern::{FoldError, FoldFile, Frame, LayerOrder};
 use sha2::{Digest as _, Sha256};
 
@@ -13,11 +14,11 @@ use crate::certificate::Certificate;
 use crate::certify::{CheckedMotion, MotionFile};
 use crate::checked_file::CheckedFile;
 use crate::digest::hexadecimal;
-use crate::results::{CERTIFICATE, Results, write_error};
-use crate::{Phase, Progress, StudyError};
+use crate::results::{CERTIFICATE, Destination, Maker, Results, listed, write_error};
+use crate::{Phase, Progress, StudyError, input_file};
 
 /// The largest motion file, bytes: 16 GiB.
-const LARGEST: u64 = 16 << 30;
+pub(crate) const LARGEST: u64 = 16 << 30;
 
 /// How a motion file is checked.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -44,7 +45,7 @@ impl Default for CheckOptions {
 /// a few frames, however many there are.
 ///
 /// # Errors
-/// [`StudyError::Read`], [`StudyError::Motion`] and [`StudyError::LargeMotion`] where the file is no motion that can
+/// [`StudyError::Read`], [`StudyError::Motion`] and [`StudyError::LargeFile`] where the file is no motion that can
 /// be judged; [`StudyError::Interrupted`] where `progress` returned false.
 pub fn check_file(
     path: &Path,
@@ -123,17 +124,26 @@ pub(crate) fn judge_file(
 }
 
 impl Certificate {
-    /// Writes `certificate.json` into `folder`; other files there stay.
+    /// Writes `certificate.json` into a folder; other files there stay.
     ///
     /// # Errors
-    /// [`StudyError::Output`]; an earlier certificate is then as it was.
-    pub fn write(&self, folder: &Path) -> Result<(), StudyError> {
-        let mut results = Results::of(folder, |name| name == CERTIFICATE, Some(CERTIFICATE))?;
+    /// [`StudyError::Output`], and [`StudyError::InTheWay`] where a certificate stands there that says something else and
+    /// that foldmotion did not write; it is then as it was.
+    pub fn write<'a>(&self, destination: impl Into<Destination<'a>>) -> Result<(), StudyError> {
+        let mut results = Results::open(destination.into(), Maker::Check, Some(CERTIFICATE))?;
+        let folder = results.folder().to_owned();
         results.write(CERTIFICATE, |out| {
             out.write_all(self.to_json().as_bytes())
-                .map_err(|e| write_error(folder, CERTIFICATE, e))
+                .map_err(|e| write_error(&folder, CERTIFICATE, e))
         })?;
-        results.publish()
+        match results.publish(Some(&self.sha256), &|_| false)?.aside {
+            aside if aside.is_empty() => Ok(()),
+            aside => Err(StudyError::InTheWay {
+                path: folder,
+                names: listed(&aside),
+                command: Maker::Check.name(),
+            }),
+        }
     }
 }
 
@@ -155,26 +165,11 @@ impl<'a> Input<'a> {
         phase: Phase,
         progress: Progress<'a>,
     ) -> Result<Self, StudyError> {
-        let failed = |source| StudyError::Read {
-            path: path.to_owned(),
-            source,
-        };
-        let data = std::fs::metadata(path).map_err(failed)?;
-        if !data.is_file() {
-            let message = "it is no file; a motion is read twice";
-            return Err(failed(io::Error::new(io::ErrorKind::InvalidInput, message)));
-        }
-        if data.len() > LARGEST {
-            return Err(StudyError::LargeMotion {
-                path: path.to_owned(),
-                size: data.len(),
-                limit: LARGEST,
-            });
-        }
+        let (file, size) = input_file::open(path, LARGEST)?;
         Ok(Self {
             path,
-            file: File::open(path).map_err(failed)?,
-            size: data.len(),
+            file,
+            size,
             read: 0,
             hash: Sha256::new(),
             phase,
@@ -300,8 +295,10 @@ impl<'a> Judge<'a> {
             ) => {
                 let face = self.file.triangle_faces[*face];
                 let message = format!(
-                    "{at}: faces_vertices[{face}] has no area: the height of a triangle is {height:e}, more than \
-                     {limit:e} is needed to tell its sides"
+                    "{at}: faces_vertices[{face}] has no area: the height of a triangle is {:.3}, more than {:.3} is \
+                     needed to tell its sides",
+                    Number(*height),
+                    Number(*limit)
                 );
                 motion_error(path, &message)
             }

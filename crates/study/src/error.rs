@@ -4,6 +4,7 @@ use std::io;
 use std::path::PathBuf;
 
 use foldmotion_check::CheckError;
+use foldmotion_geometry::Number;
 use foldmotion_pattern::{CutError, ImportError};
 use foldmotion_record::RecordError;
 use foldmotion_solver::SolverError;
@@ -43,7 +44,8 @@ pub enum StudyError {
     },
     /// The profile cannot be divided into equal segments.
     #[error(
-        "{place}: the profile cannot be divided into {segments} equal segments: |R_max| = {residual:e} after {iterations} iterations; {remedy}"
+        "{place}: the profile cannot be divided into {segments} equal segments: |R_max| = {:.2} after {iterations} iterations; {remedy}",
+        Number(*residual)
     )]
     Undivided {
         /// File and line.
@@ -81,10 +83,10 @@ pub enum StudyError {
         /// What is wrong, and what would help.
         message: String,
     },
-    /// A motion file is too large.
+    /// A file is too large.
     #[error("{}: it has {size} bytes: at most {limit} are read", path.display())]
-    LargeMotion {
-        /// The motion file.
+    LargeFile {
+        /// The file.
         path: PathBuf,
         /// Its bytes.
         size: u64,
@@ -120,21 +122,37 @@ pub enum StudyError {
         /// Why it failed.
         source: io::Error,
     },
+    /// Files of others stand where results go.
+    #[error(
+        "{}: in the way of the results: {names}; no earlier `foldmotion {command}` made them there, or they were changed since: \
+         move them, choose another folder with --out, or replace them with --force",
+        path.display()
+    )]
+    InTheWay {
+        /// The output folder.
+        path: PathBuf,
+        /// The files.
+        names: String,
+        /// The command whose results they would be.
+        command: &'static str,
+    },
     /// The disk cannot hold the results.
     #[error(
-        "{}: the results need about {needed} bytes, but only {available} are free: {frames} frames fit; \
-         set motion.frames to at most that, or choose another folder with --out",
+        "{}: the results need about {needed} ({parts}), but only {available} are free: {remedy}, or choose another folder with \
+         --out",
         path.display()
     )]
     DiskTooSmall {
         /// The output folder.
         path: PathBuf,
-        /// Bytes estimated.
-        needed: u64,
-        /// Bytes free.
-        available: u64,
-        /// Frames that would fit.
-        frames: usize,
+        /// What they need, estimated.
+        needed: String,
+        /// What each output needs.
+        parts: String,
+        /// What is free.
+        available: String,
+        /// What would make them fit.
+        remedy: String,
     },
     /// The engine failed.
     #[error("the motion could not be computed: {0}")]
@@ -159,11 +177,12 @@ impl StudyError {
             | Self::Motion { .. }
             | Self::Certificate { .. }
             | Self::Origin { .. }
-            | Self::LargeMotion { .. }
+            | Self::LargeFile { .. }
             | Self::Value { .. }
             | Self::Import { .. }
             | Self::Part { .. }
             | Self::Cut(_)
+            | Self::InTheWay { .. }
             | Self::Undivided { .. } => 2,
             _ => 3,
         }

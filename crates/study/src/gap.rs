@@ -1,5 +1,6 @@
 //! How close layers may come.
 
+use foldmotion_geometry::Number;
 use foldmotion_solver::quasi_static::Contact;
 
 use crate::StudyError;
@@ -57,9 +58,9 @@ impl Resolver<'_> {
             1.0
         };
         let message = format!(
-            "must lie between {:e} and {:.6}, so that the {layers} layers on each other fit beside the thinnest part of the {}",
-            SMALLEST_GAP * scale,
-            limit * scale,
+            "must lie between {} and {:.6}, so that the {layers} layers on each other fit beside the thinnest part of the {}",
+            Number(SMALLEST_GAP * scale),
+            Number(limit * scale),
             if subject.units().is_some() {
                 "unit"
             } else {

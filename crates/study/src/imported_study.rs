@@ -1,7 +1,5 @@
 //! The crease pattern of a file, resolved: what it is and which fold angles it takes.
 
-use std::fs::File;
-use std::io::Read as _;
 use std::path::Path;
 
 use foldmotion_pattern::{
@@ -13,7 +11,7 @@ use foldmotion_solver::{Schedule, ScheduleStep, Stage};
 use crate::pattern_scene::{PatternScene, UnknownChoice};
 use crate::scene::{CreasesChoice, DivisionScene, ProfileScene, SheetScene, StageChoice};
 use crate::study::Resolver;
-use crate::{SceneSource, StudyError};
+use crate::{SceneSource, StudyError, input_file};
 
 /// A crease pattern of a file.
 #[derive(Debug, Clone)]
@@ -145,7 +143,7 @@ impl Resolver<'_> {
                 .curve_tolerance
                 .map_or(Curves::Refuse, Curves::Flatten),
         };
-        let bytes = read_bounded(&path)?;
+        let bytes = input_file::read(&path, LARGEST_IMPORT_FILE as u64)?;
         let imported = match format {
             PatternFileFormat::Fold => import_fold(&bytes, &options),
             PatternFileFormat::Svg => import_svg(&bytes, &options),
@@ -237,21 +235,6 @@ fn waypoints(imported: &Imported, with_stages: bool, fraction: f64) -> Vec<Vec<f
         last.clone()
     });
     stages.collect()
-}
-
-/// A file, as far as one byte above the limit, at which the import refuses it.
-fn read_bounded(path: &Path) -> Result<Vec<u8>, StudyError> {
-    let mut bytes = Vec::new();
-    File::open(path)
-        .and_then(|file| {
-            file.take(LARGEST_IMPORT_FILE as u64 + 1)
-                .read_to_end(&mut bytes)
-        })
-        .map_err(|source| StudyError::Read {
-            path: path.to_owned(),
-            source,
-        })?;
-    Ok(bytes)
 }
 
 impl SceneSource {

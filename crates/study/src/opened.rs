@@ -12,7 +12,7 @@ use crate::folded::Findings;
 use crate::recording::{ReadMotion, stage_time};
 use crate::scene::RecordScene;
 use crate::series::FrameFigures;
-use crate::{Certificate, MotionRecord, Phase, Progress, SceneSource, StudyError};
+use crate::{Certificate, Destination, MotionRecord, Phase, Progress, SceneSource, StudyError};
 
 /// What a file turned out to be.
 #[derive(Debug)]
@@ -28,7 +28,7 @@ impl Opened {
     /// files are crease patterns, all else is a scene.
     ///
     /// # Errors
-    /// [`StudyError::Read`]; of a motion [`StudyError::Motion`], [`StudyError::LargeMotion`]; [`StudyError::Interrupted`]
+    /// [`StudyError::Read`]; of a motion [`StudyError::Motion`], [`StudyError::LargeFile`]; [`StudyError::Interrupted`]
     /// where `progress` returned false. What is wrong with a scene or a pattern, resolving it tells.
     pub fn read(path: &Path, progress: Progress<'_>) -> Result<Self, StudyError> {
         let is_fold = path
@@ -130,15 +130,16 @@ impl OpenedMotion {
     ///
     /// # Errors
     /// Those of [`record_file`](crate::record_file).
-    pub fn record_as(
+    pub fn record_as<'a>(
         &self,
         findings: Option<&Findings>,
         record: &RecordScene,
-        folder: &Path,
+        destination: impl Into<Destination<'a>>,
         progress: Progress<'_>,
     ) -> Result<MotionRecord, StudyError> {
         let collision = findings.map(|findings| &findings.collision);
-        self.read.record_into(folder, record, collision, progress)
+        self.read
+            .record_into(destination.into(), record, collision, progress)
     }
 
     fn series(&self, collision: &CollisionReport) -> Vec<FrameFigures> {

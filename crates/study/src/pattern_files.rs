@@ -2,13 +2,14 @@
 
 use std::fmt::Write as _;
 use std::io::Write as _;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use foldmotion_pattern::{
     CutOptions, CutPattern, LineClass, PageLayout, PaperSize, Tiles, UnitSheet, crease_pattern_fold,
 };
 
-use crate::results::{Results, write_error};
+use crate::digest::sha256;
+use crate::results::{Destination, MadeFile, Maker, Results, write_error};
 use crate::rows::draw_clashes;
 use crate::run::VERSION;
 use crate::scene::LengthUnit;
@@ -96,30 +97,34 @@ impl PatternStudy {
     ///
     /// # Errors
     /// [`StudyError::Output`]; the folder is then as it was.
-    pub fn write_clashes(
+    pub fn write_clashes<'a>(
         source: &SceneSource,
-        folder: &Path,
+        destination: impl Into<Destination<'a>>,
     ) -> Result<Option<PathBuf>, StudyError> {
         let Ok(Some(figure)) = draw_clashes(source) else {
             return Ok(None);
         };
-        let mut results = Results::of(folder, |name| name == CLASHES_SVG, Some(CLASHES_SVG))?;
+        let mut results = Results::open(destination.into(), Maker::Pattern, Some(CLASHES_SVG))?;
+        results.require_clear(&|name| name == CLASHES_SVG)?;
+        let folder = results.folder().to_owned();
         results.write(CLASHES_SVG, |out| {
             out.write_all(figure.as_bytes())
-                .map_err(|e| write_error(folder, CLASHES_SVG, e))
+                .map_err(|e| write_error(&folder, CLASHES_SVG, e))
         })?;
-        results.publish()?;
+        results.publish(None, &|_| false)?;
         Ok(Some(folder.join(CLASHES_SVG)))
     }
 
-    /// Writes pattern.svg, pattern.dxf and pattern.fold, and pattern-ROW-COLUMN.svg and .dxf for pages, into `folder`;
-    /// pattern files of earlier calls are replaced, other files stay. Returns what was written, for the screen.
+    /// Writes pattern.svg, pattern.dxf and pattern.fold, and pattern-ROW-COLUMN.svg and .dxf for pages, into a folder.
+    ///
+    /// Files of earlier calls are replaced, and removed where they are of another pattern or paper; other files stay.
+    /// Returns what was written, for the screen.
     ///
     /// # Errors
     /// [`StudyError`]; the folder is then as it was.
-    pub fn write(
+    pub fn write<'a>(
         &self,
-        folder: &Path,
+        destination: impl Into<Destination<'a>>,
         options: &PatternOptions,
         progress: Progress<'_>,
     ) -> Result<String, StudyError> {
@@ -139,14 +144,18 @@ impl PatternStudy {
             &lines,
             &format!("foldmotion {VERSION}"),
         )?;
-        let mut results = Results::of(folder, is_pattern_file, Some(PATTERN_SVG))?;
+        let has = |format| options.formats.contains(&format);
+        let mut results = Results::open(destination.into(), Maker::Pattern, Some(PATTERN_SVG))?;
+        results.require_clear(&|name| {
+            format_of(name).is_some_and(has) && (tiles.is_some() || !is_page(name))
+        })?;
+        let folder = results.folder().to_owned();
         let mut save = |name: &str, text: &str| {
             results.write(name, |out| {
                 out.write_all(text.as_bytes())
-                    .map_err(|e| write_error(folder, name, e))
+                    .map_err(|e| write_error(&folder, name, e))
             })
         };
-        let has = |format| options.formats.contains(&format);
         if has(PatternFormat::Fold) {
             save("pattern.fold", &fold)?;
         }
@@ -168,9 +177,16 @@ impl PatternStudy {
                 save(&format!("{stem}.dxf"), &page.dxf())?;
             }
         }
-        results.publish()?;
+        let paper = format!("{:?} {} {lines:?}", options.paper, options.overlap);
+        let of = sha256(format!("{fold}{paper}").as_bytes());
+        let is_stale = |file: &MadeFile| file.name != CLASHES_SVG && file.of.as_ref() != Some(&of);
+        let published = results.publish(Some(&of), &is_stale)?;
         let pages = tiles.map(|tiles| tiles.counts());
-        Ok(self.summary(&pattern, pages, &lines.note))
+        let mut summary = self.summary(&pattern, pages, &lines.note);
+        for line in published.words() {
+            let _ = writeln!(summary, "{line}");
+        }
+        Ok(summary)
     }
 
     /// The options with title, scale and note.
@@ -230,18 +246,25 @@ impl PatternStudy {
     }
 }
 
-/// Whether a file is one that [`PatternStudy::write`] may have written.
-fn is_pattern_file(name: &str) -> bool {
-    let Some(rest) = name.strip_prefix("pattern") else {
-        return false;
+/// The format of a file by its name, where [`PatternStudy::write`] may write one of this name.
+fn format_of(name: &str) -> Option<PatternFormat> {
+    let (stem, ending) = name.rsplit_once('.')?;
+    let format = match ending {
+        "svg" => PatternFormat::Svg,
+        "dxf" => PatternFormat::Dxf,
+        "fold" => PatternFormat::Fold,
+        _ => return None,
     };
-    if matches!(rest, ".svg" | ".dxf" | ".fold") {
-        return true;
-    }
-    let page = rest
-        .strip_suffix(".svg")
-        .or_else(|| rest.strip_suffix(".dxf"));
-    let numbers = page.and_then(|page| page.strip_prefix('-')?.split_once('-'));
+    let may_be = stem == "pattern" || is_page(name) && format != PatternFormat::Fold;
+    may_be.then_some(format)
+}
+
+/// Whether a name is that of a page: `pattern-ROW-COLUMN.svg` and so on.
+fn is_page(name: &str) -> bool {
+    let numbers = name.strip_prefix("pattern-").and_then(|rest| {
+        let (numbers, _) = rest.rsplit_once('.')?;
+        numbers.split_once('-')
+    });
     let is_number = |text: &str| !text.is_empty() && text.bytes().all(|b| b.is_ascii_digit());
     numbers.is_some_and(|(row, column)| is_number(row) && is_number(column))
 }
@@ -258,7 +281,7 @@ mod tests {
             "pattern.fold",
             "pattern-1-12.svg",
         ] {
-            assert!(is_pattern_file(name), "{name}");
+            assert!(format_of(name).is_some(), "{name}");
         }
         for name in [
             "pattern.png",
@@ -269,7 +292,7 @@ mod tests {
             "my-pattern.svg",
             "pattern--.svg",
         ] {
-            assert!(!is_pattern_file(name), "{name}");
+            assert!(format_of(name).is_none(), "{name}");
         }
     }
 }

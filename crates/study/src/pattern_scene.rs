@@ -3,6 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use crate::choice;
 use crate::scene::LengthUnit;
 
 /// `[pattern]`: a crease pattern of a file, in place of `[profile]`, `[sheet]` and `[division]`.
@@ -12,6 +13,7 @@ pub struct PatternScene {
     /// The file, beside the scene: .fold, or .svg in Origami Simulator's colours.
     pub file: String,
     /// What a length of 1 in the file is; what the file says where left out.
+    #[serde(default, deserialize_with = "choice::optional")]
     pub unit: Option<LengthUnit>,
     /// How far it folds, in percent of its fold angles, from -100 to 100 (inside out); 100 where left out.
     pub fold_percent: Option<f64>,
@@ -22,6 +24,7 @@ pub struct PatternScene {
     /// of that of a FOLD file where left out.
     pub vertex_tolerance: Option<f64>,
     /// What becomes of strokes and elements that mean nothing in a crease pattern; `refuse` where left out.
+    #[serde(default, deserialize_with = "choice::optional")]
     pub unknown: Option<UnknownChoice>,
     /// Bézier curves become chords that stray from them by no more than this, in parts of the diagonal; without it they are
     /// unknown elements.

@@ -137,7 +137,7 @@ impl Resolver<'_> {
             .method
             .unwrap_or(DivisionChoice::EqualLength);
         let length = match (self.scene.profile.length, curve.model) {
-            (Some(length), _) => Some(self.positive("profile.length", length)?),
+            (Some(length), _) => Some(self.length("profile.length", length)?),
             (None, model) => model.map(ProfileModel::length),
         };
         let is_split = method == DivisionChoice::DouglasPeucker;

@@ -3,22 +3,28 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use crate::{choice, exact_array};
+
 /// `[record]`.
 #[derive(Debug, Clone, Default, PartialEq, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct RecordScene {
     /// `fold`, `gif` and `csv` where left out.
+    #[serde(deserialize_with = "choice::list")]
     pub outputs: Option<Vec<OutputChoice>>,
     /// Pixels across and down; where left out [960, 720] if `mp4` or `png` are written, else [640, 480].
+    #[serde(deserialize_with = "exact_array::one")]
     pub size: Option<[i64; 2]>,
     /// Film frames a second; where left out 30 if `mp4` or `png` are written, else 12.5.
     pub fps: Option<f64>,
     /// Seconds a stage; [3, 5] where left out.
+    #[serde(deserialize_with = "exact_array::one")]
     pub seconds: Option<[f64; 2]>,
     /// Seconds the deployed, the planar and the compact state stand still, or one number for all; 0.5 where left out.
     pub hold: Option<HoldScene>,
     /// How films run; `forward` where left out.
     #[serde(rename = "loop")]
+    #[serde(deserialize_with = "choice::optional")]
     pub playback: Option<LoopChoice>,
     /// Where the viewer stands: a preset, or angles; `iso` where left out.
     pub camera: Option<CameraScene>,
@@ -26,6 +32,7 @@ pub struct RecordScene {
     /// With false all states have one scale. A camera with centre or width stays where it is.
     pub follow: Option<bool>,
     /// What colours show; `paper` where left out.
+    #[serde(deserialize_with = "choice::optional")]
     pub colour: Option<ColourChoice>,
     /// Whether the pictures of `png` and the figures have no background; false where left out.
     pub transparent: Option<bool>,
@@ -195,6 +202,7 @@ pub struct OwnCamera {
     pub turn: Option<f64>,
     /// The point [x, y, z] in the middle of films and pictures, in the motion's unit; the middle of the motion where left
     /// out.
+    #[serde(default, deserialize_with = "exact_array::one")]
     pub centre: Option<[f64; 3]>,
     /// The length shown across films and pictures, in the motion's unit; as much as all of the motion needs where left out.
     /// With a centre figures show as much of each state, and more where it is larger.

@@ -2,11 +2,13 @@
 
 use std::fmt::Write as _;
 
+use foldmotion_geometry::Number;
 use foldmotion_pattern::{CompactBox, SkinPlane, Unit};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::certificate::StoppedEntry;
+use crate::results::Published;
 
 pub use crate::fold_angles::FoldAngleReport;
 pub use crate::imported_report::ImportReport;
@@ -71,6 +73,9 @@ pub struct Report {
     pub seconds: SecondsReport,
     /// The files written beside this report.
     pub files: Vec<String>,
+    /// What became of other files in the folder; not part of report.json.
+    #[serde(skip)]
+    pub published: Published,
 }
 
 /// A row of its own height.
@@ -443,7 +448,7 @@ pub struct DecidedBy {
     pub turning_axis: u64,
     /// All axes were tried.
     pub search: u64,
-    /// Share of the pairs that needed no search.
+    /// Share of the pairs that boxes, axes at rest and axes that turn along decided, so that not all axes had to be tried.
     pub share_without_search: f64,
 }
 
@@ -584,16 +589,21 @@ impl Report {
         for s in &self.stages {
             let _ = writeln!(
                 out,
-                "{:<8} {:>10.3} %  {:>10.4} %  {:>11.2} deg   {:<9}   {:.1e}",
+                "{:<8} {:>10.3} %  {:>10.4} %  {:>11.2} deg   {:<9}   {:.2}",
                 s.name,
                 s.peak_strain * 100.0,
                 s.mean_strain * 100.0,
                 s.peak_facet_bending_deg,
                 if s.converged { "yes" } else { "no" },
-                s.residual
+                Number(s.residual)
             );
         }
         let _ = writeln!(out, "{}", self.fold_angles.words());
+        let _ = writeln!(
+            out,
+            "strain is |l/l0 - 1|: its peak over the edges and frames of a stage, its mean over both; residual is the \
+             largest unbalanced force left"
+        );
         if let Some(stop) = &self.stop {
             let _ = writeln!(out, "{}", stop.line());
         }
@@ -629,8 +639,11 @@ impl Report {
         ) {
             let _ = writeln!(
                 out,
-                "case {case}, {rows} x {columns} units, w = {:.6} {unit}, h = {:.6} {unit}; |R_max| = {:.1e} in {} iterations",
-                of_unit.width, of_unit.height, division.max_residual, division.iterations
+                "case {case}, {rows} x {columns} units, w = {:.6} {unit}, h = {:.6} {unit}; rows equal to |R_max| = {:.2} after {} iterations",
+                Number(of_unit.width),
+                Number(of_unit.height),
+                Number(division.max_residual),
+                division.iterations
             );
         }
         if let Some(unfold) = &self.unfold {
@@ -679,7 +692,7 @@ impl Report {
         if let Some(e) = &c.relative_error {
             let mut line = format!("{:<12}", "error");
             for value in e.extents.into_iter().chain([e.area, e.volume]) {
-                let _ = write!(line, " {value:>12.1e}");
+                let _ = write!(line, " {:>12}", format!("{:.2}", Number(value)));
             }
             let _ = writeln!(out, "{line}");
             let absolute = [("x", 0), ("y", 1), ("z", 2)].map(|(name, axis)| {
@@ -700,7 +713,8 @@ impl Report {
         if let Some(rms) = c.rms_to_exact {
             let _ = writeln!(
                 out,
-                "vertices lie {rms:.1e} h (rms) from the exact compact state"
+                "vertices lie {:.2} h (rms) from the exact compact state",
+                Number(rms)
             );
         }
     }
@@ -716,7 +730,8 @@ impl Report {
         };
         let straying = match (p.straying, p.straying_t) {
             (Some(stray), Some(t)) => format!(
-                "straight paths between them stray from the computed motion by about {stray:.1e} {} at most (t = {t:.4})",
+                "straight paths between them stray from the computed motion by about {:.2} {} at most (t = {t:.4})",
+                Number(stray),
                 self.tolerance_unit()
             ),
             _ => {
@@ -739,10 +754,10 @@ impl Report {
         let h = self.tolerance_unit();
         let _ = writeln!(
             out,
-            "\ncollisions{}: {} (tolerance {:e} {h}; {} pairs tested; {} touch, {} penetrate)",
+            "\ncollisions{}: {} (tolerance {} {h}; {} pairs tested; {} touch, {} penetrate)",
             self.part_judged(),
             c.verdict,
-            c.tolerance,
+            Number(c.tolerance),
             c.pairs_tested,
             c.touching_pairs,
             c.penetrating_pairs
@@ -753,7 +768,8 @@ impl Report {
         if let (Some(d), Some(t)) = (c.min_separation, c.min_separation_t) {
             let _ = writeln!(
                 out,
-                "smallest separation of facets that share no vertex: {d:.3e} {h} at t = {t:.4}"
+                "smallest separation of facets that share no vertex: {:.4} {h} at t = {t:.4}",
+                Number(d)
             );
         }
         if let Some(first) = &c.first {
@@ -813,7 +829,7 @@ impl PenetrationReport {
             .map(String::as_str)
             .collect();
         format!(
-            "t = {:.5} ({}): {}, facets {}{} and {}{}, vertices {:?}{}, depth {:.1e} {h}",
+            "t = {:.5} ({}): {}, facets {}{} and {}{}, vertices {:?}{}, depth {:.2} {h}",
             self.t,
             self.stage,
             self.kind,
@@ -827,7 +843,7 @@ impl PenetrationReport {
             } else {
                 format!(" ({})", names.join(", "))
             },
-            self.depth
+            Number(self.depth)
         )
     }
 }

@@ -21,6 +21,7 @@ use crate::report::{
     Outcome, PatternReport, PenetrationReport, ProfileReport, RowReport, SecondsReport, SkinReport,
     StageReport, StopReport, UnfoldReport, UnitName, UnitReport, VertexReport,
 };
+use crate::results::Published;
 use crate::run::VERSION;
 use crate::scene::EngineChoice;
 use crate::series::FrameFigures;
@@ -103,6 +104,7 @@ impl Study {
             },
             seconds,
             files: files.to_vec(),
+            published: Published::default(),
         }
     }
 

@@ -10,6 +10,7 @@ use foldmotion_solver::{CreaseGroup, Ease, ScheduleStep, Stage};
 use crate::profile::EQUAL_ROWS;
 use crate::scene::{CaseChoice, FoldingChoice, UnequalChoice};
 use crate::study::Resolver;
+use crate::unit_study::Purpose;
 use crate::{SceneSource, StudyError};
 
 /// λ of a common flap where the scene leaves it open: below 1, so that the lowest rows are split like the others.
@@ -22,8 +23,12 @@ impl Resolver<'_> {
         built_in: Option<&ProfileModel>,
         division: &Division,
         columns: usize,
+        purpose: Purpose,
     ) -> Result<UnitSheet, StudyError> {
         let rows = self.row_units(built_in, division, columns)?;
+        if purpose == Purpose::Fold {
+            self.require_moderate(&rows, columns, self.folding())?;
+        }
         let sheet = match self.folding() {
             Folding::Waterbomb => UnitSheet::with_rows(&rows, columns),
             Folding::Map => UnitSheet::map_folded(&rows, columns),

@@ -1,7 +1,6 @@
 //! Runs a study: fold, check, report, record.
 
 use std::io::Write as _;
-use std::path::Path;
 use std::time::Instant;
 
 use foldmotion_check::{CheckError, Checker, CollisionReport};
@@ -10,16 +9,16 @@ use foldmotion_solver::Moment;
 
 use crate::engine::Computed;
 use crate::folded::{Findings, Folded};
-use crate::recording::Recording;
+use crate::recording::{FilmSizes, Recording, Space, size_words};
 use crate::report::SecondsReport;
-use crate::results::{REPORT, Results, write_error};
+use crate::results::{Destination, Maker, REPORT, Results, is_picture, write_error};
 use crate::scene::OutputChoice;
 use crate::{Report, Study, StudyError};
 
 /// A part of a run, as progress names it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Phase {
-    /// Reading a motion file.
+    /// Reading a scene, a pattern or a motion.
     Read,
     /// The engine.
     Fold,
@@ -79,10 +78,13 @@ impl Study {
     ///
     /// # Errors
     /// [`StudyError`] of the step that failed; the folder is then as it was.
-    pub fn run(&self, folder: &Path, progress: Progress<'_>) -> Result<Report, StudyError> {
+    pub fn run<'a>(
+        &self,
+        destination: impl Into<Destination<'a>>,
+        progress: Progress<'_>,
+    ) -> Result<Report, StudyError> {
         let started = Instant::now();
-        let results = Results::create(folder)?;
-        self.require_space(&results)?;
+        let results = self.open_results(destination.into(), progress)?;
         let folded = self.compute(&progress)?;
         self.finish(&folded, results, started, progress)
     }
@@ -91,17 +93,28 @@ impl Study {
     ///
     /// # Errors
     /// [`StudyError`] of the file that failed; the folder is then as it was.
-    pub fn write(
+    pub fn write<'a>(
         &self,
         folded: &Folded,
-        folder: &Path,
+        destination: impl Into<Destination<'a>>,
         progress: Progress<'_>,
     ) -> Result<Report, StudyError> {
         let now = Instant::now();
         let started = now.checked_sub(folded.duration()).unwrap_or(now);
-        let results = Results::create(folder)?;
-        self.require_space(&results)?;
+        let results = self.open_results(destination.into(), progress)?;
         self.finish(folded, results, started, progress)
+    }
+
+    /// The folder of results, where nothing stands in their way and the disk can hold them.
+    fn open_results(
+        &self,
+        destination: Destination<'_>,
+        progress: Progress<'_>,
+    ) -> Result<Results, StudyError> {
+        let results = Results::open(destination, Maker::Run, Some(REPORT))?;
+        results.require_clear(&|name| name == REPORT || self.recording.plans(name))?;
+        self.require_space(&results, progress)?;
+        Ok(results)
     }
 
     /// The rest of a run that began at `started`.
@@ -113,51 +126,85 @@ impl Study {
         progress: Progress<'_>,
     ) -> Result<Report, StudyError> {
         let folder = results.folder().to_owned();
-        let (_, record_seconds) =
+        let (sha256, record_seconds) =
             timed(|| self.record(&self.recording, folded, &mut results, progress))?;
         let seconds = SecondsReport {
             check: folded.check_seconds,
             record: record_seconds,
             total: started.elapsed().as_secs_f64(),
         };
-        let report = self.report(folded, seconds, results.written());
+        let aside = results.set_aside();
+        let mut report = self.report(folded, seconds, results.written());
         results.write(REPORT, |out| {
             out.write_all(report.to_json().as_bytes())
                 .map_err(|e| write_error(&folder, REPORT, e))
         })?;
-        results.publish()?;
+        let has_pictures = self.recording.has(OutputChoice::Png);
+        report.published = results.publish(Some(&sha256), &|file| {
+            file.of.as_deref() != Some(&sha256) || has_pictures && is_picture(&file.name)
+        })?;
+        report.published.aside = aside;
         Ok(report)
     }
 
-    /// Bytes of the files of `recording` at most, for a motion of `frames` frames.
-    pub(crate) fn space(&self, recording: &Recording, frames: usize) -> u64 {
+    /// Bytes of the files of `recording` for a motion of `frames` frames: at most, or about, where `films` are known.
+    pub(crate) fn space(
+        &self,
+        recording: &Recording,
+        frames: usize,
+        films: Option<FilmSizes>,
+    ) -> Space {
         let sheet = self.subject.sheet();
         let orders =
             BYTES_AN_ORDER * self.subject.compact_order().map_or(0, LayerOrder::len) as u64;
-        let fold = if recording.has(OutputChoice::Fold) {
-            Motion::fold_file_size(sheet, frames) + orders
-        } else {
-            0
-        };
-        fold + recording.space(sheet, frames)
+        let mut space = recording.space(sheet, frames, films);
+        if recording.has(OutputChoice::Fold) {
+            let fold = Motion::fold_file_size(sheet, frames) + orders;
+            space.add(OutputChoice::Fold, fold);
+        }
+        space
     }
 
-    fn require_space(&self, results: &Results) -> Result<(), StudyError> {
+    /// The same, measured on a few pictures where the bound of the films exceeds what is free.
+    pub(crate) fn space_in(
+        &self,
+        results: &Results,
+        recording: &Recording,
+        frames: usize,
+        progress: Progress<'_>,
+    ) -> Result<Space, StudyError> {
+        let bound = self.space(recording, frames, None);
+        if bound.total() <= results.available()? || !recording.has_films() {
+            return Ok(bound);
+        }
+        let films = recording.sample_films(&self.subject.known_states(), progress)?;
+        Ok(self.space(recording, frames, Some(films)))
+    }
+
+    fn require_space(&self, results: &Results, progress: Progress<'_>) -> Result<(), StudyError> {
+        let needed = self.space_in(results, &self.recording, self.frames, progress)?;
         let available = results.available()?;
-        let size = |frames| self.space(&self.recording, frames);
-        let needed = size(self.frames);
-        if needed <= available {
+        if needed.total() <= available {
             return Ok(());
         }
-        let a_frame = (size(self.frames) - size(0))
-            .div_ceil(self.frames as u64)
-            .max(1);
-        let frames = (available.saturating_sub(size(0)) / a_frame) as usize;
+        let least = self.space(&self.recording, 2, None).total();
+        let most = self.space(&self.recording, self.frames, None).total();
+        // What does not depend on the frames may be less than its bound.
+        let rest = needed.total().saturating_sub(most - least);
+        let a_frame = (most - least).div_ceil(self.frames as u64 - 1).max(1);
+        let frames = 2 + (available.saturating_sub(rest) / a_frame) as usize;
+        let frames = (frames - frames % 2).min(self.frames - 2);
+        let remedy = if rest <= available && frames >= 2 {
+            format!("set motion.frames to {frames} or less")
+        } else {
+            needed.remedy()
+        };
         Err(StudyError::DiskTooSmall {
             path: results.folder().to_owned(),
-            needed,
-            available,
-            frames,
+            needed: size_words(needed.total()),
+            parts: needed.words(),
+            available: size_words(available),
+            remedy,
         })
     }
 

@@ -6,6 +6,8 @@ use foldmotion_pattern::Case;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use crate::{choice, exact_array};
+
 pub use crate::pattern_scene::{PatternScene, UnknownChoice};
 pub use crate::record_scene::{
     CameraChoice, CameraScene, ColourChoice, HoldScene, LoopChoice, OutputChoice, OwnCamera,
@@ -51,20 +53,24 @@ pub struct ProfileScene {
     /// A built-in profile (`foldmotion models` lists them); or give `control_points`, `points` or `file`.
     pub model: Option<String>,
     /// Points [x, z] that the curve runs through, as a cubic spline, at least 2.
+    #[serde(deserialize_with = "exact_array::many")]
     pub points: Option<Vec<[f64; 2]>>,
     /// A file of such points, beside the scene: .csv (x, z a line), .dat (airfoil, Selig's or Lednicer's order) or .dxf (one
-    /// polyline, ASCII).
+    /// polyline or chain of lines, ASCII).
     pub file: Option<String>,
     /// Control points [x, z] of a cubic NURBS with unit weights, at least 4.
+    #[serde(deserialize_with = "exact_array::many")]
     pub control_points: Option<Vec<[f64; 2]>>,
     /// Knots of that curve; clamped and uniform where left out.
     pub knots: Option<Vec<f64>>,
     /// Whether the curve returns to its start, with a corner there or smoothly; outlines in files that say they are closed,
     /// with a corner where left out.
+    #[serde(deserialize_with = "choice::optional")]
     pub closed: Option<Closed>,
     /// Scales Γ so that the divided polygon has this length.
     pub length: Option<f64>,
     /// The unit of length; `m` where left out.
+    #[serde(deserialize_with = "choice::optional")]
     pub unit: Option<LengthUnit>,
 }
 
@@ -143,16 +149,20 @@ pub struct SheetScene {
     /// Nc; that of the built-in profile in this case where left out.
     pub columns: Option<i64>,
     /// The case; `auto` where left out.
+    #[serde(deserialize_with = "choice::optional")]
     pub case: Option<CaseChoice>,
-    /// λ of case SII, in (0, 1), or of a common flap.
+    /// λ of case SII, in (0, 1), or of a common flap; `auto` leaves it out where w/h makes the case E or T.
     pub lambda: Option<f64>,
     /// d of case SII, 0 ≤ d < w1' = w/2 − λh/2; w1'/2 where left out.
     pub offset: Option<f64>,
     /// The side of Γ, seen along it, on which the flaps stand; `left` where left out.
+    #[serde(deserialize_with = "choice::optional")]
     pub facing: Option<FacingChoice>,
     /// What becomes of rows of unequal height, which a division other than `equal-length` gives; `refuse` where left out.
+    #[serde(deserialize_with = "choice::optional")]
     pub unequal: Option<UnequalChoice>,
     /// How the flat sheet folds; `waterbomb` where left out.
+    #[serde(deserialize_with = "choice::optional")]
     pub folding: Option<FoldingChoice>,
 }
 
@@ -237,6 +247,7 @@ pub enum FacingChoice {
 #[serde(deny_unknown_fields, default)]
 pub struct DivisionScene {
     /// `equal-length` where left out.
+    #[serde(deserialize_with = "choice::optional")]
     pub method: Option<DivisionChoice>,
     /// Equal length: the iteration ends once |R_max| is at most this; 1e-14 where left out. Douglas–Peucker: the largest
     /// distance from the curve, over its length; the rows follow from it.
@@ -262,6 +273,7 @@ pub enum DivisionChoice {
 #[serde(deny_unknown_fields, default)]
 pub struct MaterialScene {
     /// The constants to start from; keys beside it replace single ones.
+    #[serde(deserialize_with = "choice::optional")]
     pub preset: Option<PresetChoice>,
     /// Thickness of the sheet in profile.unit or the unit of the pattern: layers then come no closer than this. Not with motion.gap.
     pub thickness: Option<f64>,
@@ -305,6 +317,7 @@ impl PresetChoice {
 #[serde(deny_unknown_fields, default)]
 pub struct MotionScene {
     /// `quasi-static` where left out.
+    #[serde(deserialize_with = "choice::optional")]
     pub engine: Option<EngineChoice>,
     /// An even number; the states t = 2k/frames are recorded. 240 where left out.
     pub frames: Option<i64>,
@@ -314,6 +327,7 @@ pub struct MotionScene {
     /// has small facets.
     pub gap: Option<f64>,
     /// How stage 1 unfolds the profile; `auto` where left out.
+    #[serde(deserialize_with = "choice::optional")]
     pub unfold: Option<UnfoldChoice>,
     /// How much work the engine may do, in seconds (60 or "60 s") or in its own steps ("20000 steps"); the motion then
     /// ends where it is, with exit status 3. Default: 300 Newton iterations a state, or a million steps of settling a stage.
@@ -351,8 +365,10 @@ impl UnfoldChoice {
 #[serde(deny_unknown_fields)]
 pub struct StepScene {
     /// `unfold` or `fold`.
+    #[serde(deserialize_with = "choice::required")]
     pub stage: StageChoice,
     /// The creases, by their place in the unit or by the way they fold; `all` where left out.
+    #[serde(default, deserialize_with = "choice::optional")]
     pub creases: Option<CreasesChoice>,
     /// First and last row, both included, or one; every row where left out.
     pub rows: Option<Vec<i64>>,
@@ -363,6 +379,7 @@ pub struct StepScene {
     /// The part of the stage at which they arrive; 1 where left out.
     pub to: Option<f64>,
     /// How they move; `linear` where left out.
+    #[serde(default, deserialize_with = "choice::optional")]
     pub ease: Option<EaseChoice>,
 }
 

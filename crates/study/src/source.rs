@@ -2,11 +2,13 @@
 
 use std::path::{Path, PathBuf};
 
+use foldmotion_geometry::Number;
 use toml::de::{DeTable, DeValue};
 use toml::{Spanned, Table, Value};
 
+use crate::input_file::LARGEST_SCENE;
 use crate::scene::RecordScene;
-use crate::{Scene, StudyError};
+use crate::{Scene, StudyError, input_file};
 
 /// A commented scene to start from: a shelter, with every key and its default. It runs as it stands.
 pub const FIRST_SCENE: &str = include_str!("first_scene.toml");
@@ -33,15 +35,12 @@ impl SceneSource {
     /// all else is left out.
     ///
     /// # Errors
-    /// [`StudyError::Read`].
+    /// [`StudyError::Read`], and [`StudyError::LargeFile`] above 16 MiB.
     pub fn read(path: &Path) -> Result<Self, StudyError> {
         if let Some(pattern) = Self::of_pattern(path) {
             return Ok(pattern);
         }
-        let text = std::fs::read_to_string(path).map_err(|source| StudyError::Read {
-            path: path.to_owned(),
-            source,
-        })?;
+        let text = input_file::read_text(path, LARGEST_SCENE)?;
         Ok(Self::new(path, text))
     }
 
@@ -110,10 +109,10 @@ impl SceneSource {
         source
     }
 
-    /// Gives a key the text `value`, as if by `--set`.
+    /// Gives a key the text `value`, which the file itself stands for.
     pub(crate) fn give(&mut self, key: &str, value: &str) {
         self.overrides.push(Override {
-            flag: "--set".to_owned(),
+            flag: self.path.display().to_string(),
             key: key.to_owned(),
             value: Value::String(value.to_owned()),
         });
@@ -147,7 +146,7 @@ impl SceneSource {
                 || self.path.display().to_string(),
                 |span| self.place(span.start),
             ),
-            message: error.message().to_owned(),
+            message: self.named(error),
         };
         let mut table: Table = toml::from_str(&self.text).map_err(|e| at_fault(&e))?;
         for Override { key, value, .. } in &self.overrides {
@@ -159,10 +158,10 @@ impl SceneSource {
         // The file itself first, so that its own errors carry their line.
         let scene: Result<Scene, _> = toml::from_str(&self.text);
         if self.overrides.is_empty() {
-            return scene.map_err(|e| at_fault(&e));
+            return self.with_title(scene.map_err(|e| at_fault(&e))?);
         }
         match Scene::deserialize_table(table) {
-            Ok(overridden) => Ok(overridden),
+            Ok(overridden) => self.with_title(overridden),
             Err(error) => match scene {
                 Err(own) => Err(at_fault(&own)),
                 Ok(_) => Err(StudyError::Parse {
@@ -171,6 +170,31 @@ impl SceneSource {
                 }),
             },
         }
+    }
+
+    /// What TOML says of an error; a key that stands twice is named.
+    fn named(&self, error: &toml::de::Error) -> String {
+        let message = error.message();
+        let key = error.span().and_then(|span| self.text.get(span));
+        match key {
+            Some(key) if message == "duplicate key" => {
+                format!(
+                    "the key `{}` stands here a second time",
+                    shortened(key.trim())
+                )
+            }
+            _ => message.to_owned(),
+        }
+    }
+
+    /// The scene, where its title is a line of text.
+    fn with_title(&self, scene: Scene) -> Result<Scene, StudyError> {
+        let mut letters = scene.title.iter().flat_map(|title| title.chars());
+        if letters.any(char::is_control) {
+            let message = "must be one line without control characters".to_owned();
+            return Err(self.value_error("title", message));
+        }
+        Ok(scene)
     }
 
     fn override_names(&self) -> String {
@@ -186,7 +210,7 @@ impl SceneSource {
     pub fn value_error(&self, key: &str, message: String) -> StudyError {
         let overridden = self.overrides.iter().rev().find(|over| over.key == key);
         let (place, value) = match (overridden, self.locate(key)) {
-            (Some(over), _) => (over.flag.clone(), format!(" = {}", over.value)),
+            (Some(over), _) => (over.flag.clone(), format!(" = {}", shown(&over.value))),
             (None, Some((span, value))) => (self.place(span.start), format!(" = {value}")),
             (None, None) => (self.path.display().to_string(), String::new()),
         };
@@ -198,8 +222,11 @@ impl SceneSource {
         }
     }
 
-    /// `file:line` of a key, or the file where the key is absent.
+    /// The `--set` that gave a key, else its `file:line`, or the file where the key is absent.
     pub fn place_of(&self, key: &str) -> String {
+        if let Some(over) = self.overrides.iter().rev().find(|over| over.key == key) {
+            return over.flag.clone();
+        }
         self.locate(key).map_or_else(
             || self.path.display().to_string(),
             |(span, _)| self.place(span.start),
@@ -227,6 +254,14 @@ impl SceneSource {
         }
         let span = value.span();
         Some((span.clone(), shortened(self.text.get(span)?)))
+    }
+}
+
+/// A value as it may have been written, cut where it is long.
+fn shown(value: &Value) -> String {
+    match value {
+        Value::Float(number) => Number(*number).to_string(),
+        other => shortened(&other.to_string()),
     }
 }
 

@@ -1,5 +1,6 @@
 //! A motion that ended before its end, in `report.json` and on the terminal.
 
+use foldmotion_geometry::Number;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -49,11 +50,12 @@ impl StopReport {
     /// The evidence, a line for the terminal.
     pub(crate) fn line(&self) -> String {
         let step = self.load_step.map_or_else(String::new, |step| {
-            format!(" in the last attempt, a load step of {step:.1e}")
+            format!(" in the last attempt, a load step of {:.2}", Number(step))
         });
         format!(
-            "unbalanced force left{step}: {:.1e}; at most {:.1e} counts as equilibrium",
-            self.residual, self.residual_tolerance
+            "unbalanced force left{step}: {:.2}; at most {:.2} counts as equilibrium",
+            Number(self.residual),
+            Number(self.residual_tolerance)
         )
     }
 }
@@ -88,13 +90,13 @@ mod tests {
         assert_eq!((none.t, none.reason.as_str()), (1.25, "no-equilibrium"));
         assert_eq!(
             none.line(),
-            "unbalanced force left in the last attempt, a load step of 1.0e-5: 5.0e-1; at most 1.0e-9 counts as \
+            "unbalanced force left in the last attempt, a load step of 1e-5: 0.5; at most 1e-9 counts as \
              equilibrium"
         );
         let spent = report(StopCause::OutOfSteps, None).unwrap();
         assert_eq!(
             spent.line(),
-            "unbalanced force left: 5.0e-1; at most 1.0e-9 counts as equilibrium"
+            "unbalanced force left: 0.5; at most 1e-9 counts as equilibrium"
         );
         assert!(spent.words().contains("steps"));
         let late = report(StopCause::OutOfTime, None).unwrap();

@@ -1,19 +1,27 @@
 //! The study: a scene with everything resolved, ready to run.
 
 use foldmotion_check::CollisionOptions;
+use foldmotion_geometry::Number;
+use foldmotion_geometry::collide::Limits;
+use foldmotion_pattern::Case;
 use foldmotion_solver::dynamic::Device;
 use foldmotion_solver::{
     CreaseGroup, Ease, Material, Model, Schedule, ScheduleStep, SolverError, Stage,
 };
 
+use glam::DVec3;
+
 use crate::budget::MotionBudget;
 use crate::recording::Recording;
-use crate::scene::{CreasesChoice, EaseChoice, EngineChoice, StageChoice, StepScene};
+use crate::scene::{CaseChoice, CreasesChoice, EaseChoice, EngineChoice, StageChoice, StepScene};
 use crate::subject::Subject;
 use crate::{Scene, SceneSource, StudyError};
 
 /// Frames of a motion, at most: the file of a small sheet then stays below some gigabytes.
 const MOST_FRAMES: usize = 100_000;
+/// The shortest and the longest length of a scene, in its unit.
+const SHORTEST: f64 = 1e-9;
+const LONGEST: f64 = 1e9;
 /// Sheets larger than this many units exceed what one machine folds.
 const MOST_ROWS_OR_COLUMNS: i64 = 1_000_000;
 
@@ -46,6 +54,8 @@ pub struct Study {
     pub collision: CollisionOptions,
     /// What is written beside the report, and how it looks.
     pub recording: Recording,
+    /// What the user should know of the scene, a line each: values that are not used, and why.
+    pub notes: Vec<String>,
 }
 
 impl Study {
@@ -69,6 +79,7 @@ impl Study {
         };
         let sheet = subject.sheet();
         let title = resolver.title(subject.title());
+        let collision = resolver.collision(&subject)?;
         Ok(Self {
             title: title.clone(),
             unit_name: resolver.unit_name(&subject),
@@ -77,10 +88,11 @@ impl Study {
             engine: resolver.engine(),
             device: Device::Cpu,
             contact_gap: resolver.contact_gap(&subject)?,
-            thickness: scene.material.thickness,
+            thickness: resolver.material_thickness()?,
             frames: resolver.frames()?,
             budget: resolver.budget()?,
-            collision: resolver.collision()?,
+            collision,
+            notes: resolver.notes(&subject),
             recording: resolver.recording(title)?,
             subject,
         })
@@ -97,7 +109,7 @@ impl Resolver<'_> {
     /// The title; that of the pattern or the file's name where the scene has none.
     pub(crate) fn title(&self, of_pattern: Option<&String>) -> String {
         let own = self.scene.title.as_ref().or(of_pattern);
-        own.cloned().unwrap_or_else(|| self.source.stem())
+        own.map_or_else(|| self.source.stem(), |title| printable(title))
     }
 
     fn unit_name(&self, subject: &Subject) -> &'static str {
@@ -111,12 +123,15 @@ impl Resolver<'_> {
         self.source.value_error(key, message.into())
     }
 
-    pub(crate) fn positive(&self, key: &str, value: f64) -> Result<f64, StudyError> {
-        if value > 0.0 && value.is_finite() {
-            Ok(value)
-        } else {
-            Err(self.fault(key, "must be a positive, finite number"))
+    /// A length that squares and cubes of leave within what f64 holds.
+    pub(crate) fn length(&self, key: &str, value: f64) -> Result<f64, StudyError> {
+        if (SHORTEST..=LONGEST).contains(&value) {
+            return Ok(value);
         }
+        let [least, most] = [SHORTEST, LONGEST].map(Number);
+        let message =
+            format!("must be positive, from {least} to {most}; take another profile.unit");
+        Err(self.fault(key, message))
     }
 
     pub(crate) fn count(
@@ -163,7 +178,11 @@ impl Resolver<'_> {
                 ..
             } => self.fault(
                 &format!("material.{name}"),
-                format!("must lie between {minimum:e} and {maximum:e}"),
+                format!(
+                    "must lie between {} and {}",
+                    Number(minimum),
+                    Number(maximum)
+                ),
             ),
             other => StudyError::Solver(other),
         })?;
@@ -257,7 +276,43 @@ impl Resolver<'_> {
             })
     }
 
-    fn collision(&self) -> Result<CollisionOptions, StudyError> {
+    fn material_thickness(&self) -> Result<Option<f64>, StudyError> {
+        let thickness = self.scene.material.thickness;
+        thickness
+            .map(|thickness| self.length("material.thickness", thickness))
+            .transpose()
+    }
+
+    /// Values that the scene gives and its case leaves out.
+    fn notes(&self, subject: &Subject) -> Vec<String> {
+        let Some(units) = subject.units().map(|study| &study.units) else {
+            return Vec::new();
+        };
+        let scene = &self.scene.sheet;
+        let is_open = matches!(scene.case, None | Some(CaseChoice::Auto));
+        if !is_open || !units.has_equal_rows() || !matches!(units.unit.case, Case::E | Case::T) {
+            return Vec::new();
+        }
+        let given = [
+            ("sheet.lambda", scene.lambda),
+            ("sheet.offset", scene.offset),
+        ];
+        let unused = given
+            .into_iter()
+            .filter_map(|(key, value)| Some((key, value?)));
+        let note = |(key, value)| {
+            let (case, ratio) = (units.unit.case.name(), units.unit.width / units.unit.height);
+            let place = self.source.place_of(key);
+            format!(
+                "{place}: {key} = {} is not used: with w/h = {:.6} the case is {case}",
+                Number(value),
+                Number(ratio)
+            )
+        };
+        unused.map(note).collect()
+    }
+
+    fn collision(&self, subject: &Subject) -> Result<CollisionOptions, StudyError> {
         let mut options = CollisionOptions::default();
         if let Some(tolerance) = self.scene.check.touch_tolerance {
             if !(tolerance > 0.0 && tolerance <= 1e-2) {
@@ -267,6 +322,16 @@ impl Resolver<'_> {
                 ));
             }
             options.touch_tolerance = tolerance;
+        }
+        let (tolerance, least) = (options.touch_tolerance, least_tolerance(subject));
+        if tolerance < least {
+            let message = format!(
+                "{} is too small for a sheet as long or wide as this beside its unit: rounding takes {:.2}; give a larger \
+                 one, or a sheet of fewer or less slender units",
+                Number(tolerance),
+                Number(least)
+            );
+            return Err(self.fault("check.touch_tolerance", message));
         }
         if let Some(stop_at) = self.scene.check.stop_at {
             options.stop_at = usize::try_from(stop_at).map_err(|_| {
@@ -278,4 +343,28 @@ impl Resolver<'_> {
         }
         Ok(options)
     }
+}
+
+/// The least tolerance, in units of the sheet's unit of length, that the check can tell from rounding.
+fn least_tolerance(subject: &Subject) -> f64 {
+    /// Of the rounding; the check asks for a hundred times.
+    const MARGINS: f64 = 128.0;
+    let start = subject.start();
+    let Some(&first) = start.first() else {
+        return 0.0;
+    };
+    let planar = subject.sheet().planar();
+    let spread = |positions: &[DVec3]| {
+        let origin = positions.first().copied().unwrap_or(first);
+        let distances = positions.iter().map(|p| p.distance(origin));
+        distances.fold(0.0, f64::max)
+    };
+    let extent = spread(&start).max(spread(&planar));
+    MARGINS * Limits::margin_for(extent) / subject.sheet().unit_length
+}
+
+/// A text as one line that no terminal takes for more.
+pub(crate) fn printable(text: &str) -> String {
+    let letter = |letter: char| if letter.is_control() { ' ' } else { letter };
+    text.chars().map(letter).collect()
 }

@@ -4,7 +4,8 @@ use std::time::Instant;
 
 use foldmotion_geometry::{Division, Fit, Profile};
 use foldmotion_pattern::{
-    Case, CompactBox, LayerOrder, PatternCheck, PatternError, ProfileModel, Unit, UnitSheet,
+    Case, CompactBox, Folding, LayerOrder, PatternCheck, PatternError, ProfileModel, Unit,
+    UnitSheet,
 };
 use foldmotion_solver::{Schedule, ScheduleStep, Stage};
 use glam::DVec3;
@@ -17,6 +18,9 @@ use crate::{SceneSource, StudyError};
 
 /// Entries of the order of the compact state, at most: about 1 GB.
 const MOST_ORDERED: usize = 50_000_000;
+
+/// Units of a sheet that is folded, at most: some 10 GB.
+const MOST_FOLDED: usize = 1_000_000;
 
 /// A sheet of units on a divided profile.
 #[derive(Debug, Clone)]
@@ -70,6 +74,15 @@ pub(crate) struct ResolvedSheet {
     pub(crate) units: UnitSheet,
 }
 
+/// What a sheet is laid out for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Purpose {
+    /// To be seen, or cut.
+    Show,
+    /// To be folded and checked too.
+    Fold,
+}
+
 impl Resolver<'_> {
     /// The sheet of units, and its schedule.
     pub(crate) fn unit_study(&self) -> Result<(UnitStudy, Schedule), StudyError> {
@@ -78,7 +91,7 @@ impl Resolver<'_> {
             divided,
             division_seconds,
             units,
-        } = self.sheet()?;
+        } = self.laid_out(Purpose::Fold)?;
         let (profile, division) = (divided.profile, divided.division);
         let facing = self.scene.facing();
         let deployed = units
@@ -115,18 +128,52 @@ impl Resolver<'_> {
 
     /// The order of the layers in the compact state, which check and films hold in memory.
     fn compact_order(&self, units: &UnitSheet) -> Result<LayerOrder, StudyError> {
-        units.compact_order_within(MOST_ORDERED).ok_or_else(|| {
+        units
+            .compact_order_within(MOST_ORDERED)
+            .ok_or_else(|| self.too_many_layers())
+    }
+
+    fn too_many_layers(&self) -> StudyError {
+        let message = format!(
+            "more than {} pairs of facets would coincide in the compact state, too many to check; fewer columns, or a \
+             case whose columns lie beside each other (S, SII)",
+            MOST_ORDERED / 2
+        );
+        self.fault("sheet.columns", message)
+    }
+
+    /// Refuses a sheet that memory could not hold or whose layers nothing could check, before it is laid out.
+    pub(crate) fn require_moderate(
+        &self,
+        units: &[Unit],
+        columns: usize,
+        folding: Folding,
+    ) -> Result<(), StudyError> {
+        let rows = units.len();
+        if rows.saturating_mul(columns) > MOST_FOLDED {
             let message = format!(
-                "more than {} pairs of facets would coincide in the compact state, too many to check; fewer columns, or a \
-                 case whose columns lie beside each other (S, SII)",
-                MOST_ORDERED / 2
+                "{rows} x {columns} units are more than {MOST_FOLDED}, the most that are folded; fewer columns or rows"
             );
-            self.fault("sheet.columns", message)
-        })
+            return Err(self.fault("sheet.columns", message));
+        }
+        let Some(&unit) = units
+            .first()
+            .filter(|&first| units.iter().all(|unit| unit == first))
+        else {
+            return Ok(());
+        };
+        match UnitSheet::count_compact_order(unit, rows, columns, folding) {
+            Some(count) if count > MOST_ORDERED as f64 => Err(self.too_many_layers()),
+            _ => Ok(()),
+        }
     }
 
     /// Divides the profile and lays out the sheet.
     pub(crate) fn sheet(&self) -> Result<ResolvedSheet, StudyError> {
+        self.laid_out(Purpose::Show)
+    }
+
+    fn laid_out(&self, purpose: Purpose) -> Result<ResolvedSheet, StudyError> {
         let curve = self.curve()?;
         let started = Instant::now();
         let divided = self.division(&curve)?;
@@ -136,7 +183,7 @@ impl Resolver<'_> {
             self.scene.sheet.columns,
             curve.model.map(|m| m.columns.of(self.case_asked_for())),
         )?;
-        let units = self.units(curve.model, &divided.division, columns)?;
+        let units = self.units(curve.model, &divided.division, columns, purpose)?;
         Ok(ResolvedSheet {
             profile_source: curve.source,
             divided,
@@ -167,8 +214,11 @@ impl Resolver<'_> {
         let choice = scene.case.unwrap_or(CaseChoice::Auto);
         let width = self.unit_width(built_in, height, columns)?;
         let case = choice.resolve(width, height, scene.lambda);
-        Unit::new(case, width, height, scene.lambda, scene.offset)
-            .map_err(|e| self.pattern_error(&e))
+        // Where the case is open, these belong to the one that λ asks for.
+        let is_unused = choice == CaseChoice::Auto && matches!(case, Case::E | Case::T);
+        let [lambda, offset] =
+            [scene.lambda, scene.offset].map(|value| value.filter(|_| !is_unused));
+        Unit::new(case, width, height, lambda, offset).map_err(|e| self.pattern_error(&e))
     }
 
     /// w, from W and Nc, or from the (mean) height of the rows.
@@ -180,7 +230,7 @@ impl Resolver<'_> {
     ) -> Result<f64, StudyError> {
         let scene = &self.scene.sheet;
         match (scene.width, scene.case.unwrap_or(CaseChoice::Auto)) {
-            (Some(width), _) => Ok(self.positive("sheet.width", width)? / columns as f64),
+            (Some(width), _) => Ok(self.length("sheet.width", width)? / columns as f64),
             (None, CaseChoice::E | CaseChoice::Auto) => Ok(height),
             (None, _) if let Some(model) = built_in => {
                 Ok(model.columns.e as f64 * height / columns as f64)

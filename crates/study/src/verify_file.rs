@@ -1,18 +1,17 @@
 //! Verifies a certificate: proves its statement about a motion file again by other means.
 
 use std::fmt::Write as _;
-use std::fs::File;
-use std::io::Read as _;
 use std::path::Path;
 
 use foldmotion_check::{CollisionReport, Refutation, Verification, Verifier};
+use foldmotion_geometry::Number;
 use foldmotion_pattern::{FoldError, FoldFile, Frame};
 use serde_json::Value;
 
 use crate::certificate::{Certificate, FORMAT};
 use crate::check_file::{Input, NoMotion};
 use crate::statement::{against_file, against_times, claim};
-use crate::{Phase, Progress, StudyError};
+use crate::{Phase, Progress, StudyError, input_file};
 
 /// The largest certificate, bytes: 256 MiB.
 const LARGEST: u64 = 256 << 20;
@@ -123,23 +122,11 @@ fn prove(
 }
 
 pub(crate) fn read_certificate(path: &Path) -> Result<Certificate, StudyError> {
-    let failed = |source| StudyError::Read {
-        path: path.to_owned(),
-        source,
-    };
     let fault = |message: String| StudyError::Certificate {
         path: path.to_owned(),
         message,
     };
-    let mut text = String::new();
-    let file = File::open(path).map_err(failed)?;
-    let length = file
-        .take(LARGEST + 1)
-        .read_to_string(&mut text)
-        .map_err(failed)?;
-    if length as u64 > LARGEST {
-        return Err(fault(format!("it is larger than {LARGEST} bytes")));
-    }
+    let text = input_file::read_text(path, LARGEST)?;
     let no_certificate = |e: serde_json::Error| fault(format!("no certificate: {e}"));
     let given: Value = serde_json::from_str(&text).map_err(no_certificate)?;
     if let Some(reason) = foreign_format(&given) {
@@ -246,10 +233,10 @@ impl VerifiedCertificate {
         }
         let _ = writeln!(
             out,
-            "stated: {} (tolerance {:e} of the unit of length {:.6}; {} pairs penetrate, {} are undecided)",
+            "stated: {} (tolerance {} of the unit of length {:.6}; {} pairs penetrate, {} are undecided)",
             certificate.verdict,
-            certificate.tolerance,
-            certificate.unit_length,
+            Number(certificate.tolerance),
+            Number(certificate.unit_length),
             certificate.penetrations.len(),
             certificate.undecided.len()
         );

@@ -1,5 +1,6 @@
 //! Why a file cannot be read as a crease pattern.
 
+use foldmotion_geometry::Number;
 use thiserror::Error;
 
 use super::source::{Source, listed};
@@ -29,7 +30,7 @@ pub enum ImportError {
     },
     /// The tolerance of merging is out of range.
     #[error(
-        "the merge tolerance is {value}: it must lie between 1e-12 and 0.1 of the drawing's diagonal of {diagonal}"
+        "the merge tolerance is {}: it must lie between 1e-12 and 0.1 of the drawing's diagonal of {}", Number(*value), Number(*diagonal)
     )]
     Tolerance {
         /// The tolerance.
@@ -39,14 +40,14 @@ pub enum ImportError {
     },
     /// The tolerance of flattened curves is out of range.
     #[error(
-        "the tolerance of flattened curves is {value}: it must lie between 1e-6 and 0.1 of the diagonal"
+        "the tolerance of flattened curves is {}: it must lie between 1e-6 and 0.1 of the diagonal", Number(*value)
     )]
     CurveTolerance {
         /// The tolerance, in parts of the diagonal.
         value: f64,
     },
     /// The percentage of folding is out of range.
-    #[error("the fold percentage is {value}: it must lie between -1 and 1")]
+    #[error("the fold percentage is {}: it must lie between -1 and 1", Number(*value))]
     Percentage {
         /// The value.
         value: f64,

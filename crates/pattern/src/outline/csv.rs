@@ -1,4 +1,4 @@
-//! Tables of coordinates: x and z a line, separated by commas, semicolons, tabs or spaces.
+//! Tables of coordinates: x and z a line, separated by commas, semicolons, tabs or spaces, with or without quotes.
 //!
 //! Blank lines and lines that start with `#` are left out, and so is a first line of names.
 
@@ -36,12 +36,19 @@ pub(super) fn parse(text: &str) -> Result<Outline, OutlineError> {
     Ok(Outline::of(points))
 }
 
-/// The values of a line: separated by semicolons if it has any, else by commas, else by blanks.
+/// The values of a line: separated by semicolons if it has any, else by commas, else by blanks; each may stand in double
+/// quotes (RFC 4180).
 fn values(line: &str) -> Vec<&str> {
     for separator in [';', ','] {
         if line.contains(separator) {
-            return line.split(separator).map(str::trim).collect();
+            return line.split(separator).map(unquoted).collect();
         }
     }
-    line.split_whitespace().collect()
+    line.split_whitespace().map(unquoted).collect()
+}
+
+fn unquoted(value: &str) -> &str {
+    let value = value.trim();
+    let inner = value.strip_prefix('"').and_then(|v| v.strip_suffix('"'));
+    inner.map_or(value, str::trim)
 }

@@ -75,6 +75,51 @@ pub enum OutlineError {
         /// What stands there.
         value: String,
     },
+    /// A DXF file has no end.
+    #[error("line {line}: the drawing ends here without EOF: the file was cut off; save it again")]
+    CutOff {
+        /// Its last line.
+        line: usize,
+    },
+    /// A polyline has another number of vertices than it announces.
+    #[error(
+        "line {line}: the polyline announces {announced} vertices (code 90), but {found} follow; save the drawing again"
+    )]
+    VertexCount {
+        /// Where it begins.
+        line: usize,
+        /// What it announces.
+        announced: usize,
+        /// What there is.
+        found: usize,
+    },
+    /// A drawing without polyline holds a curve.
+    #[error(
+        "line {line}: {entity} is not read; turn it into one LWPOLYLINE of straight segments (in most programs: explode or \
+         flatten, then join)"
+    )]
+    Entity {
+        /// Where.
+        line: usize,
+        /// What stands there.
+        entity: &'static str,
+    },
+    /// More than two segments meet.
+    #[error(
+        "line {line}: more than two LINEs meet at an end of this one; leave the one chain that is the profile"
+    )]
+    Branch {
+        /// Where one of them begins.
+        line: usize,
+    },
+    /// Segments that do not meet the others.
+    #[error(
+        "line {line}: this LINE is not joined to the chain of the others; leave one chain, the profile, without gaps"
+    )]
+    SeveralChains {
+        /// Where it begins.
+        line: usize,
+    },
     /// A drawing holds several polylines.
     #[error(
         "it holds {count} polylines (the second one starts at line {line}); leave one, the profile"

@@ -1,9 +1,10 @@
 //! Outlines in files: the points of a user's own profile.
 //!
-//! Read are tables of coordinates (`.csv`), airfoil sections (`.dat`, in Selig's and Lednicer's order) and polylines of
-//! drawings (`.dxf`, ASCII).
+//! Read are tables of coordinates (`.csv`), airfoil sections (`.dat`, in Selig's and Lednicer's order) and polylines and
+//! chains of lines of drawings (`.dxf`, ASCII).
 
 mod airfoil_file;
+mod chain;
 mod csv;
 mod dxf;
 mod error;
@@ -20,7 +21,7 @@ pub const LARGEST_OUTLINE_FILE: u64 = 16 << 20;
 /// Points (x, z) in order and whether the file says that they return to their start.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Outline {
-    /// The points; the first is not repeated as the last where the file says `closed` in another way.
+    /// The points; of a closed outline the last is the first.
     pub points: Vec<DVec2>,
     /// Whether the outline is closed: its last point is its first, or the file says so.
     pub closed: bool,
@@ -44,7 +45,14 @@ impl Outline {
         let unreadable = |source: std::io::Error| OutlineError::Read {
             message: source.to_string(),
         };
-        let size = std::fs::metadata(path).map_err(unreadable)?.len();
+        let data = std::fs::metadata(path).map_err(unreadable)?;
+        if !data.is_file() {
+            return Err(OutlineError::Read {
+                message: "it is a folder, a device or a pipe; only regular files are read"
+                    .to_owned(),
+            });
+        }
+        let size = data.len();
         if size > LARGEST_OUTLINE_FILE {
             return Err(OutlineError::TooLarge {
                 size,

@@ -22,6 +22,8 @@ fn tables_are_read_with_any_separator_names_and_comments() {
         "x;z\n0; 1\n\n# a comment\n2.5;-3\n4;0.01",
         "x z\r\n0 1\r\n2.5\t-3\r\n4 .01\r\n",
         "\u{feff}x, z\n0, 1\n2.5, -3\n4, 0.01\n",
+        "\"x\",\"z\"\n\"0\",\"1\"\n\"2.5\", \"-3\"\n4,\"0.01\"\n",
+        "\"0\" \"1\"\n\"2.5\"\t-3\n4 0.01\n",
     ] {
         let outline = read(text, Format::Csv);
         assert_eq!((outline.points, outline.closed), (expected.clone(), false));
@@ -35,6 +37,7 @@ fn tables_with_faults_are_refused_with_their_line() {
         ("", "no points"),
         ("# nothing\n", "no points"),
         ("0,0\n1,x\n", "line 2: \"x\""),
+        ("0,0\n\"1\",\"x\"\n", "line 2: \"x\""),
         ("0,0\n1,nan\n", "line 2: \"nan\""),
         ("0,0\n\n1,inf\n", "line 3: \"inf\""),
         ("0,0\n1,2,3\n", "line 2: 3 values"),
@@ -117,7 +120,8 @@ const HEAVY: &str = "0\nPOLYLINE\n8\n0\n10\n9.0\n20\n9.0\n70\n0\n0\nVERTEX\n10\n
 fn both_kinds_of_polyline_are_read_and_other_entities_left_out() {
     let expected = points(&[[0.0, 0.0], [2.0, 0.5], [1.0, 3.0]]);
     let light = read(LIGHT, Format::Dxf);
-    assert_eq!((light.points, light.closed), (expected.clone(), true));
+    let ring = [expected.clone(), points(&[[0.0, 0.0]])].concat();
+    assert_eq!((light.points, light.closed), (ring, true));
     let heavy = read(HEAVY, Format::Dxf);
     assert_eq!((heavy.points, heavy.closed), (expected, false));
 }
@@ -131,7 +135,24 @@ fn drawings_with_faults_are_refused_by_name() {
             format!("{}{LIGHT}", HEAVY.replace("0\nEOF\n", "")),
             "2 polylines",
         ),
-        (LIGHT.replace("LWPOLYLINE", "SPLINE"), "no points"),
+        (
+            LIGHT.replace("LWPOLYLINE", "SPLINE"),
+            "line 6: SPLINE is not read",
+        ),
+        (
+            LIGHT.replace("LWPOLYLINE", "ARC"),
+            "line 6: ARC is not read",
+        ),
+        (LIGHT.replace("LWPOLYLINE", "TEXT"), "no points"),
+        (
+            LIGHT.replace("90\n3", "90\n4"),
+            "announces 4 vertices (code 90), but 3",
+        ),
+        (
+            LIGHT.replace("0\nENDSEC\n0\nEOF\n", ""),
+            "line 24: the drawing ends here",
+        ),
+        (LIGHT.replace("0\nEOF\n", "0\n"), "the drawing ends here"),
         (LIGHT.replace("10\n2.0", "10\ntwo"), "\"two\""),
         (LIGHT.replace("90\n3", "ninety\n3"), "group code"),
         ("AutoCAD Binary DXF\r\n\u{1a}".to_owned(), "binary"),
@@ -140,6 +161,62 @@ fn drawings_with_faults_are_refused_by_name() {
         let message = refused(&text, Format::Dxf).to_string();
         assert!(message.contains(words), "{words}: {message}");
     }
+}
+
+/// A drawing of LINEs.
+fn lines(ends: &[[f64; 4]]) -> String {
+    let line = |[x, y, u, v]: &[f64; 4]| {
+        format!("0\nLINE\n8\n0\n10\n{x}\n20\n{y}\n30\n0.0\n11\n{u}\n21\n{v}\n31\n0.0\n")
+    };
+    let lines: String = ends.iter().map(line).collect();
+    format!("0\nSECTION\n2\nENTITIES\n{lines}0\nENDSEC\n0\nEOF\n")
+}
+
+#[test]
+fn lines_in_any_order_and_direction_are_one_chain() {
+    let open = [
+        [2.0, 1.0, 1.0, 0.0],
+        [0.0, 0.0, 1.0, 0.0],
+        [3.0, 1.0, 2.0, 1.000_000_1],
+    ];
+    let outline = read(&lines(&open), Format::Dxf);
+    let expected = [[0.0, 0.0], [1.0, 0.0], [2.0, 1.0], [3.0, 1.0]];
+    assert!(!outline.closed && outline.points.len() == expected.len());
+    for (point, expected) in outline.points.iter().zip(points(&expected)) {
+        assert!(point.distance(expected) < 1e-6, "{point}");
+    }
+    let ring = [
+        [0.0, 0.0, 1.0, 0.0],
+        [0.0, 5.0, 0.0, 0.0],
+        [1.0, 0.0, 0.0, 5.0],
+    ];
+    let outline = read(&lines(&ring), Format::Dxf);
+    assert!(outline.closed);
+    let expected = points(&[[0.0, 0.0], [1.0, 0.0], [0.0, 5.0], [0.0, 0.0]]);
+    assert_eq!(outline.points, expected);
+}
+
+#[test]
+fn lines_that_branch_or_lie_apart_are_refused() {
+    let branch = [
+        [0.0, 0.0, 1.0, 0.0],
+        [1.0, 0.0, 2.0, 0.0],
+        [1.0, 0.0, 1.0, 1.0],
+    ];
+    let text = refused(&lines(&branch), Format::Dxf).to_string();
+    assert!(text.contains("more than two LINEs meet"), "{text}");
+    let apart = [[0.0, 0.0, 1.0, 0.0], [1.5, 0.0, 2.0, 0.0]];
+    let text = refused(&lines(&apart), Format::Dxf).to_string();
+    assert!(
+        text.contains("line 22") && text.contains("not joined"),
+        "{text}"
+    );
+}
+
+#[test]
+fn a_ring_whose_drawing_closes_it_may_have_a_long_last_side() {
+    let outline = read(&LIGHT.replace("10\n1.0", "10\n90.0"), Format::Dxf);
+    assert_eq!(outline.points.first(), outline.points.last());
 }
 
 #[test]

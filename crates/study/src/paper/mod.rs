@@ -15,7 +15,6 @@ mod tables;
 mod targets;
 mod unfoldings;
 
-use std::path::Path;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use foldmotion_pattern::{Case, models};
@@ -26,6 +25,7 @@ use self::motions::{CERTIFIED, Folding, finished, folding};
 use self::store::Store;
 use self::targets::CASES;
 use crate::StudyError;
+use crate::results::Destination;
 use crate::run::VERSION;
 
 pub use self::part::PaperPart;
@@ -56,11 +56,16 @@ pub struct PaperRun {
 ///
 /// # Errors
 /// [`StudyError`] of the step that failed; finished parts stay.
-pub fn paper(
-    folder: &Path,
+pub fn paper<'a>(
+    destination: impl Into<Destination<'a>>,
     parts: &[PaperPart],
     progress: PaperProgress<'_>,
 ) -> Result<PaperRun, StudyError> {
+    let destination = destination.into();
+    let folder = destination.folder();
+    if !destination.replaces_all() {
+        store::require_clear(folder)?;
+    }
     let store = Store::open(folder)?;
     let mut record = PaperRecord {
         version: VERSION.to_owned(),
@@ -163,6 +168,6 @@ fn publish(store: &Store, record: &mut PaperRecord) -> Result<(), StudyError> {
     record.unfoldings = found.flatten().collect();
     let drawn: Vec<Figure> = figures::finished(store);
     record.figures = drawn.iter().map(|figure| figure.row.clone()).collect();
-    store.write_file("paper.json", record.to_json().as_bytes())?;
-    store.write_file("index.html", page::page(record, &drawn).as_bytes())
+    store.write_file(store::RECORD, record.to_json().as_bytes())?;
+    store.write_file(store::PAGE, page::page(record, &drawn).as_bytes())
 }

@@ -3,7 +3,6 @@
 //! `parts/NAME.json` holds what was found out in a part with a key: the SHA-256 of the program's version and the part's
 //! inputs. A part of another key is made anew. Every file is written beside its place and renamed into it.
 
-use std::fmt::Write as _;
 use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
@@ -11,14 +10,22 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
-use sha2::{Digest as _, Sha256};
 
+use super::record::PaperRecord;
 use crate::StudyError;
-use crate::results::output_error;
+use crate::digest::sha256;
+use crate::results::{listed, may_run, output_error};
 use crate::run::VERSION;
+
+/// The record and the page.
+pub(super) const RECORD: &str = "paper.json";
+pub(super) const PAGE: &str = "index.html";
 
 /// Where the parts lie in the folder.
 const PARTS: &str = "parts";
+
+/// What the name of a file ends with, before the number of the process that writes it.
+const PARTIAL: &str = ".partial-";
 
 /// `parts/NAME.json`.
 #[derive(Debug, Serialize, Deserialize)]
@@ -40,6 +47,8 @@ impl Store {
     pub(super) fn open(folder: &Path) -> Result<Self, StudyError> {
         let parts = folder.join(PARTS);
         fs::create_dir_all(&parts).map_err(|e| output_error(&parts, "cannot be made", e))?;
+        remove_left_over(folder);
+        remove_left_over(&parts);
         Ok(Self {
             folder: folder.to_owned(),
             made: AtomicUsize::new(0),
@@ -108,25 +117,65 @@ impl Store {
     }
 }
 
+/// Refuses a folder with files under the names of the paper's, but without its record: they are of others.
+pub(super) fn require_clear(folder: &Path) -> Result<(), StudyError> {
+    let is_ours = |name: &str| {
+        let figure = name
+            .strip_prefix("fig")
+            .and_then(|rest| rest.split_once('.'));
+        let is_figure = figure.is_some_and(|(_, ending)| matches!(ending, "svg" | "png"));
+        is_figure || [RECORD, PAGE].contains(&name)
+    };
+    let record = fs::read(folder.join(RECORD)).ok();
+    if record.is_some_and(|bytes| serde_json::from_slice::<PaperRecord>(&bytes).is_ok()) {
+        return Ok(());
+    }
+    let mut names: Vec<String> = Vec::new();
+    for entry in fs::read_dir(folder).into_iter().flatten().flatten() {
+        names.extend(
+            entry
+                .file_name()
+                .into_string()
+                .ok()
+                .filter(|name| is_ours(name)),
+        );
+    }
+    if names.is_empty() {
+        return Ok(());
+    }
+    names.sort_unstable();
+    Err(StudyError::InTheWay {
+        path: folder.to_owned(),
+        names: listed(&names),
+        command: "paper",
+    })
+}
+
+/// Removes files that killed processes left half written in `folder`.
+fn remove_left_over(folder: &Path) {
+    for entry in fs::read_dir(folder).into_iter().flatten().flatten() {
+        let name = entry.file_name();
+        let parts = name.to_str().and_then(|name| name.rsplit_once(PARTIAL));
+        let process = parts.and_then(|(_, number)| number.parse().ok());
+        if process.is_some_and(|process| !may_run(process)) {
+            // What cannot be removed says by its name what it is.
+            let _ = fs::remove_file(entry.path());
+        }
+    }
+}
+
 /// Writes a file beside its place and renames it into it.
 fn write(path: &Path, bytes: &[u8]) -> Result<(), StudyError> {
-    let ending = format!("partial-{}", std::process::id());
-    let temporary = path.with_added_extension(ending);
+    let ending = format!("{PARTIAL}{}", std::process::id());
+    let mut temporary = path.as_os_str().to_owned();
+    temporary.push(ending);
+    let temporary = PathBuf::from(temporary);
     let written = fs::write(&temporary, bytes).and_then(|()| fs::rename(&temporary, path));
     written.map_err(|e| {
         // What cannot be removed says by its name what it is.
         let _ = fs::remove_file(&temporary);
         output_error(path, "cannot be written", e)
     })
-}
-
-/// The SHA-256 of `bytes`, in hexadecimal.
-pub(super) fn sha256(bytes: &[u8]) -> String {
-    let mut text = String::new();
-    for byte in Sha256::digest(bytes) {
-        let _ = write!(text, "{byte:02x}");
-    }
-    text
 }
 
 fn key(inputs: &str) -> String {
@@ -164,6 +213,33 @@ mod tests {
         assert!(failed.is_err());
         let names = fs::read_dir(home.path().join(PARTS)).unwrap();
         assert_eq!(names.count(), 1);
+    }
+
+    #[test]
+    fn files_that_killed_processes_left_half_written_are_removed() {
+        let home = tempfile::tempdir().unwrap();
+        let names = ["a.svg.partial-4294967295", "a.svg.partial-1", "a.partial-x"];
+        for name in names {
+            fs::write(home.path().join(name), "half").unwrap();
+        }
+        Store::open(home.path()).unwrap();
+        let stays = names.map(|name| home.path().join(name).exists());
+        assert_eq!(stays, [false, true, true]);
+    }
+
+    #[test]
+    fn files_of_others_under_the_papers_names_are_refused_where_no_record_of_it_lies() {
+        let home = tempfile::tempdir().unwrap();
+        fs::write(home.path().join("notes.txt"), "mine").unwrap();
+        require_clear(home.path()).unwrap();
+        for (name, text) in [(PAGE, "mine"), ("fig3.png", "mine"), (RECORD, "{}")] {
+            fs::write(home.path().join(name), text).unwrap();
+            let error = require_clear(home.path()).unwrap_err();
+            assert!(
+                error.status() == 2 && error.to_string().contains(name),
+                "{error}"
+            );
+        }
     }
 
     #[test]

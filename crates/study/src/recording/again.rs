@@ -4,11 +4,11 @@ use std::path::{Path, PathBuf};
 
 use super::models::state_name;
 use super::motion_file::{ReadMotion, recording};
-use super::origin::Origin;
-use crate::results::{FRAMES, Results, output_error};
+use super::origin::{LARGEST, Origin};
+use crate::results::{FRAMES, Maker, Results, output_error};
 use crate::run::{Progress, VERSION};
 use crate::scene::OutputChoice;
-use crate::{Scene, SceneSource, Study, StudyError};
+use crate::{Scene, SceneSource, Study, StudyError, input_file};
 
 /// A file made again.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -34,19 +34,28 @@ pub fn record_again(
     file: &Path,
     motion: Option<&Path>,
     out: Option<&Path>,
+    replaces_all: bool,
     progress: Progress<'_>,
 ) -> Result<Again, StudyError> {
     let origin = Origin::read(file)?;
     let asked = Asked::new(file, &origin)?;
     let target = asked.target(out);
     let folder = target.parent().unwrap_or(Path::new(""));
-    let mut results = Results::of(&folder.join("again"), |_| false, None)?;
+    let earlier = input_file::read(file, LARGEST)?;
+    require_clear(&target, &earlier, replaces_all)?;
+    let mut results = Results::open((&folder.join("again")).into(), Maker::Record, None)?;
     let mut warnings = Vec::new();
     if origin.version != VERSION {
         warnings.push(format!(
             "the file was made by foldmotion {}, this is {VERSION}: the bytes may differ",
             origin.version
         ));
+    }
+    if let (Some(_), Some(motion)) = (&origin.scene, motion) {
+        return Err(asked.fault(format!(
+            "it was made by running a scene, which it holds; no motion is needed: leave out {}",
+            motion.display()
+        )));
     }
     let found = match &origin.scene {
         Some(scene) => asked.run(scene, &mut results, progress)?,
@@ -64,11 +73,7 @@ pub fn record_again(
             "the recording has no {name}: give the file its first name back"
         )));
     }
-    let made = results.take(&name, &target)?;
-    let earlier = std::fs::read(file).map_err(|source| StudyError::Read {
-        path: file.to_owned(),
-        source,
-    })?;
+    let made = results.take(&name, &target, replaces_all)?;
     Ok(Again {
         path: target,
         is_same: made == earlier,
@@ -196,12 +201,27 @@ impl<'a> Asked<'a> {
 }
 
 impl Results {
-    /// Moves one of the files to `target` and gives up the others; answers its bytes.
-    fn take(self, name: &str, target: &Path) -> Result<Vec<u8>, StudyError> {
+    /// Moves one of the files to `target` and gives up the others; answers its bytes. Another file there stays, unless
+    /// it `replaces` it.
+    fn take(self, name: &str, target: &Path, replaces: bool) -> Result<Vec<u8>, StudyError> {
         let path = self.temporary().join(name);
         let bytes = std::fs::read(&path).map_err(|e| output_error(&path, "cannot be read", e))?;
+        require_clear(target, &bytes, replaces)?;
         std::fs::rename(&path, target)
             .map_err(|e| output_error(target, "cannot be moved into place", e))?;
         Ok(bytes)
     }
+}
+
+/// Refuses to replace a file that does not hold `bytes` already, unless asked to.
+fn require_clear(target: &Path, bytes: &[u8], replaces: bool) -> Result<(), StudyError> {
+    if replaces || !target.exists() || std::fs::read(target).is_ok_and(|found| found == bytes) {
+        return Ok(());
+    }
+    let name = target.file_name().unwrap_or_default().to_string_lossy();
+    Err(StudyError::InTheWay {
+        path: target.parent().unwrap_or(Path::new("")).to_owned(),
+        names: name.into_owned(),
+        command: Maker::Record.name(),
+    })
 }

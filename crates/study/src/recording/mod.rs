@@ -3,12 +3,14 @@
 mod again;
 mod colours;
 mod figure;
+mod film_sample;
 mod films;
 mod known;
 mod models;
 mod motion_file;
 mod origin;
 mod page;
+mod planned;
 mod resolve;
 mod run_files;
 mod space;
@@ -26,9 +28,11 @@ pub use self::motion_file::{MotionRecord, record_file};
 pub(crate) use self::motion_file::{ReadMotion, stage_time};
 
 pub use self::colours::Quantity;
+pub(crate) use self::film_sample::FilmSizes;
 pub(crate) use self::known::{Known, UnitSizes, turned};
 use self::origin::Origin;
 use self::page::Beside;
+pub(crate) use self::space::{Space, size_words};
 
 /// The states of figures and models of a whole motion.
 const STATES: [f64; 5] = [0.0, 0.5, 1.0, 1.5, 2.0];

@@ -1,6 +1,5 @@
 //! Records a motion file, whoever made it.
 
-use std::fs;
 use std::path::{Path, PathBuf};
 
 use foldmotion_check::CollisionReport;
@@ -10,14 +9,14 @@ use foldmotion_record::Marks;
 use super::page::LARGEST_FOLD;
 use super::run_files::marks;
 use super::{Beside, Origin, Recorder, Recording};
-use crate::check_file::{Input, NoMotion};
-use crate::results::{CERTIFICATE, FRAMES, Results};
+use crate::check_file::{Input, LARGEST, NoMotion};
+use crate::results::{CERTIFICATE, Destination, Maker, Published, Results, is_picture};
 use crate::run::{Phase, Progress};
 use crate::scene::{ColourChoice, OutputChoice, RecordScene};
 use crate::statement::claim;
-use crate::study::Resolver;
+use crate::study::{Resolver, printable};
 use crate::verify_file::read_certificate;
-use crate::{Scene, SceneSource, StudyError};
+use crate::{Scene, SceneSource, StudyError, input_file};
 
 /// Positions held in memory, at most: 2.4 GB.
 const MOST_POSITIONS: usize = 100_000_000;
@@ -29,6 +28,10 @@ pub struct MotionRecord {
     pub files: Vec<String>,
     /// Whether penetrations are marked: a certificate of this very file lies beside it.
     pub is_judged: bool,
+    /// Whether there are some to mark.
+    pub penetrates: bool,
+    /// What became of other files in the folder.
+    pub published: Published,
 }
 
 /// Records the motion in the FOLD file at `path` into `folder`, as `record` says; keys of it are named as flags in errors.
@@ -38,24 +41,45 @@ pub struct MotionRecord {
 ///
 /// # Errors
 /// [`StudyError`]: a file that is no motion or too large, values that cannot be used, outputs that need a scene.
-pub fn record_file(
+pub fn record_file<'a>(
     path: &Path,
     record: &RecordScene,
-    folder: &Path,
+    destination: impl Into<Destination<'a>>,
     progress: Progress<'_>,
 ) -> Result<MotionRecord, StudyError> {
     // What cannot be recorded is refused before a long file is read.
     recording(record)?;
-    ReadMotion::read(path, progress)?.record_into(folder, record, None, progress)
+    ReadMotion::read(path, progress)?.record_into(destination.into(), record, None, progress)
 }
 
-/// Pictures of an earlier, longer film would mislead; other files are left alone.
-pub(super) fn ours(recording: &Recording) -> fn(&str) -> bool {
-    if recording.has(OutputChoice::Png) {
-        |name| name.starts_with(FRAMES)
-    } else {
-        |_| false
-    }
+/// The folder of what is recorded, where nothing stands in its way.
+pub(super) fn open_record(
+    recording: &Recording,
+    destination: Destination<'_>,
+) -> Result<Results, StudyError> {
+    let results = Results::open(destination, Maker::Record, None)?;
+    results.require_clear(&|name| recording.plans(name))?;
+    Ok(results)
+}
+
+/// Moves what was recorded of the motion `sha256` into place; answers its names and what became of other files. Pictures
+/// of an earlier, longer film would mislead; other files are left alone.
+pub(super) fn publish_record(
+    mut results: Results,
+    recording: &Recording,
+    sha256: &str,
+) -> Result<(Vec<String>, Published), StudyError> {
+    let has_pictures = recording.has(OutputChoice::Png);
+    let aside = results.set_aside();
+    let files = results.written().to_vec();
+    let published =
+        results.publish(Some(sha256), &|file| has_pictures && is_picture(&file.name))?;
+    let published = Published {
+        aside,
+        others: Vec::new(),
+        ..published
+    };
+    Ok((files, published))
 }
 
 /// How a motion file is recorded, from `record`.
@@ -169,7 +193,7 @@ impl ReadMotion {
             sha256,
             path: path.to_owned(),
             name: name.into_owned(),
-            title: file.title,
+            title: file.title.as_deref().map(printable),
             unit: file.unit,
             ending: file.outcome.filter(|outcome| outcome != "folded"),
             is_judged: judged.is_some(),
@@ -183,23 +207,34 @@ impl ReadMotion {
     /// Records it into `folder` as `record` says; `judged` takes the place of the verdict beside the file.
     pub(crate) fn record_into(
         &self,
-        folder: &Path,
+        destination: Destination<'_>,
         record: &RecordScene,
         judged: Option<&CollisionReport>,
         progress: Progress<'_>,
     ) -> Result<MotionRecord, StudyError> {
         let recording = recording(record)?;
         self.require_states(&recording)?;
-        let mut results = Results::of(folder, ours(&recording), None)?;
+        let mut results = open_record(&recording, destination)?;
         let frames = self.motion.frames.len();
-        results.require(recording.space(&self.motion.sheet, frames))?;
+        let space = |films| recording.space(&self.motion.sheet, frames, films);
+        if results.available()? < space(None).total() && recording.has_films() {
+            let films = recording.sample_films(&self.motion, progress)?;
+            results.require(&space(Some(films)))?;
+        } else {
+            results.require(&space(None))?;
+        }
         let marks = judged.map(|collision| marks(&self.motion, collision, |time| time));
         let is_judged = self.is_judged || marks.is_some();
         let marks = marks.unwrap_or_else(|| self.marks.clone());
+        let penetrates = !marks.is_empty();
         self.record(&recording, marks, &mut results, progress)?;
-        let files = results.written().to_vec();
-        results.publish()?;
-        Ok(MotionRecord { files, is_judged })
+        let (files, published) = publish_record(results, &recording, &self.sha256)?;
+        Ok(MotionRecord {
+            files,
+            is_judged,
+            penetrates,
+            published,
+        })
     }
 
     /// Records it into `results`.
@@ -231,12 +266,7 @@ impl ReadMotion {
         if !recording.has(OutputChoice::Html) {
             return Ok(Beside::default());
         }
-        let read = |path: &Path| {
-            fs::read(path).map_err(|source| StudyError::Read {
-                path: path.to_owned(),
-                source,
-            })
-        };
+        let read = |path: &Path| input_file::read(path, LARGEST);
         let bytes = read(&self.path)?;
         let certificate = if self.is_judged {
             String::from_utf8(read(&self.path.with_file_name(CERTIFICATE))?).ok()

@@ -7,14 +7,14 @@ use serde::{Deserialize, Serialize};
 
 use crate::run::VERSION;
 use crate::scene::RecordScene;
-use crate::{Scene, StudyError};
+use crate::{Scene, StudyError, input_file};
 
 /// The first line, for people who find the text in a file.
 const GREETING: &str =
     "# made by foldmotion; `foldmotion record --again FILE` makes this file again\n";
 
 /// The largest file whose origin is read, bytes: 2 GiB.
-const LARGEST: u64 = 2 << 30;
+pub(super) const LARGEST: u64 = 2 << 30;
 
 /// Where a recorded file comes from: TOML text inside it.
 #[derive(Debug, Clone, PartialEq, Deserialize, Serialize)]
@@ -80,20 +80,11 @@ impl Origin {
 
     /// What the file at `path` says of its origin.
     pub(crate) fn read(path: &Path) -> Result<Self, StudyError> {
-        let failed = |source| StudyError::Read {
-            path: path.to_owned(),
-            source,
-        };
         let fault = |message: String| StudyError::Origin {
             path: path.to_owned(),
             message,
         };
-        let size = std::fs::metadata(path).map_err(failed)?.len();
-        if size > LARGEST {
-            let message = format!("it has {size} bytes: at most {LARGEST} are read");
-            return Err(fault(message));
-        }
-        let bytes = std::fs::read(path).map_err(failed)?;
+        let bytes = input_file::read(path, LARGEST)?;
         let text = embedded(&bytes).ok_or_else(|| {
             fault(
                 "it says nothing of its origin: gif, mp4, png, svg, pdf, glb, obj and html files of foldmotion do; of a stl use \

@@ -2,6 +2,7 @@
 
 use std::ops::RangeInclusive;
 
+use foldmotion_geometry::Number;
 use foldmotion_record::{FilmOptions, Mp4, Playback, RecordError, Style, View};
 use glam::DVec3;
 
@@ -165,14 +166,18 @@ impl Resolver<'_> {
         };
         let is_near = |c: f64| c.abs() <= FARTHEST;
         if !own.centre.iter().flatten().copied().all(is_near) {
-            let message = format!("centre must be three numbers within ±{FARTHEST:e}");
+            let message = format!("centre must be three numbers within ±{}", Number(FARTHEST));
             return Err(self.fault("record.camera", message));
         }
         if !own
             .width
             .is_none_or(|w| (NARROWEST..=FARTHEST).contains(&w))
         {
-            let message = format!("width must lie between {NARROWEST:e} and {FARTHEST:e}");
+            let message = format!(
+                "width must lie between {} and {}",
+                Number(NARROWEST),
+                Number(FARTHEST)
+            );
             return Err(self.fault("record.camera", message));
         }
         Ok((own.centre.map(DVec3::from), own.width))
@@ -214,9 +219,9 @@ impl Resolver<'_> {
         let key = "record.thickened";
         match (self.scene.record.thickened, self.scene.material.thickness) {
             (None | Some(ThickenedScene::ByMaterial(false)), _) => Ok(None),
-            (Some(ThickenedScene::By(thickness)), _) => self.positive(key, thickness).map(Some),
+            (Some(ThickenedScene::By(thickness)), _) => self.length(key, thickness).map(Some),
             (Some(ThickenedScene::ByMaterial(true)), Some(thickness)) => {
-                self.positive("material.thickness", thickness).map(Some)
+                self.length("material.thickness", thickness).map(Some)
             }
             (Some(ThickenedScene::ByMaterial(true)), None) => {
                 let message = "there is no material.thickness to take; give a thickness here";

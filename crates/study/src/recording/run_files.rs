@@ -7,7 +7,7 @@ use foldmotion_check::{CollisionReport, penetration_spans};
 use foldmotion_pattern::{FoldHeader, Motion};
 use foldmotion_record::{Marks, Spot, plots};
 
-use super::motion_file::ours;
+use super::motion_file::{open_record, publish_record};
 use super::page::LARGEST_FOLD;
 use super::{Beside, Origin, Recorder, Recording};
 use crate::certify::{CheckedMotion, MotionFile};
@@ -19,7 +19,7 @@ use crate::run::{Progress, VERSION};
 use crate::scene::{OutputChoice, RecordScene};
 use crate::series::{panels, write_csv};
 use crate::study::Resolver;
-use crate::{Certificate, Scene, SceneSource, Study, StudyError, UnitStudy};
+use crate::{Certificate, Destination, Scene, SceneSource, Study, StudyError, UnitStudy};
 
 impl Study {
     /// Records `folded` as `record` says, in the place of `[record]` of the scene, into `folder`; answers the names of the
@@ -28,20 +28,19 @@ impl Study {
     /// # Errors
     /// [`StudyError`]: values that cannot be used, each named as a flag, and files that cannot be written; the folder is
     /// then as it was.
-    pub fn record_as(
+    pub fn record_as<'a>(
         &self,
         folded: &Folded,
         record: &RecordScene,
-        folder: &Path,
+        destination: impl Into<Destination<'a>>,
         progress: Progress<'_>,
     ) -> Result<Vec<String>, StudyError> {
         let recording = self.recording_as(record)?;
-        let mut results = Results::of(folder, ours(&recording), None)?;
-        results.require(self.space(&recording, folded.motion.frames.len()))?;
-        self.record(&recording, folded, &mut results, progress)?;
-        let files = results.written().to_vec();
-        results.publish()?;
-        Ok(files)
+        let mut results = open_record(&recording, destination.into())?;
+        let frames = folded.motion.frames.len();
+        results.require(&self.space_in(&results, &recording, frames, progress)?)?;
+        let sha256 = self.record(&recording, folded, &mut results, progress)?;
+        publish_record(results, &recording, &sha256).map(|(files, _)| files)
     }
 
     /// `record` in the place of `[record]` of the scene.

@@ -15,8 +15,9 @@ use serde::{Deserialize, Serialize};
 use super::PaperPart;
 use super::motions::{Done, strip_inputs};
 use super::record::FigureRow;
-use super::store::{Store, sha256};
+use super::store::Store;
 use crate::StudyError;
+use crate::digest::sha256;
 
 /// A finished figure.
 #[derive(Debug, Clone)]

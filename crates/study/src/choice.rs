@@ -1,0 +1,89 @@
+//! Words of scene files that stand for a choice: what is no such word is told the words there are.
+
+use std::fmt;
+use std::marker::PhantomData;
+
+use serde::de::{IntoDeserializer as _, Visitor};
+use serde::{Deserialize, Deserializer};
+
+/// A word that `T` knows.
+struct Word<T>(T);
+
+impl<'de, T: for<'a> Deserialize<'a>> Deserialize<'de> for Word<T> {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        deserializer
+            .deserialize_any(WordVisitor(PhantomData))
+            .map(Word)
+    }
+}
+
+struct WordVisitor<T>(PhantomData<T>);
+
+impl<T: for<'a> Deserialize<'a>> WordVisitor<T> {
+    /// Anything else is looked up as if it were a word, for the sake of the list of words.
+    fn look_up<E: serde::de::Error>(word: &str) -> Result<T, E> {
+        T::deserialize(word.into_deserializer()).map_err(|e: serde::de::value::Error| E::custom(e))
+    }
+}
+
+impl<T: for<'a> Deserialize<'a>> Visitor<'_> for WordVisitor<T> {
+    type Value = T;
+
+    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        // A list or a table: no word is like it.
+        match Self::look_up::<serde::de::value::Error>("") {
+            Err(e) => {
+                let text = e.to_string();
+                let words = text
+                    .split_once("expected ")
+                    .map_or("a word", |(_, words)| words);
+                f.write_str(words)
+            }
+            Ok(_) => f.write_str("a word"),
+        }
+    }
+
+    fn visit_str<E: serde::de::Error>(self, word: &str) -> Result<T, E> {
+        Self::look_up(word)
+    }
+
+    fn visit_bool<E: serde::de::Error>(self, value: bool) -> Result<T, E> {
+        Self::look_up(&value.to_string())
+    }
+
+    fn visit_i64<E: serde::de::Error>(self, value: i64) -> Result<T, E> {
+        Self::look_up(&value.to_string())
+    }
+
+    fn visit_f64<E: serde::de::Error>(self, value: f64) -> Result<T, E> {
+        Self::look_up(&value.to_string())
+    }
+}
+
+/// A choice that may be left out.
+pub(crate) fn optional<'de, D, T>(deserializer: D) -> Result<Option<T>, D::Error>
+where
+    D: Deserializer<'de>,
+    T: for<'a> Deserialize<'a>,
+{
+    Ok(Some(Word::deserialize(deserializer)?.0))
+}
+
+/// A choice that must be made.
+pub(crate) fn required<'de, D, T>(deserializer: D) -> Result<T, D::Error>
+where
+    D: Deserializer<'de>,
+    T: for<'a> Deserialize<'a>,
+{
+    Ok(Word::deserialize(deserializer)?.0)
+}
+
+/// A list of choices that may be left out.
+pub(crate) fn list<'de, D, T>(deserializer: D) -> Result<Option<Vec<T>>, D::Error>
+where
+    D: Deserializer<'de>,
+    T: for<'a> Deserialize<'a>,
+{
+    let words = Vec::<Word<T>>::deserialize(deserializer)?;
+    Ok(Some(words.into_iter().map(|word| word.0).collect()))
+}

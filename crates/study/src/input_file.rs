@@ -1,0 +1,118 @@
+//! Files that are read whole: regular files only, bounded before they are opened.
+//!
+//! A pipe would be waited for, a device would not end.
+
+use std::fs::File;
+use std::io::{self, Read as _};
+use std::path::Path;
+
+use crate::StudyError;
+
+/// The largest scene and the largest crease pattern, bytes: 16 MiB.
+pub(crate) const LARGEST_SCENE: u64 = 16 << 20;
+
+/// Refuses what is no regular file.
+///
+/// # Errors
+/// [`StudyError::Read`].
+pub fn require_file(path: &Path) -> Result<(), StudyError> {
+    size(path).map(drop)
+}
+
+/// The bytes of a regular file.
+pub(crate) fn size(path: &Path) -> Result<u64, StudyError> {
+    let data = std::fs::metadata(path).map_err(|e| failed(path, e))?;
+    if data.is_file() {
+        return Ok(data.len());
+    }
+    let message = if data.is_dir() {
+        "it is a folder; name a file in it"
+    } else {
+        "it is a device or a pipe; only regular files are read: save it as one"
+    };
+    Err(failed(
+        path,
+        io::Error::new(io::ErrorKind::InvalidInput, message),
+    ))
+}
+
+/// Refuses what is no regular file of at most `limit` bytes, and opens it.
+pub(crate) fn open(path: &Path, limit: u64) -> Result<(File, u64), StudyError> {
+    let size = size(path)?;
+    if size > limit {
+        return Err(StudyError::LargeFile {
+            path: path.to_owned(),
+            size,
+            limit,
+        });
+    }
+    Ok((File::open(path).map_err(|e| failed(path, e))?, size))
+}
+
+/// The content of a regular file of at most `limit` bytes.
+pub(crate) fn read(path: &Path, limit: u64) -> Result<Vec<u8>, StudyError> {
+    let (file, size) = open(path, limit)?;
+    let mut bytes = Vec::new();
+    // It may grow meanwhile.
+    file.take(limit + 1)
+        .read_to_end(&mut bytes)
+        .map_err(|e| failed(path, e))?;
+    let found = bytes.len() as u64;
+    if found > limit {
+        return Err(StudyError::LargeFile {
+            path: path.to_owned(),
+            size: size.max(found),
+            limit,
+        });
+    }
+    Ok(bytes)
+}
+
+/// The text of a regular file of at most `limit` bytes.
+pub(crate) fn read_text(path: &Path, limit: u64) -> Result<String, StudyError> {
+    String::from_utf8(read(path, limit)?).map_err(|e| {
+        let before = &e.as_bytes()[..e.utf8_error().valid_up_to()];
+        let line = String::from_utf8_lossy(before).matches('\n').count();
+        let message = format!("line {} is no UTF-8 text", line + 1);
+        failed(path, io::Error::new(io::ErrorKind::InvalidData, message))
+    })
+}
+
+fn failed(path: &Path, source: io::Error) -> StudyError {
+    StudyError::Read {
+        path: path.to_owned(),
+        source,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn regular_files_are_read_up_to_the_limit_and_others_say_their_size() {
+        let home = tempfile::tempdir().unwrap();
+        let path = home.path().join("a.toml");
+        std::fs::write(&path, "12345").unwrap();
+        assert_eq!(read_text(&path, 5).unwrap(), "12345");
+        let error = read(&path, 4).unwrap_err();
+        assert_eq!(error.status(), 2);
+        assert!(error.to_string().contains("5 bytes"), "{error}");
+        std::fs::write(&path, b"a\nb\xff").unwrap();
+        let error = read_text(&path, 5).unwrap_err().to_string();
+        assert!(error.contains("line 2"), "{error}");
+    }
+
+    #[test]
+    fn folders_and_devices_are_refused_before_they_are_opened() {
+        let home = tempfile::tempdir().unwrap();
+        let error = read(home.path(), 5).unwrap_err();
+        assert!(error.to_string().contains("folder"), "{error}");
+        #[cfg(unix)]
+        for device in ["/dev/zero", "/dev/urandom", "/dev/null"] {
+            let error = read(Path::new(device), 5).unwrap_err();
+            assert_eq!(error.status(), 2);
+            assert!(error.to_string().contains("device"), "{error}");
+        }
+    }
+}
