@@ -20,6 +20,7 @@ mod opened;
 pub mod paper;
 mod pattern_files;
 mod pattern_scene;
+mod placement;
 mod preview;
 mod profile;
 mod record_scene;
