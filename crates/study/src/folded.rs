@@ -76,8 +76,8 @@ impl Study {
         Ok(self.certificate(folded, self.digest(folded)?))
     }
 
-    /// The box of every frame of `motion`: of units along the axes of the place where the motion is shown, in which the last
-    /// state best fits the exact compact one; of a pattern along its principal axes.
+    /// The box of every frame of `motion`: of units along the axes, as they lie where they are shown; of a pattern along its
+    /// principal axes.
     pub fn boxes(&self, motion: &Motion) -> Vec<FittedBox> {
         let measure = |frame: &Frame| match &self.subject {
             Subject::Units(_) => upright_box(&frame.positions),

@@ -26,6 +26,7 @@ mod outcome;
 pub mod paper;
 mod pattern_files;
 mod pattern_scene;
+mod placement;
 mod preview;
 mod profile;
 mod record_scene;

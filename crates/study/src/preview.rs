@@ -81,9 +81,8 @@ mod tests {
         let closed_form = study.subject.closed_form().unwrap();
         let reached = boxes.last().unwrap();
         assert!((reached.volume / closed_form.volume - 1.0).abs() < 1e-5);
-        // All but flat: it lies where the compact state lies best, not where it itself does.
         let flat = motion.frames.iter().position(|f| f.time == 1.0).unwrap();
-        assert!(boxes[flat].volume < 0.2 * boxes[0].volume);
+        assert!(boxes[flat].volume < 1e-9 * boxes[0].volume);
         assert!(matches!(
             study.preview(&|_, _| false),
             Err(StudyError::Interrupted)

@@ -10,6 +10,7 @@ use glam::DVec3;
 use serde_json::{Map, Value};
 
 use crate::imported_study::ImportedStudy;
+use crate::placement::{ExactStates, apply, place};
 use crate::unit_study::UnitStudy;
 
 /// What is folded.
@@ -116,16 +117,17 @@ impl Subject {
 
     /// Moves the frames of a motion to where they are shown.
     ///
-    /// Units: one rigid motion for all, by which the last frame best fits the exact compact state. A pattern with a
-    /// fixed facet: each frame by the one that best fits this facet to its place in the pattern. Others stay.
+    /// Units: at t = 0, 1, 2 as the exact states lie, between them smoothly ([`place`]). A pattern with a
+    /// fixed facet: each frame by the rigid motion that best fits this facet to its place in the pattern. Others stay.
     pub(crate) fn place(&self, frames: &mut [Frame]) {
         match self {
             Self::Units(study) => {
-                let Some(last) = frames.last() else { return };
-                let fit = RigidMotion::best_fit(&last.positions, &study.units.compact());
-                for frame in frames {
-                    apply(&fit, frame);
-                }
+                let exact = ExactStates {
+                    deployed: &study.deployed,
+                    planar: &study.units.sheet.planar(),
+                    compact: &study.units.compact(),
+                };
+                place(frames, &exact);
             }
             Self::Imported(study) => {
                 let Some(facet) = study.fixed else { return };
@@ -174,12 +176,6 @@ impl Subject {
             }
             Self::Imported(study) => (smallest_height(&study.imported.sheet), LAYERS),
         }
-    }
-}
-
-fn apply(motion: &RigidMotion, frame: &mut Frame) {
-    for position in &mut frame.positions {
-        *position = motion.apply(*position);
     }
 }
 

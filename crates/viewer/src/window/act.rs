@@ -188,7 +188,7 @@ impl Act {
             self.profile = (0..=PROFILE_POINTS).map(point).collect();
         }
         if units.closed_form().is_some() {
-            // The last state lies where it best fits the exact one, so the exact one's box is in place.
+            // The last state lies where the exact one does, so the box of that is in place.
             self.boxes[1] = bounds(&units.compact());
         }
         self
