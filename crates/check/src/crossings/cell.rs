@@ -70,23 +70,6 @@ impl Cell {
         }
     }
 
-    /// The cells of passing by that lie in a cell of passing through.
-    pub(super) fn rim(self, topology: &Topology) -> Vec<Self> {
-        match self {
-            Self::VertexFacet { vertex, face } => topology.face_edges[face as usize]
-                .map(|edge| Self::VertexEdge { vertex, edge })
-                .to_vec(),
-            Self::Edges([a, b]) => [(a, b), (b, a)]
-                .into_iter()
-                .flat_map(|(e, edge)| {
-                    let ends = topology.ends(e);
-                    ends.map(|vertex| Self::VertexEdge { vertex, edge })
-                })
-                .collect(),
-            Self::VertexEdge { .. } => Vec::new(),
-        }
-    }
-
     /// Pairs of triangles that hold the one simplex and the other.
     pub(super) fn faces(self, topology: &Topology) -> impl Iterator<Item = [u32; 2]> {
         let around_edge = |edge: u32| topology.edge_faces[edge as usize].clone();

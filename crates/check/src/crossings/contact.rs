@@ -11,6 +11,8 @@ pub(super) struct Watched {
     pub(super) passings: Vec<Passing>,
     /// Whether rounding hides a passage.
     pub(super) is_unsure: bool,
+    /// At the frame at the end.
+    pub(super) distance: f64,
     /// Whether the simplices are within reach at the frame at the end.
     pub(super) is_near: bool,
     /// When they are within reach, as shares of the interval; empty until asked for.
@@ -63,10 +65,12 @@ impl Watched {
     pub(super) fn new(cell: Cell, topology: &Topology, ends: Ends<'_>, reach: f64) -> Self {
         let pose = cell.moving(topology, ends).end;
         let passings = cell.passings(topology, ends);
+        let distance = feature_distance(&pose);
         Self {
             is_unsure: passings.is_none(),
             passings: passings.unwrap_or_default(),
-            is_near: feature_distance(&pose) <= reach,
+            distance,
+            is_near: distance <= reach,
             times: Vec::new(),
         }
     }
@@ -74,17 +78,16 @@ impl Watched {
     /// Finds the times of contact; they end at the end of the interval exactly where the frame shows a contact.
     pub(super) fn time(&mut self, pair: &MovingPair, reach: f64, limits: &Limits) {
         let mut times = contact_times(pair, reach, limits);
-        let start = feature_distance(&pair.start) <= reach;
-        hold(&mut times, 0.0, start);
-        hold(&mut times, 1.0, self.is_near);
+        hold(&mut times, 0.0, || feature_distance(&pair.start) <= reach);
+        hold(&mut times, 1.0, || self.is_near);
         self.times = times;
     }
 
     /// The times of contact, joined with those of the cells on the rim and the times of passages.
-    pub(super) fn all_times<'a>(&self, rim: impl Iterator<Item = &'a Self>) -> Vec<[f64; 2]> {
+    pub(super) fn all_times(&self, rim: impl Iterator<Item = [f64; 2]>) -> Vec<[f64; 2]> {
         let instants = self.passings.iter().map(|p| p.times);
         let mut all: Vec<[f64; 2]> = self.times.iter().copied().chain(instants).collect();
-        all.extend(rim.flat_map(|seen| seen.times.iter().copied()));
+        all.extend(rim);
         all.sort_by(|p, q| p[0].total_cmp(&q[0]));
         let mut joined: Vec<[f64; 2]> = Vec::with_capacity(all.len());
         for [from, to] in all {
@@ -98,8 +101,8 @@ impl Watched {
 }
 
 /// Makes the times hold the end of the interval at which the frame shows a contact.
-fn hold(times: &mut Vec<[f64; 2]>, end: f64, is_near: bool) {
-    if is_near && !times.iter().any(|t| t.contains(&end)) {
+fn hold(times: &mut Vec<[f64; 2]>, end: f64, is_near: impl Fn() -> bool) {
+    if !times.iter().any(|t| t.contains(&end)) && is_near() {
         times.push([end; 2]);
         times.sort_by(|p, q| p[0].total_cmp(&q[0]));
     }

@@ -38,6 +38,7 @@
 //!   sides have cells that are not counted.
 
 mod cell;
+mod clearance;
 mod contact;
 #[cfg(test)]
 mod random;
@@ -53,6 +54,7 @@ use glam::DVec3;
 use rayon::prelude::*;
 
 use cell::{Cell, Ends, cells_of, piercing, piercing_terms, turn};
+use clearance::Clearances;
 use contact::{Contact, Stretch, Watched};
 use system::System;
 use topology::Topology;
@@ -85,6 +87,7 @@ pub(crate) struct Crossings {
     reach: f64,
     limits: Limits,
     system: System,
+    clearances: Clearances,
     /// Passings through whose contact lasts at the last frame.
     open: BTreeMap<Cell, Contact>,
     /// Passings by whose contact lasts: the unknown, and the contacts it stands in.
@@ -140,6 +143,7 @@ impl Crossings {
             reach,
             limits: *limits,
             system: System::new(),
+            clearances: Clearances::default(),
             open: BTreeMap::new(),
             open_turns: BTreeMap::new(),
             contacts: 0,
@@ -268,24 +272,35 @@ impl Crossings {
         Contact::new(self.contacts, since)
     }
 
-    /// The cells of the pairs, those lost left out, with their passages and whether they are in contact at the end.
-    fn watch(&self, interval: &Interval<'_>, ends: Ends<'_>) -> BTreeMap<Cell, Watched> {
-        let pairs = interval.near.par_iter().with_min_len(CELLS_A_TASK);
-        let mut cells: Vec<Cell> = pairs
-            .flat_map_iter(|&faces| cells_of(&self.topology, faces))
+    /// The cells of the pairs with their passages and whether they are in contact at the end; those lost are left out, and
+    /// those that stay farther apart than the reach.
+    fn watch(&mut self, interval: &Interval<'_>, ends: Ends<'_>) -> BTreeMap<Cell, Watched> {
+        let mut clearances = std::mem::take(&mut self.clearances);
+        clearances.follow(&self.topology, interval.near, CELLS_A_TASK);
+        let both = ends.0[0].iter().zip(ends.0[1]);
+        let ways: Vec<DVec3> = both.map(|(p, q)| *q - *p).collect();
+        // Twice the reach covers to what share it is told.
+        let far = 2.0 * self.reach + self.limits.margin;
+        let cells = clearances.cells.par_iter().with_min_len(CELLS_A_TASK);
+        let watched: Vec<_> = cells
+            .zip(&mut clearances.bounds)
+            .filter_map(|(&cell, bound)| {
+                *bound -= cell.approach(&self.topology, &ways) + self.limits.margin;
+                if *bound > far {
+                    return None;
+                }
+                *bound = 0.0;
+                let is_by = matches!(cell, Cell::VertexEdge { .. });
+                if !is_by && self.is_lost(cell, interval) {
+                    return None;
+                }
+                let seen = Watched::new(cell, &self.topology, ends, self.reach);
+                *bound = seen.distance;
+                Some((cell, seen))
+            })
             .collect();
-        cells.par_sort_unstable();
-        cells.dedup();
-        let is_counted =
-            |cell: &Cell| matches!(cell, Cell::VertexEdge { .. }) || !self.is_lost(*cell, interval);
-        let mut watched = cells
-            .into_par_iter()
-            .with_min_len(CELLS_A_TASK)
-            .filter(is_counted)
-            .map(|cell| (cell, Watched::new(cell, &self.topology, ends, self.reach)))
-            .collect::<Vec<_>>()
-            .into_iter()
-            .collect();
+        self.clearances = clearances;
+        let mut watched = watched.into_iter().collect();
         self.agree_with_rim(&mut watched);
         watched
     }
@@ -320,6 +335,7 @@ impl Crossings {
     fn stretches(&mut self, step: &Step, found: &mut Found) -> BTreeMap<Cell, Vec<Stretch>> {
         let mut all = BTreeMap::new();
         let mut open = std::mem::take(&mut self.open);
+        let beside = self.times_beside(&step.watched);
         for (&cell, seen) in &step.watched {
             if matches!(cell, Cell::VertexEdge { .. }) {
                 continue;
@@ -329,14 +345,32 @@ impl Crossings {
                 found.unsure.extend(cell.faces(&self.topology).next());
                 continue;
             }
-            let rim = cell.rim(&self.topology);
-            let by = rim.iter().filter_map(|cell| step.watched.get(cell));
-            let times = seen.all_times(by);
+            let by = beside.get(&cell).into_iter().flatten();
+            let times = seen.all_times(by.copied());
             let stretches = self.stretches_of(&times, seen, earlier, step);
-            all.insert(cell, stretches);
+            if !stretches.is_empty() {
+                all.insert(cell, stretches);
+            }
         }
         // What is in contact but not watched any more was lost: it is not counted.
         all
+    }
+
+    /// The times at which something in a cell of passing through passes by.
+    fn times_beside(&self, watched: &BTreeMap<Cell, Watched>) -> BTreeMap<Cell, Vec<[f64; 2]>> {
+        let mut beside: BTreeMap<Cell, Vec<[f64; 2]>> = BTreeMap::new();
+        for (&cell, seen) in watched {
+            let Cell::VertexEdge { vertex, edge } = cell else {
+                continue;
+            };
+            if seen.times.is_empty() {
+                continue;
+            }
+            for (through, _) in turn(&self.topology, vertex, edge) {
+                beside.entry(through).or_default().extend(&seen.times);
+            }
+        }
+        beside
     }
 
     fn stretches_of(

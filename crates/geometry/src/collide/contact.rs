@@ -29,11 +29,11 @@ pub fn contact_times(pair: &MovingPair, distance: f64, limits: &Limits) -> Vec<[
         let Some((from, to)) = open.pop() else {
             break;
         };
-        if stays_farther(&from, &to, distance, limits) {
-            continue;
-        }
         if stays_within(&from, &to, distance) {
             keep(from.time, to.time);
+            continue;
+        }
+        if stays_farther(&from, &to, distance, limits) {
             continue;
         }
         let length = to.time - from.time;
@@ -147,6 +147,9 @@ impl Instant {
 
 /// Whether a direction shows the features to be farther apart than `distance` throughout.
 fn stays_farther(from: &Instant, to: &Instant, distance: f64, limits: &Limits) -> bool {
+    if from.closest.distance.min(to.closest.distance) <= distance {
+        return false;
+    }
     let (Some(d0), Some(d1)) = (from.direction(), to.direction()) else {
         return false;
     };
