@@ -94,7 +94,7 @@ pub enum CheckError {
     /// Coordinates too large for the tolerance.
     #[error(
         "frame {frame} reaches {extent:e} from the start, where rounding is {margin:e}: the touch tolerance of \
-         {tolerance:e} must be at least 100 times that"
+         {tolerance:e} must be at least 4096 times that"
     )]
     ToleranceBelowRounding {
         /// Which frame.

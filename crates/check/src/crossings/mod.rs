@@ -32,7 +32,7 @@
 //! - All vertices are moved by a fixed random offset of at most τ/4096, so that no two events coincide; what is proved
 //!   of the moved motion for τ (1 − 1/32) holds of the given one for τ.
 //! - "Within τ" is told to 1/64 (`contact_times`). What is not shown to be near counts as far: that can only
-//!   leave an equation without a solution.
+//!   leave an equation without a solution. Where that takes too long the pair is undecided.
 //! - Passages are counted exactly (`vertex_passings`, `edge_passings`); where rounding hides one the pair is undecided.
 //! - Pairs of triangles shown to be farther apart than τ have no cells; those found penetrating or undecided by their
 //!   sides have cells that are not counted.
@@ -91,7 +91,7 @@ pub(crate) struct Crossings {
     /// Passings through whose contact lasts at the last frame.
     open: BTreeMap<Cell, Contact>,
     /// Passings by whose contact lasts: the unknown, and the contacts it stands in.
-    open_turns: BTreeMap<Cell, (u32, BTreeSet<u64>)>,
+    open_turns: BTreeMap<Cell, (u32, Vec<u64>)>,
     contacts: u64,
     /// Intervals put off.
     quiet: Vec<Step>,
@@ -329,13 +329,28 @@ impl Crossings {
                 let pair = cell.moving(&self.topology, ends);
                 seen.time(&pair, self.reach, &self.limits);
             });
+        self.doubt_around(watched);
+    }
+
+    /// Where it is open when something passes by, what passes through there is open too.
+    fn doubt_around(&self, watched: &mut BTreeMap<Cell, Watched>) {
+        let open = watched.iter().filter_map(|(cell, seen)| match cell {
+            Cell::VertexEdge { vertex, edge } if seen.is_unsure => Some((*vertex, *edge)),
+            _ => None,
+        });
+        for (vertex, edge) in open.collect::<Vec<_>>() {
+            for (cell, _) in turn(&self.topology, vertex, edge) {
+                if let Some(seen) = watched.get_mut(&cell) {
+                    seen.is_unsure = true;
+                }
+            }
+        }
     }
 
     /// The stretches of contact of all cells of passing through, with their passages.
     fn stretches(&mut self, step: &Step, found: &mut Found) -> BTreeMap<Cell, Vec<Stretch>> {
         let mut all = BTreeMap::new();
         let mut open = std::mem::take(&mut self.open);
-        let beside = self.times_beside(&step.watched);
         for (&cell, seen) in &step.watched {
             if matches!(cell, Cell::VertexEdge { .. }) {
                 continue;
@@ -345,8 +360,8 @@ impl Crossings {
                 found.unsure.extend(cell.faces(&self.topology).next());
                 continue;
             }
-            let by = beside.get(&cell).into_iter().flatten();
-            let times = seen.all_times(by.copied());
+            let rim = cell.rim(&self.topology);
+            let times = seen.all_times(rim.filter_map(|cell| step.watched.get(&cell)));
             let stretches = self.stretches_of(&times, seen, earlier, step);
             if !stretches.is_empty() {
                 all.insert(cell, stretches);
@@ -354,23 +369,6 @@ impl Crossings {
         }
         // What is in contact but not watched any more was lost: it is not counted.
         all
-    }
-
-    /// The times at which something in a cell of passing through passes by.
-    fn times_beside(&self, watched: &BTreeMap<Cell, Watched>) -> BTreeMap<Cell, Vec<[f64; 2]>> {
-        let mut beside: BTreeMap<Cell, Vec<[f64; 2]>> = BTreeMap::new();
-        for (&cell, seen) in watched {
-            let Cell::VertexEdge { vertex, edge } = cell else {
-                continue;
-            };
-            if seen.times.is_empty() {
-                continue;
-            }
-            for (through, _) in turn(&self.topology, vertex, edge) {
-                beside.entry(through).or_default().extend(&seen.times);
-            }
-        }
-        beside
     }
 
     fn stretches_of(
@@ -422,7 +420,7 @@ impl Crossings {
                     let met = list.find(|stretch| stretch.overlaps(times));
                     around.extend(met.map(|stretch| (through, stretch.contact.number, sign)));
                 }
-                let met: BTreeSet<u64> = around.iter().map(|&(_, number, _)| number).collect();
+                let met: Vec<u64> = around.iter().map(|&(_, number, _)| number).collect();
                 let before = earlier.remove(&cell).filter(|_| times[0] == 0.0);
                 let unknown = match before {
                     Some((unknown, known)) if known == met => unknown,
