@@ -111,7 +111,7 @@ pub enum CheckError {
     },
     /// Coordinates too large for the tolerance.
     #[error(
-        "the touch tolerance of {:.3} is too small: it must be at least 100 times the rounding, {:.3}, of frame {frame}, which \
+        "the touch tolerance of {:.3} is too small: it must be at least 4096 times the rounding, {:.3}, of frame {frame}, which \
          reaches {:.3} from the start",
         Number(*tolerance),
         Number(*margin),

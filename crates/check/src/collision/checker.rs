@@ -27,6 +27,9 @@ use crate::{
     layers::{Claims, FaceEdges, LayerPair, front_normal},
 };
 
+/// The tolerance in bounds of rounding errors: so the offsets that bring a motion into general position, a 4096th of it, are
+/// above these.
+const ROUNDINGS: f64 = 4096.0;
 /// Fewer pairs than this are not worth a thread.
 const PAIRS_A_TASK: usize = 128;
 
@@ -424,7 +427,7 @@ fn limits_for(
     budget: u32,
 ) -> Result<Limits, CheckError> {
     let margin = Limits::margin_for(extent);
-    if margin * 100.0 > tolerance {
+    if margin * ROUNDINGS > tolerance {
         return Err(CheckError::ToleranceBelowRounding {
             frame,
             extent,

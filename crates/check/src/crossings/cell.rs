@@ -1,5 +1,7 @@
 //! Two simplices of the sheet without a common vertex.
 
+use std::cmp::Ordering;
+
 use foldmotion_geometry::collide::{
     MovingPair, PairPose, Passing, edge_passings, sign_of_volume, vertex_passings,
 };
@@ -8,7 +10,7 @@ use glam::DVec3;
 use super::topology::Topology;
 
 /// A pair of disjoint simplices that may meet.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Cell {
     /// They pass through each other at an instant.
     VertexFacet { vertex: u32, face: u32 },
@@ -16,6 +18,19 @@ pub(super) enum Cell {
     Edges([u32; 2]),
     /// They pass by each other on either side.
     VertexEdge { vertex: u32, edge: u32 },
+}
+
+/// Passings through before passings by; compared very often.
+impl Ord for Cell {
+    fn cmp(&self, other: &Self) -> Ordering {
+        self.key().cmp(&other.key())
+    }
+}
+
+impl PartialOrd for Cell {
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
 }
 
 /// Positions at the two ends of an interval.
@@ -29,6 +44,15 @@ impl Ends<'_> {
 }
 
 impl Cell {
+    fn key(self) -> (u8, u64) {
+        let (kind, first, second) = match self {
+            Self::VertexFacet { vertex, face } => (0, vertex, face),
+            Self::Edges([a, b]) => (1, a, b),
+            Self::VertexEdge { vertex, edge } => (2, vertex, edge),
+        };
+        (kind, (u64::from(first) << 32) | u64::from(second))
+    }
+
     pub(super) fn edges(a: u32, b: u32) -> Self {
         Self::Edges([a.min(b), a.max(b)])
     }
@@ -71,20 +95,21 @@ impl Cell {
     }
 
     /// The cells of passing by that lie in a cell of passing through.
-    pub(super) fn rim(self, topology: &Topology) -> Vec<Self> {
-        match self {
-            Self::VertexFacet { vertex, face } => topology.face_edges[face as usize]
-                .map(|edge| Self::VertexEdge { vertex, edge })
-                .to_vec(),
-            Self::Edges([a, b]) => [(a, b), (b, a)]
-                .into_iter()
-                .flat_map(|(e, edge)| {
-                    let ends = topology.ends(e);
-                    ends.map(|vertex| Self::VertexEdge { vertex, edge })
-                })
-                .collect(),
-            Self::VertexEdge { .. } => Vec::new(),
-        }
+    pub(super) fn rim(self, topology: &Topology) -> impl Iterator<Item = Self> {
+        let (around, crossed) = match self {
+            Self::VertexFacet { vertex, face } => {
+                let edges = topology.face_edges[face as usize];
+                (Some(edges.map(|edge| (vertex, edge))), None)
+            }
+            Self::Edges([a, b]) => {
+                let ([p, q], [r, s]) = (topology.ends(a), topology.ends(b));
+                (None, Some([(p, b), (q, b), (r, a), (s, a)]))
+            }
+            Self::VertexEdge { .. } => (None, None),
+        };
+        let all = around.into_iter().flatten();
+        all.chain(crossed.into_iter().flatten())
+            .map(|(vertex, edge)| Self::VertexEdge { vertex, edge })
     }
 
     /// Pairs of triangles that hold the one simplex and the other.

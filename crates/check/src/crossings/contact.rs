@@ -1,6 +1,8 @@
 //! Contacts: stretches of time in which two simplices are within reach of each other.
 
-use foldmotion_geometry::collide::{Limits, MovingPair, Passing, contact_times, feature_distance};
+use foldmotion_geometry::collide::{
+    Limits, MovingPair, Passing, contact_times, corners_are_within, feature_distance,
+};
 
 use super::cell::{Cell, Ends};
 use super::topology::Topology;
@@ -9,8 +11,10 @@ use super::topology::Topology;
 #[derive(Debug)]
 pub(super) struct Watched {
     pub(super) passings: Vec<Passing>,
-    /// Whether rounding hides a passage.
+    /// Whether rounding hides a passage, or when they are within reach.
     pub(super) is_unsure: bool,
+    /// A lower bound at the frame at the end; 0 where the simplices are within reach.
+    pub(super) distance: f64,
     /// Whether the simplices are within reach at the frame at the end.
     pub(super) is_near: bool,
     /// When they are within reach, as shares of the interval; empty until asked for.
@@ -63,25 +67,35 @@ impl Watched {
     pub(super) fn new(cell: Cell, topology: &Topology, ends: Ends<'_>, reach: f64) -> Self {
         let pose = cell.moving(topology, ends).end;
         let passings = cell.passings(topology, ends);
+        let distance = if corners_are_within(&pose, reach) {
+            0.0
+        } else {
+            feature_distance(&pose)
+        };
         Self {
             is_unsure: passings.is_none(),
             passings: passings.unwrap_or_default(),
-            is_near: feature_distance(&pose) <= reach,
+            distance,
+            is_near: distance <= reach,
             times: Vec::new(),
         }
     }
 
     /// Finds the times of contact; they end at the end of the interval exactly where the frame shows a contact.
     pub(super) fn time(&mut self, pair: &MovingPair, reach: f64, limits: &Limits) {
-        let mut times = contact_times(pair, reach, limits);
-        let start = feature_distance(&pair.start) <= reach;
-        hold(&mut times, 0.0, start);
-        hold(&mut times, 1.0, self.is_near);
+        let found = contact_times(pair, reach, limits);
+        self.is_unsure |= found.is_none();
+        let mut times = found.unwrap_or_default();
+        hold(&mut times, 0.0, || feature_distance(&pair.start) <= reach);
+        hold(&mut times, 1.0, || self.is_near);
         self.times = times;
     }
 
     /// The times of contact, joined with those of the cells on the rim and the times of passages.
     pub(super) fn all_times<'a>(&self, rim: impl Iterator<Item = &'a Self>) -> Vec<[f64; 2]> {
+        if self.times == [[0.0, 1.0]] {
+            return self.times.clone();
+        }
         let instants = self.passings.iter().map(|p| p.times);
         let mut all: Vec<[f64; 2]> = self.times.iter().copied().chain(instants).collect();
         all.extend(rim.flat_map(|seen| seen.times.iter().copied()));
@@ -98,8 +112,8 @@ impl Watched {
 }
 
 /// Makes the times hold the end of the interval at which the frame shows a contact.
-fn hold(times: &mut Vec<[f64; 2]>, end: f64, is_near: bool) {
-    if is_near && !times.iter().any(|t| t.contains(&end)) {
+fn hold(times: &mut Vec<[f64; 2]>, end: f64, is_near: impl Fn() -> bool) {
+    if !times.iter().any(|t| t.contains(&end)) && is_near() {
         times.push([end; 2]);
         times.sort_by(|p, q| p[0].total_cmp(&q[0]));
     }

@@ -32,12 +32,13 @@
 //! - All vertices are moved by a fixed random offset of at most τ/4096, so that no two events coincide; what is proved
 //!   of the moved motion for τ (1 − 1/32) holds of the given one for τ.
 //! - "Within τ" is told to 1/64 (`contact_times`). What is not shown to be near counts as far: that can only
-//!   leave an equation without a solution.
+//!   leave an equation without a solution. Where that takes too long the pair is undecided.
 //! - Passages are counted exactly (`vertex_passings`, `edge_passings`); where rounding hides one the pair is undecided.
 //! - Pairs of triangles shown to be farther apart than τ have no cells; those found penetrating or undecided by their
 //!   sides have cells that are not counted.
 
 mod cell;
+mod clearance;
 mod contact;
 #[cfg(test)]
 mod random;
@@ -53,6 +54,7 @@ use glam::DVec3;
 use rayon::prelude::*;
 
 use cell::{Cell, Ends, cells_of, piercing, piercing_terms, turn};
+use clearance::Clearances;
 use contact::{Contact, Stretch, Watched};
 use system::System;
 use topology::Topology;
@@ -85,10 +87,11 @@ pub(crate) struct Crossings {
     reach: f64,
     limits: Limits,
     system: System,
+    clearances: Clearances,
     /// Passings through whose contact lasts at the last frame.
     open: BTreeMap<Cell, Contact>,
     /// Passings by whose contact lasts: the unknown, and the contacts it stands in.
-    open_turns: BTreeMap<Cell, (u32, BTreeSet<u64>)>,
+    open_turns: BTreeMap<Cell, (u32, Vec<u64>)>,
     contacts: u64,
     /// Intervals put off.
     quiet: Vec<Step>,
@@ -140,6 +143,7 @@ impl Crossings {
             reach,
             limits: *limits,
             system: System::new(),
+            clearances: Clearances::default(),
             open: BTreeMap::new(),
             open_turns: BTreeMap::new(),
             contacts: 0,
@@ -268,24 +272,35 @@ impl Crossings {
         Contact::new(self.contacts, since)
     }
 
-    /// The cells of the pairs, those lost left out, with their passages and whether they are in contact at the end.
-    fn watch(&self, interval: &Interval<'_>, ends: Ends<'_>) -> BTreeMap<Cell, Watched> {
-        let pairs = interval.near.par_iter().with_min_len(CELLS_A_TASK);
-        let mut cells: Vec<Cell> = pairs
-            .flat_map_iter(|&faces| cells_of(&self.topology, faces))
+    /// The cells of the pairs with their passages and whether they are in contact at the end; those lost are left out, and
+    /// those that stay farther apart than the reach.
+    fn watch(&mut self, interval: &Interval<'_>, ends: Ends<'_>) -> BTreeMap<Cell, Watched> {
+        let mut clearances = std::mem::take(&mut self.clearances);
+        clearances.follow(&self.topology, interval.near, CELLS_A_TASK);
+        let both = ends.0[0].iter().zip(ends.0[1]);
+        let ways: Vec<DVec3> = both.map(|(p, q)| *q - *p).collect();
+        // Twice the reach covers to what share it is told.
+        let far = 2.0 * self.reach + self.limits.margin;
+        let cells = clearances.cells.par_iter().with_min_len(CELLS_A_TASK);
+        let watched: Vec<_> = cells
+            .zip(&mut clearances.bounds)
+            .filter_map(|(&cell, bound)| {
+                *bound -= cell.approach(&self.topology, &ways) + self.limits.margin;
+                if *bound > far {
+                    return None;
+                }
+                *bound = 0.0;
+                let is_by = matches!(cell, Cell::VertexEdge { .. });
+                if !is_by && self.is_lost(cell, interval) {
+                    return None;
+                }
+                let seen = Watched::new(cell, &self.topology, ends, self.reach);
+                *bound = seen.distance;
+                Some((cell, seen))
+            })
             .collect();
-        cells.par_sort_unstable();
-        cells.dedup();
-        let is_counted =
-            |cell: &Cell| matches!(cell, Cell::VertexEdge { .. }) || !self.is_lost(*cell, interval);
-        let mut watched = cells
-            .into_par_iter()
-            .with_min_len(CELLS_A_TASK)
-            .filter(is_counted)
-            .map(|cell| (cell, Watched::new(cell, &self.topology, ends, self.reach)))
-            .collect::<Vec<_>>()
-            .into_iter()
-            .collect();
+        self.clearances = clearances;
+        let mut watched = watched.into_iter().collect();
         self.agree_with_rim(&mut watched);
         watched
     }
@@ -314,6 +329,22 @@ impl Crossings {
                 let pair = cell.moving(&self.topology, ends);
                 seen.time(&pair, self.reach, &self.limits);
             });
+        self.doubt_around(watched);
+    }
+
+    /// Where it is open when something passes by, what passes through there is open too.
+    fn doubt_around(&self, watched: &mut BTreeMap<Cell, Watched>) {
+        let open = watched.iter().filter_map(|(cell, seen)| match cell {
+            Cell::VertexEdge { vertex, edge } if seen.is_unsure => Some((*vertex, *edge)),
+            _ => None,
+        });
+        for (vertex, edge) in open.collect::<Vec<_>>() {
+            for (cell, _) in turn(&self.topology, vertex, edge) {
+                if let Some(seen) = watched.get_mut(&cell) {
+                    seen.is_unsure = true;
+                }
+            }
+        }
     }
 
     /// The stretches of contact of all cells of passing through, with their passages.
@@ -330,10 +361,11 @@ impl Crossings {
                 continue;
             }
             let rim = cell.rim(&self.topology);
-            let by = rim.iter().filter_map(|cell| step.watched.get(cell));
-            let times = seen.all_times(by);
+            let times = seen.all_times(rim.filter_map(|cell| step.watched.get(&cell)));
             let stretches = self.stretches_of(&times, seen, earlier, step);
-            all.insert(cell, stretches);
+            if !stretches.is_empty() {
+                all.insert(cell, stretches);
+            }
         }
         // What is in contact but not watched any more was lost: it is not counted.
         all
@@ -388,7 +420,7 @@ impl Crossings {
                     let met = list.find(|stretch| stretch.overlaps(times));
                     around.extend(met.map(|stretch| (through, stretch.contact.number, sign)));
                 }
-                let met: BTreeSet<u64> = around.iter().map(|&(_, number, _)| number).collect();
+                let met: Vec<u64> = around.iter().map(|&(_, number, _)| number).collect();
                 let before = earlier.remove(&cell).filter(|_| times[0] == 0.0);
                 let unknown = match before {
                     Some((unknown, known)) if known == met => unknown,

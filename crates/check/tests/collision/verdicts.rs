@@ -352,3 +352,83 @@ fn a_penetration_lasts_until_the_plates_are_no_longer_in_each_other() {
     assert!((spans[0].from - 0.75).abs() < 1e-6, "{spans:?}");
     assert_eq!(spans[0].to, 1.0);
 }
+
+/// A small plate that comes up to one of 2e4 units a side, slides below it and leaves, all of it turned.
+fn below_a_large_plate(turn: DQuat) -> Motion {
+    let small = |i: u32, j: u32| DVec2::new(f64::from(i), f64::from(j)) / 3.0;
+    let large = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)];
+    let mut vertices: Vec<DVec2> = large.iter().map(|&(x, y)| DVec2::new(x, y) * 1e4).collect();
+    vertices.extend((0..4).flat_map(|j| (0..4).map(move |i| small(i, j))));
+    let mut faces = vec![[0, 1, 2], [0, 2, 3]];
+    for corner in (0..3).flat_map(|j| (0..3).map(move |i| 4 + i + 4 * j)) {
+        faces.extend([
+            [corner, corner + 1, corner + 5],
+            [corner, corner + 5, corner + 4],
+        ]);
+    }
+    let places = [(0.0, -1.0), (0.0, 0.0), (0.5, 0.0), (0.0, -1.0)];
+    let tilt = DQuat::from_rotation_z(0.8);
+    let states = places.map(|(x, z)| {
+        let place = |(v, p): (usize, &DVec2)| {
+            let is_large = v < 4;
+            let moved = tilt * p.extend(0.0) + DVec3::new(x - 0.2, 0.1, z);
+            turn * if is_large { p.extend(0.0) } else { moved }
+        };
+        vertices.iter().enumerate().map(place).collect()
+    });
+    motion(sheet(vertices.clone(), faces), states)
+}
+
+#[test]
+fn a_tolerance_is_right_or_refused_however_small_beside_the_sheet() {
+    let [mut judged, mut refused] = [0, 0];
+    for k in 0..12 {
+        let axis = DVec3::new(1.0, f64::from(k), -2.0).normalize();
+        let motion = below_a_large_plate(DQuat::from_axis_angle(axis, 0.7 * f64::from(k)));
+        for touch_tolerance in [1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8] {
+            let options = CollisionOptions {
+                touch_tolerance,
+                ..CollisionOptions::default()
+            };
+            match collisions(&motion, &options, &|_| true) {
+                Ok(report) => {
+                    judged += 1;
+                    assert_eq!(report.verdict, Verdict::Touching, "{k} {touch_tolerance}");
+                }
+                Err(CheckError::ToleranceBelowRounding { .. }) => refused += 1,
+                Err(other) => panic!("{other}"),
+            }
+        }
+    }
+    assert_eq!([judged, refused], [48, 24]);
+}
+
+/// Triangles with a common corner: an edge of one comes to lie on a corner of the other tangentially, so that the two edges
+/// there are within τ of each other long before, √τ from the end.
+#[test]
+fn edges_that_lie_down_on_each_other_touch_for_every_tolerance() {
+    let corners = [[0.0, 0.0], [3.0, 0.0], [0.0, -1.0], [1.0, 0.0], [0.0, 1.0]];
+    let faces = vec![[0, 2, 1], [0, 3, 4]];
+    let sheet = sheet(corners.map(DVec2::from_array).to_vec(), faces);
+    let at = |left: f64| {
+        let mut places = corners.map(|[x, y]| DVec3::new(x, y, 0.0)).to_vec();
+        places[1].y = left;
+        places[4].z = left;
+        let turn = DQuat::from_axis_angle(DVec3::new(1.0, -2.0, 0.5).normalize(), 0.9);
+        places.into_iter().map(|p| turn * p).collect()
+    };
+    let motion = motion(sheet, [at(1.0), at(0.0)]);
+    for touch_tolerance in [1e-5, 1e-6, 1e-7, 3.5e-8, 1e-8, 1e-9] {
+        let options = CollisionOptions {
+            touch_tolerance,
+            ..CollisionOptions::default()
+        };
+        let report = collisions(&motion, &options, &|_| true).unwrap();
+        assert_eq!(
+            report.verdict,
+            Verdict::Touching,
+            "{touch_tolerance}: {:?}",
+            report.first
+        );
+    }
+}

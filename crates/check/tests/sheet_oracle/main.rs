@@ -218,6 +218,16 @@ fn the_yardstick_shows_what_lasts_and_nothing_where_all_is_free() {
     }
 }
 
+/// Between panels at a sharp angle: less than τ beyond the crease, where only a push along the fold leads back.
+#[test]
+fn a_tip_that_pokes_through_a_sharp_fold_by_less_than_the_tolerance_touches() {
+    for number in [584, 1670, 2357] {
+        let trial = try_scene(Class::Crease, number);
+        assert_eq!(trial.truth, Truth::Touching, "{number}");
+        assert_eq!(trial.verdict, Some(Verdict::Touching), "{number}");
+    }
+}
+
 #[test]
 fn classes_are_found_by_their_names() {
     for class in Class::ALL {

@@ -9,6 +9,11 @@ use crate::distance::{Closest, point_triangle, segment_segment, triangle_triangl
 const RESOLUTION: f64 = 1.0 / 64.0;
 /// Shorter stretches are not cut.
 const SHORTEST: f64 = 1.0 / (1u64 << 44) as f64;
+/// Closest points nearer to each other than this share of the features' size do not tell their direction: it turns the
+/// features by a rounding of the size over their distance, and that moves their ends by more than the distance.
+const NO_DIRECTION: f64 = 1e-6;
+/// Spans at a smaller angle are one.
+const PARALLEL: f64 = 1e-12;
 /// The most stretches looked at.
 const BUDGET: u32 = 1 << 16;
 
@@ -16,8 +21,11 @@ const BUDGET: u32 = 1 << 16;
 ///
 /// A feature is a triangle with moving corners; an edge is one with two equal corners, a vertex one with three. In each
 /// stretch the features are within 65/64 of the distance throughout; outside, farther than 63/64 of it, but for
-/// approaches shorter than 2⁻⁴⁴ and where the budget ended: what is not shown to be near counts as far.
-pub fn contact_times(pair: &MovingPair, distance: f64, limits: &Limits) -> Vec<[f64; 2]> {
+/// approaches shorter than 2⁻⁴⁴: what is not shown to be near counts as far. None where the budget ended.
+pub fn contact_times(pair: &MovingPair, distance: f64, limits: &Limits) -> Option<Vec<[f64; 2]>> {
+    if corners_stay_within(pair, distance) {
+        return Some(vec![[0.0, 1.0]]);
+    }
     let moved = greatest_motion(pair);
     let mut near: Vec<[f64; 2]> = Vec::new();
     let mut keep = |from: f64, to: f64| match near.last_mut() {
@@ -27,13 +35,13 @@ pub fn contact_times(pair: &MovingPair, distance: f64, limits: &Limits) -> Vec<[
     let mut open = vec![(Instant::new(pair, 0.0), Instant::new(pair, 1.0))];
     for _ in 0..BUDGET {
         let Some((from, to)) = open.pop() else {
-            break;
+            return Some(near);
         };
-        if stays_farther(&from, &to, distance, limits) {
-            continue;
-        }
         if stays_within(&from, &to, distance) {
             keep(from.time, to.time);
+            continue;
+        }
+        if stays_farther(&from, &to, distance, limits) {
             continue;
         }
         let length = to.time - from.time;
@@ -47,11 +55,14 @@ pub fn contact_times(pair: &MovingPair, distance: f64, limits: &Limits) -> Vec<[
         open.push((middle, to));
         open.push((from, middle));
     }
-    near
+    None
 }
 
 /// Whether two features come within `distance` of each other; see [`contact_times`].
 pub fn comes_within(pair: &MovingPair, distance: f64, limits: &Limits) -> bool {
+    if corners_are_within(&pair.start, distance) || corners_are_within(&pair.end, distance) {
+        return true;
+    }
     let is_near = |instant: &Instant| instant.closest.distance <= distance;
     let ends = (Instant::new(pair, 0.0), Instant::new(pair, 1.0));
     if is_near(&ends.0) || is_near(&ends.1) {
@@ -81,6 +92,24 @@ pub fn comes_within(pair: &MovingPair, distance: f64, limits: &Limits) -> bool {
 /// The distance of two features at an instant.
 pub fn feature_distance(pose: &PairPose) -> f64 {
     closest(pose).distance
+}
+
+/// Whether a corner of one feature is within `distance` of one of the other, as in layers whose corners lie on each other.
+pub fn corners_are_within(pose: &PairPose, distance: f64) -> bool {
+    let squared = distance * distance;
+    let is_near = |p: &DVec3, q: &DVec3| p.distance_squared(*q) <= squared;
+    pose.a.iter().any(|p| pose.b.iter().any(|q| is_near(p, q)))
+}
+
+/// Whether two corners are within `distance` of each other at both ends: then they are throughout, as they move straight.
+fn corners_stay_within(pair: &MovingPair, distance: f64) -> bool {
+    let squared = distance * distance;
+    let (start, end) = (&pair.start, &pair.end);
+    let is_near = |i: usize, j: usize| {
+        start.a[i].distance_squared(start.b[j]) <= squared
+            && end.a[i].distance_squared(end.b[j]) <= squared
+    };
+    (0..3).any(|i| (0..3).any(|j| is_near(i, j)))
 }
 
 /// The longest way of a corner of one triangle as seen from a corner of the other.
@@ -132,8 +161,23 @@ impl Instant {
         }
     }
 
+    /// The direction along which the features are farthest apart, or nearly.
     fn direction(&self) -> Option<DVec3> {
-        (self.closest.on_b - self.closest.on_a).try_normalize()
+        let between = (self.closest.on_b - self.closest.on_a).try_normalize()?;
+        let (a, b) = (&self.pose.a, &self.pose.b);
+        let spans = [a[1] - a[0], a[2] - a[0], b[1] - b[0], b[2] - b[0]];
+        let size = spans.iter().map(|s| s.length_squared()).fold(0.0, f64::max);
+        if self.closest.distance * self.closest.distance > NO_DIRECTION * NO_DIRECTION * size {
+            return Some(between);
+        }
+        let apart = |d: &DVec3| {
+            let heights = |corners: &[DVec3; 3]| corners.map(|p| d.dot(p - a[0]));
+            let ([p, q, r], [u, v, w]) = (heights(a), heights(b));
+            u.min(v).min(w) - p.max(q).max(r)
+        };
+        let at_right_angles = normal_to(spans, between);
+        let all = [Some(between), at_right_angles].into_iter().flatten();
+        all.max_by(|d, e| apart(d).total_cmp(&apart(e)))
     }
 
     /// What the closest points are made of: the shares of the corners.
@@ -145,8 +189,32 @@ impl Instant {
     }
 }
 
+/// The direction at a right angle to what spans the features that is nearest to another: a normal to two spans, or what is
+/// left of the other direction beside one.
+fn normal_to(spans: [DVec3; 4], nearest: DVec3) -> Option<DVec3> {
+    let by_length = |s: &DVec3, t: &DVec3| s.length_squared().total_cmp(&t.length_squared());
+    let longest = spans.into_iter().max_by(by_length)?;
+    let along = longest.try_normalize()?;
+    let normal = spans
+        .map(|s| along.cross(s))
+        .into_iter()
+        .max_by(by_length)?;
+    if normal.length() <= PARALLEL * longest.length() {
+        return (nearest - along * along.dot(nearest)).try_normalize();
+    }
+    let normal = normal.normalize();
+    Some(if normal.dot(nearest) < 0.0 {
+        -normal
+    } else {
+        normal
+    })
+}
+
 /// Whether a direction shows the features to be farther apart than `distance` throughout.
 fn stays_farther(from: &Instant, to: &Instant, distance: f64, limits: &Limits) -> bool {
+    if from.closest.distance.min(to.closest.distance) <= distance {
+        return false;
+    }
     let (Some(d0), Some(d1)) = (from.direction(), to.direction()) else {
         return false;
     };
@@ -242,7 +310,7 @@ mod tests {
                 end: pose(),
             };
             let distance = 0.3;
-            let near = contact_times(&pair, distance, &LIMITS);
+            let near = contact_times(&pair, distance, &LIMITS).unwrap();
             stretches += near.len();
             assert!(near.windows(2).all(|w| w[0][1] < w[1][0]), "{near:?}");
             for k in 0..=300 {
@@ -271,6 +339,32 @@ mod tests {
             start: at(0.25),
             end: at(3.0),
         };
-        assert_eq!(contact_times(&pair, 1e-6, &LIMITS), [[0.0, 1.0]]);
+        assert_eq!(contact_times(&pair, 1e-6, &LIMITS).unwrap(), [[0.0, 1.0]]);
+    }
+
+    /// Edges that come to lie across each other tangentially: their distance is a third of the square of the time left.
+    #[test]
+    fn edges_that_lie_down_on_each_other_are_near_from_when_on_to_the_end() {
+        let [start, end] = [1.0, 0.0].map(|left| {
+            let along = DVec3::new(3.0, left, 0.0);
+            PairPose {
+                a: [DVec3::ZERO, along, along],
+                b: [
+                    DVec3::X,
+                    DVec3::new(0.0, 1.0, left),
+                    DVec3::new(0.0, 1.0, left),
+                ],
+                shared: 0,
+            }
+        });
+        for distance in [1e-6, 1e-7, 3e-8, 1e-9, 1e-10] {
+            let near = contact_times(&MovingPair { start, end }, distance, &LIMITS).unwrap();
+            let [[from, to]] = near[..] else {
+                panic!("{near:?}");
+            };
+            let left = (3.0 * distance).sqrt();
+            assert_eq!(to, 1.0);
+            assert!((0.98..1.02).contains(&((1.0 - from) / left)), "{near:?}");
+        }
     }
 }

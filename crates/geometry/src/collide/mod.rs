@@ -71,7 +71,7 @@ mod walk;
 
 pub use certify::{Crossing, Effort, Outcome, Passage, Side, certify};
 pub use closest::{Approach, Approaches, accuracy, closest_approach, enough_clearance};
-pub use contact::{comes_within, contact_times, feature_distance};
+pub use contact::{comes_within, contact_times, corners_are_within, feature_distance};
 pub use meeting::{Meeting, MeetingSearch, edge_edge, vertex_facet};
 pub use moving::MovingPair;
 pub use passing::{Passing, edge_passings, sign_of_volume, vertex_passings};

@@ -8,7 +8,7 @@ use super::{
     part::{Part, between, sixteenths},
     random::Random,
     scene::{Scene, Truth},
-    undo::Bodies,
+    undo::{Bodies, displacements},
 };
 
 /// τ of the default options with the unit 1.
@@ -428,8 +428,14 @@ fn truth(bodies: &Bodies, nearest: f64, is_thin: bool) -> Truth {
             Truth::Free
         };
     }
-    let small = 0.5 * TOLERANCE;
-    if bodies.can_be_undone(small, 1) || bodies.can_be_undone(small, 4) {
+    let small = displacements(0.5 * TOLERANCE);
+    let along = |lengths: [f64; 3]| bodies.along_wedges(&lengths.map(|l| l * TOLERANCE));
+    let is_undone = |choices: &[Point], densities: [i64; 2]| {
+        densities
+            .into_iter()
+            .any(|density| bodies.can_be_undone(choices, density))
+    };
+    if is_undone(&small, [1, 4]) || is_undone(&along([0.3, 0.6, 0.9]), [1, 4]) {
         return if nearest < 0.7 * TOLERANCE {
             Truth::Touching
         } else {
@@ -438,8 +444,11 @@ fn truth(bodies: &Bodies, nearest: f64, is_thin: bool) -> Truth {
     }
     // In a narrow wedge displacements of 2 τ lead out through its walls, smaller ones of the right length do not.
     let tenths = (6..20).map(|tenth| 0.1 * f64::from(tenth) * TOLERANCE);
-    if bodies.can_be_undone(2.0 * TOLERANCE, 4)
-        || tenths.into_iter().any(|r| bodies.can_be_undone(r, 1))
+    if bodies.can_be_undone(&displacements(2.0 * TOLERANCE), 4)
+        || tenths
+            .into_iter()
+            .any(|r| bodies.can_be_undone(&displacements(r), 1))
+        || is_undone(&along([1.0, 1.4, 1.8]), [1, 4])
     {
         return Truth::Open;
     }

@@ -1,0 +1,54 @@
+//! Lower bounds of how far apart the cells are, so that what is far and moves little need not be measured again.
+
+use glam::DVec3;
+
+use super::{
+    cell::{Cell, cells_of},
+    topology::Topology,
+};
+use rayon::prelude::*;
+
+/// The cells of the pairs looked at last, each with a lower bound of the distance of its simplices at the last frame.
+#[derive(Debug, Default)]
+pub(super) struct Clearances {
+    near: Vec<[u32; 2]>,
+    /// In order.
+    pub(super) cells: Vec<Cell>,
+    /// Of each cell; 0 where nothing is known.
+    pub(super) bounds: Vec<f64>,
+}
+
+impl Clearances {
+    /// Takes in the pairs of an interval: what is known of cells that stay is kept.
+    pub(super) fn follow(&mut self, topology: &Topology, near: &[[u32; 2]], cells_a_task: usize) {
+        if self.near == near {
+            return;
+        }
+        let pairs = near.par_iter().with_min_len(cells_a_task);
+        let mut cells: Vec<Cell> = pairs
+            .flat_map_iter(|&faces| cells_of(topology, faces))
+            .collect();
+        cells.par_sort_unstable();
+        cells.dedup();
+        let mut known = self.cells.iter().zip(&self.bounds).peekable();
+        let bound = |cell: &Cell| {
+            while known.next_if(|(earlier, _)| *earlier < cell).is_some() {}
+            let same = known.next_if(|(earlier, _)| *earlier == cell);
+            same.map_or(0.0, |(_, bound)| *bound)
+        };
+        self.bounds = cells.iter().map(bound).collect();
+        self.cells = cells;
+        near.clone_into(&mut self.near);
+    }
+}
+
+impl Cell {
+    /// By how much the simplices may come nearer to each other while every vertex goes its `way`.
+    pub(super) fn approach(self, topology: &Topology, ways: &[DVec3]) -> f64 {
+        let [a, b] = self.corners(topology);
+        let squared = |u: u32, v: u32| ways[u as usize].distance_squared(ways[v as usize]);
+        let pairs = a.iter().flat_map(|&u| b.iter().map(move |&v| (u, v)));
+        let greatest = pairs.map(|(u, v)| squared(u, v)).fold(0.0, f64::max);
+        greatest.sqrt()
+    }
+}
