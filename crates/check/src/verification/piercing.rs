@@ -134,7 +134,7 @@ fn through([p, q]: [DVec3; 2], t: &[DVec3; 3]) -> Option<i32> {
     let margin = ROUNDINGS * f64::EPSILON * size * size * size;
     let sign = |[u, v, w, x]: [DVec3; 4]| {
         let product = (v - u).cross(w - u).dot(x - u);
-        (product.abs() > margin).then(|| product > 0.0)
+        (product.abs() > margin).then_some(product > 0.0)
     };
     let [u, v, w] = *t;
     let (above, below) = (sign([u, v, w, q])?, sign([u, v, w, p])?);
