@@ -207,11 +207,7 @@ fn record_motion(arguments: &RecordArguments) -> Result<u8, Failure> {
         let again = record_again(file, motion, out, arguments.force, &progress)?;
         reporter.finish();
         for warning in &again.warnings {
-            let _ = writeln!(
-                std::io::stderr(),
-                "foldmotion: warning: {}",
-                plain(&warning)
-            );
+            let _ = writeln!(std::io::stderr(), "foldmotion: warning: {}", plain(warning));
         }
         if !arguments.quiet {
             let same = if again.is_same { "the same" } else { "other" };

@@ -334,23 +334,21 @@ fn a_scene_larger_than_any_is_told_its_size() {
 
 /// Lines that cross each other so often that the first equilibrium takes minutes.
 fn crossing_lines() -> String {
-    let mut svg = "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 1000 1000\">".to_owned();
-    let mut line = |[a, b, c, d]: [usize; 4], colour: &str| {
-        svg.push_str(&format!(
-            "<line x1=\"{a}\" y1=\"{b}\" x2=\"{c}\" y2=\"{d}\" stroke=\"{colour}\"/>"
-        ));
+    let line = |[a, b, c, d]: [usize; 4], colour: &str| {
+        format!("<line x1=\"{a}\" y1=\"{b}\" x2=\"{c}\" y2=\"{d}\" stroke=\"{colour}\"/>")
     };
-    for k in 0..=150 {
-        let border = k == 0 || k == 150;
-        let colour = match (border, k % 2) {
-            (true, _) => "#000",
-            (_, 0) => "#f00",
+    let pair = |k: usize| {
+        let colour = match k {
+            0 | 150 => "#000",
+            _ if k.is_multiple_of(2) => "#f00",
             _ => "#00f",
         };
-        line([6 * k, 0, 6 * k, 900], colour);
-        line([0, 6 * k, 900, 6 * k], colour);
-    }
-    svg + "</svg>"
+        let at = 6 * k;
+        line([at, 0, at, 900], colour) + &line([0, at, 900, at], colour)
+    };
+    let lines: Vec<String> = (0..=150).map(pair).collect();
+    let head = "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 1000 1000\">";
+    format!("{head}{}</svg>", lines.concat())
 }
 
 #[test]
