@@ -472,7 +472,8 @@ fn face_orders_of_a_motion_with_contact_are_checked_and_refused_where_they_are_f
     let path = home.path().join("run/motion.fold");
     let mut motion = json_of(&path);
     for frame in motion["file_frames"].as_array_mut().unwrap() {
-        for entry in frame["faceOrders"].as_array_mut().into_iter().flatten() {
+        let orders = frame.get_mut("faceOrders").and_then(Value::as_array_mut);
+        for entry in orders.into_iter().flatten() {
             entry[2] = json!(-entry[2].as_i64().unwrap());
         }
     }
