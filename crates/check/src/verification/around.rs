@@ -65,6 +65,18 @@ impl Around {
         faces
     }
 
+    /// A triangle, the twos at its edges and all around each of its vertices.
+    pub(super) fn surfaces_of(&self, face: u32) -> Vec<Surface> {
+        let corners = self.corners(face);
+        let at_edges = edges(corners).map(|side| self.at_edge.get(&side));
+        let at_vertices = corners.map(|v| self.at_vertex.get(v as usize));
+        let several = at_edges.into_iter().chain(at_vertices).flatten();
+        let all = several.map(|faces| faces.iter().map(|&f| *self.corners(f)).collect());
+        let all = std::iter::once(vec![*corners]).chain(all);
+        all.filter_map(|triangles: Vec<[u32; 3]>| Surface::of(&triangles))
+            .collect()
+    }
+
     /// The triangles that have a vertex among these, the two at each edge of them, and all around each of these vertices.
     pub(super) fn surfaces_at(&self, vertices: &[u32]) -> Vec<Surface> {
         let faces = self.faces_at(vertices);

@@ -14,6 +14,8 @@
 //! - No two triangles without a common vertex get deeper than τ but those listed.
 //! - Wherever else a pair surely changes sides, or sides do not fit together across an edge, a penetration is listed
 //!   around: of triangles that meet these, with a contact that begins no later than the interval ends.
+//! - Up to the first that is listed, no edge goes through the sheet, at frames and halfway between, such that no push by
+//!   τ undoes it.
 //! - What is listed is found: as deep as stated; or by a change of sides; or by sides around that do not fit together, or
 //!   an edge around that goes through the sheet (a triangle, the two at an edge, those around a vertex) such that no push
 //!   by τ undoes it. Then what is named meets when and where stated.
@@ -116,6 +118,7 @@ mod statement;
 mod tests;
 mod through;
 mod trail;
+mod unlisted;
 mod verifier;
 mod walk;
 

@@ -110,6 +110,14 @@ impl Surface {
     }
 }
 
+/// Whether a segment may go through a surface with this triangle, at it, for sure.
+pub(super) fn may_pierce(ends: [DVec3; 2], triangle: &[DVec3; 3], tolerance: f64) -> bool {
+    let is_off = |end: DVec3| on_triangle(end, triangle).distance(end) > tolerance;
+    let triangles = std::slice::from_ref(triangle);
+    let mut times = times_through(ends, triangles, tolerance);
+    times.any(|times| times.is_some_and(|times| times != 0)) && ends.into_iter().all(is_off)
+}
+
 fn sides([p, q, r]: &[u32; 3]) -> [[u32; 2]; 3] {
     [[*p, *q], [*q, *r], [*r, *p]]
 }

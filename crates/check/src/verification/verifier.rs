@@ -66,6 +66,8 @@ pub struct Verifier<'a> {
     pub(super) accounted: Pairs,
     /// Pairs of which it was left open.
     pub(super) questioned: Pairs,
+    /// Whether an edge was found to go through the sheet where nothing is listed.
+    pub(super) is_pierced: bool,
     /// What is listed up to here and was not found yet, with what goes through the sheet there.
     pub(super) pending: Vec<(&'a Penetration, Vec<Piercing>)>,
     pub(super) surely_touching: BTreeSet<[u32; 2]>,
@@ -147,6 +149,7 @@ impl<'a> Verifier<'a> {
             lost: BTreeSet::new(),
             accounted: BTreeSet::new(),
             questioned: BTreeSet::new(),
+            is_pierced: false,
             pending: Vec::new(),
             narrowed: BTreeMap::new(),
             surely_touching: BTreeSet::new(),
@@ -174,6 +177,7 @@ impl<'a> Verifier<'a> {
         self.meet_separation(&start);
         let near = self.near_pairs(&start.positions);
         self.outcome.near += near.len() as u64;
+        self.search_unlisted(&start, &near);
         let pairs: Vec<Pair> = near
             .iter()
             .filter(|faces| !self.dropped.contains_key(*faces))
@@ -315,6 +319,7 @@ impl<'a> Verifier<'a> {
         self.uncoupled_at_rest(&near);
         self.narrow_sides();
         let first = self.last.clone();
+        self.search_unlisted(&first, &near);
         self.meet_separation(&first);
     }
 
