@@ -3,12 +3,13 @@
 
 use foldmotion_geometry::Division;
 use foldmotion_pattern::{
-    Folding, PatternError, ProfileModel, Unit, UnitSheet, clash_figure, common_flap, own_cases,
+    FacetModel, Folding, PatternError, ProfileModel, Unit, UnitSheet, clash_figure, common_flap,
+    own_cases,
 };
 use foldmotion_solver::{CreaseGroup, Ease, ScheduleStep, Stage};
 
 use crate::profile::EQUAL_ROWS;
-use crate::scene::{CaseChoice, FoldingChoice, UnequalChoice};
+use crate::scene::{CaseChoice, FacetModelChoice, FoldingChoice, UnequalChoice};
 use crate::study::Resolver;
 use crate::{SceneSource, StudyError};
 
@@ -28,10 +29,18 @@ impl Resolver<'_> {
             Folding::Waterbomb => UnitSheet::with_rows(&rows, columns),
             Folding::Map => UnitSheet::map_folded(&rows, columns),
         };
-        sheet.map_err(|e| match e {
+        let sheet = sheet.map_err(|e| match e {
             PatternError::RowsClash { .. } => self.fault("sheet.unequal", e.to_string()),
             e => self.pattern_error(&e),
-        })
+        })?;
+        Ok(sheet.with_facet_model(self.facet_model()))
+    }
+
+    fn facet_model(&self) -> FacetModel {
+        match self.scene.material.facet_model {
+            None | Some(FacetModelChoice::Symmetric) => FacetModel::Symmetric,
+            Some(FacetModelChoice::OneDiagonal) => FacetModel::OneDiagonal,
+        }
     }
 
     fn folding(&self) -> Folding {

@@ -3,6 +3,16 @@
 use super::Contact;
 use crate::{SolverError, Stage};
 
+/// Where the sheet as a whole goes in a Newton step: its energy does not say.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Support {
+    /// A triangle amid the sheet stays where it is, so that the steps of a symmetric sheet are not symmetric.
+    #[default]
+    Triangle,
+    /// It neither moves nor turns: steps are as symmetric as the sheet.
+    Floating,
+}
+
 /// The options of [`super::run_quasi_static`].
 #[derive(Debug, Clone, PartialEq)]
 pub struct QuasiStaticOptions {
@@ -24,6 +34,8 @@ pub struct QuasiStaticOptions {
     pub iterations_a_step: usize,
     /// Contact of the layers; none lets them pass through each other.
     pub contact: Option<Contact>,
+    /// Where the sheet as a whole goes in a Newton step.
+    pub support: Support,
 }
 
 impl Default for QuasiStaticOptions {
@@ -37,6 +49,7 @@ impl Default for QuasiStaticOptions {
             max_iterations: 60,
             iterations_a_step: 300,
             contact: None,
+            support: Support::default(),
         }
     }
 }
