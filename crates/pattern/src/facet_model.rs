@@ -107,6 +107,21 @@ impl UnitSheet {
         )
     }
 
+    /// The shorter side of the narrowest quadrilateral over its longer one, means of opposite sides; 1 where there is none.
+    pub fn narrowest_facet(&self) -> f64 {
+        let ratio = |facet: &Facet| {
+            let &[a, b, c, d] = &facet.polygon[..] else {
+                return 1.0;
+            };
+            let length = |v: u32, w: u32| {
+                self.sheet.vertices[v as usize].distance(self.sheet.vertices[w as usize])
+            };
+            let sides = [length(a, b) + length(c, d), length(b, c) + length(d, a)];
+            sides[0].min(sides[1]) / sides[0].max(sides[1])
+        };
+        self.sheet.facets.iter().map(ratio).fold(1.0, f64::min)
+    }
+
     /// The number of vertices of the crease pattern; middle nodes follow.
     pub fn pattern_vertices(&self) -> usize {
         self.places.len()

@@ -61,7 +61,7 @@ fn polygon(rows: usize, length: f64) -> Vec<DVec2> {
 }
 
 fn largest_strain(sheet: &Sheet, positions: &[DVec3]) -> f64 {
-    let strain = |e: &foldmotion_pattern::Edge| {
+    let strain = |e: &Edge| {
         let [a, b] = e.vertices.map(|v| v as usize);
         let rest = sheet.vertices[a].distance(sheet.vertices[b]);
         (positions[a].distance(positions[b]) / rest - 1.0).abs()

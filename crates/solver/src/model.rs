@@ -5,7 +5,7 @@
 //!
 //! U = Σ ½ (EA / l₀) (l − l₀)² + Σ ½ κ l₀ (θ − θ*)² + Σ ½ φ (α − α₀)²
 //!
-//! over the bars (length l, rest length l₀; EA is larger in half diagonals of narrow quadrilaterals, see [`Model::new`]), the hinges (fold angle θ, target θ*, κ the fold or the facet stiffness)
+//! over the bars (length l, rest length l₀), the hinges (fold angle θ, target θ*, κ the fold or the facet stiffness)
 //! and the corners of the triangles (angle α, rest angle α₀, φ the face-angle stiffness, 0 unless asked for). Source: Ghassaei, Demaine, Gershenfeld 2018, "Fast,
 //! interactive origami simulation using GPU computation"; Schenk and Guest 2011 for the bar-and-hinge idea.
 //!
@@ -36,7 +36,7 @@ pub struct Bar {
     pub vertices: [u32; 2],
     /// l₀, its length in the crease pattern, in unit lengths.
     pub rest_length: f64,
-    /// k = EA / l₀, EA as [`Model::new`] says.
+    /// k = EA / l₀.
     pub stiffness: f64,
 }
 
@@ -117,9 +117,6 @@ pub struct Model {
 
 impl Model {
     /// The model of `sheet` in `material`.
-    ///
-    /// EA is the material's, but for the bars to the middle node of a W × H quadrilateral, W ≤ H, ((W² + H²) / 2W²)^(3/2)
-    /// times it.
     ///
     /// # Errors
     /// [`SolverError::MaterialOutOfRange`], [`SolverError::UnitLength`], [`SolverError::NoFacets`], and
@@ -315,8 +312,7 @@ impl FaceAngles {
 }
 
 fn build_bars(sheet: &Sheet, material: &Material, rest: &[DVec3]) -> Result<Vec<Bar>, SolverError> {
-    let bar = |(edge, of): (usize, &Edge)| {
-        let vertices = of.vertices;
+    let bar = |(edge, vertices): (usize, [u32; 2])| {
         let [a, b] = vertices.map(|v| rest[v as usize]);
         let length = a.distance(b);
         if !(length >= MIN_LENGTH && length.is_finite()) {
@@ -327,38 +323,20 @@ fn build_bars(sheet: &Sheet, material: &Material, rest: &[DVec3]) -> Result<Vec<
                 minimum: MIN_LENGTH,
             });
         }
-        let stiffness = material.axial_stiffness * spoke_share(sheet, of, rest) / length;
+        let stiffness = material.axial_stiffness / length;
         Ok(Bar {
             vertices,
             rest_length: length,
             stiffness,
         })
     };
-    sheet.edges.iter().enumerate().map(bar).collect()
-}
-
-/// EA of a bar over that of the others: of half a diagonal of a W × H quadrilateral (W the shorter side) with a node in its
-/// middle ((W² + H²) / 2W²)^(3/2), else 1.
-///
-/// Four half diagonals of length D/2 hold the node across the quadrilateral by 8 EA W²/D³: so as stiffly, in relation to a
-/// bar of length W, as in a square, where the factor is 1. In a narrow one the half diagonals all but line up: with the same
-/// EA the node would give way to the creases at the long sides.
-fn spoke_share(sheet: &Sheet, edge: &Edge, rest: &[DVec3]) -> f64 {
-    let Some(face) = edge.faces[0] else {
-        return 1.0;
-    };
-    let polygon = &sheet.facets[sheet.face_facets[face as usize] as usize].polygon;
-    let &[a, b, c, d] = &polygon[..] else {
-        return 1.0;
-    };
-    if edge.assignment != Assignment::Facet || edge.vertices.iter().all(|v| polygon.contains(v)) {
-        return 1.0;
-    }
-    let [a, b, c, d] = [a, b, c, d].map(|v| rest[v as usize]);
-    let sides = [a.distance(b) + c.distance(d), b.distance(c) + d.distance(a)];
-    let [width, height] = sides.map(|sum| 0.5 * sum);
-    let shorter = width.min(height);
-    ((width * width + height * height) / (2.0 * shorter * shorter)).powf(1.5)
+    sheet
+        .edges
+        .iter()
+        .map(|edge| edge.vertices)
+        .enumerate()
+        .map(bar)
+        .collect()
 }
 
 fn build_hinges(sheet: &Sheet, material: &Material, bars: &[Bar]) -> Vec<Hinge> {

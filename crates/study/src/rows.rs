@@ -16,6 +16,10 @@ use crate::{SceneSource, StudyError};
 /// λ of a common flap where the scene leaves it open: below 1, so that the lowest rows are split like the others.
 const COMMON_LAMBDA: f64 = 0.9;
 
+/// In a facet narrower than this share of its length the bars of a middle node all but line up: soft ones do not hold it
+/// between the creases at the long sides, and no equilibrium is found.
+const NARROW: f64 = 0.1 * (1.0 - 1e-9);
+
 impl Resolver<'_> {
     /// The sheet on the segments of `division`.
     pub(crate) fn units(
@@ -33,13 +37,15 @@ impl Resolver<'_> {
             PatternError::RowsClash { .. } => self.fault("sheet.unequal", e.to_string()),
             e => self.pattern_error(&e),
         })?;
-        Ok(sheet.with_facet_model(self.facet_model()))
+        let model = self.facet_model(&sheet);
+        Ok(sheet.with_facet_model(model))
     }
 
-    fn facet_model(&self) -> FacetModel {
+    fn facet_model(&self, sheet: &UnitSheet) -> FacetModel {
         match self.scene.material.facet_model {
-            None | Some(FacetModelChoice::Symmetric) => FacetModel::Symmetric,
             Some(FacetModelChoice::OneDiagonal) => FacetModel::OneDiagonal,
+            None if sheet.narrowest_facet() < NARROW => FacetModel::OneDiagonal,
+            None | Some(FacetModelChoice::Symmetric) => FacetModel::Symmetric,
         }
     }
 

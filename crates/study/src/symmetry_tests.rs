@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use foldmotion_pattern::{Frame, Sheet};
+use foldmotion_pattern::{FacetModel, Frame, Sheet};
 use glam::{DVec2, DVec3};
 
 use crate::{SceneSource, Study};
@@ -110,6 +110,22 @@ fn facets_cut_by_one_diagonal_move_unsymmetrically() {
         let worst = largest(&study, &frames, 3.0);
         assert!(worst > least, "{sheet}: {worst:e}");
     }
+}
+
+#[test]
+fn a_sheet_with_narrow_pads_keeps_its_diagonals_unless_asked_otherwise() {
+    let model = |width: f64, keys: &str| {
+        let scene = format!(
+            "[profile]\nmodel = \"shelter\"\nlength = 7.0\n[sheet]\n{S}\ncolumns = 2\nwidth = {width}\n[material]\n{keys}\n"
+        );
+        let study = Study::resolve(&SceneSource::new(Path::new("a.toml"), scene)).unwrap();
+        study.subject.units().unwrap().units.facet_model()
+    };
+    // Side pads of 0.11 h, and of 0.09 h.
+    assert_eq!(model(2.44, ""), FacetModel::Symmetric);
+    assert_eq!(model(2.36, ""), FacetModel::OneDiagonal);
+    let symmetric = "facet_model = \"symmetric\"";
+    assert_eq!(model(2.36, symmetric), FacetModel::Symmetric);
 }
 
 #[test]

@@ -75,27 +75,30 @@ fn show_presets(form: &mut Form<'_>, ui: &mut Ui) {
 fn show_facet_model(form: &mut Form<'_>, ui: &mut Ui) {
     let ways = [
         (
-            FacetModelChoice::Symmetric,
+            None,
+            "standard",
+            "with a middle node, unless one is narrower than a tenth of its length",
+        ),
+        (
+            Some(FacetModelChoice::Symmetric),
             "middle node",
             "quadrilateral facets are four triangles around a node: a symmetric sheet moves symmetrically",
         ),
         (
-            FacetModelChoice::OneDiagonal,
+            Some(FacetModelChoice::OneDiagonal),
             "one diagonal",
             "quadrilateral facets are two triangles: fewer nodes, unsymmetric motions",
         ),
     ];
     let given = form.scene.material.facet_model;
-    let shown = given.unwrap_or(FacetModelChoice::Symmetric);
     form.part(ui, "material.facet_model", |form, ui| {
         ui.horizontal_wrapped(|ui| {
             ui.spacing_mut().item_spacing.x = 6.0;
-            ui.label("facets with");
+            ui.label("facets");
             for (model, name, tip) in ways {
-                let option = ui.radio(model == shown, name).on_hover_text(tip);
-                if option.clicked() && model != shown {
-                    let is_standard = model == FacetModelChoice::Symmetric;
-                    form.scene.material.facet_model = (!is_standard).then_some(model);
+                let option = ui.radio(model == given, name).on_hover_text(tip);
+                if option.clicked() && model != given {
+                    form.scene.material.facet_model = model;
                     form.record("change how facets are cut", option.id, false);
                 }
             }
