@@ -46,7 +46,9 @@ fn the_order_followed_from_a_motion_is_the_exact_order_of_the_compact_state() {
         let report = study.run(home.path(), &|_, _| true).unwrap();
         let of_unit = report.unit.unwrap();
         let unit = Unit::new(case, of_unit.width, of_unit.height, lambda, None).unwrap();
-        let exact = UnitSheet::new(unit, report.rows.unwrap(), report.columns.unwrap()).unwrap();
+        let exact = UnitSheet::new(unit, report.rows.unwrap(), report.columns.unwrap())
+            .unwrap()
+            .with_facet_model(study.subject.units().unwrap().units.facet_model());
         let (exact, order) = (
             exact.compact_order(),
             followed(&home.path().join("motion.fold")),

@@ -149,6 +149,8 @@ fn change_leaf(certificate: &mut Value, pointer: &str) {
         Value::String(text) => json!(format!("{text}.")),
         // A little wider it would be another statement, and as true.
         Value::Number(_) if pointer == "/tolerance" => json!(0.2),
+        // Of triangles with a vertex in common any depth up to their largest overlap is as true.
+        Value::Number(n) if pointer.ends_with("/depth") => json!(1.0 + n.as_f64().unwrap() * 1e3),
         Value::Number(n) if n.is_u64() => {
             let n = n.as_u64().unwrap();
             json!(n + (n / 1000).max(1))

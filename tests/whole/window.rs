@@ -82,10 +82,9 @@ fn what_is_computed_and_then_written_is_what_a_run_writes() {
     );
     assert!(folded.is_converged() && folded.jam().is_none());
     let boxes = study.boxes(&folded.motion);
-    assert_eq!(
-        boxes.last().map(|b| b.extents),
-        Some(folded.compact.extents)
-    );
+    // One is measured as the sheet lies, the other after another best fit: the same but for rounding.
+    let extents = boxes.last().unwrap().extents;
+    assert!(extents.abs_diff_eq(folded.compact.extents, 1e-14));
     assert_eq!(boxes.len(), folded.findings.series.len());
 }
 

@@ -8,9 +8,10 @@ use std::collections::BTreeMap;
 
 use glam::DVec2;
 
+use crate::facet_model::{CutFacets, MiddleNode};
 use crate::{
-    Assignment, Case, CreaseKind, Edge, Facet, FacetKind, Folding, PatternError, Sheet, Unit,
-    clashes,
+    Assignment, Case, CreaseKind, Edge, Facet, FacetKind, FacetModel, Folding, PatternError, Sheet,
+    Unit, clashes,
 };
 
 /// Counts are limited so that every index fits into 32 bits with room to spare.
@@ -71,14 +72,19 @@ pub struct UnitSheet {
     /// x of each boundary between rows, both ends included.
     pub(crate) boundaries: Vec<f64>,
     pub(crate) lines: Vec<Line>,
-    /// The line and the place of each vertex.
+    /// How its quadrilaterals are cut.
+    pub(crate) facet_model: FacetModel,
+    /// The line and the place of each vertex of the crease pattern.
     pub(crate) places: Vec<(u32, Place)>,
+    /// The vertices after those.
+    pub(crate) middle_nodes: Vec<MiddleNode>,
     /// The fold angle of every edge in the compact state, radians; 0 for edges that are not creases.
     pub(crate) compact_angles: Vec<f64>,
 }
 
 impl UnitSheet {
-    /// Lays out `rows` × `columns` units.
+    /// Lays out `rows` × `columns` units, with quadrilaterals cut by one diagonal ([`Self::with_facet_model`] cuts them
+    /// otherwise).
     ///
     /// # Errors
     /// Counts of 0 or beyond what 32-bit indices hold.
@@ -111,12 +117,13 @@ impl UnitSheet {
         let first = units[0];
         if units.iter().all(|&unit| unit == first) {
             let boundaries = (0..=rows).map(|k| -(k as f64) * first.height).collect();
-            return Ok(Self::build(
+            return Ok(Self::assemble(
                 first,
                 units.to_vec(),
                 boundaries,
                 columns,
                 folding,
+                FacetModel::OneDiagonal,
             ));
         }
         let mut boundaries = vec![0.0];
@@ -130,21 +137,23 @@ impl UnitSheet {
             split: units.iter().any(|unit| unit.split),
             ..first
         };
-        Ok(Self::build(
+        Ok(Self::assemble(
             unit,
             units.to_vec(),
             boundaries,
             columns,
             folding,
+            FacetModel::OneDiagonal,
         ))
     }
 
-    fn build(
+    pub(crate) fn assemble(
         unit: Unit,
         row_units: Vec<Unit>,
         boundaries: Vec<f64>,
         columns: usize,
         folding: Folding,
+        facet_model: FacetModel,
     ) -> Self {
         let rows = row_units.len();
         let (lines, strips) = lines(&unit, columns, folding);
@@ -155,13 +164,17 @@ impl UnitSheet {
             }
         }
         let Builder {
-            vertices,
+            mut vertices,
             places,
             facets,
             ..
         } = builder;
-        let (sheet, compact_angles) = triangulate(&unit, &lines, &places, vertices, facets);
-        Self {
+        let CutFacets {
+            triangles,
+            middle_nodes,
+        } = CutFacets::new(facet_model, &mut vertices, &facets);
+        let (sheet, compact_angles) = join(&unit, &lines, &places, vertices, facets, &triangles);
+        let mut units = Self {
             unit,
             folding,
             rows,
@@ -170,9 +183,15 @@ impl UnitSheet {
             row_units,
             boundaries,
             lines,
+            facet_model,
             places,
+            middle_nodes,
             compact_angles,
+        };
+        if folding == Folding::Map {
+            units.fold_between_units();
         }
+        units
     }
 
     /// The unit of each row: its own height and case, the same widths as every other.
@@ -462,22 +481,18 @@ fn signed_area(vertices: &[DVec2], polygon: &[u32]) -> f64 {
         / 2.0
 }
 
-/// Splits quadrilaterals by the shorter diagonal (ties by the lowest vertex) and joins the triangles by edges.
-fn triangulate(
+/// Joins the triangles of the facets by edges.
+fn join(
     unit: &Unit,
     lines: &[Line],
     places: &[(u32, Place)],
     vertices: Vec<DVec2>,
     facets: Vec<Facet>,
+    triangles: &[Vec<[u32; 3]>],
 ) -> (Sheet, Vec<f64>) {
-    let mut faces = Vec::new();
-    let mut face_facets = Vec::new();
-    for (facet, Facet { polygon, .. }) in facets.iter().enumerate() {
-        for face in split(&vertices, polygon) {
-            faces.push(face);
-            face_facets.push(facet as u32);
-        }
-    }
+    let faces = triangles.concat();
+    let of_facet = |(facet, triangles): (usize, &Vec<_>)| vec![facet as u32; triangles.len()];
+    let face_facets: Vec<u32> = triangles.iter().enumerate().flat_map(of_facet).collect();
     let mut sides: BTreeMap<[u32; 2], [Option<u32>; 2]> = BTreeMap::new();
     for (face, &[a, b, c]) in faces.iter().enumerate() {
         for (from, to) in [(a, b), (b, c), (c, a)] {
@@ -530,7 +545,7 @@ fn triangulate(
     (sheet, compact_angles)
 }
 
-/// Triangles of a facet, counter-clockwise.
+/// Triangles of a facet, counter-clockwise: a quadrilateral is split by the shorter diagonal (ties by the lowest vertex).
 pub(crate) fn split(vertices: &[DVec2], polygon: &[u32]) -> Vec<[u32; 3]> {
     let &[a, b, c, d] = polygon else {
         return vec![[polygon[0], polygon[1], polygon[2]]];

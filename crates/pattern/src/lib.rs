@@ -11,6 +11,7 @@ mod clash_figure;
 mod closed_form;
 mod cut;
 mod error;
+mod facet_model;
 mod fold_file;
 mod fold_read;
 mod import;
@@ -36,6 +37,7 @@ pub use cut::{
     PaperSize, Tiles, crease_pattern_fold, parse_millimetres, pattern_dxf, pattern_svg,
 };
 pub use error::PatternError;
+pub use facet_model::FacetModel;
 pub use fold_file::FoldHeader;
 pub use fold_read::{FoldError, FoldFile, FrameNumber};
 pub use import::{

@@ -43,10 +43,13 @@ impl UnitSheet {
     /// # Errors
     /// As [`Self::with_rows`].
     pub fn map_folded(units: &[Unit], columns: usize) -> Result<Self, PatternError> {
-        let mut map = Self::laid_out(units, columns, Folding::Map)?;
-        map.unite_facets();
-        map.crease_between_units();
-        Ok(map)
+        Self::laid_out(units, columns, Folding::Map)
+    }
+
+    /// Of a sheet of waterbomb units makes a map.
+    pub(crate) fn fold_between_units(&mut self) {
+        self.unite_facets();
+        self.crease_between_units();
     }
 
     /// Nr·Nc layers of a map; none of a sheet that folds unit by unit.
@@ -158,7 +161,7 @@ impl UnitSheet {
             };
             DVec3::new(x, y, 0.0)
         };
-        self.places.iter().map(place).collect()
+        self.with_middle_nodes(self.places.iter().map(place).collect())
     }
 
     /// The box of a folded map: x spans the zigzag of the rows (h where they are equal), y one column.

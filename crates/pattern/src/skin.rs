@@ -113,7 +113,7 @@ impl UnitSheet {
             .flat_map(|(facet, _)| facet.polygon.iter().copied())
             .chain(lines.iter().flatten().copied())
             .collect();
-        let all = (0..positions.len() as u32).filter(is_on).count();
+        let all = (0..self.pattern_vertices() as u32).filter(is_on).count();
         SkinPlane {
             facets: on_plane.iter().filter(|&&on| on).count(),
             edges: lines.len(),

@@ -46,7 +46,7 @@ impl UnitSheet {
             };
             DVec3::new(at.x, y, at.y)
         };
-        Ok(self.places.iter().map(place).collect())
+        Ok(self.with_middle_nodes(self.places.iter().map(place).collect()))
     }
 
     /// The fold angle of every edge in the deployed state, radians: the turn of the polygon at the hinges between
@@ -135,7 +135,7 @@ impl UnitSheet {
             };
             DVec3::new(x, line.compact_y, z)
         };
-        self.places.iter().map(place).collect()
+        self.with_middle_nodes(self.places.iter().map(place).collect())
     }
 
     fn compact_plain(&self) -> Vec<DVec3> {

@@ -3,9 +3,12 @@
 #![expect(clippy::unwrap_used, reason = "a test stops where a value is missing")]
 #![expect(clippy::cast_possible_wrap, reason = "counts of small sheets")]
 
+use std::collections::BTreeSet;
 use std::f64::consts::{FRAC_PI_2, PI};
 
-use foldmotion_pattern::{Case, CreaseKind, FacetKind, Facing, Sheet, Unit, UnitSheet};
+use foldmotion_pattern::{
+    Case, CreaseKind, Edge, FacetKind, FacetModel, Facing, Sheet, Unit, UnitSheet,
+};
 use glam::{DVec2, DVec3};
 
 type Parameters = (Case, f64, Option<f64>, Option<f64>);
@@ -32,12 +35,19 @@ fn sheet((case, width, lambda, offset): Parameters, rows: usize, columns: usize)
     UnitSheet::new(unit, rows, columns).unwrap()
 }
 
+/// Every case, size and way to cut facets.
 fn every_sheet() -> impl Iterator<Item = UnitSheet> {
-    CASES.iter().flat_map(|&c| {
-        SIZES
-            .iter()
-            .map(move |&(rows, columns)| sheet(c, rows, columns))
-    })
+    let models = [FacetModel::OneDiagonal, FacetModel::Symmetric];
+    let of_model = move |model| {
+        CASES.iter().flat_map(move |&c| {
+            let sheet = move |&(rows, columns): &(usize, usize)| sheet(c, rows, columns);
+            SIZES
+                .iter()
+                .map(sheet)
+                .map(move |s| s.with_facet_model(model))
+        })
+    };
+    models.into_iter().flat_map(of_model)
 }
 
 /// An open polygon of equal segments with turns to both sides.
@@ -51,7 +61,7 @@ fn polygon(rows: usize, length: f64) -> Vec<DVec2> {
 }
 
 fn largest_strain(sheet: &Sheet, positions: &[DVec3]) -> f64 {
-    let strain = |e: &foldmotion_pattern::Edge| {
+    let strain = |e: &Edge| {
         let [a, b] = e.vertices.map(|v| v as usize);
         let rest = sheet.vertices[a].distance(sheet.vertices[b]);
         (positions[a].distance(positions[b]) / rest - 1.0).abs()
@@ -84,6 +94,71 @@ fn vertices_and_facets_are_as_many_as_the_geometry_counts() {
             "{case:?}"
         );
     }
+}
+
+#[test]
+fn a_middle_node_makes_four_triangles_of_a_quadrilateral_and_changes_nothing_else() {
+    for &case in CASES {
+        let plain = sheet(case, 4, 3);
+        let symmetric = plain.clone().with_facet_model(FacetModel::Symmetric);
+        let quadrilaterals = plain.sheet.facets.iter().filter(|f| f.polygon.len() == 4);
+        let quadrilaterals = quadrilaterals.count();
+        let size = |s: &Sheet| [s.vertices.len(), s.edges.len(), s.faces.len()];
+        let more = [1, 3, 2].map(|n| n * quadrilaterals);
+        let expected = std::array::from_fn(|i| size(&plain.sheet)[i] + more[i]);
+        assert_eq!(size(&symmetric.sheet), expected);
+        let kept = plain.sheet.vertices.len();
+        assert_eq!(symmetric.pattern_vertices(), kept);
+        assert_eq!(symmetric.sheet.vertices[..kept], plain.sheet.vertices);
+        assert_eq!(symmetric.sheet.facets, plain.sheet.facets);
+        let creases = |s: &UnitSheet| {
+            let edges = s.sheet.edges.iter().zip(s.compact_angles());
+            let drawn = edges.filter(|(e, _)| e.kind != CreaseKind::Facet);
+            let of = |(e, angle): (&Edge, &f64)| (e.vertices, e.assignment, e.kind, *angle);
+            drawn.map(of).collect::<Vec<_>>()
+        };
+        assert_eq!(creases(&symmetric), creases(&plain));
+        assert_eq!(symmetric.check(), plain.check());
+        assert_eq!(symmetric.with_facet_model(FacetModel::OneDiagonal), plain);
+    }
+}
+
+#[test]
+fn a_sheet_with_middle_nodes_is_its_own_mirror_image_and_one_with_diagonals_is_not() {
+    for &case in &[CASES[1], CASES[3], CASES[5]] {
+        for (model, is_symmetric) in [
+            (FacetModel::Symmetric, true),
+            (FacetModel::OneDiagonal, false),
+        ] {
+            let s = sheet(case, 3, 2).with_facet_model(model);
+            let (length, width) = (3.0 * s.unit.height, 2.0 * s.unit.width);
+            let mirrors: [&dyn Fn(DVec2) -> DVec2; 2] = [&|v| DVec2::new(v.x, width - v.y), &|v| {
+                DVec2::new(-length - v.x, v.y)
+            }];
+            let lines = |map: &dyn Fn(u32) -> u32| {
+                let ends = s.sheet.edges.iter().map(|e| {
+                    let mut ends = e.vertices.map(map);
+                    ends.sort_unstable();
+                    (ends, e.assignment.letter())
+                });
+                ends.collect::<BTreeSet<_>>()
+            };
+            let is_own = |mirror: &&dyn Fn(DVec2) -> DVec2| {
+                let image = mirrored(&s.sheet, mirror);
+                lines(&|v| v) == lines(&|v| image[v as usize])
+            };
+            assert_eq!(mirrors.iter().all(is_own), is_symmetric, "{case:?}");
+        }
+    }
+}
+
+/// The vertex at the mirror image of each.
+fn mirrored(sheet: &Sheet, mirror: &dyn Fn(DVec2) -> DVec2) -> Vec<u32> {
+    let at = |image: DVec2| {
+        let near = |v: &DVec2| v.distance(image) < 1e-9;
+        sheet.vertices.iter().position(near).unwrap() as u32
+    };
+    sheet.vertices.iter().map(|&v| at(mirror(v))).collect()
 }
 
 #[test]

@@ -1,9 +1,9 @@
 //! The engines behind one face: what a run needs to know of a computed motion, whichever engine computed it.
 
-use foldmotion_pattern::Frame;
+use foldmotion_pattern::{FacetModel, Frame};
 use foldmotion_solver::dynamic::{self, DynamicOptions, StageStatus};
 use foldmotion_solver::quasi_static::{
-    Contact, Jam, QuasiStaticOptions, StopReason, run_quasi_static,
+    Contact, Jam, QuasiStaticOptions, StopReason, Support, run_quasi_static,
 };
 use foldmotion_solver::{Budget, Stage, Watcher};
 
@@ -157,6 +157,14 @@ impl Study {
         })
     }
 
+    /// A sheet that is to move symmetrically is not held at one place.
+    fn support(&self) -> Support {
+        match self.subject.units() {
+            Some(study) if study.units.facet_model() == FacetModel::Symmetric => Support::Floating,
+            _ => Support::Triangle,
+        }
+    }
+
     fn fold_in_equilibrium(
         &self,
         extra_times: &[f64],
@@ -170,6 +178,7 @@ impl Study {
             extra_times: extra_times.to_vec(),
             contact,
             budget,
+            support: self.support(),
             ..QuasiStaticOptions::default()
         };
         let run = run_quasi_static(

@@ -124,6 +124,10 @@ impl Resolver<'_> {
             let message = "an imported pattern starts flat: nothing is unfolded; leave it out";
             return Err(self.fault("motion.unfold", message));
         }
+        if scene.material.facet_model.is_some() {
+            let message = "cuts the facets of units; an imported pattern is cut as its file says: leave it out";
+            return Err(self.fault("material.facet_model", message));
+        }
         Ok(())
     }
 

@@ -45,6 +45,8 @@ mod statement;
 mod stop_report;
 mod study;
 mod subject;
+#[cfg(test)]
+mod symmetry_tests;
 mod unfolding;
 mod unit_study;
 mod verify_file;

@@ -5,7 +5,8 @@ use std::io::Write as _;
 use std::path::PathBuf;
 
 use foldmotion_pattern::{
-    CutOptions, CutPattern, LineClass, PageLayout, PaperSize, Tiles, UnitSheet, crease_pattern_fold,
+    CutOptions, CutPattern, FacetModel, LineClass, PageLayout, PaperSize, Tiles, UnitSheet,
+    crease_pattern_fold,
 };
 
 use crate::digest::sha256;
@@ -88,7 +89,11 @@ impl PatternStudy {
         Ok(Self {
             title: resolver.title(None),
             unit: scene.profile.unit.unwrap_or_default(),
-            units: resolver.sheet()?.units,
+            // Nodes in the middle of facets are of the mechanical model, not of the pattern.
+            units: resolver
+                .sheet()?
+                .units
+                .with_facet_model(FacetModel::OneDiagonal),
         })
     }
 

@@ -3,18 +3,23 @@
 
 use foldmotion_geometry::Division;
 use foldmotion_pattern::{
-    Folding, PatternError, ProfileModel, Unit, UnitSheet, clash_figure, common_flap, own_cases,
+    FacetModel, Folding, PatternError, ProfileModel, Unit, UnitSheet, clash_figure, common_flap,
+    own_cases,
 };
 use foldmotion_solver::{CreaseGroup, Ease, ScheduleStep, Stage};
 
 use crate::profile::EQUAL_ROWS;
-use crate::scene::{CaseChoice, FoldingChoice, UnequalChoice};
+use crate::scene::{CaseChoice, FacetModelChoice, FoldingChoice, UnequalChoice};
 use crate::study::Resolver;
 use crate::unit_study::Purpose;
 use crate::{SceneSource, StudyError};
 
 /// λ of a common flap where the scene leaves it open: below 1, so that the lowest rows are split like the others.
 const COMMON_LAMBDA: f64 = 0.9;
+
+/// In a facet narrower than this share of its length the bars of a middle node all but line up: soft ones do not hold it
+/// between the creases at the long sides, and no equilibrium is found.
+const NARROW: f64 = 0.1 * (1.0 - 1e-9);
 
 impl Resolver<'_> {
     /// The sheet on the segments of `division`.
@@ -33,10 +38,20 @@ impl Resolver<'_> {
             Folding::Waterbomb => UnitSheet::with_rows(&rows, columns),
             Folding::Map => UnitSheet::map_folded(&rows, columns),
         };
-        sheet.map_err(|e| match e {
+        let sheet = sheet.map_err(|e| match e {
             PatternError::RowsClash { .. } => self.fault("sheet.unequal", e.to_string()),
             e => self.pattern_error(&e),
-        })
+        })?;
+        let model = self.facet_model(&sheet);
+        Ok(sheet.with_facet_model(model))
+    }
+
+    fn facet_model(&self, sheet: &UnitSheet) -> FacetModel {
+        match self.scene.material.facet_model {
+            Some(FacetModelChoice::OneDiagonal) => FacetModel::OneDiagonal,
+            None if sheet.narrowest_facet() < NARROW => FacetModel::OneDiagonal,
+            None | Some(FacetModelChoice::Symmetric) => FacetModel::Symmetric,
+        }
     }
 
     fn folding(&self) -> Folding {

@@ -283,10 +283,23 @@ pub struct MaterialScene {
     pub fold_stiffness: Option<f64>,
     /// Stiffness of a facet hinge per unit length; 0.7 where left out.
     pub facet_stiffness: Option<f64>,
+    /// How quadrilateral facets of the units are cut into triangles; `symmetric` where left out, but `one-diagonal` where
+    /// one is narrower than a tenth of its length. Not with [pattern].
+    pub facet_model: Option<FacetModelChoice>,
     /// Stiffness of the angles of each triangle; 0 where left out (Origami Simulator sets 0.2).
     pub face_angle_stiffness: Option<f64>,
     /// ζ of the bars' dampers; 0.45 where left out.
     pub damping_ratio: Option<f64>,
+}
+
+/// How a quadrilateral facet is cut into triangles.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum FacetModelChoice {
+    /// Four triangles around a node in the middle: a symmetric sheet moves symmetrically.
+    Symmetric,
+    /// Two triangles along one diagonal: fewer nodes.
+    OneDiagonal,
 }
 
 /// Materials by name.

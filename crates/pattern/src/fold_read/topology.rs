@@ -143,7 +143,7 @@ fn facets(
     Ok((face_facets, facets))
 }
 
-/// The corners of the union of `triangles`: along its border where that is one loop, otherwise by index.
+/// The corners of the union of `triangles`: those of its border, along it, where that is one loop, otherwise all by index.
 fn outline(triangles: &[[u32; 3]]) -> Vec<u32> {
     let sides = |t: &[u32; 3]| [[t[0], t[1]], [t[1], t[2]], [t[2], t[0]]];
     let all: BTreeSet<[u32; 2]> = triangles.iter().flat_map(sides).collect();
@@ -153,12 +153,20 @@ fn outline(triangles: &[[u32; 3]]) -> Vec<u32> {
         .map(|&[a, b]| (a, b))
         .collect();
     let corners: BTreeSet<u32> = triangles.iter().flatten().copied().collect();
-    let start = triangles.first().map(|t| t[0]);
+    let on_border = |v: &u32| next.contains_key(v);
+    let start = triangles.iter().flatten().copied().find(on_border);
     let mut walked: Vec<u32> = std::iter::successors(start, |at| next.get(at).copied())
-        .take(corners.len() + 1)
+        .take(next.len() + 1)
         .collect();
     let is_closed = walked.len() > 1 && walked.pop() == start;
-    if is_closed && walked.iter().copied().collect::<BTreeSet<_>>() == corners {
+    if is_closed
+        && walked
+            .iter()
+            .copied()
+            .collect::<BTreeSet<_>>()
+            .iter()
+            .eq(next.keys())
+    {
         walked
     } else {
         corners.into_iter().collect()

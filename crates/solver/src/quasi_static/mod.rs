@@ -26,7 +26,7 @@ mod stiffness_matrix;
 
 pub use contact::Contact;
 pub use hinge_hessian::fold_angle_hessian;
-pub use options::QuasiStaticOptions;
+pub use options::{QuasiStaticOptions, Support};
 pub use outcome::{FrameFigures, Jam, QuasiStaticRun, StageOutcome, Stop, StopReason};
 pub use run::run_quasi_static;
 

@@ -3,13 +3,15 @@
 //! Each step solves (K + S + μ I) d = −∇U. K is the exact Hessian where that is positive definite, the exact one with
 //! μ > 0 or the convex one elsewhere. S removes the six rigid motions: stiff springs that support one triangle of the
 //! sheet statically determinately. They enter the matrix alone, never the forces; as ∇U is in balance, the step they
-//! give is an exact Newton step, with that triangle's support unmoved. μ acts as inertia relative to the last iterate
+//! give is an exact Newton step, with that triangle's support unmoved; of a floating sheet the rigid part of the step is then
+//! taken away, and where μ > 0 makes the matrix regular, S is left out. μ acts as inertia relative to the last iterate
 //! and vanishes as the search converges. Once K is the exact one and the steps shrink fast, its factor serves for the
 //! following steps too (the chord method): near the equilibrium they cost a fraction and lead to the same point. With
 //! contact every step is cut where two layers would come too close.
 
 use glam::{DMat3, DVec3};
 
+use super::Support;
 use super::configuration::{Configuration, dot, largest};
 use super::contact::ContactField;
 use super::element_stiffness::{Curvature, ElementMap, add_stiffness, coupled_nodes};
@@ -66,12 +68,15 @@ pub(super) struct Newton<'a> {
     model: &'a Model,
     matrix: StiffnessMatrix,
     elements: ElementMap,
-    support: [u32; 3],
+    support: Support,
+    /// The triangle that S supports.
+    supported: [u32; 3],
     /// Σ k l₀² over the bars.
     bar_stiffness: f64,
     inertia: f64,
-    /// The Hessian in the matrix, with the mean of its diagonal, while the state is the one it was assembled at.
-    assembled: Option<(Curvature, f64)>,
+    /// The Hessian in the matrix, whether it is supported, and the mean of its diagonal, while the state is the one it was
+    /// assembled at.
+    assembled: Option<(Curvature, bool, f64)>,
     /// The largest move of the last step, where the factor at hand is an exact one and served for it.
     chord: Option<f64>,
     pub(super) contact: Option<ContactField>,
@@ -83,13 +88,15 @@ impl<'a> Newton<'a> {
     pub(super) fn new(
         model: &'a Model,
         contact: Option<ContactField>,
+        support: Support,
     ) -> Result<Self, SolverError> {
         let matrix = StiffnessMatrix::new(model.node_count(), &coupled_nodes(model))?;
         Ok(Self {
             model,
             elements: ElementMap::new(model, &matrix),
             matrix,
-            support: supporting_triangle(model),
+            support,
+            supported: supporting_triangle(model),
             bar_stiffness: model
                 .bars
                 .iter()
@@ -205,7 +212,7 @@ impl<'a> Newton<'a> {
             if !self.factorise(state, targets, curvature, inertia) {
                 continue;
             }
-            let direction = self.direction(gradient);
+            let direction = self.direction(state, gradient);
             if let Some(step) = self.search(state, targets, gradient, energy, &direction) {
                 if inertia > 0.0 {
                     self.inertia = (inertia * INERTIA_DECAY).clamp(LEAST_INERTIA, MOST_INERTIA);
@@ -227,7 +234,7 @@ impl<'a> Newton<'a> {
         energy: f64,
     ) -> Option<Step> {
         let last = self.chord.take()?;
-        let direction = self.direction(gradient);
+        let direction = self.direction(state, gradient);
         let decrease = largest(&direction) / last;
         if decrease.is_nan() || decrease > CHORD_DECREASE {
             return None;
@@ -263,17 +270,29 @@ impl<'a> Newton<'a> {
         curvature: Curvature,
         inertia: f64,
     ) -> bool {
+        // Inertia alone makes the matrix positive definite.
+        let is_supported = self.support == Support::Triangle || inertia == 0.0;
         let scale = match self.assembled {
-            Some((present, scale)) if present == curvature => scale,
-            _ => self.assemble(state, targets, curvature),
+            Some((present, supported, scale))
+                if present == curvature && supported == is_supported =>
+            {
+                scale
+            }
+            _ => self.assemble(state, targets, curvature, is_supported),
         };
-        self.assembled = Some((curvature, scale));
+        self.assembled = Some((curvature, is_supported, scale));
         self.factorisations += 1;
         self.matrix.factorise(inertia * scale)
     }
 
     /// Assembles K + S; returns the mean diagonal of K without barriers.
-    fn assemble(&mut self, state: &Configuration, targets: &[f64], curvature: Curvature) -> f64 {
+    fn assemble(
+        &mut self,
+        state: &Configuration,
+        targets: &[f64],
+        curvature: Curvature,
+        is_supported: bool,
+    ) -> f64 {
         self.matrix.clear();
         add_stiffness(
             self.model,
@@ -284,7 +303,9 @@ impl<'a> Newton<'a> {
             &mut self.matrix,
         );
         let scale = self.matrix.mean_diagonal();
-        add_support(self.support, state, scale, &mut self.matrix);
+        if is_supported {
+            add_support(self.supported, state, scale, &mut self.matrix);
+        }
         if let Some(contact) = &mut self.contact {
             contact.add_stiffness(&state.positions, curvature, &mut self.matrix);
         }
@@ -292,9 +313,12 @@ impl<'a> Newton<'a> {
     }
 
     /// −(K + S + μ I)⁻¹ ∇U with the factor at hand.
-    fn direction(&mut self, gradient: &[DVec3]) -> Vec<DVec3> {
+    fn direction(&mut self, state: &Configuration, gradient: &[DVec3]) -> Vec<DVec3> {
         let mut direction: Vec<DVec3> = gradient.iter().map(|&g| -g).collect();
         self.matrix.solve(&mut direction);
+        if self.support == Support::Floating {
+            remove_rigid_motion(&state.positions, &mut direction);
+        }
         direction
     }
 
@@ -374,6 +398,26 @@ impl Step {
             Some(decrease) => moved * decrease <= tolerance.remainder,
             None => moved <= tolerance.step,
         })
+    }
+}
+
+/// Takes from the velocities `direction` of points at `positions` their mean and the rotation that fits them best, so that no
+/// point of support shows in them.
+fn remove_rigid_motion(positions: &[DVec3], direction: &mut [DVec3]) {
+    let inverse_count = 1.0 / positions.len().max(1) as f64;
+    let centre = positions.iter().sum::<DVec3>() * inverse_count;
+    let mean = direction.iter().sum::<DVec3>() * inverse_count;
+    let mut inertia = DMat3::ZERO;
+    let mut momentum = DVec3::ZERO;
+    for (&position, &velocity) in positions.iter().zip(&*direction) {
+        let arm = position - centre;
+        inertia += DMat3::IDENTITY * arm.length_squared() - outer(arm, arm);
+        momentum += arm.cross(velocity - mean);
+    }
+    let spin = inertia.inverse() * momentum;
+    let spin = if spin.is_finite() { spin } else { DVec3::ZERO };
+    for (&position, velocity) in positions.iter().zip(direction) {
+        *velocity -= mean + spin.cross(position - centre);
     }
 }
 

@@ -3,6 +3,16 @@
 use super::Contact;
 use crate::{Budget, SolverError, Stage};
 
+/// Where the sheet as a whole goes in a Newton step: its energy does not say.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Support {
+    /// A triangle amid the sheet stays where it is, so that the steps of a symmetric sheet are not symmetric.
+    #[default]
+    Triangle,
+    /// It neither moves nor turns: steps are as symmetric as the sheet.
+    Floating,
+}
+
 /// The options of [`super::run_quasi_static`].
 #[derive(Debug, Clone, PartialEq)]
 pub struct QuasiStaticOptions {
@@ -26,6 +36,8 @@ pub struct QuasiStaticOptions {
     pub budget: Budget,
     /// Contact of the layers; none lets them pass through each other.
     pub contact: Option<Contact>,
+    /// Where the sheet as a whole goes in a Newton step.
+    pub support: Support,
 }
 
 impl Default for QuasiStaticOptions {
@@ -40,6 +52,7 @@ impl Default for QuasiStaticOptions {
             iterations_a_step: 300,
             budget: Budget::Standard,
             contact: None,
+            support: Support::default(),
         }
     }
 }

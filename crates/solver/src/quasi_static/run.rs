@@ -84,7 +84,7 @@ pub fn run_quasi_static(
         schedule,
         options,
         progress,
-        newton: Newton::new(model, contact)?,
+        newton: Newton::new(model, contact, options.support)?,
         state: Configuration::new(model, positions, angles),
         targets: vec![0.0; model.hinges.len()],
         last_recorded: Vec::new(),

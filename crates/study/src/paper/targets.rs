@@ -14,14 +14,16 @@ pub(super) const LAMBDA: f64 = 0.7;
 
 /// A scene of the built-in profile `model` in `case` with the lines `motion` under `[motion]`.
 ///
-/// Rows and columns are those of tables 1 and 2, h = 1, d = w1'/2.
+/// Rows and columns are those of tables 1 and 2, h = 1, d = w1'/2; facets are cut as Origami Simulator, the paper's, cuts
+/// them.
 pub(super) fn scene(model: &str, case: Case, motion: &str) -> String {
     let lambda = match case {
         Case::SII => format!("lambda = {LAMBDA}\n"),
         _ => String::new(),
     };
     format!(
-        "[profile]\nmodel = \"{model}\"\n[sheet]\ncase = \"{}\"\n{lambda}[motion]\n{motion}",
+        "[profile]\nmodel = \"{model}\"\n[sheet]\ncase = \"{}\"\n{lambda}[material]\nfacet_model = \"one-diagonal\"\n\
+         [motion]\n{motion}",
         case.name()
     )
 }

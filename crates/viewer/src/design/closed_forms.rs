@@ -31,12 +31,12 @@ pub(super) struct Counts {
 impl Counts {
     fn of(draft: &Draft) -> Self {
         let sheet: &Sheet = draft.sheet();
-        let pattern = match draft {
-            Draft::Units(units) => &units.pattern,
-            Draft::Imported(study) => &study.pattern,
+        let (pattern, vertices) = match draft {
+            Draft::Units(units) => (&units.pattern, units.units.pattern_vertices()),
+            Draft::Imported(study) => (&study.pattern, sheet.vertices.len()),
         };
         Self {
-            vertices: sheet.vertices.len(),
+            vertices,
             facets: sheet.facets.len(),
             creases: sheet.edges.iter().filter(|edge| edge.is_crease()).count(),
             is_developable: pattern.is_developable(),

@@ -3,7 +3,7 @@
 use eframe::egui::Ui;
 use foldmotion_solver::Material;
 use foldmotion_study::Scene;
-use foldmotion_study::scene::PresetChoice;
+use foldmotion_study::scene::{FacetModelChoice, PresetChoice};
 
 use super::form::{Field, Form, note};
 use super::number::Number;
@@ -19,6 +19,7 @@ pub(super) fn show(form: &mut Form<'_>, ui: &mut Ui) {
             .and_then(|preset| Material::preset(preset.name()))
             .unwrap_or_default();
         show_constants(form, ui, &standard);
+        show_facet_model(form, ui);
         let field = Field::new(
             "material.thickness",
             "thickness",
@@ -69,6 +70,41 @@ fn show_presets(form: &mut Form<'_>, ui: &mut Ui) {
     form.faults_of(ui, "material.preset");
     let text = "only ratios shape the fold; a key below replaces that of the material above";
     ui.label(note(ui, text));
+}
+
+fn show_facet_model(form: &mut Form<'_>, ui: &mut Ui) {
+    let ways = [
+        (
+            None,
+            "standard",
+            "with a middle node, unless one is narrower than a tenth of its length",
+        ),
+        (
+            Some(FacetModelChoice::Symmetric),
+            "middle node",
+            "quadrilateral facets are four triangles around a node: a symmetric sheet moves symmetrically",
+        ),
+        (
+            Some(FacetModelChoice::OneDiagonal),
+            "one diagonal",
+            "quadrilateral facets are two triangles: fewer nodes, unsymmetric motions",
+        ),
+    ];
+    let given = form.scene.material.facet_model;
+    form.part(ui, "material.facet_model", |form, ui| {
+        ui.horizontal_wrapped(|ui| {
+            ui.spacing_mut().item_spacing.x = 6.0;
+            ui.label("facets");
+            for (model, name, tip) in ways {
+                let option = ui.radio(model == given, name).on_hover_text(tip);
+                if option.clicked() && model != given {
+                    form.scene.material.facet_model = model;
+                    form.record("change how facets are cut", option.id, false);
+                }
+            }
+        });
+    });
+    form.faults_of(ui, "material.facet_model");
 }
 
 fn show_constants(form: &mut Form<'_>, ui: &mut Ui, standard: &Material) {
