@@ -3,7 +3,8 @@
 use std::path::{Path, PathBuf};
 
 use foldmotion_study::{
-    CheckOptions, Report, SceneSource, Study, check_file, report::ImportReport,
+    CheckOptions, Report, SceneSource, Study, check_file,
+    report::{ImportReport, OutcomeKind},
 };
 use serde_json::{Value, json};
 
@@ -192,7 +193,10 @@ fn a_card_with_cuts_pops_up_without_strain() {
 #[test]
 fn a_frame_with_a_hole_folds_in_steps_and_one_facet_stays_in_place() {
     let (report, motion) = run(&example("frame.toml"), &[]);
-    assert_eq!((report.status(), report.length_unit.as_str()), (0, "cm"));
+    // Its mitres do not allow 108 degrees at all four corners: it comes to rest before, and says so.
+    assert_eq!(report.outcome.kind, OutcomeKind::NotConverged);
+    assert!(report.fold_angles.largest_error_deg > 20.0);
+    assert_eq!((report.status(), report.length_unit.as_str()), (3, "cm"));
     let import = report.import.unwrap();
     assert_eq!(
         (import.euler_characteristic, import.fixed_facet),

@@ -371,7 +371,9 @@ fn what_a_motion_cannot_show_is_refused_by_flag_and_value() {
 fn a_motion_without_crease_pattern_shows_bending_but_no_strain() {
     let home = tempfile::tempdir().unwrap();
     let path = home.path().join("bent.fold");
-    let bent = r#"{"vertices_coords": [[0, 0, 0], [10, 0, 0], [10, 10, 0], [5, 5, 7]], "faces_vertices": [[0, 1, 2], [0, 2, 3]]}"#;
+    let bent = r#"{"vertices_coords": [[0, 0, 0], [10, 0, 0], [10, 10, 0], [5, 5, 7]], "faces_vertices": [[0, 1, 2], [0, 2, 3]],
+        "file_frames": [{"frame_parent": 0, "frame_inherit": true},
+            {"frame_parent": 0, "frame_inherit": true, "vertices_coords": [[0, 0, 0], [10, 0, 0], [10, 10, 0], [5, 5, 8]]}]}"#;
     fs::write(&path, bent).unwrap();
     let folder = home.path().join("out");
     let with = |colour| RecordScene {

@@ -228,7 +228,11 @@ fn a_near_rigid_sheet_without_contact_folds_up_whatever_the_number_of_frames() {
         ];
         let report = run("shelter-t", &set, home.path());
         assert!(report.stages.iter().all(|s| s.converged), "{frames}");
-        assert_eq!(report.outcome.kind, OutcomeKind::Folded, "{frames}");
+        assert!(
+            report.outcome.is_at_end(),
+            "{frames}: {}",
+            report.outcome.line()
+        );
         assert_eq!(report.stop, None);
         let rms = report.compact.rms_to_exact.unwrap();
         assert!(rms < 1e-9, "{frames}: {rms}");

@@ -20,10 +20,11 @@ fn a_run_shows_the_numbers_that_the_library_computes() {
     window.run_scene();
     let report = report_of(SMALL);
     let collision = &report.collision;
-    assert!(window.has(&collision.verdict), "{}", window.all_words());
+    assert!(window.has("folded"), "{}", window.all_words());
+    assert!(window.says(&report.outcome.reason));
     let tested = format!(
-        "{} pairs tested between {} frames",
-        collision.pairs_tested, report.path.frames
+        "{}: {} pairs tested between {} frames",
+        collision.verdict, collision.pairs_tested, report.path.frames
     );
     assert!(window.says(&tested), "{tested}\n{}", window.all_words());
     for extent in report.compact.extents {
@@ -84,9 +85,9 @@ fn an_edit_during_a_run_is_taken_and_the_result_is_marked_until_it_is_undone() {
     window.until("the run's own scene again", |w| {
         !w.says("before the last edits")
     });
-    let verdict = report_of(SMALL).collision.verdict;
+    let outcome = report_of(SMALL).outcome.headline();
     assert!(
-        window.words_over().ends_with(&verdict),
+        window.words_over().ends_with(&outcome),
         "{}",
         window.words_over()
     );
@@ -109,7 +110,7 @@ fn penetrations_are_shown_and_the_time_of_the_first_is_a_link() {
     let report = report_of(PENETRATING);
     assert_eq!(report.collision.verdict, "penetrating");
     let first = report.collision.first.unwrap();
-    assert!(window.has("penetrating"), "{}", window.all_words());
+    assert!(window.says("collides at t = "), "{}", window.all_words());
     window.press(Key::Home);
     assert_eq!(window.time(), 0.0);
     window.follow_link(&format!("t\u{a0}=\u{a0}{:.4}", first.t));

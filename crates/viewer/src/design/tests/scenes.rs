@@ -87,7 +87,7 @@ fn a_hand_that_presses_and_types_anywhere_breaks_nothing() {
             harness.get_by_label(section).click();
             harness.run();
         }
-        for _ in 0..120 {
+        for _ in 0..200 {
             let at = pos2(f32::from(dice.below(360)), f32::from(dice.below(2400)));
             match dice.below(6) {
                 0 => {

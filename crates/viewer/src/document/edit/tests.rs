@@ -29,10 +29,7 @@ fn by(text: &str, change: impl FnOnce(&mut Scene)) -> String {
 
 /// Keys of a scene with values they may have.
 const CHOICES: &[(&str, &[&str])] = &[
-    (
-        "title",
-        &["\"A\"", "\"quote \\\" and é\"", "\"two\\nlines\""],
-    ),
+    ("title", &["\"A\"", "\"quote \\\" and é\"", "\"two words\""]),
     ("pattern.file", &["\"miura.svg\"", "\"../a b.fold\""]),
     ("pattern.unit", &["\"mm\"", "\"unit\""]),
     ("pattern.fold_percent", &["100.0", "-1e-9"]),
