@@ -397,7 +397,7 @@ impl Window {
 
     /// Hides how long a run took, which is never the same.
     pub(crate) fn hide_seconds(&mut self) {
-        let rows: Vec<Rect> = ["free, ", " engine on "]
+        let rows: Vec<Rect> = ["folded: ", " engine on "]
             .iter()
             .flat_map(|words| self.rects_saying(words).collect::<Vec<_>>())
             .collect();
