@@ -49,6 +49,8 @@ impl Resolver<'_> {
     fn facet_model(&self, sheet: &UnitSheet) -> FacetModel {
         match self.scene.material.facet_model {
             Some(FacetModelChoice::OneDiagonal) => FacetModel::OneDiagonal,
+            // Whole units of a map lie on each other: a middle node in each of their facets makes the stack jam.
+            None if self.folding() == Folding::Map => FacetModel::OneDiagonal,
             None if sheet.narrowest_facet() < NARROW => FacetModel::OneDiagonal,
             None | Some(FacetModelChoice::Symmetric) => FacetModel::Symmetric,
         }

@@ -283,8 +283,8 @@ pub struct MaterialScene {
     pub fold_stiffness: Option<f64>,
     /// Stiffness of a facet hinge per unit length; 0.7 where left out.
     pub facet_stiffness: Option<f64>,
-    /// How quadrilateral facets of the units are cut into triangles; `symmetric` where left out, but `one-diagonal` where
-    /// one is narrower than a tenth of its length. Not with a pattern of a file.
+    /// How quadrilateral facets of the units are cut into triangles; `symmetric` where left out, but `one-diagonal` for maps
+    /// and where one is narrower than a tenth of its length. Not with a pattern of a file.
     pub facet_model: Option<FacetModelChoice>,
     /// Stiffness of the angles of each triangle; 0 where left out (Origami Simulator sets 0.2).
     pub face_angle_stiffness: Option<f64>,
