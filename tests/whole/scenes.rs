@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use foldmotion_study::report::OutcomeKind;
-use foldmotion_study::{Report, SceneSource, Study};
+use foldmotion_study::{CheckOptions, Report, SceneSource, Study, check_file};
 
 /// What a scene must come to.
 struct Expected {
@@ -256,6 +256,24 @@ fn contact_stops_short_plain_rectangles_and_names_what_blocks() {
         jam.t > 1.0 && jam.t < 2.0 && !jam.facets.is_empty(),
         "{jam:?}"
     );
+}
+
+/// It jams at t = 2 with layers stacked otherwise than in the compact state.
+#[test]
+fn a_jammed_sheet_claims_no_order_of_layers_that_it_does_not_have() {
+    let home = tempfile::tempdir().unwrap();
+    let set = [
+        "material.preset=near-rigid",
+        "motion.frames=120",
+        "record.outputs=[\"fold\"]",
+    ];
+    let report = run("shelter-t", &set, home.path());
+    assert_eq!(report.outcome.kind, OutcomeKind::Jammed);
+    assert_eq!(report.collision.verdict, "free");
+    let motion = home.path().join("motion.fold");
+    let checked = check_file(&motion, &CheckOptions::default(), &|_, _| true).unwrap();
+    let orders = checked.certificate.layer_orders;
+    assert!(orders.claimed > orders.ignored, "{orders:?}");
 }
 
 /// Gaps of 4, 2 and 1 thousandths: the box shrinks in proportion, and its extrapolation to no gap is the closed form.

@@ -262,7 +262,7 @@ impl Study {
             let mut order = judged.layer_order();
             let is_last = index + 1 == motion.frames.len();
             if is_last && frame.time == 2.0 && judged.is_clean() {
-                for (f, g, sign) in motion.compact_order.iter() {
+                for (f, g, sign) in judged.without_false(&motion.compact_order).iter() {
                     if order.sign(f, g).is_none() {
                         order.insert(f, g, sign);
                     }

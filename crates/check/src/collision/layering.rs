@@ -64,13 +64,9 @@ impl Checker<'_> {
                 self.hear(index, up);
             }
         }
-        let stack = Stack {
-            sheet: self.sheet,
-            positions: &self.last.positions,
-            face_of,
-            tolerance: self.tolerance,
-        };
-        let stacked = stack.compare(unheard(order, |claim| heard.contains(claim)));
+        let stacked = self
+            .stack(face_of)
+            .compare(unheard(order, |claim| heard.contains(claim)));
         self.report.claims.claimed += order.len();
         self.report.claims.ignored += order.len() - heard.len() - stacked.held;
         match stacked.broken {
@@ -81,6 +77,21 @@ impl Checker<'_> {
                 sign,
             }),
             _ => Ok(()),
+        }
+    }
+
+    /// `order`, of triangles, without what is false of the last frame taken in: facets that lie a gap apart may be stacked
+    /// the other way, as in a motion that jammed.
+    pub fn without_false(&self, order: &LayerOrder) -> LayerOrder {
+        self.stack(&|triangle| triangle).without_false(order)
+    }
+
+    fn stack<'b>(&'b self, face_of: &'b dyn Fn(u32) -> u32) -> Stack<'b> {
+        Stack {
+            sheet: self.sheet,
+            positions: &self.last.positions,
+            face_of,
+            tolerance: self.tolerance,
         }
     }
 

@@ -33,37 +33,66 @@ pub(crate) struct Stack<'a> {
 impl Stack<'_> {
     /// Compares `claims`, faces with FOLD's sign, with the heights of the first face over the second's front where both
     /// lie over the same points.
-    ///
-    /// A claim holds where all of the first lies on the side claimed, but for τ; it is false where all of it lies on the
-    /// other. Faces that are not stacked, or that cross, are left out.
     pub(crate) fn compare(&self, claims: impl Iterator<Item = (u32, u32, i8)>) -> Stacked {
-        let mut triangles: BTreeMap<u32, Vec<u32>> = BTreeMap::new();
-        for triangle in 0..self.sheet.faces.len() as u32 {
-            triangles
-                .entry((self.face_of)(triangle))
-                .or_default()
-                .push(triangle);
-        }
-        let of = |face: u32| triangles.get(&face).map_or(&[][..], Vec::as_slice);
+        let triangles = self.triangles();
         let mut stacked = Stacked::default();
-        for (f, g, sign) in claims {
-            let pairs = of(f)
-                .iter()
-                .flat_map(|&a| of(g).iter().map(move |&b| (a, b)));
-            let heights = pairs.filter_map(|(a, b)| self.heights(a, b));
-            let spans = heights.map(|[low, high]| match sign {
-                1 => [low, high],
-                _ => [-high, -low],
-            });
-            let empty = [f64::INFINITY, f64::NEG_INFINITY];
-            let [low, high] = spans.fold(empty, |a, b| [a[0].min(b[0]), a[1].max(b[1])]);
-            if low >= -self.tolerance && high > self.tolerance {
-                stacked.held += 1;
-            } else if high <= self.tolerance && low < -self.tolerance {
-                stacked.broken = stacked.broken.or(Some((f, g, sign)));
+        for claim in claims {
+            match self.holds(&triangles, claim) {
+                Some(true) => stacked.held += 1,
+                Some(false) => stacked.broken = stacked.broken.or(Some(claim)),
+                None => {}
             }
         }
         stacked
+    }
+
+    /// `order` without the claims that are false.
+    pub(crate) fn without_false(&self, order: &LayerOrder) -> LayerOrder {
+        let triangles = self.triangles();
+        let mut kept = LayerOrder::default();
+        for claim @ (f, g, sign) in order.iter() {
+            if self.holds(&triangles, claim) != Some(false) {
+                kept.insert(f, g, sign);
+            }
+        }
+        kept
+    }
+
+    /// The triangles of each face.
+    fn triangles(&self) -> BTreeMap<u32, Vec<u32>> {
+        let mut triangles: BTreeMap<u32, Vec<u32>> = BTreeMap::new();
+        for triangle in 0..self.sheet.faces.len() as u32 {
+            let face = (self.face_of)(triangle);
+            triangles.entry(face).or_default().push(triangle);
+        }
+        triangles
+    }
+
+    /// Whether a claim holds: all of the first face lies on the side claimed, but for τ; it is false where all of it lies on
+    /// the other side. None where the faces are not stacked, or cross.
+    fn holds(
+        &self,
+        triangles: &BTreeMap<u32, Vec<u32>>,
+        (f, g, sign): (u32, u32, i8),
+    ) -> Option<bool> {
+        let of = |face: u32| triangles.get(&face).map_or(&[][..], Vec::as_slice);
+        let pairs = of(f)
+            .iter()
+            .flat_map(|&a| of(g).iter().map(move |&b| (a, b)));
+        let heights = pairs.filter_map(|(a, b)| self.heights(a, b));
+        let spans = heights.map(|[low, high]| match sign {
+            1 => [low, high],
+            _ => [-high, -low],
+        });
+        let empty = [f64::INFINITY, f64::NEG_INFINITY];
+        let [low, high] = spans.fold(empty, |a, b| [a[0].min(b[0]), a[1].max(b[1])]);
+        if low >= -self.tolerance && high > self.tolerance {
+            Some(true)
+        } else if high <= self.tolerance && low < -self.tolerance {
+            Some(false)
+        } else {
+            None
+        }
     }
 
     /// The least and the greatest height of triangle `a` over the front of `b`, over what both cover of `b`'s plane; none
