@@ -7,6 +7,7 @@ use foldmotion_pattern::{Frame, LayerOrder, Motion};
 use foldmotion_solver::quasi_static::Jam;
 
 use crate::engine::Computed;
+use crate::outcome::Outcome;
 use crate::report::{PathReport, SecondsReport};
 use crate::series::FrameFigures;
 use crate::subject::Subject;
@@ -32,6 +33,8 @@ pub struct Folded {
     pub findings: Findings,
     /// The box of its last state.
     pub compact: FittedBox,
+    /// How it ended.
+    pub outcome: Outcome,
     pub(crate) computed: Computed,
     pub(crate) path: PathReport,
     /// Seconds of all its runs.

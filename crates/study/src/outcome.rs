@@ -72,9 +72,7 @@ impl Outcome {
     pub fn line(&self) -> String {
         format!("{}: {}", self.headline(), self.reason)
     }
-}
 
-impl Outcome {
     /// Of what the rest of the report says.
     pub(crate) fn of(parts: &Parts<'_>) -> Self {
         let (kind, t, reason) = parts.judge();

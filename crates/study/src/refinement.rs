@@ -123,6 +123,11 @@ impl Study {
         let last = frames.last().map_or(&[][..], |f| &f.positions);
         Folded {
             compact: self.subject.measured_box(last),
+            outcome: self.outcome(
+                &attempt.computed,
+                &attempt.motion,
+                &attempt.findings.collision,
+            ),
             path: self.path_report(frames, &attempt.strays, rounds, added),
             computed: attempt.computed,
             motion: attempt.motion,

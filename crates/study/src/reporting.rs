@@ -6,13 +6,12 @@ use foldmotion_check::{
     CollisionReport, FilterCounts, FittedBox, Penetration, Verdict, relative_error,
 };
 use foldmotion_geometry::RigidMotion;
-use foldmotion_pattern::{Facet, Frame, Unit, UnitSheet};
+use foldmotion_pattern::{Facet, Frame, Motion, Unit, UnitSheet};
 use foldmotion_solver::Stage;
-use foldmotion_solver::quasi_static::Jam;
 use glam::{DVec2, DVec3};
 
 use crate::certify::stopped;
-use crate::engine::StageSummary;
+use crate::engine::{Computed, StageSummary};
 use crate::folded::Folded;
 use crate::outcome::Parts;
 use crate::report::{
@@ -45,26 +44,13 @@ impl Study {
         let Folded {
             computed, findings, ..
         } = folded;
-        let fold_angles = self.fold_angles(folded);
-        let jam = computed.jam.as_ref().map(|j| self.jam_report(j));
-        let stop = computed.stages.iter().find_map(StopReport::of);
-        let collision = self.collision_section(&findings.collision);
-        let undecided = findings.collision.undecided.iter().map(|u| u.time);
-        let outcome = Outcome::of(&Parts {
-            end: folded.motion.frames.last().map_or(0.0, |frame| frame.time),
-            jam: jam.as_ref(),
-            stop: stop.as_ref(),
-            fold_angles: &fold_angles,
-            verdict: findings.collision.verdict,
-            collision: &collision,
-            undecided: undecided.min_by(f64::total_cmp),
-        });
+        let fold_angles = self.fold_angles(&folded.motion);
         let mut compact = self.compact_report(&folded.compact, folded.motion.frames.last());
-        compact.explanation = self.explanation(&compact, &outcome, &fold_angles);
+        compact.explanation = self.explanation(&compact, &folded.outcome, &fold_angles);
         Report {
             title: self.title.clone(),
             version: VERSION.to_owned(),
-            outcome,
+            outcome: folded.outcome.clone(),
             length_unit: self.unit_name.to_owned(),
             case: sheet.map(UnitSheet::case_name),
             rows: sheet.map(|sheet| sheet.rows),
@@ -85,9 +71,9 @@ impl Study {
                 .map(|s| stage_report(s, &findings.series))
                 .collect(),
             fold_angles,
-            jam,
-            stop,
-            collision,
+            jam: self.jam_report(computed),
+            stop: stop_report(computed),
+            collision: self.collision_section(&findings.collision),
             path: folded.path,
             engine: EngineReport {
                 name: match self.engine {
@@ -108,8 +94,27 @@ impl Study {
         }
     }
 
-    fn fold_angles(&self, folded: &Folded) -> FoldAngleReport {
-        let last = folded.motion.frames.last();
+    /// How a motion ended.
+    pub(crate) fn outcome(
+        &self,
+        computed: &Computed,
+        motion: &Motion,
+        collision: &CollisionReport,
+    ) -> Outcome {
+        let undecided = collision.undecided.iter().map(|u| u.time);
+        Outcome::of(&Parts {
+            end: motion.frames.last().map_or(0.0, |frame| frame.time),
+            jam: self.jam_report(computed).as_ref(),
+            stop: stop_report(computed).as_ref(),
+            fold_angles: &self.fold_angles(motion),
+            verdict: collision.verdict,
+            collision: &self.collision_section(collision),
+            undecided: undecided.min_by(f64::total_cmp),
+        })
+    }
+
+    fn fold_angles(&self, motion: &Motion) -> FoldAngleReport {
+        let last = motion.frames.last();
         let positions = last.map_or(&[][..], |frame| &frame.positions);
         FoldAngleReport::new(self.subject.sheet(), positions, self.subject.end_angles())
     }
@@ -195,7 +200,8 @@ impl Study {
         })
     }
 
-    fn jam_report(&self, jam: &Jam) -> JamReport {
+    fn jam_report(&self, computed: &Computed) -> Option<JamReport> {
+        let jam = computed.jam.as_ref()?;
         let facets = |(faces, _): &([u32; 2], f64)| {
             faces.map(|f| self.subject.sheet().face_facets[f as usize])
         };
@@ -207,13 +213,13 @@ impl Study {
         let units = units.collect();
         let names = facets.iter().map(|pair| pair.map(|f| self.facet_name(f)));
         let names = names.collect();
-        JamReport {
+        Some(JamReport {
             t: jam.time,
             fold_angle_error_deg: jam.fold_angle_error.to_degrees(),
             facets,
             units,
             names,
-        }
+        })
     }
 
     /// A facet in words: its kind and unit where it has one.
@@ -318,6 +324,10 @@ impl Study {
             }
         }))
     }
+}
+
+fn stop_report(computed: &Computed) -> Option<StopReport> {
+    computed.stages.iter().find_map(StopReport::of)
 }
 
 fn row_reports(sheet: &UnitSheet) -> Option<Vec<RowReport>> {

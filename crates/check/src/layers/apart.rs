@@ -34,8 +34,13 @@ impl Stack<'_> {
     /// Compares `claims`, faces with FOLD's sign, with the heights of the first face over the second's front where both
     /// lie over the same points.
     pub(crate) fn compare(&self, claims: impl Iterator<Item = (u32, u32, i8)>) -> Stacked {
-        let triangles = self.triangles();
+        let mut claims = claims.peekable();
         let mut stacked = Stacked::default();
+        if claims.peek().is_none() {
+            // Most frames have no such claim: the faces are sorted for those that do.
+            return stacked;
+        }
+        let triangles = self.triangles();
         for claim in claims {
             match self.holds(&triangles, claim) {
                 Some(true) => stacked.held += 1,

@@ -66,7 +66,7 @@ impl Study {
         progress: Progress<'_>,
     ) -> Result<String, StudyError> {
         let (motion, findings) = (&folded.motion, &folded.findings);
-        let outcome = self.report_of(folded).outcome;
+        let outcome = &folded.outcome;
         let (sha256, beside) = self.record_fold(recording, folded, results)?;
         if recording.has(OutputChoice::Csv) {
             record_series(findings, results)?;
@@ -89,8 +89,8 @@ impl Study {
 
     fn write_fold(&self, folded: &Folded, out: impl Write) -> io::Result<String> {
         let mut keys = self.subject.kept_keys();
-        let outcome = self.report_of(folded).outcome.headline();
-        keys.insert("foldmotion:outcome".to_owned(), outcome.into());
+        let outcome = folded.outcome.headline().into();
+        keys.insert("foldmotion:outcome".to_owned(), outcome);
         let header = FoldHeader {
             title: &self.title,
             creator: &format!("foldmotion {VERSION}"),
