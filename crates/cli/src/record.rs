@@ -35,10 +35,10 @@ pub(crate) struct RecordArguments {
         allow_negative_numbers = true
     )]
     pub(crate) at: Option<Vec<f64>>,
-    /// Pixels of films and pictures; where left out 960x720 with mp4 or png, else 640x480
+    /// Pixels of films and pictures; where left out 960x720 with mp4 or png, else 480x360
     #[arg(long, value_name = "WxH", value_parser = parse_size)]
     pub(crate) size: Option<[i64; 2]>,
-    /// Film frames a second; where left out 30 with mp4 or png, else 12.5
+    /// Film frames a second; where left out 30 with mp4 or png, else 10
     #[arg(long, allow_negative_numbers = true)]
     pub(crate) fps: Option<f64>,
     /// Seconds of the two stages; 3,5 where left out

@@ -45,6 +45,7 @@ mod statement;
 mod stop_report;
 mod study;
 mod subject;
+mod symmetry;
 #[cfg(test)]
 mod symmetry_tests;
 mod unfolding;

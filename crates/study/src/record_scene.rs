@@ -12,10 +12,10 @@ pub struct RecordScene {
     /// `fold`, `gif` and `csv` where left out.
     #[serde(deserialize_with = "choice::list")]
     pub outputs: Option<Vec<OutputChoice>>,
-    /// Pixels across and down; where left out [960, 720] if `mp4` or `png` are written, else [640, 480].
+    /// Pixels across and down; where left out [960, 720] if `mp4` or `png` are written, else [480, 360].
     #[serde(deserialize_with = "exact_array::one")]
     pub size: Option<[i64; 2]>,
-    /// Film frames a second; where left out 30 if `mp4` or `png` are written, else 12.5.
+    /// Film frames a second; where left out 30 if `mp4` or `png` are written, else 10.
     pub fps: Option<f64>,
     /// Seconds a stage; [3, 5] where left out.
     #[serde(deserialize_with = "exact_array::one")]
@@ -54,8 +54,8 @@ pub struct RecordScene {
     pub letters: Option<f64>,
 }
 
-/// Pixels and frames a second of a GIF alone: drawing and packing it costs about as much as folding.
-const GIF_FILM: ([u32; 2], f64) = ([640, 480], 12.5);
+/// Pixels and frames a second of a GIF alone: drawing and packing it costs less than folding a sheet with contact.
+const GIF_FILM: ([u32; 2], f64) = ([480, 360], 10.0);
 
 /// The same of films that are also written as MP4 or pictures.
 const FULL_FILM: ([u32; 2], f64) = ([960, 720], 30.0);

@@ -14,6 +14,7 @@ pub use crate::fold_angles::FoldAngleReport;
 pub use crate::imported_report::ImportReport;
 pub use crate::outcome::{Outcome, OutcomeKind};
 pub use crate::stop_report::StopReport;
+pub use crate::symmetry::{Mirror, SymmetryReport};
 
 /// `report.json`. Lengths are in `length_unit`, angles in degrees.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -54,6 +55,8 @@ pub struct Report {
     pub compact: CompactReport,
     /// How close the creases came to the end of the motion.
     pub fold_angles: FoldAngleReport,
+    /// How well the motion keeps the mirror symmetries of the sheet; empty where it has none, and for an imported pattern.
+    pub symmetry: Vec<SymmetryReport>,
     /// How stage unfold moves the row creases.
     pub unfold: Option<UnfoldReport>,
     /// The stages of the motion.
@@ -599,6 +602,9 @@ impl Report {
             );
         }
         let _ = writeln!(out, "{}", self.fold_angles.words());
+        for symmetry in &self.symmetry {
+            let _ = writeln!(out, "{}", symmetry.line());
+        }
         let _ = writeln!(
             out,
             "strain is |l/l0 - 1|: its peak over the edges and frames of a stage, its mean over both; residual is the \

@@ -18,7 +18,7 @@ use crate::report::{
     BoxReport, CollisionSection, CompactReport, DecidedBy, DivisionReport, EnergyReport,
     EngineReport, ErrorReport, FitReport, FoldAngleReport, ImportReport, JamReport, MapReport,
     Outcome, PatternReport, PenetrationReport, ProfileReport, RowReport, SecondsReport, SkinReport,
-    StageReport, StopReport, UnfoldReport, UnitName, UnitReport, VertexReport,
+    StageReport, StopReport, SymmetryReport, UnfoldReport, UnitName, UnitReport, VertexReport,
 };
 use crate::results::Published;
 use crate::run::VERSION;
@@ -71,6 +71,7 @@ impl Study {
                 .map(|s| stage_report(s, &findings.series))
                 .collect(),
             fold_angles,
+            symmetry: units.map_or_else(Vec::new, |_| SymmetryReport::all(&folded.motion)),
             jam: self.jam_report(computed),
             stop: stop_report(computed),
             collision: self.collision_section(&findings.collision),

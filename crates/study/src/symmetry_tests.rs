@@ -5,6 +5,7 @@ use std::path::Path;
 use foldmotion_pattern::{FacetModel, Frame, Sheet};
 use glam::{DVec2, DVec3};
 
+use crate::report::Mirror;
 use crate::{SceneSource, Study};
 
 /// Frames of the test motions.
@@ -136,4 +137,26 @@ fn the_dynamic_engine_keeps_the_symmetry_too() {
     let (study, frames) = folded(S, "", "engine = \"dynamic\"");
     let worst = largest(&study, &frames, 3.0);
     assert!(worst < SYMMETRIC, "{worst:e}");
+}
+
+#[test]
+fn the_report_says_where_a_sheet_stops_being_symmetric() {
+    let report = |sheet: &str, material: &str| {
+        let (study, _) = folded(sheet, material, "contact = false");
+        study.report_of(&study.compute(&|_, _| true).unwrap())
+    };
+    let flat = report(S, "");
+    let mirrors: Vec<_> = flat.symmetry.iter().map(|s| s.mirror).collect();
+    assert_eq!(mirrors, [Mirror::Across, Mirror::Along]);
+    for symmetry in &flat.symmetry {
+        assert!(symmetry.largest < SYMMETRIC, "{symmetry:?}");
+        assert_eq!(symmetry.broken_t, None);
+    }
+    let buckled = report(T, "preset = \"near-rigid\"");
+    let broken = buckled.symmetry.iter().filter_map(|s| s.broken_t);
+    let first = broken.fold(f64::INFINITY, f64::min);
+    assert!((1.25..1.4).contains(&first), "{:?}", buckled.symmetry);
+    assert!(buckled.table().contains("where the sheet buckles"));
+    let unsymmetric = report(S, "facet_model = \"one-diagonal\"");
+    assert!(unsymmetric.symmetry.is_empty());
 }
