@@ -58,7 +58,6 @@ pub(crate) enum Command {
     /// Needs a display and a graphics adapter; Mesa's software Vulkan is enough.
     ///
     /// Exit status: 0 closed, 2 bad input, 3 there is no window.
-    #[cfg(feature = "viewer")]
     View(ViewArguments),
     /// List the built-in profiles
     Models,
@@ -103,7 +102,6 @@ pub(crate) struct RunArguments {
 }
 
 /// `foldmotion view`.
-#[cfg(feature = "viewer")]
 #[derive(Debug, Args)]
 pub(crate) struct ViewArguments {
     /// A scene, a crease pattern or a motion

@@ -11,7 +11,9 @@ use std::io::Write as _;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
-use arguments::{Arguments, CheckArguments, Command, DeviceChoice, PaperArguments, RunArguments};
+use arguments::{
+    Arguments, CheckArguments, Command, DeviceChoice, PaperArguments, RunArguments, ViewArguments,
+};
 use clap::Parser as _;
 use foldmotion_study::paper::{PaperPart, paper};
 use foldmotion_study::scene::EngineChoice;
@@ -52,7 +54,6 @@ fn main() -> ExitCode {
         Command::Record(record) => record_motion(&record),
         Command::Paper(paper) => rebuild_paper(&paper),
         Command::Pattern(pattern) => write_pattern(&pattern),
-        #[cfg(feature = "viewer")]
         Command::View(view) => open_window(view),
         Command::Models => list_models(),
         Command::Init { file } => init::write_scene(&file).map(|()| 0),
@@ -286,8 +287,8 @@ fn write_pattern(arguments: &PatternArguments) -> Result<u8, Failure> {
     Ok(0)
 }
 
-#[cfg(feature = "viewer")]
-fn open_window(arguments: arguments::ViewArguments) -> Result<u8, Failure> {
+#[cfg(feature = "window")]
+fn open_window(arguments: ViewArguments) -> Result<u8, Failure> {
     use foldmotion_viewer::{ViewOptions, view};
     use_threads(arguments.threads)?;
     // A file that is not there is said here, not in a window that may not open.
@@ -301,6 +302,18 @@ fn open_window(arguments: arguments::ViewArguments) -> Result<u8, Failure> {
     };
     view(options).map(|()| 0).map_err(|error| Failure {
         message: error.to_string(),
+        status: FAILED,
+    })
+}
+
+#[cfg(not(feature = "window"))]
+fn open_window(arguments: ViewArguments) -> Result<u8, Failure> {
+    if let Some(file) = &arguments.file {
+        foldmotion_study::require_file(file)?;
+    }
+    Err(Failure {
+        message: "this program was built without the window; build it with --features window, or use foldmotion run"
+            .to_owned(),
         status: FAILED,
     })
 }

@@ -232,7 +232,7 @@ fn a_crease_pattern_is_run_by_itself_whatever_the_case_of_its_ending() {
     assert_eq!(pattern.status.code(), Some(2), "{}", text(&pattern.stderr));
 }
 
-#[cfg(all(feature = "viewer", unix, not(target_os = "macos")))]
+#[cfg(all(feature = "window", unix, not(target_os = "macos")))]
 #[test]
 fn without_a_display_the_window_says_what_to_install_and_what_works_without() {
     let home = tempfile::tempdir().unwrap();
@@ -251,7 +251,7 @@ fn without_a_display_the_window_says_what_to_install_and_what_works_without() {
     assert_eq!(text(&output.stdout), "");
 }
 
-#[cfg(feature = "viewer")]
+#[cfg(feature = "window")]
 #[test]
 fn a_file_that_is_not_there_is_bad_input_before_a_window_opens() {
     let home = tempfile::tempdir().unwrap();

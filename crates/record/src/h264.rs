@@ -5,33 +5,33 @@
 
 use std::io::Write;
 
-#[cfg(feature = "h264")]
+#[cfg(feature = "mp4")]
 use openh264::encoder::Encoder;
-#[cfg(feature = "h264")]
+#[cfg(feature = "mp4")]
 use rayon::prelude::*;
 
-#[cfg(feature = "h264")]
+#[cfg(feature = "mp4")]
 use crate::Image;
 use crate::mp4::Track;
 use crate::{Picture, RecordError, Reel, Title};
 
 /// The quantiser of H.264: the step doubles with every 6; flat colours and thin lines show no blocks at this one.
-#[cfg(feature = "h264")]
+#[cfg(feature = "mp4")]
 const QUANTISER: u8 = 22;
 
 /// Seconds between pictures that stand alone, to which players can jump.
-#[cfg(feature = "h264")]
+#[cfg(feature = "mp4")]
 const SECONDS_BETWEEN_KEYS: f64 = 2.0;
 
 /// Takes a film as MP4.
 ///
 /// A side of odd length is made longer by one pixel that repeats the last, because colours are stored for squares of
 /// 2 × 2 pixels. At most 3840 × 2160 pixels, either way up, and at least 16 each way. The compressed film is kept in
-/// memory until its end. Needs the cargo feature `h264`.
+/// memory until its end. Needs the cargo feature `mp4`.
 pub struct Mp4<W> {
     writer: W,
     track: Track,
-    #[cfg(feature = "h264")]
+    #[cfg(feature = "mp4")]
     encoder: Option<Encoder>,
 }
 
@@ -66,24 +66,24 @@ impl<W: Write + Send> Mp4<W> {
     /// `writer`: where the bytes go, at the end of the film.
     ///
     /// # Errors
-    /// [`RecordError::Feature`] in a build without the feature `h264`.
+    /// [`RecordError::Feature`] in a build without the feature `mp4`.
     pub fn new(writer: W) -> Result<Self, RecordError> {
-        if cfg!(not(feature = "h264")) {
+        if cfg!(not(feature = "mp4")) {
             return Err(RecordError::Feature {
                 what: "an MP4 film",
-                feature: "h264",
+                feature: "mp4",
             });
         }
         Ok(Self {
             writer,
             track: Track::default(),
-            #[cfg(feature = "h264")]
+            #[cfg(feature = "mp4")]
             encoder: None,
         })
     }
 }
 
-#[cfg(not(feature = "h264"))]
+#[cfg(not(feature = "mp4"))]
 impl<W: Write + Send> Reel for Mp4<W> {
     fn begin(&mut self, _: Title<'_>) -> Result<(), RecordError> {
         Ok(())
@@ -98,7 +98,7 @@ impl<W: Write + Send> Reel for Mp4<W> {
     }
 }
 
-#[cfg(feature = "h264")]
+#[cfg(feature = "mp4")]
 impl<W: Write + Send> Reel for Mp4<W> {
     fn begin(&mut self, title: Title<'_>) -> Result<(), RecordError> {
         let options = title.options;
@@ -132,7 +132,7 @@ impl<W: Write + Send> Reel for Mp4<W> {
     }
 }
 
-#[cfg(feature = "h264")]
+#[cfg(feature = "mp4")]
 impl<W> Mp4<W> {
     fn push(&mut self, planes: &Planes) -> Result<(), RecordError> {
         let Some(encoder) = &mut self.encoder else {
@@ -170,13 +170,13 @@ impl<W> Mp4<W> {
     }
 }
 
-#[cfg(feature = "h264")]
+#[cfg(feature = "mp4")]
 fn without_start_code(nal: &[u8]) -> &[u8] {
     let zeros = nal.iter().take_while(|&&byte| byte == 0).count();
     nal.get(zeros + 1..).unwrap_or_default()
 }
 
-#[cfg(feature = "h264")]
+#[cfg(feature = "mp4")]
 #[expect(clippy::cast_sign_loss, reason = "rates are positive")]
 fn encoder(fps: f64) -> Result<Encoder, RecordError> {
     use openh264::OpenH264API;
@@ -207,7 +207,7 @@ fn encoder(fps: f64) -> Result<Encoder, RecordError> {
     )?)
 }
 
-#[cfg(feature = "h264")]
+#[cfg(feature = "mp4")]
 impl From<openh264::Error> for RecordError {
     fn from(error: openh264::Error) -> Self {
         Self::H264 {
@@ -217,13 +217,13 @@ impl From<openh264::Error> for RecordError {
 }
 
 /// Luma and the two differences of colour, the latter for squares of 2 × 2 pixels.
-#[cfg(feature = "h264")]
+#[cfg(feature = "mp4")]
 struct Planes {
     size: [usize; 2],
     planes: [Vec<u8>; 3],
 }
 
-#[cfg(feature = "h264")]
+#[cfg(feature = "mp4")]
 impl Planes {
     /// ITU-R BT.709-6, items 3.2 to 3.4, in video range: with Y = 0.2126 R + 0.7152 G + 0.0722 B of bytes,
     /// 16 + 219 Y / 255, 128 + 224 (B − Y) / (1.8556 · 255), 128 + 224 (R − Y) / (1.5748 · 255).
@@ -272,7 +272,7 @@ impl Planes {
     }
 }
 
-#[cfg(all(test, feature = "h264"))]
+#[cfg(all(test, feature = "mp4"))]
 mod tests {
     use super::*;
 

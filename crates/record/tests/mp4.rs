@@ -1,6 +1,6 @@
 //! MP4 films decoded.
 
-#![cfg(feature = "h264")]
+#![cfg(feature = "mp4")]
 #![expect(
     clippy::unwrap_used,
     reason = "files that cannot be read must fail their test"

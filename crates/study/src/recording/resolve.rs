@@ -75,8 +75,8 @@ impl Resolver<'_> {
         outputs.sort_unstable();
         outputs.dedup();
         if outputs.contains(&OutputChoice::Mp4) {
-            if cfg!(not(feature = "h264")) {
-                let message = "mp4: this build lacks the feature \"h264\"; build with --features h264, which needs a C++ \
+            if cfg!(not(feature = "mp4")) {
+                let message = "mp4: this program was built without MP4; build it with --features mp4, which needs a C++ \
                                compiler, or use gif";
                 return Err(self.fault("record.outputs", message));
             }

@@ -121,11 +121,11 @@ impl RecordPanel {
 
     /// Whether an output is wanted.
     fn switch(&mut self, ui: &mut Ui, output: OutputChoice, name: &str) {
-        let is_there = output != OutputChoice::Mp4 || cfg!(feature = "h264");
+        let is_there = output != OutputChoice::Mp4 || cfg!(feature = "mp4");
         let mut is_on = self.outputs.contains(&output);
         let check = ui.add_enabled(is_there, Checkbox::new(&mut is_on, name));
         if check
-            .on_disabled_hover_text("this program was built without the feature h264")
+            .on_disabled_hover_text("This program was built without MP4; build it with --features full")
             .changed()
         {
             self.outputs.retain(|&o| o != output);
