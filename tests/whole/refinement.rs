@@ -33,7 +33,7 @@ fn a_coarse_recording_is_refined_until_its_verdict_is_that_of_the_motion() {
             &["motion.frames=4", "record.outputs=[]"],
             folder.path(),
         );
-        assert_eq!(report.collision.verdict, "touching", "{scene}");
+        assert_eq!(report.collision.verdict.name(), "touching", "{scene}");
         let is_refined = report.path.refinements > 0;
         assert_eq!(is_refined, crosses, "{scene}: {:?}", report.path);
         assert_eq!(report.path.frames, 5 + report.path.added_frames, "{scene}");
@@ -51,7 +51,7 @@ fn a_motion_that_does_cross_is_refined_no_further_than_shows_it() {
     );
     let fine = run("shelter-short-plain", &[none], folder.path());
     for report in [&coarse, &fine] {
-        assert_eq!(report.collision.verdict, "penetrating");
+        assert_eq!(report.collision.verdict.name(), "penetrating");
         assert_eq!(report.status(), 1);
     }
     assert_eq!(fine.path.refinements, 0, "{:?}", fine.path);

@@ -32,7 +32,7 @@ fn unequal_rows_with_one_flap_width_fold_to_their_exact_box_with_and_without_con
         ("motion.contact=true", ["free", "free"], 2e-2),
     ] {
         let report = run("shelter-unequal", &[contact]);
-        let verdict = report.collision.verdict.as_str();
+        let verdict = report.collision.verdict.name();
         assert!(verdicts.contains(&verdict), "{contact}: {verdict}");
         assert_eq!(
             (report.case.as_deref().unwrap(), report.status()),
@@ -117,7 +117,7 @@ fn a_map_folds_to_one_unit_of_all_layers_beside_the_box_of_the_waterbomb_stack()
     let report = run("map-fold", &[]);
     let map = report.map.as_ref().unwrap();
     assert_eq!((map.layers, report.status()), (12, 0));
-    assert_eq!(report.collision.verdict, "touching");
+    assert_eq!(report.collision.verdict.name(), "touching");
     let (h, w) = (report.unit.unwrap().height, report.unit.unwrap().width);
     for (found, expected) in report.compact.extents.into_iter().zip([h, w, 0.0]) {
         assert!(

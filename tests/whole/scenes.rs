@@ -113,7 +113,7 @@ fn every_scene_comes_to_its_verdict_and_writes_its_files() {
         };
         assert_eq!(report.outcome.kind, kind, "{scene}");
         assert_eq!(
-            (report.collision.verdict.as_str(), report.status()),
+            (report.collision.verdict.name(), report.status()),
             (*verdict, *status),
             "{scene}"
         );
@@ -178,7 +178,7 @@ fn the_dynamic_engine_reaches_the_exact_compact_state_with_the_verdicts_measured
         let set = ["motion.engine=dynamic", "motion.contact=false", REPORT_ONLY];
         let report = run(scene, &set, &home.path().join(scene));
         assert_eq!(
-            (report.collision.verdict.as_str(), report.status()),
+            (report.collision.verdict.name(), report.status()),
             (*verdict, *status),
             "{scene}"
         );
@@ -248,7 +248,7 @@ fn contact_stops_short_plain_rectangles_and_names_what_blocks() {
         home.path(),
     );
     assert_eq!(
-        (report.status(), report.collision.verdict.as_str()),
+        (report.status(), report.collision.verdict.name()),
         (3, "free")
     );
     let jam = report.jam.unwrap();
@@ -269,7 +269,7 @@ fn a_jammed_sheet_claims_no_order_of_layers_that_it_does_not_have() {
     ];
     let report = run("shelter-t", &set, home.path());
     assert_eq!(report.outcome.kind, OutcomeKind::Jammed);
-    assert_eq!(report.collision.verdict, "free");
+    assert_eq!(report.collision.verdict.name(), "free");
     let motion = home.path().join("motion.fold");
     let checked = check_file(&motion, &CheckOptions::default(), &|_, _| true).unwrap();
     let orders = checked.certificate.layer_orders;
@@ -287,7 +287,7 @@ fn the_compact_box_converges_linearly_with_the_gap() {
             REPORT_ONLY,
         ];
         let report = run("shelter-s", &set, home.path());
-        assert_eq!(report.collision.verdict, "free");
+        assert_eq!(report.collision.verdict.name(), "free");
         let closed = report.closed_form.unwrap().extents;
         std::array::from_fn::<f64, 3, _>(|i| {
             (report.compact.extents[i] - closed[i]) / report.unit.unwrap().height

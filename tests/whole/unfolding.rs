@@ -47,7 +47,7 @@ fn a_fermat_spiral_unfolded_uniformly_penetrates_and_by_energy_does_not() {
     assert!(!of_uniform.certified && of_uniform.steps.is_none());
     let first = uniform.collision.first.unwrap();
     assert_eq!(
-        (uniform.collision.verdict.as_str(), first.stage.as_str()),
+        (uniform.collision.verdict.name(), first.stage.as_str()),
         ("penetrating", "unfold")
     );
     // Straight paths between 20 frames a stage stray a little from the motion.
@@ -67,7 +67,8 @@ fn a_fermat_spiral_unfolded_uniformly_penetrates_and_by_energy_does_not() {
     assert!(of_auto.certified && of_auto.steps.unwrap() > 10);
     assert_eq!(of_auto.crosses_at, Some(crosses_at));
     assert_eq!(
-        auto.collision.verdict, "touching",
+        auto.collision.verdict.name(),
+        "touching",
         "{:?}",
         auto.collision.first
     );
@@ -113,7 +114,7 @@ fn a_shelter_unfolds_uniformly_unless_energy_is_asked_for() {
     assert_eq!(
         (
             report.unfold.as_ref().unwrap().method.as_str(),
-            report.collision.verdict.as_str()
+            report.collision.verdict.name()
         ),
         ("energy", "touching")
     );

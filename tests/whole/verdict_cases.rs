@@ -47,14 +47,8 @@ fn judge(motion: &Value) -> Judged {
     let stated = &checked.certificate;
     fs::write(&certificate, stated.to_json()).unwrap();
     let verified = verify_file(&path, &certificate, &|_, _| true).unwrap();
-    let verdict = match stated.verdict.as_str() {
-        "free" => Verdict::Free,
-        "touching" => Verdict::Touching,
-        "penetrating" => Verdict::Penetrating,
-        _ => Verdict::Undecided,
-    };
     Judged {
-        verdict,
+        verdict: stated.verdict,
         separation: stated.min_separation.as_ref().map(|s| s.distance),
         verification: verified.verification,
     }

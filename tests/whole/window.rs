@@ -299,7 +299,7 @@ fn a_motion_without_times_is_one_stage_and_so_is_its_verdict() {
         motion.motion().frames.last().unwrap(),
     ];
     assert_eq!(ends.map(|frame| frame.time), [1.0, 2.0]);
-    assert_eq!(certificate.verdict, "penetrating");
+    assert_eq!(certificate.verdict.name(), "penetrating");
     let first = findings.collision.first.unwrap();
     assert!((1.0..=2.0).contains(&first.time), "{}", first.time);
     let by_index = certificate.penetrations[0].t;

@@ -4,10 +4,11 @@ use foldmotion_geometry::{Division, Fit, Profile};
 use foldmotion_pattern::{CompactBox, Facing, PatternCheck, Sheet, UnitSheet};
 use glam::DVec3;
 
-use crate::imported_study::ImportedStudy;
+use crate::resolve::imported::{ImportedStudy, imported};
+use crate::resolve::input::Input;
+use crate::resolve::unit::pattern_error;
+use crate::resolve::units::{ResolvedSheet, sheet};
 use crate::scene::{DivisionChoice, FacingChoice};
-use crate::study::Resolver;
-use crate::unit_study::ResolvedSheet;
 use crate::{Scene, SceneSource, StudyError};
 
 /// What a scene folds.
@@ -49,14 +50,14 @@ impl Draft {
     /// Every unusable value, with file, line, key, value and remedy.
     pub fn resolve(source: &SceneSource) -> Result<Self, StudyError> {
         let scene = source.scene()?;
-        let resolver = Resolver {
+        let input = Input {
             source,
             scene: &scene,
         };
         if let Some(pattern) = &scene.pattern {
-            return Ok(Self::Imported(Box::new(resolver.imported(pattern)?)));
+            return Ok(Self::Imported(Box::new(imported(&input, pattern)?)));
         }
-        Ok(Self::Units(Box::new(resolver.unit_draft()?)))
+        Ok(Self::Units(Box::new(unit_draft(&input)?)))
     }
 
     /// The sheet.
@@ -94,27 +95,25 @@ impl Scene {
     }
 }
 
-impl Resolver<'_> {
-    fn unit_draft(&self) -> Result<UnitDraft, StudyError> {
-        let ResolvedSheet {
-            profile_source,
-            divided,
-            units,
-            ..
-        } = self.sheet()?;
-        let deployed = units
-            .deployed(&divided.division.points, self.scene.facing())
-            .map_err(|e| self.pattern_error(&e))?;
-        Ok(UnitDraft {
-            pattern: units.check(),
-            closed_form: units.closed_form(),
-            profile: divided.profile,
-            profile_source,
-            division: divided.division,
-            division_method: divided.method,
-            fit: divided.fit,
-            units,
-            deployed,
-        })
-    }
+fn unit_draft(input: &Input<'_>) -> Result<UnitDraft, StudyError> {
+    let ResolvedSheet {
+        profile_source,
+        divided,
+        units,
+        ..
+    } = sheet(input)?;
+    let deployed = units
+        .deployed(&divided.division.points, input.scene.facing())
+        .map_err(|e| pattern_error(input, &e))?;
+    Ok(UnitDraft {
+        pattern: units.check(),
+        closed_form: units.closed_form(),
+        profile: divided.profile,
+        profile_source,
+        division: divided.division,
+        division_method: divided.method,
+        fit: divided.fit,
+        units,
+        deployed,
+    })
 }

@@ -7,11 +7,11 @@ use foldmotion_check::{CollisionReport, bar_strain, facet_bending};
 use foldmotion_pattern::{FoldFile, Frame, Motion};
 use foldmotion_solver::{EnergyByKind, Stage};
 
-use crate::check_file::{CheckOptions, Input, judge_file, motion_error};
-use crate::folded::Findings;
+use crate::certificate::check_file::{CheckOptions, MotionReader, judge_file, motion_error};
+use crate::compute::folded::Findings;
+use crate::compute::series::FrameFigures;
 use crate::recording::{ReadMotion, stage_time};
 use crate::scene::RecordScene;
-use crate::series::FrameFigures;
 use crate::{Certificate, Destination, MotionRecord, Phase, Progress, SceneSource, StudyError};
 
 /// What a file turned out to be.
@@ -51,7 +51,7 @@ impl OpenedMotion {
     /// The motion in the file; none where it is a crease pattern.
     fn read(path: &Path, progress: Progress<'_>) -> Result<Option<Self>, StudyError> {
         let (file, described) = {
-            let mut input = Input::open(path, Phase::Read, progress)?;
+            let mut input = MotionReader::open(path, Phase::Read, progress)?;
             let file = FoldFile::read(&mut input);
             if input.is_stopped {
                 return Err(StudyError::Interrupted);

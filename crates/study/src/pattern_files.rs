@@ -9,12 +9,13 @@ use foldmotion_pattern::{
     crease_pattern_fold,
 };
 
+use crate::VERSION;
 use crate::digest::sha256;
+use crate::resolve::input::Input;
+use crate::resolve::rows::draw_clashes;
+use crate::resolve::units::sheet;
 use crate::results::{Destination, MadeFile, Maker, Results, write_error};
-use crate::rows::draw_clashes;
-use crate::run::VERSION;
 use crate::scene::LengthUnit;
-use crate::study::Resolver;
 use crate::{Phase, Progress, SceneSource, StudyError};
 
 /// The file moved into place last.
@@ -77,21 +78,20 @@ impl PatternStudy {
     /// Every unusable value, with file, line, key, value and remedy.
     pub fn resolve(source: &SceneSource) -> Result<Self, StudyError> {
         let scene = source.scene()?;
-        let resolver = Resolver {
+        let input = Input {
             source,
             scene: &scene,
         };
         if scene.pattern.is_some() {
             let message =
                 "is the pattern already; only the sheet of a profile can be written for cutting";
-            return Err(resolver.fault("pattern.file", message));
+            return Err(input.error("pattern.file", message));
         }
         Ok(Self {
-            title: resolver.title(None),
+            title: input.title(None),
             unit: scene.profile.unit.unwrap_or_default(),
             // Nodes in the middle of facets are of the mechanical model, not of the pattern.
-            units: resolver
-                .sheet()?
+            units: sheet(&input)?
                 .units
                 .with_facet_model(FacetModel::OneDiagonal),
         })

@@ -1,7 +1,10 @@
 //! What the collision check reports.
 
+use std::fmt;
+
 use glam::DVec3;
-use serde::Serialize;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
 
 use crate::layers::{Claims, Cluster, LayerConflict};
 
@@ -27,7 +30,7 @@ impl Default for CollisionOptions {
 }
 
 /// The verdict on a motion.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum Verdict {
     /// No facets come within τ of each other, apart from what they share.
@@ -40,39 +43,51 @@ pub enum Verdict {
     Undecided,
 }
 
+impl Verdict {
+    /// Its name in reports and certificates.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Free => "free",
+            Self::Touching => "touching",
+            Self::Penetrating => "penetrating",
+            Self::Undecided => "undecided",
+        }
+    }
+}
+
+impl fmt::Display for Verdict {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name())
+    }
+}
+
 /// How two facets penetrate each other.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "kebab-case")]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 pub enum PenetrationKind {
     /// A vertex is deeper than τ beyond a facet.
+    #[serde(rename = "vertex through facet")]
     VertexFacet,
     /// Two edges are deeper than τ beyond each other.
+    #[serde(rename = "edge through edge")]
     EdgeEdge,
     /// Facets that share an edge are folded past ±180° by an overlap of more than τ.
+    #[serde(rename = "folded past a half turn")]
     FoldedThrough,
     /// Facets that share a vertex cross around it.
+    #[serde(rename = "facets crossing around a shared vertex")]
     AroundVertex,
     /// Facets leave contact on the other side, without an instant found at which they are deeper than τ.
+    #[serde(rename = "facets changing sides")]
     PassedThrough,
     /// A part passes through an interior edge or vertex of the sheet, beside each of the triangles there.
+    #[serde(rename = "through an edge between facets")]
     ThroughEdge,
-    /// The order of coincident layers contradicts itself, or what the file claims of it. The last one: see
-    /// [`Self::ALL`].
+    /// The order of coincident layers contradicts itself, or what the file claims of it.
+    #[serde(rename = "layers out of order")]
     LayerOrder,
 }
 
 impl PenetrationKind {
-    /// Every kind, so that a name can be read back; a kind missing here is an error of the compiler.
-    pub const ALL: [Self; Self::LayerOrder as usize + 1] = [
-        Self::VertexFacet,
-        Self::EdgeEdge,
-        Self::FoldedThrough,
-        Self::AroundVertex,
-        Self::PassedThrough,
-        Self::ThroughEdge,
-        Self::LayerOrder,
-    ];
-
     /// Its name in reports and certificates.
     pub fn name(self) -> &'static str {
         match self {
@@ -85,10 +100,11 @@ impl PenetrationKind {
             Self::LayerOrder => "layers out of order",
         }
     }
+}
 
-    /// The kind of that name.
-    pub fn of_name(name: &str) -> Option<Self> {
-        Self::ALL.into_iter().find(|kind| kind.name() == name)
+impl fmt::Display for PenetrationKind {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name())
     }
 }
 
@@ -149,14 +165,26 @@ pub struct Undecided {
 }
 
 /// Where a check ended early: nothing is said of the frames after.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Stopped {
     /// The index of the last frame judged.
     pub frame: usize,
-    /// Its motion time.
+    /// The motion time of the last frame judged.
+    #[serde(rename = "t")]
     pub time: f64,
-    /// More pairs than this have penetrated up to there.
+    /// More pairs of triangles than this penetrate up to that frame.
     pub stop_at: usize,
+}
+
+impl Stopped {
+    /// The same in a sentence.
+    pub fn line(&self) -> String {
+        format!(
+            "the check stopped at frame {}, t = {}: more than {} pairs penetrate up to there; nothing is said of later \
+             frames",
+            self.frame, self.time, self.stop_at
+        )
+    }
 }
 
 /// How many pairs were judged, counted once an interval.

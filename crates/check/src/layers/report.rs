@@ -1,9 +1,14 @@
 //! What is reported of layers.
 
-use serde::Serialize;
+use std::fmt;
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
 
 /// A rule that the order of layers keeps.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize)]
+#[derive(
+    Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize, JsonSchema,
+)]
 #[serde(rename_all = "kebab-case")]
 pub enum LayerRule {
     /// Two creases folded flat on one line are nested or apart.
@@ -13,13 +18,37 @@ pub enum LayerRule {
     /// Layers that run on across one line keep their order.
     TortillaTortilla,
     /// A crease that leaves the plane does not pass through a layer there, nor through another crease on its line.
+    #[serde(rename = "bent crease")]
     Bent,
     /// Layers over one region have an order without a cycle.
     Transitivity,
     /// A crease folded flat has its facets on the side of its assignment.
+    #[serde(rename = "faceOrders against the assignment of the crease")]
     Crease,
     /// The file's `faceOrders` say what the motion did.
+    #[serde(rename = "faceOrders against the motion")]
     Claim,
+}
+
+impl LayerRule {
+    /// Its name in certificates.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::TacoTaco => "taco-taco",
+            Self::TacoTortilla => "taco-tortilla",
+            Self::TortillaTortilla => "tortilla-tortilla",
+            Self::Bent => "bent crease",
+            Self::Transitivity => "transitivity",
+            Self::Crease => "faceOrders against the assignment of the crease",
+            Self::Claim => "faceOrders against the motion",
+        }
+    }
+}
+
+impl fmt::Display for LayerRule {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name())
+    }
 }
 
 /// The layers that contradict each other.
@@ -72,7 +101,9 @@ impl RuleCounts {
 }
 
 /// What is known of the order in a cluster; the worst over its frames.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize)]
+#[derive(
+    Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize, JsonSchema,
+)]
 #[serde(rename_all = "lowercase")]
 pub enum LayerProof {
     /// Every pair has an order, and all rules hold.
@@ -84,21 +115,24 @@ pub enum LayerProof {
 }
 
 /// Triangles that lie on each other, directly or through others, over consecutive frames.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Cluster {
     /// The index of the first and of the last frame at which they do.
     pub frames: [usize; 2],
-    /// The motion times of these.
+    /// The motion times of these two frames.
+    #[serde(rename = "t")]
     pub times: [f64; 2],
-    /// The triangles, in order.
+    /// The triangles, by rising index.
+    #[serde(rename = "triangles")]
     pub faces: Vec<u32>,
-    /// The most layers found over one point: at least this many lie there.
+    /// The deepest stack found: at least this many layers lie over one point.
     pub layers: usize,
-    /// Pairs of layers, the most at a frame.
+    /// The largest number of pairs that lie on each other at one frame.
     pub pairs: usize,
-    /// Whether their order is proved.
+    /// Whether the order of the layers is proved.
     pub order: LayerProof,
     /// How often each rule was tested.
+    #[serde(skip)]
     pub rules: RuleCounts,
 }
 
@@ -114,10 +148,10 @@ impl Cluster {
     }
 }
 
-/// The orders that a file claims, summed over the frames.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
+/// The orders that a file's `faceOrders` claim, summed over the frames.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 pub struct Claims {
-    /// Entries of `faceOrders`.
+    /// Entries with a sign of 1 or -1, inherited ones counted at each frame.
     pub claimed: usize,
     /// Those of faces that are not stacked at their frame, or have passed through each other.
     pub ignored: usize,

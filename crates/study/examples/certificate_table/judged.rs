@@ -59,8 +59,11 @@ impl Judged {
     pub(crate) fn verdict(&self) -> String {
         let certificate = &self.verified.certificate;
         match &certificate.stopped {
-            None => certificate.verdict.clone(),
-            Some(stopped) => format!("{}, judged up to t = {:.3}", certificate.verdict, stopped.t),
+            None => certificate.verdict.to_string(),
+            Some(stopped) => format!(
+                "{}, judged up to t = {:.3}",
+                certificate.verdict, stopped.time
+            ),
         }
     }
 

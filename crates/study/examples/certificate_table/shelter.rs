@@ -171,7 +171,7 @@ fn first_penetration(judged: &Judged) -> String {
         return "none".to_owned();
     };
     let depth = match first.depth {
-        0.0 => first.kind.clone(),
+        0.0 => first.kind.to_string(),
         depth if depth < STEADY_DEPTH => format!("depth < {STEADY_DEPTH:e} h"),
         depth => format!("depth {} h", scientific(depth, 1)),
     };

@@ -25,8 +25,8 @@ use self::motions::{CERTIFIED, Folding, finished, folding};
 use self::store::Store;
 use self::targets::CASES;
 use crate::StudyError;
+use crate::VERSION;
 use crate::results::Destination;
-use crate::run::VERSION;
 
 pub use self::part::PaperPart;
 pub use self::record::{
@@ -159,7 +159,7 @@ fn publish(store: &Store, record: &mut PaperRecord) -> Result<(), StudyError> {
         row.simulated = motion.as_ref().map(|motion| motion.compact);
         row.simulated_error = motion.as_ref().map(|motion| motion.error);
         let judged = certificate.as_ref().or(motion.as_ref());
-        row.verdict = judged.map(|motion| motion.verdict.clone());
+        row.verdict = judged.map(|motion| motion.verdict);
         (row.motion, row.certificate) = (motion, certificate);
     }
     let unfolded =

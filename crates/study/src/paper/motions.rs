@@ -10,7 +10,6 @@ use super::record::MotionRow;
 use super::store::Store;
 use super::targets::{CASES, inputs, scene, study};
 use crate::report::{BoxReport, ErrorReport};
-use crate::reporting::verdict_name;
 use crate::{Phase, Study, StudyError};
 
 /// Frames of a motion without contact: its equilibrium does not depend on them, and a figure needs few.
@@ -84,7 +83,7 @@ fn fold(study: &Study, contact: bool, done: Done<'_>) -> Result<Folding, StudyEr
     let strains = findings.series.iter().map(|figures| figures.peak_strain);
     let reached_t = folded.motion.frames.last().map_or(0.0, |f: &Frame| f.time);
     let row = MotionRow {
-        verdict: verdict_name(findings.collision.verdict).to_owned(),
+        verdict: findings.collision.verdict,
         first_penetration_t: findings.collision.first.as_ref().map(|p| p.time),
         min_separation: findings.collision.min_separation.map(|s| s.distance),
         frames: folded.motion.frames.len(),

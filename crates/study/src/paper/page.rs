@@ -1,5 +1,6 @@
 //! `index.html`: the paper's numbers, ours and the difference, with every figure inside.
 
+use foldmotion_check::Verdict;
 use std::fmt::Write as _;
 
 use super::figures::Figure;
@@ -192,7 +193,7 @@ fn motion_cells(motion: &MotionRow) -> Vec<String> {
     let optional = |value: Option<f64>| value.map_or(NONE.to_owned(), |v| format!("{v:.4}"));
     let extents = motion.error.extents.iter().map(|e| e.abs());
     vec![
-        motion.verdict.clone(),
+        motion.verdict.to_string(),
         optional(motion.first_penetration_t),
         motion
             .min_separation
@@ -229,7 +230,7 @@ fn unfoldings(record: &PaperRecord) -> String {
             row.model.clone(),
             row.rows.to_string(),
             row.method.clone(),
-            row.verdict.clone(),
+            row.verdict.to_string(),
             row.crosses_at
                 .map_or(NONE.to_owned(), |part| format!("{part:.4}")),
             if row.proved { "yes" } else { NONE }.to_owned(),
@@ -265,7 +266,7 @@ fn faults(record: &PaperRecord) -> String {
             if let Some(t) = motion.jam_t {
                 tell(format!("{name}: jams at t = {t:.4}."));
             }
-            if motion.verdict == "undecided" || !motion.converged {
+            if motion.verdict == Verdict::Undecided || !motion.converged {
                 tell(format!(
                     "{name}: {}, reached t = {}.",
                     motion.verdict, motion.reached_t

@@ -1,5 +1,6 @@
 //! `paper.json`: what was found out, beside what the paper prints.
 
+use foldmotion_check::Verdict;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -107,7 +108,7 @@ pub struct CaseRow {
     pub simulated_error: Option<ErrorReport>,
     /// Of the motion with contact where there is one, else of the motion without: free, touching, penetrating or
     /// undecided; null where neither has been made.
-    pub verdict: Option<String>,
+    pub verdict: Option<Verdict>,
     /// The motion without contact.
     pub motion: Option<MotionRow>,
     /// The motion with contact.
@@ -118,7 +119,7 @@ pub struct CaseRow {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct MotionRow {
     /// free, touching, penetrating or undecided.
-    pub verdict: String,
+    pub verdict: Verdict,
     /// Motion time of the first penetration.
     pub first_penetration_t: Option<f64>,
     /// Smallest distance of facets that share no vertex, in units of h.
@@ -151,7 +152,7 @@ pub struct UnfoldingRow {
     /// `uniform`: all hinge angles are scaled alike; `energy`: descent of the energy of Cantarella et al. (2004).
     pub method: String,
     /// free, touching, penetrating or undecided.
-    pub verdict: String,
+    pub verdict: Verdict,
     /// Part of the way still to go, from 1 to 0, at which the first penetration begins; the part of the hinge angles where
     /// they are scaled.
     pub crosses_at: Option<f64>,

@@ -13,9 +13,9 @@ use serde::{Deserialize, Serialize};
 
 use super::record::PaperRecord;
 use crate::StudyError;
+use crate::VERSION;
 use crate::digest::sha256;
 use crate::results::{listed, may_run, output_error};
-use crate::run::VERSION;
 
 /// The record and the page.
 pub(super) const RECORD: &str = "paper.json";

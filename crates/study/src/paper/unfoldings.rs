@@ -11,7 +11,6 @@ use super::motions::Done;
 use super::record::UnfoldingRow;
 use super::store::Store;
 use super::targets::{inputs, sheet};
-use crate::reporting::verdict_name;
 use crate::{StudyError, UnitStudy};
 
 /// Frames from deployed to planar: the straight paths between them are what is judged.
@@ -74,7 +73,7 @@ fn judge(
         model: model.to_owned(),
         rows: study.units.rows,
         method: "uniform".to_owned(),
-        verdict: verdict_name(report.verdict).to_owned(),
+        verdict: report.verdict,
         crosses_at: match (report.verdict, &report.first) {
             (Verdict::Penetrating, Some(first)) => Some(1.0 - first.time),
             _ => None,
@@ -155,7 +154,7 @@ mod tests {
         assert_eq!(rows.len(), 1, "{rows:?}");
         assert!(rows[0].proved && rows[0].crosses_at.is_none(), "{rows:?}");
         let rows = judge_all("fermat-spiral", &|_| true).unwrap();
-        assert_eq!(rows[0].verdict, "penetrating");
+        assert_eq!(rows[0].verdict, Verdict::Penetrating);
         let crosses_at = rows[0].crosses_at.unwrap();
         assert!((0.8..0.9).contains(&crosses_at), "{rows:?}");
         assert_eq!((rows[1].method.as_str(), rows[1].proved), ("energy", true));

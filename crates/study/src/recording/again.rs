@@ -6,8 +6,8 @@ use super::models::state_name;
 use super::motion_file::{ReadMotion, recording};
 use super::origin::{LARGEST, Origin};
 use crate::results::{FRAMES, Maker, Results, output_error};
-use crate::run::{Progress, VERSION};
 use crate::scene::OutputChoice;
+use crate::{Progress, VERSION};
 use crate::{Scene, SceneSource, Study, StudyError, input_file};
 
 /// A file made again.

@@ -9,10 +9,11 @@ use foldmotion_record::{
 use glam::{DVec2, DVec3};
 
 use super::colours::legend;
-use super::{Quantity, Recorder, Shown, UnitSizes, turned};
+use super::{Quantity, Recorder, Shown};
 use crate::StudyError;
+use crate::VERSION;
+use crate::resolve::known::{UnitSizes, turned};
 use crate::results::{Results, write_error};
-use crate::run::VERSION;
 use crate::scene::{ColourChoice, OutputChoice};
 
 /// States in a row, at most.

@@ -7,8 +7,8 @@ use foldmotion_record::{
 
 use super::Recording;
 use super::planned::{moving_pictures, pictures};
-use crate::run::{Phase, Progress};
 use crate::scene::OutputChoice;
+use crate::{Phase, Progress};
 use crate::{StudyError, Subject};
 
 /// Seconds of the stages of a sample, and its pictures a second: five pictures a stage.

@@ -7,8 +7,8 @@ use foldmotion_record::{FilmOptions, Frames, Gif, Mp4, Reel, Scene, Style, film}
 use super::{Recorder, Shown};
 use crate::StudyError;
 use crate::results::{FRAMES, Results};
-use crate::run::{Phase, Progress};
 use crate::scene::OutputChoice;
+use crate::{Phase, Progress};
 
 /// The shorter side of pictures in which lines have the width of their style; in others they are in proportion.
 const STYLED_SIDE: f64 = 720.0;

@@ -5,23 +5,23 @@ mod colours;
 mod figure;
 mod film_sample;
 mod films;
-mod known;
+mod marks;
 mod models;
 mod motion_file;
 mod origin;
 mod page;
 mod planned;
-mod resolve;
 mod run_files;
 mod space;
 
 use foldmotion_pattern::Motion;
-use foldmotion_record::{FilmOptions, Marks, Values};
+use foldmotion_record::{Marks, Values};
 
+use crate::resolve::known::Known;
+use crate::resolve::recording::STATES;
 use crate::results::Results;
-use crate::run::{Phase, Progress};
-use crate::scene::{ColourChoice, LengthUnit, OutputChoice};
-use crate::{Scene, StudyError};
+use crate::scene::LengthUnit;
+use crate::{Phase, Progress, Recording, StudyError};
 
 pub use self::again::{Again, record_again};
 pub use self::motion_file::{MotionRecord, record_file};
@@ -29,44 +29,8 @@ pub(crate) use self::motion_file::{ReadMotion, stage_time};
 
 pub use self::colours::Quantity;
 pub(crate) use self::film_sample::FilmSizes;
-pub(crate) use self::known::{Known, UnitSizes, turned};
 use self::origin::Origin;
 use self::page::Beside;
-pub(crate) use self::space::{Space, size_words};
-
-/// The states of figures and models of a whole motion.
-const STATES: [f64; 5] = [0.0, 0.5, 1.0, 1.5, 2.0];
-
-/// `[record]`, resolved.
-#[derive(Debug, Clone)]
-pub struct Recording {
-    /// What is written, in order, each once.
-    pub outputs: Vec<OutputChoice>,
-    /// How films look.
-    pub film: FilmOptions,
-    /// The motion times of figures and models, rising; the standard ones where the scene gives none.
-    pub at: Option<Vec<f64>>,
-    /// What colours show.
-    pub colour: ColourChoice,
-    /// Thickness of solids in the motion's unit; none for surfaces.
-    pub thickness: Option<f64>,
-    /// Whether figures show the profile.
-    pub has_profile: bool,
-    /// Whether figures show the compact box.
-    pub has_box: bool,
-    /// Whether figures give the sizes of the sheet of units.
-    pub has_dimensions: bool,
-    /// The size of letters in figures, millimetres.
-    pub letters: f64,
-    /// The scene with its title, which recorded files carry.
-    pub(crate) scene: Scene,
-}
-
-impl Recording {
-    pub(crate) fn has(&self, output: OutputChoice) -> bool {
-        self.outputs.contains(&output)
-    }
-}
 
 /// Records one motion.
 pub(crate) struct Recorder<'a> {

@@ -9,8 +9,8 @@ use foldmotion_record::{
 
 use super::Recorder;
 use crate::StudyError;
+use crate::VERSION;
 use crate::results::Results;
-use crate::run::VERSION;
 use crate::scene::{ColourChoice, OutputChoice};
 
 /// Seconds of a stage that a film jumps over: a GLB has no jumps.

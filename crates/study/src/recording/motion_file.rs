@@ -6,16 +6,17 @@ use foldmotion_check::CollisionReport;
 use foldmotion_pattern::{FoldError, FoldFile, LayerOrder, Motion};
 use foldmotion_record::Marks;
 
+use super::marks::marks;
 use super::page::LARGEST_FOLD;
-use super::run_files::marks;
 use super::{Beside, Origin, Recorder, Recording};
-use crate::check_file::{Input, LARGEST, NoMotion};
+use crate::certificate::check_file::{LARGEST, MotionReader, NoMotion};
+use crate::certificate::statement::claim;
+use crate::certificate::verify_file::read_certificate;
+use crate::resolve::input::{Input, printable};
+use crate::resolve::recording::recording as resolved;
 use crate::results::{CERTIFICATE, Destination, Maker, Published, Results, is_picture};
-use crate::run::{Phase, Progress};
 use crate::scene::{ColourChoice, OutputChoice, RecordScene};
-use crate::statement::claim;
-use crate::study::{Resolver, printable};
-use crate::verify_file::read_certificate;
+use crate::{Phase, Progress};
 use crate::{Scene, SceneSource, StudyError, input_file};
 
 /// Positions held in memory, at most: 2.4 GB.
@@ -106,11 +107,11 @@ pub(super) fn recording(record: &RecordScene) -> Result<Recording, StudyError> {
         record,
         ..Scene::default()
     };
-    let resolver = Resolver {
+    let input = Input {
         source: &source,
         scene: &scene,
     };
-    resolver.recording(resolver.title(None))
+    resolved(&input, input.title(None))
 }
 
 /// A motion read from a file.
@@ -136,7 +137,7 @@ pub(crate) struct ReadMotion {
 impl ReadMotion {
     pub(crate) fn read(path: &Path, progress: Progress<'_>) -> Result<Self, StudyError> {
         let (file, described) = {
-            let mut input = Input::open(path, Phase::Read, progress)?;
+            let mut input = MotionReader::open(path, Phase::Read, progress)?;
             let file = FoldFile::read(&mut input);
             (input.unless_stopped(file)?, input.digest())
         };
@@ -150,7 +151,7 @@ impl ReadMotion {
         described: &str,
         progress: Progress<'_>,
     ) -> Result<Self, StudyError> {
-        let mut input = Input::open(path, Phase::Read, progress)?;
+        let mut input = MotionReader::open(path, Phase::Read, progress)?;
         let positions = file.frame_count().saturating_mul(file.sheet.vertices.len());
         if positions > MOST_POSITIONS {
             let message = format!(
@@ -328,7 +329,7 @@ fn judged(path: &Path, motion: &Motion, sha256: &str, has_times: bool) -> Option
     if certificate.sha256 != sha256 {
         return None;
     }
-    let report = claim(&certificate).ok()?;
+    let report = claim(&certificate);
     let faces = motion.sheet.faces.len();
     let frames = motion.frames.len();
     let mut penetrations = report.penetrations.iter();

@@ -5,7 +5,7 @@ use std::path::Path;
 use foldmotion_record::embedded;
 use serde::{Deserialize, Serialize};
 
-use crate::run::VERSION;
+use crate::VERSION;
 use crate::scene::RecordScene;
 use crate::{Scene, StudyError, input_file};
 

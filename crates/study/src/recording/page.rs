@@ -5,8 +5,8 @@ use foldmotion_record::{Page, PageOptions, Panel, Provenance, page};
 use super::Recorder;
 use super::colours::Quantity;
 use crate::StudyError;
+use crate::VERSION;
 use crate::results::Results;
-use crate::run::VERSION;
 use crate::scene::OutputChoice;
 
 /// Motion files inside a page, at most: 256 MiB, which a browser still unpacks.

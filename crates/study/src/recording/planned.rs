@@ -3,7 +3,8 @@
 use foldmotion_record::{FilmOptions, Playback};
 
 use super::models::state_name;
-use super::{Recording, STATES};
+use crate::Recording;
+use crate::resolve::recording::STATES;
 use crate::results::{CERTIFICATE, FRAMES, MOTION};
 use crate::scene::OutputChoice;
 

@@ -3,23 +3,24 @@
 use std::io::{self, Write};
 use std::path::Path;
 
-use foldmotion_check::{CollisionReport, penetration_spans};
 use foldmotion_pattern::{FoldHeader, Motion};
-use foldmotion_record::{Marks, Spot, plots};
+use foldmotion_record::plots;
 
+use super::marks::marks;
 use super::motion_file::{open_record, publish_record};
 use super::page::LARGEST_FOLD;
 use super::{Beside, Origin, Recorder, Recording};
-use crate::certify::{CheckedMotion, MotionFile};
+use crate::certificate::certify::{CheckedMotion, MotionFile};
+use crate::compute::folded::{Findings, Folded};
+use crate::compute::series::{panels, write_csv};
 use crate::digest::HashedWriter;
-use crate::folded::{Findings, Folded};
 use crate::report::{OutcomeKind, SecondsReport};
+use crate::resolve::input::Input;
+use crate::resolve::recording::recording as resolved;
 use crate::results::{CERTIFICATE, MOTION, Results, write_error};
-use crate::run::{Progress, VERSION};
 use crate::scene::{OutputChoice, RecordScene};
-use crate::series::{panels, write_csv};
-use crate::study::Resolver;
 use crate::{Certificate, Destination, Scene, SceneSource, Study, StudyError, UnitStudy};
+use crate::{Progress, VERSION};
 
 impl Study {
     /// Records `folded` as `record` says, in the place of `[record]` of the scene, into `folder`; answers the names of the
@@ -50,11 +51,11 @@ impl Study {
             record: record.clone(),
             ..self.recording.scene.clone()
         };
-        let resolver = Resolver {
+        let input = Input {
             source: &source,
             scene: &scene,
         };
-        resolver.recording(self.title.clone())
+        resolved(&input, self.title.clone())
     }
 
     /// Writes everything that `recording` asks for and answers the SHA-256 of the motion.
@@ -158,6 +159,14 @@ impl Study {
         Ok((sha256, beside))
     }
 
+    /// The certificate of `folded`, as it is written beside its motion file.
+    ///
+    /// # Errors
+    /// [`StudyError::Output`] where the motion has a position that is no number.
+    pub fn certificate_of(&self, folded: &Folded) -> Result<Certificate, StudyError> {
+        Ok(self.certificate(folded, self.digest(folded)?))
+    }
+
     pub(crate) fn certificate(&self, folded: &Folded, sha256: String) -> Certificate {
         let motion = &folded.motion;
         let times: Vec<f64> = motion.frames.iter().map(|f| f.time).collect();
@@ -206,74 +215,4 @@ fn record_series(findings: &Findings, results: &mut Results) -> Result<(), Study
         out.write_all(svg.as_bytes())
             .map_err(|e| write_error(&folder, "plots.svg", e))
     })
-}
-
-/// The two facets that are the first to penetrate each other, while they do, and where they begin to: all that cross later
-/// would hide it. `shown`: the motion time of a time of `motion`.
-pub(super) fn marks(
-    motion: &Motion,
-    collision: &CollisionReport,
-    shown: impl Fn(f64) -> f64,
-) -> Marks {
-    let mut marks = Marks::default();
-    let Some(first) = &collision.first else {
-        return marks;
-    };
-    let [face, _] = first.faces;
-    let spot = Spot::on(motion, face, first.point, first.passed, shown(first.time));
-    if let Some(spot) = spot {
-        marks.point_out(spot);
-    }
-    for span in penetration_spans(motion, collision) {
-        if span.faces == first.faces {
-            for face in span.faces {
-                marks.insert(face, shown(span.from), shown(span.to));
-            }
-        }
-    }
-    marks
-}
-
-#[cfg(test)]
-mod tests {
-    use foldmotion_record::Pose;
-
-    use super::*;
-
-    #[test]
-    fn only_the_first_penetration_of_many_is_marked_and_its_place_is_pointed_out() {
-        let scene = include_str!("../../../../scenes/shelter-short-plain.toml");
-        let mut scene: toml::Table = scene.parse().unwrap();
-        let motion: toml::Table = "contact = false\nframes = 48".parse().unwrap();
-        scene.insert("motion".to_owned(), motion.into());
-        let source = SceneSource::new(Path::new("scene.toml"), scene.to_string());
-        let study = Study::resolve(&source).unwrap();
-        let folded = study.compute(&|_, _| true).unwrap();
-        let (motion, collision) = (&folded.motion, &folded.findings.collision);
-        let first = collision.first.as_ref().unwrap();
-        assert!(
-            collision.penetrations.len() > 4,
-            "it crosses in many places"
-        );
-        let marks = marks(motion, collision, |time| time);
-        let facets = |time: f64| {
-            let marked = Pose::at(motion, &marks, time).marked;
-            let faces = (0..marked.len()).filter(|&face| marked[face]);
-            let mut facets: Vec<u32> = faces.map(|f| motion.sheet.face_facets[f]).collect();
-            facets.sort_unstable();
-            facets.dedup();
-            facets
-        };
-        let mut pair = first.faces.map(|f| motion.sheet.face_facets[f as usize]);
-        pair.sort_unstable();
-        assert_eq!(facets(first.passed), pair);
-        for frame in &motion.frames {
-            assert!(facets(frame.time).iter().all(|facet| pair.contains(facet)));
-        }
-        let spot = |time| Pose::at(motion, &marks, time).spot;
-        let place = spot(first.passed).unwrap();
-        let apart = place.distance(first.point) / motion.sheet.unit_length;
-        assert!(apart < 10.0 * collision.tolerance, "{apart} h");
-        assert!(spot(2.0).is_some() && spot(first.time - 1e-6).is_none());
-    }
 }

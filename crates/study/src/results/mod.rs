@@ -6,7 +6,6 @@ use std::path::{Path, PathBuf};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use crate::StudyError;
-use crate::recording::{Space, size_words};
 
 pub use self::destination::Destination;
 pub(crate) use self::left_over::may_run;
@@ -14,6 +13,7 @@ pub(crate) use self::made::{MadeFile, Maker};
 pub(crate) use self::names::{CERTIFICATE, FRAMES, MOTION, REPORT, is_of_a_run, is_picture};
 pub use self::published::Published;
 pub(crate) use self::published::listed;
+pub(crate) use self::space::{Space, size_words};
 
 use self::made::{LIST, MadeFiles, are_same};
 
@@ -22,6 +22,7 @@ mod left_over;
 mod made;
 mod names;
 mod published;
+mod space;
 
 /// The temporary folders of this process. Held while files are moved into place.
 static UNDER_WAY: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());

@@ -125,7 +125,9 @@ impl RecordPanel {
         let mut is_on = self.outputs.contains(&output);
         let check = ui.add_enabled(is_there, Checkbox::new(&mut is_on, name));
         if check
-            .on_disabled_hover_text("This program was built without MP4; build it with --features full")
+            .on_disabled_hover_text(
+                "This program was built without MP4; build it with --features full",
+            )
             .changed()
         {
             self.outputs.retain(|&o| o != output);

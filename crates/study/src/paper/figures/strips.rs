@@ -9,7 +9,7 @@ use super::{Composed, page};
 use crate::paper::motions::{CERTIFIED, Folding, STRIP_TIMES, finished};
 use crate::paper::store::Store;
 use crate::paper::targets::{CASES, sheet};
-use crate::recording::turned;
+use crate::resolve::known::turned;
 use crate::{StudyError, UnitStudy};
 
 /// Width and height of a state's cell.

@@ -1,0 +1,80 @@
+//! A motion and what was found out about it, before anything is written.
+
+use std::time::Duration;
+
+use foldmotion_check::{CollisionReport, FittedBox, upright_box};
+use foldmotion_pattern::{Frame, LayerOrder, Motion};
+use foldmotion_solver::quasi_static::Jam;
+
+use super::engine::Computed;
+use super::fold_angles::FoldAngleReport;
+use super::jam::JamReport;
+use super::outcome::Outcome;
+use super::path::PathReport;
+use super::series::FrameFigures;
+use super::stop::StopReport;
+use crate::Study;
+use crate::resolve::subject::Subject;
+
+/// What was found out about a motion.
+#[derive(Debug, Clone)]
+pub struct Findings {
+    /// The verdict, with its evidence.
+    pub collision: CollisionReport,
+    /// The order of the triangles that coincide, by the index of the frame.
+    pub layer_orders: Vec<(usize, LayerOrder)>,
+    /// Strain, bending, energy and separation, one a frame.
+    pub series: Vec<FrameFigures>,
+}
+
+/// A motion that a study computed, and what was found out about it: the result of [`Study::compute`].
+#[derive(Debug)]
+pub struct Folded {
+    /// The motion where it is shown.
+    pub motion: Motion,
+    /// What was found out about it.
+    pub findings: Findings,
+    /// The box of its last state.
+    pub compact: FittedBox,
+    /// How it ended.
+    pub outcome: Outcome,
+    pub(crate) jam: Option<JamReport>,
+    pub(crate) stop: Option<StopReport>,
+    /// How close the creases came to their targets.
+    pub(crate) fold_angles: FoldAngleReport,
+    pub(crate) computed: Computed,
+    pub(crate) path: PathReport,
+    /// Seconds of all its runs.
+    pub(crate) engine_seconds: f64,
+    pub(crate) check_seconds: f64,
+}
+
+impl Folded {
+    /// Whether every stage reached its end in equilibrium.
+    pub fn is_converged(&self) -> bool {
+        self.computed.stages.iter().all(|stage| stage.converged)
+    }
+
+    /// Where contact stopped the motion.
+    pub fn jam(&self) -> Option<&Jam> {
+        self.computed.jam.as_ref()
+    }
+
+    /// How long it took.
+    pub fn duration(&self) -> Duration {
+        let seconds = self.engine_seconds + self.check_seconds;
+        Duration::try_from_secs_f64(seconds).unwrap_or_default()
+    }
+}
+
+impl Study {
+    /// The box of every frame of `motion`: of units along the axes, as they lie where they are shown; of a pattern along its
+    /// principal axes.
+    pub fn boxes(&self, motion: &Motion) -> Vec<FittedBox> {
+        let measure = |frame: &Frame| match &self.subject {
+            Subject::Units(_) => upright_box(&frame.positions),
+            Subject::Imported(_) => self.subject.measured_box(&frame.positions),
+        };
+        motion.frames.iter().map(measure).collect()
+    }
+}

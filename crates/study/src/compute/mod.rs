@@ -1,0 +1,235 @@
+//! Refinement: more frames where the recorded ones do not decide what the computed motion does.
+//!
+//! The verdict speaks of straight paths between frames. Where one leaves the computed motion further than facets
+//! overlap on it, or could not be decided, the motion itself may be clear: the engine then runs again and records
+//! more frames there.
+
+pub(crate) mod engine;
+pub(crate) mod fold_angles;
+pub(crate) mod folded;
+pub(crate) mod jam;
+mod judge;
+pub(crate) mod outcome;
+pub(crate) mod path;
+pub(crate) mod preview;
+pub(crate) mod series;
+pub(crate) mod stop;
+pub(crate) mod symmetry;
+#[cfg(test)]
+mod symmetry_tests;
+
+use std::time::Instant;
+
+use foldmotion_check::{Verdict, straying};
+use foldmotion_pattern::{Frame, Motion};
+use foldmotion_solver::Budget;
+
+use self::engine::{Computed, StageSummary, StopCause};
+use self::fold_angles::FoldAngleReport;
+use self::folded::{Findings, Folded};
+use self::jam::JamReport;
+use self::outcome::{Outcome, Parts};
+use self::path::PathReport;
+use self::stop::StopReport;
+use crate::resolve::budget::MotionBudget;
+use crate::{Phase, Study, StudyError, Watch};
+
+/// Runs of the engine with more frames, at most; each divides the straying of a path by 16.
+const MOST_ROUNDS: usize = 4;
+/// Frames added in all rounds together, at most: where motions are open all along, each round would quadruple them.
+const MOST_ADDED: usize = 20_000;
+/// Parts an interval is divided into.
+const PARTS: usize = 4;
+/// Straight paths may stray this many times as far as is estimated of them: the estimate was seen to be half of what it
+/// should be.
+const LARGEST_STRAY: f64 = 2.0;
+/// Shorter intervals are not divided.
+const SHORTEST: f64 = 1e-9;
+
+/// A run of the engine, judged.
+struct Attempt {
+    computed: Computed,
+    motion: Motion,
+    findings: Findings,
+    /// How far the straight path after each frame strays.
+    strays: Vec<f64>,
+}
+
+impl Attempt {
+    /// Whether the budget ended it before `earlier` ended.
+    fn is_cut_short(&self, earlier: &Self) -> bool {
+        let end = |attempt: &Self| attempt.motion.frames.last().map_or(0.0, |f| f.time);
+        let is_spent = |stage: &StageSummary| {
+            stage
+                .stop
+                .is_some_and(|stop| stop.reason != StopCause::NoEquilibrium)
+        };
+        end(self) < end(earlier) && self.computed.stages.iter().any(is_spent)
+    }
+}
+
+/// Seconds that all runs took.
+#[derive(Debug, Clone, Copy, Default)]
+struct Seconds {
+    engine: f64,
+    check: f64,
+}
+
+impl Study {
+    /// Folds and checks, with more frames where the first ones leave the verdict open; writes nothing.
+    ///
+    /// A motion that did not converge or jammed is a result too, as far as it came.
+    ///
+    /// # Errors
+    /// [`StudyError::Solver`], [`StudyError::Check`], and [`StudyError::Interrupted`] where `watch` ended it.
+    pub fn compute(&self, watch: &dyn Watch) -> Result<Folded, StudyError> {
+        let budget = self.budget.map_or(Budget::Standard, MotionBudget::start);
+        let mut extra_times = self.subject.times_of_interest();
+        let asked = extra_times.len();
+        let mut seconds = Seconds::default();
+        let mut rounds = 0;
+        let mut attempt = self.attempt(&extra_times, budget, watch, &mut seconds)?;
+        loop {
+            let more = self.times_between(&attempt);
+            let added = extra_times.len() - asked;
+            let is_spent = rounds == MOST_ROUNDS || added + more.len() > MOST_ADDED;
+            if more.is_empty() || is_spent {
+                return Ok(self.folded(attempt, rounds, added, seconds));
+            }
+            let before = extra_times.len();
+            extra_times.extend(more);
+            let refined = self.attempt(&extra_times, budget, watch, &mut seconds)?;
+            if refined.is_cut_short(&attempt) {
+                // The budget ended the further run early: what was reached before it stays.
+                let added = before - asked;
+                return Ok(self.folded(attempt, rounds, added, seconds));
+            }
+            attempt = refined;
+            rounds += 1;
+        }
+    }
+
+    /// Folds and checks once, with frames at `extra_times` too.
+    fn attempt(
+        &self,
+        extra_times: &[f64],
+        budget: Budget,
+        watch: &dyn Watch,
+        spent: &mut Seconds,
+    ) -> Result<Attempt, StudyError> {
+        let start = self.subject.start_time();
+        let (mut computed, seconds) = timed(|| {
+            self.fold(extra_times, budget, &|moment| {
+                watch.state(moment);
+                watch.progress(Phase::Fold, (moment.time - start) / (2.0 - start))
+            })
+        })?;
+        spent.engine += seconds;
+        let motion = self.place(std::mem::take(&mut computed.frames));
+        let progress = |phase, done| watch.progress(phase, done);
+        let (findings, seconds) = timed(|| self.check(&motion, &computed, &progress))?;
+        spent.check += seconds;
+        Ok(Attempt {
+            strays: straying(&motion.frames),
+            computed,
+            motion,
+            findings,
+        })
+    }
+
+    fn folded(&self, attempt: Attempt, rounds: usize, added: usize, seconds: Seconds) -> Folded {
+        let frames = &attempt.motion.frames;
+        let last = frames.last().map_or(&[][..], |f| &f.positions);
+        let sheet = self.subject.sheet();
+        let jam = attempt.computed.jam.as_ref();
+        let jam = jam.map(|jam| JamReport::new(jam, &self.subject));
+        let stop = attempt.computed.stages.iter().find_map(StopReport::of);
+        let fold_angles = FoldAngleReport::new(sheet, last, self.subject.end_angles());
+        let outcome = Outcome::of(&Parts {
+            end: frames.last().map_or(0.0, |frame| frame.time),
+            jam: jam.as_ref(),
+            stop: stop.as_ref(),
+            fold_angles: &fold_angles,
+            collision: &attempt.findings.collision,
+            sheet,
+        });
+        Folded {
+            compact: self.subject.measured_box(last),
+            outcome,
+            jam,
+            stop,
+            fold_angles,
+            path: self.path_report(frames, &attempt.strays, rounds, added),
+            computed: attempt.computed,
+            motion: attempt.motion,
+            findings: attempt.findings,
+            engine_seconds: seconds.engine,
+            check_seconds: seconds.check,
+        }
+    }
+
+    /// Times at which frames are missing: within intervals that could not be decided, or, where every penetration is
+    /// shallower than the straight paths may stray there, within theirs.
+    fn times_between(&self, attempt: &Attempt) -> Vec<f64> {
+        let collision = &attempt.findings.collision;
+        let (frames, strays) = (&attempt.motion.frames, &attempt.strays);
+        if !matches!(collision.verdict, Verdict::Undecided | Verdict::Penetrating) {
+            return Vec::new();
+        }
+        let height = self.subject.sheet().unit_length;
+        let mut open: Vec<usize> = collision.undecided.iter().map(|u| u.frame).collect();
+        // Layers out of order are shown by their frame alone; more frames come where facets passed through.
+        let passed = collision
+            .penetrations
+            .iter()
+            .filter(|p| p.conflict.is_none());
+        for penetration in passed {
+            let k = penetration.frame;
+            let is_of_a_frame = penetration.passed <= frames[k].time;
+            let is_certain = strays
+                .get(k)
+                .is_none_or(|&stray| penetration.depth * height > LARGEST_STRAY * stray);
+            if is_of_a_frame || is_certain {
+                return Vec::new();
+            }
+            open.push(k);
+        }
+        open.sort_unstable();
+        open.dedup();
+        let parts = open.into_iter().filter_map(|k| {
+            let (from, to) = (frames[k].time, frames.get(k + 1)?.time);
+            let inner = move |part| from + (to - from) * part as f64 / PARTS as f64;
+            (to - from > SHORTEST).then(|| (1..PARTS).map(inner))
+        });
+        parts.flatten().collect()
+    }
+
+    fn path_report(
+        &self,
+        frames: &[Frame],
+        strays: &[f64],
+        rounds: usize,
+        added: usize,
+    ) -> PathReport {
+        let largest = strays
+            .iter()
+            .zip(frames)
+            .max_by(|a, b| a.0.total_cmp(b.0))
+            .filter(|(stray, _)| stray.is_finite());
+        PathReport {
+            frames: frames.len(),
+            end_t: frames.last().map_or(0.0, |frame| frame.time),
+            refinements: rounds,
+            added_frames: added,
+            straying: largest.map(|(stray, _)| stray / self.subject.sheet().unit_length),
+            straying_t: largest.map(|(_, frame)| frame.time),
+        }
+    }
+}
+
+pub(crate) fn timed<T>(
+    work: impl FnOnce() -> Result<T, StudyError>,
+) -> Result<(T, f64), StudyError> {
+    let started = Instant::now();
+    work().map(|value| (value, started.elapsed().as_secs_f64()))
+}

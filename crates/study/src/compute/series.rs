@@ -1,0 +1,170 @@
+//! Figures of every frame: strain, bending, energy, separation. They become the report's stages, `motion.csv` and
+//! `plots.svg`.
+
+use std::io::{self, Write};
+
+use foldmotion_check::{bar_strain, facet_bending};
+use foldmotion_pattern::{Frame, Motion};
+use foldmotion_record::{Curve, Panel};
+use foldmotion_solver::{EnergyByKind, Stage};
+
+use crate::Study;
+use crate::compute::engine::Computed;
+
+/// Figures of one frame.
+#[derive(Debug, Clone, Copy)]
+pub struct FrameFigures {
+    /// Its motion time.
+    pub time: f64,
+    /// Its stage.
+    pub stage: Stage,
+    /// The largest |l / l₀ − 1| of an edge, l₀ in the crease pattern; NaN where that is not known.
+    pub peak_strain: f64,
+    /// The mean of them.
+    pub mean_strain: f64,
+    /// The largest |fold angle| inside a facet, degrees.
+    pub peak_bending_deg: f64,
+    /// In units of EA·h for EA = 1; 0 for a motion of unknown material.
+    pub energy: EnergyByKind,
+    /// Of the contact barriers.
+    pub contact_energy: f64,
+    /// Pairs in contact.
+    pub contacts: usize,
+    /// Smallest distance of facets that share no vertex, units of h; NaN where all facets share vertices.
+    pub separation: f64,
+}
+
+impl Study {
+    /// The figures of every frame of `motion`.
+    ///
+    /// `separations`: as the collision check lists them, one a frame, or none.
+    pub(crate) fn series(
+        &self,
+        motion: &Motion,
+        computed: &Computed,
+        separations: &[f64],
+    ) -> Vec<FrameFigures> {
+        let mut angles = vec![0.0; self.model.hinges.len()];
+        let mut targets = vec![0.0; self.model.hinges.len()];
+        self.schedule.targets(Stage::Unfold, 0.0, &mut angles);
+        let figures = |(index, frame): (usize, &Frame)| {
+            let positions = self.model.to_model(&frame.positions);
+            self.model.follow_angles(&positions, &mut angles);
+            let (stage, local) = stage_at(frame.time, self.subject.stages());
+            self.schedule.targets(stage, local, &mut targets);
+            let strain = bar_strain(&motion.sheet, &frame.positions);
+            let contact = computed.contacts.get(index);
+            FrameFigures {
+                time: frame.time,
+                stage,
+                peak_strain: strain.peak,
+                mean_strain: strain.mean,
+                peak_bending_deg: facet_bending(&motion.sheet, &frame.positions).peak_deg(),
+                energy: self.model.energy_by_kind(&positions, &angles, &targets),
+                // An empty sum is −0.
+                contact_energy: contact.map_or(0.0, |c| c.energy) + 0.0,
+                contacts: contact.map_or(0, |c| c.count),
+                separation: separations.get(index).copied().unwrap_or(f64::NAN),
+            }
+        };
+        motion.frames.iter().enumerate().map(figures).collect()
+    }
+}
+
+/// The stage of a motion time and the time within it; where two of `stages` meet, the end of the first.
+fn stage_at(time: f64, stages: &[Stage]) -> (Stage, f64) {
+    if time <= 1.0 && stages.contains(&Stage::Unfold) {
+        (Stage::Unfold, time)
+    } else {
+        (Stage::Fold, (time - 1.0).min(1.0))
+    }
+}
+
+/// `motion.csv`: one line a frame.
+pub(crate) fn write_csv(series: &[FrameFigures], out: &mut impl Write) -> io::Result<()> {
+    writeln!(
+        out,
+        "t,stage,peak_strain,mean_strain,peak_facet_bending_deg,energy_bars,energy_creases,energy_facets,\
+         energy_face_angles,energy_contact,contacts,separation"
+    )?;
+    for f in series {
+        let separation = if f.separation.is_finite() {
+            format!("{:?}", f.separation)
+        } else {
+            String::new()
+        };
+        // Shortest digits that read back as the same number, with an exponent where it is short.
+        writeln!(
+            out,
+            "{:?},{},{:?},{:?},{:?},{:?},{:?},{:?},{:?},{:?},{},{separation}",
+            f.time,
+            f.stage.name(),
+            f.peak_strain,
+            f.mean_strain,
+            f.peak_bending_deg,
+            f.energy.bars,
+            f.energy.creases,
+            f.energy.facets,
+            f.energy.face_angles,
+            f.contact_energy,
+            f.contacts,
+        )?;
+    }
+    Ok(())
+}
+
+/// The panels of `plots.svg`: strain, bending, energy and smallest separation over t.
+///
+/// `first_penetration`: its motion time, drawn as an upright line across the separation.
+pub(crate) fn panels(series: &[FrameFigures], first_penetration: Option<f64>) -> Vec<Panel> {
+    let curve = |name, value: fn(&FrameFigures) -> f64| Curve {
+        name,
+        points: series.iter().map(|f| (f.time, value(f))).collect(),
+    };
+    let has_contact = series.iter().any(|f| f.contacts > 0);
+    let mut energy = vec![
+        curve("bars", |f| f.energy.bars),
+        curve("creases", |f| f.energy.creases),
+        curve("facets", |f| f.energy.facets),
+    ];
+    if has_contact {
+        energy.push(curve("contact", |f| f.contact_energy));
+    }
+    let mut separation = vec![curve("separation", |f| f.separation)];
+    if let Some(time) = first_penetration {
+        let drawn = series.iter().map(|f| f.separation);
+        let drawn: Vec<f64> = drawn.filter(|s| s.is_finite() && *s > 0.0).collect();
+        let lowest = drawn.iter().copied().fold(f64::INFINITY, f64::min);
+        let highest = drawn.iter().copied().fold(0.0, f64::max);
+        separation.push(Curve {
+            name: "penetration",
+            points: vec![(time, lowest), (time, highest)],
+        });
+    }
+    let panel = |title, is_logarithmic, curves| Panel {
+        title,
+        is_logarithmic,
+        curves,
+    };
+    vec![
+        panel(
+            "bar strain, %",
+            false,
+            vec![
+                curve("peak", |f| 100.0 * f.peak_strain),
+                curve("mean", |f| 100.0 * f.mean_strain),
+            ],
+        ),
+        panel(
+            "largest facet bending, degrees",
+            false,
+            vec![curve("bending", |f| f.peak_bending_deg)],
+        ),
+        panel("energy, units of EA h at EA = 1", false, energy),
+        panel(
+            "smallest separation of facets that share no vertex, h",
+            true,
+            separation,
+        ),
+    ]
+}

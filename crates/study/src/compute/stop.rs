@@ -1,0 +1,105 @@
+//! A motion that ended before its end, in `report.json` and on the terminal.
+
+use foldmotion_geometry::Number;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use crate::compute::engine::StageSummary;
+
+/// The engine stopped before the end of the motion.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct StopReport {
+    /// Motion time of the last state reached; later ones were not computed.
+    pub t: f64,
+    /// no-equilibrium: none was found further on, however short the load step; out-of-steps: the budget of steps or
+    /// iterations was used up before one was; out-of-time: the budget of time was.
+    pub reason: String,
+    /// The load step that the quasi-static engine tried last, in motion time; null for the dynamic engine.
+    pub load_step: Option<f64>,
+    /// Unbalanced force left by the last attempt, as the engine states it.
+    pub residual: f64,
+    /// At most this much of it counts as equilibrium.
+    pub residual_tolerance: f64,
+}
+
+impl StopReport {
+    /// What ended `stage` before its end, if anything did.
+    pub(crate) fn of(stage: &StageSummary) -> Option<Self> {
+        let stop = stage.stop?;
+        Some(Self {
+            t: stage.reached,
+            reason: stop.reason.name().to_owned(),
+            load_step: stop.step,
+            residual: stop.residual,
+            residual_tolerance: stop.tolerance,
+        })
+    }
+
+    /// Why, in a few words.
+    pub fn words(&self) -> String {
+        match self.reason.as_str() {
+            "out-of-steps" => {
+                "the budget of steps was used up before the next equilibrium was found"
+            }
+            "out-of-time" => "the budget of time was used up before the next equilibrium was found",
+            _ => "no equilibrium was found further on",
+        }
+        .to_owned()
+    }
+
+    /// The evidence, a line for the terminal.
+    pub(crate) fn line(&self) -> String {
+        let step = self.load_step.map_or_else(String::new, |step| {
+            format!(" in the last attempt, a load step of {:.2}", Number(step))
+        });
+        format!(
+            "unbalanced force left{step}: {:.2}; at most {:.2} counts as equilibrium",
+            Number(self.residual),
+            Number(self.residual_tolerance)
+        )
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use foldmotion_solver::Stage;
+
+    use super::*;
+    use crate::compute::engine::{StopCause, StopSummary};
+
+    fn report(reason: StopCause, step: Option<f64>) -> Option<StopReport> {
+        StopReport::of(&StageSummary {
+            stage: Stage::Fold,
+            converged: false,
+            reached: 1.25,
+            residual: 0.5,
+            steps: 7,
+            load_steps: None,
+            stop: Some(StopSummary {
+                reason,
+                step,
+                residual: 0.5,
+                tolerance: 1e-9,
+            }),
+        })
+    }
+
+    #[test]
+    fn a_stop_is_told_with_its_reason_and_its_evidence() {
+        let none = report(StopCause::NoEquilibrium, Some(1e-5)).unwrap();
+        assert_eq!((none.t, none.reason.as_str()), (1.25, "no-equilibrium"));
+        assert_eq!(
+            none.line(),
+            "unbalanced force left in the last attempt, a load step of 1e-5: 0.5; at most 1e-9 counts as \
+             equilibrium"
+        );
+        let spent = report(StopCause::OutOfSteps, None).unwrap();
+        assert_eq!(
+            spent.line(),
+            "unbalanced force left: 0.5; at most 1e-9 counts as equilibrium"
+        );
+        assert!(spent.words().contains("steps"));
+        let late = report(StopCause::OutOfTime, None).unwrap();
+        assert!(late.words().contains("time"), "{}", late.words());
+    }
+}

@@ -1,0 +1,199 @@
+//! The compact state in the report, beside its closed form.
+
+use foldmotion_check::{FittedBox, relative_error};
+use foldmotion_geometry::RigidMotion;
+use foldmotion_pattern::{CompactBox, Frame, SkinPlane};
+use glam::DVec3;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::{FoldAngleReport, Outcome};
+use crate::Study;
+
+/// A vertex this close to a skin plane, in units of a, lies on it: wide enough for layers that keep a gap.
+const SKIN_TOLERANCE: f64 = 0.05;
+
+/// An extent further than this from its closed form is explained: relative, or in h where the closed form is 0.
+const LARGE_ERROR: f64 = 0.01;
+
+/// A bounding box.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct BoxReport {
+    /// Along the growing direction, the width, the flaps.
+    pub extents: [f64; 3],
+    /// x·z.
+    pub area: f64,
+    /// x·y·z.
+    pub volume: f64,
+}
+
+/// The compact state reached, beside the exact one.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct CompactReport {
+    /// Measured after the rigid motion that best fits the exact compact state; of an imported pattern along its
+    /// principal axes, from the longest spread to the shortest.
+    pub extents: [f64; 3],
+    /// x·z.
+    pub area: f64,
+    /// x·y·z.
+    pub volume: f64,
+    /// Root mean square distance of the vertices to the exact compact state, in units of h; null for an
+    /// imported pattern.
+    pub rms_to_exact: Option<f64>,
+    /// Against the closed form; null where the case has none.
+    pub relative_error: Option<ErrorReport>,
+    /// Why the box differs from the closed form, where an extent does by more than a hundredth (of h where the closed form
+    /// is 0).
+    pub explanation: Option<String>,
+    /// What touches the two skin planes, after the same rigid motion; null where the case has none.
+    pub skin: Option<SkinReport>,
+}
+
+/// What a compact sheet touches its skin planes with: the upper one, where the boundary vertices lie, and the lower
+/// one, a below it.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct SkinReport {
+    /// A vertex lies on a plane within this distance, in units of the flap width a.
+    pub tolerance: f64,
+    /// Measured.
+    pub upper: SkinPlaneReport,
+    /// Measured.
+    pub lower: SkinPlaneReport,
+    /// Of the exact compact state.
+    pub exact_upper: SkinPlaneReport,
+    /// Of the exact compact state.
+    pub exact_lower: SkinPlaneReport,
+}
+
+/// What lies on a skin plane.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct SkinPlaneReport {
+    /// Facets in the plane.
+    pub facets: usize,
+    /// Edges in the plane beside those facets.
+    pub edges: usize,
+    /// Vertices in the plane beside those facets and edges.
+    pub vertices: usize,
+    /// Area of the facets.
+    pub area: f64,
+    /// That area over x·y of the compact box in closed form; 0 where the box is flat.
+    pub share: f64,
+}
+
+/// Differences to the closed form, each divided by it or, where it is 0, by h, h², h³.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct ErrorReport {
+    /// Of the three extents.
+    pub extents: [f64; 3],
+    /// Of the area.
+    pub area: f64,
+    /// Of the volume.
+    pub volume: f64,
+}
+
+impl From<CompactBox> for BoxReport {
+    fn from(b: CompactBox) -> Self {
+        Self {
+            extents: b.extents,
+            area: b.area,
+            volume: b.volume,
+        }
+    }
+}
+
+impl From<SkinPlane> for SkinPlaneReport {
+    fn from(plane: SkinPlane) -> Self {
+        let SkinPlane {
+            facets,
+            edges,
+            vertices,
+            area,
+            share,
+        } = plane;
+        Self {
+            facets,
+            edges,
+            vertices,
+            area,
+            share,
+        }
+    }
+}
+
+impl Study {
+    pub(super) fn compact_report(
+        &self,
+        measured: &FittedBox,
+        last: Option<&Frame>,
+    ) -> CompactReport {
+        let h = self.subject.sheet().unit_length;
+        let error = self.subject.closed_form().map(|closed| {
+            let error = relative_error(measured, closed.extents.into(), h);
+            ErrorReport {
+                extents: error.extents.into(),
+                area: error.area,
+                volume: error.volume,
+            }
+        });
+        CompactReport {
+            extents: measured.extents.into(),
+            area: measured.area,
+            volume: measured.volume,
+            rms_to_exact: measured.rms_to_exact.map(|rms| rms / h),
+            relative_error: error,
+            explanation: None,
+            skin: last.and_then(|frame| self.skin_report(&frame.positions)),
+        }
+    }
+
+    /// Why an extent differs from the closed form by more than [`LARGE_ERROR`].
+    pub(super) fn explanation(
+        &self,
+        compact: &CompactReport,
+        outcome: &Outcome,
+        fold_angles: &FoldAngleReport,
+    ) -> Option<String> {
+        let error = compact.relative_error?;
+        let is_large = |axis: &usize| error.extents[*axis].abs() > LARGE_ERROR;
+        let axes: Vec<&str> = (0..3)
+            .filter(is_large)
+            .map(|axis| ["x", "y", "z"][axis])
+            .collect();
+        if axes.is_empty() {
+            return None;
+        }
+        let axes = axes.join(", ");
+        if !outcome.is_at_end() {
+            return Some(format!(
+                "{axes}: the sheet did not reach its compact state; this is the box of the last state reached"
+            ));
+        }
+        let gap = self.contact_gap.map_or_else(
+            || "without contact".to_owned(),
+            |gap| format!("every layer keeps a gap of {gap} h from the next"),
+        );
+        Some(format!(
+            "{axes}: {gap}, and {}, which adds up over the length of the sheet",
+            fold_angles.words()
+        ))
+    }
+
+    pub(super) fn skin_report(&self, positions: &[DVec3]) -> Option<SkinReport> {
+        let units = &self.subject.units()?.units;
+        let exact = units.compact();
+        let fit = RigidMotion::best_fit(positions, &exact);
+        let fitted: Vec<DVec3> = positions.iter().map(|&p| fit.apply(p)).collect();
+        let tolerance = SKIN_TOLERANCE * units.unit.flap;
+        let (measured, exact) = (
+            units.skin(&fitted, tolerance)?,
+            units.skin(&exact, tolerance)?,
+        );
+        Some(SkinReport {
+            tolerance: SKIN_TOLERANCE,
+            upper: measured.upper.into(),
+            lower: measured.lower.into(),
+            exact_upper: exact.upper.into(),
+            exact_lower: exact.lower.into(),
+        })
+    }
+}

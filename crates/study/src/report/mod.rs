@@ -1,0 +1,189 @@
+//! The report: `report.json` and the table on the terminal.
+
+mod collision;
+mod compact;
+mod imported;
+mod motion;
+mod sheet;
+mod table;
+
+use foldmotion_pattern::UnitSheet;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use crate::results::Published;
+use crate::scene::EngineChoice;
+use crate::{Study, VERSION};
+
+pub use self::collision::{CollisionSection, DecidedBy, PenetrationReport};
+pub use self::compact::{BoxReport, CompactReport, ErrorReport, SkinPlaneReport, SkinReport};
+pub use self::imported::ImportReport;
+use self::motion::stage_report;
+pub use self::motion::{EnergyReport, EngineReport, SecondsReport, StageReport};
+pub use self::sheet::{
+    DivisionReport, FitReport, MapReport, PatternReport, ProfileReport, RowReport, UnfoldReport,
+    UnitReport, VertexReport,
+};
+use self::sheet::{division_report, profile_report, row_reports, unfold_report};
+pub use crate::compute::fold_angles::FoldAngleReport;
+use crate::compute::folded::Folded;
+pub use crate::compute::jam::JamReport;
+pub use crate::compute::outcome::{Outcome, OutcomeKind};
+pub use crate::compute::path::PathReport;
+pub use crate::compute::stop::StopReport;
+pub use crate::compute::symmetry::{Mirror, SymmetryReport};
+pub use crate::resolve::names::UnitName;
+
+/// `report.json`. Lengths are in `length_unit`, angles in degrees.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[schemars(title = "foldmotion report")]
+pub struct Report {
+    /// Title of the scene.
+    pub title: String,
+    /// Version of foldmotion.
+    pub version: String,
+    /// How the motion ended.
+    pub outcome: Outcome,
+    /// FOLD's name of the unit of length.
+    pub length_unit: String,
+    /// E, T, S, SII or plain; where rows of unequal height have several, joined by `+`. Null for an imported pattern, as
+    /// are rows, columns, unit, profile, division, unfold.
+    pub case: Option<String>,
+    /// Nr.
+    pub rows: Option<usize>,
+    /// Nc.
+    pub columns: Option<usize>,
+    /// The unit.
+    pub unit: Option<UnitReport>,
+    /// The imported pattern; null for a sheet of units.
+    pub import: Option<ImportReport>,
+    /// The curve Γ.
+    pub profile: Option<ProfileReport>,
+    /// Height and case of each row where they differ; null where all rows are equal.
+    pub unequal_rows: Option<Vec<RowReport>>,
+    /// The sheet folded like a map; null where it folds unit by unit.
+    pub map: Option<MapReport>,
+    /// The division of Γ.
+    pub division: Option<DivisionReport>,
+    /// The crease pattern.
+    pub pattern: PatternReport,
+    /// Equations 3 to 7; null where the case has no closed form.
+    pub closed_form: Option<BoxReport>,
+    /// The compact state reached.
+    pub compact: CompactReport,
+    /// How close the creases came to the end of the motion.
+    pub fold_angles: FoldAngleReport,
+    /// How well the motion keeps the mirror symmetries of the sheet; empty where it has none, and for an imported pattern.
+    pub symmetry: Vec<SymmetryReport>,
+    /// How stage unfold moves the row creases.
+    pub unfold: Option<UnfoldReport>,
+    /// The stages of the motion.
+    pub stages: Vec<StageReport>,
+    /// Where contact stopped the motion; null where it did not.
+    pub jam: Option<JamReport>,
+    /// What ended the motion before its end; null where it was run to its end. A motion that stopped where layers push is
+    /// jammed too.
+    pub stop: Option<StopReport>,
+    /// The verdict.
+    pub collision: CollisionSection,
+    /// The recorded path, between whose frames the verdict takes straight lines.
+    pub path: PathReport,
+    /// The engine; its timings and device are all that may differ between two runs of one scene.
+    pub engine: EngineReport,
+    /// Seconds a part of the run took.
+    pub seconds: SecondsReport,
+    /// The files written beside this report.
+    pub files: Vec<String>,
+    /// What became of other files in the folder; not part of report.json.
+    #[serde(skip)]
+    pub published: Published,
+}
+
+impl Report {
+    /// The exit status, that of the outcome.
+    pub fn status(&self) -> u8 {
+        self.outcome.status()
+    }
+
+    /// The text of `report.json`.
+    pub fn to_json(&self) -> String {
+        // Strings, numbers and lists always serialise.
+        let mut text = serde_json::to_string_pretty(self).unwrap_or_default();
+        text.push('\n');
+        text
+    }
+}
+
+impl Study {
+    /// The report of `folded` where nothing is written: without files and the seconds they take.
+    pub fn report_of(&self, folded: &Folded) -> Report {
+        let seconds = SecondsReport {
+            check: folded.check_seconds,
+            record: 0.0,
+            total: folded.duration().as_secs_f64(),
+        };
+        self.report(folded, seconds, &[])
+    }
+
+    pub(crate) fn report(
+        &self,
+        folded: &Folded,
+        seconds: SecondsReport,
+        files: &[String],
+    ) -> Report {
+        let units = self.subject.units();
+        let sheet = units.map(|study| &study.units);
+        let Folded {
+            computed, findings, ..
+        } = folded;
+        let fold_angles = folded.fold_angles;
+        let mut compact = self.compact_report(&folded.compact, folded.motion.frames.last());
+        compact.explanation = self.explanation(&compact, &folded.outcome, &fold_angles);
+        Report {
+            title: self.title.clone(),
+            version: VERSION.to_owned(),
+            outcome: folded.outcome.clone(),
+            length_unit: self.unit_name.to_owned(),
+            case: sheet.map(UnitSheet::case_name),
+            rows: sheet.map(|sheet| sheet.rows),
+            columns: sheet.map(|sheet| sheet.columns),
+            unit: sheet.map(|sheet| UnitReport::from(&sheet.unit)),
+            import: self.subject.imported().map(ImportReport::new),
+            unequal_rows: sheet.and_then(row_reports),
+            map: sheet.and_then(|sheet| self.map_report(sheet)),
+            profile: units.map(profile_report),
+            division: units.map(division_report),
+            pattern: self.pattern_report(),
+            closed_form: self.subject.closed_form().map(BoxReport::from),
+            compact,
+            unfold: units.map(|study| unfold_report(&study.unfolding)),
+            stages: computed
+                .stages
+                .iter()
+                .map(|s| stage_report(s, &findings.series))
+                .collect(),
+            fold_angles,
+            symmetry: units.map_or_else(Vec::new, |_| SymmetryReport::all(&folded.motion)),
+            jam: folded.jam.clone(),
+            stop: folded.stop.clone(),
+            collision: self.collision_section(&findings.collision),
+            path: folded.path,
+            engine: EngineReport {
+                name: match self.engine {
+                    EngineChoice::Dynamic => "dynamic",
+                    EngineChoice::QuasiStatic => "quasi-static",
+                }
+                .to_owned(),
+                contact_gap: self.contact_gap,
+                steps: computed.steps,
+                seconds: folded.engine_seconds,
+                threads: rayon::current_num_threads(),
+                device: computed.device.clone(),
+                instruction_set: foldmotion_solver::dynamic::instruction_set(),
+            },
+            seconds,
+            files: files.to_vec(),
+            published: Published::default(),
+        }
+    }
+}

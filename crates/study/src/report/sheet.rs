@@ -1,0 +1,264 @@
+//! What is folded, in the report.
+
+use std::fmt::Write as _;
+
+use foldmotion_pattern::{Unit, UnitSheet};
+use glam::DVec2;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::compact::BoxReport;
+use crate::{Study, Unfolding, UnitStudy};
+
+/// A row of its own height.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct RowReport {
+    /// E, T, S or SII.
+    pub case: String,
+    /// Its h.
+    pub height: f64,
+}
+
+/// A sheet folded like a map.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct MapReport {
+    /// Nr·Nc.
+    pub layers: usize,
+    /// Height of the stack, layers times `material.thickness`; null where the sheet has no thickness.
+    pub stack_height: Option<f64>,
+    /// The box of the same sheet folded unit by unit; null where it has no closed form.
+    pub waterbomb: Option<BoxReport>,
+}
+
+/// The unit.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct UnitReport {
+    /// w.
+    pub width: f64,
+    /// h; the mean where rows differ.
+    pub height: f64,
+    /// a, the width of a flap.
+    pub flap: f64,
+    /// s, the width of a side pad.
+    pub side_pad: f64,
+    /// 2d, the width of the centre pad.
+    pub centre_pad: f64,
+}
+
+/// The curve Γ.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct ProfileReport {
+    /// Where it comes from: the source of a built-in profile, or the key or file of the scene.
+    pub source: String,
+    /// Whether it returns to its start.
+    pub closed: bool,
+}
+
+/// Distances of Γ from the divided polygon.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct FitReport {
+    /// The largest.
+    pub largest: f64,
+    /// The mean over the length of Γ.
+    pub mean: f64,
+}
+
+/// The division of Γ (equations 1 and 2).
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct DivisionReport {
+    /// How.
+    pub method: String,
+    /// |R_max|.
+    pub max_residual: f64,
+    /// |R_ave|.
+    pub mean_residual: f64,
+    /// How far Γ is from the polygon.
+    pub fit: FitReport,
+    /// Iterations made.
+    pub iterations: usize,
+    /// Wall-clock seconds.
+    pub seconds: f64,
+    /// The divided polygon, (x, z).
+    pub points: Vec<[f64; 2]>,
+}
+
+/// The pattern check.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct PatternReport {
+    /// Whether the angles around every interior vertex sum to 360°.
+    pub developable: bool,
+    /// Whether every interior vertex has an even number of creases and alternate angles that sum to 180°.
+    pub flat_foldable: bool,
+    /// Vertices of the sheet.
+    pub vertex_count: usize,
+    /// Facets of the crease pattern.
+    pub facet_count: usize,
+    /// Triangles of the sheet as computed.
+    pub face_count: usize,
+    /// Interior vertices by type and number of creases.
+    pub vertices: Vec<VertexReport>,
+}
+
+/// Interior vertices of one type.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct VertexReport {
+    /// I, J, K, split, pad or grid; imported.
+    #[serde(rename = "type")]
+    pub kind: String,
+    /// Creases that meet there.
+    pub degree: usize,
+    /// How many there are.
+    pub count: usize,
+    /// Mountain creases minus valley creases: +2 or −2 where a vertex folds flat (Maekawa).
+    pub mountains_minus_valleys: i32,
+    /// Sum of the sector angles, degrees.
+    pub angle_sum_deg: f64,
+    /// Sums of every other sector angle, degrees, the smaller first; null for an odd number of creases.
+    pub alternate_sums_deg: Option<[f64; 2]>,
+    /// Whether all are developable.
+    pub developable: bool,
+    /// Whether all are flat-foldable.
+    pub flat_foldable: bool,
+}
+
+/// How stage unfold moves the row creases.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct UnfoldReport {
+    /// uniform or energy.
+    pub method: String,
+    /// uniform, energy or auto.
+    pub asked: String,
+    /// Whether the divided profile was proved not to cross itself on this path.
+    pub certified: bool,
+    /// Where uniform scaling makes it cross itself first, as a share of the stage; null where it does not or was not looked at.
+    pub crosses_at: Option<f64>,
+    /// Steps of the descent that found the path; null where uniform.
+    pub steps: Option<usize>,
+    /// Straight pieces the path has been thinned to; null where uniform.
+    pub pieces: Option<usize>,
+}
+
+impl MapReport {
+    /// Its line in the table.
+    pub(super) fn line(&self, unit: &str) -> String {
+        let mut line = format!("map          {} layers", self.layers);
+        // Writing into a string cannot fail.
+        if let Some(height) = self.stack_height {
+            let _ = write!(line, ", {height:.6} {unit} high");
+        }
+        if let Some(BoxReport {
+            extents: [x, y, z], ..
+        }) = &self.waterbomb
+        {
+            let _ = write!(
+                line,
+                "; folded unit by unit {x:.6} x {y:.6} x {z:.6} {unit}"
+            );
+        }
+        line
+    }
+}
+
+impl From<&Unit> for UnitReport {
+    fn from(unit: &Unit) -> Self {
+        Self {
+            width: unit.width,
+            height: unit.height,
+            flap: unit.flap,
+            side_pad: unit.side_pad,
+            centre_pad: unit.centre_pad,
+        }
+    }
+}
+
+impl UnfoldReport {
+    /// A line for the terminal.
+    pub(super) fn line(&self) -> String {
+        let certified = if self.certified {
+            "the profile is proved not to cross itself"
+        } else {
+            "not proved free of crossings"
+        };
+        let crosses = self.crosses_at.map_or_else(String::new, |share| {
+            format!(" (uniform scaling crosses at t = {share:.4})")
+        });
+        format!("unfold: {}, {certified}{crosses}", self.method)
+    }
+}
+
+impl Study {
+    pub(super) fn map_report(&self, sheet: &UnitSheet) -> Option<MapReport> {
+        let layers = sheet.map_layers()?;
+        Some(MapReport {
+            layers,
+            stack_height: self.thickness.map(|thickness| layers as f64 * thickness),
+            waterbomb: sheet.waterbomb_box().map(BoxReport::from),
+        })
+    }
+
+    pub(super) fn pattern_report(&self) -> PatternReport {
+        let check = self.subject.pattern_check();
+        let sheet = self.subject.sheet();
+        let vertices = check.groups().into_iter().map(|g| VertexReport {
+            kind: g.kind.name().to_owned(),
+            degree: g.degree,
+            mountains_minus_valleys: g.mountains_minus_valleys,
+            count: g.count,
+            angle_sum_deg: g.angle_sum.to_degrees(),
+            alternate_sums_deg: g.alternate_sums.map(|s| s.map(f64::to_degrees)),
+            developable: g.developable,
+            flat_foldable: g.flat_foldable,
+        });
+        PatternReport {
+            developable: check.is_developable(),
+            flat_foldable: check.is_flat_foldable(),
+            vertex_count: sheet.vertices.len(),
+            facet_count: sheet.facets.len(),
+            face_count: sheet.faces.len(),
+            vertices: vertices.collect(),
+        }
+    }
+}
+
+pub(super) fn row_reports(sheet: &UnitSheet) -> Option<Vec<RowReport>> {
+    let row = |unit: &Unit| RowReport {
+        case: unit.case.name().to_owned(),
+        height: unit.height,
+    };
+    let rows = sheet.row_units().iter().map(row);
+    (!sheet.has_equal_rows()).then(|| rows.collect())
+}
+
+pub(super) fn profile_report(study: &UnitStudy) -> ProfileReport {
+    ProfileReport {
+        source: study.profile_source.clone(),
+        closed: study.profile.is_closed(),
+    }
+}
+
+pub(super) fn division_report(study: &UnitStudy) -> DivisionReport {
+    DivisionReport {
+        method: study.division_method.name().to_owned(),
+        fit: FitReport {
+            largest: study.fit.largest,
+            mean: study.fit.mean,
+        },
+        max_residual: study.division.max_residual,
+        mean_residual: study.division.mean_residual,
+        iterations: study.division.iterations,
+        seconds: study.division_seconds,
+        points: study.division.points.iter().map(DVec2::to_array).collect(),
+    }
+}
+
+pub(super) fn unfold_report(unfolding: &Unfolding) -> UnfoldReport {
+    let path = unfolding.path.as_ref();
+    UnfoldReport {
+        method: unfolding.method().to_owned(),
+        asked: unfolding.asked.name().to_owned(),
+        certified: unfolding.certified,
+        crosses_at: unfolding.crosses_at,
+        steps: path.map(|path| path.steps),
+        pieces: path.map(|path| path.turns.len() - 1),
+    }
+}

@@ -1,0 +1,63 @@
+//! `[check]`.
+
+use foldmotion_check::CollisionOptions;
+use foldmotion_geometry::Number;
+use foldmotion_geometry::collide::Limits;
+use glam::DVec3;
+
+use super::input::Input;
+use super::subject::Subject;
+use crate::StudyError;
+
+pub(crate) fn collision(
+    input: &Input<'_>,
+    subject: &Subject,
+) -> Result<CollisionOptions, StudyError> {
+    let mut options = CollisionOptions::default();
+    if let Some(tolerance) = input.scene.check.touch_tolerance {
+        if !(tolerance > 0.0 && tolerance <= 1e-2) {
+            return Err(input.error(
+                "check.touch_tolerance",
+                "must lie above 0 and be at most 0.01 (units of h, or of the mean edge)",
+            ));
+        }
+        options.touch_tolerance = tolerance;
+    }
+    let (tolerance, least) = (options.touch_tolerance, least_tolerance(subject));
+    if tolerance < least {
+        let message = format!(
+            "{} is too small for a sheet as long or wide as this beside its unit: rounding takes {:.2}; give a larger \
+             one, or a sheet of fewer or less slender units",
+            Number(tolerance),
+            Number(least)
+        );
+        return Err(input.error("check.touch_tolerance", message));
+    }
+    if let Some(stop_at) = input.scene.check.stop_at {
+        options.stop_at = usize::try_from(stop_at).map_err(|_| {
+            input.error(
+                "check.stop_at",
+                "must be 0, for no limit, or a number of pairs",
+            )
+        })?;
+    }
+    Ok(options)
+}
+
+/// The least tolerance, in units of the sheet's unit of length, that the check can tell from rounding.
+fn least_tolerance(subject: &Subject) -> f64 {
+    /// Of the rounding; the check asks for a hundred times.
+    const MARGINS: f64 = 128.0;
+    let start = subject.start();
+    let Some(&first) = start.first() else {
+        return 0.0;
+    };
+    let planar = subject.sheet().planar();
+    let spread = |positions: &[DVec3]| {
+        let origin = positions.first().copied().unwrap_or(first);
+        let distances = positions.iter().map(|p| p.distance(origin));
+        distances.fold(0.0, f64::max)
+    };
+    let extent = spread(&start).max(spread(&planar));
+    MARGINS * Limits::margin_for(extent) / subject.sheet().unit_length
+}

@@ -1,0 +1,67 @@
+//! A scene while it is resolved.
+
+use foldmotion_geometry::Number;
+
+use crate::{Scene, SceneSource, StudyError};
+
+/// The shortest and the longest length of a scene, in its unit.
+const SHORTEST: f64 = 1e-9;
+const LONGEST: f64 = 1e9;
+/// Sheets larger than this many units exceed what one machine folds.
+const MOST_ROWS_OR_COLUMNS: i64 = 1_000_000;
+
+/// Reads values out of the scene and turns what is wrong with them into errors that name their line.
+pub(crate) struct Input<'a> {
+    pub(crate) source: &'a SceneSource,
+    pub(crate) scene: &'a Scene,
+}
+
+impl Input<'_> {
+    /// The title; that of the pattern or the file's name where the scene has none.
+    pub(crate) fn title(&self, of_pattern: Option<&String>) -> String {
+        let own = self.scene.title.as_ref().or(of_pattern);
+        own.map_or_else(|| self.source.stem(), |title| printable(title))
+    }
+
+    pub(crate) fn error(&self, key: &str, message: impl Into<String>) -> StudyError {
+        self.source.value_error(key, message.into())
+    }
+
+    /// A length that squares and cubes of leave within what f64 holds.
+    pub(crate) fn length(&self, key: &str, value: f64) -> Result<f64, StudyError> {
+        if (SHORTEST..=LONGEST).contains(&value) {
+            return Ok(value);
+        }
+        let [least, most] = [SHORTEST, LONGEST].map(Number);
+        let message =
+            format!("must be positive, from {least} to {most}; take another profile.unit");
+        Err(self.error(key, message))
+    }
+
+    pub(crate) fn count(
+        &self,
+        key: &str,
+        value: Option<i64>,
+        default: Option<usize>,
+    ) -> Result<usize, StudyError> {
+        match (value, default) {
+            (Some(n), _) => usize::try_from(n)
+                .ok()
+                .filter(|_| (1..=MOST_ROWS_OR_COLUMNS).contains(&n))
+                .ok_or_else(|| {
+                    self.error(
+                        key,
+                        format!("must lie between 1 and {MOST_ROWS_OR_COLUMNS}"),
+                    )
+                }),
+            (None, Some(n)) => Ok(n),
+            (None, None) => Err(self.error(key, "is missing: a profile of your own needs it")),
+        }
+    }
+}
+
+/// A text as one line that no terminal takes for more.
+pub(crate) fn printable(text: &str) -> String {
+    let letter = |letter: char| if letter.is_control() { ' ' } else { letter };
+    text.chars().map(letter).collect()
+}

@@ -1,0 +1,126 @@
+//! The unit of a sheet: its case and sizes, and how many of them are folded.
+
+use foldmotion_pattern::{Case, Folding, PatternError, ProfileModel, Unit, UnitSheet};
+
+use super::input::Input;
+use crate::StudyError;
+use crate::scene::CaseChoice;
+
+/// Units of a sheet that is folded, at most: some 10 GB.
+const MOST_FOLDED: usize = 1_000_000;
+/// Entries of the order of the compact state, at most: about 1 GB.
+pub(crate) const MOST_ORDERED: usize = 50_000_000;
+
+/// What a sheet is laid out for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Purpose {
+    /// To be seen, or cut.
+    Show,
+    /// To be folded and checked too.
+    Fold,
+}
+
+pub(crate) fn too_many_layers(input: &Input<'_>) -> StudyError {
+    let message = format!(
+        "more than {} pairs of facets would coincide in the compact state, too many to check; fewer columns, or a \
+         case whose columns lie beside each other (S, SII)",
+        MOST_ORDERED / 2
+    );
+    input.error("sheet.columns", message)
+}
+
+/// Refuses a sheet that memory could not hold or whose layers nothing could check, before it is laid out.
+pub(crate) fn require_moderate(
+    input: &Input<'_>,
+    units: &[Unit],
+    columns: usize,
+    folding: Folding,
+) -> Result<(), StudyError> {
+    let rows = units.len();
+    if rows.saturating_mul(columns) > MOST_FOLDED {
+        let message = format!(
+            "{rows} x {columns} units are more than {MOST_FOLDED}, the most that are folded; fewer columns or rows"
+        );
+        return Err(input.error("sheet.columns", message));
+    }
+    let Some(&unit) = units
+        .first()
+        .filter(|&first| units.iter().all(|unit| unit == first))
+    else {
+        return Ok(());
+    };
+    match UnitSheet::count_compact_order(unit, rows, columns, folding) {
+        Some(count) if count > MOST_ORDERED as f64 => Err(too_many_layers(input)),
+        _ => Ok(()),
+    }
+}
+
+/// The case whose columns a built-in profile brings.
+pub(crate) fn case_asked_for(input: &Input<'_>) -> Case {
+    match input.scene.sheet.case {
+        Some(CaseChoice::T) => Case::T,
+        Some(CaseChoice::S) => Case::S,
+        Some(CaseChoice::SII) => Case::SII,
+        Some(CaseChoice::Plain) => Case::Plain,
+        None | Some(CaseChoice::E | CaseChoice::Auto) => Case::E,
+    }
+}
+
+/// w and the case, from W, Nc and h. A built-in profile is as wide in every case as in case E.
+pub(crate) fn unit(
+    input: &Input<'_>,
+    built_in: Option<&ProfileModel>,
+    height: f64,
+    columns: usize,
+) -> Result<Unit, StudyError> {
+    let scene = &input.scene.sheet;
+    let choice = scene.case.unwrap_or(CaseChoice::Auto);
+    let width = unit_width(input, built_in, height, columns)?;
+    let case = choice.resolve(width, height, scene.lambda);
+    // Where the case is open, these belong to the one that λ asks for.
+    let is_unused = choice == CaseChoice::Auto && matches!(case, Case::E | Case::T);
+    let [lambda, offset] = [scene.lambda, scene.offset].map(|value| value.filter(|_| !is_unused));
+    Unit::new(case, width, height, lambda, offset).map_err(|e| pattern_error(input, &e))
+}
+
+/// w, from W and Nc, or from the (mean) height of the rows.
+pub(crate) fn unit_width(
+    input: &Input<'_>,
+    built_in: Option<&ProfileModel>,
+    height: f64,
+    columns: usize,
+) -> Result<f64, StudyError> {
+    let scene = &input.scene.sheet;
+    match (scene.width, scene.case.unwrap_or(CaseChoice::Auto)) {
+        (Some(width), _) => Ok(input.length("sheet.width", width)? / columns as f64),
+        (None, CaseChoice::E | CaseChoice::Auto) => Ok(height),
+        (None, _) if let Some(model) = built_in => {
+            Ok(model.columns.e as f64 * height / columns as f64)
+        }
+        (None, _) => {
+            let message = "is missing: only case E makes the width from the rows' height, W = Nc·h";
+            Err(input.error("sheet.width", message))
+        }
+    }
+}
+
+pub(crate) fn pattern_error(input: &Input<'_>, error: &PatternError) -> StudyError {
+    let key = match error {
+        PatternError::CountOutOfRange {
+            name: "columns", ..
+        } => "sheet.columns",
+        PatternError::CountOutOfRange { .. } | PatternError::WrongPolygon { .. } => "sheet.rows",
+        PatternError::LambdaOutOfRange { .. }
+        | PatternError::CommonFlapOutOfRange { .. }
+        | PatternError::KeyWithoutCase { key: "lambda", .. } => "sheet.lambda",
+        PatternError::OffsetOutOfRange { .. } | PatternError::KeyWithoutCase { .. } => {
+            "sheet.offset"
+        }
+        PatternError::CaseContradictsUnit { .. } if input.scene.sheet.width.is_some() => {
+            "sheet.width"
+        }
+        PatternError::CaseContradictsUnit { .. } => "sheet.case",
+        _ => "sheet.width",
+    };
+    input.error(key, error.to_string())
+}

@@ -1,0 +1,155 @@
+//! A sheet of units, resolved: profile, division, sheet and how it unfolds.
+
+use std::time::Instant;
+
+use foldmotion_geometry::{Division, Fit, Profile};
+use foldmotion_pattern::{CompactBox, LayerOrder, PatternCheck, UnitSheet};
+use foldmotion_solver::{Schedule, ScheduleStep, Stage};
+use glam::DVec3;
+
+use super::input::Input;
+use super::motion::schedule_error;
+use super::profile::{DividedProfile, curve, division};
+use super::rows::{steps_of, units};
+use super::unfolding::Unfolding;
+use super::unit::{MOST_ORDERED, Purpose, case_asked_for, pattern_error, too_many_layers};
+use crate::scene::DivisionChoice;
+use crate::{SceneSource, StudyError};
+
+/// A sheet of units on a divided profile.
+#[derive(Debug, Clone)]
+pub struct UnitStudy {
+    /// Γ.
+    pub profile: Profile,
+    /// Where Γ comes from.
+    pub profile_source: String,
+    /// Γ divided.
+    pub division: Division,
+    /// How.
+    pub division_method: DivisionChoice,
+    /// How far Γ is from its segments.
+    pub fit: Fit,
+    /// Seconds the division took.
+    pub division_seconds: f64,
+    /// The sheet of units.
+    pub units: UnitSheet,
+    /// The pattern check.
+    pub pattern: PatternCheck,
+    /// The closed form of the compact box, where the case has one.
+    pub closed_form: Option<CompactBox>,
+    /// The exact order of the layers in the compact state.
+    pub compact_order: LayerOrder,
+    /// The deployed state, at which the motion starts.
+    pub deployed: Vec<DVec3>,
+    /// How stage 1 moves the row creases.
+    pub unfolding: Unfolding,
+}
+
+impl UnitStudy {
+    /// Resolves profile, division, sheet and unfolding of a scene.
+    ///
+    /// # Errors
+    /// Every unusable value, with file, line, key, value and remedy.
+    pub fn resolve(source: &SceneSource) -> Result<Self, StudyError> {
+        let scene = source.scene()?;
+        let input = Input {
+            source,
+            scene: &scene,
+        };
+        Ok(unit_study(&input)?.0)
+    }
+}
+
+/// Γ divided and the sheet of units: what is folded, before anything says how.
+pub(crate) struct ResolvedSheet {
+    pub(crate) profile_source: String,
+    pub(crate) divided: DividedProfile,
+    division_seconds: f64,
+    pub(crate) units: UnitSheet,
+}
+
+/// The sheet of units, and its schedule.
+pub(crate) fn unit_study(input: &Input<'_>) -> Result<(UnitStudy, Schedule), StudyError> {
+    let ResolvedSheet {
+        profile_source,
+        divided,
+        division_seconds,
+        units,
+    } = laid_out(input, Purpose::Fold)?;
+    let (profile, division) = (divided.profile, divided.division);
+    let facing = input.scene.facing();
+    let deployed = units
+        .deployed(&division.points, facing)
+        .map_err(|e| pattern_error(input, &e))?;
+    let deployed_angles = units
+        .deployed_angles(&division.points, facing)
+        .map_err(|e| pattern_error(input, &e))?;
+    let steps = steps_of(input, &units)?;
+    let mut schedule = Schedule::uniform(&units.sheet, &deployed_angles, units.compact_angles())?
+        .with_steps(&units.sheet, &steps)
+        .map_err(|e| schedule_error(input, e))?;
+    let unfolding = unfolding(input, &profile, &division, &steps)?;
+    if let Some(path) = unfolding.fold_angles(facing) {
+        schedule = schedule.with_unfold_path(&units.sheet, path)?;
+    }
+    let study = UnitStudy {
+        pattern: units.check(),
+        closed_form: units.closed_form(),
+        compact_order: compact_order(input, &units)?,
+        profile,
+        profile_source,
+        division,
+        division_method: divided.method,
+        fit: divided.fit,
+        division_seconds,
+        units,
+        deployed,
+        unfolding,
+    };
+    Ok((study, schedule))
+}
+
+/// The order of the layers in the compact state, which check and films hold in memory.
+fn compact_order(input: &Input<'_>, units: &UnitSheet) -> Result<LayerOrder, StudyError> {
+    units
+        .compact_order_within(MOST_ORDERED)
+        .ok_or_else(|| too_many_layers(input))
+}
+
+/// Divides the profile and lays out the sheet.
+pub(crate) fn sheet(input: &Input<'_>) -> Result<ResolvedSheet, StudyError> {
+    laid_out(input, Purpose::Show)
+}
+
+fn laid_out(input: &Input<'_>, purpose: Purpose) -> Result<ResolvedSheet, StudyError> {
+    let curve = curve(input)?;
+    let started = Instant::now();
+    let divided = division(input, &curve)?;
+    let division_seconds = started.elapsed().as_secs_f64();
+    let columns = input.count(
+        "sheet.columns",
+        input.scene.sheet.columns,
+        curve.model.map(|m| m.columns.of(case_asked_for(input))),
+    )?;
+    let units = units(input, curve.model, &divided.division, columns, purpose)?;
+    Ok(ResolvedSheet {
+        profile_source: curve.source,
+        divided,
+        division_seconds,
+        units,
+    })
+}
+
+fn unfolding(
+    input: &Input<'_>,
+    profile: &Profile,
+    division: &Division,
+    steps: &[ScheduleStep],
+) -> Result<Unfolding, StudyError> {
+    let in_turn = steps
+        .iter()
+        .any(|step| step.stage == Stage::Unfold && (step.rows.is_some() || step.columns.is_some()));
+    let asked = input.scene.motion.unfold.unwrap_or_default();
+    Unfolding::new(asked, profile, division, in_turn)
+        .map_err(|e| input.error("motion.unfold", e.to_string()))
+}

@@ -1,0 +1,90 @@
+//! Runs a study: fold, check, report, record.
+
+mod space;
+
+use std::io::Write as _;
+use std::time::Instant;
+
+use crate::compute::folded::Folded;
+use crate::compute::timed;
+use crate::report::SecondsReport;
+use crate::results::{Destination, Maker, REPORT, Results, is_picture, write_error};
+use crate::scene::OutputChoice;
+use crate::{Progress, Report, Study, StudyError};
+
+impl Study {
+    /// Folds, checks, reports and records; writes the results into `folder` and returns the report.
+    ///
+    /// A motion that did not converge or jammed is kept and reported as far as it came.
+    ///
+    /// # Errors
+    /// [`StudyError`] of the step that failed; the folder is then as it was.
+    pub fn run<'a>(
+        &self,
+        destination: impl Into<Destination<'a>>,
+        progress: Progress<'_>,
+    ) -> Result<Report, StudyError> {
+        let started = Instant::now();
+        let results = self.open_results(destination.into(), progress)?;
+        let folded = self.compute(&progress)?;
+        self.finish(&folded, results, started, progress)
+    }
+
+    /// Writes the results of `folded`, computed by [`Self::compute`], into `folder`, as [`Self::run`] does.
+    ///
+    /// # Errors
+    /// [`StudyError`] of the file that failed; the folder is then as it was.
+    pub fn write<'a>(
+        &self,
+        folded: &Folded,
+        destination: impl Into<Destination<'a>>,
+        progress: Progress<'_>,
+    ) -> Result<Report, StudyError> {
+        let now = Instant::now();
+        let started = now.checked_sub(folded.duration()).unwrap_or(now);
+        let results = self.open_results(destination.into(), progress)?;
+        self.finish(folded, results, started, progress)
+    }
+
+    /// The folder of results, where nothing stands in their way and the disk can hold them.
+    fn open_results(
+        &self,
+        destination: Destination<'_>,
+        progress: Progress<'_>,
+    ) -> Result<Results, StudyError> {
+        let results = Results::open(destination, Maker::Run, Some(REPORT))?;
+        results.require_clear(&|name| name == REPORT || self.recording.plans(name))?;
+        self.require_space(&results, progress)?;
+        Ok(results)
+    }
+
+    /// The rest of a run that began at `started`.
+    fn finish(
+        &self,
+        folded: &Folded,
+        mut results: Results,
+        started: Instant,
+        progress: Progress<'_>,
+    ) -> Result<Report, StudyError> {
+        let folder = results.folder().to_owned();
+        let (sha256, record_seconds) =
+            timed(|| self.record(&self.recording, folded, &mut results, progress))?;
+        let seconds = SecondsReport {
+            check: folded.check_seconds,
+            record: record_seconds,
+            total: started.elapsed().as_secs_f64(),
+        };
+        let aside = results.set_aside();
+        let mut report = self.report(folded, seconds, results.written());
+        results.write(REPORT, |out| {
+            out.write_all(report.to_json().as_bytes())
+                .map_err(|e| write_error(&folder, REPORT, e))
+        })?;
+        let has_pictures = self.recording.has(OutputChoice::Png);
+        report.published = results.publish(Some(&sha256), &|file| {
+            file.of.as_deref() != Some(&sha256) || has_pictures && is_picture(&file.name)
+        })?;
+        report.published.aside = aside;
+        Ok(report)
+    }
+}
