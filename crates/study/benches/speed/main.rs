@@ -1,6 +1,6 @@
 //! How fast the engines and the check are on this machine, beside what the machine allows.
 //!
-//! `cargo bench -p foldmotion-study --bench speed` prints Markdown tables: docs/speed.md is such an output. A harness of its
+//! `cargo bench -p foldmotion-study --bench speed` prints Markdown tables: docs/src/speed.md is such an output. A harness of its
 //! own, since the figures are rates beside ceilings measured in the same run, and fits over sizes.
 //!
 //! Words in the command choose tables: machine, step, compact, check; all where none is given. `large` adds the sheet of

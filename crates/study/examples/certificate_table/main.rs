@@ -1,4 +1,4 @@
-//! Computes the tables of docs/certificates.md: folds the shelter in many ways, judges each motion, and proves each
+//! Computes the tables of docs/src/certificates.md: folds the shelter in many ways, judges each motion, and proves each
 //! certificate again.
 //!
 //! `cargo run --release -p foldmotion-study --no-default-features --example certificate_table` prints them as Markdown.
