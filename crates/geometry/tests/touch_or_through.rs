@@ -3,8 +3,8 @@
 //! All coordinates are dyadic, so that touches are exact and happen at the instant meant. Lengths are of order 1,
 //! τ = 2⁻²⁰, speeds run from 10⁻³ to 10⁶ lengths per interval.
 
-#[path = "../src/collide/random.rs"]
-#[expect(dead_code, reason = "shared with the unit tests, which use more of it")]
+#[path = "oracle/random.rs"]
+#[expect(dead_code, reason = "shared with the oracle, which uses more of it")]
 mod random;
 
 use foldmotion_geometry::collide::{Limits, MovingPair, Outcome, PairPose, Side, certify};

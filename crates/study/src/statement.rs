@@ -2,10 +2,10 @@
 
 use foldmotion_check::{
     Claims, Cluster, CollisionReport, FilterCounts, LayerConflict, LayerProof, LayerRule,
-    PairCounts, Penetration, PenetrationKind, Refutation, RuleCounts, Separation, Stopped,
-    Undecided, Verdict,
+    PairCounts, Penetration, PenetrationKind, RuleCounts, Separation, Stopped, Undecided, Verdict,
 };
 use foldmotion_pattern::FoldFile;
+use foldmotion_verify::Refutation;
 
 use crate::certificate::{Certificate, ClusterEntry, PenetrationEntry, TrianglePair};
 use crate::certify::{MotionFile, proof_name, rule_name};

@@ -1,0 +1,78 @@
+//! The way a pair took through an interval: along which directions it was kept on its side.
+
+use glam::DVec3;
+
+use crate::instant::axes;
+use crate::span::{Feature, Span};
+use crate::walk::{Side, roomiest};
+
+/// A direction over a step.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum Way {
+    /// The normal that features give, and its sense.
+    Along((Feature, f64)),
+    Fixed(DVec3),
+}
+
+/// The steps of a walk in order; those along which the pair is strictly apart have no ways.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub(crate) struct Trail {
+    start: Vec<DVec3>,
+    steps: Vec<([f64; 2], Vec<Way>)>,
+}
+
+impl Trail {
+    pub(crate) fn new(side: &Side) -> Self {
+        let contact = (!side.is_apart).then(|| side.directions.clone());
+        Self {
+            start: contact.unwrap_or_default(),
+            steps: Vec::new(),
+        }
+    }
+
+    /// Of a pair that stays where it is.
+    pub(crate) fn at_rest(side: &Side) -> Self {
+        let ways = side.directions.iter().copied().map(Way::Fixed);
+        Self {
+            steps: vec![([0.0, 1.0], ways.collect())],
+            ..Self::new(side)
+        }
+    }
+
+    pub(crate) fn push(&mut self, times: [f64; 2], ways: Vec<Way>) {
+        self.steps.push((times, ways));
+    }
+
+    /// The ends of the steps in contact.
+    pub(crate) fn instants(&self) -> impl Iterator<Item = f64> {
+        let in_contact = self.steps.iter().filter(|(_, ways)| !ways.is_empty());
+        in_contact.flat_map(|(times, _)| *times)
+    }
+
+    /// Directions in the part of D(t) that the pair has reached, some in each of its parts; none where there is none to
+    /// be told.
+    pub(crate) fn at(&self, span: &Span, t: f64) -> Vec<DVec3> {
+        if t <= 0.0 && !self.start.is_empty() {
+            return self.start.clone();
+        }
+        let index = self.steps.partition_point(|(times, _)| times[1] < t);
+        let ways = self.steps.get(index).map(|(_, ways)| &ways[..]);
+        let ways = ways.unwrap_or_default();
+        if ways.is_empty() {
+            return apart(span, t);
+        }
+        let pose = span.at(t);
+        let here = span.part(&pose, &pose);
+        let directions = ways.iter().filter_map(|way| match *way {
+            Way::Along(feature) => here.directed(feature).ends()[0].try_normalize(),
+            Way::Fixed(direction) => Some(direction),
+        });
+        directions.collect()
+    }
+}
+
+/// A direction along which the triangles are strictly apart.
+pub(crate) fn apart(span: &Span, t: f64) -> Vec<DVec3> {
+    let pose = span.at(t);
+    roomiest(&axes(span, &pose)).into_iter().collect()
+}
