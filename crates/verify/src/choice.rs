@@ -11,7 +11,7 @@ use crate::coupling::{CLEAR, Followed, oriented};
 use crate::pair::Pair;
 use crate::trail::{Trail, apart};
 use crate::verifier::Verifier;
-use crate::walk::Side;
+use crate::side::Side;
 
 /// How often sides are passed on at an instant.
 const MOST_ROUNDS: usize = 8;

@@ -38,6 +38,17 @@ pub(crate) struct Found {
     pub(crate) faults: Vec<Fault>,
 }
 
+impl Found {
+    /// Takes in the same triangles at the next frame.
+    pub(crate) fn go_on(&mut self, next: &Self) {
+        self.frames[1] = next.frames[1];
+        self.times[1] = next.times[1];
+        self.layers = self.layers.max(next.layers);
+        self.pairs = self.pairs.max(next.pairs);
+        self.order = self.order.max(next.order);
+    }
+}
+
 /// Groups the layers of an instant and tests the order of each group.
 pub(crate) fn prove(
     sheet: &Sheet,

@@ -3,8 +3,8 @@
 use glam::DVec3;
 
 use crate::closest::{Closest, closest};
-use crate::path::{OnPlane, Path};
-use crate::span::{Pose, Span};
+use crate::path::Path;
+use crate::span::{OnPlane, Pose, Span};
 use crate::walk::SHORTEST_STEP;
 
 /// What came of the search for a pair nearer than asked.

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use crate::arcs::reached;
+use crate::arcs::{self, reached};
 use crate::span::{COORDINATES, Feature, Pose, Span};
 
 /// An axis at an instant.
@@ -77,6 +77,20 @@ fn push_both_ways(
             room: room - margin,
         });
     }
+}
+
+/// The direction along which what is not shared lies apart most clearly; `None` if no axis separates it.
+pub(crate) fn roomiest(axes: &[Axis]) -> Option<DVec3> {
+    let apart = axes.iter().filter(|axis| axis.room > 0.0);
+    let best = apart.reduce(|p, q| if q.room > p.room { q } else { p });
+    best.map(|axis| axis.direction)
+}
+
+/// The depth: the least overlap over all axes (exact where it is positive and the triangles share nothing).
+pub(crate) fn depth(span: &Span, pose: &Pose) -> f64 {
+    let overlaps = axes(span, pose).into_iter();
+    let overlaps = overlaps.map(|axis| pose.overlap(axis.direction));
+    overlaps.fold(arcs::depth(pose), f64::min)
 }
 
 /// The direction in the middle of those along which the triangles lie off each other, to within rounding.

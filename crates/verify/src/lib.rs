@@ -89,6 +89,7 @@
 mod account;
 mod arcs;
 mod around;
+mod bound;
 mod boxes;
 mod choice;
 mod closest;
@@ -97,8 +98,10 @@ mod coupling;
 mod distance;
 mod instant;
 mod layer;
+mod layering;
 mod line;
 mod listed;
+mod lost;
 mod ordering;
 mod outcome;
 mod pair;
@@ -110,6 +113,7 @@ mod plane;
 #[cfg(test)]
 mod random;
 mod separation;
+mod side;
 mod span;
 mod stacked;
 mod stated_order;

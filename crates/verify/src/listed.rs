@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use foldmotion_pattern::Frame;
 
-use crate::account::{Lost, depth_at};
+use crate::lost::{Lost, depth_at};
 use crate::outcome::Unproved;
 use crate::pair::Pair;
 use crate::parts::disjoint_parts;

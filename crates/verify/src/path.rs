@@ -1,8 +1,6 @@
-//! A direction that moves as a polynomial, and what the Bernstein coefficients of heights along it bound.
+//! A direction that moves as a polynomial in time, and the heights of moving points along it, in Bernstein form.
 
 use glam::DVec3;
-
-use crate::span::Span;
 
 /// Roundings a height takes, with room: see [`Path::margin`].
 const ROUNDINGS: f64 = 256.0;
@@ -11,25 +9,9 @@ const ROUNDINGS: f64 = 256.0;
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Path {
     coefficients: [DVec3; 4],
-    degree: usize,
+    pub(crate) degree: usize,
     /// |N_k| ≤ size^power: how many lengths are multiplied in n.
     power: i32,
-}
-
-/// What is sure of a pair along a path.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Bound {
-    /// The gap min n·b − max n·a, divided by |n|, is at least this at every instant, whatever the triangles share.
-    pub(crate) gap: f64,
-    /// What they do not share is apart by at least this at every instant, where positive.
-    pub(crate) room: f64,
-}
-
-/// The corners that lie exactly on the plane through what the triangles share.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) struct OnPlane {
-    pub(crate) a: [bool; 3],
-    pub(crate) b: [bool; 3],
 }
 
 impl Path {
@@ -108,7 +90,7 @@ impl Path {
     }
 
     /// Bounds |n(t)| from below by its component along the sum of its coefficients, and from above by the longest.
-    fn lengths(&self) -> (f64, f64) {
+    pub(crate) fn lengths(&self) -> (f64, f64) {
         let used = &self.coefficients[..=self.degree];
         let along = used.iter().sum::<DVec3>().normalize_or_zero();
         let least = used
@@ -117,44 +99,6 @@ impl Path {
             .fold(f64::INFINITY, f64::min);
         let longest = used.iter().map(|n| n.length()).fold(0.0, f64::max);
         (least, longest)
-    }
-
-    /// What the Bernstein coefficients prove of the pair along this path.
-    pub(crate) fn bound(&self, span: &Span, on_plane: OnPlane) -> Bound {
-        let margin = self.margin(span.size);
-        let origin = span.a[0];
-        let relative = |p: [DVec3; 2]| self.heights([p[0] - origin[0], p[1] - origin[1]]);
-        let (a, b) = (span.a.map(relative), span.b.map(relative));
-        let mut least = f64::INFINITY;
-        let mut clear = f64::INFINITY;
-        for k in 0..self.degree + 2 {
-            let high = a[0][k].max(a[1][k]).max(a[2][k]);
-            let low = b[0][k].min(b[1][k]).min(b[2][k]);
-            least = least.min(low - high);
-            if span.shared == 0 {
-                continue;
-            }
-            for i in (0..3).filter(|&i| !on_plane.a[i]) {
-                clear = clear.min(-a[i][k]);
-            }
-            for j in (0..3).filter(|&j| !on_plane.b[j]) {
-                clear = clear.min(b[j][k]);
-            }
-        }
-        let (shortest, longest) = self.lengths();
-        let sure = least - margin;
-        let divisor = if sure > 0.0 { longest } else { shortest };
-        let gap = if divisor > margin / span.size {
-            sure / divisor
-        } else {
-            f64::NEG_INFINITY
-        };
-        let room = match span.shared {
-            0 => gap,
-            _ if clear.is_finite() => (clear - margin) / longest,
-            _ => f64::NEG_INFINITY,
-        };
-        Bound { gap, room }
     }
 }
 

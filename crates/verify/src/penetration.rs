@@ -8,7 +8,9 @@ use crate::instant::axes;
 use crate::pair::Pair;
 use crate::parts::disjoint_parts;
 use crate::span::{Pose, Span};
-use crate::walk::{Crossing, Limits, depth, instants_after};
+use crate::instant::depth;
+use crate::side::Limits;
+use crate::walk::{Crossing, instants_after};
 use foldmotion_check::{Penetration, PenetrationKind};
 
 /// To this share of an interval two proofs agree about when a contact begins and when it gets too deep.

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use crate::path::{Bound, OnPlane, Path};
+use crate::path::Path;
 
 /// Two triangles whose corners move straight from the first to the second of their positions.
 ///
@@ -26,6 +26,13 @@ pub(crate) struct Span {
 pub(crate) struct Pose {
     pub(crate) a: [DVec3; 3],
     pub(crate) b: [DVec3; 3],
+}
+
+/// The corners that lie exactly on the plane through what the triangles share.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct OnPlane {
+    pub(crate) a: [bool; 3],
+    pub(crate) b: [bool; 3],
 }
 
 /// What an axis is built from; edge i runs from corner i to corner i + 1.
@@ -192,19 +199,6 @@ impl Span {
             _ => {}
         }
         on_plane
-    }
-
-    /// What an axis, the right way round, proves.
-    pub(crate) fn bound(&self, axis: (Feature, f64)) -> Bound {
-        let path = self.directed(axis);
-        let bound = path.bound(self, self.on_plane(axis.0));
-        if self.may_clear(axis.0) {
-            return bound;
-        }
-        Bound {
-            room: f64::NEG_INFINITY,
-            ..bound
-        }
     }
 
     /// Two shared corners must both lie on the plane: only these axes are normal to their edge.

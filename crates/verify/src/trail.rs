@@ -2,9 +2,9 @@
 
 use glam::DVec3;
 
-use crate::instant::axes;
+use crate::instant::{axes, roomiest};
+use crate::side::Side;
 use crate::span::{Feature, Span};
-use crate::walk::{Side, roomiest};
 
 /// A direction over a step.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -6,7 +6,7 @@ use foldmotion_pattern::{Assignment, Frame, Sheet};
 use glam::DVec3;
 use rayon::prelude::*;
 
-use crate::account::{Lost, Pairs};
+use crate::lost::{Lost, Pairs};
 use crate::around::Around;
 use crate::boxes::Boxes;
 use crate::closest::closest;
@@ -21,7 +21,8 @@ use crate::span::Span;
 use crate::statement;
 use crate::through::Piercing;
 use crate::trail::Trail;
-use crate::walk::{Crossing, Limits, Side, Walked, walk_leniently};
+use crate::side::{Limits, Side};
+use crate::walk::{Crossing, Walked, walk_leniently};
 use foldmotion_check::{CollisionReport, Penetration, Verdict};
 
 /// The most steps spent on a pair in an interval.

@@ -3,9 +3,10 @@
 use glam::DVec3;
 
 use crate::arcs;
-use crate::instant::{Axis, axes, inner, joined};
-use crate::path::{OnPlane, Path};
-use crate::span::{Pose, Span};
+use crate::instant::{Axis, axes, depth, inner, joined};
+use crate::path::Path;
+use crate::side::{Limits, Side, clear_of, clearance};
+use crate::span::{OnPlane, Pose, Span};
 use crate::trail::{Trail, Way};
 
 /// Sides are kept at this many τ where they are not at τ: the first proof counts at 31/32 τ.
@@ -20,28 +21,8 @@ pub(crate) const SHORTEST_STEP: f64 = 1.0 / (1u64 << 34) as f64;
 const SEARCH_STEP: f64 = 1.0 / 8.0;
 /// Longer steps are halved before triangles apart at both ends are taken to touch in between.
 const GRAZING_STEP: f64 = 1.0 / 1024.0;
-/// The share of their size by which triangles with common vertices are clear of each other.
-const CLEAR_SHARE: f64 = 1e-3;
 /// How many axes a long step tries.
 const FAVOURITES: usize = 4;
-
-/// On which side of each other two triangles are.
-#[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Side {
-    /// Apart by more than τ (`clearance`): every separating direction can then be reached from every other.
-    pub(crate) is_apart: bool,
-    /// Unit directions in the part of D(t) that the pair has reached; may be empty where it is apart.
-    pub(crate) directions: Vec<DVec3>,
-}
-
-/// The numbers a walk depends on.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Limits {
-    /// τ, a length.
-    pub(crate) tolerance: f64,
-    /// The most steps for a pair in an interval.
-    pub(crate) budget: u32,
-}
 
 /// A pair that gets deeper than τ on its side.
 #[derive(Debug, Clone, PartialEq)]
@@ -73,69 +54,11 @@ pub(crate) enum Walked {
     },
 }
 
-impl Side {
-    /// The side at the first instant of a motion: any that D(t) allows; none where the triangles are deeper than τ.
-    pub(crate) fn at_start(span: &Span, limits: &Limits) -> Option<Self> {
-        let pose = span.at(0.0);
-        let all = axes(span, &pose);
-        if let Some(best) = clear_of(&all, clearance(span, limits)) {
-            return Some(Self {
-                is_apart: true,
-                directions: vec![best],
-            });
-        }
-        let within = all.iter().filter(|x| x.overlap <= limits.tolerance);
-        let mut directions: Vec<_> = within.map(|x| x.direction).collect();
-        if directions.is_empty() {
-            let within = arcs::normals(&pose).into_iter();
-            directions = within
-                .filter(|&d| pose.overlap(d) <= limits.tolerance)
-                .collect();
-        }
-        let has_some = !directions.is_empty();
-        has_some.then_some(Self {
-            is_apart: false,
-            directions,
-        })
-    }
-}
-
-pub(crate) fn roomiest(axes: &[Axis]) -> Option<DVec3> {
-    let apart = axes.iter().filter(|axis| axis.room > 0.0);
-    let best = apart.reduce(|p, q| if q.room > p.room { q } else { p });
-    best.map(|axis| axis.direction)
-}
-
-/// Triangles with more room than this have one side only.
-///
-/// What corners on a plane through common vertices have of room is none, so that where vertices are common it takes more
-/// than τ.
-fn clearance(span: &Span, limits: &Limits) -> f64 {
-    match span.shared {
-        0 => limits.tolerance,
-        _ => limits.tolerance.max(CLEAR_SHARE * span.size),
-    }
-}
-
-/// The direction with the most room, if that is more than asked for.
-fn clear_of(axes: &[Axis], tolerance: f64) -> Option<DVec3> {
-    let clear = axes.iter().filter(|axis| axis.room > tolerance);
-    let best = clear.reduce(|p, q| if q.room > p.room { q } else { p });
-    best.map(|axis| axis.direction)
-}
-
 /// A direction along which the triangles are strictly apart, on a side.
 fn strictly_apart(axes: &[Axis], side: &[DVec3]) -> Option<DVec3> {
     let apart = axes.iter().filter(|axis| axis.room > 0.0);
     let mut apart = apart.map(|axis| axis.direction);
     apart.find(|d| side.iter().any(|s| s.dot(*d) > 0.5))
-}
-
-/// The depth: the least overlap over all axes (exact where it is positive and the triangles share nothing).
-pub(crate) fn depth(span: &Span, pose: &Pose) -> f64 {
-    let overlaps = axes(span, pose).into_iter();
-    let overlaps = overlaps.map(|axis| pose.overlap(axis.direction));
-    overlaps.fold(arcs::depth(pose), f64::min)
 }
 
 /// Likewise; a pair that loses its side is given a little more than τ.

@@ -13,13 +13,12 @@ use rayon::prelude::*;
 
 use super::{
     frame::Placed,
-    judge::{Judgement, Nearness, Question, may_be_near, starts_deep},
+    judge::{Judgement, Nearness, Question, Suspect, may_be_near, starts_deep},
     nearest::Nearest,
     pair::{Pair, facets_share_a_vertex},
     report::{
         CollisionOptions, CollisionReport, FilterCounts, PairCounts, Penetration, Stopped, Verdict,
     },
-    through::Suspect,
 };
 use crate::{
     CheckError,
@@ -324,9 +323,9 @@ impl<'a> Checker<'a> {
         self.unfollowed.clear();
         self.near.clear();
         pairs.retain(|pair| {
-            let is_lost = self.penetrating.contains(&key(pair));
+            let is_lost = self.penetrating.contains(&pair.key());
             if is_lost {
-                self.unfollowed.push(key(pair));
+                self.unfollowed.push(pair.key());
             }
             !is_lost
         });
@@ -347,7 +346,7 @@ impl<'a> Checker<'a> {
             start: pair.pose(&start.positions),
             end: pair.pose(&self.last.positions),
         };
-        let found = self.sides.binary_search_by(|(k, _)| k.cmp(&key(pair)));
+        let found = self.sides.binary_search_by(|(k, _)| k.cmp(&pair.key()));
         let fresh;
         let side = if let Ok(index) = found {
             Some(&self.sides[index].1)
@@ -359,7 +358,7 @@ impl<'a> Checker<'a> {
         let question = Question {
             limits,
             nearer_than: self.is_measured(pair).then_some(nearest),
-            has_touched: self.touching.contains(&key(pair)),
+            has_touched: self.touching.contains(&pair.key()),
         };
         question.judge(pair, &moving, side)
     }
@@ -389,12 +388,12 @@ impl<'a> Checker<'a> {
                     Effort::Search => decided_by.search += 1,
                 }
                 if is_touching {
-                    self.touching.insert(key(pair));
+                    self.touching.insert(pair.key());
                 }
                 if matches!(side, Side::Apart(_)) {
                     self.claimed.remove(&pair.faces);
                 }
-                self.sides.push((key(pair), side));
+                self.sides.push((pair.key(), side));
                 self.nearest.record(pair.faces, times, &nearness);
             }
             Judgement::Penetrates(witness) => {
@@ -405,18 +404,14 @@ impl<'a> Checker<'a> {
                 self.nearest.record(pair.faces, times, &nearness);
                 // What passes through what is counted, whatever the sides.
                 decided_by.search += 1;
-                self.unfollowed.push(key(pair));
+                self.unfollowed.push(pair.key());
                 if is_near {
                     self.near.push(pair.faces);
-                    self.touching.insert(key(pair));
+                    self.touching.insert(pair.key());
                 }
             }
         }
     }
-}
-
-pub(super) fn key(pair: &Pair) -> (u32, u32) {
-    (pair.faces[0], pair.faces[1])
 }
 
 /// The numbers a verdict depends on, up to a frame.

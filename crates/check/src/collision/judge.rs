@@ -86,6 +86,14 @@ impl Witness {
     }
 }
 
+/// A pair that left its side in an interval.
+#[derive(Debug, Clone)]
+pub(super) struct Suspect {
+    pub(super) frame: usize,
+    pub(super) times: [f64; 2],
+    pub(super) witness: Witness,
+}
+
 /// What a pair is asked.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Question<'a> {

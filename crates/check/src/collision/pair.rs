@@ -32,6 +32,11 @@ impl Pair {
         }
     }
 
+    /// The two faces, as they are looked up.
+    pub(super) fn key(&self) -> (u32, u32) {
+        (self.faces[0], self.faces[1])
+    }
+
     pub(super) fn pose(&self, positions: &[DVec3]) -> PairPose {
         let place = |corners: [u32; 3]| corners.map(|v| positions[v as usize]);
         PairPose {

@@ -2,37 +2,29 @@
 //! is counted on the sheet decides.
 
 use super::{
-    checker::{Checker, key},
+    checker::Checker,
     frame::Placed,
-    judge::{Nearness, Witness},
+    judge::{Nearness, Suspect, Witness},
     pair::Pair,
     report::{Penetration, PenetrationKind, Undecided},
 };
 use crate::crossings;
 
-/// A pair that left its side in an interval.
-#[derive(Debug, Clone)]
-pub(super) struct Suspect {
-    frame: usize,
-    times: [f64; 2],
-    witness: Witness,
-}
-
 impl Checker<'_> {
     /// Takes in that a pair is deeper than τ, or else not where it was followed to.
     pub(super) fn leaves_its_side(&mut self, pair: &Pair, times: [f64; 2], witness: Witness) {
         let frame = self.frames - 1;
-        self.unfollowed.push(key(pair));
+        self.unfollowed.push(pair.key());
         self.nearest.record(pair.faces, times, &witness.nearness);
         // The side that a claim names is the only one.
         if witness.is_sure(self.tolerance) || self.claimed.contains(&pair.faces) {
             self.penetrates(pair.faces, frame, times, witness);
             return;
         }
-        self.touching.insert(key(pair));
+        self.touching.insert(pair.key());
         self.near.push(pair.faces);
         self.suspects.insert(
-            key(pair),
+            pair.key(),
             Suspect {
                 frame,
                 times,

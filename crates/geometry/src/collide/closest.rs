@@ -209,5 +209,25 @@ fn least_of_greater(p: [f64; 2], q: [f64; 2]) -> f64 {
 }
 
 #[cfg(test)]
-#[path = "closest_tests.rs"]
-mod tests;
+mod tests {
+    use super::*;
+    use crate::collide::random::Random;
+
+    #[test]
+    fn the_least_of_the_greater_of_two_lines_is_met_by_sampling() {
+        let mut random = Random::new(46);
+        for _ in 0..200 {
+            let [p, q] = [(); 2].map(|()| [random.number(), random.number()]);
+            let at = |l: [f64; 2], s: f64| l[0] + (l[1] - l[0]) * s;
+            let samples = (0..=1000).map(|k| f64::from(k) / 1000.0);
+            let least = samples
+                .map(|s| at(p, s).max(at(q, s)))
+                .fold(f64::INFINITY, f64::min);
+            let found = least_of_greater(p, q);
+            assert!(
+                found <= least + 1e-15 && found >= least - 4e-3,
+                "{found} {least}"
+            );
+        }
+    }
+}

@@ -60,20 +60,23 @@ mod contact;
 mod meeting;
 mod moving;
 mod number;
+mod outcome;
 mod passages;
 mod passing;
 mod patch;
 mod pose;
 #[cfg(test)]
 pub(crate) mod random;
+mod separating;
 mod tree;
 mod walk;
 
-pub use certify::{Crossing, Effort, Outcome, Passage, Side, certify};
+pub use certify::certify;
 pub use closest::{Approach, Approaches, accuracy, closest_approach, enough_clearance};
 pub use contact::{comes_within, contact_times, corners_are_within, feature_distance};
 pub use meeting::{Meeting, MeetingSearch, edge_edge, vertex_facet};
 pub use moving::MovingPair;
+pub use outcome::{Crossing, Effort, Outcome, Passage, Side};
 pub use passing::{Passing, edge_passings, sign_of_volume, vertex_passings};
 pub use pose::{Axis, Feature, PairPose};
 pub use tree::Tree;

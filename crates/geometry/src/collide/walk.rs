@@ -6,6 +6,7 @@ use super::{
     Axis, Crossing, Effort, Feature, Limits, MovingPair, Outcome, PairPose, Passage, Side,
     moving::Leaf,
     pose::{are_linked, turned_along},
+    separating::{separating, widest},
 };
 
 /// The shortest step: motions over it are far below τ.
@@ -17,24 +18,6 @@ const PARTING_STEP: f64 = 1.0 / (1u64 << 26) as f64;
 const SEARCH_STEP: f64 = 1.0 / 8.0;
 /// Longer steps are halved before a contact is assumed between two instants at which the triangles are apart.
 const GRAZING_STEP: f64 = 1.0 / 1024.0;
-
-/// The directions along which the triangles are strictly apart, with the gap.
-fn separating(pose: &PairPose, limits: &Limits) -> impl Iterator<Item = (DVec3, f64)> {
-    let coordinates = [DVec3::X, DVec3::Y, DVec3::Z];
-    let axes = pose.axes_within(limits.margin, limits);
-    axes.into_iter()
-        .map(|axis| axis.direction)
-        .chain(coordinates.into_iter().flat_map(|d| [d, -d]))
-        .map(|d| (d, pose.gap(d, limits)))
-        .filter(|&(_, gap)| gap > limits.margin)
-}
-
-/// The direction along which the triangles are apart most clearly, where there is one.
-pub(super) fn widest(pose: &PairPose, limits: &Limits) -> Option<DVec3> {
-    separating(pose, limits)
-        .reduce(|best, next| if next.1 > best.1 { next } else { best })
-        .map(|(direction, _)| direction)
-}
 
 /// Marks all axes that are linked to a marked one, directly or through others.
 fn spread(axes: &[Axis], marked: &mut [bool], limits: &Limits) {

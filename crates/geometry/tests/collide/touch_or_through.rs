@@ -3,13 +3,10 @@
 //! All coordinates are dyadic, so that touches are exact and happen at the instant meant. Lengths are of order 1,
 //! τ = 2⁻²⁰, speeds run from 10⁻³ to 10⁶ lengths per interval.
 
-#[path = "oracle/random.rs"]
-#[expect(dead_code, reason = "shared with the oracle, which uses more of it")]
-mod random;
-
 use foldmotion_geometry::collide::{Limits, MovingPair, Outcome, PairPose, Side, certify};
 use glam::DVec3;
-use random::Random;
+
+use crate::random::Random;
 
 /// τ, dyadic.
 const TOLERANCE: f64 = 1.0 / (1u64 << 20) as f64;

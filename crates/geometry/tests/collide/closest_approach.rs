@@ -2,8 +2,10 @@
 
 use glam::{DQuat, DVec3};
 
-use super::*;
-use crate::collide::random::Random;
+use foldmotion_geometry::collide::{Limits, MovingPair, PairPose, accuracy, closest_approach};
+use foldmotion_geometry::triangle_triangle;
+
+use crate::{random::Random, triangle};
 
 const LIMITS: Limits = Limits {
     tolerance: 1e-6,
@@ -89,8 +91,8 @@ fn the_bounds_of_random_pairs_hold_what_dense_sampling_finds() {
     for case in 0..80 {
         let mut both = || {
             [
-                random.triangle(1.0),
-                random.triangle(1.0).map(|p| p + DVec3::X * 1.5),
+                triangle(&mut random),
+                triangle(&mut random).map(|p| p + DVec3::X * 1.5),
             ]
         };
         hold(&pair(both(), both()), &format!("random {case}"));
@@ -106,7 +108,7 @@ fn the_bounds_of_slivers_hold_what_dense_sampling_finds() {
         let place = turned(&mut random);
         let lift = DVec3::Z * 0.3 * 10f64.powi(-(case % 5));
         let mut both = || {
-            let mut sliver = || random.triangle(1.0).map(|p| p * DVec3::new(1.0, thin, 0.1));
+            let mut sliver = || triangle(&mut random).map(|p| p * DVec3::new(1.0, thin, 0.1));
             [sliver().map(&place), sliver().map(|p| place(p + lift))]
         };
         let distance = hold(&pair(both(), both()), &format!("sliver {case}"));
@@ -186,8 +188,8 @@ fn a_budget_that_ends_leaves_a_bound_that_holds() {
     for _ in 0..60 {
         let mut both = || {
             [
-                random.triangle(1.0),
-                random.triangle(1.0).map(|p| p + DVec3::X * 1.5),
+                triangle(&mut random),
+                triangle(&mut random).map(|p| p + DVec3::X * 1.5),
             ]
         };
         let pair = pair(both(), both());
@@ -196,22 +198,4 @@ fn a_budget_that_ends_leaves_a_bound_that_holds() {
         incomplete += usize::from(!found.is_complete);
     }
     assert!(incomplete > 10, "{incomplete}");
-}
-
-#[test]
-fn the_least_of_the_greater_of_two_lines_is_met_by_sampling() {
-    let mut random = Random::new(46);
-    for _ in 0..200 {
-        let [p, q] = [(); 2].map(|()| [random.number(), random.number()]);
-        let at = |l: [f64; 2], s: f64| l[0] + (l[1] - l[0]) * s;
-        let samples = (0..=1000).map(|k| f64::from(k) / 1000.0);
-        let least = samples
-            .map(|s| at(p, s).max(at(q, s)))
-            .fold(f64::INFINITY, f64::min);
-        let found = least_of_greater(p, q);
-        assert!(
-            found <= least + 1e-15 && found >= least - 4e-3,
-            "{found} {least}"
-        );
-    }
 }
