@@ -109,7 +109,7 @@ fn prove(
         if let Some(verifier) = &mut verifier
             && disorder.is_none()
         {
-            verifier.hear(order, &|triangle| file.triangle_faces[triangle as usize]);
+            verifier.claim(order, &|triangle| file.triangle_faces[triangle as usize]);
         }
         Ok(())
     });

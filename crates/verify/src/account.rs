@@ -5,17 +5,17 @@ use std::collections::BTreeMap;
 use foldmotion_pattern::Frame;
 use rayon::prelude::*;
 
-use crate::coupling::{Beside, Followed, Through, uncoupled};
-use crate::distance::{Nearness, keeps_distance};
+use crate::coupling::{ContactPair, EdgePassage, NeighbourState, uncoupled};
+use crate::distance::{DistanceProof, keeps_distance};
+use crate::face_pair::FacePair;
+use crate::follow::{FollowOutcome, follow_leniently};
+use crate::lost::LostSide;
+use crate::moving_pair::MovingPair;
 use crate::outcome::Unproved;
-use crate::pair::Pair;
 use crate::parts::disjoint_parts;
-use crate::penetration::Found;
-use crate::span::Span;
+use crate::penetration::FoundPenetration;
 use crate::trail::Trail;
-use crate::verifier::{Judged, SURELY_APART, SURELY_TOUCHING, Verifier};
-use crate::lost::Lost;
-use crate::walk::{Walked, walk_leniently};
+use crate::verifier::{PairFindings, SURELY_APART, SURELY_TOUCHING, Verifier};
 use foldmotion_check::Verdict;
 
 /// The most steps for the distance of parts.
@@ -23,7 +23,7 @@ const PART_BUDGET: u32 = 1 << 12;
 
 /// Something that passes through the sheet.
 #[derive(Debug)]
-pub(crate) struct Evidence {
+pub(crate) struct PassageEvidence {
     /// Pairs of triangles at which it does.
     pairs: [[u32; 2]; 2],
     what: String,
@@ -33,21 +33,26 @@ pub(crate) struct Evidence {
 
 impl Verifier<'_> {
     /// Follows a pair from the sides that fit together with others.
-    pub(crate) fn follow_narrowed(&self, pair: &Pair, span: &Span, judged: &mut Judged) {
+    pub(crate) fn follow_narrowed(
+        &self,
+        pair: &FacePair,
+        moving: &MovingPair,
+        judged: &mut PairFindings,
+    ) {
         let Some(side) = self.narrowed.get(&pair.faces) else {
             return;
         };
-        match walk_leniently(span, side, &self.limits) {
-            Walked::Clean { side, trail } => {
+        match follow_leniently(moving, side, &self.limits) {
+            FollowOutcome::Clean { side, trail } => {
                 judged.narrowed = (!side.is_apart).then_some(side);
                 judged.trail = trail.or(judged.trail.take());
             }
-            Walked::Crosses(crossing) => {
-                let found = Found::new(span, self.frames - 1, crossing);
-                let lost = Lost::new(span, (side, false), Some(found), &self.limits);
+            FollowOutcome::Crosses(crossing) => {
+                let found = FoundPenetration::new(moving, self.frames - 1, crossing);
+                let lost = LostSide::new(moving, (side, false), Some(found), &self.limits);
                 judged.lost_narrowed = Some(lost).filter(|lost| lost.is_clear);
             }
-            Walked::Undecided { .. } => {}
+            FollowOutcome::Undecided { .. } => {}
         }
     }
 
@@ -65,7 +70,12 @@ impl Verifier<'_> {
     }
 
     /// Takes in what passes through in the interval that begins at `start`.
-    pub(crate) fn account(&mut self, start: &Frame, pairs: &[Pair], judged: &mut [Judged]) {
+    pub(crate) fn account(
+        &mut self,
+        start: &Frame,
+        pairs: &[FacePair],
+        judged: &mut [PairFindings],
+    ) {
         let mut evidence = self.uncoupled(start, pairs, judged);
         let mut found = BTreeMap::new();
         self.lost.clear();
@@ -102,11 +112,11 @@ impl Verifier<'_> {
         }
     }
 
-    pub(crate) fn evidence_of(&self, faces: [u32; 2], lost: &Lost) -> Evidence {
+    pub(crate) fn evidence_of(&self, faces: [u32; 2], lost: &LostSide) -> PassageEvidence {
         let when = lost.found.as_ref().map(|f| f.at(f.crossing.passed));
         let when = when.map_or_else(String::new, |t| format!(", t = {t}"));
         let frame = self.frames - 1;
-        Evidence {
+        PassageEvidence {
             pairs: [faces; 2],
             what: format!("triangles {faces:?} penetrate after frame {frame}{when}"),
             is_sure: true,
@@ -122,7 +132,7 @@ impl Verifier<'_> {
     }
 
     /// A deep pair that is not listed at this frame.
-    pub(crate) fn drop_deep(&mut self, faces: [u32; 2], lost: &Lost) {
+    pub(crate) fn drop_deep(&mut self, faces: [u32; 2], lost: &LostSide) {
         let evidence = self.evidence_of(faces, lost);
         let stated = self.claimed.get(&faces).map(|p| p.frame);
         match stated {
@@ -141,7 +151,7 @@ impl Verifier<'_> {
     }
 
     /// Refutes a list that has nothing around.
-    pub(crate) fn take(&mut self, evidence: Evidence) {
+    pub(crate) fn take(&mut self, evidence: PassageEvidence) {
         let time = self.last.time;
         if evidence.pairs.iter().all(|p| self.accounted.contains(p)) {
             return;
@@ -163,28 +173,38 @@ impl Verifier<'_> {
     }
 
     /// Where the sides of pairs in contact do not fit together across an edge.
-    fn uncoupled(&self, start: &Frame, pairs: &[Pair], judged: &[Judged]) -> Vec<Evidence> {
+    fn uncoupled(
+        &self,
+        start: &Frame,
+        pairs: &[FacePair],
+        judged: &[PairFindings],
+    ) -> Vec<PassageEvidence> {
         let beside = |faces: [u32; 2]| {
             let index = pairs.binary_search_by(|pair| pair.faces.cmp(&faces));
-            let pair = Pair::new(self.sheet, faces);
-            let span = pair.span(&start.positions, &self.last.positions);
+            let pair = FacePair::new(self.sheet, faces);
+            let moving = pair.moving(&start.positions, &self.last.positions);
             let known = match index.map(|index| &judged[index]) {
-                Ok(judged) if judged.lost.is_some() || judged.is_skipped => Beside::Lost,
-                Ok(judged) => judged.trail.as_ref().map_or(Beside::Apart, Beside::Contact),
-                Err(_) if pair.shared > 2 || self.dropped.contains_key(&faces) => Beside::Lost,
-                Err(_) => Beside::Apart,
+                Ok(judged) if judged.lost.is_some() || judged.is_skipped => NeighbourState::Lost,
+                Ok(judged) => judged
+                    .trail
+                    .as_ref()
+                    .map_or(NeighbourState::Apart, NeighbourState::Contact),
+                Err(_) if pair.shared > 2 || self.dropped.contains_key(&faces) => {
+                    NeighbourState::Lost
+                }
+                Err(_) => NeighbourState::Apart,
             };
-            (pair, span, known)
+            (pair, moving, known)
         };
         let both = pairs.par_iter().zip(judged).with_min_len(16);
-        let through: Vec<Through> = both
+        let through: Vec<EdgePassage> = both
             .flat_map_iter(|(pair, judged)| {
                 let trail = judged.trail.as_ref();
                 let trail = trail.filter(|_| !self.accounted.contains(&pair.faces));
                 let found = trail.map(|trail| {
-                    let followed = Followed {
+                    let followed = ContactPair {
                         pair,
-                        span: pair.span(&start.positions, &self.last.positions),
+                        moving: pair.moving(&start.positions, &self.last.positions),
                         trail,
                         tolerance: self.limits.tolerance,
                     };
@@ -194,23 +214,26 @@ impl Verifier<'_> {
             })
             .collect();
         let times = [start.time, self.last.time];
-        through.iter().map(|t| Evidence::of(t, times)).collect()
+        through
+            .iter()
+            .map(|t| PassageEvidence::of(t, times))
+            .collect()
     }
 
     /// Likewise at the first frame.
     pub(crate) fn uncoupled_at_rest(&mut self, near: &[[u32; 2]]) {
-        let pairs: Vec<Pair> = near
+        let pairs: Vec<FacePair> = near
             .iter()
-            .map(|&faces| Pair::new(self.sheet, faces))
+            .map(|&faces| FacePair::new(self.sheet, faces))
             .filter(|pair| pair.shared < 3)
             .collect();
-        let judged: Vec<Judged> = pairs
+        let judged: Vec<PairFindings> = pairs
             .iter()
             .map(|pair| {
                 let known = self.sides.binary_search_by(|(f, _)| f.cmp(&pair.faces));
                 let side = known.ok().map(|index| &self.sides[index].1);
                 let is_skipped = self.lost.contains(&pair.faces);
-                Judged::at_rest(side.map(Trail::at_rest), is_skipped)
+                PairFindings::at_rest(side.map(Trail::at_rest), is_skipped)
             })
             .collect();
         let first = self.last.clone();
@@ -220,17 +243,17 @@ impl Verifier<'_> {
     }
 
     /// Whether what two triangles that share vertices do not share comes within τ, where something depends on it.
-    pub(crate) fn measure_parts(&self, span: &Span, judged: &mut Judged) {
+    pub(crate) fn measure_parts(&self, moving: &MovingPair, judged: &mut PairFindings) {
         let tolerance = self.limits.tolerance;
         let least = |limit: f64| {
-            let parts = disjoint_parts(span);
+            let parts = disjoint_parts(moving);
             let nearest =
                 parts
                     .iter()
                     .filter_map(|part| match keeps_distance(part, limit, PART_BUDGET) {
-                        Nearness::Kept => None,
-                        Nearness::Nearer { distance, .. } => Some(distance),
-                        Nearness::Unproved => Some(limit),
+                        DistanceProof::Kept => None,
+                        DistanceProof::Nearer { distance, .. } => Some(distance),
+                        DistanceProof::Unproved => Some(limit),
                     });
             nearest.fold(f64::INFINITY, f64::min)
         };
@@ -252,11 +275,11 @@ impl Verifier<'_> {
         let first = self.last.clone();
         self.meet_claims(&first, &BTreeMap::new());
         for faces in self.near_pairs(&first.positions) {
-            let pair = Pair::new(self.sheet, faces);
-            let mut judged = Judged::apart();
+            let pair = FacePair::new(self.sheet, faces);
+            let mut judged = PairFindings::apart();
             if pair.shared == 1 || pair.shared == 2 {
-                let span = pair.span(&first.positions, &first.positions);
-                self.measure_parts(&span, &mut judged);
+                let moving = pair.moving(&first.positions, &first.positions);
+                self.measure_parts(&moving, &mut judged);
             }
             self.note_touching(faces, judged.touching);
         }
@@ -272,9 +295,9 @@ impl Verifier<'_> {
     }
 }
 
-impl Evidence {
-    fn of(through: &Through, times: [f64; 2]) -> Self {
-        let Through {
+impl PassageEvidence {
+    fn of(through: &EdgePassage, times: [f64; 2]) -> Self {
+        let EdgePassage {
             face,
             between: [f, g],
             time,

@@ -9,15 +9,15 @@
 
 use glam::DVec3;
 
-use crate::span::{COORDINATES, Pose};
+use crate::moving_pair::{COORDINATES, PairPose};
 
 /// Normals with a length below this share of the sides they are made of have no direction.
 const PARALLEL: f64 = 1e-12;
 /// Directions with a cosine below this have no arc of their own.
 const OPPOSITE: f64 = -0.999_999;
 
-fn differences(pose: &Pose) -> impl Iterator<Item = DVec3> {
-    let Pose { a, b } = *pose;
+fn differences(pose: &PairPose) -> impl Iterator<Item = DVec3> {
+    let PairPose { a, b } = *pose;
     (0..9).map(move |k| a[k / 3] - b[k % 3])
 }
 
@@ -25,7 +25,7 @@ fn differences(pose: &Pose) -> impl Iterator<Item = DVec3> {
 ///
 /// A corner's height along the arc is x cos φ + y sin φ: largest at an end, or hypot(x, y) where it rises at the one and
 /// falls at the other.
-pub(crate) fn highest(pose: &Pose, u: DVec3, v: DVec3) -> f64 {
+pub(crate) fn highest(pose: &PairPose, u: DVec3, v: DVec3) -> f64 {
     let cosine = u.dot(v);
     let across = v - u * cosine;
     let sine = across.length();
@@ -44,12 +44,12 @@ pub(crate) fn highest(pose: &Pose, u: DVec3, v: DVec3) -> f64 {
     heights.fold(f64::NEG_INFINITY, f64::max)
 }
 
-pub(crate) fn is_arc_within(pose: &Pose, u: DVec3, v: DVec3, limit: f64) -> bool {
+pub(crate) fn is_arc_within(pose: &PairPose, u: DVec3, v: DVec3, limit: f64) -> bool {
     u.dot(v) > OPPOSITE && highest(pose, u, v) <= limit
 }
 
 /// Where the way down from a direction leaves the cone of its corner of K: there an edge of K is reached.
-fn foot(pose: &Pose, from: DVec3) -> Option<DVec3> {
+fn foot(pose: &PairPose, from: DVec3) -> Option<DVec3> {
     let top = differences(pose).max_by(|p, q| p.dot(from).total_cmp(&q.dot(from)))?;
     let down = (from * top.dot(from) - top).try_normalize()?;
     let leaves = differences(pose).filter_map(|corner| {
@@ -63,7 +63,7 @@ fn foot(pose: &Pose, from: DVec3) -> Option<DVec3> {
 }
 
 /// The normals that facets of K can have, and those in their planes, both ways; triangles may be edges or points.
-pub(crate) fn normals(pose: &Pose) -> Vec<DVec3> {
+pub(crate) fn normals(pose: &PairPose) -> Vec<DVec3> {
     let sides = |t: &[DVec3; 3]| [t[1] - t[0], t[2] - t[1], t[0] - t[2]];
     let (a, b) = (sides(&pose.a), sides(&pose.b));
     let mut normals = Vec::with_capacity(74);
@@ -103,13 +103,13 @@ pub(crate) fn normals(pose: &Pose) -> Vec<DVec3> {
 }
 
 /// The depth: the least overlap of all directions where it is positive.
-pub(crate) fn depth(pose: &Pose) -> f64 {
+pub(crate) fn depth(pose: &PairPose) -> f64 {
     let overlaps = normals(pose).into_iter().map(|n| pose.overlap(n));
     overlaps.fold(f64::INFINITY, f64::min)
 }
 
 /// Which of the nodes are connected to a seed at a level; those above it are not.
-pub(crate) fn reached(pose: &Pose, nodes: &[DVec3], seeds: &[DVec3], level: f64) -> Vec<bool> {
+pub(crate) fn reached(pose: &PairPose, nodes: &[DVec3], seeds: &[DVec3], level: f64) -> Vec<bool> {
     let mut is_reached = vec![false; nodes.len()];
     let is_low: Vec<bool> = nodes.iter().map(|&n| pose.overlap(n) <= level).collect();
     let mut from: Vec<DVec3> = seeds.to_vec();
@@ -128,7 +128,7 @@ pub(crate) fn reached(pose: &Pose, nodes: &[DVec3], seeds: &[DVec3], level: f64)
 }
 
 /// Whether some direction of `from` is connected to some of `to` at a level.
-pub(crate) fn are_connected(pose: &Pose, from: &[DVec3], to: &[DVec3], level: f64) -> bool {
+pub(crate) fn are_connected(pose: &PairPose, from: &[DVec3], to: &[DVec3], level: f64) -> bool {
     let is_direct = |u: &DVec3| to.iter().any(|&v| is_arc_within(pose, *u, v, level));
     if from.iter().any(is_direct) {
         return true;
@@ -148,9 +148,9 @@ mod tests {
     use super::*;
     use crate::random::Random;
 
-    fn pose(random: &mut Random) -> Pose {
+    fn pose(random: &mut Random) -> PairPose {
         let mut triangle = || [(); 3].map(|()| random.vector());
-        Pose {
+        PairPose {
             a: triangle(),
             b: triangle(),
         }
@@ -173,7 +173,7 @@ mod tests {
     }
 
     /// Directions all around, and which of them are connected by short steps at a level, from the first that is.
-    fn flooded(pose: &Pose, from: DVec3, to: DVec3, level: f64) -> bool {
+    fn flooded(pose: &PairPose, from: DVec3, to: DVec3, level: f64) -> bool {
         let count = 6000;
         let turn = std::f64::consts::PI * (3.0 - 5.0_f64.sqrt());
         let all: Vec<DVec3> = (0..count)
@@ -230,9 +230,9 @@ mod tests {
             let p = DVec3::new(1.0, 1.0, z);
             [p, p + DVec3::X * 0.5, p + DVec3::X * 0.5]
         };
-        let both = |pose: &Pose| are_connected(pose, &[DVec3::Z], &[-DVec3::Z], 1e-3);
-        assert!(!both(&Pose { a, b: edge(0.0) }));
+        let both = |pose: &PairPose| are_connected(pose, &[DVec3::Z], &[-DVec3::Z], 1e-3);
+        assert!(!both(&PairPose { a, b: edge(0.0) }));
         let off = edge(0.0).map(|p| p - DVec3::X * 1.9);
-        assert!(both(&Pose { a, b: off }));
+        assert!(both(&PairPose { a, b: off }));
     }
 }

@@ -2,8 +2,8 @@
 
 use glam::DVec3;
 
+use crate::moving_pair::{Feature, MovingPair, OnPlane};
 use crate::path::Path;
-use crate::span::{Feature, OnPlane, Span};
 
 /// What is sure of a pair along a path.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -16,18 +16,18 @@ pub(crate) struct Bound {
 
 impl Path {
     /// What the Bernstein coefficients prove of the pair along this path.
-    pub(crate) fn bound(&self, span: &Span, on_plane: OnPlane) -> Bound {
-        let margin = self.margin(span.size);
-        let origin = span.a[0];
+    pub(crate) fn bound(&self, moving: &MovingPair, on_plane: OnPlane) -> Bound {
+        let margin = self.margin(moving.size);
+        let origin = moving.a[0];
         let relative = |p: [DVec3; 2]| self.heights([p[0] - origin[0], p[1] - origin[1]]);
-        let (a, b) = (span.a.map(relative), span.b.map(relative));
+        let (a, b) = (moving.a.map(relative), moving.b.map(relative));
         let mut least = f64::INFINITY;
         let mut clear = f64::INFINITY;
         for k in 0..self.degree + 2 {
             let high = a[0][k].max(a[1][k]).max(a[2][k]);
             let low = b[0][k].min(b[1][k]).min(b[2][k]);
             least = least.min(low - high);
-            if span.shared == 0 {
+            if moving.shared == 0 {
                 continue;
             }
             for i in (0..3).filter(|&i| !on_plane.a[i]) {
@@ -40,12 +40,12 @@ impl Path {
         let (shortest, longest) = self.lengths();
         let sure = least - margin;
         let divisor = if sure > 0.0 { longest } else { shortest };
-        let gap = if divisor > margin / span.size {
+        let gap = if divisor > margin / moving.size {
             sure / divisor
         } else {
             f64::NEG_INFINITY
         };
-        let room = match span.shared {
+        let room = match moving.shared {
             0 => gap,
             _ if clear.is_finite() => (clear - margin) / longest,
             _ => f64::NEG_INFINITY,
@@ -54,7 +54,7 @@ impl Path {
     }
 }
 
-impl Span {
+impl MovingPair {
     /// What an axis, the right way round, proves.
     pub(crate) fn bound(&self, axis: (Feature, f64)) -> Bound {
         let path = self.directed(axis);

@@ -6,12 +6,12 @@
 use glam::DVec3;
 
 use crate::arcs::are_connected;
-use crate::around::edges;
-use crate::coupling::{CLEAR, Followed, oriented};
-use crate::pair::Pair;
+use crate::coupling::{CLEAR, ContactPair, oriented};
+use crate::face_pair::FacePair;
+use crate::neighbourhood::edges;
+use crate::side::Side;
 use crate::trail::{Trail, apart};
 use crate::verifier::Verifier;
-use crate::side::Side;
 
 /// How often sides are passed on at an instant.
 const MOST_ROUNDS: usize = 8;
@@ -52,10 +52,10 @@ impl Verifier<'_> {
     /// Those directions of a pair that fit together with the sides of all pairs across an edge; all where none do.
     fn fitting(&self, faces: [u32; 2], directions: Vec<DVec3>) -> Vec<DVec3> {
         let positions = &self.last.positions;
-        let pair = Pair::new(self.sheet, faces);
-        let followed = Followed {
+        let pair = FacePair::new(self.sheet, faces);
+        let followed = ContactPair {
             pair: &pair,
-            span: pair.span(positions, positions),
+            moving: pair.moving(positions, positions),
             trail: &Trail::default(),
             tolerance: self.limits.tolerance,
         };
@@ -68,7 +68,7 @@ impl Verifier<'_> {
                 }
                 let poses = followed.to_edge(wall, edge, 1.0);
                 for other in self.around.beyond(face, edge) {
-                    let beyond = Pair::new(self.sheet, [wall.min(other), wall.max(other)]);
+                    let beyond = FacePair::new(self.sheet, [wall.min(other), wall.max(other)]);
                     let there = oriented(&beyond, wall, self.side_of_pair(&beyond));
                     let fits = |d: &DVec3| {
                         let here = oriented(&pair, wall, vec![*d]);
@@ -89,7 +89,7 @@ impl Verifier<'_> {
     }
 
     /// The directions of a pair at the last frame; none where it has no side.
-    fn side_of_pair(&self, pair: &Pair) -> Vec<DVec3> {
+    fn side_of_pair(&self, pair: &FacePair) -> Vec<DVec3> {
         let faces = pair.faces;
         if let Some(narrowed) = self.narrowed.get(&faces) {
             return narrowed.directions.clone();
@@ -109,6 +109,6 @@ impl Verifier<'_> {
             return Vec::new();
         }
         let positions = &self.last.positions;
-        apart(&pair.span(positions, positions), 0.0)
+        apart(&pair.moving(positions, positions), 0.0)
     }
 }

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use crate::span::Pose;
+use crate::moving_pair::PairPose;
 
 /// The closest points of two triangles.
 #[derive(Debug, Clone, Copy)]
@@ -124,7 +124,7 @@ fn pierced([u, v]: [DVec3; 2], t: &[DVec3; 3]) -> Option<Closest> {
 }
 
 /// The closest points of two triangles, of each within a rounding; nearly the same point twice where they meet.
-pub(crate) fn closest(pose: &Pose) -> Closest {
+pub(crate) fn closest(pose: &PairPose) -> Closest {
     let edge = |t: &[DVec3; 3], i: usize| [t[i], t[(i + 1) % 3]];
     let (a, b) = (&pose.a, &pose.b);
     let through_b = (0..3).filter_map(|i| pierced(edge(a, i), b));
@@ -147,7 +147,7 @@ mod tests {
     use super::*;
     use crate::random::Random;
 
-    fn sampled(pose: &Pose) -> f64 {
+    fn sampled(pose: &PairPose) -> f64 {
         let mut least = f64::INFINITY;
         let n = 24;
         let point = |t: &[DVec3; 3], i: u32, j: u32| {
@@ -168,7 +168,7 @@ mod tests {
         let mut random = Random::new(8);
         for _ in 0..200 {
             let mut triangle = |shift: f64| [(); 3].map(|()| random.vector() + DVec3::X * shift);
-            let pose = Pose {
+            let pose = PairPose {
                 a: triangle(0.0),
                 b: triangle(1.2),
             };

@@ -6,8 +6,8 @@ use foldmotion_pattern::Sheet;
 use glam::DVec2;
 use rayon::prelude::*;
 
-use crate::layer::{Layer, NARROW, Scale, corners};
-use crate::line::{Key, Meeting, Stacks, around};
+use crate::layer::{Layer, LayerTolerances, NARROW, corners};
+use crate::line::{Junction, JunctionKey, LayerStacks, around};
 use crate::plane::{Plane, holds, inset, least_width, within};
 use foldmotion_check::{LayerProof, LayerRule};
 
@@ -16,7 +16,7 @@ const INSET: f64 = 0.1;
 
 /// Layers whose orders are not possible together.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Fault {
+pub(crate) struct Contradiction {
     pub(crate) rule: LayerRule,
     /// Each once, in order.
     pub(crate) faces: Vec<u32>,
@@ -26,7 +26,7 @@ pub(crate) struct Fault {
 
 /// Triangles that lie on each other, directly or through others.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Found {
+pub(crate) struct FoundCluster {
     /// The first and the last frame.
     pub(crate) frames: [usize; 2],
     pub(crate) times: [f64; 2],
@@ -35,10 +35,10 @@ pub(crate) struct Found {
     pub(crate) layers: usize,
     pub(crate) pairs: usize,
     pub(crate) order: LayerProof,
-    pub(crate) faults: Vec<Fault>,
+    pub(crate) contradictions: Vec<Contradiction>,
 }
 
-impl Found {
+impl FoundCluster {
     /// Takes in the same triangles at the next frame.
     pub(crate) fn go_on(&mut self, next: &Self) {
         self.frames[1] = next.frames[1];
@@ -55,9 +55,9 @@ pub(crate) fn prove(
     hinges: &[[Option<(u32, u32)>; 3]],
     positions: &[glam::DVec3],
     layers: &[Layer],
-    scale: Scale,
-) -> Vec<Found> {
-    let stacks = Stacks {
+    scale: LayerTolerances,
+) -> Vec<FoundCluster> {
+    let stacks = LayerStacks {
         sheet,
         positions,
         scale,
@@ -71,7 +71,7 @@ pub(crate) fn prove(
         .collect()
 }
 
-impl Stacks<'_> {
+impl LayerStacks<'_> {
     /// What can be reached from each triangle over layers, in order of the first triangles.
     fn groups(&self) -> Vec<Vec<u32>> {
         let mut is_seen = vec![false; self.around.len()];
@@ -97,42 +97,42 @@ impl Stacks<'_> {
         groups
     }
 
-    fn prove(&self, faces: Vec<u32>) -> Found {
-        let mut faults = Vec::new();
+    fn prove(&self, faces: Vec<u32>) -> FoundCluster {
+        let mut contradictions = Vec::new();
         let mut is_open = false;
-        for meeting in self.meetings(&faces).values() {
-            let Some(crosses) = meeting.crosses else {
+        for junction in self.junctions(&faces).values() {
+            let Some(crosses) = junction.crosses else {
                 is_open = true;
                 continue;
             };
             if crosses {
-                faults.push(Fault {
-                    rule: meeting.rule,
-                    faces: meeting.faces.clone(),
-                    vertices: meeting.vertices.clone(),
+                contradictions.push(Contradiction {
+                    rule: junction.rule,
+                    faces: junction.faces.clone(),
+                    vertices: junction.vertices.clone(),
                 });
             }
         }
         let flat = Flat::new(self, &faces);
-        faults.extend(flat.rounds(self));
+        contradictions.extend(flat.rounds(self));
         let pairs = self.pairs(&faces);
         is_open |= pairs.clone().any(|(f, g)| self.below(f, g).is_none());
         let pairs = pairs.count();
-        let order = if !faults.is_empty() {
+        let order = if !contradictions.is_empty() {
             LayerProof::Contradicted
         } else if is_open {
             LayerProof::Unproved
         } else {
             LayerProof::Proved
         };
-        Found {
+        FoundCluster {
             frames: [0; 2],
             times: [0.0; 2],
             layers: flat.depth(self),
             faces,
             pairs,
             order,
-            faults,
+            contradictions,
         }
     }
 
@@ -145,21 +145,21 @@ impl Stacks<'_> {
         faces.iter().flat_map(move |&f| later(f))
     }
 
-    fn meetings(&self, faces: &[u32]) -> BTreeMap<Key, Meeting> {
+    fn junctions(&self, faces: &[u32]) -> BTreeMap<JunctionKey, Junction> {
         let of_face = |&face: &u32| {
-            let mut meetings = BTreeMap::new();
+            let mut junctions = BTreeMap::new();
             for i in 0..3 {
-                self.meet(face, i, &mut meetings);
+                self.meet(face, i, &mut junctions);
             }
-            meetings
+            junctions
         };
-        let parts: Vec<BTreeMap<Key, Meeting>> = faces.par_iter().map(of_face).collect();
+        let parts: Vec<BTreeMap<JunctionKey, Junction>> = faces.par_iter().map(of_face).collect();
         let mut all = BTreeMap::new();
         for part in parts {
-            for (key, meeting) in part {
-                let known: &mut Meeting = all.entry(key).or_insert_with(|| meeting.clone());
-                if known.crosses != Some(true) && meeting.crosses.is_some() {
-                    *known = meeting;
+            for (key, junction) in part {
+                let known: &mut Junction = all.entry(key).or_insert_with(|| junction.clone());
+                if known.crosses != Some(true) && junction.crosses.is_some() {
+                    *known = junction;
                 }
             }
         }
@@ -176,7 +176,7 @@ struct Flat<'a> {
 }
 
 impl<'a> Flat<'a> {
-    fn new(stacks: &Stacks<'_>, faces: &'a [u32]) -> Self {
+    fn new(stacks: &LayerStacks<'_>, faces: &'a [u32]) -> Self {
         let of = |face: u32| corners(stacks.sheet, stacks.positions, face);
         let plane = Plane::of(&of(faces[0]));
         let flat = |&face: &u32| plane.map_or([DVec2::ZERO; 3], |p| p.triangle(&of(face)));
@@ -194,7 +194,7 @@ impl<'a> Flat<'a> {
     /// Every three layers over a common region of which each lies above the one before, around.
     ///
     /// All threes are tried: layers over one point have a strict order exactly where no three of them go round.
-    fn rounds(&self, stacks: &Stacks<'_>) -> Vec<Fault> {
+    fn rounds(&self, stacks: &LayerStacks<'_>) -> Vec<Contradiction> {
         let Some(plane) = self.plane else {
             return Vec::new();
         };
@@ -209,7 +209,7 @@ impl<'a> Flat<'a> {
                 for &(h, f_below_h) in &later[k + 1..] {
                     let goes_round = f_below_g != f_below_h && is_below(g, h) == Some(f_below_g);
                     if goes_round && self.is_common([f, g, h], stacks.scale.narrow()) {
-                        found.push(Fault {
+                        found.push(Contradiction {
                             rule: LayerRule::Transitivity,
                             faces: vec![f, g, h],
                             vertices: Vec::new(),
@@ -232,7 +232,7 @@ impl<'a> Flat<'a> {
     /// The region under the deepest stack is a convex polygon. Its first corner, by coordinates, is that of what two of
     /// its layers have in common, whichever these are; so it is enough to count at such corners. All triangles are a
     /// little smaller here, so that those that only touch at the corner are not counted.
-    fn depth(&self, stacks: &Stacks<'_>) -> usize {
+    fn depth(&self, stacks: &LayerStacks<'_>) -> usize {
         let by = INSET * stacks.scale.narrow() / NARROW;
         let small: Vec<_> = self.triangles.iter().map(|t| inset(t, by)).collect();
         let of = |face: u32| &small[self.faces.partition_point(|&f| f < face)];

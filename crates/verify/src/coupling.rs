@@ -9,9 +9,9 @@
 use glam::DVec3;
 
 use crate::arcs::are_connected;
-use crate::around::{Around, edges};
-use crate::pair::Pair;
-use crate::span::{Pose, Span};
+use crate::face_pair::FacePair;
+use crate::moving_pair::{MovingPair, PairPose};
+use crate::neighbourhood::{Neighbourhood, edges};
 use crate::trail::{Trail, apart};
 
 /// Directions that are connected at this many τ are left alone.
@@ -25,16 +25,16 @@ const SAMPLES: u32 = 16;
 const MOST_ENDS: usize = 64;
 
 /// A pair in an interval.
-pub(crate) struct Followed<'a> {
-    pub(crate) pair: &'a Pair,
-    pub(crate) span: Span,
+pub(crate) struct ContactPair<'a> {
+    pub(crate) pair: &'a FacePair,
+    pub(crate) moving: MovingPair,
     pub(crate) trail: &'a Trail,
     /// τ, a length.
     pub(crate) tolerance: f64,
 }
 
 /// What is asked of the pairs beside those followed in contact.
-pub(crate) enum Beside<'a> {
+pub(crate) enum NeighbourState<'a> {
     Contact(&'a Trail),
     Apart,
     /// It has no side.
@@ -43,7 +43,7 @@ pub(crate) enum Beside<'a> {
 
 /// A triangle that passes through an edge between two others.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Through {
+pub(crate) struct EdgePassage {
     pub(crate) face: u32,
     pub(crate) between: [u32; 2],
     /// The part of the interval gone.
@@ -56,10 +56,10 @@ pub(crate) struct Through {
 ///
 /// `beside`: what is known of a pair of triangles.
 pub(crate) fn uncoupled<'a>(
-    followed: &Followed<'_>,
-    around: &Around,
-    beside: &dyn Fn([u32; 2]) -> (Pair, Span, Beside<'a>),
-) -> Vec<Through> {
+    followed: &ContactPair<'_>,
+    around: &Neighbourhood,
+    beside: &dyn Fn([u32; 2]) -> (FacePair, MovingPair, NeighbourState<'a>),
+) -> Vec<EdgePassage> {
     let mut all = Vec::new();
     let [f, g] = followed.pair.faces;
     for (wall, face) in [(f, g), (g, f)] {
@@ -69,17 +69,21 @@ pub(crate) fn uncoupled<'a>(
                 continue;
             }
             for other in around.beyond(face, edge) {
-                let (pair, span, known) = beside([wall.min(other), wall.max(other)]);
+                let (pair, moving, known) = beside([wall.min(other), wall.max(other)]);
                 let trail = match known {
-                    Beside::Lost => continue,
+                    NeighbourState::Lost => continue,
                     // Looked at once.
-                    Beside::Contact(_) if other < face => continue,
-                    Beside::Contact(trail) => Some(trail),
-                    Beside::Apart => None,
+                    NeighbourState::Contact(_) if other < face => continue,
+                    NeighbourState::Contact(trail) => Some(trail),
+                    NeighbourState::Apart => None,
                 };
-                let beyond = Beyond { pair, span, trail };
+                let beyond = NeighbourPair {
+                    pair,
+                    moving,
+                    trail,
+                };
                 let found = followed.uncoupled_at((wall, edge), &beyond);
-                all.extend(found.map(|(time, is_sure)| Through {
+                all.extend(found.map(|(time, is_sure)| EdgePassage {
                     face: wall,
                     between: [face, other],
                     time,
@@ -92,18 +96,18 @@ pub(crate) fn uncoupled<'a>(
 }
 
 /// The pair beyond an edge.
-struct Beyond<'a> {
-    pair: Pair,
-    span: Span,
+struct NeighbourPair<'a> {
+    pair: FacePair,
+    moving: MovingPair,
     trail: Option<&'a Trail>,
 }
 
-impl Followed<'_> {
+impl ContactPair<'_> {
     /// The first instant looked at at which the sides surely do not fit together, or else do not.
     fn uncoupled_at(
         &self,
         (wall, edge): (u32, [u32; 2]),
-        beyond: &Beyond<'_>,
+        beyond: &NeighbourPair<'_>,
     ) -> Option<(f64, bool)> {
         let mut instants: Vec<f64> = (0..=SAMPLES)
             .map(|k| f64::from(k) / f64::from(SAMPLES))
@@ -113,10 +117,10 @@ impl Followed<'_> {
         instants.sort_by(f64::total_cmp);
         instants.dedup();
         let is_uncoupled = |t: f64, level: f64| {
-            let here = oriented(self.pair, wall, self.trail.at(&self.span, t));
+            let here = oriented(self.pair, wall, self.trail.at(&self.moving, t));
             let there = match beyond.trail {
-                Some(trail) => trail.at(&beyond.span, t),
-                None => apart(&beyond.span, t),
+                Some(trail) => trail.at(&beyond.moving, t),
+                None => apart(&beyond.moving, t),
             };
             let there = oriented(&beyond.pair, wall, there);
             if here.is_empty() || there.is_empty() {
@@ -132,9 +136,9 @@ impl Followed<'_> {
     }
 
     /// The first triangle, and the edge in the place of the second; what they do not share where they share a vertex.
-    pub(crate) fn to_edge(&self, wall: u32, edge: [u32; 2], t: f64) -> Vec<Pose> {
-        let pose = self.span.at(t);
-        let Pair { faces, a, b, .. } = self.pair;
+    pub(crate) fn to_edge(&self, wall: u32, edge: [u32; 2], t: f64) -> Vec<PairPose> {
+        let pose = self.moving.at(t);
+        let FacePair { faces, a, b, .. } = self.pair;
         let (of_wall, of_face) = if faces[0] == wall {
             ((a, pose.a), (b, pose.b))
         } else {
@@ -150,16 +154,16 @@ impl Followed<'_> {
         let line = places(of_face, &|v| edge.contains(v));
         let is_shared = |v: &u32| of_wall.0.contains(v) && edge.contains(v);
         if !edge.iter().any(is_shared) {
-            return vec![Pose { a: whole, b: line }];
+            return vec![PairPose { a: whole, b: line }];
         }
         let rest = places(of_wall, &|v| !is_shared(v));
         let end = places(of_face, &|v| edge.contains(v) && !is_shared(v));
-        vec![Pose { a: rest, b: line }, Pose { a: whole, b: end }]
+        vec![PairPose { a: rest, b: line }, PairPose { a: whole, b: end }]
     }
 }
 
 /// Directions from the wall to the other.
-pub(crate) fn oriented(pair: &Pair, wall: u32, mut directions: Vec<DVec3>) -> Vec<DVec3> {
+pub(crate) fn oriented(pair: &FacePair, wall: u32, mut directions: Vec<DVec3>) -> Vec<DVec3> {
     if pair.faces[0] != wall {
         for direction in &mut directions {
             *direction = -*direction;

@@ -3,13 +3,13 @@
 use glam::DVec3;
 
 use crate::closest::{Closest, closest};
+use crate::follow::SHORTEST_STEP;
+use crate::moving_pair::{MovingPair, OnPlane, PairPose};
 use crate::path::Path;
-use crate::span::{OnPlane, Pose, Span};
-use crate::walk::SHORTEST_STEP;
 
 /// What came of the search for a pair nearer than asked.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) enum Nearness {
+pub(crate) enum DistanceProof {
     /// Never nearer.
     Kept,
     /// Nearer at this instant.
@@ -23,7 +23,7 @@ pub(crate) enum Nearness {
 /// Along the line of closest points the gap is the distance, unless that line is ill known: a rounding of the points
 /// turns it, and where features tie they may be those of the wrong one. Then one edge, or two, of the six that should
 /// be level along it are made so, all of them in turn; of the directions found the one with the widest gap is taken.
-fn clearest(pose: &Pose, closest: &Closest, slack: f64) -> DVec3 {
+fn clearest(pose: &PairPose, closest: &Closest, slack: f64) -> DVec3 {
     let line = (closest.on_b - closest.on_a).normalize_or_zero();
     let gap = -pose.overlap(line);
     if gap >= closest.distance() - slack {
@@ -76,37 +76,37 @@ fn without(v: DVec3, basis: &[DVec3]) -> DVec3 {
 ///
 /// Between two instants the direction goes straight from the one along which they are clearest to the other, or rests
 /// on one of them; the Bernstein coefficients bound the gap along it from below, and so the distance.
-pub(crate) fn keeps_distance(span: &Span, limit: f64, budget: u32) -> Nearness {
+pub(crate) fn keeps_distance(moving: &MovingPair, limit: f64, budget: u32) -> DistanceProof {
     let none = OnPlane {
         a: [false; 3],
         b: [false; 3],
     };
-    let measure = |pose: &Pose| {
+    let measure = |pose: &PairPose| {
         let found = closest(pose);
         let distance = found.distance();
         let direction = clearest(pose, &found, 0.1 * (distance - limit).max(0.0));
         (distance, direction)
     };
     let (mut time, mut step) = (0.0, 1.0);
-    let mut pose = span.at(0.0);
+    let mut pose = moving.at(0.0);
     let mut here = measure(&pose);
     for _ in 0..budget {
         if here.0 < limit {
-            return Nearness::Nearer {
+            return DistanceProof::Nearer {
                 time,
                 distance: here.0,
             };
         }
         if time >= 1.0 {
-            return Nearness::Kept;
+            return DistanceProof::Kept;
         }
-        let end = span.at(time + step);
+        let end = moving.at(time + step);
         let there = measure(&end);
         if there.0 < limit {
             (time, here) = (time + step, there);
             continue;
         }
-        let part = span.part(&pose, &end);
+        let part = moving.part(&pose, &end);
         let (d0, d1) = (here.1, there.1);
         let is_kept = [(d0, d1), (d0, d0), (d1, d1)]
             .into_iter()
@@ -120,10 +120,10 @@ pub(crate) fn keeps_distance(span: &Span, limit: f64, budget: u32) -> Nearness {
         } else if step > SHORTEST_STEP {
             step *= 0.5;
         } else {
-            return Nearness::Unproved;
+            return DistanceProof::Unproved;
         }
     }
-    Nearness::Unproved
+    DistanceProof::Unproved
 }
 
 #[cfg(test)]
@@ -141,14 +141,17 @@ mod tests {
                 [triangle(0.0), triangle(2.0)],
                 [triangle(0.0), triangle(2.0)],
             );
-            let span = Span::new(start, end, 0);
-            let distance = |k: u32| closest(&span.at(f64::from(k) / 500.0)).distance();
+            let moving = MovingPair::new(start, end, 0);
+            let distance = |k: u32| closest(&moving.at(f64::from(k) / 500.0)).distance();
             let least = (0..=500).map(distance).fold(f64::INFINITY, f64::min);
-            assert_ne!(keeps_distance(&span, least + 1e-3, 100_000), Nearness::Kept);
+            assert_ne!(
+                keeps_distance(&moving, least + 1e-3, 100_000),
+                DistanceProof::Kept
+            );
             if least > 0.05 {
                 kept += 1;
-                let answer = keeps_distance(&span, least - 0.02, 100_000);
-                assert_eq!(answer, Nearness::Kept, "{least}");
+                let answer = keeps_distance(&moving, least - 0.02, 100_000);
+                assert_eq!(answer, DistanceProof::Kept, "{least}");
             }
         }
         assert!(kept > 50, "{kept}");

@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use crate::arcs::{self, reached};
-use crate::span::{COORDINATES, Feature, Pose, Span};
+use crate::moving_pair::{COORDINATES, Feature, MovingPair, PairPose};
 
 /// An axis at an instant.
 #[derive(Debug, Clone, Copy)]
@@ -19,11 +19,11 @@ pub(crate) struct Axis {
 }
 
 /// All axes, each in both senses; those too short to have a direction are left out.
-pub(crate) fn axes(span: &Span, pose: &Pose) -> Vec<Axis> {
+pub(crate) fn axes(moving: &MovingPair, pose: &PairPose) -> Vec<Axis> {
     let edges = |t: &[DVec3; 3]| [t[1] - t[0], t[2] - t[1], t[0] - t[2]];
     let (a, b) = (edges(&pose.a), edges(&pose.b));
     let (normal_a, normal_b) = (a[0].cross(a[1]), b[0].cross(b[1]));
-    let features = span.features();
+    let features = moving.features();
     let mut axes = Vec::with_capacity(2 * features.len());
     for &feature in features {
         let (normal, power) = match feature {
@@ -39,9 +39,9 @@ pub(crate) fn axes(span: &Span, pose: &Pose) -> Vec<Axis> {
             Feature::Coordinate(k) => (COORDINATES[k], 0),
         };
         let length = normal.length();
-        let margin = 256.0 * f64::EPSILON * span.size.powi(power + 1) / length;
-        if margin < 1e-3 * span.size {
-            push_both_ways(&mut axes, span, pose, feature, (normal / length, margin));
+        let margin = 256.0 * f64::EPSILON * moving.size.powi(power + 1) / length;
+        if margin < 1e-3 * moving.size {
+            push_both_ways(&mut axes, moving, pose, feature, (normal / length, margin));
         }
     }
     axes
@@ -49,20 +49,20 @@ pub(crate) fn axes(span: &Span, pose: &Pose) -> Vec<Axis> {
 
 fn push_both_ways(
     axes: &mut Vec<Axis>,
-    span: &Span,
-    pose: &Pose,
+    moving: &MovingPair,
+    pose: &PairPose,
     feature: Feature,
     (direction, margin): (DVec3, f64),
 ) {
     let height = |p: DVec3| direction.dot(p - pose.a[0]);
     let (a, b) = (pose.a.map(height), pose.b.map(height));
-    let on_plane = span.on_plane(feature);
+    let on_plane = moving.on_plane(feature);
     for sign in [1.0, -1.0] {
         let (a, b) = (a.map(|h| sign * h), b.map(|h| sign * h));
         let overlap = a[0].max(a[1]).max(a[2]) - b[0].min(b[1]).min(b[2]);
-        let room = if span.shared == 0 {
+        let room = if moving.shared == 0 {
             -overlap
-        } else if span.may_clear(feature) {
+        } else if moving.may_clear(feature) {
             let below = (0..3).filter(|&i| !on_plane.a[i]).map(|i| -a[i]);
             let above = (0..3).filter(|&j| !on_plane.b[j]).map(|j| b[j]);
             let room = below.chain(above).fold(f64::INFINITY, f64::min);
@@ -87,15 +87,15 @@ pub(crate) fn roomiest(axes: &[Axis]) -> Option<DVec3> {
 }
 
 /// The depth: the least overlap over all axes (exact where it is positive and the triangles share nothing).
-pub(crate) fn depth(span: &Span, pose: &Pose) -> f64 {
-    let overlaps = axes(span, pose).into_iter();
+pub(crate) fn depth(moving: &MovingPair, pose: &PairPose) -> f64 {
+    let overlaps = axes(moving, pose).into_iter();
     let overlaps = overlaps.map(|axis| pose.overlap(axis.direction));
     overlaps.fold(arcs::depth(pose), f64::min)
 }
 
 /// The direction in the middle of those along which the triangles lie off each other, to within rounding.
-pub(crate) fn inner(span: &Span, axes: &[Axis]) -> Option<DVec3> {
-    let rounding = 1e-12 * span.size;
+pub(crate) fn inner(moving: &MovingPair, axes: &[Axis]) -> Option<DVec3> {
+    let rounding = 1e-12 * moving.size;
     let rim = axes.iter().filter(|axis| axis.overlap <= rounding);
     rim.map(|axis| axis.direction)
         .sum::<DVec3>()
@@ -103,7 +103,7 @@ pub(crate) fn inner(span: &Span, axes: &[Axis]) -> Option<DVec3> {
 }
 
 /// The axes with an overlap of at most `limit` that are connected to a seed in D(t).
-pub(crate) fn joined(pose: &Pose, axes: &[Axis], seeds: &[DVec3], limit: f64) -> Vec<Axis> {
+pub(crate) fn joined(pose: &PairPose, axes: &[Axis], seeds: &[DVec3], limit: f64) -> Vec<Axis> {
     let low: Vec<Axis> = axes
         .iter()
         .copied()

@@ -26,14 +26,14 @@ pub(crate) struct Layer {
 
 /// What an instant is measured with.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Scale {
+pub(crate) struct LayerTolerances {
     /// τ, a length.
     pub(crate) tolerance: f64,
     /// What is nearer than this to a limit may be on either side of it.
     pub(crate) slack: f64,
 }
 
-impl Scale {
+impl LayerTolerances {
     pub(crate) fn new(tolerance: f64, positions: &[DVec3]) -> Self {
         let extent = positions.iter().map(|p| p.length()).fold(0.0, f64::max);
         Self {
@@ -60,7 +60,7 @@ pub(crate) fn find(
     sheet: &Sheet,
     positions: &[DVec3],
     near: &[[u32; 2]],
-    scale: &Scale,
+    scale: &LayerTolerances,
 ) -> Vec<Layer> {
     let found = near.par_iter().with_min_len(256).filter_map(|&faces| {
         let [a, b] = faces.map(|f| corners(sheet, positions, f));
@@ -77,7 +77,7 @@ pub(crate) fn find(
 }
 
 /// By how much the least fulfilled condition of layers is fulfilled, a length.
-fn margin(a: &[DVec3; 3], b: &[DVec3; 3], scale: &Scale) -> f64 {
+fn margin(a: &[DVec3; 3], b: &[DVec3; 3], scale: &LayerTolerances) -> f64 {
     let (Some(p), Some(q)) = (Plane::of(a), Plane::of(b)) else {
         return f64::NEG_INFINITY;
     };

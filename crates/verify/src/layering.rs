@@ -6,26 +6,26 @@ use foldmotion_check::{LayerProof, LayerRule};
 use foldmotion_pattern::{Assignment, LayerOrder};
 use glam::DVec3;
 
-use crate::cluster::{Fault, prove};
+use crate::cluster::{Contradiction, prove};
+use crate::face_pair::FacePair;
 use crate::instant::{axes, roomiest};
-use crate::layer::{self, Layer, Scale, corners, side_of};
-use crate::pair::Pair;
+use crate::layer::{self, Layer, LayerTolerances, corners, side_of};
 use crate::plane::Plane;
 use crate::side::Side;
-use crate::stacked::State;
+use crate::stacked::SheetState;
 use crate::verifier::Verifier;
 
 impl Verifier<'_> {
     /// Takes in what the file claims of the order at the last frame taken in; at most once a frame.
     ///
     /// `face_of`: the face of the file that a triangle belongs to; `order` is of such faces.
-    pub fn hear(&mut self, order: &LayerOrder, face_of: &dyn Fn(u32) -> u32) {
+    pub fn claim(&mut self, order: &LayerOrder, face_of: &dyn Fn(u32) -> u32) {
         if self.is_over {
             return;
         }
-        let mut heard = BTreeSet::new();
-        for index in 0..self.ordering.layers.len() {
-            let Layer { faces, is_lost, .. } = self.ordering.layers[index];
+        let mut used = BTreeSet::new();
+        for index in 0..self.layer_state.layers.len() {
+            let Layer { faces, is_lost, .. } = self.layer_state.layers[index];
             let [f, g] = faces.map(face_of);
             if is_lost || f == g {
                 continue;
@@ -35,28 +35,28 @@ impl Verifier<'_> {
                 let Some(sign) = order.sign(claim.0, claim.1) else {
                     continue;
                 };
-                heard.insert(claim);
+                used.insert(claim);
                 if let Some(up) = self.front(front) {
-                    self.hear_pair(index, up * above * f64::from(sign));
+                    self.claim_pair(index, up * above * f64::from(sign));
                 }
             }
         }
-        let state = State {
+        let state = SheetState {
             sheet: self.sheet,
             positions: &self.last.positions,
             face_of,
-            scale: Scale::new(self.limits.tolerance, &self.last.positions),
+            scale: LayerTolerances::new(self.limits.tolerance, &self.last.positions),
         };
-        let stacked = state.judge(order, |claim| !heard.contains(&claim));
+        let stacked = state.judge(order, |claim| !used.contains(&claim));
         let frame = self.frames - 1;
         if let Some(faces) = stacked.doubtful {
             let doubt = (faces, "whether they are stacked as the file claims");
-            self.ordering.doubts.entry(frame).or_insert(doubt);
+            self.layer_state.doubts.entry(frame).or_insert(doubt);
         }
-        self.ordering.claims.claimed += order.len();
-        self.ordering.claims.ignored += order.len() - heard.len() - stacked.held;
+        self.layer_state.claims.claimed += order.len();
+        self.layer_state.claims.ignored += order.len() - used.len() - stacked.held;
         if let Some(entry) = stacked
-            .broken
+            .refuted
             .filter(|_| self.claim.penetrations.is_empty())
         {
             let found = format!("the faces lie the other way round at frame {frame}");
@@ -65,12 +65,12 @@ impl Verifier<'_> {
     }
 
     /// Takes in that the first layer lies below the second along `up`.
-    fn hear_pair(&mut self, index: usize, up: DVec3) {
-        let layer = &mut self.ordering.layers[index];
+    fn claim_pair(&mut self, index: usize, up: DVec3) {
+        let layer = &mut self.layer_state.layers[index];
         let faces = layer.faces;
         let Some(known) = layer.up else {
             layer.up = Some(up);
-            self.ordering.claimed.insert(faces);
+            self.layer_state.claimed.insert(faces);
             self.keep_side(faces, up);
             return;
         };
@@ -81,7 +81,7 @@ impl Verifier<'_> {
             } else {
                 LayerRule::Claim
             };
-            self.ordering.faults.push(Fault {
+            self.layer_state.contradictions.push(Contradiction {
                 rule,
                 faces: faces.to_vec(),
                 vertices: Vec::new(),
@@ -99,10 +99,10 @@ impl Verifier<'_> {
                 }
             }
             Err(index) => {
-                let span =
-                    Pair::new(self.sheet, faces).span(&self.last.positions, &self.last.positions);
-                let pose = span.at(0.0);
-                let apart = roomiest(&axes(&span, &pose));
+                let moving = FacePair::new(self.sheet, faces)
+                    .moving(&self.last.positions, &self.last.positions);
+                let pose = moving.at(0.0);
+                let apart = roomiest(&axes(&moving, &pose));
                 let is_beyond = apart.is_some_and(|d| d.dot(up) < 0.0);
                 // The gap on the other side is below τ, and so is the overlap on this one.
                 if is_beyond && pose.overlap(up) < self.limits.tolerance {
@@ -122,7 +122,7 @@ impl Verifier<'_> {
 
     /// The crease between two triangles that is to be folded, and the side of the first to which.
     fn assigned(&self, [f, g]: [u32; 2]) -> Option<DVec3> {
-        let mut hinges = self.ordering.hinges[f as usize].iter().flatten();
+        let mut hinges = self.layer_state.hinges[f as usize].iter().flatten();
         let &(edge, _) = hinges.find(|&&(_, beyond)| beyond == g)?;
         let front = self.front(f)?;
         match self.sheet.edges[edge as usize].assignment {
@@ -137,12 +137,12 @@ impl Verifier<'_> {
     /// A pair in contact since the first frame has the order of its crease there, or what is claimed, and none otherwise;
     /// it gets one only after it was seen not to be a layer. `open`: pairs on which this proof gave up.
     pub(crate) fn find_layers(&mut self, near: &[[u32; 2]], open: &BTreeSet<[u32; 2]>) {
-        let scale = Scale::new(self.limits.tolerance, &self.last.positions);
+        let scale = LayerTolerances::new(self.limits.tolerance, &self.last.positions);
         let mut layers = layer::find(self.sheet, &self.last.positions, near, &scale);
         for layer in &mut layers {
             let faces = layer.faces;
             layer.is_lost = self.dropped.contains_key(&faces);
-            let before = self.ordering.order(faces);
+            let before = self.layer_state.order(faces);
             if self.frames == 1 {
                 layer.up = self.assigned(faces);
             } else if let Some(before) = before.filter(|before| before.up.is_none()) {
@@ -157,15 +157,18 @@ impl Verifier<'_> {
             }
             if let Some(doubt) = layer.doubt {
                 let frame = self.frames - 1;
-                self.ordering.doubts.entry(frame).or_insert((faces, doubt));
+                self.layer_state
+                    .doubts
+                    .entry(frame)
+                    .or_insert((faces, doubt));
             }
         }
-        self.ordering.layers = layers;
-        self.ordering.is_proved = false;
+        self.layer_state.layers = layers;
+        self.layer_state.is_proved = false;
         if self.frames == 1 {
-            for Layer { faces, up, .. } in self.ordering.layers.clone() {
+            for Layer { faces, up, .. } in self.layer_state.layers.clone() {
                 if let Some(up) = up {
-                    self.ordering.claimed.insert(faces);
+                    self.layer_state.claimed.insert(faces);
                     self.keep_side(faces, up);
                 }
             }
@@ -184,71 +187,66 @@ impl Verifier<'_> {
             return (Some(up), true);
         }
         let positions = &self.last.positions;
-        let span = Pair::new(self.sheet, faces).span(positions, positions);
-        let apart = roomiest(&axes(&span, &span.at(0.0)));
+        let moving = FacePair::new(self.sheet, faces).moving(positions, positions);
+        let apart = roomiest(&axes(&moving, &moving.at(0.0)));
         let up = apart.and_then(|apart| side_of(normal, &[apart]));
         (up, up.is_some() && side.is_err())
     }
 
     /// Proves the order at the last frame, once, and holds what is stated there to it.
     pub(crate) fn prove_layers(&mut self) {
-        if std::mem::replace(&mut self.ordering.is_proved, true) {
+        if std::mem::replace(&mut self.layer_state.is_proved, true) {
             return;
         }
         let positions = &self.last.positions;
-        let scale = Scale::new(self.limits.tolerance, positions);
-        let ordering = &self.ordering;
-        let clusters = prove(
-            self.sheet,
-            &ordering.hinges,
-            positions,
-            &ordering.layers,
-            scale,
-        );
+        let scale = LayerTolerances::new(self.limits.tolerance, positions);
+        let state = &self.layer_state;
+        let clusters = prove(self.sheet, &state.hinges, positions, &state.layers, scale);
         let frame = self.frames - 1;
-        let mut faults = std::mem::take(&mut self.ordering.faults);
+        let mut contradictions = std::mem::take(&mut self.layer_state.contradictions);
         for mut cluster in clusters {
-            let found = std::mem::take(&mut cluster.faults).into_iter();
+            let found = std::mem::take(&mut cluster.contradictions).into_iter();
             let (mut sure, of_sides): (Vec<_>, Vec<_>) = found.partition(|f| self.is_sure(f));
             if sure.is_empty() && !of_sides.is_empty() {
                 cluster.order = LayerProof::Unproved;
             }
-            faults.append(&mut sure);
-            for fault in of_sides {
-                self.leave_order_open(&fault);
+            contradictions.append(&mut sure);
+            for contradiction in of_sides {
+                self.leave_order_open(&contradiction);
             }
             cluster.frames = [frame; 2];
             cluster.times = [self.last.time; 2];
-            let mut known = self.ordering.clusters.iter_mut().rev();
+            let mut known = self.layer_state.clusters.iter_mut().rev();
             let earlier = known.find(|c| c.frames[1] + 1 == frame && c.faces == cluster.faces);
             match earlier {
                 Some(earlier) => earlier.go_on(&cluster),
-                None => self.ordering.clusters.push(cluster),
+                None => self.layer_state.clusters.push(cluster),
             }
         }
-        self.compare_faults(frame, &faults);
+        self.compare_contradictions(frame, &contradictions);
     }
 
     /// Whether orders that are not possible together are those of the sheet: claimed, or over one point.
     ///
     /// Along a line, sides as they were followed may not be possible together though the sheet can be pushed apart: a
     /// contact may be left another way. What passes through there is shown by the sides coupled across edges.
-    fn is_sure(&self, fault: &Fault) -> bool {
-        let is_among = |pair: &[u32; 2]| pair.iter().all(|face| fault.faces.contains(face));
-        fault.rule == LayerRule::Transitivity || self.ordering.claimed.iter().any(is_among)
+    fn is_sure(&self, contradiction: &Contradiction) -> bool {
+        let is_among = |pair: &[u32; 2]| pair.iter().all(|face| contradiction.faces.contains(face));
+        contradiction.rule == LayerRule::Transitivity
+            || self.layer_state.claimed.iter().any(is_among)
     }
 
     /// Names layers whose sides are not possible together, unless something passes through around them, or the side of
     /// two of them is open: then it may be the other.
-    fn leave_order_open(&mut self, fault: &Fault) {
-        let faces = &fault.faces;
+    fn leave_order_open(&mut self, contradiction: &Contradiction) {
+        let faces = &contradiction.faces;
         let pairs = || {
             let later = |(k, &f): (usize, &u32)| faces[k + 1..].iter().map(move |&g| [f, g]);
             faces.iter().enumerate().flat_map(later)
         };
         let is_doubtful = |layer: &Layer| layer.doubt.is_some();
         let is_explained = pairs().any(|pair| {
-            self.ordering.order(pair).is_some_and(is_doubtful)
+            self.layer_state.order(pair).is_some_and(is_doubtful)
                 || self.is_listed_around(pair, self.last.time)
         });
         if let (Some(first), false) = (pairs().next(), is_explained) {

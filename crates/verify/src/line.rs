@@ -6,7 +6,7 @@ use std::f64::consts::{PI, TAU};
 use foldmotion_pattern::Sheet;
 use glam::DVec3;
 
-use crate::layer::{Layer, Scale, corners};
+use crate::layer::{Layer, LayerTolerances, corners};
 use foldmotion_check::LayerRule;
 
 /// Half-planes at less than this angle are told apart by their layers.
@@ -14,10 +14,10 @@ const SAME_ANGLE: f64 = 1e-3;
 
 /// The layers of an instant, and what lies beside each side of each triangle.
 #[derive(Debug)]
-pub(crate) struct Stacks<'a> {
+pub(crate) struct LayerStacks<'a> {
     pub(crate) sheet: &'a Sheet,
     pub(crate) positions: &'a [DVec3],
-    pub(crate) scale: Scale,
+    pub(crate) scale: LayerTolerances,
     /// For each triangle those it lies on, in order, each with the direction in which the triangle lies below it.
     pub(crate) around: Vec<Vec<(u32, Option<DVec3>)>>,
     /// For each side of each triangle, from corner i to the next, its edge and the triangle beyond.
@@ -25,11 +25,11 @@ pub(crate) struct Stacks<'a> {
 }
 
 /// Which hinge meets which other (false) or which triangle that it crosses (true).
-pub(crate) type Key = (u32, bool, u32);
+pub(crate) type JunctionKey = (u32, bool, u32);
 
 /// What came of a hinge and what meets it.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Meeting {
+pub(crate) struct Junction {
     pub(crate) rule: LayerRule,
     /// Whether they go through each other; none where an order is open.
     pub(crate) crosses: Option<bool>,
@@ -40,7 +40,7 @@ pub(crate) struct Meeting {
 
 /// Two half-planes that are joined at a line: a hinge, or a triangle that runs on across it.
 struct Chord {
-    key: Key,
+    key: JunctionKey,
     faces: [u32; 2],
     /// Around the line.
     angles: [f64; 2],
@@ -60,12 +60,12 @@ struct Line {
 
 /// An end of a chord.
 #[derive(Clone, Copy)]
-struct End {
+struct ChordEnd {
     chord: usize,
     face: u32,
     angle: f64,
     /// Ends with the same number lie on each other.
-    sheaf: usize,
+    group: usize,
 }
 
 impl Line {
@@ -92,7 +92,7 @@ impl Line {
     }
 }
 
-impl Stacks<'_> {
+impl LayerStacks<'_> {
     /// Along which direction `f` is known to lie below `g`.
     pub(crate) fn below(&self, f: u32, g: u32) -> Option<DVec3> {
         let around = &self.around[f as usize];
@@ -101,7 +101,7 @@ impl Stacks<'_> {
     }
 
     /// Tests what meets along side `i` of a triangle, one stretch of it after the other.
-    pub(crate) fn meet(&self, face: u32, i: usize, found: &mut BTreeMap<Key, Meeting>) {
+    pub(crate) fn meet(&self, face: u32, i: usize, found: &mut BTreeMap<JunctionKey, Junction>) {
         let triangle = corners(self.sheet, self.positions, face);
         let (Some((edge, beyond)), Some(line)) =
             (self.hinges[face as usize][i], Line::of(&triangle, i))
@@ -187,8 +187,8 @@ impl Stacks<'_> {
     }
 
     /// Sorts all ends around the line and joins them; the first chord is the hinge whose meetings are noted.
-    fn test(&self, line: &Line, chords: &[&Chord], found: &mut BTreeMap<Key, Meeting>) {
-        let ends = sheaves(chords);
+    fn test(&self, line: &Line, chords: &[&Chord], found: &mut BTreeMap<JunctionKey, Junction>) {
+        let ends = grouped_ends(chords);
         let sorted = self.sorted(line, &ends);
         let joins = sorted.as_ref().is_some_and(|all| is_planar(all));
         for (k, other) in chords.iter().enumerate().skip(1) {
@@ -203,26 +203,26 @@ impl Stacks<'_> {
             } else {
                 (own.2.min(theirs.2), false, own.2.max(theirs.2))
             };
-            let meeting = Meeting {
+            let junction = Junction {
                 rule: rule_of(chords[0], other),
                 crosses,
                 faces: once([chords[0].faces, other.faces].concat()),
                 vertices: once([&chords[0].vertices[..], &other.vertices].concat()),
             };
-            let known = found.entry(key).or_insert_with(|| meeting.clone());
-            if known.crosses != Some(true) && meeting.crosses.is_some() {
-                *known = meeting;
+            let known = found.entry(key).or_insert_with(|| junction.clone());
+            if known.crosses != Some(true) && junction.crosses.is_some() {
+                *known = junction;
             }
         }
     }
 
     /// The chords of all ends, in order around the line; none where the layers of a sheaf have no known strict order.
-    fn sorted(&self, line: &Line, ends: &[End]) -> Option<Vec<usize>> {
+    fn sorted(&self, line: &Line, ends: &[ChordEnd]) -> Option<Vec<usize>> {
         let mut places = vec![0; ends.len()];
         for (k, x) in ends.iter().enumerate() {
-            let mut place = ends.iter().filter(|y| y.sheaf < x.sheaf).count();
-            let sheaf = ends.iter().enumerate().filter(|(_, y)| y.sheaf == x.sheaf);
-            for (_, y) in sheaf.filter(|&(l, _)| l != k) {
+            let mut place = ends.iter().filter(|y| y.group < x.group).count();
+            let group = ends.iter().enumerate().filter(|(_, y)| y.group == x.group);
+            for (_, y) in group.filter(|&(l, _)| l != k) {
                 place += usize::from(!self.is_before(line, x, y)?);
             }
             places[k] = place;
@@ -237,16 +237,16 @@ impl Stacks<'_> {
         sorted.into_iter().collect()
     }
 
-    fn is_before(&self, line: &Line, x: &End, y: &End) -> Option<bool> {
-        if x.sheaf != y.sheaf {
-            return Some(x.sheaf < y.sheaf);
+    fn is_before(&self, line: &Line, x: &ChordEnd, y: &ChordEnd) -> Option<bool> {
+        if x.group != y.group {
+            return Some(x.group < y.group);
         }
         let up = self.below(x.face, y.face)?;
         Some(up.dot(line.growing(x.angle)) > 0.0)
     }
 
     /// Whether one end of chord `k`, and not the other, lies between the ends of the first chord.
-    fn crosses(&self, line: &Line, ends: &[End], k: usize) -> Option<bool> {
+    fn crosses(&self, line: &Line, ends: &[ChordEnd], k: usize) -> Option<bool> {
         let of = |chord: usize| ends.iter().filter(move |end| end.chord == chord);
         let mut between = 0;
         for end in of(k) {
@@ -276,28 +276,28 @@ fn is_planar(sorted: &[usize]) -> bool {
 }
 
 /// The ends of all chords, those at one angle numbered alike, in the order of the angles from the widest gap on.
-fn sheaves(chords: &[&Chord]) -> Vec<End> {
+fn grouped_ends(chords: &[&Chord]) -> Vec<ChordEnd> {
     let of = |(chord, c): (usize, &&Chord)| {
-        let end = |k: usize| End {
+        let end = |k: usize| ChordEnd {
             chord,
             face: c.faces[k],
             angle: c.angles[k],
-            sheaf: 0,
+            group: 0,
         };
         [end(0), end(1)]
     };
-    let mut ends: Vec<End> = chords.iter().enumerate().flat_map(of).collect();
+    let mut ends: Vec<ChordEnd> = chords.iter().enumerate().flat_map(of).collect();
     ends.sort_by(|x, y| x.angle.total_cmp(&y.angle));
     let count = ends.len();
     let gap = |k: usize| (ends[k].angle - ends[(k + count - 1) % count].angle).rem_euclid(TAU);
     let first = (0..count).max_by(|&k, &l| gap(k).total_cmp(&gap(l)));
     let gaps: Vec<f64> = (0..count).map(gap).collect();
     let first = first.unwrap_or(0);
-    let mut sheaf = 0;
+    let mut group = 0;
     for step in 1..count {
         let k = (first + step) % count;
-        sheaf += usize::from(gaps[k] >= SAME_ANGLE);
-        ends[k].sheaf = sheaf;
+        group += usize::from(gaps[k] >= SAME_ANGLE);
+        ends[k].group = group;
     }
     ends
 }

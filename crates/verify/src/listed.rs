@@ -4,19 +4,19 @@ use std::collections::BTreeMap;
 
 use foldmotion_pattern::Frame;
 
-use crate::lost::{Lost, depth_at};
+use crate::face_pair::FacePair;
+use crate::lost::{LostSide, depth_at};
+use crate::moving_pair::MovingPair;
 use crate::outcome::Unproved;
-use crate::pair::Pair;
 use crate::parts::disjoint_parts;
-use crate::penetration::{Found, compare};
-use crate::span::Span;
+use crate::penetration::{FoundPenetration, compare};
 use crate::through;
 use crate::verifier::Verifier;
 use foldmotion_check::{Penetration, PenetrationKind};
 
 impl<'a> Verifier<'a> {
     /// Holds what is listed at the interval that begins at `start` against what was found.
-    pub(crate) fn meet_claims(&mut self, start: &Frame, found: &BTreeMap<[u32; 2], Lost>) {
+    pub(crate) fn meet_claims(&mut self, start: &Frame, found: &BTreeMap<[u32; 2], LostSide>) {
         let frame = self.frames - 1;
         let listed: Vec<&'a Penetration> = self
             .claimed
@@ -27,7 +27,7 @@ impl<'a> Verifier<'a> {
             .filter(|p| !self.undecided.contains(&(p.faces, frame)))
             .collect();
         for stated in listed {
-            let pair = Pair::new(self.sheet, stated.faces);
+            let pair = FacePair::new(self.sheet, stated.faces);
             self.meet_claim(stated, &pair, start, found.get(&stated.faces));
             self.dropped.insert(stated.faces, self.frames);
         }
@@ -36,9 +36,9 @@ impl<'a> Verifier<'a> {
     fn meet_claim(
         &mut self,
         stated: &'a Penetration,
-        pair: &Pair,
+        pair: &FacePair,
         start: &Frame,
-        lost: Option<&Lost>,
+        lost: Option<&LostSide>,
     ) {
         use PenetrationKind::{EdgeEdge, ThroughEdge, VertexFacet};
         let own = lost.and_then(|lost| lost.found.as_ref());
@@ -109,7 +109,7 @@ impl<'a> Verifier<'a> {
             }));
     }
 
-    fn compare(&mut self, stated: &Penetration, found: &Found, pair: &Pair) {
+    fn compare(&mut self, stated: &Penetration, found: &FoundPenetration, pair: &FacePair) {
         for (field, stated, found) in compare(stated, found, pair, self.sheet, &self.limits) {
             let field = format!("penetrations[{:?}].{field}", pair.faces);
             self.refute(&field, stated, found);
@@ -117,12 +117,12 @@ impl<'a> Verifier<'a> {
     }
 
     /// A pair without a side at the first frame.
-    pub(crate) fn starts_lost(&mut self, pair: &Pair, span: &Span) {
-        let deepest = depth_at(span, 0.0);
-        let found = Found::at_first_frame(span, self.last.time, deepest);
-        let parts = disjoint_parts(span);
+    pub(crate) fn starts_lost(&mut self, pair: &FacePair, moving: &MovingPair) {
+        let deepest = depth_at(moving, 0.0);
+        let found = FoundPenetration::at_first_frame(moving, self.last.time, deepest);
+        let parts = disjoint_parts(moving);
         let deep_parts = parts.iter().map(|part| depth_at(part, 0.0));
-        let lost = Lost {
+        let lost = LostSide {
             is_deep: pair.shared == 0,
             is_clear: deep_parts.fold(0.0, f64::max) > self.limits.tolerance,
             are_parts_clean: false,

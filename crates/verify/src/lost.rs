@@ -2,24 +2,24 @@
 
 use std::collections::BTreeSet;
 
+use crate::follow::{FollowOutcome, follow};
 use crate::instant::depth;
+use crate::moving_pair::MovingPair;
 use crate::parts::disjoint_parts;
-use crate::penetration::Found;
+use crate::penetration::FoundPenetration;
 use crate::side::{Limits, Side};
-use crate::span::Span;
-use crate::walk::{Walked, walk};
 
 /// A pair without a side with this many times τ surely changes sides.
 const CLEAR: f64 = 2.0;
 
 /// Pairs of triangles.
-pub(crate) type Pairs = BTreeSet<[u32; 2]>;
+pub(crate) type PairSet = BTreeSet<[u32; 2]>;
 
 /// A pair that was not followed to the end of an interval.
 #[derive(Debug)]
-pub(crate) struct Lost {
+pub(crate) struct LostSide {
     /// What was found, if anything.
-    pub(crate) found: Option<Found>,
+    pub(crate) found: Option<FoundPenetration>,
     /// Whether it is deeper than τ at an instant and shares no vertex.
     pub(crate) is_deep: bool,
     /// Whether it surely passes through, also with twice the tolerance.
@@ -28,18 +28,18 @@ pub(crate) struct Lost {
     pub(crate) are_parts_clean: bool,
 }
 
-impl Lost {
+impl LostSide {
     /// Looks closer at a pair that lost its side. `is_open`: it may have begun on any.
     pub(crate) fn new(
-        span: &Span,
+        moving: &MovingPair,
         (side, is_open): (&Side, bool),
-        walked: Option<Found>,
+        followed: Option<FoundPenetration>,
         limits: &Limits,
     ) -> Self {
-        let depth = walked.as_ref().map_or(0.0, |found| found.crossing.depth);
-        let is_deep = span.shared == 0 && depth > limits.tolerance;
+        let depth = followed.as_ref().map_or(0.0, |found| found.crossing.depth);
+        let is_deep = moving.shared == 0 && depth > limits.tolerance;
         let mut lost = Self {
-            found: walked,
+            found: followed,
             is_deep,
             is_clear: is_deep,
             are_parts_clean: false,
@@ -51,31 +51,31 @@ impl Lost {
             tolerance: CLEAR * limits.tolerance,
             ..*limits
         };
-        let from = |part: &Span| {
+        let from = |part: &MovingPair| {
             let all = Side::at_start(part, limits);
             all.filter(|_| is_open).unwrap_or_else(|| side.clone())
         };
         // A part may have been on more sides than the whole.
-        let any = |part: &Span| {
+        let any = |part: &MovingPair| {
             let all = Side::at_start(part, &wide);
-            all.filter(|_| span.shared > 0 && (!side.is_apart || is_open))
+            all.filter(|_| moving.shared > 0 && (!side.is_apart || is_open))
                 .unwrap_or_else(|| side.clone())
         };
-        let crosses = |part: &Span| {
+        let crosses = |part: &MovingPair| {
             let is_deep = depth_at(part, 0.0) > wide.tolerance;
-            is_deep || matches!(walk(part, &any(part), &wide), Walked::Crosses(_))
+            is_deep || matches!(follow(part, &any(part), &wide), FollowOutcome::Crosses(_))
         };
-        let is_clean = |part: &Span| {
-            let walked = walk(part, &from(part), limits);
-            matches!(walked, Walked::Clean { .. })
+        let is_clean = |part: &MovingPair| {
+            let followed = follow(part, &from(part), limits);
+            matches!(followed, FollowOutcome::Clean { .. })
         };
-        let parts = disjoint_parts(span);
+        let parts = disjoint_parts(moving);
         lost.is_clear = parts.iter().any(crosses);
-        lost.are_parts_clean = span.shared > 0 && !lost.is_clear && parts.iter().all(is_clean);
+        lost.are_parts_clean = moving.shared > 0 && !lost.is_clear && parts.iter().all(is_clean);
         lost
     }
 }
 
-pub(crate) fn depth_at(span: &Span, t: f64) -> f64 {
-    depth(span, &span.at(t))
+pub(crate) fn depth_at(moving: &MovingPair, t: f64) -> f64 {
+    depth(moving, &moving.at(t))
 }

@@ -4,13 +4,13 @@ use foldmotion_pattern::Sheet;
 use glam::DVec3;
 
 use crate::closest::{closest, on_triangle};
+use crate::face_pair::FacePair;
+use crate::follow::{SideCrossing, instants_after};
 use crate::instant::axes;
-use crate::pair::Pair;
-use crate::parts::disjoint_parts;
-use crate::span::{Pose, Span};
 use crate::instant::depth;
+use crate::moving_pair::{MovingPair, PairPose};
+use crate::parts::disjoint_parts;
 use crate::side::Limits;
-use crate::walk::{Crossing, instants_after};
 use foldmotion_check::{Penetration, PenetrationKind};
 
 /// To this share of an interval two proofs agree about when a contact begins and when it gets too deep.
@@ -23,26 +23,26 @@ pub(crate) const POINT_TOLERANCES: f64 = 16.0;
 
 /// Where a pair gets too deep.
 #[derive(Debug)]
-pub(crate) struct Found {
-    span: Span,
+pub(crate) struct FoundPenetration {
+    moving: MovingPair,
     pub(crate) frame: usize,
     /// The motion times at the ends of the interval.
     pub(crate) times: [f64; 2],
-    pub(crate) crossing: Crossing,
+    pub(crate) crossing: SideCrossing,
 }
 
-impl Found {
-    pub(crate) fn new(span: &Span, frame: usize, crossing: Crossing) -> Self {
+impl FoundPenetration {
+    pub(crate) fn new(moving: &MovingPair, frame: usize, crossing: SideCrossing) -> Self {
         Self {
-            span: *span,
+            moving: *moving,
             frame,
             times: [0.0, 1.0],
             crossing,
         }
     }
 
-    pub(crate) fn at_first_frame(span: &Span, time: f64, depth: f64) -> Self {
-        let crossing = Crossing {
+    pub(crate) fn at_first_frame(moving: &MovingPair, time: f64, depth: f64) -> Self {
+        let crossing = SideCrossing {
             contact: 0.0,
             passed: 0.0,
             depth,
@@ -51,7 +51,7 @@ impl Found {
         };
         Self {
             times: [time; 2],
-            ..Self::new(span, 0, crossing)
+            ..Self::new(moving, 0, crossing)
         }
     }
 
@@ -66,7 +66,7 @@ impl Found {
     /// How far apart two proofs may put an instant: a millionth of the interval, or as long as the corners take to move by
     /// half of τ relative to each other.
     fn time_slack(&self, limits: &Limits) -> f64 {
-        let corners = || self.span.a.iter().chain(&self.span.b);
+        let corners = || self.moving.a.iter().chain(&self.moving.b);
         let moved = corners()
             .map(|p| (p[1] - p[0]).length())
             .fold(0.0, f64::max);
@@ -83,21 +83,21 @@ impl Found {
     }
 
     /// The least overlap at motion time `time` of triangles that share no vertex.
-    fn overlap(&self, time: f64, pair: &Pair) -> Option<f64> {
+    fn overlap(&self, time: f64, pair: &FacePair) -> Option<f64> {
         let share = self.share(time).filter(|_| pair.shared == 0)?;
-        Some(depth(&self.span, &self.span.at(share)))
+        Some(depth(&self.moving, &self.moving.at(share)))
     }
 
     /// Whether the contact may be said to begin when stated: pairs that graze each other on the way, or are within τ
     /// for a while, come into contact more than once; there they must touch, and not be too deep before.
-    fn may_begin(&self, stated: &Penetration, pair: &Pair, limits: &Limits) -> bool {
+    fn may_begin(&self, stated: &Penetration, pair: &FacePair, limits: &Limits) -> bool {
         let near = POINT_TOLERANCES * limits.tolerance;
         let is_met = match self.share(stated.time) {
             None => false,
             Some(share) if pair.shared == 0 => {
-                depth(&self.span, &self.span.at(share)).abs() <= near
+                depth(&self.moving, &self.moving.at(share)).abs() <= near
             }
-            Some(share) => disjoint_parts(&self.span)
+            Some(share) => disjoint_parts(&self.moving)
                 .iter()
                 .any(|part| closest(&part.at(share)).distance() <= near),
         };
@@ -106,10 +106,11 @@ impl Found {
 
     /// Whether the pair may be said to get too deep when stated: which side it was on may be left open by a contact
     /// that allows several; then it must touch there, and be too deep later in the interval.
-    fn may_pass(&self, stated: &Penetration, pair: &Pair, limits: &Limits) -> bool {
+    fn may_pass(&self, stated: &Penetration, pair: &FacePair, limits: &Limits) -> bool {
         let overlap = self.overlap(stated.passed, pair);
         let is_deep_later = self.share(stated.passed).is_some_and(|share| {
-            instants_after(share).any(|t| depth(&self.span, &self.span.at(t)) > limits.tolerance)
+            instants_after(share)
+                .any(|t| depth(&self.moving, &self.moving.at(t)) > limits.tolerance)
         });
         overlap.is_some_and(|o| o.abs() <= POINT_TOLERANCES * limits.tolerance) && is_deep_later
     }
@@ -118,9 +119,9 @@ impl Found {
     ///
     /// For triangles that share no vertex: the largest depth. Otherwise no more than the overlaps at the instants looked
     /// at: which axes count as the side on which the pair was is left to the prover.
-    fn is_as_deep(&self, stated: &Penetration, unit: f64, pair: &Pair) -> bool {
+    fn is_as_deep(&self, stated: &Penetration, unit: f64, pair: &FacePair) -> bool {
         let is_close = |depth: f64| {
-            let slack = DEPTH_ACCURACY * depth.abs() + 1e-9 * self.span.size;
+            let slack = DEPTH_ACCURACY * depth.abs() + 1e-9 * self.moving.size;
             (stated.depth * unit - depth).abs() <= slack
         };
         if is_close(self.depth(pair)) {
@@ -130,7 +131,7 @@ impl Found {
             // The depth is taken at instants after the one stated, which both proofs find only nearly alike.
             let depths = self.share(stated.passed).into_iter();
             let depths = depths.flat_map(instants_after);
-            let depths = depths.map(|t| depth(&self.span, &self.span.at(t)));
+            let depths = depths.map(|t| depth(&self.moving, &self.moving.at(t)));
             return is_close(depths.fold(0.0, f64::max));
         }
         let of_stated = self.share(stated.passed).into_iter();
@@ -138,8 +139,8 @@ impl Found {
             .chain([self.crossing.passed])
             .flat_map(instants_after);
         let overlaps = instants.flat_map(|t| {
-            let pose = self.span.at(t);
-            let all = axes(&self.span, &pose).into_iter();
+            let pose = self.moving.at(t);
+            let all = axes(&self.moving, &pose).into_iter();
             let along = all.map(|axis| axis.direction);
             let side = self.crossing.side.iter().copied();
             let both: Vec<f64> = along.chain(side).map(|d| pose.overlap(d)).collect();
@@ -149,7 +150,7 @@ impl Found {
         stated.depth * unit <= (1.0 + DEPTH_ACCURACY) * largest
     }
 
-    fn depth(&self, pair: &Pair) -> f64 {
+    fn depth(&self, pair: &FacePair) -> f64 {
         match pair.shared {
             0 => self.crossing.depth.max(0.0),
             _ => self.crossing.reach,
@@ -163,8 +164,8 @@ type Difference = (&'static str, String, String);
 /// In what a stated penetration differs from the one found.
 pub(crate) fn compare(
     stated: &Penetration,
-    found: &Found,
-    pair: &Pair,
+    found: &FoundPenetration,
+    pair: &FacePair,
     sheet: &Sheet,
     limits: &Limits,
 ) -> Vec<Difference> {
@@ -198,8 +199,8 @@ pub(crate) fn compare(
         );
     }
     let passed = found.share(stated.passed);
-    let pose = found.span.at(passed.unwrap_or(found.crossing.passed));
-    let point = stated.point - found.span.origin;
+    let pose = found.moving.at(passed.unwrap_or(found.crossing.passed));
+    let point = stated.point - found.moving.origin;
     let near = POINT_TOLERANCES * limits.tolerance;
     if let Some(fault) = meeting_fault(stated, pair, &pose, point, (near, found.is_first_frame())) {
         differ("point", stated.point.to_string(), fault.to_owned());
@@ -207,7 +208,7 @@ pub(crate) fn compare(
     differences
 }
 
-pub(crate) fn is_kind_right(stated: &Penetration, pair: &Pair, tolerance: f64) -> bool {
+pub(crate) fn is_kind_right(stated: &Penetration, pair: &FacePair, tolerance: f64) -> bool {
     use PenetrationKind::{
         AroundVertex, EdgeEdge, FoldedThrough, PassedThrough, ThroughEdge, VertexFacet,
     };
@@ -227,8 +228,8 @@ pub(crate) fn is_kind_right(stated: &Penetration, pair: &Pair, tolerance: f64) -
 /// is then the vertex itself or halfway between the edges.
 pub(crate) fn meeting_fault(
     stated: &Penetration,
-    pair: &Pair,
-    pose: &Pose,
+    pair: &FacePair,
+    pose: &PairPose,
     point: DVec3,
     (near, is_far): (f64, bool),
 ) -> Option<&'static str> {

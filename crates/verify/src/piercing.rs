@@ -8,7 +8,7 @@
 use glam::DVec3;
 
 use crate::closest::{closest, on_triangle};
-use crate::span::Pose;
+use crate::moving_pair::PairPose;
 
 /// Offsets of an edge, in units of τ: none, and both ways along some directions.
 const OFFSETS: [DVec3; 5] = [
@@ -101,7 +101,7 @@ impl Surface {
             })
             && self.rim.iter().all(|side| {
                 let [[p, q], [u, v]] = [ends, side.map(place)];
-                let both = Pose {
+                let both = PairPose {
                     a: [p, q, q],
                     b: [u, v, v],
                 };

@@ -3,8 +3,8 @@
 use foldmotion_pattern::Frame;
 
 use crate::closest::{closest, on_triangle};
-use crate::pair::Pair;
-use crate::span::Span;
+use crate::face_pair::FacePair;
+use crate::moving_pair::MovingPair;
 use crate::verifier::{POINT_ACCURACY, Verifier};
 use foldmotion_check::Separation;
 
@@ -39,7 +39,7 @@ impl Verifier<'_> {
         if stated.faces[0] >= stated.faces[1] || stated.faces[1] as usize >= count {
             return Some(format!("there are no such triangles {:?}", stated.faces));
         }
-        let pair = Pair::new(self.sheet, stated.faces);
+        let pair = FacePair::new(self.sheet, stated.faces);
         if !pair.is_measured(self.sheet) {
             return Some("the facets share a vertex".to_owned());
         }
@@ -60,8 +60,8 @@ impl Verifier<'_> {
         if (apart - stated.attained * unit).abs() > slack {
             return Some(format!("the points are {:e} apart", apart / unit));
         }
-        let span = Span::new([a, b], [a, b], 0);
-        let least = closest(&span.at(0.0)).distance();
+        let moving = MovingPair::new([a, b], [a, b], 0);
+        let least = closest(&moving.at(0.0)).distance();
         let is_met =
             (least - stated.attained * unit).abs() <= slack.max(0.01 * self.limits.tolerance);
         (!is_met).then(|| format!("the triangles are {:e} apart there", least / unit))

@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use crate::arcs;
 use crate::instant::{Axis, axes};
-use crate::span::Span;
+use crate::moving_pair::MovingPair;
 
 /// The share of their size by which triangles with common vertices are clear of each other.
 const CLEAR_SHARE: f64 = 1e-3;
@@ -29,10 +29,10 @@ pub(crate) struct Limits {
 
 impl Side {
     /// The side at the first instant of a motion: any that D(t) allows; none where the triangles are deeper than τ.
-    pub(crate) fn at_start(span: &Span, limits: &Limits) -> Option<Self> {
-        let pose = span.at(0.0);
-        let all = axes(span, &pose);
-        if let Some(best) = clear_of(&all, clearance(span, limits)) {
+    pub(crate) fn at_start(moving: &MovingPair, limits: &Limits) -> Option<Self> {
+        let pose = moving.at(0.0);
+        let all = axes(moving, &pose);
+        if let Some(best) = clear_of(&all, clearance(moving, limits)) {
             return Some(Self {
                 is_apart: true,
                 directions: vec![best],
@@ -58,10 +58,10 @@ impl Side {
 ///
 /// What corners on a plane through common vertices have of room is none, so that where vertices are common it takes more
 /// than τ.
-pub(crate) fn clearance(span: &Span, limits: &Limits) -> f64 {
-    match span.shared {
+pub(crate) fn clearance(moving: &MovingPair, limits: &Limits) -> f64 {
+    match moving.shared {
         0 => limits.tolerance,
-        _ => limits.tolerance.max(CLEAR_SHARE * span.size),
+        _ => limits.tolerance.max(CLEAR_SHARE * moving.size),
     }
 }
 

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use foldmotion_pattern::{LayerOrder, Sheet};
 use glam::{DVec2, DVec3};
 
-use crate::layer::{Scale, corners};
+use crate::layer::{LayerTolerances, corners};
 use crate::plane::{self, Plane};
 
 /// Faces are stacked where their planes are within 20° of each other (its cosine), and come somewhere within this many
@@ -17,17 +17,17 @@ const DOUBTFUL: f64 = 1e-3;
 
 /// What became of the claims about faces that are no layers in contact.
 #[derive(Debug, Default)]
-pub(crate) struct Stacked {
+pub(crate) struct StackingResult {
     /// How many hold.
     pub(crate) held: usize,
     /// The first that is false.
-    pub(crate) broken: Option<[i64; 3]>,
+    pub(crate) refuted: Option<[i64; 3]>,
     /// Triangles of the first of which another proof may think otherwise.
     pub(crate) doubtful: Option<[u32; 2]>,
 }
 
 /// Where the first of two triangles lies over the front of the second.
-struct Span {
+struct HeightRange {
     triangles: [u32; 2],
     low: f64,
     high: f64,
@@ -35,21 +35,21 @@ struct Span {
 }
 
 /// A state of the sheet.
-pub(crate) struct State<'a> {
+pub(crate) struct SheetState<'a> {
     pub(crate) sheet: &'a Sheet,
     pub(crate) positions: &'a [DVec3],
     pub(crate) face_of: &'a dyn Fn(u32) -> u32,
-    pub(crate) scale: Scale,
+    pub(crate) scale: LayerTolerances,
 }
 
-impl State<'_> {
+impl SheetState<'_> {
     /// Judges the entries of `order` of which `is_open` holds.
     pub(crate) fn judge(
         &self,
         order: &LayerOrder,
         is_open: impl Fn((u32, u32)) -> bool,
-    ) -> Stacked {
-        let mut stacked = Stacked::default();
+    ) -> StackingResult {
+        let mut stacked = StackingResult::default();
         let open: Vec<_> = order.iter().filter(|&(f, g, _)| is_open((f, g))).collect();
         if open.is_empty() {
             return stacked;
@@ -61,11 +61,13 @@ impl State<'_> {
         }
         let of = |face| triangles.get(&face).into_iter().flatten().copied();
         for (f, g, sign) in open {
-            let spans: Vec<Span> = of(f)
-                .flat_map(|a| of(g).filter_map(move |b| self.span(a, b)))
+            let ranges: Vec<HeightRange> = of(f)
+                .flat_map(|a| of(g).filter_map(move |b| self.heights(a, b)))
                 .collect();
             let sign_of = |height: f64| height * f64::from(sign);
-            let ends = spans.iter().flat_map(|s| [sign_of(s.low), sign_of(s.high)]);
+            let ends = ranges
+                .iter()
+                .flat_map(|s| [sign_of(s.low), sign_of(s.high)]);
             let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
             for end in ends {
                 (low, high) = (low.min(end), high.max(end));
@@ -75,10 +77,10 @@ impl State<'_> {
                 stacked.held += 1;
             } else if high <= tolerance && low < -tolerance {
                 let entry = [i64::from(f), i64::from(g), i64::from(sign)];
-                stacked.broken = stacked.broken.or(Some(entry));
+                stacked.refuted = stacked.refuted.or(Some(entry));
             }
             let is_close = |height: f64| (height.abs() - tolerance).abs() <= DOUBTFUL * tolerance;
-            let doubtful = spans
+            let doubtful = ranges
                 .iter()
                 .find(|s| s.is_doubtful || is_close(low) || is_close(high));
             stacked.doubtful = stacked.doubtful.or(doubtful.map(|s| s.triangles));
@@ -87,7 +89,7 @@ impl State<'_> {
     }
 
     /// Heights of triangle `a` over the front of `b`, over what both cover; none where they are not stacked.
-    fn span(&self, a: u32, b: u32) -> Option<Span> {
+    fn heights(&self, a: u32, b: u32) -> Option<HeightRange> {
         let triangles = [a, b];
         let [a, b] = triangles.map(|face| corners(self.sheet, self.positions, face));
         let (of_a, of_b) = (Plane::of(&a)?, Plane::of(&b)?);
@@ -106,7 +108,7 @@ impl State<'_> {
         let gap = low.max(-high).max(0.0);
         let near = 1.0 - gap / (NEAR * self.sheet.unit_length);
         let least = along.min(overlap).min(near);
-        (least >= 0.0).then_some(Span {
+        (least >= 0.0).then_some(HeightRange {
             triangles,
             low,
             high,

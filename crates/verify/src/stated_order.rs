@@ -1,7 +1,7 @@
 //! What the certificate states of the order of layers, beside what was found.
 
 use crate::closest::on_triangle;
-use crate::cluster::{Fault, Found};
+use crate::cluster::{Contradiction, FoundCluster};
 use crate::layer::corners;
 use crate::outcome::Unproved;
 use crate::verifier::Verifier;
@@ -23,31 +23,35 @@ fn name(faces: &[u32], frames: [usize; 2]) -> String {
 
 impl Verifier<'_> {
     /// Every stated contradiction of a frame is found, and every one found is stated, there or for the same pair before.
-    pub(crate) fn compare_faults(&mut self, frame: usize, faults: &[Fault]) {
+    pub(crate) fn compare_contradictions(
+        &mut self,
+        frame: usize,
+        contradictions: &[Contradiction],
+    ) {
         let claim = self.claim;
         let conflicts = claim
             .penetrations
             .iter()
             .filter_map(|p| Some((p, p.conflict.as_ref()?)));
         for (stated, conflict) in conflicts.clone().filter(|(p, _)| p.frame == frame) {
-            let is_it = |f: &&Fault| f.rule == conflict.rule && f.faces == conflict.faces;
-            let what = match faults.iter().find(is_it) {
+            let is_it = |f: &&Contradiction| f.rule == conflict.rule && f.faces == conflict.faces;
+            let what = match contradictions.iter().find(is_it) {
                 None => Some("the order of these layers contradicts nothing so"),
-                Some(fault) => self.fault_in(stated, conflict, fault),
+                Some(contradiction) => self.fault_in(stated, conflict, contradiction),
             };
             if let Some(what) = what {
                 let stated = format!("{:?} of {:?}", conflict.rule, conflict.faces);
                 self.refute_at(frame, "penetrations.layers", &stated, what);
             }
         }
-        for fault in faults {
+        for contradiction in contradictions {
             let is_named = |(p, _): (&Penetration, _)| {
-                p.frame <= frame && p.faces.iter().all(|f| fault.faces.contains(f))
+                p.frame <= frame && p.faces.iter().all(|f| contradiction.faces.contains(f))
             };
             if !conflicts.clone().any(is_named) {
                 let what = format!(
                     "{:?} of triangles {:?} at frame {frame}",
-                    fault.rule, fault.faces
+                    contradiction.rule, contradiction.faces
                 );
                 self.refute_at(frame, "penetrations", "none of them", &what);
             }
@@ -59,7 +63,7 @@ impl Verifier<'_> {
         &self,
         stated: &Penetration,
         conflict: &LayerConflict,
-        fault: &Fault,
+        contradiction: &Contradiction,
     ) -> Option<&'static str> {
         let mut vertices = stated.vertices.clone();
         vertices.sort_unstable();
@@ -68,10 +72,10 @@ impl Verifier<'_> {
             corners.sort_unstable();
             vertices == corners
         });
-        let has_vertices = if fault.vertices.is_empty() {
+        let has_vertices = if contradiction.vertices.is_empty() {
             is_of_one
         } else {
-            vertices == fault.vertices
+            vertices == contradiction.vertices
         };
         let near = POINT_TOLERANCES * self.limits.tolerance;
         let is_there = conflict.faces.iter().all(|&face| {
@@ -79,7 +83,7 @@ impl Verifier<'_> {
             on_triangle(stated.point, &triangle).distance(stated.point) <= near
         });
         let is_pair = stated.faces.iter().all(|f| conflict.faces.contains(f))
-            && self.ordering.order(stated.faces).is_some();
+            && self.layer_state.order(stated.faces).is_some();
         if stated.kind != PenetrationKind::LayerOrder || stated.depth != 0.0 {
             Some("it is an order of layers, 0 deep")
         } else if [stated.time, stated.passed] != [self.last.time; 2] {
@@ -97,7 +101,7 @@ impl Verifier<'_> {
 
     /// Refutes what is stated of a frame; names it open where the frame is in doubt.
     fn refute_at(&mut self, frame: usize, field: &str, stated: &str, found: &str) {
-        match self.ordering.doubts.get(&frame) {
+        match self.layer_state.doubts.get(&frame) {
             Some(&(faces, what)) => self.outcome.unproved.push(Unproved {
                 faces,
                 frame,
@@ -109,14 +113,14 @@ impl Verifier<'_> {
 
     /// The first of these frames that is in doubt.
     fn first_doubt(&self, [from, to]: [usize; 2]) -> Option<usize> {
-        let mut doubtful = self.ordering.doubts.range(from..=to.max(from));
+        let mut doubtful = self.layer_state.doubts.range(from..=to.max(from));
         doubtful.next().map(|(&frame, _)| frame)
     }
 
     /// Holds the stated clusters and claims to those found.
     pub(crate) fn compare_clusters(&mut self) {
-        let (stated, found) = (self.claim.claims, self.ordering.claims);
-        let mut clusters = std::mem::take(&mut self.ordering.clusters);
+        let (stated, found) = (self.claim.claims, self.layer_state.claims);
+        let mut clusters = std::mem::take(&mut self.layer_state.clusters);
         clusters.sort_by(|p, q| (p.frames, &p.faces).cmp(&(q.frames, &q.faces)));
         let listed = &self.claim.clusters;
         for k in 0..clusters.len().max(listed.len()) {
@@ -135,7 +139,7 @@ impl Verifier<'_> {
             }
         }
         if stated != found {
-            let frame = self.ordering.doubts.keys().next().copied().unwrap_or(0);
+            let frame = self.layer_state.doubts.keys().next().copied().unwrap_or(0);
             let [stated, found] = [stated, found].map(|claims| format!("{claims:?}"));
             self.refute_at(frame, "layer_orders", &stated, &found);
         }
@@ -151,7 +155,7 @@ impl Verifier<'_> {
     }
 }
 
-impl Found {
+impl FoundCluster {
     /// In what a stated cluster is another: stated, found. `is_open`: sides are in doubt there, and a stated order that is
     /// unproved, which says nothing, differs from none.
     fn differences(&self, stated: &Cluster, is_open: bool) -> Vec<(String, String)> {

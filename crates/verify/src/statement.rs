@@ -2,12 +2,12 @@
 
 use foldmotion_pattern::Sheet;
 
+use crate::face_pair::FacePair;
 use crate::outcome::Refutation;
-use crate::pair::Pair;
 use foldmotion_check::{CollisionReport, Verdict};
 
 /// What the second proof knows.
-pub(crate) struct Facts<'a> {
+pub(crate) struct Findings<'a> {
     pub(crate) sheet: &'a Sheet,
     /// The last frame proved, and its time.
     pub(crate) last: (usize, f64),
@@ -18,7 +18,7 @@ pub(crate) struct Facts<'a> {
 }
 
 /// Everything the report contradicts itself or what was found in.
-pub(crate) fn consistency(claim: &CollisionReport, facts: &Facts<'_>) -> Vec<Refutation> {
+pub(crate) fn consistency(claim: &CollisionReport, facts: &Findings<'_>) -> Vec<Refutation> {
     let mut refuted = Vec::new();
     if let Some(says) = verdict_fault(claim, facts.touching) {
         refuted.push(Refutation::new(
@@ -128,5 +128,5 @@ fn verdict_fault(claim: &CollisionReport, [sure, possible]: [usize; 2]) -> Optio
 
 fn has_measured_pair(sheet: &Sheet) -> bool {
     let count = sheet.faces.len() as u32;
-    (0..count).any(|f| (f + 1..count).any(|g| Pair::new(sheet, [f, g]).is_measured(sheet)))
+    (0..count).any(|f| (f + 1..count).any(|g| FacePair::new(sheet, [f, g]).is_measured(sheet)))
 }

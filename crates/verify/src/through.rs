@@ -3,13 +3,13 @@
 use foldmotion_pattern::Frame;
 use glam::DVec3;
 
-use crate::around::{Around, edges};
 use crate::closest::{closest, on_triangle};
-use crate::pair::Pair;
+use crate::face_pair::FacePair;
+use crate::follow::instants_after;
+use crate::moving_pair::PairPose;
+use crate::neighbourhood::{Neighbourhood, edges};
 use crate::penetration::{POINT_TOLERANCES, is_kind_right, meeting_fault};
 use crate::piercing::Surface;
-use crate::span::Pose;
-use crate::walk::instants_after;
 use foldmotion_check::{Penetration, PenetrationKind};
 
 /// Instants looked at in an interval, besides those that draw near to a passage.
@@ -27,7 +27,7 @@ type Fault = (&'static str, String, &'static str);
 
 /// The frames around a penetration.
 pub(crate) struct Interval<'a> {
-    pub(crate) around: &'a Around,
+    pub(crate) around: &'a Neighbourhood,
     pub(crate) frames: [&'a Frame; 2],
     /// τ, a length.
     pub(crate) tolerance: f64,
@@ -107,7 +107,7 @@ impl Interval<'_> {
     }
 
     /// What is wrong with a stated penetration whatever passes through what.
-    pub(crate) fn fault(&self, stated: &Penetration, pair: &Pair) -> Option<Fault> {
+    pub(crate) fn fault(&self, stated: &Penetration, pair: &FacePair) -> Option<Fault> {
         let [_, end] = self.times();
         if !(stated.time <= stated.passed && stated.passed <= end) {
             let found = "the contact begins before, in the interval or earlier";
@@ -144,19 +144,19 @@ impl Interval<'_> {
         None
     }
 
-    fn meeting_fault(&self, stated: &Penetration, pair: &Pair) -> Option<Fault> {
+    fn meeting_fault(&self, stated: &Penetration, pair: &FacePair) -> Option<Fault> {
         let [start, end] = self.frames.map(|frame| &frame.positions[..]);
-        let span = pair.span(start, end);
-        let pose = span.at(self.share(stated.passed));
+        let moving = pair.moving(start, end);
+        let pose = moving.at(self.share(stated.passed));
         let near = POINT_TOLERANCES * self.tolerance;
-        let point = stated.point - span.origin;
+        let point = stated.point - moving.origin;
         let found = meeting_fault(stated, pair, &pose, point, (near, false))?;
         Some(("point", stated.point.to_string(), found))
     }
 
     /// The simplices that may be named, each as a triangle with corners repeated: the one in the one triangle of the pair,
     /// the other in the other.
-    fn features(stated: &Penetration, pair: &Pair) -> Vec<[[u32; 3]; 2]> {
+    fn features(stated: &Penetration, pair: &FacePair) -> Vec<[[u32; 3]; 2]> {
         let v = &stated.vertices;
         let mut splits: Vec<[[u32; 3]; 2]> = match **v {
             [a, b, c, d] => vec![[[a, a, a], [b, c, d]], [[a, b, b], [c, d, d]]],
@@ -173,9 +173,9 @@ impl Interval<'_> {
         splits
     }
 
-    fn pose(&self, features: [[u32; 3]; 2], t: f64) -> Pose {
+    fn pose(&self, features: [[u32; 3]; 2], t: f64) -> PairPose {
         let [a, b] = features.map(|corners| corners.map(|v| self.place(v, t)));
-        Pose { a, b }
+        PairPose { a, b }
     }
 
     fn apart(&self, features: [[u32; 3]; 2], t: f64) -> f64 {

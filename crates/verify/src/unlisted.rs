@@ -4,7 +4,7 @@ use foldmotion_pattern::Frame;
 use glam::DVec3;
 use rayon::prelude::*;
 
-use crate::around::edges;
+use crate::neighbourhood::edges;
 use crate::piercing::may_pierce;
 use crate::verifier::Verifier;
 

@@ -6,23 +6,23 @@ use foldmotion_pattern::{Assignment, Frame, Sheet};
 use glam::DVec3;
 use rayon::prelude::*;
 
-use crate::lost::{Lost, Pairs};
-use crate::around::Around;
 use crate::boxes::Boxes;
 use crate::closest::closest;
-use crate::distance::{Nearness, keeps_distance};
+use crate::distance::{DistanceProof, keeps_distance};
+use crate::face_pair::{FacePair, assignments, front_normal};
+use crate::follow::{FollowOutcome, SideCrossing, follow_leniently};
+use crate::layer_state::LayerState;
 use crate::line;
-use crate::ordering::Ordering;
+use crate::lost::{LostSide, PairSet};
+use crate::moving_pair::MovingPair;
+use crate::neighbourhood::Neighbourhood;
 use crate::outcome::{Refutation, Unproved, Verification};
-use crate::pair::{Pair, assignments, front_normal};
 use crate::parts::disjoint_parts;
-use crate::penetration::Found;
-use crate::span::Span;
+use crate::penetration::FoundPenetration;
+use crate::side::{Limits, Side};
 use crate::statement;
 use crate::through::Piercing;
 use crate::trail::Trail;
-use crate::side::{Limits, Side};
-use crate::walk::{Crossing, Walked, walk_leniently};
 use foldmotion_check::{CollisionReport, Penetration, Verdict};
 
 /// The most steps spent on a pair in an interval.
@@ -58,15 +58,15 @@ pub struct Verifier<'a> {
     pub(crate) undecided: BTreeSet<([u32; 2], usize)>,
     /// Pairs with a penetration behind them, and the intervals in which each was judged.
     pub(crate) dropped: BTreeMap<[u32; 2], usize>,
-    pub(crate) around: Around,
+    pub(crate) around: Neighbourhood,
     /// Pairs not followed to the end of the interval before.
-    pub(crate) lost: Pairs,
+    pub(crate) lost: PairSet,
     /// Sides that are fewer than those followed, as they fit together with those beyond an edge.
     pub(crate) narrowed: BTreeMap<[u32; 2], Side>,
     /// Pairs at which something was found to pass through.
-    pub(crate) accounted: Pairs,
+    pub(crate) accounted: PairSet,
     /// Pairs of which it was left open.
-    pub(crate) questioned: Pairs,
+    pub(crate) questioned: PairSet,
     /// Whether an edge was found to go through the sheet where nothing is listed.
     pub(crate) is_pierced: bool,
     /// What is listed up to here and was not found yet, with what goes through the sheet there.
@@ -76,17 +76,17 @@ pub struct Verifier<'a> {
     /// Whether the stated closest approach was met, where one is stated.
     pub(crate) separation_fault: Option<String>,
     pub(crate) is_separation_met: bool,
-    pub(crate) ordering: Ordering,
+    pub(crate) layer_state: LayerState,
     pub(crate) outcome: Verification,
 }
 
 /// What was found of a pair in an interval.
-pub(crate) struct Judged {
+pub(crate) struct PairFindings {
     side: Option<Side>,
-    pub(crate) lost: Option<Lost>,
+    pub(crate) lost: Option<LostSide>,
     /// Likewise from the sides that fit together with others, which may be fewer.
     pub(crate) narrowed: Option<Side>,
-    pub(crate) lost_narrowed: Option<Lost>,
+    pub(crate) lost_narrowed: Option<LostSide>,
     /// How it was followed, where it was in contact.
     pub(crate) trail: Option<Trail>,
     pub(crate) touching: [bool; 2],
@@ -97,7 +97,7 @@ pub(crate) struct Judged {
     pub(crate) is_skipped: bool,
 }
 
-impl Judged {
+impl PairFindings {
     pub(crate) fn apart() -> Self {
         Self {
             side: None,
@@ -146,7 +146,7 @@ impl<'a> Verifier<'a> {
             claimed: of_pairs.map(|p| (p.faces, p)).collect(),
             undecided: claim.undecided.iter().map(|u| (u.faces, u.frame)).collect(),
             dropped: BTreeMap::new(),
-            around: Around::new(sheet),
+            around: Neighbourhood::new(sheet),
             lost: BTreeSet::new(),
             accounted: BTreeSet::new(),
             questioned: BTreeSet::new(),
@@ -157,7 +157,7 @@ impl<'a> Verifier<'a> {
             perhaps_touching: BTreeSet::new(),
             separation_fault: None,
             is_separation_met: claim.min_separation.is_none(),
-            ordering: Ordering::new(line::hinges(sheet)),
+            layer_state: LayerState::new(line::hinges(sheet)),
             outcome: Verification::default(),
         };
         verifier.begin();
@@ -179,13 +179,13 @@ impl<'a> Verifier<'a> {
         let near = self.near_pairs(&start.positions);
         self.outcome.near += near.len() as u64;
         self.search_unlisted(&start, &near);
-        let pairs: Vec<Pair> = near
+        let pairs: Vec<FacePair> = near
             .iter()
             .filter(|faces| !self.dropped.contains_key(*faces))
-            .map(|&faces| Pair::new(self.sheet, faces))
+            .map(|&faces| FacePair::new(self.sheet, faces))
             .filter(|pair| pair.shared < 3)
             .collect();
-        let mut judged: Vec<Judged> = pairs
+        let mut judged: Vec<PairFindings> = pairs
             .par_iter()
             .with_min_len(64)
             .map(|pair| self.judge(pair, &start))
@@ -249,7 +249,7 @@ impl<'a> Verifier<'a> {
             }
         }
         self.outcome.touching = [self.surely_touching.len(), self.perhaps_touching.len()];
-        let facts = statement::Facts {
+        let facts = statement::Findings {
             sheet: self.sheet,
             last: (self.frames - 1, self.last.time),
             touching: self.outcome.touching,
@@ -282,7 +282,7 @@ impl<'a> Verifier<'a> {
         let assignments = assignments(self.sheet);
         let near = self.near_pairs(&first);
         for &faces in &near {
-            let pair = Pair::new(self.sheet, faces);
+            let pair = FacePair::new(self.sheet, faces);
             if pair.shared > 2 {
                 self.refute(
                     "triangles",
@@ -291,11 +291,11 @@ impl<'a> Verifier<'a> {
                 );
                 continue;
             }
-            let span = pair.span(&first, &first);
-            match Side::at_start(&span, &self.limits) {
+            let moving = pair.moving(&first, &first);
+            match Side::at_start(&moving, &self.limits) {
                 Some(side) if side.is_apart => {}
                 Some(mut side) => {
-                    let parts = disjoint_parts(&span).into_iter();
+                    let parts = disjoint_parts(&moving).into_iter();
                     let distances = parts.map(|part| closest(&part.at(0.0)).distance());
                     let least = distances.fold(f64::INFINITY, f64::min);
                     let limits = [SURELY_TOUCHING, SURELY_APART];
@@ -313,7 +313,7 @@ impl<'a> Verifier<'a> {
                     }
                     self.sides.push((faces, side));
                 }
-                None => self.starts_lost(&pair, &span),
+                None => self.starts_lost(&pair, &moving),
             }
         }
         self.find_layers(&near, &BTreeSet::new());
@@ -350,67 +350,69 @@ impl<'a> Verifier<'a> {
         boxes.overlapping()
     }
 
-    fn judge(&self, pair: &Pair, start: &Frame) -> Judged {
-        let span = pair.span(&start.positions, &self.last.positions);
+    fn judge(&self, pair: &FacePair, start: &Frame) -> PairFindings {
+        let moving = pair.moving(&start.positions, &self.last.positions);
         let known = self
             .sides
             .binary_search_by(|(faces, _)| faces.cmp(&pair.faces));
         let known = known.ok().map(|index| &self.sides[index].1);
         let interval = self.frames - 1;
         if self.undecided.contains(&(pair.faces, interval)) {
-            return Judged {
+            return PairFindings {
                 is_skipped: true,
-                ..Judged::apart()
+                ..PairFindings::apart()
             };
         }
-        let mut judged = Judged::apart();
+        let mut judged = PairFindings::apart();
         let mut is_apart = false;
         if pair.shared == 0 {
-            is_apart = self.measure(pair, &span, &mut judged);
+            is_apart = self.measure(pair, &moving, &mut judged);
         }
         if is_apart && known.is_none() {
             return judged;
         }
-        self.follow(pair, &span, known, &mut judged);
+        self.follow(pair, &moving, known, &mut judged);
         judged
     }
 
     /// Whether the pair keeps more than τ apart; notes whether it comes nearer than stated.
-    fn measure(&self, pair: &Pair, span: &Span, judged: &mut Judged) -> bool {
+    fn measure(&self, pair: &FacePair, moving: &MovingPair, judged: &mut PairFindings) -> bool {
         let apart = SURELY_APART * self.limits.tolerance;
         let limit = self
             .least_distance()
             .filter(|_| pair.is_measured(self.sheet))
-            .map(|limit| limit - DISTANCE_ROUNDINGS * f64::EPSILON * span.size);
+            .map(|limit| limit - DISTANCE_ROUNDINGS * f64::EPSILON * moving.size);
         if let Some(limit) = limit.filter(|&limit| limit > 0.0) {
-            match keeps_distance(span, limit, BUDGET) {
-                Nearness::Kept if limit >= apart => return true,
-                Nearness::Kept => {}
-                Nearness::Nearer { time, distance } => judged.nearer = Some((time, distance)),
-                Nearness::Unproved => judged.unproved = Some("the closest approach"),
+            match keeps_distance(moving, limit, BUDGET) {
+                DistanceProof::Kept if limit >= apart => return true,
+                DistanceProof::Kept => {}
+                DistanceProof::Nearer { time, distance } => judged.nearer = Some((time, distance)),
+                DistanceProof::Unproved => judged.unproved = Some("the closest approach"),
             }
         }
         if self.surely_touching.contains(&pair.faces) {
             return false;
         }
-        let is_sure = match keeps_distance(span, apart, BUDGET) {
-            Nearness::Kept => return true,
-            Nearness::Nearer { distance, .. } => distance < SURELY_TOUCHING * self.limits.tolerance,
-            Nearness::Unproved => false,
+        let is_sure = match keeps_distance(moving, apart, BUDGET) {
+            DistanceProof::Kept => return true,
+            DistanceProof::Nearer { distance, .. } => {
+                distance < SURELY_TOUCHING * self.limits.tolerance
+            }
+            DistanceProof::Unproved => false,
         };
         judged.touching = [is_sure, true];
         if !is_sure && self.claim.verdict == Verdict::Free {
-            self.keeps_free(span, judged);
+            self.keeps_free(moving, judged);
         }
         false
     }
 
     /// Whether a pair near τ keeps as far apart as *free* states.
-    fn keeps_free(&self, span: &Span, judged: &mut Judged) {
-        match keeps_distance(span, SURELY_TOUCHING * self.limits.tolerance, BUDGET) {
-            Nearness::Kept => {}
-            Nearness::Nearer { .. } => judged.touching = [true, true],
-            Nearness::Unproved => judged.unproved = Some("whether they touch"),
+    fn keeps_free(&self, moving: &MovingPair, judged: &mut PairFindings) {
+        match keeps_distance(moving, SURELY_TOUCHING * self.limits.tolerance, BUDGET) {
+            DistanceProof::Kept => {}
+            DistanceProof::Nearer { .. } => judged.touching = [true, true],
+            DistanceProof::Unproved => judged.unproved = Some("whether they touch"),
         }
     }
 
@@ -420,7 +422,13 @@ impl<'a> Verifier<'a> {
         Some(stated - (1e-3 * self.limits.tolerance).max(1e-5 * stated))
     }
 
-    fn follow(&self, pair: &Pair, span: &Span, known: Option<&Side>, judged: &mut Judged) {
+    fn follow(
+        &self,
+        pair: &FacePair,
+        moving: &MovingPair,
+        known: Option<&Side>,
+        judged: &mut PairFindings,
+    ) {
         judged.is_followed = true;
         let fresh = Side {
             is_apart: true,
@@ -430,24 +438,25 @@ impl<'a> Verifier<'a> {
             self.frames > 1 && self.undecided.contains(&(pair.faces, self.frames - 2));
         let was_lost = was_undecided || self.lost.contains(&pair.faces);
         let anew = was_lost
-            .then(|| Side::at_start(span, &self.limits))
+            .then(|| Side::at_start(moving, &self.limits))
             .flatten();
         let side = known.or(anew.as_ref()).unwrap_or(&fresh);
-        let lost = |crossing: Option<Crossing>| {
-            let found = crossing.map(|crossing| Found::new(span, self.frames - 1, crossing));
+        let lost = |crossing: Option<SideCrossing>| {
+            let found =
+                crossing.map(|crossing| FoundPenetration::new(moving, self.frames - 1, crossing));
             let is_open = self.frames == 1 || was_lost;
-            Lost::new(span, (side, is_open), found, &self.limits)
+            LostSide::new(moving, (side, is_open), found, &self.limits)
         };
-        match walk_leniently(span, side, &self.limits) {
-            Walked::Clean { side, trail } => {
+        match follow_leniently(moving, side, &self.limits) {
+            FollowOutcome::Clean { side, trail } => {
                 if pair.shared > 0 {
-                    self.measure_parts(span, judged);
+                    self.measure_parts(moving, judged);
                 }
                 judged.side = (!side.is_apart).then_some(side);
                 judged.trail = trail;
-                self.follow_narrowed(pair, span, judged);
+                self.follow_narrowed(pair, moving, judged);
             }
-            Walked::Crosses(crossing) => {
+            FollowOutcome::Crosses(crossing) => {
                 let lost = lost(Some(crossing));
                 judged.touching = if lost.is_deep {
                     [false; 2]
@@ -456,14 +465,14 @@ impl<'a> Verifier<'a> {
                 };
                 judged.lost = Some(lost);
             }
-            Walked::Undecided { .. } => {
+            FollowOutcome::Undecided { .. } => {
                 judged.touching[1] = true;
                 judged.lost = Some(lost(None));
             }
         }
     }
 
-    fn record(&mut self, pair: &Pair, judged: Judged, times: [f64; 2]) {
+    fn record(&mut self, pair: &FacePair, judged: PairFindings, times: [f64; 2]) {
         let faces = pair.faces;
         let at = |t: f64| times[0] + (times[1] - times[0]) * t;
         self.outcome.followed += u64::from(judged.is_followed);

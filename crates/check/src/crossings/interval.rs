@@ -5,23 +5,23 @@ use std::collections::BTreeMap;
 use glam::DVec3;
 
 use super::cell::Cell;
-use super::contact::Watched;
-use super::witness::Witness;
+use super::contact::CellState;
+use super::evidence::CrossingEvidence;
 
 /// An interval, with the vertices moved.
 #[derive(Debug)]
-pub(super) struct Step {
+pub(super) struct MovedInterval {
     pub(super) times: [f64; 2],
     pub(super) positions: [Vec<DVec3>; 2],
-    pub(super) watched: BTreeMap<Cell, Watched>,
+    pub(super) states: BTreeMap<Cell, CellState>,
 }
 
 /// A passage that nothing undoes.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Crossing {
+pub(crate) struct SheetCrossing {
     /// Pairs of triangles that hold the features that meet, the smaller index first.
     pub(crate) pairs: Vec<[u32; 2]>,
-    pub(crate) witness: Witness,
+    pub(crate) evidence: CrossingEvidence,
     /// The motion time at which the contact begins.
     pub(crate) since: f64,
     /// The motion time of the last passage in it.
@@ -31,7 +31,7 @@ pub(crate) struct Crossing {
 /// What a frame brought.
 #[derive(Debug, Default)]
 pub(crate) struct Found {
-    pub(crate) crossings: Vec<Crossing>,
+    pub(crate) crossings: Vec<SheetCrossing>,
     /// Pairs of triangles with passages that rounding hides.
     pub(crate) unsure: Vec<[u32; 2]>,
 }
@@ -48,7 +48,7 @@ pub(crate) struct Interval<'a> {
     pub(crate) is_lost: &'a (dyn Fn([u32; 2]) -> bool + Sync),
 }
 
-impl Step {
+impl MovedInterval {
     pub(super) fn at(&self, t: f64) -> f64 {
         let [start, end] = self.times;
         start + (end - start) * t

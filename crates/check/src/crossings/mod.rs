@@ -33,7 +33,7 @@
 //!   of the moved motion for τ (1 − 1/32) holds of the given one for τ.
 //! - "Within τ" is told to 1/64 (`contact_times`). What is not shown to be near counts as far: that can only
 //!   leave an equation without a solution. Where that takes too long the pair is undecided.
-//! - Passages are counted exactly (`vertex_passings`, `edge_passings`); where rounding hides one the pair is undecided.
+//! - Passages are counted exactly (`vertex_passages`, `edge_passages`); where rounding hides one the pair is undecided.
 //! - Pairs of triangles shown to be farther apart than τ have no cells; those found penetrating or undecided by their
 //!   sides have cells that are not counted.
 
@@ -41,13 +41,13 @@ mod cell;
 mod clearance;
 mod contact;
 mod counter;
+mod evidence;
 mod interval;
 mod perturbation;
 #[cfg(test)]
 mod random;
 mod system;
 mod topology;
-mod witness;
 
-pub(crate) use counter::Crossings;
-pub(crate) use interval::{Crossing, Interval};
+pub(crate) use counter::CrossingCounter;
+pub(crate) use interval::{Interval, SheetCrossing};

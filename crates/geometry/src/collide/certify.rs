@@ -1,8 +1,8 @@
 //! The verdict on a pair of moving triangles.
 
 use super::{
-    Effort, Limits, MovingPair, Outcome, Passage, Side, meeting::never_meet, separating::widest,
-    walk::Walk,
+    Effort, Limits, MovingPair, Outcome, PairCertificate, Side, impact::never_meet, separating::widest,
+    certifier::Certifier,
 };
 
 /// The first steps tried, in turn: a coarse step may lose a part of D(t) that a fine one follows.
@@ -16,7 +16,7 @@ const FIRST_STEPS: [f64; 3] = [1.0, 1.0 / 16.0, 1.0 / 256.0];
 pub fn certify(pair: &MovingPair, side: &Side, limits: &Limits) -> Outcome {
     let mut outcome = Outcome::Undecided { time: 0.0 };
     for first_step in FIRST_STEPS {
-        outcome = Walk::new(pair, side.clone(), limits).run(first_step);
+        outcome = Certifier::new(pair, side.clone(), limits).run(first_step);
         let is_deep = matches!(&outcome, Outcome::Crossed(c) if c.depth > limits.tolerance);
         if is_deep || matches!(outcome, Outcome::Passed(_)) {
             break;
@@ -29,13 +29,13 @@ pub fn certify(pair: &MovingPair, side: &Side, limits: &Limits) -> Outcome {
 }
 
 /// The passage of triangles that share no vertex, start apart, end apart and are proved to meet nowhere between.
-fn passage_without_meeting(pair: &MovingPair, side: &Side, limits: &Limits) -> Option<Passage> {
+fn passage_without_meeting(pair: &MovingPair, side: &Side, limits: &Limits) -> Option<PairCertificate> {
     if pair.start.shared > 0 || matches!(side, Side::Contact(_)) {
         return None;
     }
     widest(&pair.start, limits)?;
     let at_end = widest(&pair.end, limits)?;
-    never_meet(pair, limits).then_some(Passage {
+    never_meet(pair, limits).then_some(PairCertificate {
         side: Side::Apart(at_end),
         clearance: limits.margin,
         in_contact: false,

@@ -39,7 +39,7 @@ pub enum Effort {
 
 /// A pair that neither gets deeper than τ nor changes sides.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Passage {
+pub struct PairCertificate {
     /// The side at t = 1.
     pub side: Side,
     /// A lower bound of the distance; not positive where there may be contact. Meaningless for shared corners.
@@ -52,7 +52,7 @@ pub struct Passage {
 
 /// A pair that gets deeper than τ, or leaves on the other side.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Crossing {
+pub struct PairCrossing {
     /// When the contact began that leads to the crossing; 0 if the pair starts in contact.
     pub contact: f64,
     /// When the overlap passed τ on the side the pair was followed on, to within 2⁻³³.
@@ -71,9 +71,9 @@ pub struct Crossing {
 #[derive(Debug, Clone, PartialEq)]
 pub enum Outcome {
     /// Certified.
-    Passed(Passage),
+    Passed(PairCertificate),
     /// Crossing, with its witness.
-    Crossed(Crossing),
+    Crossed(PairCrossing),
     /// Neither was found in the budget, or before steps became too short; the walk ended here.
     Undecided {
         /// The time up to which the pair is certified.

@@ -35,10 +35,10 @@ fn judge(sheet: &Sheet, states: &[State]) -> CollisionReport {
 
 fn verify(sheet: &Sheet, states: &[State], claim: &CollisionReport) -> Verification {
     let mut verifier = Verifier::new(sheet, frame(0, &states[0]), claim);
-    verifier.hear(&states[0].1, &|face| face);
+    verifier.claim(&states[0].1, &|face| face);
     for (k, state) in states.iter().enumerate().skip(1) {
         verifier.advance(frame(k, state));
-        verifier.hear(&state.1, &|face| face);
+        verifier.claim(&state.1, &|face| face);
     }
     verifier.finish()
 }

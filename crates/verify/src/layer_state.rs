@@ -4,27 +4,27 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use foldmotion_check::Claims;
 
-use crate::cluster::{Fault, Found};
+use crate::cluster::{Contradiction, FoundCluster};
 use crate::layer::Layer;
 
 /// What is known of layers.
 #[derive(Debug, Default)]
-pub(crate) struct Ordering {
+pub(crate) struct LayerState {
     /// Those of the last frame, in order.
     pub(crate) layers: Vec<Layer>,
     pub(crate) hinges: Vec<[Option<(u32, u32)>; 3]>,
-    pub(crate) clusters: Vec<Found>,
+    pub(crate) clusters: Vec<FoundCluster>,
     pub(crate) claims: Claims,
     /// Layers whose order is that of a claim or of an assignment, not of the motion.
     pub(crate) claimed: BTreeSet<[u32; 2]>,
     /// What claims of the last frame contradict.
-    pub(crate) faults: Vec<Fault>,
+    pub(crate) contradictions: Vec<Contradiction>,
     /// Why other proofs may see a frame otherwise, and whose pair it is.
     pub(crate) doubts: BTreeMap<usize, ([u32; 2], &'static str)>,
     pub(crate) is_proved: bool,
 }
 
-impl Ordering {
+impl LayerState {
     pub(crate) fn new(hinges: Vec<[Option<(u32, u32)>; 3]>) -> Self {
         Self {
             hinges,

@@ -7,18 +7,18 @@
 use glam::DVec3;
 use robust::{Coord3D, orient3d};
 
-use super::{number::DoubleWord, passages::MovingPatch, patch::Patch};
+use super::{double_word::DoubleWord, moving_patch::MovingPatch, patch::Patch};
 
 /// A passage through a feature.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Passing {
+pub struct Passage {
     /// The ends of a stretch of t in [0, 1] in which it lies: 2⁻⁴⁰ long, up to 2⁻²⁴ where edges are nearly parallel.
     pub times: [f64; 2],
-    /// 1 or −1: which way (see [`vertex_passings`] and [`edge_passings`]).
+    /// 1 or −1: which way (see [`vertex_passages`] and [`edge_passages`]).
     pub sign: i8,
 }
 
-impl Passing {
+impl Passage {
     /// The middle of the stretch in which it lies.
     pub fn time(&self) -> f64 {
         f64::midpoint(self.times[0], self.times[1])
@@ -30,7 +30,7 @@ impl Passing {
 /// `vertex`, `facet`: each point at t = 0 and at t = 1, moving straight. The sign is 1 where the vertex passes from the
 /// back of the facet to its front (its corners run counter-clockwise seen from the front). None where a passage cannot
 /// be told from its absence: the vertex touches the facet or its rim to within rounding, or lies in its plane at an end.
-pub fn vertex_passings(vertex: [DVec3; 2], facet: [[DVec3; 2]; 3]) -> Option<Vec<Passing>> {
+pub fn vertex_passages(vertex: [DVec3; 2], facet: [[DVec3; 2]; 3]) -> Option<Vec<Passage>> {
     let points = [0, 1].map(|end: usize| facet.map(|corner| [corner[end], vertex[end]]));
     let volume = |end: usize| {
         let [p, q, r] = facet.map(|corner| corner[end]);
@@ -44,8 +44,8 @@ pub fn vertex_passings(vertex: [DVec3; 2], facet: [[DVec3; 2]; 3]) -> Option<Vec
 ///
 /// `a`, `b`: the ends of the edges, each at t = 0 and at t = 1, moving straight. The sign is that of
 /// det(a_1 − a_0, b_1 − b_0, b_0 − a_0) afterwards: it is the same for (b, a), and changes where one edge is reversed.
-/// None as for [`vertex_passings`].
-pub fn edge_passings(a: [[DVec3; 2]; 2], b: [[DVec3; 2]; 2]) -> Option<Vec<Passing>> {
+/// None as for [`vertex_passages`].
+pub fn edge_passages(a: [[DVec3; 2]; 2], b: [[DVec3; 2]; 2]) -> Option<Vec<Passage>> {
     let around = [(0, 0), (1, 0), (1, 1), (0, 1)];
     let points = [0, 1].map(|end: usize| around.map(|(i, j)| [a[i][end], b[j][end]]));
     let volume = |end: usize| move || sign_of_volume([a[0], a[1], b[0], b[1]].map(|p| p[end]));
@@ -69,7 +69,7 @@ fn signed<const N: usize>(
     points: [[[DVec3; 2]; N]; 2],
     signs: [impl Fn() -> i8; 2],
     orientation: i8,
-) -> Option<Vec<Passing>> {
+) -> Option<Vec<Passage>> {
     let [start, end] = points.map(|at| at.map(|[p, q]| p - q));
     if Patch::new(start, end, 0.0)?.stays_clear(0.0, 1.0) {
         return Some(Vec::new());
@@ -81,7 +81,7 @@ fn signed<const N: usize>(
     let passages = MovingPatch::<f64, N>::new(points).passages(signs);
     let passages =
         passages.or_else(|| MovingPatch::<DoubleWord, N>::new(points).passages(signs))?;
-    let passing = |(times, sign): ([f64; 2], i8)| Passing {
+    let passing = |(times, sign): ([f64; 2], i8)| Passage {
         times,
         sign: sign * orientation,
     };
@@ -106,28 +106,28 @@ mod tests {
     #[test]
     fn a_vertex_passes_from_back_to_front_with_sign_one_and_back_with_minus_one() {
         let path = [DVec3::new(1.0, 1.0, -1.0), DVec3::new(1.0, 1.0, 3.0)];
-        let up = vertex_passings(path, still(PLATE)).unwrap();
+        let up = vertex_passages(path, still(PLATE)).unwrap();
         assert_eq!(up.len(), 1);
         assert!(
             up[0].sign == 1 && (up[0].time() - 0.25).abs() < 1e-9,
             "{up:?}"
         );
-        let down = vertex_passings([path[1], path[0]], still(PLATE)).unwrap();
+        let down = vertex_passages([path[1], path[0]], still(PLATE)).unwrap();
         assert!(down[0].sign == -1 && (down[0].time() - 0.75).abs() < 1e-9);
         let beside = path.map(|p| p + DVec3::X * 3.0);
-        assert!(vertex_passings(beside, still(PLATE)).unwrap().is_empty());
+        assert!(vertex_passages(beside, still(PLATE)).unwrap().is_empty());
         let on_the_rim = path.map(|p| DVec3::new(0.0, 1.0, p.z));
-        assert_eq!(vertex_passings(on_the_rim, still(PLATE)), None);
+        assert_eq!(vertex_passages(on_the_rim, still(PLATE)), None);
     }
 
     #[test]
     fn edges_pass_with_the_same_sign_whichever_comes_first_and_the_other_sign_reversed() {
         let a = still([DVec3::NEG_X, DVec3::X]);
         let b = [DVec3::NEG_Y, DVec3::Y].map(|p| [p - DVec3::Z, p + DVec3::Z * 2.0]);
-        let sign = |a, b| edge_passings(a, b).unwrap()[0].sign;
+        let sign = |a, b| edge_passages(a, b).unwrap()[0].sign;
         assert_eq!(sign(a, b), sign(b, a));
         assert_eq!(sign(a, b), -sign([a[1], a[0]], b));
-        let longer = edge_passings(a, b.map(|[p, q]| [p + DVec3::X * 2.0, q + DVec3::X * 2.0]));
+        let longer = edge_passages(a, b.map(|[p, q]| [p + DVec3::X * 2.0, q + DVec3::X * 2.0]));
         assert_eq!(longer.unwrap(), []);
     }
 
@@ -149,7 +149,7 @@ mod tests {
         };
         let [[a0, b0], [a1, b1]] = [turned(0.5), turned(0.7)];
         let path = |p: [DVec3; 2], q: [DVec3; 2]| [[p[0], q[0]], [p[1], q[1]]];
-        let passed = edge_passings(path(a0, a1), path(b0, b1)).unwrap();
+        let passed = edge_passages(path(a0, a1), path(b0, b1)).unwrap();
         assert_eq!(passed.len(), 1);
         let [from, to] = passed[0].times;
         assert!((passed[0].time() - 0.5).abs() < 0.01, "{passed:?}");
@@ -182,7 +182,7 @@ mod tests {
 
     fn sum(path: &[DVec3], facet: [DVec3; 3]) -> i32 {
         let steps = path.windows(2);
-        let passings = steps.flat_map(|w| vertex_passings([w[0], w[1]], still(facet)).unwrap());
+        let passings = steps.flat_map(|w| vertex_passages([w[0], w[1]], still(facet)).unwrap());
         passings.map(|p| i32::from(p.sign)).sum()
     }
 

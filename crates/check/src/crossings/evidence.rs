@@ -3,7 +3,7 @@
 use foldmotion_geometry::triangle_triangle;
 use glam::DVec3;
 
-use super::cell::{Cell, Ends, piercing};
+use super::cell::{Cell, IntervalEnds, piercing};
 use super::topology::Topology;
 
 /// The shortest stretch of time after a passage at which the depth is taken: 2⁻³⁴ of the interval.
@@ -11,7 +11,7 @@ const FIRST_INSTANT: f64 = 1.0 / (1u64 << 34) as f64;
 
 /// What meets, where, and how deep.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Witness {
+pub(crate) struct CrossingEvidence {
     /// A vertex and a facet's three, the ends of two edges, or an edge's and a facet's.
     pub(crate) vertices: Vec<u32>,
     /// Where they meet.
@@ -21,7 +21,7 @@ pub(crate) struct Witness {
     pub(crate) depth: f64,
 }
 
-impl Witness {
+impl CrossingEvidence {
     /// An edge that pierces a facet at an instant.
     pub(super) fn of_piercing(
         topology: &Topology,
@@ -41,10 +41,10 @@ impl Witness {
     }
 
     /// A passage in a stretch of an interval: at its end the features are apart again.
-    pub(super) fn of_passing(
+    pub(super) fn of_passage(
         topology: &Topology,
         cell: Cell,
-        ends: Ends<'_>,
+        ends: IntervalEnds<'_>,
         times: [f64; 2],
     ) -> Self {
         let moving = cell.moving(topology, ends);

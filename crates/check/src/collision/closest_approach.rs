@@ -6,11 +6,11 @@ use foldmotion_geometry::{
 };
 use glam::DVec3;
 
-use super::{judge::Nearness, report::Separation};
+use super::{judge::DistanceBounds, report::Separation};
 
 /// Bounds of the smallest distance of facets that share no vertex: lengths, relative to the origin of the check.
 #[derive(Debug)]
-pub(super) struct Nearest {
+pub(super) struct ClosestApproach {
     /// Where the smallest distance found is attained; none where no pair is measured.
     attained: Option<Attained>,
     /// No pair that was looked at is nearer than this in any interval so far. Those left out are farther than the
@@ -27,7 +27,7 @@ struct Attained {
     closest: Closest,
 }
 
-impl Nearest {
+impl ClosestApproach {
     pub(super) fn new(limits: &Limits) -> Self {
         Self {
             attained: None,
@@ -62,9 +62,9 @@ impl Nearest {
     }
 
     /// Takes in what was found of a pair between two motion times.
-    pub(super) fn record(&mut self, faces: [u32; 2], times: [f64; 2], nearness: &Nearness) {
-        self.at_least = self.at_least.min(nearness.at_least);
-        if let Some(approach) = nearness.approach {
+    pub(super) fn record(&mut self, faces: [u32; 2], times: [f64; 2], distance: &DistanceBounds) {
+        self.at_least = self.at_least.min(distance.at_least);
+        if let Some(approach) = distance.approach {
             let time = times[0] + (times[1] - times[0]) * approach.time;
             self.keep(faces, time, approach.closest);
         }

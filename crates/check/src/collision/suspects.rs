@@ -3,22 +3,27 @@
 
 use super::{
     checker::Checker,
-    frame::Placed,
-    judge::{Nearness, Suspect, Witness},
-    pair::Pair,
+    face_pair::FacePair,
+    frame::CentredFrame,
+    judge::{DistanceBounds, PenetrationEvidence, Suspect},
     report::{Penetration, PenetrationKind, Undecided},
 };
 use crate::crossings;
 
 impl Checker<'_> {
     /// Takes in that a pair is deeper than τ, or else not where it was followed to.
-    pub(super) fn leaves_its_side(&mut self, pair: &Pair, times: [f64; 2], witness: Witness) {
+    pub(super) fn record_lost_side(
+        &mut self,
+        pair: &FacePair,
+        times: [f64; 2],
+        evidence: PenetrationEvidence,
+    ) {
         let frame = self.frames - 1;
         self.unfollowed.push(pair.key());
-        self.nearest.record(pair.faces, times, &witness.nearness);
+        self.nearest.record(pair.faces, times, &evidence.distance);
         // The side that a claim names is the only one.
-        if witness.is_sure(self.tolerance) || self.claimed.contains(&pair.faces) {
-            self.penetrates(pair.faces, frame, times, witness);
+        if evidence.is_sure(self.tolerance) || self.claimed.contains(&pair.faces) {
+            self.record_penetration(pair.faces, frame, times, evidence);
             return;
         }
         self.touching.insert(pair.key());
@@ -28,13 +33,13 @@ impl Checker<'_> {
             Suspect {
                 frame,
                 times,
-                witness,
+                evidence,
             },
         );
     }
 
     /// Counts the passages of the sheet through itself in the interval that begins at `start`, or at the first frame.
-    pub(super) fn count_crossings(&mut self, start: Option<&Placed>) {
+    pub(super) fn count_crossings(&mut self, start: Option<&CentredFrame>) {
         self.near.sort_unstable();
         self.near.dedup();
         let first = start.unwrap_or(&self.last);
@@ -51,7 +56,7 @@ impl Checker<'_> {
         };
         let frame = self.frames - 1;
         for crossing in found.crossings {
-            self.crosses(crossing, frame);
+            self.record_crossing(crossing, frame);
         }
         self.name_uncounted(frame);
         self.unfollow_penetrating();
@@ -87,27 +92,27 @@ impl Checker<'_> {
         let found = self.suspects.iter().filter(is_uncounted);
         let named: Vec<_> = found.map(|(pair, s)| (*pair, s.clone())).collect();
         for ((f, g), suspect) in named {
-            self.penetrates([f, g], suspect.frame, suspect.times, suspect.witness);
+            self.record_penetration([f, g], suspect.frame, suspect.times, suspect.evidence);
         }
     }
 
     /// Records what passes through the sheet: as its pair of triangles was found to, or else beside each of them.
-    fn crosses(&mut self, crossing: crossings::Crossing, frame: usize) {
+    fn record_crossing(&mut self, crossing: crossings::SheetCrossing, frame: usize) {
         let mut is_named = false;
         for &[f, g] in &crossing.pairs {
             let suspect = self.suspects.get(&(f, g));
             let is_known = self.penetrating.contains(&(f, g));
             is_named |= is_known;
             let is_meant = |suspect: &&Suspect| {
-                suspect.times[1] >= crossing.since && suspect.witness.meets(self.tolerance)
+                suspect.times[1] >= crossing.since && suspect.evidence.is_in_contact(self.tolerance)
             };
             if let Some(suspect) = suspect.filter(is_meant).filter(|_| !is_known) {
                 let Suspect {
                     frame,
                     times,
-                    witness,
+                    evidence,
                 } = suspect.clone();
-                self.penetrates([f, g], frame, times, witness);
+                self.record_penetration([f, g], frame, times, evidence);
                 is_named = true;
             }
         }
@@ -117,25 +122,25 @@ impl Checker<'_> {
         let Some(&faces) = crossing.pairs.first() else {
             return;
         };
-        self.meets(faces, [crossing.since, crossing.passed]);
+        self.mark_penetrating(faces, [crossing.since, crossing.passed]);
         self.report.penetrations.push(Penetration {
             time: crossing.since,
             passed: crossing.passed,
             frame,
             faces,
-            vertices: crossing.witness.vertices,
-            point: crossing.witness.point + self.origin,
-            depth: crossing.witness.depth / self.sheet.unit_length,
+            vertices: crossing.evidence.vertices,
+            point: crossing.evidence.point + self.origin,
+            depth: crossing.evidence.depth / self.sheet.unit_length,
             kind: PenetrationKind::ThroughEdge,
             conflict: None,
         });
     }
 
     /// A pair penetrates: it meets somewhere, and is not looked at afterwards.
-    fn meets(&mut self, faces: [u32; 2], times: [f64; 2]) {
+    fn mark_penetrating(&mut self, faces: [u32; 2], times: [f64; 2]) {
         self.penetrating.insert((faces[0], faces[1]));
-        if self.is_measured(&Pair::new(self.sheet, faces[0], faces[1])) {
-            let met = Nearness {
+        if self.is_measured(&FacePair::new(self.sheet, faces[0], faces[1])) {
+            let met = DistanceBounds {
                 approach: None,
                 at_least: 0.0,
             };
@@ -143,18 +148,24 @@ impl Checker<'_> {
         }
     }
 
-    fn penetrates(&mut self, faces: [u32; 2], frame: usize, times: [f64; 2], witness: Witness) {
+    fn record_penetration(
+        &mut self,
+        faces: [u32; 2],
+        frame: usize,
+        times: [f64; 2],
+        evidence: PenetrationEvidence,
+    ) {
         let at = |t: f64| times[0] + (times[1] - times[0]) * t;
-        self.meets(faces, times);
+        self.mark_penetrating(faces, times);
         self.report.penetrations.push(Penetration {
-            time: at(witness.contact),
-            passed: at(witness.passed),
+            time: at(evidence.contact),
+            passed: at(evidence.passed),
             frame,
             faces,
-            vertices: witness.vertices,
-            point: witness.point + self.origin,
-            depth: witness.depth / self.sheet.unit_length,
-            kind: witness.kind,
+            vertices: evidence.vertices,
+            point: evidence.point + self.origin,
+            depth: evidence.depth / self.sheet.unit_length,
+            kind: evidence.kind,
             conflict: None,
         });
     }

@@ -5,18 +5,18 @@ use std::collections::BTreeMap;
 use foldmotion_pattern::{Assignment, Sheet};
 use glam::DVec3;
 
-use crate::span::Span;
+use crate::moving_pair::MovingPair;
 
 /// Triangles f < g with their common vertices first, in the same order.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Pair {
+pub(crate) struct FacePair {
     pub(crate) faces: [u32; 2],
     pub(crate) a: [u32; 3],
     pub(crate) b: [u32; 3],
     pub(crate) shared: usize,
 }
 
-impl Pair {
+impl FacePair {
     /// Precondition: the faces are those of the sheet.
     pub(crate) fn new(sheet: &Sheet, faces: [u32; 2]) -> Self {
         let [a, b] = faces.map(|f| sheet.faces[f as usize]);
@@ -38,11 +38,11 @@ impl Pair {
         }
     }
 
-    pub(crate) fn span(&self, start: &[DVec3], end: &[DVec3]) -> Span {
+    pub(crate) fn moving(&self, start: &[DVec3], end: &[DVec3]) -> MovingPair {
         let place = |positions: &[DVec3]| {
             [self.a, self.b].map(|corners| corners.map(|v| positions[v as usize]))
         };
-        Span::new(place(start), place(end), self.shared)
+        MovingPair::new(place(start), place(end), self.shared)
     }
 
     /// Whether the distance of the pair counts: its facets have no vertex in common.

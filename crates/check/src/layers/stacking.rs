@@ -14,15 +14,15 @@ const NEAR: f64 = 0.1;
 
 /// How the claims of an order that are not about layers in contact stand to a state.
 #[derive(Debug, Default, PartialEq, Eq)]
-pub(crate) struct Stacked {
+pub(crate) struct StackingResult {
     /// How many hold.
     pub(crate) held: usize,
     /// The first that is false: the faces and the sign.
-    pub(crate) broken: Option<(u32, u32, i8)>,
+    pub(crate) refuted: Option<(u32, u32, i8)>,
 }
 
 /// The sheet in one state, with the faces of the file that its triangles belong to.
-pub(crate) struct Stack<'a> {
+pub(crate) struct FaceStack<'a> {
     pub(crate) sheet: &'a Sheet,
     pub(crate) positions: &'a [DVec3],
     pub(crate) face_of: &'a dyn Fn(u32) -> u32,
@@ -30,12 +30,12 @@ pub(crate) struct Stack<'a> {
     pub(crate) tolerance: f64,
 }
 
-impl Stack<'_> {
+impl FaceStack<'_> {
     /// Compares `claims`, faces with FOLD's sign, with the heights of the first face over the second's front where both
     /// lie over the same points.
-    pub(crate) fn compare(&self, claims: impl Iterator<Item = (u32, u32, i8)>) -> Stacked {
+    pub(crate) fn compare(&self, claims: impl Iterator<Item = (u32, u32, i8)>) -> StackingResult {
         let mut claims = claims.peekable();
-        let mut stacked = Stacked::default();
+        let mut stacked = StackingResult::default();
         if claims.peek().is_none() {
             // Most frames have no such claim: the faces are sorted for those that do.
             return stacked;
@@ -44,7 +44,7 @@ impl Stack<'_> {
         for claim in claims {
             match self.holds(&triangles, claim) {
                 Some(true) => stacked.held += 1,
-                Some(false) => stacked.broken = stacked.broken.or(Some(claim)),
+                Some(false) => stacked.refuted = stacked.refuted.or(Some(claim)),
                 None => {}
             }
         }
@@ -132,10 +132,10 @@ impl Stack<'_> {
     }
 }
 
-/// The claims of `order` about pairs of faces that are not in `heard`.
-pub(crate) fn unheard(
+/// The claims of `order` about pairs of faces that are not in `used`.
+pub(crate) fn unused_claims(
     order: &LayerOrder,
-    heard: impl Fn(&(u32, u32)) -> bool,
+    used: impl Fn(&(u32, u32)) -> bool,
 ) -> impl Iterator<Item = (u32, u32, i8)> {
-    order.iter().filter(move |&(f, g, _)| !heard(&(f, g)))
+    order.iter().filter(move |&(f, g, _)| !used(&(f, g)))
 }

@@ -2,8 +2,8 @@
 
 use std::ops::{Add, Mul, Sub};
 
-/// A number that sums and products round by at most [`Number::ROUNDOFF`] of their size.
-pub(super) trait Number:
+/// A number that sums and products round by at most [`Scalar::ROUNDOFF`] of their size.
+pub(super) trait Scalar:
     Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self>
 {
     /// The relative error of one operation, at most.
@@ -18,7 +18,7 @@ pub(super) trait Number:
     fn value(self) -> f64;
 }
 
-impl Number for f64 {
+impl Scalar for f64 {
     const ROUNDOFF: Self = 0.5 * Self::EPSILON;
 
     fn new(value: f64) -> Self {
@@ -94,7 +94,7 @@ impl Mul for DoubleWord {
     }
 }
 
-impl Number for DoubleWord {
+impl Scalar for DoubleWord {
     /// 8 u².
     const ROUNDOFF: f64 = 2.0 * f64::EPSILON * f64::EPSILON;
 

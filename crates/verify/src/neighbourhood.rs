@@ -8,13 +8,13 @@ use crate::piercing::Surface;
 
 /// The triangles of the sheet by their corners.
 #[derive(Debug)]
-pub(crate) struct Around {
+pub(crate) struct Neighbourhood {
     pub(crate) faces: Vec<[u32; 3]>,
     at_edge: BTreeMap<[u32; 2], Vec<u32>>,
     at_vertex: Vec<Vec<u32>>,
 }
 
-impl Around {
+impl Neighbourhood {
     pub(crate) fn new(sheet: &Sheet) -> Self {
         let mut at_edge: BTreeMap<[u32; 2], Vec<u32>> = BTreeMap::new();
         let mut at_vertex = vec![Vec::new(); sheet.vertices.len()];

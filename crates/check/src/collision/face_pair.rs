@@ -6,14 +6,14 @@ use glam::DVec3;
 
 /// Triangles f < g, corners rearranged so that the shared ones come first, in the same order.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Pair {
+pub(super) struct FacePair {
     pub(super) faces: [u32; 2],
     pub(super) a: [u32; 3],
     pub(super) b: [u32; 3],
     pub(super) shared: usize,
 }
 
-impl Pair {
+impl FacePair {
     pub(super) fn new(sheet: &Sheet, f: u32, g: u32) -> Self {
         let (mut a, mut b) = (sheet.faces[f as usize], sheet.faces[g as usize]);
         let mut shared = 0;

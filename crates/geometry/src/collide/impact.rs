@@ -2,7 +2,7 @@
 //!
 //! # The guarantee
 //!
-//! [`Meeting::Never`] is proved for the given f64 numbers in exact arithmetic: at no t in [0, 1] are the features
+//! [`Impact::Never`] is proved for the given f64 numbers in exact arithmetic: at no t in [0, 1] are the features
 //! within the separation of each other. `from` of the other answers is proved likewise: not before. Every bound
 //! includes its rounding, derived in `patch`; a query that cannot be decided counts as meeting, and so do coordinates
 //! that are not finite or whose differences overflow. The converse holds up to rounding only: features that pass by
@@ -28,7 +28,7 @@ const FINEST: f64 = 1.0 / (1u64 << 50) as f64;
 
 /// What a query asks.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct MeetingSearch {
+pub struct ImpactSearch {
     /// δ: features within this distance of each other meet. A length, not negative.
     pub separation: f64,
     /// The longest stretch of time taken as meeting without a closer look; not below 2⁻⁵⁰.
@@ -37,7 +37,7 @@ pub struct MeetingSearch {
     pub budget: u32,
 }
 
-impl Default for MeetingSearch {
+impl Default for ImpactSearch {
     /// Meeting at distance 0, told to within 2⁻⁴⁴.
     fn default() -> Self {
         Self {
@@ -50,7 +50,7 @@ impl Default for MeetingSearch {
 
 /// The answer to a query over t in [0, 1].
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Meeting {
+pub enum Impact {
     /// Proved never to come within the separation.
     Never,
     /// May meet in [from, to], no longer than the resolution; proved not to before `from`.
@@ -71,18 +71,18 @@ pub enum Meeting {
 ///
 /// `vertex`: where it is at t = 0 and at t = 1; `facet`: likewise for each corner. Every point moves on a straight
 /// line. Facets of no area are their edges.
-pub fn vertex_facet(vertex: [DVec3; 2], facet: [[DVec3; 2]; 3], search: &MeetingSearch) -> Meeting {
+pub fn vertex_facet(vertex: [DVec3; 2], facet: [[DVec3; 2]; 3], search: &ImpactSearch) -> Impact {
     let differences = |end: usize| facet.map(|corner| corner[end] - vertex[end]);
-    first_meeting(differences(0), differences(1), search)
+    first_impact(differences(0), differences(1), search)
 }
 
 /// Whether and when two edges come within the separation of each other.
 ///
 /// `a`, `b`: the ends of the edges, each at t = 0 and at t = 1, moving on straight lines. Edges of no length are points.
-pub fn edge_edge(a: [[DVec3; 2]; 2], b: [[DVec3; 2]; 2], search: &MeetingSearch) -> Meeting {
+pub fn edge_edge(a: [[DVec3; 2]; 2], b: [[DVec3; 2]; 2], search: &ImpactSearch) -> Impact {
     let around = [(0, 0), (1, 0), (1, 1), (0, 1)];
     let differences = |end: usize| around.map(|(i, j)| a[i][end] - b[j][end]);
-    first_meeting(differences(0), differences(1), search)
+    first_impact(differences(0), differences(1), search)
 }
 
 /// Whether two triangles that share no vertex and start apart are proved to stay farther apart than the margin.
@@ -94,13 +94,13 @@ pub(super) fn never_meet(pair: &MovingPair, limits: &Limits) -> bool {
     let paths = |from: &[DVec3; 3], to: &[DVec3; 3]| [0, 1, 2].map(|i| [from[i], to[i]]);
     let a = paths(&pair.start.a, &pair.end.a);
     let b = paths(&pair.start.b, &pair.end.b);
-    let search = MeetingSearch {
+    let search = ImpactSearch {
         separation: limits.margin,
         budget: limits.budget,
-        ..MeetingSearch::default()
+        ..ImpactSearch::default()
     };
     let edge = |t: &[[DVec3; 2]; 3], i: usize| [t[i], t[(i + 1) % 3]];
-    let is_never = |meeting: Meeting| meeting == Meeting::Never;
+    let is_never = |meeting: Impact| meeting == Impact::Never;
     (0..3).all(|i| {
         is_never(vertex_facet(a[i], b, &search))
             && is_never(vertex_facet(b[i], a, &search))
@@ -108,33 +108,33 @@ pub(super) fn never_meet(pair: &MovingPair, limits: &Limits) -> bool {
     })
 }
 
-fn first_meeting<const N: usize>(
+fn first_impact<const N: usize>(
     start: [DVec3; N],
     end: [DVec3; N],
-    search: &MeetingSearch,
-) -> Meeting {
+    search: &ImpactSearch,
+) -> Impact {
     let Some(patch) = Patch::new(start, end, search.separation) else {
-        return Meeting::Undecided { from: 0.0 };
+        return Impact::Undecided { from: 0.0 };
     };
     let resolution = search.resolution.max(FINEST);
     let mut open = vec![(0.0, 1.0)];
     for _ in 0..search.budget {
         let Some((from, to)) = open.pop() else {
-            return Meeting::Never;
+            return Impact::Never;
         };
         if patch.stays_clear(from, to) {
             continue;
         }
         if to - from <= resolution {
-            return Meeting::Within { from, to };
+            return Impact::Within { from, to };
         }
         let middle = f64::midpoint(from, to);
         open.push((middle, to));
         open.push((from, middle));
     }
     match open.pop() {
-        Some((from, _)) => Meeting::Undecided { from },
-        None => Meeting::Never,
+        Some((from, _)) => Impact::Undecided { from },
+        None => Impact::Never,
     }
 }
 
@@ -156,11 +156,11 @@ mod tests {
 
     #[test]
     fn a_vertex_through_a_facet_meets_it_at_the_instant_told() {
-        let search = MeetingSearch::default();
+        let search = ImpactSearch::default();
         for (from, to) in [(1.0, -2.0), (0.3, -1e6), (1e-9, -1e-7), (5.0, 0.0)] {
             let expected = from / (from - to);
             match vertex_facet(falling(1.0, from, to), plate(), &search) {
-                Meeting::Within { from: t0, to: t1 } => {
+                Impact::Within { from: t0, to: t1 } => {
                     assert!(t0 <= expected && expected <= t1 + 1e-15, "{t0} {expected}");
                     assert!(expected - t0 < 1e-12, "{t0} {expected}");
                 }
@@ -168,9 +168,9 @@ mod tests {
             }
         }
         let beside = vertex_facet(falling(3.5, 1.0, -1.0), plate(), &search);
-        assert_eq!(beside, Meeting::Never);
+        assert_eq!(beside, Impact::Never);
         let short = vertex_facet(falling(1.0, 1.0, 1e-12), plate(), &search);
-        assert_eq!(short, Meeting::Never);
+        assert_eq!(short, Impact::Never);
     }
 
     #[test]
@@ -178,32 +178,32 @@ mod tests {
         // δ and the gap are dyadic: at rest at distance δ counts as within, an ulp farther need not but is told apart
         // a thousand ulps farther.
         let at = |gap: f64, separation: f64| {
-            let search = MeetingSearch {
+            let search = ImpactSearch {
                 separation,
-                ..MeetingSearch::default()
+                ..ImpactSearch::default()
             };
             vertex_facet(falling(1.0, 1.0, gap), plate(), &search)
         };
-        assert!(matches!(at(0.125, 0.125), Meeting::Within { .. }));
-        assert_eq!(at(0.125 + 1e-12, 0.125), Meeting::Never);
-        assert!(matches!(at(0.125 - 1e-12, 0.125), Meeting::Within { .. }));
+        assert!(matches!(at(0.125, 0.125), Impact::Within { .. }));
+        assert_eq!(at(0.125 + 1e-12, 0.125), Impact::Never);
+        assert!(matches!(at(0.125 - 1e-12, 0.125), Impact::Within { .. }));
     }
 
     #[test]
     fn edges_that_cross_meet_and_parallel_ones_beside_each_other_never_do() {
-        let search = MeetingSearch::default();
+        let search = ImpactSearch::default();
         let a = [still(-DVec3::X), still(DVec3::X)];
         let across = |z0: f64, z1: f64, x: f64| {
             [-1.0, 1.0].map(|y| [DVec3::new(x, y, z0), DVec3::new(x, y, z1)])
         };
         let meeting = edge_edge(a, across(1.0, -3.0, 0.5), &search);
         assert!(
-            matches!(meeting, Meeting::Within { from, to } if from <= 0.25 && to >= 0.25),
+            matches!(meeting, Impact::Within { from, to } if from <= 0.25 && to >= 0.25),
             "{meeting:?}"
         );
         assert_eq!(
             edge_edge(a, across(1.0, -3.0, 1.5), &search),
-            Meeting::Never
+            Impact::Never
         );
         let along = |y: f64| {
             [
@@ -211,23 +211,23 @@ mod tests {
                 still(DVec3::new(3.0, y, 0.0)),
             ]
         };
-        assert_eq!(edge_edge(a, along(1e-12), &search), Meeting::Never);
+        assert_eq!(edge_edge(a, along(1e-12), &search), Impact::Never);
         let on = edge_edge(a, along(0.0), &search);
-        assert!(matches!(on, Meeting::Within { from: 0.0, .. }), "{on:?}");
+        assert!(matches!(on, Impact::Within { from: 0.0, .. }), "{on:?}");
     }
 
     #[test]
     fn what_cannot_be_decided_counts_as_meeting() {
-        let search = MeetingSearch::default();
+        let search = ImpactSearch::default();
         let nan = vertex_facet(falling(f64::NAN, 1.0, 2.0), plate(), &search);
-        assert_eq!(nan, Meeting::Undecided { from: 0.0 });
+        assert_eq!(nan, Impact::Undecided { from: 0.0 });
         let far = vertex_facet(falling(1.0, f64::MAX, -f64::MAX), plate(), &search);
-        assert!(far != Meeting::Never);
-        let poor = MeetingSearch {
+        assert!(far != Impact::Never);
+        let poor = ImpactSearch {
             budget: 3,
             ..search
         };
         let ended = vertex_facet(falling(1.0, 1.0, -2.0), plate(), &poor);
-        assert!(matches!(ended, Meeting::Undecided { from } if from <= 1.0 / 3.0));
+        assert!(matches!(ended, Impact::Undecided { from } if from <= 1.0 / 3.0));
     }
 }

@@ -4,10 +4,10 @@ use glam::DVec3;
 
 use crate::arcs;
 use crate::instant::{Axis, axes, depth, inner, joined};
+use crate::moving_pair::{MovingPair, OnPlane, PairPose};
 use crate::path::Path;
 use crate::side::{Limits, Side, clear_of, clearance};
-use crate::span::{OnPlane, Pose, Span};
-use crate::trail::{Trail, Way};
+use crate::trail::{StepDirection, Trail};
 
 /// Sides are kept at this many τ where they are not at τ: the first proof counts at 31/32 τ.
 const LENIENCE: f64 = 33.0 / 32.0;
@@ -26,7 +26,7 @@ const FAVOURITES: usize = 4;
 
 /// A pair that gets deeper than τ on its side.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Crossing {
+pub(crate) struct SideCrossing {
     /// When the contact began, 0 if before the interval.
     pub(crate) contact: f64,
     /// Up to here it is certified.
@@ -41,13 +41,13 @@ pub(crate) struct Crossing {
 
 /// What came of a walk.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) enum Walked {
+pub(crate) enum FollowOutcome {
     Clean {
         side: Side,
         /// How it got there; none where it was never in contact.
         trail: Option<Trail>,
     },
-    Crosses(Crossing),
+    Crosses(SideCrossing),
     Undecided {
         /// Up to here it is certified.
         time: f64,
@@ -62,20 +62,20 @@ fn strictly_apart(axes: &[Axis], side: &[DVec3]) -> Option<DVec3> {
 }
 
 /// Likewise; a pair that loses its side is given a little more than τ.
-pub(crate) fn walk_leniently(span: &Span, side: &Side, limits: &Limits) -> Walked {
-    let walked = walk(span, side, limits);
-    let is_deep = |c: &Crossing| span.shared == 0 && c.depth > limits.tolerance;
-    match &walked {
-        Walked::Clean { .. } => walked,
-        Walked::Crosses(crossing) if is_deep(crossing) => walked,
+pub(crate) fn follow_leniently(moving: &MovingPair, side: &Side, limits: &Limits) -> FollowOutcome {
+    let followed = follow(moving, side, limits);
+    let is_deep = |c: &SideCrossing| moving.shared == 0 && c.depth > limits.tolerance;
+    match &followed {
+        FollowOutcome::Clean { .. } => followed,
+        FollowOutcome::Crosses(crossing) if is_deep(crossing) => followed,
         _ => {
             let lenient = Limits {
                 tolerance: LENIENCE * limits.tolerance,
                 ..*limits
             };
-            match walk(span, side, &lenient) {
-                clean @ Walked::Clean { .. } => clean,
-                _ => walked,
+            match follow(moving, side, &lenient) {
+                clean @ FollowOutcome::Clean { .. } => clean,
+                _ => followed,
             }
         }
     }
@@ -85,26 +85,26 @@ pub(crate) fn walk_leniently(span: &Span, side: &Side, limits: &Limits) -> Walke
 ///
 /// A long step may lose a side that a short one keeps: from where a walk gets lost on, the next one comes there in ever
 /// shorter steps.
-pub(crate) fn walk(span: &Span, side: &Side, limits: &Limits) -> Walked {
-    let mut walked = Walked::Undecided { time: 0.0 };
+pub(crate) fn follow(moving: &MovingPair, side: &Side, limits: &Limits) -> FollowOutcome {
+    let mut followed = FollowOutcome::Undecided { time: 0.0 };
     let mut lost = Vec::with_capacity(FIRST_STEPS.len());
     for first_step in FIRST_STEPS {
-        walked = Walk::new(span, side.clone(), limits).run(first_step, &lost);
-        match &walked {
-            Walked::Clean { .. } => break,
-            Walked::Crosses(crossing) if crossing.depth > limits.tolerance => break,
-            Walked::Crosses(crossing) => lost.push(crossing.passed),
-            Walked::Undecided { time } => lost.push(*time),
+        followed = Follower::new(moving, side.clone(), limits).run(first_step, &lost);
+        match &followed {
+            FollowOutcome::Clean { .. } => break,
+            FollowOutcome::Crosses(crossing) if crossing.depth > limits.tolerance => break,
+            FollowOutcome::Crosses(crossing) => lost.push(crossing.passed),
+            FollowOutcome::Undecided { time } => lost.push(*time),
         }
     }
-    walked
+    followed
 }
 
-struct Walk<'a> {
-    span: &'a Span,
+struct Follower<'a> {
+    moving: &'a MovingPair,
     limits: &'a Limits,
     time: f64,
-    pose: Pose,
+    pose: PairPose,
     side: Side,
     /// What can be reached at `time`, once asked for.
     reached: Option<Vec<Axis>>,
@@ -124,21 +124,21 @@ struct Step {
     /// A direction along which the pair is strictly apart at its end.
     apart: Option<DVec3>,
     /// The directions along which it is, where it is in contact.
-    ways: Vec<Way>,
+    directions: Vec<StepDirection>,
 }
 
-impl<'a> Walk<'a> {
-    fn new(span: &'a Span, side: Side, limits: &'a Limits) -> Self {
+impl<'a> Follower<'a> {
+    fn new(moving: &'a MovingPair, side: Side, limits: &'a Limits) -> Self {
         let last_apart = if side.is_apart {
             Some(first_direction(&side))
         } else {
-            strictly_apart(&axes(span, &span.at(0.0)), &side.directions)
+            strictly_apart(&axes(moving, &moving.at(0.0)), &side.directions)
         };
         Self {
-            span,
+            moving,
             limits,
             time: 0.0,
-            pose: span.at(0.0),
+            pose: moving.at(0.0),
             has_touched: !side.is_apart,
             trail: Trail::new(&side),
             side,
@@ -151,11 +151,11 @@ impl<'a> Walk<'a> {
     }
 
     /// `lost`: where others got lost.
-    fn run(mut self, first_step: f64, lost: &[f64]) -> Walked {
+    fn run(mut self, first_step: f64, lost: &[f64]) -> FollowOutcome {
         let mut step = first_step;
         for _ in 0..self.limits.budget {
             if self.time >= 1.0 {
-                return Walked::Clean {
+                return FollowOutcome::Clean {
                     side: self.side,
                     trail: self.has_touched.then_some(self.trail),
                 };
@@ -165,7 +165,7 @@ impl<'a> Walk<'a> {
             while step > SHORTEST_STEP.max(APPROACH * nearest) {
                 step *= 0.5;
             }
-            let end = self.span.at(self.time + step);
+            let end = self.moving.at(self.time + step);
             if let Some(leg) = self.cross(&end, step) {
                 self.land(leg, end, step);
                 // t stays a multiple of the step.
@@ -178,11 +178,20 @@ impl<'a> Walk<'a> {
                 return self.examine();
             }
         }
-        Walked::Undecided { time: self.time }
+        FollowOutcome::Undecided { time: self.time }
     }
 
-    fn land(&mut self, Step { side, apart, ways }: Step, pose: Pose, step: f64) {
-        self.trail.push([self.time, self.time + step], ways);
+    fn land(
+        &mut self,
+        Step {
+            side,
+            apart,
+            directions,
+        }: Step,
+        pose: PairPose,
+        step: f64,
+    ) {
+        self.trail.push([self.time, self.time + step], directions);
         self.time += step;
         self.pose = pose;
         if let Some(direction) = apart {
@@ -195,8 +204,8 @@ impl<'a> Walk<'a> {
         self.reached = None;
     }
 
-    fn cross(&mut self, end: &Pose, step: f64) -> Option<Step> {
-        let part = self.span.part(&self.pose, end);
+    fn cross(&mut self, end: &PairPose, step: f64) -> Option<Step> {
+        let part = self.moving.part(&self.pose, end);
         if self.side.is_apart {
             if let Some(direction) = self.stay_apart(&part, step) {
                 return Some(Step {
@@ -205,11 +214,11 @@ impl<'a> Walk<'a> {
                         directions: vec![direction],
                     },
                     apart: Some(direction),
-                    ways: Vec::new(),
+                    directions: Vec::new(),
                 });
             }
-            let limit = clearance(self.span, self.limits);
-            let may_graze = || clear_of(&axes(self.span, end), limit).is_none();
+            let limit = clearance(self.moving, self.limits);
+            let may_graze = || clear_of(&axes(self.moving, end), limit).is_none();
             if step > SEARCH_STEP || (step > GRAZING_STEP && !may_graze()) {
                 return None;
             }
@@ -218,8 +227,8 @@ impl<'a> Walk<'a> {
     }
 
     /// Along one axis the triangles are strictly apart throughout; where it points at the end.
-    fn stay_apart(&self, part: &Span, step: f64) -> Option<DVec3> {
-        let limit = clearance(self.span, self.limits);
+    fn stay_apart(&self, part: &MovingPair, step: f64) -> Option<DVec3> {
+        let limit = clearance(self.moving, self.limits);
         let free = |from: DVec3, to: DVec3| {
             let bound = Path::straight(from, to).bound(part, corners(part));
             (part.shared < 2 && bound.room > limit).then_some(to)
@@ -255,29 +264,29 @@ impl<'a> Walk<'a> {
     }
 
     /// Along one reachable axis the overlap is at most τ throughout.
-    fn stay_within(&mut self, part: &Span, end: &Pose) -> Option<Step> {
+    fn stay_within(&mut self, part: &MovingPair, end: &PairPose) -> Option<Step> {
         let limit = self.limits.tolerance;
         self.reach();
         let reached = self.reached.as_deref().unwrap_or_default();
         let mut landed: Vec<DVec3> = Vec::new();
-        let mut ways: Vec<Way> = Vec::new();
-        let mut keep = |direction: DVec3, way: Way| {
+        let mut directions: Vec<StepDirection> = Vec::new();
+        let mut keep = |direction: DVec3, way: StepDirection| {
             if landed.iter().all(|d| d.dot(direction) < 1.0 - 1e-13) {
                 landed.push(direction);
-                ways.push(way);
+                directions.push(way);
             }
         };
         for axis in reached {
             if part.bound(axis.feature).gap >= -limit
                 && let Some(direction) = unit_end(part, axis)
             {
-                keep(direction, Way::Along(axis.feature));
+                keep(direction, StepDirection::Along(axis.feature));
             }
         }
         for &direction in self.side.directions.iter().chain(&self.others) {
             let fixed = Path::straight(direction, direction);
             if fixed.bound(part, corners(part)).gap >= -limit {
-                keep(direction, Way::Fixed(direction));
+                keep(direction, StepDirection::Fixed(direction));
             }
         }
         if landed.is_empty() {
@@ -285,7 +294,7 @@ impl<'a> Walk<'a> {
         }
         self.has_touched = true;
         let there = axes(part, end);
-        let clear = clearance(self.span, self.limits);
+        let clear = clearance(self.moving, self.limits);
         let joined = clear_of(&there, clear)
             .is_some()
             .then(|| joined(end, &there, &landed, limit));
@@ -297,7 +306,7 @@ impl<'a> Walk<'a> {
                 is_apart: way_out.is_some(),
                 directions: way_out.map_or(landed, |d| vec![d]),
             },
-            ways,
+            directions,
         })
     }
 
@@ -306,10 +315,10 @@ impl<'a> Walk<'a> {
         if self.reached.is_some() {
             return;
         }
-        let all = axes(self.span, &self.pose);
+        let all = axes(self.moving, &self.pose);
         let mut seeds = self.side.directions.clone();
         if self.side.is_apart {
-            let clear = clearance(self.span, self.limits);
+            let clear = clearance(self.moving, self.limits);
             let apart = all.iter().filter(|axis| axis.room > clear);
             seeds.extend(apart.map(|axis| axis.direction));
         }
@@ -330,23 +339,23 @@ impl<'a> Walk<'a> {
     }
 
     /// No step leads on: looks for an instant at which the pair is deeper than τ on its side.
-    fn examine(mut self) -> Walked {
+    fn examine(mut self) -> FollowOutcome {
         self.reach();
         let reached = self.reached.take().unwrap_or_default();
         let mut seeds: Vec<_> = reached.iter().map(|axis| axis.direction).collect();
         seeds.extend(&self.side.directions);
         let (mut reach, mut deepest) = (f64::NEG_INFINITY, f64::NEG_INFINITY);
         for instant in instants_after(self.time) {
-            let pose = self.span.at(instant);
-            deepest = deepest.max(depth(self.span, &pose));
-            let from_side = overlaps_from_side(self.span, &pose, &seeds);
+            let pose = self.moving.at(instant);
+            deepest = deepest.max(depth(self.moving, &pose));
+            let from_side = overlaps_from_side(self.moving, &pose, &seeds);
             reach = reach.max(from_side.fold(f64::INFINITY, f64::min));
         }
-        let rounding = 1e-12 * self.span.size;
+        let rounding = 1e-12 * self.moving.size;
         if reach.max(deepest) <= self.limits.tolerance + rounding {
-            return Walked::Undecided { time: self.time };
+            return FollowOutcome::Undecided { time: self.time };
         }
-        Walked::Crosses(Crossing {
+        FollowOutcome::Crosses(SideCrossing {
             contact: self.contact_start(),
             passed: self.time,
             depth: deepest,
@@ -366,7 +375,7 @@ impl<'a> Walk<'a> {
             self.time
         };
         let parting = |t: f64| {
-            let all = axes(self.span, &self.span.at(t)).into_iter();
+            let all = axes(self.moving, &self.moving.at(t)).into_iter();
             all.filter(|axis| axis.room > 0.0)
                 .map(|axis| axis.direction)
         };
@@ -385,8 +394,8 @@ impl<'a> Walk<'a> {
 }
 
 /// The corners on the plane of an axis that is none of the triangles' own: the shared ones.
-fn corners(span: &Span) -> OnPlane {
-    let shared = [0, 1, 2].map(|i| i < span.shared);
+fn corners(moving: &MovingPair) -> OnPlane {
+    let shared = [0, 1, 2].map(|i| i < moving.shared);
     OnPlane {
         a: shared,
         b: shared,
@@ -398,7 +407,7 @@ fn first_direction(side: &Side) -> DVec3 {
 }
 
 /// Where an axis points at the end of a part.
-fn unit_end(part: &Span, axis: &Axis) -> Option<DVec3> {
+fn unit_end(part: &MovingPair, axis: &Axis) -> Option<DVec3> {
     part.directed(axis.feature).ends()[1].try_normalize()
 }
 
@@ -412,8 +421,12 @@ pub(crate) fn instants_after(time: f64) -> impl Iterator<Item = f64> {
 }
 
 /// The overlaps along the axes within 60° of the side, and along the side itself.
-fn overlaps_from_side(span: &Span, pose: &Pose, side: &[DVec3]) -> impl Iterator<Item = f64> {
-    let all = axes(span, pose).into_iter().map(|axis| axis.direction);
+fn overlaps_from_side(
+    moving: &MovingPair,
+    pose: &PairPose,
+    side: &[DVec3],
+) -> impl Iterator<Item = f64> {
+    let all = axes(moving, pose).into_iter().map(|axis| axis.direction);
     let near = all.filter(|d| side.iter().any(|s| s.dot(*d) > 0.5));
     near.chain(side.iter().copied()).map(|d| pose.overlap(d))
 }

@@ -3,8 +3,7 @@
 use glam::DVec3;
 
 use super::{
-    Axis, Crossing, Effort, Feature, Limits, MovingPair, Outcome, PairPose, Passage, Side,
-    moving::Leaf,
+    Axis, PairCrossing, Effort, Feature, Limits, MovingPair, Outcome, PairPose, PairCertificate, Side,
     pose::{are_linked, turned_along},
     separating::{separating, widest},
 };
@@ -41,7 +40,7 @@ fn free_axis(pose: &PairPose, direction: DVec3) -> Axis {
 }
 
 /// The state of a pair at `time`, certified up to there.
-pub(super) struct Walk<'a> {
+pub(super) struct Certifier<'a> {
     pair: &'a MovingPair,
     limits: &'a Limits,
     time: f64,
@@ -60,7 +59,7 @@ pub(super) struct Walk<'a> {
     effort: Effort,
 }
 
-impl<'a> Walk<'a> {
+impl<'a> Certifier<'a> {
     pub(super) fn new(pair: &'a MovingPair, side: Side, limits: &'a Limits) -> Self {
         let (last_apart, in_contact) = match &side {
             Side::Apart(direction) => (Some((0.0, *direction)), false),
@@ -87,7 +86,7 @@ impl<'a> Walk<'a> {
         let mut step = first_step;
         for _ in 0..self.limits.budget {
             if self.time >= 1.0 {
-                return Outcome::Passed(Passage {
+                return Outcome::Passed(PairCertificate {
                     side: self.side,
                     clearance: self.clearance,
                     in_contact: self.in_contact,
@@ -172,15 +171,15 @@ impl<'a> Walk<'a> {
     /// Stays strictly apart on the way to `end`, on an axis at rest or turning along with the triangles.
     fn glide(&mut self, direction: DVec3, end: &PairPose) -> Option<DVec3> {
         let (pose, limits) = (self.pose, self.limits);
-        let leaf = Leaf {
-            from: &pose,
-            to: end,
+        let step = MovingPair {
+            start: pose,
+            end: *end,
         };
         if pose.shared == 2 {
-            let is_open = leaf.hinge_stays_open(limits);
+            let is_open = step.hinge_stays_open(limits);
             return is_open.then(|| end.bisector().unwrap_or(direction));
         }
-        let at_rest = leaf.least_gap_at_rest(direction, limits);
+        let at_rest = step.least_gap_at_rest(direction, limits);
         // An axis with little room left is tried against turning ones, which may leave more.
         if at_rest > limits.tolerance {
             self.clearance = self.clearance.min(at_rest);
@@ -190,7 +189,7 @@ impl<'a> Walk<'a> {
         let with_b = turned_along(direction, &pose.b, &end.b).unwrap_or(direction);
         let between = (with_a + with_b).normalize_or(with_a);
         let ends = [direction, between, with_a, with_b];
-        let apart = self.best_of(&leaf, &[direction], &ends);
+        let apart = self.best_of(&step, &[direction], &ends);
         if apart.is_some() {
             self.effort = self.effort.max(Effort::TurningAxis);
         }
@@ -201,21 +200,21 @@ impl<'a> Walk<'a> {
     fn switch(&mut self, end: &PairPose) -> Option<DVec3> {
         self.effort = Effort::Search;
         let (pose, limits) = (self.pose, self.limits);
-        let leaf = Leaf {
-            from: &pose,
-            to: end,
+        let step = MovingPair {
+            start: pose,
+            end: *end,
         };
         let here: Vec<_> = separating(&pose, limits).map(|(d, _)| d).collect();
         let there: Vec<_> = separating(end, limits).map(|(d, _)| d).collect();
-        self.best_of(&leaf, &here, &there)
+        self.best_of(&step, &here, &there)
     }
 
     /// Where the path ends that leaves the most room, if any leaves enough.
-    fn best_of(&mut self, leaf: &Leaf<'_>, here: &[DVec3], there: &[DVec3]) -> Option<DVec3> {
+    fn best_of(&mut self, step: &MovingPair, here: &[DVec3], there: &[DVec3]) -> Option<DVec3> {
         let (mut best, mut room) = (None, self.limits.margin);
         for &d0 in here {
             for &d1 in there {
-                let gap = leaf.least_gap(d0, d1, self.limits);
+                let gap = step.least_gap(d0, d1, self.limits);
                 if gap > room {
                     (best, room) = (Some(d1), gap);
                 }
@@ -238,14 +237,14 @@ impl<'a> Walk<'a> {
         let carried = seeds.iter().map(|&d| free_axis(end, d));
         axes.extend(carried.filter(|axis| axis.overlap <= within));
         let pose = self.pose;
-        let leaf = Leaf {
-            from: &pose,
-            to: end,
+        let step = MovingPair {
+            start: pose,
+            end: *end,
         };
         let mut marked = vec![false; axes.len()];
         for i in 0..axes.len() {
             let to = axes[i].direction;
-            if !marked[i] && seeds.iter().any(|&d| leaf.stays_within(d, to, limits)) {
+            if !marked[i] && seeds.iter().any(|&d| step.stays_within(d, to, limits)) {
                 marked[i] = true;
                 spread(&axes, &mut marked, limits);
             }
@@ -304,7 +303,7 @@ impl<'a> Walk<'a> {
         let Some((confirmed, axis)) = found else {
             return Outcome::Undecided { time: self.time };
         };
-        Outcome::Crossed(Crossing {
+        Outcome::Crossed(PairCrossing {
             contact: self.contact_start(),
             passed: self.time,
             confirmed,

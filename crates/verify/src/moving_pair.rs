@@ -9,7 +9,7 @@ use crate::path::Path;
 /// `shared` corners (0, 1 or 2) are the same vertices and come first, in the same order, in both. Positions are
 /// relative to a corner of the pair, so that rounding goes with the size of the pair, not with its place.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Span {
+pub(crate) struct MovingPair {
     pub(crate) a: [[DVec3; 2]; 3],
     pub(crate) b: [[DVec3; 2]; 3],
     pub(crate) shared: usize,
@@ -23,7 +23,7 @@ pub(crate) struct Span {
 
 /// Two triangles at an instant.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Pose {
+pub(crate) struct PairPose {
     pub(crate) a: [DVec3; 3],
     pub(crate) b: [DVec3; 3],
 }
@@ -96,7 +96,7 @@ const FEATURES: [Feature; 28] = {
 
 pub(crate) const COORDINATES: [DVec3; 3] = [DVec3::X, DVec3::Y, DVec3::Z];
 
-impl Span {
+impl MovingPair {
     /// `start`, `end`: the corners of A and of B at the two ends.
     pub(crate) fn new(start: [[DVec3; 3]; 2], end: [[DVec3; 3]; 2], shared: usize) -> Self {
         let origin = start[0][0];
@@ -123,7 +123,7 @@ impl Span {
     }
 
     /// The positions at t in [0, 1].
-    pub(crate) fn at(&self, t: f64) -> Pose {
+    pub(crate) fn at(&self, t: f64) -> PairPose {
         let between = |c: [DVec3; 2]| {
             if t >= 1.0 {
                 c[1]
@@ -131,14 +131,14 @@ impl Span {
                 c[0] + (c[1] - c[0]) * t
             }
         };
-        Pose {
+        PairPose {
             a: self.a.map(between),
             b: self.b.map(between),
         }
     }
 
     /// The part between two instants; corners move straight there too.
-    pub(crate) fn part(&self, from: &Pose, to: &Pose) -> Self {
+    pub(crate) fn part(&self, from: &PairPose, to: &PairPose) -> Self {
         Self {
             a: [0, 1, 2].map(|i| [from.a[i], to.a[i]]),
             b: [0, 1, 2].map(|i| [from.b[i], to.b[i]]),
@@ -213,7 +213,7 @@ impl Span {
     }
 }
 
-impl Pose {
+impl PairPose {
     /// max d·a − min d·b.
     pub(crate) fn overlap(&self, d: DVec3) -> f64 {
         let origin = self.a[0];

@@ -10,7 +10,7 @@
 
 use glam::DVec3;
 
-use super::number::Number;
+use super::double_word::Scalar;
 
 const VOLUME_ERROR: f64 = 256.0;
 const CROSS_ERROR: f64 = 64.0;
@@ -44,12 +44,12 @@ enum Zero {
 
 /// A stretch of time with the signs of the volume at its ends.
 #[derive(Debug, Clone, Copy)]
-struct Stretch {
+struct SignedInterval {
     times: [f64; 2],
     signs: [i8; 2],
 }
 
-impl<T: Number, const N: usize> MovingPatch<T, N> {
+impl<T: Scalar, const N: usize> MovingPatch<T, N> {
     /// `corners`: for each end and each corner the two points whose difference it is.
     pub(super) fn new(corners: [[[DVec3; 2]; N]; 2]) -> Self {
         let difference = |[p, q]: [DVec3; 2]| [0, 1, 2].map(|i| T::difference(p[i], q[i]));
@@ -74,32 +74,32 @@ impl<T: Number, const N: usize> MovingPatch<T, N> {
     /// its sign; there the origin lies in the patch where all c_k × c_{k+1} point to one side.
     pub(super) fn passages(&self, signs: [i8; 2]) -> Option<Vec<([f64; 2], i8)>> {
         let mut found = Vec::new();
-        let mut open = vec![Stretch {
+        let mut open = vec![SignedInterval {
             times: [0.0, 1.0],
             signs,
         }];
         let mut budget = BUDGET;
-        while let Some(stretch) = open.pop() {
+        while let Some(interval) = open.pop() {
             budget = budget.checked_sub(1)?;
-            let [from, to] = stretch.times.map(|t| self.at(t));
+            let [from, to] = interval.times.map(|t| self.at(t));
             if self.is_clear(&from, &to) {
                 continue;
             }
             if self.is_monotone(&from, &to) {
-                if stretch.signs[0] != stretch.signs[1]
-                    && let Zero::Inside(times) = self.passage_within(stretch)?
+                if interval.signs[0] != interval.signs[1]
+                    && let Zero::Inside(times) = self.passage_within(interval)?
                 {
-                    found.push((times, stretch.signs[1]));
+                    found.push((times, interval.signs[1]));
                 }
                 continue;
             }
-            let (middle, sign) = self.cut(stretch.times)?;
-            let ([t0, t1], [s0, s1]) = (stretch.times, stretch.signs);
-            open.push(Stretch {
+            let (middle, sign) = self.cut(interval.times)?;
+            let ([t0, t1], [s0, s1]) = (interval.times, interval.signs);
+            open.push(SignedInterval {
                 times: [middle, t1],
                 signs: [sign, s1],
             });
-            open.push(Stretch {
+            open.push(SignedInterval {
                 times: [t0, middle],
                 signs: [s0, sign],
             });
@@ -125,8 +125,8 @@ impl<T: Number, const N: usize> MovingPatch<T, N> {
     }
 
     /// Where the origin is at the only zero of the volume in a stretch; none where rounding hides it.
-    fn passage_within(&self, stretch: Stretch) -> Option<Zero> {
-        let mut times = stretch.times;
+    fn passage_within(&self, interval: SignedInterval) -> Option<Zero> {
+        let mut times = interval.times;
         let mut is_known = false;
         loop {
             if !is_known {
@@ -143,7 +143,7 @@ impl<T: Number, const N: usize> MovingPatch<T, N> {
             let Some((middle, sign)) = self.cut(times) else {
                 return (is_known && length <= COARSEST).then_some(Zero::Inside(times));
             };
-            times[usize::from(sign != stretch.signs[0])] = middle;
+            times[usize::from(sign != interval.signs[0])] = middle;
         }
     }
 
@@ -206,22 +206,22 @@ fn range(values: impl Iterator<Item = f64>) -> (f64, f64) {
     })
 }
 
-fn spanning<T: Number, const N: usize>(corners: &[Vector<T>; N]) -> [&Vector<T>; 3] {
+fn spanning<T: Scalar, const N: usize>(corners: &[Vector<T>; N]) -> [&Vector<T>; 3] {
     [&corners[0], &corners[1], &corners[N - 1]]
 }
 
 /// Component `axis` of p × q.
-fn cross<T: Number>(p: &Vector<T>, q: &Vector<T>, axis: usize) -> T {
+fn cross<T: Scalar>(p: &Vector<T>, q: &Vector<T>, axis: usize) -> T {
     let (i, j) = ((axis + 1) % 3, (axis + 2) % 3);
     p[i] * q[j] - p[j] * q[i]
 }
 
-fn determinant<T: Number>(x: &Vector<T>, y: &Vector<T>, z: &Vector<T>) -> T {
+fn determinant<T: Scalar>(x: &Vector<T>, y: &Vector<T>, z: &Vector<T>) -> T {
     x[0] * cross(y, z, 0) + x[1] * cross(y, z, 1) + x[2] * cross(y, z, 2)
 }
 
 /// The Bernstein coefficients of the volume det(x, y, z) of three corners that span the patch.
-fn volumes<T: Number, const N: usize>(from: &[Vector<T>; N], to: &[Vector<T>; N]) -> [f64; 4] {
+fn volumes<T: Scalar, const N: usize>(from: &[Vector<T>; N], to: &[Vector<T>; N]) -> [f64; 4] {
     let ([x0, y0, z0], [x1, y1, z1]) = (spanning(from), spanning(to));
     let first = determinant(x1, y0, z0) + determinant(x0, y1, z0) + determinant(x0, y0, z1);
     let second = determinant(x0, y1, z1) + determinant(x1, y0, z1) + determinant(x1, y1, z0);

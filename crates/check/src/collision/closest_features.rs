@@ -3,11 +3,11 @@
 use foldmotion_geometry::{collide::PairPose, segment_segment, triangle_triangle};
 use glam::DVec3;
 
-use super::pair::Pair;
+use super::face_pair::FacePair;
 
 /// Two features that meet.
 #[derive(Debug, Clone)]
-pub(super) struct Meeting {
+pub(super) struct ClosestFeatures {
     /// A corner and a facet's three, or the ends of two edges, each vertex once.
     pub(super) vertices: Vec<u32>,
     pub(super) point: DVec3,
@@ -16,9 +16,9 @@ pub(super) struct Meeting {
     pub(super) distance: f64,
 }
 
-impl Meeting {
+impl ClosestFeatures {
     /// The features nearest to each other, but for those that share a vertex; the wanted kind within `slack` of that.
-    pub(super) fn nearest(pair: &Pair, pose: &PairPose, wants_edges: bool, slack: f64) -> Self {
+    pub(super) fn nearest(pair: &FacePair, pose: &PairPose, wants_edges: bool, slack: f64) -> Self {
         let (corner, edges) = (Self::corner_and_facet(pair, pose), Self::edges(pair, pose));
         let (wanted, other) = if wants_edges {
             (edges, corner)
@@ -33,7 +33,7 @@ impl Meeting {
     }
 
     /// The corner, of those not shared, that is nearest to the other facet.
-    fn corner_and_facet(pair: &Pair, pose: &PairPose) -> Self {
+    fn corner_and_facet(pair: &FacePair, pose: &PairPose) -> Self {
         let mut nearest = Self::far();
         for (of, at, facet, triangle) in [
             (&pair.a, &pose.a, &pair.b, &pose.b),
@@ -54,7 +54,7 @@ impl Meeting {
         nearest
     }
 
-    fn edges(pair: &Pair, pose: &PairPose) -> Self {
+    fn edges(pair: &FacePair, pose: &PairPose) -> Self {
         let mut nearest = Self::far();
         let ends = |k: usize| [k, (k + 1) % 3];
         for (i, j) in (0..9).map(|k| (ends(k / 3), ends(k % 3))) {
