@@ -3,8 +3,9 @@
 use std::fs;
 use std::path::Path;
 
-use foldmotion_check::{Verdict, Verification};
+use foldmotion_check::Verdict;
 use foldmotion_study::{CheckOptions, check_file, verify_file};
+use foldmotion_verify::Verification;
 use serde_json::{Value, json};
 
 /// File, verdict, and the smallest separation where it is told.

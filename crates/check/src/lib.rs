@@ -29,7 +29,6 @@ mod extents;
 mod layers;
 mod straightness;
 mod strain;
-mod verification;
 
 pub use collision::{
     Checker, CollisionOptions, CollisionReport, FilterCounts, PairCounts, Penetration,
@@ -43,4 +42,3 @@ pub use extents::{
 pub use layers::{Claims, Cluster, LayerConflict, LayerProof, LayerRule, RuleCounts};
 pub use straightness::straying;
 pub use strain::{BarStrain, FacetBending, bar_strain, facet_bending};
-pub use verification::{Refutation, Unproved, Verification, Verifier};

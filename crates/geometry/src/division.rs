@@ -4,18 +4,15 @@ use glam::DVec2;
 use serde::{Deserialize, Serialize};
 
 use crate::chain;
+use crate::chords::{Chords, check_resolution, too_short};
 use crate::douglas_peucker::split;
 use crate::length_table::LengthTable;
-use crate::levenberg_marquardt::{Chords, Minimum, minimise};
+use crate::levenberg_marquardt::{Ending, Minimum, minimise};
 use crate::polygon::first_crossing;
 use crate::{GeometryError, Profile};
 
 /// The most segments a profile is divided into.
 const MOST_SEGMENTS: usize = 1_000_000;
-/// The shortest mean segment, over the largest coordinate.
-const FINEST_SEGMENT: f64 = 1e-12;
-/// The shortest mean segment, whatever the coordinates: products of lengths stay far from underflow.
-const SHORTEST_SEGMENT: f64 = 1e-100;
 /// Parameters of one division reached from two starts, at most apart.
 const SAME_DIVISION: f64 = 1e-9;
 
@@ -51,28 +48,6 @@ impl Default for DivisionOptions {
             tolerance: 1e-14,
             max_iterations: 200,
         }
-    }
-}
-
-/// Why the iteration ended.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Ending {
-    /// |R_max| is within the tolerance.
-    Tolerance,
-    /// |R_max| is above the tolerance, but as small as the rounding of points and parameters lets it be.
-    Rounding,
-    /// No further step lowers E: a local minimum with unequal segments, or a corner of the curve in the way.
-    Stalled,
-    /// The iteration limit came first.
-    Iterations,
-    /// Nothing was iterated: the method does not seek equal segments.
-    Direct,
-}
-
-impl Ending {
-    pub(crate) fn converged(self) -> bool {
-        matches!(self, Self::Tolerance | Self::Rounding)
     }
 }
 
@@ -342,23 +317,4 @@ fn check_start(parameters: &[f64]) -> Result<(), GeometryError> {
         }
     }
     Ok(())
-}
-
-/// Whether chords of this mean length can be told from rounding.
-pub(crate) fn check_resolution(length: f64, profile: &Profile) -> Result<(), GeometryError> {
-    if length > shortest_segment(profile) {
-        return Ok(());
-    }
-    Err(too_short(length, profile))
-}
-
-fn too_short(length: f64, profile: &Profile) -> GeometryError {
-    GeometryError::SegmentTooShort {
-        length,
-        minimum: shortest_segment(profile),
-    }
-}
-
-fn shortest_segment(profile: &Profile) -> f64 {
-    SHORTEST_SEGMENT.max(FINEST_SEGMENT * profile.magnitude())
 }

@@ -11,9 +11,10 @@
 
 use glam::DVec2;
 
+use crate::closure::Closure;
 use crate::nurbs::{LARGEST_COORDINATE, NARROWEST_SPAN};
 use crate::tridiagonal::Tridiagonal;
-use crate::{Closure, GeometryError, Nurbs};
+use crate::{GeometryError, Nurbs};
 
 /// The most points a curve is led through.
 const MOST_POINTS: usize = 20_000;

@@ -12,9 +12,9 @@
 //! a tridiagonal matrix and one of rank 2. JᵀJ + μI is solved by LDLᵀ of the tridiagonal part and the
 //! Sherman–Morrison–Woodbury formula.
 
-use glam::DVec2;
+use serde::{Deserialize, Serialize};
 
-use crate::division::Ending;
+use crate::chords::{Chords, dot};
 use crate::tridiagonal::Tridiagonal;
 use crate::{GeometryError, Profile};
 
@@ -27,44 +27,25 @@ const REJECTIONS: u32 = 12;
 /// Rejections in a row after which a residual within rounding is as small as it gets.
 const REJECTIONS_WITHIN_ROUNDING: u32 = 3;
 
-/// The chords between consecutive points of the profile.
-#[derive(Debug, Clone)]
-pub(crate) struct Chords {
-    pub(crate) points: Vec<DVec2>,
-    pub(crate) mean: f64,
-    /// r_k of equation 1.
-    pub(crate) residuals: Vec<f64>,
+/// Why the iteration ended.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Ending {
+    /// |R_max| is within the tolerance.
+    Tolerance,
+    /// |R_max| is above the tolerance, but as small as the rounding of points and parameters lets it be.
+    Rounding,
+    /// No further step lowers E: a local minimum with unequal segments, or a corner of the curve in the way.
+    Stalled,
+    /// The iteration limit came first.
+    Iterations,
+    /// Nothing was iterated: the method does not seek equal segments.
+    Direct,
 }
 
-impl Chords {
-    /// # Errors
-    /// A mean chord that f64 does not resolve beside the coordinates.
-    pub(crate) fn new(profile: &Profile, parameters: &[f64]) -> Result<Self, GeometryError> {
-        let points: Vec<_> = parameters.iter().map(|&u| profile.position(u)).collect();
-        let lengths: Vec<_> = points.windows(2).map(|p| p[0].distance(p[1])).collect();
-        let mean = lengths.iter().sum::<f64>() / lengths.len() as f64;
-        crate::division::check_resolution(mean, profile)?;
-        Ok(Self {
-            points,
-            mean,
-            residuals: lengths.iter().map(|h| (h - mean) / mean).collect(),
-        })
-    }
-
-    /// E of equation 2.
-    pub(crate) fn energy(&self) -> f64 {
-        0.5 * dot(&self.residuals, &self.residuals)
-    }
-
-    /// |R_max|.
-    pub(crate) fn max_residual(&self) -> f64 {
-        self.residuals.iter().fold(0.0, |max, r| r.abs().max(max))
-    }
-
-    /// |R_ave|.
-    pub(crate) fn mean_residual(&self) -> f64 {
-        let sum: f64 = self.residuals.iter().map(|r| r.abs()).sum();
-        sum / self.residuals.len() as f64
+impl Ending {
+    pub(crate) fn converged(self) -> bool {
+        matches!(self, Self::Tolerance | Self::Rounding)
     }
 }
 
@@ -293,12 +274,10 @@ fn admissible_share(change: &[f64], parameters: &[f64]) -> f64 {
     })
 }
 
-fn dot(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| a * b).sum()
-}
-
 #[cfg(test)]
 mod tests {
+    use glam::DVec2;
+
     use super::*;
     use crate::Closure;
 

@@ -9,6 +9,8 @@
 mod aabb;
 mod arc_length;
 mod chain;
+mod chords;
+mod closure;
 pub mod collide;
 mod compass;
 mod dihedral;
@@ -31,16 +33,18 @@ mod tridiagonal;
 pub mod unfolding;
 
 pub use aabb::Aabb;
+pub use closure::Closure;
 pub use dihedral::{fold_angle, fold_angle_gradient, nearest_turn};
 pub use distance::{Closest, segment_segment, triangle_triangle};
 pub use division::{
-    Division, DivisionMethod, DivisionOptions, Ending, divide, divide_from, divide_to_length,
-    simplify, simplify_to_length,
+    Division, DivisionMethod, DivisionOptions, divide, divide_from, divide_to_length, simplify,
+    simplify_to_length,
 };
 pub use error::GeometryError;
 pub use fit::Fit;
+pub use levenberg_marquardt::Ending;
 pub use number::Number;
 pub use nurbs::Nurbs;
 pub use polygon::{Crossing, first_crossing};
-pub use profile::{Closure, Profile};
+pub use profile::Profile;
 pub use rigid::RigidMotion;

@@ -1,9 +1,9 @@
 //! The profile: the curve Γ in the x–z plane that the sheet approximates.
 
 use glam::DVec2;
-use serde::{Deserialize, Serialize};
 
 use crate::arc_length::arc_length;
+use crate::closure::Closure;
 use crate::interpolation::interpolate;
 use crate::polygon::first_crossing;
 use crate::{GeometryError, Nurbs};
@@ -13,19 +13,6 @@ const FEWEST_CONTROL_POINTS: usize = 4;
 /// How finely [`Profile::check_simple`] samples each knot span of a profile of many, and all of them together.
 const SAMPLES_PER_SPAN: usize = 8;
 const SAMPLES: usize = 1024;
-
-/// How a profile ends.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Closure {
-    /// It has two ends.
-    #[default]
-    Open,
-    /// It returns to its start with a corner there.
-    Corner,
-    /// It returns to its start with continuous first and second derivative.
-    Smooth,
-}
 
 /// The curve Γ of section 2 of the paper: cubic, unit weights, parameter u ∈ [0, 1], points (x, z).
 #[derive(Debug, Clone, PartialEq)]

@@ -4,7 +4,7 @@
 
 mod oracle;
 
-use foldmotion_geometry::collide::{Effort, Meeting, Outcome, Side, certify};
+use foldmotion_geometry::collide::{Effort, Impact, Outcome, Side, certify};
 use glam::DVec3;
 use oracle::{
     contact::{Path, Query},
@@ -122,7 +122,7 @@ fn the_meeting_told_is_no_later_than_the_first() {
             };
             match answer(&query, 0.0) {
                 // The paths up to a dyadic t are exact here: short of `from` nothing meets.
-                Meeting::Within { from, to } => {
+                Impact::Within { from, to } => {
                     assert!(to - from <= 1.0 / (1u64 << 44) as f64);
                     let before = (from * 64.0).floor() / 64.0;
                     assert!(

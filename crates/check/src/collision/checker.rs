@@ -12,18 +12,17 @@ use glam::DVec3;
 use rayon::prelude::*;
 
 use super::{
-    frame::Placed,
-    judge::{Judgement, Nearness, Question, may_be_near, starts_deep},
-    nearest::Nearest,
-    pair::{Pair, facets_share_a_vertex},
+    closest_approach::ClosestApproach,
+    face_pair::{FacePair, facets_share_a_vertex},
+    frame::CentredFrame,
+    judge::{DistanceBounds, Judgement, PairTest, Suspect, may_be_near, starts_deep},
     report::{
         CollisionOptions, CollisionReport, FilterCounts, PairCounts, Penetration, Stopped, Verdict,
     },
-    through::Suspect,
 };
 use crate::{
     CheckError,
-    crossings::Crossings,
+    crossings::CrossingCounter,
     layers::{Claims, FaceEdges, LayerPair, front_normal},
 };
 
@@ -45,7 +44,7 @@ pub struct Checker<'a> {
     stop_at: usize,
     pub(super) origin: DVec3,
     tree: Tree,
-    pub(super) last: Placed,
+    pub(super) last: CentredFrame,
     /// The number of frames taken in.
     pub(super) frames: usize,
     /// The sides of the pairs judged in the last interval, ordered by pair.
@@ -67,9 +66,9 @@ pub struct Checker<'a> {
     /// Pairs that left the side they were followed on, without an instant at which they are surely too deep, with the
     /// last interval in which they did: whether they pass through each other is counted on the sheet.
     pub(super) suspects: BTreeMap<(u32, u32), Suspect>,
-    pub(super) crossings: Crossings,
+    pub(super) crossings: CrossingCounter,
     /// The closest approach so far.
-    pub(super) nearest: Nearest,
+    pub(super) nearest: ClosestApproach,
     pub(super) report: CollisionReport,
 }
 
@@ -99,7 +98,7 @@ impl<'a> Checker<'a> {
         } else {
             DVec3::ZERO
         };
-        let last = Placed::new(sheet, first, 0, origin)?;
+        let last = CentredFrame::new(sheet, first, 0, origin)?;
         let tolerance = value * sheet.unit_length;
         let limits = limits_for(0, last.extent, tolerance, options.budget)?;
         let mut checker = Self {
@@ -122,8 +121,8 @@ impl<'a> Checker<'a> {
             touching: BTreeSet::new(),
             near: Vec::new(),
             suspects: BTreeMap::new(),
-            crossings: Crossings::new(sheet, &limits),
-            nearest: Nearest::new(&limits),
+            crossings: CrossingCounter::new(sheet, &limits),
+            nearest: ClosestApproach::new(&limits),
             report: empty_report(value),
         };
         checker.measure_separation();
@@ -142,7 +141,7 @@ impl<'a> Checker<'a> {
         if self.stops() {
             return Ok(());
         }
-        let next = Placed::new(self.sheet, frame, self.frames, self.origin)?;
+        let next = CentredFrame::new(self.sheet, frame, self.frames, self.origin)?;
         let (before, time) = (self.last.time, next.time);
         if time.partial_cmp(&before) != Some(std::cmp::Ordering::Greater) {
             return Err(CheckError::TimeOrder {
@@ -228,7 +227,7 @@ impl<'a> Checker<'a> {
         self.nearest.keep(faces, self.last.time, closest);
     }
 
-    pub(super) fn is_measured(&self, pair: &Pair) -> bool {
+    pub(super) fn is_measured(&self, pair: &FacePair) -> bool {
         let [f, g] = pair.faces;
         pair.shared == 0 && !facets_share_a_vertex(self.sheet, f, g)
     }
@@ -245,17 +244,17 @@ impl<'a> Checker<'a> {
         let boxes: Vec<_> = self.last.boxes.iter().map(|b| b.inflated(radius)).collect();
         self.tree.refit(&boxes);
         for (f, g) in self.tree.overlapping_pairs(&boxes) {
-            let pair = Pair::new(self.sheet, f, g);
+            let pair = FacePair::new(self.sheet, f, g);
             if self.is_measured(&pair) {
                 let still = MovingPair::at_rest(pair.pose(&self.last.positions));
-                let nearness = Nearness::from(closest_approach(&still, nearest, &limits));
-                self.nearest.record(pair.faces, [time; 2], &nearness);
+                let distance = DistanceBounds::from(closest_approach(&still, nearest, &limits));
+                self.nearest.record(pair.faces, [time; 2], &distance);
             }
         }
     }
 
     /// Pairs whose boxes, swept from `start` to the last frame, come within τ and within the smallest separation.
-    fn candidates(&mut self, start: &Placed) -> Vec<Pair> {
+    fn candidates(&mut self, start: &CentredFrame) -> Vec<FacePair> {
         let nearest = self.nearest.distance().unwrap_or(0.0);
         let radius = 0.5 * nearest.max(self.tolerance);
         let swept: Vec<_> = start
@@ -268,7 +267,7 @@ impl<'a> Checker<'a> {
         let pairs = self.tree.overlapping_pairs(&swept);
         pairs
             .into_iter()
-            .map(|(f, g)| Pair::new(self.sheet, f, g))
+            .map(|(f, g)| FacePair::new(self.sheet, f, g))
             .collect()
     }
 
@@ -283,7 +282,7 @@ impl<'a> Checker<'a> {
         self.tree.refit(&swept);
         let assignments = assignments(self.sheet);
         for (f, g) in self.tree.overlapping_pairs(&swept) {
-            let pair = Pair::new(self.sheet, f, g);
+            let pair = FacePair::new(self.sheet, f, g);
             if pair.shared == 3 {
                 return Err(CheckError::DuplicateFace { f, g });
             }
@@ -309,14 +308,14 @@ impl<'a> Checker<'a> {
                 Some(apart) => self.sides.push(((f, g), apart)),
                 None => {
                     let times = [self.last.time; 2];
-                    self.leaves_its_side(&pair, times, starts_deep(&pair, &pose, limits));
+                    self.record_lost_side(&pair, times, starts_deep(&pair, &pose, limits));
                 }
             }
         }
         Ok(())
     }
 
-    fn judge_interval(&mut self, start: &Placed, limits: &Limits) {
+    fn judge_interval(&mut self, start: &CentredFrame, limits: &Limits) {
         let mut pairs = self.candidates(start);
         let faces = self.sheet.faces.len() as u64;
         let all = faces * faces.saturating_sub(1) / 2;
@@ -324,9 +323,9 @@ impl<'a> Checker<'a> {
         self.unfollowed.clear();
         self.near.clear();
         pairs.retain(|pair| {
-            let is_lost = self.penetrating.contains(&key(pair));
+            let is_lost = self.penetrating.contains(&pair.key());
             if is_lost {
-                self.unfollowed.push(key(pair));
+                self.unfollowed.push(pair.key());
             }
             !is_lost
         });
@@ -342,12 +341,12 @@ impl<'a> Checker<'a> {
         }
     }
 
-    fn judge(&self, pair: &Pair, start: &Placed, limits: &Limits) -> Judgement {
+    fn judge(&self, pair: &FacePair, start: &CentredFrame, limits: &Limits) -> Judgement {
         let moving = MovingPair {
             start: pair.pose(&start.positions),
             end: pair.pose(&self.last.positions),
         };
-        let found = self.sides.binary_search_by(|(k, _)| k.cmp(&key(pair)));
+        let found = self.sides.binary_search_by(|(k, _)| k.cmp(&pair.key()));
         let fresh;
         let side = if let Ok(index) = found {
             Some(&self.sides[index].1)
@@ -356,15 +355,15 @@ impl<'a> Checker<'a> {
             fresh.as_ref()
         };
         let nearest = self.nearest.distance().unwrap_or(f64::INFINITY);
-        let question = Question {
+        let question = PairTest {
             limits,
             nearer_than: self.is_measured(pair).then_some(nearest),
-            has_touched: self.touching.contains(&key(pair)),
+            has_touched: self.touching.contains(&pair.key()),
         };
         question.judge(pair, &moving, side)
     }
 
-    fn record(&mut self, pair: &Pair, judgement: Judgement, times: [f64; 2]) {
+    fn record(&mut self, pair: &FacePair, judgement: Judgement, times: [f64; 2]) {
         let counts = &mut self.report.pairs_tested;
         match pair.shared {
             0 => counts.disjoint += 1,
@@ -378,7 +377,7 @@ impl<'a> Checker<'a> {
                 effort,
                 is_touching,
                 is_near,
-                nearness,
+                distance,
             } => {
                 if is_near {
                     self.near.push(pair.faces);
@@ -389,34 +388,30 @@ impl<'a> Checker<'a> {
                     Effort::Search => decided_by.search += 1,
                 }
                 if is_touching {
-                    self.touching.insert(key(pair));
+                    self.touching.insert(pair.key());
                 }
                 if matches!(side, Side::Apart(_)) {
                     self.claimed.remove(&pair.faces);
                 }
-                self.sides.push((key(pair), side));
-                self.nearest.record(pair.faces, times, &nearness);
+                self.sides.push((pair.key(), side));
+                self.nearest.record(pair.faces, times, &distance);
             }
-            Judgement::Penetrates(witness) => {
+            Judgement::Penetrates(evidence) => {
                 decided_by.search += 1;
-                self.leaves_its_side(pair, times, witness);
+                self.record_lost_side(pair, times, evidence);
             }
-            Judgement::Undecided { is_near, nearness } => {
-                self.nearest.record(pair.faces, times, &nearness);
+            Judgement::Undecided { is_near, distance } => {
+                self.nearest.record(pair.faces, times, &distance);
                 // What passes through what is counted, whatever the sides.
                 decided_by.search += 1;
-                self.unfollowed.push(key(pair));
+                self.unfollowed.push(pair.key());
                 if is_near {
                     self.near.push(pair.faces);
-                    self.touching.insert(key(pair));
+                    self.touching.insert(pair.key());
                 }
             }
         }
     }
-}
-
-pub(super) fn key(pair: &Pair) -> (u32, u32) {
-    (pair.faces[0], pair.faces[1])
 }
 
 /// The numbers a verdict depends on, up to a frame.

@@ -8,12 +8,12 @@ use foldmotion_geometry::{
 use foldmotion_pattern::{Frame, Sheet};
 use glam::DVec3;
 
-use super::pair::{Pair, facets_share_a_vertex};
+use super::face_pair::{FacePair, facets_share_a_vertex};
 use crate::CheckError;
 
 /// A frame relative to the origin of the check.
 #[derive(Debug)]
-pub(super) struct Placed {
+pub(super) struct CentredFrame {
     pub(super) time: f64,
     pub(super) positions: Vec<DVec3>,
     pub(super) boxes: Vec<Aabb>,
@@ -21,7 +21,7 @@ pub(super) struct Placed {
     pub(super) extent: f64,
 }
 
-impl Placed {
+impl CentredFrame {
     /// Precondition: the sheet's corners are in range.
     pub(super) fn new(
         sheet: &Sheet,
@@ -89,7 +89,7 @@ impl Placed {
         tree.refit(&self.boxes);
         tree.visit_near(&self.boxes, bound, |f, g, bound| {
             let (a, b) = (corners(f), corners(g));
-            if Pair::new(sheet, f, g).shared > 0
+            if FacePair::new(sheet, f, g).shared > 0
                 || facets_share_a_vertex(sheet, f, g)
                 || is_farther(&a, &b, bound - rounding)
             {

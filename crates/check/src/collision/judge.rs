@@ -1,12 +1,12 @@
 //! The judgement of one pair in one interval.
 
 use foldmotion_geometry::collide::{
-    Approach, Approaches, Axis, Crossing, Effort, Feature, Limits, MovingPair, Outcome, PairPose,
-    Passage, Side, certify, closest_approach, comes_within, enough_clearance,
+    Approach, ApproachBounds, Axis, Effort, Feature, Limits, MovingPair, Outcome, PairCertificate,
+    PairCrossing, PairPose, Side, certify, closest_approach, comes_within, enough_clearance,
 };
 use glam::DVec3;
 
-use super::{meeting::Meeting, pair::Pair, report::PenetrationKind};
+use super::{closest_features::ClosestFeatures, face_pair::FacePair, report::PenetrationKind};
 
 /// Pairs nearer than this share of τ are near.
 const NEAR: f64 = 1.01;
@@ -22,36 +22,36 @@ pub(super) enum Judgement {
         is_touching: bool,
         /// Whether what the triangles do not share may come within τ.
         is_near: bool,
-        nearness: Nearness,
+        distance: DistanceBounds,
     },
     /// It gets deeper than τ, or leaves the side it was followed on.
-    Penetrates(Witness),
+    Penetrates(PenetrationEvidence),
     /// Its side is open.
     Undecided {
         /// Whether what the triangles do not share may come within τ.
         is_near: bool,
-        nearness: Nearness,
+        distance: DistanceBounds,
     },
 }
 
 /// What was found of the distance of a pair in an interval.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Nearness {
+pub(super) struct DistanceBounds {
     /// The closest approach, where it may be news.
     pub(super) approach: Option<Approach>,
     /// The triangles are at least this far apart throughout; infinite for pairs that are not measured.
     pub(super) at_least: f64,
 }
 
-impl Nearness {
+impl DistanceBounds {
     pub(super) const NOT_MEASURED: Self = Self {
         approach: None,
         at_least: f64::INFINITY,
     };
 }
 
-impl From<Approaches> for Nearness {
-    fn from(found: Approaches) -> Self {
+impl From<ApproachBounds> for DistanceBounds {
+    fn from(found: ApproachBounds) -> Self {
         Self {
             approach: found.nearest,
             at_least: found.at_least,
@@ -61,7 +61,7 @@ impl From<Approaches> for Nearness {
 
 /// A penetration in the time and the coordinates of the interval.
 #[derive(Debug, Clone)]
-pub(super) struct Witness {
+pub(super) struct PenetrationEvidence {
     pub(super) contact: f64,
     pub(super) passed: f64,
     pub(super) kind: PenetrationKind,
@@ -70,12 +70,12 @@ pub(super) struct Witness {
     /// How far apart what meets is there; 0 for pairs that start deep in each other.
     gap: f64,
     pub(super) depth: f64,
-    pub(super) nearness: Nearness,
+    pub(super) distance: DistanceBounds,
 }
 
-impl Witness {
+impl PenetrationEvidence {
     /// Whether the triangles meet as they leave their side: what lost it for want of a way may be apart by then.
-    pub(super) fn meets(&self, tolerance: f64) -> bool {
+    pub(super) fn is_in_contact(&self, tolerance: f64) -> bool {
         self.gap <= MET * tolerance
     }
 
@@ -86,9 +86,17 @@ impl Witness {
     }
 }
 
+/// A pair that left its side in an interval.
+#[derive(Debug, Clone)]
+pub(super) struct Suspect {
+    pub(super) frame: usize,
+    pub(super) times: [f64; 2],
+    pub(super) evidence: PenetrationEvidence,
+}
+
 /// What a pair is asked.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Question<'a> {
+pub(super) struct PairTest<'a> {
     pub(super) limits: &'a Limits,
     /// The closest approach is wanted where it is nearer than this; none where the pair's facets share a vertex.
     pub(super) nearer_than: Option<f64>,
@@ -96,40 +104,46 @@ pub(super) struct Question<'a> {
     pub(super) has_touched: bool,
 }
 
-impl Question<'_> {
+impl PairTest<'_> {
     /// Judges a pair from its side; none stands for a pair that starts deeper than τ.
-    pub(super) fn judge(&self, pair: &Pair, moving: &MovingPair, side: Option<&Side>) -> Judgement {
-        let penetrates = |witness: Witness| {
-            Judgement::Penetrates(Witness {
-                nearness: self.nearness(moving),
-                ..witness
+    pub(super) fn judge(
+        &self,
+        pair: &FacePair,
+        moving: &MovingPair,
+        side: Option<&Side>,
+    ) -> Judgement {
+        let record_penetration = |evidence: PenetrationEvidence| {
+            Judgement::Penetrates(PenetrationEvidence {
+                distance: self.distance(moving),
+                ..evidence
             })
         };
         let Some(side) = side else {
-            return penetrates(starts_deep(pair, &moving.start, self.limits));
+            return record_penetration(starts_deep(pair, &moving.start, self.limits));
         };
         let passage = match certify(moving, side, self.limits) {
             Outcome::Passed(passage) => passage,
             Outcome::Crossed(crossing) => {
-                return penetrates(self.witness(pair, moving, &crossing));
+                return record_penetration(self.evidence(pair, moving, &crossing));
             }
             Outcome::Undecided { .. } => {
                 return Judgement::Undecided {
                     is_near: may_be_near(pair, moving, 0.0, self.limits),
-                    nearness: self.nearness(moving),
+                    distance: self.distance(moving),
                 };
             }
         };
         self.passed(pair, moving, passage)
     }
 
-    fn nearness(&self, moving: &MovingPair) -> Nearness {
-        self.nearer_than.map_or(Nearness::NOT_MEASURED, |bound| {
-            Nearness::from(closest_approach(moving, bound, self.limits))
-        })
+    fn distance(&self, moving: &MovingPair) -> DistanceBounds {
+        self.nearer_than
+            .map_or(DistanceBounds::NOT_MEASURED, |bound| {
+                DistanceBounds::from(closest_approach(moving, bound, self.limits))
+            })
     }
 
-    fn passed(&self, pair: &Pair, moving: &MovingPair, passage: Passage) -> Judgement {
+    fn passed(&self, pair: &FacePair, moving: &MovingPair, passage: PairCertificate) -> Judgement {
         let is_near = may_be_near(pair, moving, passage.clearance, self.limits);
         if pair.shared > 0 {
             return Judgement::Passed {
@@ -137,7 +151,7 @@ impl Question<'_> {
                 effort: passage.effort,
                 is_touching: is_near,
                 is_near,
-                nearness: Nearness::NOT_MEASURED,
+                distance: DistanceBounds::NOT_MEASURED,
             };
         }
         let tolerance = self.limits.tolerance;
@@ -153,7 +167,7 @@ impl Question<'_> {
         let found = is_news.then(|| closest_approach(moving, bound, self.limits));
         let at_least = found.map_or(0.0, |found| found.at_least).max(clearance);
         let approach = found.and_then(|found| found.nearest);
-        let nearness = Nearness {
+        let distance = DistanceBounds {
             approach: approach.filter(|approach| approach.closest.distance < wanted),
             at_least: at_least.max(0.0),
         };
@@ -163,34 +177,39 @@ impl Question<'_> {
             // Free is claimed only where it is proved.
             is_touching: may_touch && at_least <= tolerance,
             is_near,
-            nearness: if self.nearer_than.is_some() {
-                nearness
+            distance: if self.nearer_than.is_some() {
+                distance
             } else {
-                Nearness::NOT_MEASURED
+                DistanceBounds::NOT_MEASURED
             },
         }
     }
 
-    fn witness(&self, pair: &Pair, moving: &MovingPair, crossing: &Crossing) -> Witness {
+    fn evidence(
+        &self,
+        pair: &FacePair,
+        moving: &MovingPair,
+        crossing: &PairCrossing,
+    ) -> PenetrationEvidence {
         // Just as it gets too deep the features still meet; later they may be far through.
         let pose = moving.at(crossing.passed);
         let is_deep = crossing.depth > self.limits.tolerance;
-        let meeting = meeting(pair, &pose, &crossing.axis, self.limits);
+        let features = features(pair, &pose, &crossing.axis, self.limits);
         let (kind, depth) = match pair.shared {
-            0 if is_deep => (kind_of(&meeting), crossing.depth),
+            0 if is_deep => (kind_of(&features), crossing.depth),
             0 => (PenetrationKind::PassedThrough, crossing.depth.max(0.0)),
             1 => (PenetrationKind::AroundVertex, crossing.reach),
             _ => (PenetrationKind::FoldedThrough, crossing.reach),
         };
-        Witness {
+        PenetrationEvidence {
             contact: crossing.contact,
             passed: crossing.passed,
             kind,
-            vertices: vertices(pair, &meeting),
-            point: meeting.point,
-            gap: meeting.distance,
+            vertices: vertices(pair, &features),
+            point: features.point,
+            gap: features.distance,
             depth,
-            nearness: Nearness::NOT_MEASURED,
+            distance: DistanceBounds::NOT_MEASURED,
         }
     }
 }
@@ -199,7 +218,7 @@ impl Question<'_> {
 ///
 /// `clearance`: how far what the triangles do not share stays apart, where they share at most a vertex.
 pub(super) fn may_be_near(
-    pair: &Pair,
+    pair: &FacePair,
     moving: &MovingPair,
     clearance: f64,
     limits: &Limits,
@@ -207,7 +226,7 @@ pub(super) fn may_be_near(
     let reach = NEAR * limits.tolerance;
     let is_apart = match pair.shared {
         0 | 1 => clearance > reach,
-        _ => moving.stays_within_right_angle(limits) && !is_sliver(pair, moving, reach),
+        _ => moving.hinge_stays_within_right_angle(limits) && !is_sliver(pair, moving, reach),
     };
     !is_apart
         && disjoint_parts(pair.shared)
@@ -216,7 +235,7 @@ pub(super) fn may_be_near(
 }
 
 /// Whether an apex is so near the line of the shared edge at an end that disjoint corners may be near in an open fold.
-fn is_sliver(pair: &Pair, moving: &MovingPair, reach: f64) -> bool {
+fn is_sliver(pair: &FacePair, moving: &MovingPair, reach: f64) -> bool {
     debug_assert_eq!(pair.shared, 2, "the edge is shared");
     let is_low = |pose: &PairPose, apex: DVec3| {
         let edge = pose.a[1] - pose.a[0];
@@ -255,33 +274,37 @@ fn part(moving: &MovingPair, a: [usize; 3], b: [usize; 3]) -> MovingPair {
 }
 
 /// The witness of a pair that is deeper than τ at the start of an interval.
-pub(super) fn starts_deep(pair: &Pair, pose: &PairPose, limits: &Limits) -> Witness {
+pub(super) fn starts_deep(
+    pair: &FacePair,
+    pose: &PairPose,
+    limits: &Limits,
+) -> PenetrationEvidence {
     let axis = pose.depth();
-    let meeting = meeting(pair, pose, &axis, limits);
-    Witness {
+    let features = features(pair, pose, &axis, limits);
+    PenetrationEvidence {
         contact: 0.0,
         passed: 0.0,
         kind: match pair.shared {
-            0 => kind_of(&meeting),
+            0 => kind_of(&features),
             1 => PenetrationKind::AroundVertex,
             _ => PenetrationKind::FoldedThrough,
         },
-        vertices: vertices(pair, &meeting),
-        point: meeting.point,
+        vertices: vertices(pair, &features),
+        point: features.point,
         gap: 0.0,
         depth: axis.overlap,
-        nearness: Nearness::NOT_MEASURED,
+        distance: DistanceBounds::NOT_MEASURED,
     }
 }
 
 /// What meets; of the kind the axis says where that is as near.
-fn meeting(pair: &Pair, pose: &PairPose, axis: &Axis, limits: &Limits) -> Meeting {
+fn features(pair: &FacePair, pose: &PairPose, axis: &Axis, limits: &Limits) -> ClosestFeatures {
     let wants_edges = matches!(axis.feature, Feature::Edges(..));
-    Meeting::nearest(pair, pose, wants_edges, limits.tolerance)
+    ClosestFeatures::nearest(pair, pose, wants_edges, limits.tolerance)
 }
 
-fn kind_of(meeting: &Meeting) -> PenetrationKind {
-    if meeting.are_edges {
+fn kind_of(features: &ClosestFeatures) -> PenetrationKind {
+    if features.are_edges {
         PenetrationKind::EdgeEdge
     } else {
         PenetrationKind::VertexFacet
@@ -289,12 +312,12 @@ fn kind_of(meeting: &Meeting) -> PenetrationKind {
 }
 
 /// Those that meet, each once; the hinge's four for triangles that share an edge.
-fn vertices(pair: &Pair, meeting: &Meeting) -> Vec<u32> {
+fn vertices(pair: &FacePair, features: &ClosestFeatures) -> Vec<u32> {
     if pair.shared == 2 {
         return vec![pair.a[0], pair.a[1], pair.a[2], pair.b[2]];
     }
     let mut distinct: Vec<u32> = Vec::with_capacity(4);
-    for &vertex in &meeting.vertices {
+    for &vertex in &features.vertices {
         if !distinct.contains(&vertex) {
             distinct.push(vertex);
         }

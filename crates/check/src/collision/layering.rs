@@ -8,13 +8,13 @@ use glam::DVec3;
 
 use super::{
     checker::{Checker, on_side},
-    pair::Pair,
+    face_pair::FacePair,
     report::{Penetration, PenetrationKind},
 };
 use crate::CheckError;
 use crate::layers::{
-    Contradiction, LayerConflict, LayerPair, LayerProof, LayerRule, Stack, front_normal,
-    layer_pairs, layer_point, order_of, prove, unheard,
+    Contradiction, FaceStack, LayerConflict, LayerPair, LayerProof, LayerRule, front_normal,
+    layer_pairs, layer_point, order_of, prove, unused_claims,
 };
 
 impl Checker<'_> {
@@ -47,7 +47,7 @@ impl Checker<'_> {
         if self.is_stopped() {
             return Ok(());
         }
-        let mut heard = BTreeSet::new();
+        let mut used = BTreeSet::new();
         for index in 0..self.layers.len() {
             let pair = self.layers[index];
             let [f, g] = pair.faces;
@@ -59,17 +59,17 @@ impl Checker<'_> {
             let of_first = order.sign(a, b).map(|sign| ((a, b), -f64::from(sign), g));
             let of_second = order.sign(b, a).map(|sign| ((b, a), f64::from(sign), f));
             for (claim, sign, face) in [of_first, of_second].into_iter().flatten() {
-                heard.insert(claim);
+                used.insert(claim);
                 let up = front_normal(self.sheet, face, &self.last.positions) * sign;
-                self.hear(index, up);
+                self.apply_claim(index, up);
             }
         }
         let stacked = self
             .stack(face_of)
-            .compare(unheard(order, |claim| heard.contains(claim)));
+            .compare(unused_claims(order, |claim| used.contains(claim)));
         self.report.claims.claimed += order.len();
-        self.report.claims.ignored += order.len() - heard.len() - stacked.held;
-        match stacked.broken {
+        self.report.claims.ignored += order.len() - used.len() - stacked.held;
+        match stacked.refuted {
             Some((f, g, sign)) if self.is_clean() => Err(CheckError::FalseOrder {
                 frame: self.frames - 1,
                 f,
@@ -86,8 +86,8 @@ impl Checker<'_> {
         self.stack(&|triangle| triangle).without_false(order)
     }
 
-    fn stack<'b>(&'b self, face_of: &'b dyn Fn(u32) -> u32) -> Stack<'b> {
-        Stack {
+    fn stack<'b>(&'b self, face_of: &'b dyn Fn(u32) -> u32) -> FaceStack<'b> {
+        FaceStack {
             sheet: self.sheet,
             positions: &self.last.positions,
             face_of,
@@ -96,7 +96,7 @@ impl Checker<'_> {
     }
 
     /// Takes in the claim that the first layer of a pair lies below the second along `up`.
-    fn hear(&mut self, index: usize, up: DVec3) {
+    fn apply_claim(&mut self, index: usize, up: DVec3) {
         let LayerPair {
             faces, up: known, ..
         } = self.layers[index];
@@ -112,7 +112,7 @@ impl Checker<'_> {
                     vertices: self.sheet.faces[faces[0] as usize].to_vec(),
                     point: layer_point(self.sheet, &self.last.positions, faces),
                 };
-                self.contradicts(contradiction);
+                self.record_contradiction(contradiction);
             }
             Some(_) => {}
             None => {
@@ -128,7 +128,7 @@ impl Checker<'_> {
         let Ok(found) = self.sides.binary_search_by(|(pair, _)| pair.cmp(&(f, g))) else {
             return;
         };
-        let pose = Pair::new(self.sheet, f, g).pose(&self.last.positions);
+        let pose = FacePair::new(self.sheet, f, g).pose(&self.last.positions);
         let side = &mut self.sides[found].1;
         match side {
             Side::Contact(axes) => *axes = on_side(axes, up),
@@ -230,7 +230,7 @@ impl Checker<'_> {
             }
         }
         for contradiction in counted {
-            self.contradicts(contradiction);
+            self.record_contradiction(contradiction);
         }
     }
 
@@ -251,7 +251,7 @@ impl Checker<'_> {
     }
 
     /// Records a contradiction, the first of every pair.
-    fn contradicts(&mut self, found: Contradiction) {
+    fn record_contradiction(&mut self, found: Contradiction) {
         if !self.contradicting.insert(found.faces) {
             return;
         }

@@ -1,15 +1,15 @@
 //! The collision verdict on a motion.
 
 mod checker;
+mod closest_approach;
+mod closest_features;
+mod face_pair;
 mod frame;
 mod judge;
 mod layering;
-mod meeting;
-mod nearest;
-mod pair;
 mod report;
 mod span;
-mod through;
+mod suspects;
 
 pub use checker::Checker;
 use foldmotion_pattern::Motion;

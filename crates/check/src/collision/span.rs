@@ -3,7 +3,7 @@
 use foldmotion_pattern::Motion;
 use glam::DVec3;
 
-use super::{CollisionReport, Penetration, PenetrationKind, pair::Pair};
+use super::{CollisionReport, Penetration, PenetrationKind, face_pair::FacePair};
 
 /// The motion times between which a pair of triangles penetrates.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -35,7 +35,7 @@ pub fn penetration_spans(motion: &Motion, report: &CollisionReport) -> Vec<Penet
 }
 
 fn last_deep(motion: &Motion, p: &Penetration, tolerance: f64) -> f64 {
-    let pair = Pair::new(&motion.sheet, p.faces[0], p.faces[1]);
+    let pair = FacePair::new(&motion.sheet, p.faces[0], p.faces[1]);
     let is_deep = |positions: &[DVec3]| pair.pose(positions).depth().overlap > tolerance;
     let after = motion.frames.iter().skip(p.frame + 1);
     let interval_end = motion.frames.get(p.frame + 1).map_or(p.passed, |f| f.time);

@@ -3,7 +3,7 @@
 use std::cmp::Ordering;
 
 use foldmotion_geometry::collide::{
-    MovingPair, PairPose, Passing, edge_passings, sign_of_volume, vertex_passings,
+    MovingPair, PairPose, Passage, edge_passages, sign_of_volume, vertex_passages,
 };
 use glam::DVec3;
 
@@ -35,9 +35,9 @@ impl PartialOrd for Cell {
 
 /// Positions at the two ends of an interval.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Ends<'a>(pub(super) [&'a [DVec3]; 2]);
+pub(super) struct IntervalEnds<'a>(pub(super) [&'a [DVec3]; 2]);
 
-impl Ends<'_> {
+impl IntervalEnds<'_> {
     fn path(&self, vertex: u32) -> [DVec3; 2] {
         self.0.map(|positions| positions[vertex as usize])
     }
@@ -70,7 +70,7 @@ impl Cell {
         }
     }
 
-    pub(super) fn moving(self, topology: &Topology, ends: Ends<'_>) -> MovingPair {
+    pub(super) fn moving(self, topology: &Topology, ends: IntervalEnds<'_>) -> MovingPair {
         let corners = self.corners(topology);
         let [start, end] = ends.0.map(|positions| {
             let [a, b] = corners.map(|c| c.map(|v| positions[v as usize]));
@@ -80,15 +80,19 @@ impl Cell {
     }
 
     /// The passages through each other; none where rounding hides them. Passing by has none.
-    pub(super) fn passings(self, topology: &Topology, ends: Ends<'_>) -> Option<Vec<Passing>> {
+    pub(super) fn passages(
+        self,
+        topology: &Topology,
+        ends: IntervalEnds<'_>,
+    ) -> Option<Vec<Passage>> {
         match self {
             Self::VertexFacet { vertex, face } => {
                 let facet = topology.corners(face).map(|v| ends.path(v));
-                vertex_passings(ends.path(vertex), facet)
+                vertex_passages(ends.path(vertex), facet)
             }
             Self::Edges(edges) => {
                 let [a, b] = edges.map(|edge| topology.ends(edge).map(|v| ends.path(v)));
-                edge_passings(a, b)
+                edge_passages(a, b)
             }
             Self::VertexEdge { .. } => Some(Vec::new()),
         }
@@ -241,8 +245,11 @@ mod tests {
 
     fn count(cell: Cell, topology: &Topology, frames: &[Vec<DVec3>]) -> i64 {
         let steps = frames.windows(2);
-        let passings = steps.flat_map(|w| cell.passings(topology, Ends([&w[0], &w[1]])).unwrap());
-        passings.map(|p| i64::from(p.sign)).sum()
+        let passages = steps.flat_map(|w| {
+            cell.passages(topology, IntervalEnds([&w[0], &w[1]]))
+                .unwrap()
+        });
+        passages.map(|p| i64::from(p.sign)).sum()
     }
 
     /// The signed number of times an edge passes through the triangle that a vertex runs around.

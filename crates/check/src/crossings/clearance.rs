@@ -44,9 +44,10 @@ impl Clearances {
 
 impl Cell {
     /// By how much the simplices may come nearer to each other while every vertex goes its `way`.
-    pub(super) fn approach(self, topology: &Topology, ways: &[DVec3]) -> f64 {
+    pub(super) fn approach(self, topology: &Topology, displacements: &[DVec3]) -> f64 {
         let [a, b] = self.corners(topology);
-        let squared = |u: u32, v: u32| ways[u as usize].distance_squared(ways[v as usize]);
+        let squared =
+            |u: u32, v: u32| displacements[u as usize].distance_squared(displacements[v as usize]);
         let pairs = a.iter().flat_map(|&u| b.iter().map(move |&v| (u, v)));
         let greatest = pairs.map(|(u, v)| squared(u, v)).fold(0.0, f64::max);
         greatest.sqrt()

@@ -1,16 +1,16 @@
 //! Contacts: stretches of time in which two simplices are within reach of each other.
 
 use foldmotion_geometry::collide::{
-    Limits, MovingPair, Passing, contact_times, corners_are_within, feature_distance,
+    Limits, MovingPair, Passage, contact_times, corners_are_within, feature_distance,
 };
 
-use super::cell::{Cell, Ends};
+use super::cell::{Cell, IntervalEnds};
 use super::topology::Topology;
 
 /// A cell in an interval.
 #[derive(Debug)]
-pub(super) struct Watched {
-    pub(super) passings: Vec<Passing>,
+pub(super) struct CellState {
+    pub(super) passages: Vec<Passage>,
     /// Whether rounding hides a passage, or when they are within reach.
     pub(super) is_unsure: bool,
     /// A lower bound at the frame at the end; 0 where the simplices are within reach.
@@ -37,7 +37,7 @@ pub(super) struct Contact {
 
 /// A contact in an interval.
 #[derive(Debug)]
-pub(super) struct Stretch {
+pub(super) struct ContactInterval {
     /// Shares of the interval.
     pub(super) times: [f64; 2],
     /// Whether it lasts at the frame at the end.
@@ -57,24 +57,24 @@ impl Contact {
     }
 }
 
-impl Stretch {
+impl ContactInterval {
     pub(super) fn overlaps(&self, [from, to]: [f64; 2]) -> bool {
         self.times[0] <= to && from <= self.times[1]
     }
 }
 
-impl Watched {
-    pub(super) fn new(cell: Cell, topology: &Topology, ends: Ends<'_>, reach: f64) -> Self {
+impl CellState {
+    pub(super) fn new(cell: Cell, topology: &Topology, ends: IntervalEnds<'_>, reach: f64) -> Self {
         let pose = cell.moving(topology, ends).end;
-        let passings = cell.passings(topology, ends);
+        let passages = cell.passages(topology, ends);
         let distance = if corners_are_within(&pose, reach) {
             0.0
         } else {
             feature_distance(&pose)
         };
         Self {
-            is_unsure: passings.is_none(),
-            passings: passings.unwrap_or_default(),
+            is_unsure: passages.is_none(),
+            passages: passages.unwrap_or_default(),
             distance,
             is_near: distance <= reach,
             times: Vec::new(),
@@ -96,9 +96,9 @@ impl Watched {
         if self.times == [[0.0, 1.0]] {
             return self.times.clone();
         }
-        let instants = self.passings.iter().map(|p| p.times);
+        let instants = self.passages.iter().map(|p| p.times);
         let mut all: Vec<[f64; 2]> = self.times.iter().copied().chain(instants).collect();
-        all.extend(rim.flat_map(|seen| seen.times.iter().copied()));
+        all.extend(rim.flat_map(|state| state.times.iter().copied()));
         all.sort_by(|p, q| p[0].total_cmp(&q[0]));
         let mut joined: Vec<[f64; 2]> = Vec::with_capacity(all.len());
         for [from, to] in all {

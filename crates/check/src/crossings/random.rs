@@ -11,12 +11,12 @@ impl Random {
 
     fn number(&mut self) -> f64 {
         self.0 += 1;
-        super::scattered(self.0)
+        super::perturbation::scattered(self.0)
     }
 
     pub(super) fn index(&mut self, count: usize) -> usize {
         self.0 += 1;
-        (super::scrambled(self.0) % count as u64) as usize
+        (super::perturbation::scrambled(self.0) % count as u64) as usize
     }
 
     /// A whole number from −`most` to `most`.

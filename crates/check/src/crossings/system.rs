@@ -9,7 +9,7 @@ const PRIMES: [u64; 2] = [(1 << 31) - 1, 2];
 
 /// Equations in whole numbers of turns.
 #[derive(Debug)]
-pub(super) struct System {
+pub(super) struct EquationSystem {
     unknowns: u32,
     residues: [Triangular; 2],
 }
@@ -28,7 +28,7 @@ struct Row {
     sum: u64,
 }
 
-impl System {
+impl EquationSystem {
     pub(super) fn new() -> Self {
         Self {
             unknowns: 0,
@@ -125,7 +125,7 @@ mod tests {
 
     #[test]
     fn equations_that_contradict_each_other_are_refused_and_others_are_not() {
-        let mut system = System::new();
+        let mut system = EquationSystem::new();
         let [x, y, z] = [(); 3].map(|()| system.new_unknown());
         assert!(system.add(&[(x, 1), (y, 1)], 1));
         assert!(system.add(&[(y, 1), (z, -1)], 0));
@@ -139,7 +139,7 @@ mod tests {
 
     #[test]
     fn what_is_solvable_in_halves_only_is_refused() {
-        let mut system = System::new();
+        let mut system = EquationSystem::new();
         let [x, y] = [(); 2].map(|()| system.new_unknown());
         assert!(system.add(&[(x, 1), (y, -1)], 0));
         assert!(!system.add(&[(x, 1), (y, 1)], 1), "2 x = 1");
@@ -150,7 +150,7 @@ mod tests {
     fn equations_with_a_known_solution_are_never_refused() {
         use crate::crossings::random::Random;
         let mut random = Random::new(3);
-        let mut system = System::new();
+        let mut system = EquationSystem::new();
         let solution: Vec<i64> = (0..40)
             .map(|_| {
                 system.new_unknown();

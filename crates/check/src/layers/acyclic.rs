@@ -6,14 +6,14 @@ use super::flat;
 
 /// The layers of a cluster in its plane.
 #[derive(Debug)]
-pub(super) struct Stack {
+pub(super) struct LayerStack {
     /// Their corners, counter-clockwise.
     pub(super) triangles: Vec<[DVec2; 3]>,
     /// For each layer those known to lie above it, in order.
     pub(super) above: Vec<Vec<usize>>,
 }
 
-impl Stack {
+impl LayerStack {
     /// Every three layers that lie above each other in turn over a common region wider than `width`, the lowest index
     /// first, with a point of that region.
     ///
@@ -94,13 +94,13 @@ mod tests {
 
     const WIDTH: f64 = 1e-5;
 
-    fn stack(triangles: Vec<[DVec2; 3]>, above: &[(usize, usize)]) -> Stack {
+    fn stack(triangles: Vec<[DVec2; 3]>, above: &[(usize, usize)]) -> LayerStack {
         let mut lists = vec![Vec::new(); triangles.len()];
         for &(low, high) in above {
             lists[low].push(high);
             lists[low].sort_unstable();
         }
-        Stack {
+        LayerStack {
             triangles,
             above: lists,
         }

@@ -6,9 +6,9 @@ use rayon::prelude::*;
 
 use super::{
     Cluster, FaceEdges, LayerConflict, LayerPair, LayerProof, LayerRule, NARROW, RuleCounts,
-    acyclic::Stack,
+    acyclic::LayerStack,
     flat, front_normal,
-    hinges::{Layers, Meeting},
+    hinges::{FrameLayers, Junction},
 };
 
 /// Fewer pairs than this are not worth a thread.
@@ -42,7 +42,7 @@ pub(crate) fn prove(
     pairs: &[LayerPair],
     tolerance: f64,
 ) -> Proof {
-    let layers = Layers {
+    let layers = FrameLayers {
         sheet,
         edges,
         positions,
@@ -55,7 +55,7 @@ pub(crate) fn prove(
         contradictions: Vec::new(),
     };
     for group in &groups {
-        let mut tests = Tests::default();
+        let mut tests = ClusterTests::default();
         layers.test_hinges(group, &mut tests);
         let depth = layers.test_cycles(group, &mut tests);
         layers.count_creases(group, &mut tests);
@@ -133,26 +133,26 @@ fn root(parent: &mut [u32], face: u32) -> u32 {
 
 /// What the tests in a cluster gave.
 #[derive(Default)]
-struct Tests {
+struct ClusterTests {
     counts: RuleCounts,
     contradictions: Vec<Contradiction>,
     /// Whether a test needed an order that is not known.
     is_partial: bool,
 }
 
-impl Layers<'_> {
+impl FrameLayers<'_> {
     /// Taco–taco, taco–tortilla, tortilla–tortilla and bent creases.
-    fn test_hinges(&self, group: &Group, tests: &mut Tests) {
+    fn test_hinges(&self, group: &Group, tests: &mut ClusterTests) {
         let indices = group.pairs.par_iter().with_min_len(PAIRS_A_TASK);
-        let mut meetings: Vec<_> = indices.flat_map_iter(|&i| self.meetings(i)).collect();
-        meetings.sort_by_key(Meeting::key);
-        meetings.dedup_by(|p, q| p.key() == q.key());
-        let outcomes: Vec<_> = meetings
+        let mut junctions: Vec<_> = indices.flat_map_iter(|&i| self.junctions(i)).collect();
+        junctions.sort_by_key(Junction::key);
+        junctions.dedup_by(|p, q| p.key() == q.key());
+        let outcomes: Vec<_> = junctions
             .par_iter()
             .with_min_len(PAIRS_A_TASK)
-            .map(|meeting| self.test(meeting))
+            .map(|junction| self.test(junction))
             .collect();
-        for (meeting, outcome) in meetings.iter().zip(outcomes) {
+        for (junction, outcome) in junctions.iter().zip(outcomes) {
             let Some((rule, is_kept)) = outcome else {
                 tests.is_partial = true;
                 continue;
@@ -160,20 +160,20 @@ impl Layers<'_> {
             tests.counts.count(rule);
             if !is_kept {
                 tests.contradictions.push(Contradiction {
-                    faces: self.pairs[meeting.pair].faces,
+                    faces: self.pairs[junction.pair].faces,
                     conflict: LayerConflict {
                         rule,
-                        faces: meeting.all_faces(),
+                        faces: junction.all_faces(),
                     },
-                    vertices: meeting.vertices(self.sheet),
-                    point: meeting.point,
+                    vertices: junction.vertices(self.sheet),
+                    point: junction.point,
                 });
             }
         }
     }
 
     /// Transitivity; returns the depth of the stack.
-    fn test_cycles(&self, group: &Group, tests: &mut Tests) -> usize {
+    fn test_cycles(&self, group: &Group, tests: &mut ClusterTests) -> usize {
         let corners =
             |face: u32| self.sheet.faces[face as usize].map(|v| self.positions[v as usize]);
         let normal = front_normal(self.sheet, group.faces[0], self.positions);
@@ -182,7 +182,7 @@ impl Layers<'_> {
         let flat = |p: DVec3| DVec2::new(x.dot(p - origin), y.dot(p - origin));
         let local = |face: u32| group.faces.binary_search(&face).unwrap_or(0);
         let mut neighbours = vec![Vec::new(); group.faces.len()];
-        let mut stack = Stack {
+        let mut stack = LayerStack {
             triangles: group
                 .faces
                 .iter()
@@ -221,7 +221,7 @@ impl Layers<'_> {
     /// Counts the creases that are folded flat to the side of their assignment.
     ///
     /// One folded the other way is no contradiction: the motion shows how it came there.
-    fn count_creases(&self, group: &Group, tests: &mut Tests) {
+    fn count_creases(&self, group: &Group, tests: &mut ClusterTests) {
         for pair in group.pairs.iter().map(|&i| &self.pairs[i]) {
             let [f, g] = pair.faces;
             let edge = (0..3)

@@ -13,7 +13,7 @@ const SAME_ANGLE: f64 = 1e-3;
 
 /// What meets the hinge at its line.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-enum Other {
+enum Partner {
     /// Another hinge on the same line, by its edge.
     Hinge { edge: u32 },
     /// A triangle that the line crosses.
@@ -22,9 +22,9 @@ enum Other {
 
 /// A hinge, and what meets it along the same line on the side of one of its triangles.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Meeting {
+pub(super) struct Junction {
     edge: u32,
-    other: Other,
+    other: Partner,
     /// The triangles of the hinge, the one that is a layer of the other first.
     faces: [u32; 2],
     /// The triangles of the other, the layer first; twice the one that is crossed.
@@ -37,14 +37,14 @@ pub(super) struct Meeting {
 
 /// A half-plane that ends in the line.
 #[derive(Debug, Clone, Copy)]
-struct Half {
+struct HalfPlane {
     face: u32,
     /// Around the line, from the layer that the meeting was found at.
     angle: f64,
 }
 
 /// The layers of a frame, to be looked up.
-pub(super) struct Layers<'a> {
+pub(super) struct FrameLayers<'a> {
     pub(super) sheet: &'a Sheet,
     pub(super) edges: &'a FaceEdges,
     pub(super) positions: &'a [DVec3],
@@ -70,7 +70,7 @@ impl Line {
     }
 }
 
-impl Meeting {
+impl Junction {
     /// The same for one meeting, however it was found.
     pub(super) fn key(&self) -> impl Ord + use<> {
         (self.edge, self.other)
@@ -88,8 +88,8 @@ impl Meeting {
     pub(super) fn vertices(&self, sheet: &Sheet) -> Vec<u32> {
         let mut vertices = sheet.edges[self.edge as usize].vertices.to_vec();
         let others = match self.other {
-            Other::Hinge { edge } => sheet.edges[edge as usize].vertices.to_vec(),
-            Other::Across { face } => sheet.faces[face as usize].to_vec(),
+            Partner::Hinge { edge } => sheet.edges[edge as usize].vertices.to_vec(),
+            Partner::Across { face } => sheet.faces[face as usize].to_vec(),
         };
         for vertex in others {
             if !vertices.contains(&vertex) {
@@ -100,9 +100,9 @@ impl Meeting {
     }
 }
 
-impl Layers<'_> {
+impl FrameLayers<'_> {
     /// What meets along the edges of the two layers of a pair.
-    pub(super) fn meetings(&self, index: usize) -> Vec<Meeting> {
+    pub(super) fn junctions(&self, index: usize) -> Vec<Junction> {
         let [f, g] = self.pairs[index].faces;
         let mut found = Vec::new();
         for (a, b) in [(f, g), (g, f)] {
@@ -113,7 +113,7 @@ impl Layers<'_> {
                 let Some((other, others, point)) = self.at_line(a, i, b) else {
                     continue;
                 };
-                let meeting = Meeting {
+                let junction = Junction {
                     edge,
                     other,
                     faces: [a, beyond],
@@ -121,14 +121,14 @@ impl Layers<'_> {
                     pair: index,
                     point,
                 };
-                found.extend(meeting.in_order());
+                found.extend(junction.in_order());
             }
         }
         found
     }
 
     /// What of triangle `b` meets edge `i` of its layer `a`.
-    fn at_line(&self, a: u32, i: usize, b: u32) -> Option<(Other, [u32; 2], DVec3)> {
+    fn at_line(&self, a: u32, i: usize, b: u32) -> Option<(Partner, [u32; 2], DVec3)> {
         let width = NARROW * self.tolerance;
         let line = self.line(a, i)?;
         let corners = self.corners(b);
@@ -142,7 +142,7 @@ impl Layers<'_> {
         if let Some(k) = beside {
             let point = shared(along[k], along[(k + 1) % 3])?;
             let (edge, beyond) = self.edges.hinge(self.sheet, b, k)?;
-            return Some((Other::Hinge { edge }, [b, beyond], point));
+            return Some((Partner::Hinge { edge }, [b, beyond], point));
         }
         let is_across = height.iter().any(|&h| h > width) && height.iter().any(|&h| h < -width);
         if !is_across {
@@ -158,24 +158,24 @@ impl Layers<'_> {
             (low, high) = (low.min(cut), high.max(cut));
         }
         let point = shared(low, high)?;
-        Some((Other::Across { face: b }, [b, b], point))
+        Some((Partner::Across { face: b }, [b, b], point))
     }
 
     /// Which rule a meeting falls under and whether it is kept; none where an order it depends on is not known.
-    pub(super) fn test(&self, meeting: &Meeting) -> Option<(LayerRule, bool)> {
-        let corners = self.sheet.faces[meeting.faces[0] as usize];
-        let ends = self.sheet.edges[meeting.edge as usize].vertices;
+    pub(super) fn test(&self, junction: &Junction) -> Option<(LayerRule, bool)> {
+        let corners = self.sheet.faces[junction.faces[0] as usize];
+        let ends = self.sheet.edges[junction.edge as usize].vertices;
         let i = (0..3).find(|&i| !ends.contains(&corners[(i + 2) % 3]))?;
-        let line = self.line(meeting.faces[0], i)?;
-        let own = meeting.faces.map(|face| self.half(&line, face, ends));
-        let others = match meeting.other {
-            Other::Hinge { edge } => {
+        let line = self.line(junction.faces[0], i)?;
+        let own = junction.faces.map(|face| self.half(&line, face, ends));
+        let others = match junction.other {
+            Partner::Hinge { edge } => {
                 let ends = self.sheet.edges[edge as usize].vertices;
-                meeting.others.map(|face| self.half(&line, face, ends))
+                junction.others.map(|face| self.half(&line, face, ends))
             }
-            Other::Across { face } => {
+            Partner::Across { face } => {
                 let across = front_normal(self.sheet, face, self.positions).cross(line.along);
-                [across, -across].map(|towards| Half {
+                [across, -across].map(|towards| HalfPlane {
                     face,
                     angle: line.angle(towards),
                 })
@@ -193,10 +193,10 @@ impl Layers<'_> {
     }
 
     /// Whether half-plane `x` comes before `y` in the direction of growing angles from `cut` on.
-    fn is_before(&self, line: &Line, x: &Half, y: &Half, cut: f64) -> Option<bool> {
+    fn is_before(&self, line: &Line, x: &HalfPlane, y: &HalfPlane, cut: f64) -> Option<bool> {
         let apart = (y.angle - x.angle + PI).rem_euclid(TAU) - PI;
         if apart.abs() >= SAME_ANGLE {
-            let from_cut = |half: &Half| (half.angle - cut).rem_euclid(TAU);
+            let from_cut = |half: &HalfPlane| (half.angle - cut).rem_euclid(TAU);
             return Some(from_cut(x) < from_cut(y));
         }
         let key = [x.face.min(y.face), x.face.max(y.face)];
@@ -211,14 +211,14 @@ impl Layers<'_> {
     }
 
     /// The half-plane of triangle `face` at its edge `ends`.
-    fn half(&self, line: &Line, face: u32, ends: [u32; 2]) -> Half {
+    fn half(&self, line: &Line, face: u32, ends: [u32; 2]) -> HalfPlane {
         let corners = self.sheet.faces[face as usize];
         let apex = corners
             .into_iter()
             .find(|v| !ends.contains(v))
             .unwrap_or(corners[0]);
         let towards = self.positions[apex as usize] - self.positions[ends[0] as usize];
-        Half {
+        HalfPlane {
             face,
             angle: line.angle(towards),
         }
@@ -245,14 +245,14 @@ impl Layers<'_> {
     }
 }
 
-impl Meeting {
+impl Junction {
     /// The hinge of two with the smaller edge first; none for a hinge that meets itself.
     fn in_order(self) -> Option<Self> {
         match self.other {
-            Other::Hinge { edge } if edge == self.edge => None,
-            Other::Hinge { edge } if edge < self.edge => Some(Self {
+            Partner::Hinge { edge } if edge == self.edge => None,
+            Partner::Hinge { edge } if edge < self.edge => Some(Self {
                 edge,
-                other: Other::Hinge { edge: self.edge },
+                other: Partner::Hinge { edge: self.edge },
                 faces: self.others,
                 others: self.faces,
                 ..self
@@ -262,7 +262,7 @@ impl Meeting {
     }
 }
 
-fn rule_of(own: &[Half; 2], others: &[Half; 2]) -> LayerRule {
+fn rule_of(own: &[HalfPlane; 2], others: &[HalfPlane; 2]) -> LayerRule {
     let bends = [own, others].map(|[p, q]| {
         let apart = ((p.angle - q.angle + PI).rem_euclid(TAU) - PI).abs();
         (apart < SAME_ANGLE, apart > PI - SAME_ANGLE)

@@ -32,17 +32,17 @@
 //! cluster with such a pair is *unproved*, and only rules between pairs of known order are tested in it.
 
 mod acyclic;
-mod apart;
 mod cluster;
 mod flat;
 mod hinges;
 mod pairs;
 mod report;
+mod stacking;
 
-pub(crate) use apart::{Stack, unheard};
 pub(crate) use cluster::{Contradiction, prove};
 pub(crate) use pairs::{LayerPair, front_normal, layer_pairs, layer_point, order_of};
 pub use report::{Claims, Cluster, LayerConflict, LayerProof, LayerRule, RuleCounts};
+pub(crate) use stacking::{FaceStack, unused_claims};
 
 use foldmotion_pattern::Sheet;
 

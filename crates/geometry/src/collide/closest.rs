@@ -2,7 +2,7 @@
 
 use std::{cmp::Ordering, collections::BinaryHeap};
 
-use super::{Limits, MovingPair, PairPose, clearest::Clearest, moving::Leaf};
+use super::{Limits, MovingPair, PairPose, clearest::Clearest};
 use crate::distance::{Closest, triangle_triangle};
 
 /// Stretches of time shorter than this are not divided further.
@@ -19,7 +19,7 @@ pub struct Approach {
 
 /// Between what the smallest distance lies, as far as it is below a bound.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Approaches {
+pub struct ApproachBounds {
     /// The nearest instant found, an upper bound of the smallest distance; none where none is nearer than the bound.
     pub nearest: Option<Approach>,
     /// The triangles are at least this far apart at every t in [0, 1]: at most the bound, at least 0.
@@ -50,7 +50,7 @@ pub fn enough_clearance(bound: f64, limits: &Limits) -> f64 {
 /// directions of its two ends, at rest and turning from one to the other.
 ///
 /// Precondition: the triangles share no corner.
-pub fn closest_approach(pair: &MovingPair, bound: f64, limits: &Limits) -> Approaches {
+pub fn closest_approach(pair: &MovingPair, bound: f64, limits: &Limits) -> ApproachBounds {
     Search {
         pair,
         limits,
@@ -111,7 +111,7 @@ struct Search<'a> {
 }
 
 impl Search<'_> {
-    fn run(mut self) -> Approaches {
+    fn run(mut self) -> ApproachBounds {
         let ends = [self.measure(0.0), self.measure(1.0)];
         self.add(ends, 0.0);
         for _ in 0..self.limits.budget {
@@ -121,7 +121,7 @@ impl Search<'_> {
         }
         let open = self.open.peek().map_or(0.0, |stretch| stretch.at_least);
         let at_least = open.min(self.bound - self.limits.margin).max(0.0);
-        Approaches {
+        ApproachBounds {
             nearest: self.nearest,
             at_least,
             is_complete: self.is_enough(at_least),
@@ -176,16 +176,16 @@ impl Search<'_> {
 
 /// A lower bound of the distance between two instants; 0 or less where there is none.
 fn least_distance(from: &Instant, to: &Instant, limits: &Limits) -> f64 {
-    let leaf = Leaf {
-        from: &from.pose,
-        to: &to.pose,
+    let pair = MovingPair {
+        start: from.pose,
+        end: to.pose,
     };
-    let gap_of = |d| leaf.least_gap_at_rest(d, limits);
+    let gap_of = |d| pair.least_gap_at_rest(d, limits);
     let gap = match (from.clearest, to.clearest) {
         (Some(first), Some(last)) => {
             let first_gaps = [first.gap, to.pose.gap(first.direction, limits)];
             let last_gaps = [from.pose.gap(last.direction, limits), last.gap];
-            let turning = leaf.least_gap(first.direction, last.direction, limits);
+            let turning = pair.least_gap(first.direction, last.direction, limits);
             least_of_greater(first_gaps, last_gaps).max(turning)
         }
         (Some(one), None) | (None, Some(one)) => gap_of(one.direction),
@@ -209,5 +209,25 @@ fn least_of_greater(p: [f64; 2], q: [f64; 2]) -> f64 {
 }
 
 #[cfg(test)]
-#[path = "closest_tests.rs"]
-mod tests;
+mod tests {
+    use super::*;
+    use crate::collide::random::Random;
+
+    #[test]
+    fn the_least_of_the_greater_of_two_lines_is_met_by_sampling() {
+        let mut random = Random::new(46);
+        for _ in 0..200 {
+            let [p, q] = [(); 2].map(|()| [random.number(), random.number()]);
+            let at = |l: [f64; 2], s: f64| l[0] + (l[1] - l[0]) * s;
+            let samples = (0..=1000).map(|k| f64::from(k) / 1000.0);
+            let least = samples
+                .map(|s| at(p, s).max(at(q, s)))
+                .fold(f64::INFINITY, f64::min);
+            let found = least_of_greater(p, q);
+            assert!(
+                found <= least + 1e-15 && found >= least - 4e-3,
+                "{found} {least}"
+            );
+        }
+    }
+}

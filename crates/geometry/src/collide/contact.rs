@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::{Limits, MovingPair, PairPose, moving::Leaf};
+use super::{Limits, MovingPair, PairPose};
 use crate::distance::{Closest, point_triangle, segment_segment, triangle_triangle};
 
 /// Stretches of time in which the features move by less than this share of the distance count by their ends.
@@ -218,14 +218,14 @@ fn stays_farther(from: &Instant, to: &Instant, distance: f64, limits: &Limits) -
     let (Some(d0), Some(d1)) = (from.direction(), to.direction()) else {
         return false;
     };
-    let leaf = Leaf {
-        from: &from.pose,
-        to: &to.pose,
+    let pair = MovingPair {
+        start: from.pose,
+        end: to.pose,
     };
     let farther = distance + limits.margin;
-    leaf.least_gap_at_rest(d0, limits) > farther
-        || leaf.least_gap_at_rest(d1, limits) > farther
-        || leaf.least_gap(d0, d1, limits) > farther
+    pair.least_gap_at_rest(d0, limits) > farther
+        || pair.least_gap_at_rest(d1, limits) > farther
+        || pair.least_gap(d0, d1, limits) > farther
 }
 
 /// Whether two points, one of each feature, whose shares of the corners change evenly, are within `distance` throughout.

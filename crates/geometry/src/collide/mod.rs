@@ -57,24 +57,27 @@ mod certify;
 mod clearest;
 mod closest;
 mod contact;
-mod meeting;
+mod impact;
 mod moving;
-mod number;
-mod passages;
-mod passing;
+mod double_word;
+mod outcome;
+mod moving_patch;
+mod passage;
 mod patch;
 mod pose;
 #[cfg(test)]
 pub(crate) mod random;
+mod separating;
 mod tree;
-mod walk;
+mod certifier;
 
-pub use certify::{Crossing, Effort, Outcome, Passage, Side, certify};
-pub use closest::{Approach, Approaches, accuracy, closest_approach, enough_clearance};
+pub use certify::certify;
+pub use closest::{Approach, ApproachBounds, accuracy, closest_approach, enough_clearance};
 pub use contact::{comes_within, contact_times, corners_are_within, feature_distance};
-pub use meeting::{Meeting, MeetingSearch, edge_edge, vertex_facet};
+pub use impact::{Impact, ImpactSearch, edge_edge, vertex_facet};
 pub use moving::MovingPair;
-pub use passing::{Passing, edge_passings, sign_of_volume, vertex_passings};
+pub use outcome::{PairCrossing, Effort, Outcome, PairCertificate, Side};
+pub use passage::{Passage, edge_passages, sign_of_volume, vertex_passages};
 pub use pose::{Axis, Feature, PairPose};
 pub use tree::Tree;
 

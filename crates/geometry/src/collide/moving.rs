@@ -8,6 +8,9 @@ use super::{
 };
 
 /// Triangles A and B, each corner moving on a straight line at constant speed for t in [0, 1].
+///
+/// Along a direction that also moves straight, d(t) = (1 − t) d_0 + t d_1, each height d(t)·p(t) is a quadratic with the
+/// Bernstein coefficients d_0·p_0, (d_0·p_1 + d_1·p_0) / 2 and d_1·p_1, and stays between the smallest and the largest.
 #[derive(Debug, Clone, Copy)]
 pub struct MovingPair {
     /// At t = 0.
@@ -25,15 +28,6 @@ impl MovingPair {
         }
     }
 
-    /// For triangles that share an edge: whether they are proved to stay folded by less than 90°.
-    pub fn stays_within_right_angle(&self, limits: &Limits) -> bool {
-        let leaf = Leaf {
-            from: &self.start,
-            to: &self.end,
-        };
-        leaf.hinge_stays_within_right_angle(limits)
-    }
-
     /// The pose at t in [0, 1].
     pub fn at(&self, t: f64) -> PairPose {
         if t <= 0.0 {
@@ -49,31 +43,19 @@ impl MovingPair {
             shared: self.start.shared,
         }
     }
-}
 
-/// A stretch of time between two poses, along which every corner moves straight.
-///
-/// With a direction that also moves straight, d(s) = (1 − s) d_0 + s d_1, each d(s)·p(s) is a quadratic with the
-/// Bernstein coefficients d_0·p_0, (d_0·p_1 + d_1·p_0) / 2, d_1·p_1, between whose least and greatest it stays.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Leaf<'a> {
-    pub(super) from: &'a PairPose,
-    pub(super) to: &'a PairPose,
-}
-
-impl Leaf<'_> {
     /// The three Bernstein coefficients of every corner's height along the direction moving from `d0` to `d1`.
     fn heights(&self, d0: DVec3, d1: DVec3) -> [([f64; 3], [f64; 3]); 3] {
         let middle = |p0: &[DVec3; 3], p1: &[DVec3; 3]| {
             [0, 1, 2].map(|i| f64::midpoint(d0.dot(p1[i]), d1.dot(p0[i])))
         };
         [
-            self.from.projections(d0),
+            self.start.projections(d0),
             (
-                middle(&self.from.a, &self.to.a),
-                middle(&self.from.b, &self.to.b),
+                middle(&self.start.a, &self.end.a),
+                middle(&self.start.b, &self.end.b),
             ),
-            self.to.projections(d1),
+            self.end.projections(d1),
         ]
     }
 
@@ -97,13 +79,13 @@ impl Leaf<'_> {
         }
         self.heights(d0, d1)
             .iter()
-            .map(|(a, b)| gap_of(a, b, self.from.shared, limits))
+            .map(|(a, b)| gap_of(a, b, self.start.shared, limits))
             .fold(f64::INFINITY, f64::min)
     }
 
-    /// [`Leaf::least_gap`] for a direction at rest: a linear function of time has its minimum at an end.
+    /// [`Self::least_gap`] for a direction at rest: a linear function of time has its minimum at an end.
     pub(super) fn least_gap_at_rest(&self, d: DVec3, limits: &Limits) -> f64 {
-        self.from.gap(d, limits).min(self.to.gap(d, limits))
+        self.start.gap(d, limits).min(self.end.gap(d, limits))
     }
 
     /// Whether two triangles that share an edge e stay off each other: never folded to ±180°.
@@ -121,7 +103,7 @@ impl Leaf<'_> {
     }
 
     /// Whether two triangles that share an edge stay folded by less than 90°.
-    pub(super) fn hinge_stays_within_right_angle(&self, limits: &Limits) -> bool {
+    pub fn hinge_stays_within_right_angle(&self, limits: &Limits) -> bool {
         Hinge::new(self).stays_within_right_angle(limits)
     }
 }
@@ -137,9 +119,9 @@ struct Hinge {
 }
 
 impl Hinge {
-    fn new(leaf: &Leaf<'_>) -> Self {
+    fn new(pair: &MovingPair) -> Self {
         let vectors = |p: &PairPose| [p.a[1] - p.a[0], p.a[2] - p.a[0], p.b[2] - p.a[0]];
-        let ([e0, l0, r0], [e1, l1, r1]) = (vectors(leaf.from), vectors(leaf.to));
+        let ([e0, l0, r0], [e1, l1, r1]) = (vectors(&pair.start), vectors(&pair.end));
         let normal = |v0: DVec3, v1: DVec3| {
             [
                 e0.cross(v0),
@@ -212,11 +194,7 @@ mod tests {
             let pair = random_pair(&mut random, case % 2);
             let d0 = random.vector().normalize();
             let d1 = (d0 + random.vector() * 0.5).normalize();
-            let leaf = Leaf {
-                from: &pair.start,
-                to: &pair.end,
-            };
-            let bound = leaf.least_gap(d0, d1, &LIMITS);
+            let bound = pair.least_gap(d0, d1, &LIMITS);
             for k in 0..=50 {
                 let s = f64::from(k) / 50.0;
                 let d = d0.lerp(d1, s);
@@ -232,11 +210,7 @@ mod tests {
         let mut open = 0;
         for _ in 0..4000 {
             let pair = random_pair(&mut random, 2);
-            let leaf = Leaf {
-                from: &pair.start,
-                to: &pair.end,
-            };
-            if !leaf.hinge_stays_open(&LIMITS) {
+            if !pair.hinge_stays_open(&LIMITS) {
                 continue;
             }
             open += 1;

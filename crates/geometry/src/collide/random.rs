@@ -23,11 +23,6 @@ impl Random {
         (self.bits() >> 11) as f64 / (1u64 << 52) as f64 - 1.0
     }
 
-    /// In 0 … `count` − 1.
-    pub(crate) fn index(&mut self, count: usize) -> usize {
-        (self.bits() % count as u64) as usize
-    }
-
     /// In the cube [−1, 1)³.
     pub(crate) fn vector(&mut self) -> DVec3 {
         DVec3::new(self.number(), self.number(), self.number())

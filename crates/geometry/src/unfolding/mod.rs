@@ -20,6 +20,7 @@ mod certificate;
 mod chain;
 mod descent;
 mod energy;
+mod opening;
 mod path;
 mod seam;
 

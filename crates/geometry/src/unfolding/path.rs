@@ -3,7 +3,7 @@
 use super::certificate::{Sweep, SweepVerdict};
 use super::chain::{Chain, sums};
 use super::descent::{Waypoint, descend};
-use super::seam::open_seam;
+use super::opening::open_seam;
 use crate::GeometryError;
 
 /// The share of the least distance on the descent that a straight piece of the path keeps.

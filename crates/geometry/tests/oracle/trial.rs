@@ -3,7 +3,7 @@
 use std::fmt;
 
 use foldmotion_geometry::collide::{
-    Limits, Meeting, MeetingSearch, MovingPair, Outcome, PairPose, Side, certify, edge_edge,
+    Impact, ImpactSearch, Limits, MovingPair, Outcome, PairPose, Side, certify, edge_edge,
     vertex_facet,
 };
 use rayon::prelude::*;
@@ -54,14 +54,14 @@ pub(crate) fn kernel(query: &Query) -> bool {
 
 /// Whether features may come within the separation, according to the kernels of this crate.
 pub(crate) fn may_meet(query: &Query, separation: f64) -> bool {
-    answer(query, separation) != Meeting::Never
+    answer(query, separation) != Impact::Never
 }
 
 /// The answer of the kernels of this crate.
-pub(crate) fn answer(query: &Query, separation: f64) -> Meeting {
-    let search = MeetingSearch {
+pub(crate) fn answer(query: &Query, separation: f64) -> Impact {
+    let search = ImpactSearch {
         separation,
-        ..MeetingSearch::default()
+        ..ImpactSearch::default()
     };
     match *query {
         Query::VertexFacet(vertex, facet) => vertex_facet(vertex, facet, &search),

@@ -2,9 +2,10 @@
 
 use foldmotion_check::{
     CollisionReport, FilterCounts, LayerConflict, PairCounts, Penetration, PenetrationKind,
-    Refutation, Separation, Undecided,
+    Separation, Undecided,
 };
 use foldmotion_pattern::FoldFile;
+use foldmotion_verify::Refutation;
 
 use super::certify::MotionFile;
 use super::{Certificate, PenetrationEntry, TrianglePair};

@@ -3,9 +3,10 @@
 use std::fmt::Write as _;
 use std::path::Path;
 
-use foldmotion_check::{CollisionReport, Refutation, Verification, Verifier};
+use foldmotion_check::CollisionReport;
 use foldmotion_geometry::Number;
 use foldmotion_pattern::{FoldError, FoldFile, Frame};
+use foldmotion_verify::{Refutation, Verification, Verifier};
 use serde_json::Value;
 
 use crate::certificate::check_file::{MotionReader, NoMotion};
@@ -32,7 +33,7 @@ pub struct VerifiedCertificate {
 
 /// Proves what the certificate at `certificate` states of the motion in the FOLD file at `motion` again.
 ///
-/// Nothing of the first proof is used (`foldmotion_check::Verifier`). Every field is compared with the file, the
+/// Nothing of the first proof is used (`foldmotion_verify::Verifier`). Every field is compared with the file, the
 /// frames, the topology or the second proof; only the name of the file is not part of the statement. Memory is that of
 /// the sheet and two frames.
 ///
@@ -105,7 +106,7 @@ fn prove(
         if let Some(verifier) = &mut verifier
             && disorder.is_none()
         {
-            verifier.hear(order, &|triangle| file.triangle_faces[triangle as usize]);
+            verifier.claim(order, &|triangle| file.triangle_faces[triangle as usize]);
         }
         Ok(())
     });

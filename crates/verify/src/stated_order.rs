@@ -1,0 +1,195 @@
+//! What the certificate states of the order of layers, beside what was found.
+
+use crate::closest::on_triangle;
+use crate::cluster::{Contradiction, FoundCluster};
+use crate::layer::corners;
+use crate::outcome::Unproved;
+use crate::verifier::Verifier;
+use foldmotion_check::{Cluster, LayerConflict, LayerProof};
+use foldmotion_check::{Penetration, PenetrationKind};
+
+/// The stated point lies within this many τ of all triangles concerned.
+const POINT_TOLERANCES: f64 = 20.0;
+
+const NONE: &str = "no such cluster";
+
+fn name(faces: &[u32], frames: [usize; 2]) -> String {
+    format!(
+        "{} triangles from {:?} at frames {frames:?}",
+        faces.len(),
+        faces.first()
+    )
+}
+
+impl Verifier<'_> {
+    /// Every stated contradiction of a frame is found, and every one found is stated, there or for the same pair before.
+    pub(crate) fn compare_contradictions(
+        &mut self,
+        frame: usize,
+        contradictions: &[Contradiction],
+    ) {
+        let claim = self.claim;
+        let conflicts = claim
+            .penetrations
+            .iter()
+            .filter_map(|p| Some((p, p.conflict.as_ref()?)));
+        for (stated, conflict) in conflicts.clone().filter(|(p, _)| p.frame == frame) {
+            let is_it = |f: &&Contradiction| f.rule == conflict.rule && f.faces == conflict.faces;
+            let what = match contradictions.iter().find(is_it) {
+                None => Some("the order of these layers contradicts nothing so"),
+                Some(contradiction) => self.fault_in(stated, conflict, contradiction),
+            };
+            if let Some(what) = what {
+                let stated = format!("{:?} of {:?}", conflict.rule, conflict.faces);
+                self.refute_at(frame, "penetrations.layers", &stated, what);
+            }
+        }
+        for contradiction in contradictions {
+            let is_named = |(p, _): (&Penetration, _)| {
+                p.frame <= frame && p.faces.iter().all(|f| contradiction.faces.contains(f))
+            };
+            if !conflicts.clone().any(is_named) {
+                let what = format!(
+                    "{:?} of triangles {:?} at frame {frame}",
+                    contradiction.rule, contradiction.faces
+                );
+                self.refute_at(frame, "penetrations", "none of them", &what);
+            }
+        }
+    }
+
+    /// What is not as it was found.
+    fn fault_in(
+        &self,
+        stated: &Penetration,
+        conflict: &LayerConflict,
+        contradiction: &Contradiction,
+    ) -> Option<&'static str> {
+        let mut vertices = stated.vertices.clone();
+        vertices.sort_unstable();
+        let is_of_one = conflict.faces.iter().any(|&face| {
+            let mut corners = self.sheet.faces[face as usize];
+            corners.sort_unstable();
+            vertices == corners
+        });
+        let has_vertices = if contradiction.vertices.is_empty() {
+            is_of_one
+        } else {
+            vertices == contradiction.vertices
+        };
+        let near = POINT_TOLERANCES * self.limits.tolerance;
+        let is_there = conflict.faces.iter().all(|&face| {
+            let triangle = corners(self.sheet, &self.last.positions, face);
+            on_triangle(stated.point, &triangle).distance(stated.point) <= near
+        });
+        let is_pair = stated.faces.iter().all(|f| conflict.faces.contains(f))
+            && self.layer_state.order(stated.faces).is_some();
+        if stated.kind != PenetrationKind::LayerOrder || stated.depth != 0.0 {
+            Some("it is an order of layers, 0 deep")
+        } else if [stated.time, stated.passed] != [self.last.time; 2] {
+            Some("it is found at a frame")
+        } else if !is_pair {
+            Some("the pair is no two of the layers")
+        } else if !has_vertices {
+            Some("the vertices are not those of what meets")
+        } else if !is_there {
+            Some("they do not meet at the point")
+        } else {
+            None
+        }
+    }
+
+    /// Refutes what is stated of a frame; names it open where the frame is in doubt.
+    fn refute_at(&mut self, frame: usize, field: &str, stated: &str, found: &str) {
+        match self.layer_state.doubts.get(&frame) {
+            Some(&(faces, what)) => self.outcome.unproved.push(Unproved {
+                faces,
+                frame,
+                what: format!("{what}: {field} state {stated}, found: {found}"),
+            }),
+            None => self.refute(field, stated, found),
+        }
+    }
+
+    /// The first of these frames that is in doubt.
+    fn first_doubt(&self, [from, to]: [usize; 2]) -> Option<usize> {
+        let mut doubtful = self.layer_state.doubts.range(from..=to.max(from));
+        doubtful.next().map(|(&frame, _)| frame)
+    }
+
+    /// Holds the stated clusters and claims to those found.
+    pub(crate) fn compare_clusters(&mut self) {
+        let (stated, found) = (self.claim.claims, self.layer_state.claims);
+        let mut clusters = std::mem::take(&mut self.layer_state.clusters);
+        clusters.sort_by(|p, q| (p.frames, &p.faces).cmp(&(q.frames, &q.faces)));
+        let listed = &self.claim.clusters;
+        for k in 0..clusters.len().max(listed.len()) {
+            let (frames, differences) = match (listed.get(k), clusters.get(k)) {
+                (Some(stated), Some(found)) => {
+                    let is_open = self.first_doubt(found.frames).is_some();
+                    (found.frames, found.differences(stated, is_open))
+                }
+                (Some(s), None) => (s.frames, vec![(name(&s.faces, s.frames), NONE.to_owned())]),
+                (None, Some(f)) => (f.frames, vec![(NONE.to_owned(), name(&f.faces, f.frames))]),
+                (None, None) => continue,
+            };
+            let frame = self.first_doubt(frames).unwrap_or(frames[0]);
+            for (stated, found) in differences {
+                self.refute_at(frame, "clusters", &stated, &found);
+            }
+        }
+        if stated != found {
+            let frame = self.layer_state.doubts.keys().next().copied().unwrap_or(0);
+            let [stated, found] = [stated, found].map(|claims| format!("{claims:?}"));
+            self.refute_at(frame, "layer_orders", &stated, &found);
+        }
+        let last = self.frames - 1;
+        let late = |p: &&Penetration| p.conflict.is_some() && p.frame > last;
+        if let Some(p) = self.claim.penetrations.iter().find(late) {
+            self.refute(
+                "penetrations.frames",
+                p.frame,
+                format!("the last frame is {last}"),
+            );
+        }
+    }
+}
+
+impl FoundCluster {
+    /// In what a stated cluster is another: stated, found. `is_open`: sides are in doubt there, and a stated order that is
+    /// unproved, which says nothing, differs from none.
+    fn differences(&self, stated: &Cluster, is_open: bool) -> Vec<(String, String)> {
+        let mut differences = Vec::new();
+        let mut require = |is_so: bool, stated: String, found: String| {
+            if !is_so {
+                differences.push((stated, found));
+            }
+        };
+        let is_same = stated.faces == self.faces && stated.frames == self.frames;
+        require(
+            is_same && stated.times == self.times,
+            format!(
+                "{}, t = {:?}",
+                name(&stated.faces, stated.frames),
+                stated.times
+            ),
+            format!("{}, t = {:?}", name(&self.faces, self.frames), self.times),
+        );
+        require(
+            (2..=self.layers).contains(&stated.layers),
+            format!("{} layers", stated.layers),
+            format!("2 to {}", self.layers),
+        );
+        require(
+            stated.pairs == self.pairs,
+            format!("{} pairs", stated.pairs),
+            self.pairs.to_string(),
+        );
+        require(
+            stated.order == self.order || (is_open && stated.order == LayerProof::Unproved),
+            format!("order {:?}", stated.order),
+            format!("{:?}", self.order),
+        );
+        differences
+    }
+}

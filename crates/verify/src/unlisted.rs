@@ -1,0 +1,81 @@
+//! A search for what goes through the sheet where nothing is listed.
+
+use foldmotion_pattern::Frame;
+use glam::DVec3;
+use rayon::prelude::*;
+
+use crate::neighbourhood::edges;
+use crate::piercing::may_pierce;
+use crate::verifier::Verifier;
+
+/// The parts of an interval gone at which is looked.
+const INSTANTS: [f64; 2] = [0.5, 1.0];
+
+/// An edge that goes through the sheet for sure, at a triangle.
+struct Pierced {
+    edge: [u32; 2],
+    face: u32,
+    instant: f64,
+}
+
+impl Verifier<'_> {
+    /// Refutes a list without a penetration up to the last frame where an edge goes through the sheet such that no push
+    /// by τ undoes it. `near`: the pairs near each other in the interval that begins at `start`.
+    ///
+    /// Where something is listed, more may be known to go through than is looked for here.
+    pub(crate) fn search_unlisted(&mut self, start: &Frame, near: &[[u32; 2]]) {
+        let is_listed = self.claimed.values().any(|p| p.time <= self.last.time);
+        let is_undecided = self.undecided.iter().any(|(_, frame)| *frame < self.frames);
+        if is_listed || is_undecided || self.is_pierced {
+            return;
+        }
+        let both = near.par_iter().with_min_len(64);
+        let found = both.find_map_first(|&[f, g]| {
+            let pierced = |a, b| self.pierced(start, a, b);
+            pierced(f, g).or_else(|| pierced(g, f))
+        });
+        let Some(Pierced {
+            edge,
+            face,
+            instant,
+        }) = found
+        else {
+            return;
+        };
+        self.is_pierced = true;
+        let t = start.time + (self.last.time - start.time) * instant;
+        let what =
+            format!("edge {edge:?} goes through the sheet at triangle {face}, seen at t = {t}");
+        self.refute("penetrations", "none of them", what);
+    }
+
+    /// An edge of one triangle that goes through the sheet at another.
+    fn pierced(&self, start: &Frame, wall: u32, face: u32) -> Option<Pierced> {
+        let corners = self.around.corners(face);
+        let tolerance = self.limits.tolerance;
+        for instant in INSTANTS {
+            let place = |v: u32| -> DVec3 {
+                let frames = [start, &self.last].map(|frame| frame.positions[v as usize]);
+                frames[0] + (frames[1] - frames[0]) * instant
+            };
+            let triangle = corners.map(place);
+            let mut edges = edges(self.around.corners(wall)).into_iter();
+            let pierced = edges.find(|&edge| {
+                may_pierce(edge.map(place), &triangle, tolerance)
+                    && self
+                        .around
+                        .surfaces_of(face)
+                        .iter()
+                        .any(|surface| surface.is_pierced(edge, &place, tolerance))
+            });
+            if let Some(edge) = pierced {
+                return Some(Pierced {
+                    edge,
+                    face,
+                    instant,
+                });
+            }
+        }
+        None
+    }
+}

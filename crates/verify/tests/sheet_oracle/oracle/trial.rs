@@ -1,0 +1,308 @@
+//! Both proofs on trial: what they say beside what is true, counted by class.
+
+use std::fmt;
+
+use foldmotion_check::{CollisionOptions, CollisionReport, Verdict, collisions};
+use foldmotion_pattern::Motion;
+use foldmotion_verify::{Verification, Verifier};
+use rayon::prelude::*;
+
+use super::{class::Class, scene::Truth, yardstick::shows_crossing};
+
+/// What came of a scene.
+#[derive(Debug, Clone)]
+pub(crate) struct Trial {
+    pub(crate) number: u64,
+    pub(crate) truth: Truth,
+    /// None where the motion was refused.
+    pub(crate) verdict: Option<Verdict>,
+    pub(crate) is_right: bool,
+    /// Whether the second proof verifies the report, refutes it, or leaves something open.
+    pub(crate) verified: Option<Verified>,
+    /// Whether the report without its penetrations is refuted by more than counts.
+    pub(crate) tampering_found: Option<bool>,
+    /// Smallest separation stated and true.
+    pub(crate) separation: Option<[f64; 2]>,
+    pub(crate) shows_crossing: bool,
+    pub(crate) triangles: usize,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Verified {
+    Proved,
+    Refuted,
+    Unproved,
+}
+
+/// The motion of a scene and its truth.
+pub(crate) fn motion_of(class: Class, number: u64) -> (Motion, Truth, Option<f64>) {
+    let mut random = class.random(number);
+    let scene = class.scene(&mut random);
+    let is_plain = random.index(3) == 0;
+    let motion = if is_plain {
+        scene.motion()
+    } else {
+        scene.varied(&mut random)
+    };
+    (motion, scene.truth, scene.separation)
+}
+
+pub(crate) fn verify(motion: &Motion, claim: &CollisionReport) -> Verification {
+    let (first, rest) = motion.frames.split_first().expect("a motion has frames");
+    let mut verifier = Verifier::new(&motion.sheet, first.clone(), claim);
+    for frame in rest {
+        verifier.advance(frame.clone());
+    }
+    verifier.finish()
+}
+
+/// Whether a verdict is what the truth asks for; undecided is no answer.
+pub(crate) fn is_right(truth: Truth, verdict: Verdict) -> bool {
+    match truth {
+        Truth::Penetrating => verdict == Verdict::Penetrating,
+        Truth::Touching => verdict == Verdict::Touching,
+        Truth::Free => verdict == Verdict::Free,
+        Truth::NotThrough => matches!(verdict, Verdict::Free | Verdict::Touching),
+        Truth::Open => verdict != Verdict::Undecided,
+    }
+}
+
+/// The report as somebody would write it who leaves the penetrations out.
+fn without_penetrations(report: &CollisionReport) -> CollisionReport {
+    CollisionReport {
+        verdict: Verdict::Touching,
+        first: None,
+        penetrations: Vec::new(),
+        ..report.clone()
+    }
+}
+
+/// Counts refute tampering cheaply; what is asked for is that the penetration is found.
+fn is_found(verification: &Verification) -> bool {
+    let is_count = |field: &str| {
+        [
+            "pairs_tested",
+            "decided_by",
+            "touching_pairs",
+            "clusters",
+            "verdict",
+        ]
+        .iter()
+        .any(|count| field.starts_with(count))
+    };
+    verification
+        .refuted
+        .iter()
+        .any(|refutation| !is_count(&refutation.field))
+}
+
+/// Tries both proofs on a scene.
+pub(crate) fn try_scene(class: Class, number: u64) -> Trial {
+    let (motion, truth, separation) = motion_of(class, number);
+    let mut random = class.random(!number);
+    let mut trial = Trial {
+        number,
+        truth,
+        verdict: None,
+        is_right: false,
+        verified: None,
+        tampering_found: None,
+        separation: None,
+        shows_crossing: shows_crossing(&motion, &mut random),
+        triangles: motion.sheet.faces.len(),
+    };
+    let Ok(report) = collisions(&motion, &CollisionOptions::default(), &|_| true) else {
+        return trial;
+    };
+    trial.verdict = Some(report.verdict);
+    trial.is_right = is_right(truth, report.verdict);
+    trial.separation = separation
+        .zip(report.min_separation)
+        .map(|(truth, stated)| [stated.distance, truth]);
+    let verification = verify(&motion, &report);
+    trial.verified = Some(if verification.is_verified() {
+        Verified::Proved
+    } else if verification.refuted.is_empty() {
+        Verified::Unproved
+    } else {
+        Verified::Refuted
+    });
+    if truth == Truth::Penetrating {
+        trial.tampering_found = Some(is_found(&verify(&motion, &without_penetrations(&report))));
+    }
+    trial
+}
+
+/// What the scenes of a class came to.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Tally {
+    pub(crate) sheets: u64,
+    /// Penetrating, touching, free, not through, open.
+    pub(crate) truths: [u64; 5],
+    /// Penetrating, touching, free, undecided, refused.
+    pub(crate) verdicts: [u64; 5],
+    /// Penetrating, and called something else.
+    pub(crate) missed: Vec<u64>,
+    /// Not penetrating, and called so.
+    pub(crate) false_alarms: Vec<u64>,
+    /// Free called touching or touching called free.
+    pub(crate) wrong_nearness: Vec<u64>,
+    pub(crate) undecided: Vec<u64>,
+    /// Right, and not verified: refuted; unproved.
+    pub(crate) refuted: Vec<u64>,
+    pub(crate) unproved: Vec<u64>,
+    /// Wrong, and verified.
+    pub(crate) wrong_verified: Vec<u64>,
+    /// Penetrations left out, and not found.
+    pub(crate) tampering_passed: Vec<u64>,
+    /// Stated above the truth, or below by more than stated.
+    pub(crate) separation_high: Vec<u64>,
+    pub(crate) separation_low: Vec<u64>,
+    /// The yardstick shows a crossing: of penetrating ones, of others, of free ones.
+    pub(crate) shown: [u64; 3],
+    pub(crate) shown_free: Vec<u64>,
+    pub(crate) most_triangles: usize,
+}
+
+impl Tally {
+    fn count(&mut self, trial: &Trial) {
+        let number = trial.number;
+        let at = match trial.truth {
+            Truth::Penetrating => 0,
+            Truth::Touching => 1,
+            Truth::Free => 2,
+            Truth::NotThrough => 3,
+            Truth::Open => 4,
+        };
+        self.sheets += 1;
+        self.truths[at] += 1;
+        self.most_triangles = self.most_triangles.max(trial.triangles);
+        self.count_verdict(trial);
+        match trial.verified {
+            Some(Verified::Refuted) if trial.is_right => self.refuted.push(number),
+            Some(Verified::Unproved) if trial.is_right => self.unproved.push(number),
+            Some(Verified::Proved) if !trial.is_right => self.wrong_verified.push(number),
+            _ => {}
+        }
+        if trial.tampering_found == Some(false) {
+            self.tampering_passed.push(number);
+        }
+        if let Some([stated, truth]) = trial.separation {
+            if stated > truth + 1e-9 {
+                self.separation_high.push(number);
+            } else if stated < truth - 1.1e-8 - 1.1e-4 * truth {
+                self.separation_low.push(number);
+            }
+        }
+        if trial.shows_crossing {
+            self.shown[[0, 1, 2, 1, 1][at]] += 1;
+            if at == 2 {
+                self.shown_free.push(number);
+            }
+        }
+    }
+
+    fn count_verdict(&mut self, trial: &Trial) {
+        let number = trial.number;
+        let at = match trial.verdict {
+            Some(Verdict::Penetrating) => 0,
+            Some(Verdict::Touching) => 1,
+            Some(Verdict::Free) => 2,
+            Some(Verdict::Undecided) => 3,
+            None => 4,
+        };
+        self.verdicts[at] += 1;
+        match (trial.truth, trial.verdict) {
+            _ if trial.is_right => {}
+            (_, None | Some(Verdict::Undecided)) => self.undecided.push(number),
+            (Truth::Penetrating, _) => self.missed.push(number),
+            (_, Some(Verdict::Penetrating)) => self.false_alarms.push(number),
+            _ => self.wrong_nearness.push(number),
+        }
+    }
+
+    pub(crate) fn add(&mut self, other: &Self) {
+        self.sheets += other.sheets;
+        self.most_triangles = self.most_triangles.max(other.most_triangles);
+        let sums = [
+            (&mut self.truths[..], &other.truths[..]),
+            (&mut self.verdicts, &other.verdicts),
+            (&mut self.shown, &other.shown),
+        ];
+        for (sum, more) in sums {
+            sum.iter_mut().zip(more).for_each(|(s, m)| *s += m);
+        }
+        let lists = self.lists_mut().into_iter().zip(other.lists());
+        lists.for_each(|(list, (_, more))| list.extend(more));
+    }
+
+    fn lists_mut(&mut self) -> [&mut Vec<u64>; 11] {
+        [
+            &mut self.missed,
+            &mut self.false_alarms,
+            &mut self.wrong_nearness,
+            &mut self.undecided,
+            &mut self.refuted,
+            &mut self.unproved,
+            &mut self.wrong_verified,
+            &mut self.tampering_passed,
+            &mut self.separation_high,
+            &mut self.separation_low,
+            &mut self.shown_free,
+        ]
+    }
+
+    /// The numbers of the scenes that are not as they should be, by what is wrong.
+    pub(crate) fn lists(&self) -> [(&'static str, &Vec<u64>); 11] {
+        [
+            ("missed", &self.missed),
+            ("false alarm", &self.false_alarms),
+            ("wrong nearness", &self.wrong_nearness),
+            ("undecided", &self.undecided),
+            ("right but refuted", &self.refuted),
+            ("right but unproved", &self.unproved),
+            ("wrong but verified", &self.wrong_verified),
+            ("tampering passed", &self.tampering_passed),
+            ("separation too large", &self.separation_high),
+            ("separation too small", &self.separation_low),
+            ("yardstick shows free crossing", &self.shown_free),
+        ]
+    }
+}
+
+/// Tries scenes `0..count` of a class.
+pub(crate) fn try_class(class: Class, count: u64) -> Tally {
+    let trials: Vec<Trial> = (0..count)
+        .into_par_iter()
+        .map(|number| try_scene(class, number))
+        .collect();
+    let mut tally = Tally::default();
+    for trial in &trials {
+        tally.count(trial);
+    }
+    tally
+}
+
+/// What the columns of a [`Tally`] are.
+pub(crate) const HEADER: &str = "\
+class            sheets | truth:  pen touch  free  n.t. open | verdict: pen touch  free undec error \
+| missed alarm near undec | refut unpro w.ver tampr | sep> sep< | shown pen other free";
+
+impl fmt::Display for Tally {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let [p, t, r, n, o] = self.truths;
+        write!(
+            f,
+            "{:>6} | {p:>11} {t:>5} {r:>5} {n:>5} {o:>4} |",
+            self.sheets
+        )?;
+        let [p, t, r, u, e] = self.verdicts;
+        write!(f, " {p:>12} {t:>5} {r:>5} {u:>5} {e:>5} |")?;
+        let n = self.lists().map(|(_, list)| list.len());
+        write!(f, " {:>6} {:>5} {:>4} {:>5} |", n[0], n[1], n[2], n[3])?;
+        write!(f, " {:>5} {:>5} {:>5} {:>5} |", n[4], n[5], n[6], n[7])?;
+        write!(f, " {:>4} {:>4} |", n[8], n[9])?;
+        let [p, o, r] = self.shown;
+        write!(f, " {p:>9} {o:>5} {r:>4}")
+    }
+}
