@@ -39,9 +39,7 @@ impl Axis {
         let step = step.into_iter().find(|&s| s >= least).unwrap_or(least);
         let (first, last) = ((start / step).ceil() as i64, (end / step).floor() as i64);
         let values = (first..=last).map(|k| k as f64 * step);
-        values
-            .map(|value| (value, linear_label(value, step)))
-            .collect()
+        values.map(|value| (value, label(value, step))).collect()
     }
 
     /// Powers of ten; between neighbouring ones also their multiples where the range is too short for two powers.
@@ -53,7 +51,11 @@ impl Axis {
             let all = exponents
                 .clone()
                 .flat_map(|e| multiples.iter().map(move |&m| (m, e)));
-            let all = all.map(|(m, e)| (f64::from(m) * 10.0_f64.powi(e), logarithmic_label(m, e)));
+            let all = all.map(|(m, e)| {
+                let power = 10.0_f64.powi(e);
+                let value = f64::from(m) * power;
+                (value, label(value, power))
+            });
             ticks = all
                 .filter(|(v, _)| self.range.contains(v))
                 .collect::<Vec<_>>();
@@ -67,26 +69,15 @@ impl Axis {
 }
 
 /// `value` to the decimals that tell it from the tick one `step` away.
-fn linear_label(value: f64, step: f64) -> String {
+fn label(value: f64, step: f64) -> String {
     let exponent = step.log10().floor() as i32;
-    if (-4..=4).contains(&exponent) {
-        let decimals = exponent.min(0).unsigned_abs() as usize;
-        return format!("{value:.decimals$}");
-    }
-    if value == 0.0 {
-        return "0".to_owned();
+    if value == 0.0 || (-4..=4).contains(&exponent) {
+        let decimals = if exponent < -4 { 0 } else { exponent.min(0) };
+        return format!("{value:.*}", decimals.unsigned_abs() as usize);
     }
     let power = value.abs().log10().floor() as i32;
     let decimals = (power - exponent).max(0).unsigned_abs() as usize;
-    let mantissa = value / 10.0_f64.powi(power);
-    format!("{mantissa:.decimals$}·10^{{{power}}}")
-}
-
-fn logarithmic_label(multiple: u8, exponent: i32) -> String {
-    match multiple {
-        1 => format!("10^{{{exponent}}}"),
-        _ => format!("{multiple}·10^{{{exponent}}}"),
-    }
+    format!("{value:.decimals$e}")
 }
 
 #[cfg(test)]
@@ -106,16 +97,16 @@ mod tests {
     fn linear_ticks_are_round_numbers() {
         assert_eq!(labels(0.0..2.0, false), ["0.0", "0.5", "1.0", "1.5", "2.0"]);
         assert_eq!(labels(-3.0..41.0, false), ["0", "10", "20", "30", "40"]);
-        let small = ["0", "1·10^{-6}", "2·10^{-6}", "3·10^{-6}"];
+        let small = ["0", "1e-6", "2e-6", "3e-6"];
         assert_eq!(labels(0.0..3.5e-6, false), small);
     }
 
     #[test]
     fn logarithmic_ticks_are_powers_of_ten_or_multiples_of_one() {
-        let powers = ["10^{-3}", "10^{-2}", "10^{-1}", "10^{0}"];
+        let powers = ["0.001", "0.01", "0.1", "1"];
         assert_eq!(labels(5e-4..3.0, true), powers);
-        assert_eq!(labels(0.15..0.6, true), ["2·10^{-1}", "5·10^{-1}"]);
-        let short = ["3·10^{0}", "4·10^{0}"];
+        assert_eq!(labels(0.15..0.6, true), ["0.2", "0.5"]);
+        let short = ["3", "4"];
         assert_eq!(labels(2.1..4.9, true), short);
         assert!(labels(1e-12..1.0, true).len() <= 5);
     }

@@ -25,6 +25,8 @@ const LABEL: f64 = 12.0;
 /// Length of the colour samples in a legend and the space between its entries, pixels.
 const SAMPLE: f64 = 18.0;
 const LEGEND_GAP: f64 = 18.0;
+/// Room for a name in a legend as a multiple of its width in our font: viewers may have only a wider one.
+const NAME_WIDTH: f64 = 1.15;
 /// The most ticks on a vertical axis and on the time axis.
 const VALUE_TICKS: f64 = 5.0;
 const TIME_TICKS: f64 = 9.0;
@@ -160,12 +162,12 @@ fn draw_legend(drawing: &mut Drawing, panel: &Panel, base: f64) -> Result<(), Re
     let mut right = f64::from(SIZE[0]) - RIGHT;
     let curves: Vec<_> = panel.curves.iter().zip(COLOURS).collect();
     for (curve, color) in curves.into_iter().rev() {
-        drawing.words(DVec2::new(right, base), curve.name, LABEL, Anchor::End);
-        right -= words_width(curve.name, LABEL)? + 6.0;
-        let end = DVec2::new(right, base - 0.35 * LABEL);
+        right -= NAME_WIDTH * words_width(curve.name, LABEL)?;
+        drawing.words(DVec2::new(right, base), curve.name, LABEL, Anchor::Start);
+        let end = DVec2::new(right - 6.0, base - 0.35 * LABEL);
         let sample = [end - DVec2::new(SAMPLE, 0.0), end];
         drawing.line(sample, Stroke::new(color, 3.0));
-        right -= SAMPLE + LEGEND_GAP;
+        right = end.x - SAMPLE - LEGEND_GAP;
     }
     Ok(())
 }
