@@ -228,12 +228,6 @@ pub enum RecordError {
     /// The progress callback asked to stop.
     #[error("the film was interrupted")]
     Interrupted,
-    /// The plotting library failed.
-    #[error("the plot could not be drawn: {message}")]
-    Plot {
-        /// Why.
-        message: String,
-    },
     /// The film could not be written.
     #[error("the film could not be written: {0}")]
     Write(#[from] io::Error),

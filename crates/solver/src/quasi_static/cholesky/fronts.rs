@@ -4,10 +4,6 @@
 //! (Liu 1990, "The role of elimination trees in sparse factorization") are then merged into fronts wherever a few zeros
 //! that are computed with cost less than a front of its own.
 
-use faer::dyn_stack::{MemBuffer, MemStack};
-use faer::sparse::linalg::amd;
-use faer::sparse::{FaerError, SymbolicSparseColMatRef};
-
 /// The most nodes eliminated in one front: wider ones are cut, so that kernels need no blocking of their own.
 const WIDEST: usize = 24;
 /// What a front costs by itself, for each of its columns, and for each entry that it hands to its parent, in multiply-adds.
@@ -42,7 +38,7 @@ struct Group {
 impl Fronts {
     /// The fronts of the matrix whose node columns j have the rows `blocks[starts[j]..starts[j + 1]]`, j itself and
     /// greater ones.
-    pub(super) fn new(nodes: usize, starts: &[u32], blocks: &[u32]) -> Result<Self, FaerError> {
+    pub(super) fn new(nodes: usize, starts: &[u32], blocks: &[u32]) -> Result<Self, &'static str> {
         let order = minimum_degree(nodes, starts, blocks)?;
         let neighbours = permuted_neighbours(&order, starts, blocks);
         let parents = elimination_tree(&neighbours);
@@ -108,18 +104,11 @@ impl Fronts {
 }
 
 /// The nodes in the order of approximate minimum degree.
-fn minimum_degree(nodes: usize, starts: &[u32], blocks: &[u32]) -> Result<Vec<u32>, FaerError> {
-    let (mut forward, mut inverse) = (vec![0u32; nodes], vec![0u32; nodes]);
-    let graph = SymbolicSparseColMatRef::new_checked(nodes, nodes, starts, None, blocks);
-    let scratch = amd::order_maybe_unsorted_scratch::<u32>(nodes, blocks.len());
-    amd::order_maybe_unsorted(
-        &mut forward,
-        &mut inverse,
-        graph,
-        amd::Control::default(),
-        MemStack::new(&mut MemBuffer::new(scratch)),
-    )?;
-    Ok(forward)
+fn minimum_degree(nodes: usize, starts: &[u32], blocks: &[u32]) -> Result<Vec<u32>, &'static str> {
+    let nodes = u32::try_from(nodes).map_err(|_error| "more nodes than 32-bit indices hold")?;
+    let (order, _, _) = amd::order(nodes, starts, blocks, &amd::Control::default())
+        .map_err(|_status| "the pattern of the matrix is invalid")?;
+    Ok(order)
 }
 
 /// The neighbours of every place in the order.
@@ -255,4 +244,43 @@ fn postorder(groups: &[Option<Group>]) -> Vec<&Group> {
     }
     reversed.reverse();
     reversed
+}
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::*;
+
+    proptest! {
+        #[test]
+        fn every_pattern_has_an_order_of_all_its_nodes(
+            nodes in 1u32..40,
+            pairs in prop::collection::vec((0u32..40, 0u32..40), 0..200),
+        ) {
+            let mut columns: Vec<Vec<u32>> = (0..nodes).map(|node| vec![node]).collect();
+            for (a, b) in pairs {
+                let (a, b) = (a % nodes, b % nodes);
+                columns[a.min(b) as usize].push(a.max(b));
+            }
+            let (mut starts, mut blocks) = (vec![0], Vec::new());
+            for column in &mut columns {
+                column.sort_unstable();
+                column.dedup();
+                blocks.append(column);
+                starts.push(blocks.len() as u32);
+            }
+            let mut order = minimum_degree(nodes as usize, &starts, &blocks).unwrap();
+            order.sort_unstable();
+            prop_assert_eq!(order, (0..nodes).collect::<Vec<_>>());
+        }
+    }
+
+    #[test]
+    fn a_matrix_without_nodes_has_no_fronts() {
+        assert_eq!(
+            Fronts::new(0, &[0], &[]).map(|fronts| fronts.count()).ok(),
+            Some(0)
+        );
+    }
 }

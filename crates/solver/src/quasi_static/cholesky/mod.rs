@@ -45,8 +45,7 @@ impl Cholesky {
     /// # Errors
     /// A sentence where the factor is too large.
     pub(super) fn new(nodes: usize, starts: &[u32], blocks: &[u32]) -> Result<Self, &'static str> {
-        let fronts = Fronts::new(nodes, starts, blocks)
-            .map_err(|_error| "the symbolic analysis ran out of memory")?;
+        let fronts = Fronts::new(nodes, starts, blocks)?;
         let shape = |f: usize| Shape {
             width: 3 * fronts.width(f),
             rows: 3 * fronts.rows(f).len(),
