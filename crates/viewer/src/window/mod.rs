@@ -22,7 +22,7 @@ use std::time::{Duration, Instant};
 use eframe::egui::{self, CentralPanel, Panel, ScrollArea, Ui};
 use foldmotion_study::{Draft, Opened, Preview, Scene, Study};
 
-use crate::ViewOptions;
+use crate::options::ViewOptions;
 use crate::design::{DesignPanel, Facts, Fault};
 use crate::document::Document;
 use crate::results::results;

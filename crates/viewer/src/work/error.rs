@@ -5,7 +5,7 @@ use std::any::Any;
 use foldmotion_solver::SolverError;
 use foldmotion_study::StudyError;
 
-use crate::launch::words;
+use crate::error::panic_message;
 
 /// Why a worker has no result.
 #[derive(Debug, thiserror::Error)]
@@ -37,7 +37,7 @@ impl WorkError {
     /// Of a panic's payload.
     pub(super) fn of_panic(payload: &(dyn Any + Send)) -> Self {
         Self::Panic {
-            message: words(payload),
+            message: panic_message(payload),
         }
     }
 

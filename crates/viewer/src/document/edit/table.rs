@@ -1,10 +1,11 @@
 //! Tables: keys that change, go, or come.
 
-use toml_edit::{InlineTable, Item};
+use toml_edit::{Array, ArrayOfTables, InlineTable, Item};
 
+use super::array::{self, ChangedRange};
 use super::comments::{apart, has_comment, last_position, text_of};
 use super::value::{Keys, Value};
-use super::{Place, array, literal};
+use super::{Place, literal};
 
 /// Writes what differs between two tables into the one that says `old`.
 pub(super) fn edit(table: &mut toml_edit::Table, old: &Keys, new: &Keys, place: &mut Place<'_>) {
@@ -30,7 +31,7 @@ fn edit_item(item: &mut Item, before: Option<&Value>, value: &Value, place: &mut
             edit(table, &keys_in(before), new, &mut place);
         }
         (Item::ArrayOfTables(tables), Value::List(new)) if literal::is_list_of_tables(new) => {
-            array::edit_tables(tables, list_in(before), new, place);
+            edit_tables(tables, list_in(before), new, place);
         }
         (Item::Value(written), value) => edit_value(written, before, value),
         (item, value) => *item = Item::Value(literal::literal(value)),
@@ -38,13 +39,13 @@ fn edit_item(item: &mut Item, before: Option<&Value>, value: &Value, place: &mut
 }
 
 /// Writes what differs between two values into the one that says `before`.
-pub(super) fn edit_value(written: &mut toml_edit::Value, before: Option<&Value>, value: &Value) {
+fn edit_value(written: &mut toml_edit::Value, before: Option<&Value>, value: &Value) {
     match (written, value) {
         (toml_edit::Value::InlineTable(table), Value::Table(new)) => {
             edit_inline(table, &keys_in(before), new);
         }
         (toml_edit::Value::Array(list), Value::List(new)) => {
-            array::edit(list, list_in(before), new);
+            edit_list(list, list_in(before), new);
         }
         (written, value) => {
             let decor = written.decor().clone();
@@ -78,6 +79,83 @@ fn edit_inline(table: &mut InlineTable, old: &Keys, new: &Keys) {
     }
 }
 
+/// Changes the elements of a list that says `old`.
+fn edit_list(list: &mut Array, old: &[Value], new: &[Value]) {
+    if list.is_empty() || list.len() != old.len() {
+        let decor = list.decor().clone();
+        if let toml_edit::Value::Array(fresh) = literal::literal(&Value::List(new.to_vec())) {
+            *list = fresh;
+        }
+        *list.decor_mut() = decor;
+        return;
+    }
+    let change = ChangedRange::between(old, new);
+    let shared = change.shared();
+    for k in 0..shared {
+        let index = change.old.start + k;
+        if let Some(value) = list.get_mut(index) {
+            edit_value(value, Some(&old[index]), &new[index]);
+        }
+    }
+    if change.old.len() != change.new.len() {
+        array::release_trailing_space(list);
+    }
+    for _ in shared..change.old.len() {
+        array::remove(list, change.old.start + shared);
+    }
+    for (index, value) in change.inserted(new) {
+        array::insert(list, index, literal::literal(value));
+    }
+}
+
+/// Changes the tables of a list that says `old`, each under its header.
+fn edit_tables(
+    tables: &mut ArrayOfTables,
+    old: &[Value],
+    new: &[Value],
+    place: &mut Place<'_>,
+) {
+    let old = if tables.len() == old.len() { old } else { &[] };
+    if old.is_empty() {
+        let at = tables.get(0).and_then(toml_edit::Table::position);
+        let fresh = new.iter().filter_map(Value::as_table);
+        let fresh = fresh.map(|inner| literal::table(inner, at.unwrap_or(place.position)));
+        *tables = fresh.collect();
+        return;
+    }
+    let change = ChangedRange::between(old, new);
+    let shared = change.shared();
+    for k in 0..shared {
+        let index = change.old.start + k;
+        if let (Some(inner), Value::Table(old), Value::Table(new)) =
+            (tables.get_mut(index), &old[index], &new[index])
+        {
+            let mut place = place.within(inner);
+            edit(inner, old, new, &mut place);
+        }
+    }
+    for _ in shared..change.old.len() {
+        let removed = tables.remove(change.old.start + shared);
+        keep_above(&removed, place);
+    }
+    for (index, value) in change.inserted(new) {
+        let neighbour = tables.get(index.saturating_sub(1));
+        let at = neighbour.and_then(toml_edit::Table::position);
+        if let Value::Table(inner) = value {
+            tables.insert(index, literal::table(inner, at.unwrap_or(place.position)));
+        }
+    }
+}
+
+/// Keeps the comments above a removed header that do not belong to it.
+fn keep_above(removed: &toml_edit::Table, place: &mut Place<'_>) {
+    let above = text_of(removed.decor().prefix());
+    let apart = apart(&above);
+    if has_comment(apart) {
+        place.within(removed).keep(apart.to_owned());
+    }
+}
+
 fn keys_in(value: Option<&Value>) -> Keys {
     value.and_then(Value::as_table).cloned().unwrap_or_default()
 }
@@ -93,11 +171,11 @@ fn remove(table: &mut toml_edit::Table, key: &str, place: &mut Place<'_>) {
         return;
     };
     match &item {
-        Item::Table(inner) => return array::keep_above(inner, place),
+        Item::Table(inner) => return keep_above(inner, place),
         Item::ArrayOfTables(tables) => {
             return tables
                 .iter()
-                .for_each(|inner| array::keep_above(inner, place));
+                .for_each(|inner| keep_above(inner, place));
         }
         _ => {}
     }
