@@ -4,7 +4,7 @@ use eframe::egui::{Color32, CornerRadius, Frame, Grid, Link, Margin, RichText, S
 use foldmotion_study::Report;
 use foldmotion_study::report::{OutcomeKind, PenetrationReport, StageReport};
 
-use crate::work::Judged;
+use crate::work::CheckedMotion;
 
 /// Draws `report`; answers a motion time that was clicked.
 pub(crate) fn results(ui: &mut Ui, report: &Report) -> Option<f64> {
@@ -24,7 +24,11 @@ pub(crate) fn results(ui: &mut Ui, report: &Report) -> Option<f64> {
 }
 
 /// What is known of a motion file; a motion time that was clicked.
-pub(crate) fn file_results(ui: &mut Ui, title: &str, judged: Option<&Judged>) -> Option<f64> {
+pub(crate) fn file_results(
+    ui: &mut Ui,
+    title: &str,
+    judged: Option<&CheckedMotion>,
+) -> Option<f64> {
     ui.strong(title);
     let Some(judged) = judged else {
         ui.label("its collisions are being checked");

@@ -8,7 +8,7 @@ const FRAMES: usize = 4096;
 
 /// What the window does in a frame.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Pace {
+pub(crate) enum Activity {
     /// Only what the user does.
     Idle,
     /// A motion plays: one frame follows the other.
@@ -17,7 +17,7 @@ pub(crate) enum Pace {
     Busy,
 }
 
-impl Pace {
+impl Activity {
     const ALL: [Self; 3] = [Self::Idle, Self::Playing, Self::Busy];
 
     fn name(self) -> &'static str {
@@ -35,7 +35,7 @@ pub(crate) struct Timings {
     started: Instant,
     first_picture: Option<Duration>,
     /// When the last frame began, its pace, and the processor time of this thread then.
-    last: Option<(Instant, Pace, Option<Duration>)>,
+    last: Option<(Instant, Activity, Option<Duration>)>,
     /// Of each of the last frames of a pace: processor time, and time to the next.
     frames: [Vec<[Duration; 2]>; 3],
     count: [usize; 3],
@@ -67,7 +67,7 @@ impl Timings {
     }
 
     /// Takes note that a frame of `pace` begins: what the thread did since the last one began belongs to that one.
-    pub(crate) fn frame(&mut self, pace: Pace, has_picture: bool) {
+    pub(crate) fn frame(&mut self, pace: Activity, has_picture: bool) {
         if has_picture && self.first_picture.is_none() {
             self.first_picture = Some(self.started.elapsed());
         }
@@ -92,7 +92,7 @@ impl Timings {
     }
 
     /// Of the last frames of `pace`.
-    pub(crate) fn frame_times(&self, pace: Pace) -> Option<FrameTimes> {
+    pub(crate) fn frame_times(&self, pace: Activity) -> Option<FrameTimes> {
         let frames = &self.frames[pace as usize];
         let count = frames.len();
         let mut times: Vec<Duration> = frames.iter().map(|times| times[0]).collect();
@@ -115,7 +115,7 @@ impl Timings {
         if let Some(first) = self.first_picture {
             let _ = writeln!(text, "first picture after {:.2} s", first.as_secs_f64());
         }
-        for pace in Pace::ALL {
+        for pace in Activity::ALL {
             let Some(times) = self.frame_times(pace) else {
                 continue;
             };
@@ -128,7 +128,7 @@ impl Timings {
                 times.count
             );
             let _ = match pace {
-                Pace::Idle => writeln!(text),
+                Activity::Idle => writeln!(text),
                 _ => writeln!(text, ", one every {:.1} ms", times.spacing_ms),
             };
         }
@@ -167,12 +167,12 @@ mod tests {
     #[test]
     fn frames_are_counted_by_pace_and_the_summary_names_them() {
         let mut timings = Timings::new(Instant::now());
-        assert!(timings.frame_times(Pace::Idle).is_none());
+        assert!(timings.frame_times(Activity::Idle).is_none());
         for _ in 0..5 {
-            timings.frame(Pace::Idle, true);
+            timings.frame(Activity::Idle, true);
         }
         for _ in 0..FRAMES + 10 {
-            timings.frame(Pace::Busy, true);
+            timings.frame(Activity::Busy, true);
         }
         timings.rate("run", 240.0);
         let text = timings.summary();
@@ -182,7 +182,7 @@ mod tests {
         );
         if thread_time().is_some() {
             let count = |pace| timings.frame_times(pace).map(|times| times.count);
-            assert_eq!(Pace::ALL.map(count), [Some(5), None, Some(FRAMES)]);
+            assert_eq!(Activity::ALL.map(count), [Some(5), None, Some(FRAMES)]);
             assert!(
                 text.contains("while work runs") && text.contains("memory"),
                 "{text}"

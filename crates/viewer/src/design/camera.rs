@@ -56,7 +56,7 @@ pub(super) fn show(form: &mut Form<'_>, ui: &mut Ui) {
     if let Some(CameraScene::Own(own)) = given {
         show_own_camera(form, ui, own);
     }
-    form.faults_of(ui, "record.camera");
+    form.errors_of(ui, "record.camera");
 }
 
 fn show_own_camera(form: &mut Form<'_>, ui: &mut Ui, own: OwnCamera) {

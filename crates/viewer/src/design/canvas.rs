@@ -1,4 +1,4 @@
-//! The profile canvas: Γ, its division, and the points that shape it under the hand.
+//! The profile canvas: Γ, its division, and the points that shape it under the handles.
 
 use eframe::egui::{self, Align2, FontId, Stroke, Ui, vec2};
 use foldmotion_geometry::Profile;
@@ -8,8 +8,8 @@ use glam::DVec2;
 
 use super::curve::{add_handle, handles, own_profile, vectors};
 use super::form::Form;
-use super::handles::{Hand, MOST_HANDLES, rounded_on};
-use super::plane::{Plane, View, bounds, canvas};
+use super::handle_editor::{HandleEditor, MOST_HANDLES, rounded_on};
+use super::plane::{Plane, PlaneView, bounds, canvas};
 
 /// Samples of the curve that are drawn.
 const SAMPLES: usize = 600;
@@ -19,14 +19,14 @@ const MOST_DIVISION_POINTS: usize = 2000;
 /// What the canvas remembers.
 #[derive(Debug, Default)]
 pub(super) struct Canvas {
-    pub(super) view: View,
-    pub(super) hand: Hand,
-    traced: Option<Traced>,
+    pub(super) view: PlaneView,
+    pub(super) handle_editor: HandleEditor,
+    traced: Option<SampledCurve>,
 }
 
 /// The curve that was drawn last, and what it was drawn from.
 #[derive(Debug)]
-struct Traced {
+struct SampledCurve {
     scene: ProfileScene,
     /// The draft it comes from, where the scene alone does not give it.
     draft_number: Option<u64>,
@@ -34,7 +34,7 @@ struct Traced {
     points: Vec<DVec2>,
 }
 
-impl Traced {
+impl SampledCurve {
     fn new(form: &Form<'_>) -> Self {
         let scene = &form.scene.profile;
         let from_file = scene.file.is_some();
@@ -76,7 +76,7 @@ impl Canvas {
             .as_ref()
             .is_some_and(|traced| traced.is_of(form))
         {
-            self.traced = Some(Traced::new(form));
+            self.traced = Some(SampledCurve::new(form));
         }
         let points = handles(&form.scene.profile)
             .map(|points| vectors(points))
@@ -97,12 +97,12 @@ impl Canvas {
             note(ui, &painter, &plane, "too many points to move by hand");
             return;
         }
-        Hand::paint_polygon(form, ui, &painter, &plane, &points);
-        self.hand
+        HandleEditor::paint_polygon(form, ui, &painter, &plane, &points);
+        self.handle_editor
             .show(form, ui, &painter, &plane, &points, &mut self.view);
         self.add_point(form, &response, &plane, points.is_empty());
         if response.clicked() {
-            self.hand.select_none();
+            self.handle_editor.select_none();
         }
         if is_bare {
             note(ui, &painter, &plane, "no curve yet");
@@ -125,7 +125,7 @@ impl Canvas {
         };
         let place = rounded_on(plane, plane.to_plane(place));
         if let Some(index) = add_handle(&mut form.scene.profile, place) {
-            self.hand.select(index);
+            self.handle_editor.select(index);
             form.record("add point", response.id, false);
         }
     }

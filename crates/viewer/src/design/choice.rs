@@ -72,7 +72,7 @@ impl Form<'_> {
                 form.record(field.undo, response.id, false);
             }
         });
-        self.faults_of(ui, &field.key);
+        self.errors_of(ui, &field.key);
     }
 
     /// A row with a text that is taken once it is complete: by Enter or by leaving the field.

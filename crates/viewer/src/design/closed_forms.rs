@@ -7,11 +7,11 @@ use glam::DVec3;
 
 use super::form::{Form, NOTE_SIZE, name, note};
 use super::number::{decimal, scientific};
-use super::size::Size;
+use super::unit_size::UnitSize;
 
 /// What was measured of the draft last.
 #[derive(Debug, Default)]
-pub(super) struct Measures {
+pub(super) struct Measurements {
     of: Option<u64>,
     deployed: DVec3,
     flat: [f64; 2],
@@ -75,7 +75,7 @@ impl Counts {
     }
 }
 
-impl Measures {
+impl Measurements {
     /// What is measured of a draft, once for each.
     pub(super) fn update(&mut self, form: &Form<'_>) {
         if self.of == Some(form.draft_number) {
@@ -229,7 +229,7 @@ fn show_cases(form: &mut Form<'_>, ui: &mut Ui) {
 
 fn show_case(form: &Form<'_>, ui: &mut Ui, case: Case) {
     let sheet = &form.scene.sheet;
-    let size = Size::of(form, sheet.case);
+    let size = UnitSize::of(form, sheet.case);
     let small = |text: String| RichText::new(text).size(NOTE_SIZE);
     let unit = size.and_then(|size| Some((size, size.unit(case, sheet.lambda, sheet.offset)?)));
     match unit {

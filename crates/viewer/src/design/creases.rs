@@ -16,19 +16,19 @@ const SHORTEST_DASHED: f32 = 9.0;
 
 /// What a mesh was made from.
 #[derive(Debug, Clone, Copy, PartialEq)]
-struct Origin {
+struct MeshKey {
     draft_number: u64,
-    /// The plane, with its frame at the origin of the screen.
+    /// The plane, with its frame at the key of the screen.
     plane: Plane,
     pixels_per_point: f32,
     colours: [Color32; 2],
-    place: Pos2,
+    corner: Pos2,
 }
 
 /// The mesh made last.
 #[derive(Debug, Default)]
 pub(super) struct Creases {
-    made: Option<(Origin, Arc<Mesh>)>,
+    made: Option<(MeshKey, Arc<Mesh>)>,
 }
 
 impl Creases {
@@ -42,7 +42,7 @@ impl Creases {
         place: impl Fn(DVec2) -> DVec2,
     ) -> Shape {
         let corner = plane.rect.min;
-        let origin = Origin {
+        let key = MeshKey {
             draft_number,
             plane: Plane {
                 rect: plane.rect.translate(-corner.to_vec2()),
@@ -50,24 +50,21 @@ impl Creases {
             },
             pixels_per_point: ui.pixels_per_point(),
             colours: crease_colours(ui),
-            place: corner,
+            corner,
         };
         if let Some((made, mesh)) = &mut self.made {
-            let shift = corner - made.place;
-            let moved = Origin {
-                place: corner,
-                ..*made
-            };
-            if moved == origin {
+            let shift = corner - made.corner;
+            let moved = MeshKey { corner, ..*made };
+            if moved == key {
                 if shift != Vec2::ZERO {
                     Arc::make_mut(mesh).translate(shift);
-                    made.place = corner;
+                    made.corner = corner;
                 }
                 return Shape::mesh(Arc::clone(mesh));
             }
         }
         let mesh = Arc::new(mesh(ui, sheet, plane, place));
-        self.made = Some((origin, Arc::clone(&mesh)));
+        self.made = Some((key, Arc::clone(&mesh)));
         Shape::mesh(mesh)
     }
 }

@@ -15,14 +15,14 @@ const SAMPLES: usize = 2048;
 
 /// Which key gives the curve.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Origin {
+pub(super) enum ProfileKind {
     Model,
     ControlPoints,
     Points,
     File,
 }
 
-impl Origin {
+impl ProfileKind {
     /// That of a scene; a scene without a curve is taken to be about to name a model.
     pub(super) fn of(scene: &ProfileScene) -> Self {
         match scene {

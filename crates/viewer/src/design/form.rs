@@ -1,4 +1,4 @@
-//! The scene under the hand: rows of controls, what is wrong beside each, and the change they make.
+//! The scene under the handles: rows of controls, what is wrong beside each, and the change they make.
 
 use std::borrow::Cow;
 use std::collections::BTreeSet;
@@ -6,13 +6,13 @@ use std::collections::BTreeSet;
 use eframe::egui::{self, Align, Id, Layout, RichText, Ui, UiBuilder, vec2};
 use foldmotion_study::{Draft, Scene};
 
-use super::{Change, Facts, Fault};
+use super::{Change, DesignInput, SceneError};
 
-/// Size of the letters of notes and faults.
+/// UnitSize of the letters of notes and errors.
 pub(super) const NOTE_SIZE: f32 = 11.0;
 /// Width of the labels on the left of the controls.
 pub(super) const LABEL_WIDTH: f32 = 100.0;
-/// Tables of a scene that have a section; faults elsewhere stand at the top of the panel.
+/// Tables of a scene that have a section; errors elsewhere stand at the top of the panel.
 const TABLES: [&str; 8] = [
     "profile", "sheet", "division", "material", "motion", "check", "record", "pattern",
 ];
@@ -54,8 +54,8 @@ pub(super) struct Form<'a> {
     pub(super) draft: Option<&'a Draft>,
     pub(super) draft_number: u64,
     id: Id,
-    faults: &'a [Fault],
-    /// Keys whose faults a control showed in the frame before, and those of this one.
+    errors: &'a [SceneError],
+    /// Keys whose errors a control showed in the frame before, and those of this one.
     claimed: BTreeSet<String>,
     claims: BTreeSet<String>,
     gesture: Option<Id>,
@@ -65,7 +65,7 @@ pub(super) struct Form<'a> {
 impl<'a> Form<'a> {
     pub(super) fn new(
         ui: &Ui,
-        facts: &Facts<'a>,
+        facts: &DesignInput<'a>,
         gesture: Option<Id>,
         claimed: BTreeSet<String>,
     ) -> Self {
@@ -75,7 +75,7 @@ impl<'a> Form<'a> {
             draft: facts.draft,
             draft_number: facts.draft_number,
             id: ui.make_persistent_id("design"),
-            faults: facts.faults,
+            errors: facts.errors,
             claimed,
             claims: BTreeSet::new(),
             gesture,
@@ -83,7 +83,7 @@ impl<'a> Form<'a> {
         }
     }
 
-    /// The change made, the gesture under way, and the keys whose faults were shown by a control.
+    /// The change made, the gesture under way, and the keys whose errors were shown by a control.
     pub(super) fn finish(self, ui: &Ui) -> (Option<Change>, Option<Id>, BTreeSet<String>) {
         if self.claims != self.claimed {
             ui.request_repaint();
@@ -121,7 +121,7 @@ impl<'a> Form<'a> {
         ui.scope_builder(builder, |ui| add(self, ui)).inner
     }
 
-    /// A section that opens and closes; faults of its `tables` that no control shows stand at its top.
+    /// A section that opens and closes; errors of its `tables` that no control shows stand at its top.
     pub(super) fn section(
         &mut self,
         ui: &mut Ui,
@@ -130,7 +130,7 @@ impl<'a> Form<'a> {
         tables: &[&str],
         add: impl FnOnce(&mut Self, &mut Ui),
     ) {
-        let wrong = self.faults.iter().any(|f| is_within(f, tables));
+        let wrong = self.errors.iter().any(|f| is_within(f, tables));
         let mut text = RichText::new(title).strong();
         if wrong {
             text = text.color(ui.visuals().error_fg_color);
@@ -163,46 +163,46 @@ impl<'a> Form<'a> {
                 add(form, ui, label);
             });
         });
-        self.faults_of(ui, &field.key);
+        self.errors_of(ui, &field.key);
     }
 
     /// What is wrong with a key, in red, below its control.
-    pub(super) fn faults_of(&mut self, ui: &mut Ui, key: &str) {
-        for fault in self.faults {
-            if let Some(at) = fault.key.as_deref().filter(|at| is_at(at, key)) {
+    pub(super) fn errors_of(&mut self, ui: &mut Ui, key: &str) {
+        for error in self.errors {
+            if let Some(at) = error.key.as_deref().filter(|at| is_at(at, key)) {
                 self.claims.insert(at.to_owned());
-                message(ui, fault);
+                message(ui, error);
             }
         }
     }
 
     /// What is wrong with a key itself, not with an element of it.
-    pub(super) fn faults_exactly_at(&mut self, ui: &mut Ui, key: &str) {
-        for fault in self.faults {
-            if fault.key.as_deref() == Some(key) {
+    pub(super) fn errors_exactly_at(&mut self, ui: &mut Ui, key: &str) {
+        for error in self.errors {
+            if error.key.as_deref() == Some(key) {
                 self.claims.insert(key.to_owned());
-                message(ui, fault);
+                message(ui, error);
             }
         }
     }
 
     /// Faults that belong to no section.
-    pub(super) fn general_faults(&mut self, ui: &mut Ui) {
-        for fault in self.faults {
-            if !is_within(fault, &TABLES) {
-                message(ui, fault);
+    pub(super) fn general_errors(&mut self, ui: &mut Ui) {
+        for error in self.errors {
+            if !is_within(error, &TABLES) {
+                message(ui, error);
             }
         }
     }
 
     fn unclaimed(&self, ui: &mut Ui, tables: &[&str]) {
-        for fault in self.faults {
-            let is_claimed = fault
+        for error in self.errors {
+            let is_claimed = error
                 .key
                 .as_ref()
                 .is_some_and(|key| self.claimed.contains(key));
-            if is_within(fault, tables) && !is_claimed {
-                message(ui, fault);
+            if is_within(error, tables) && !is_claimed {
+                message(ui, error);
             }
         }
     }
@@ -230,20 +230,20 @@ pub(super) fn note(ui: &Ui, text: impl Into<String>) -> RichText {
     RichText::new(text).size(NOTE_SIZE).color(colour)
 }
 
-fn message(ui: &mut Ui, fault: &Fault) {
-    let text = RichText::new(&fault.message)
+fn message(ui: &mut Ui, error: &SceneError) {
+    let text = RichText::new(&error.message)
         .size(NOTE_SIZE)
         .color(ui.visuals().error_fg_color);
     ui.add(egui::Label::new(text).wrap());
 }
 
-/// Whether a fault at the key `at` is one of `key` or of an element of it.
+/// Whether a error at the key `at` is one of `key` or of an element of it.
 fn is_at(at: &str, key: &str) -> bool {
     let rest = at.strip_prefix(key);
     rest.is_some_and(|rest| rest.is_empty() || rest.starts_with('.'))
 }
 
-fn is_within(fault: &Fault, tables: &[&str]) -> bool {
-    let table = fault.key.as_deref().and_then(|key| key.split('.').next());
+fn is_within(error: &SceneError, tables: &[&str]) -> bool {
+    let table = error.key.as_deref().and_then(|key| key.split('.').next());
     table.is_some_and(|table| tables.contains(&table))
 }

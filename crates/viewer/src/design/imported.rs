@@ -5,9 +5,9 @@ use foldmotion_study::scene::{PatternScene, UnknownChoice};
 use foldmotion_study::{Draft, ImportedStudy, Scene};
 
 use super::choice::Way;
-use super::closed_forms::{Measures, fact};
+use super::closed_forms::{Measurements, fact};
 use super::form::{Field, Form, NOTE_SIZE};
-use super::number::{Number, Spoken, control_width, short};
+use super::number::{AccessibleName, Number, control_width, short};
 use super::profile::UNITS;
 
 const UNKNOWNS: [Way<UnknownChoice>; 2] = [
@@ -20,7 +20,7 @@ fn of(scene: &mut Scene) -> &mut PatternScene {
     scene.pattern.get_or_insert_default()
 }
 
-pub(super) fn show(measures: &mut Measures, form: &mut Form<'_>, ui: &mut Ui) {
+pub(super) fn show(measurements: &mut Measurements, form: &mut Form<'_>, ui: &mut Ui) {
     form.section(
         ui,
         "Pattern",
@@ -31,8 +31,8 @@ pub(super) fn show(measures: &mut Measures, form: &mut Form<'_>, ui: &mut Ui) {
             show_fold(form, ui);
             show_reading(form, ui);
             if let Some(Draft::Imported(study)) = form.draft {
-                measures.update(form);
-                show_facts(study, measures, ui);
+                measurements.update(form);
+                show_facts(study, measurements, ui);
             }
         },
     );
@@ -122,7 +122,7 @@ fn show_fold(form: &mut Form<'_>, ui: &mut Ui) {
         let mut first = given.as_ref().and_then(|list| list.first().copied());
         let hint = if is_none { "none" } else { "by file" };
         let number = Number::within(0.0..=1e6).whole().hint(hint);
-        let spoken = Spoken::By(label);
+        let spoken = AccessibleName::By(label);
         if form.whole_cell(ui, field.undo, spoken, &number, width, &mut first) {
             of(&mut form.scene).fixed = first.map(|facet| vec![facet]);
         }
@@ -164,7 +164,7 @@ fn show_reading(form: &mut Form<'_>, ui: &mut Ui) {
     form.number(ui, &field, &number, |scene| &mut of(scene).curve_tolerance);
 }
 
-fn show_facts(study: &ImportedStudy, measures: &Measures, ui: &mut Ui) {
+fn show_facts(study: &ImportedStudy, measurements: &Measurements, ui: &mut Ui) {
     let imported = &study.imported;
     ui.add_space(4.0);
     if let Some(title) = &imported.title {
@@ -177,7 +177,7 @@ fn show_facts(study: &ImportedStudy, measures: &Measures, ui: &mut Ui) {
         &length,
         "what gap and tolerances are measured in",
     );
-    measures.counts.show(ui);
+    measurements.counts.show(ui);
     let stages = study.waypoints.len();
     if stages > 1 {
         fact(ui, "stages", &stages.to_string(), "of the file");

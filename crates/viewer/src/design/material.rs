@@ -67,7 +67,7 @@ fn show_presets(form: &mut Form<'_>, ui: &mut Ui) {
             }
         });
     });
-    form.faults_of(ui, "material.preset");
+    form.errors_of(ui, "material.preset");
     let text = "only ratios shape the fold; a key below replaces that of the material above";
     ui.label(note(ui, text));
 }
@@ -104,7 +104,7 @@ fn show_facet_model(form: &mut Form<'_>, ui: &mut Ui) {
             }
         });
     });
-    form.faults_of(ui, "material.facet_model");
+    form.errors_of(ui, "material.facet_model");
 }
 
 fn show_constants(form: &mut Form<'_>, ui: &mut Ui, standard: &Material) {

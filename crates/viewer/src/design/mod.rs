@@ -10,21 +10,21 @@ mod closed_forms;
 mod creases;
 mod curve;
 mod form;
-mod handles;
+mod handle_editor;
 mod imported;
 mod knots;
 mod material;
 mod motion;
 mod number;
+mod pattern_preview;
 mod plane;
-mod preview;
 mod profile;
 mod record;
 mod sheet;
-mod size;
 mod step;
 #[cfg(test)]
 mod tests;
+mod unit_size;
 
 use std::collections::BTreeSet;
 
@@ -35,7 +35,7 @@ use form::Form;
 
 /// What the panel shows.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Facts<'a> {
+pub(crate) struct DesignInput<'a> {
     /// The scene as it is.
     pub(crate) scene: &'a Scene,
     /// The last draft that could be made, if any.
@@ -43,20 +43,20 @@ pub(crate) struct Facts<'a> {
     /// Another number for each draft: what is drawn of it is kept until the number changes.
     pub(crate) draft_number: u64,
     /// What is wrong with the scene.
-    pub(crate) faults: &'a [Fault],
+    pub(crate) errors: &'a [SceneError],
 }
 
 /// Something wrong with the scene.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub(crate) struct Fault {
-    /// The dotted key at fault, where one is.
+pub(crate) struct SceneError {
+    /// The dotted key at error, where one is.
     pub(crate) key: Option<String>,
     /// What is wrong, and what would be right.
     pub(crate) message: String,
 }
 
-impl Fault {
-    /// The fault that `error` says, at `key` where it is one's.
+impl SceneError {
+    /// The error that `error` says, at `key` where it is one's.
     pub(crate) fn new(key: Option<&str>, error: &impl ToString) -> Self {
         Self {
             key: key.map(str::to_owned),
@@ -83,13 +83,13 @@ pub(crate) struct DesignPanel {
     claims: BTreeSet<String>,
     profile: profile::ProfileSection,
     sheet: sheet::SheetSection,
-    preview: preview::Preview,
-    measures: closed_forms::Measures,
+    preview: pattern_preview::PatternPreview,
+    measurements: closed_forms::Measurements,
 }
 
 impl DesignPanel {
     /// Shows the panel. The change is what the user did in this frame, if anything; the caller applies it.
-    pub(crate) fn show(&mut self, ui: &mut egui::Ui, facts: &Facts<'_>) -> Option<Change> {
+    pub(crate) fn show(&mut self, ui: &mut egui::Ui, facts: &DesignInput<'_>) -> Option<Change> {
         if !ui.input(|input| input.pointer.any_down())
             && ui.input(|input| input.keys_down.is_empty())
         {
@@ -97,13 +97,13 @@ impl DesignPanel {
         }
         let mut form = Form::new(ui, facts, self.gesture, std::mem::take(&mut self.claims));
         ui.spacing_mut().item_spacing.y = 4.0;
-        form.general_faults(ui);
+        form.general_errors(ui);
         if facts.scene.pattern.is_some() {
-            imported::show(&mut self.measures, &mut form, ui);
+            imported::show(&mut self.measurements, &mut form, ui);
         } else {
             self.profile.show(&mut form, ui);
             self.sheet.show(&mut form, ui);
-            self.measures.show(&mut form, ui);
+            self.measurements.show(&mut form, ui);
         }
         self.preview.show(&mut form, ui);
         material::show(&mut form, ui);

@@ -6,7 +6,7 @@ use foldmotion_study::scene::{EngineChoice, StageChoice, StepScene, UnfoldChoice
 use super::choice::Way;
 use super::form::{Field, Form, note};
 use super::number::Number;
-use super::step::{Order, show_step};
+use super::step::{StepAction, show_step};
 
 const ENGINES: [Way<EngineChoice>; 2] = [
     (
@@ -107,7 +107,7 @@ fn show_steps(form: &mut Form<'_>, ui: &mut Ui) {
     ui.add_space(2.0);
     let text = "Schedule: creases that no step names follow the ramp of their stage";
     ui.label(note(ui, text));
-    form.faults_exactly_at(ui, "motion.step");
+    form.errors_exactly_at(ui, "motion.step");
     let count = form.scene.motion.step.len();
     let mut order = None;
     for index in 0..count {
@@ -118,15 +118,15 @@ fn show_steps(form: &mut Form<'_>, ui: &mut Ui) {
     if let Some((index, (asked, id))) = order {
         let steps = &mut form.scene.motion.step;
         let label = match asked {
-            Order::Remove => {
+            StepAction::Remove => {
                 steps.remove(index);
                 "remove step"
             }
-            Order::Up => {
+            StepAction::Up => {
                 steps.swap(index - 1, index);
                 "move step"
             }
-            Order::Down => {
+            StepAction::Down => {
                 steps.swap(index, index + 1);
                 "move step"
             }

@@ -14,7 +14,7 @@ pub(super) const RESET_WIDTH: f32 = 20.0;
 #[derive(Debug, Clone)]
 pub(super) struct Number {
     /// Where a drag ends; what is typed may lie beyond.
-    comfort: RangeInclusive<f64>,
+    drag_range: RangeInclusive<f64>,
     /// The value that holds where the key is left out.
     default: Option<f64>,
     /// What stands in the empty field where there is no such number.
@@ -25,9 +25,9 @@ pub(super) struct Number {
 }
 
 impl Number {
-    pub(super) fn within(comfort: RangeInclusive<f64>) -> Self {
+    pub(super) fn within(drag_range: RangeInclusive<f64>) -> Self {
         Self {
-            comfort,
+            drag_range,
             default: None,
             hint: "none",
             speed: None,
@@ -60,7 +60,7 @@ impl Number {
     fn show(&self, ui: &mut Ui, width: f32, value: &mut Option<f64>) -> egui::Response {
         let start = self
             .default
-            .unwrap_or_else(|| 1.0_f64.clamp(*self.comfort.start(), *self.comfort.end()));
+            .unwrap_or_else(|| 1.0_f64.clamp(*self.drag_range.start(), *self.drag_range.end()));
         let editing = ui.memory(|memory| memory.has_focus(ui.next_auto_id()));
         let is_left_out = value.is_none();
         let (hint, default) = (self.hint, self.default);
@@ -91,7 +91,8 @@ impl Number {
             .custom_parser(parsed);
         let response = ui.add(field);
         if response.dragged() {
-            *value = value.map(|number| number.clamp(*self.comfort.start(), *self.comfort.end()));
+            *value =
+                value.map(|number| number.clamp(*self.drag_range.start(), *self.drag_range.end()));
         }
         response
     }
@@ -145,7 +146,7 @@ pub(super) fn control_width(ui: &Ui) -> f32 {
 
 /// What names a field to those who do not see it.
 #[derive(Debug, Clone, Copy)]
-pub(super) enum Spoken<'a> {
+pub(super) enum AccessibleName<'a> {
     /// The label on its left.
     By(Id),
     /// A name of its own.
@@ -164,7 +165,14 @@ impl Form<'_> {
         self.row(ui, field, |form, ui, label| {
             let width = control_width(ui);
             let mut value = *of(&mut form.scene);
-            if form.cell(ui, field.undo, Spoken::By(label), number, width, &mut value) {
+            if form.cell(
+                ui,
+                field.undo,
+                AccessibleName::By(label),
+                number,
+                width,
+                &mut value,
+            ) {
                 *of(&mut form.scene) = value;
             }
             if form.reset(ui, field, value.is_some()) {
@@ -188,7 +196,7 @@ impl Form<'_> {
             if form.whole_cell(
                 ui,
                 field.undo,
-                Spoken::By(label),
+                AccessibleName::By(label),
                 &number,
                 width,
                 &mut value,
@@ -206,7 +214,7 @@ impl Form<'_> {
         &mut self,
         ui: &mut Ui,
         undo: &'static str,
-        spoken: Spoken<'_>,
+        spoken: AccessibleName<'_>,
         number: &Number,
         width: f32,
         value: &mut Option<f64>,
@@ -218,8 +226,8 @@ impl Form<'_> {
             self.record(undo, response.id, response.dragged());
         }
         match spoken {
-            Spoken::By(label) => response.labelled_by(label),
-            Spoken::As(name) => response.accessible_name(name),
+            AccessibleName::By(label) => response.labelled_by(label),
+            AccessibleName::As(name) => response.accessible_name(name),
         };
         is_changed
     }
@@ -229,7 +237,7 @@ impl Form<'_> {
         &mut self,
         ui: &mut Ui,
         undo: &'static str,
-        spoken: Spoken<'_>,
+        spoken: AccessibleName<'_>,
         number: &Number,
         width: f32,
         value: &mut Option<i64>,
@@ -253,7 +261,14 @@ impl Form<'_> {
         before: f64,
     ) -> Option<f64> {
         let mut value = Some(before);
-        let is_changed = self.cell(ui, undo, Spoken::As(name), number, width, &mut value);
+        let is_changed = self.cell(
+            ui,
+            undo,
+            AccessibleName::As(name),
+            number,
+            width,
+            &mut value,
+        );
         value.filter(|_| is_changed)
     }
 

@@ -143,11 +143,11 @@ pub(super) fn bounds(points: impl IntoIterator<Item = DVec2>) -> [DVec2; 2] {
 
 /// The view that the user chose; what fits until then.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
-pub(super) struct View {
+pub(super) struct PlaneView {
     chosen: Option<(DVec2, f64)>,
 }
 
-impl View {
+impl PlaneView {
     /// Back to the view that fits.
     pub(super) fn fit(&mut self) {
         self.chosen = None;
@@ -158,7 +158,7 @@ impl View {
     }
 
     /// Keeps the view as it is, whatever its contents become.
-    pub(super) fn keep(&mut self, plane: &Plane) {
+    pub(super) fn pin(&mut self, plane: &Plane) {
         self.chosen = Some((plane.centre, plane.scale));
     }
 
@@ -177,7 +177,7 @@ impl View {
         let moves = [egui::PointerButton::Secondary, egui::PointerButton::Middle];
         if moves.into_iter().any(|button| response.dragged_by(button)) {
             plane.centre -= plane.vector(response.drag_delta());
-            self.keep(&plane);
+            self.pin(&plane);
         }
         if let Some(place) = response.hover_pos().filter(|_| response.contains_pointer()) {
             let factor = taken_zoom(ui);
@@ -186,7 +186,7 @@ impl View {
                 let fixed = plane.to_plane(place);
                 plane.scale = scale;
                 plane.centre += fixed - plane.to_plane(place);
-                self.keep(&plane);
+                self.pin(&plane);
             }
         }
         plane

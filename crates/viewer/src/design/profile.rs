@@ -8,7 +8,7 @@ use foldmotion_study::{Draft, models};
 use super::canvas::Canvas;
 use super::choice::Way;
 use super::curve::{
-    Origin, into_control_points, into_file, into_model, into_points, model, own_profile,
+    ProfileKind, into_control_points, into_file, into_model, into_points, model, own_profile,
 };
 use super::form::{Field, Form, note};
 use super::number::{Number, control_width, short};
@@ -50,45 +50,55 @@ pub(super) struct ProfileSection {
 impl ProfileSection {
     pub(super) fn show(&mut self, form: &mut Form<'_>, ui: &mut Ui) {
         form.section(ui, "Profile", true, &["profile"], |form, ui| {
-            self.show_origin(form, ui);
+            self.show_kinds(form, ui);
             self.canvas.show(form, ui);
             show_division(form, ui);
             self.show_buttons(form, ui);
-            form.faults_of(ui, "profile.control_points");
-            form.faults_of(ui, "profile.points");
-            form.faults_of(ui, "profile.knots");
+            form.errors_of(ui, "profile.control_points");
+            form.errors_of(ui, "profile.points");
+            form.errors_of(ui, "profile.knots");
             show_keys(form, ui);
         });
     }
 
     /// Where the curve comes from.
-    fn show_origin(&mut self, form: &mut Form<'_>, ui: &mut Ui) {
-        let at = Origin::of(&form.scene.profile);
-        self.names_file &= at != Origin::File;
-        let shown = if self.names_file { Origin::File } else { at };
+    fn show_kinds(&mut self, form: &mut Form<'_>, ui: &mut Ui) {
+        let at = ProfileKind::of(&form.scene.profile);
+        self.names_file &= at != ProfileKind::File;
+        let shown = if self.names_file {
+            ProfileKind::File
+        } else {
+            at
+        };
         let ways = [
             (
-                Origin::Model,
+                ProfileKind::Model,
                 "built-in",
                 "a profile of figure 6 and table 1 of the paper",
             ),
             (
-                Origin::ControlPoints,
+                ProfileKind::ControlPoints,
                 "control points",
                 "a cubic NURBS with unit weights (section 2 of the paper)",
             ),
-            (Origin::Points, "points", "a cubic spline through points"),
-            (Origin::File, "file", "points of a .csv, .dat or .dxf file"),
+            (
+                ProfileKind::Points,
+                "points",
+                "a cubic spline through points",
+            ),
+            (
+                ProfileKind::File,
+                "file",
+                "points of a .csv, .dat or .dxf file",
+            ),
         ];
-        form.part(ui, "profile origin", |form, ui| {
+        form.part(ui, "profile kind", |form, ui| {
             ui.horizontal_wrapped(|ui| {
-                for (origin, name, tip) in ways {
-                    let option = ui
-                        .selectable_label(origin == shown, name)
-                        .on_hover_text(tip);
-                    if option.clicked() && origin != shown {
-                        self.names_file = origin == Origin::File;
-                        if turn_into(form, origin) {
+                for (kind, name, tip) in ways {
+                    let option = ui.selectable_label(kind == shown, name).on_hover_text(tip);
+                    if option.clicked() && kind != shown {
+                        self.names_file = kind == ProfileKind::File;
+                        if turn_into(form, kind) {
                             form.record("change the kind of profile", option.id, false);
                         }
                     }
@@ -96,9 +106,9 @@ impl ProfileSection {
             });
         });
         match shown {
-            Origin::Model => show_models(form, ui),
-            Origin::File => show_file(form, ui),
-            Origin::ControlPoints | Origin::Points => {}
+            ProfileKind::Model => show_models(form, ui),
+            ProfileKind::File => show_file(form, ui),
+            ProfileKind::ControlPoints | ProfileKind::Points => {}
         }
     }
 
@@ -112,11 +122,11 @@ impl ProfileSection {
                 {
                     self.canvas.view.fit();
                 }
-                if Origin::of(&form.scene.profile) != Origin::ControlPoints {
+                if ProfileKind::of(&form.scene.profile) != ProfileKind::ControlPoints {
                     let edit = ui
                         .small_button("edit as control points")
                         .on_hover_text("the same curve, its control points free to move");
-                    if edit.clicked() && turn_into(form, Origin::ControlPoints) {
+                    if edit.clicked() && turn_into(form, ProfileKind::ControlPoints) {
                         form.record("edit as control points", edit.id, false);
                     }
                 }
@@ -124,26 +134,26 @@ impl ProfileSection {
         });
         let has_handles = super::curve::handles(&form.scene.profile).is_some();
         if has_handles {
-            self.canvas.hand.show_fields(form, ui);
+            self.canvas.handle_editor.show_fields(form, ui);
         }
     }
 }
 
 /// Writes the curve in another way; false where it stays as it is for now.
-fn turn_into(form: &mut Form<'_>, origin: Origin) -> bool {
+fn turn_into(form: &mut Form<'_>, kind: ProfileKind) -> bool {
     let drawn = form
         .draft
         .and_then(Draft::units)
         .map(|draft| &draft.profile);
-    match origin {
-        Origin::Model => {
+    match kind {
+        ProfileKind::Model => {
             let name = models().first().map_or("shelter", |model| model.name);
             into_model(&mut form.scene, name);
             true
         }
-        Origin::ControlPoints => into_control_points(&mut form.scene, drawn),
-        Origin::Points => into_points(&mut form.scene, drawn),
-        Origin::File => false,
+        ProfileKind::ControlPoints => into_control_points(&mut form.scene, drawn),
+        ProfileKind::Points => into_points(&mut form.scene, drawn),
+        ProfileKind::File => false,
     }
 }
 
@@ -167,8 +177,8 @@ fn show_models(form: &mut Form<'_>, ui: &mut Ui) {
         let mut chosen = None;
         let response = menu.show_ui(ui, |ui| {
             for model in models() {
-                let kind = if model.is_closed() { "closed" } else { "open" };
-                let text = format!("{} ({kind}): {}", model.name, model.title);
+                let ends = if model.is_closed() { "closed" } else { "open" };
+                let text = format!("{} ({ends}): {}", model.name, model.title);
                 let is_chosen = given.as_deref() == Some(model.name);
                 if ui.selectable_label(is_chosen, text).clicked() && !is_chosen {
                     chosen = Some(model.name);

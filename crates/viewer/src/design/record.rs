@@ -5,7 +5,7 @@ use foldmotion_study::scene::{ColourChoice, HoldScene, LoopChoice, OutputChoice,
 
 use super::choice::Way;
 use super::form::{Field, Form};
-use super::number::{Number, Spoken, control_width, short};
+use super::number::{AccessibleName, Number, control_width, short};
 
 const DEFAULT_OUTPUTS: [OutputChoice; 3] =
     [OutputChoice::Fold, OutputChoice::Gif, OutputChoice::Csv];
@@ -76,7 +76,7 @@ fn show_outputs(form: &mut Form<'_>, ui: &mut Ui) {
             }
         });
     });
-    form.faults_of(ui, "record.outputs");
+    form.errors_of(ui, "record.outputs");
 }
 
 fn tip_of(output: OutputChoice) -> &'static str {
@@ -110,7 +110,14 @@ fn pair(
         for (index, name) in names.into_iter().enumerate() {
             let number = number.clone().default(default[index]);
             let mut one = value.map(|values| values[index]);
-            if form.cell(ui, field.undo, Spoken::As(name), &number, width, &mut one) {
+            if form.cell(
+                ui,
+                field.undo,
+                AccessibleName::As(name),
+                &number,
+                width,
+                &mut one,
+            ) {
                 *value = one.map(|one| {
                     let mut values = before.unwrap_or(default);
                     values[index] = one;

@@ -10,7 +10,7 @@ use super::choice::Way;
 use super::curve::{columns_case, model};
 use super::form::{Field, Form, note};
 use super::number::{Number, short};
-use super::size::{Size, USUAL_LAMBDA, own_case};
+use super::unit_size::{USUAL_LAMBDA, UnitSize, own_case};
 
 const CASES: [Way<CaseChoice>; 6] = [
     (
@@ -132,7 +132,7 @@ impl SheetSection {
                 ui.add_space(4.0);
                 for (case, name, tip) in CASES {
                     let why_not = own_case(case)
-                        .and_then(|own| Size::of(form, Some(case))?.contradiction(own))
+                        .and_then(|own| UnitSize::of(form, Some(case))?.contradiction(own))
                         .filter(|_| case != given);
                     let option = ui.add_enabled_ui(why_not.is_none(), |ui| {
                         ui.selectable_label(case == given, name)
@@ -151,7 +151,7 @@ impl SheetSection {
             self.choose(form, case);
             form.record("change the case", id, false);
         }
-        form.faults_of(ui, "sheet.case");
+        form.errors_of(ui, "sheet.case");
     }
 
     /// Takes a case, with λ and d only where they belong to it.
@@ -172,7 +172,7 @@ impl SheetSection {
 }
 
 fn show_counts(form: &mut Form<'_>, ui: &mut Ui) {
-    let size = Size::of(form, form.scene.sheet.case);
+    let size = UnitSize::of(form, form.scene.sheet.case);
     let default = size.and_then(|size| Some(size.width? * size.columns as f64));
     let field = Field::new(
         "sheet.width",
@@ -203,14 +203,14 @@ fn show_counts(form: &mut Form<'_>, ui: &mut Ui) {
     let number = Number::within(1.0..=1000.0).default(columns).hint("needed");
     form.whole(ui, &field, number, |scene| &mut scene.sheet.columns);
     let text = match size {
-        Some(Size {
+        Some(UnitSize {
             width: Some(w),
             height: h,
             ..
         }) => {
             format!("w = {}, h = {}, w/h = {}", short(w), short(h), short(w / h))
         }
-        Some(Size { height: h, .. }) => format!("h = {}; w needs a width", short(h)),
+        Some(UnitSize { height: h, .. }) => format!("h = {}; w needs a width", short(h)),
         None => "w and h are not known yet".to_owned(),
     };
     ui.label(note(ui, text))
@@ -220,7 +220,7 @@ fn show_counts(form: &mut Form<'_>, ui: &mut Ui) {
 /// λ and d, where they mean something or stand in the scene.
 fn show_widths(form: &mut Form<'_>, ui: &mut Ui) {
     let sheet = &form.scene.sheet;
-    let size = Size::of(form, sheet.case).and_then(|size| Some((size.width?, size.height)));
+    let size = UnitSize::of(form, sheet.case).and_then(|size| Some((size.width?, size.height)));
     let is_common_flap = sheet.unequal == Some(UnequalChoice::CommonFlap);
     let is_sii = sheet.case == Some(CaseChoice::SII);
     let may_be_sii = matches!(sheet.case, None | Some(CaseChoice::Auto))

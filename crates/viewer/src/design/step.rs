@@ -5,7 +5,7 @@ use foldmotion_study::scene::{CreasesChoice, EaseChoice, StageChoice, StepScene}
 
 use super::choice::Way;
 use super::form::{Field, Form};
-use super::number::{Number, Spoken, control_width};
+use super::number::{AccessibleName, Number, control_width};
 
 const CREASES: [Way<CreasesChoice>; 8] = [
     (CreasesChoice::All, "all", "every crease"),
@@ -47,7 +47,7 @@ type Range = fn(&mut StepScene) -> &mut Option<Vec<i64>>;
 
 /// What is to become of a step in the list.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Order {
+pub(super) enum StepAction {
     Up,
     Down,
     Remove,
@@ -59,7 +59,7 @@ pub(super) fn show_step(
     ui: &mut Ui,
     index: usize,
     count: usize,
-) -> Option<(Order, Id)> {
+) -> Option<(StepAction, Id)> {
     let ground = ui.visuals().faint_bg_color;
     let frame = Frame::new()
         .fill(ground)
@@ -71,7 +71,7 @@ pub(super) fn show_step(
             let order = form.part(ui, &format!("motion.step.{index}"), |_, ui| {
                 ui.horizontal(|ui| show_head(ui, index, count)).inner
             });
-            form.faults_exactly_at(ui, &format!("motion.step.{index}"));
+            form.errors_exactly_at(ui, &format!("motion.step.{index}"));
             show_what(form, ui, index);
             show_when(form, ui, index);
             order
@@ -79,13 +79,13 @@ pub(super) fn show_step(
         .inner
 }
 
-fn show_head(ui: &mut Ui, index: usize, count: usize) -> Option<(Order, Id)> {
+fn show_head(ui: &mut Ui, index: usize, count: usize) -> Option<(StepAction, Id)> {
     let number = index + 1;
     ui.label(RichText::new(format!("step {number}")).strong());
     let buttons = [
-        ("up", Order::Up, index > 0),
-        ("down", Order::Down, index + 1 < count),
-        ("remove", Order::Remove, true),
+        ("up", StepAction::Up, index > 0),
+        ("down", StepAction::Down, index + 1 < count),
+        ("remove", StepAction::Remove, true),
     ];
     let mut asked = None;
     for (name, order, is_possible) in buttons {
@@ -103,7 +103,7 @@ fn show_head(ui: &mut Ui, index: usize, count: usize) -> Option<(Order, Id)> {
 }
 
 /// A small button with a painted sign: fonts at hand have no arrows.
-fn sign_button(ui: &mut Ui, order: Order) -> egui::Response {
+fn sign_button(ui: &mut Ui, order: StepAction) -> egui::Response {
     let (rect, response) = ui.allocate_exact_size(vec2(18.0, 18.0), egui::Sense::click());
     response.widget_info(|| {
         egui::WidgetInfo::labeled(egui::accesskit::Role::Button, ui.is_enabled(), "")
@@ -114,9 +114,9 @@ fn sign_button(ui: &mut Ui, order: Order) -> egui::Response {
     let stroke = Stroke::new(1.5, visuals.fg_stroke.color);
     let at = |x: f32, y: f32| rect.center() + vec2(x, y);
     match order {
-        Order::Up => painter.line(vec![at(-4.0, 2.0), at(0.0, -2.5), at(4.0, 2.0)], stroke),
-        Order::Down => painter.line(vec![at(-4.0, -2.0), at(0.0, 2.5), at(4.0, -2.0)], stroke),
-        Order::Remove => {
+        StepAction::Up => painter.line(vec![at(-4.0, 2.0), at(0.0, -2.5), at(4.0, 2.0)], stroke),
+        StepAction::Down => painter.line(vec![at(-4.0, -2.0), at(0.0, 2.5), at(4.0, -2.0)], stroke),
+        StepAction::Remove => {
             painter.line_segment([at(-3.5, -3.5), at(3.5, 3.5)], stroke);
             painter.line_segment([at(-3.5, 3.5), at(3.5, -3.5)], stroke)
         }
@@ -207,11 +207,11 @@ fn show_range(form: &mut Form<'_>, ui: &mut Ui, field: &Field, index: usize, of:
         let [spoken_first, spoken_last] =
             ["first", "last"].map(|end| format!("{end} of {}", field.name));
         let number = ends.clone().hint("all");
-        let spoken = Spoken::As(&spoken_first);
+        let spoken = AccessibleName::As(&spoken_first);
         let first_changed = form.whole_cell(ui, field.undo, spoken, &number, width, &mut first);
         ui.label("–");
         let number = ends.default(first.map(|first| first as f64)).hint("all");
-        let spoken = Spoken::As(&spoken_last);
+        let spoken = AccessibleName::As(&spoken_last);
         let last_changed = form.whole_cell(ui, field.undo, spoken, &number, width, &mut last);
         let range = match (first, last) {
             // Without a first one there is no last one; and a last one alone begins at 0.

@@ -97,26 +97,26 @@ pub(crate) fn write_whole(path: &Path, text: &str, durable: bool) -> io::Result<
 /// The scene with the relative files it names, seen from `old`, named as they are seen from `new`.
 pub(super) fn moved(scene: &Scene, old: &Path, new: &Path) -> Scene {
     let mut moved = scene.clone();
-    if resolved(old) == resolved(new) {
+    if real_path(old) == real_path(new) {
         return moved;
     }
     let profile = moved.profile.file.as_mut();
     let pattern = moved.pattern.as_mut().map(|pattern| &mut pattern.file);
     for file in profile.into_iter().chain(pattern) {
         if !file.is_empty() && Path::new(file.as_str()).is_relative() {
-            *file = seen_from(new, &old.join(file.as_str()));
+            *file = relative_to(new, &old.join(file.as_str()));
         }
     }
     moved
 }
 
 /// How a scene in `folder` names a file: by the way to it, or from the root where they share no folder.
-pub(super) fn seen_from(folder: &Path, file: &Path) -> String {
-    let folder = resolved(folder);
+pub(super) fn relative_to(folder: &Path, file: &Path) -> String {
+    let folder = real_path(folder);
     // A link keeps its own name.
     let file = match file.file_name() {
-        Some(name) => resolved(&folder_of(file)).join(name),
-        None => resolved(file),
+        Some(name) => real_path(&folder_of(file)).join(name),
+        None => real_path(file),
     };
     let pairs = folder.components().zip(file.components());
     let shared = pairs.take_while(|(a, b)| a == b);
@@ -133,17 +133,17 @@ pub(super) fn seen_from(folder: &Path, file: &Path) -> String {
 }
 
 /// The path from the root, without links as far as it exists.
-fn resolved(path: &Path) -> PathBuf {
+fn real_path(path: &Path) -> PathBuf {
     let whole = std::path::absolute(path).unwrap_or_else(|_| path.to_owned());
     if let Ok(real) = whole.canonicalize() {
         return real;
     }
     match (whole.parent(), whole.components().next_back()) {
         (Some(parent), Some(Component::ParentDir)) => {
-            let parent = resolved(parent);
+            let parent = real_path(parent);
             parent.parent().unwrap_or(&parent).to_owned()
         }
-        (Some(parent), Some(last)) => resolved(parent).join(last),
+        (Some(parent), Some(last)) => real_path(parent).join(last),
         _ => whole,
     }
 }

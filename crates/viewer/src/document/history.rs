@@ -40,7 +40,7 @@ impl History {
     }
 
     /// The next change starts a step of its own.
-    pub(super) fn settle(&mut self) {
+    pub(super) fn end_step(&mut self) {
         self.open = false;
     }
 
@@ -130,7 +130,7 @@ mod tests {
         assert!(history.undo().is_none());
         history.redo();
         history.record(step("c", "d"), true);
-        history.settle();
+        history.end_step();
         history.record(step("d", "e"), true);
         for before in ["d", "c", "a"] {
             assert_eq!(&*history.undo().unwrap().before, before);

@@ -25,7 +25,7 @@ const UNTITLED: &str = "untitled.toml";
 #[derive(Debug)]
 pub(crate) struct Document {
     /// Names the scene; relative files that it names are beside this.
-    place: PathBuf,
+    location: PathBuf,
     /// Where it was last read or written; none for a new scene and one of a crease pattern.
     path: Option<PathBuf>,
     text: Arc<str>,
@@ -62,16 +62,16 @@ impl Document {
     }
 
     /// A scene as it was left unsaved: `base` is what its file said. The restored text can be undone.
-    pub(crate) fn restored(place: &Path, path: Option<&Path>, base: &str, text: &str) -> Self {
-        let mut document = Self::with(place.to_owned(), path.map(Path::to_owned), base);
-        document.put(text.into(), "restored changes", false);
+    pub(crate) fn restored(location: &Path, path: Option<&Path>, base: &str, text: &str) -> Self {
+        let mut document = Self::with(location.to_owned(), path.map(Path::to_owned), base);
+        document.replace_text(text.into(), "restored changes", false);
         document
     }
 
-    fn with(place: PathBuf, path: Option<PathBuf>, text: &str) -> Self {
+    fn with(location: PathBuf, path: Option<PathBuf>, text: &str) -> Self {
         let text: Arc<str> = text.into();
         let mut document = Self {
-            place,
+            location,
             path,
             text: text.clone(),
             saved: text,
@@ -90,25 +90,25 @@ impl Document {
     }
 
     /// The file that it is named after: its own, the crease pattern it was made of, or one that does not exist yet.
-    pub(crate) fn place(&self) -> &Path {
-        &self.place
+    pub(crate) fn location(&self) -> &Path {
+        &self.location
     }
 
     /// The name of the file, or `untitled.toml`.
     pub(crate) fn name(&self) -> String {
-        let name = self.place.file_name().unwrap_or_default();
+        let name = self.location.file_name().unwrap_or_default();
         name.to_string_lossy().into_owned()
     }
 
     /// The folder that it lies in.
     pub(crate) fn folder(&self) -> PathBuf {
-        file::folder_of(&self.place)
+        file::folder_of(&self.location)
     }
 
     /// The name it is to be saved under, unless another is chosen.
     pub(crate) fn name_to_save(&self) -> String {
-        let place = self.place.with_extension("toml");
-        let name = place.file_name().unwrap_or_default();
+        let path = self.location.with_extension("toml");
+        let name = path.file_name().unwrap_or_default();
         name.to_string_lossy().into_owned()
     }
 
@@ -121,9 +121,9 @@ impl Document {
         &self.saved
     }
 
-    /// The text with its place, ready to be resolved.
+    /// The text with its location, ready to be resolved.
     pub(crate) fn source(&self) -> SceneSource {
-        SceneSource::new(&self.place, self.text.to_string())
+        SceneSource::new(&self.location, self.text.to_string())
     }
 
     /// What the text says; while it has an error, what it last said.
@@ -148,7 +148,7 @@ impl Document {
 
     /// How the scene names a file, so that it is found from where the scene lies.
     pub(crate) fn name_of(&self, path: &Path) -> String {
-        file::seen_from(&self.folder(), path)
+        file::relative_to(&self.folder(), path)
     }
 
     /// Makes the text say `scene`: only what differs is written. False, and nothing is changed, where the text has errors
@@ -162,7 +162,7 @@ impl Document {
         let Some(text) = edit::edited(&self.text, &self.scene, &scene) else {
             return false;
         };
-        let says = SceneSource::new(&self.place, text.clone()).scene();
+        let says = SceneSource::new(&self.location, text.clone()).scene();
         if !says.is_ok_and(|says| says == scene) {
             return false;
         }
@@ -174,25 +174,25 @@ impl Document {
 
     /// Replaces the text, as edited by hand.
     pub(crate) fn set_text(&mut self, text: &str, continues: bool) {
-        self.put(text.into(), "text", continues);
+        self.replace_text(text.into(), "text", continues);
     }
 
     /// The next change is undone by itself, even if it continues the last.
-    pub(crate) fn settle(&mut self) {
-        self.history.settle();
+    pub(crate) fn end_step(&mut self) {
+        self.history.end_step();
     }
 
     /// Takes the last change back; its label.
     pub(crate) fn undo(&mut self) -> Option<String> {
         let Step { label, before, .. } = self.history.undo()?.clone();
-        self.take(before);
+        self.set_current(before);
         Some(label)
     }
 
     /// Makes the last change that was taken back again; its label.
     pub(crate) fn redo(&mut self) -> Option<String> {
         let Step { label, after, .. } = self.history.redo()?.clone();
-        self.take(after);
+        self.set_current(after);
         Some(label)
     }
 
@@ -206,7 +206,7 @@ impl Document {
         self.history.last_undone()
     }
 
-    fn put(&mut self, text: Arc<str>, label: &str, continues: bool) {
+    fn replace_text(&mut self, text: Arc<str>, label: &str, continues: bool) {
         if text != self.text {
             self.record(text, label, continues);
             self.read_text();
@@ -224,7 +224,7 @@ impl Document {
         self.revision += 1;
     }
 
-    fn take(&mut self, text: Arc<str>) {
+    fn set_current(&mut self, text: Arc<str>) {
         self.text = text;
         self.revision += 1;
         self.read_text();
@@ -286,24 +286,24 @@ impl Document {
         let text = moved(&self.text).unwrap_or_else(|| self.text.to_string());
         write(path, &text)?;
         self.history.rewrite(moved);
-        path.clone_into(&mut self.place);
+        path.clone_into(&mut self.location);
         self.path = Some(path.to_owned());
         self.saved = text.into();
-        self.history.settle();
-        self.take(self.saved.clone());
+        self.history.end_step();
+        self.set_current(self.saved.clone());
         Ok(())
     }
 
     fn write(&mut self, path: &Path) -> Result<(), SaveError> {
         write(path, &self.text)?;
         self.saved = self.text.clone();
-        self.history.settle();
+        self.history.end_step();
         Ok(())
     }
 
     /// Goes back to the text as it was last read or written; that can be undone.
-    pub(crate) fn give_up(&mut self) {
-        self.put(self.saved.clone(), "edits given up", false);
+    pub(crate) fn revert(&mut self) {
+        self.replace_text(self.saved.clone(), "edits given up", false);
     }
 
     /// Reads its file again; that can be undone.
@@ -317,7 +317,7 @@ impl Document {
         file::check_readable(&path)?;
         let source = SceneSource::read(&path)?;
         self.saved = source.text().into();
-        self.put(self.saved.clone(), "read again", false);
+        self.replace_text(self.saved.clone(), "read again", false);
         Ok(())
     }
 }

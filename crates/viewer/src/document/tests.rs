@@ -61,7 +61,7 @@ fn changes_that_continue_are_one_step_and_no_change_is_none() {
     let revision = document.revision();
     assert!(rows(&mut document, 14, true));
     assert_eq!(document.revision(), revision);
-    document.settle();
+    document.end_step();
     assert!(rows(&mut document, 20, true));
     document.undo();
     assert_eq!(document.scene().sheet.rows, Some(14));

@@ -2,8 +2,8 @@
 
 use eframe::egui::{Context, Grid, Id, Key, Modal, Modifiers, ScrollArea, Ui};
 
+use super::appearance::modal_frame;
 use super::shortcuts::{Group, SHORTCUTS, written};
-use super::theme::modal_frame;
 
 /// The groups of the two columns.
 const COLUMNS: [&[Group]; 2] = [
@@ -141,25 +141,25 @@ mod tests {
     use egui_kittest::kittest::Queryable as _;
 
     use super::super::tests::drawn;
-    use super::super::{Look, apply};
+    use super::super::{Appearance, apply};
     use super::*;
 
-    fn harness(look: Look) -> Harness<'static, bool> {
+    fn harness(appearance: Appearance) -> Harness<'static, bool> {
         let builder = Harness::builder().with_size(vec2(900.0, 1000.0));
-        let theme = if look == Look::Light {
+        let theme = if appearance == Appearance::Light {
             Theme::Light
         } else {
             Theme::Dark
         };
         let builder = builder
             .with_theme(theme)
-            .with_context_setup(move |ctx| apply(ctx, look, 1.0));
+            .with_context_setup(move |ctx| apply(ctx, appearance, 1.0));
         builder.build_ui_state(|ui, open| show_help(ui.ctx(), open), true)
     }
 
     #[test]
     fn the_sheet_lists_every_command_with_its_keys() {
-        let mut harness = harness(Look::Dark);
+        let mut harness = harness(Appearance::Dark);
         harness.run();
         for shortcut in SHORTCUTS {
             harness.get_by_label(shortcut.name);
@@ -175,13 +175,13 @@ mod tests {
     #[test]
     fn escape_f1_and_the_button_close_the_sheet() {
         for close in [Key::Escape, Key::F1] {
-            let mut harness = harness(Look::Dark);
+            let mut harness = harness(Appearance::Dark);
             harness.run();
             harness.key_press(close);
             harness.run();
             assert!(!harness.state(), "{close:?}");
         }
-        let mut harness = harness(Look::Light);
+        let mut harness = harness(Appearance::Light);
         harness.run();
         harness.get_by_label("Close").click();
         harness.run();
@@ -191,11 +191,18 @@ mod tests {
     #[test]
     #[cfg_attr(not(gpu_tests), ignore = "no adapter: set FOLDMOTION_GPU_TESTS=yes")]
     fn the_sheet_is_drawn_dark_and_light() {
-        for (look, theme) in [(Look::Dark, Theme::Dark), (Look::Light, Theme::Light)] {
-            let mut harness = harness(look);
+        for (appearance, theme) in [
+            (Appearance::Dark, Theme::Dark),
+            (Appearance::Light, Theme::Light),
+        ] {
+            let mut harness = harness(appearance);
             harness.run();
             assert_eq!(harness.ctx.theme(), theme);
-            let lit = drawn(&mut harness, &format!("help-{}", look.name()), [450, 500]);
+            let lit = drawn(
+                &mut harness,
+                &format!("help-{}", appearance.name()),
+                [450, 500],
+            );
             assert_eq!(lit < 128, theme == Theme::Dark, "{lit}");
         }
     }

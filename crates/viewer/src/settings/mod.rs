@@ -1,10 +1,10 @@
 //! What the window remembers: recent files, looks, unsaved scenes; and how a file is chosen.
 
+mod appearance;
 mod help;
 mod picker;
 mod recent;
 mod shortcuts;
-mod theme;
 mod unsaved;
 mod view;
 
@@ -13,11 +13,11 @@ use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
 
+pub(crate) use appearance::{Appearance, SCALES, apply};
 pub(crate) use help::show_help;
-pub(crate) use picker::{Picked, Picker};
-pub(crate) use recent::Recent;
+pub(crate) use picker::{FilePicker, PickerResult};
+pub(crate) use recent::RecentFiles;
 pub(crate) use shortcuts::{Command, keys_of, name_of, pressed};
-pub(crate) use theme::{Look, SCALES, apply};
 pub(crate) use unsaved::{UnsavedScene, UnsavedScenes};
 pub(crate) use view::{Colour, PanelSettings, ViewSettings};
 
@@ -28,9 +28,10 @@ const KEY: &str = "settings";
 #[derive(Debug, Clone, Default, PartialEq, Serialize)]
 pub(crate) struct Settings {
     /// Files opened and saved.
-    pub(crate) recent: Recent,
+    pub(crate) recent: RecentFiles,
     /// Dark, light, or as the system is.
-    pub(crate) look: Look,
+    #[serde(rename = "look")]
+    pub(crate) appearance: Appearance,
     /// How large everything is.
     pub(crate) scale: Scale,
     /// How the sheet is shown.
@@ -85,7 +86,7 @@ impl Settings {
         };
         Self {
             recent: field(&stored, "recent"),
-            look: field(&stored, "look"),
+            appearance: field(&stored, "look"),
             scale: field(&stored, "scale"),
             view: field(&stored, "view"),
             panels: field(&stored, "panels"),
@@ -123,7 +124,7 @@ mod tests {
     #[test]
     fn settings_read_back_as_they_were_stored() {
         let mut settings = Settings::default();
-        settings.look = Look::Light;
+        settings.appearance = Appearance::Light;
         settings.scale = settings.scale.next();
         settings.view.creases = false;
         settings.panels.text = true;
@@ -136,8 +137,8 @@ mod tests {
     fn what_another_version_wrote_falls_back_field_by_field() {
         let json = r#"{"recent": 3, "look": "sepia", "scale": 1e9, "new": [], "view": {"creases": false, "later": 1}, "panels": {"text": "yes"}}"#;
         let settings = Settings::from_json(json);
-        assert_eq!(settings.look, Look::System);
-        assert_eq!(settings.recent, Recent::default());
+        assert_eq!(settings.appearance, Appearance::System);
+        assert_eq!(settings.recent, RecentFiles::default());
         assert_eq!(settings.scale.factor(), 2.0);
         assert!(!settings.view.creases && settings.view.profile);
         assert_eq!(settings.panels, PanelSettings::default());

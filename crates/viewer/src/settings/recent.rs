@@ -10,9 +10,9 @@ const MOST: usize = 10;
 /// Files that were opened or saved, the latest first, each once.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 #[serde(transparent)]
-pub(crate) struct Recent(Vec<String>);
+pub(crate) struct RecentFiles(Vec<String>);
 
-impl Recent {
+impl RecentFiles {
     /// Puts a file first. One whose path is no Unicode is not remembered.
     pub(crate) fn add(&mut self, path: &Path) {
         let path = path.canonicalize().unwrap_or_else(|_| path.to_owned());
@@ -52,7 +52,7 @@ mod tests {
     fn the_latest_come_first_each_once_ten_at_most_existing_ones_before_others() {
         let folder = tempfile::tempdir().unwrap();
         let file = |k: usize| folder.path().join(format!("{k}.toml"));
-        let mut recent = Recent::default();
+        let mut recent = RecentFiles::default();
         for k in 0..12 {
             std::fs::write(file(k), "").unwrap();
             recent.add(&file(k));

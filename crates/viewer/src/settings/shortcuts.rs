@@ -14,7 +14,7 @@ pub(crate) enum Command {
     Redo,
     Run,
     Cancel,
-    Hand,
+    Interact,
     Record,
     Play,
     PreviousFrame,
@@ -153,7 +153,7 @@ pub(super) const SHORTCUTS: &[Shortcut] = &[
         &[plain(Key::Escape)],
     ),
     row(
-        Command::Hand,
+        Command::Interact,
         "Take the sheet in the hand",
         Group::Motion,
         &[plain(Key::H)],
@@ -345,12 +345,12 @@ pub(super) const SHORTCUTS: &[Shortcut] = &[
 
 /// The name of a command in menus.
 pub(crate) fn name_of(command: Command) -> &'static str {
-    of(command).map_or("", |shortcut| shortcut.name)
+    shortcut_of(command).map_or("", |shortcut| shortcut.name)
 }
 
 /// The keys of a command as the system writes them, such as `Ctrl+S`.
 pub(crate) fn keys_of(ctx: &Context, command: Command) -> String {
-    let keys = of(command).and_then(|shortcut| shortcut.keys.first());
+    let keys = shortcut_of(command).and_then(|shortcut| shortcut.keys.first());
     keys.map_or_else(String::new, |&keys| written(ctx, keys))
 }
 
@@ -364,7 +364,7 @@ pub(super) fn written(ctx: &Context, keys: KeyboardShortcut) -> String {
     }
 }
 
-fn of(command: Command) -> Option<&'static Shortcut> {
+fn shortcut_of(command: Command) -> Option<&'static Shortcut> {
     SHORTCUTS
         .iter()
         .find(|shortcut| shortcut.command == command)

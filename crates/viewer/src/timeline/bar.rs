@@ -6,9 +6,9 @@ use eframe::egui::{
 };
 
 use super::axis::Axis;
-use super::curves::Curves;
 use super::playback::{Playback, Repeat};
-use super::strip::strip;
+use super::plot::Plots;
+use super::plot_view::show_plot;
 
 /// Height of the bar, points.
 const HEIGHT: f32 = 34.0;
@@ -32,20 +32,15 @@ pub(crate) struct Timeline;
 
 impl Timeline {
     /// Buttons, bar and curves; true where motion time was moved by hand.
-    pub(crate) fn show(
-        ui: &mut Ui,
-        playback: &mut Playback,
-        marks: &Marks,
-        curves: &Curves,
-    ) -> bool {
+    pub(crate) fn show(ui: &mut Ui, playback: &mut Playback, marks: &Marks, plots: &Plots) -> bool {
         let mut moved = buttons(ui, playback, marks);
         let axis = Axis::within(ui.available_rect_before_wrap(), playback.range);
         let response = bar(ui, playback, marks, &axis);
         moved |= keys(ui, &response, playback, marks) | scrub(&response, &axis, playback);
         ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
             ui.spacing_mut().item_spacing.y = 0.0;
-            for panel in &curves.panels {
-                let response = strip(ui, panel, &axis, playback.time);
+            for plot in &plots.plots {
+                let response = show_plot(ui, plot, &axis, playback.time);
                 moved |= scrub(&response, &axis, playback);
             }
         });
@@ -83,7 +78,12 @@ fn keys(ui: &Ui, response: &Response, playback: &mut Playback, marks: &Marks) ->
 fn buttons(ui: &mut Ui, playback: &mut Playback, marks: &Marks) -> bool {
     let mut moved = false;
     ui.horizontal(|ui| {
-        if icon(ui, Icon::Back, "Previous frame", "previous frame (comma)") {
+        if icon(
+            ui,
+            Icon::Previous,
+            "Previous frame",
+            "previous frame (comma)",
+        ) {
             playback.step(&marks.frames, false);
             moved = true;
         }
@@ -95,7 +95,7 @@ fn buttons(ui: &mut Ui, playback: &mut Playback, marks: &Marks) -> bool {
         if icon(ui, sign, name, "play or pause (space)") {
             playback.toggle();
         }
-        if icon(ui, Icon::On, "Next frame", "next frame (period)") {
+        if icon(ui, Icon::Next, "Next frame", "next frame (period)") {
             playback.step(&marks.frames, true);
             moved = true;
         }
@@ -112,7 +112,7 @@ fn buttons(ui: &mut Ui, playback: &mut Playback, marks: &Marks) -> bool {
             playback.go_to(time);
             moved = true;
         }
-        ui.label(RichText::new(stage_words(playback.time)).weak());
+        ui.label(RichText::new(stage_text(playback.time)).weak());
         ui.separator();
         let label = ui.label("speed");
         let [slowest, fastest] = Playback::SPEEDS;
@@ -138,10 +138,10 @@ fn buttons(ui: &mut Ui, playback: &mut Playback, marks: &Marks) -> bool {
 /// Signs of buttons, drawn: not every font has them.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Icon {
-    Back,
+    Previous,
     Play,
     Pause,
-    On,
+    Next,
 }
 
 /// A button with a sign; whether it was clicked.
@@ -151,8 +151,8 @@ fn icon(ui: &mut Ui, icon: Icon, name: &str, hint: &str) -> bool {
     let colour = ui.style().interact(&response).fg_stroke.color;
     let centre = response.rect.center();
     let painter = ui.painter();
-    let triangle = |x: f32, way: f32| {
-        let corner = |dx: f32, dy: f32| centre + vec2(x + way * dx, dy);
+    let triangle = |x: f32, direction: f32| {
+        let corner = |dx: f32, dy: f32| centre + vec2(x + direction * dx, dy);
         let corners = vec![corner(-4.0, -5.0), corner(4.5, 0.0), corner(-4.0, 5.0)];
         painter.add(Shape::convex_polygon(corners, colour, Stroke::NONE));
     };
@@ -167,11 +167,11 @@ fn icon(ui: &mut Ui, icon: Icon, name: &str, hint: &str) -> bool {
     match icon {
         Icon::Play => triangle(0.0, 1.0),
         Icon::Pause => [-3.0, 3.0].into_iter().for_each(bar),
-        Icon::Back => {
+        Icon::Previous => {
             bar(-5.0);
             triangle(1.5, -1.0);
         }
-        Icon::On => {
+        Icon::Next => {
             triangle(-1.5, 1.0);
             bar(5.0);
         }
@@ -180,7 +180,7 @@ fn icon(ui: &mut Ui, icon: Icon, name: &str, hint: &str) -> bool {
 }
 
 /// What the sheet does at motion time `t`.
-fn stage_words(t: f64) -> String {
+fn stage_text(t: f64) -> String {
     match t {
         0.0 => "deployed".to_owned(),
         1.0 => "planar".to_owned(),

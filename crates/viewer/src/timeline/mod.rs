@@ -2,11 +2,11 @@
 
 mod axis;
 mod bar;
-mod curves;
 mod playback;
-mod strip;
+mod plot;
+mod plot_view;
 
 pub(crate) use self::bar::{Marks, Timeline};
-pub(crate) use self::curves::{Curve, Curves, Panel};
 pub(crate) use self::playback::{Playback, Repeat};
-pub(crate) use self::strip::number;
+pub(crate) use self::plot::{Curve, Plot, Plots};
+pub(crate) use self::plot_view::number;

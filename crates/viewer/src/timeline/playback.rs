@@ -68,9 +68,14 @@ impl Playback {
             return;
         }
         let [first, last] = self.range;
-        let way = seconds * self.speed / Self::STAGE_SECONDS;
+        let direction = seconds * self.speed / Self::STAGE_SECONDS;
         let length = last - first;
-        let time = self.time + if self.is_backward { -way } else { way };
+        let time = self.time
+            + if self.is_backward {
+                -direction
+            } else {
+                direction
+            };
         if (first..=last).contains(&time) {
             self.time = time;
             return;

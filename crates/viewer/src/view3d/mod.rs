@@ -4,15 +4,15 @@
 //! fails, egui's painter draws the same plainly.
 
 mod creases;
-mod eye;
+mod fallback;
 mod gpu;
-mod hand;
-mod orbit;
+mod interaction;
+mod orbit_camera;
 mod paints;
 mod pick;
 mod picture;
-mod plain;
-mod pose;
+mod prepared;
+mod projection;
 mod segments;
 #[cfg(test)]
 mod tests;
@@ -23,16 +23,16 @@ use eframe::egui_wgpu::RenderState;
 use foldmotion_record::View;
 use glam::{DVec2, DVec3};
 
-use self::eye::Eye;
-use self::gpu::{Gpu, Watch};
-use self::orbit::Turning;
-use self::pick::Points;
-use self::plain::Plain;
-use self::pose::Pose;
+use self::fallback::FallbackRenderer;
+use self::gpu::{Gpu, LossMonitor};
+use self::orbit_camera::CameraTransition;
+use self::pick::ProjectedVertices;
+use self::prepared::PreparedSheet;
+use self::projection::Projection;
 
 pub(crate) use self::creases::CreaseClasses;
-pub(crate) use self::orbit::Orbit;
-pub(crate) use self::picture::{Colours, Handle, Overlay, Picture, Shape};
+pub(crate) use self::orbit_camera::OrbitCamera;
+pub(crate) use self::picture::{Colours, Overlay, Picture, Shape, VertexPull};
 
 /// Times that drawing is tried again on one device.
 const TRIES: u32 = 3;
@@ -41,33 +41,33 @@ const TRIES: u32 = 3;
 #[derive(Debug, Default)]
 pub(crate) struct View3d {
     id: Option<egui::Id>,
-    orbit: Orbit,
-    turning: Option<Turning>,
+    orbit: OrbitCamera,
+    transition: Option<CameraTransition>,
     /// Points to fit as soon as the size is known.
-    fitting: Option<Vec<DVec3>>,
+    pending_fit: Option<Vec<DVec3>>,
     /// The middle of the sheet, about which the view turns.
     pivot: DVec3,
     was_shown: bool,
-    pose: Option<Pose>,
-    points: Points,
+    prepared: Option<PreparedSheet>,
+    points: ProjectedVertices,
     /// The vertex that is being pulled.
     pulled: Option<u32>,
-    plain: Plain,
+    fallback: FallbackRenderer,
     gpu: Option<Gpu>,
-    watch: Option<Watch>,
+    monitor: Option<LossMonitor>,
     failures: u32,
-    fault: Option<String>,
+    error: Option<String>,
 }
 
 /// What the user did with the view and what is under the pointer.
 #[derive(Debug)]
-pub(crate) struct Seen {
+pub(crate) struct ViewResponse {
     /// The vertex under the pointer: within 12 points and not hidden by paper.
     pub(crate) vertex: Option<u32>,
     /// The triangle under the pointer.
     pub(crate) face: Option<u32>,
     /// The vertex that is being pulled, and where to: in the plane through it parallel to the screen.
-    pub(crate) pull: Option<Handle>,
+    pub(crate) pull: Option<VertexPull>,
 }
 
 impl View3d {
@@ -77,21 +77,23 @@ impl View3d {
     }
 
     /// The camera; while it turns, where to.
-    pub(crate) fn orbit(&self) -> Orbit {
-        self.turning.as_ref().map_or(self.orbit, Turning::end)
+    pub(crate) fn orbit(&self) -> OrbitCamera {
+        self.transition
+            .as_ref()
+            .map_or(self.orbit, CameraTransition::end)
     }
 
     /// Sets the camera at once.
-    pub(crate) fn set_orbit(&mut self, orbit: Orbit) {
+    pub(crate) fn set_orbit(&mut self, orbit: OrbitCamera) {
         self.orbit = orbit;
-        self.turning = None;
+        self.transition = None;
         self.was_shown = true;
     }
 
     /// Moves with a sheet that is shown elsewhere from now on.
-    pub(crate) fn follow_by(&mut self, way: DVec3) {
+    pub(crate) fn translate(&mut self, way: DVec3) {
         let orbit = self.orbit();
-        self.set_orbit(Orbit {
+        self.set_orbit(OrbitCamera {
             centre: orbit.centre + way,
             ..orbit
         });
@@ -100,23 +102,23 @@ impl View3d {
     /// Turns into a view, see [`View::NAMES`].
     pub(crate) fn look(&mut self, view: View) {
         let mut to = self.orbit();
-        to.stand(view, self.pivot);
-        self.turn_into(to);
+        to.set_view(view, self.pivot);
+        self.move_to(to);
     }
 
     /// Shows what is near larger, or not.
     pub(crate) fn set_perspective(&mut self, perspective: bool) {
         self.orbit.perspective = perspective;
-        let to = Orbit {
+        let to = OrbitCamera {
             perspective,
             ..self.orbit()
         };
-        self.turn_into(to);
+        self.move_to(to);
     }
 
     /// Shows all `points` as large as they fit.
     pub(crate) fn fit(&mut self, points: Vec<DVec3>) {
-        self.fitting = Some(points);
+        self.pending_fit = Some(points);
     }
 
     /// Pictures that the GPU drew.
@@ -125,17 +127,20 @@ impl View3d {
     }
 
     /// Why the GPU does not draw, where it should.
-    pub(crate) fn fault(&self) -> Option<&str> {
-        self.fault.as_deref()
+    pub(crate) fn error(&self) -> Option<&str> {
+        self.error.as_deref()
     }
 
-    fn turn_into(&mut self, to: Orbit) {
-        self.turning = (to != self.orbit).then(|| Turning::new(self.orbit, to));
+    fn move_to(&mut self, to: OrbitCamera) {
+        self.transition = (to != self.orbit).then(|| CameraTransition::new(self.orbit, to));
     }
 
     /// The least and the largest width of the view.
     fn widths(&self) -> [f64; 2] {
-        let radius = self.pose.as_ref().map_or(1.0, |pose| pose.ball.radius);
+        let radius = self
+            .prepared
+            .as_ref()
+            .map_or(1.0, |prepared| prepared.sphere.radius);
         [1e-3, 1e2].map(|part| part * radius.max(f64::MIN_POSITIVE))
     }
 
@@ -145,7 +150,7 @@ impl View3d {
         ui: &mut Ui,
         render_state: Option<&RenderState>,
         picture: &Picture<'_>,
-    ) -> Seen {
+    ) -> ViewResponse {
         let size = ui.available_size().max(egui::Vec2::splat(1.0));
         let (rect, response) = ui.allocate_exact_size(size, Sense::click_and_drag());
         let rect = rect.round_to_pixels(ui.pixels_per_point());
@@ -154,50 +159,56 @@ impl View3d {
         self.follow(picture);
         let size = DVec2::new(f64::from(rect.width()), f64::from(rect.height()));
         self.move_camera(ui, &response, rect, picture);
-        let ball = self.pose.as_ref().map(|pose| pose.ball);
+        let sphere = self.prepared.as_ref().map(|prepared| prepared.sphere);
         let overlays = segments::segments(picture);
         let ends = overlays.iter().flat_map(|segment| segment.ends);
-        let ball = ball.unwrap_or_else(|| eye::Ball::around([])).with(ends);
-        let eye = Eye::new(&self.orbit, size, ball);
+        let sphere = sphere
+            .unwrap_or_else(|| projection::Sphere::around([]))
+            .with(ends);
+        let projection = Projection::new(&self.orbit, size, sphere);
         ui.painter().rect_filled(rect, 0.0, picture.background);
         if !self.is_drawable(picture) {
-            return Seen {
+            return ViewResponse {
                 vertex: None,
                 face: None,
                 pull: None,
             };
         }
-        if let Some(texture) = self.texture(ui, render_state, picture, &eye, rect) {
+        if let Some(texture) = self.texture(ui, render_state, picture, &projection, rect) {
             let whole = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
             ui.painter().image(texture, rect, whole, Color32::WHITE);
         } else {
             let painter = ui.painter_at(rect);
-            self.plain
-                .paint(&painter, rect, picture, &eye, self.pose.as_ref());
+            self.fallback
+                .paint(&painter, rect, picture, &projection, self.prepared.as_ref());
             self.note(ui, rect, render_state.is_some());
         }
-        self.look_under_pointer(ui, &response, rect, picture, &eye)
+        self.pick(ui, &response, rect, picture, &projection)
     }
 
     fn is_drawable(&self, picture: &Picture<'_>) -> bool {
-        picture.is_whole() && self.pose.as_ref().is_some_and(|pose| pose.is_finite)
+        picture.is_whole()
+            && self
+                .prepared
+                .as_ref()
+                .is_some_and(|prepared| prepared.is_finite)
     }
 
     /// Follows the sheet and its state.
     fn follow(&mut self, picture: &Picture<'_>) {
-        match &mut self.pose {
-            Some(pose) => {
-                pose.follow(picture);
+        match &mut self.prepared {
+            Some(prepared) => {
+                prepared.follow(picture);
             }
-            None => self.pose = Some(Pose::new(picture)),
+            None => self.prepared = Some(PreparedSheet::new(picture)),
         }
         if self.is_drawable(picture) {
             self.pivot = self
-                .pose
+                .prepared
                 .as_ref()
-                .map_or(self.pivot, |pose| pose.ball.middle);
+                .map_or(self.pivot, |prepared| prepared.sphere.middle);
             if !self.was_shown {
-                self.fitting = Some(picture.positions.to_vec());
+                self.pending_fit = Some(picture.positions.to_vec());
             }
         }
     }
@@ -208,19 +219,19 @@ impl View3d {
         ui: &Ui,
         render_state: Option<&RenderState>,
         picture: &Picture<'_>,
-        eye: &Eye,
+        projection: &Projection,
         rect: Rect,
     ) -> Option<TextureId> {
         let render_state = render_state?;
-        let watch = self.watch.take().filter(|w| w.is_over(render_state));
-        let watch = watch.unwrap_or_else(|| {
+        let monitor = self.monitor.take().filter(|w| w.monitors(render_state));
+        let monitor = monitor.unwrap_or_else(|| {
             // Another device, such as after a loss: all is made anew.
             self.gpu = None;
             self.failures = 0;
-            Watch::over(render_state)
+            LossMonitor::new(render_state)
         });
-        let loss = watch.loss();
-        self.watch = Some(watch);
+        let loss = monitor.loss();
+        self.monitor = Some(monitor);
         if self.failures > TRIES {
             return None;
         }
@@ -230,17 +241,17 @@ impl View3d {
                 self.failures = TRIES;
                 Err(reason)
             }
-            None => self.drawn_by_gpu(ui, render_state, picture, eye, rect),
+            None => self.drawn_by_gpu(ui, render_state, picture, projection, rect),
         };
         match drawn {
             Ok(texture) => {
-                self.fault = None;
+                self.error = None;
                 Some(texture)
             }
             Err(reason) => {
                 self.gpu = None;
                 self.failures += 1;
-                self.fault = Some(reason);
+                self.error = Some(reason);
                 ui.ctx().request_repaint();
                 None
             }
@@ -252,7 +263,7 @@ impl View3d {
         ui: &Ui,
         render_state: &RenderState,
         picture: &Picture<'_>,
-        eye: &Eye,
+        projection: &Projection,
         rect: Rect,
     ) -> Result<TextureId, String> {
         let gpu = match self.gpu.take() {
@@ -260,13 +271,13 @@ impl View3d {
             None => Gpu::new(render_state)?,
         };
         let gpu = self.gpu.insert(gpu);
-        let pose = self.pose.as_ref().ok_or("no pose")?;
+        let prepared = self.prepared.as_ref().ok_or("the sheet is not prepared")?;
         let most = render_state.device.limits().max_texture_dimension_2d as f32;
         let wanted = rect.size() * ui.pixels_per_point();
         let part = (most / wanted.max_elem()).min(1.0);
-        let view = gpu::View {
-            eye,
-            pose,
+        let view = gpu::FrameView {
+            projection,
+            prepared,
             size: [wanted.x, wanted.y].map(|side| pixels(side * part)),
             pixels_per_point: ui.pixels_per_point() * part,
         };
@@ -275,7 +286,7 @@ impl View3d {
 
     /// Says why the picture is a plain one.
     fn note(&self, ui: &Ui, rect: Rect, has_gpu: bool) {
-        let text = match &self.fault {
+        let text = match &self.error {
             Some(reason) if has_gpu => format!("drawn without the GPU: {reason}"),
             _ => "drawn without a GPU".to_owned(),
         };
@@ -295,7 +306,7 @@ fn pixels(side: f32) -> u32 {
 }
 
 /// Names the view, and from where the sheet is seen, to those who do not see it.
-fn name(response: &Response, orbit: &Orbit) {
+fn name(response: &Response, orbit: &OrbitCamera) {
     response.widget_info(|| {
         let from = format!(
             "from azimuth {:.0}°, elevation {:.0}°, {:.2} wide{}",

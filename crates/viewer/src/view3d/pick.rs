@@ -3,9 +3,9 @@
 use foldmotion_record::TIE_TOLERANCE;
 use glam::{DVec2, DVec3};
 
-use super::eye::Eye;
 use super::picture::Picture;
-use super::pose::Pose;
+use super::prepared::PreparedSheet;
+use super::projection::Projection;
 
 /// How far a vertex may be from the pointer, in points.
 const REACH: f64 = 12.0;
@@ -19,18 +19,18 @@ pub(super) struct Hit {
 
 /// The vertices on the screen, projected when state or view change.
 #[derive(Debug, Default)]
-pub(super) struct Points {
-    key: Option<(u64, u64, Eye)>,
+pub(super) struct ProjectedVertices {
+    key: Option<(u64, u64, Projection)>,
     points: Vec<DVec3>,
 }
 
-impl Points {
-    pub(super) fn follow(&mut self, picture: &Picture<'_>, eye: &Eye) {
-        let key = Some((picture.sheet_key, picture.state_key, *eye));
+impl ProjectedVertices {
+    pub(super) fn follow(&mut self, picture: &Picture<'_>, projection: &Projection) {
+        let key = Some((picture.sheet_key, picture.state_key, *projection));
         if self.key != key {
             self.key = key;
             self.points.clear();
-            let points = picture.positions.iter().map(|&p| eye.project(p));
+            let points = picture.positions.iter().map(|&p| projection.project(p));
             self.points.extend(points);
         }
     }
@@ -41,7 +41,7 @@ impl Points {
     }
 
     /// What is seen at `at`.
-    pub(super) fn hit(&self, picture: &Picture<'_>, pose: &Pose, at: DVec2) -> Hit {
+    pub(super) fn hit(&self, picture: &Picture<'_>, prepared: &PreparedSheet, at: DVec2) -> Hit {
         let slack = TIE_TOLERANCE * picture.sheet.unit_length;
         let near = |point: &DVec3| point.truncate().distance_squared(at);
         let mut vertices: Vec<(u32, &DVec3)> = (0..).zip(&self.points).collect();
@@ -53,10 +53,10 @@ impl Points {
         });
         let seen = vertices.into_iter().find(|&(vertex, point)| {
             let others = |face: &[u32; 3]| !face.contains(&vertex);
-            let front = self.front(picture, pose, point.truncate(), others);
+            let front = self.front(picture, prepared, point.truncate(), others);
             front.is_none_or(|(_, depth)| depth <= point.z + slack)
         });
-        let front = self.front(picture, pose, at, |_| true);
+        let front = self.front(picture, prepared, at, |_| true);
         Hit {
             vertex: seen.map(|(vertex, _)| vertex),
             face: front.map(|(face, _)| face),
@@ -67,7 +67,7 @@ impl Points {
     fn front(
         &self,
         picture: &Picture<'_>,
-        pose: &Pose,
+        prepared: &PreparedSheet,
         at: DVec2,
         asked: impl Fn(&[u32; 3]) -> bool,
     ) -> Option<(u32, f64)> {
@@ -80,7 +80,8 @@ impl Points {
             let Some((depth, side)) = depth_at([a, b, c], at) else {
                 continue;
             };
-            let depth = depth - pose.sunk(index as usize, side, picture.sheet.unit_length);
+            let depth =
+                depth - prepared.depth_offset(index as usize, side, picture.sheet.unit_length);
             if front.is_none_or(|(_, nearest)| depth > nearest) && asked(face) {
                 front = Some((index, depth));
             }

@@ -35,7 +35,7 @@ pub(crate) struct Picture<'a> {
     /// How bright they are: 0 paper to 1.
     pub(crate) pulse: f32,
     /// A vertex that a hand has, and where it is pulled to.
-    pub(crate) handle: Option<Handle>,
+    pub(crate) pull: Option<VertexPull>,
     /// Whether a vertex can be taken.
     pub(crate) can_pull: bool,
 }
@@ -75,7 +75,7 @@ pub(crate) enum Colours<'a> {
 
 /// A vertex that a hand has.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Handle {
+pub(crate) struct VertexPull {
     /// The vertex.
     pub(crate) vertex: u32,
     /// Where it is pulled to.

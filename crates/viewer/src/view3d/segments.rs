@@ -16,7 +16,7 @@ const HANDLE: f32 = 9.0;
 pub(super) struct Segment {
     pub(super) ends: [DVec3; 2],
     pub(super) colour: Color32,
-    /// Points.
+    /// ProjectedVertices.
     pub(super) width: f32,
     /// Opacity behind paper.
     pub(super) hidden: f32,
@@ -53,8 +53,8 @@ impl Segment {
 pub(super) fn segments(picture: &Picture<'_>) -> Vec<Segment> {
     let mut segments: Vec<Segment> = picture.overlays.iter().flat_map(of_overlay).collect();
     let place = |vertex: u32| picture.positions.get(vertex as usize).copied();
-    if let Some(handle) = picture.handle
-        && let Some(from) = place(handle.vertex)
+    if let Some(pull) = picture.pull
+        && let Some(from) = place(pull.vertex)
     {
         let [r, g, b] = picture.style.mark;
         let colour = Color32::from_rgb(r, g, b);
@@ -64,9 +64,9 @@ pub(super) fn segments(picture: &Picture<'_>) -> Vec<Segment> {
             width,
             hidden: 1.0,
         };
-        segments.push(segment([from, handle.target], 2.0));
+        segments.push(segment([from, pull.target], 2.0));
         segments.push(segment([from; 2], HANDLE));
-        segments.push(segment([handle.target; 2], 0.7 * HANDLE));
+        segments.push(segment([pull.target; 2], 0.7 * HANDLE));
     }
     segments.retain(|segment| segment.ends.iter().all(|end| end.is_finite()));
     segments

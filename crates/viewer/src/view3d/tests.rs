@@ -13,7 +13,7 @@ use super::*;
 
 /// What a window shows of its sheet.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Dress {
+enum TestColours {
     Plain,
     Strain,
     Units,
@@ -29,9 +29,9 @@ struct Window {
     state_key: u64,
     render_state: Option<RenderState>,
     can_pull: bool,
-    dress: Dress,
+    colours: TestColours,
     /// Pull, vertex and face that were seen.
-    pull: Option<Handle>,
+    pull: Option<VertexPull>,
     vertex: Option<u32>,
     face: Option<u32>,
 }
@@ -45,7 +45,7 @@ impl Window {
             state_key: 1,
             render_state: None,
             can_pull: false,
-            dress: Dress::Plain,
+            colours: TestColours::Plain,
             pull: None,
             vertex: None,
             face: None,
@@ -79,20 +79,20 @@ impl Window {
             overlay(Shape::Path(&path), 2.0),
             overlay(Shape::Dots(&path), 8.0),
         ];
-        picture.colours = match self.dress {
-            Dress::Strain => Colours::Values {
+        picture.colours = match self.colours {
+            TestColours::Strain => Colours::Values {
                 values: &values,
                 range,
                 key: 0,
             },
-            Dress::Units => Colours::Units,
-            Dress::Layers => Colours::Layers,
-            Dress::Plain | Dress::Overlays => Colours::Plain,
+            TestColours::Units => Colours::Units,
+            TestColours::Layers => Colours::Layers,
+            TestColours::Plain | TestColours::Overlays => Colours::Plain,
         };
-        if self.dress == Dress::Overlays {
+        if self.colours == TestColours::Overlays {
             picture.overlays = &overlays;
             picture.flash = &[3, 40, 41, 42];
-            picture.handle = Some(Handle {
+            picture.pull = Some(VertexPull {
                 vertex: 30,
                 target: high,
             });
@@ -120,8 +120,8 @@ fn on_screen(harness: &Harness<'_, Window>, point: DVec3) -> Pos2 {
     let rect = harness.get_by_label("3D view").rect();
     let orbit = harness.state().view.orbit();
     let size = DVec2::new(f64::from(rect.width()), f64::from(rect.height()));
-    let eye = Eye::new(&orbit, size, eye::Ball::around([]));
-    let at = eye.project(point);
+    let projection = Projection::new(&orbit, size, projection::Sphere::around([]));
+    let at = projection.project(point);
     rect.min + Vec2::new(at.x as f32, at.y as f32)
 }
 
@@ -149,7 +149,7 @@ fn without_a_gpu_the_view_is_drawn_and_named() {
     let mut harness = harness(flat());
     harness.run();
     harness.get_by_label("3D view");
-    assert!(harness.state().view.fault().is_none() && harness.state().view.drawn() == 0);
+    assert!(harness.state().view.error().is_none() && harness.state().view.drawn() == 0);
 }
 
 #[test]
@@ -327,7 +327,7 @@ fn places_that_are_missing_or_not_finite_leave_the_view_empty() {
     }
 }
 
-/// Drawn by the GPU.
+/// PictureKey by the GPU.
 fn with_gpu(mut window: Window, size: [f32; 2], is_dark: bool) -> Harness<'static, Window> {
     let state = device();
     window.render_state = Some(state.clone());
@@ -366,7 +366,7 @@ type Change = fn(&mut Window);
 fn an_idle_frame_draws_nothing_and_every_change_draws_once() {
     let mut harness = with_gpu(flat(), [400.0, 300.0], true);
     harness.run();
-    assert_eq!(harness.state().view.fault(), None);
+    assert_eq!(harness.state().view.error(), None);
     let mut drawn = harness.state().view.drawn();
     assert!(drawn > 0);
     harness.run_steps(5);
@@ -375,7 +375,7 @@ fn an_idle_frame_draws_nothing_and_every_change_draws_once() {
         ("state", |w| w.state_key += 1),
         ("camera", |w| w.view.orbit.azimuth += 3.0),
         ("style", |w| w.subject.style.line_width = 3.0),
-        ("colours", |w| w.dress = Dress::Units),
+        ("colours", |w| w.colours = TestColours::Units),
     ];
     for (what, change) in changes {
         change(harness.state_mut());
@@ -399,7 +399,7 @@ fn a_lost_device_is_told_and_another_one_draws_again() {
     window.render_state = Some(state.clone());
     let mut harness = harness(window);
     harness.run();
-    assert_eq!(harness.state().view.fault(), None);
+    assert_eq!(harness.state().view.error(), None);
     state.device.destroy();
     // The loss is told when what was under way is done.
     let wait = eframe::egui_wgpu::wgpu::PollType::wait_indefinitely();
@@ -410,13 +410,13 @@ fn a_lost_device_is_told_and_another_one_draws_again() {
         harness
             .state()
             .view
-            .fault()
+            .error()
             .is_some_and(|f| f.contains("lost"))
     );
     harness.get_by_label("3D view");
     harness.state_mut().render_state = Some(device());
     harness.run();
-    assert_eq!(harness.state().view.fault(), None);
+    assert_eq!(harness.state().view.error(), None);
     assert!(harness.state().view.drawn() > 0);
 }
 
@@ -444,24 +444,24 @@ fn every_state_colour_and_look_is_drawn() {
         let mut drawn = 0;
         let mut look = |harness: &mut Harness<'static, Window>, name: &str| {
             render(harness, &format!("{name}-{theme}"));
-            assert_eq!(harness.state().view.fault(), None, "{name}");
+            assert_eq!(harness.state().view.error(), None, "{name}");
             assert!(harness.state().view.drawn() > drawn, "{name}");
             drawn = harness.state().view.drawn();
         };
         look(&mut harness, "deployed");
-        harness.state_mut().dress = Dress::Strain;
+        harness.state_mut().colours = TestColours::Strain;
         look(&mut harness, "strain");
-        harness.state_mut().dress = Dress::Units;
+        harness.state_mut().colours = TestColours::Units;
         look(&mut harness, "units");
         let half = half_folded(harness.state());
-        harness.state_mut().dress = Dress::Overlays;
+        harness.state_mut().colours = TestColours::Overlays;
         harness.state_mut().take(half);
         look(&mut harness, "half");
         let compact = harness.state().subject.units.compact();
-        harness.state_mut().dress = Dress::Plain;
+        harness.state_mut().colours = TestColours::Plain;
         harness.state_mut().take(compact);
         look(&mut harness, "compact");
-        harness.state_mut().dress = Dress::Layers;
+        harness.state_mut().colours = TestColours::Layers;
         look(&mut harness, "layers");
         harness.state_mut().view.set_perspective(true);
         look(&mut harness, "perspective");

@@ -6,8 +6,8 @@ use std::time::Duration;
 use eframe::egui::{Button, Color32, MenuBar, ProgressBar, RichText, Ui};
 
 use super::Viewer;
-use super::dialogs::Then;
-use crate::settings::{Command, Look, apply, keys_of, name_of};
+use super::dialogs::NextAction;
+use crate::settings::{Appearance, Command, apply, keys_of, name_of};
 
 /// How long a notice is said.
 const NOTICE: Duration = Duration::from_secs(12);
@@ -28,7 +28,7 @@ const MENUS: [(&str, &[Option<Command>]); 4] = [
         &[
             Some(Command::Run),
             Some(Command::Cancel),
-            Some(Command::Hand),
+            Some(Command::Interact),
             None,
             Some(Command::Record),
             None,
@@ -85,7 +85,7 @@ impl Viewer {
             for (name, commands) in MENUS {
                 ui.menu_button(name, |ui| {
                     if name == "Window" {
-                        self.look_menu(ui);
+                        self.appearance_menu(ui);
                     }
                     for command in commands {
                         match command {
@@ -127,16 +127,19 @@ impl Viewer {
         self.item(ui, Command::Quit, wanted);
         if let Some(path) = chosen {
             let ctx = ui.ctx().clone();
-            self.unless_unsaved(Then::Open(path), &ctx);
+            self.confirm_unsaved(NextAction::Open(path), &ctx);
         }
     }
 
-    fn look_menu(&mut self, ui: &mut Ui) {
+    fn appearance_menu(&mut self, ui: &mut Ui) {
         ui.menu_button("Colours of the window", |ui| {
-            for look in Look::ALL {
-                if ui.radio(self.settings.look == look, look.name()).clicked() {
-                    self.settings.look = look;
-                    apply(ui.ctx(), look, self.settings.scale.factor());
+            for appearance in Appearance::ALL {
+                if ui
+                    .radio(self.settings.appearance == appearance, appearance.name())
+                    .clicked()
+                {
+                    self.settings.appearance = appearance;
+                    apply(ui.ctx(), appearance, self.settings.scale.factor());
                 }
             }
         });
@@ -175,23 +178,23 @@ impl Viewer {
 
     fn run_button(&mut self, ui: &mut Ui, wanted: &mut Option<Command>) {
         if let Some((_, run)) = &self.jobs.run {
-            let stand = run.stand();
-            let phase = stand.phase.map_or("start", |phase| phase.name());
-            let bar = ProgressBar::new(stand.done as f32).desired_width(150.0);
-            ui.add(bar.text(format!("{phase} {:.0} %", 100.0 * stand.done)));
+            let progress = run.progress();
+            let phase = progress.phase.map_or("start", |phase| phase.name());
+            let bar = ProgressBar::new(progress.done as f32).desired_width(150.0);
+            ui.add(bar.text(format!("{phase} {:.0} %", 100.0 * progress.done)));
             if ui.button("Cancel").on_hover_text("Esc").clicked() {
                 *wanted = Some(Command::Cancel);
             }
-            let mut follows = self.shown.follows_run;
+            let mut follows = self.display.follows_run;
             let follow = ui.checkbox(&mut follows, "follow");
             if follow
                 .on_hover_text("show the sheet as it is computed")
                 .changed()
             {
-                self.shown.follows_run = follows;
+                self.display.follows_run = follows;
             }
         } else {
-            let is_on = self.resolved.study.is_some() && self.shown.file.is_none();
+            let is_on = self.resolved.study.is_some() && self.display.file.is_none();
             let button = Button::new(RichText::new("Run").strong());
             let hint = format!(
                 "fold, check and report ({})",
@@ -225,8 +228,8 @@ impl Viewer {
                 ui.ctx().request_repaint_after(NOTICE);
                 return;
             }
-            if let Some(fault) = self.resolved.faults.first() {
-                ui.colored_label(ui.visuals().error_fg_color, &fault.message);
+            if let Some(error) = self.resolved.errors.first() {
+                ui.colored_label(ui.visuals().error_fg_color, &error.message);
                 return;
             }
             self.facts(ui);
@@ -234,26 +237,28 @@ impl Viewer {
     }
 
     fn facts(&self, ui: &mut Ui) {
-        let Some(act) = self.act() else { return };
-        let sheet = &act.motion().sheet;
+        let Some(shown) = self.shown_motion() else {
+            return;
+        };
+        let sheet = &shown.motion().sheet;
         let words = format!(
             "{} vertices, {} facets, {} frames",
             sheet.vertices.len(),
             sheet.facets.len(),
-            act.motion().frames.len()
+            shown.motion().frames.len()
         );
         ui.weak(words);
-        if self.resolved.drafts.is_busy() {
+        if self.resolved.resolver.is_busy() {
             ui.weak("resolving…");
         } else if self.jobs.preview.is_some() {
             ui.weak("folding a preview…");
         } else if self.jobs.opening.is_some() {
             ui.weak("opening…");
-        } else if self.jobs.judging.is_some() {
+        } else if self.jobs.checking.is_some() {
             ui.weak("checking…");
         }
-        if let Some(fault) = self.view3d.fault() {
-            ui.colored_label(Color32::from_rgb(200, 120, 0), fault);
+        if let Some(error) = self.view3d.error() {
+            ui.colored_label(Color32::from_rgb(200, 120, 0), error);
         }
     }
 }

@@ -1,4 +1,4 @@
-//! Recording what is seen: which files, how large, where.
+//! Recording what is current: which files, how large, where.
 
 use std::path::PathBuf;
 
@@ -6,7 +6,7 @@ use eframe::egui::{Button, Checkbox, DragValue, Grid, TextEdit, Ui};
 use foldmotion_study::scene::{CameraScene, ColourChoice, OutputChoice, OwnCamera, RecordScene};
 
 use crate::settings::Colour;
-use crate::view3d::Orbit;
+use crate::view3d::OrbitCamera;
 
 /// Outputs that can be asked for in the window, with what they are.
 const OUTPUTS: [(OutputChoice, &str); 9] = [
@@ -35,11 +35,11 @@ pub(crate) struct RecordPanel {
 
 /// What the user wants of the panel.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) enum Wish {
+pub(crate) enum RecordRequest {
     /// The files, as the scene's `[record]` says them, into the folder.
     Record(Box<RecordScene>, PathBuf),
     /// To choose the folder.
-    Choose,
+    ChooseFolder,
     /// To leave.
     Close,
 }
@@ -58,8 +58,13 @@ impl Default for RecordPanel {
 
 impl RecordPanel {
     /// The panel; `scene` is what the scene says of recording.
-    pub(crate) fn show(&mut self, ui: &mut Ui, scene: &RecordScene, seen: &Seen) -> Option<Wish> {
-        let mut wish = None;
+    pub(crate) fn show(
+        &mut self,
+        ui: &mut Ui,
+        scene: &RecordScene,
+        current: &CurrentView,
+    ) -> Option<RecordRequest> {
+        let mut request = None;
         let mut folder = self.folder.take().unwrap_or_default();
         ui.label(
             "the camera is the one of the view; the rest is as the scene's record section says",
@@ -90,7 +95,7 @@ impl RecordPanel {
             ui.add(field).labelled_by(label.id);
             ui.end_row();
         });
-        let words = format!("figures and models of t = {:.4} only", seen.time);
+        let words = format!("figures and models of t = {:.4} only", current.time);
         ui.checkbox(&mut self.only_now, words);
         ui.add_space(4.0);
         let label = ui.label("folder");
@@ -98,7 +103,7 @@ impl RecordPanel {
             ui.add(TextEdit::singleline(&mut folder).desired_width(300.0))
                 .labelled_by(label.id);
             if ui.button("Choose…").clicked() {
-                wish = Some(Wish::Choose);
+                request = Some(RecordRequest::ChooseFolder);
             }
         });
         ui.separator();
@@ -108,15 +113,18 @@ impl RecordPanel {
                 .add_enabled(is_ready, Button::new("Record now"))
                 .clicked()
             {
-                let record = self.record(scene, seen);
-                wish = Some(Wish::Record(Box::new(record), PathBuf::from(folder.trim())));
+                let record = self.record(scene, current);
+                request = Some(RecordRequest::Record(
+                    Box::new(record),
+                    PathBuf::from(folder.trim()),
+                ));
             }
             if ui.button("Close").clicked() {
-                wish = Some(Wish::Close);
+                request = Some(RecordRequest::Close);
             }
         });
         self.folder = Some(folder);
-        wish
+        request
     }
 
     /// Whether an output is wanted.
@@ -136,8 +144,8 @@ impl RecordPanel {
     }
 
     /// `[record]` of what is asked for.
-    fn record(&self, scene: &RecordScene, seen: &Seen) -> RecordScene {
-        let orbit = &seen.orbit;
+    fn record(&self, scene: &RecordScene, current: &CurrentView) -> RecordScene {
+        let orbit = &current.orbit;
         let camera = OwnCamera {
             azimuth: orbit.azimuth,
             elevation: orbit.elevation,
@@ -150,26 +158,26 @@ impl RecordPanel {
             size: Some(self.size.map(i64::from)),
             seconds: Some([self.seconds; 2].map(|seconds| 0.5 * seconds)),
             camera: Some(CameraScene::Own(camera)),
-            colour: match seen.colour {
+            colour: match current.colour {
                 Colour::Strain => Some(ColourChoice::Strain),
                 Colour::Bending => Some(ColourChoice::Bending),
                 Colour::Plain | Colour::Unit | Colour::Layer => scene.colour,
             },
             at: if self.only_now {
-                Some(vec![seen.time])
+                Some(vec![current.time])
             } else {
                 scene.at.clone()
             },
-            profile: if seen.is_file { None } else { scene.profile },
+            profile: if current.is_file { None } else { scene.profile },
             ..scene.clone()
         }
     }
 }
 
-/// What is seen as recording is asked for.
+/// What is current as recording is asked for.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Seen {
-    pub(crate) orbit: Orbit,
+pub(crate) struct CurrentView {
+    pub(crate) orbit: OrbitCamera,
     pub(crate) time: f64,
     pub(crate) colour: Colour,
     /// Whether it is a motion file, with no scene.

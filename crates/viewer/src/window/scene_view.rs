@@ -14,11 +14,11 @@ use foldmotion_pattern::{Facet, FacetKind, Sheet};
 use foldmotion_record::{Style, colour_of};
 
 use super::Viewer;
-use super::act::{Act, Source};
+use super::shown_motion::{MotionSource, ShownMotion};
 use crate::results::{outcome_colour, verdict_colour};
 use crate::settings::{Colour, Command, keys_of, name_of};
 use crate::timeline::number;
-use crate::view3d::{Colours, CreaseClasses, Handle, Overlay, Picture, Shape};
+use crate::view3d::{Colours, CreaseClasses, Overlay, Picture, Shape, VertexPull};
 
 /// How long a flash of penetrating facets lasts, seconds.
 const FLASH: f64 = 0.9;
@@ -27,9 +27,9 @@ impl Viewer {
     /// The tools over the view, and the view.
     pub(super) fn scene_view(&mut self, ui: &mut Ui, render_state: Option<&RenderState>) {
         self.tools(ui);
-        let Some(act) = self.act() else {
+        let Some(shown) = self.shown_motion() else {
             ui.centered_and_justified(|ui| {
-                let words = if self.resolved.faults.is_empty() {
+                let words = if self.resolved.errors.is_empty() {
                     "…"
                 } else {
                     "no sheet yet: the foot of the window says what is wrong"
@@ -38,16 +38,16 @@ impl Viewer {
             });
             return;
         };
-        self.pose(&act);
+        self.update_state(&shown);
         let rect = ui.available_rect_before_wrap();
-        let pull = self.picture(ui, render_state, &act);
-        if pull != self.shown.pulled
-            && let Some(hold) = &self.jobs.hold
+        let pull = self.picture(ui, render_state, &shown);
+        if pull != self.display.pulled
+            && let Some(interaction) = &self.jobs.interaction
         {
-            hold.pull(pull.map(|handle| (handle.vertex, handle.target)));
+            interaction.pull(pull.map(|pull| (pull.vertex, pull.target)));
         }
-        self.shown.pulled = pull;
-        self.words_over(ui, rect, &act);
+        self.display.pulled = pull;
+        self.words_over(ui, rect, &shown);
     }
 
     /// Draws the sheet; answers the vertex that is pulled.
@@ -55,13 +55,13 @@ impl Viewer {
         &mut self,
         ui: &mut Ui,
         render_state: Option<&RenderState>,
-        act: &Act,
-    ) -> Option<Handle> {
+        shown: &ShownMotion,
+    ) -> Option<VertexPull> {
         let looks = &self.settings.view;
-        let sheet = &act.motion().sheet;
-        let (faces, points) = self.shown.pose.penetrating.clone();
-        let positions = Arc::clone(&self.shown.pose.positions);
-        let state_key = self.shown.pose.key;
+        let sheet = &shown.motion().sheet;
+        let (faces, points) = self.display.state.penetrating.clone();
+        let positions = Arc::clone(&self.display.state.positions);
+        let state_key = self.display.state.key;
         let visuals = ui.visuals();
         let background = visuals.panel_fill;
         let style = style(visuals.dark_mode);
@@ -70,16 +70,16 @@ impl Viewer {
         let marked = visuals.error_fg_color;
         let mut overlays: Vec<Overlay<'_>> = Vec::new();
         // The profile is what the deployed sheet follows, the box what the folding one comes to.
-        if looks.profile && !act.profile.is_empty() && self.playback.time <= 1.0 {
+        if looks.profile && !shown.profile.is_empty() && self.playback.time <= 1.0 {
             overlays.push(Overlay {
-                shape: Shape::Path(&act.profile),
+                shape: Shape::Path(&shown.profile),
                 colour: accent,
                 width: 2.0,
             });
         }
         for (wanted, bounds, colour) in [
-            (looks.compact_box, act.boxes[0], weak),
-            (looks.closed_form_box, act.boxes[1], accent),
+            (looks.compact_box, shown.boxes[0], weak),
+            (looks.closed_form_box, shown.boxes[1], accent),
         ] {
             if let Some([low, sides]) = bounds.filter(|_| wanted && self.playback.time > 1.0) {
                 let edges = glam::DMat3::from_diagonal(sides);
@@ -101,7 +101,7 @@ impl Viewer {
         let pulse = if faces.is_empty() { 0.0 } else { flash(ui) };
         let colours = match (
             looks.colour,
-            self.shown.pose.values(act, sheet, looks.colour),
+            self.display.state.values(shown, sheet, looks.colour),
         ) {
             (_, Some((values, range, _))) => Colours::Values {
                 values,
@@ -119,10 +119,10 @@ impl Viewer {
         };
         let picture = Picture {
             sheet,
-            sheet_key: act.key,
+            sheet_key: shown.key,
             positions: &positions,
             state_key,
-            layers: Some(&act.layers),
+            layers: Some(&shown.layers),
             colours,
             creases,
             style: &style,
@@ -130,19 +130,19 @@ impl Viewer {
             overlays: &overlays,
             flash: &faces,
             pulse,
-            handle: self.shown.pulled,
-            can_pull: self.jobs.hold.is_some(),
+            pull: self.display.pulled,
+            can_pull: self.jobs.interaction.is_some(),
         };
-        let seen = self.view3d.show(ui, render_state, &picture);
-        self.shown.pointed = seen.face.map(|face| (face, seen.vertex));
-        seen.pull
+        let current = self.view3d.show(ui, render_state, &picture);
+        self.display.pointed = current.face.map(|face| (face, current.vertex));
+        current.pull
     }
 
     /// What is shown, and what it is worth.
-    fn words_over(&mut self, ui: &Ui, rect: Rect, act: &Act) {
+    fn words_over(&mut self, ui: &Ui, rect: Rect, shown: &ShownMotion) {
         let painter = ui.painter_at(rect);
         let visuals = ui.visuals();
-        let lines = self.lines_over(ui, act);
+        let lines = self.lines_over(ui, shown);
         // Its place is known once the words are laid out, over which it would lie.
         let ground = painter.add(RectShape::filled(Rect::NOTHING, 0.0, Color32::TRANSPARENT));
         let mut area = Rect::from_min_size(rect.left_top() + vec2(12.0, 8.0), Vec2::ZERO);
@@ -161,7 +161,7 @@ impl Viewer {
                 let words: Vec<&str> = lines.iter().map(|line| line.0.as_str()).collect();
                 WidgetInfo::labeled(Role::Label, true, words.join(", "))
             });
-        let sheet = &act.motion().sheet;
+        let sheet = &shown.motion().sheet;
         if let Some(words) = self.pointed_words(sheet) {
             let corner = rect.left_bottom() + vec2(12.0, -10.0);
             let font = FontId::proportional(12.0);
@@ -174,14 +174,14 @@ impl Viewer {
             );
         }
         let colour = self.settings.view.colour;
-        if let Some((_, range, title)) = self.shown.pose.values(act, sheet, colour) {
+        if let Some((_, range, title)) = self.display.state.values(shown, sheet, colour) {
             scale(&painter, ui, rect, range, title);
         }
     }
 
     /// What is under the pointer.
     fn pointed_words(&self, sheet: &Sheet) -> Option<String> {
-        let (face, vertex) = self.shown.pointed?;
+        let (face, vertex) = self.display.pointed?;
         let facet = *sheet.face_facets.get(face as usize)?;
         let Facet {
             row, column, kind, ..
@@ -195,20 +195,20 @@ impl Viewer {
     }
 
     /// The lines over the view, with the size of their letters and their colour.
-    fn lines_over(&self, ui: &Ui, act: &Act) -> Vec<(String, f32, Color32)> {
+    fn lines_over(&self, ui: &Ui, shown: &ShownMotion) -> Vec<(String, f32, Color32)> {
         const SMALL: f32 = 13.0;
         let visuals = ui.visuals();
-        let (badge, colour) = self.badge(ui, act);
+        let (badge, colour) = self.badge(ui, shown);
         let time = format!("t = {:.4}", self.shown_time());
         let mut lines = vec![
             (time, 18.0, visuals.strong_text_color()),
             (badge, SMALL, colour),
         ];
-        if self.is_stale(act) && !self.is_resolving() {
+        if self.is_stale(shown) && !self.is_resolving() {
             let words = "of the scene before the last edits".to_owned();
             lines.push((words, SMALL, visuals.warn_fg_color));
         }
-        let penetrating = self.shown.pose.penetrating.0.len();
+        let penetrating = self.display.state.penetrating.0.len();
         if penetrating > 0 {
             let words = format!("{penetrating} triangles penetrate here");
             lines.push((words, SMALL, visuals.error_fg_color));
@@ -217,37 +217,37 @@ impl Viewer {
     }
 
     /// What the sheet that is shown is worth, and in which colour that is said.
-    fn badge(&self, ui: &Ui, act: &Act) -> (String, Color32) {
+    fn badge(&self, ui: &Ui, shown: &ShownMotion) -> (String, Color32) {
         let visuals = ui.visuals();
         let accent = visuals.hyperlink_color;
-        if let Some(hold) = &self.jobs.hold {
-            let held = hold.held();
+        if let Some(interaction) = &self.jobs.interaction {
+            let status = interaction.status();
             let mut words = "in the hand: drag the timeline, or pull a vertex".to_owned();
-            if held.mishaps > 0 {
+            if status.resets > 0 {
                 words += "; it ran away and was taken back";
             }
             return (words, accent);
         }
-        if let Some((_, run)) = self.jobs.run.as_ref().filter(|_| self.shown.follows_run) {
-            let words = format!("running, {} states a second", run.live().rate());
+        if let Some((_, run)) = self.jobs.run.as_ref().filter(|_| self.display.follows_run) {
+            let words = format!("running, {} states a second", run.states().rate());
             return (words, accent);
         }
-        let judged = |verdict: &str| (verdict.to_owned(), verdict_colour(ui, verdict));
-        match &act.source {
-            Source::Exact(_) => (
+        let checked = |verdict: &str| (verdict.to_owned(), verdict_colour(ui, verdict));
+        match &shown.source {
+            MotionSource::Exact(_) => (
                 "exact states: deployed, planar, compact".to_owned(),
                 visuals.weak_text_color(),
             ),
-            Source::Preview(_) => (
+            MotionSource::Preview(_) => (
                 "preview: without contact, not checked".to_owned(),
                 visuals.warn_fg_color,
             ),
-            Source::Run { report, .. } => (
+            MotionSource::Run { report, .. } => (
                 report.outcome.headline(),
                 outcome_colour(ui, report.outcome.kind),
             ),
-            Source::File { judged: found, .. } => match found {
-                Some(found) => judged(&found.certificate.verdict),
+            MotionSource::File { checked: found, .. } => match found {
+                Some(found) => checked(&found.certificate.verdict),
                 None => ("not checked yet".to_owned(), visuals.weak_text_color()),
             },
         }
@@ -255,7 +255,8 @@ impl Viewer {
 
     /// The motion time of what is shown.
     pub(super) fn shown_time(&self) -> f64 {
-        self.live().map_or(self.playback.time, |state| state.time)
+        self.live_state()
+            .map_or(self.playback.time, |state| state.time)
     }
 
     /// Buttons over the view.
@@ -293,12 +294,12 @@ impl Viewer {
                 ui.menu_button("creases", |ui| self.crease_switches(ui));
                 ui.menu_button("overlays", |ui| self.overlay_switches(ui));
                 ui.separator();
-                let mut is_held = self.jobs.hold.is_some();
-                let hand = ui.toggle_value(&mut is_held, "hand").on_hover_text(
+                let mut is_interacting = self.jobs.interaction.is_some();
+                let hand = ui.toggle_value(&mut is_interacting, "hand").on_hover_text(
                     "moves the sheet as masses and springs: the timeline sets the fold, a vertex can be pulled (H)",
                 );
                 if hand.clicked() {
-                    command = Some(Command::Hand);
+                    command = Some(Command::Interact);
                 }
             });
         });

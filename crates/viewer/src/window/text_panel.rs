@@ -15,15 +15,15 @@ impl Viewer {
                     .clicked()
                 {
                     self.settings.panels.text = false;
-                    self.mends_text = false;
+                    self.must_fix_text = false;
                 }
             });
             label
         });
         if let Some(error) = self.document.parse_error() {
             ui.colored_label(ui.visuals().error_fg_color, error.to_string());
-        } else if let Some(fault) = self.resolved.faults.first() {
-            ui.colored_label(ui.visuals().error_fg_color, &fault.message);
+        } else if let Some(error) = self.resolved.errors.first() {
+            ui.colored_label(ui.visuals().error_fg_color, &error.message);
         }
         let mut text = self.document.text().to_owned();
         let height = ui.available_height();
@@ -44,7 +44,7 @@ impl Viewer {
                     self.document.set_text(&text, true);
                 }
                 if response.lost_focus() {
-                    self.document.settle();
+                    self.document.end_step();
                 }
             });
     }

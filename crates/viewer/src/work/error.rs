@@ -15,7 +15,7 @@ pub(crate) enum WorkError {
     Study(StudyError),
     /// The sheet cannot be taken in the hand.
     #[error("the sheet cannot be moved by hand: {0}")]
-    Hand(#[from] SolverError),
+    Interaction(#[from] SolverError),
     /// The user stopped it.
     #[error("stopped")]
     Stopped,

@@ -7,12 +7,12 @@ use std::thread::JoinHandle;
 use foldmotion_study::Phase;
 
 use super::lock::lock;
-use super::threads::{part_from, spread, start};
-use super::{Wake, WorkError};
+use super::threads::{in_thread_pool, join_briefly, start};
+use super::{RepaintSignal, WorkError};
 
 /// How far a job is.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Stand {
+pub(crate) struct Progress {
     /// What it does; none before it has begun.
     pub(crate) phase: Option<Phase>,
     /// How much of that is done, from 0 to 1.
@@ -28,30 +28,30 @@ pub(crate) struct Job<T> {
 
 #[derive(Debug)]
 struct Shared<T> {
-    ticket: Ticket,
+    context: JobContext,
     outcome: Mutex<Option<Result<T, WorkError>>>,
     is_done: AtomicBool,
 }
 
 /// What the work itself holds: it reports and learns whether to go on.
 #[derive(Debug, Clone)]
-pub(super) struct Ticket(Arc<Inner>);
+pub(super) struct JobContext(Arc<Inner>);
 
 #[derive(Debug)]
 struct Inner {
     is_stopped: AtomicBool,
-    stand: Mutex<Stand>,
-    wake: Wake,
+    progress: Mutex<Progress>,
+    repaint: RepaintSignal,
 }
 
-impl Ticket {
+impl JobContext {
     /// Reports, and answers whether to go on.
-    pub(super) fn progress(&self, phase: Phase, done: f64) -> bool {
-        *lock(&self.0.stand) = Stand {
+    pub(super) fn report(&self, phase: Phase, done: f64) -> bool {
+        *lock(&self.0.progress) = Progress {
             phase: Some(phase),
             done: done.clamp(0.0, 1.0),
         };
-        self.0.wake.soon();
+        self.0.repaint.send_limited();
         !self.0.is_stopped.load(Ordering::Relaxed)
     }
 }
@@ -60,26 +60,26 @@ impl<T: Send + 'static> Job<T> {
     /// Starts `work` on threads of its own.
     pub(super) fn start(
         name: &str,
-        wake: Wake,
-        work: impl FnOnce(&Ticket) -> Result<T, WorkError> + Send + 'static,
+        repaint: RepaintSignal,
+        work: impl FnOnce(&JobContext) -> Result<T, WorkError> + Send + 'static,
     ) -> Self {
-        let stand = Stand {
+        let progress = Progress {
             phase: None,
             done: 0.0,
         };
         let shared = Arc::new(Shared {
-            ticket: Ticket(Arc::new(Inner {
+            context: JobContext(Arc::new(Inner {
                 is_stopped: AtomicBool::new(false),
-                stand: Mutex::new(stand),
-                wake,
+                progress: Mutex::new(progress),
+                repaint,
             })),
             outcome: Mutex::new(None),
             is_done: AtomicBool::new(false),
         });
-        let held = Arc::clone(&shared);
+        let status = Arc::clone(&shared);
         let thread = start(name, move || {
-            let outcome = spread(|| work(&held.ticket));
-            held.finish(outcome);
+            let outcome = in_thread_pool(|| work(&status.context));
+            status.finish(outcome);
         });
         match thread {
             Ok(thread) => Self {
@@ -101,14 +101,14 @@ impl<T> Shared<T> {
     fn finish(&self, outcome: Result<T, WorkError>) {
         *lock(&self.outcome) = Some(outcome);
         self.is_done.store(true, Ordering::Release);
-        self.ticket.0.wake.now();
+        self.context.0.repaint.send();
     }
 }
 
 impl<T> Job<T> {
     /// How far it is.
-    pub(crate) fn stand(&self) -> Stand {
-        *lock(&self.shared.ticket.0.stand)
+    pub(crate) fn progress(&self) -> Progress {
+        *lock(&self.shared.context.0.progress)
     }
 
     /// Whether it has ended.
@@ -118,7 +118,7 @@ impl<T> Job<T> {
 
     /// Tells it to stop; it then ends as [`WorkError::Stopped`].
     pub(crate) fn stop(&self) {
-        let inner = &self.shared.ticket.0;
+        let inner = &self.shared.context.0;
         inner.is_stopped.store(true, Ordering::Relaxed);
     }
 
@@ -131,7 +131,7 @@ impl<T> Job<T> {
 impl<T> Drop for Job<T> {
     fn drop(&mut self) {
         self.stop();
-        part_from(self.thread.take());
+        join_briefly(self.thread.take());
     }
 }
 
@@ -151,22 +151,22 @@ pub(super) mod tests {
         }
     }
 
-    fn quiet() -> Wake {
-        Wake::new(|| {})
+    fn quiet() -> RepaintSignal {
+        RepaintSignal::new(|| {})
     }
 
     #[test]
     fn a_job_reports_wakes_and_gives_its_result_once() {
         let woken = Arc::new(AtomicBool::new(false));
         let seen = Arc::clone(&woken);
-        let wake = Wake::new(move || seen.store(true, Ordering::Relaxed));
-        let job = Job::start("job", wake, |ticket| {
-            assert!(ticket.progress(Phase::Check, 0.25));
+        let repaint = RepaintSignal::new(move || seen.store(true, Ordering::Relaxed));
+        let job = Job::start("job", repaint, |context| {
+            assert!(context.report(Phase::Check, 0.25));
             Ok(7)
         });
         wait(|| job.is_done());
-        assert_eq!(job.stand().phase, Some(Phase::Check));
-        assert_eq!(job.stand().done, 0.25);
+        assert_eq!(job.progress().phase, Some(Phase::Check));
+        assert_eq!(job.progress().done, 0.25);
         assert!(matches!(job.take(), Some(Ok(7))));
         assert!(job.take().is_none() && job.is_done());
         assert!(woken.load(Ordering::Relaxed));
@@ -182,8 +182,8 @@ pub(super) mod tests {
 
     #[test]
     fn a_job_that_is_stopped_or_dropped_ends() {
-        let endless = |ticket: &Ticket| {
-            while ticket.progress(Phase::Fold, 0.0) {
+        let endless = |context: &JobContext| {
+            while context.report(Phase::Fold, 0.0) {
                 sleep(Duration::from_millis(1));
             }
             Err::<(), _>(WorkError::Stopped)

@@ -5,11 +5,11 @@ use std::sync::Arc;
 
 use foldmotion_study::{Certificate, CheckOptions, Findings, Opened, OpenedMotion};
 
-use super::{Job, Wake};
+use super::{Job, RepaintSignal};
 
 /// What is proved of a motion file.
 #[derive(Debug)]
-pub(crate) struct Judged {
+pub(crate) struct CheckedMotion {
     /// What was found.
     pub(crate) findings: Arc<Findings>,
     /// The same as a certificate.
@@ -17,19 +17,22 @@ pub(crate) struct Judged {
 }
 
 /// Reads the file at `path`, whatever it is.
-pub(crate) fn open(path: PathBuf, wake: Wake) -> Job<Opened> {
-    Job::start("foldmotion open", wake, move |ticket| {
-        let progress = |phase, done| ticket.progress(phase, done);
+pub(crate) fn open(path: PathBuf, repaint: RepaintSignal) -> Job<Opened> {
+    Job::start("foldmotion open", repaint, move |context| {
+        let progress = |phase, done| context.report(phase, done);
         Ok(Opened::read(&path, &progress)?)
     })
 }
 
 /// Judges a motion that was opened.
-pub(crate) fn judge(motion: Arc<OpenedMotion>, wake: Wake) -> Job<Judged> {
-    Job::start("foldmotion check", wake, move |ticket| {
-        let progress = |phase, done| ticket.progress(phase, done);
+pub(crate) fn check_motion(
+    motion: Arc<OpenedMotion>,
+    repaint: RepaintSignal,
+) -> Job<CheckedMotion> {
+    Job::start("foldmotion check", repaint, move |context| {
+        let progress = |phase, done| context.report(phase, done);
         let (findings, certificate) = motion.check(&CheckOptions::default(), &progress)?;
-        Ok(Judged {
+        Ok(CheckedMotion {
             findings: Arc::new(findings),
             certificate,
         })

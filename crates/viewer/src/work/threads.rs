@@ -7,7 +7,7 @@ use std::time::{Duration, Instant};
 use super::WorkError;
 
 /// How long a dropped worker is waited for: long enough for most to end, too short to be felt.
-const PATIENCE: Duration = Duration::from_millis(100);
+const JOIN_TIMEOUT: Duration = Duration::from_millis(100);
 
 /// Starts a thread called `name`.
 pub(super) fn start(
@@ -23,7 +23,7 @@ pub(super) fn start(
 /// Does `work` with one thread less than there are cores, so that the window has one.
 ///
 /// Every piece of work has threads of its own: one that runs long would keep another waiting.
-pub(super) fn spread<T: Send>(
+pub(super) fn in_thread_pool<T: Send>(
     work: impl FnOnce() -> Result<T, WorkError> + Send,
 ) -> Result<T, WorkError> {
     let cores = available_parallelism().map_or(1, usize::from);
@@ -34,25 +34,25 @@ pub(super) fn spread<T: Send>(
         .map_err(|e| WorkError::Thread {
             message: e.to_string(),
         })?;
-    pool.install(|| caught(work))
+    pool.install(|| catch_panic(work))
 }
 
 /// Does `work`; a panic in it is an error.
-pub(super) fn caught<T>(work: impl FnOnce() -> Result<T, WorkError>) -> Result<T, WorkError> {
+pub(super) fn catch_panic<T>(work: impl FnOnce() -> Result<T, WorkError>) -> Result<T, WorkError> {
     // What a panic leaves half done is dropped with the work.
     catch_unwind(AssertUnwindSafe(work))
         .unwrap_or_else(|payload| Err(WorkError::of_panic(payload.as_ref())))
 }
 
 /// Waits a little for a thread that was told to stop, so that it can clean up; goes on without it where it takes longer.
-pub(super) fn part_from(thread: Option<JoinHandle<()>>) {
+pub(super) fn join_briefly(thread: Option<JoinHandle<()>>) {
     let Some(thread) = thread else { return };
     let started = Instant::now();
-    while !thread.is_finished() && started.elapsed() < PATIENCE {
+    while !thread.is_finished() && started.elapsed() < JOIN_TIMEOUT {
         sleep(Duration::from_millis(1));
     }
     if thread.is_finished() {
-        // Its panics are caught inside.
+        // Its panics are catch_panic inside.
         let _ = thread.join();
     }
 }

@@ -5,14 +5,14 @@ use eframe::egui::{Key, Modifiers, ViewportCommand};
 use crate::driver::{SMALL, Window};
 
 /// What is looked at to see whether a command was done.
-type Look = fn(&mut Window) -> String;
+type Appearance = fn(&mut Window) -> String;
 
 const CTRL: Modifiers = Modifiers::COMMAND;
 const SHIFT: Modifiers = Modifiers::SHIFT;
 const NONE: Modifiers = Modifiers::NONE;
 
 /// The commands that change nothing of the scene, by their names in the help.
-const LOOKS: [(&str, Modifiers, Key, Look); 32] = [
+const LOOKS: [(&str, Modifiers, Key, Appearance); 32] = [
     ("Play or pause", NONE, Key::Space, |w| {
         w.has("Pause").to_string()
     }),

@@ -9,7 +9,7 @@ mod commands;
 mod driver;
 mod edits;
 mod files;
-mod hand;
+mod interaction;
 mod looks;
 mod openings;
 mod pictures;

@@ -28,13 +28,16 @@ impl ChangedRange {
         }
     }
 
-    /// How many elements are changed in place.
+    /// How many elements are changed in context.
     pub(super) fn shared(&self) -> usize {
         self.old.len().min(self.new.len())
     }
 
     /// The elements that come, each with its index.
-    pub(super) fn inserted<'a>(&self, new: &'a [Value]) -> impl Iterator<Item = (usize, &'a Value)> + use<'a> {
+    pub(super) fn inserted<'a>(
+        &self,
+        new: &'a [Value],
+    ) -> impl Iterator<Item = (usize, &'a Value)> + use<'a> {
         let start = self.new.start + self.shared();
         (start..).zip(&new[start..self.new.end.max(start)])
     }

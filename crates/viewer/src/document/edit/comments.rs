@@ -3,7 +3,7 @@
 use toml_edit::{DocumentMut, Item, RawString, Table};
 
 /// A comment that has lost what it stood above.
-pub(super) struct Orphan {
+pub(super) struct DetachedComment {
     /// The header it stood under, in the order of headers.
     pub(super) position: isize,
     /// Its lines.
@@ -38,8 +38,8 @@ pub(super) fn take_all(document: &mut DocumentMut) -> String {
 }
 
 /// Puts comments above the header that follows the one they stood under, or at the end.
-pub(super) fn adopt(document: &mut DocumentMut, orphans: Vec<Orphan>) {
-    for Orphan { position, comment } in orphans.into_iter().rev() {
+pub(super) fn reattach(document: &mut DocumentMut, orphans: Vec<DetachedComment>) {
+    for DetachedComment { position, comment } in orphans.into_iter().rev() {
         let next = next_position(document.as_table(), position);
         if let Some(table) = next.and_then(|next| table_at(document.as_table_mut(), next)) {
             let own = text_of(table.decor().prefix());

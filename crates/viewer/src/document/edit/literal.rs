@@ -22,7 +22,7 @@ pub(super) fn literal(value: &Value) -> toml_edit::Value {
     }
 }
 
-/// A value that takes the place of another: a whole number stays one where a fraction could stand.
+/// A value that takes the context of another: a whole number stays one where a fraction could stand.
 pub(super) fn in_place_of(before: &toml_edit::Value, value: &Value) -> toml_edit::Value {
     const EXACT: f64 = 9e15;
     match value {

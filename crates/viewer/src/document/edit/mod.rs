@@ -12,7 +12,7 @@ mod tests;
 use foldmotion_study::Scene;
 use toml_edit::DocumentMut;
 
-use comments::Orphan;
+use comments::DetachedComment;
 use value::Keys;
 
 /// The text of `old` with what differs in `new` written into it.
@@ -40,9 +40,9 @@ pub(super) fn edited(text: &str, old: &Scene, new: &Scene) -> Option<String> {
         document.as_table_mut(),
         &old,
         &new,
-        &mut Place::root(&mut orphans),
+        &mut EditContext::root(&mut orphans),
     );
-    comments::adopt(&mut document, orphans);
+    comments::reattach(&mut document, orphans);
     let edited = format!("{head}{document}");
     // A header that has become the first needs no empty line above.
     let edited = match edited.strip_prefix('\n') {
@@ -60,17 +60,17 @@ pub(super) fn edited(text: &str, old: &Scene, new: &Scene) -> Option<String> {
 const BYTE_ORDER_MARK: &str = "\u{feff}";
 
 /// Where in the document an edit is.
-struct Place<'a> {
-    /// The place of the header above, in the order of headers.
+struct EditContext<'a> {
+    /// The context of the header above, in the order of headers.
     position: isize,
     /// Whether this is the document itself.
     root: bool,
     /// Comments that have lost what they stood above.
-    orphans: &'a mut Vec<Orphan>,
+    orphans: &'a mut Vec<DetachedComment>,
 }
 
-impl<'a> Place<'a> {
-    fn root(orphans: &'a mut Vec<Orphan>) -> Self {
+impl<'a> EditContext<'a> {
+    fn root(orphans: &'a mut Vec<DetachedComment>) -> Self {
         Self {
             position: 0,
             root: true,
@@ -78,8 +78,8 @@ impl<'a> Place<'a> {
         }
     }
 
-    fn within(&mut self, table: &toml_edit::Table) -> Place<'_> {
-        Place {
+    fn within(&mut self, table: &toml_edit::Table) -> EditContext<'_> {
+        EditContext {
             position: table.position().unwrap_or(self.position),
             root: false,
             orphans: self.orphans,
@@ -87,8 +87,8 @@ impl<'a> Place<'a> {
     }
 
     /// Keeps a comment for whatever follows the header at hand.
-    fn keep(&mut self, comment: String) {
-        self.orphans.push(Orphan {
+    fn keep_comment(&mut self, comment: String) {
+        self.orphans.push(DetachedComment {
             position: self.position,
             comment,
         });

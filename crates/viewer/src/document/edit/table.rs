@@ -5,12 +5,17 @@ use toml_edit::{Array, ArrayOfTables, InlineTable, Item};
 use super::array::{self, ChangedRange};
 use super::comments::{apart, has_comment, last_position, text_of};
 use super::value::{Keys, Value};
-use super::{Place, literal};
+use super::{EditContext, literal};
 
 /// Writes what differs between two tables into the one that says `old`.
-pub(super) fn edit(table: &mut toml_edit::Table, old: &Keys, new: &Keys, place: &mut Place<'_>) {
+pub(super) fn edit(
+    table: &mut toml_edit::Table,
+    old: &Keys,
+    new: &Keys,
+    context: &mut EditContext<'_>,
+) {
     for (key, _) in old.iter().filter(|(key, _)| new.get(key).is_none()) {
-        remove(table, key, place);
+        remove(table, key, context);
     }
     for (key, value) in new.iter() {
         let before = old.get(key);
@@ -18,20 +23,25 @@ pub(super) fn edit(table: &mut toml_edit::Table, old: &Keys, new: &Keys, place: 
             continue;
         }
         match table.get_mut(key) {
-            Some(item) => edit_item(item, before, value, place),
-            None => insert(table, key, value, new, place),
+            Some(item) => edit_item(item, before, value, context),
+            None => insert(table, key, value, new, context),
         }
     }
 }
 
-fn edit_item(item: &mut Item, before: Option<&Value>, value: &Value, place: &mut Place<'_>) {
+fn edit_item(
+    item: &mut Item,
+    before: Option<&Value>,
+    value: &Value,
+    context: &mut EditContext<'_>,
+) {
     match (item, value) {
         (Item::Table(table), Value::Table(new)) => {
-            let mut place = place.within(table);
-            edit(table, &keys_in(before), new, &mut place);
+            let mut context = context.within(table);
+            edit(table, &keys_in(before), new, &mut context);
         }
         (Item::ArrayOfTables(tables), Value::List(new)) if literal::is_list_of_tables(new) => {
-            edit_tables(tables, list_in(before), new, place);
+            edit_tables(tables, list_in(before), new, context);
         }
         (Item::Value(written), value) => edit_value(written, before, value),
         (item, value) => *item = Item::Value(literal::literal(value)),
@@ -113,13 +123,13 @@ fn edit_tables(
     tables: &mut ArrayOfTables,
     old: &[Value],
     new: &[Value],
-    place: &mut Place<'_>,
+    context: &mut EditContext<'_>,
 ) {
     let old = if tables.len() == old.len() { old } else { &[] };
     if old.is_empty() {
         let at = tables.get(0).and_then(toml_edit::Table::position);
         let fresh = new.iter().filter_map(Value::as_table);
-        let fresh = fresh.map(|inner| literal::table(inner, at.unwrap_or(place.position)));
+        let fresh = fresh.map(|inner| literal::table(inner, at.unwrap_or(context.position)));
         *tables = fresh.collect();
         return;
     }
@@ -130,29 +140,29 @@ fn edit_tables(
         if let (Some(inner), Value::Table(old), Value::Table(new)) =
             (tables.get_mut(index), &old[index], &new[index])
         {
-            let mut place = place.within(inner);
-            edit(inner, old, new, &mut place);
+            let mut context = context.within(inner);
+            edit(inner, old, new, &mut context);
         }
     }
     for _ in shared..change.old.len() {
         let removed = tables.remove(change.old.start + shared);
-        keep_above(&removed, place);
+        keep_above(&removed, context);
     }
     for (index, value) in change.inserted(new) {
         let neighbour = tables.get(index.saturating_sub(1));
         let at = neighbour.and_then(toml_edit::Table::position);
         if let Value::Table(inner) = value {
-            tables.insert(index, literal::table(inner, at.unwrap_or(place.position)));
+            tables.insert(index, literal::table(inner, at.unwrap_or(context.position)));
         }
     }
 }
 
 /// Keeps the comments above a removed header that do not belong to it.
-fn keep_above(removed: &toml_edit::Table, place: &mut Place<'_>) {
+fn keep_above(removed: &toml_edit::Table, context: &mut EditContext<'_>) {
     let above = text_of(removed.decor().prefix());
     let apart = apart(&above);
     if has_comment(apart) {
-        place.within(removed).keep(apart.to_owned());
+        context.within(removed).keep_comment(apart.to_owned());
     }
 }
 
@@ -165,17 +175,15 @@ fn list_in(value: Option<&Value>) -> &[Value] {
 }
 
 /// Removes a key; the comments above it stay above whatever follows.
-fn remove(table: &mut toml_edit::Table, key: &str, place: &mut Place<'_>) {
+fn remove(table: &mut toml_edit::Table, key: &str, context: &mut EditContext<'_>) {
     let next = next_value(table, key);
     let Some((removed, item)) = table.remove_entry(key) else {
         return;
     };
     match &item {
-        Item::Table(inner) => return keep_above(inner, place),
+        Item::Table(inner) => return keep_above(inner, context),
         Item::ArrayOfTables(tables) => {
-            return tables
-                .iter()
-                .for_each(|inner| keep_above(inner, place));
+            return tables.iter().for_each(|inner| keep_above(inner, context));
         }
         _ => {}
     }
@@ -188,7 +196,7 @@ fn remove(table: &mut toml_edit::Table, key: &str, place: &mut Place<'_>) {
             let own = text_of(next.leaf_decor().prefix());
             next.leaf_decor_mut().set_prefix(above + &own);
         }
-        None => place.keep(above),
+        None => context.keep_comment(above),
     }
 }
 
@@ -205,7 +213,7 @@ fn insert(
     key: &str,
     value: &Value,
     order: &Keys,
-    place: &mut Place<'_>,
+    context: &mut EditContext<'_>,
 ) {
     let before = order
         .iter()
@@ -213,7 +221,7 @@ fn insert(
         .take_while(|&other| other != key);
     let present: Vec<&str> = before.filter(|&other| table.contains_key(other)).collect();
     match value {
-        Value::Table(keys) if place.root => {
+        Value::Table(keys) if context.root => {
             let header = present
                 .iter()
                 .rev()
@@ -224,18 +232,18 @@ fn insert(
             }
             table.insert(key, Item::Table(inner));
         }
-        _ => insert_value(table, key, value, place),
+        _ => insert_value(table, key, value, context),
     }
     reorder(table, key, present.last().copied());
 }
 
-fn insert_value(table: &mut toml_edit::Table, key: &str, value: &Value, place: &Place<'_>) {
-    let above = if place.root && !has_values(table) {
+fn insert_value(table: &mut toml_edit::Table, key: &str, value: &Value, context: &EditContext<'_>) {
+    let above = if context.root && !has_values(table) {
         take_head(table)
     } else {
         indent(table)
     };
-    let item = literal::item(value, !table.is_dotted(), place.position);
+    let item = literal::item(value, !table.is_dotted(), context.position);
     let headed = !item.is_value();
     table.insert(key, item);
     if headed {
@@ -251,7 +259,7 @@ fn insert_value(table: &mut toml_edit::Table, key: &str, value: &Value, place: &
             .iter()
             .filter_map(|(_, item)| last_position(item))
             .min();
-        table.set_position(first.or(Some(place.position)));
+        table.set_position(first.or(Some(context.position)));
     }
 }
 

@@ -12,7 +12,7 @@ use folder::Entry;
 
 /// What became of a picker.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) enum Picked {
+pub(crate) enum PickerResult {
     /// This file was chosen; one to be saved may exist, the user was asked.
     File(PathBuf),
     /// None was.
@@ -25,9 +25,9 @@ pub(crate) enum Picked {
     clippy::struct_excessive_bools,
     reason = "what is asked of the next frame is a switch each"
 )]
-pub(crate) struct Picker {
+pub(crate) struct FilePicker {
     title: String,
-    saves: bool,
+    is_saving: bool,
     endings: Vec<&'static str>,
     folder: PathBuf,
     entries: Vec<Entry>,
@@ -39,7 +39,7 @@ pub(crate) struct Picker {
     selected: Option<usize>,
     hidden: bool,
     /// Folders to go to: home and recent ones.
-    places: Vec<(String, PathBuf)>,
+    bookmarks: Vec<(String, PathBuf)>,
     message: Option<String>,
     /// The file that exists and may be overwritten.
     overwrites: Option<PathBuf>,
@@ -49,7 +49,7 @@ pub(crate) struct Picker {
     focuses: bool,
 }
 
-impl Picker {
+impl FilePicker {
     /// Chooses a file to open, among those with one of the endings (without dots).
     pub(crate) fn open(
         title: &str,
@@ -69,7 +69,7 @@ impl Picker {
         recent: &[PathBuf],
     ) -> Self {
         let mut picker = Self::new(title, endings, folder, recent);
-        picker.saves = true;
+        picker.is_saving = true;
         name.clone_into(&mut picker.typed);
         picker
     }
@@ -82,7 +82,7 @@ impl Picker {
         });
         let mut picker = Self {
             title: title.to_owned(),
-            saves: false,
+            is_saving: false,
             endings: endings.to_vec(),
             folder: PathBuf::new(),
             entries: Vec::new(),
@@ -90,7 +90,7 @@ impl Picker {
             typed: String::new(),
             selected: None,
             hidden: false,
-            places: home.into_iter().chain(named).collect(),
+            bookmarks: home.into_iter().chain(named).collect(),
             message: None,
             overwrites: None,
             scrolls: false,
@@ -104,7 +104,7 @@ impl Picker {
     fn go(&mut self, folder: &Path) {
         let whole = std::path::absolute(folder).unwrap_or_else(|_| folder.to_owned());
         self.folder = whole.canonicalize().unwrap_or(whole);
-        if !self.saves {
+        if !self.is_saving {
             self.typed.clear();
         }
         self.focuses = true;
@@ -129,7 +129,7 @@ impl Picker {
     /// Leaves those whose name has what is typed in it, while that is no path; what is to be saved leaves all.
     fn filter(&mut self) {
         let typed = self.typed.trim().to_lowercase();
-        let all = self.saves || typed.contains(['/', '\\', '~']);
+        let all = self.is_saving || typed.contains(['/', '\\', '~']);
         let entries = self.entries.iter().enumerate();
         let fitting = entries.filter(|(_, e)| all || e.name.to_lowercase().contains(&typed));
         self.shown = fitting.map(|(index, _)| index).collect();
@@ -168,7 +168,7 @@ impl Picker {
     fn name_selected(&mut self) {
         let entry = self.selected.and_then(|row| self.shown.get(row));
         if let Some(entry) = entry.map(|&index| &self.entries[index])
-            && self.saves
+            && self.is_saving
             && !entry.is_folder
         {
             self.typed.clone_from(&entry.name);
@@ -186,43 +186,43 @@ impl Picker {
     }
 
     /// Goes into the selected folder, or chooses the selected file; without one, does what is typed.
-    fn enter(&mut self) -> Option<Picked> {
+    fn enter(&mut self) -> Option<PickerResult> {
         let entry = self.selected.and_then(|row| self.shown.get(row)).copied();
         match entry.map(|index| self.entries[index].clone()) {
             Some(entry) if entry.is_folder => {
                 self.go(&entry.path);
                 None
             }
-            Some(entry) if !self.saves => Some(Picked::File(entry.path)),
+            Some(entry) if !self.is_saving => Some(PickerResult::File(entry.path)),
             _ => self.enter_typed(),
         }
     }
 
-    fn enter_typed(&mut self) -> Option<Picked> {
+    fn enter_typed(&mut self) -> Option<PickerResult> {
         if self.typed.trim().is_empty() {
             self.message = Some("type a name, or select one".to_owned());
             return None;
         }
         let path = folder::resolve(&self.folder, &self.typed);
         if path.is_dir() {
-            if self.saves {
+            if self.is_saving {
                 self.typed.clear();
             }
             self.go(&path);
             return None;
         }
-        if self.saves {
+        if self.is_saving {
             return self.enter_new(path);
         }
         if path.is_file() {
-            return Some(Picked::File(path));
+            return Some(PickerResult::File(path));
         }
         self.message = Some(format!("{}: there is no such file", path.display()));
         None
     }
 
     /// Chooses a file to be written, or asks first where it exists.
-    fn enter_new(&mut self, mut path: PathBuf) -> Option<Picked> {
+    fn enter_new(&mut self, mut path: PathBuf) -> Option<PickerResult> {
         if let (None, Some(ending)) = (path.extension(), self.endings.first()) {
             path.set_extension(ending);
         }
@@ -234,7 +234,7 @@ impl Picker {
         } else if path.exists() {
             self.overwrites = Some(path);
         } else {
-            return Some(Picked::File(path));
+            return Some(PickerResult::File(path));
         }
         None
     }

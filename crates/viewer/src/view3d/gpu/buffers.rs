@@ -60,13 +60,13 @@ impl Buffer {
 
 /// A list that vertex passes look up.
 #[derive(Debug)]
-pub(super) struct Table {
+pub(super) struct DataTexture {
     texture: wgpu::Texture,
     /// Floats a cell.
     width: u32,
 }
 
-impl Table {
+impl DataTexture {
     /// For `count` cells of two floats or four.
     pub(super) fn new(device: &wgpu::Device, count: usize, width: u32) -> Self {
         let format = match width {

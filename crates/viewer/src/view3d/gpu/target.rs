@@ -109,12 +109,12 @@ impl Target {
 }
 
 /// A place among egui's textures, given back at the end.
-pub(super) struct Shelf {
+pub(super) struct EguiTexture {
     renderer: Arc<RwLock<Renderer>>,
     id: Option<TextureId>,
 }
 
-impl Shelf {
+impl EguiTexture {
     pub(super) fn new(state: &RenderState) -> Self {
         Self {
             renderer: Arc::clone(&state.renderer),
@@ -137,7 +137,7 @@ impl Shelf {
     }
 }
 
-impl Drop for Shelf {
+impl Drop for EguiTexture {
     fn drop(&mut self) {
         if let Some(id) = self.id {
             self.renderer.write().free_texture(&id);

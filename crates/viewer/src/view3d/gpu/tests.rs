@@ -10,12 +10,12 @@ use foldmotion_pattern::{Case, LayerOrder, Unit, UnitSheet};
 use foldmotion_record::{Image, Layers, Style, View as Direction, picture as film_picture, png};
 use glam::{DVec2, DVec3};
 
-use super::super::eye::Eye;
-use super::super::pose::Pose;
+use super::super::prepared::PreparedSheet;
+use super::super::projection::Projection;
 use super::pipelines::{CORNERS, CREASES, PAINTS, SEGMENTS, SOURCE};
 use super::*;
 use crate::view3d::picture::{Overlay, Shape};
-use crate::view3d::{Colours, Handle, Orbit};
+use crate::view3d::{Colours, OrbitCamera, VertexPull};
 
 const SIZE: [u32; 2] = [480, 360];
 
@@ -104,7 +104,7 @@ impl Subject {
             overlays: &[],
             flash: &[],
             pulse: 1.0,
-            handle: None,
+            pull: None,
             can_pull: false,
         }
     }
@@ -115,15 +115,17 @@ pub(in super::super) fn device() -> RenderState {
 }
 
 /// Draws `picture` in pixels.
-fn drawn(gpu: &mut Gpu, picture: &Picture<'_>, orbit: &Orbit) -> Image {
-    let pose = Pose::new(picture);
+fn drawn(gpu: &mut Gpu, picture: &Picture<'_>, orbit: &OrbitCamera) -> Image {
+    let prepared = PreparedSheet::new(picture);
     let size = DVec2::from(SIZE.map(f64::from));
     let lines = segments(picture);
-    let ball = pose.ball.with(lines.iter().flat_map(|line| line.ends));
-    let eye = Eye::new(orbit, size, ball);
-    let view = View {
-        eye: &eye,
-        pose: &pose,
+    let sphere = prepared
+        .sphere
+        .with(lines.iter().flat_map(|line| line.ends));
+    let projection = Projection::new(orbit, size, sphere);
+    let view = FrameView {
+        projection: &projection,
+        prepared: &prepared,
         size: SIZE,
         pixels_per_point: 1.0,
     };
@@ -219,9 +221,9 @@ fn views() -> Vec<Direction> {
     views
 }
 
-fn fitted(view: Direction, positions: &[DVec3]) -> Orbit {
-    let mut orbit = Orbit::default();
-    orbit.stand(view, DVec3::ZERO);
+fn fitted(view: Direction, positions: &[DVec3]) -> OrbitCamera {
+    let mut orbit = OrbitCamera::default();
+    orbit.set_view(view, DVec3::ZERO);
     orbit.fit(positions.iter().copied(), DVec2::from(SIZE.map(f64::from)));
     orbit
 }
@@ -328,8 +330,9 @@ fn a_dot_is_drawn_where_its_place_is_projected_also_in_perspective() {
             }];
             let mut picture = subject.picture(&compact, 1);
             picture.overlays = &dots;
-            let ball = Pose::new(&picture).ball;
-            let at = Eye::new(&orbit, DVec2::from(SIZE.map(f64::from)), ball).project(place);
+            let sphere = PreparedSheet::new(&picture).sphere;
+            let at =
+                Projection::new(&orbit, DVec2::from(SIZE.map(f64::from)), sphere).project(place);
             let image = drawn(&mut gpu, &picture, &orbit);
             assert_eq!(image.pixels[at_pixel(at)], [255, 0, 0], "{place} at {at}");
         }
@@ -470,10 +473,10 @@ fn overlays_are_drawn_before_paper_and_dimmed_behind_it_and_handles_never() {
             middle + DVec3::new(0.5, 0.0, z),
         ]
     };
-    let colour = |gpu: &mut Gpu, overlays: &[Overlay<'_>], handle| {
+    let colour = |gpu: &mut Gpu, overlays: &[Overlay<'_>], pull| {
         let picture = Picture {
             overlays,
-            handle,
+            pull,
             ..picture
         };
         drawn(gpu, &picture, &orbit).pixel(SIZE[0] / 2, SIZE[1] / 2)
@@ -494,11 +497,11 @@ fn overlays_are_drawn_before_paper_and_dimmed_behind_it_and_handles_never() {
         width: 9.0,
     }];
     assert_eq!(colour(&mut gpu, &dot, None), [255, 0, 0]);
-    let handle = Handle {
+    let pull = VertexPull {
         vertex: 0,
         target: dots[0],
     };
-    assert_eq!(colour(&mut gpu, &[], Some(handle)), subject.style.mark);
+    assert_eq!(colour(&mut gpu, &[], Some(pull)), subject.style.mark);
 }
 
 #[test]
@@ -533,7 +536,7 @@ fn triangles_that_flash_pulse_from_paper_to_the_colour_of_marks() {
 )]
 fn an_error_of_the_driver_is_told_and_not_thrown() {
     let state = device();
-    let caught = caught(&state.device, || {
+    let catch_errors = catch_errors(&state.device, || {
         state.device.create_buffer(&wgpu::BufferDescriptor {
             label: Some("too large"),
             size: 1 << 60,
@@ -541,5 +544,5 @@ fn an_error_of_the_driver_is_told_and_not_thrown() {
             mapped_at_creation: false,
         })
     });
-    assert!(caught.unwrap_err().contains("too large"));
+    assert!(catch_errors.unwrap_err().contains("too large"));
 }

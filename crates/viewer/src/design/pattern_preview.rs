@@ -7,11 +7,11 @@ use glam::DVec2;
 
 use super::creases::{Creases, MOST_EDGES};
 use super::form::{Form, NOTE_SIZE};
-use super::plane::{Plane, View, bounds, canvas};
+use super::plane::{Plane, PlaneView, bounds, canvas};
 
 /// How the pattern is turned: its long side lies across, its front faces the viewer.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-enum Turn {
+enum Orientation {
     /// As it is: an imported pattern.
     #[default]
     None,
@@ -21,7 +21,7 @@ enum Turn {
     Quarter,
 }
 
-impl Turn {
+impl Orientation {
     fn of(draft: &Draft) -> Self {
         let Draft::Units(draft) = draft else {
             return Self::None;
@@ -50,16 +50,16 @@ impl Turn {
 
 /// What the section remembers.
 #[derive(Debug, Default)]
-pub(super) struct Preview {
-    view: View,
+pub(super) struct PatternPreview {
+    view: PlaneView,
     creases: Creases,
     /// The draft whose bounds these are.
     of: Option<u64>,
     bounds: [DVec2; 2],
-    turn: Turn,
+    orientation: Orientation,
 }
 
-impl Preview {
+impl PatternPreview {
     pub(super) fn show(&mut self, form: &mut Form<'_>, ui: &mut Ui) {
         form.section(ui, "Crease pattern", true, &[], |form, ui| {
             let Some(draft) = form.draft else {
@@ -89,8 +89,12 @@ impl Preview {
             return;
         }
         self.of = Some(draft_number);
-        self.turn = Turn::of(draft);
-        let turned = draft.sheet().vertices.iter().map(|&v| self.turn.apply(v));
+        self.orientation = Orientation::of(draft);
+        let turned = draft
+            .sheet()
+            .vertices
+            .iter()
+            .map(|&v| self.orientation.apply(v));
         self.bounds = bounds(turned);
     }
 
@@ -101,8 +105,8 @@ impl Preview {
         let (response, painter) = canvas(ui, height, "crease pattern");
         let plane = self.view.plane(ui, &response, self.bounds);
         let sheet = draft.sheet();
-        let turn = self.turn;
-        let place = |v| turn.apply(v);
+        let orientation = self.orientation;
+        let place = |v| orientation.apply(v);
         painter.add(
             self.creases
                 .shape(ui, form.draft_number, sheet, &plane, place),
@@ -119,11 +123,11 @@ impl Preview {
             );
         }
         if let Some(at) = response.hover_pos() {
-            let found = found(draft, turn.undo(plane.to_plane(at)));
+            let found = found(draft, orientation.undo(plane.to_plane(at)));
             if let Some((corners, text)) = found {
                 let corners: Vec<_> = corners
                     .iter()
-                    .map(|&c| plane.to_screen(turn.apply(c)))
+                    .map(|&c| plane.to_screen(orientation.apply(c)))
                     .collect();
                 mark(ui, &painter, &plane, corners, &text);
             }
@@ -228,11 +232,11 @@ mod tests {
 
     #[test]
     fn turns_are_undone_and_keep_the_front_in_front() {
-        for turn in [Turn::None, Turn::Half, Turn::Quarter] {
+        for orientation in [Orientation::None, Orientation::Half, Orientation::Quarter] {
             let (a, b) = (DVec2::new(1.0, 2.0), DVec2::new(-3.0, 0.5));
-            assert_eq!(turn.undo(turn.apply(a)), a);
-            let turned = turn.apply(a).perp_dot(turn.apply(b));
-            assert!((turned - a.perp_dot(b)).abs() < 1e-12, "{turn:?}");
+            assert_eq!(orientation.undo(orientation.apply(a)), a);
+            let turned = orientation.apply(a).perp_dot(orientation.apply(b));
+            assert!((turned - a.perp_dot(b)).abs() < 1e-12, "{orientation:?}");
         }
     }
 }

@@ -5,21 +5,21 @@ use std::time::Duration;
 
 use foldmotion_study::{Draft, SceneSource, Study};
 
-use super::latest::Latest;
-use super::{Wake, WorkError};
+use super::latest_worker::LatestWorker;
+use super::{RepaintSignal, WorkError};
 
 /// How long a scene rests before its study is resolved: while a hand drags, drafts have the processor to themselves.
-const REST: Duration = Duration::from_millis(120);
+const DELAY: Duration = Duration::from_millis(120);
 
 /// Resolves scenes in the background; the latest one wins.
 #[derive(Debug)]
-pub(crate) struct Drafts {
-    quick: Latest<SceneSource, Arc<Draft>>,
-    studies: Latest<SceneSource, Arc<Study>>,
-    asked: u64,
+pub(crate) struct Resolver {
+    drafts: LatestWorker<SceneSource, Arc<Draft>>,
+    studies: LatestWorker<SceneSource, Arc<Study>>,
+    serial: u64,
 }
 
-/// A resolved scene, by the number that [`Drafts::ask`] gave it.
+/// A resolved scene, by the number that [`Resolver::ask`] gave it.
 #[derive(Debug)]
 pub(crate) enum Resolved {
     /// What it folds, or why nothing.
@@ -28,30 +28,30 @@ pub(crate) enum Resolved {
     Study(u64, Result<Arc<Study>, WorkError>),
 }
 
-impl Drafts {
-    /// Nothing asked yet.
-    pub(crate) fn new(wake: Wake) -> Self {
+impl Resolver {
+    /// Nothing serial yet.
+    pub(crate) fn new(repaint: RepaintSignal) -> Self {
         let draft = |source: SceneSource| Ok(Draft::resolve(&source).map(Arc::new)?);
         let study = |source: SceneSource| Ok(Study::resolve(&source).map(Arc::new)?);
         Self {
-            quick: Latest::new("foldmotion draft", Duration::ZERO, wake.clone(), draft),
-            studies: Latest::new("foldmotion study", REST, wake, study),
-            asked: 0,
+            drafts: LatestWorker::new("foldmotion draft", Duration::ZERO, repaint.clone(), draft),
+            studies: LatestWorker::new("foldmotion study", DELAY, repaint, study),
+            serial: 0,
         }
     }
 
     /// Asks for `source` in the place of those before it; answers its number, from 1.
-    pub(crate) fn ask(&mut self, source: SceneSource) -> u64 {
-        self.asked += 1;
-        self.quick.ask(self.asked, source.clone());
-        self.studies.ask(self.asked, source);
-        self.asked
+    pub(crate) fn submit(&mut self, source: SceneSource) -> u64 {
+        self.serial += 1;
+        self.drafts.submit(self.serial, source.clone());
+        self.studies.submit(self.serial, source);
+        self.serial
     }
 
-    /// What has been resolved since it was last asked: at most a draft and a study.
+    /// What has been resolved since it was last serial: at most a draft and a study.
     pub(crate) fn take(&self) -> impl Iterator<Item = Resolved> {
         let draft = self
-            .quick
+            .drafts
             .take()
             .map(|(n, draft)| Resolved::Draft(n, draft));
         let study = self
@@ -63,7 +63,7 @@ impl Drafts {
 
     /// Whether something is still to come.
     pub(crate) fn is_busy(&self) -> bool {
-        self.quick.is_busy() || self.studies.is_busy()
+        self.drafts.is_busy() || self.studies.is_busy()
     }
 }
 
@@ -73,10 +73,10 @@ mod tests {
     use super::super::run::tests::source;
     use super::*;
 
-    fn answers(drafts: &Drafts) -> (Option<Resolved>, Option<Resolved>) {
-        wait(|| !drafts.is_busy());
+    fn answers(resolver: &Resolver) -> (Option<Resolved>, Option<Resolved>) {
+        wait(|| !resolver.is_busy());
         let (mut draft, mut study) = (None, None);
-        for answer in drafts.take() {
+        for answer in resolver.take() {
             match answer {
                 Resolved::Draft(..) => draft = Some(answer),
                 Resolved::Study(..) => study = Some(answer),
@@ -87,28 +87,28 @@ mod tests {
 
     #[test]
     fn the_last_of_many_scenes_is_resolved_as_draft_and_study() {
-        let mut drafts = Drafts::new(Wake::new(|| {}));
+        let mut resolver = Resolver::new(RepaintSignal::new(|| {}));
         for frames in (2..40).step_by(2) {
-            drafts.ask(source(&format!("[motion]\nframes = {frames}\n")));
+            resolver.submit(source(&format!("[motion]\nframes = {frames}\n")));
         }
-        let asked = drafts.ask(source("[motion]\nframes = 48\n"));
-        let (draft, study) = answers(&drafts);
+        let serial = resolver.submit(source("[motion]\nframes = 48\n"));
+        let (draft, study) = answers(&resolver);
         let Some(Resolved::Draft(n, Ok(draft))) = draft else {
             panic!("{draft:?}")
         };
-        assert_eq!(n, asked);
+        assert_eq!(n, serial);
         let Some(Resolved::Study(n, Ok(study))) = study else {
             panic!("{study:?}")
         };
-        assert_eq!((n, study.frames), (asked, 48));
+        assert_eq!((n, study.frames), (serial, 48));
         assert_eq!(draft.sheet(), study.subject.sheet());
     }
 
     #[test]
     fn an_error_names_its_key_and_a_draft_does_not_need_what_only_runs_need() {
-        let mut drafts = Drafts::new(Wake::new(|| {}));
-        drafts.ask(source("[motion]\nframes = 3\n"));
-        let (draft, study) = answers(&drafts);
+        let mut resolver = Resolver::new(RepaintSignal::new(|| {}));
+        resolver.submit(source("[motion]\nframes = 3\n"));
+        let (draft, study) = answers(&resolver);
         assert!(matches!(draft, Some(Resolved::Draft(1, Ok(_)))));
         let Some(Resolved::Study(1, Err(error))) = study else {
             panic!("{study:?}")

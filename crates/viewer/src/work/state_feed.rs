@@ -15,7 +15,7 @@ const WINDOW: Duration = Duration::from_secs(1);
 
 /// A state of the sheet.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct State {
+pub(crate) struct SheetState {
     /// Which one it is, from 1.
     pub(crate) serial: u64,
     /// Its motion time.
@@ -26,20 +26,19 @@ pub(crate) struct State {
 
 /// Where a worker leaves the sheet's latest state. Clones share it.
 #[derive(Debug, Clone, Default)]
-pub(crate) struct Live(Arc<Mutex<Inner>>);
+pub(crate) struct StateFeed(Arc<Mutex<Inner>>);
 
 #[derive(Debug, Default)]
 struct Inner {
-    state: Option<State>,
+    state: Option<SheetState>,
     /// When the last states came.
     times: VecDeque<Instant>,
 }
 
-impl Live {
-    /// The latest state, if it is another than that of `serial`; 0 for any.
-    pub(crate) fn newer(&self, serial: u64) -> Option<State> {
-        let inner = lock(&self.0);
-        inner.state.clone().filter(|state| state.serial != serial)
+impl StateFeed {
+    /// The latest state, if there is one.
+    pub(crate) fn latest(&self) -> Option<SheetState> {
+        lock(&self.0).state.clone()
     }
 
     /// How many states came in the last second.
@@ -71,7 +70,7 @@ impl Live {
         let now = Instant::now();
         let mut inner = lock(&self.0);
         let serial = inner.state.as_ref().map_or(0, |state| state.serial) + 1;
-        inner.state = Some(State {
+        inner.state = Some(SheetState {
             serial,
             time,
             positions: Arc::new(positions),
@@ -90,17 +89,16 @@ mod tests {
 
     #[test]
     fn states_are_numbered_bounded_in_rate_and_counted() {
-        let live = Live::default();
-        assert!(live.newer(0).is_none() && live.rate() == 0);
+        let states = StateFeed::default();
+        assert!(states.latest().is_none() && states.rate() == 0);
         let started = Instant::now();
         let mut shown = 0_u64;
         while shown < 5 {
-            shown += u64::from(live.show(shown as f64, || vec![DVec3::X]));
+            shown += u64::from(states.show(shown as f64, || vec![DVec3::X]));
         }
         assert!(started.elapsed() >= 4 * SPACING);
-        let state = live.newer(4).unwrap();
+        let state = states.latest().unwrap();
         assert_eq!((state.serial, state.time), (5, 4.0));
-        assert!(live.newer(5).is_none());
-        assert!(live.rate() <= 5);
+        assert!(states.rate() <= 5);
     }
 }

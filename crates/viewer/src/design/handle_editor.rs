@@ -1,4 +1,4 @@
-//! Control points, and points the curve runs through, under the hand.
+//! Control points, and points the curve runs through, under the handles.
 
 use eframe::egui::{
     self, Event, EventFilter, Id, Key, PointerButton, Rect, Response, Sense, Stroke, Ui, Vec2, vec2,
@@ -8,7 +8,7 @@ use glam::DVec2;
 use super::curve::{handles_mut, remove_handle};
 use super::form::Form;
 use super::number::Number;
-use super::plane::{Plane, View, round_step};
+use super::plane::{Plane, PlaneView, round_step};
 
 /// More points than this are drawn by their curve alone.
 pub(super) const MOST_HANDLES: usize = 400;
@@ -17,7 +17,7 @@ const REACH: f32 = 16.0;
 
 /// The point that is selected, and the drag under way.
 #[derive(Debug, Default)]
-pub(super) struct Hand {
+pub(super) struct HandleEditor {
     selected: Option<usize>,
     /// Where the point was when the drag began.
     origin: Option<DVec2>,
@@ -26,12 +26,12 @@ pub(super) struct Hand {
 }
 
 /// What was done to a point.
-enum Deed {
+enum HandleAction {
     Move(DVec2, bool),
     Remove,
 }
 
-impl Hand {
+impl HandleEditor {
     pub(super) fn select(&mut self, index: usize) {
         self.selected = Some(index);
     }
@@ -70,10 +70,10 @@ impl Hand {
         painter: &egui::Painter,
         plane: &Plane,
         points: &[DVec2],
-        view: &mut View,
+        view: &mut PlaneView,
     ) {
         self.selected = self.selected.filter(|&index| index < points.len());
-        let mut deed = None;
+        let mut action = None;
         for (index, &point) in points.iter().enumerate() {
             let id = form.id("point").with(index);
             let place = plane.to_screen(point);
@@ -93,26 +93,26 @@ impl Hand {
                 egui::WidgetInfo::labeled(egui::accesskit::Role::GraphicsObject, true, name)
             });
             self.paint(ui, painter, place, &response, index);
-            if let Some(done) = self.deed(ui, &response, plane, view, index, point) {
-                deed = Some((index, done, id));
+            if let Some(done) = self.action(ui, &response, plane, view, index, point) {
+                action = Some((index, done, id));
             }
         }
-        if let Some((index, deed, id)) = deed {
-            self.apply(form, index, &deed, id);
+        if let Some((index, action, id)) = action {
+            self.apply(form, index, &action, id);
         }
     }
 
     /// Does to the scene what was done to a point.
-    fn apply(&mut self, form: &mut Form<'_>, index: usize, deed: &Deed, id: Id) {
+    fn apply(&mut self, form: &mut Form<'_>, index: usize, action: &HandleAction, id: Id) {
         let profile = &mut form.scene.profile;
-        match deed {
-            &Deed::Move(point, ongoing) => {
+        match action {
+            &HandleAction::Move(point, ongoing) => {
                 if let Some(moved) = handles_mut(profile).and_then(|p| p.get_mut(index)) {
                     *moved = point.into();
                     form.record("move point", id, ongoing);
                 }
             }
-            Deed::Remove => {
+            HandleAction::Remove => {
                 if remove_handle(profile, index) {
                     self.selected = None;
                     form.record("remove point", id, false);
@@ -146,15 +146,15 @@ impl Hand {
     }
 
     /// What the user does to one point.
-    fn deed(
+    fn action(
         &mut self,
         ui: &Ui,
         response: &Response,
         plane: &Plane,
-        view: &mut View,
+        view: &mut PlaneView,
         index: usize,
         point: DVec2,
-    ) -> Option<Deed> {
+    ) -> Option<HandleAction> {
         if response.clicked() || response.drag_started_by(PointerButton::Primary) {
             self.selected = Some(index);
             response.request_focus();
@@ -165,21 +165,21 @@ impl Hand {
         if response.drag_started_by(PointerButton::Primary) {
             self.origin = Some(point);
             self.holds_view = view.is_fitted();
-            view.keep(plane);
+            view.pin(plane);
         }
         if response.drag_stopped() && std::mem::take(&mut self.holds_view) {
             view.fit();
         }
         if response.secondary_clicked() {
-            return Some(Deed::Remove);
+            return Some(HandleAction::Remove);
         }
         if response.dragged_by(PointerButton::Primary) {
             let way = response.total_drag_delta().unwrap_or(Vec2::ZERO);
             let moved = rounded_on(plane, self.origin.unwrap_or(point) + plane.vector(way));
-            return (moved != point).then_some(Deed::Move(moved, true));
+            return (moved != point).then_some(HandleAction::Move(moved, true));
         }
         if response.has_focus() && self.selected == Some(index) {
-            return keyed(ui, response, plane, point);
+            return key_action(ui, response, plane, point);
         }
         None
     }
@@ -221,7 +221,7 @@ impl Hand {
 }
 
 /// A move by arrow keys, ten times as far with shift; Delete and Backspace remove.
-fn keyed(ui: &Ui, response: &Response, plane: &Plane, point: DVec2) -> Option<Deed> {
+fn key_action(ui: &Ui, response: &Response, plane: &Plane, point: DVec2) -> Option<HandleAction> {
     let filter = EventFilter {
         horizontal_arrows: true,
         vertical_arrows: true,
@@ -254,11 +254,11 @@ fn keyed(ui: &Ui, response: &Response, plane: &Plane, point: DVec2) -> Option<De
         }
     });
     if removes {
-        return Some(Deed::Remove);
+        return Some(HandleAction::Remove);
     }
     let moved = (point + way) / step * 1e3;
     let moved = moved.round() / 1e3 * step;
-    (way != DVec2::ZERO).then_some(Deed::Move(moved, true))
+    (way != DVec2::ZERO).then_some(HandleAction::Move(moved, true))
 }
 
 /// A point rounded to a decimal place that the eye cannot tell on the screen.

@@ -9,7 +9,7 @@ pub(crate) const SCALES: [f32; 4] = [1.0, 1.25, 1.5, 2.0];
 /// Dark or light.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
-pub(crate) enum Look {
+pub(crate) enum Appearance {
     /// As the system is.
     #[default]
     System,
@@ -19,8 +19,8 @@ pub(crate) enum Look {
     Light,
 }
 
-impl Look {
-    /// Every look.
+impl Appearance {
+    /// Every appearance.
     pub(crate) const ALL: [Self; 3] = [Self::System, Self::Dark, Self::Light];
 
     /// Light where the window is dark, dark where it is light.
@@ -42,14 +42,14 @@ impl Look {
 }
 
 /// Dresses the window. To be called at the start and when either has changed: keyboard zoom stays in between.
-pub(crate) fn apply(ctx: &egui::Context, look: Look, scale: f32) {
+pub(crate) fn apply(ctx: &egui::Context, appearance: Appearance, scale: f32) {
     for theme in [Theme::Dark, Theme::Light] {
         ctx.set_style_of(theme, style_of(theme));
     }
-    ctx.set_theme(match look {
-        Look::System => ThemePreference::System,
-        Look::Dark => ThemePreference::Dark,
-        Look::Light => ThemePreference::Light,
+    ctx.set_theme(match appearance {
+        Appearance::System => ThemePreference::System,
+        Appearance::Dark => ThemePreference::Dark,
+        Appearance::Light => ThemePreference::Light,
     });
     ctx.set_zoom_factor(scale);
 }
@@ -179,9 +179,9 @@ mod tests {
     #[test]
     fn a_look_is_applied_to_the_window() {
         let ctx = egui::Context::default();
-        apply(&ctx, Look::Light, 1.5);
+        apply(&ctx, Appearance::Light, 1.5);
         assert_eq!(ctx.theme(), Theme::Light);
-        apply(&ctx, Look::Dark, 1.0);
+        apply(&ctx, Appearance::Dark, 1.0);
         assert_eq!(ctx.theme(), Theme::Dark);
     }
 }

@@ -6,16 +6,16 @@ use foldmotion_pattern::Sheet;
 use foldmotion_study::Quantity;
 use glam::DVec3;
 
-use super::act::Act;
+use super::shown_motion::ShownMotion;
 use crate::settings::Colour;
-use crate::work::State;
+use crate::work::SheetState;
 
 /// The state that is shown.
 #[derive(Debug, Default)]
-pub(crate) struct Pose {
+pub(crate) struct ShownState {
     /// Changes with the positions.
     pub(crate) key: u64,
-    of: Option<Of>,
+    of: Option<StateKey>,
     pub(crate) positions: Arc<Vec<DVec3>>,
     /// Triangles that penetrate now, and where they met.
     pub(crate) penetrating: (Vec<u32>, Vec<DVec3>),
@@ -25,38 +25,43 @@ pub(crate) struct Pose {
 
 /// What a pose is of.
 #[derive(Debug, Clone, Copy, PartialEq)]
-enum Of {
+enum StateKey {
     /// A motion at a time.
-    Act(u64, f64),
+    Motion(u64, f64),
     /// The state of a run, or in the hand, by its serial number.
-    Live(u64, bool),
+    StateFeed(u64, bool),
 }
 
-impl Pose {
-    /// Takes the state of `act` at motion time `t`.
-    pub(crate) fn show(&mut self, act: &Act, t: f64) {
-        let of = Of::Act(act.key, t);
+impl ShownState {
+    /// Takes the state of `shown` at motion time `t`.
+    pub(crate) fn show(&mut self, shown: &ShownMotion, t: f64) {
+        let of = StateKey::Motion(shown.key, t);
         if self.of == Some(of) {
             return;
         }
-        self.set(of, Arc::new(act.state(t)));
-        self.penetrating = act.penetrating(t);
+        self.set(of, Arc::new(shown.state(t)));
+        self.penetrating = shown.penetrating(t);
     }
 
-    /// Takes a state that is computed while it is shown: where the engine has it, or, in the hand, where `act` is shown.
-    pub(crate) fn show_live(&mut self, state: &State, act: &Act, is_in_hand: bool) {
-        let of = Of::Live(state.serial, is_in_hand);
+    /// Takes a state that is computed while it is shown: where the engine has it, or, in the hand, where `shown` is shown.
+    pub(crate) fn show_live(
+        &mut self,
+        state: &SheetState,
+        shown: &ShownMotion,
+        is_interacting: bool,
+    ) {
+        let of = StateKey::StateFeed(state.serial, is_interacting);
         if self.of == Some(of) {
             return;
         }
-        let positions = if is_in_hand {
+        let positions = if is_interacting {
             Arc::clone(&state.positions)
         } else {
             Arc::new(
                 state
                     .positions
                     .iter()
-                    .map(|&p| act.place.apply(p))
+                    .map(|&p| shown.placement.apply(p))
                     .collect(),
             )
         };
@@ -64,7 +69,7 @@ impl Pose {
         self.penetrating = (Vec::new(), Vec::new());
     }
 
-    fn set(&mut self, of: Of, positions: Arc<Vec<DVec3>>) {
+    fn set(&mut self, of: StateKey, positions: Arc<Vec<DVec3>>) {
         self.of = Some(of);
         self.positions = positions;
         self.key += 1;
@@ -73,7 +78,7 @@ impl Pose {
     /// The values of the triangles that `colour` shows, if it shows values, with their range and title.
     pub(crate) fn values(
         &mut self,
-        act: &Act,
+        shown: &ShownMotion,
         sheet: &Sheet,
         colour: Colour,
     ) -> Option<(&[f64], [f64; 2], &'static str)> {
@@ -84,10 +89,10 @@ impl Pose {
         };
         if self
             .ranges
-            .is_none_or(|(key, q, _)| (key, q) != (act.key, quantity))
+            .is_none_or(|(key, q, _)| (key, q) != (shown.key, quantity))
         {
-            let range = quantity.of_motion(act.motion()).range;
-            self.ranges = Some((act.key, quantity, range));
+            let range = quantity.of_motion(shown.motion()).range;
+            self.ranges = Some((shown.key, quantity, range));
         }
         let is_known = self
             .values

@@ -1,4 +1,4 @@
-//! Errors of the GPU: caught where they arise, none panics.
+//! Errors of the GPU: catch_errors where they arise, none panics.
 
 use std::future::Future;
 use std::pin::pin;
@@ -12,16 +12,16 @@ use eframe::egui_wgpu::{RenderState, Renderer, wgpu};
 const LONGEST: usize = 240;
 
 /// Tells whether a device was lost.
-pub(in super::super) struct Watch {
+pub(in super::super) struct LossMonitor {
     device: wgpu::Device,
     /// Tells devices apart: those of two instances may compare as equal.
     renderer: Arc<RwLock<Renderer>>,
     lost: Arc<Mutex<Option<String>>>,
 }
 
-impl Watch {
+impl LossMonitor {
     /// Watches the device of `state`. A device has one watcher, the last.
-    pub(in super::super) fn over(state: &RenderState) -> Self {
+    pub(in super::super) fn new(state: &RenderState) -> Self {
         let lost: Arc<Mutex<Option<String>>> = Arc::default();
         let told = Arc::clone(&lost);
         state
@@ -38,7 +38,7 @@ impl Watch {
     }
 
     /// Whether it watches the device of `state`.
-    pub(in super::super) fn is_over(&self, state: &RenderState) -> bool {
+    pub(in super::super) fn monitors(&self, state: &RenderState) -> bool {
         Arc::ptr_eq(&self.renderer, &state.renderer)
     }
 
@@ -51,9 +51,9 @@ impl Watch {
     }
 }
 
-impl std::fmt::Debug for Watch {
+impl std::fmt::Debug for LossMonitor {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.debug_struct("Watch")
+        f.debug_struct("LossMonitor")
             .field("lost", &self.lost)
             .finish_non_exhaustive()
     }
@@ -63,7 +63,10 @@ impl std::fmt::Debug for Watch {
 ///
 /// # Errors
 /// The driver's or wgpu's words.
-pub(super) fn caught<T>(device: &wgpu::Device, work: impl FnOnce() -> T) -> Result<T, String> {
+pub(super) fn catch_errors<T>(
+    device: &wgpu::Device,
+    work: impl FnOnce() -> T,
+) -> Result<T, String> {
     let memory = device.push_error_scope(wgpu::ErrorFilter::OutOfMemory);
     let inner = device.push_error_scope(wgpu::ErrorFilter::Internal);
     let validation = device.push_error_scope(wgpu::ErrorFilter::Validation);

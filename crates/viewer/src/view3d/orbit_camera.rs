@@ -6,17 +6,17 @@ use foldmotion_record::{Camera, RecordError};
 use glam::{DVec2, DVec3};
 
 /// Seconds that a preset takes to turn into.
-const TURNING: f64 = 0.15;
+const TRANSITION_SECONDS: f64 = 0.15;
 
 /// The part of the view kept free on each side of what is fitted, as films have it.
 const MARGIN: f64 = 0.05;
 
-/// The eye of a perspective view is this many widths of it away: about what a 50 mm lens sees.
-const EYE: f64 = 1.4;
+/// The projection of a perspective view is this many widths of it away: about what a 50 mm lens sees.
+const EYE_DISTANCE: f64 = 1.4;
 
 /// Where the viewer stands and what is in the middle.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Orbit {
+pub(crate) struct OrbitCamera {
     /// Degrees, as in [`View::Around`].
     pub(crate) azimuth: f64,
     /// Degrees, as in [`View::Around`].
@@ -29,7 +29,7 @@ pub(crate) struct Orbit {
     pub(crate) perspective: bool,
 }
 
-impl Default for Orbit {
+impl Default for OrbitCamera {
     fn default() -> Self {
         let [azimuth, elevation] = direction(View::Iso);
         Self {
@@ -57,7 +57,7 @@ fn direction(view: View) -> [f64; 2] {
     }
 }
 
-impl Orbit {
+impl OrbitCamera {
     /// The same view for films and figures.
     pub(crate) fn view(&self) -> View {
         View::Around {
@@ -86,7 +86,7 @@ impl Orbit {
     }
 
     /// Looks from where `view` does; `pivot` stays where it is on the screen.
-    pub(crate) fn stand(&mut self, view: View, pivot: DVec3) {
+    pub(crate) fn set_view(&mut self, view: View, pivot: DVec3) {
         self.look_from(direction(view), pivot);
     }
 
@@ -137,7 +137,7 @@ impl Orbit {
         if width > 0.0 {
             // What is near looks larger in perspective.
             let bulge = if self.perspective {
-                0.5 * (near - far) / EYE
+                0.5 * (near - far) / EYE_DISTANCE
             } else {
                 0.0
             };
@@ -145,11 +145,11 @@ impl Orbit {
         }
     }
 
-    /// How far the eye of a perspective view is from the centre: always outside the ball about `middle`.
+    /// How far the projection of a perspective view is from the centre: always outside the sphere about `middle`.
     pub(crate) fn eye_distance(&self, middle: DVec3, radius: f64) -> f64 {
         let [_, _, toward] = self.axes();
         let ahead = toward.dot(middle - self.centre);
-        (EYE * self.width).max(ahead + 1.5 * radius)
+        (EYE_DISTANCE * self.width).max(ahead + 1.5 * radius)
     }
 
     /// The orbit a `part` of the way to `to`, by the shorter way around.
@@ -168,14 +168,14 @@ impl Orbit {
 
 /// A turn from one orbit to another that takes a moment.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Turning {
-    from: Orbit,
-    to: Orbit,
+pub(super) struct CameraTransition {
+    from: OrbitCamera,
+    to: OrbitCamera,
     passed: f64,
 }
 
-impl Turning {
-    pub(super) fn new(from: Orbit, to: Orbit) -> Self {
+impl CameraTransition {
+    pub(super) fn new(from: OrbitCamera, to: OrbitCamera) -> Self {
         Self {
             from,
             to,
@@ -184,14 +184,14 @@ impl Turning {
     }
 
     /// Where it leads.
-    pub(super) fn end(&self) -> Orbit {
+    pub(super) fn end(&self) -> OrbitCamera {
         self.to
     }
 
     /// The orbit `seconds` later, and whether it has arrived.
-    pub(super) fn step(&mut self, seconds: f64) -> (Orbit, bool) {
+    pub(super) fn step(&mut self, seconds: f64) -> (OrbitCamera, bool) {
         self.passed += seconds;
-        let part = (self.passed / TURNING).clamp(0.0, 1.0);
+        let part = (self.passed / TRANSITION_SECONDS).clamp(0.0, 1.0);
         if part >= 1.0 {
             return (self.to, true);
         }
@@ -216,8 +216,8 @@ mod tests {
         let size = [640, 400];
         for (name, view) in View::NAMES {
             let film = Camera::fit(view, POINTS, size, MARGIN).unwrap();
-            let mut orbit = Orbit::default();
-            orbit.stand(view, DVec3::ZERO);
+            let mut orbit = OrbitCamera::default();
+            orbit.set_view(view, DVec3::ZERO);
             orbit.fit(POINTS, DVec2::new(640.0, 400.0));
             let camera = orbit.camera(size).unwrap();
             for point in POINTS {
@@ -230,8 +230,8 @@ mod tests {
     #[test]
     fn a_turn_keeps_its_pivot_and_a_zoom_what_is_under_the_pointer() {
         let size = [500, 300];
-        let at = |orbit: &Orbit, point| orbit.camera(size).unwrap().project(point).truncate();
-        let mut orbit = Orbit::default();
+        let at = |orbit: &OrbitCamera, point| orbit.camera(size).unwrap().project(point).truncate();
+        let mut orbit = OrbitCamera::default();
         orbit.fit(POINTS, DVec2::new(500.0, 300.0));
         let before = at(&orbit, POINTS[1]);
         orbit.turn(67.0, -20.0, POINTS[1]);
@@ -248,25 +248,25 @@ mod tests {
 
     #[test]
     fn a_turn_into_a_preset_goes_the_shorter_way_and_arrives() {
-        let from = Orbit {
+        let from = OrbitCamera {
             azimuth: 170.0,
-            ..Orbit::default()
+            ..OrbitCamera::default()
         };
-        let to = Orbit {
+        let to = OrbitCamera {
             azimuth: -170.0,
             ..from
         };
-        let mut turning = Turning::new(from, to);
-        let (half, arrived) = turning.step(0.5 * TURNING);
+        let mut transition = CameraTransition::new(from, to);
+        let (half, arrived) = transition.step(0.5 * TRANSITION_SECONDS);
         assert!((half.azimuth - 180.0).abs() < 1e-9 && !arrived);
-        assert_eq!(turning.step(1.0), (to, true));
+        assert_eq!(transition.step(1.0), (to, true));
     }
 
     #[test]
     fn nothing_to_fit_changes_nothing() {
-        let mut orbit = Orbit::default();
+        let mut orbit = OrbitCamera::default();
         orbit.fit([], DVec2::new(5.0, 3.0));
         orbit.fit([DVec3::NAN], DVec2::new(5.0, 3.0));
-        assert_eq!(orbit, Orbit::default());
+        assert_eq!(orbit, OrbitCamera::default());
     }
 }

@@ -1,8 +1,8 @@
 //! What is drawn under the timeline: figures of every frame.
 
-/// Curves of one kind over motion time.
+/// Plots of one kind over motion time.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Panel {
+pub(crate) struct Plot {
     /// What is drawn, with its unit.
     pub(crate) title: String,
     /// What a tooltip says of it.
@@ -21,13 +21,13 @@ pub(crate) struct Curve {
     pub(crate) points: Vec<[f64; 2]>,
 }
 
-/// The panels of a motion.
+/// The plots of a motion.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub(crate) struct Curves {
-    pub(crate) panels: Vec<Panel>,
+pub(crate) struct Plots {
+    pub(crate) plots: Vec<Plot>,
 }
 
-impl Panel {
+impl Plot {
     /// Whether there is anything to draw.
     pub(crate) fn has_values(&self) -> bool {
         let mut values = self.curves.iter().flat_map(|curve| &curve.points);
@@ -39,7 +39,7 @@ impl Panel {
         value.is_finite() && (!self.is_logarithmic || value > 0.0)
     }
 
-    /// A value on the scale of the panel: itself, or its decimal logarithm.
+    /// A value on the scale of the plot: itself, or its decimal logarithm.
     pub(super) fn level(&self, value: f64) -> f64 {
         if self.is_logarithmic {
             value.log10()
@@ -48,7 +48,7 @@ impl Panel {
         }
     }
 
-    /// The lowest and the highest level drawn; linear panels begin at 0 where nothing is below.
+    /// The lowest and the highest level drawn; linear plots begin at 0 where nothing is below.
     pub(super) fn levels(&self) -> [f64; 2] {
         let values = self
             .curves
@@ -90,9 +90,9 @@ impl Curve {
 mod tests {
     use super::*;
 
-    fn panel(is_logarithmic: bool, values: &[f64]) -> Panel {
+    fn plot(is_logarithmic: bool, values: &[f64]) -> Plot {
         let points = values.iter().enumerate().map(|(k, &v)| [k as f64, v]);
-        Panel {
+        Plot {
             title: String::new(),
             about: "",
             is_logarithmic,
@@ -106,19 +106,19 @@ mod tests {
 
     #[test]
     fn levels_hold_every_value_that_can_be_drawn() {
-        assert_eq!(panel(false, &[1.0, 3.0, f64::NAN]).levels(), [0.0, 3.0]);
-        assert_eq!(panel(true, &[0.0, 0.01, 10.0]).levels(), [-2.0, 1.0]);
-        assert_eq!(panel(true, &[0.0, -1.0]).levels(), [0.0, 1.0]);
-        let mut with = panel(false, &[1.0]);
+        assert_eq!(plot(false, &[1.0, 3.0, f64::NAN]).levels(), [0.0, 3.0]);
+        assert_eq!(plot(true, &[0.0, 0.01, 10.0]).levels(), [-2.0, 1.0]);
+        assert_eq!(plot(true, &[0.0, -1.0]).levels(), [0.0, 1.0]);
+        let mut with = plot(false, &[1.0]);
         with.reference = Some((5.0, "closed form"));
         assert_eq!(with.levels(), [0.0, 5.0]);
-        let [low, high] = panel(true, &[7.0, 7.0]).levels();
+        let [low, high] = plot(true, &[7.0, 7.0]).levels();
         assert!(low < high, "a constant has a scale too");
     }
 
     #[test]
     fn values_between_frames_lie_on_a_line() {
-        let curve = &panel(false, &[1.0, 3.0, 2.0]).curves[0];
+        let curve = &plot(false, &[1.0, 3.0, 2.0]).curves[0];
         assert_eq!(curve.at(0.5), Some(2.0));
         assert_eq!(curve.at(1.0), Some(3.0));
         assert_eq!(curve.at(0.0), Some(1.0));

@@ -12,7 +12,7 @@ pub(super) const USUAL_LAMBDA: f64 = 0.7;
 
 /// A unit and how many there are.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Size {
+pub(super) struct UnitSize {
     /// w; none where case and profile ask for a width that is not given.
     pub(super) width: Option<f64>,
     /// h.
@@ -23,7 +23,7 @@ pub(super) struct Size {
     pub(super) columns: usize,
 }
 
-impl Size {
+impl UnitSize {
     /// That of the scene with another case; none where nothing says how high rows are.
     pub(super) fn of(form: &Form<'_>, case: Option<CaseChoice>) -> Option<Self> {
         let scene = &form.scene;

@@ -4,8 +4,8 @@ use foldmotion_pattern::Sheet;
 use foldmotion_record::{Layers, TIE_TOLERANCE};
 use glam::DVec3;
 
-use super::eye::Ball;
 use super::picture::Picture;
+use super::projection::Sphere;
 
 /// The lowest layer of a stack sinks by no more than this, in units of `unit_length`: else layers come closer than
 /// [`TIE_TOLERANCE`].
@@ -16,7 +16,7 @@ const PARALLEL: [f64; 2] = [0.966, 0.866];
 
 /// A sheet in a state.
 #[derive(Debug)]
-pub(super) struct Pose {
+pub(super) struct PreparedSheet {
     sheet_key: u64,
     state_key: u64,
     /// Each triangle of a stack and the nearest to it.
@@ -24,26 +24,26 @@ pub(super) struct Pose {
     /// The most layers before a triangle.
     most: i32,
     /// Around the sheet.
-    pub(super) ball: Ball,
+    pub(super) sphere: Sphere,
     /// Layers before each triangle seen from its front and its back, fewer where the stack is open.
     pub(super) before: Vec<[f32; 2]>,
     /// Whether every place is finite.
     pub(super) is_finite: bool,
 }
 
-impl Pose {
+impl PreparedSheet {
     pub(super) fn new(picture: &Picture<'_>) -> Self {
-        let mut pose = Self {
+        let mut prepared = Self {
             sheet_key: picture.sheet_key,
             state_key: picture.state_key,
             pairs: picture.layers.map(neighbours).unwrap_or_default(),
             most: picture.layers.map_or(0, most_before),
-            ball: Ball::around([]),
+            sphere: Sphere::around([]),
             before: Vec::new(),
             is_finite: false,
         };
-        pose.take(picture);
-        pose
+        prepared.take(picture);
+        prepared
     }
 
     /// Follows `picture`; whether another sheet came.
@@ -62,10 +62,10 @@ impl Pose {
         self.state_key = picture.state_key;
         let positions = picture.positions;
         self.is_finite = positions.iter().all(|p| p.is_finite());
-        self.ball = Ball::around(positions.iter().copied());
+        self.sphere = Sphere::around(positions.iter().copied());
         self.before = match picture.layers {
             Some(layers) if picture.is_whole() && picture.has_layers() => {
-                closed(picture.sheet, positions, layers, &self.pairs)
+                layers_in_front(picture.sheet, positions, layers, &self.pairs)
             }
             _ => vec![[0.0; 2]; picture.sheet.faces.len()],
         };
@@ -77,7 +77,7 @@ impl Pose {
     }
 
     /// How far triangle `face` sinks behind the first of its stack where the front (`side` > 0) or the back is seen.
-    pub(super) fn sunk(&self, face: usize, side: f64, unit_length: f64) -> f64 {
+    pub(super) fn depth_offset(&self, face: usize, side: f64, unit_length: f64) -> f64 {
         let [front, back] = self.before.get(face).copied().unwrap_or_default();
         f64::from(if side > 0.0 { front } else { back }) * self.layer(unit_length)
     }
@@ -111,7 +111,7 @@ fn neighbours(layers: &Layers) -> Vec<[u32; 2]> {
 }
 
 /// The layers before each triangle, as far as it is parallel to its neighbour.
-fn closed(
+fn layers_in_front(
     sheet: &Sheet,
     positions: &[DVec3],
     layers: &Layers,
