@@ -191,7 +191,7 @@ fn show_unit(draft: &UnitDraft, ui: &mut Ui) {
 
 /// What every case would give, beside each other.
 fn show_cases(form: &mut Form<'_>, ui: &mut Ui) {
-    form.part(ui, "cases beside each other", |form, ui| {
+    form.scope(ui, "cases beside each other", |form, ui| {
         egui::Grid::new("cases")
             .num_columns(5)
             .striped(true)

@@ -6,6 +6,7 @@ use std::collections::BTreeSet;
 use eframe::egui::{self, Align, Id, Layout, RichText, Ui, UiBuilder, vec2};
 use foldmotion_study::{Draft, Scene};
 
+use super::scene_schema::description;
 use super::{Change, DesignInput, SceneError};
 
 /// UnitSize of the letters of notes and errors.
@@ -17,32 +18,24 @@ const TABLES: [&str; 8] = [
     "profile", "sheet", "division", "material", "motion", "check", "record", "pattern",
 ];
 
-/// A key of the scene, as a row shows it.
+/// A key of the scene that has a row in the panel. Its tooltip is the description in the schema.
 #[derive(Debug, Clone)]
 pub(super) struct Field {
     /// The dotted key.
     pub(super) key: Cow<'static, str>,
-    /// What stands on its left; also its accessible name.
+    /// The label to the left of the control, also its accessible name and the name of an edit to undo.
     pub(super) name: &'static str,
-    /// What "undo" calls a change of it.
-    pub(super) undo: &'static str,
-    /// What it means.
-    pub(super) tip: &'static str,
 }
 
 impl Field {
-    pub(super) fn new(
-        key: impl Into<Cow<'static, str>>,
-        name: &'static str,
-        undo: &'static str,
-        tip: &'static str,
-    ) -> Self {
-        Self {
-            key: key.into(),
-            name,
-            undo,
-            tip,
-        }
+    pub(super) fn new(key: impl Into<Cow<'static, str>>, name: &'static str) -> Self {
+        let key = key.into();
+        debug_assert!(!description(&key).is_empty(), "the schema lacks {key}");
+        Self { key, name }
+    }
+
+    pub(super) fn tip(&self) -> &'static str {
+        description(&self.key)
     }
 }
 
@@ -111,7 +104,7 @@ impl<'a> Form<'a> {
     }
 
     /// A part of the panel with ids of its own, which stay the same whatever is shown above.
-    pub(super) fn part<R>(
+    pub(super) fn scope<R>(
         &mut self,
         ui: &mut Ui,
         key: &str,
@@ -139,7 +132,7 @@ impl<'a> Form<'a> {
             .id_salt(self.id(title))
             .default_open(open)
             .show_unindented(ui, |ui| {
-                self.part(ui, title, |form, ui| {
+                self.scope(ui, title, |form, ui| {
                     form.unclaimed(ui, tables);
                     add(form, ui);
                     ui.add_space(6.0);
@@ -157,9 +150,9 @@ impl<'a> Form<'a> {
         field: &Field,
         add: impl FnOnce(&mut Self, &mut Ui, Id),
     ) {
-        self.part(ui, &field.key, |form, ui| {
+        self.scope(ui, &field.key, |form, ui| {
             ui.horizontal(|ui| {
-                let label = name(ui, field.name, field.tip);
+                let label = name(ui, field.name, field.tip());
                 add(form, ui, label);
             });
         });

@@ -197,7 +197,7 @@ impl HandleEditor {
         };
         let number =
             Number::within(-1e6..=1e6).speed(round_step((x.abs().max(z.abs()) / 500.0).max(1e-3)));
-        form.part(ui, "selected point", |form, ui| {
+        form.scope(ui, "selected point", |form, ui| {
             ui.horizontal(|ui| {
                 super::form::name(ui, &format!("point {}", index + 1), "the selected point");
                 let width = ((ui.available_width() - 50.0) / 2.0).max(40.0);

@@ -20,6 +20,7 @@ mod pattern_preview;
 mod plane;
 mod profile;
 mod record;
+mod scene_schema;
 mod sheet;
 mod step;
 #[cfg(test)]

@@ -167,7 +167,7 @@ impl Form<'_> {
             let mut value = *of(&mut form.scene);
             if form.cell(
                 ui,
-                field.undo,
+                field.name,
                 AccessibleName::By(label),
                 number,
                 width,
@@ -195,7 +195,7 @@ impl Form<'_> {
             let mut value = *of(&mut form.scene);
             if form.whole_cell(
                 ui,
-                field.undo,
+                field.name,
                 AccessibleName::By(label),
                 &number,
                 width,
@@ -286,7 +286,7 @@ impl Form<'_> {
             .on_hover_text("leave it out: back to the default");
         let clicked = response.clicked();
         if clicked {
-            self.record(field.undo, response.id, false);
+            self.record(field.name, response.id, false);
         }
         clicked
     }

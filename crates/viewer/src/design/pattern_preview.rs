@@ -68,7 +68,7 @@ impl PatternPreview {
             };
             self.update(form.draft_number, draft);
             self.paint(form, ui, draft);
-            form.part(ui, "pattern buttons", |_, ui| {
+            form.scope(ui, "pattern buttons", |_, ui| {
                 ui.horizontal(|ui| {
                     let [mountain, valley] = super::plane::crease_colours(ui);
                     ui.label(RichText::new("— mountain").size(NOTE_SIZE).color(mountain));

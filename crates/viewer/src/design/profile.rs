@@ -2,42 +2,14 @@
 
 use eframe::egui::{self, RichText, Ui};
 use foldmotion_geometry::Profile;
-use foldmotion_study::scene::{Closed, LengthUnit};
 use foldmotion_study::{Draft, models};
 
 use super::canvas::Canvas;
-use super::choice::Way;
 use super::curve::{
     ProfileKind, into_control_points, into_file, into_model, into_points, model, own_profile,
 };
 use super::form::{Field, Form, note};
 use super::number::{Number, control_width, short};
-
-const CLOSED: [Way<Option<Closed>>; 3] = [
-    (None, "open", "two ends"),
-    (
-        Some(Closed::Corner),
-        "corner",
-        "returns to its start, with a corner there",
-    ),
-    (
-        Some(Closed::Smooth),
-        "smooth",
-        "returns to its start with both derivatives",
-    ),
-];
-
-/// Units of length, the default first.
-pub(super) const UNITS: [Way<LengthUnit>; 8] = [
-    (LengthUnit::M, "m", "metres"),
-    (LengthUnit::Cm, "cm", "centimetres"),
-    (LengthUnit::Mm, "mm", "millimetres"),
-    (LengthUnit::Um, "um", "micrometres"),
-    (LengthUnit::Nm, "nm", "nanometres"),
-    (LengthUnit::In, "in", "inches"),
-    (LengthUnit::Pt, "pt", "points, 1/72 inch"),
-    (LengthUnit::Unit, "unit", "no physical unit"),
-];
 
 /// What the section remembers.
 #[derive(Debug, Default)]
@@ -92,14 +64,14 @@ impl ProfileSection {
                 "points of a .csv, .dat or .dxf file",
             ),
         ];
-        form.part(ui, "profile kind", |form, ui| {
+        form.scope(ui, "profile kind", |form, ui| {
             ui.horizontal_wrapped(|ui| {
                 for (kind, name, tip) in ways {
                     let option = ui.selectable_label(kind == shown, name).on_hover_text(tip);
                     if option.clicked() && kind != shown {
                         self.names_file = kind == ProfileKind::File;
                         if turn_into(form, kind) {
-                            form.record("change the kind of profile", option.id, false);
+                            form.record("kind of profile", option.id, false);
                         }
                     }
                 }
@@ -113,7 +85,7 @@ impl ProfileSection {
     }
 
     fn show_buttons(&mut self, form: &mut Form<'_>, ui: &mut Ui) {
-        form.part(ui, "profile buttons", |form, ui| {
+        form.scope(ui, "profile buttons", |form, ui| {
             ui.horizontal(|ui| {
                 if ui
                     .small_button("fit")
@@ -158,12 +130,7 @@ fn turn_into(form: &mut Form<'_>, kind: ProfileKind) -> bool {
 }
 
 fn show_models(form: &mut Form<'_>, ui: &mut Ui) {
-    let field = Field::new(
-        "profile.model",
-        "model",
-        "choose the profile",
-        "a built-in profile, with rows, columns and width of its own (tables 1 and 2 of the paper)",
-    );
+    let field = Field::new("profile.model", "model");
     form.row(ui, &field, |form, ui, label| {
         let given = form.scene.profile.model.clone();
         let text = match &given {
@@ -188,18 +155,13 @@ fn show_models(form: &mut Form<'_>, ui: &mut Ui) {
         let response = response.response.labelled_by(label);
         if let Some(name) = chosen {
             into_model(&mut form.scene, name);
-            form.record(field.undo, response.id, false);
+            form.record(field.name, response.id, false);
         }
     });
 }
 
 fn show_file(form: &mut Form<'_>, ui: &mut Ui) {
-    let field = Field::new(
-        "profile.file",
-        "file",
-        "choose the profile's file",
-        "points the curve runs through, beside the scene: .csv, .dat or .dxf",
-    );
+    let field = Field::new("profile.file", "file");
     let path = form.scene.profile.file.clone().unwrap_or_default();
     let entered = form.text(ui, &field, "outline.csv", &path);
     if let Some(file) = entered {
@@ -245,41 +207,13 @@ fn scale_note(form: &Form<'_>, drawn: &Profile) -> String {
 fn show_keys(form: &mut Form<'_>, ui: &mut Ui) {
     let built_in = model(&form.scene);
     if built_in.is_none() || form.scene.profile.closed.is_some() {
-        let field = Field::new(
-            "profile.closed",
-            "ends",
-            "change the ends of the profile",
-            "whether the curve returns to its start",
-        );
-        show_ends(form, ui, &field);
+        let field = Field::new("profile.closed", "ends");
+        form.menu(ui, &field, "open", |scene| &mut scene.profile.closed);
     }
     let length = built_in.map(foldmotion_study::ProfileModel::length);
-    let field = Field::new(
-        "profile.length",
-        "length",
-        "change the length of the profile",
-        "scales the curve so that the divided polygon is this long",
-    );
+    let field = Field::new("profile.length", "length");
     let number = Number::within(1e-6..=1e6).default(length).hint("as drawn");
     form.number(ui, &field, &number, |scene| &mut scene.profile.length);
-    let field = Field::new(
-        "profile.unit",
-        "unit",
-        "change the unit",
-        "the unit of length",
-    );
-    form.menu(ui, &field, &UNITS, |scene| &mut scene.profile.unit);
-}
-
-fn show_ends(form: &mut Form<'_>, ui: &mut Ui, field: &Field) {
-    form.row(ui, field, |form, ui, _| {
-        for (way, name, tip) in CLOSED {
-            let is_chosen = form.scene.profile.closed == way;
-            let option = ui.selectable_label(is_chosen, name).on_hover_text(tip);
-            if option.clicked() && !is_chosen {
-                form.scene.profile.closed = way;
-                form.record(field.undo, option.id, false);
-            }
-        }
-    });
+    let field = Field::new("profile.unit", "unit");
+    form.menu(ui, &field, "m", |scene| &mut scene.profile.unit);
 }

@@ -1,46 +1,14 @@
 //! One step of the schedule.
 
 use eframe::egui::{self, Frame, Id, Margin, Rect, RichText, Stroke, Ui, pos2, vec2};
-use foldmotion_study::scene::{CreasesChoice, EaseChoice, StageChoice, StepScene};
+use foldmotion_study::scene::{StageChoice, StepScene};
 
-use super::choice::Way;
 use super::form::{Field, Form};
 use super::number::{AccessibleName, Number, control_width};
+use super::scene_schema::choices;
 
-const CREASES: [Way<CreasesChoice>; 8] = [
-    (CreasesChoice::All, "all", "every crease"),
-    (
-        CreasesChoice::Rows,
-        "rows",
-        "on the boundaries between rows",
-    ),
-    (
-        CreasesChoice::Columns,
-        "columns",
-        "between the columns of a map",
-    ),
-    (
-        CreasesChoice::Diagonals,
-        "diagonals",
-        "between flaps and tucks",
-    ),
-    (
-        CreasesChoice::Verticals,
-        "verticals",
-        "along corner and mid lines",
-    ),
-    (CreasesChoice::Pads, "pads", "beside and across pads"),
-    (CreasesChoice::Mountains, "mountains", "mountain creases"),
-    (CreasesChoice::Valleys, "valleys", "valley creases"),
-];
-
-/// Those that an imported pattern has.
-const IMPORTED_CREASES: [Way<CreasesChoice>; 3] = [CREASES[0], CREASES[6], CREASES[7]];
-
-const EASES: [Way<EaseChoice>; 2] = [
-    (EaseChoice::Linear, "linear", "at constant speed"),
-    (EaseChoice::Smooth, "smooth", "from rest to rest"),
-];
+/// The groups of creases that an imported pattern has.
+const IMPORTED_CREASES: [&str; 3] = ["all", "mountains", "valleys"];
 
 /// The first and the last row or column of a step.
 type Range = fn(&mut StepScene) -> &mut Option<Vec<i64>>;
@@ -68,7 +36,7 @@ pub(super) fn show_step(
     frame
         .show(ui, |ui| {
             ui.set_width(ui.available_width());
-            let order = form.part(ui, &format!("motion.step.{index}"), |_, ui| {
+            let order = form.scope(ui, &format!("motion.step.{index}"), |_, ui| {
                 ui.horizontal(|ui| show_head(ui, index, count)).inner
             });
             form.errors_exactly_at(ui, &format!("motion.step.{index}"));
@@ -133,42 +101,25 @@ fn show_what(form: &mut Form<'_>, ui: &mut Ui, index: usize) {
     };
     let stage = step.stage;
     if !is_imported || stage == StageChoice::Unfold {
-        let field = Field::new(
-            key("stage"),
-            "stage",
-            "change the stage",
-            "unfold: deployed to flat; fold: flat to compact",
-        );
+        let field = Field::new(key("stage"), "stage");
         form.row(ui, &field, |form, ui, _| {
-            for (way, name) in [(StageChoice::Unfold, "unfold"), (StageChoice::Fold, "fold")] {
-                let option = ui.selectable_label(way == stage, name);
-                if option.clicked() && way != stage {
+            for (choice, name) in [(StageChoice::Unfold, "unfold"), (StageChoice::Fold, "fold")] {
+                let option = ui.selectable_label(choice == stage, name);
+                if option.clicked() && choice != stage {
                     if let Some(step) = form.scene.motion.step.get_mut(index) {
-                        step.stage = way;
+                        step.stage = choice;
                     }
-                    form.record(field.undo, option.id, false);
+                    form.record(field.name, option.id, false);
                 }
             }
         });
     }
-    let field = Field::new(
-        key("creases"),
-        "creases",
-        "change the creases",
-        "by their place in the unit or the way they fold",
-    );
-    let is_of_units = !is_imported
-        || form.scene.motion.step.get(index).is_some_and(|step| {
-            IMPORTED_CREASES
-                .iter()
-                .all(|way| step.creases.is_some_and(|c| c != way.0))
-        });
-    let ways = if is_of_units {
-        &CREASES[..]
-    } else {
-        &IMPORTED_CREASES[..]
-    };
-    form.menu(ui, &field, ways, |scene| {
+    let field = Field::new(key("creases"), "creases");
+    let mut creases = choices(&field.key);
+    if is_imported {
+        creases.retain(|(name, _)| IMPORTED_CREASES.contains(name));
+    }
+    form.menu_of(ui, &field, "all", creases, |scene| {
         &mut scene.motion.step[index].creases
     });
     let lists: [(&'static str, Range); 2] = [
@@ -183,12 +134,7 @@ fn show_what(form: &mut Form<'_>, ui: &mut Ui, index: usize) {
             .get_mut(index)
             .is_some_and(|step| of(step).is_some());
         if !is_imported || is_given {
-            let field = Field::new(
-                key(name),
-                name,
-                "change the range",
-                "the first and the last, from 0, both included",
-            );
+            let field = Field::new(key(name), name);
             show_range(form, ui, &field, index, of);
         }
     }
@@ -208,11 +154,11 @@ fn show_range(form: &mut Form<'_>, ui: &mut Ui, field: &Field, index: usize, of:
             ["first", "last"].map(|end| format!("{end} of {}", field.name));
         let number = ends.clone().hint("all");
         let spoken = AccessibleName::As(&spoken_first);
-        let first_changed = form.whole_cell(ui, field.undo, spoken, &number, width, &mut first);
+        let first_changed = form.whole_cell(ui, field.name, spoken, &number, width, &mut first);
         ui.label("–");
         let number = ends.default(first.map(|first| first as f64)).hint("all");
         let spoken = AccessibleName::As(&spoken_last);
-        let last_changed = form.whole_cell(ui, field.undo, spoken, &number, width, &mut last);
+        let last_changed = form.whole_cell(ui, field.name, spoken, &number, width, &mut last);
         let range = match (first, last) {
             // Without a first one there is no last one; and a last one alone begins at 0.
             (None, Some(last)) if last_changed => Some(vec![0, last]),
@@ -236,26 +182,16 @@ fn show_when(form: &mut Form<'_>, ui: &mut Ui, index: usize) {
     };
     paint_part(ui, step.from.unwrap_or(0.0), step.to.unwrap_or(1.0));
     let part = Number::within(0.0..=1.0).speed(0.005);
-    let field = Field::new(
-        key("from"),
-        "from",
-        "change the time of the step",
-        "the part of the stage at which they begin to move",
-    );
+    let field = Field::new(key("from"), "from");
     form.number(ui, &field, &part.clone().default(0.0), |scene| {
         &mut scene.motion.step[index].from
     });
-    let field = Field::new(
-        key("to"),
-        "to",
-        "change the time of the step",
-        "the part of the stage at which they arrive",
-    );
+    let field = Field::new(key("to"), "to");
     form.number(ui, &field, &part.default(1.0), |scene| {
         &mut scene.motion.step[index].to
     });
-    let field = Field::new(key("ease"), "ease", "change the ease", "how they move");
-    form.menu(ui, &field, &EASES, |scene| {
+    let field = Field::new(key("ease"), "ease");
+    form.menu(ui, &field, "linear", |scene| {
         &mut scene.motion.step[index].ease
     });
 }
@@ -278,5 +214,5 @@ fn paint_part(ui: &mut Ui, from: f64, to: f64) {
         egui::StrokeKind::Inside,
     );
     painter.rect_filled(part, 2.0, ui.visuals().selection.bg_fill);
-    response.on_hover_text("the part of its stage in which the step moves");
+    response.on_hover_text("The part of the stage in which the creases of this step move.");
 }

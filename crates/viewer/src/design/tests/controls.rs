@@ -21,7 +21,7 @@ fn a_typed_width_becomes_the_width_and_an_empty_field_leaves_it_out() {
     let mut harness = bench(SHELTER);
     enter(&mut harness, "width W", "6.25");
     assert_eq!(harness.state().scene.sheet.width, Some(6.25));
-    assert_eq!(harness.state().labels(), [("change the width", false)]);
+    assert_eq!(harness.state().labels(), [("width W", false)]);
     enter(&mut harness, "width W", "");
     assert_eq!(harness.state().scene.sheet.width, None);
 }
