@@ -1,4 +1,4 @@
-//! The scene under the handles: rows of controls, what is wrong beside each, and the change they make.
+//! The form over a scene: rows of controls, error messages beside them, and the edit that they make.
 
 use std::borrow::Cow;
 use std::collections::BTreeSet;
@@ -9,11 +9,11 @@ use foldmotion_study::{Draft, Scene};
 use super::scene_schema::description;
 use super::{Change, DesignInput, SceneError};
 
-/// UnitSize of the letters of notes and errors.
+/// Font size of notes and error messages, points.
 pub(super) const NOTE_SIZE: f32 = 11.0;
-/// Width of the labels on the left of the controls.
+/// Width of the labels to the left of the controls, points.
 pub(super) const LABEL_WIDTH: f32 = 100.0;
-/// Tables of a scene that have a section; errors elsewhere stand at the top of the panel.
+/// Tables of a scene that have a section; errors in other tables are shown at the top of the panel.
 const TABLES: [&str; 8] = [
     "profile", "sheet", "division", "material", "motion", "check", "record", "pattern",
 ];
@@ -39,16 +39,16 @@ impl Field {
     }
 }
 
-/// The scene being edited in this frame.
+/// The scene while it is edited in one frame.
 pub(super) struct Form<'a> {
     original: &'a Scene,
-    /// The copy that controls write into.
+    /// The copy that the controls edit.
     pub(super) scene: Scene,
     pub(super) draft: Option<&'a Draft>,
     pub(super) draft_number: u64,
     id: Id,
     errors: &'a [SceneError],
-    /// Keys whose errors a control showed in the frame before, and those of this one.
+    /// Keys whose errors were shown beside a control: in the previous frame, and so far in this frame.
     claimed: BTreeSet<String>,
     claims: BTreeSet<String>,
     gesture: Option<Id>,
@@ -76,12 +76,12 @@ impl<'a> Form<'a> {
         }
     }
 
-    /// The change made, the gesture under way, and the keys whose errors were shown by a control.
+    /// The edit, the gesture in progress, and the keys whose errors were shown beside a control.
     pub(super) fn finish(self, ui: &Ui) -> (Option<Change>, Option<Id>, BTreeSet<String>) {
         if self.claims != self.claimed {
             ui.request_repaint();
         }
-        // A text that could not be read leaves the scene as it was.
+        // Text that cannot be parsed leaves the scene unchanged.
         let change = self.change.filter(|_| self.scene != *self.original);
         let change = change.map(|(label, continues)| Change {
             scene: self.scene,
@@ -91,19 +91,19 @@ impl<'a> Form<'a> {
         (change, self.gesture, self.claims)
     }
 
-    /// Notes that the scene was changed by the control `by`; `ongoing` while its drag or key press goes on.
+    /// Records that control `by` has changed the scene; `ongoing` while its drag or key press lasts.
     pub(super) fn record(&mut self, label: &'static str, by: Id, ongoing: bool) {
         let continues = ongoing && self.gesture == Some(by);
         self.gesture = ongoing.then_some(by);
         self.change = Some((label, continues));
     }
 
-    /// An id that stays the same whatever is shown above.
+    /// An id that does not depend on what is shown above.
     pub(super) fn id(&self, key: &str) -> Id {
         self.id.with(key)
     }
 
-    /// A part of the panel with ids of its own, which stay the same whatever is shown above.
+    /// A part of the panel whose ids do not depend on what is shown above.
     pub(super) fn scope<R>(
         &mut self,
         ui: &mut Ui,
@@ -114,7 +114,7 @@ impl<'a> Form<'a> {
         ui.scope_builder(builder, |ui| add(self, ui)).inner
     }
 
-    /// A section that opens and closes; errors of its `tables` that no control shows stand at its top.
+    /// A collapsible section. Errors in its `tables` that no control shows are listed at its top.
     pub(super) fn section(
         &mut self,
         ui: &mut Ui,
@@ -143,7 +143,7 @@ impl<'a> Form<'a> {
         }
     }
 
-    /// A row: the name of a key on the left, its control on the right, what is wrong with it below.
+    /// A row: the name of a key on the left, its control on the right, and its errors below.
     pub(super) fn row(
         &mut self,
         ui: &mut Ui,
@@ -159,7 +159,7 @@ impl<'a> Form<'a> {
         self.errors_of(ui, &field.key);
     }
 
-    /// What is wrong with a key, in red, below its control.
+    /// The errors of a key, in red below its control.
     pub(super) fn errors_of(&mut self, ui: &mut Ui, key: &str) {
         for error in self.errors {
             if let Some(at) = error.key.as_deref().filter(|at| is_at(at, key)) {
@@ -169,7 +169,7 @@ impl<'a> Form<'a> {
         }
     }
 
-    /// What is wrong with a key itself, not with an element of it.
+    /// The errors of a key itself, without those of its elements.
     pub(super) fn errors_exactly_at(&mut self, ui: &mut Ui, key: &str) {
         for error in self.errors {
             if error.key.as_deref() == Some(key) {
@@ -179,7 +179,7 @@ impl<'a> Form<'a> {
         }
     }
 
-    /// Faults that belong to no section.
+    /// The errors that belong to no section.
     pub(super) fn general_errors(&mut self, ui: &mut Ui) {
         for error in self.errors {
             if !is_within(error, &TABLES) {
@@ -201,7 +201,7 @@ impl<'a> Form<'a> {
     }
 }
 
-/// The name of a row, as wide as every other; its id.
+/// The name of a row, in a column of fixed width; returns the id of the label.
 pub(super) fn name(ui: &mut Ui, text: &str, tip: &str) -> Id {
     let size = vec2(LABEL_WIDTH, ui.spacing().interact_size.y);
     let layout = Layout::left_to_right(Align::Center);
@@ -217,7 +217,7 @@ pub(super) fn name(ui: &mut Ui, text: &str, tip: &str) -> Id {
     id
 }
 
-/// A text beside the controls, smaller and paler than they are.
+/// A note beside the controls, smaller and paler than they are.
 pub(super) fn note(ui: &Ui, text: impl Into<String>) -> RichText {
     let colour = ui.visuals().weak_text_color();
     RichText::new(text).size(NOTE_SIZE).color(colour)
@@ -230,7 +230,7 @@ fn message(ui: &mut Ui, error: &SceneError) {
     ui.add(egui::Label::new(text).wrap());
 }
 
-/// Whether a error at the key `at` is one of `key` or of an element of it.
+/// Whether the key `at` is `key` or an element of it.
 fn is_at(at: &str, key: &str) -> bool {
     let rest = at.strip_prefix(key);
     rest.is_some_and(|rest| rest.is_empty() || rest.starts_with('.'))

@@ -1,4 +1,4 @@
-//! Control points, and points the curve runs through, under the handles.
+//! Dragging and editing of control points and interpolation points.
 
 use eframe::egui::{
     self, Event, EventFilter, Id, Key, PointerButton, Rect, Response, Sense, Stroke, Ui, Vec2, vec2,
@@ -10,22 +10,22 @@ use super::form::Form;
 use super::number::Number;
 use super::plane::{Plane, PlaneView, round_step};
 
-/// More points than this are drawn by their curve alone.
+/// If a curve has more points than this, only the curve is drawn.
 pub(super) const MOST_HANDLES: usize = 400;
-/// The reach of a point, points of the screen.
+/// Size of the area around a point in which it can be grabbed, points on the screen.
 const REACH: f32 = 16.0;
 
-/// The point that is selected, and the drag under way.
+/// The selected point and the drag in progress.
 #[derive(Debug, Default)]
 pub(super) struct HandleEditor {
     selected: Option<usize>,
-    /// Where the point was when the drag began.
+    /// The position of the point when the drag began.
     origin: Option<DVec2>,
-    /// Whether the view is held still only for the drag.
+    /// Whether the view is pinned only while the drag lasts.
     holds_view: bool,
 }
 
-/// What was done to a point.
+/// A user action on a point.
 enum HandleAction {
     Move(DVec2, bool),
     Remove,
@@ -40,7 +40,7 @@ impl HandleEditor {
         self.selected = None;
     }
 
-    /// The lines from control point to control point.
+    /// Draws the control polygon.
     pub(super) fn paint_polygon(
         form: &Form<'_>,
         ui: &Ui,
@@ -62,7 +62,7 @@ impl HandleEditor {
         painter.line(line, Stroke::new(1.0, colour));
     }
 
-    /// The points, and what the user did to one of them.
+    /// Shows the points and applies the user's action on one of them.
     pub(super) fn show(
         &mut self,
         form: &mut Form<'_>,
@@ -102,7 +102,7 @@ impl HandleEditor {
         }
     }
 
-    /// Does to the scene what was done to a point.
+    /// Applies an action on a point to the scene.
     fn apply(&mut self, form: &mut Form<'_>, index: usize, action: &HandleAction, id: Id) {
         let profile = &mut form.scene.profile;
         match action {
@@ -145,7 +145,7 @@ impl HandleEditor {
         painter.circle(place, if lively { 5.0 } else { 4.0 }, fill, stroke);
     }
 
-    /// What the user does to one point.
+    /// The user's action on a point in this frame.
     fn action(
         &mut self,
         ui: &Ui,
@@ -184,10 +184,11 @@ impl HandleEditor {
         None
     }
 
-    /// The exact place of the selected point.
+    /// Number fields with the coordinates of the selected point.
     pub(super) fn show_fields(&mut self, form: &mut Form<'_>, ui: &mut Ui) {
         let Some(index) = self.selected else {
-            let text = "drag points; double-click adds one, right-click removes it";
+            let text =
+                "Drag points to move them. Double-click adds a point, right-click removes it.";
             ui.add(egui::Label::new(super::form::note(ui, text)).wrap());
             return;
         };
@@ -199,7 +200,7 @@ impl HandleEditor {
             Number::within(-1e6..=1e6).speed(round_step((x.abs().max(z.abs()) / 500.0).max(1e-3)));
         form.scope(ui, "selected point", |form, ui| {
             ui.horizontal(|ui| {
-                super::form::name(ui, &format!("point {}", index + 1), "the selected point");
+                super::form::name(ui, &format!("point {}", index + 1), "The selected point");
                 let width = ((ui.available_width() - 50.0) / 2.0).max(40.0);
                 let mut place = [x, z];
                 for (axis, name) in ["x", "z"].into_iter().enumerate() {
@@ -220,7 +221,7 @@ impl HandleEditor {
     }
 }
 
-/// A move by arrow keys, ten times as far with shift; Delete and Backspace remove.
+/// The action of a key press: arrow keys move the point, ten times as far with Shift; Delete and Backspace remove it.
 fn key_action(ui: &Ui, response: &Response, plane: &Plane, point: DVec2) -> Option<HandleAction> {
     let filter = EventFilter {
         horizontal_arrows: true,
@@ -261,7 +262,7 @@ fn key_action(ui: &Ui, response: &Response, plane: &Plane, point: DVec2) -> Opti
     (way != DVec2::ZERO).then_some(HandleAction::Move(moved, true))
 }
 
-/// A point rounded to a decimal place that the eye cannot tell on the screen.
+/// Rounds a point to a decimal place too small to see on the screen.
 pub(super) fn rounded_on(plane: &Plane, point: DVec2) -> DVec2 {
     super::curve::rounded(point, 2e3 / plane.scale)
 }

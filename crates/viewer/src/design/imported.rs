@@ -1,4 +1,4 @@
-//! The section of a crease pattern that comes from a file.
+//! The section of a crease pattern that is imported from a file.
 
 use eframe::egui::{RichText, Ui};
 use foldmotion_study::scene::PatternScene;
@@ -57,7 +57,7 @@ fn show_fold(form: &mut Form<'_>, ui: &mut Ui) {
             .and_then(|pattern| pattern.fixed.clone());
         let is_none = given.as_ref().is_some_and(Vec::is_empty);
         let mut first = given.as_ref().and_then(|list| list.first().copied());
-        let hint = if is_none { "none" } else { "by file" };
+        let hint = if is_none { "none" } else { "from file" };
         let number = Number::within(0.0..=1e6).whole().hint(hint);
         let spoken = AccessibleName::By(label);
         if form.whole_cell(ui, field.name, spoken, &number, width, &mut first) {
@@ -78,7 +78,7 @@ fn show_reading(form: &mut Form<'_>, ui: &mut Ui) {
     let field = Field::new("pattern.unknown", "unknown lines");
     form.menu(ui, &field, "refuse", |scene| &mut of(scene).unknown);
     let field = Field::new("pattern.vertex_tolerance", "merge within");
-    let number = Number::within(0.0..=1e3).hint("by diagonal").speed(1e-3);
+    let number = Number::within(0.0..=1e3).hint("from diagonal").speed(1e-3);
     form.number(ui, &field, &number, |scene| &mut of(scene).vertex_tolerance);
     let field = Field::new("pattern.curve_tolerance", "flatten curves");
     let number = Number::within(1e-6..=0.1).hint("refuse").speed(1e-5);

@@ -1,4 +1,4 @@
-//! Fields of numbers that may be left out.
+//! Number fields for keys that may be omitted.
 
 use std::ops::RangeInclusive;
 
@@ -7,19 +7,19 @@ use foldmotion_study::Scene;
 
 use super::form::{Field, Form};
 
-/// Room for the button that leaves a key out again.
+/// Width of the button that resets a key to its default, points.
 pub(super) const RESET_WIDTH: f32 = 20.0;
 
 /// How a number is shown and dragged.
 #[derive(Debug, Clone)]
 pub(super) struct Number {
-    /// Where a drag ends; what is typed may lie beyond.
+    /// The range of values that can be reached by dragging; typed values may lie outside.
     drag_range: RangeInclusive<f64>,
-    /// The value that holds where the key is left out.
+    /// The value that holds if the key is omitted.
     default: Option<f64>,
-    /// What stands in the empty field where there is no such number.
+    /// The text of an empty field without a default.
     hint: &'static str,
-    /// A change by one point of a drag; a two-hundredth of the value where left out.
+    /// Change per point dragged. Default: a two-hundredth of the value.
     speed: Option<f64>,
     whole: bool,
 }
@@ -55,8 +55,8 @@ impl Number {
         self.speed(0.1)
     }
 
-    /// The field, `width` wide; an empty one is `None`. The response says what happened, whether `value` changed is for the
-    /// caller to compare.
+    /// Shows the field, `width` points wide. An empty field is `None`. The caller compares `value` to learn whether it
+    /// has changed.
     fn show(&self, ui: &mut Ui, width: f32, value: &mut Option<f64>) -> egui::Response {
         let start = self
             .default
@@ -98,7 +98,7 @@ impl Number {
     }
 }
 
-/// A number from text; an empty text is one that is not finite, and stands for a key left out.
+/// Parses a number. Empty text, which stands for an omitted key, becomes an infinite number.
 fn parsed(text: &str) -> Option<f64> {
     let text = text.trim().replace('−', "-");
     if text.is_empty() {
@@ -107,7 +107,7 @@ fn parsed(text: &str) -> Option<f64> {
     text.parse().ok().filter(|number: &f64| number.is_finite())
 }
 
-/// A number in at most six digits.
+/// Formats a number with at most six significant digits.
 pub(super) fn short(number: f64) -> String {
     let size = number.abs();
     if size != 0.0 && !(1e-3..1e7).contains(&size) {
@@ -116,7 +116,7 @@ pub(super) fn short(number: f64) -> String {
     decimal(number, 6)
 }
 
-/// A number as a decimal fraction of so many digits, without noughts at its end.
+/// Formats a number as a decimal with `digits` significant digits, without trailing zeros.
 pub(super) fn decimal(number: f64, digits: usize) -> String {
     let whole_digits = format!("{}", number.abs().trunc()).len();
     let text = format!("{number:.*}", digits.saturating_sub(whole_digits));
@@ -127,7 +127,7 @@ pub(super) fn decimal(number: f64, digits: usize) -> String {
     }
 }
 
-/// A number as a power of ten, with at most so many digits behind the point.
+/// Formats a number in scientific notation with at most `digits` digits after the point.
 pub(super) fn scientific(number: f64, digits: usize) -> String {
     let text = format!("{number:.digits$e}");
     match text.split_once('e') {
@@ -139,22 +139,22 @@ pub(super) fn scientific(number: f64, digits: usize) -> String {
     }
 }
 
-/// The width of a control that leaves room for a reset button.
+/// The width of a control that leaves room for a reset button, points.
 pub(super) fn control_width(ui: &Ui) -> f32 {
     ui.available_width() - RESET_WIDTH - ui.spacing().item_spacing.x
 }
 
-/// What names a field to those who do not see it.
+/// The accessible name of a field.
 #[derive(Debug, Clone, Copy)]
 pub(super) enum AccessibleName<'a> {
-    /// The label on its left.
+    /// The label with this id.
     By(Id),
-    /// A name of its own.
+    /// This text.
     As(&'a str),
 }
 
 impl Form<'_> {
-    /// A row with one number.
+    /// A row with a number field.
     pub(super) fn number(
         &mut self,
         ui: &mut Ui,
@@ -181,7 +181,7 @@ impl Form<'_> {
         });
     }
 
-    /// A row with one whole number.
+    /// A row with a field for a whole number.
     pub(super) fn whole(
         &mut self,
         ui: &mut Ui,
@@ -209,7 +209,7 @@ impl Form<'_> {
         });
     }
 
-    /// A field of a number; whether it has changed.
+    /// A number field; returns whether its value has changed.
     pub(super) fn cell(
         &mut self,
         ui: &mut Ui,
@@ -232,7 +232,7 @@ impl Form<'_> {
         is_changed
     }
 
-    /// A field of a whole number; whether it has changed.
+    /// A field for a whole number; returns whether its value has changed.
     pub(super) fn whole_cell(
         &mut self,
         ui: &mut Ui,
@@ -250,7 +250,7 @@ impl Form<'_> {
         is_changed
     }
 
-    /// A field of a number that cannot be left out; its new value if it has changed.
+    /// A field for a number that cannot be omitted; returns the new value if it has changed.
     pub(super) fn required_cell(
         &mut self,
         ui: &mut Ui,
@@ -272,7 +272,8 @@ impl Form<'_> {
         value.filter(|_| is_changed)
     }
 
-    /// The button that leaves a key out again; nothing but room for it where it is left out already.
+    /// The button that resets a key to its default, or empty space if the key is omitted; returns whether it was
+    /// clicked.
     pub(super) fn reset(&mut self, ui: &mut Ui, field: &Field, is_given: bool) -> bool {
         let size = vec2(RESET_WIDTH, ui.spacing().interact_size.y);
         if !is_given {
@@ -283,7 +284,7 @@ impl Form<'_> {
         let response = ui
             .add(button)
             .accessible_name(format!("default of {}", field.name))
-            .on_hover_text("leave it out: back to the default");
+            .on_hover_text("Reset to the default");
         let clicked = response.clicked();
         if clicked {
             self.record(field.name, response.id, false);

@@ -1,4 +1,4 @@
-//! The section of the crease pattern.
+//! The section that shows the crease pattern.
 
 use eframe::egui::{self, Align2, FontId, RichText, Shape, Stroke, Ui};
 use foldmotion_pattern::{Sheet, UnitSheet};
@@ -9,15 +9,15 @@ use super::creases::{Creases, MOST_EDGES};
 use super::form::{Form, NOTE_SIZE};
 use super::plane::{Plane, PlaneView, bounds, canvas};
 
-/// How the pattern is turned: its long side lies across, its front faces the viewer.
+/// How the pattern is rotated so that its long side is horizontal and its front faces the viewer.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 enum Orientation {
-    /// As it is: an imported pattern.
+    /// Not rotated, for imported patterns.
     #[default]
     None,
-    /// Rows run to the right.
+    /// Rotated by half a turn: rows run to the right.
     Half,
-    /// Rows run downwards.
+    /// Rotated by a quarter turn: rows run downwards.
     Quarter,
 }
 
@@ -48,12 +48,12 @@ impl Orientation {
     }
 }
 
-/// What the section remembers.
+/// State of the section that lasts from frame to frame.
 #[derive(Debug, Default)]
 pub(super) struct PatternPreview {
     view: PlaneView,
     creases: Creases,
-    /// The draft whose bounds these are.
+    /// The number of the draft that the bounds belong to.
     of: Option<u64>,
     bounds: [DVec2; 2],
     orientation: Orientation,
@@ -75,7 +75,7 @@ impl PatternPreview {
                     ui.label(RichText::new("- - valley").size(NOTE_SIZE).color(valley));
                     let fit = ui
                         .small_button("fit pattern")
-                        .on_hover_text("show the whole pattern");
+                        .on_hover_text("Show the whole pattern");
                     if fit.clicked() {
                         self.view.fit();
                     }
@@ -117,7 +117,7 @@ impl PatternPreview {
             painter.text(
                 at,
                 Align2::CENTER_TOP,
-                "the first creases only",
+                "only the first creases are shown",
                 FontId::proportional(11.0),
                 colour,
             );
@@ -147,7 +147,7 @@ fn mark(ui: &Ui, painter: &egui::Painter, plane: &Plane, corners: Vec<egui::Pos2
     painter.galley(at, galley, ui.visuals().strong_text_color());
 }
 
-/// The unit or the facet at a point of the pattern: its corners and its name.
+/// The corners and the name of the unit or facet at a point of the pattern.
 fn found(draft: &Draft, at: DVec2) -> Option<(Vec<DVec2>, String)> {
     match draft {
         Draft::Units(draft) => unit_at(&draft.units, at),

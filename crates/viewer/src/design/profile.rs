@@ -11,11 +11,11 @@ use super::curve::{
 use super::form::{Field, Form, note};
 use super::number::{Number, control_width, short};
 
-/// What the section remembers.
+/// State of the section that lasts from frame to frame.
 #[derive(Debug, Default)]
 pub(super) struct ProfileSection {
     canvas: Canvas,
-    /// Whether a file is about to be named.
+    /// Whether the user has chosen a file as the kind of profile but has not named it yet.
     names_file: bool,
 }
 
@@ -33,7 +33,7 @@ impl ProfileSection {
         });
     }
 
-    /// Where the curve comes from.
+    /// The choice of the kind of profile, with the controls of that kind.
     fn show_kinds(&mut self, form: &mut Form<'_>, ui: &mut Ui) {
         let at = ProfileKind::of(&form.scene.profile);
         self.names_file &= at != ProfileKind::File;
@@ -46,22 +46,22 @@ impl ProfileSection {
             (
                 ProfileKind::Model,
                 "built-in",
-                "a profile of figure 6 and table 1 of the paper",
+                "A profile of figure 6 and table 1 of the paper",
             ),
             (
                 ProfileKind::ControlPoints,
                 "control points",
-                "a cubic NURBS with unit weights (section 2 of the paper)",
+                "A cubic NURBS with unit weights (section 2 of the paper)",
             ),
             (
                 ProfileKind::Points,
                 "points",
-                "a cubic spline through points",
+                "A cubic spline through points",
             ),
             (
                 ProfileKind::File,
                 "file",
-                "points of a .csv, .dat or .dxf file",
+                "Points from a .csv, .dat or .dxf file",
             ),
         ];
         form.scope(ui, "profile kind", |form, ui| {
@@ -89,15 +89,15 @@ impl ProfileSection {
             ui.horizontal(|ui| {
                 if ui
                     .small_button("fit")
-                    .on_hover_text("show the whole profile")
+                    .on_hover_text("Show the whole profile")
                     .clicked()
                 {
                     self.canvas.view.fit();
                 }
                 if ProfileKind::of(&form.scene.profile) != ProfileKind::ControlPoints {
-                    let edit = ui
-                        .small_button("edit as control points")
-                        .on_hover_text("the same curve, its control points free to move");
+                    let edit = ui.small_button("edit as control points").on_hover_text(
+                        "Convert the same curve to control points, which can be dragged",
+                    );
                     if edit.clicked() && turn_into(form, ProfileKind::ControlPoints) {
                         form.record("edit as control points", edit.id, false);
                     }
@@ -111,7 +111,7 @@ impl ProfileSection {
     }
 }
 
-/// Writes the curve in another way; false where it stays as it is for now.
+/// Converts the curve to another kind; returns false if it stays as it is for now.
 fn turn_into(form: &mut Form<'_>, kind: ProfileKind) -> bool {
     let drawn = form
         .draft
@@ -169,7 +169,7 @@ fn show_file(form: &mut Form<'_>, ui: &mut Ui) {
     }
 }
 
-/// How the curve is divided, in figures.
+/// The quality of the division, as numbers.
 fn show_division(form: &Form<'_>, ui: &mut Ui) {
     let text = match form.draft.and_then(Draft::units) {
         None => "not divided yet".to_owned(),
@@ -185,13 +185,13 @@ fn show_division(form: &Form<'_>, ui: &mut Ui) {
             )
         }
     };
-    let tip = "|R_max| = max |h_k - h| / h (equation 1 of the paper); fit: the largest distance of the curve from its \
-               segments, and the mean one";
+    let tip = "|R_max| = max |h_k − h| / h (equation 1 of the paper). Fit: the largest and the mean distance of the \
+               curve from its segments.";
     let label = egui::Label::new(note(ui, text)).wrap();
     ui.add(label).on_hover_text(tip);
 }
 
-/// By how much the curve is scaled to its length.
+/// The factor by which the curve is scaled to its length.
 fn scale_note(form: &Form<'_>, drawn: &Profile) -> String {
     let Some(own) = own_profile(&form.scene.profile) else {
         return String::new();

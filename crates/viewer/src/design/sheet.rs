@@ -10,7 +10,7 @@ use super::number::{Number, short};
 use super::scene_schema::{choices, description};
 use super::unit_size::{USUAL_LAMBDA, UnitSize, own_case};
 
-/// What the section remembers.
+/// State of the section that lasts from frame to frame.
 #[derive(Debug, Default)]
 pub(super) struct SheetSection {
     /// λ and d of case SII while another case is chosen.
@@ -63,7 +63,7 @@ impl SheetSection {
         form.errors_of(ui, "sheet.case");
     }
 
-    /// Takes a case, with λ and d only where they belong to it.
+    /// Chooses a case, keeping λ and d only if the case uses them.
     fn choose(&mut self, form: &mut Form<'_>, case: CaseChoice) {
         let sheet = &mut form.scene.sheet;
         sheet.case = (case != CaseChoice::Auto).then_some(case);
@@ -84,17 +84,19 @@ fn show_counts(form: &mut Form<'_>, ui: &mut Ui) {
     let size = UnitSize::of(form, form.scene.sheet.case);
     let default = size.and_then(|size| Some(size.width? * size.columns as f64));
     let field = Field::new("sheet.width", "width W");
-    let number = Number::within(1e-6..=1e6).default(default).hint("needed");
+    let number = Number::within(1e-6..=1e6).default(default).hint("required");
     form.number(ui, &field, &number, |scene| &mut scene.sheet.width);
     let built_in = model(&form.scene);
     let rows = size.map(|size| size.rows as f64);
     let field = Field::new("sheet.rows", "rows Nr");
-    let number = Number::within(1.0..=1000.0).default(rows).hint("needed");
+    let number = Number::within(1.0..=1000.0).default(rows).hint("required");
     form.whole(ui, &field, number, |scene| &mut scene.sheet.rows);
     let case = columns_case(form.scene.sheet.case);
     let columns = built_in.map(|model| model.columns.of(case) as f64);
     let field = Field::new("sheet.columns", "columns Nc");
-    let number = Number::within(1.0..=1000.0).default(columns).hint("needed");
+    let number = Number::within(1.0..=1000.0)
+        .default(columns)
+        .hint("required");
     form.whole(ui, &field, number, |scene| &mut scene.sheet.columns);
     let text = match size {
         Some(UnitSize {
@@ -104,14 +106,14 @@ fn show_counts(form: &mut Form<'_>, ui: &mut Ui) {
         }) => {
             format!("w = {}, h = {}, w/h = {}", short(w), short(h), short(w / h))
         }
-        Some(UnitSize { height: h, .. }) => format!("h = {}; w needs a width", short(h)),
+        Some(UnitSize { height: h, .. }) => format!("h = {}; w requires a width", short(h)),
         None => "w and h are not known yet".to_owned(),
     };
     ui.label(note(ui, text))
         .on_hover_text("The size of a unit: w = W/Nc, and h is the mean length of a segment.");
 }
 
-/// λ and d, where they mean something or stand in the scene.
+/// λ and d, if they have an effect or are in the scene.
 fn show_widths(form: &mut Form<'_>, ui: &mut Ui) {
     let sheet = &form.scene.sheet;
     let size = UnitSize::of(form, sheet.case).and_then(|size| Some((size.width?, size.height)));
@@ -122,7 +124,7 @@ fn show_widths(form: &mut Form<'_>, ui: &mut Ui) {
     let means_something = is_sii || may_be_sii || is_common_flap;
     if means_something || sheet.lambda.is_some() {
         let field = Field::new("sheet.lambda", "λ");
-        let hint = if is_sii { "needed" } else { "none" };
+        let hint = if is_sii { "required" } else { "none" };
         let number = Number::within(0.01..=if is_common_flap { 1.0 } else { 0.99 })
             .default(is_common_flap.then_some(0.9))
             .hint(hint)
@@ -169,7 +171,7 @@ fn show_division(form: &mut Form<'_>, ui: &mut Ui) {
     let is_split = form.scene.division.method == Some(DivisionChoice::DouglasPeucker);
     let field = Field::new("division.tolerance", "tolerance");
     let number = if is_split {
-        Number::within(1e-6..=0.5).hint("by rows").speed(1e-4)
+        Number::within(1e-6..=0.5).hint("from rows").speed(1e-4)
     } else {
         Number::within(0.0..=0.1).default(1e-14)
     };

@@ -10,10 +10,10 @@ use super::scene_schema::choices;
 /// The groups of creases that an imported pattern has.
 const IMPORTED_CREASES: [&str; 3] = ["all", "mountains", "valleys"];
 
-/// The first and the last row or column of a step.
+/// Access to the range of rows or columns of a step.
 type Range = fn(&mut StepScene) -> &mut Option<Vec<i64>>;
 
-/// What is to become of a step in the list.
+/// A user action on a step in the list.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum StepAction {
     Up,
@@ -21,7 +21,7 @@ pub(super) enum StepAction {
     Remove,
 }
 
-/// Shows step `index` of `count`.
+/// Shows step `index` of `count`; returns the action of a button that was clicked, and the button's id.
 pub(super) fn show_step(
     form: &mut Form<'_>,
     ui: &mut Ui,
@@ -70,7 +70,7 @@ fn show_head(ui: &mut Ui, index: usize, count: usize) -> Option<(StepAction, Id)
     asked
 }
 
-/// A small button with a painted sign: fonts at hand have no arrows.
+/// A small button with a drawn icon, because the fonts have no arrows.
 fn sign_button(ui: &mut Ui, order: StepAction) -> egui::Response {
     let (rect, response) = ui.allocate_exact_size(vec2(18.0, 18.0), egui::Sense::click());
     response.widget_info(|| {
@@ -92,7 +92,7 @@ fn sign_button(ui: &mut Ui, order: StepAction) -> egui::Response {
     response
 }
 
-/// Which creases of which stage.
+/// The stage and the creases of the step.
 fn show_what(form: &mut Form<'_>, ui: &mut Ui, index: usize) {
     let key = |key: &str| format!("motion.step.{index}.{key}");
     let is_imported = form.scene.pattern.is_some();
@@ -140,7 +140,7 @@ fn show_what(form: &mut Form<'_>, ui: &mut Ui, index: usize) {
     }
 }
 
-/// The first and the last row or column.
+/// Fields for the first and the last row or column.
 fn show_range(form: &mut Form<'_>, ui: &mut Ui, field: &Field, index: usize, of: Range) {
     form.row(ui, field, |form, ui, _| {
         let width = (control_width(ui) - 24.0) / 2.0;
@@ -160,7 +160,7 @@ fn show_range(form: &mut Form<'_>, ui: &mut Ui, field: &Field, index: usize, of:
         let spoken = AccessibleName::As(&spoken_last);
         let last_changed = form.whole_cell(ui, field.name, spoken, &number, width, &mut last);
         let range = match (first, last) {
-            // Without a first one there is no last one; and a last one alone begins at 0.
+            // Without a first index the range is empty; a last index alone starts at 0.
             (None, Some(last)) if last_changed => Some(vec![0, last]),
             (None, _) => None,
             (Some(first), None) => Some(vec![first]),
@@ -174,7 +174,7 @@ fn show_range(form: &mut Form<'_>, ui: &mut Ui, field: &Field, index: usize, of:
     });
 }
 
-/// When in the stage, and how.
+/// When in the stage the creases move, and how.
 fn show_when(form: &mut Form<'_>, ui: &mut Ui, index: usize) {
     let key = |key: &str| format!("motion.step.{index}.{key}");
     let Some(step) = form.scene.motion.step.get(index) else {
@@ -196,7 +196,7 @@ fn show_when(form: &mut Form<'_>, ui: &mut Ui, index: usize) {
     });
 }
 
-/// A bar: the stage, and the part of it in which the step moves.
+/// A bar for the stage, in which the part with the step is filled.
 fn paint_part(ui: &mut Ui, from: f64, to: f64) {
     let size = vec2(ui.available_width(), 8.0);
     let (rect, response) = ui.allocate_exact_size(size, egui::Sense::hover());

@@ -1,26 +1,26 @@
-//! The help sheet: keys, mouse, words, version, how to cite.
+//! The help sheet: keys, mouse gestures, terms, version and citation.
 
 use eframe::egui::{Context, Grid, Id, Key, Modal, Modifiers, ScrollArea, Ui};
 
 use super::appearance::modal_frame;
 use super::shortcuts::{Group, SHORTCUTS, written};
 
-/// The groups of the two columns.
+/// The groups of commands in the two columns.
 const COLUMNS: [&[Group]; 2] = [
     &[Group::File, Group::Edit, Group::Motion, Group::Time],
     &[Group::View, Group::Colours, Group::Window],
 ];
 
-/// What the mouse does, where, and how.
+/// Mouse gestures: where, what they do, and how.
 const MOUSE: [(&str, &[(&str, &str)]); 2] = [
     (
         "Mouse in the 3D view",
         &[
             ("turn", "drag"),
-            ("move", "right or shift drag"),
-            ("nearer, farther", "wheel or pinch"),
+            ("move", "right drag or Shift drag"),
+            ("zoom", "wheel or pinch"),
             ("fit to the window", "double click"),
-            ("pull a vertex by hand", "drag it"),
+            ("pull a vertex (by hand)", "drag it"),
         ],
     ),
     (
@@ -28,23 +28,23 @@ const MOUSE: [(&str, &[(&str, &str)]); 2] = [
         &[
             ("move a point", "drag it"),
             ("add a point", "double click"),
-            ("remove a point", "right click on it, Delete"),
+            ("remove a point", "right click on it, or Delete"),
             ("move the canvas", "right or middle drag"),
-            ("nearer, farther", "wheel or pinch"),
+            ("zoom", "wheel or pinch"),
         ],
     ),
 ];
 
-const WORDS: [(&str, &str); 3] = [
+const TERMS: [(&str, &str); 3] = [
     (
         "Touching",
-        "facets lie on each other and leave on the side they came from",
+        "Facets lie on each other and separate on the same side.",
     ),
     (
         "Penetrating",
-        "facets overlap by more than the tolerance, or leave on the other side",
+        "Facets overlap by more than the tolerance, or separate on the other side.",
     ),
-    ("Free", "no facets come within the tolerance of each other"),
+    ("Free", "No facets come within the tolerance of each other."),
 ];
 
 const CITE: &str = "Please cite foldmotion with its version, and the paper it implements: Constructing foldable \
@@ -88,8 +88,8 @@ fn contents(ui: &mut Ui) {
             table(ui, title, rows);
         }
     });
-    title(ui, "Words");
-    for (word, meaning) in WORDS {
+    title(ui, "Terms");
+    for (word, meaning) in TERMS {
         ui.horizontal_wrapped(|ui| {
             ui.strong(word);
             ui.label(meaning);

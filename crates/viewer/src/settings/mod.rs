@@ -1,4 +1,4 @@
-//! What the window remembers: recent files, looks, unsaved scenes; and how a file is chosen.
+//! Settings that are kept from one start to the next, unsaved scenes, keyboard shortcuts, and the file picker.
 
 mod appearance;
 mod help;
@@ -24,15 +24,15 @@ pub(crate) use view::{Colour, PanelSettings, ViewSettings};
 /// The key under which the settings are stored.
 const KEY: &str = "settings";
 
-/// What the window remembers from one start to the next.
+/// Settings that are kept from one start to the next.
 #[derive(Debug, Clone, Default, PartialEq, Serialize)]
 pub(crate) struct Settings {
-    /// Files opened and saved.
+    /// Files that were opened or saved.
     pub(crate) recent: RecentFiles,
-    /// Dark, light, or as the system is.
+    /// Dark, light, or as the system.
     #[serde(rename = "look")]
     pub(crate) appearance: Appearance,
-    /// How large everything is.
+    /// The zoom factor of the whole window.
     pub(crate) scale: Scale,
     /// How the sheet is shown.
     pub(crate) view: ViewSettings,
@@ -40,7 +40,7 @@ pub(crate) struct Settings {
     pub(crate) panels: PanelSettings,
 }
 
-/// The size of everything, one of [`SCALES`].
+/// The zoom factor of the whole window, one of [`SCALES`].
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Scale(f32);
 
@@ -51,7 +51,7 @@ impl Default for Scale {
 }
 
 impl Scale {
-    /// The factor; the nearest of [`SCALES`] whatever was stored.
+    /// The factor: the one of [`SCALES`] nearest to the stored value.
     pub(crate) fn factor(self) -> f32 {
         let wanted = self.0.clamp(SCALES[0], SCALES[SCALES.len() - 1]);
         let far = |scale: &f32| (scale - wanted).abs();
@@ -59,7 +59,7 @@ impl Scale {
         nearest.unwrap_or(SCALES[0])
     }
 
-    /// The next larger size; the smallest after the largest.
+    /// The next larger factor; after the largest, the smallest.
     pub(crate) fn next(self) -> Self {
         let larger = SCALES.into_iter().find(|&scale| scale > self.factor());
         Self(larger.unwrap_or(SCALES[0]))
@@ -67,14 +67,14 @@ impl Scale {
 }
 
 impl Settings {
-    /// What was stored; what is missing or cannot be read is as at the first start.
+    /// The stored settings; whatever is missing or cannot be read gets its default.
     pub(crate) fn load(storage: Option<&dyn Storage>) -> Self {
         let stored = storage.and_then(|storage| storage.get_string(KEY));
         stored.map_or_else(Self::default, |json| Self::from_json(&json))
     }
 
     pub(crate) fn store(&self, storage: &mut dyn Storage) {
-        // Numbers, words and lists of them always serialise.
+        // Numbers, strings and lists of them always serialise.
         if let Ok(json) = serde_json::to_string(self) {
             storage.set_string(KEY, json);
         }
@@ -94,7 +94,7 @@ impl Settings {
     }
 }
 
-/// A field of its own: what another version wrote there costs this one only.
+/// One field, read by itself, so that an incompatible value of another version only resets this field.
 fn field<T: DeserializeOwned + Default>(stored: &Map<String, Value>, name: &str) -> T {
     let value = stored.get(name).cloned();
     value
@@ -110,7 +110,8 @@ mod tests {
 
     use super::*;
 
-    /// Draws what is shown, to be looked at where FOLDMOTION_PICTURES says; how light it is at a place.
+    /// Renders the window, saves the picture in the folder FOLDMOTION_PICTURES if it is set, and returns the brightness
+    /// of a pixel.
     pub(super) fn drawn<S>(harness: &mut Harness<'_, S>, name: &str, [x, y]: [u32; 2]) -> u8 {
         let picture = harness.render().unwrap();
         if let Some(folder) = std::env::var_os("FOLDMOTION_PICTURES") {

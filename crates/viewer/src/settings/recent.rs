@@ -1,19 +1,19 @@
-//! Files that were opened or saved, the latest first.
+//! Recently opened or saved files.
 
 use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Serialize};
 
-/// Files kept.
+/// The largest number of files that are kept.
 const MOST: usize = 10;
 
-/// Files that were opened or saved, the latest first, each once.
+/// Files that were opened or saved, without duplicates, the latest first.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 #[serde(transparent)]
 pub(crate) struct RecentFiles(Vec<String>);
 
 impl RecentFiles {
-    /// Puts a file first. One whose path is no Unicode is not remembered.
+    /// Puts a file first. A path that is not Unicode is not kept.
     pub(crate) fn add(&mut self, path: &Path) {
         let path = path.canonicalize().unwrap_or_else(|_| path.to_owned());
         let Some(path) = path.to_str() else { return };
@@ -22,7 +22,8 @@ impl RecentFiles {
         self.0.truncate(MOST);
     }
 
-    /// Those that exist, then the others, each the latest first. Asks the disk: not for every frame.
+    /// The files that exist, then the others, each group with the latest first. This accesses the disk, so do not call
+    /// it in every frame.
     pub(crate) fn existing_first(&self) -> Vec<(PathBuf, bool)> {
         let files = self.0.iter().take(MOST).map(PathBuf::from);
         let mut files: Vec<_> = files.map(|path| (path.clone(), path.exists())).collect();
@@ -30,7 +31,7 @@ impl RecentFiles {
         files
     }
 
-    /// The folders they are in, each once.
+    /// The folders of the files, without duplicates.
     pub(crate) fn folders(&self) -> Vec<PathBuf> {
         let mut folders: Vec<PathBuf> = Vec::new();
         for path in self.0.iter().take(MOST) {

@@ -1,7 +1,7 @@
-//! Unsaved scenes: kept in a file for each window, and offered again at the next start.
+//! Unsaved scenes, kept in one file per window and offered for recovery at the next start.
 //!
-//! A window locks a file beside its own; the lock ends with the process, however that ends. A scene whose lock can be had
-//! is left over.
+//! Each window locks a file beside its scene. The lock ends with the process, however that ends, so a scene that can be
+//! locked was left behind.
 
 use std::fs::{File, TryLockError};
 use std::io;
@@ -12,9 +12,9 @@ use serde::{Deserialize, Serialize};
 
 use crate::document::{Document, write_whole};
 
-/// Scenes kept; the oldest go first.
+/// The largest number of scenes that are kept; the oldest are removed first.
 const MOST: usize = 10;
-/// Larger files are none of ours.
+/// Files larger than this are ignored.
 const MOST_BYTES: u64 = 256 << 20;
 
 /// A scene that was not saved.
@@ -25,7 +25,7 @@ pub(crate) struct UnsavedScene {
     path: Option<String>,
     base: String,
     text: String,
-    /// Seconds since 1970.
+    /// When it was kept, in seconds since 1970.
     time: u64,
 }
 
@@ -43,18 +43,18 @@ impl UnsavedScene {
         }
     }
 
-    /// The scene as it was left.
+    /// The scene as it was kept.
     pub(crate) fn document(&self) -> Document {
         let path = self.path.as_ref().map(Path::new);
         Document::restored(Path::new(&self.location), path, &self.base, &self.text)
     }
 
-    /// Such as `unsaved changes of shelter.toml, 5 minutes ago`.
+    /// For example `unsaved changes to shelter.toml, 5 minutes ago`.
     pub(crate) fn describe(&self) -> String {
         let name = Path::new(&self.location).file_name().unwrap_or_default();
         let age = since_epoch().as_secs().saturating_sub(self.time);
         format!(
-            "unsaved changes of {}, {}",
+            "unsaved changes to {}, {}",
             name.to_string_lossy(),
             ago(age)
         )
@@ -82,12 +82,12 @@ fn ago(seconds: u64) -> String {
 #[derive(Debug)]
 struct LockedFile {
     path: PathBuf,
-    /// InteractionStatus while this lives; none where the disk knows no locks.
+    /// The lock, which lasts as long as this value; `None` on file systems without locks.
     lock: Option<File>,
 }
 
 impl LockedFile {
-    /// Takes a file over; none where another window holds it.
+    /// Locks a file; `None` if another window has locked it.
     fn take(path: PathBuf) -> Option<Self> {
         let lock = File::create(lock_of(&path)).ok()?;
         match lock.try_lock() {
@@ -101,7 +101,7 @@ impl LockedFile {
     }
 
     fn remove(self) {
-        // A file that cannot be removed is offered again: nothing is lost.
+        // A file that cannot be removed is offered again, so nothing is lost.
         let _ = std::fs::remove_file(&self.path);
         let _ = std::fs::remove_file(lock_of(&self.path));
         drop(self.lock);
@@ -117,16 +117,16 @@ fn lock_of(path: &Path) -> PathBuf {
 pub(crate) struct UnsavedScenes {
     folder: PathBuf,
     own: Option<LockedFile>,
-    /// The text that is in the file of this window.
+    /// The text and the base that are in the file of this window.
     written: Option<(String, String)>,
     recovered: Vec<(UnsavedScene, LockedFile)>,
 }
 
 impl UnsavedScenes {
-    /// Takes over what earlier windows left in a folder, the latest first.
+    /// Locks the scenes that earlier windows left behind in a folder, the latest first.
     ///
     /// # Errors
-    /// Where the folder cannot be made or read.
+    /// If the folder cannot be created or read.
     pub(crate) fn in_folder(folder: &Path) -> io::Result<Self> {
         std::fs::create_dir_all(folder)?;
         let mut recovered = Vec::new();
@@ -151,15 +151,15 @@ impl UnsavedScenes {
         })
     }
 
-    /// What earlier windows left, the latest first.
+    /// The scenes that earlier windows left behind, the latest first.
     pub(crate) fn recovered(&self) -> impl Iterator<Item = &UnsavedScene> {
         self.recovered.iter().map(|(scene, _)| scene)
     }
 
-    /// Makes a scene that was left the scene of this window.
+    /// Makes a recovered scene the scene of this window.
     ///
     /// # Errors
-    /// Where it cannot be kept under this window's name; it then stays where it is.
+    /// If it cannot be kept under this window's name; the file is then unchanged.
     pub(crate) fn restore(&mut self, index: usize) -> io::Result<Option<Document>> {
         let Some((scene, _)) = self.recovered.get(index) else {
             return Ok(None);
@@ -170,17 +170,18 @@ impl UnsavedScenes {
         Ok(Some(document))
     }
 
-    /// Forgets a scene that was left.
+    /// Deletes a recovered scene.
     pub(crate) fn discard(&mut self, index: usize) {
         if index < self.recovered.len() {
             self.recovered.remove(index).1.remove();
         }
     }
 
-    /// Keeps the scene of this window while it is unsaved, and forgets it once it is saved. Writes only what is new.
+    /// Keeps the scene of this window while it is unsaved, and deletes it once it is saved. Does nothing if the text
+    /// has not changed.
     ///
     /// # Errors
-    /// Where it cannot be written.
+    /// If the file cannot be written.
     pub(crate) fn keep(&mut self, document: &Document) -> io::Result<()> {
         if !document.is_modified() {
             self.clear();
@@ -201,7 +202,7 @@ impl UnsavedScenes {
         Ok(())
     }
 
-    /// Forgets the scene of this window: it was saved, or its changes were given up.
+    /// Deletes the scene of this window, after it was saved or its changes were discarded.
     pub(crate) fn clear(&mut self) {
         self.written = None;
         if let Some(own) = self.own.take() {
@@ -209,7 +210,7 @@ impl UnsavedScenes {
         }
     }
 
-    /// The file of this window, which no other has.
+    /// The file of this window, which no other window uses.
     fn own_path(&mut self) -> io::Result<PathBuf> {
         if let Some(own) = &self.own {
             return Ok(own.path.clone());
@@ -217,7 +218,7 @@ impl UnsavedScenes {
         let name = format!("{}-{}.json", std::process::id(), since_epoch().as_nanos());
         let path = self.folder.join(name);
         let own = LockedFile::take(path.clone());
-        let own = own.ok_or_else(|| io::Error::other("its lock cannot be had"))?;
+        let own = own.ok_or_else(|| io::Error::other("the file cannot be locked"))?;
         self.own = Some(own);
         Ok(path)
     }
@@ -256,7 +257,7 @@ mod tests {
         }
         let mut next = UnsavedScenes::in_folder(folder.path()).unwrap();
         let described = next.recovered().next().unwrap().describe();
-        assert_eq!(described, "unsaved changes of untitled.toml, a moment ago");
+        assert_eq!(described, "unsaved changes to untitled.toml, a moment ago");
         let mut restored = next.restore(0).unwrap().unwrap();
         assert_eq!(restored.text(), edited(10).text());
         assert!(restored.is_modified() && next.recovered().next().is_none());
@@ -278,12 +279,12 @@ mod tests {
         let third = UnsavedScenes::in_folder(folder.path()).unwrap();
         assert_eq!(third.recovered().count(), 1);
         assert_eq!(third.recovered().next().unwrap().text, edited(9).text());
-        // What one window offers, another does not.
+        // A scene that one window offers is not offered by another.
         let fourth = UnsavedScenes::in_folder(folder.path()).unwrap();
         assert_eq!(fourth.recovered().count(), 0);
     }
 
-    /// Where the other process of the test below keeps its scene.
+    /// Tells the child process of the next test in which folder to keep its scene.
     const FOLDER: &str = "FOLDMOTION_TEST_UNSAVED";
 
     #[test]

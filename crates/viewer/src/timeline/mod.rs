@@ -1,4 +1,4 @@
-//! The timeline: stages, scrubbing, playing, and curves on the same axis.
+//! The timeline: stages, scrubbing, playback, and plots on the same axis.
 
 mod axis;
 mod bar;

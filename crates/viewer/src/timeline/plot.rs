@@ -1,23 +1,23 @@
-//! What is drawn under the timeline: figures of every frame.
+//! The data of the plots under the timeline.
 
-/// Plots of one kind over motion time.
+/// Curves of related quantities over motion time.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Plot {
-    /// What is drawn, with its unit.
+    /// The quantity, with its unit.
     pub(crate) title: String,
-    /// What a tooltip says of it.
+    /// The tooltip.
     pub(crate) about: &'static str,
     pub(crate) is_logarithmic: bool,
     pub(crate) curves: Vec<Curve>,
-    /// A level to compare with, and its name.
+    /// A value to compare with, and its name.
     pub(crate) reference: Option<(f64, &'static str)>,
 }
 
-/// One curve.
+/// A curve of one quantity.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Curve {
     pub(crate) name: &'static str,
-    /// Motion time and value, in order of time; values that are no number leave a gap.
+    /// Pairs of motion time and value, in order of time; a value that is not a number leaves a gap.
     pub(crate) points: Vec<[f64; 2]>,
 }
 
@@ -28,7 +28,7 @@ pub(crate) struct Plots {
 }
 
 impl Plot {
-    /// Whether there is anything to draw.
+    /// Whether any value can be drawn.
     pub(crate) fn has_values(&self) -> bool {
         let mut values = self.curves.iter().flat_map(|curve| &curve.points);
         values.any(|p| self.shows(p[1]))
@@ -39,7 +39,7 @@ impl Plot {
         value.is_finite() && (!self.is_logarithmic || value > 0.0)
     }
 
-    /// A value on the scale of the plot: itself, or its decimal logarithm.
+    /// A value on the scale of the plot: the value itself, or its decimal logarithm.
     pub(super) fn level(&self, value: f64) -> f64 {
         if self.is_logarithmic {
             value.log10()
@@ -48,7 +48,7 @@ impl Plot {
         }
     }
 
-    /// The lowest and the highest level drawn; linear plots begin at 0 where nothing is below.
+    /// The lowest and the highest level; a linear plot starts at 0 if no value is negative.
     pub(super) fn levels(&self) -> [f64; 2] {
         let values = self
             .curves
@@ -73,7 +73,7 @@ impl Plot {
 }
 
 impl Curve {
-    /// The value at motion time `t`, between the frames along a straight line.
+    /// The value at motion time `t`, interpolated linearly between frames.
     pub(super) fn at(&self, t: f64) -> Option<f64> {
         let next = self.points.partition_point(|p| p[0] < t);
         let after = self.points.get(next)?;

@@ -1,4 +1,4 @@
-//! One plot of curves, drawn along the axis of the timeline.
+//! A plot, drawn along the axis of the timeline.
 
 use eframe::egui::{
     Align2, Color32, FontId, Pos2, Rect, Response, Sense, Shape, Stroke, StrokeKind, Ui, Visuals,
@@ -11,7 +11,7 @@ use super::plot::{Curve, Plot};
 /// Height of a plot, points.
 pub(super) const HEIGHT: f32 = 40.0;
 
-/// The colours of curves, apart for every common colour blindness (Okabe and Ito 2008).
+/// Colours of curves that can be told apart with colour blindness (Okabe and Ito 2008).
 const COLOURS: [[u8; 3]; 5] = [
     [0, 114, 178],
     [213, 94, 0],
@@ -20,7 +20,7 @@ const COLOURS: [[u8; 3]; 5] = [
     [230, 159, 0],
 ];
 
-/// The colour of the curve `index`, lighter on dark ground.
+/// The colour of curve `index`, lighter on a dark background.
 fn colour(index: usize, visuals: &Visuals) -> Color32 {
     let [r, g, b] = COLOURS[index % COLOURS.len()];
     let colour = Color32::from_rgb(r, g, b);
@@ -31,7 +31,7 @@ fn colour(index: usize, visuals: &Visuals) -> Color32 {
     }
 }
 
-/// Draws `plot`; answers the response of its area, in which one scrubs.
+/// Draws a plot and returns the response of its area, in which the user can scrub.
 pub(super) fn show_plot(ui: &mut Ui, plot: &Plot, axis: &Axis, time: f64) -> Response {
     let width = ui.available_width();
     let (rect, response) = ui.allocate_exact_size(vec2(width, HEIGHT), Sense::click_and_drag());
@@ -47,7 +47,7 @@ pub(super) fn show_plot(ui: &mut Ui, plot: &Plot, axis: &Axis, time: f64) -> Res
     if ui.is_rect_visible(rect) {
         paint(ui, plot, axis, time, rect);
     }
-    // Not over the curves, where it would cover what one scrubs.
+    // The tooltip is not shown over the curves, where it would cover what is being scrubbed.
     let is_beside = response.hover_pos().is_some_and(|at| at.x < axis.span.min);
     if is_beside {
         response.on_hover_text(plot.about)
@@ -120,8 +120,8 @@ fn paint(ui: &Ui, plot: &Plot, axis: &Axis, time: f64, rect: Rect) {
     legend(ui, plot, time, area);
 }
 
-/// The curve on the screen, in pieces between gaps: of the points that fall on the same column of points only the lowest
-/// and the highest, so that a motion of thousands of frames costs no more than what is seen.
+/// The curve on the screen, in pieces between gaps. Of all points in one column of pixels only the lowest and the
+/// highest are kept, so that drawing does not slow down with thousands of frames.
 fn pieces(plot: &Plot, curve: &Curve, axis: &Axis, y: &impl Fn(f64) -> f32) -> Vec<Vec<Pos2>> {
     let mut pieces: Vec<Vec<Pos2>> = Vec::new();
     let mut is_open = false;
@@ -167,7 +167,7 @@ fn legend(ui: &Ui, plot: &Plot, time: f64, area: Rect) {
     let visuals = ui.visuals();
     let font = FontId::proportional(11.0);
     let painter = ui.painter().with_clip_rect(area);
-    // Its place is known once the words are laid out, over which it would lie.
+    // The background is drawn first, but its size is only known once the text is laid out.
     let ground = painter.add(Shape::Noop);
     let corner = area.left_top() + vec2(5.0, 2.0);
     let mut place = Rect::from_min_size(corner, vec2(0.0, 0.0));
@@ -197,7 +197,7 @@ fn legend(ui: &Ui, plot: &Plot, time: f64, area: Rect) {
     );
 }
 
-/// The values at `time` in words.
+/// The values at `time` as text.
 fn readings(plot: &Plot, time: f64) -> String {
     let value = |curve: &Curve| {
         let value = curve.at(time).filter(|v| v.is_finite());
@@ -210,7 +210,7 @@ fn readings(plot: &Plot, time: f64) -> String {
     plot.curves.iter().map(value).collect::<Vec<_>>().join(", ")
 }
 
-/// Three digits.
+/// Formats a number with about three significant digits.
 pub(crate) fn number(value: f64) -> String {
     let size = value.abs();
     if size == 0.0 {

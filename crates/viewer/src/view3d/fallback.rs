@@ -1,5 +1,5 @@
-//! The sheet drawn by egui's painter: triangles from the farthest to the nearest, lines with them. What is nearer is
-//! decided triangle by triangle, so that those that pass through each other show it wrongly.
+//! The sheet drawn by egui's painter, without a GPU: triangles sorted from the farthest to the nearest, together with
+//! their lines. The order is decided per triangle, so triangles that intersect are drawn wrongly.
 
 use std::sync::Arc;
 
@@ -16,12 +16,12 @@ use super::prepared::PreparedSheet;
 use super::projection::Projection;
 use super::segments::segments;
 
-/// The light of the films and of the shader.
+/// The light of films and of the shader.
 const LIGHT: DVec3 = DVec3::new(-0.52, 0.66, 0.54);
 const AMBIENT: f64 = 0.42;
 const TINTED_BACK: f32 = 0.62;
 
-/// What the triangles were drawn from.
+/// What the mesh depends on; it is made again when this changes.
 #[derive(Debug, PartialEq)]
 struct MeshKey {
     sheet_key: u64,
@@ -34,7 +34,7 @@ struct MeshKey {
     corner: Pos2,
 }
 
-/// The triangles, kept as long as they stay.
+/// Draws the sheet without a GPU; keeps the mesh until something changes.
 #[derive(Debug, Default)]
 pub(super) struct FallbackRenderer {
     source: Option<MeshKey>,
@@ -82,7 +82,7 @@ fn at(corner: Pos2, point: DVec3) -> Pos2 {
     corner + vec2(point.x as f32, point.y as f32)
 }
 
-/// The triangles and their lines from the farthest to the nearest.
+/// The triangles with their lines, from the farthest to the nearest.
 fn mesh(
     picture: &Picture<'_>,
     projection: &Projection,
@@ -161,19 +161,19 @@ fn line(mesh: &mut Mesh, [a, b]: [Pos2; 2], width: f32, colour: Color32) {
     polygon(mesh, &[a - aside, b - aside, b + aside, a + aside], colour);
 }
 
-/// Whether the front is seen: counter-clockwise, y down.
+/// Whether the front of a triangle is visible: its corners are counter-clockwise, with y pointing down.
 fn is_front([a, b, c]: [DVec3; 3]) -> bool {
     (b - a).truncate().perp_dot((c - a).truncate()) <= 0.0
 }
 
-/// The unit normal of a triangle in the view.
+/// The unit normal of a triangle, in the axes of the view.
 fn normal(picture: &Picture<'_>, projection: &Projection, face: usize) -> DVec3 {
     let [a, b, c] = picture.sheet.faces[face].map(|v| picture.positions[v as usize]);
     let n = (b - a).cross(c - a).normalize_or_zero();
     DVec3::from_array(projection.axes().map(|axis| axis.dot(n)))
 }
 
-/// The colour of a triangle in linear light, as in the shader. `n`: the unit normal of the side that is seen.
+/// The colour of a triangle in linear light, as in the shader. `n` is the unit normal of the visible side.
 fn painted(picture: &Picture<'_>, paint: u32, side: f64, n: DVec3) -> Vec3 {
     let light = |[r, g, b]: [u8; 3]| {
         let [r, g, b, _] = Rgba::from(Color32::from_rgb(r, g, b)).to_array();

@@ -1,4 +1,4 @@
-//! The view under the user's hand: transition, moving, zooming, pulling a vertex.
+//! Mouse and keyboard in the view: turning, moving, zooming, and pulling a vertex.
 
 use eframe::egui::{self, EventFilter, Key, PointerButton, Pos2, Rect, Response, StrokeKind, Ui};
 use glam::{DVec2, DVec3};
@@ -8,29 +8,29 @@ use super::picture::{Picture, VertexPull};
 use super::projection::Projection;
 use super::{View3d, ViewResponse};
 
-/// Degrees a point of a drag.
+/// Degrees per point of a drag.
 const DEGREES_A_POINT: f64 = 0.4;
 
-/// Degrees a press of an arrow key.
+/// Degrees per press of an arrow key.
 const DEGREES_A_KEY: f64 = 5.0;
 
-/// Factor a press of plus or minus.
+/// Zoom factor per press of plus or minus.
 const ZOOM_A_KEY: f64 = 1.2;
 
-/// Logarithm of the factor a point of scrolling.
+/// Logarithm of the zoom factor per point of scrolling.
 const ZOOM_A_POINT: f64 = 1.0 / 200.0;
 
-/// The longest time a frame stands for, in seconds.
+/// The longest duration of a frame that a camera transition takes into account, seconds.
 const LONGEST_FRAME: f32 = 0.05;
 
-/// `at` as points from the upper left corner of `rect`.
+/// `at` in points from the upper left corner of `rect`.
 pub(super) fn within(rect: Rect, at: Pos2) -> DVec2 {
     let at = at - rect.min;
     DVec2::new(f64::from(at.x), f64::from(at.y))
 }
 
 impl View3d {
-    /// Does what the user asks of the camera, and goes on transition.
+    /// Moves the camera as the user asks, and continues a transition.
     pub(super) fn move_camera(
         &mut self,
         ui: &Ui,
@@ -68,7 +68,7 @@ impl View3d {
             let length = self.orbit.width / f64::from(rect.width());
             self.orbit.pan(DVec2::new(by.x, -by.y) * length);
         } else if response.dragged_by(PointerButton::Primary) && !response.drag_started() {
-            // In the frame in which a drag begins it is not known yet whether it pulls a vertex.
+            // In the frame in which a drag begins it is not yet known whether it pulls a vertex.
             let [azimuth, elevation] = [-by.x, by.y].map(|points| points * DEGREES_A_POINT);
             self.orbit.turn(azimuth, elevation, self.pivot);
         }
@@ -89,7 +89,7 @@ impl View3d {
         }
     }
 
-    /// Arrow keys turn and plus and minus zoom while the view has the focus.
+    /// Arrow keys turn, and plus and minus zoom, while the view has the keyboard focus.
     fn press_keys(&mut self, ui: &Ui, response: &Response) {
         if !response.has_focus() {
             return;
@@ -121,7 +121,7 @@ impl View3d {
         }
     }
 
-    /// Fits what waits to be fitted: the first time at once.
+    /// Fits the pending points: immediately the first time, later in a transition.
     fn apply_pending_fit(&mut self, rect: Rect) {
         let Some(points) = self.pending_fit.take() else {
             return;
@@ -136,7 +136,7 @@ impl View3d {
         }
     }
 
-    /// A step of a turn; asks for the next.
+    /// Advances the camera transition and requests the next frame.
     fn step_transition(&mut self, ui: &Ui) {
         if let Some(transition) = &mut self.transition {
             let seconds = ui.input(|input| input.stable_dt).min(LONGEST_FRAME);
@@ -149,7 +149,7 @@ impl View3d {
         }
     }
 
-    /// What is under the pointer, and the vertex in the hand.
+    /// Finds what is under the pointer, and handles pulling a vertex.
     pub(super) fn pick(
         &mut self,
         ui: &Ui,
@@ -179,7 +179,7 @@ impl View3d {
         }
     }
 
-    /// Takes the vertex where a drag begins, lets it go where it ends.
+    /// Grabs a vertex where a drag begins and releases it where the drag ends.
     fn update_pulled_vertex(
         &mut self,
         ui: &Ui,
@@ -213,7 +213,7 @@ impl View3d {
         })
     }
 
-    /// Rings the vertex that can be taken, and the view where it has the focus.
+    /// Marks the vertex that can be grabbed, and the view if it has the keyboard focus.
     fn mark(&self, ui: &Ui, response: &Response, rect: Rect, vertex: Option<u32>) {
         let stroke = egui::Stroke::new(1.0, ui.visuals().hyperlink_color);
         if let Some(at) = vertex.and_then(|vertex| self.points.at(vertex)) {

@@ -1,7 +1,7 @@
-//! The sheet in space: camera, drawing on the GPU, picking.
+//! The 3D view of the sheet: camera, drawing on the GPU, picking.
 //!
-//! A picture is drawn again only when something changed: an idle window costs nothing. Where there is no GPU, or it
-//! fails, egui's painter draws the same plainly.
+//! A picture is drawn only when something has changed, so an idle window uses no processor time. Without a GPU, or if
+//! it fails, egui's painter draws a simpler picture.
 
 mod creases;
 mod fallback;
@@ -34,7 +34,7 @@ pub(crate) use self::creases::CreaseClasses;
 pub(crate) use self::orbit_camera::OrbitCamera;
 pub(crate) use self::picture::{Colours, Overlay, Picture, Shape, VertexPull};
 
-/// Times that drawing is tried again on one device.
+/// The number of times that drawing is tried again on one device.
 const TRIES: u32 = 3;
 
 /// The 3D view of a window.
@@ -43,9 +43,9 @@ pub(crate) struct View3d {
     id: Option<egui::Id>,
     orbit: OrbitCamera,
     transition: Option<CameraTransition>,
-    /// Points to fit as soon as the size is known.
+    /// Points to fit once the size of the view is known.
     pending_fit: Option<Vec<DVec3>>,
-    /// The middle of the sheet, about which the view turns.
+    /// The centre of the sheet, around which the view turns.
     pivot: DVec3,
     was_shown: bool,
     prepared: Option<PreparedSheet>,
@@ -59,54 +59,54 @@ pub(crate) struct View3d {
     error: Option<String>,
 }
 
-/// What the user did with the view and what is under the pointer.
+/// What is under the pointer, and what the user does in the view.
 #[derive(Debug)]
 pub(crate) struct ViewResponse {
-    /// The vertex under the pointer: within 12 points and not hidden by paper.
+    /// The vertex under the pointer: within 12 points and not hidden by the sheet.
     pub(crate) vertex: Option<u32>,
     /// The triangle under the pointer.
     pub(crate) face: Option<u32>,
-    /// The vertex that is being pulled, and where to: in the plane through it parallel to the screen.
+    /// The vertex that is being pulled, with its target in the plane through it parallel to the screen.
     pub(crate) pull: Option<VertexPull>,
 }
 
 impl View3d {
-    /// Of the view, by which it is found to have the focus; none before it was shown.
+    /// The id of the view, to test for the keyboard focus; `None` before it was shown.
     pub(crate) fn id(&self) -> Option<egui::Id> {
         self.id
     }
 
-    /// The camera; while it turns, where to.
+    /// The camera; during a transition, the camera at its end.
     pub(crate) fn orbit(&self) -> OrbitCamera {
         self.transition
             .as_ref()
             .map_or(self.orbit, CameraTransition::end)
     }
 
-    /// Sets the camera at once.
+    /// Sets the camera without a transition.
     pub(crate) fn set_orbit(&mut self, orbit: OrbitCamera) {
         self.orbit = orbit;
         self.transition = None;
         self.was_shown = true;
     }
 
-    /// Moves with a sheet that is shown elsewhere from now on.
-    pub(crate) fn translate(&mut self, way: DVec3) {
+    /// Moves the camera by `displacement`, together with a sheet that is now shown elsewhere.
+    pub(crate) fn translate(&mut self, displacement: DVec3) {
         let orbit = self.orbit();
         self.set_orbit(OrbitCamera {
-            centre: orbit.centre + way,
+            centre: orbit.centre + displacement,
             ..orbit
         });
     }
 
-    /// Turns into a view, see [`View::NAMES`].
+    /// Turns to one of the standard views, see [`View::NAMES`].
     pub(crate) fn look(&mut self, view: View) {
         let mut to = self.orbit();
         to.set_view(view, self.pivot);
         self.move_to(to);
     }
 
-    /// Shows what is near larger, or not.
+    /// Switches between perspective and parallel projection.
     pub(crate) fn set_perspective(&mut self, perspective: bool) {
         self.orbit.perspective = perspective;
         let to = OrbitCamera {
@@ -116,17 +116,17 @@ impl View3d {
         self.move_to(to);
     }
 
-    /// Shows all `points` as large as they fit.
+    /// Shows all `points` as large as possible.
     pub(crate) fn fit(&mut self, points: Vec<DVec3>) {
         self.pending_fit = Some(points);
     }
 
-    /// Pictures that the GPU drew.
+    /// The number of pictures that the GPU has drawn.
     pub(crate) fn drawn(&self) -> u64 {
         self.gpu.as_ref().map_or(0, |gpu| gpu.count)
     }
 
-    /// Why the GPU does not draw, where it should.
+    /// Why the GPU does not draw, if it should.
     pub(crate) fn error(&self) -> Option<&str> {
         self.error.as_deref()
     }
@@ -135,7 +135,7 @@ impl View3d {
         self.transition = (to != self.orbit).then(|| CameraTransition::new(self.orbit, to));
     }
 
-    /// The least and the largest width of the view.
+    /// The smallest and the largest width of the view.
     fn widths(&self) -> [f64; 2] {
         let radius = self
             .prepared
@@ -144,7 +144,7 @@ impl View3d {
         [1e-3, 1e2].map(|part| part * radius.max(f64::MIN_POSITIVE))
     }
 
-    /// Shows `picture` in all the room of `ui`. `render_state`: of the window, none where it draws without a GPU.
+    /// Shows `picture` in the whole area of `ui`. `render_state` is that of the window; `None` draws without a GPU.
     pub(crate) fn show(
         &mut self,
         ui: &mut Ui,
@@ -194,7 +194,7 @@ impl View3d {
                 .is_some_and(|prepared| prepared.is_finite)
     }
 
-    /// Follows the sheet and its state.
+    /// Updates what is derived from the sheet and its state.
     fn follow(&mut self, picture: &Picture<'_>) {
         match &mut self.prepared {
             Some(prepared) => {
@@ -213,7 +213,7 @@ impl View3d {
         }
     }
 
-    /// What the GPU drew, none where there is none.
+    /// The texture that the GPU drew; `None` without a GPU.
     fn texture(
         &mut self,
         ui: &Ui,
@@ -225,7 +225,7 @@ impl View3d {
         let render_state = render_state?;
         let monitor = self.monitor.take().filter(|w| w.monitors(render_state));
         let monitor = monitor.unwrap_or_else(|| {
-            // Another device, such as after a loss: all is made anew.
+            // This is another device, for example after a loss, so everything is created again.
             self.gpu = None;
             self.failures = 0;
             LossMonitor::new(render_state)
@@ -284,7 +284,7 @@ impl View3d {
         gpu.show(picture, &view)
     }
 
-    /// Says why the picture is a plain one.
+    /// Says why the picture is a simpler one.
     fn note(&self, ui: &Ui, rect: Rect, has_gpu: bool) {
         let text = match &self.error {
             Some(reason) if has_gpu => format!("drawn without the GPU: {reason}"),
@@ -299,13 +299,13 @@ impl View3d {
     }
 }
 
-/// Whole pixels of a side, at least one.
+/// A length in whole pixels, at least one.
 #[expect(clippy::cast_sign_loss, reason = "at least 1 before")]
 fn pixels(side: f32) -> u32 {
     side.round().max(1.0) as u32
 }
 
-/// Names the view, and from where the sheet is seen, to those who do not see it.
+/// Describes the view and its camera to assistive technology.
 fn name(response: &Response, orbit: &OrbitCamera) {
     response.widget_info(|| {
         let from = format!(

@@ -1,31 +1,31 @@
-//! The camera as a hand moves it: a turntable.
+//! The camera that the user moves around the sheet.
 
 use foldmotion_record::View;
 #[cfg(test)]
 use foldmotion_record::{Camera, RecordError};
 use glam::{DVec2, DVec3};
 
-/// Seconds that a preset takes to turn into.
+/// Duration of a transition to another view, seconds.
 const TRANSITION_SECONDS: f64 = 0.15;
 
-/// The part of the view kept free on each side of what is fitted, as films have it.
+/// The fraction of the view left free on each side of fitted points, as in films.
 const MARGIN: f64 = 0.05;
 
-/// The projection of a perspective view is this many widths of it away: about what a 50 mm lens sees.
+/// Distance of the eye in perspective, in widths of the view: about that of a 50 mm lens.
 const EYE_DISTANCE: f64 = 1.4;
 
-/// Where the viewer stands and what is in the middle.
+/// Direction, centre and width of the view.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct OrbitCamera {
-    /// Degrees, as in [`View::Around`].
+    /// Azimuth in degrees, as in [`View::Around`].
     pub(crate) azimuth: f64,
-    /// Degrees, as in [`View::Around`].
+    /// Elevation in degrees, as in [`View::Around`].
     pub(crate) elevation: f64,
-    /// The point in the middle of the view.
+    /// The point in the centre of the view.
     pub(crate) centre: DVec3,
-    /// What the view is wide, at the depth of the centre.
+    /// The length that the view shows across its width, at the depth of the centre.
     pub(crate) width: f64,
-    /// Whether what is near looks larger; else the projection is parallel, as in films.
+    /// Whether the projection is a perspective; otherwise it is parallel, as in films.
     pub(crate) perspective: bool,
 }
 
@@ -49,7 +49,7 @@ fn direction(view: View) -> [f64; 2] {
         View::Side => [0.0, 0.0],
         View::Top => [-90.0, 90.0],
         View::Around { azimuth, elevation } => [azimuth, elevation],
-        // The direction of record's isometric view.
+        // The direction of the isometric view of films.
         View::Iso => [
             f64::atan2(-0.74, 0.42).to_degrees(),
             f64::atan2(0.53, f64::hypot(0.42, 0.74)).to_degrees(),
@@ -58,7 +58,7 @@ fn direction(view: View) -> [f64; 2] {
 }
 
 impl OrbitCamera {
-    /// The same view for films and figures.
+    /// The same direction for films and figures.
     pub(crate) fn view(&self) -> View {
         View::Around {
             azimuth: self.azimuth,
@@ -66,7 +66,7 @@ impl OrbitCamera {
         }
     }
 
-    /// Right, up and towards the viewer, unit vectors.
+    /// Unit vectors to the right, up and towards the viewer.
     pub(crate) fn axes(&self) -> [DVec3; 3] {
         let (sin, cos) = self.azimuth.to_radians().sin_cos();
         let (rise, across) = self.elevation.to_radians().sin_cos();
@@ -75,7 +75,7 @@ impl OrbitCamera {
         [right, toward.cross(right), toward]
     }
 
-    /// The camera of a film of `size` pixels that shows what the view shows; a perspective is left out.
+    /// The camera of a film of `size` pixels that shows the same as this one, without its perspective.
     ///
     /// # Errors
     /// Those of [`Camera::centred`].
@@ -85,12 +85,12 @@ impl OrbitCamera {
         Camera::centred(self.view(), middle, size, f64::from(size[0]) / self.width)
     }
 
-    /// Looks from where `view` does; `pivot` stays where it is on the screen.
+    /// Looks from the direction of `view`; `pivot` stays where it is on the screen.
     pub(crate) fn set_view(&mut self, view: View, pivot: DVec3) {
         self.look_from(direction(view), pivot);
     }
 
-    /// Turns by degrees about `pivot`, which stays where it is on the screen.
+    /// Turns by degrees; `pivot` stays where it is on the screen.
     pub(crate) fn turn(&mut self, azimuth: f64, elevation: f64, pivot: DVec3) {
         let azimuth = (self.azimuth + azimuth + 180.0).rem_euclid(360.0) - 180.0;
         let elevation = (self.elevation + elevation).clamp(-90.0, 90.0);
@@ -104,20 +104,22 @@ impl OrbitCamera {
         self.centre = pivot + (0..3).map(|i| axes[i] * aside[i]).sum::<DVec3>();
     }
 
-    /// Moves what is seen by `by`, lengths to the right and up.
+    /// Moves the contents of the view by `by`, lengths to the right and up.
     pub(crate) fn pan(&mut self, by: DVec2) {
         let [right, up, _] = self.axes();
         self.centre -= right * by.x + up * by.y;
     }
 
-    /// Shows all `factor` times as large; what is seen at `at`, lengths right and up of the centre, stays there.
+    /// Enlarges the view by `factor`; the point at `at`, lengths right and up of the centre, stays where it is on the
+    /// screen.
     pub(crate) fn zoom(&mut self, factor: f64, at: DVec2, limits: [f64; 2]) {
         let width = (self.width / factor).clamp(limits[0], limits[1]);
         self.pan(-at * (1.0 - width / self.width));
         self.width = width;
     }
 
-    /// Shows all `points` as large as they fit a view of `size`. No points, or such as are not finite, change nothing.
+    /// Shows all `points` as large as possible in a view of `size`. Without points, or if one is not finite, nothing
+    /// changes.
     pub(crate) fn fit(&mut self, points: impl IntoIterator<Item = DVec3> + Clone, size: DVec2) {
         let [right, up, toward] = self.axes();
         let [low, high] = self.view().extent(points.clone());
@@ -135,7 +137,7 @@ impl OrbitCamera {
         let depth = 0.5 * (near + far);
         self.centre = right * middle.x + up * middle.y + toward * depth;
         if width > 0.0 {
-            // What is near looks larger in perspective.
+            // Near points look larger in perspective.
             let bulge = if self.perspective {
                 0.5 * (near - far) / EYE_DISTANCE
             } else {
@@ -145,14 +147,14 @@ impl OrbitCamera {
         }
     }
 
-    /// How far the projection of a perspective view is from the centre: always outside the sphere about `middle`.
+    /// The distance of the eye from the centre in perspective, always outside the sphere around `middle`.
     pub(crate) fn eye_distance(&self, middle: DVec3, radius: f64) -> f64 {
         let [_, _, toward] = self.axes();
         let ahead = toward.dot(middle - self.centre);
         (EYE_DISTANCE * self.width).max(ahead + 1.5 * radius)
     }
 
-    /// The orbit a `part` of the way to `to`, by the shorter way around.
+    /// The camera at `part` of the transition to `to`, turning the shorter way round.
     fn between(&self, to: &Self, part: f64) -> Self {
         let mix = |a: f64, b: f64| a + (b - a) * part;
         let around = (to.azimuth - self.azimuth + 180.0).rem_euclid(360.0) - 180.0;
@@ -166,7 +168,7 @@ impl OrbitCamera {
     }
 }
 
-/// A turn from one orbit to another that takes a moment.
+/// A short transition from one camera to another.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct CameraTransition {
     from: OrbitCamera,
@@ -183,12 +185,12 @@ impl CameraTransition {
         }
     }
 
-    /// Where it leads.
+    /// The camera at the end of the transition.
     pub(super) fn end(&self) -> OrbitCamera {
         self.to
     }
 
-    /// The orbit `seconds` later, and whether it has arrived.
+    /// The camera `seconds` later, and whether the transition has ended.
     pub(super) fn step(&mut self, seconds: f64) -> (OrbitCamera, bool) {
         self.passed += seconds;
         let part = (self.passed / TRANSITION_SECONDS).clamp(0.0, 1.0);

@@ -1,4 +1,4 @@
-//! What is derived from a sheet and its state once, not once a frame.
+//! What is derived once from a sheet and its state, rather than in every frame.
 
 use foldmotion_pattern::Sheet;
 use foldmotion_record::{Layers, TIE_TOLERANCE};
@@ -7,27 +7,28 @@ use glam::DVec3;
 use super::picture::Picture;
 use super::projection::Sphere;
 
-/// The lowest layer of a stack sinks by no more than this, in units of `unit_length`: else layers come closer than
+/// The largest depth of the lowest layer of a stack, in units of `unit_length`; in high stacks, layers are closer than
 /// [`TIE_TOLERANCE`].
 const DEEPEST: f64 = 0.2;
 
-/// Cosines of the angle between neighbours of a stack: moved apart in full, and not at all.
+/// Cosines of the angle between neighbouring triangles of a stack at which they are separated fully and not at all.
 const PARALLEL: [f64; 2] = [0.966, 0.866];
 
-/// A sheet in a state.
+/// A sheet in a state, prepared for drawing.
 #[derive(Debug)]
 pub(super) struct PreparedSheet {
     sheet_key: u64,
     state_key: u64,
-    /// Each triangle of a stack and the nearest to it.
+    /// Each triangle of a stack with its nearest neighbour.
     pairs: Vec<[u32; 2]>,
-    /// The most layers before a triangle.
+    /// The largest number of layers in front of a triangle.
     most: i32,
-    /// Around the sheet.
+    /// A sphere around the sheet.
     pub(super) sphere: Sphere,
-    /// Layers before each triangle seen from its front and its back, fewer where the stack is open.
+    /// The number of layers in front of each triangle, seen from its front and from its back; smaller where the stack
+    /// is open.
     pub(super) before: Vec<[f32; 2]>,
-    /// Whether every place is finite.
+    /// Whether all positions are finite.
     pub(super) is_finite: bool,
 }
 
@@ -46,7 +47,7 @@ impl PreparedSheet {
         prepared
     }
 
-    /// Follows `picture`; whether another sheet came.
+    /// Follows `picture`; returns whether the sheet has changed.
     pub(super) fn follow(&mut self, picture: &Picture<'_>) -> bool {
         if self.sheet_key != picture.sheet_key {
             *self = Self::new(picture);
@@ -71,12 +72,13 @@ impl PreparedSheet {
         };
     }
 
-    /// The distance of layers.
+    /// The distance between layers.
     pub(super) fn layer(&self, unit_length: f64) -> f64 {
         unit_length * TIE_TOLERANCE.min(DEEPEST / f64::from(self.most.max(1)))
     }
 
-    /// How far triangle `face` sinks behind the first of its stack where the front (`side` > 0) or the back is seen.
+    /// How far triangle `face` is moved behind the first of its stack, if its front (`side` > 0) or its back is
+    /// visible.
     pub(super) fn depth_offset(&self, face: usize, side: f64, unit_length: f64) -> f64 {
         let [front, back] = self.before.get(face).copied().unwrap_or_default();
         f64::from(if side > 0.0 { front } else { back }) * self.layer(unit_length)
@@ -87,7 +89,7 @@ fn most_before(layers: &Layers) -> i32 {
     layers.before.iter().flatten().copied().max().unwrap_or(0)
 }
 
-/// Each triangle of a stack with the one that has the fewest layers between: all pairs would grow with the square of
+/// Each triangle of a stack with the one that has the fewest layers between. All pairs would grow with the square of
 /// the stack.
 fn neighbours(layers: &Layers) -> Vec<[u32; 2]> {
     let mut nearest: Vec<Option<(u32, u32)>> = vec![None; layers.heights.len()];
@@ -110,7 +112,7 @@ fn neighbours(layers: &Layers) -> Vec<[u32; 2]> {
         .collect()
 }
 
-/// The layers before each triangle, as far as it is parallel to its neighbour.
+/// The number of layers in front of each triangle, reduced where it is not parallel to its neighbour.
 fn layers_in_front(
     sheet: &Sheet,
     positions: &[DVec3],

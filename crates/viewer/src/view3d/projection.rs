@@ -1,10 +1,10 @@
-//! The projection of a view: lengths to points on the screen and back, and its numbers for the shader.
+//! The projection of a view: from space to the screen and back, and its coefficients for the shader.
 
 use glam::{DVec2, DVec3};
 
 use super::OrbitCamera;
 
-/// A sphere that holds all that is drawn.
+/// A sphere around everything that is drawn.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Sphere {
     pub(super) middle: DVec3,
@@ -12,7 +12,7 @@ pub(super) struct Sphere {
 }
 
 impl Sphere {
-    /// The sphere about the box around `points`; about the origin where there is none.
+    /// The sphere around the bounding box of `points`; the unit sphere if there are none.
     pub(super) fn around(points: impl IntoIterator<Item = DVec3>) -> Self {
         let (mut low, mut high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
         for point in points {
@@ -29,7 +29,7 @@ impl Sphere {
         }
     }
 
-    /// About the same middle, with all `points` in it.
+    /// A sphere with the same centre that contains `points` too.
     pub(super) fn with(self, points: impl IntoIterator<Item = DVec3>) -> Self {
         let distances = points.into_iter().map(|p| (p - self.middle).length());
         let radius = distances
@@ -39,24 +39,25 @@ impl Sphere {
     }
 }
 
-/// A view of a size.
+/// The projection of a view of a given size.
 ///
-/// A place at depth d towards the viewer from the centre is divided by w = 1 − d / D, D the distance of the projection (1 / D
-/// = 0 in a parallel view). Its nearness d / w is linear over every plane on the screen and grows with d.
+/// A point at depth d from the centre towards the viewer is divided by w = 1 − d / D, where D is the distance of the
+/// eye (1 / D = 0 in a parallel projection). Its nearness d / w is linear over every plane on the screen and grows with
+/// d.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Projection {
     axes: [DVec3; 3],
     centre: DVec3,
-    /// Points on the screen a length, at the depth of the centre.
+    /// Points on the screen per unit of length, at the depth of the centre.
     scale: f64,
     size: DVec2,
-    /// 1 / D.
+    /// 1 / D, zero in a parallel projection.
     inverse_distance: f64,
     sphere: Sphere,
 }
 
 impl Projection {
-    /// `size`: of the view in points.
+    /// `size` is the size of the view in points.
     pub(super) fn new(orbit: &OrbitCamera, size: DVec2, sphere: Sphere) -> Self {
         let distance = orbit.eye_distance(sphere.middle, sphere.radius);
         Self {
@@ -73,7 +74,7 @@ impl Projection {
         }
     }
 
-    /// Points to the right and down from the upper left corner, and the nearness.
+    /// The position on the screen, in points right and down from the upper left corner, and the nearness.
     pub(super) fn project(&self, point: DVec3) -> DVec3 {
         let [x, y, depth] = self.axes.map(|axis| axis.dot(point - self.centre));
         let w = 1.0 - depth * self.inverse_distance;
@@ -81,7 +82,7 @@ impl Projection {
         DVec3::new(0.5 * self.size.x + x, 0.5 * self.size.y - y, depth / w)
     }
 
-    /// The point seen at `at` in the plane through `point` parallel to the screen.
+    /// The point at screen position `at` in the plane through `point` parallel to the screen.
     pub(super) fn beside(&self, point: DVec3, at: DVec2) -> DVec3 {
         let [right, up, toward] = self.axes;
         let depth = toward.dot(point - self.centre);
@@ -89,12 +90,12 @@ impl Projection {
         self.centre + right * across.x - up * across.y + toward * depth
     }
 
-    /// Right, up and towards the viewer.
+    /// Unit vectors to the right, up and towards the viewer.
     pub(super) fn axes(&self) -> [DVec3; 3] {
         self.axes
     }
 
-    /// The first four rows of the shader's `View`, for places given from `origin`.
+    /// The first four rows of the shader's `View`, for positions relative to `origin`.
     pub(super) fn rows(&self, origin: DVec3) -> [[f32; 4]; 4] {
         let row = |axis: DVec3| {
             let [x, y, z] = axis.as_vec3().to_array();
@@ -103,7 +104,7 @@ impl Projection {
         let [right, up, toward] = self.axes.map(row);
         let across = 2.0 * self.scale / self.size;
         let middle = self.axes[2].dot(self.sphere.middle - self.centre);
-        // A tenth more than the sphere for layers and lines.
+        // A tenth more than the sphere, for layers and lines.
         let ends = [-1.1, 1.1].map(|side| {
             let depth = middle + side * self.sphere.radius;
             (depth / (1.0 - depth * self.inverse_distance)).abs()

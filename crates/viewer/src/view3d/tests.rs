@@ -1,4 +1,4 @@
-//! The view in a window, driven without one.
+//! The view, driven without a window.
 
 use eframe::egui::{Key, Modifiers, PointerButton, Pos2, Vec2, pos2};
 use eframe::egui_wgpu::RenderState;
@@ -11,7 +11,7 @@ use glam::{DVec2, DVec3};
 use super::gpu::tests::{Subject, device, keep};
 use super::*;
 
-/// What a window shows of its sheet.
+/// What the view shows of its sheet.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum TestColours {
     Plain,
@@ -21,7 +21,7 @@ enum TestColours {
     Overlays,
 }
 
-/// A view and what it saw last.
+/// A view and its last response.
 struct Window {
     view: View3d,
     subject: Subject,
@@ -30,7 +30,7 @@ struct Window {
     render_state: Option<RenderState>,
     can_pull: bool,
     colours: TestColours,
-    /// Pull, vertex and face that were seen.
+    /// The last pull, vertex and triangle.
     pull: Option<VertexPull>,
     vertex: Option<u32>,
     face: Option<u32>,
@@ -52,7 +52,7 @@ impl Window {
         }
     }
 
-    /// Goes to another state and fits it.
+    /// Shows another state and fits the view to it.
     fn take(&mut self, positions: Vec<DVec3>) {
         self.view.fit(positions.clone());
         self.positions = positions;
@@ -115,7 +115,7 @@ fn harness(window: Window) -> Harness<'static, Window> {
         .build_ui_state(|ui, window: &mut Window| window.show(ui), window)
 }
 
-/// Where `point` is seen, on the screen.
+/// The position of `point` on the screen.
 fn on_screen(harness: &Harness<'_, Window>, point: DVec3) -> Pos2 {
     let rect = harness.get_by_label("3D view").rect();
     let orbit = harness.state().view.orbit();
@@ -205,7 +205,7 @@ fn a_vertex_behind_paper_is_not_taken() {
     }
 }
 
-/// Vertices that lie clearly behind a triangle, by rays towards the viewer.
+/// Vertices clearly behind a triangle, found by rays towards the viewer.
 fn hidden_vertices(window: &Window) -> Vec<u32> {
     let [_, _, toward] = window.view.orbit().axes();
     let sheet = &window.subject.units.sheet;
@@ -277,7 +277,7 @@ fn a_pulled_vertex_follows_the_pointer_in_the_plane_of_the_screen_and_the_camera
     assert_eq!(pull.vertex, 4);
     assert!((on_screen(&harness, pull.target) - to).length() < 1e-2);
     assert!(orbit.axes()[2].dot(pull.target - place).abs() < 1e-9);
-    // Beside every vertex a drag turns.
+    // A drag that does not start at a vertex turns the view.
     drag(
         &mut harness,
         PointerButton::Primary,
@@ -327,7 +327,7 @@ fn places_that_are_missing_or_not_finite_leave_the_view_empty() {
     }
 }
 
-/// PictureKey by the GPU.
+/// A view that is drawn by the GPU.
 fn with_gpu(mut window: Window, size: [f32; 2], is_dark: bool) -> Harness<'static, Window> {
     let state = device();
     window.render_state = Some(state.clone());
@@ -401,7 +401,7 @@ fn a_lost_device_is_told_and_another_one_draws_again() {
     harness.run();
     assert_eq!(harness.state().view.error(), None);
     state.device.destroy();
-    // The loss is told when what was under way is done.
+    // The loss is reported once pending work is done.
     let wait = eframe::egui_wgpu::wgpu::PollType::wait_indefinitely();
     let _ = state.device.poll(wait);
     harness.state_mut().view.look(View::Top);
@@ -420,7 +420,7 @@ fn a_lost_device_is_told_and_another_one_draws_again() {
     assert!(harness.state().view.drawn() > 0);
 }
 
-/// A shelter of seven rows and five columns.
+/// A shelter with seven rows and five columns.
 fn shelter() -> Window {
     let subject = Subject::new(Case::S, 1.6, 7, 5);
     let arch: Vec<DVec2> = (0..=7)
@@ -470,13 +470,13 @@ fn every_state_colour_and_look_is_drawn() {
     }
 }
 
-/// Halfway between deployed and compact along straight lines: of no engine, but of layers that come together.
+/// A state between deployed and compact along straight lines. No engine produces it, but its layers come together.
 fn half_folded(window: &Window) -> Vec<DVec3> {
     let pairs = window.positions.iter().zip(window.subject.units.compact());
     pairs.map(|(a, b)| a.lerp(b, 0.6)).collect()
 }
 
-/// Prints what a frame takes, with its state new in each: of the view alone on the processor, and until it is drawn.
+/// Prints the time of a frame with a new state: of the processor alone, and until it is drawn.
 #[test]
 #[ignore = "measures and proves nothing: run it alone, with FOLDMOTION_GPU_TESTS=yes"]
 fn how_long_a_frame_takes() {

@@ -1,4 +1,4 @@
-//! What each command does.
+//! The effect of each command.
 
 use std::path::{Path, PathBuf};
 
@@ -14,14 +14,14 @@ use crate::settings::{Appearance, Colour, Command, FilePicker, apply};
 use crate::timeline::Repeat;
 use crate::work::{Interaction, RunJob, open};
 
-/// Endings of files that can be opened.
+/// Extensions of files that can be opened.
 const OPENED: [&str; 3] = ["toml", "fold", "svg"];
 
-/// Endings of outlines of profiles.
+/// Extensions of outline files for profiles.
 const OUTLINES: [&str; 3] = ["csv", "dat", "dxf"];
 
 impl Viewer {
-    /// Does what was asked for.
+    /// Executes a command.
     pub(super) fn perform(&mut self, command: Command, ctx: &Context) {
         match command {
             Command::New => self.confirm_unsaved(NextAction::New, ctx),
@@ -31,12 +31,12 @@ impl Viewer {
             Command::Quit => ctx.send_viewport_cmd(ViewportCommand::Close),
             Command::Undo => {
                 if let Some(label) = self.document.undo() {
-                    self.notify(format!("undone: {label}"), true);
+                    self.notify(format!("Undone: {label}"), true);
                 }
             }
             Command::Redo => {
                 if let Some(label) = self.document.redo() {
-                    self.notify(format!("done again: {label}"), true);
+                    self.notify(format!("Redone: {label}"), true);
                 }
             }
             Command::Run => self.run(),
@@ -51,7 +51,7 @@ impl Viewer {
         }
     }
 
-    /// Commands that move in time; whether this is one.
+    /// Executes a command that changes the motion time; returns whether this is one.
     fn move_time(&mut self, command: Command) -> bool {
         let shown = self.shown_motion();
         let frames = shown.as_ref().map_or(&[][..], |shown| &shown.marks.frames);
@@ -78,7 +78,7 @@ impl Viewer {
         true
     }
 
-    /// Commands that change what is current of the sheet; whether this is one.
+    /// Executes a command that moves the camera; returns whether this is one.
     fn look(&mut self, command: Command) -> bool {
         match command {
             Command::ViewFront => self.view3d.look(View::Front),
@@ -109,7 +109,7 @@ impl Viewer {
     fn switch(&mut self, command: Command) {
         let (view, panels) = (&mut self.settings.view, &mut self.settings.panels);
         if command == Command::PanelDesign && panels.text {
-            // It stands where the text stands.
+            // The design panel takes the place of the text.
             (panels.text, panels.design) = (false, true);
             return;
         }
@@ -148,19 +148,22 @@ impl Viewer {
         apply(ctx, self.settings.appearance, self.settings.scale.factor());
     }
 
-    /// Starts a run of the scene as it stands.
+    /// Runs the current scene.
     pub(super) fn run(&mut self) {
         if self.display.file.is_some() {
-            self.notify("a motion file has nothing to run; open its scene", false);
+            self.notify(
+                "A motion file cannot be run. Open its scene instead.",
+                false,
+            );
             return;
         }
         if self.jobs.run.is_some() {
-            self.notify("a run is under way; cancel it first (Esc)", false);
+            self.notify("A run is in progress. Cancel it first (Esc).", false);
             return;
         }
         let Some(study) = self.resolved.study.clone() else {
             let words = self.resolved.errors.first().map_or_else(
-                || "the scene is still being resolved".to_owned(),
+                || "The scene is still being resolved.".to_owned(),
                 |error| error.message.clone(),
             );
             self.notify(words, false);
@@ -187,23 +190,24 @@ impl Viewer {
         }
     }
 
-    /// Takes the sheet in the hand as it is shown, or lets it go.
+    /// Lets the user move the sheet by hand from its current state, or ends that.
     fn toggle_interaction(&mut self) {
         if self.jobs.interaction.take().is_some() {
-            self.timings.rate("hand", self.jobs.best_rate as f64);
+            self.timings
+                .rate("moving by hand", self.jobs.best_rate as f64);
             self.display.pulled = None;
             return;
         }
         let (Some(study), Some(shown)) = (self.resolved.study.clone(), self.shown_motion()) else {
             self.notify(
-                "the sheet cannot be taken in the hand before the scene is resolved",
+                "The sheet can be moved by hand once the scene is resolved.",
                 false,
             );
             return;
         };
         if self.display.file.is_some() || self.is_stale(&shown) {
             self.notify(
-                "only the sheet of the scene as it stands can be taken in the hand",
+                "Only the sheet of the current scene can be moved by hand.",
                 false,
             );
             return;
@@ -218,7 +222,7 @@ impl Viewer {
         self.jobs.interaction = Some(Interaction::start(study, start, self.repaint.clone()));
     }
 
-    /// Opens any file, in the background.
+    /// Opens a file in the background.
     pub(super) fn open(&mut self, path: PathBuf) {
         let job = open(path.clone(), self.repaint.clone());
         self.jobs.opening = Some((path, job));
@@ -240,7 +244,7 @@ impl Viewer {
         );
     }
 
-    /// The folder of the scene; where the program was started for one that has none.
+    /// The folder of the scene, or the current folder if it has none.
     fn folder(&self) -> PathBuf {
         let beside = self.document.location().parent().map(Path::to_owned);
         let folder = beside.filter(|folder| folder.is_dir());
@@ -261,12 +265,12 @@ impl Viewer {
     pub(super) fn saved(&mut self) {
         if let Some(path) = self.document.path().map(Path::to_owned) {
             self.settings.recent.add(&path);
-            self.notify(format!("saved {}", path.display()), true);
+            self.notify(format!("Saved {}", path.display()), true);
         }
         self.keep_unsaved();
     }
 
-    /// Goes on with `then`, unless edits would be lost: then asks.
+    /// Performs `then`, after asking about unsaved edits.
     pub(super) fn confirm_unsaved(&mut self, then: NextAction, ctx: &Context) {
         if self.document.is_modified() && self.display.file.is_none() {
             self.dialog = Dialog::Unsaved(then);
@@ -287,12 +291,12 @@ impl Viewer {
         }
     }
 
-    /// Keeps unsaved edits where the next start finds them; forgets them once they are saved.
+    /// Keeps unsaved edits for the next start; deletes them once they are saved.
     pub(super) fn keep_unsaved(&mut self) {
         if let Some(unsaved) = &mut self.unsaved
             && let Err(error) = unsaved.keep(&self.document)
         {
-            let words = format!("unsaved edits cannot be kept: {error}; save the scene");
+            let words = format!("Unsaved edits could not be kept: {error}. Save the scene.");
             self.notify(words, false);
         }
     }
@@ -311,7 +315,8 @@ impl Viewer {
         }
     }
 
-    /// Makes the outline in a file the profile. Rows, columns and width stay what they are, which a built-in profile brought.
+    /// Makes an outline file the profile. Rows, columns and width keep their values, even if they came from a built-in
+    /// profile.
     fn take_outline(&mut self, path: &Path) {
         let mut scene = self.document.scene().clone();
         scene.profile = ProfileScene {
@@ -333,9 +338,12 @@ impl Viewer {
                 .width
                 .or(Some(units.unit.width * units.columns as f64));
         }
-        if !self.document.change(scene, "take an outline", false) {
+        if !self
+            .document
+            .change(scene, "profile from an outline", false)
+        {
             self.notify(
-                "the scene's text has an error; mend it there first (F7)",
+                "The text of the scene has an error. Correct it there first (F7).",
                 false,
             );
         }

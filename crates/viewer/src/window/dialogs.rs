@@ -1,4 +1,4 @@
-//! What is asked before something is lost, and the other windows over the window.
+//! The dialogs: file pickers, questions before something is lost, the record dialog.
 
 use std::path::PathBuf;
 
@@ -15,21 +15,21 @@ use crate::settings::{FilePicker, PickerResult, show_help};
 pub(super) enum Dialog {
     #[default]
     None,
-    /// A file to open.
+    /// Chooses a file to open.
     Open(FilePicker),
-    /// A place to save the scene, and what follows.
+    /// Chooses a file to save the scene in, and what to do after that.
     Save(FilePicker, Option<NextAction>),
-    /// A folder to record into.
+    /// Chooses a folder for recordings.
     Folder(FilePicker),
-    /// Unsaved edits, and what is to follow.
+    /// Asks about unsaved edits before the next action.
     Unsaved(NextAction),
-    /// The file was changed by another program.
+    /// Asks what to do about a file that another program has changed.
     Changed,
-    /// Scenes that were left unsaved.
+    /// Offers unsaved scenes for recovery.
     Restore,
 }
 
-/// What follows a question.
+/// What to do after a question.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) enum NextAction {
     New,
@@ -75,7 +75,7 @@ impl Viewer {
         }
     }
 
-    /// Closing the window with unsaved edits asks first.
+    /// Asks about unsaved edits before the window is closed.
     pub(super) fn ask_before_closing(&mut self, ctx: &Context) {
         let is_asked = ctx.input(|i| i.viewport().close_requested());
         if is_asked && !self.is_closing && self.document.is_modified() {
@@ -86,7 +86,7 @@ impl Viewer {
 
     fn ask_unsaved(&mut self, ctx: &Context, then: NextAction) {
         let words = format!("{} has unsaved edits", self.document.name());
-        let about = "what is discarded is not offered again";
+        let about = "Discarded edits cannot be recovered.";
         let answers: &[&str] = if then == NextAction::Quit {
             &["Save", "Discard edits", "Keep for the next start", "Cancel"]
         } else {
@@ -122,13 +122,13 @@ impl Viewer {
 
     fn ask_changed(&mut self, ctx: &Context) {
         let words = format!("{} was changed by another program", self.document.name());
-        let about = "reading it again can be undone; overwriting it cannot";
+        let about = "Reloading the file can be undone; overwriting it cannot.";
         match ask(
             ctx,
             "changed",
             &words,
             about,
-            &["Read it again", "Overwrite it", "Cancel"],
+            &["Reload", "Overwrite", "Cancel"],
         ) {
             Some(0) => {
                 if let Err(error) = self.document.reload() {
@@ -144,7 +144,7 @@ impl Viewer {
         }
     }
 
-    /// Offers what was left unsaved.
+    /// Offers unsaved scenes for recovery.
     fn ask_restore(&mut self, ctx: &Context) {
         let Some(unsaved) = &mut self.unsaved else {
             return;
@@ -161,7 +161,7 @@ impl Viewer {
         Modal::new(Id::unique("restore")).show(ctx, |ui| {
             ui.set_max_width(460.0);
             ui.heading("Unsaved edits");
-            ui.label("the window was closed, or ended, with edits that were not saved");
+            ui.label("The window was closed or crashed before these edits were saved.");
             ui.separator();
             for (index, words) in left.iter().enumerate() {
                 ui.horizontal(|ui| {
@@ -218,7 +218,7 @@ impl Viewer {
             .resizable(false)
             .show(ctx, |ui: &mut Ui| {
                 if let Some((_, job)) = &self.jobs.recording {
-                    ui.label("recording…");
+                    ui.label("Recording…");
                     ui.add(
                         eframe::egui::ProgressBar::new(job.progress().done as f32)
                             .show_percentage(),
@@ -227,7 +227,7 @@ impl Viewer {
                         job.stop();
                     }
                 } else if !is_ready {
-                    ui.label("a preview is not recorded: run the scene first");
+                    ui.label("A preview cannot be recorded. Run the scene first.");
                     if ui
                         .add_enabled(
                             self.resolved.study.is_some() && self.jobs.run.is_none(),
@@ -248,7 +248,7 @@ impl Viewer {
                 let recent = self.settings.recent.folders();
                 let folder = std::env::current_dir().unwrap_or_default();
                 self.dialog = Dialog::Folder(FilePicker::save(
-                    "Folder of the recording",
+                    "Folder for the recording",
                     &[],
                     &folder,
                     "recording",
@@ -260,7 +260,7 @@ impl Viewer {
         }
     }
 
-    /// Records what is shown, with the camera as it stands.
+    /// Records the motion with the current camera.
     fn record(&mut self, record: &RecordScene, folder: PathBuf) {
         let Some(shown) = self.shown_motion() else {
             return;
@@ -270,7 +270,7 @@ impl Viewer {
         }
     }
 
-    /// Asks before the window closes with unsaved edits; they are kept for the next start either way.
+    /// Updates the title of the window.
     pub(super) fn title(&mut self, ctx: &Context) {
         let mark = if self.document.is_modified() {
             "• "
@@ -285,7 +285,7 @@ impl Viewer {
             None => self.document.name(),
         };
         let title = format!("{mark}{name} — foldmotion");
-        // The system may hand another text back.
+        // The system may report another title, so the last one set is remembered.
         if self.display.title != title {
             ctx.send_viewport_cmd(ViewportCommand::Title(title.clone()));
             self.display.title = title;
@@ -293,7 +293,7 @@ impl Viewer {
     }
 }
 
-/// A question with its answers; the index of the one that was chosen, the last for Escape.
+/// Asks a question; returns the index of the chosen answer, the last one if the user presses Escape.
 fn ask(ctx: &Context, id: &str, words: &str, about: &str, answers: &[&str]) -> Option<usize> {
     let mut chosen = None;
     let modal = Modal::new(Id::unique(id)).show(ctx, |ui| {

@@ -1,4 +1,4 @@
-//! The menus and the line at the foot of the window.
+//! The menus and the status bar.
 
 use std::path::PathBuf;
 use std::time::Duration;
@@ -9,10 +9,10 @@ use super::Viewer;
 use super::dialogs::NextAction;
 use crate::settings::{Appearance, Command, apply, keys_of, name_of};
 
-/// How long a notice is said.
+/// How long a notice is shown.
 const NOTICE: Duration = Duration::from_secs(12);
 
-/// Menus with their commands; none stands for a line between.
+/// The menus with their commands; `None` is a separator.
 const MENUS: [(&str, &[Option<Command>]); 4] = [
     (
         "Edit",
@@ -111,7 +111,7 @@ impl Viewer {
         ui.menu_button("Open recent", |ui| {
             let recent = self.settings.recent.existing_first();
             if recent.is_empty() {
-                ui.weak("none yet");
+                ui.weak("No files yet");
             }
             for (path, is_there) in recent {
                 let button = Button::new(path.display().to_string());
@@ -132,7 +132,7 @@ impl Viewer {
     }
 
     fn appearance_menu(&mut self, ui: &mut Ui) {
-        ui.menu_button("Colours of the window", |ui| {
+        ui.menu_button("Appearance", |ui| {
             for appearance in Appearance::ALL {
                 if ui
                     .radio(self.settings.appearance == appearance, appearance.name())
@@ -152,13 +152,13 @@ impl Viewer {
             Command::Undo => (
                 self.document
                     .can_undo()
-                    .map(|label| format!("Undo {label}")),
+                    .map(|label| format!("Undo: {label}")),
                 self.document.can_undo().is_some(),
             ),
             Command::Redo => (
                 self.document
                     .can_redo()
-                    .map(|label| format!("Redo {label}")),
+                    .map(|label| format!("Redo: {label}")),
                 self.document.can_redo().is_some(),
             ),
             Command::Run => (
@@ -188,7 +188,7 @@ impl Viewer {
             let mut follows = self.display.follows_run;
             let follow = ui.checkbox(&mut follows, "follow");
             if follow
-                .on_hover_text("show the sheet as it is computed")
+                .on_hover_text("Show the sheet while it is computed")
                 .changed()
             {
                 self.display.follows_run = follows;
@@ -197,18 +197,20 @@ impl Viewer {
             let is_on = self.resolved.study.is_some() && self.display.file.is_none();
             let button = Button::new(RichText::new("Run").strong());
             let hint = format!(
-                "fold, check and report ({})",
+                "Fold, check and report ({})",
                 keys_of(ui.ctx(), Command::Run)
             );
             if ui.add_enabled(is_on, button).on_hover_text(hint).clicked() {
                 *wanted = Some(Command::Run);
             }
             ui.checkbox(&mut self.settings.view.folds_at_once, "preview")
-                .on_hover_text("fold the sheet after every edit, without contact and unchecked");
+                .on_hover_text(
+                    "Fold the sheet after every edit, without contact and without a check",
+                );
         }
     }
 
-    /// What is the matter, at the foot of the window.
+    /// The status bar: a notice, an error of the scene, or facts about the sheet.
     pub(super) fn status(&mut self, ui: &mut Ui) {
         ui.horizontal(|ui| {
             let is_old = self
@@ -249,13 +251,13 @@ impl Viewer {
         );
         ui.weak(words);
         if self.resolved.resolver.is_busy() {
-            ui.weak("resolving…");
+            ui.weak("Resolving…");
         } else if self.jobs.preview.is_some() {
-            ui.weak("folding a preview…");
+            ui.weak("Folding a preview…");
         } else if self.jobs.opening.is_some() {
-            ui.weak("opening…");
+            ui.weak("Opening…");
         } else if self.jobs.checking.is_some() {
-            ui.weak("checking…");
+            ui.weak("Checking…");
         }
         if let Some(error) = self.view3d.error() {
             ui.colored_label(Color32::from_rgb(200, 120, 0), error);

@@ -1,8 +1,9 @@
-//! The window: what it holds, and how a frame of it goes.
+//! The window: its state, and what happens in a frame.
 //!
-//! The scene's text is the truth ([`Document`]); everything else follows from it in the background ([`crate::work`]) and is
-//! shown when it comes: the draft at once, a preview of the motion some hundred milliseconds later, a run with its verdict
-//! when the user asks for one. Nothing that takes long happens in a frame.
+//! The text of the scene is authoritative ([`Document`]). Everything else follows from it in the background
+//! ([`crate::work`]) and is shown when it is ready: the draft at once, a preview of the motion some hundred
+//! milliseconds later, and a run with its verdict when the user asks for one. Nothing that takes long happens in a
+//! frame.
 
 mod commands;
 mod dialogs;
@@ -40,7 +41,7 @@ use self::shown_state::ShownState;
 /// The window.
 #[expect(
     clippy::struct_excessive_bools,
-    reason = "what is open over the window, each by itself"
+    reason = "independent flags of the window"
 )]
 pub struct Viewer {
     document: Document,
@@ -57,50 +58,50 @@ pub struct Viewer {
     jobs: Jobs,
     dialog: Dialog,
     record_panel: RecordPanel,
-    /// What went wrong or well, and since when it is said.
+    /// The notice in the status bar: its text, whether it is good news, and since when it is shown.
     notice: Option<(String, bool, Instant)>,
     shows_help: bool,
-    /// Whether the text is shown because the scene could not be read.
+    /// Whether the text is shown because it has an error that must be corrected there.
     must_fix_text: bool,
     /// Whether the window closes without asking again.
     is_closing: bool,
 }
 
-/// What became of the scene.
+/// What the scene resolves to.
 struct ResolvedScene {
     resolver: Resolver,
-    /// The revision of the document that was asked about, and the number of the question.
+    /// The revision of the document that was submitted last, and the serial number of the request.
     requested: Option<(u64, u64)>,
-    /// The last good draft, with the number of its question and its scene.
+    /// The last valid draft, with the serial number of its request and its scene.
     draft: Option<(u64, Scene, Arc<Draft>)>,
-    /// The study of the scene as it stands.
+    /// The study of the current scene.
     study: Option<Arc<Study>>,
     errors: Vec<SceneError>,
 }
 
-/// What is shown of which motion.
+/// What is shown, and of which motion.
 #[derive(Default)]
 struct Display {
-    /// Exact states or a preview of the last good draft, and the last run, each with its scene.
+    /// The exact states or a preview of the last valid draft, and the last run, each with its scene.
     draft: Option<(Scene, Arc<ShownMotion>)>,
     run: Option<(Scene, Arc<ShownMotion>)>,
-    /// A motion that was opened in place of a scene.
+    /// A motion file that was opened instead of a scene.
     file: Option<Arc<ShownMotion>>,
     state: ShownState,
     next_key: u64,
     /// The title of the window.
     title: String,
-    /// Whether the view is to be fitted to the next motion.
+    /// Whether to fit the view to the next motion.
     fits: bool,
-    /// Whether the view follows the run under way.
+    /// Whether the view follows the current run.
     follows_run: bool,
-    /// The vertex that is pulled, and where to.
+    /// The vertex that is being pulled, and its target.
     pulled: Option<crate::view3d::VertexPull>,
     /// The triangle and the vertex under the pointer.
     pointed: Option<(u32, Option<u32>)>,
 }
 
-/// What is done in the background.
+/// Jobs in the background.
 #[derive(Default)]
 struct Jobs {
     preview: Option<(Scene, Arc<Draft>, Job<Preview>)>,
@@ -109,7 +110,7 @@ struct Jobs {
     opening: Option<(PathBuf, Job<Opened>)>,
     checking: Option<Job<CheckedMotion>>,
     recording: Option<(PathBuf, Job<Vec<String>>)>,
-    /// The highest rate of states of the run or hand at hand.
+    /// The highest number of states per second of the current run or interaction.
     best_rate: usize,
 }
 
@@ -123,7 +124,7 @@ impl std::fmt::Debug for Viewer {
 }
 
 impl Viewer {
-    /// The window with what `options` ask for; `started`: when the program was.
+    /// The window with its options; `started` is the time at which the program started.
     pub fn new(
         creation: &eframe::CreationContext<'_>,
         options: ViewOptions,
@@ -176,7 +177,7 @@ impl Viewer {
         viewer
     }
 
-    /// Opens the file asked for; else offers what was left unsaved.
+    /// Opens the given file, or offers unsaved scenes for recovery.
     fn begin(&mut self, file: Option<PathBuf>) {
         match file {
             Some(path) => self.open(path),
@@ -192,7 +193,7 @@ impl Viewer {
         }
     }
 
-    /// The motion that is shown: that of the scene as it stands, if there is one.
+    /// The motion that is shown: that of the current scene, if there is one.
     fn shown_motion(&self) -> Option<Arc<ShownMotion>> {
         if let Some(shown) = &self.display.file {
             return Some(Arc::clone(shown));
@@ -201,7 +202,7 @@ impl Viewer {
         let is_of_scene = |shown: &&(Scene, Arc<ShownMotion>)| shown.0 == scene;
         let run = self.display.run.as_ref();
         let draft = self.display.draft.as_ref();
-        // A run says more than the draft of the same scene, even once both are old.
+        // A run says more than the draft of the same scene, even if both are out of date.
         let is_best = |draft: &&(Scene, Arc<ShownMotion>)| {
             is_of_scene(draft) || run.is_none_or(|run| run.0 != draft.0)
         };
@@ -209,7 +210,7 @@ impl Viewer {
         best.map(|(_, shown)| Arc::clone(shown))
     }
 
-    /// Whether what is shown is not of the scene as it stands.
+    /// Whether the shown motion does not belong to the current scene.
     fn is_stale(&self, shown: &ShownMotion) -> bool {
         let scene = motion_keys(self.document.scene());
         let mut candidates = self.display.run.iter().chain(&self.display.draft);
@@ -217,7 +218,7 @@ impl Viewer {
             && !candidates.any(|(of, other)| other.key == shown.key && *of == scene)
     }
 
-    /// Whether what the scene moves is about to be shown.
+    /// Whether a motion of the current scene will be shown soon.
     fn is_resolving(&self) -> bool {
         let revision = self.document.revision();
         let is_asked = self
@@ -227,7 +228,7 @@ impl Viewer {
         !is_asked || self.resolved.resolver.is_busy() || self.jobs.preview.is_some()
     }
 
-    /// The state that is computed while it is shown: in the hand, or of the run that is followed.
+    /// The latest state of the interaction, or of the run that is followed.
     fn live_state(&self) -> Option<SheetState> {
         let run = self.jobs.run.as_ref().filter(|_| self.display.follows_run);
         match (&self.jobs.interaction, run) {
@@ -237,7 +238,7 @@ impl Viewer {
         }
     }
 
-    /// Brings the pose up to date with what is shown now.
+    /// Updates the shown state.
     fn update_state(&mut self, shown: &ShownMotion) {
         let count = shown.motion().sheet.vertices.len();
         match self.live_state() {
@@ -252,7 +253,7 @@ impl Viewer {
         }
     }
 
-    /// The timeline, with room for curves where there are any.
+    /// The timeline, with space for plots if there are any.
     fn timeline_panel(&mut self, ui: &mut Ui) {
         let shown = self.shown_motion();
         let has_plots = shown.is_some_and(|shown| !shown.plots.plots.is_empty());
@@ -262,7 +263,7 @@ impl Viewer {
             ("bar", 72.0)
         };
         let panel = Panel::bottom(name).resizable(name == "plots");
-        // A small window is for the sheet first.
+        // In a small window, most of the space is for the sheet.
         let height = height.min(0.45 * ui.available_height()).max(72.0);
         panel.default_size(height).show(ui, |ui| self.timeline(ui));
     }
@@ -319,7 +320,7 @@ impl Viewer {
     fn design_panel(&mut self, ui: &mut Ui) {
         if self.display.file.is_some() {
             ui.add_space(8.0);
-            ui.label("a motion file has no scene to edit; open or start a scene");
+            ui.label("A motion file has no scene to edit. Open a scene or start a new one.");
             return;
         }
         let draft = self.resolved.draft.as_ref();
@@ -335,7 +336,7 @@ impl Viewer {
                 .change(change.scene, change.label, change.continues)
         {
             self.notify(
-                "the scene's text has an error; mend it there first (F7)",
+                "The text of the scene has an error. Correct it there first (F7).",
                 false,
             );
         }
@@ -344,7 +345,7 @@ impl Viewer {
     fn verdict_panel(&mut self, ui: &mut Ui) {
         let shown = self.shown_motion();
         let Some(shown) = shown else {
-            ui.weak("nothing yet");
+            ui.weak("No result yet");
             return;
         };
         if let Some(t) = self.findings(ui, &shown) {
@@ -353,14 +354,11 @@ impl Viewer {
         }
     }
 
-    /// What is known of the motion; a motion time that was clicked.
+    /// Shows what is known about the motion; returns the motion time that was clicked, if any.
     fn findings(&mut self, ui: &mut Ui, shown: &ShownMotion) -> Option<f64> {
         ui.add_space(6.0);
         if self.is_stale(shown) {
-            ui.colored_label(
-                ui.visuals().warn_fg_color,
-                "of the scene before the last edits",
-            );
+            ui.colored_label(ui.visuals().warn_fg_color, shown.out_of_date_text());
         }
         match &shown.source {
             shown_motion::MotionSource::Run { report, .. } => {
@@ -371,9 +369,9 @@ impl Viewer {
                 crate::results::file_results(ui, motion.title(), checked.as_deref())
             }
             shown_motion::MotionSource::Exact(_) | shown_motion::MotionSource::Preview(_) => {
-                ui.heading("not run yet");
+                ui.heading("Not run yet");
                 ui.label(
-                    "what is shown is a preview: quasi-static, its layers pass through each other, and nothing is proved of it",
+                    "The sheet is a preview: folded quasi-statically, without contact between layers, and not checked. Nothing is proved about it.",
                 );
                 ui.add_space(6.0);
                 let can_run = self.resolved.study.is_some() && self.jobs.run.is_none();
@@ -386,23 +384,23 @@ impl Viewer {
         }
     }
 
-    /// What was found out about the run of a scene before this one; a motion time that was clicked.
+    /// Shows the report of the last run, if it was of another scene; returns the motion time that was clicked, if any.
     fn last_run(&self, ui: &mut Ui) -> Option<f64> {
         let (_, last) = self.display.run.as_ref()?;
         let shown_motion::MotionSource::Run { report, .. } = &last.source else {
             return None;
         };
         ui.separator();
-        let words = "the last run, of the scene before the last edits";
+        let words = "Last run (out of date: the scene has changed since)";
         ui.colored_label(ui.visuals().warn_fg_color, words);
         results(ui, report)
     }
 
-    /// Writes the results of a run where `foldmotion run` would.
+    /// Writes the results of a run into the folder that `foldmotion run` uses.
     fn write_button(&mut self, ui: &mut Ui, shown: &ShownMotion) {
         let folder = PathBuf::from("out").join(self.document.source().stem());
         let hint = format!(
-            "report.json, certificate.json, motion.fold and what the scene records, into {}",
+            "Writes report.json, certificate.json, motion.fold and the scene's recordings into {}",
             folder.display()
         );
         let is_free = self.jobs.recording.is_none();
@@ -417,7 +415,7 @@ impl Viewer {
         }
     }
 
-    /// Says something at the foot of the window for a while.
+    /// Shows a notice in the status bar for a while.
     fn notify(&mut self, words: impl Into<String>, is_good: bool) {
         self.notice = Some((words.into(), is_good, Instant::now()));
     }
@@ -431,7 +429,7 @@ impl Viewer {
     }
 }
 
-/// What of a scene moves its sheet: not its title, nor what is recorded.
+/// The scene without its title and recording, which do not affect the motion.
 fn motion_keys(scene: &Scene) -> Scene {
     Scene {
         title: None,
@@ -485,7 +483,7 @@ impl eframe::App for Viewer {
         self.keep_unsaved();
         if self.prints_timings {
             use std::io::Write as _;
-            // Nothing is left to do where stderr is closed.
+            // There is nothing left to do if stderr is closed.
             let _ = write!(std::io::stderr(), "{}", self.timings.summary());
         }
     }

@@ -1,4 +1,4 @@
-//! From what was found out about a motion to the curves under the timeline.
+//! The plots of a motion, from the findings of its check.
 
 use foldmotion_check::FittedBox;
 use foldmotion_pattern::CompactBox;
@@ -6,7 +6,7 @@ use foldmotion_study::FrameFigures;
 
 use crate::timeline::{Curve, Plot, Plots};
 
-/// Strain, bending, energy and separation of every frame, and its box against the closed form.
+/// Strain, bending, energy and separation of every frame, and its box compared with the closed form.
 pub(crate) fn plots_of(
     series: &[FrameFigures],
     boxes: &[FittedBox],
@@ -41,7 +41,7 @@ fn frame_plots(series: &[FrameFigures]) -> Vec<Plot> {
     vec![
         plot(
             "bar strain, %",
-            "|l/l₀ − 1| of all edges: 0 where the sheet folds rigidly",
+            "Strain |l/l₀ − 1| of all edges; 0 if the sheet folds rigidly",
             false,
             vec![
                 curve("largest", |f| 100.0 * f.peak_strain),
@@ -50,14 +50,14 @@ fn frame_plots(series: &[FrameFigures]) -> Vec<Plot> {
         ),
         plot(
             "facet bending, degrees",
-            "the largest fold angle inside a facet",
+            "Largest fold angle inside a facet",
             false,
             vec![curve("largest", |f| f.peak_bending_deg)],
         ),
-        plot("energy", "in units of EA·h at EA = 1", false, energy),
+        plot("energy", "Energy in units of EA·h at EA = 1", false, energy),
         plot(
             "separation, h",
-            "the smallest distance of facets that share no vertex",
+            "Smallest distance between facets without a common vertex",
             true,
             vec![curve("smallest", |f| f.separation)],
         ),
@@ -92,13 +92,13 @@ fn box_plots(
     vec![
         plot(
             format!("area x·z, {unit}²"),
-            "of the bounding box, against the area of the compact state in closed form (equations 3 to 7)",
+            "Area of the bounding box, compared with the closed form of the compact state (equations 3 to 7)",
             |b| b.area,
             closed_form.map(|form| form.area),
         ),
         plot(
             format!("volume, {unit}³"),
-            "of the bounding box, against the volume of the compact state in closed form (equations 3 to 7)",
+            "Volume of the bounding box, compared with the closed form of the compact state (equations 3 to 7)",
             |b| b.volume,
             closed_form.map(|form| form.volume),
         ),

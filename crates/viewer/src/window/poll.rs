@@ -1,4 +1,4 @@
-//! What came back from the background since the last frame.
+//! Collecting the results of background jobs in each frame.
 
 use std::sync::Arc;
 
@@ -11,7 +11,7 @@ use crate::design::SceneError;
 use crate::document::Document;
 use crate::work::{FinishedRun, Job, Resolved, WorkError, check_motion, preview};
 
-/// Sheets with more vertices are not folded at once after every edit.
+/// Sheets with more vertices get no preview.
 const LARGEST_PREVIEW: usize = 20_000;
 
 impl Viewer {
@@ -28,12 +28,12 @@ impl Viewer {
         self.take_recording();
         self.watch_interaction();
         if self.jobs.run.is_some() || self.jobs.interaction.is_some() {
-            // The clock of rates and progress goes on though nothing else does.
+            // Rates and progress change with time, even if nothing else does.
             ctx.request_repaint_after(std::time::Duration::from_millis(250));
         }
     }
 
-    /// Asks for what becomes of the scene, where its text is new.
+    /// Submits the scene to the resolver if its text has changed.
     fn resolve_scene(&mut self) {
         let revision = self.document.revision();
         if self.display.file.is_some()
@@ -68,7 +68,7 @@ impl Viewer {
                 self.resolved.draft = Some((number, scene.clone(), Arc::clone(&draft)));
                 self.resolved.errors.clear();
                 if is_new {
-                    // What is in the hand is the sheet before.
+                    // The sheet that is moved by hand is that of the previous draft.
                     self.jobs.interaction = None;
                     self.show_exact(scene, &draft);
                 }
@@ -90,8 +90,8 @@ impl Viewer {
         }
     }
 
-    /// Shows the exact states of a new draft where one of them is due; between them the motion before stays until the next
-    /// preview comes.
+    /// Shows the exact states of a new draft if the motion time is at one of them or the sheet has changed. Otherwise
+    /// the previous motion stays until the next preview is ready.
     fn show_exact(&mut self, scene: Scene, draft: &Draft) {
         let t = self.playback.time;
         let is_of_size =
@@ -108,7 +108,7 @@ impl Viewer {
         self.change_motion(|display| display.draft = Some((scene, shown)));
     }
 
-    /// Starts a preview of the scene as it stands.
+    /// Starts a preview of the current scene.
     pub(super) fn fold_at_once(&mut self) {
         let Some(study) = self.resolved.study.clone() else {
             return;
@@ -136,7 +136,7 @@ impl Viewer {
                 self.change_motion(|display| display.draft = Some((scene, Arc::new(shown))));
             }
             Err(WorkError::Stopped) => {}
-            Err(error) => self.notify(format!("the preview failed: {error}"), false),
+            Err(error) => self.notify(format!("The preview failed: {error}"), false),
         }
     }
 
@@ -154,12 +154,12 @@ impl Viewer {
         self.timings.rate("run", self.jobs.best_rate as f64);
         match run.take() {
             Some(Ok(finished)) => self.finish_run(scene, &finished),
-            Some(Err(WorkError::Stopped)) => self.notify("the run was stopped", true),
+            Some(Err(WorkError::Stopped)) => self.notify("The run was stopped.", true),
             Some(Err(error)) => {
                 self.resolved
                     .errors
                     .push(SceneError::new(error.key(), &error));
-                self.notify(format!("the run failed: {error}"), false);
+                self.notify(format!("The run failed: {error}"), false);
             }
             None => {}
         }
@@ -204,9 +204,9 @@ impl Viewer {
         }
     }
 
-    /// Goes on with another scene.
+    /// Replaces the document.
     pub(super) fn take_document(&mut self, document: Document) {
-        // What cannot be read can only be mended as text.
+        // A text with a syntax error can only be corrected as text.
         self.must_fix_text = document.parse_error().is_some();
         self.document = document;
         self.keep_unsaved();
@@ -240,7 +240,9 @@ impl Viewer {
                 self.display.file = Some(Arc::new(shown));
             }
             Some(Err(WorkError::Stopped)) | None => {}
-            Some(Err(error)) => self.notify(format!("it could not be checked: {error}"), false),
+            Some(Err(error)) => {
+                self.notify(format!("The motion could not be checked: {error}"), false)
+            }
         }
     }
 
@@ -250,11 +252,11 @@ impl Viewer {
         };
         match files {
             Ok(files) => {
-                let words = format!("recorded {} in {}", files.join(", "), folder.display());
+                let words = format!("Recorded {} in {}", files.join(", "), folder.display());
                 self.notify(words, true);
             }
-            Err(WorkError::Stopped) => self.notify("recording was stopped", true),
-            Err(error) => self.notify(format!("recording failed: {error}"), false),
+            Err(WorkError::Stopped) => self.notify("The recording was stopped.", true),
+            Err(error) => self.notify(format!("The recording failed: {error}"), false),
         }
     }
 
@@ -265,12 +267,12 @@ impl Viewer {
         self.jobs.best_rate = self.jobs.best_rate.max(interaction.states().rate());
         if let Some(error) = interaction.take_error() {
             self.jobs.interaction = None;
-            self.notify(format!("the sheet was let go: {error}"), false);
+            self.notify(format!("Moving the sheet by hand ended: {error}"), false);
         }
     }
 
-    /// Takes another motion; the view is fitted to it where that is due, and else goes with the sheet where the other
-    /// motion is shown elsewhere.
+    /// Changes the shown motion. The view is fitted to it if that is pending; otherwise it moves with the sheet if that
+    /// is now shown elsewhere.
     fn change_motion(&mut self, change: impl FnOnce(&mut super::Display)) {
         let before = self.shown_motion();
         change(&mut self.display);
@@ -292,7 +294,7 @@ impl Viewer {
 }
 
 impl super::Display {
-    /// A key that no motion had yet.
+    /// A key that no motion has had yet.
     pub(super) fn key(&mut self) -> u64 {
         self.next_key += 1;
         self.next_key
@@ -300,7 +302,7 @@ impl super::Display {
 }
 
 impl super::Jobs {
-    /// Stops everything that belongs to the scene at hand.
+    /// Stops all jobs of the current scene.
     pub(super) fn stop(&mut self) {
         self.preview = None;
         self.run = None;
@@ -309,10 +311,10 @@ impl super::Jobs {
     }
 }
 
-/// A job with what is remembered beside it.
+/// A job that is stored together with other data.
 trait TakeIfDone {
     type Done;
-    /// The result, once it is there; nothing is left then.
+    /// The data and the result, once the job is done; leaves `None`.
     fn take_if_done(&mut self) -> Option<Self::Done>;
 }
 

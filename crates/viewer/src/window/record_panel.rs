@@ -1,4 +1,4 @@
-//! Recording what is current: which files, how large, where.
+//! The record dialog: which files, in which size and folder.
 
 use std::path::PathBuf;
 
@@ -8,39 +8,39 @@ use foldmotion_study::scene::{CameraScene, ColourChoice, OutputChoice, OwnCamera
 use crate::settings::Colour;
 use crate::view3d::OrbitCamera;
 
-/// Outputs that can be asked for in the window, with what they are.
+/// The outputs that the dialog offers, with their labels.
 const OUTPUTS: [(OutputChoice, &str); 9] = [
     (OutputChoice::Gif, "film, GIF"),
     (OutputChoice::Mp4, "film, MP4"),
-    (OutputChoice::Png, "film as pictures, PNG"),
+    (OutputChoice::Png, "film frames, PNG"),
     (OutputChoice::Svg, "figure of states, SVG"),
     (OutputChoice::Pdf, "figure of states, PDF"),
     (OutputChoice::Glb, "3D file with the motion, GLB"),
     (OutputChoice::Obj, "3D state, OBJ"),
     (OutputChoice::Stl, "3D state, STL"),
-    (OutputChoice::Html, "page for any browser, HTML"),
+    (OutputChoice::Html, "web page, HTML"),
 ];
 
-/// What is to be recorded.
+/// The settings of the dialog.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct RecordPanel {
     outputs: Vec<OutputChoice>,
     size: [u32; 2],
     seconds: f64,
-    /// Only the state at hand in figures and models, not the five of a whole motion.
+    /// Whether figures and models show only the current state, not the five states of the whole motion.
     only_now: bool,
-    /// The folder, as typed; none until the panel is shown for a scene.
+    /// The folder, as typed; `None` until the dialog is shown for a scene.
     pub(crate) folder: Option<String>,
 }
 
-/// What the user wants of the panel.
+/// What the user asks the dialog to do.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum RecordRequest {
-    /// The files, as the scene's `[record]` says them, into the folder.
+    /// Record these outputs into the folder.
     Record(Box<RecordScene>, PathBuf),
-    /// To choose the folder.
+    /// Choose the folder.
     ChooseFolder,
-    /// To leave.
+    /// Close the dialog.
     Close,
 }
 
@@ -57,7 +57,7 @@ impl Default for RecordPanel {
 }
 
 impl RecordPanel {
-    /// The panel; `scene` is what the scene says of recording.
+    /// Shows the dialog; `scene` is the `[record]` table of the scene.
     pub(crate) fn show(
         &mut self,
         ui: &mut Ui,
@@ -67,7 +67,7 @@ impl RecordPanel {
         let mut request = None;
         let mut folder = self.folder.take().unwrap_or_default();
         ui.label(
-            "the camera is the one of the view; the rest is as the scene's record section says",
+            "The camera is that of the view. Everything else is as in the scene's [record] table.",
         );
         ui.add_space(4.0);
         Grid::new("outputs").num_columns(2).show(ui, |ui| {
@@ -95,7 +95,7 @@ impl RecordPanel {
             ui.add(field).labelled_by(label.id);
             ui.end_row();
         });
-        let words = format!("figures and models of t = {:.4} only", current.time);
+        let words = format!("only t = {:.4} in figures and models", current.time);
         ui.checkbox(&mut self.only_now, words);
         ui.add_space(4.0);
         let label = ui.label("folder");
@@ -127,13 +127,13 @@ impl RecordPanel {
         request
     }
 
-    /// Whether an output is wanted.
+    /// The check box of an output.
     fn switch(&mut self, ui: &mut Ui, output: OutputChoice, name: &str) {
         let is_there = output != OutputChoice::Mp4 || cfg!(feature = "h264");
         let mut is_on = self.outputs.contains(&output);
         let check = ui.add_enabled(is_there, Checkbox::new(&mut is_on, name));
         if check
-            .on_disabled_hover_text("this program was built without the feature h264")
+            .on_disabled_hover_text("This program was built without MP4 support.")
             .changed()
         {
             self.outputs.retain(|&o| o != output);
@@ -143,7 +143,7 @@ impl RecordPanel {
         }
     }
 
-    /// `[record]` of what is asked for.
+    /// The `[record]` table for the outputs and the current view.
     fn record(&self, scene: &RecordScene, current: &CurrentView) -> RecordScene {
         let orbit = &current.orbit;
         let camera = OwnCamera {
@@ -174,12 +174,12 @@ impl RecordPanel {
     }
 }
 
-/// What is current as recording is asked for.
+/// The view at the time of recording.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct CurrentView {
     pub(crate) orbit: OrbitCamera,
     pub(crate) time: f64,
     pub(crate) colour: Colour,
-    /// Whether it is a motion file, with no scene.
+    /// Whether it shows a motion file, which has no scene.
     pub(crate) is_file: bool,
 }

@@ -1,4 +1,4 @@
-//! The middle of the window: the sheet, how it is shown, and what is said over it.
+//! The middle of the window: toolbar, sheet, and the text over it.
 
 use std::sync::Arc;
 use std::time::Duration;
@@ -20,11 +20,11 @@ use crate::settings::{Colour, Command, keys_of, name_of};
 use crate::timeline::number;
 use crate::view3d::{Colours, CreaseClasses, Overlay, Picture, Shape, VertexPull};
 
-/// How long a flash of penetrating facets lasts, seconds.
+/// Duration of a flash of penetrating facets, seconds.
 const FLASH: f64 = 0.9;
 
 impl Viewer {
-    /// The tools over the view, and the view.
+    /// Shows the toolbar and the view.
     pub(super) fn scene_view(&mut self, ui: &mut Ui, render_state: Option<&RenderState>) {
         self.tools(ui);
         let Some(shown) = self.shown_motion() else {
@@ -32,7 +32,7 @@ impl Viewer {
                 let words = if self.resolved.errors.is_empty() {
                     "…"
                 } else {
-                    "no sheet yet: the foot of the window says what is wrong"
+                    "No sheet yet. See the status bar."
                 };
                 ui.label(RichText::new(words).weak());
             });
@@ -50,7 +50,7 @@ impl Viewer {
         self.words_over(ui, rect, &shown);
     }
 
-    /// Draws the sheet; answers the vertex that is pulled.
+    /// Draws the sheet; returns the vertex that is being pulled.
     fn picture(
         &mut self,
         ui: &mut Ui,
@@ -69,7 +69,7 @@ impl Viewer {
         let weak = visuals.weak_text_color();
         let marked = visuals.error_fg_color;
         let mut overlays: Vec<Overlay<'_>> = Vec::new();
-        // The profile is what the deployed sheet follows, the box what the folding one comes to.
+        // The profile is compared with the deployed sheet, the boxes with the compact one.
         if looks.profile && !shown.profile.is_empty() && self.playback.time <= 1.0 {
             overlays.push(Overlay {
                 shape: Shape::Path(&shown.profile),
@@ -138,12 +138,12 @@ impl Viewer {
         current.pull
     }
 
-    /// What is shown, and what it is worth.
+    /// The text over the view: motion time, kind of motion and verdict.
     fn words_over(&mut self, ui: &Ui, rect: Rect, shown: &ShownMotion) {
         let painter = ui.painter_at(rect);
         let visuals = ui.visuals();
         let lines = self.lines_over(ui, shown);
-        // Its place is known once the words are laid out, over which it would lie.
+        // The background is drawn first, but its size is only known once the text is laid out.
         let ground = painter.add(RectShape::filled(Rect::NOTHING, 0.0, Color32::TRANSPARENT));
         let mut area = Rect::from_min_size(rect.left_top() + vec2(12.0, 8.0), Vec2::ZERO);
         for (words, size, colour) in &lines {
@@ -179,7 +179,7 @@ impl Viewer {
         }
     }
 
-    /// What is under the pointer.
+    /// A description of what is under the pointer.
     fn pointed_words(&self, sheet: &Sheet) -> Option<String> {
         let (face, vertex) = self.display.pointed?;
         let facet = *sheet.face_facets.get(face as usize)?;
@@ -194,7 +194,7 @@ impl Viewer {
         Some(format!("facet {facet}{place}{corner}"))
     }
 
-    /// The lines over the view, with the size of their letters and their colour.
+    /// The lines over the view, with font size and colour.
     fn lines_over(&self, ui: &Ui, shown: &ShownMotion) -> Vec<(String, f32, Color32)> {
         const SMALL: f32 = 13.0;
         let visuals = ui.visuals();
@@ -205,7 +205,7 @@ impl Viewer {
             (badge, SMALL, colour),
         ];
         if self.is_stale(shown) && !self.is_resolving() {
-            let words = "of the scene before the last edits".to_owned();
+            let words = shown.out_of_date_text().to_owned();
             lines.push((words, SMALL, visuals.warn_fg_color));
         }
         let penetrating = self.display.state.penetrating.0.len();
@@ -216,20 +216,20 @@ impl Viewer {
         lines
     }
 
-    /// What the sheet that is shown is worth, and in which colour that is said.
+    /// What kind of motion is shown and its verdict, with the colour of that text.
     fn badge(&self, ui: &Ui, shown: &ShownMotion) -> (String, Color32) {
         let visuals = ui.visuals();
         let accent = visuals.hyperlink_color;
         if let Some(interaction) = &self.jobs.interaction {
             let status = interaction.status();
-            let mut words = "in the hand: drag the timeline, or pull a vertex".to_owned();
+            let mut words = "moved by hand: drag the timeline or pull a vertex".to_owned();
             if status.resets > 0 {
-                words += "; it ran away and was taken back";
+                words += "; it became unstable and was reset";
             }
             return (words, accent);
         }
         if let Some((_, run)) = self.jobs.run.as_ref().filter(|_| self.display.follows_run) {
-            let words = format!("running, {} states a second", run.states().rate());
+            let words = format!("running, {} states per second", run.states().rate());
             return (words, accent);
         }
         let checked = |verdict: &str| (verdict.to_owned(), verdict_colour(ui, verdict));
@@ -259,7 +259,7 @@ impl Viewer {
             .map_or(self.playback.time, |state| state.time)
     }
 
-    /// Buttons over the view.
+    /// The toolbar over the view.
     fn tools(&mut self, ui: &mut Ui) {
         let mut command = None;
         ScrollArea::horizontal().auto_shrink([false, true]).show(ui, |ui| {
@@ -295,8 +295,8 @@ impl Viewer {
                 ui.menu_button("overlays", |ui| self.overlay_switches(ui));
                 ui.separator();
                 let mut is_interacting = self.jobs.interaction.is_some();
-                let hand = ui.toggle_value(&mut is_interacting, "hand").on_hover_text(
-                    "moves the sheet as masses and springs: the timeline sets the fold, a vertex can be pulled (H)",
+                let hand = ui.toggle_value(&mut is_interacting, "by hand").on_hover_text(
+                    "Move the sheet by hand: the timeline sets the fold angles, and vertices can be pulled (H)",
                 );
                 if hand.clicked() {
                     command = Some(Command::Interact);
@@ -333,14 +333,14 @@ impl Viewer {
         ui.checkbox(&mut looks.profile, "profile curve");
         ui.checkbox(&mut looks.compact_box, "compact box, measured");
         ui.checkbox(&mut looks.closed_form_box, "compact box, closed form")
-            .on_hover_text("equations 3 to 7 of the paper; shown while the sheet folds");
+            .on_hover_text("Equations 3 to 7 of the paper; shown while the sheet folds");
         if ui.checkbox(&mut looks.perspective, "perspective").changed() {
             self.view3d.set_perspective(looks.perspective);
         }
     }
 }
 
-/// Paper and lines on the ground at hand.
+/// Colours of paper and lines for the theme.
 fn style(is_dark: bool) -> Style {
     let standard = Style::default();
     if !is_dark {
@@ -352,14 +352,14 @@ fn style(is_dark: bool) -> Style {
     }
 }
 
-/// The brightness of what flashes, now; asks for the next frame.
+/// The current brightness of flashing triangles; requests the next frame.
 fn flash(ui: &Ui) -> f32 {
     ui.ctx().request_repaint_after(Duration::from_millis(50));
     let part = (ui.input(|i| i.time) / FLASH).fract();
     (0.65 + 0.35 * (std::f64::consts::TAU * part).cos()) as f32
 }
 
-/// The scale of values, in the lower right corner.
+/// The colour scale of values, in the lower right corner.
 fn scale(painter: &Painter, ui: &Ui, rect: Rect, range: [f64; 2], title: &str) {
     const SIZE: [f32; 2] = [160.0, 10.0];
     const STEPS: u32 = 32;

@@ -1,4 +1,4 @@
-//! The motion at hand, wherever it comes from, with all that the window shows of it.
+//! The motion that is shown, whatever its source, with everything the window shows of it.
 
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -15,46 +15,46 @@ use super::plots::plots_of;
 use crate::timeline::{Marks, Plots};
 use crate::work::{CheckedMotion, FinishedRun, Job, RepaintSignal, record, record_opened, write};
 
-/// Points of the profile that are drawn.
+/// Number of segments of the profile that are drawn.
 const PROFILE_POINTS: u32 = 240;
 
-/// Where a motion comes from.
+/// The source of a motion.
 #[derive(Debug)]
 pub(crate) enum MotionSource {
-    /// The exact deployed, planar and compact states of the scene; nothing between.
+    /// The exact deployed, planar and compact states of the scene, with nothing between them.
     Exact(Motion),
-    /// Folded quickly, without contact, not checked.
+    /// A preview, folded quickly without contact and not checked.
     Preview(Motion),
-    /// A run, checked.
+    /// A run with its report.
     Run {
         study: Arc<Study>,
         folded: Arc<Folded>,
         report: Box<Report>,
     },
-    /// A motion file, with what was found of it once it is checked.
+    /// A motion file, with the result of its check once that is known.
     File {
         motion: Arc<OpenedMotion>,
         checked: Option<Box<CheckedMotion>>,
     },
 }
 
-/// A motion with all that the window shows of it.
+/// A motion with everything the window shows of it.
 #[derive(Debug)]
 pub(crate) struct ShownMotion {
     pub(crate) source: MotionSource,
-    /// Another number for each.
+    /// A number that differs between motions.
     pub(crate) key: u64,
     pub(crate) layers: Layers,
     pub(crate) plots: Plots,
     pub(crate) marks: Marks,
     spans: Vec<PenetrationSpan>,
-    /// Where facets meet, one a span.
+    /// For each span, a point where the facets meet.
     contact_points: Vec<DVec3>,
-    /// Γ where the deployed state stands.
+    /// The profile Γ, placed where the deployed state is shown.
     pub(crate) profile: Vec<DVec3>,
-    /// From where the engine starts to where the motion is shown.
+    /// The rigid motion from the engine's coordinates to those that are shown.
     pub(crate) placement: RigidMotion,
-    /// The lower corner and the sides of the measured box of the last state, and of the closed form.
+    /// Lower corner and sides of two boxes: of the last state as measured, and of the closed form.
     pub(crate) boxes: [Option<[DVec3; 2]>; 2],
 }
 
@@ -81,7 +81,7 @@ impl ShownMotion {
         Self::new(MotionSource::Exact(motion), key).with_draft(draft)
     }
 
-    /// A motion that was folded quickly.
+    /// A preview.
     pub(crate) fn preview(draft: &Draft, preview: Preview, scene: &Scene, key: u64) -> Self {
         let Preview {
             motion,
@@ -125,7 +125,7 @@ impl ShownMotion {
         shown
     }
 
-    /// A motion file; `checked`: what was found of it, once it was.
+    /// A motion file; `checked` is the result of its check, once that is known.
     pub(crate) fn file(
         motion: Arc<OpenedMotion>,
         checked: Option<CheckedMotion>,
@@ -175,7 +175,7 @@ impl ShownMotion {
         shown
     }
 
-    /// What the draft adds: the profile and the box of the closed form.
+    /// Adds the profile and the closed-form box of a draft.
     fn with_draft(self, draft: &Draft) -> Self {
         match draft.units() {
             Some(d) => self.with_units(&d.units, &d.profile, &d.deployed),
@@ -194,7 +194,7 @@ impl ShownMotion {
             self.profile = (0..=PROFILE_POINTS).map(point).collect();
         }
         if units.closed_form().is_some() {
-            // The last state lies where the exact one does, so the box of that is in place.
+            // The last state lies where the exact compact state does, so its box needs no placement.
             self.boxes[1] = bounds(&units.compact());
         }
         self
@@ -218,7 +218,7 @@ impl ShownMotion {
         }
     }
 
-    /// The motion file it comes from.
+    /// The motion file that was opened, if this is one.
     pub(crate) fn opened(&self) -> Option<&Arc<OpenedMotion>> {
         match &self.source {
             MotionSource::File { motion, .. } => Some(motion),
@@ -226,12 +226,20 @@ impl ShownMotion {
         }
     }
 
-    /// Whether nothing is known between its states.
+    /// What to say if the scene has changed since this motion was computed.
+    pub(crate) fn out_of_date_text(&self) -> &'static str {
+        match self.source {
+            MotionSource::Run { .. } => "Out of date: the scene has changed since this run",
+            _ => "Out of date: the scene has changed",
+        }
+    }
+
+    /// Whether there is nothing between its states.
     pub(crate) fn is_exact(&self) -> bool {
         matches!(self.source, MotionSource::Exact(_))
     }
 
-    /// Whether it is more than a preview.
+    /// Whether it is a run or a motion file.
     pub(crate) fn can_be_recorded(&self) -> bool {
         matches!(
             self.source,
@@ -239,7 +247,7 @@ impl ShownMotion {
         )
     }
 
-    /// Records it in the background; none where it cannot be.
+    /// Records it in the background; `None` if it cannot be recorded.
     pub(crate) fn record(
         &self,
         scene: &RecordScene,
@@ -271,7 +279,7 @@ impl ShownMotion {
         }
     }
 
-    /// Writes all results of a run in the background; none of what is no run.
+    /// Writes all results of a run in the background; `None` if this is not a run.
     pub(crate) fn write(
         &self,
         folder: PathBuf,
@@ -288,12 +296,12 @@ impl ShownMotion {
         }
     }
 
-    /// The middle of the box around the state at motion time `t`.
+    /// The centre of the bounding box at motion time `t`.
     pub(crate) fn middle(&self, t: f64) -> Option<DVec3> {
         bounds(&self.state(t)).map(|[low, sides]| low + 0.5 * sides)
     }
 
-    /// Points that show how far the motion reaches: of its first, middle and last states.
+    /// The vertices of the first, middle and last states, which show the extent of the motion.
     pub(crate) fn reach(&self) -> Vec<DVec3> {
         let frames = &self.motion().frames;
         let some = [0, frames.len() / 2, frames.len().saturating_sub(1)];
@@ -303,13 +311,13 @@ impl ShownMotion {
             .collect()
     }
 
-    /// The first and the last motion time that can be shown: those of the whole motion, however far it came.
+    /// The first and the last motion time of the whole motion, even if it ended early.
     pub(crate) fn range(&self) -> [f64; 2] {
         let first = self.motion().frames.first().map_or(0.0, |frame| frame.time);
         [first.min(1.0), 2.0]
     }
 
-    /// The state at motion time `t`; of exact states the nearest.
+    /// The state at motion time `t`; of exact states, the nearest one.
     pub(crate) fn state(&self, t: f64) -> Vec<DVec3> {
         let motion = self.motion();
         if matches!(self.source, MotionSource::Exact(_)) {
@@ -321,7 +329,7 @@ impl ShownMotion {
         positions_at(motion, t)
     }
 
-    /// The triangles that penetrate at motion time `t`, and where they met.
+    /// The triangles that penetrate at motion time `t`, and the points where they met.
     pub(crate) fn penetrating(&self, t: f64) -> (Vec<u32>, Vec<DVec3>) {
         let now = self.spans.iter().zip(&self.contact_points);
         let now = now.filter(|(span, _)| span.from <= t && t <= span.to);
@@ -334,10 +342,10 @@ impl ShownMotion {
     }
 }
 
-/// Pairs of the order of the exact compact state, at most: it is built while a hand waits.
+/// The largest number of pairs in the layer order of exact states, which is computed while the user waits.
 const MOST_ORDERED: usize = 500_000;
 
-/// The lower corner and the sides of the box around `points`.
+/// Lower corner and sides of the bounding box of `points`.
 fn bounds(points: &[DVec3]) -> Option<[DVec3; 2]> {
     let low = points.iter().copied().reduce(DVec3::min)?;
     let high = points.iter().copied().reduce(DVec3::max)?;

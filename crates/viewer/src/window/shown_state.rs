@@ -1,4 +1,4 @@
-//! The state that is shown, with the colours of its triangles: worked out once, as long as nothing changes.
+//! The state that is shown, with the values of its triangles, computed only when something has changed.
 
 use std::sync::Arc;
 
@@ -13,27 +13,27 @@ use crate::work::SheetState;
 /// The state that is shown.
 #[derive(Debug, Default)]
 pub(crate) struct ShownState {
-    /// Changes with the positions.
+    /// A number that changes with the positions.
     pub(crate) key: u64,
     of: Option<StateKey>,
     pub(crate) positions: Arc<Vec<DVec3>>,
-    /// Triangles that penetrate now, and where they met.
+    /// The triangles that penetrate now, and the points where they met.
     pub(crate) penetrating: (Vec<u32>, Vec<DVec3>),
     values: Option<(u64, Quantity, Vec<f64>)>,
     ranges: Option<(u64, Quantity, [f64; 2])>,
 }
 
-/// What a pose is of.
+/// What the state depends on.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum StateKey {
-    /// A motion at a time.
+    /// The key of a motion and the motion time.
     Motion(u64, f64),
-    /// The state of a run, or in the hand, by its serial number.
+    /// The serial number of a state of a run or an interaction, and whether it is an interaction.
     StateFeed(u64, bool),
 }
 
 impl ShownState {
-    /// Takes the state of `shown` at motion time `t`.
+    /// Shows the state of a motion at motion time `t`.
     pub(crate) fn show(&mut self, shown: &ShownMotion, t: f64) {
         let of = StateKey::Motion(shown.key, t);
         if self.of == Some(of) {
@@ -43,7 +43,8 @@ impl ShownState {
         self.penetrating = shown.penetrating(t);
     }
 
-    /// Takes a state that is computed while it is shown: where the engine has it, or, in the hand, where `shown` is shown.
+    /// Shows a state while it is computed. The states of a run are moved to where `shown` is placed; those of an
+    /// interaction are there already.
     pub(crate) fn show_live(
         &mut self,
         state: &SheetState,
@@ -75,7 +76,7 @@ impl ShownState {
         self.key += 1;
     }
 
-    /// The values of the triangles that `colour` shows, if it shows values, with their range and title.
+    /// The values of the triangles, their range and their title, if `colour` shows values.
     pub(crate) fn values(
         &mut self,
         shown: &ShownMotion,

@@ -1,4 +1,4 @@
-//! The scene as text, for what has no control and for scenes with errors.
+//! The scene as text, for keys without a control and for scenes with errors.
 
 use eframe::egui::{Align, FontId, Id, Layout, ScrollArea, TextEdit, TextStyle, Ui};
 
@@ -33,7 +33,7 @@ impl Viewer {
             .show(ui, |ui| {
                 let font: FontId = TextStyle::Monospace.resolve(ui.style());
                 let editor = TextEdit::multiline(&mut text)
-                    // Its own id: what is said above it comes and goes, the focus stays.
+                    // It has its own id so that it keeps the keyboard focus when messages above it come and go.
                     .id(Id::unique("scene text"))
                     .font(font)
                     .desired_width(f32::INFINITY)

@@ -1,4 +1,4 @@
-//! A sheet status in the hand: a thread that keeps it moving.
+//! Moving the sheet by hand: a thread in which it follows the user.
 
 use std::sync::{Arc, Condvar, Mutex, PoisonError};
 use std::thread::{JoinHandle, sleep};
@@ -12,14 +12,14 @@ use super::lock::lock;
 use super::threads::{in_thread_pool, join_briefly, start};
 use super::{RepaintSignal, StateFeed, WorkError};
 
-/// How fast the motion time follows the one asked for, a second.
+/// The largest change of the motion time per second.
 const SPEED: f64 = 1.5;
-/// How long the sheet moves before it is shown, and until it moves on.
+/// The interval between states that are shown.
 const TICK: Duration = Duration::from_millis(8);
-/// Steps between two looks at the clock.
+/// Steps of the engine between two looks at the clock.
 const STEPS: usize = 40;
 
-/// A sheet that follows a hand in the background. Dropping it lets it go.
+/// A sheet that follows the user in the background. Dropping it ends the interaction.
 #[derive(Debug)]
 pub(crate) struct Interaction {
     shared: Arc<Shared>,
@@ -27,16 +27,16 @@ pub(crate) struct Interaction {
     thread: Option<JoinHandle<()>>,
 }
 
-/// How a status sheet is.
+/// The status of an interaction.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(crate) struct InteractionStatus {
-    /// The motion time it has reached.
+    /// The current motion time.
     pub(crate) time: f64,
-    /// Whether it has come to rest.
+    /// Whether the sheet has come to rest.
     pub(crate) is_at_rest: bool,
-    /// How often it ran away and was taken back to its last sound state.
+    /// How often the sheet became unstable and was reset to its last stable state.
     pub(crate) resets: u32,
-    /// The largest angle by which a crease misses its target, radians.
+    /// The largest difference of a fold angle from its target, radians.
     pub(crate) fold_angle_error: f64,
 }
 
@@ -49,10 +49,10 @@ struct Shared {
     repaint: RepaintSignal,
 }
 
-/// What the hand wants.
+/// What the user wants the sheet to do.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Request {
-    /// Counts the wishes.
+    /// Counts the requests.
     serial: u64,
     target_time: f64,
     pull: Option<Pull>,
@@ -60,8 +60,8 @@ struct Request {
 }
 
 impl Interaction {
-    /// Takes the sheet of `study` in the hand: at motion time `time` in the state `positions` (one a vertex, in the sheet's
-    /// unit), or in the state in which its motion starts.
+    /// Starts at motion time and positions `from` (one position per vertex, in the sheet's unit), or in the first state
+    /// of the motion of `study`.
     pub(crate) fn start(
         study: Arc<Study>,
         from: Option<(f64, Vec<DVec3>)>,
@@ -103,35 +103,35 @@ impl Interaction {
         }
     }
 
-    /// Asks for a motion time.
+    /// Requests a motion time.
     pub(crate) fn set_target_time(&self, time: f64) {
         self.shared.request(|request| request.target_time = time);
     }
 
-    /// Pulls `vertex` towards `point`, in the sheet's unit, or lets go.
+    /// Pulls `vertex` towards `point`, in the sheet's unit, or releases it.
     pub(crate) fn pull(&self, pull: Option<(u32, DVec3)>) {
         let pull = pull.map(|(vertex, point)| Pull { vertex, point });
         self.shared.request(|request| request.pull = pull);
     }
 
-    /// Where the sheet is.
+    /// The states of the sheet.
     pub(crate) fn states(&self) -> &StateFeed {
         &self.states
     }
 
-    /// How it is.
+    /// The current status.
     pub(crate) fn status(&self) -> InteractionStatus {
         *lock(&self.shared.status)
     }
 
-    /// Why it moves no more, if it failed; none if that was taken before.
+    /// The error that ended the interaction; `None` if there is none or it was taken before.
     pub(crate) fn take_error(&self) -> Option<WorkError> {
         lock(&self.shared.error).take()
     }
 }
 
 impl Shared {
-    /// Takes note of a request; one that changes nothing does not repaint a sheet at rest.
+    /// Changes the request; a change without effect does not wake a sheet at rest.
     fn request(&self, change: impl FnOnce(&mut Request)) {
         let mut request = lock(&self.request);
         let before = *request;
@@ -149,7 +149,7 @@ impl Shared {
         self.repaint.send();
     }
 
-    /// The present request; at rest waits for another one than `known`.
+    /// The current request; at rest, waits until it differs from number `known`.
     fn next(&self, is_at_rest: bool, known: u64) -> Request {
         let mut request = lock(&self.request);
         while is_at_rest && request.serial == known && !request.is_stopped {
@@ -159,7 +159,7 @@ impl Shared {
         *request
     }
 
-    /// Keeps the sheet moving until it is let go.
+    /// Moves the sheet until the interaction ends.
     fn keep(
         &self,
         study: &Study,
@@ -193,12 +193,12 @@ impl Shared {
         }
     }
 
-    /// Moves the sheet for a while.
+    /// Advances the engine for one interval.
     fn tick(&self, hand: &mut Hand<'_>, started: Instant) {
         while started.elapsed() < TICK && !hand.is_at_rest() {
             if hand.advance(STEPS).is_err() {
                 lock(&self.status).resets += 1;
-                // The hand has let go; what it wanted before must not take interaction again.
+                // The engine has released the vertex; the old request must not grab it again.
                 lock(&self.request).pull = None;
                 self.repaint.send();
             }

@@ -1,4 +1,4 @@
-//! A piece of work with a result: how far it is, stopping it, what came of it.
+//! A background job: its progress, its result, and stopping it.
 
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex};
@@ -10,16 +10,16 @@ use super::lock::lock;
 use super::threads::{in_thread_pool, join_briefly, start};
 use super::{RepaintSignal, WorkError};
 
-/// How far a job is.
+/// The progress of a job.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Progress {
-    /// What it does; none before it has begun.
+    /// The current phase; `None` before the job has begun.
     pub(crate) phase: Option<Phase>,
-    /// How much of that is done, from 0 to 1.
+    /// The fraction of the phase that is done, from 0 to 1.
     pub(crate) done: f64,
 }
 
-/// Work in the background that ends with a `T`. Dropping it stops it.
+/// A background job with a result `T`. Dropping it stops it.
 #[derive(Debug)]
 pub(crate) struct Job<T> {
     shared: Arc<Shared<T>>,
@@ -33,7 +33,7 @@ struct Shared<T> {
     is_done: AtomicBool,
 }
 
-/// What the work itself holds: it reports and learns whether to go on.
+/// The job's side: it reports progress and learns whether to continue.
 #[derive(Debug, Clone)]
 pub(super) struct JobContext(Arc<Inner>);
 
@@ -45,7 +45,7 @@ struct Inner {
 }
 
 impl JobContext {
-    /// Reports, and answers whether to go on.
+    /// Reports progress; returns whether to continue.
     pub(super) fn report(&self, phase: Phase, done: f64) -> bool {
         *lock(&self.0.progress) = Progress {
             phase: Some(phase),
@@ -106,23 +106,23 @@ impl<T> Shared<T> {
 }
 
 impl<T> Job<T> {
-    /// How far it is.
+    /// The current progress.
     pub(crate) fn progress(&self) -> Progress {
         *lock(&self.shared.context.0.progress)
     }
 
-    /// Whether it has ended.
+    /// Whether the job has ended.
     pub(crate) fn is_done(&self) -> bool {
         self.shared.is_done.load(Ordering::Acquire)
     }
 
-    /// Tells it to stop; it then ends as [`WorkError::Stopped`].
+    /// Asks the job to stop; its result is then [`WorkError::Stopped`].
     pub(crate) fn stop(&self) {
         let inner = &self.shared.context.0;
         inner.is_stopped.store(true, Ordering::Relaxed);
     }
 
-    /// What came of it, once it has ended; none if that was taken before.
+    /// The result, once the job has ended; `None` if it was taken before.
     pub(crate) fn take(&self) -> Option<Result<T, WorkError>> {
         lock(&self.shared.outcome).take()
     }
@@ -142,10 +142,10 @@ pub(super) mod tests {
 
     use super::*;
 
-    /// Waits until `is` or fails.
-    pub(in crate::work) fn wait(is: impl Fn() -> bool) {
+    /// Waits until `is_so`, with a time limit.
+    pub(in crate::work) fn wait(is_so: impl Fn() -> bool) {
         let started = Instant::now();
-        while !is() {
+        while !is_so() {
             assert!(started.elapsed() < Duration::from_mins(2), "it never came");
             sleep(Duration::from_millis(1));
         }

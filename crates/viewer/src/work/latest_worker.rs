@@ -1,4 +1,4 @@
-//! O worker that only answers the latest request.
+//! A worker that only handles the latest request.
 
 use std::sync::{Arc, Condvar, Mutex, PoisonError};
 use std::thread::JoinHandle;
@@ -8,7 +8,7 @@ use super::lock::lock;
 use super::threads::{catch_panic, join_briefly, start};
 use super::{RepaintSignal, WorkError};
 
-/// Answers questions `I` with an `O`; one that comes while it works on another takes the place of those before it.
+/// Turns requests `I` into results `O`. A request that arrives while it is busy replaces those that are waiting.
 #[derive(Debug)]
 pub(super) struct LatestWorker<I, O> {
     shared: Arc<Shared<I, O>>,
@@ -31,7 +31,7 @@ struct Slots<I, O> {
 }
 
 impl<I: Send + 'static, O: Send + 'static> LatestWorker<I, O> {
-    /// Answers with `work`, once no newer request has come for `delay`.
+    /// Handles requests with `work`, after no newer request has arrived for `delay`.
     pub(super) fn new(
         name: &str,
         delay: Duration,
@@ -70,18 +70,18 @@ impl<I: Send + 'static, O: Send + 'static> LatestWorker<I, O> {
         }
     }
 
-    /// Asks, in the place of every request not yet begun.
+    /// Submits a request, replacing the one that is waiting.
     pub(super) fn submit(&self, serial: u64, request: I) {
         lock(&self.shared.slots).request = Some((serial, request));
         self.shared.requested.notify_one();
     }
 
-    /// The last result with the serial of its request; none if that was taken before.
+    /// The last result, with the serial number of its request; `None` if it was taken before.
     pub(super) fn take(&self) -> Option<(u64, Result<O, WorkError>)> {
         lock(&self.shared.slots).result.take()
     }
 
-    /// Whether an result is still to come.
+    /// Whether a result is still to come.
     pub(super) fn is_busy(&self) -> bool {
         let slots = lock(&self.shared.slots);
         slots.is_working || slots.request.is_some()
@@ -89,7 +89,7 @@ impl<I: Send + 'static, O: Send + 'static> LatestWorker<I, O> {
 }
 
 impl<I, O> Shared<I, O> {
-    /// Waits for a request that rests; none when it is over.
+    /// Waits for a request and the delay after it; `None` when the worker is to stop.
     fn next(&self, delay: Duration) -> Option<(u64, I)> {
         let mut slots = lock(&self.slots);
         loop {

@@ -1,7 +1,8 @@
-//! Work in the background: drafts, runs, opened files, sheets status in the hand, recordings.
+//! Background work: resolving scenes, previews, runs, opening files, checks, recordings, moving the sheet by hand.
 //!
-//! Each worker owns a thread. What it has to say lies behind a lock that is status for a copy at most; after that it wakes
-//! the window. A panic of a worker becomes an error to show. A worker that is dropped is told to stop.
+//! Each worker owns a thread. Its results lie behind a lock that is only held for the time of a copy; then it requests
+//! a repaint of the window. A panic of a worker becomes an error that is shown. A worker that is dropped is asked to
+//! stop.
 
 mod error;
 mod interaction;

@@ -1,4 +1,4 @@
-//! Opening files and judging motions.
+//! Opening files and checking motions.
 
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -7,16 +7,16 @@ use foldmotion_study::{Certificate, CheckOptions, Findings, Opened, OpenedMotion
 
 use super::{Job, RepaintSignal};
 
-/// What is proved of a motion file.
+/// The result of checking a motion file.
 #[derive(Debug)]
 pub(crate) struct CheckedMotion {
-    /// What was found.
+    /// The findings of the check.
     pub(crate) findings: Arc<Findings>,
-    /// The same as a certificate.
+    /// The certificate of the findings.
     pub(crate) certificate: Certificate,
 }
 
-/// Reads the file at `path`, whatever it is.
+/// Reads a file: a scene, a crease pattern or a motion.
 pub(crate) fn open(path: PathBuf, repaint: RepaintSignal) -> Job<Opened> {
     Job::start("foldmotion open", repaint, move |context| {
         let progress = |phase, done| context.report(phase, done);
@@ -24,7 +24,7 @@ pub(crate) fn open(path: PathBuf, repaint: RepaintSignal) -> Job<Opened> {
     })
 }
 
-/// Judges a motion that was opened.
+/// Checks a motion file.
 pub(crate) fn check_motion(
     motion: Arc<OpenedMotion>,
     repaint: RepaintSignal,

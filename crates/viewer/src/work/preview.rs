@@ -1,4 +1,4 @@
-//! A quick look at the motion of a scene.
+//! Previews of motions.
 
 use std::sync::Arc;
 
@@ -6,7 +6,7 @@ use foldmotion_study::{Preview, Study};
 
 use super::{Job, RepaintSignal};
 
-/// Folds the sheet of `study` quickly, without contact; nothing is checked.
+/// Folds the sheet of `study` quickly, without contact and without a check.
 pub(crate) fn preview(study: Arc<Study>, repaint: RepaintSignal) -> Job<Preview> {
     Job::start("foldmotion preview", repaint, move |context| {
         Ok(study.preview(&|phase, done| context.report(phase, done))?)

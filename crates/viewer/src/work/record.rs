@@ -1,4 +1,4 @@
-//! Films, figures, models and whole results of a motion, written in the background.
+//! Writing films, figures, models and the results of runs.
 
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -8,7 +8,7 @@ use foldmotion_study::{Findings, Folded, OpenedMotion, Study};
 
 use super::{Job, RepaintSignal};
 
-/// Records a run into `folder` as `record` says; ends with the names of the files.
+/// Records a run into `folder` as `record` says; the result is the names of the files.
 pub(crate) fn record(
     study: Arc<Study>,
     folded: Arc<Folded>,
@@ -22,7 +22,7 @@ pub(crate) fn record(
     })
 }
 
-/// Records a motion that was opened, with what was found of it.
+/// Records a motion file with its findings.
 pub(crate) fn record_opened(
     motion: Arc<OpenedMotion>,
     findings: Option<Arc<Findings>>,
@@ -37,7 +37,7 @@ pub(crate) fn record_opened(
     })
 }
 
-/// Writes the results of a run into `folder` as `foldmotion run` does; ends with the names of the files.
+/// Writes the results of a run into `folder` as `foldmotion run` does; the result is the names of the files.
 pub(crate) fn write(
     study: Arc<Study>,
     folded: Arc<Folded>,

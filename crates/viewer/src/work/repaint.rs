@@ -1,4 +1,4 @@
-//! Waking the window when there is something new to draw.
+//! Requests to repaint the window when there is something new to show.
 
 use std::fmt;
 use std::sync::{Arc, Mutex};
@@ -6,10 +6,10 @@ use std::time::{Duration, Instant};
 
 use super::lock::lock;
 
-/// The shortest time between two calls for what comes often: faster than any screen.
+/// The shortest interval between limited requests: shorter than a frame of any screen.
 const SPACING: Duration = Duration::from_micros(8_333);
 
-/// Wakes the window. Clones share the rate.
+/// Requests a repaint of the window. Clones share the limit.
 #[derive(Clone)]
 pub(crate) struct RepaintSignal {
     call: Arc<dyn Fn() + Send + Sync>,
@@ -17,7 +17,7 @@ pub(crate) struct RepaintSignal {
 }
 
 impl RepaintSignal {
-    /// Wakes by `call`.
+    /// Requests repaints by `call`.
     pub(crate) fn new(call: impl Fn() + Send + Sync + 'static) -> Self {
         Self {
             call: Arc::new(call),
@@ -25,13 +25,14 @@ impl RepaintSignal {
         }
     }
 
-    /// Wakes at once.
+    /// Requests a repaint.
     pub(crate) fn send(&self) {
         *lock(&self.last) = Some(Instant::now());
         (self.call)();
     }
 
-    /// Wakes unless it did so less than a hundredth of a second ago: for what comes again soon.
+    /// Requests a repaint unless the last request was less than a hundredth of a second ago. For updates that are
+    /// followed by others soon.
     pub(crate) fn send_limited(&self) {
         let now = Instant::now();
         let mut last = lock(&self.last);

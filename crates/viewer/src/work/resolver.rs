@@ -1,4 +1,4 @@
-//! What the scene at hand folds: at once as a draft, then as the study that can be run.
+//! Resolving the current scene: first as a draft, then as a study that can be run.
 
 use std::sync::Arc;
 use std::time::Duration;
@@ -8,10 +8,10 @@ use foldmotion_study::{Draft, SceneSource, Study};
 use super::latest_worker::LatestWorker;
 use super::{RepaintSignal, WorkError};
 
-/// How long a scene rests before its study is resolved: while a hand drags, drafts have the processor to themselves.
+/// The delay before the study of a scene is resolved, so that drafts have the processor to themselves during a drag.
 const DELAY: Duration = Duration::from_millis(120);
 
-/// Resolves scenes in the background; the latest one wins.
+/// Resolves scenes in the background; only the latest one is of interest.
 #[derive(Debug)]
 pub(crate) struct Resolver {
     drafts: LatestWorker<SceneSource, Arc<Draft>>,
@@ -19,17 +19,17 @@ pub(crate) struct Resolver {
     serial: u64,
 }
 
-/// A resolved scene, by the number that [`Resolver::ask`] gave it.
+/// A resolved scene, with the serial number from [`Resolver::submit`].
 #[derive(Debug)]
 pub(crate) enum Resolved {
-    /// What it folds, or why nothing.
+    /// The draft, or why there is none.
     Draft(u64, Result<Arc<Draft>, WorkError>),
-    /// The study to run, or why there is none.
+    /// The study, or why there is none.
     Study(u64, Result<Arc<Study>, WorkError>),
 }
 
 impl Resolver {
-    /// Nothing serial yet.
+    /// A resolver without a scene.
     pub(crate) fn new(repaint: RepaintSignal) -> Self {
         let draft = |source: SceneSource| Ok(Draft::resolve(&source).map(Arc::new)?);
         let study = |source: SceneSource| Ok(Study::resolve(&source).map(Arc::new)?);
@@ -40,7 +40,7 @@ impl Resolver {
         }
     }
 
-    /// Asks for `source` in the place of those before it; answers its number, from 1.
+    /// Submits a scene, replacing those before it; returns its serial number, from 1.
     pub(crate) fn submit(&mut self, source: SceneSource) -> u64 {
         self.serial += 1;
         self.drafts.submit(self.serial, source.clone());
@@ -48,7 +48,7 @@ impl Resolver {
         self.serial
     }
 
-    /// What has been resolved since it was last serial: at most a draft and a study.
+    /// The results since the last call: at most a draft and a study.
     pub(crate) fn take(&self) -> impl Iterator<Item = Resolved> {
         let draft = self
             .drafts
@@ -61,7 +61,7 @@ impl Resolver {
         draft.into_iter().chain(study)
     }
 
-    /// Whether something is still to come.
+    /// Whether a result is still to come.
     pub(crate) fn is_busy(&self) -> bool {
         self.drafts.is_busy() || self.studies.is_busy()
     }

@@ -1,4 +1,4 @@
-//! A run of a study that shows where the sheet is.
+//! Runs of studies, with the states of the sheet while it is computed.
 
 use std::sync::Arc;
 
@@ -15,14 +15,14 @@ pub(crate) struct RunJob {
     states: StateFeed,
 }
 
-/// What came of a run.
+/// The result of a run.
 #[derive(Debug)]
 pub(crate) struct FinishedRun {
-    /// What was run.
+    /// The study that was run.
     pub(crate) study: Arc<Study>,
-    /// The motion, and what was found out about it.
+    /// The motion and its findings.
     pub(crate) folded: Arc<Folded>,
-    /// Its report, without files.
+    /// The report, without files.
     pub(crate) report: Report,
     /// The box of every frame.
     pub(crate) boxes: Vec<FittedBox>,
@@ -51,27 +51,27 @@ impl RunJob {
         Self { job, states }
     }
 
-    /// Where the sheet is.
+    /// The states of the sheet.
     pub(crate) fn states(&self) -> &StateFeed {
         &self.states
     }
 
-    /// How far it is.
+    /// The current progress.
     pub(crate) fn progress(&self) -> Progress {
         self.job.progress()
     }
 
-    /// Whether it has ended.
+    /// Whether the run has ended.
     pub(crate) fn is_done(&self) -> bool {
         self.job.is_done()
     }
 
-    /// Tells it to stop.
+    /// Asks the run to stop.
     pub(crate) fn stop(&self) {
         self.job.stop();
     }
 
-    /// What came of it, once it has ended; none if that was taken before.
+    /// The result, once the run has ended; `None` if it was taken before.
     pub(crate) fn take(&self) -> Option<Result<FinishedRun, WorkError>> {
         self.job.take()
     }
@@ -106,7 +106,7 @@ pub(super) mod tests {
     use super::super::job::tests::wait;
     use super::*;
 
-    /// A small scene; `more` follows its text.
+    /// A small scene, with `more` appended to its text.
     pub(in crate::work) fn source(more: &str) -> SceneSource {
         let text = format!(
             "[profile]\nmodel = \"shelter\"\n[sheet]\nrows = 3\ncolumns = 2\n[record]\noutputs = [\"png\"]\nsize = [64, 48]\n\

@@ -1,4 +1,4 @@
-//! The threads of workers.
+//! Threads of background workers.
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::thread::{Builder, JoinHandle, available_parallelism, sleep};
@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 
 use super::WorkError;
 
-/// How long a dropped worker is waited for: long enough for most to end, too short to be felt.
+/// How long to wait for a worker that was dropped: long enough for most to end, too short to be noticed.
 const JOIN_TIMEOUT: Duration = Duration::from_millis(100);
 
 /// Starts a thread called `name`.
@@ -20,9 +20,9 @@ pub(super) fn start(
     })
 }
 
-/// Does `work` with one thread less than there are cores, so that the window has one.
+/// Runs `work` in a pool with one thread fewer than there are cores, which leaves one for the window.
 ///
-/// Every piece of work has threads of its own: one that runs long would keep another waiting.
+/// Every job has its own pool, so that a long job does not delay another.
 pub(super) fn in_thread_pool<T: Send>(
     work: impl FnOnce() -> Result<T, WorkError> + Send,
 ) -> Result<T, WorkError> {
@@ -37,14 +37,14 @@ pub(super) fn in_thread_pool<T: Send>(
     pool.install(|| catch_panic(work))
 }
 
-/// Does `work`; a panic in it is an error.
+/// Runs `work` and turns a panic into an error.
 pub(super) fn catch_panic<T>(work: impl FnOnce() -> Result<T, WorkError>) -> Result<T, WorkError> {
-    // What a panic leaves half done is dropped with the work.
+    // Whatever a panic leaves unfinished is dropped with `work`.
     catch_unwind(AssertUnwindSafe(work))
         .unwrap_or_else(|payload| Err(WorkError::of_panic(payload.as_ref())))
 }
 
-/// Waits a little for a thread that was told to stop, so that it can clean up; goes on without it where it takes longer.
+/// Waits briefly for a thread that was asked to stop, so that it can clean up.
 pub(super) fn join_briefly(thread: Option<JoinHandle<()>>) {
     let Some(thread) = thread else { return };
     let started = Instant::now();
@@ -52,7 +52,7 @@ pub(super) fn join_briefly(thread: Option<JoinHandle<()>>) {
         sleep(Duration::from_millis(1));
     }
     if thread.is_finished() {
-        // Its panics are catch_panic inside.
+        // Panics are caught inside the thread.
         let _ = thread.join();
     }
 }

@@ -1,4 +1,4 @@
-//! The profile canvas under the handles.
+//! Editing on the profile canvas.
 
 use eframe::egui::{Key, Modifiers, PointerButton, Pos2, vec2};
 use egui_kittest::kittest::Queryable as _;
@@ -14,7 +14,7 @@ fn points(bench: &TestPanel) -> Vec<[f64; 2]> {
     bench.scene.profile.control_points.clone().unwrap()
 }
 
-/// Points of the screen a unit of length.
+/// Points on the screen per unit of length.
 fn scale(harness: &egui_kittest::Harness<'static, TestPanel>) -> f64 {
     let at = |name: &str| harness.get_by_label(name).rect().center();
     let way = at("control point 1") - at("control point 6");

@@ -1,4 +1,4 @@
-//! Fields, menus, sections and what stands beside them.
+//! Fields, menus, sections and error messages.
 
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use foldmotion_study::scene::{CaseChoice, CreasesChoice, EngineChoice, OutputChoice, StageChoice};
@@ -309,8 +309,8 @@ fn the_rows_of_a_step_are_one_or_a_range_or_all() {
 #[test]
 fn the_closed_forms_of_every_case_that_the_unit_allows_stand_beside_each_other() {
     let harness = bench(SHELTER);
-    // Nr = 7, Nc = 3, W = 5, h = 1: equation 6 gives V = Nc (Nr + 1) / 4 (w - h) h² = 4.
-    // In the table and as the compact box of the draft.
+    // Nr = 7, Nc = 3, W = 5, h = 1: equation 6 gives V = Nc (Nr + 1) / 4 (w - h) h² = 4. The size is shown in the table
+    // and as the compact box of the draft.
     assert_eq!(harness.query_all_by_label("4 × 2 × 0.5").count(), 2);
     assert!(harness.query_by_label("needs w = h").is_some());
     assert!(harness.query_by_label("needs w < h").is_some());

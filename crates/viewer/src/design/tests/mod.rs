@@ -1,4 +1,4 @@
-//! The panel driven headless: controls found by their names, the scene as they leave it.
+//! Tests that drive the panel without a window: they find controls by name and check the scene.
 
 mod canvas;
 mod controls;

@@ -1,4 +1,4 @@
-//! The panel drawn, dark and light. FOLDMOTION_PICTURES names a folder in which the pictures are left to be looked at.
+//! Pictures of the panel, dark and light. If FOLDMOTION_PICTURES names a folder, they are saved there to be looked at.
 
 use std::collections::BTreeSet;
 use std::path::Path;
@@ -11,7 +11,7 @@ use foldmotion_study::SceneSource;
 use super::super::SceneError;
 use super::test_panel::{TestPanel, bench_of, click, scenes};
 
-/// Draws the panel; how many colours the picture has.
+/// Draws the panel and returns the number of colours in the picture.
 fn colours(harness: &mut Harness<'static, TestPanel>, name: &str) -> usize {
     let picture = harness.render().unwrap();
     if let Ok(folder) = std::env::var("FOLDMOTION_PICTURES") {
@@ -28,7 +28,7 @@ fn colours(harness: &mut Harness<'static, TestPanel>, name: &str) -> usize {
 
 #[test]
 #[cfg_attr(not(gpu_tests), ignore = "needs a GPU and FOLDMOTION_GPU_TESTS=yes")]
-fn a_narrow_panel_shows_a_selected_point_the_unit_under_the_pointer_and_faults() {
+fn a_narrow_panel_shows_a_selected_point_the_unit_under_the_pointer_and_errors() {
     let path = scenes().join("omega-sii.toml");
     for (theme, name) in [(Theme::Dark, "dark"), (Theme::Light, "light")] {
         let mut harness = bench_of(&SceneSource::read(&path).unwrap(), theme, 1400.0);

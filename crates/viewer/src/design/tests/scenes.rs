@@ -1,4 +1,4 @@
-//! The panel over every scene that comes with the project.
+//! The panel over every scene in the repository.
 
 use std::path::PathBuf;
 
@@ -56,7 +56,7 @@ fn an_empty_scene_is_shown() {
     assert!(harness.state().draft.is_none());
 }
 
-/// Whole numbers below `below`, the same ones in every run (Marsaglia 2003).
+/// A random number generator with a fixed seed (Marsaglia 2003).
 struct Random(u32);
 
 impl Random {

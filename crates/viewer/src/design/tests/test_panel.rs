@@ -1,4 +1,4 @@
-//! A panel over a scene that takes every change, as the window does.
+//! A panel over a scene that applies every edit, as the window does.
 
 use std::path::{Path, PathBuf};
 
@@ -9,7 +9,7 @@ use foldmotion_study::{Draft, Scene, SceneSource};
 
 use super::super::{Change, DesignInput, DesignPanel, SceneError};
 
-/// What the window holds beside the panel.
+/// The panel with the state that the window keeps for it.
 pub(super) struct TestPanel {
     panel: DesignPanel,
     pub(super) scene: Scene,
@@ -24,7 +24,7 @@ pub(super) fn bench(text: &str) -> Harness<'static, TestPanel> {
     bench_in(text, Path::new("test.toml"), egui::Theme::Dark, 2600.0)
 }
 
-/// The scenes that come with the project.
+/// The folder of scenes in the repository.
 pub(super) fn scenes() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes")
 }
@@ -75,7 +75,7 @@ pub(super) fn bench_of(
 }
 
 impl TestPanel {
-    /// Makes the draft of the scene as it is, as the window does in the background.
+    /// Makes a draft of the current scene, as the window does in the background.
     pub(super) fn redraft(&mut self) {
         let text = toml::to_string(&self.scene).unwrap();
         let source = SceneSource::new(Path::new("test.toml"), text);
@@ -98,13 +98,13 @@ impl TestPanel {
     }
 }
 
-/// Opens or closes a section, or presses a button.
+/// Clicks a button or the header of a section.
 pub(super) fn click(harness: &mut Harness<'static, TestPanel>, label: &str) {
     harness.get_by_label(label).click();
     harness.run();
 }
 
-/// Types a text into the field of that name and leaves it.
+/// Types text into the field with this name and leaves the field.
 pub(super) fn enter(harness: &mut Harness<'static, TestPanel>, label: &str, text: &str) {
     harness.get_by_label(label).focus();
     harness.run();
@@ -119,7 +119,7 @@ pub(super) fn enter(harness: &mut Harness<'static, TestPanel>, label: &str, text
     harness.run();
 }
 
-/// Drags from one place to another in `steps` moves.
+/// Drags from a position in `steps` moves.
 pub(super) fn drag(
     harness: &mut Harness<'static, TestPanel>,
     from: egui::Pos2,

@@ -1,4 +1,4 @@
-//! Lists: elements at either end that stay, stay as they are written.
+//! Edits of arrays: unchanged elements at either end keep their formatting.
 
 use std::ops::Range;
 
@@ -7,7 +7,7 @@ use toml_edit::Array;
 use super::comments::{has_comment, text_of};
 use super::value::Value;
 
-/// Which elements change: these of the old list become those of the new one.
+/// The elements that differ between two lists.
 pub(super) struct ChangedRange {
     /// Indices of the elements of the old list that change.
     pub(super) old: Range<usize>,
@@ -28,12 +28,12 @@ impl ChangedRange {
         }
     }
 
-    /// How many elements are changed in context.
+    /// The number of elements that are changed in place.
     pub(super) fn shared(&self) -> usize {
         self.old.len().min(self.new.len())
     }
 
-    /// The elements that come, each with its index.
+    /// The elements that are inserted, each with its index.
     pub(super) fn inserted<'a>(
         &self,
         new: &'a [Value],
@@ -43,7 +43,7 @@ impl ChangedRange {
     }
 }
 
-/// Hands the space behind the last element to the list.
+/// Moves the whitespace after the last element to the end of the list.
 pub(super) fn release_trailing_space(list: &mut Array) {
     if list.trailing_comma() {
         return;
@@ -68,7 +68,7 @@ fn set_prefix(list: &mut Array, index: usize, space: &str) {
     }
 }
 
-/// Removes an element; the one that becomes the first stands where that stood.
+/// Removes an element. If it was the first, the next one takes over the whitespace before it.
 pub(super) fn remove(list: &mut Array, index: usize) {
     let first = (index == 0).then(|| prefix(list, 0)).flatten();
     list.remove(index);
@@ -84,7 +84,7 @@ pub(super) fn remove(list: &mut Array, index: usize) {
     }
 }
 
-/// Inserts an element, spaced as its neighbours are.
+/// Inserts an element with the spacing of its neighbours.
 pub(super) fn insert(list: &mut Array, index: usize, mut value: toml_edit::Value) {
     let lead = prefix(list, 0).unwrap_or_default();
     let between = match prefix(list, index.saturating_sub(1).max(1)) {
@@ -105,7 +105,7 @@ pub(super) fn insert(list: &mut Array, index: usize, mut value: toml_edit::Value
     list.insert_formatted(index, value);
 }
 
-/// The space without its comments.
+/// The whitespace without its comments.
 fn bare(space: &str) -> String {
     if !has_comment(space) {
         return space.to_owned();

@@ -1,4 +1,4 @@
-//! An edit of a scene, written into its text: what did not change keeps its bytes, comments and order.
+//! Edits of a scene, written into its text: everything that is unchanged keeps its bytes, comments and order.
 
 mod array;
 mod comments;
@@ -15,11 +15,12 @@ use toml_edit::DocumentMut;
 use comments::DetachedComment;
 use value::Keys;
 
-/// The text of `old` with what differs in `new` written into it.
+/// The text of `old`, with the differences to `new` written into it.
 ///
-/// Changed values stand where the old ones stood, with their comments; new keys follow the ones that they follow in a
-/// scene; the comments above a removed key stay, the one beside its value goes with it, as do those of a removed table. None where the text is no TOML.
-/// Whether the result says `new` is the caller's to check: a text that did not say `old` may not.
+/// Changed values keep their position and comments. New keys are placed in the order in which a scene lists its keys.
+/// Comments above a removed key stay; the comment beside its value and those of a removed table are removed with it.
+/// `None` if the text is not valid TOML. The caller must check that the result means `new`, because a text that does
+/// not mean `old` may not.
 pub(super) fn edited(text: &str, old: &Scene, new: &Scene) -> Option<String> {
     let (old, new) = (Keys::of(old)?, Keys::of(new)?);
     if old == new {
@@ -44,12 +45,12 @@ pub(super) fn edited(text: &str, old: &Scene, new: &Scene) -> Option<String> {
     );
     comments::reattach(&mut document, orphans);
     let edited = format!("{head}{document}");
-    // A header that has become the first needs no empty line above.
+    // A header that has become the first needs no empty line above it.
     let edited = match edited.strip_prefix('\n') {
         Some(rest) if !body.starts_with(['\n', '\r']) => rest,
         _ => &edited,
     };
-    // The editor writes line feeds only.
+    // toml_edit writes line feeds only.
     Some(if body.contains("\r\n") {
         format!("{mark}{}", edited.replace('\n', "\r\n"))
     } else {
@@ -59,13 +60,13 @@ pub(super) fn edited(text: &str, old: &Scene, new: &Scene) -> Option<String> {
 
 const BYTE_ORDER_MARK: &str = "\u{feff}";
 
-/// Where in the document an edit is.
+/// The position of an edit in the document.
 struct EditContext<'a> {
-    /// The context of the header above, in the order of headers.
+    /// The position of the header above, in the order of headers.
     position: isize,
-    /// Whether this is the document itself.
+    /// Whether this is the root table of the document.
     root: bool,
-    /// Comments that have lost what they stood above.
+    /// Comments whose key or table was removed.
     orphans: &'a mut Vec<DetachedComment>,
 }
 
@@ -86,7 +87,7 @@ impl<'a> EditContext<'a> {
         }
     }
 
-    /// Keeps a comment for whatever follows the header at hand.
+    /// Keeps a comment for whatever follows the current header.
     fn keep_comment(&mut self, comment: String) {
         self.orphans.push(DetachedComment {
             position: self.position,

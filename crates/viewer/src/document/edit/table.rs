@@ -1,4 +1,4 @@
-//! Tables: keys that change, go, or come.
+//! Edits of tables, and of the arrays and tables inside them.
 
 use toml_edit::{Array, ArrayOfTables, InlineTable, Item};
 
@@ -7,7 +7,7 @@ use super::comments::{apart, has_comment, last_position, text_of};
 use super::value::{Keys, Value};
 use super::{EditContext, literal};
 
-/// Writes what differs between two tables into the one that says `old`.
+/// Writes the differences between two tables into `table`, which means `old`.
 pub(super) fn edit(
     table: &mut toml_edit::Table,
     old: &Keys,
@@ -48,7 +48,7 @@ fn edit_item(
     }
 }
 
-/// Writes what differs between two values into the one that says `before`.
+/// Writes the differences between two values into `written`, which means `before`.
 fn edit_value(written: &mut toml_edit::Value, before: Option<&Value>, value: &Value) {
     match (written, value) {
         (toml_edit::Value::InlineTable(table), Value::Table(new)) => {
@@ -89,7 +89,7 @@ fn edit_inline(table: &mut InlineTable, old: &Keys, new: &Keys) {
     }
 }
 
-/// Changes the elements of a list that says `old`.
+/// Writes the differences between two lists into `list`, which means `old`.
 fn edit_list(list: &mut Array, old: &[Value], new: &[Value]) {
     if list.is_empty() || list.len() != old.len() {
         let decor = list.decor().clone();
@@ -118,7 +118,7 @@ fn edit_list(list: &mut Array, old: &[Value], new: &[Value]) {
     }
 }
 
-/// Changes the tables of a list that says `old`, each under its header.
+/// Writes the differences between two lists of tables into `tables`, which mean `old` and have headers of their own.
 fn edit_tables(
     tables: &mut ArrayOfTables,
     old: &[Value],
@@ -157,7 +157,7 @@ fn edit_tables(
     }
 }
 
-/// Keeps the comments above a removed header that do not belong to it.
+/// Keeps the comments above a removed header that belong to the table before it.
 fn keep_above(removed: &toml_edit::Table, context: &mut EditContext<'_>) {
     let above = text_of(removed.decor().prefix());
     let apart = apart(&above);
@@ -174,7 +174,7 @@ fn list_in(value: Option<&Value>) -> &[Value] {
     value.and_then(Value::as_list).unwrap_or_default()
 }
 
-/// Removes a key; the comments above it stay above whatever follows.
+/// Removes a key. The comments above it are moved to whatever follows.
 fn remove(table: &mut toml_edit::Table, key: &str, context: &mut EditContext<'_>) {
     let next = next_value(table, key);
     let Some((removed, item)) = table.remove_entry(key) else {
@@ -200,14 +200,14 @@ fn remove(table: &mut toml_edit::Table, key: &str, context: &mut EditContext<'_>
     }
 }
 
-/// The key of the value behind another.
+/// The next key after `key` that has a value.
 fn next_value(table: &toml_edit::Table, key: &str) -> Option<String> {
     let behind = table.iter().skip_while(|(other, _)| *other != key).skip(1);
     let mut values = behind.filter(|(_, item)| item.is_value());
     values.next().map(|(other, _)| other.to_owned())
 }
 
-/// Inserts a key behind the one that it follows in a scene.
+/// Inserts a key after the one it follows in the order of a scene.
 fn insert(
     table: &mut toml_edit::Table,
     key: &str,
@@ -253,7 +253,7 @@ fn insert_value(table: &mut toml_edit::Table, key: &str, value: &Value, context:
         key.leaf_decor_mut().set_prefix(above);
     }
     if table.is_implicit() {
-        // Its header appears with its first value: before those of its parts.
+        // The header appears with the first value and comes before those of the table's parts.
         table.set_implicit(false);
         let first = table
             .iter()
@@ -267,7 +267,7 @@ fn has_values(table: &toml_edit::Table) -> bool {
     table.iter().any(|(_, item)| item.is_value())
 }
 
-/// The space before the first value on its line.
+/// The indentation of the first value.
 fn indent(table: &toml_edit::Table) -> String {
     let value = table.iter().find(|(_, item)| item.is_value());
     let key = value.and_then(|(key, _)| table.key(key));
@@ -278,7 +278,7 @@ fn indent(table: &toml_edit::Table) -> String {
         .to_owned()
 }
 
-/// What stands at the head of the file, which the first header gives up.
+/// Removes and returns the comments at the top of the file from the first header.
 fn take_head(root: &mut toml_edit::Table) -> String {
     let tables = root.iter_mut().filter_map(|(_, item)| match item {
         Item::Table(table) if !table.is_dotted() => Some(table),
@@ -294,7 +294,7 @@ fn take_head(root: &mut toml_edit::Table) -> String {
     head
 }
 
-/// Moves the key that came last behind another, or to the front.
+/// Moves the last key behind `after`, or to the front.
 fn reorder(table: &mut toml_edit::Table, key: &str, after: Option<&str>) {
     let mut keys: Vec<String> = table.iter().map(|(key, _)| key.to_owned()).collect();
     keys.pop();

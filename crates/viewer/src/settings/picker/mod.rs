@@ -1,4 +1,5 @@
-//! Choosing a file inside the window.
+//! A file picker inside the window. It is our own because it must work on a bare X server and in headless tests: rfd
+//! needs a desktop portal or GTK on Linux, and egui-file-dialog (0.15) is made for an older egui than ours.
 
 mod folder;
 mod show;
@@ -10,47 +11,44 @@ use std::path::{Path, PathBuf};
 
 use folder::Entry;
 
-/// What became of a picker.
+/// The result of a file picker.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum PickerResult {
-    /// This file was chosen; one to be saved may exist, the user was asked.
+    /// The chosen file. If it is for saving and exists, the user has agreed to overwrite it.
     File(PathBuf),
-    /// None was.
+    /// The user cancelled.
     Cancelled,
 }
 
-/// A modal in which a file is chosen.
+/// A modal dialog for choosing a file.
 #[derive(Debug)]
-#[expect(
-    clippy::struct_excessive_bools,
-    reason = "what is asked of the next frame is a switch each"
-)]
+#[expect(clippy::struct_excessive_bools, reason = "independent flags")]
 pub(crate) struct FilePicker {
     title: String,
     is_saving: bool,
     endings: Vec<&'static str>,
     folder: PathBuf,
     entries: Vec<Entry>,
-    /// Those of the entries that what is typed leaves.
+    /// Indices of the entries that match the typed text.
     shown: Vec<usize>,
     /// The name or path in the text field.
     typed: String,
-    /// Which of the shown is selected.
+    /// The selected row of the shown entries.
     selected: Option<usize>,
     hidden: bool,
-    /// Folders to go to: home and recent ones.
+    /// Named folders to jump to: the home folder and recent folders.
     bookmarks: Vec<(String, PathBuf)>,
     message: Option<String>,
-    /// The file that exists and may be overwritten.
+    /// The existing file that the user is asked about overwriting.
     overwrites: Option<PathBuf>,
-    /// Whether the list is to be scrolled to the selected entry.
+    /// Whether to scroll the list to the selected entry in the next frame.
     scrolls: bool,
-    /// Whether the text field is to be focused, its cursor at the end.
+    /// Whether to focus the text field in the next frame, with the cursor at the end.
     focuses: bool,
 }
 
 impl FilePicker {
-    /// Chooses a file to open, among those with one of the endings (without dots).
+    /// Chooses an existing file with one of the extensions (without dots).
     pub(crate) fn open(
         title: &str,
         endings: &[&'static str],
@@ -60,7 +58,7 @@ impl FilePicker {
         Self::new(title, endings, folder, recent)
     }
 
-    /// Chooses a file to write; a name without an ending gets the first of them.
+    /// Chooses a file to write; a name without an extension gets the first one.
     pub(crate) fn save(
         title: &str,
         endings: &[&'static str],
@@ -100,7 +98,7 @@ impl FilePicker {
         picker
     }
 
-    /// Shows another folder; one that cannot be read is shown empty, with the reason.
+    /// Shows another folder. If it cannot be read, the list is empty and a message says why.
     fn go(&mut self, folder: &Path) {
         let whole = std::path::absolute(folder).unwrap_or_else(|_| folder.to_owned());
         self.folder = whole.canonicalize().unwrap_or(whole);
@@ -126,7 +124,8 @@ impl FilePicker {
         self.filter();
     }
 
-    /// Leaves those whose name has what is typed in it, while that is no path; what is to be saved leaves all.
+    /// Shows the entries whose name contains the typed text, or all entries if the text is a path or the picker is for
+    /// saving.
     fn filter(&mut self) {
         let typed = self.typed.trim().to_lowercase();
         let all = self.is_saving || typed.contains(['/', '\\', '~']);
@@ -150,7 +149,7 @@ impl FilePicker {
         }
     }
 
-    /// Moves the selection by some rows.
+    /// Moves the selection by a number of rows.
     fn step(&mut self, by: isize) {
         let Some(last) = self.shown.len().checked_sub(1) else {
             return;
@@ -164,7 +163,7 @@ impl FilePicker {
         self.name_selected();
     }
 
-    /// What is to be saved takes the name of the selected file.
+    /// Copies the name of the selected file into the text field when saving.
     fn name_selected(&mut self) {
         let entry = self.selected.and_then(|row| self.shown.get(row));
         if let Some(entry) = entry.map(|&index| &self.entries[index])
@@ -176,7 +175,7 @@ impl FilePicker {
         }
     }
 
-    /// Completes what is typed as far as it can be told.
+    /// Completes the typed text as far as it is unambiguous.
     fn complete(&mut self) {
         if let Some(completed) = folder::completed(&self.folder, &self.typed, &self.endings) {
             self.typed = completed;
@@ -185,7 +184,7 @@ impl FilePicker {
         }
     }
 
-    /// Goes into the selected folder, or chooses the selected file; without one, does what is typed.
+    /// Opens the selected folder or chooses the selected file; without a selection, uses the typed text.
     fn enter(&mut self) -> Option<PickerResult> {
         let entry = self.selected.and_then(|row| self.shown.get(row)).copied();
         match entry.map(|index| self.entries[index].clone()) {
@@ -200,7 +199,7 @@ impl FilePicker {
 
     fn enter_typed(&mut self) -> Option<PickerResult> {
         if self.typed.trim().is_empty() {
-            self.message = Some("type a name, or select one".to_owned());
+            self.message = Some("Type a name or select one.".to_owned());
             return None;
         }
         let path = folder::resolve(&self.folder, &self.typed);
@@ -217,20 +216,20 @@ impl FilePicker {
         if path.is_file() {
             return Some(PickerResult::File(path));
         }
-        self.message = Some(format!("{}: there is no such file", path.display()));
+        self.message = Some(format!("{}: file not found", path.display()));
         None
     }
 
-    /// Chooses a file to be written, or asks first where it exists.
+    /// Chooses a file to write, or asks first if it exists.
     fn enter_new(&mut self, mut path: PathBuf) -> Option<PickerResult> {
         if let (None, Some(ending)) = (path.extension(), self.endings.first()) {
             path.set_extension(ending);
         }
         if !folder::has_ending(&path, &self.endings) {
             let endings = self.endings.join(", .");
-            self.message = Some(format!("the name must end in .{endings}"));
+            self.message = Some(format!("The name must end in .{endings}"));
         } else if !path.parent().is_some_and(Path::is_dir) {
-            self.message = Some(format!("{}: there is no such folder", path.display()));
+            self.message = Some(format!("{}: folder not found", path.display()));
         } else if path.exists() {
             self.overwrites = Some(path);
         } else {

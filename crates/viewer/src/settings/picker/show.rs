@@ -1,4 +1,4 @@
-//! The picker on screen.
+//! The user interface of the file picker.
 
 use eframe::egui::text::CCursorRange;
 use eframe::egui::text_edit::TextEditState;
@@ -10,11 +10,11 @@ use eframe::egui::{
 use super::super::appearance::modal_frame;
 use super::{FilePicker, PickerResult};
 
-/// Crumbs shown of a long path.
+/// The largest number of parent folders shown.
 const MOST_BREADCRUMBS: usize = 6;
 
 impl FilePicker {
-    /// Shows the picker; tells when it is done, after which it is not to be shown again.
+    /// Shows the picker; returns the result once, after which it must not be shown again.
     pub(crate) fn show(&mut self, ctx: &Context) -> Option<PickerResult> {
         let room = ctx.content_rect().size();
         let modal = Modal::new(Id::unique("picker")).frame(modal_frame(ctx));
@@ -36,7 +36,7 @@ impl FilePicker {
             return modal.inner;
         }
         if modal.should_close() {
-            // Escape answers the question first.
+            // Escape answers the question about overwriting first.
             if self.overwrites.take().is_none() {
                 return Some(PickerResult::Cancelled);
             }
@@ -44,7 +44,7 @@ impl FilePicker {
         None
     }
 
-    /// Keys that move through the list, unless another control has the focus.
+    /// Handles keys that move through the list, unless another control has the focus.
     fn press_keys(&mut self, ui: &Ui) -> Option<PickerResult> {
         let focused = ui.memory(Memory::focused);
         if self.overwrites.is_some() || focused.is_some_and(|id| id != text_id()) {
@@ -73,7 +73,7 @@ impl FilePicker {
         }
     }
 
-    /// The folders on the way to this one.
+    /// Buttons for the parent folders.
     fn breadcrumbs(&mut self, ui: &mut Ui) {
         let mut way: Vec<_> = self.folder.ancestors().map(ToOwned::to_owned).collect();
         let hidden = way.len() > MOST_BREADCRUMBS;
@@ -96,7 +96,7 @@ impl FilePicker {
         });
     }
 
-    /// Home and recent folders.
+    /// The home folder and recent folders.
     fn list_bookmarks(&mut self, ui: &mut Ui, height: f32) {
         ui.vertical(|ui| {
             ui.set_width(110.0);
@@ -111,7 +111,7 @@ impl FilePicker {
         });
     }
 
-    /// Folders and files; only the rows in sight are laid out.
+    /// The folders and files. Only visible rows are laid out.
     fn list(&mut self, ui: &mut Ui, height: f32) -> Option<PickerResult> {
         let row = ui
             .text_style_height(&TextStyle::Button)
@@ -127,7 +127,7 @@ impl FilePicker {
             scroll = scroll.vertical_scroll_offset(above.min(most).max(0.0));
         }
         if self.shown.is_empty() {
-            ui.weak("nothing to choose here");
+            ui.weak("No matching files");
             return None;
         }
         let mut entered = false;
@@ -155,11 +155,11 @@ impl FilePicker {
         if entered { self.enter() } else { None }
     }
 
-    /// The text field, what is wrong, and the buttons; or the question whether to overwrite.
+    /// The text field, the error message and the buttons, or the question about overwriting.
     fn footer(&mut self, ui: &mut Ui) -> Option<PickerResult> {
         if let Some(path) = self.overwrites.clone() {
             let name = path.file_name().unwrap_or_default().to_string_lossy();
-            ui.label(format!("{name} exists already. Overwrite it?"));
+            ui.label(format!("{name} already exists. Overwrite it?"));
             return ui
                 .horizontal(|ui| {
                     if ui.button("Keep it").clicked() {
@@ -226,7 +226,7 @@ fn text_id() -> Id {
     Id::unique("picker text")
 }
 
-/// What was completed is gone on with at its end.
+/// Moves the cursor to the end of the text, after a completion.
 fn put_cursor_last(ui: &Ui, text: &str) {
     let mut state = TextEditState::load(ui.ctx(), text_id()).unwrap_or_default();
     let end = CCursor::new(text.chars().count());

@@ -1,4 +1,4 @@
-//! The picker by keyboard and mouse.
+//! The file picker, driven by keyboard and mouse.
 
 use std::fs;
 use std::path::Path;
@@ -135,7 +135,7 @@ fn typing_narrows_the_list_tab_completes_and_a_wrong_name_says_so() {
     assert_eq!(harness.state().picker.typed, "Spiral.TOML");
     typed(&mut harness, "x");
     press(&mut harness, Key::Enter);
-    harness.get_by_label_contains("there is no such file");
+    harness.get_by_label_contains("file not found");
     press(&mut harness, Key::Backspace);
     press(&mut harness, Key::Enter);
     assert!(file_of(&harness).ends_with("Spiral.TOML"));
@@ -175,7 +175,7 @@ fn a_double_click_chooses_and_the_crumbs_go_back() {
         .to_owned();
     harness.get_by_label(&name).click();
     harness.run();
-    // Long enough that the next click is the first of its own.
+    // Long enough that the next click does not count as a double click.
     harness.run_steps(30);
     for _ in 0..2 {
         harness.get_by_label("shelter.toml").click();
@@ -197,7 +197,7 @@ fn saving_adds_the_ending_and_asks_before_it_overwrites() {
 
     let mut harness = harness(save(folder.path(), "shelter.toml"), Appearance::Dark);
     press(&mut harness, Key::Enter);
-    harness.get_by_label("shelter.toml exists already. Overwrite it?");
+    harness.get_by_label("shelter.toml already exists. Overwrite it?");
     press(&mut harness, Key::Escape);
     assert!(harness.state().picked.is_none());
     press(&mut harness, Key::Enter);
@@ -211,8 +211,8 @@ fn saving_refuses_other_endings_and_folders_that_are_not_there() {
     let folder = folder();
     for (name, reason) in [
         ("a.fold", "must end in .toml"),
-        ("no/a", "no such folder"),
-        ("", "type a name"),
+        ("no/a", "folder not found"),
+        ("", "Type a name"),
     ] {
         let mut harness = harness(save(folder.path(), name), Appearance::Dark);
         press(&mut harness, Key::Enter);

@@ -1,4 +1,4 @@
-//! The sheet drawn on the GPU, when something changed.
+//! The sheet, drawn on the GPU when something has changed.
 
 mod buffers;
 mod errors;
@@ -24,7 +24,7 @@ use super::paints::{PaintKey, paints};
 use super::picture::Picture;
 use super::segments::{Segment, segments};
 
-/// What the picture was drawn from.
+/// What the picture depends on; it is drawn again when this changes.
 #[derive(Debug, PartialEq, Default)]
 struct PictureKey {
     sheet_key: Option<u64>,
@@ -55,7 +55,7 @@ pub(super) struct Gpu {
     egui_texture: EguiTexture,
     origin: DVec3,
     drawn: PictureKey,
-    /// Pictures drawn so far.
+    /// The number of pictures drawn so far.
     pub(super) count: u64,
 }
 
@@ -69,7 +69,7 @@ impl std::fmt::Debug for Gpu {
 
 impl Gpu {
     /// # Errors
-    /// What the driver or wgpu says.
+    /// The message of the driver or of wgpu.
     pub(super) fn new(state: &RenderState) -> Result<Self, String> {
         catch_errors(&state.device, || Self::open(state))
     }
@@ -110,10 +110,10 @@ impl Gpu {
         }
     }
 
-    /// The picture, drawn again if it changed.
+    /// Shows the picture, which is drawn again if it has changed.
     ///
     /// # Errors
-    /// What the driver or wgpu says, and where the sheet is too large for the device.
+    /// The message of the driver or of wgpu, or that the sheet is too large for the device.
     pub(super) fn show(
         &mut self,
         picture: &Picture<'_>,
@@ -124,7 +124,7 @@ impl Gpu {
         let largest = picture.positions.len().max(picture.sheet.faces.len());
         if largest > most {
             return Err(format!(
-                "{largest} vertices or triangles: the GPU holds {most}"
+                "{largest} vertices or triangles are too many for the GPU (at most {most})"
             ));
         }
         let device = self.device.clone();
@@ -145,7 +145,7 @@ impl Gpu {
         }
     }
 
-    /// Whether the sheet or its creases changed.
+    /// Updates the sheet and its creases; returns whether they have changed.
     fn take_sheet(&mut self, picture: &Picture<'_>) -> bool {
         let (key, sheet) = (Some(picture.sheet_key), picture.sheet);
         let is_other = self.drawn.sheet_key != key;

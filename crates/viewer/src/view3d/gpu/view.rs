@@ -1,4 +1,4 @@
-//! What the shader's `View` says of a picture.
+//! The contents of the shader's uniform `View`.
 
 use eframe::egui::{Color32, Rgba};
 use foldmotion_record::Style;
@@ -8,22 +8,22 @@ use super::super::picture::Picture;
 use super::super::prepared::PreparedSheet;
 use super::super::projection::Projection;
 
-/// Lines are this part of the distance of layers before their paper.
+/// Lines are drawn in front of their triangle by this fraction of the distance between layers.
 const PULL: f64 = 0.2;
 
-/// Floats of the shader's `View`.
+/// Number of floats in the shader's `View`.
 pub(super) const VIEW_FLOATS: usize = 48;
 
 /// What a frame is drawn from besides the picture.
 pub(in super::super) struct FrameView<'a> {
     pub(in super::super) projection: &'a Projection,
     pub(in super::super) prepared: &'a PreparedSheet,
-    /// In pixels.
+    /// The size in pixels.
     pub(in super::super) size: [u32; 2],
     pub(in super::super) pixels_per_point: f32,
 }
 
-/// The shader's `View`.
+/// The contents of the shader's `View`.
 pub(super) fn numbers(
     picture: &Picture<'_>,
     view: &FrameView<'_>,
