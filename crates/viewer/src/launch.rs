@@ -1,23 +1,13 @@
-//! From the command line to the window.
+//! Starting the window from the command line.
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
-use std::path::PathBuf;
 use std::time::Instant;
 
 use eframe::egui::{IconData, ViewportBuilder};
 
-use crate::{Viewer, ViewerError};
-
-/// What the user asked of the window.
-#[derive(Debug, Clone, Default)]
-pub struct ViewOptions {
-    /// A scene, a crease pattern or a motion to open.
-    pub file: Option<PathBuf>,
-    /// Print times on stderr at the end: to the first picture, of frames, of states; and memory.
-    pub timings: bool,
-    /// The folder in which unsaved scenes are kept; the system's folder of this program's data where none is given.
-    pub unsaved: Option<PathBuf>,
-}
+use crate::error::{ViewerError, panic_message};
+use crate::options::ViewOptions;
+use crate::window::Viewer;
 
 /// Opens the window; returns when it is closed.
 ///
@@ -43,23 +33,16 @@ pub fn view(options: ViewOptions) -> Result<(), ViewerError> {
             Box::new(move |creation| Ok(Box::new(Viewer::new(creation, options, started)))),
         )
     });
-    // Window libraries panic where a shared library is missing.
+    // Window libraries panic if a shared library is missing.
     match catch_unwind(window) {
         Ok(Ok(())) => Ok(()),
         Ok(Err(error)) => Err(ViewerError::of(&error)),
-        Err(panic) => Err(ViewerError::of_panic(words(panic.as_ref()))),
+        Err(panic) => Err(ViewerError::of_panic(panic_message(panic.as_ref()))),
     }
 }
 
-/// What a panic said.
-pub(crate) fn words(panic: &(dyn std::any::Any + Send)) -> String {
-    let text = panic.downcast_ref::<&str>().map(|s| (*s).to_owned());
-    text.or_else(|| panic.downcast_ref::<String>().cloned())
-        .unwrap_or_else(|| "it said nothing".to_owned())
-}
-
 /// # Errors
-/// [`ViewerError::NoDisplay`] where no server is named.
+/// [`ViewerError::NoDisplay`] if no display server is named in the environment.
 #[cfg(all(unix, not(target_os = "macos")))]
 fn require_display() -> Result<(), ViewerError> {
     let is_set = |name| std::env::var_os(name).is_some_and(|value| !value.is_empty());
@@ -76,7 +59,7 @@ fn require_display() -> Result<(), ViewerError> {
     Ok(())
 }
 
-/// A folded sheet, drawn here: two facets, light and dark, on nothing.
+/// The icon: a light and a dark facet on a transparent background.
 fn icon() -> IconData {
     const SIDE: u32 = 64;
     let colour = |x: f32, y: f32| -> [u8; 4] {
@@ -93,8 +76,8 @@ fn icon() -> IconData {
             _ => [0, 0, 0, 0],
         }
     };
-    let place = |k: u32| (k as f32 + 0.5) / SIDE as f32;
-    let rgba = (0..SIDE * SIDE).flat_map(|k| colour(place(k % SIDE), place(k / SIDE)));
+    let centre = |k: u32| (k as f32 + 0.5) / SIDE as f32;
+    let rgba = (0..SIDE * SIDE).flat_map(|k| colour(centre(k % SIDE), centre(k / SIDE)));
     IconData {
         rgba: rgba.collect(),
         width: SIDE,

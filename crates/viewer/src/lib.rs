@@ -1,14 +1,15 @@
-//! The window: look at a fold, scrub it, edit its scene, run it, record it.
+//! The window: view a folding motion, scrub through it, edit its scene, run it and record it.
 //!
-//! [`view`] opens it and returns when it is closed; [`Viewer`] is the window itself, for whoever drives it without one.
-//! A scene's text is what is edited (`document`); what becomes of it is worked out in the background (`work`) and shown
-//! when it comes. egui draws all but the sheet (`view3d`, on wgpu). What is drawn here is for the eye: results are made by
-//! `foldmotion-study`, from the window as from the command line.
+//! [`view`] opens the window and returns when it is closed; [`Viewer`] is the window itself, for tests that drive it without
+//! a display. The user edits the text of a scene (`document`). Everything that follows from the text is computed in the
+//! background (`work`) and shown when it is ready. egui draws everything except the sheet, which `view3d` draws with wgpu.
+//! The window only displays results: `foldmotion-study` computes and writes them, as it does for the command line.
 
 mod design;
 mod document;
 mod error;
 mod launch;
+mod options;
 mod results;
 mod settings;
 mod timeline;
@@ -18,5 +19,6 @@ mod window;
 mod work;
 
 pub use error::ViewerError;
-pub use launch::{ViewOptions, view};
+pub use launch::view;
+pub use options::ViewOptions;
 pub use window::Viewer;

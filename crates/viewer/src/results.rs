@@ -1,12 +1,13 @@
-//! The results of a run: the verdict first, then what it rests on.
+//! The verdict panel: the outcome of a run or a check, and the numbers behind it.
 
 use eframe::egui::{Color32, CornerRadius, Frame, Grid, Link, Margin, RichText, ScrollArea, Ui};
+use foldmotion_check::Verdict;
 use foldmotion_study::Report;
 use foldmotion_study::report::{OutcomeKind, PenetrationReport, StageReport};
 
-use crate::work::Judged;
+use crate::work::CheckedMotion;
 
-/// Draws `report`; answers a motion time that was clicked.
+/// Shows `report`; returns the motion time that was clicked, if any.
 pub(crate) fn results(ui: &mut Ui, report: &Report) -> Option<f64> {
     let mut chosen = None;
     ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
@@ -23,18 +24,22 @@ pub(crate) fn results(ui: &mut Ui, report: &Report) -> Option<f64> {
     chosen
 }
 
-/// What is known of a motion file; a motion time that was clicked.
-pub(crate) fn file_results(ui: &mut Ui, title: &str, judged: Option<&Judged>) -> Option<f64> {
+/// Shows what is known about a motion file; returns the motion time that was clicked, if any.
+pub(crate) fn file_results(
+    ui: &mut Ui,
+    title: &str,
+    judged: Option<&CheckedMotion>,
+) -> Option<f64> {
     ui.strong(title);
     let Some(judged) = judged else {
-        ui.label("its collisions are being checked");
+        ui.label("Checking for collisions…");
         return None;
     };
     let certificate = &judged.certificate;
     let collision = &judged.findings.collision;
-    let colour = verdict_colour(ui, &certificate.verdict);
+    let colour = verdict_colour(ui, certificate.verdict);
     ui.label(
-        RichText::new(&certificate.verdict)
+        RichText::new(certificate.verdict.name())
             .size(20.0)
             .strong()
             .color(colour),
@@ -69,23 +74,23 @@ pub(crate) fn file_results(ui: &mut Ui, title: &str, judged: Option<&Judged>) ->
     chosen
 }
 
-/// The colour of a verdict: good, fair or bad on the ground at hand.
-pub(crate) fn verdict_colour(ui: &Ui, verdict: &str) -> Color32 {
+/// The colour of a verdict.
+pub(crate) fn verdict_colour(ui: &Ui, verdict: Verdict) -> Color32 {
     let is_dark = ui.visuals().dark_mode;
     match (verdict, is_dark) {
-        ("free" | "touching", true) => Color32::from_rgb(92, 196, 120),
-        ("free" | "touching", false) => Color32::from_rgb(20, 118, 52),
-        ("penetrating", _) => ui.visuals().error_fg_color,
-        _ => ui.visuals().warn_fg_color,
+        (Verdict::Free | Verdict::Touching, true) => Color32::from_rgb(92, 196, 120),
+        (Verdict::Free | Verdict::Touching, false) => Color32::from_rgb(20, 118, 52),
+        (Verdict::Penetrating, _) => ui.visuals().error_fg_color,
+        (Verdict::Undecided, _) => ui.visuals().warn_fg_color,
     }
 }
 
-/// The colour of an outcome: good, bad or open on the ground at hand.
+/// The colour of an outcome.
 pub(crate) fn outcome_colour(ui: &Ui, kind: OutcomeKind) -> Color32 {
     let as_verdict = match kind {
-        OutcomeKind::Folded => "free",
-        OutcomeKind::Collides => "penetrating",
-        _ => "undecided",
+        OutcomeKind::Folded => Verdict::Free,
+        OutcomeKind::Collides => Verdict::Penetrating,
+        _ => Verdict::Undecided,
     };
     verdict_colour(ui, as_verdict)
 }
@@ -107,8 +112,9 @@ fn outcome(ui: &mut Ui, report: &Report) -> Option<f64> {
             collision.verdict, collision.pairs_tested, report.path.frames, collision.tolerance
         ))
         .on_hover_text(
-            "free: no two facets come within the tolerance; touching: they do, and leave on the side they came from; \
-             penetrating: deeper, or out on the other side; undecided: not proved either way",
+            "Free: no two facets come within the tolerance of each other. Touching: some do, and separate again on \
+             the same side. Penetrating: some overlap by more than the tolerance, or separate on the other side. Undecided: \
+             neither could be proved.",
         );
         if let Some(first) = &collision.first {
             chosen = penetration(ui, first);
@@ -120,13 +126,13 @@ fn outcome(ui: &mut Ui, report: &Report) -> Option<f64> {
             ui.label(stopped.line());
         }
         if collision.undecided_pairs > 0 {
-            ui.label(format!("{} pairs were not decided", collision.undecided_pairs));
+            ui.label(format!("{} pairs are undecided", collision.undecided_pairs));
         }
         if let (Some(distance), Some(t)) = (collision.min_separation, collision.min_separation_t) {
             chosen = time_link(ui, &format!("smallest separation {distance:.2e} h at"), t).or(chosen);
         }
         if let Some(jam) = &report.jam {
-            let words = format!("jammed, {:.1}° from its target, at", jam.fold_angle_error_deg);
+            let words = format!("jammed {:.1}° from its target at", jam.fold_angle_error_deg);
             chosen = time_link(ui, &words, jam.t).or(chosen);
         }
     });
@@ -147,13 +153,15 @@ fn penetration(ui: &mut Ui, first: &PenetrationReport) -> Option<f64> {
     time_link(ui, &words, first.t)
 }
 
-/// Words that end in a motion time, which can be clicked.
+/// Text followed by a motion time as a link; returns the time if it was clicked.
 fn time_link(ui: &mut Ui, words: &str, t: f64) -> Option<f64> {
     ui.horizontal_wrapped(|ui| {
         ui.spacing_mut().item_spacing.x = 4.0;
         ui.label(words);
         let link = ui.add(Link::new(format!("t\u{a0}=\u{a0}{t:.4}")));
-        link.on_hover_text("go there").clicked().then_some(t)
+        link.on_hover_text("Go to this motion time")
+            .clicked()
+            .then_some(t)
     })
     .inner
 }
@@ -188,7 +196,7 @@ fn boxes(ui: &mut Ui, report: &Report) {
                 ui.label(error.map_or_else(|| "–".to_owned(), |v| format!("{v:+.1e}")));
                 ui.end_row();
             };
-            for (k, name) in ["x, growing", "y, width", "z, flaps"]
+            for (k, name) in ["x, length", "y, width", "z, flaps"]
                 .into_iter()
                 .enumerate()
             {
@@ -229,7 +237,7 @@ fn stage_rows(ui: &mut Ui, stage: &StageReport) -> Option<f64> {
         "energy at most: bars {:.1e}, creases {:.1e}, facets {:.1e}, contact {:.1e}",
         e.bars, e.creases, e.facets, e.contact
     ))
-    .on_hover_text("in units of EA·h at EA = 1");
+    .on_hover_text("Energy in units of EA·h at EA = 1");
     chosen
 }
 

@@ -1,56 +1,56 @@
-//! What the window costs: time to the first picture, processor time of the thread that draws, states a second, memory.
+//! Measurements of the window: time to the first picture, processor time per frame, states per second, memory.
 
 use std::fmt::Write as _;
 use std::time::{Duration, Instant};
 
-/// Frames remembered.
+/// The number of frames whose times are kept.
 const FRAMES: usize = 4096;
 
-/// What the window does in a frame.
+/// What the window is doing in a frame.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Pace {
+pub(crate) enum Activity {
     /// Only what the user does.
     Idle,
-    /// A motion plays: one frame follows the other.
+    /// A motion plays.
     Playing,
-    /// Something runs in the background.
+    /// A job runs in the background.
     Busy,
 }
 
-impl Pace {
+impl Activity {
     const ALL: [Self; 3] = [Self::Idle, Self::Playing, Self::Busy];
 
     fn name(self) -> &'static str {
         match self {
             Self::Idle => "idle",
             Self::Playing => "while a motion plays",
-            Self::Busy => "while work runs",
+            Self::Busy => "during background jobs",
         }
     }
 }
 
-/// Times of the window since its start.
+/// Measurements since the start of the window.
 #[derive(Debug)]
 pub(crate) struct Timings {
     started: Instant,
     first_picture: Option<Duration>,
-    /// When the last frame began, its pace, and the processor time of this thread then.
-    last: Option<(Instant, Pace, Option<Duration>)>,
-    /// Of each of the last frames of a pace: processor time, and time to the next.
+    /// When the last frame began, its activity, and the processor time of this thread at that moment.
+    last: Option<(Instant, Activity, Option<Duration>)>,
+    /// For each activity, the processor time of the last frames and the time until the next frame.
     frames: [Vec<[Duration; 2]>; 3],
     count: [usize; 3],
-    /// States a second of every run, and of sheets held in the hand.
+    /// The best number of states per second of every run and interaction.
     rates: Vec<(&'static str, f64)>,
 }
 
-/// How long frames took, in milliseconds.
+/// Durations of frames, in milliseconds.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct FrameTimes {
     pub(crate) count: usize,
     pub(crate) mean_ms: f64,
-    /// 95 of 100 took no longer.
+    /// 95 % of the frames took no longer.
     pub(crate) most_ms: f64,
-    /// The time from one to the next.
+    /// The mean time between frames.
     pub(crate) spacing_ms: f64,
 }
 
@@ -66,8 +66,8 @@ impl Timings {
         }
     }
 
-    /// Takes note that a frame of `pace` begins: what the thread did since the last one began belongs to that one.
-    pub(crate) fn frame(&mut self, pace: Pace, has_picture: bool) {
+    /// Records that a frame begins. The time since the last call belongs to the previous frame.
+    pub(crate) fn frame(&mut self, pace: Activity, has_picture: bool) {
         if has_picture && self.first_picture.is_none() {
             self.first_picture = Some(self.started.elapsed());
         }
@@ -86,13 +86,13 @@ impl Timings {
         }
     }
 
-    /// Takes note of how often the state of a run was refreshed.
+    /// Records the best number of states per second of a run or an interaction.
     pub(crate) fn rate(&mut self, what: &'static str, states_a_second: f64) {
         self.rates.push((what, states_a_second));
     }
 
-    /// Of the last frames of `pace`.
-    pub(crate) fn frame_times(&self, pace: Pace) -> Option<FrameTimes> {
+    /// Statistics of the last frames with an activity.
+    pub(crate) fn frame_times(&self, pace: Activity) -> Option<FrameTimes> {
         let frames = &self.frames[pace as usize];
         let count = frames.len();
         let mut times: Vec<Duration> = frames.iter().map(|times| times[0]).collect();
@@ -108,27 +108,27 @@ impl Timings {
         })
     }
 
-    /// All of it in words, a line each.
+    /// All measurements as text, one per line.
     pub(crate) fn summary(&self) -> String {
         let mut text = String::new();
         // Writing into a string cannot fail.
         if let Some(first) = self.first_picture {
             let _ = writeln!(text, "first picture after {:.2} s", first.as_secs_f64());
         }
-        for pace in Pace::ALL {
+        for pace in Activity::ALL {
             let Some(times) = self.frame_times(pace) else {
                 continue;
             };
             let _ = write!(
                 text,
-                "thread of the window, {}: {:.2} ms a frame, 95 % within {:.2} ms, {} frames",
+                "window thread, {}: {:.2} ms per frame, 95 % within {:.2} ms, {} frames",
                 pace.name(),
                 times.mean_ms,
                 times.most_ms,
                 times.count
             );
             let _ = match pace {
-                Pace::Idle => writeln!(text),
+                Activity::Idle => writeln!(text),
                 _ => writeln!(text, ", one every {:.1} ms", times.spacing_ms),
             };
         }
@@ -142,14 +142,14 @@ impl Timings {
     }
 }
 
-/// Processor time of the calling thread, where the system tells.
+/// Processor time of the calling thread, if the system provides it.
 fn thread_time() -> Option<Duration> {
     let text = std::fs::read_to_string("/proc/thread-self/schedstat").ok()?;
     let nanoseconds = text.split_whitespace().next()?.parse().ok()?;
     Some(Duration::from_nanos(nanoseconds))
 }
 
-/// Megabytes in use, and the most there were, where the system tells.
+/// Memory in use now and at most, megabytes, if the system provides them.
 fn memory() -> Option<[f64; 2]> {
     let text = std::fs::read_to_string("/proc/self/status").ok()?;
     let field = |name: &str| -> Option<f64> {
@@ -167,12 +167,12 @@ mod tests {
     #[test]
     fn frames_are_counted_by_pace_and_the_summary_names_them() {
         let mut timings = Timings::new(Instant::now());
-        assert!(timings.frame_times(Pace::Idle).is_none());
+        assert!(timings.frame_times(Activity::Idle).is_none());
         for _ in 0..5 {
-            timings.frame(Pace::Idle, true);
+            timings.frame(Activity::Idle, true);
         }
         for _ in 0..FRAMES + 10 {
-            timings.frame(Pace::Busy, true);
+            timings.frame(Activity::Busy, true);
         }
         timings.rate("run", 240.0);
         let text = timings.summary();
@@ -182,9 +182,9 @@ mod tests {
         );
         if thread_time().is_some() {
             let count = |pace| timings.frame_times(pace).map(|times| times.count);
-            assert_eq!(Pace::ALL.map(count), [Some(5), None, Some(FRAMES)]);
+            assert_eq!(Activity::ALL.map(count), [Some(5), None, Some(FRAMES)]);
             assert!(
-                text.contains("while work runs") && text.contains("memory"),
+                text.contains("during background jobs") && text.contains("memory"),
                 "{text}"
             );
         }

@@ -3,7 +3,8 @@
 use glam::DVec3;
 
 use super::{
-    Axis, PairCrossing, Effort, Feature, Limits, MovingPair, Outcome, PairPose, PairCertificate, Side,
+    Axis, Effort, Feature, Limits, MovingPair, Outcome, PairCertificate, PairCrossing, PairPose,
+    Side,
     pose::{are_linked, turned_along},
     separating::{separating, widest},
 };

@@ -1,8 +1,8 @@
 //! The verdict on a pair of moving triangles.
 
 use super::{
-    Effort, Limits, MovingPair, Outcome, PairCertificate, Side, impact::never_meet, separating::widest,
-    certifier::Certifier,
+    Effort, Limits, MovingPair, Outcome, PairCertificate, Side, certifier::Certifier,
+    impact::never_meet, separating::widest,
 };
 
 /// The first steps tried, in turn: a coarse step may lose a part of D(t) that a fine one follows.
@@ -29,7 +29,11 @@ pub fn certify(pair: &MovingPair, side: &Side, limits: &Limits) -> Outcome {
 }
 
 /// The passage of triangles that share no vertex, start apart, end apart and are proved to meet nowhere between.
-fn passage_without_meeting(pair: &MovingPair, side: &Side, limits: &Limits) -> Option<PairCertificate> {
+fn passage_without_meeting(
+    pair: &MovingPair,
+    side: &Side,
+    limits: &Limits,
+) -> Option<PairCertificate> {
     if pair.start.shared > 0 || matches!(side, Side::Contact(_)) {
         return None;
     }

@@ -201,10 +201,7 @@ mod tests {
             matches!(meeting, Impact::Within { from, to } if from <= 0.25 && to >= 0.25),
             "{meeting:?}"
         );
-        assert_eq!(
-            edge_edge(a, across(1.0, -3.0, 1.5), &search),
-            Impact::Never
-        );
+        assert_eq!(edge_edge(a, across(1.0, -3.0, 1.5), &search), Impact::Never);
         let along = |y: f64| {
             [
                 still(DVec3::new(-3.0, y, 0.0)),

@@ -53,15 +53,16 @@
 //! underflow (lengths between about 10⁻⁷⁵ and 10¹⁵⁰ for [`certify`], which may refuse others; the queries scale their
 //! input and take any that can be subtracted). Facets without area are safe, but may be refused.
 
+mod certifier;
 mod certify;
 mod clearest;
 mod closest;
 mod contact;
+mod double_word;
 mod impact;
 mod moving;
-mod double_word;
-mod outcome;
 mod moving_patch;
+mod outcome;
 mod passage;
 mod patch;
 mod pose;
@@ -69,14 +70,13 @@ mod pose;
 pub(crate) mod random;
 mod separating;
 mod tree;
-mod certifier;
 
 pub use certify::certify;
 pub use closest::{Approach, ApproachBounds, accuracy, closest_approach, enough_clearance};
 pub use contact::{comes_within, contact_times, corners_are_within, feature_distance};
 pub use impact::{Impact, ImpactSearch, edge_edge, vertex_facet};
 pub use moving::MovingPair;
-pub use outcome::{PairCrossing, Effort, Outcome, PairCertificate, Side};
+pub use outcome::{Effort, Outcome, PairCertificate, PairCrossing, Side};
 pub use passage::{Passage, edge_passages, sign_of_volume, vertex_passages};
 pub use pose::{Axis, Feature, PairPose};
 pub use tree::Tree;

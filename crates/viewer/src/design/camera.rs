@@ -1,10 +1,11 @@
-//! Where the viewer of what is recorded stands.
+//! The camera of films and figures.
 
 use eframe::egui::Ui;
 use foldmotion_study::scene::{CameraChoice, CameraScene, OwnCamera};
 
 use super::form::{Field, Form};
 use super::number::{Number, control_width};
+use super::scene_schema::description;
 
 const CAMERAS: [(Option<CameraChoice>, &str); 6] = [
     (Some(CameraChoice::Iso), "iso"),
@@ -16,28 +17,23 @@ const CAMERAS: [(Option<CameraChoice>, &str); 6] = [
 ];
 
 pub(super) fn show(form: &mut Form<'_>, ui: &mut Ui) {
-    let field = Field::new(
-        "record.camera",
-        "camera",
-        "change the camera",
-        "where the viewer stands",
-    );
+    let field = Field::new("record.camera", "camera");
     let given = form.scene.record.camera;
     let shown = match given {
         None => Some(CameraChoice::Iso),
         Some(CameraScene::Preset(preset)) => Some(preset),
         Some(CameraScene::Own(_)) => None,
     };
-    form.part(ui, "record.camera", |form, ui| {
+    form.scope(ui, "record.camera", |form, ui| {
         ui.horizontal_wrapped(|ui| {
             ui.spacing_mut().item_spacing.x = 3.0;
-            ui.label(field.name).on_hover_text(field.tip);
+            ui.label(field.name).on_hover_text(field.tip());
             ui.add_space(4.0);
-            for (way, name) in CAMERAS {
-                let option = ui.selectable_label(way == shown, name);
+            for (camera, name) in CAMERAS {
+                let option = ui.selectable_label(camera == shown, name);
                 let option = option.accessible_name(format!("camera {name}"));
-                if option.clicked() && way != shown {
-                    form.scene.record.camera = match way {
+                if option.clicked() && camera != shown {
+                    form.scene.record.camera = match camera {
                         Some(CameraChoice::Iso) => None,
                         Some(preset) => Some(CameraScene::Preset(preset)),
                         None => Some(CameraScene::Own(OwnCamera {
@@ -48,7 +44,7 @@ pub(super) fn show(form: &mut Form<'_>, ui: &mut Ui) {
                             width: None,
                         })),
                     };
-                    form.record(field.undo, option.id, false);
+                    form.record(field.name, option.id, false);
                 }
             }
         });
@@ -56,25 +52,18 @@ pub(super) fn show(form: &mut Form<'_>, ui: &mut Ui) {
     if let Some(CameraScene::Own(own)) = given {
         show_own_camera(form, ui, own);
     }
-    form.faults_of(ui, "record.camera");
+    form.errors_of(ui, "record.camera");
 }
 
 fn show_own_camera(form: &mut Form<'_>, ui: &mut Ui, own: OwnCamera) {
     let before = own;
     let mut own = own;
-    let angles = [
-        (
-            "azimuth",
-            "counter-clockwise seen from above, degrees: -90 is front",
-            360.0,
-        ),
-        ("elevation", "above the ground, degrees: 90 is top", 90.0),
-        ("turn", "how far films go round, degrees", 3600.0),
-    ];
-    for (name, tip, most) in angles {
+    for (name, most) in [("azimuth", 360.0), ("elevation", 90.0), ("turn", 3600.0)] {
         let number = Number::within(-most..=most).speed(0.5);
-        form.part(ui, &format!("camera {name}"), |form, ui| {
+        let spoken = format!("camera {name}");
+        form.scope(ui, &spoken, |form, ui| {
             ui.horizontal(|ui| {
+                let tip = description(&format!("record.camera.{name}"));
                 super::form::name(ui, name, tip);
                 let width = control_width(ui);
                 let value = match name {
@@ -82,9 +71,7 @@ fn show_own_camera(form: &mut Form<'_>, ui: &mut Ui, own: OwnCamera) {
                     "elevation" => own.elevation,
                     _ => own.turn.unwrap_or(0.0),
                 };
-                let spoken = format!("camera {name}");
-                let new =
-                    form.required_cell(ui, "change the camera", &spoken, &number, width, value);
+                let new = form.required_cell(ui, "camera", &spoken, &number, width, value);
                 match (name, new) {
                     ("azimuth", Some(new)) => own.azimuth = new,
                     ("elevation", Some(new)) => own.elevation = new,

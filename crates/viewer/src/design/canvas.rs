@@ -1,4 +1,4 @@
-//! The profile canvas: Γ, its division, and the points that shape it under the hand.
+//! The profile canvas: the curve Γ, its division, and the points that shape it, which can be dragged.
 
 use eframe::egui::{self, Align2, FontId, Stroke, Ui, vec2};
 use foldmotion_geometry::Profile;
@@ -8,33 +8,33 @@ use glam::DVec2;
 
 use super::curve::{add_handle, handles, own_profile, vectors};
 use super::form::Form;
-use super::handles::{Hand, MOST_HANDLES, rounded_on};
-use super::plane::{Plane, View, bounds, canvas};
+use super::handle_editor::{HandleEditor, MOST_HANDLES, rounded_on};
+use super::plane::{Plane, PlaneView, bounds, canvas};
 
-/// Samples of the curve that are drawn.
+/// Number of points at which the curve is sampled for drawing.
 const SAMPLES: usize = 600;
-/// Division points that are drawn, at most.
+/// The largest number of division points that are drawn.
 const MOST_DIVISION_POINTS: usize = 2000;
 
-/// What the canvas remembers.
+/// State of the canvas that lasts from frame to frame.
 #[derive(Debug, Default)]
 pub(super) struct Canvas {
-    pub(super) view: View,
-    pub(super) hand: Hand,
-    traced: Option<Traced>,
+    pub(super) view: PlaneView,
+    pub(super) handle_editor: HandleEditor,
+    traced: Option<SampledCurve>,
 }
 
-/// The curve that was drawn last, and what it was drawn from.
+/// The sampled curve that was drawn last, and what it was sampled from.
 #[derive(Debug)]
-struct Traced {
+struct SampledCurve {
     scene: ProfileScene,
-    /// The draft it comes from, where the scene alone does not give it.
+    /// The number of the draft that the curve comes from, if the scene alone does not define the curve.
     draft_number: Option<u64>,
     profile: Option<Profile>,
     points: Vec<DVec2>,
 }
 
-impl Traced {
+impl SampledCurve {
     fn new(form: &Form<'_>) -> Self {
         let scene = &form.scene.profile;
         let from_file = scene.file.is_some();
@@ -69,14 +69,14 @@ impl Traced {
 }
 
 impl Canvas {
-    /// The canvas, and what the user did on it.
+    /// Shows the canvas and applies the user's edits to the form.
     pub(super) fn show(&mut self, form: &mut Form<'_>, ui: &mut Ui) {
         if !self
             .traced
             .as_ref()
             .is_some_and(|traced| traced.is_of(form))
         {
-            self.traced = Some(Traced::new(form));
+            self.traced = Some(SampledCurve::new(form));
         }
         let points = handles(&form.scene.profile)
             .map(|points| vectors(points))
@@ -94,22 +94,22 @@ impl Canvas {
         plane.paint_grid(ui, &painter);
         self.paint_curve(form, ui, &painter, &plane);
         if points.len() > MOST_HANDLES {
-            note(ui, &painter, &plane, "too many points to move by hand");
+            note(ui, &painter, &plane, "too many points to drag");
             return;
         }
-        Hand::paint_polygon(form, ui, &painter, &plane, &points);
-        self.hand
+        HandleEditor::paint_polygon(form, ui, &painter, &plane, &points);
+        self.handle_editor
             .show(form, ui, &painter, &plane, &points, &mut self.view);
         self.add_point(form, &response, &plane, points.is_empty());
         if response.clicked() {
-            self.hand.select_none();
+            self.handle_editor.select_none();
         }
         if is_bare {
             note(ui, &painter, &plane, "no curve yet");
         }
     }
 
-    /// Adds a point where there was a double click.
+    /// Adds a point at the position of a double click.
     fn add_point(
         &mut self,
         form: &mut Form<'_>,
@@ -125,12 +125,12 @@ impl Canvas {
         };
         let place = rounded_on(plane, plane.to_plane(place));
         if let Some(index) = add_handle(&mut form.scene.profile, place) {
-            self.hand.select(index);
+            self.handle_editor.select(index);
             form.record("add point", response.id, false);
         }
     }
 
-    /// Γ, and on it the points of the division with their segments.
+    /// Draws the curve Γ with its division points and segments.
     fn paint_curve(&self, form: &Form<'_>, ui: &Ui, painter: &egui::Painter, plane: &Plane) {
         let Some(traced) = &self.traced else { return };
         let line = traced.points.iter().map(|&p| plane.to_screen(p)).collect();
@@ -150,7 +150,7 @@ impl Canvas {
     }
 }
 
-/// The points that divide the curve, in the lengths of the scene.
+/// The points that divide the curve, in the units of the scene.
 fn chords<'a>(profile: &'a Profile, draft: &'a UnitDraft) -> impl Iterator<Item = DVec2> + 'a {
     let parameters = draft.division.parameters.iter().take(MOST_DIVISION_POINTS);
     parameters.map(|&u| profile.position(u))

@@ -1,62 +1,74 @@
-//! Choices, switches and texts that may be left out.
+//! Menus, check boxes and text fields for keys of the scene.
 
 use eframe::egui::{self, RichText, TextEdit, Ui};
 use foldmotion_study::Scene;
+use serde::Serialize;
+use serde::de::DeserializeOwned;
+use serde_json::Value;
 
 use super::form::{Field, Form};
 use super::number::control_width;
-
-/// One way to choose, with its name and what it means.
-pub(super) type Way<T> = (T, &'static str, &'static str);
+use super::scene_schema::choices;
 
 impl Form<'_> {
-    /// A row with a menu. `ways`: the first is the one that holds where the key is left out, and choosing it leaves it out.
-    pub(super) fn menu<T: PartialEq + Copy>(
+    /// A row with a menu of the values that the schema allows. `default` names what holds if the key is omitted: one of the
+    /// values, or something of its own. It is listed first, and choosing it omits the key.
+    pub(super) fn menu<T>(
         &mut self,
         ui: &mut Ui,
         field: &Field,
-        ways: &[Way<T>],
+        default: &'static str,
         of: impl Fn(&mut Scene) -> &mut Option<T>,
-    ) {
+    ) where
+        T: Copy + PartialEq + Serialize + DeserializeOwned,
+    {
+        self.menu_of(ui, field, default, choices(&field.key), of);
+    }
+
+    /// A row with a menu of the named values in `choices`, each with its description.
+    pub(super) fn menu_of<T>(
+        &mut self,
+        ui: &mut Ui,
+        field: &Field,
+        default: &'static str,
+        choices: Vec<(&'static str, &'static str)>,
+        of: impl Fn(&mut Scene) -> &mut Option<T>,
+    ) where
+        T: Copy + PartialEq + Serialize + DeserializeOwned,
+    {
         self.row(ui, field, |form, ui, label| {
             let given = *of(&mut form.scene);
-            let shown = ways.iter().find(|way| Some(way.0) == given);
-            let text = match (shown, ways.first()) {
-                (Some(way), _) => RichText::new(way.1),
-                (None, Some(way)) => RichText::new(way.1).weak(),
-                (None, None) => RichText::new("none").weak(),
-            };
+            let given_name = given.and_then(|value| serde_json::to_value(value).ok());
+            let given_name = given_name.as_ref().and_then(Value::as_str);
+            let text = given_name.map_or_else(|| RichText::new(default).weak(), RichText::new);
             let menu = egui::ComboBox::from_id_salt(&*field.key)
                 .selected_text(text)
                 .truncate()
                 .width(control_width(ui));
             let mut chosen = None;
             let response = menu.show_ui(ui, |ui| {
-                for (index, (way, name, tip)) in ways.iter().enumerate() {
-                    let is_chosen = Some(*way) == given || (index == 0 && given.is_none());
-                    let text = if index == 0 {
-                        format!("{name} (default)")
-                    } else {
-                        (*name).to_owned()
-                    };
-                    let mut option = ui.selectable_label(is_chosen, text);
-                    if !tip.is_empty() {
-                        option = option.on_hover_text(*tip);
-                    }
-                    if option.clicked() {
-                        chosen = Some(if index == 0 { None } else { Some(*way) });
+                let (first, others): (Vec<_>, Vec<_>) =
+                    choices.into_iter().partition(|(name, _)| *name == default);
+                let tip = first.first().map_or("", |(_, tip)| *tip);
+                let is_chosen = given_name.is_none_or(|name| name == default);
+                if option(ui, is_chosen, &format!("{default} (default)"), tip) {
+                    chosen = Some(None);
+                }
+                for (name, tip) in others {
+                    if option(ui, given_name == Some(name), name, tip) {
+                        chosen = serde_json::from_value(name.into()).ok().map(Some);
                     }
                 }
             });
             let response = response.response.labelled_by(label);
             if let Some(chosen) = chosen.filter(|&chosen| chosen != given) {
                 *of(&mut form.scene) = chosen;
-                form.record(field.undo, response.id, false);
+                form.record(field.name, response.id, false);
             }
         });
     }
 
-    /// A row with a check box; the key is left out where it would say what holds without it.
+    /// A row with a check box; the key is omitted if its value is the default.
     pub(super) fn switch(
         &mut self,
         ui: &mut Ui,
@@ -64,18 +76,20 @@ impl Form<'_> {
         default: bool,
         of: impl Fn(&mut Scene) -> &mut Option<bool>,
     ) {
-        self.part(ui, &field.key, |form, ui| {
+        self.scope(ui, &field.key, |form, ui| {
             let mut is_on = of(&mut form.scene).unwrap_or(default);
-            let response = ui.checkbox(&mut is_on, field.name).on_hover_text(field.tip);
+            let response = ui
+                .checkbox(&mut is_on, field.name)
+                .on_hover_text(field.tip());
             if response.changed() {
                 *of(&mut form.scene) = (is_on != default).then_some(is_on);
-                form.record(field.undo, response.id, false);
+                form.record(field.name, response.id, false);
             }
         });
-        self.faults_of(ui, &field.key);
+        self.errors_of(ui, &field.key);
     }
 
-    /// A row with a text that is taken once it is complete: by Enter or by leaving the field.
+    /// A row with a text field; its text is returned once the user presses Enter or leaves the field.
     pub(super) fn text(
         &mut self,
         ui: &mut Ui,
@@ -96,9 +110,9 @@ impl Form<'_> {
             let response = ui.add(edit).labelled_by(label);
             if response.lost_focus() {
                 ui.data_mut(|data| data.remove::<String>(id));
-                let is_given_up = ui.input(|input| input.key_pressed(egui::Key::Escape));
-                if !is_given_up && text != value {
-                    form.record(field.undo, id, false);
+                let is_cancelled = ui.input(|input| input.key_pressed(egui::Key::Escape));
+                if !is_cancelled && text != value {
+                    form.record(field.name, id, false);
                     entered = Some(text);
                 }
             } else if response.has_focus() {
@@ -107,4 +121,13 @@ impl Form<'_> {
         });
         entered
     }
+}
+
+/// An entry of a menu; returns whether it was clicked.
+fn option(ui: &mut Ui, is_chosen: bool, name: &str, tip: &str) -> bool {
+    let mut response = ui.selectable_label(is_chosen, name);
+    if !tip.is_empty() {
+        response = response.on_hover_text(tip);
+    }
+    response.clicked()
 }

@@ -1,4 +1,5 @@
-//! The closed forms, live: the unit, the compact box of every case that w/h allows, the deployed size.
+//! The closed forms, kept up to date while the user edits: the unit, the compact box in every case that w/h allows, and
+//! the size of the deployed sheet.
 
 use eframe::egui::{self, RichText, Ui};
 use foldmotion_pattern::{Case, CompactBox, PatternError, Sheet};
@@ -7,18 +8,18 @@ use glam::DVec3;
 
 use super::form::{Form, NOTE_SIZE, name, note};
 use super::number::{decimal, scientific};
-use super::size::Size;
+use super::unit_size::UnitSize;
 
-/// What was measured of the draft last.
+/// Measurements of the last draft.
 #[derive(Debug, Default)]
-pub(super) struct Measures {
+pub(super) struct Measurements {
     of: Option<u64>,
     deployed: DVec3,
     flat: [f64; 2],
     pub(super) counts: Counts,
 }
 
-/// Vertices, facets and creases of a sheet.
+/// Numbers of vertices, facets and creases of a sheet, and whether its pattern is developable and flat-foldable.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub(super) struct Counts {
     vertices: usize,
@@ -53,7 +54,7 @@ impl Counts {
             ui,
             "sheet",
             &text,
-            "mountain and valley creases of the pattern",
+            "Vertices, facets, and mountain and valley creases of the pattern",
         );
         let foldable = if self.is_flat_foldable {
             "flat-foldable"
@@ -69,14 +70,14 @@ impl Counts {
             ui,
             "vertices",
             &format!("{developable}, {foldable}"),
-            "developable: sector angles sum to 2π; flat-foldable: alternate ones to π, mountains and valleys differ by two \
-             (section 2)",
+            "Developable: the sector angles at each vertex sum to 2π. Flat-foldable: alternate angles sum to π, and the \
+             numbers of mountains and valleys differ by two (section 2).",
         );
     }
 }
 
-impl Measures {
-    /// What is measured of a draft, once for each.
+impl Measurements {
+    /// Measures the draft, once for each draft.
     pub(super) fn update(&mut self, form: &Form<'_>) {
         if self.of == Some(form.draft_number) {
             return;
@@ -101,14 +102,14 @@ impl Measures {
         form.section(ui, "Closed forms", true, &[], |form, ui| {
             self.update(form);
             let Some(draft) = form.draft.and_then(Draft::units) else {
-                ui.label(RichText::new("nothing to fold yet").weak());
+                ui.label(RichText::new("no sheet yet").weak());
                 show_cases(form, ui);
                 return;
             };
             show_unit(draft, ui);
             show_cases(form, ui);
             if !draft.units.has_equal_rows() {
-                ui.label(note(ui, "the table is that of equal rows"));
+                ui.label(note(ui, "the table applies to equal rows"));
             }
             self.show_sizes(draft, ui);
             self.counts.show(ui);
@@ -121,20 +122,20 @@ impl Measures {
             ui,
             "deployed",
             &sizes(&[x, y, z]),
-            "extents of the deployed state along x, y and z",
+            "Extents of the deployed state along x, y and z",
         );
         fact(
             ui,
             "flat",
             &sizes(&self.flat),
-            "Nr h and W: the crease pattern",
+            "Size of the crease pattern: Nr h and W",
         );
         let Some(compact) = draft.closed_form else {
             fact(
                 ui,
                 "compact",
                 "no closed form",
-                "the unmodified rectangle has none",
+                "The unmodified rectangle has no closed form.",
             );
             return;
         };
@@ -153,8 +154,8 @@ impl Measures {
             ui,
             "size ratio",
             &ratios.join(", "),
-            "box of the deployed state over the compact one: area in the x–z plane (equations 3 to 5), and volume \
-             (equations 6 and 7) where the compact state is not flat",
+            "The box of the deployed state divided by that of the compact one: area in the x–z plane (equations 3 to 5), \
+             and volume (equations 6 and 7) if the compact state is not flat.",
         );
     }
 }
@@ -185,13 +186,13 @@ fn show_unit(draft: &UnitDraft, ui: &mut Ui) {
         ui,
         "case",
         &text,
-        "flap a, side pad s, centre pad 2d: a column is s | a | 2d | a | s wide (figures 2 to 5)",
+        "Flap a, side pad s, centre pad 2d: the width of a column is s + a + 2d + a + s (figures 2 to 5).",
     );
 }
 
-/// What every case would give, beside each other.
+/// Shows a table of the compact box in every case.
 fn show_cases(form: &mut Form<'_>, ui: &mut Ui) {
-    form.part(ui, "cases beside each other", |form, ui| {
+    form.scope(ui, "cases beside each other", |form, ui| {
         egui::Grid::new("cases")
             .num_columns(5)
             .striped(true)
@@ -200,19 +201,19 @@ fn show_cases(form: &mut Form<'_>, ui: &mut Ui) {
             .spacing([14.0, 1.0])
             .show(ui, |ui| {
                 let heads = [
-                    ("case", "the case"),
+                    ("case", "Case of the units"),
                     (
                         "a",
-                        "width of a flap: h/2 of E and S, w/2 of T, λh/2 of SII",
+                        "Width of a flap: h/2 in E and S, w/2 in T, λh/2 in SII",
                     ),
                     (
                         "x × y × z",
-                        "the compact box: Nr h − (Nr − 1) a, Nc (2s + 2d), a",
+                        "Compact box: Nr h − (Nr − 1) a, Nc (2s + 2d), a",
                     ),
-                    ("A", "area in the x–z plane (equations 3, 4, 5)"),
+                    ("A", "Area in the x–z plane (equations 3, 4, 5)"),
                     (
                         "V",
-                        "volume (equations 6, 7); 0 where the compact state is flat",
+                        "Volume (equations 6, 7); 0 if the compact state is flat",
                     ),
                 ];
                 for (head, tip) in heads {
@@ -229,7 +230,7 @@ fn show_cases(form: &mut Form<'_>, ui: &mut Ui) {
 
 fn show_case(form: &Form<'_>, ui: &mut Ui, case: Case) {
     let sheet = &form.scene.sheet;
-    let size = Size::of(form, sheet.case);
+    let size = UnitSize::of(form, sheet.case);
     let small = |text: String| RichText::new(text).size(NOTE_SIZE);
     let unit = size.and_then(|size| Some((size, size.unit(case, sheet.lambda, sheet.offset)?)));
     match unit {
@@ -258,7 +259,7 @@ fn show_case(form: &Form<'_>, ui: &mut Ui, case: Case) {
     }
 }
 
-/// A name and what is known of it.
+/// A row with a name and a value.
 pub(super) fn fact(ui: &mut Ui, title: &str, text: &str, tip: &str) {
     ui.scope(|ui| {
         ui.spacing_mut().interact_size.y = 17.0;
@@ -278,7 +279,7 @@ fn times(ratio: f64) -> String {
     format!("{}×", brief(ratio))
 }
 
-/// A number in four digits.
+/// Formats a number with four significant digits.
 pub(super) fn brief(number: f64) -> String {
     let size = number.abs();
     if size != 0.0 && !(1e-3..1e6).contains(&size) {

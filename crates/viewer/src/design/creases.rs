@@ -1,4 +1,5 @@
-//! A crease pattern as a mesh: mountains solid, valleys dashed, the border; made once and kept while nothing changes.
+//! A crease pattern as a mesh: mountains solid, valleys dashed, and the border. The mesh is cached until something
+//! changes.
 
 use std::sync::Arc;
 
@@ -9,30 +10,30 @@ use glam::DVec2;
 
 use super::plane::{Plane, crease_colours};
 
-/// Edges that are drawn, at most.
+/// The largest number of edges that are drawn.
 pub(super) const MOST_EDGES: usize = 60_000;
-/// A valley shorter than this on the screen is drawn without gaps.
+/// A valley crease shorter than this, in points on the screen, is drawn without gaps.
 const SHORTEST_DASHED: f32 = 9.0;
 
-/// What a mesh was made from.
+/// What a mesh depends on; it is made again when this changes.
 #[derive(Debug, Clone, Copy, PartialEq)]
-struct Origin {
+struct MeshKey {
     draft_number: u64,
-    /// The plane, with its frame at the origin of the screen.
+    /// The plane, moved so that its frame starts at the origin of the screen.
     plane: Plane,
     pixels_per_point: f32,
     colours: [Color32; 2],
-    place: Pos2,
+    corner: Pos2,
 }
 
-/// The mesh made last.
+/// The last mesh and its key.
 #[derive(Debug, Default)]
 pub(super) struct Creases {
-    made: Option<(Origin, Arc<Mesh>)>,
+    made: Option<(MeshKey, Arc<Mesh>)>,
 }
 
 impl Creases {
-    /// The creases as they lie on the screen. `place`: where a vertex of the pattern lies in the plane.
+    /// The creases as a shape on the screen. `place` maps a vertex of the pattern to a point of the plane.
     pub(super) fn shape(
         &mut self,
         ui: &Ui,
@@ -42,7 +43,7 @@ impl Creases {
         place: impl Fn(DVec2) -> DVec2,
     ) -> Shape {
         let corner = plane.rect.min;
-        let origin = Origin {
+        let key = MeshKey {
             draft_number,
             plane: Plane {
                 rect: plane.rect.translate(-corner.to_vec2()),
@@ -50,24 +51,21 @@ impl Creases {
             },
             pixels_per_point: ui.pixels_per_point(),
             colours: crease_colours(ui),
-            place: corner,
+            corner,
         };
         if let Some((made, mesh)) = &mut self.made {
-            let shift = corner - made.place;
-            let moved = Origin {
-                place: corner,
-                ..*made
-            };
-            if moved == origin {
+            let shift = corner - made.corner;
+            let moved = MeshKey { corner, ..*made };
+            if moved == key {
                 if shift != Vec2::ZERO {
                     Arc::make_mut(mesh).translate(shift);
-                    made.place = corner;
+                    made.corner = corner;
                 }
                 return Shape::mesh(Arc::clone(mesh));
             }
         }
         let mesh = Arc::new(mesh(ui, sheet, plane, place));
-        self.made = Some((origin, Arc::clone(&mesh)));
+        self.made = Some((key, Arc::clone(&mesh)));
         Shape::mesh(mesh)
     }
 }

@@ -1,4 +1,4 @@
-//! Γ as the scene writes it, and from one way of writing it to another.
+//! The profile curve Γ as the scene defines it, and conversions between the kinds of definition.
 
 use foldmotion_geometry::{Closure, Nurbs, Profile};
 use foldmotion_pattern::{Case, Shape, find_model};
@@ -8,22 +8,22 @@ use glam::DVec2;
 
 use super::knots::{clamped, inserted, removed};
 
-/// Points that a curve is led through when it is taken over from another.
+/// Number of segments between the interpolation points that are taken from another curve.
 const TAKEN_POINTS: usize = 24;
-/// Samples of a curve among which the nearest to a place is looked for.
+/// Number of samples in the search for the point of a curve nearest to a position.
 const SAMPLES: usize = 2048;
 
-/// Which key gives the curve.
+/// Which key of the scene defines the curve.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Origin {
+pub(super) enum ProfileKind {
     Model,
     ControlPoints,
     Points,
     File,
 }
 
-impl Origin {
-    /// That of a scene; a scene without a curve is taken to be about to name a model.
+impl ProfileKind {
+    /// The kind that a scene uses. A scene without a curve counts as one that names a model.
     pub(super) fn of(scene: &ProfileScene) -> Self {
         match scene {
             ProfileScene {
@@ -44,8 +44,8 @@ pub(super) fn model(scene: &Scene) -> Option<&'static ProfileModel> {
     find_model(scene.profile.model.as_deref()?)
 }
 
-/// The curve in the lengths of the scene, before it is scaled to `profile.length`; none for a file, and for points that make
-/// no curve.
+/// The curve in the units of the scene, before it is scaled to `profile.length`. `None` for a file and for points that
+/// do not define a curve.
 pub(super) fn own_profile(scene: &ProfileScene) -> Option<Profile> {
     let closure = match scene.closed {
         None => Closure::Open,
@@ -65,7 +65,7 @@ pub(super) fn own_profile(scene: &ProfileScene) -> Option<Profile> {
     find_model(scene.model.as_deref()?)?.profile().ok()
 }
 
-/// The points that the hand moves: control points, or those the curve runs through.
+/// The points that can be dragged: control points or interpolation points.
 pub(super) fn handles(scene: &ProfileScene) -> Option<&Vec<[f64; 2]>> {
     scene.control_points.as_ref().or(scene.points.as_ref())
 }
@@ -74,7 +74,7 @@ pub(super) fn handles_mut(scene: &mut ProfileScene) -> Option<&mut Vec<[f64; 2]>
     scene.control_points.as_mut().or(scene.points.as_mut())
 }
 
-/// The fewest points that still make a curve.
+/// The smallest number of points that defines a curve.
 pub(super) fn fewest_handles(scene: &ProfileScene) -> usize {
     match (&scene.control_points, scene.closed) {
         (Some(_), _) => 4,
@@ -83,8 +83,8 @@ pub(super) fn fewest_handles(scene: &ProfileScene) -> usize {
     }
 }
 
-/// Writes the curve as control points, with knots unless they are clamped and uniform: the same curve. `profile`: what is
-/// to be written where the scene cannot say it alone, in its own lengths (a file's).
+/// Replaces the definition by control points of the same curve, with knots unless they are clamped and uniform.
+/// `profile` is the curve to convert if the scene alone does not define it, as with a file.
 pub(super) fn into_control_points(scene: &mut Scene, profile: Option<&Profile>) -> bool {
     let Some(profile) = own_profile(&scene.profile).or_else(|| profile.cloned()) else {
         return false;
@@ -107,8 +107,8 @@ pub(super) fn into_control_points(scene: &mut Scene, profile: Option<&Profile>) 
     true
 }
 
-/// Control points, knots and closure that write an interpolated curve: a smooth one, whose knots are its own, as one with a
-/// corner of no angle.
+/// Control points, knots and closure of an interpolated curve. A smoothly closed curve, which has periodic knots,
+/// becomes one closed at a corner without a kink.
 fn written(profile: &Profile) -> (Vec<[f64; 2]>, Option<Vec<f64>>, Closure) {
     let curve = profile.curve();
     let mut points = curve.control_points().to_vec();
@@ -130,7 +130,8 @@ fn written(profile: &Profile) -> (Vec<[f64; 2]>, Option<Vec<f64>>, Closure) {
     (points, (!is_uniform).then_some(knots), closure)
 }
 
-/// Leads the curve through points: those of the model where it has them, else some along the curve, so that it changes a little.
+/// Replaces the definition by interpolation points: those of the model if it has them, otherwise points along the
+/// curve, which changes it slightly.
 pub(super) fn into_points(scene: &mut Scene, profile: Option<&Profile>) -> bool {
     let Some(profile) = own_profile(&scene.profile).or_else(|| profile.cloned()) else {
         return false;
@@ -155,7 +156,7 @@ pub(super) fn into_points(scene: &mut Scene, profile: Option<&Profile>) -> bool 
     true
 }
 
-/// Names a built-in model.
+/// Replaces the definition by the name of a built-in model.
 pub(super) fn into_model(scene: &mut Scene, name: &str) {
     scene.profile = ProfileScene {
         model: Some(name.to_owned()),
@@ -165,7 +166,7 @@ pub(super) fn into_model(scene: &mut Scene, name: &str) {
     };
 }
 
-/// Names a file of points.
+/// Replaces the definition by a file of points.
 pub(super) fn into_file(scene: &mut Scene, file: String) {
     take_over_counts(scene);
     scene.profile = ProfileScene {
@@ -177,7 +178,7 @@ pub(super) fn into_file(scene: &mut Scene, file: String) {
     };
 }
 
-/// What a built-in model brings and a curve of one's own lacks: length, rows, columns and width.
+/// Writes into the scene what a built-in model defines and other profiles do not: length, rows, columns and width.
 fn take_over_counts(scene: &mut Scene) {
     let Some(model) = model(scene) else { return };
     let length = *scene.profile.length.get_or_insert(model.length());
@@ -193,7 +194,7 @@ fn take_over_counts(scene: &mut Scene) {
     }
 }
 
-/// The case whose columns a built-in model brings.
+/// The case whose number of columns a built-in model uses.
 pub(super) fn columns_case(case: Option<CaseChoice>) -> Case {
     match case {
         Some(CaseChoice::T) => Case::T,
@@ -204,8 +205,8 @@ pub(super) fn columns_case(case: Option<CaseChoice>) -> Case {
     }
 }
 
-/// Adds a point to the hand's at `place`: into the list where the line through them passes, or, where the curve has knots of its
-/// own, as a knot nearest to it, which keeps the curve. The index of the new point.
+/// Adds a draggable point at `place` and returns its index. Without knots in the scene, the point is inserted where the
+/// polygon passes closest; with knots, a knot is inserted at the nearest parameter, which leaves the curve unchanged.
 pub(super) fn add_handle(scene: &mut ProfileScene, place: DVec2) -> Option<usize> {
     if scene.knots.is_some() {
         return add_knot(scene, place);
@@ -244,7 +245,7 @@ fn add_knot(scene: &mut ProfileScene, place: DVec2) -> Option<usize> {
     Some(index)
 }
 
-/// Takes a point out, if enough stay.
+/// Removes a point if enough points remain; returns whether it did.
 pub(super) fn remove_handle(scene: &mut ProfileScene, index: usize) -> bool {
     let fewest = fewest_handles(scene);
     let Some(points) = handles_mut(scene) else {
@@ -260,7 +261,7 @@ pub(super) fn remove_handle(scene: &mut ProfileScene, index: usize) -> bool {
     true
 }
 
-/// The parameter of the sample of the curve that is nearest to a place; inside the domain.
+/// The parameter, inside the domain, of the sample of the curve nearest to `place`.
 fn nearest_parameter(profile: &Profile, place: DVec2) -> f64 {
     let at = |k: usize| (k as f64 + 0.5) / SAMPLES as f64;
     let distance = |u: f64| profile.position(u).distance_squared(place);
@@ -276,7 +277,7 @@ fn to_segment(p: DVec2, a: DVec2, b: DVec2) -> f64 {
     p.distance(a.lerp(b, share.clamp(0.0, 1.0)))
 }
 
-/// A point with as many decimals as say where it is to a ten-thousandth of `size`.
+/// Rounds a point to as many decimals as locate it to a ten-thousandth of `size`.
 pub(super) fn rounded(point: DVec2, size: f64) -> DVec2 {
     let power = (4.0 - size.max(1e-12).log10().floor()).clamp(-12.0, 15.0) as i32;
     let unit = 10.0_f64.powi(power);

@@ -1,4 +1,4 @@
-//! The scene under the hand: rows of controls, what is wrong beside each, and the change they make.
+//! The form over a scene: rows of controls, error messages beside them, and the edit that they make.
 
 use std::borrow::Cow;
 use std::collections::BTreeSet;
@@ -6,56 +6,49 @@ use std::collections::BTreeSet;
 use eframe::egui::{self, Align, Id, Layout, RichText, Ui, UiBuilder, vec2};
 use foldmotion_study::{Draft, Scene};
 
-use super::{Change, Facts, Fault};
+use super::scene_schema::description;
+use super::{Change, DesignInput, SceneError};
 
-/// Size of the letters of notes and faults.
+/// Font size of notes and error messages, points.
 pub(super) const NOTE_SIZE: f32 = 11.0;
-/// Width of the labels on the left of the controls.
+/// Width of the labels to the left of the controls, points.
 pub(super) const LABEL_WIDTH: f32 = 100.0;
-/// Tables of a scene that have a section; faults elsewhere stand at the top of the panel.
+/// Tables of a scene that have a section; errors in other tables are shown at the top of the panel.
 const TABLES: [&str; 8] = [
     "profile", "sheet", "division", "material", "motion", "check", "record", "pattern",
 ];
 
-/// A key of the scene, as a row shows it.
+/// A key of the scene that has a row in the panel. Its tooltip is the description in the schema.
 #[derive(Debug, Clone)]
 pub(super) struct Field {
     /// The dotted key.
     pub(super) key: Cow<'static, str>,
-    /// What stands on its left; also its accessible name.
+    /// The label to the left of the control, also its accessible name and the name of an edit to undo.
     pub(super) name: &'static str,
-    /// What "undo" calls a change of it.
-    pub(super) undo: &'static str,
-    /// What it means.
-    pub(super) tip: &'static str,
 }
 
 impl Field {
-    pub(super) fn new(
-        key: impl Into<Cow<'static, str>>,
-        name: &'static str,
-        undo: &'static str,
-        tip: &'static str,
-    ) -> Self {
-        Self {
-            key: key.into(),
-            name,
-            undo,
-            tip,
-        }
+    pub(super) fn new(key: impl Into<Cow<'static, str>>, name: &'static str) -> Self {
+        let key = key.into();
+        debug_assert!(!description(&key).is_empty(), "the schema lacks {key}");
+        Self { key, name }
+    }
+
+    pub(super) fn tip(&self) -> &'static str {
+        description(&self.key)
     }
 }
 
-/// The scene being edited in this frame.
+/// The scene while it is edited in one frame.
 pub(super) struct Form<'a> {
     original: &'a Scene,
-    /// The copy that controls write into.
+    /// The copy that the controls edit.
     pub(super) scene: Scene,
     pub(super) draft: Option<&'a Draft>,
     pub(super) draft_number: u64,
     id: Id,
-    faults: &'a [Fault],
-    /// Keys whose faults a control showed in the frame before, and those of this one.
+    errors: &'a [SceneError],
+    /// Keys whose errors were shown beside a control: in the previous frame, and so far in this frame.
     claimed: BTreeSet<String>,
     claims: BTreeSet<String>,
     gesture: Option<Id>,
@@ -65,7 +58,7 @@ pub(super) struct Form<'a> {
 impl<'a> Form<'a> {
     pub(super) fn new(
         ui: &Ui,
-        facts: &Facts<'a>,
+        facts: &DesignInput<'a>,
         gesture: Option<Id>,
         claimed: BTreeSet<String>,
     ) -> Self {
@@ -75,7 +68,7 @@ impl<'a> Form<'a> {
             draft: facts.draft,
             draft_number: facts.draft_number,
             id: ui.make_persistent_id("design"),
-            faults: facts.faults,
+            errors: facts.errors,
             claimed,
             claims: BTreeSet::new(),
             gesture,
@@ -83,12 +76,12 @@ impl<'a> Form<'a> {
         }
     }
 
-    /// The change made, the gesture under way, and the keys whose faults were shown by a control.
+    /// The edit, the gesture in progress, and the keys whose errors were shown beside a control.
     pub(super) fn finish(self, ui: &Ui) -> (Option<Change>, Option<Id>, BTreeSet<String>) {
         if self.claims != self.claimed {
             ui.request_repaint();
         }
-        // A text that could not be read leaves the scene as it was.
+        // Text that cannot be parsed leaves the scene unchanged.
         let change = self.change.filter(|_| self.scene != *self.original);
         let change = change.map(|(label, continues)| Change {
             scene: self.scene,
@@ -98,20 +91,20 @@ impl<'a> Form<'a> {
         (change, self.gesture, self.claims)
     }
 
-    /// Notes that the scene was changed by the control `by`; `ongoing` while its drag or key press goes on.
+    /// Records that control `by` has changed the scene; `ongoing` while its drag or key press lasts.
     pub(super) fn record(&mut self, label: &'static str, by: Id, ongoing: bool) {
         let continues = ongoing && self.gesture == Some(by);
         self.gesture = ongoing.then_some(by);
         self.change = Some((label, continues));
     }
 
-    /// An id that stays the same whatever is shown above.
+    /// An id that does not depend on what is shown above.
     pub(super) fn id(&self, key: &str) -> Id {
         self.id.with(key)
     }
 
-    /// A part of the panel with ids of its own, which stay the same whatever is shown above.
-    pub(super) fn part<R>(
+    /// A part of the panel whose ids do not depend on what is shown above.
+    pub(super) fn scope<R>(
         &mut self,
         ui: &mut Ui,
         key: &str,
@@ -121,7 +114,7 @@ impl<'a> Form<'a> {
         ui.scope_builder(builder, |ui| add(self, ui)).inner
     }
 
-    /// A section that opens and closes; faults of its `tables` that no control shows stand at its top.
+    /// A collapsible section. Errors in its `tables` that no control shows are listed at its top.
     pub(super) fn section(
         &mut self,
         ui: &mut Ui,
@@ -130,7 +123,7 @@ impl<'a> Form<'a> {
         tables: &[&str],
         add: impl FnOnce(&mut Self, &mut Ui),
     ) {
-        let wrong = self.faults.iter().any(|f| is_within(f, tables));
+        let wrong = self.errors.iter().any(|f| is_within(f, tables));
         let mut text = RichText::new(title).strong();
         if wrong {
             text = text.color(ui.visuals().error_fg_color);
@@ -139,7 +132,7 @@ impl<'a> Form<'a> {
             .id_salt(self.id(title))
             .default_open(open)
             .show_unindented(ui, |ui| {
-                self.part(ui, title, |form, ui| {
+                self.scope(ui, title, |form, ui| {
                     form.unclaimed(ui, tables);
                     add(form, ui);
                     ui.add_space(6.0);
@@ -150,65 +143,65 @@ impl<'a> Form<'a> {
         }
     }
 
-    /// A row: the name of a key on the left, its control on the right, what is wrong with it below.
+    /// A row: the name of a key on the left, its control on the right, and its errors below.
     pub(super) fn row(
         &mut self,
         ui: &mut Ui,
         field: &Field,
         add: impl FnOnce(&mut Self, &mut Ui, Id),
     ) {
-        self.part(ui, &field.key, |form, ui| {
+        self.scope(ui, &field.key, |form, ui| {
             ui.horizontal(|ui| {
-                let label = name(ui, field.name, field.tip);
+                let label = name(ui, field.name, field.tip());
                 add(form, ui, label);
             });
         });
-        self.faults_of(ui, &field.key);
+        self.errors_of(ui, &field.key);
     }
 
-    /// What is wrong with a key, in red, below its control.
-    pub(super) fn faults_of(&mut self, ui: &mut Ui, key: &str) {
-        for fault in self.faults {
-            if let Some(at) = fault.key.as_deref().filter(|at| is_at(at, key)) {
+    /// The errors of a key, in red below its control.
+    pub(super) fn errors_of(&mut self, ui: &mut Ui, key: &str) {
+        for error in self.errors {
+            if let Some(at) = error.key.as_deref().filter(|at| is_at(at, key)) {
                 self.claims.insert(at.to_owned());
-                message(ui, fault);
+                message(ui, error);
             }
         }
     }
 
-    /// What is wrong with a key itself, not with an element of it.
-    pub(super) fn faults_exactly_at(&mut self, ui: &mut Ui, key: &str) {
-        for fault in self.faults {
-            if fault.key.as_deref() == Some(key) {
+    /// The errors of a key itself, without those of its elements.
+    pub(super) fn errors_exactly_at(&mut self, ui: &mut Ui, key: &str) {
+        for error in self.errors {
+            if error.key.as_deref() == Some(key) {
                 self.claims.insert(key.to_owned());
-                message(ui, fault);
+                message(ui, error);
             }
         }
     }
 
-    /// Faults that belong to no section.
-    pub(super) fn general_faults(&mut self, ui: &mut Ui) {
-        for fault in self.faults {
-            if !is_within(fault, &TABLES) {
-                message(ui, fault);
+    /// The errors that belong to no section.
+    pub(super) fn general_errors(&mut self, ui: &mut Ui) {
+        for error in self.errors {
+            if !is_within(error, &TABLES) {
+                message(ui, error);
             }
         }
     }
 
     fn unclaimed(&self, ui: &mut Ui, tables: &[&str]) {
-        for fault in self.faults {
-            let is_claimed = fault
+        for error in self.errors {
+            let is_claimed = error
                 .key
                 .as_ref()
                 .is_some_and(|key| self.claimed.contains(key));
-            if is_within(fault, tables) && !is_claimed {
-                message(ui, fault);
+            if is_within(error, tables) && !is_claimed {
+                message(ui, error);
             }
         }
     }
 }
 
-/// The name of a row, as wide as every other; its id.
+/// The name of a row, in a column of fixed width; returns the id of the label.
 pub(super) fn name(ui: &mut Ui, text: &str, tip: &str) -> Id {
     let size = vec2(LABEL_WIDTH, ui.spacing().interact_size.y);
     let layout = Layout::left_to_right(Align::Center);
@@ -224,26 +217,26 @@ pub(super) fn name(ui: &mut Ui, text: &str, tip: &str) -> Id {
     id
 }
 
-/// A text beside the controls, smaller and paler than they are.
+/// A note beside the controls, smaller and paler than they are.
 pub(super) fn note(ui: &Ui, text: impl Into<String>) -> RichText {
     let colour = ui.visuals().weak_text_color();
     RichText::new(text).size(NOTE_SIZE).color(colour)
 }
 
-fn message(ui: &mut Ui, fault: &Fault) {
-    let text = RichText::new(&fault.message)
+fn message(ui: &mut Ui, error: &SceneError) {
+    let text = RichText::new(&error.message)
         .size(NOTE_SIZE)
         .color(ui.visuals().error_fg_color);
     ui.add(egui::Label::new(text).wrap());
 }
 
-/// Whether a fault at the key `at` is one of `key` or of an element of it.
+/// Whether the key `at` is `key` or an element of it.
 fn is_at(at: &str, key: &str) -> bool {
     let rest = at.strip_prefix(key);
     rest.is_some_and(|rest| rest.is_empty() || rest.starts_with('.'))
 }
 
-fn is_within(fault: &Fault, tables: &[&str]) -> bool {
-    let table = fault.key.as_deref().and_then(|key| key.split('.').next());
+fn is_within(error: &SceneError, tables: &[&str]) -> bool {
+    let table = error.key.as_deref().and_then(|key| key.split('.').next());
     table.is_some_and(|table| tables.contains(&table))
 }

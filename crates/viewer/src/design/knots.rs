@@ -1,23 +1,23 @@
-//! Knots of a cubic B-spline put in and taken out.
+//! Insertion and removal of knots of a cubic B-spline.
 //!
 //! Source: Boehm 1980, "Inserting new knots into B-spline curves".
 
 use glam::DVec2;
 
 const DEGREE: usize = 3;
-/// Two knots are equal or at least this far apart, over the domain.
+/// Knots are equal or at least this far apart, relative to the length of the domain.
 const NARROWEST_SPAN: f64 = 1e-9;
 
-/// Control points and knots.
+/// Control points and knots of a spline.
 pub(super) type Spline = (Vec<DVec2>, Vec<f64>);
 
-/// The same curve with the knot `u` once more: with k such that t_k ≤ u < t_{k+1},
+/// The same curve with the knot `u` inserted once more. With k such that t_k ≤ u < t_{k+1},
 ///
-/// Q_i = (1 − α_i) P_{i−1} + α_i P_i,  α_i = (u − t_i) / (t_{i+3} − t_i) for k − 2 ≤ i ≤ k, else 1 before and 0 behind.
+/// Q_i = (1 − α_i) P_{i−1} + α_i P_i,  α_i = (u − t_i) / (t_{i+3} − t_i) for k − 2 ≤ i ≤ k, 1 for smaller i and 0 for
+/// larger i.
 ///
-/// A knot closer than 1e-9 of the domain takes the place of `u`, for knots are equal or that far apart. Precondition: n ≥ 4
-/// control points and n + 4 knots that do not fall. None where `u` lies outside the domain [t_3, t_n) or is a knot three
-/// times already.
+/// An existing knot within 1e-9 of the domain replaces `u`. Precondition: n ≥ 4 control points and n + 4 non-decreasing
+/// knots. `None` if `u` lies outside the domain [t_3, t_n) or already has multiplicity three.
 pub(super) fn inserted(points: &[DVec2], knots: &[f64], u: f64) -> Option<Spline> {
     let count = points.len();
     if count <= DEGREE || knots.len() != count + DEGREE + 1 {
@@ -48,7 +48,7 @@ pub(super) fn inserted(points: &[DVec2], knots: &[f64], u: f64) -> Option<Spline
     Some((points, knots))
 }
 
-/// The same curve with clamped ends, so that it starts at its first and ends at its last control point.
+/// The same curve with clamped ends: it starts at its first control point and ends at its last.
 pub(super) fn clamped(points: &[DVec2], knots: &[f64]) -> Option<Spline> {
     let (points, knots) = reversed(clamped_start(points.to_vec(), knots.to_vec())?);
     clamped_start(points, knots).map(reversed)
@@ -76,7 +76,7 @@ fn reversed((mut points, mut knots): Spline) -> Spline {
     (points, knots)
 }
 
-/// The knots without one in the middle of the support of control point `index`, which is taken out with it.
+/// The knots without one in the middle of the support of control point `index`, for removing that point.
 pub(super) fn removed(knots: &[f64], index: usize) -> Vec<f64> {
     let mut knots = knots.to_vec();
     let inner = DEGREE + 1..knots.len().saturating_sub(DEGREE + 1);

@@ -1,7 +1,7 @@
-//! The design panel: profile, sheet, material, motion; the crease pattern; closed forms.
+//! The design panel: profile, sheet, closed forms, crease pattern, material, motion and recording.
 //!
-//! The panel edits a copy of the scene and hands it back as a [`Change`]; it holds no scene of its own. What it draws of
-//! the sheet comes from the last [`Draft`] that could be made, which may be older than the scene.
+//! The panel edits a copy of the scene and returns it as a [`Change`]; it keeps no scene of its own. Drawings of the
+//! sheet use the last valid [`Draft`], which may be older than the scene.
 
 mod camera;
 mod canvas;
@@ -10,21 +10,22 @@ mod closed_forms;
 mod creases;
 mod curve;
 mod form;
-mod handles;
+mod handle_editor;
 mod imported;
 mod knots;
 mod material;
 mod motion;
 mod number;
+mod pattern_preview;
 mod plane;
-mod preview;
 mod profile;
 mod record;
+mod scene_schema;
 mod sheet;
-mod size;
 mod step;
 #[cfg(test)]
 mod tests;
+mod unit_size;
 
 use std::collections::BTreeSet;
 
@@ -35,28 +36,28 @@ use form::Form;
 
 /// What the panel shows.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Facts<'a> {
-    /// The scene as it is.
+pub(crate) struct DesignInput<'a> {
+    /// The current scene.
     pub(crate) scene: &'a Scene,
-    /// The last draft that could be made, if any.
+    /// The last valid draft, if any.
     pub(crate) draft: Option<&'a Draft>,
-    /// Another number for each draft: what is drawn of it is kept until the number changes.
+    /// A number that differs between drafts; cached drawings are kept until it changes.
     pub(crate) draft_number: u64,
-    /// What is wrong with the scene.
-    pub(crate) faults: &'a [Fault],
+    /// The errors of the scene.
+    pub(crate) errors: &'a [SceneError],
 }
 
-/// Something wrong with the scene.
+/// An error in the scene.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub(crate) struct Fault {
-    /// The dotted key at fault, where one is.
+pub(crate) struct SceneError {
+    /// The dotted key that is wrong, if the error belongs to one.
     pub(crate) key: Option<String>,
-    /// What is wrong, and what would be right.
+    /// What is wrong, and what would be valid.
     pub(crate) message: String,
 }
 
-impl Fault {
-    /// The fault that `error` says, at `key` where it is one's.
+impl SceneError {
+    /// The message of `error`, which belongs to `key`.
     pub(crate) fn new(key: Option<&str>, error: &impl ToString) -> Self {
         Self {
             key: key.map(str::to_owned),
@@ -68,28 +69,28 @@ impl Fault {
 /// An edit of the scene.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Change {
-    /// The scene after it.
+    /// The scene after the edit.
     pub(crate) scene: Scene,
-    /// What was done, as "undo" names it.
+    /// The name of the edit in the undo menu.
     pub(crate) label: &'static str,
-    /// Whether it goes on with the change before: a drag, or a key held down.
+    /// Whether it continues the previous edit, as during a drag or while a key is held down.
     pub(crate) continues: bool,
 }
 
-/// What the panel remembers from frame to frame; nothing of the scene.
+/// State of the panel that lasts from frame to frame; it holds no part of the scene.
 #[derive(Debug, Default)]
 pub(crate) struct DesignPanel {
     gesture: Option<egui::Id>,
     claims: BTreeSet<String>,
     profile: profile::ProfileSection,
     sheet: sheet::SheetSection,
-    preview: preview::Preview,
-    measures: closed_forms::Measures,
+    preview: pattern_preview::PatternPreview,
+    measurements: closed_forms::Measurements,
 }
 
 impl DesignPanel {
-    /// Shows the panel. The change is what the user did in this frame, if anything; the caller applies it.
-    pub(crate) fn show(&mut self, ui: &mut egui::Ui, facts: &Facts<'_>) -> Option<Change> {
+    /// Shows the panel and returns the user's edit in this frame, if any, for the caller to apply.
+    pub(crate) fn show(&mut self, ui: &mut egui::Ui, facts: &DesignInput<'_>) -> Option<Change> {
         if !ui.input(|input| input.pointer.any_down())
             && ui.input(|input| input.keys_down.is_empty())
         {
@@ -97,13 +98,13 @@ impl DesignPanel {
         }
         let mut form = Form::new(ui, facts, self.gesture, std::mem::take(&mut self.claims));
         ui.spacing_mut().item_spacing.y = 4.0;
-        form.general_faults(ui);
+        form.general_errors(ui);
         if facts.scene.pattern.is_some() {
-            imported::show(&mut self.measures, &mut form, ui);
+            imported::show(&mut self.measurements, &mut form, ui);
         } else {
             self.profile.show(&mut form, ui);
             self.sheet.show(&mut form, ui);
-            self.measures.show(&mut form, ui);
+            self.measurements.show(&mut form, ui);
         }
         self.preview.show(&mut form, ui);
         material::show(&mut form, ui);

@@ -1,4 +1,4 @@
-//! Fields of numbers that may be left out.
+//! Number fields for keys that may be omitted.
 
 use std::ops::RangeInclusive;
 
@@ -7,27 +7,27 @@ use foldmotion_study::Scene;
 
 use super::form::{Field, Form};
 
-/// Room for the button that leaves a key out again.
+/// Width of the button that resets a key to its default, points.
 pub(super) const RESET_WIDTH: f32 = 20.0;
 
 /// How a number is shown and dragged.
 #[derive(Debug, Clone)]
 pub(super) struct Number {
-    /// Where a drag ends; what is typed may lie beyond.
-    comfort: RangeInclusive<f64>,
-    /// The value that holds where the key is left out.
+    /// The range of values that can be reached by dragging; typed values may lie outside.
+    drag_range: RangeInclusive<f64>,
+    /// The value that holds if the key is omitted.
     default: Option<f64>,
-    /// What stands in the empty field where there is no such number.
+    /// The text of an empty field without a default.
     hint: &'static str,
-    /// A change by one point of a drag; a two-hundredth of the value where left out.
+    /// Change per point dragged. Default: a two-hundredth of the value.
     speed: Option<f64>,
     whole: bool,
 }
 
 impl Number {
-    pub(super) fn within(comfort: RangeInclusive<f64>) -> Self {
+    pub(super) fn within(drag_range: RangeInclusive<f64>) -> Self {
         Self {
-            comfort,
+            drag_range,
             default: None,
             hint: "none",
             speed: None,
@@ -55,12 +55,12 @@ impl Number {
         self.speed(0.1)
     }
 
-    /// The field, `width` wide; an empty one is `None`. The response says what happened, whether `value` changed is for the
-    /// caller to compare.
+    /// Shows the field, `width` points wide. An empty field is `None`. The caller compares `value` to learn whether it
+    /// has changed.
     fn show(&self, ui: &mut Ui, width: f32, value: &mut Option<f64>) -> egui::Response {
         let start = self
             .default
-            .unwrap_or_else(|| 1.0_f64.clamp(*self.comfort.start(), *self.comfort.end()));
+            .unwrap_or_else(|| 1.0_f64.clamp(*self.drag_range.start(), *self.drag_range.end()));
         let editing = ui.memory(|memory| memory.has_focus(ui.next_auto_id()));
         let is_left_out = value.is_none();
         let (hint, default) = (self.hint, self.default);
@@ -91,13 +91,14 @@ impl Number {
             .custom_parser(parsed);
         let response = ui.add(field);
         if response.dragged() {
-            *value = value.map(|number| number.clamp(*self.comfort.start(), *self.comfort.end()));
+            *value =
+                value.map(|number| number.clamp(*self.drag_range.start(), *self.drag_range.end()));
         }
         response
     }
 }
 
-/// A number from text; an empty text is one that is not finite, and stands for a key left out.
+/// Parses a number. Empty text, which stands for an omitted key, becomes an infinite number.
 fn parsed(text: &str) -> Option<f64> {
     let text = text.trim().replace('−', "-");
     if text.is_empty() {
@@ -106,7 +107,7 @@ fn parsed(text: &str) -> Option<f64> {
     text.parse().ok().filter(|number: &f64| number.is_finite())
 }
 
-/// A number in at most six digits.
+/// Formats a number with at most six significant digits.
 pub(super) fn short(number: f64) -> String {
     let size = number.abs();
     if size != 0.0 && !(1e-3..1e7).contains(&size) {
@@ -115,7 +116,7 @@ pub(super) fn short(number: f64) -> String {
     decimal(number, 6)
 }
 
-/// A number as a decimal fraction of so many digits, without noughts at its end.
+/// Formats a number as a decimal with `digits` significant digits, without trailing zeros.
 pub(super) fn decimal(number: f64, digits: usize) -> String {
     let whole_digits = format!("{}", number.abs().trunc()).len();
     let text = format!("{number:.*}", digits.saturating_sub(whole_digits));
@@ -126,7 +127,7 @@ pub(super) fn decimal(number: f64, digits: usize) -> String {
     }
 }
 
-/// A number as a power of ten, with at most so many digits behind the point.
+/// Formats a number in scientific notation with at most `digits` digits after the point.
 pub(super) fn scientific(number: f64, digits: usize) -> String {
     let text = format!("{number:.digits$e}");
     match text.split_once('e') {
@@ -138,22 +139,22 @@ pub(super) fn scientific(number: f64, digits: usize) -> String {
     }
 }
 
-/// The width of a control that leaves room for a reset button.
+/// The width of a control that leaves room for a reset button, points.
 pub(super) fn control_width(ui: &Ui) -> f32 {
     ui.available_width() - RESET_WIDTH - ui.spacing().item_spacing.x
 }
 
-/// What names a field to those who do not see it.
+/// The accessible name of a field.
 #[derive(Debug, Clone, Copy)]
-pub(super) enum Spoken<'a> {
-    /// The label on its left.
+pub(super) enum AccessibleName<'a> {
+    /// The label with this id.
     By(Id),
-    /// A name of its own.
+    /// This text.
     As(&'a str),
 }
 
 impl Form<'_> {
-    /// A row with one number.
+    /// A row with a number field.
     pub(super) fn number(
         &mut self,
         ui: &mut Ui,
@@ -164,7 +165,14 @@ impl Form<'_> {
         self.row(ui, field, |form, ui, label| {
             let width = control_width(ui);
             let mut value = *of(&mut form.scene);
-            if form.cell(ui, field.undo, Spoken::By(label), number, width, &mut value) {
+            if form.cell(
+                ui,
+                field.name,
+                AccessibleName::By(label),
+                number,
+                width,
+                &mut value,
+            ) {
                 *of(&mut form.scene) = value;
             }
             if form.reset(ui, field, value.is_some()) {
@@ -173,7 +181,7 @@ impl Form<'_> {
         });
     }
 
-    /// A row with one whole number.
+    /// A row with a field for a whole number.
     pub(super) fn whole(
         &mut self,
         ui: &mut Ui,
@@ -187,8 +195,8 @@ impl Form<'_> {
             let mut value = *of(&mut form.scene);
             if form.whole_cell(
                 ui,
-                field.undo,
-                Spoken::By(label),
+                field.name,
+                AccessibleName::By(label),
                 &number,
                 width,
                 &mut value,
@@ -201,12 +209,12 @@ impl Form<'_> {
         });
     }
 
-    /// A field of a number; whether it has changed.
+    /// A number field; returns whether its value has changed.
     pub(super) fn cell(
         &mut self,
         ui: &mut Ui,
         undo: &'static str,
-        spoken: Spoken<'_>,
+        spoken: AccessibleName<'_>,
         number: &Number,
         width: f32,
         value: &mut Option<f64>,
@@ -218,18 +226,18 @@ impl Form<'_> {
             self.record(undo, response.id, response.dragged());
         }
         match spoken {
-            Spoken::By(label) => response.labelled_by(label),
-            Spoken::As(name) => response.accessible_name(name),
+            AccessibleName::By(label) => response.labelled_by(label),
+            AccessibleName::As(name) => response.accessible_name(name),
         };
         is_changed
     }
 
-    /// A field of a whole number; whether it has changed.
+    /// A field for a whole number; returns whether its value has changed.
     pub(super) fn whole_cell(
         &mut self,
         ui: &mut Ui,
         undo: &'static str,
-        spoken: Spoken<'_>,
+        spoken: AccessibleName<'_>,
         number: &Number,
         width: f32,
         value: &mut Option<i64>,
@@ -242,7 +250,7 @@ impl Form<'_> {
         is_changed
     }
 
-    /// A field of a number that cannot be left out; its new value if it has changed.
+    /// A field for a number that cannot be omitted; returns the new value if it has changed.
     pub(super) fn required_cell(
         &mut self,
         ui: &mut Ui,
@@ -253,11 +261,19 @@ impl Form<'_> {
         before: f64,
     ) -> Option<f64> {
         let mut value = Some(before);
-        let is_changed = self.cell(ui, undo, Spoken::As(name), number, width, &mut value);
+        let is_changed = self.cell(
+            ui,
+            undo,
+            AccessibleName::As(name),
+            number,
+            width,
+            &mut value,
+        );
         value.filter(|_| is_changed)
     }
 
-    /// The button that leaves a key out again; nothing but room for it where it is left out already.
+    /// The button that resets a key to its default, or empty space if the key is omitted; returns whether it was
+    /// clicked.
     pub(super) fn reset(&mut self, ui: &mut Ui, field: &Field, is_given: bool) -> bool {
         let size = vec2(RESET_WIDTH, ui.spacing().interact_size.y);
         if !is_given {
@@ -268,10 +284,10 @@ impl Form<'_> {
         let response = ui
             .add(button)
             .accessible_name(format!("default of {}", field.name))
-            .on_hover_text("leave it out: back to the default");
+            .on_hover_text("Reset to the default");
         let clicked = response.clicked();
         if clicked {
-            self.record(field.undo, response.id, false);
+            self.record(field.name, response.id, false);
         }
         clicked
     }

@@ -1,23 +1,23 @@
-//! A window into a plane, in equal scales: zoomed by the wheel, moved by the right button.
+//! A view of a plane with equal scales on both axes. The wheel zooms; dragging with the right button moves.
 
 use eframe::egui::{self, Color32, Pos2, Rect, Response, Stroke, Ui, pos2, vec2};
 use glam::DVec2;
 
 use super::number::short;
 
-/// Points between two lines of a grid, at least.
+/// The smallest distance between grid lines, points.
 const GRID_PITCH: f64 = 36.0;
-/// How far one may zoom away from the view that fits.
+/// The largest zoom factor relative to the fitted view.
 const ZOOM: f64 = 1e4;
-/// Room around what is fitted, points.
+/// Margin around the fitted contents, points.
 const MARGIN: f32 = 22.0;
 
-/// Where the plane lies on the screen: the second axis points up.
+/// Where the plane is shown on the screen. The second axis points up.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Plane {
     pub(super) rect: Rect,
     pub(super) centre: DVec2,
-    /// Points a unit of length.
+    /// Points on the screen per unit of length.
     pub(super) scale: f64,
 }
 
@@ -36,7 +36,7 @@ impl Plane {
         }
     }
 
-    /// The place of a point on the screen, kept within what can be drawn.
+    /// The position of a point on the screen, clamped to coordinates that can be drawn.
     pub(super) fn to_screen(self, point: DVec2) -> Pos2 {
         let offset = (point - self.centre) * self.scale;
         let kept = |x: f64| {
@@ -49,18 +49,18 @@ impl Plane {
         self.rect.center() + vec2(kept(offset.x), -kept(offset.y))
     }
 
-    /// The point at a place on the screen.
+    /// The point at a position on the screen.
     pub(super) fn to_plane(self, place: Pos2) -> DVec2 {
         let offset = place - self.rect.center();
         self.centre + self.vector(offset)
     }
 
-    /// A way on the screen, in the plane.
+    /// A displacement on the screen, in units of the plane.
     pub(super) fn vector(&self, way: egui::Vec2) -> DVec2 {
         DVec2::new(f64::from(way.x), -f64::from(way.y)) / self.scale
     }
 
-    /// A grid whose lines are 1, 2 or 5 times a power of ten apart, the axes stronger, with numbers where `labelled`.
+    /// Draws a labelled grid whose lines are 1, 2 or 5 times a power of ten apart, with stronger axes.
     pub(super) fn paint_grid(&self, ui: &Ui, painter: &egui::Painter) {
         let step = round_step(GRID_PITCH / self.scale);
         let weak = ui.visuals().weak_text_color().gamma_multiply(0.25);
@@ -117,7 +117,7 @@ fn label(at: f64, step: f64) -> String {
     }
 }
 
-/// 1, 2 or 5 times a power of ten, no smaller than `least`.
+/// The smallest number that is 1, 2 or 5 times a power of ten and not less than `least`.
 pub(super) fn round_step(least: f64) -> f64 {
     let power = 10.0_f64.powf(least.max(1e-99).log10().floor());
     [1.0, 2.0, 5.0]
@@ -127,7 +127,7 @@ pub(super) fn round_step(least: f64) -> f64 {
         .unwrap_or(10.0 * power)
 }
 
-/// The box around points; one around the origin where there are none.
+/// The bounding box of points; a box around the origin if there are none.
 pub(super) fn bounds(points: impl IntoIterator<Item = DVec2>) -> [DVec2; 2] {
     let start = [DVec2::INFINITY, DVec2::NEG_INFINITY];
     let [low, high] = points
@@ -141,14 +141,14 @@ pub(super) fn bounds(points: impl IntoIterator<Item = DVec2>) -> [DVec2; 2] {
     }
 }
 
-/// The view that the user chose; what fits until then.
+/// The view that the user has chosen; until then, the view that fits the contents.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
-pub(super) struct View {
+pub(super) struct PlaneView {
     chosen: Option<(DVec2, f64)>,
 }
 
-impl View {
-    /// Back to the view that fits.
+impl PlaneView {
+    /// Returns to the view that fits the contents.
     pub(super) fn fit(&mut self) {
         self.chosen = None;
     }
@@ -157,12 +157,12 @@ impl View {
         self.chosen.is_none()
     }
 
-    /// Keeps the view as it is, whatever its contents become.
-    pub(super) fn keep(&mut self, plane: &Plane) {
+    /// Keeps the view as it is, whatever the contents become.
+    pub(super) fn pin(&mut self, plane: &Plane) {
         self.chosen = Some((plane.centre, plane.scale));
     }
 
-    /// The plane in this frame, after wheel and right button.
+    /// The plane in this frame, after zooming and moving.
     pub(super) fn plane(&mut self, ui: &Ui, response: &Response, bounds: [DVec2; 2]) -> Plane {
         let rect = response.rect;
         let fitted = Plane::fitted(rect, bounds);
@@ -177,7 +177,7 @@ impl View {
         let moves = [egui::PointerButton::Secondary, egui::PointerButton::Middle];
         if moves.into_iter().any(|button| response.dragged_by(button)) {
             plane.centre -= plane.vector(response.drag_delta());
-            self.keep(&plane);
+            self.pin(&plane);
         }
         if let Some(place) = response.hover_pos().filter(|_| response.contains_pointer()) {
             let factor = taken_zoom(ui);
@@ -186,14 +186,14 @@ impl View {
                 let fixed = plane.to_plane(place);
                 plane.scale = scale;
                 plane.centre += fixed - plane.to_plane(place);
-                self.keep(&plane);
+                self.pin(&plane);
             }
         }
         plane
     }
 }
 
-/// The zoom that the wheel asks for, which then scrolls nothing else.
+/// The zoom factor of the wheel in this frame, which is then not used for scrolling.
 fn taken_zoom(ui: &Ui) -> f64 {
     ui.input_mut(|input| {
         let scrolled = std::mem::take(&mut input.smooth_scroll_delta).y;
@@ -201,7 +201,7 @@ fn taken_zoom(ui: &Ui) -> f64 {
     })
 }
 
-/// A frame to draw in, with its background.
+/// A frame with a background to draw in.
 pub(super) fn canvas(ui: &mut Ui, height: f32, name: &str) -> (Response, egui::Painter) {
     let size = vec2(ui.available_width(), height);
     let (rect, response) = ui.allocate_exact_size(size, egui::Sense::click_and_drag());
@@ -218,7 +218,7 @@ pub(super) fn canvas(ui: &mut Ui, height: f32, name: &str) -> (Response, egui::P
     (response, painter)
 }
 
-/// Red for mountains, blue for valleys, as in the paper; both read on dark and on light ground.
+/// Red for mountains and blue for valleys, as in the paper, legible on dark and light backgrounds.
 pub(super) fn crease_colours(ui: &Ui) -> [Color32; 2] {
     if ui.visuals().dark_mode {
         [

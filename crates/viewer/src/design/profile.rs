@@ -2,121 +2,103 @@
 
 use eframe::egui::{self, RichText, Ui};
 use foldmotion_geometry::Profile;
-use foldmotion_study::scene::{Closed, LengthUnit};
 use foldmotion_study::{Draft, models};
 
 use super::canvas::Canvas;
-use super::choice::Way;
 use super::curve::{
-    Origin, into_control_points, into_file, into_model, into_points, model, own_profile,
+    ProfileKind, into_control_points, into_file, into_model, into_points, model, own_profile,
 };
 use super::form::{Field, Form, note};
 use super::number::{Number, control_width, short};
 
-const CLOSED: [Way<Option<Closed>>; 3] = [
-    (None, "open", "two ends"),
-    (
-        Some(Closed::Corner),
-        "corner",
-        "returns to its start, with a corner there",
-    ),
-    (
-        Some(Closed::Smooth),
-        "smooth",
-        "returns to its start with both derivatives",
-    ),
-];
-
-/// Units of length, the default first.
-pub(super) const UNITS: [Way<LengthUnit>; 8] = [
-    (LengthUnit::M, "m", "metres"),
-    (LengthUnit::Cm, "cm", "centimetres"),
-    (LengthUnit::Mm, "mm", "millimetres"),
-    (LengthUnit::Um, "um", "micrometres"),
-    (LengthUnit::Nm, "nm", "nanometres"),
-    (LengthUnit::In, "in", "inches"),
-    (LengthUnit::Pt, "pt", "points, 1/72 inch"),
-    (LengthUnit::Unit, "unit", "no physical unit"),
-];
-
-/// What the section remembers.
+/// State of the section that lasts from frame to frame.
 #[derive(Debug, Default)]
 pub(super) struct ProfileSection {
     canvas: Canvas,
-    /// Whether a file is about to be named.
+    /// Whether the user has chosen a file as the kind of profile but has not named it yet.
     names_file: bool,
 }
 
 impl ProfileSection {
     pub(super) fn show(&mut self, form: &mut Form<'_>, ui: &mut Ui) {
         form.section(ui, "Profile", true, &["profile"], |form, ui| {
-            self.show_origin(form, ui);
+            self.show_kinds(form, ui);
             self.canvas.show(form, ui);
             show_division(form, ui);
             self.show_buttons(form, ui);
-            form.faults_of(ui, "profile.control_points");
-            form.faults_of(ui, "profile.points");
-            form.faults_of(ui, "profile.knots");
+            form.errors_of(ui, "profile.control_points");
+            form.errors_of(ui, "profile.points");
+            form.errors_of(ui, "profile.knots");
             show_keys(form, ui);
         });
     }
 
-    /// Where the curve comes from.
-    fn show_origin(&mut self, form: &mut Form<'_>, ui: &mut Ui) {
-        let at = Origin::of(&form.scene.profile);
-        self.names_file &= at != Origin::File;
-        let shown = if self.names_file { Origin::File } else { at };
+    /// The choice of the kind of profile, with the controls of that kind.
+    fn show_kinds(&mut self, form: &mut Form<'_>, ui: &mut Ui) {
+        let at = ProfileKind::of(&form.scene.profile);
+        self.names_file &= at != ProfileKind::File;
+        let shown = if self.names_file {
+            ProfileKind::File
+        } else {
+            at
+        };
         let ways = [
             (
-                Origin::Model,
+                ProfileKind::Model,
                 "built-in",
-                "a profile of figure 6 and table 1 of the paper",
+                "A profile of figure 6 and table 1 of the paper",
             ),
             (
-                Origin::ControlPoints,
+                ProfileKind::ControlPoints,
                 "control points",
-                "a cubic NURBS with unit weights (section 2 of the paper)",
+                "A cubic NURBS with unit weights (section 2 of the paper)",
             ),
-            (Origin::Points, "points", "a cubic spline through points"),
-            (Origin::File, "file", "points of a .csv, .dat or .dxf file"),
+            (
+                ProfileKind::Points,
+                "points",
+                "A cubic spline through points",
+            ),
+            (
+                ProfileKind::File,
+                "file",
+                "Points from a .csv, .dat or .dxf file",
+            ),
         ];
-        form.part(ui, "profile origin", |form, ui| {
+        form.scope(ui, "profile kind", |form, ui| {
             ui.horizontal_wrapped(|ui| {
-                for (origin, name, tip) in ways {
-                    let option = ui
-                        .selectable_label(origin == shown, name)
-                        .on_hover_text(tip);
-                    if option.clicked() && origin != shown {
-                        self.names_file = origin == Origin::File;
-                        if turn_into(form, origin) {
-                            form.record("change the kind of profile", option.id, false);
+                for (kind, name, tip) in ways {
+                    let option = ui.selectable_label(kind == shown, name).on_hover_text(tip);
+                    if option.clicked() && kind != shown {
+                        self.names_file = kind == ProfileKind::File;
+                        if turn_into(form, kind) {
+                            form.record("kind of profile", option.id, false);
                         }
                     }
                 }
             });
         });
         match shown {
-            Origin::Model => show_models(form, ui),
-            Origin::File => show_file(form, ui),
-            Origin::ControlPoints | Origin::Points => {}
+            ProfileKind::Model => show_models(form, ui),
+            ProfileKind::File => show_file(form, ui),
+            ProfileKind::ControlPoints | ProfileKind::Points => {}
         }
     }
 
     fn show_buttons(&mut self, form: &mut Form<'_>, ui: &mut Ui) {
-        form.part(ui, "profile buttons", |form, ui| {
+        form.scope(ui, "profile buttons", |form, ui| {
             ui.horizontal(|ui| {
                 if ui
                     .small_button("fit")
-                    .on_hover_text("show the whole profile")
+                    .on_hover_text("Show the whole profile")
                     .clicked()
                 {
                     self.canvas.view.fit();
                 }
-                if Origin::of(&form.scene.profile) != Origin::ControlPoints {
-                    let edit = ui
-                        .small_button("edit as control points")
-                        .on_hover_text("the same curve, its control points free to move");
-                    if edit.clicked() && turn_into(form, Origin::ControlPoints) {
+                if ProfileKind::of(&form.scene.profile) != ProfileKind::ControlPoints {
+                    let edit = ui.small_button("edit as control points").on_hover_text(
+                        "Convert the same curve to control points, which can be dragged",
+                    );
+                    if edit.clicked() && turn_into(form, ProfileKind::ControlPoints) {
                         form.record("edit as control points", edit.id, false);
                     }
                 }
@@ -124,36 +106,31 @@ impl ProfileSection {
         });
         let has_handles = super::curve::handles(&form.scene.profile).is_some();
         if has_handles {
-            self.canvas.hand.show_fields(form, ui);
+            self.canvas.handle_editor.show_fields(form, ui);
         }
     }
 }
 
-/// Writes the curve in another way; false where it stays as it is for now.
-fn turn_into(form: &mut Form<'_>, origin: Origin) -> bool {
+/// Converts the curve to another kind; returns false if it stays as it is for now.
+fn turn_into(form: &mut Form<'_>, kind: ProfileKind) -> bool {
     let drawn = form
         .draft
         .and_then(Draft::units)
         .map(|draft| &draft.profile);
-    match origin {
-        Origin::Model => {
+    match kind {
+        ProfileKind::Model => {
             let name = models().first().map_or("shelter", |model| model.name);
             into_model(&mut form.scene, name);
             true
         }
-        Origin::ControlPoints => into_control_points(&mut form.scene, drawn),
-        Origin::Points => into_points(&mut form.scene, drawn),
-        Origin::File => false,
+        ProfileKind::ControlPoints => into_control_points(&mut form.scene, drawn),
+        ProfileKind::Points => into_points(&mut form.scene, drawn),
+        ProfileKind::File => false,
     }
 }
 
 fn show_models(form: &mut Form<'_>, ui: &mut Ui) {
-    let field = Field::new(
-        "profile.model",
-        "model",
-        "choose the profile",
-        "a built-in profile, with rows, columns and width of its own (tables 1 and 2 of the paper)",
-    );
+    let field = Field::new("profile.model", "model");
     form.row(ui, &field, |form, ui, label| {
         let given = form.scene.profile.model.clone();
         let text = match &given {
@@ -167,8 +144,8 @@ fn show_models(form: &mut Form<'_>, ui: &mut Ui) {
         let mut chosen = None;
         let response = menu.show_ui(ui, |ui| {
             for model in models() {
-                let kind = if model.is_closed() { "closed" } else { "open" };
-                let text = format!("{} ({kind}): {}", model.name, model.title);
+                let ends = if model.is_closed() { "closed" } else { "open" };
+                let text = format!("{} ({ends}): {}", model.name, model.title);
                 let is_chosen = given.as_deref() == Some(model.name);
                 if ui.selectable_label(is_chosen, text).clicked() && !is_chosen {
                     chosen = Some(model.name);
@@ -178,18 +155,13 @@ fn show_models(form: &mut Form<'_>, ui: &mut Ui) {
         let response = response.response.labelled_by(label);
         if let Some(name) = chosen {
             into_model(&mut form.scene, name);
-            form.record(field.undo, response.id, false);
+            form.record(field.name, response.id, false);
         }
     });
 }
 
 fn show_file(form: &mut Form<'_>, ui: &mut Ui) {
-    let field = Field::new(
-        "profile.file",
-        "file",
-        "choose the profile's file",
-        "points the curve runs through, beside the scene: .csv, .dat or .dxf",
-    );
+    let field = Field::new("profile.file", "file");
     let path = form.scene.profile.file.clone().unwrap_or_default();
     let entered = form.text(ui, &field, "outline.csv", &path);
     if let Some(file) = entered {
@@ -197,7 +169,7 @@ fn show_file(form: &mut Form<'_>, ui: &mut Ui) {
     }
 }
 
-/// How the curve is divided, in figures.
+/// The quality of the division, as numbers.
 fn show_division(form: &Form<'_>, ui: &mut Ui) {
     let text = match form.draft.and_then(Draft::units) {
         None => "not divided yet".to_owned(),
@@ -213,13 +185,13 @@ fn show_division(form: &Form<'_>, ui: &mut Ui) {
             )
         }
     };
-    let tip = "|R_max| = max |h_k - h| / h (equation 1 of the paper); fit: the largest distance of the curve from its \
-               segments, and the mean one";
+    let tip = "|R_max| = max |h_k − h| / h (equation 1 of the paper). Fit: the largest and the mean distance of the \
+               curve from its segments.";
     let label = egui::Label::new(note(ui, text)).wrap();
     ui.add(label).on_hover_text(tip);
 }
 
-/// By how much the curve is scaled to its length.
+/// The factor by which the curve is scaled to its length.
 fn scale_note(form: &Form<'_>, drawn: &Profile) -> String {
     let Some(own) = own_profile(&form.scene.profile) else {
         return String::new();
@@ -235,41 +207,13 @@ fn scale_note(form: &Form<'_>, drawn: &Profile) -> String {
 fn show_keys(form: &mut Form<'_>, ui: &mut Ui) {
     let built_in = model(&form.scene);
     if built_in.is_none() || form.scene.profile.closed.is_some() {
-        let field = Field::new(
-            "profile.closed",
-            "ends",
-            "change the ends of the profile",
-            "whether the curve returns to its start",
-        );
-        show_ends(form, ui, &field);
+        let field = Field::new("profile.closed", "ends");
+        form.menu(ui, &field, "open", |scene| &mut scene.profile.closed);
     }
     let length = built_in.map(foldmotion_study::ProfileModel::length);
-    let field = Field::new(
-        "profile.length",
-        "length",
-        "change the length of the profile",
-        "scales the curve so that the divided polygon is this long",
-    );
+    let field = Field::new("profile.length", "length");
     let number = Number::within(1e-6..=1e6).default(length).hint("as drawn");
     form.number(ui, &field, &number, |scene| &mut scene.profile.length);
-    let field = Field::new(
-        "profile.unit",
-        "unit",
-        "change the unit",
-        "the unit of length",
-    );
-    form.menu(ui, &field, &UNITS, |scene| &mut scene.profile.unit);
-}
-
-fn show_ends(form: &mut Form<'_>, ui: &mut Ui, field: &Field) {
-    form.row(ui, field, |form, ui, _| {
-        for (way, name, tip) in CLOSED {
-            let is_chosen = form.scene.profile.closed == way;
-            let option = ui.selectable_label(is_chosen, name).on_hover_text(tip);
-            if option.clicked() && !is_chosen {
-                form.scene.profile.closed = way;
-                form.record(field.undo, option.id, false);
-            }
-        }
-    });
+    let field = Field::new("profile.unit", "unit");
+    form.menu(ui, &field, "m", |scene| &mut scene.profile.unit);
 }

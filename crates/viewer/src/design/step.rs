@@ -1,65 +1,33 @@
 //! One step of the schedule.
 
 use eframe::egui::{self, Frame, Id, Margin, Rect, RichText, Stroke, Ui, pos2, vec2};
-use foldmotion_study::scene::{CreasesChoice, EaseChoice, StageChoice, StepScene};
+use foldmotion_study::scene::{StageChoice, StepScene};
 
-use super::choice::Way;
 use super::form::{Field, Form};
-use super::number::{Number, Spoken, control_width};
+use super::number::{AccessibleName, Number, control_width};
+use super::scene_schema::choices;
 
-const CREASES: [Way<CreasesChoice>; 8] = [
-    (CreasesChoice::All, "all", "every crease"),
-    (
-        CreasesChoice::Rows,
-        "rows",
-        "on the boundaries between rows",
-    ),
-    (
-        CreasesChoice::Columns,
-        "columns",
-        "between the columns of a map",
-    ),
-    (
-        CreasesChoice::Diagonals,
-        "diagonals",
-        "between flaps and tucks",
-    ),
-    (
-        CreasesChoice::Verticals,
-        "verticals",
-        "along corner and mid lines",
-    ),
-    (CreasesChoice::Pads, "pads", "beside and across pads"),
-    (CreasesChoice::Mountains, "mountains", "mountain creases"),
-    (CreasesChoice::Valleys, "valleys", "valley creases"),
-];
+/// The groups of creases that an imported pattern has.
+const IMPORTED_CREASES: [&str; 3] = ["all", "mountains", "valleys"];
 
-/// Those that an imported pattern has.
-const IMPORTED_CREASES: [Way<CreasesChoice>; 3] = [CREASES[0], CREASES[6], CREASES[7]];
-
-const EASES: [Way<EaseChoice>; 2] = [
-    (EaseChoice::Linear, "linear", "at constant speed"),
-    (EaseChoice::Smooth, "smooth", "from rest to rest"),
-];
-
-/// The first and the last row or column of a step.
+/// Access to the range of rows or columns of a step.
 type Range = fn(&mut StepScene) -> &mut Option<Vec<i64>>;
 
-/// What is to become of a step in the list.
+/// A user action on a step in the list.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Order {
+pub(super) enum StepAction {
     Up,
     Down,
     Remove,
 }
 
-/// Shows step `index` of `count`.
+/// Shows step `index` of `count`; returns the action of a button that was clicked, and the button's id.
 pub(super) fn show_step(
     form: &mut Form<'_>,
     ui: &mut Ui,
     index: usize,
     count: usize,
-) -> Option<(Order, Id)> {
+) -> Option<(StepAction, Id)> {
     let ground = ui.visuals().faint_bg_color;
     let frame = Frame::new()
         .fill(ground)
@@ -68,10 +36,10 @@ pub(super) fn show_step(
     frame
         .show(ui, |ui| {
             ui.set_width(ui.available_width());
-            let order = form.part(ui, &format!("motion.step.{index}"), |_, ui| {
+            let order = form.scope(ui, &format!("motion.step.{index}"), |_, ui| {
                 ui.horizontal(|ui| show_head(ui, index, count)).inner
             });
-            form.faults_exactly_at(ui, &format!("motion.step.{index}"));
+            form.errors_exactly_at(ui, &format!("motion.step.{index}"));
             show_what(form, ui, index);
             show_when(form, ui, index);
             order
@@ -79,13 +47,13 @@ pub(super) fn show_step(
         .inner
 }
 
-fn show_head(ui: &mut Ui, index: usize, count: usize) -> Option<(Order, Id)> {
+fn show_head(ui: &mut Ui, index: usize, count: usize) -> Option<(StepAction, Id)> {
     let number = index + 1;
     ui.label(RichText::new(format!("step {number}")).strong());
     let buttons = [
-        ("up", Order::Up, index > 0),
-        ("down", Order::Down, index + 1 < count),
-        ("remove", Order::Remove, true),
+        ("up", StepAction::Up, index > 0),
+        ("down", StepAction::Down, index + 1 < count),
+        ("remove", StepAction::Remove, true),
     ];
     let mut asked = None;
     for (name, order, is_possible) in buttons {
@@ -102,8 +70,8 @@ fn show_head(ui: &mut Ui, index: usize, count: usize) -> Option<(Order, Id)> {
     asked
 }
 
-/// A small button with a painted sign: fonts at hand have no arrows.
-fn sign_button(ui: &mut Ui, order: Order) -> egui::Response {
+/// A small button with a drawn icon, because the fonts have no arrows.
+fn sign_button(ui: &mut Ui, order: StepAction) -> egui::Response {
     let (rect, response) = ui.allocate_exact_size(vec2(18.0, 18.0), egui::Sense::click());
     response.widget_info(|| {
         egui::WidgetInfo::labeled(egui::accesskit::Role::Button, ui.is_enabled(), "")
@@ -114,9 +82,9 @@ fn sign_button(ui: &mut Ui, order: Order) -> egui::Response {
     let stroke = Stroke::new(1.5, visuals.fg_stroke.color);
     let at = |x: f32, y: f32| rect.center() + vec2(x, y);
     match order {
-        Order::Up => painter.line(vec![at(-4.0, 2.0), at(0.0, -2.5), at(4.0, 2.0)], stroke),
-        Order::Down => painter.line(vec![at(-4.0, -2.0), at(0.0, 2.5), at(4.0, -2.0)], stroke),
-        Order::Remove => {
+        StepAction::Up => painter.line(vec![at(-4.0, 2.0), at(0.0, -2.5), at(4.0, 2.0)], stroke),
+        StepAction::Down => painter.line(vec![at(-4.0, -2.0), at(0.0, 2.5), at(4.0, -2.0)], stroke),
+        StepAction::Remove => {
             painter.line_segment([at(-3.5, -3.5), at(3.5, 3.5)], stroke);
             painter.line_segment([at(-3.5, 3.5), at(3.5, -3.5)], stroke)
         }
@@ -124,7 +92,7 @@ fn sign_button(ui: &mut Ui, order: Order) -> egui::Response {
     response
 }
 
-/// Which creases of which stage.
+/// The stage and the creases of the step.
 fn show_what(form: &mut Form<'_>, ui: &mut Ui, index: usize) {
     let key = |key: &str| format!("motion.step.{index}.{key}");
     let is_imported = form.scene.pattern.is_some();
@@ -133,42 +101,25 @@ fn show_what(form: &mut Form<'_>, ui: &mut Ui, index: usize) {
     };
     let stage = step.stage;
     if !is_imported || stage == StageChoice::Unfold {
-        let field = Field::new(
-            key("stage"),
-            "stage",
-            "change the stage",
-            "unfold: deployed to flat; fold: flat to compact",
-        );
+        let field = Field::new(key("stage"), "stage");
         form.row(ui, &field, |form, ui, _| {
-            for (way, name) in [(StageChoice::Unfold, "unfold"), (StageChoice::Fold, "fold")] {
-                let option = ui.selectable_label(way == stage, name);
-                if option.clicked() && way != stage {
+            for (choice, name) in [(StageChoice::Unfold, "unfold"), (StageChoice::Fold, "fold")] {
+                let option = ui.selectable_label(choice == stage, name);
+                if option.clicked() && choice != stage {
                     if let Some(step) = form.scene.motion.step.get_mut(index) {
-                        step.stage = way;
+                        step.stage = choice;
                     }
-                    form.record(field.undo, option.id, false);
+                    form.record(field.name, option.id, false);
                 }
             }
         });
     }
-    let field = Field::new(
-        key("creases"),
-        "creases",
-        "change the creases",
-        "by their place in the unit or the way they fold",
-    );
-    let is_of_units = !is_imported
-        || form.scene.motion.step.get(index).is_some_and(|step| {
-            IMPORTED_CREASES
-                .iter()
-                .all(|way| step.creases.is_some_and(|c| c != way.0))
-        });
-    let ways = if is_of_units {
-        &CREASES[..]
-    } else {
-        &IMPORTED_CREASES[..]
-    };
-    form.menu(ui, &field, ways, |scene| {
+    let field = Field::new(key("creases"), "creases");
+    let mut creases = choices(&field.key);
+    if is_imported {
+        creases.retain(|(name, _)| IMPORTED_CREASES.contains(name));
+    }
+    form.menu_of(ui, &field, "all", creases, |scene| {
         &mut scene.motion.step[index].creases
     });
     let lists: [(&'static str, Range); 2] = [
@@ -183,18 +134,13 @@ fn show_what(form: &mut Form<'_>, ui: &mut Ui, index: usize) {
             .get_mut(index)
             .is_some_and(|step| of(step).is_some());
         if !is_imported || is_given {
-            let field = Field::new(
-                key(name),
-                name,
-                "change the range",
-                "the first and the last, from 0, both included",
-            );
+            let field = Field::new(key(name), name);
             show_range(form, ui, &field, index, of);
         }
     }
 }
 
-/// The first and the last row or column.
+/// Fields for the first and the last row or column.
 fn show_range(form: &mut Form<'_>, ui: &mut Ui, field: &Field, index: usize, of: Range) {
     form.row(ui, field, |form, ui, _| {
         let width = (control_width(ui) - 24.0) / 2.0;
@@ -207,14 +153,14 @@ fn show_range(form: &mut Form<'_>, ui: &mut Ui, field: &Field, index: usize, of:
         let [spoken_first, spoken_last] =
             ["first", "last"].map(|end| format!("{end} of {}", field.name));
         let number = ends.clone().hint("all");
-        let spoken = Spoken::As(&spoken_first);
-        let first_changed = form.whole_cell(ui, field.undo, spoken, &number, width, &mut first);
+        let spoken = AccessibleName::As(&spoken_first);
+        let first_changed = form.whole_cell(ui, field.name, spoken, &number, width, &mut first);
         ui.label("–");
         let number = ends.default(first.map(|first| first as f64)).hint("all");
-        let spoken = Spoken::As(&spoken_last);
-        let last_changed = form.whole_cell(ui, field.undo, spoken, &number, width, &mut last);
+        let spoken = AccessibleName::As(&spoken_last);
+        let last_changed = form.whole_cell(ui, field.name, spoken, &number, width, &mut last);
         let range = match (first, last) {
-            // Without a first one there is no last one; and a last one alone begins at 0.
+            // Without a first index the range is empty; a last index alone starts at 0.
             (None, Some(last)) if last_changed => Some(vec![0, last]),
             (None, _) => None,
             (Some(first), None) => Some(vec![first]),
@@ -228,7 +174,7 @@ fn show_range(form: &mut Form<'_>, ui: &mut Ui, field: &Field, index: usize, of:
     });
 }
 
-/// When in the stage, and how.
+/// When in the stage the creases move, and how.
 fn show_when(form: &mut Form<'_>, ui: &mut Ui, index: usize) {
     let key = |key: &str| format!("motion.step.{index}.{key}");
     let Some(step) = form.scene.motion.step.get(index) else {
@@ -236,31 +182,21 @@ fn show_when(form: &mut Form<'_>, ui: &mut Ui, index: usize) {
     };
     paint_part(ui, step.from.unwrap_or(0.0), step.to.unwrap_or(1.0));
     let part = Number::within(0.0..=1.0).speed(0.005);
-    let field = Field::new(
-        key("from"),
-        "from",
-        "change the time of the step",
-        "the part of the stage at which they begin to move",
-    );
+    let field = Field::new(key("from"), "from");
     form.number(ui, &field, &part.clone().default(0.0), |scene| {
         &mut scene.motion.step[index].from
     });
-    let field = Field::new(
-        key("to"),
-        "to",
-        "change the time of the step",
-        "the part of the stage at which they arrive",
-    );
+    let field = Field::new(key("to"), "to");
     form.number(ui, &field, &part.default(1.0), |scene| {
         &mut scene.motion.step[index].to
     });
-    let field = Field::new(key("ease"), "ease", "change the ease", "how they move");
-    form.menu(ui, &field, &EASES, |scene| {
+    let field = Field::new(key("ease"), "ease");
+    form.menu(ui, &field, "linear", |scene| {
         &mut scene.motion.step[index].ease
     });
 }
 
-/// A bar: the stage, and the part of it in which the step moves.
+/// A bar for the stage, in which the part with the step is filled.
 fn paint_part(ui: &mut Ui, from: f64, to: f64) {
     let size = vec2(ui.available_width(), 8.0);
     let (rect, response) = ui.allocate_exact_size(size, egui::Sense::hover());
@@ -278,5 +214,5 @@ fn paint_part(ui: &mut Ui, from: f64, to: f64) {
         egui::StrokeKind::Inside,
     );
     painter.rect_filled(part, 2.0, ui.visuals().selection.bg_fill);
-    response.on_hover_text("the part of its stage in which the step moves");
+    response.on_hover_text("The part of the stage in which the creases of this step move.");
 }

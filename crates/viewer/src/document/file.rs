@@ -1,4 +1,4 @@
-//! The file of a scene: written whole or not at all; and files that a scene names, seen from where it lies.
+//! Scene files, which are written completely or not at all, and relative paths of the files that a scene names.
 
 use std::fs::{File, OpenOptions, Permissions};
 use std::io::{self, ErrorKind, Write as _};
@@ -7,47 +7,47 @@ use std::path::{Component, Path, PathBuf};
 use foldmotion_study::{Scene, SceneSource, StudyError};
 use thiserror::Error;
 
-/// Why a scene was not saved.
+/// Why a scene could not be saved.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub(crate) enum SaveError {
-    /// It has no file.
+    /// The scene has no file yet.
     #[error("the scene has no file yet; choose one")]
     NoFile,
-    /// The file is not as it was when it was last read or written.
-    #[error("{}: another program has changed it; overwrite it, or read it again", path.display())]
+    /// The file has changed since it was last read or written.
+    #[error("{}: another program has changed the file; overwrite or reload it", path.display())]
     Changed {
-        /// The file.
+        /// The scene file.
         path: PathBuf,
     },
-    /// Saving would destroy a crease pattern.
-    #[error("{}: a scene is no crease pattern; give the file a name that ends in .toml", path.display())]
+    /// Saving would overwrite a crease pattern.
+    #[error("{}: this is the file name of a crease pattern; save the scene under a name that ends in .toml", path.display())]
     Ending {
-        /// The file.
+        /// The file that was to be written.
         path: PathBuf,
     },
     /// The file cannot be written.
     #[error("{}: cannot be written: {source}", path.display())]
     Write {
-        /// The file.
+        /// The file that was to be written.
         path: PathBuf,
-        /// Why.
+        /// The error of the file system.
         source: io::Error,
     },
 }
 
-/// Scenes larger than this are no scenes.
+/// The largest size of a scene file, bytes.
 const MOST_BYTES: u64 = 16 << 20;
 
-/// Refuses what is no file, or too large for a scene.
+/// Checks that the path is a regular file, not too large for a scene, and readable.
 pub(super) fn check_readable(path: &Path) -> Result<(), StudyError> {
     let checked = std::fs::metadata(path).and_then(|metadata| {
         if !metadata.is_file() {
-            return Err(io::Error::other("it is no file"));
+            return Err(io::Error::other("not a regular file"));
         }
         if metadata.len() > MOST_BYTES && !SceneSource::is_pattern(path) {
             let size = metadata.len();
-            let message = format!("it has {size} bytes: scenes have {MOST_BYTES} at most");
+            let message = format!("{size} bytes are too many for a scene (at most {MOST_BYTES})");
             return Err(io::Error::other(message));
         }
         File::open(path).map(drop)
@@ -58,17 +58,17 @@ pub(super) fn check_readable(path: &Path) -> Result<(), StudyError> {
     })
 }
 
-/// Writes a file beside `path` and moves it into its place: a crash leaves the old one or the new one.
+/// Writes a temporary file beside `path` and renames it: after a crash there is either the old file or the new one.
 ///
-/// A link stays a link; permissions stay. Where it is to be `durable`, a power cut does no worse, and it takes as long as
-/// the disk does.
+/// Symbolic links and permissions are kept. A `durable` write also survives a power failure, but has to wait for the
+/// disk.
 pub(crate) fn write_whole(path: &Path, text: &str, durable: bool) -> io::Result<()> {
     let target = path.canonicalize().unwrap_or_else(|_| path.to_owned());
     let permissions = std::fs::metadata(&target).map(|m| m.permissions()).ok();
     if permissions.as_ref().is_some_and(Permissions::readonly) {
         return Err(io::Error::new(
             ErrorKind::PermissionDenied,
-            "it is read-only",
+            "the file is read-only",
         ));
     }
     let name = target.file_name().unwrap_or_default().to_string_lossy();
@@ -89,34 +89,34 @@ pub(crate) fn write_whole(path: &Path, text: &str, durable: bool) -> io::Result<
         std::fs::rename(&beside, &target)
     };
     written().inspect_err(|_| {
-        // What is half written is of no use, and the first error says why.
+        // The incomplete file is of no use, and the first error is the one to report.
         let _ = std::fs::remove_file(&beside);
     })
 }
 
-/// The scene with the relative files it names, seen from `old`, named as they are seen from `new`.
+/// The scene with the relative paths in it, which refer to folder `old`, rewritten to refer to `new`.
 pub(super) fn moved(scene: &Scene, old: &Path, new: &Path) -> Scene {
     let mut moved = scene.clone();
-    if resolved(old) == resolved(new) {
+    if real_path(old) == real_path(new) {
         return moved;
     }
     let profile = moved.profile.file.as_mut();
     let pattern = moved.pattern.as_mut().map(|pattern| &mut pattern.file);
     for file in profile.into_iter().chain(pattern) {
         if !file.is_empty() && Path::new(file.as_str()).is_relative() {
-            *file = seen_from(new, &old.join(file.as_str()));
+            *file = relative_to(new, &old.join(file.as_str()));
         }
     }
     moved
 }
 
-/// How a scene in `folder` names a file: by the way to it, or from the root where they share no folder.
-pub(super) fn seen_from(folder: &Path, file: &Path) -> String {
-    let folder = resolved(folder);
-    // A link keeps its own name.
+/// The path under which a scene in `folder` names a file: relative, or absolute if they share no folder.
+pub(super) fn relative_to(folder: &Path, file: &Path) -> String {
+    let folder = real_path(folder);
+    // A symbolic link keeps its own name.
     let file = match file.file_name() {
-        Some(name) => resolved(&folder_of(file)).join(name),
-        None => resolved(file),
+        Some(name) => real_path(&folder_of(file)).join(name),
+        None => real_path(file),
     };
     let pairs = folder.components().zip(file.components());
     let shared = pairs.take_while(|(a, b)| a == b);
@@ -132,23 +132,23 @@ pub(super) fn seen_from(folder: &Path, file: &Path) -> String {
     way.join("/")
 }
 
-/// The path from the root, without links as far as it exists.
-fn resolved(path: &Path) -> PathBuf {
+/// The absolute path, with symbolic links resolved as far as it exists.
+fn real_path(path: &Path) -> PathBuf {
     let whole = std::path::absolute(path).unwrap_or_else(|_| path.to_owned());
     if let Ok(real) = whole.canonicalize() {
         return real;
     }
     match (whole.parent(), whole.components().next_back()) {
         (Some(parent), Some(Component::ParentDir)) => {
-            let parent = resolved(parent);
+            let parent = real_path(parent);
             parent.parent().unwrap_or(&parent).to_owned()
         }
-        (Some(parent), Some(last)) => resolved(parent).join(last),
+        (Some(parent), Some(last)) => real_path(parent).join(last),
         _ => whole,
     }
 }
 
-/// The folder that a path lies in.
+/// The folder that contains a path.
 pub(super) fn folder_of(path: &Path) -> PathBuf {
     match path.parent() {
         Some(folder) if !folder.as_os_str().is_empty() => folder.to_owned(),

@@ -1,11 +1,11 @@
-//! What was, and what was taken back.
+//! Undo and redo.
 
 use std::collections::VecDeque;
 use std::sync::Arc;
 
-/// Steps kept at most.
+/// The largest number of steps that are kept.
 const MOST_STEPS: usize = 500;
-/// Bytes of text kept at most.
+/// The largest size of the texts that are kept, bytes.
 const MOST_BYTES: usize = 16 << 20;
 
 /// A change of the text.
@@ -16,17 +16,17 @@ pub(super) struct Step {
     pub(super) after: Arc<str>,
 }
 
-/// The changes so far, and those that were undone.
+/// The changes that can be undone and redone.
 #[derive(Debug, Default)]
 pub(super) struct History {
     done: VecDeque<Step>,
     undone: Vec<Step>,
-    /// Whether the last step may still grow.
+    /// Whether the next change may be merged into the last step.
     open: bool,
 }
 
 impl History {
-    /// Records a change. One that `continues` the change before it, under the same label, becomes part of that.
+    /// Records a change. A change that `continues` the last one with the same label is merged into it.
     pub(super) fn record(&mut self, step: Step, continues: bool) {
         self.undone.clear();
         match self.done.back_mut() {
@@ -39,8 +39,8 @@ impl History {
         self.forget();
     }
 
-    /// The next change starts a step of its own.
-    pub(super) fn settle(&mut self) {
+    /// Ends the current step, so that the next change is not merged into it.
+    pub(super) fn end_step(&mut self) {
         self.open = false;
     }
 
@@ -66,7 +66,7 @@ impl History {
         self.undone.last().map(|step| step.label.as_str())
     }
 
-    /// Puts another text in the place of each.
+    /// Replaces every text for which `rewritten` returns another.
     pub(super) fn rewrite(&mut self, rewritten: impl Fn(&str) -> Option<String>) {
         for step in self.done.iter_mut().chain(&mut self.undone) {
             for text in [&mut step.before, &mut step.after] {
@@ -77,7 +77,7 @@ impl History {
         }
     }
 
-    /// Lets the oldest steps go; neighbours share a text, so one of each counts.
+    /// Removes the oldest steps. Neighbouring steps share a text, so only one text of each is counted.
     fn forget(&mut self) {
         let mut bytes: usize = self.done.iter().map(|step| step.before.len()).sum();
         while self.done.len() > MOST_STEPS || (bytes > MOST_BYTES && self.done.len() > 1) {
@@ -130,7 +130,7 @@ mod tests {
         assert!(history.undo().is_none());
         history.redo();
         history.record(step("c", "d"), true);
-        history.settle();
+        history.end_step();
         history.record(step("d", "e"), true);
         for before in ["d", "c", "a"] {
             assert_eq!(&*history.undo().unwrap().before, before);

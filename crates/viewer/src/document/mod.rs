@@ -1,4 +1,4 @@
-//! The scene at hand: its text, its edits and their history, its file.
+//! The document: the text of a scene, its undo history and its file.
 
 mod edit;
 mod file;
@@ -15,18 +15,18 @@ use foldmotion_study::{FIRST_SCENE, Scene, SceneSource, StudyError};
 pub(crate) use file::{SaveError, write_whole};
 use history::{History, Step};
 
-/// What a scene is called before it has a file.
+/// The name of a scene without a file.
 const UNTITLED: &str = "untitled.toml";
 
 /// A scene that is being edited.
 ///
-/// Its text is the truth: edits of the scene are written into it, and what it says is read back. While the text has an
-/// error, the scene is the last that had none.
+/// The text is authoritative: edits of the scene are written into the text, and the scene is parsed from it. While the
+/// text has an error, `scene` is the last valid one.
 #[derive(Debug)]
 pub(crate) struct Document {
-    /// Names the scene; relative files that it names are beside this.
-    place: PathBuf,
-    /// Where it was last read or written; none for a new scene and one of a crease pattern.
+    /// The path that names the scene and that relative paths in it refer to.
+    location: PathBuf,
+    /// The file it was last read from or written to; `None` for a new scene and for one made from a crease pattern.
     path: Option<PathBuf>,
     text: Arc<str>,
     /// The text as it was last read or written.
@@ -38,15 +38,15 @@ pub(crate) struct Document {
 }
 
 impl Document {
-    /// A commented scene to start from, without a file.
+    /// A new scene with explanatory comments and without a file.
     pub(crate) fn new() -> Self {
         Self::with(PathBuf::from(UNTITLED), None, FIRST_SCENE)
     }
 
-    /// Opens a scene, or a crease pattern as the scene that names it. One with errors opens all the same.
+    /// Opens a scene, or makes a scene that names a crease pattern. A scene with errors is opened too.
     ///
     /// # Errors
-    /// [`StudyError::Read`] for what cannot be read.
+    /// [`StudyError::Read`] if the file cannot be read.
     pub(crate) fn open(path: &Path) -> Result<Self, StudyError> {
         file::check_readable(path)?;
         let source = SceneSource::read(path)?;
@@ -61,17 +61,17 @@ impl Document {
         Ok(Self::with(path.to_owned(), None, &text))
     }
 
-    /// A scene as it was left unsaved: `base` is what its file said. The restored text can be undone.
-    pub(crate) fn restored(place: &Path, path: Option<&Path>, base: &str, text: &str) -> Self {
-        let mut document = Self::with(place.to_owned(), path.map(Path::to_owned), base);
-        document.put(text.into(), "restored changes", false);
+    /// A recovered scene; `base` is the text of its file. Restoring can be undone.
+    pub(crate) fn restored(location: &Path, path: Option<&Path>, base: &str, text: &str) -> Self {
+        let mut document = Self::with(location.to_owned(), path.map(Path::to_owned), base);
+        document.replace_text(text.into(), "restored changes", false);
         document
     }
 
-    fn with(place: PathBuf, path: Option<PathBuf>, text: &str) -> Self {
+    fn with(location: PathBuf, path: Option<PathBuf>, text: &str) -> Self {
         let text: Arc<str> = text.into();
         let mut document = Self {
-            place,
+            location,
             path,
             text: text.clone(),
             saved: text,
@@ -89,26 +89,27 @@ impl Document {
         self.path.as_deref()
     }
 
-    /// The file that it is named after: its own, the crease pattern it was made of, or one that does not exist yet.
-    pub(crate) fn place(&self) -> &Path {
-        &self.place
+    /// The path that it is named after: its file, the crease pattern that it was made from, or a file that does not
+    /// exist yet.
+    pub(crate) fn location(&self) -> &Path {
+        &self.location
     }
 
-    /// The name of the file, or `untitled.toml`.
+    /// The file name, or `untitled.toml`.
     pub(crate) fn name(&self) -> String {
-        let name = self.place.file_name().unwrap_or_default();
+        let name = self.location.file_name().unwrap_or_default();
         name.to_string_lossy().into_owned()
     }
 
-    /// The folder that it lies in.
+    /// The folder that relative paths refer to.
     pub(crate) fn folder(&self) -> PathBuf {
-        file::folder_of(&self.place)
+        file::folder_of(&self.location)
     }
 
-    /// The name it is to be saved under, unless another is chosen.
+    /// The file name that is suggested when saving.
     pub(crate) fn name_to_save(&self) -> String {
-        let place = self.place.with_extension("toml");
-        let name = place.file_name().unwrap_or_default();
+        let path = self.location.with_extension("toml");
+        let name = path.file_name().unwrap_or_default();
         name.to_string_lossy().into_owned()
     }
 
@@ -121,22 +122,22 @@ impl Document {
         &self.saved
     }
 
-    /// The text with its place, ready to be resolved.
+    /// The text with its path, ready to be resolved.
     pub(crate) fn source(&self) -> SceneSource {
-        SceneSource::new(&self.place, self.text.to_string())
+        SceneSource::new(&self.location, self.text.to_string())
     }
 
-    /// What the text says; while it has an error, what it last said.
+    /// The scene that the text means; while the text has an error, the last valid scene.
     pub(crate) fn scene(&self) -> &Scene {
         &self.scene
     }
 
-    /// What is wrong with the text.
+    /// The error in the text, if there is one.
     pub(crate) fn parse_error(&self) -> Option<&StudyError> {
         self.error.as_ref()
     }
 
-    /// A number that changes with every text.
+    /// A number that increases with every change of the text.
     pub(crate) fn revision(&self) -> u64 {
         self.revision
     }
@@ -146,15 +147,15 @@ impl Document {
         self.text != self.saved
     }
 
-    /// How the scene names a file, so that it is found from where the scene lies.
+    /// The path under which the scene names a file.
     pub(crate) fn name_of(&self, path: &Path) -> String {
-        file::seen_from(&self.folder(), path)
+        file::relative_to(&self.folder(), path)
     }
 
-    /// Makes the text say `scene`: only what differs is written. False, and nothing is changed, where the text has errors
-    /// that the change does not mend.
+    /// Edits the text so that it means `scene`, writing only the differences. Returns false and changes nothing if the
+    /// text has errors that the change does not correct.
     ///
-    /// A change that `continues` the one before it, under the same label, is undone together with it.
+    /// A change that `continues` the last one with the same label is undone together with it.
     pub(crate) fn change(&mut self, scene: Scene, label: &str, continues: bool) -> bool {
         if self.error.is_none() && scene == self.scene {
             return true;
@@ -162,7 +163,7 @@ impl Document {
         let Some(text) = edit::edited(&self.text, &self.scene, &scene) else {
             return false;
         };
-        let says = SceneSource::new(&self.place, text.clone()).scene();
+        let says = SceneSource::new(&self.location, text.clone()).scene();
         if !says.is_ok_and(|says| says == scene) {
             return false;
         }
@@ -174,39 +175,39 @@ impl Document {
 
     /// Replaces the text, as edited by hand.
     pub(crate) fn set_text(&mut self, text: &str, continues: bool) {
-        self.put(text.into(), "text", continues);
+        self.replace_text(text.into(), "text", continues);
     }
 
-    /// The next change is undone by itself, even if it continues the last.
-    pub(crate) fn settle(&mut self) {
-        self.history.settle();
+    /// Ends the current undo step, even if the next change continues it.
+    pub(crate) fn end_step(&mut self) {
+        self.history.end_step();
     }
 
-    /// Takes the last change back; its label.
+    /// Undoes the last change and returns its label.
     pub(crate) fn undo(&mut self) -> Option<String> {
         let Step { label, before, .. } = self.history.undo()?.clone();
-        self.take(before);
+        self.set_current(before);
         Some(label)
     }
 
-    /// Makes the last change that was taken back again; its label.
+    /// Redoes the last change that was undone and returns its label.
     pub(crate) fn redo(&mut self) -> Option<String> {
         let Step { label, after, .. } = self.history.redo()?.clone();
-        self.take(after);
+        self.set_current(after);
         Some(label)
     }
 
-    /// The label of the change that [`Self::undo`] takes back.
+    /// The label of the change that [`Self::undo`] would undo.
     pub(crate) fn can_undo(&self) -> Option<&str> {
         self.history.last_done()
     }
 
-    /// The label of the change that [`Self::redo`] makes again.
+    /// The label of the change that [`Self::redo`] would redo.
     pub(crate) fn can_redo(&self) -> Option<&str> {
         self.history.last_undone()
     }
 
-    fn put(&mut self, text: Arc<str>, label: &str, continues: bool) {
+    fn replace_text(&mut self, text: Arc<str>, label: &str, continues: bool) {
         if text != self.text {
             self.record(text, label, continues);
             self.read_text();
@@ -224,7 +225,7 @@ impl Document {
         self.revision += 1;
     }
 
-    fn take(&mut self, text: Arc<str>) {
+    fn set_current(&mut self, text: Arc<str>) {
         self.text = text;
         self.revision += 1;
         self.read_text();
@@ -240,7 +241,7 @@ impl Document {
         }
     }
 
-    /// Whether the file says something else than when it was last read or written; a file that is gone does not.
+    /// Whether the content of the file has changed since it was last read or written; false if the file is gone.
     pub(crate) fn changed_on_disk(&self) -> bool {
         let path = self.path.as_deref();
         let on_disk = path.and_then(|path| std::fs::read(path).ok());
@@ -250,7 +251,7 @@ impl Document {
     /// Writes the text to its file.
     ///
     /// # Errors
-    /// [`SaveError::NoFile`] without one, [`SaveError::Changed`] where another program has changed it since, and
+    /// [`SaveError::NoFile`] without a file, [`SaveError::Changed`] if another program has changed it, and
     /// [`SaveError::Write`].
     pub(crate) fn save(&mut self) -> Result<(), SaveError> {
         if let Some(path) = &self.path
@@ -261,20 +262,21 @@ impl Document {
         self.save_over()
     }
 
-    /// Writes the text to its file, whatever that says.
+    /// Writes the text to its file, even if another program has changed it.
     ///
     /// # Errors
-    /// [`SaveError::NoFile`], [`SaveError::Write`].
+    /// [`SaveError::NoFile`] and [`SaveError::Write`].
     pub(crate) fn save_over(&mut self) -> Result<(), SaveError> {
         let path = self.path.clone().ok_or(SaveError::NoFile)?;
         self.write(&path)
     }
 
-    /// Writes the text to another file, which becomes its own. Relative files that it names are then named as they are
-    /// seen from there, in everything that can be undone too.
+    /// Writes the text to another file, which becomes its file. Relative paths are rewritten to refer to the new
+    /// folder, also in the undo history.
     ///
     /// # Errors
-    /// [`SaveError::Ending`] for the name of a crease pattern, [`SaveError::Write`]; the scene is then as before.
+    /// [`SaveError::Ending`] for the file name of a crease pattern and [`SaveError::Write`]; the scene is then
+    /// unchanged.
     pub(crate) fn save_as(&mut self, path: &Path) -> Result<(), SaveError> {
         if SceneSource::is_pattern(path) {
             return Err(SaveError::Ending {
@@ -286,27 +288,27 @@ impl Document {
         let text = moved(&self.text).unwrap_or_else(|| self.text.to_string());
         write(path, &text)?;
         self.history.rewrite(moved);
-        path.clone_into(&mut self.place);
+        path.clone_into(&mut self.location);
         self.path = Some(path.to_owned());
         self.saved = text.into();
-        self.history.settle();
-        self.take(self.saved.clone());
+        self.history.end_step();
+        self.set_current(self.saved.clone());
         Ok(())
     }
 
     fn write(&mut self, path: &Path) -> Result<(), SaveError> {
         write(path, &self.text)?;
         self.saved = self.text.clone();
-        self.history.settle();
+        self.history.end_step();
         Ok(())
     }
 
-    /// Goes back to the text as it was last read or written; that can be undone.
-    pub(crate) fn give_up(&mut self) {
-        self.put(self.saved.clone(), "edits given up", false);
+    /// Returns to the text as it was last read or written; this can be undone.
+    pub(crate) fn revert(&mut self) {
+        self.replace_text(self.saved.clone(), "discarded edits", false);
     }
 
-    /// Reads its file again; that can be undone.
+    /// Reads its file again; this can be undone.
     ///
     /// # Errors
     /// [`StudyError::Read`].
@@ -317,7 +319,7 @@ impl Document {
         file::check_readable(&path)?;
         let source = SceneSource::read(&path)?;
         self.saved = source.text().into();
-        self.put(self.saved.clone(), "read again", false);
+        self.replace_text(self.saved.clone(), "reload", false);
         Ok(())
     }
 }
@@ -329,7 +331,7 @@ fn write(path: &Path, text: &str) -> Result<(), SaveError> {
     })
 }
 
-/// The text of a scene that moves from one folder to another; none where it names no file that must be named anew.
+/// The text of a scene that moves from one folder to another; `None` if no path in it changes.
 fn moved_text(text: &str, old: &Path, new: &Path) -> Option<String> {
     let scene = SceneSource::new(Path::new(UNTITLED), text.to_owned())
         .scene()

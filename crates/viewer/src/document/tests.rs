@@ -1,4 +1,4 @@
-//! Scenes opened, edited, undone, saved, and moved to other folders.
+//! Opening, editing, undoing, saving and moving scenes.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -15,7 +15,7 @@ fn rows(document: &mut Document, rows: i64, continues: bool) -> bool {
     document.change(scene, "rows", continues)
 }
 
-/// A scene file in a folder of its own.
+/// A scene file in its own temporary folder.
 fn on_disk(text: &str) -> (tempfile::TempDir, PathBuf) {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("a.toml");
@@ -61,7 +61,7 @@ fn changes_that_continue_are_one_step_and_no_change_is_none() {
     let revision = document.revision();
     assert!(rows(&mut document, 14, true));
     assert_eq!(document.revision(), revision);
-    document.settle();
+    document.end_step();
     assert!(rows(&mut document, 20, true));
     document.undo();
     assert_eq!(document.scene().sheet.rows, Some(14));
@@ -77,7 +77,7 @@ fn a_scene_with_an_error_opens_with_its_text_and_the_error_says_where() {
     let error = document.parse_error().unwrap().to_string();
     assert!(error.contains("a.toml:2"), "{error}");
     assert_eq!(document.text(), "[sheet]\nrows = \"seven\"\n");
-    // A change that does not mend it is refused, one that does is taken.
+    // A change that does not correct the error is refused; one that does is accepted.
     let mut scene = document.scene().clone();
     scene.sheet.columns = Some(3);
     assert!(!document.change(scene, "columns", false) && !document.is_modified());

@@ -1,26 +1,26 @@
-//! The help sheet: keys, mouse, words, version, how to cite.
+//! The help sheet: keys, mouse gestures, terms, version and citation.
 
 use eframe::egui::{Context, Grid, Id, Key, Modal, Modifiers, ScrollArea, Ui};
 
+use super::appearance::modal_frame;
 use super::shortcuts::{Group, SHORTCUTS, written};
-use super::theme::modal_frame;
 
-/// The groups of the two columns.
+/// The groups of commands in the two columns.
 const COLUMNS: [&[Group]; 2] = [
     &[Group::File, Group::Edit, Group::Motion, Group::Time],
     &[Group::View, Group::Colours, Group::Window],
 ];
 
-/// What the mouse does, where, and how.
+/// Mouse gestures: where, what they do, and how.
 const MOUSE: [(&str, &[(&str, &str)]); 2] = [
     (
         "Mouse in the 3D view",
         &[
             ("turn", "drag"),
-            ("move", "right or shift drag"),
-            ("nearer, farther", "wheel or pinch"),
+            ("move", "right drag or Shift drag"),
+            ("zoom", "wheel or pinch"),
             ("fit to the window", "double click"),
-            ("pull a vertex by hand", "drag it"),
+            ("pull a vertex (by hand)", "drag it"),
         ],
     ),
     (
@@ -28,23 +28,23 @@ const MOUSE: [(&str, &[(&str, &str)]); 2] = [
         &[
             ("move a point", "drag it"),
             ("add a point", "double click"),
-            ("remove a point", "right click on it, Delete"),
+            ("remove a point", "right click on it, or Delete"),
             ("move the canvas", "right or middle drag"),
-            ("nearer, farther", "wheel or pinch"),
+            ("zoom", "wheel or pinch"),
         ],
     ),
 ];
 
-const WORDS: [(&str, &str); 3] = [
+const TERMS: [(&str, &str); 3] = [
     (
         "Touching",
-        "facets lie on each other and leave on the side they came from",
+        "Facets lie on each other and separate on the same side.",
     ),
     (
         "Penetrating",
-        "facets overlap by more than the tolerance, or leave on the other side",
+        "Facets overlap by more than the tolerance, or separate on the other side.",
     ),
-    ("Free", "no facets come within the tolerance of each other"),
+    ("Free", "No facets come within the tolerance of each other."),
 ];
 
 const CITE: &str = "Please cite foldmotion with its version, and the paper it implements: Constructing foldable \
@@ -88,8 +88,8 @@ fn contents(ui: &mut Ui) {
             table(ui, title, rows);
         }
     });
-    title(ui, "Words");
-    for (word, meaning) in WORDS {
+    title(ui, "Terms");
+    for (word, meaning) in TERMS {
         ui.horizontal_wrapped(|ui| {
             ui.strong(word);
             ui.label(meaning);
@@ -141,25 +141,25 @@ mod tests {
     use egui_kittest::kittest::Queryable as _;
 
     use super::super::tests::drawn;
-    use super::super::{Look, apply};
+    use super::super::{Appearance, apply};
     use super::*;
 
-    fn harness(look: Look) -> Harness<'static, bool> {
+    fn harness(appearance: Appearance) -> Harness<'static, bool> {
         let builder = Harness::builder().with_size(vec2(900.0, 1000.0));
-        let theme = if look == Look::Light {
+        let theme = if appearance == Appearance::Light {
             Theme::Light
         } else {
             Theme::Dark
         };
         let builder = builder
             .with_theme(theme)
-            .with_context_setup(move |ctx| apply(ctx, look, 1.0));
+            .with_context_setup(move |ctx| apply(ctx, appearance, 1.0));
         builder.build_ui_state(|ui, open| show_help(ui.ctx(), open), true)
     }
 
     #[test]
     fn the_sheet_lists_every_command_with_its_keys() {
-        let mut harness = harness(Look::Dark);
+        let mut harness = harness(Appearance::Dark);
         harness.run();
         for shortcut in SHORTCUTS {
             harness.get_by_label(shortcut.name);
@@ -175,13 +175,13 @@ mod tests {
     #[test]
     fn escape_f1_and_the_button_close_the_sheet() {
         for close in [Key::Escape, Key::F1] {
-            let mut harness = harness(Look::Dark);
+            let mut harness = harness(Appearance::Dark);
             harness.run();
             harness.key_press(close);
             harness.run();
             assert!(!harness.state(), "{close:?}");
         }
-        let mut harness = harness(Look::Light);
+        let mut harness = harness(Appearance::Light);
         harness.run();
         harness.get_by_label("Close").click();
         harness.run();
@@ -191,11 +191,18 @@ mod tests {
     #[test]
     #[cfg_attr(not(gpu_tests), ignore = "no adapter: set FOLDMOTION_GPU_TESTS=yes")]
     fn the_sheet_is_drawn_dark_and_light() {
-        for (look, theme) in [(Look::Dark, Theme::Dark), (Look::Light, Theme::Light)] {
-            let mut harness = harness(look);
+        for (appearance, theme) in [
+            (Appearance::Dark, Theme::Dark),
+            (Appearance::Light, Theme::Light),
+        ] {
+            let mut harness = harness(appearance);
             harness.run();
             assert_eq!(harness.ctx.theme(), theme);
-            let lit = drawn(&mut harness, &format!("help-{}", look.name()), [450, 500]);
+            let lit = drawn(
+                &mut harness,
+                &format!("help-{}", appearance.name()),
+                [450, 500],
+            );
             assert_eq!(lit < 128, theme == Theme::Dark, "{lit}");
         }
     }

@@ -1,10 +1,10 @@
-//! What the window remembers: recent files, looks, unsaved scenes; and how a file is chosen.
+//! Settings that are kept from one start to the next, unsaved scenes, keyboard shortcuts, and the file picker.
 
+mod appearance;
 mod help;
 mod picker;
 mod recent;
 mod shortcuts;
-mod theme;
 mod unsaved;
 mod view;
 
@@ -13,25 +13,26 @@ use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
 
+pub(crate) use appearance::{Appearance, SCALES, apply};
 pub(crate) use help::show_help;
-pub(crate) use picker::{Picked, Picker};
-pub(crate) use recent::Recent;
+pub(crate) use picker::{FilePicker, PickerResult};
+pub(crate) use recent::RecentFiles;
 pub(crate) use shortcuts::{Command, keys_of, name_of, pressed};
-pub(crate) use theme::{Look, SCALES, apply};
 pub(crate) use unsaved::{UnsavedScene, UnsavedScenes};
 pub(crate) use view::{Colour, PanelSettings, ViewSettings};
 
 /// The key under which the settings are stored.
 const KEY: &str = "settings";
 
-/// What the window remembers from one start to the next.
+/// Settings that are kept from one start to the next.
 #[derive(Debug, Clone, Default, PartialEq, Serialize)]
 pub(crate) struct Settings {
-    /// Files opened and saved.
-    pub(crate) recent: Recent,
-    /// Dark, light, or as the system is.
-    pub(crate) look: Look,
-    /// How large everything is.
+    /// Files that were opened or saved.
+    pub(crate) recent: RecentFiles,
+    /// Dark, light, or as the system.
+    #[serde(rename = "look")]
+    pub(crate) appearance: Appearance,
+    /// The zoom factor of the whole window.
     pub(crate) scale: Scale,
     /// How the sheet is shown.
     pub(crate) view: ViewSettings,
@@ -39,7 +40,7 @@ pub(crate) struct Settings {
     pub(crate) panels: PanelSettings,
 }
 
-/// The size of everything, one of [`SCALES`].
+/// The zoom factor of the whole window, one of [`SCALES`].
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Scale(f32);
 
@@ -50,7 +51,7 @@ impl Default for Scale {
 }
 
 impl Scale {
-    /// The factor; the nearest of [`SCALES`] whatever was stored.
+    /// The factor: the one of [`SCALES`] nearest to the stored value.
     pub(crate) fn factor(self) -> f32 {
         let wanted = self.0.clamp(SCALES[0], SCALES[SCALES.len() - 1]);
         let far = |scale: &f32| (scale - wanted).abs();
@@ -58,7 +59,7 @@ impl Scale {
         nearest.unwrap_or(SCALES[0])
     }
 
-    /// The next larger size; the smallest after the largest.
+    /// The next larger factor; after the largest, the smallest.
     pub(crate) fn next(self) -> Self {
         let larger = SCALES.into_iter().find(|&scale| scale > self.factor());
         Self(larger.unwrap_or(SCALES[0]))
@@ -66,14 +67,14 @@ impl Scale {
 }
 
 impl Settings {
-    /// What was stored; what is missing or cannot be read is as at the first start.
+    /// The stored settings; whatever is missing or cannot be read gets its default.
     pub(crate) fn load(storage: Option<&dyn Storage>) -> Self {
         let stored = storage.and_then(|storage| storage.get_string(KEY));
         stored.map_or_else(Self::default, |json| Self::from_json(&json))
     }
 
     pub(crate) fn store(&self, storage: &mut dyn Storage) {
-        // Numbers, words and lists of them always serialise.
+        // Numbers, strings and lists of them always serialise.
         if let Ok(json) = serde_json::to_string(self) {
             storage.set_string(KEY, json);
         }
@@ -85,7 +86,7 @@ impl Settings {
         };
         Self {
             recent: field(&stored, "recent"),
-            look: field(&stored, "look"),
+            appearance: field(&stored, "look"),
             scale: field(&stored, "scale"),
             view: field(&stored, "view"),
             panels: field(&stored, "panels"),
@@ -93,7 +94,7 @@ impl Settings {
     }
 }
 
-/// A field of its own: what another version wrote there costs this one only.
+/// One field, read by itself, so that an incompatible value of another version only resets this field.
 fn field<T: DeserializeOwned + Default>(stored: &Map<String, Value>, name: &str) -> T {
     let value = stored.get(name).cloned();
     value
@@ -109,7 +110,8 @@ mod tests {
 
     use super::*;
 
-    /// Draws what is shown, to be looked at where FOLDMOTION_PICTURES says; how light it is at a place.
+    /// Renders the window, saves the picture in the folder FOLDMOTION_PICTURES if it is set, and returns the brightness
+    /// of a pixel.
     pub(super) fn drawn<S>(harness: &mut Harness<'_, S>, name: &str, [x, y]: [u32; 2]) -> u8 {
         let picture = harness.render().unwrap();
         if let Some(folder) = std::env::var_os("FOLDMOTION_PICTURES") {
@@ -123,7 +125,7 @@ mod tests {
     #[test]
     fn settings_read_back_as_they_were_stored() {
         let mut settings = Settings::default();
-        settings.look = Look::Light;
+        settings.appearance = Appearance::Light;
         settings.scale = settings.scale.next();
         settings.view.creases = false;
         settings.panels.text = true;
@@ -136,8 +138,8 @@ mod tests {
     fn what_another_version_wrote_falls_back_field_by_field() {
         let json = r#"{"recent": 3, "look": "sepia", "scale": 1e9, "new": [], "view": {"creases": false, "later": 1}, "panels": {"text": "yes"}}"#;
         let settings = Settings::from_json(json);
-        assert_eq!(settings.look, Look::System);
-        assert_eq!(settings.recent, Recent::default());
+        assert_eq!(settings.appearance, Appearance::System);
+        assert_eq!(settings.recent, RecentFiles::default());
         assert_eq!(settings.scale.factor(), 2.0);
         assert!(!settings.view.creases && settings.view.profile);
         assert_eq!(settings.panels, PanelSettings::default());

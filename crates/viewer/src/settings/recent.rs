@@ -1,19 +1,19 @@
-//! Files that were opened or saved, the latest first.
+//! Recently opened or saved files.
 
 use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Serialize};
 
-/// Files kept.
+/// The largest number of files that are kept.
 const MOST: usize = 10;
 
-/// Files that were opened or saved, the latest first, each once.
+/// Files that were opened or saved, without duplicates, the latest first.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 #[serde(transparent)]
-pub(crate) struct Recent(Vec<String>);
+pub(crate) struct RecentFiles(Vec<String>);
 
-impl Recent {
-    /// Puts a file first. One whose path is no Unicode is not remembered.
+impl RecentFiles {
+    /// Puts a file first. A path that is not Unicode is not kept.
     pub(crate) fn add(&mut self, path: &Path) {
         let path = path.canonicalize().unwrap_or_else(|_| path.to_owned());
         let Some(path) = path.to_str() else { return };
@@ -22,7 +22,8 @@ impl Recent {
         self.0.truncate(MOST);
     }
 
-    /// Those that exist, then the others, each the latest first. Asks the disk: not for every frame.
+    /// The files that exist, then the others, each group with the latest first. This accesses the disk, so do not call
+    /// it in every frame.
     pub(crate) fn existing_first(&self) -> Vec<(PathBuf, bool)> {
         let files = self.0.iter().take(MOST).map(PathBuf::from);
         let mut files: Vec<_> = files.map(|path| (path.clone(), path.exists())).collect();
@@ -30,7 +31,7 @@ impl Recent {
         files
     }
 
-    /// The folders they are in, each once.
+    /// The folders of the files, without duplicates.
     pub(crate) fn folders(&self) -> Vec<PathBuf> {
         let mut folders: Vec<PathBuf> = Vec::new();
         for path in self.0.iter().take(MOST) {
@@ -52,7 +53,7 @@ mod tests {
     fn the_latest_come_first_each_once_ten_at_most_existing_ones_before_others() {
         let folder = tempfile::tempdir().unwrap();
         let file = |k: usize| folder.path().join(format!("{k}.toml"));
-        let mut recent = Recent::default();
+        let mut recent = RecentFiles::default();
         for k in 0..12 {
             std::fs::write(file(k), "").unwrap();
             recent.add(&file(k));

@@ -1,56 +1,8 @@
-//! Every command of the window with its keys: one table that input is matched against and the help sheet shows.
+//! The commands of the window with their keys: one table, which keyboard input, menus and the help sheet read.
 
 use eframe::egui::{Context, Event, Id, Key, KeyboardShortcut, Memory, Modifiers, Popup};
 
-/// What can be asked of the window.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Command {
-    New,
-    Open,
-    Save,
-    SaveAs,
-    Quit,
-    Undo,
-    Redo,
-    Run,
-    Cancel,
-    Hand,
-    Record,
-    Play,
-    PreviousFrame,
-    NextFrame,
-    Start,
-    Planar,
-    Compact,
-    Slower,
-    Faster,
-    Loop,
-    ViewFront,
-    ViewSide,
-    ViewTop,
-    ViewIsometric,
-    Fit,
-    Perspective,
-    ColourPlain,
-    ColourStrain,
-    ColourBending,
-    ColourUnit,
-    ColourLayer,
-    Creases,
-    Profile,
-    CompactBox,
-    ClosedFormBox,
-    PanelDesign,
-    PanelPlots,
-    PanelVerdict,
-    PanelRecord,
-    PanelText,
-    Presentation,
-    DarkLight,
-    Help,
-}
-
-/// What commands are about, as the help sheet lists them.
+/// The groups in which the help sheet lists commands.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Group {
     File,
@@ -76,27 +28,13 @@ impl Group {
     }
 }
 
-/// A command with its name and keys.
+/// A command with its name, group and keys.
 #[derive(Debug)]
 pub(super) struct Shortcut {
     pub(super) command: Command,
     pub(super) name: &'static str,
     pub(super) group: Group,
     pub(super) keys: &'static [KeyboardShortcut],
-}
-
-const fn row(
-    command: Command,
-    name: &'static str,
-    group: Group,
-    keys: &'static [KeyboardShortcut],
-) -> Shortcut {
-    Shortcut {
-        command,
-        name,
-        group,
-        keys,
-    }
 }
 
 const fn plain(key: Key) -> KeyboardShortcut {
@@ -121,240 +59,99 @@ const fn ctrl_shift(key: Key) -> KeyboardShortcut {
     KeyboardShortcut::new(CTRL_SHIFT, key)
 }
 
-/// Every command, by group.
-pub(super) const SHORTCUTS: &[Shortcut] = &[
-    row(Command::New, "New scene", Group::File, &[ctrl(Key::N)]),
-    row(Command::Open, "Open…", Group::File, &[ctrl(Key::O)]),
-    row(Command::Save, "Save", Group::File, &[ctrl(Key::S)]),
-    row(
-        Command::SaveAs,
-        "Save as…",
-        Group::File,
-        &[ctrl_shift(Key::S)],
-    ),
-    row(Command::Quit, "Quit", Group::File, &[ctrl(Key::Q)]),
-    row(Command::Undo, "Undo", Group::Edit, &[ctrl(Key::Z)]),
-    row(
-        Command::Redo,
-        "Redo",
-        Group::Edit,
-        &[ctrl_shift(Key::Z), ctrl(Key::Y)],
-    ),
-    row(
-        Command::Run,
-        "Run",
-        Group::Motion,
-        &[ctrl(Key::R), plain(Key::F5)],
-    ),
-    row(
-        Command::Cancel,
-        "Cancel the run",
-        Group::Motion,
-        &[plain(Key::Escape)],
-    ),
-    row(
-        Command::Hand,
-        "Take the sheet in the hand",
-        Group::Motion,
-        &[plain(Key::H)],
-    ),
-    row(Command::Record, "Record…", Group::Motion, &[ctrl(Key::E)]),
-    row(
-        Command::Play,
-        "Play or pause",
-        Group::Time,
-        &[plain(Key::Space)],
-    ),
-    row(
-        Command::PreviousFrame,
-        "Previous frame",
-        Group::Time,
-        &[plain(Key::ArrowLeft), plain(Key::Comma)],
-    ),
-    row(
-        Command::NextFrame,
-        "Next frame",
-        Group::Time,
-        &[plain(Key::ArrowRight), plain(Key::Period)],
-    ),
-    row(
-        Command::Start,
-        "Deployed state",
-        Group::Time,
-        &[plain(Key::Home)],
-    ),
-    row(
-        Command::Planar,
-        "Planar state",
-        Group::Time,
-        &[plain(Key::P)],
-    ),
-    row(
-        Command::Compact,
-        "Compact state",
-        Group::Time,
-        &[plain(Key::End)],
-    ),
-    row(Command::Slower, "Slower", Group::Time, &[plain(Key::Minus)]),
-    row(
-        Command::Faster,
-        "Faster",
-        Group::Time,
-        &[plain(Key::Plus), plain(Key::Equals)],
-    ),
-    row(Command::Loop, "Loop", Group::Time, &[plain(Key::L)]),
-    row(
-        Command::ViewFront,
-        "From the front",
-        Group::View,
-        &[plain(Key::Num1)],
-    ),
-    row(
-        Command::ViewSide,
-        "From the side",
-        Group::View,
-        &[plain(Key::Num2)],
-    ),
-    row(
-        Command::ViewTop,
-        "From the top",
-        Group::View,
-        &[plain(Key::Num3)],
-    ),
-    row(
-        Command::ViewIsometric,
-        "Isometric",
-        Group::View,
-        &[plain(Key::Num4)],
-    ),
-    row(
-        Command::Fit,
-        "Fit to the window",
-        Group::View,
-        &[plain(Key::F)],
-    ),
-    row(
-        Command::Perspective,
-        "Perspective",
-        Group::View,
-        &[plain(Key::V)],
-    ),
-    row(
-        Command::ColourPlain,
-        "Colour: plain",
-        Group::Colours,
-        &[plain(Key::Num5)],
-    ),
-    row(
-        Command::ColourStrain,
-        "Colour: strain",
-        Group::Colours,
-        &[plain(Key::Num6)],
-    ),
-    row(
-        Command::ColourBending,
-        "Colour: facet bending",
-        Group::Colours,
-        &[plain(Key::Num7)],
-    ),
-    row(
-        Command::ColourUnit,
-        "Colour: unit",
-        Group::Colours,
-        &[plain(Key::Num8)],
-    ),
-    row(
-        Command::ColourLayer,
-        "Colour: layer",
-        Group::Colours,
-        &[plain(Key::Num9)],
-    ),
-    row(
-        Command::Creases,
-        "Creases",
-        Group::Colours,
-        &[plain(Key::C)],
-    ),
-    row(
-        Command::Profile,
-        "Profile curve",
-        Group::Colours,
-        &[plain(Key::G)],
-    ),
-    row(
-        Command::CompactBox,
-        "Compact box",
-        Group::Colours,
-        &[plain(Key::B)],
-    ),
-    row(
-        Command::ClosedFormBox,
-        "Closed-form box",
-        Group::Colours,
-        &[shift(Key::B)],
-    ),
-    row(
-        Command::PanelDesign,
-        "Design panel",
-        Group::Window,
-        &[plain(Key::F2)],
-    ),
-    row(
-        Command::PanelPlots,
-        "Plots",
-        Group::Window,
-        &[plain(Key::F3)],
-    ),
-    row(
-        Command::PanelVerdict,
-        "Verdict",
-        Group::Window,
-        &[plain(Key::F4)],
-    ),
-    row(
-        Command::PanelRecord,
-        "Record panel",
-        Group::Window,
-        &[plain(Key::F6)],
-    ),
-    row(
-        Command::PanelText,
-        "Scene as text",
-        Group::Window,
-        &[plain(Key::F7)],
-    ),
-    row(
-        Command::Presentation,
-        "Larger, for presentation",
-        Group::Window,
-        &[plain(Key::F9)],
-    ),
-    row(
-        Command::DarkLight,
-        "Dark or light",
-        Group::Window,
-        &[plain(Key::F10)],
-    ),
-    row(
-        Command::Help,
-        "Short-cuts and help",
-        Group::Window,
-        &[plain(Key::F1), plain(Key::Questionmark)],
-    ),
-];
+/// Defines the commands and the table of their names, groups and keys, the first key being the one that menus show.
+macro_rules! commands {
+    ($($group:ident { $($command:ident $name:literal $($key:expr),+;)+ })+) => {
+        /// A command of the window.
+        #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+        pub(crate) enum Command {
+            $($($command,)+)+
+        }
+
+        /// Every command, by group.
+        pub(super) const SHORTCUTS: &[Shortcut] = &[
+            $($(Shortcut {
+                command: Command::$command,
+                name: $name,
+                group: Group::$group,
+                keys: &[$($key),+],
+            },)+)+
+        ];
+    };
+}
+
+commands! {
+    File {
+        New "New scene" ctrl(Key::N);
+        Open "Open…" ctrl(Key::O);
+        Save "Save" ctrl(Key::S);
+        SaveAs "Save as…" ctrl_shift(Key::S);
+        Quit "Quit" ctrl(Key::Q);
+    }
+    Edit {
+        Undo "Undo" ctrl(Key::Z);
+        Redo "Redo" ctrl_shift(Key::Z), ctrl(Key::Y);
+    }
+    Motion {
+        Run "Run" ctrl(Key::R), plain(Key::F5);
+        Cancel "Cancel" plain(Key::Escape);
+        Interact "Move the sheet by hand" plain(Key::H);
+        Record "Record…" ctrl(Key::E);
+    }
+    Time {
+        Play "Play or pause" plain(Key::Space);
+        PreviousFrame "Previous frame" plain(Key::ArrowLeft), plain(Key::Comma);
+        NextFrame "Next frame" plain(Key::ArrowRight), plain(Key::Period);
+        Start "Deployed state" plain(Key::Home);
+        Planar "Planar state" plain(Key::P);
+        Compact "Compact state" plain(Key::End);
+        Slower "Slower" plain(Key::Minus);
+        Faster "Faster" plain(Key::Plus), plain(Key::Equals);
+        Loop "Loop" plain(Key::L);
+    }
+    View {
+        ViewFront "Front view" plain(Key::Num1);
+        ViewSide "Side view" plain(Key::Num2);
+        ViewTop "Top view" plain(Key::Num3);
+        ViewIsometric "Isometric view" plain(Key::Num4);
+        Fit "Fit to the window" plain(Key::F);
+        Perspective "Perspective" plain(Key::V);
+    }
+    Colours {
+        ColourPlain "Colour: plain" plain(Key::Num5);
+        ColourStrain "Colour: strain" plain(Key::Num6);
+        ColourBending "Colour: facet bending" plain(Key::Num7);
+        ColourUnit "Colour: unit" plain(Key::Num8);
+        ColourLayer "Colour: layer" plain(Key::Num9);
+        Creases "Creases" plain(Key::C);
+        Profile "Profile curve" plain(Key::G);
+        CompactBox "Compact box" plain(Key::B);
+        ClosedFormBox "Closed-form box" shift(Key::B);
+    }
+    Window {
+        PanelDesign "Design panel" plain(Key::F2);
+        PanelPlots "Plots" plain(Key::F3);
+        PanelVerdict "Verdict" plain(Key::F4);
+        PanelRecord "Record dialog" plain(Key::F6);
+        PanelText "Scene as text" plain(Key::F7);
+        Presentation "Larger, for presentations" plain(Key::F9);
+        DarkLight "Dark or light" plain(Key::F10);
+        Help "Shortcuts and help" plain(Key::F1), plain(Key::Questionmark);
+    }
+}
 
 /// The name of a command in menus.
 pub(crate) fn name_of(command: Command) -> &'static str {
-    of(command).map_or("", |shortcut| shortcut.name)
+    shortcut_of(command).map_or("", |shortcut| shortcut.name)
 }
 
 /// The keys of a command as the system writes them, such as `Ctrl+S`.
 pub(crate) fn keys_of(ctx: &Context, command: Command) -> String {
-    let keys = of(command).and_then(|shortcut| shortcut.keys.first());
+    let keys = shortcut_of(command).and_then(|shortcut| shortcut.keys.first());
     keys.map_or_else(String::new, |&keys| written(ctx, keys))
 }
 
-/// Keys as the system writes them; signs as signs.
+/// Keys as the system writes them; printable characters stand for themselves.
 pub(super) fn written(ctx: &Context, keys: KeyboardShortcut) -> String {
     let sign = keys.logical_key.symbol_or_name();
     if keys.modifiers.is_none() && (sign.is_ascii() || keys.logical_key == Key::Minus) {
@@ -364,16 +161,16 @@ pub(super) fn written(ctx: &Context, keys: KeyboardShortcut) -> String {
     }
 }
 
-fn of(command: Command) -> Option<&'static Shortcut> {
+fn shortcut_of(command: Command) -> Option<&'static Shortcut> {
     SHORTCUTS
         .iter()
         .find(|shortcut| shortcut.command == command)
 }
 
-/// The commands whose keys were pressed since the last frame; their keys are taken out of the input.
+/// The commands whose keys were pressed since the last frame; their events are removed from the input.
 ///
-/// Keys without Ctrl or ⌘ are left to a text field that is being typed into, and space, enter and arrows to whatever has
-/// the focus; a `canvas` keeps arrows, plus and minus only. While a modal is open, all keys are its own.
+/// A text field with the keyboard focus gets all keys without Ctrl or ⌘, and any other control gets space, Enter, Escape and
+/// the arrow keys. `canvas` (the 3D view) gets only arrows, plus and minus. An open modal dialog gets all keys.
 pub(crate) fn pressed(ctx: &Context, canvas: Option<Id>) -> Vec<Command> {
     if ctx.memory(|memory| memory.top_modal_layer().is_some()) {
         return Vec::new();
@@ -399,7 +196,7 @@ pub(crate) fn pressed(ctx: &Context, canvas: Option<Id>) -> Vec<Command> {
     commands
 }
 
-/// What the keyboard speaks to.
+/// What has the keyboard focus.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Focus {
     None,
@@ -430,7 +227,7 @@ fn command_of(event: &Event, focus: Focus) -> Option<Command> {
     (repeats || !repeat).then_some(shortcut.command)
 }
 
-/// Whether these keys were pressed; signs may need shift, as `?` does on many keyboards.
+/// Whether the pressed keys are these; some characters may need shift, as `?` does on many keyboards.
 fn matches(keys: KeyboardShortcut, key: Key, mut modifiers: Modifiers) -> bool {
     if matches!(key, Key::Plus | Key::Questionmark | Key::Equals) {
         modifiers.shift = keys.modifiers.shift;
@@ -438,7 +235,7 @@ fn matches(keys: KeyboardShortcut, key: Key, mut modifiers: Modifiers) -> bool {
     keys.logical_key == key && modifiers.matches_exact(keys.modifiers)
 }
 
-/// Whether what has the focus needs these keys itself.
+/// Whether the control with the focus needs these keys itself.
 fn is_kept(keys: KeyboardShortcut, focus: Focus) -> bool {
     let is_arrow = matches!(keys.logical_key, Key::ArrowLeft | Key::ArrowRight);
     let zooms = matches!(keys.logical_key, Key::Plus | Key::Equals | Key::Minus);
@@ -451,7 +248,7 @@ fn is_kept(keys: KeyboardShortcut, focus: Focus) -> bool {
     }
 }
 
-/// Keys that type nothing.
+/// Whether `key` is F1, F2 and so on, which types no text.
 fn is_function_key(key: Key) -> bool {
     key.name().len() > 1 && key.name().starts_with('F')
 }
@@ -473,7 +270,7 @@ mod tests {
     }
 
     #[test]
-    fn no_two_commands_share_keys_and_each_stands_once() {
+    fn no_two_commands_share_keys_or_names() {
         let all: Vec<_> = SHORTCUTS.iter().flat_map(|s| s.keys).collect();
         for (k, keys) in all.iter().enumerate() {
             assert!(!all[..k].contains(keys), "{keys:?}");
@@ -487,21 +284,15 @@ mod tests {
                 })
             });
             assert_eq!(found.count(), 1, "{keys:?}");
-            // The window enlarges by these itself.
+            // egui zooms the window with these.
             let zoom = [Key::Plus, Key::Minus, Key::Equals, Key::Num0];
             assert!(!(keys.modifiers.command && zoom.contains(&keys.logical_key)));
         }
         for (k, shortcut) in SHORTCUTS.iter().enumerate() {
             let above = &SHORTCUTS[..k];
             assert!(!shortcut.keys.is_empty() && !shortcut.name.is_empty());
-            assert!(
-                above
-                    .iter()
-                    .all(|s| s.command != shortcut.command && s.name != shortcut.name)
-            );
+            assert!(above.iter().all(|s| s.name != shortcut.name));
         }
-        // The last of the enum: every one before it stands in the table.
-        assert_eq!(SHORTCUTS.len(), Command::Help as usize + 1);
     }
 
     #[test]
@@ -565,7 +356,7 @@ mod tests {
     }
 
     #[test]
-    fn a_key_held_down_repeats_only_what_goes_step_by_step() {
+    fn a_key_held_down_repeats_only_commands_that_go_step_by_step() {
         let held = |key| Event::Key {
             key,
             physical_key: None,

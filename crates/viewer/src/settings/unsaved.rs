@@ -1,7 +1,7 @@
-//! Unsaved scenes: kept in a file for each window, and offered again at the next start.
+//! Unsaved scenes, kept in one file per window and offered for recovery at the next start.
 //!
-//! A window locks a file beside its own; the lock ends with the process, however that ends. A scene whose lock can be had
-//! is left over.
+//! Each window locks a file beside its scene. The lock ends with the process, however that ends, so a scene that can be
+//! locked was left behind.
 
 use std::fs::{File, TryLockError};
 use std::io;
@@ -12,19 +12,20 @@ use serde::{Deserialize, Serialize};
 
 use crate::document::{Document, write_whole};
 
-/// Scenes kept; the oldest go first.
+/// The largest number of scenes that are kept; the oldest are removed first.
 const MOST: usize = 10;
-/// Larger files are none of ours.
+/// Files larger than this are ignored.
 const MOST_BYTES: u64 = 256 << 20;
 
 /// A scene that was not saved.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(crate) struct UnsavedScene {
-    place: String,
+    #[serde(rename = "place")]
+    location: String,
     path: Option<String>,
     base: String,
     text: String,
-    /// Seconds since 1970.
+    /// When it was kept, in seconds since 1970.
     time: u64,
 }
 
@@ -34,7 +35,7 @@ impl UnsavedScene {
             .path()
             .map(|path| path.to_string_lossy().into_owned());
         Self {
-            place: document.place().to_string_lossy().into_owned(),
+            location: document.location().to_string_lossy().into_owned(),
             path,
             base: document.saved_text().to_owned(),
             text: document.text().to_owned(),
@@ -42,18 +43,18 @@ impl UnsavedScene {
         }
     }
 
-    /// The scene as it was left.
+    /// The scene as it was kept.
     pub(crate) fn document(&self) -> Document {
         let path = self.path.as_ref().map(Path::new);
-        Document::restored(Path::new(&self.place), path, &self.base, &self.text)
+        Document::restored(Path::new(&self.location), path, &self.base, &self.text)
     }
 
-    /// Such as `unsaved changes of shelter.toml, 5 minutes ago`.
+    /// For example `unsaved changes to shelter.toml, 5 minutes ago`.
     pub(crate) fn describe(&self) -> String {
-        let name = Path::new(&self.place).file_name().unwrap_or_default();
+        let name = Path::new(&self.location).file_name().unwrap_or_default();
         let age = since_epoch().as_secs().saturating_sub(self.time);
         format!(
-            "unsaved changes of {}, {}",
+            "unsaved changes to {}, {}",
             name.to_string_lossy(),
             ago(age)
         )
@@ -79,14 +80,14 @@ fn ago(seconds: u64) -> String {
 
 /// A file with its lock.
 #[derive(Debug)]
-struct Kept {
+struct LockedFile {
     path: PathBuf,
-    /// Held while this lives; none where the disk knows no locks.
+    /// The lock, which lasts as long as this value; `None` on file systems without locks.
     lock: Option<File>,
 }
 
-impl Kept {
-    /// Takes a file over; none where another window holds it.
+impl LockedFile {
+    /// Locks a file; `None` if another window has locked it.
     fn take(path: PathBuf) -> Option<Self> {
         let lock = File::create(lock_of(&path)).ok()?;
         match lock.try_lock() {
@@ -100,7 +101,7 @@ impl Kept {
     }
 
     fn remove(self) {
-        // A file that cannot be removed is offered again: nothing is lost.
+        // A file that cannot be removed is offered again, so nothing is lost.
         let _ = std::fs::remove_file(&self.path);
         let _ = std::fs::remove_file(lock_of(&self.path));
         drop(self.lock);
@@ -115,52 +116,52 @@ fn lock_of(path: &Path) -> PathBuf {
 #[derive(Debug)]
 pub(crate) struct UnsavedScenes {
     folder: PathBuf,
-    own: Option<Kept>,
-    /// The text that is in the file of this window.
+    own: Option<LockedFile>,
+    /// The text and the base that are in the file of this window.
     written: Option<(String, String)>,
-    left: Vec<(UnsavedScene, Kept)>,
+    recovered: Vec<(UnsavedScene, LockedFile)>,
 }
 
 impl UnsavedScenes {
-    /// Takes over what earlier windows left in a folder, the latest first.
+    /// Locks the scenes that earlier windows left behind in a folder, the latest first.
     ///
     /// # Errors
-    /// Where the folder cannot be made or read.
+    /// If the folder cannot be created or read.
     pub(crate) fn in_folder(folder: &Path) -> io::Result<Self> {
         std::fs::create_dir_all(folder)?;
-        let mut left = Vec::new();
+        let mut recovered = Vec::new();
         for entry in std::fs::read_dir(folder)? {
             let path = entry?.path();
             if path.extension().is_some_and(|e| e == "json")
-                && let Some(kept) = Kept::take(path)
+                && let Some(kept) = LockedFile::take(path)
                 && let Some(scene) = read(&kept.path)
             {
-                left.push((scene, kept));
+                recovered.push((scene, kept));
             }
         }
-        left.sort_by(|(a, x), (b, y)| b.time.cmp(&a.time).then_with(|| x.path.cmp(&y.path)));
-        for (_, kept) in left.drain(left.len().min(MOST)..) {
+        recovered.sort_by(|(a, x), (b, y)| b.time.cmp(&a.time).then_with(|| x.path.cmp(&y.path)));
+        for (_, kept) in recovered.drain(recovered.len().min(MOST)..) {
             kept.remove();
         }
         Ok(Self {
             folder: folder.to_owned(),
             own: None,
             written: None,
-            left,
+            recovered,
         })
     }
 
-    /// What earlier windows left, the latest first.
-    pub(crate) fn left(&self) -> impl Iterator<Item = &UnsavedScene> {
-        self.left.iter().map(|(scene, _)| scene)
+    /// The scenes that earlier windows left behind, the latest first.
+    pub(crate) fn recovered(&self) -> impl Iterator<Item = &UnsavedScene> {
+        self.recovered.iter().map(|(scene, _)| scene)
     }
 
-    /// Makes a scene that was left the scene of this window.
+    /// Makes a recovered scene the scene of this window.
     ///
     /// # Errors
-    /// Where it cannot be kept under this window's name; it then stays where it is.
+    /// If it cannot be kept under this window's name; the file is then unchanged.
     pub(crate) fn restore(&mut self, index: usize) -> io::Result<Option<Document>> {
-        let Some((scene, _)) = self.left.get(index) else {
+        let Some((scene, _)) = self.recovered.get(index) else {
             return Ok(None);
         };
         let document = scene.document();
@@ -169,20 +170,21 @@ impl UnsavedScenes {
         Ok(Some(document))
     }
 
-    /// Forgets a scene that was left.
+    /// Deletes a recovered scene.
     pub(crate) fn discard(&mut self, index: usize) {
-        if index < self.left.len() {
-            self.left.remove(index).1.remove();
+        if index < self.recovered.len() {
+            self.recovered.remove(index).1.remove();
         }
     }
 
-    /// Keeps the scene of this window while it is unsaved, and forgets it once it is saved. Writes only what is new.
+    /// Keeps the scene of this window while it is unsaved, and deletes it once it is saved. Does nothing if the text
+    /// has not changed.
     ///
     /// # Errors
-    /// Where it cannot be written.
+    /// If the file cannot be written.
     pub(crate) fn keep(&mut self, document: &Document) -> io::Result<()> {
         if !document.is_modified() {
-            self.forget();
+            self.clear();
             return Ok(());
         }
         let as_written = self
@@ -200,23 +202,23 @@ impl UnsavedScenes {
         Ok(())
     }
 
-    /// Forgets the scene of this window: it was saved, or its changes were given up.
-    pub(crate) fn forget(&mut self) {
+    /// Deletes the scene of this window, after it was saved or its changes were discarded.
+    pub(crate) fn clear(&mut self) {
         self.written = None;
         if let Some(own) = self.own.take() {
             own.remove();
         }
     }
 
-    /// The file of this window, which no other has.
+    /// The file of this window, which no other window uses.
     fn own_path(&mut self) -> io::Result<PathBuf> {
         if let Some(own) = &self.own {
             return Ok(own.path.clone());
         }
         let name = format!("{}-{}.json", std::process::id(), since_epoch().as_nanos());
         let path = self.folder.join(name);
-        let own = Kept::take(path.clone());
-        let own = own.ok_or_else(|| io::Error::other("its lock cannot be had"))?;
+        let own = LockedFile::take(path.clone());
+        let own = own.ok_or_else(|| io::Error::other("the file cannot be locked"))?;
         self.own = Some(own);
         Ok(path)
     }
@@ -254,11 +256,11 @@ mod tests {
             window.keep(&edited(10)).unwrap();
         }
         let mut next = UnsavedScenes::in_folder(folder.path()).unwrap();
-        let described = next.left().next().unwrap().describe();
-        assert_eq!(described, "unsaved changes of untitled.toml, a moment ago");
+        let described = next.recovered().next().unwrap().describe();
+        assert_eq!(described, "unsaved changes to untitled.toml, a moment ago");
         let mut restored = next.restore(0).unwrap().unwrap();
         assert_eq!(restored.text(), edited(10).text());
-        assert!(restored.is_modified() && next.left().next().is_none());
+        assert!(restored.is_modified() && next.recovered().next().is_none());
         restored.save_as(&folder.path().join("saved.toml")).unwrap();
         next.keep(&restored).unwrap();
         assert_eq!(files(folder.path()), 1);
@@ -270,19 +272,19 @@ mod tests {
         let mut first = UnsavedScenes::in_folder(folder.path()).unwrap();
         first.keep(&edited(9)).unwrap();
         let mut second = UnsavedScenes::in_folder(folder.path()).unwrap();
-        assert!(second.left().next().is_none());
+        assert!(second.recovered().next().is_none());
         second.keep(&edited(11)).unwrap();
-        second.forget();
+        second.clear();
         drop(first);
         let third = UnsavedScenes::in_folder(folder.path()).unwrap();
-        assert_eq!(third.left().count(), 1);
-        assert_eq!(third.left().next().unwrap().text, edited(9).text());
-        // What one window offers, another does not.
+        assert_eq!(third.recovered().count(), 1);
+        assert_eq!(third.recovered().next().unwrap().text, edited(9).text());
+        // A scene that one window offers is not offered by another.
         let fourth = UnsavedScenes::in_folder(folder.path()).unwrap();
-        assert_eq!(fourth.left().count(), 0);
+        assert_eq!(fourth.recovered().count(), 0);
     }
 
-    /// Where the other process of the test below keeps its scene.
+    /// Tells the child process of the next test in which folder to keep its scene.
     const FOLDER: &str = "FOLDMOTION_TEST_UNSAVED";
 
     #[test]
@@ -313,7 +315,7 @@ mod tests {
         let offered = || {
             UnsavedScenes::in_folder(folder.path())
                 .unwrap()
-                .left()
+                .recovered()
                 .count()
         };
         assert_eq!(offered(), 0);
@@ -335,14 +337,14 @@ mod tests {
         }
         std::fs::write(folder.path().join("broken.json"), "{").unwrap();
         let mut scenes = UnsavedScenes::in_folder(folder.path()).unwrap();
-        let times: Vec<u64> = scenes.left().map(|scene| scene.time).collect();
+        let times: Vec<u64> = scenes.recovered().map(|scene| scene.time).collect();
         assert_eq!(times, (3..13).rev().collect::<Vec<_>>());
         scenes.discard(0);
         drop(scenes);
         assert_eq!(
             UnsavedScenes::in_folder(folder.path())
                 .unwrap()
-                .left()
+                .recovered()
                 .count(),
             9
         );

@@ -5,24 +5,23 @@ use serde::{Deserialize, Serialize};
 use crate::timeline::Repeat;
 use crate::view3d::CreaseClasses;
 
-/// What colours show.
+/// The quantity that colours show.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 pub(crate) enum Colour {
-    /// The two sides of the paper.
+    /// Front and back of the paper.
     #[default]
     Plain,
-    /// Bar strain.
+    /// The largest strain of the edges of a triangle.
     Strain,
-    /// Facet bending.
+    /// The largest fold angle inside a facet.
     Bending,
-    /// One tint a unit.
+    /// A tint for each unit.
     Unit,
-    /// The place in the stack.
+    /// The position of each facet in the compact stack.
     Layer,
 }
 
 impl Colour {
-    /// Every one.
     pub(crate) const ALL: [Self; 5] = [
         Self::Plain,
         Self::Strain,
@@ -31,7 +30,7 @@ impl Colour {
         Self::Layer,
     ];
 
-    /// Its name on the screen.
+    /// The name on the screen.
     pub(crate) fn name(self) -> &'static str {
         match self {
             Self::Plain => "plain",
@@ -42,14 +41,14 @@ impl Colour {
         }
     }
 
-    /// What it shows.
+    /// The tooltip.
     pub(crate) fn about(self) -> &'static str {
         match self {
-            Self::Plain => "front and back of the paper",
-            Self::Strain => "the largest |l/l₀ − 1| of each triangle's edges, per cent",
-            Self::Bending => "the largest fold angle inside each facet, degrees",
-            Self::Unit => "neighbouring units in different tints",
-            Self::Layer => "the place of each facet in the compact stack",
+            Self::Plain => "Front and back of the paper",
+            Self::Strain => "Largest strain |l/l₀ − 1| of each triangle's edges, per cent",
+            Self::Bending => "Largest fold angle inside each facet, degrees",
+            Self::Unit => "Neighbouring units in different tints",
+            Self::Layer => "Position of each facet in the compact stack",
         }
     }
 }
@@ -57,20 +56,20 @@ impl Colour {
 /// How the sheet is shown.
 #[expect(
     clippy::struct_excessive_bools,
-    reason = "one switch each in the window"
+    reason = "each is a switch in the window"
 )]
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub(crate) struct ViewSettings {
     pub(crate) colour: Colour,
     pub(crate) perspective: bool,
-    /// All creases, on or off at once.
+    /// Whether any creases are drawn.
     pub(crate) creases: bool,
     pub(crate) classes: CreaseClasses,
     pub(crate) profile: bool,
     pub(crate) compact_box: bool,
     pub(crate) closed_form_box: bool,
-    /// Whether the sheet is folded anew, without contact, after every edit.
+    /// Whether a preview is folded, without contact, after every edit.
     pub(crate) folds_at_once: bool,
     pub(crate) repeat: Repeat,
 }
@@ -92,7 +91,10 @@ impl Default for ViewSettings {
 }
 
 /// Which panels are open.
-#[expect(clippy::struct_excessive_bools, reason = "one switch a panel")]
+#[expect(
+    clippy::struct_excessive_bools,
+    reason = "each is a switch in the window"
+)]
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub(crate) struct PanelSettings {

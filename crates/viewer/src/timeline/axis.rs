@@ -1,23 +1,23 @@
-//! The axis of motion time that bar and curves share.
+//! The axis of motion time that the bar and the plots share.
 
 use eframe::egui::{Rangef, Rect};
 
-/// Maps motion time to points across the screen.
+/// Maps motion time to horizontal positions on the screen.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Axis {
-    /// First and last motion time.
+    /// The first and the last motion time.
     pub(super) times: [f64; 2],
-    /// Where they stand.
+    /// Their positions on the screen, points.
     pub(super) span: Rangef,
 }
 
 impl Axis {
-    /// Room for numbers left of the curves, points.
+    /// Width of the numbers to the left of the plots, points.
     const LEFT: f32 = 64.0;
-    /// Room for the last label on the right.
+    /// Width of the space for the last label on the right, points.
     const RIGHT: f32 = 18.0;
 
-    /// The axis in a strip as wide as `rect`.
+    /// The axis within the width of `rect`.
     pub(super) fn within(rect: Rect, times: [f64; 2]) -> Self {
         let left = rect.left() + Self::LEFT;
         let right = (rect.right() - Self::RIGHT).max(left + 1.0);
@@ -27,14 +27,14 @@ impl Axis {
         }
     }
 
-    /// Where motion time `t` stands.
+    /// The position of motion time `t`, points.
     pub(super) fn x(&self, t: f64) -> f32 {
         let [first, last] = self.times;
         let part = (t - first) / (last - first).max(f64::MIN_POSITIVE);
         self.span.min + self.span.span() * part as f32
     }
 
-    /// The motion time that stands at `x`, within the axis.
+    /// The motion time at position `x`, clamped to the axis.
     pub(super) fn time(&self, x: f32) -> f64 {
         let [first, last] = self.times;
         let part = f64::from((x - self.span.min) / self.span.span()).clamp(0.0, 1.0);

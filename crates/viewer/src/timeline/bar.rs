@@ -1,4 +1,4 @@
-//! The bar: where one scrubs, with the states, frames and what happened marked.
+//! The timeline bar for scrubbing, with marks for states, frames, penetrations and a jam.
 
 use eframe::egui::{
     Align2, Button, ComboBox, DragValue, FontId, Key, Rect, Response, RichText, ScrollArea, Sense,
@@ -6,9 +6,9 @@ use eframe::egui::{
 };
 
 use super::axis::Axis;
-use super::curves::Curves;
 use super::playback::{Playback, Repeat};
-use super::strip::strip;
+use super::plot::Plots;
+use super::plot_view::show_plot;
 
 /// Height of the bar, points.
 const HEIGHT: f32 = 34.0;
@@ -16,36 +16,31 @@ const HEIGHT: f32 = 34.0;
 /// What the bar marks.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub(crate) struct Marks {
-    /// The motion times recorded.
+    /// The motion times of the frames.
     pub(crate) frames: Vec<f64>,
-    /// How far the motion came.
+    /// The motion time that the motion reached.
     pub(crate) reached: Option<f64>,
-    /// Where facets penetrate.
+    /// The motion times at which facets penetrate.
     pub(crate) penetrations: Vec<f64>,
-    /// Where it jammed.
+    /// The motion time at which the motion jammed.
     pub(crate) jam: Option<f64>,
 }
 
-/// The timeline with its curves.
+/// The timeline with its plots.
 #[derive(Debug, Default)]
 pub(crate) struct Timeline;
 
 impl Timeline {
-    /// Buttons, bar and curves; true where motion time was moved by hand.
-    pub(crate) fn show(
-        ui: &mut Ui,
-        playback: &mut Playback,
-        marks: &Marks,
-        curves: &Curves,
-    ) -> bool {
+    /// Shows buttons, bar and plots; returns whether the user changed the motion time.
+    pub(crate) fn show(ui: &mut Ui, playback: &mut Playback, marks: &Marks, plots: &Plots) -> bool {
         let mut moved = buttons(ui, playback, marks);
         let axis = Axis::within(ui.available_rect_before_wrap(), playback.range);
         let response = bar(ui, playback, marks, &axis);
         moved |= keys(ui, &response, playback, marks) | scrub(&response, &axis, playback);
         ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
             ui.spacing_mut().item_spacing.y = 0.0;
-            for panel in &curves.panels {
-                let response = strip(ui, panel, &axis, playback.time);
+            for plot in &plots.plots {
+                let response = show_plot(ui, plot, &axis, playback.time);
                 moved |= scrub(&response, &axis, playback);
             }
         });
@@ -53,7 +48,7 @@ impl Timeline {
     }
 }
 
-/// Moves motion time to where the pointer drags or clicks.
+/// Sets the motion time to where the pointer drags or clicks; returns whether it did.
 fn scrub(response: &Response, axis: &Axis, playback: &mut Playback) -> bool {
     let is_moved = response.dragged() || response.clicked();
     let Some(pointer) = response.interact_pointer_pos().filter(|_| is_moved) else {
@@ -63,7 +58,7 @@ fn scrub(response: &Response, axis: &Axis, playback: &mut Playback) -> bool {
     true
 }
 
-/// With the focus, arrows step frames and Home and End go to the ends.
+/// With the keyboard focus, arrow keys step through frames, and Home and End go to the ends.
 fn keys(ui: &Ui, response: &Response, playback: &mut Playback, marks: &Marks) -> bool {
     if !response.has_focus() {
         return false;
@@ -83,7 +78,12 @@ fn keys(ui: &Ui, response: &Response, playback: &mut Playback, marks: &Marks) ->
 fn buttons(ui: &mut Ui, playback: &mut Playback, marks: &Marks) -> bool {
     let mut moved = false;
     ui.horizontal(|ui| {
-        if icon(ui, Icon::Back, "Previous frame", "previous frame (comma)") {
+        if icon(
+            ui,
+            Icon::Previous,
+            "Previous frame",
+            "Previous frame (comma)",
+        ) {
             playback.step(&marks.frames, false);
             moved = true;
         }
@@ -92,10 +92,10 @@ fn buttons(ui: &mut Ui, playback: &mut Playback, marks: &Marks) -> bool {
         } else {
             (Icon::Play, "Play")
         };
-        if icon(ui, sign, name, "play or pause (space)") {
+        if icon(ui, sign, name, "Play or pause (space)") {
             playback.toggle();
         }
-        if icon(ui, Icon::On, "Next frame", "next frame (period)") {
+        if icon(ui, Icon::Next, "Next frame", "Next frame (period)") {
             playback.step(&marks.frames, true);
             moved = true;
         }
@@ -106,13 +106,13 @@ fn buttons(ui: &mut Ui, playback: &mut Playback, marks: &Marks) -> bool {
         let field = ui.add(field.speed(0.002).fixed_decimals(4));
         if field
             .labelled_by(label.id)
-            .on_hover_text("motion time: 0 deployed, 1 planar, 2 compact")
+            .on_hover_text("Motion time: 0 deployed, 1 planar, 2 compact")
             .changed()
         {
             playback.go_to(time);
             moved = true;
         }
-        ui.label(RichText::new(stage_words(playback.time)).weak());
+        ui.label(RichText::new(stage_text(playback.time)).weak());
         ui.separator();
         let label = ui.label("speed");
         let [slowest, fastest] = Playback::SPEEDS;
@@ -135,24 +135,24 @@ fn buttons(ui: &mut Ui, playback: &mut Playback, marks: &Marks) -> bool {
     moved
 }
 
-/// Signs of buttons, drawn: not every font has them.
+/// Icons of buttons. They are drawn because not every font contains them.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Icon {
-    Back,
+    Previous,
     Play,
     Pause,
-    On,
+    Next,
 }
 
-/// A button with a sign; whether it was clicked.
+/// A button with an icon; returns whether it was clicked.
 fn icon(ui: &mut Ui, icon: Icon, name: &str, hint: &str) -> bool {
     let button = Button::new("").min_size(vec2(28.0, 22.0));
     let response = ui.add(button).accessible_name(name).on_hover_text(hint);
     let colour = ui.style().interact(&response).fg_stroke.color;
     let centre = response.rect.center();
     let painter = ui.painter();
-    let triangle = |x: f32, way: f32| {
-        let corner = |dx: f32, dy: f32| centre + vec2(x + way * dx, dy);
+    let triangle = |x: f32, direction: f32| {
+        let corner = |dx: f32, dy: f32| centre + vec2(x + direction * dx, dy);
         let corners = vec![corner(-4.0, -5.0), corner(4.5, 0.0), corner(-4.0, 5.0)];
         painter.add(Shape::convex_polygon(corners, colour, Stroke::NONE));
     };
@@ -167,11 +167,11 @@ fn icon(ui: &mut Ui, icon: Icon, name: &str, hint: &str) -> bool {
     match icon {
         Icon::Play => triangle(0.0, 1.0),
         Icon::Pause => [-3.0, 3.0].into_iter().for_each(bar),
-        Icon::Back => {
+        Icon::Previous => {
             bar(-5.0);
             triangle(1.5, -1.0);
         }
-        Icon::On => {
+        Icon::Next => {
             triangle(-1.5, 1.0);
             bar(5.0);
         }
@@ -179,14 +179,14 @@ fn icon(ui: &mut Ui, icon: Icon, name: &str, hint: &str) -> bool {
     response.clicked()
 }
 
-/// What the sheet does at motion time `t`.
-fn stage_words(t: f64) -> String {
+/// The stage at motion time `t`.
+fn stage_text(t: f64) -> String {
     match t {
         0.0 => "deployed".to_owned(),
         1.0 => "planar".to_owned(),
         2.0 => "compact".to_owned(),
-        t if t < 1.0 => format!("unfolds, {:.0} %", 100.0 * t),
-        t => format!("folds, {:.0} %", 100.0 * (t - 1.0)),
+        t if t < 1.0 => format!("unfolding, {:.0} %", 100.0 * t),
+        t => format!("folding, {:.0} %", 100.0 * (t - 1.0)),
     }
 }
 

@@ -1,12 +1,12 @@
-//! The timeline: stages, scrubbing, playing, and curves on the same axis.
+//! The timeline: stages, scrubbing, playback, and plots on the same axis.
 
 mod axis;
 mod bar;
-mod curves;
 mod playback;
-mod strip;
+mod plot;
+mod plot_view;
 
 pub(crate) use self::bar::{Marks, Timeline};
-pub(crate) use self::curves::{Curve, Curves, Panel};
 pub(crate) use self::playback::{Playback, Repeat};
-pub(crate) use self::strip::number;
+pub(crate) use self::plot::{Curve, Plot, Plots};
+pub(crate) use self::plot_view::number;

@@ -1,15 +1,15 @@
-//! Where in the motion the window stands, and how it plays.
+//! The current motion time and its playback.
 
 use serde::{Deserialize, Serialize};
 
-/// What follows the end of a motion that plays.
+/// What happens at the end of a motion during playback.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 pub(crate) enum Repeat {
-    /// It stops.
+    /// Playback stops.
     Once,
-    /// It begins again.
+    /// It starts again from the beginning.
     Loop,
-    /// It goes back.
+    /// It runs backwards to the beginning.
     #[default]
     BackAndForth,
 }
@@ -17,7 +17,7 @@ pub(crate) enum Repeat {
 impl Repeat {
     pub(crate) const ALL: [Self; 3] = [Self::Once, Self::Loop, Self::BackAndForth];
 
-    /// Its name on the screen.
+    /// The name on the screen.
     pub(crate) fn name(self) -> &'static str {
         match self {
             Self::Once => "once",
@@ -27,18 +27,18 @@ impl Repeat {
     }
 }
 
-/// Motion time, and whether and how it goes on by itself.
+/// The current motion time, and whether and how it advances.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Playback {
-    /// Motion time t.
+    /// The current motion time t.
     pub(crate) time: f64,
-    /// The first and the last motion time there is.
+    /// The first and the last motion time.
     pub(crate) range: [f64; 2],
-    /// Whether it plays.
+    /// Whether the motion plays.
     pub(crate) is_playing: bool,
-    /// Over the standard speed.
+    /// The speed relative to the standard speed.
     pub(crate) speed: f64,
-    /// What follows the end.
+    /// What happens at the end.
     pub(crate) repeat: Repeat,
     is_backward: bool,
 }
@@ -57,20 +57,25 @@ impl Default for Playback {
 }
 
 impl Playback {
-    /// Seconds that a stage plays at standard speed.
+    /// Duration of a stage at standard speed, seconds.
     const STAGE_SECONDS: f64 = 4.0;
-    /// The slowest and the fastest.
+    /// The slowest and the fastest speed.
     pub(crate) const SPEEDS: [f64; 2] = [1.0 / 16.0, 16.0];
 
-    /// Goes on by `seconds`.
+    /// Advances the motion time by `seconds` of playback.
     pub(crate) fn advance(&mut self, seconds: f64) {
         if !self.is_playing {
             return;
         }
         let [first, last] = self.range;
-        let way = seconds * self.speed / Self::STAGE_SECONDS;
+        let direction = seconds * self.speed / Self::STAGE_SECONDS;
         let length = last - first;
-        let time = self.time + if self.is_backward { -way } else { way };
+        let time = self.time
+            + if self.is_backward {
+                -direction
+            } else {
+                direction
+            };
         if (first..=last).contains(&time) {
             self.time = time;
             return;
@@ -82,7 +87,7 @@ impl Playback {
             }
             Repeat::Loop => self.time = first + (time - first).rem_euclid(length.max(1e-9)),
             Repeat::BackAndForth => {
-                // Folded onto the range; long pauses of the window may be many lengths.
+                // Mirrored into the range; after a long pause this may be several lengths away.
                 let turned = (time - first).rem_euclid(2.0 * length.max(1e-9));
                 self.is_backward = turned > length;
                 self.time = first
@@ -96,7 +101,7 @@ impl Playback {
         self.time = self.time.clamp(first, last);
     }
 
-    /// Plays or pauses; at the end it starts over.
+    /// Starts or pauses playback; at the end it starts over.
     pub(crate) fn toggle(&mut self) {
         self.is_playing = !self.is_playing;
         let [first, last] = self.range;
@@ -111,14 +116,14 @@ impl Playback {
         }
     }
 
-    /// Goes to `time`, and stops there.
+    /// Goes to `time` and pauses.
     pub(crate) fn go_to(&mut self, time: f64) {
         self.time = time.clamp(self.range[0], self.range[1]);
         self.is_playing = false;
         self.is_backward = false;
     }
 
-    /// To the next of `times` (rising), or the one before.
+    /// Goes to the next of the rising `times`, or to the previous one.
     pub(crate) fn step(&mut self, times: &[f64], is_forward: bool) {
         const SAME: f64 = 1e-12;
         let next = if is_forward {
@@ -131,13 +136,13 @@ impl Playback {
         }
     }
 
-    /// Twice as fast, or half.
+    /// Doubles or halves the speed.
     pub(crate) fn change_speed(&mut self, is_faster: bool) {
         let factor = if is_faster { 2.0 } else { 0.5 };
         self.speed = (self.speed * factor).clamp(Self::SPEEDS[0], Self::SPEEDS[1]);
     }
 
-    /// Takes the motion times of another motion.
+    /// Sets the range of motion times, when another motion is shown.
     pub(crate) fn set_range(&mut self, range: [f64; 2]) {
         self.range = range;
         self.time = self.time.clamp(range[0], range[1]);

@@ -1,12 +1,13 @@
-//! Which creases are drawn.
+//! The choice of creases that are drawn.
 
 use foldmotion_pattern::{Assignment, CreaseKind, Edge, Sheet};
 use serde::{Deserialize, Serialize};
 
-/// Creases that are drawn: those whose assignment and whose kind are on. The diagonals inside facets never are.
+/// The classes of creases that are drawn: an edge is drawn if both its assignment and its kind are on. Diagonals inside
+/// facets are never drawn.
 #[expect(
     clippy::struct_excessive_bools,
-    reason = "one switch a class in the window"
+    reason = "each is a switch in the window"
 )]
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(default)]
@@ -19,15 +20,15 @@ pub(crate) struct CreaseClasses {
     pub(crate) border: bool,
     /// Hinges that nothing drives.
     pub(crate) free: bool,
-    /// On the boundary between two rows.
+    /// Creases on the boundary between two rows.
     pub(crate) row: bool,
-    /// Between a flap and a tuck.
+    /// Creases between a flap and a tuck.
     pub(crate) diagonal: bool,
-    /// Along a corner or a mid line.
+    /// Creases along a corner line or a middle line.
     pub(crate) vertical: bool,
-    /// Beside or across a pad.
+    /// Creases beside or across a pad.
     pub(crate) pad: bool,
-    /// Between two columns.
+    /// Creases between two columns.
     pub(crate) column: bool,
 }
 
@@ -48,7 +49,7 @@ impl Default for CreaseClasses {
 }
 
 impl CreaseClasses {
-    /// None at all.
+    /// No creases.
     pub(crate) const NONE: Self = Self {
         mountains: false,
         valleys: false,
@@ -81,8 +82,8 @@ impl CreaseClasses {
         assigned && of_kind
     }
 
-    /// What the shader's `crease_vertex` reads of every crease that is drawn: its ends, the third corners of the
-    /// triangles on its left and right, these, its ink.
+    /// The records that the shader's `crease_vertex` reads, one per crease: its two ends, the third corners of the
+    /// triangles on its left and right, the indices of these triangles, and the index of its colour.
     pub(super) fn lines(&self, sheet: &Sheet) -> Vec<[u32; 7]> {
         let line = |edge: &Edge| {
             let [a, b] = edge.vertices;
@@ -97,7 +98,7 @@ impl CreaseClasses {
     }
 }
 
-/// The place of its colour in the shader's `inks`.
+/// The index of the colour in the shader's `inks`.
 pub(super) fn ink(assignment: Assignment) -> u32 {
     match assignment {
         Assignment::Mountain => 1,

@@ -1,18 +1,18 @@
-//! The sheet in space: camera, drawing on the GPU, picking.
+//! The 3D view of the sheet: camera, drawing on the GPU, picking.
 //!
-//! A picture is drawn again only when something changed: an idle window costs nothing. Where there is no GPU, or it
-//! fails, egui's painter draws the same plainly.
+//! A picture is drawn only when something has changed, so an idle window uses no processor time. Without a GPU, or if
+//! it fails, egui's painter draws a simpler picture.
 
 mod creases;
-mod eye;
+mod fallback;
 mod gpu;
-mod hand;
-mod orbit;
+mod interaction;
+mod orbit_camera;
 mod paints;
 mod pick;
 mod picture;
-mod plain;
-mod pose;
+mod prepared;
+mod projection;
 mod segments;
 #[cfg(test)]
 mod tests;
@@ -23,129 +23,134 @@ use eframe::egui_wgpu::RenderState;
 use foldmotion_record::View;
 use glam::{DVec2, DVec3};
 
-use self::eye::Eye;
-use self::gpu::{Gpu, Watch};
-use self::orbit::Turning;
-use self::pick::Points;
-use self::plain::Plain;
-use self::pose::Pose;
+use self::fallback::FallbackRenderer;
+use self::gpu::{Gpu, LossMonitor};
+use self::orbit_camera::CameraTransition;
+use self::pick::ProjectedVertices;
+use self::prepared::PreparedSheet;
+use self::projection::Projection;
 
 pub(crate) use self::creases::CreaseClasses;
-pub(crate) use self::orbit::Orbit;
-pub(crate) use self::picture::{Colours, Handle, Overlay, Picture, Shape};
+pub(crate) use self::orbit_camera::OrbitCamera;
+pub(crate) use self::picture::{Colours, Overlay, Picture, Shape, VertexPull};
 
-/// Times that drawing is tried again on one device.
+/// The number of times that drawing is tried again on one device.
 const TRIES: u32 = 3;
 
 /// The 3D view of a window.
 #[derive(Debug, Default)]
 pub(crate) struct View3d {
     id: Option<egui::Id>,
-    orbit: Orbit,
-    turning: Option<Turning>,
-    /// Points to fit as soon as the size is known.
-    fitting: Option<Vec<DVec3>>,
-    /// The middle of the sheet, about which the view turns.
+    orbit: OrbitCamera,
+    transition: Option<CameraTransition>,
+    /// Points to fit once the size of the view is known.
+    pending_fit: Option<Vec<DVec3>>,
+    /// The centre of the sheet, around which the view turns.
     pivot: DVec3,
     was_shown: bool,
-    pose: Option<Pose>,
-    points: Points,
+    prepared: Option<PreparedSheet>,
+    points: ProjectedVertices,
     /// The vertex that is being pulled.
     pulled: Option<u32>,
-    plain: Plain,
+    fallback: FallbackRenderer,
     gpu: Option<Gpu>,
-    watch: Option<Watch>,
+    monitor: Option<LossMonitor>,
     failures: u32,
-    fault: Option<String>,
+    error: Option<String>,
 }
 
-/// What the user did with the view and what is under the pointer.
+/// What is under the pointer, and what the user does in the view.
 #[derive(Debug)]
-pub(crate) struct Seen {
-    /// The vertex under the pointer: within 12 points and not hidden by paper.
+pub(crate) struct ViewResponse {
+    /// The vertex under the pointer: within 12 points and not hidden by the sheet.
     pub(crate) vertex: Option<u32>,
     /// The triangle under the pointer.
     pub(crate) face: Option<u32>,
-    /// The vertex that is being pulled, and where to: in the plane through it parallel to the screen.
-    pub(crate) pull: Option<Handle>,
+    /// The vertex that is being pulled, with its target in the plane through it parallel to the screen.
+    pub(crate) pull: Option<VertexPull>,
 }
 
 impl View3d {
-    /// Of the view, by which it is found to have the focus; none before it was shown.
+    /// The id of the view, to test for the keyboard focus; `None` before it was shown.
     pub(crate) fn id(&self) -> Option<egui::Id> {
         self.id
     }
 
-    /// The camera; while it turns, where to.
-    pub(crate) fn orbit(&self) -> Orbit {
-        self.turning.as_ref().map_or(self.orbit, Turning::end)
+    /// The camera; during a transition, the camera at its end.
+    pub(crate) fn orbit(&self) -> OrbitCamera {
+        self.transition
+            .as_ref()
+            .map_or(self.orbit, CameraTransition::end)
     }
 
-    /// Sets the camera at once.
-    pub(crate) fn set_orbit(&mut self, orbit: Orbit) {
+    /// Sets the camera without a transition.
+    pub(crate) fn set_orbit(&mut self, orbit: OrbitCamera) {
         self.orbit = orbit;
-        self.turning = None;
+        self.transition = None;
         self.was_shown = true;
     }
 
-    /// Moves with a sheet that is shown elsewhere from now on.
-    pub(crate) fn follow_by(&mut self, way: DVec3) {
+    /// Moves the camera by `displacement`, together with a sheet that is now shown elsewhere.
+    pub(crate) fn translate(&mut self, displacement: DVec3) {
         let orbit = self.orbit();
-        self.set_orbit(Orbit {
-            centre: orbit.centre + way,
+        self.set_orbit(OrbitCamera {
+            centre: orbit.centre + displacement,
             ..orbit
         });
     }
 
-    /// Turns into a view, see [`View::NAMES`].
+    /// Turns to one of the standard views, see [`View::NAMES`].
     pub(crate) fn look(&mut self, view: View) {
         let mut to = self.orbit();
-        to.stand(view, self.pivot);
-        self.turn_into(to);
+        to.set_view(view, self.pivot);
+        self.move_to(to);
     }
 
-    /// Shows what is near larger, or not.
+    /// Switches between perspective and parallel projection.
     pub(crate) fn set_perspective(&mut self, perspective: bool) {
         self.orbit.perspective = perspective;
-        let to = Orbit {
+        let to = OrbitCamera {
             perspective,
             ..self.orbit()
         };
-        self.turn_into(to);
+        self.move_to(to);
     }
 
-    /// Shows all `points` as large as they fit.
+    /// Shows all `points` as large as possible.
     pub(crate) fn fit(&mut self, points: Vec<DVec3>) {
-        self.fitting = Some(points);
+        self.pending_fit = Some(points);
     }
 
-    /// Pictures that the GPU drew.
+    /// The number of pictures that the GPU has drawn.
     pub(crate) fn drawn(&self) -> u64 {
         self.gpu.as_ref().map_or(0, |gpu| gpu.count)
     }
 
-    /// Why the GPU does not draw, where it should.
-    pub(crate) fn fault(&self) -> Option<&str> {
-        self.fault.as_deref()
+    /// Why the GPU does not draw, if it should.
+    pub(crate) fn error(&self) -> Option<&str> {
+        self.error.as_deref()
     }
 
-    fn turn_into(&mut self, to: Orbit) {
-        self.turning = (to != self.orbit).then(|| Turning::new(self.orbit, to));
+    fn move_to(&mut self, to: OrbitCamera) {
+        self.transition = (to != self.orbit).then(|| CameraTransition::new(self.orbit, to));
     }
 
-    /// The least and the largest width of the view.
+    /// The smallest and the largest width of the view.
     fn widths(&self) -> [f64; 2] {
-        let radius = self.pose.as_ref().map_or(1.0, |pose| pose.ball.radius);
+        let radius = self
+            .prepared
+            .as_ref()
+            .map_or(1.0, |prepared| prepared.sphere.radius);
         [1e-3, 1e2].map(|part| part * radius.max(f64::MIN_POSITIVE))
     }
 
-    /// Shows `picture` in all the room of `ui`. `render_state`: of the window, none where it draws without a GPU.
+    /// Shows `picture` in the whole area of `ui`. `render_state` is that of the window; `None` draws without a GPU.
     pub(crate) fn show(
         &mut self,
         ui: &mut Ui,
         render_state: Option<&RenderState>,
         picture: &Picture<'_>,
-    ) -> Seen {
+    ) -> ViewResponse {
         let size = ui.available_size().max(egui::Vec2::splat(1.0));
         let (rect, response) = ui.allocate_exact_size(size, Sense::click_and_drag());
         let rect = rect.round_to_pixels(ui.pixels_per_point());
@@ -154,73 +159,79 @@ impl View3d {
         self.follow(picture);
         let size = DVec2::new(f64::from(rect.width()), f64::from(rect.height()));
         self.move_camera(ui, &response, rect, picture);
-        let ball = self.pose.as_ref().map(|pose| pose.ball);
+        let sphere = self.prepared.as_ref().map(|prepared| prepared.sphere);
         let overlays = segments::segments(picture);
         let ends = overlays.iter().flat_map(|segment| segment.ends);
-        let ball = ball.unwrap_or_else(|| eye::Ball::around([])).with(ends);
-        let eye = Eye::new(&self.orbit, size, ball);
+        let sphere = sphere
+            .unwrap_or_else(|| projection::Sphere::around([]))
+            .with(ends);
+        let projection = Projection::new(&self.orbit, size, sphere);
         ui.painter().rect_filled(rect, 0.0, picture.background);
         if !self.is_drawable(picture) {
-            return Seen {
+            return ViewResponse {
                 vertex: None,
                 face: None,
                 pull: None,
             };
         }
-        if let Some(texture) = self.texture(ui, render_state, picture, &eye, rect) {
+        if let Some(texture) = self.texture(ui, render_state, picture, &projection, rect) {
             let whole = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
             ui.painter().image(texture, rect, whole, Color32::WHITE);
         } else {
             let painter = ui.painter_at(rect);
-            self.plain
-                .paint(&painter, rect, picture, &eye, self.pose.as_ref());
+            self.fallback
+                .paint(&painter, rect, picture, &projection, self.prepared.as_ref());
             self.note(ui, rect, render_state.is_some());
         }
-        self.look_under_pointer(ui, &response, rect, picture, &eye)
+        self.pick(ui, &response, rect, picture, &projection)
     }
 
     fn is_drawable(&self, picture: &Picture<'_>) -> bool {
-        picture.is_whole() && self.pose.as_ref().is_some_and(|pose| pose.is_finite)
+        picture.is_whole()
+            && self
+                .prepared
+                .as_ref()
+                .is_some_and(|prepared| prepared.is_finite)
     }
 
-    /// Follows the sheet and its state.
+    /// Updates what is derived from the sheet and its state.
     fn follow(&mut self, picture: &Picture<'_>) {
-        match &mut self.pose {
-            Some(pose) => {
-                pose.follow(picture);
+        match &mut self.prepared {
+            Some(prepared) => {
+                prepared.follow(picture);
             }
-            None => self.pose = Some(Pose::new(picture)),
+            None => self.prepared = Some(PreparedSheet::new(picture)),
         }
         if self.is_drawable(picture) {
             self.pivot = self
-                .pose
+                .prepared
                 .as_ref()
-                .map_or(self.pivot, |pose| pose.ball.middle);
+                .map_or(self.pivot, |prepared| prepared.sphere.middle);
             if !self.was_shown {
-                self.fitting = Some(picture.positions.to_vec());
+                self.pending_fit = Some(picture.positions.to_vec());
             }
         }
     }
 
-    /// What the GPU drew, none where there is none.
+    /// The texture that the GPU drew; `None` without a GPU.
     fn texture(
         &mut self,
         ui: &Ui,
         render_state: Option<&RenderState>,
         picture: &Picture<'_>,
-        eye: &Eye,
+        projection: &Projection,
         rect: Rect,
     ) -> Option<TextureId> {
         let render_state = render_state?;
-        let watch = self.watch.take().filter(|w| w.is_over(render_state));
-        let watch = watch.unwrap_or_else(|| {
-            // Another device, such as after a loss: all is made anew.
+        let monitor = self.monitor.take().filter(|w| w.monitors(render_state));
+        let monitor = monitor.unwrap_or_else(|| {
+            // This is another device, for example after a loss, so everything is created again.
             self.gpu = None;
             self.failures = 0;
-            Watch::over(render_state)
+            LossMonitor::new(render_state)
         });
-        let loss = watch.loss();
-        self.watch = Some(watch);
+        let loss = monitor.loss();
+        self.monitor = Some(monitor);
         if self.failures > TRIES {
             return None;
         }
@@ -230,17 +241,17 @@ impl View3d {
                 self.failures = TRIES;
                 Err(reason)
             }
-            None => self.drawn_by_gpu(ui, render_state, picture, eye, rect),
+            None => self.drawn_by_gpu(ui, render_state, picture, projection, rect),
         };
         match drawn {
             Ok(texture) => {
-                self.fault = None;
+                self.error = None;
                 Some(texture)
             }
             Err(reason) => {
                 self.gpu = None;
                 self.failures += 1;
-                self.fault = Some(reason);
+                self.error = Some(reason);
                 ui.ctx().request_repaint();
                 None
             }
@@ -252,7 +263,7 @@ impl View3d {
         ui: &Ui,
         render_state: &RenderState,
         picture: &Picture<'_>,
-        eye: &Eye,
+        projection: &Projection,
         rect: Rect,
     ) -> Result<TextureId, String> {
         let gpu = match self.gpu.take() {
@@ -260,22 +271,22 @@ impl View3d {
             None => Gpu::new(render_state)?,
         };
         let gpu = self.gpu.insert(gpu);
-        let pose = self.pose.as_ref().ok_or("no pose")?;
+        let prepared = self.prepared.as_ref().ok_or("the sheet is not prepared")?;
         let most = render_state.device.limits().max_texture_dimension_2d as f32;
         let wanted = rect.size() * ui.pixels_per_point();
         let part = (most / wanted.max_elem()).min(1.0);
-        let view = gpu::View {
-            eye,
-            pose,
+        let view = gpu::FrameView {
+            projection,
+            prepared,
             size: [wanted.x, wanted.y].map(|side| pixels(side * part)),
             pixels_per_point: ui.pixels_per_point() * part,
         };
         gpu.show(picture, &view)
     }
 
-    /// Says why the picture is a plain one.
+    /// Says why the picture is a simpler one.
     fn note(&self, ui: &Ui, rect: Rect, has_gpu: bool) {
-        let text = match &self.fault {
+        let text = match &self.error {
             Some(reason) if has_gpu => format!("drawn without the GPU: {reason}"),
             _ => "drawn without a GPU".to_owned(),
         };
@@ -288,14 +299,14 @@ impl View3d {
     }
 }
 
-/// Whole pixels of a side, at least one.
+/// A length in whole pixels, at least one.
 #[expect(clippy::cast_sign_loss, reason = "at least 1 before")]
 fn pixels(side: f32) -> u32 {
     side.round().max(1.0) as u32
 }
 
-/// Names the view, and from where the sheet is seen, to those who do not see it.
-fn name(response: &Response, orbit: &Orbit) {
+/// Describes the view and its camera to assistive technology.
+fn name(response: &Response, orbit: &OrbitCamera) {
     response.widget_info(|| {
         let from = format!(
             "from azimuth {:.0}°, elevation {:.0}°, {:.2} wide{}",

@@ -1,21 +1,21 @@
-//! What triangles are painted with, as the shader reads it: kind in the highest byte, colour as sRGB in the others.
+//! The paint of each triangle as the shader reads it: its kind in the highest byte, its sRGB colour in the others.
 
 use foldmotion_pattern::Sheet;
 use foldmotion_record::{Layers, colour_of};
 
 use super::picture::{Colours, Picture};
 
-/// The sides of the paper.
+/// The colour of the front or back of the paper.
 pub(super) const PAPER: u32 = 0;
-/// A colour that stands for a value and takes no light.
+/// A colour that represents a value and is not shaded.
 pub(super) const VALUE: u32 = 1;
 /// A tint of the paper.
 pub(super) const TINT: u32 = 2;
 /// The colour of marks.
 pub(super) const MARK: u32 = 3;
 
-/// Tints of units, told apart with colour blindness as well (after Okabe and Ito 2008, Color universal design), light
-/// enough for lines on them.
+/// Tints of units that can be told apart with colour blindness (after Okabe and Ito 2008, Color universal design) and
+/// are light enough for lines on them.
 const TINTS: [[u8; 3]; 5] = [
     [242, 207, 138],
     [158, 208, 238],
@@ -28,13 +28,13 @@ fn packed(kind: u32, [r, g, b]: [u8; 3]) -> u32 {
     kind << 24 | u32::from(b) << 16 | u32::from(g) << 8 | u32::from(r)
 }
 
-/// The kind and the colour of `paint`.
+/// The kind and the colour of a paint.
 pub(super) fn unpacked(paint: u32) -> (u32, [u8; 3]) {
     let [r, g, b, kind] = paint.to_le_bytes();
     (u32::from(kind), [r, g, b])
 }
 
-/// What paints depend on.
+/// What the paints depend on.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct PaintKey {
     colours: (u8, [f64; 2], u64),
@@ -56,7 +56,7 @@ impl PaintKey {
     }
 }
 
-/// One paint a triangle of `picture`.
+/// The paint of each triangle of `picture`.
 pub(super) fn paints(picture: &Picture<'_>) -> Vec<u32> {
     let sheet = picture.sheet;
     let mut paints = match picture.colours {
@@ -89,14 +89,14 @@ fn of_values(sheet: &Sheet, values: &[f64], [low, high]: [f64; 2]) -> Vec<u32> {
 fn of_units(sheet: &Sheet) -> Vec<u32> {
     let paint = |&facet: &u32| {
         let facet = &sheet.facets[facet as usize];
-        // Units that touch, also at a corner, differ.
+        // Units that touch, even at a corner, get different tints.
         let tint = (facet.row + 2 * facet.column) as usize % TINTS.len();
         packed(TINT, TINTS[tint])
     };
     sheet.face_facets.iter().map(paint).collect()
 }
 
-/// From the lowest to the highest of all stacks; what lies in none is paper.
+/// Colours from the lowest to the highest layer of all stacks; triangles outside stacks show paper.
 fn of_layers(sheet: &Sheet, layers: Option<&Layers>) -> Vec<u32> {
     let layers = layers.filter(|layers| layers.heights.len() == sheet.faces.len());
     let Some(layers) = layers else {

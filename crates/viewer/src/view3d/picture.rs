@@ -1,4 +1,4 @@
-//! What is to be seen.
+//! What the view shows.
 
 use eframe::egui::Color32;
 use foldmotion_pattern::Sheet;
@@ -12,94 +12,94 @@ use super::CreaseClasses;
 pub(crate) struct Picture<'a> {
     /// The sheet.
     pub(crate) sheet: &'a Sheet,
-    /// Another number when another sheet, or other layers, come.
+    /// A number that changes with the sheet or its layers.
     pub(crate) sheet_key: u64,
-    /// One a vertex. Places that are missing or not finite leave the view empty.
+    /// The position of each vertex. If one is missing or not finite, the view is empty.
     pub(crate) positions: &'a [DVec3],
-    /// Another number when the positions change.
+    /// A number that changes with the positions.
     pub(crate) state_key: u64,
-    /// The order of triangles that coincide, where it is known.
+    /// The order of coinciding triangles, if it is known.
     pub(crate) layers: Option<&'a Layers>,
-    /// What triangles are painted with.
+    /// How triangles are coloured.
     pub(crate) colours: Colours<'a>,
-    /// The lines that are drawn.
+    /// The classes of creases that are drawn.
     pub(crate) creases: CreaseClasses,
-    /// The colours of paper and lines. Its line width is in points, its background is not used.
+    /// Colours of paper and lines. The line width is in points; the background is not used.
     pub(crate) style: &'a Style,
-    /// Behind the sheet.
+    /// The colour behind the sheet.
     pub(crate) background: Color32,
-    /// Lines over the sheet, dimmed where paper hides them.
+    /// Lines and dots over the sheet, dimmed where the sheet hides them.
     pub(crate) overlays: &'a [Overlay<'a>],
-    /// Triangles painted in the colour of marks, in any order.
+    /// Triangles drawn in the colour of marks, in any order.
     pub(crate) flash: &'a [u32],
-    /// How bright they are: 0 paper to 1.
+    /// The strength of that colour, from 0 (paper) to 1.
     pub(crate) pulse: f32,
-    /// A vertex that a hand has, and where it is pulled to.
-    pub(crate) handle: Option<Handle>,
-    /// Whether a vertex can be taken.
+    /// The vertex that is being pulled.
+    pub(crate) pull: Option<VertexPull>,
+    /// Whether a vertex can be pulled.
     pub(crate) can_pull: bool,
 }
 
 impl Picture<'_> {
-    /// Whether there is a place for every vertex.
+    /// Whether every vertex has a position.
     pub(super) fn is_whole(&self) -> bool {
         self.positions.len() == self.sheet.vertices.len() && !self.positions.is_empty()
     }
 
-    /// Whether there are layers and they belong to the sheet.
+    /// Whether there are layers and they match the sheet.
     pub(super) fn has_layers(&self) -> bool {
         let count = self.layers.map(|layers| layers.before.len());
         count == Some(self.sheet.faces.len())
     }
 }
 
-/// What triangles are painted with.
+/// How triangles are coloured.
 #[derive(Debug, Clone, Copy)]
 pub(crate) enum Colours<'a> {
-    /// The two sides of the paper.
+    /// Front and back of the paper.
     Plain,
-    /// Values as colours of record's map.
+    /// Values in the colours of films.
     Values {
-        /// One a triangle; those that are not numbers show paper.
+        /// The value of each triangle; one that is not a number shows paper.
         values: &'a [f64],
         /// The values of the first and the last colour.
         range: [f64; 2],
-        /// Another number when the values change.
+        /// A number that changes with the values.
         key: u64,
     },
-    /// Neighbouring units of five tints.
+    /// Five tints, different for neighbouring units.
     Units,
-    /// The place in the stack of the compact state.
+    /// The position in the stack of the compact state.
     Layers,
 }
 
-/// A vertex that a hand has.
+/// A vertex that is being pulled.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Handle {
-    /// The vertex.
+pub(crate) struct VertexPull {
+    /// The index of the vertex.
     pub(crate) vertex: u32,
-    /// Where it is pulled to.
+    /// The point it is pulled towards.
     pub(crate) target: DVec3,
 }
 
-/// A line, box or dots over the sheet.
+/// Lines or dots over the sheet.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Overlay<'a> {
-    /// What.
+    /// The shape.
     pub(crate) shape: Shape<'a>,
-    /// Its colour.
+    /// The colour of lines and dots.
     pub(crate) colour: Color32,
-    /// The width of its lines, or the diameter of its dots, in points.
+    /// The width of lines or the diameter of dots, points.
     pub(crate) width: f32,
 }
 
 /// The shape of an [`Overlay`].
 #[derive(Debug, Clone, Copy)]
 pub(crate) enum Shape<'a> {
-    /// From point to point.
+    /// A polyline.
     Path(&'a [DVec3]),
     /// The twelve edges of a box: a corner and the three edges from it.
     Box(DVec3, [DVec3; 3]),
-    /// Dots, seen also behind paper: where facets meet.
+    /// Dots, also visible through the sheet.
     Dots(&'a [DVec3]),
 }

@@ -1,32 +1,32 @@
-//! Overlays as segments: what the shader's `overlay_vertex` reads.
+//! Overlays as segments, as the shader's `overlay_vertex` reads them.
 
 use eframe::egui::{Color32, Rgba};
 use glam::DVec3;
 
 use super::picture::{Overlay, Picture, Shape};
 
-/// Opacity of lines behind paper.
+/// Opacity of lines behind the sheet.
 const HIDDEN: f32 = 0.28;
 
-/// Points across the dots of a pulled vertex.
+/// Diameter of the dot on a pulled vertex, points.
 const HANDLE: f32 = 9.0;
 
-/// A line between two places; a dot where both are one.
+/// A line between two points, or a dot if they are equal.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Segment {
     pub(super) ends: [DVec3; 2],
     pub(super) colour: Color32,
-    /// Points.
+    /// The width of the line or the diameter of the dot, points.
     pub(super) width: f32,
-    /// Opacity behind paper.
+    /// The opacity behind the sheet.
     pub(super) hidden: f32,
 }
 
 impl Segment {
-    /// Floats of a segment in the buffer.
+    /// Number of floats of a segment in the buffer.
     pub(super) const FLOATS: usize = 12;
 
-    /// As the shader reads it: from `origin`, `pixels` a point.
+    /// The record that the shader reads, with positions relative to `origin`, for `pixels` per point.
     pub(super) fn floats(&self, origin: DVec3, pixels: f32) -> [f32; Self::FLOATS] {
         let [a, b] = self.ends.map(|end| (end - origin).as_vec3());
         let [r, g, b_, alpha] = Rgba::from(self.colour.to_opaque()).to_array();
@@ -49,12 +49,12 @@ impl Segment {
     }
 }
 
-/// All that is drawn over the sheet of `picture`.
+/// All lines and dots over the sheet of `picture`.
 pub(super) fn segments(picture: &Picture<'_>) -> Vec<Segment> {
     let mut segments: Vec<Segment> = picture.overlays.iter().flat_map(of_overlay).collect();
     let place = |vertex: u32| picture.positions.get(vertex as usize).copied();
-    if let Some(handle) = picture.handle
-        && let Some(from) = place(handle.vertex)
+    if let Some(pull) = picture.pull
+        && let Some(from) = place(pull.vertex)
     {
         let [r, g, b] = picture.style.mark;
         let colour = Color32::from_rgb(r, g, b);
@@ -64,9 +64,9 @@ pub(super) fn segments(picture: &Picture<'_>) -> Vec<Segment> {
             width,
             hidden: 1.0,
         };
-        segments.push(segment([from, handle.target], 2.0));
+        segments.push(segment([from, pull.target], 2.0));
         segments.push(segment([from; 2], HANDLE));
-        segments.push(segment([handle.target; 2], 0.7 * HANDLE));
+        segments.push(segment([pull.target; 2], 0.7 * HANDLE));
     }
     segments.retain(|segment| segment.ends.iter().all(|end| end.is_finite()));
     segments

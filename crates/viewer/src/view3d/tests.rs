@@ -1,4 +1,4 @@
-//! The view in a window, driven without one.
+//! The view, driven without a window.
 
 use eframe::egui::{Key, Modifiers, PointerButton, Pos2, Vec2, pos2};
 use eframe::egui_wgpu::RenderState;
@@ -11,9 +11,9 @@ use glam::{DVec2, DVec3};
 use super::gpu::tests::{Subject, device, keep};
 use super::*;
 
-/// What a window shows of its sheet.
+/// What the view shows of its sheet.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Dress {
+enum TestColours {
     Plain,
     Strain,
     Units,
@@ -21,7 +21,7 @@ enum Dress {
     Overlays,
 }
 
-/// A view and what it saw last.
+/// A view and its last response.
 struct Window {
     view: View3d,
     subject: Subject,
@@ -29,9 +29,9 @@ struct Window {
     state_key: u64,
     render_state: Option<RenderState>,
     can_pull: bool,
-    dress: Dress,
-    /// Pull, vertex and face that were seen.
-    pull: Option<Handle>,
+    colours: TestColours,
+    /// The last pull, vertex and triangle.
+    pull: Option<VertexPull>,
     vertex: Option<u32>,
     face: Option<u32>,
 }
@@ -45,14 +45,14 @@ impl Window {
             state_key: 1,
             render_state: None,
             can_pull: false,
-            dress: Dress::Plain,
+            colours: TestColours::Plain,
             pull: None,
             vertex: None,
             face: None,
         }
     }
 
-    /// Goes to another state and fits it.
+    /// Shows another state and fits the view to it.
     fn take(&mut self, positions: Vec<DVec3>) {
         self.view.fit(positions.clone());
         self.positions = positions;
@@ -79,20 +79,20 @@ impl Window {
             overlay(Shape::Path(&path), 2.0),
             overlay(Shape::Dots(&path), 8.0),
         ];
-        picture.colours = match self.dress {
-            Dress::Strain => Colours::Values {
+        picture.colours = match self.colours {
+            TestColours::Strain => Colours::Values {
                 values: &values,
                 range,
                 key: 0,
             },
-            Dress::Units => Colours::Units,
-            Dress::Layers => Colours::Layers,
-            Dress::Plain | Dress::Overlays => Colours::Plain,
+            TestColours::Units => Colours::Units,
+            TestColours::Layers => Colours::Layers,
+            TestColours::Plain | TestColours::Overlays => Colours::Plain,
         };
-        if self.dress == Dress::Overlays {
+        if self.colours == TestColours::Overlays {
             picture.overlays = &overlays;
             picture.flash = &[3, 40, 41, 42];
-            picture.handle = Some(Handle {
+            picture.pull = Some(VertexPull {
                 vertex: 30,
                 target: high,
             });
@@ -115,13 +115,13 @@ fn harness(window: Window) -> Harness<'static, Window> {
         .build_ui_state(|ui, window: &mut Window| window.show(ui), window)
 }
 
-/// Where `point` is seen, on the screen.
+/// The position of `point` on the screen.
 fn on_screen(harness: &Harness<'_, Window>, point: DVec3) -> Pos2 {
     let rect = harness.get_by_label("3D view").rect();
     let orbit = harness.state().view.orbit();
     let size = DVec2::new(f64::from(rect.width()), f64::from(rect.height()));
-    let eye = Eye::new(&orbit, size, eye::Ball::around([]));
-    let at = eye.project(point);
+    let projection = Projection::new(&orbit, size, projection::Sphere::around([]));
+    let at = projection.project(point);
     rect.min + Vec2::new(at.x as f32, at.y as f32)
 }
 
@@ -149,7 +149,7 @@ fn without_a_gpu_the_view_is_drawn_and_named() {
     let mut harness = harness(flat());
     harness.run();
     harness.get_by_label("3D view");
-    assert!(harness.state().view.fault().is_none() && harness.state().view.drawn() == 0);
+    assert!(harness.state().view.error().is_none() && harness.state().view.drawn() == 0);
 }
 
 #[test]
@@ -205,7 +205,7 @@ fn a_vertex_behind_paper_is_not_taken() {
     }
 }
 
-/// Vertices that lie clearly behind a triangle, by rays towards the viewer.
+/// Vertices clearly behind a triangle, found by rays towards the viewer.
 fn hidden_vertices(window: &Window) -> Vec<u32> {
     let [_, _, toward] = window.view.orbit().axes();
     let sheet = &window.subject.units.sheet;
@@ -277,7 +277,7 @@ fn a_pulled_vertex_follows_the_pointer_in_the_plane_of_the_screen_and_the_camera
     assert_eq!(pull.vertex, 4);
     assert!((on_screen(&harness, pull.target) - to).length() < 1e-2);
     assert!(orbit.axes()[2].dot(pull.target - place).abs() < 1e-9);
-    // Beside every vertex a drag turns.
+    // A drag that does not start at a vertex turns the view.
     drag(
         &mut harness,
         PointerButton::Primary,
@@ -327,7 +327,7 @@ fn places_that_are_missing_or_not_finite_leave_the_view_empty() {
     }
 }
 
-/// Drawn by the GPU.
+/// A view that is drawn by the GPU.
 fn with_gpu(mut window: Window, size: [f32; 2], is_dark: bool) -> Harness<'static, Window> {
     let state = device();
     window.render_state = Some(state.clone());
@@ -366,7 +366,7 @@ type Change = fn(&mut Window);
 fn an_idle_frame_draws_nothing_and_every_change_draws_once() {
     let mut harness = with_gpu(flat(), [400.0, 300.0], true);
     harness.run();
-    assert_eq!(harness.state().view.fault(), None);
+    assert_eq!(harness.state().view.error(), None);
     let mut drawn = harness.state().view.drawn();
     assert!(drawn > 0);
     harness.run_steps(5);
@@ -375,7 +375,7 @@ fn an_idle_frame_draws_nothing_and_every_change_draws_once() {
         ("state", |w| w.state_key += 1),
         ("camera", |w| w.view.orbit.azimuth += 3.0),
         ("style", |w| w.subject.style.line_width = 3.0),
-        ("colours", |w| w.dress = Dress::Units),
+        ("colours", |w| w.colours = TestColours::Units),
     ];
     for (what, change) in changes {
         change(harness.state_mut());
@@ -399,9 +399,9 @@ fn a_lost_device_is_told_and_another_one_draws_again() {
     window.render_state = Some(state.clone());
     let mut harness = harness(window);
     harness.run();
-    assert_eq!(harness.state().view.fault(), None);
+    assert_eq!(harness.state().view.error(), None);
     state.device.destroy();
-    // The loss is told when what was under way is done.
+    // The loss is reported once pending work is done.
     let wait = eframe::egui_wgpu::wgpu::PollType::wait_indefinitely();
     let _ = state.device.poll(wait);
     harness.state_mut().view.look(View::Top);
@@ -410,17 +410,17 @@ fn a_lost_device_is_told_and_another_one_draws_again() {
         harness
             .state()
             .view
-            .fault()
+            .error()
             .is_some_and(|f| f.contains("lost"))
     );
     harness.get_by_label("3D view");
     harness.state_mut().render_state = Some(device());
     harness.run();
-    assert_eq!(harness.state().view.fault(), None);
+    assert_eq!(harness.state().view.error(), None);
     assert!(harness.state().view.drawn() > 0);
 }
 
-/// A shelter of seven rows and five columns.
+/// A shelter with seven rows and five columns.
 fn shelter() -> Window {
     let subject = Subject::new(Case::S, 1.6, 7, 5);
     let arch: Vec<DVec2> = (0..=7)
@@ -444,24 +444,24 @@ fn every_state_colour_and_look_is_drawn() {
         let mut drawn = 0;
         let mut look = |harness: &mut Harness<'static, Window>, name: &str| {
             render(harness, &format!("{name}-{theme}"));
-            assert_eq!(harness.state().view.fault(), None, "{name}");
+            assert_eq!(harness.state().view.error(), None, "{name}");
             assert!(harness.state().view.drawn() > drawn, "{name}");
             drawn = harness.state().view.drawn();
         };
         look(&mut harness, "deployed");
-        harness.state_mut().dress = Dress::Strain;
+        harness.state_mut().colours = TestColours::Strain;
         look(&mut harness, "strain");
-        harness.state_mut().dress = Dress::Units;
+        harness.state_mut().colours = TestColours::Units;
         look(&mut harness, "units");
         let half = half_folded(harness.state());
-        harness.state_mut().dress = Dress::Overlays;
+        harness.state_mut().colours = TestColours::Overlays;
         harness.state_mut().take(half);
         look(&mut harness, "half");
         let compact = harness.state().subject.units.compact();
-        harness.state_mut().dress = Dress::Plain;
+        harness.state_mut().colours = TestColours::Plain;
         harness.state_mut().take(compact);
         look(&mut harness, "compact");
-        harness.state_mut().dress = Dress::Layers;
+        harness.state_mut().colours = TestColours::Layers;
         look(&mut harness, "layers");
         harness.state_mut().view.set_perspective(true);
         look(&mut harness, "perspective");
@@ -470,13 +470,13 @@ fn every_state_colour_and_look_is_drawn() {
     }
 }
 
-/// Halfway between deployed and compact along straight lines: of no engine, but of layers that come together.
+/// A state between deployed and compact along straight lines. No engine produces it, but its layers come together.
 fn half_folded(window: &Window) -> Vec<DVec3> {
     let pairs = window.positions.iter().zip(window.subject.units.compact());
     pairs.map(|(a, b)| a.lerp(b, 0.6)).collect()
 }
 
-/// Prints what a frame takes, with its state new in each: of the view alone on the processor, and until it is drawn.
+/// Prints the time of a frame with a new state: of the processor alone, and until it is drawn.
 #[test]
 #[ignore = "measures and proves nothing: run it alone, with FOLDMOTION_GPU_TESTS=yes"]
 fn how_long_a_frame_takes() {

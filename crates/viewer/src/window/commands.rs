@@ -1,4 +1,4 @@
-//! What each command does.
+//! The effect of each command.
 
 use std::path::{Path, PathBuf};
 
@@ -7,54 +7,54 @@ use foldmotion_record::View;
 use foldmotion_study::UnitDraft;
 use foldmotion_study::scene::ProfileScene;
 
-use super::dialogs::{Dialog, Then};
-use super::{Viewer, moving_part};
+use super::dialogs::{Dialog, NextAction};
+use super::{Viewer, motion_keys};
 use crate::document::{Document, SaveError};
-use crate::settings::{Colour, Command, Look, Picker, apply};
+use crate::settings::{Appearance, Colour, Command, FilePicker, apply};
 use crate::timeline::Repeat;
-use crate::work::{Hold, Run, open};
+use crate::work::{Interaction, RunJob, open};
 
-/// Endings of files that can be opened.
+/// Extensions of files that can be opened.
 const OPENED: [&str; 3] = ["toml", "fold", "svg"];
 
-/// Endings of outlines of profiles.
+/// Extensions of outline files for profiles.
 const OUTLINES: [&str; 3] = ["csv", "dat", "dxf"];
 
 impl Viewer {
-    /// Does what was asked for.
+    /// Executes a command.
     pub(super) fn perform(&mut self, command: Command, ctx: &Context) {
         match command {
-            Command::New => self.unless_unsaved(Then::New, ctx),
-            Command::Open => self.unless_unsaved(Then::ChooseFile, ctx),
+            Command::New => self.confirm_unsaved(NextAction::New, ctx),
+            Command::Open => self.confirm_unsaved(NextAction::ChooseFile, ctx),
             Command::Save => self.save_document(),
-            Command::SaveAs => self.choose_place(),
+            Command::SaveAs => self.choose_save_path(),
             Command::Quit => ctx.send_viewport_cmd(ViewportCommand::Close),
             Command::Undo => {
                 if let Some(label) = self.document.undo() {
-                    self.say(format!("undone: {label}"), true);
+                    self.notify(format!("Undone: {label}"), true);
                 }
             }
             Command::Redo => {
                 if let Some(label) = self.document.redo() {
-                    self.say(format!("done again: {label}"), true);
+                    self.notify(format!("Redone: {label}"), true);
                 }
             }
             Command::Run => self.run(),
             Command::Cancel => self.cancel(),
-            Command::Hand => self.take_in_hand(),
+            Command::Interact => self.toggle_interaction(),
             Command::Record => self.settings.panels.record = true,
-            Command::DarkLight | Command::Presentation => self.change_look(command, ctx),
+            Command::DarkLight | Command::Presentation => self.change_appearance(command, ctx),
             Command::Help => self.shows_help = true,
-            Command::PanelText if self.mends_text => self.mends_text = false,
+            Command::PanelText if self.must_fix_text => self.must_fix_text = false,
             _ if self.move_time(command) || self.look(command) => {}
             _ => self.switch(command),
         }
     }
 
-    /// Commands that move in time; whether this is one.
+    /// Executes a command that changes the motion time; returns whether this is one.
     fn move_time(&mut self, command: Command) -> bool {
-        let act = self.act();
-        let frames = act.as_ref().map_or(&[][..], |act| &act.marks.frames);
+        let shown = self.shown_motion();
+        let frames = shown.as_ref().map_or(&[][..], |shown| &shown.marks.frames);
         match command {
             Command::Play => self.playback.toggle(),
             Command::PreviousFrame => self.playback.step(frames, false),
@@ -73,12 +73,12 @@ impl Viewer {
             }
             _ => return false,
         }
-        self.shown.follows_run &=
+        self.display.follows_run &=
             matches!(command, Command::Slower | Command::Faster | Command::Loop);
         true
     }
 
-    /// Commands that change what is seen of the sheet; whether this is one.
+    /// Executes a command that moves the camera; returns whether this is one.
     fn look(&mut self, command: Command) -> bool {
         match command {
             Command::ViewFront => self.view3d.look(View::Front),
@@ -86,7 +86,7 @@ impl Viewer {
             Command::ViewTop => self.view3d.look(View::Top),
             Command::ViewIsometric => self.view3d.look(View::Iso),
             Command::Fit => {
-                let mut shown = self.shown.pose.positions.to_vec();
+                let mut shown = self.display.state.positions.to_vec();
                 shown.extend(self.shown_boxes());
                 self.view3d.fit(shown);
             }
@@ -99,7 +99,7 @@ impl Viewer {
     fn shown_boxes(&self) -> Vec<glam::DVec3> {
         let looks = &self.settings.view;
         let wanted = [looks.compact_box, looks.closed_form_box];
-        let boxes = self.act().map_or([None; 2], |act| act.boxes);
+        let boxes = self.shown_motion().map_or([None; 2], |shown| shown.boxes);
         let is_shown = self.playback.time > 1.0;
         let boxes = boxes.into_iter().zip(wanted);
         let shown = boxes.filter_map(|(bounds, wanted)| bounds.filter(|_| wanted && is_shown));
@@ -109,7 +109,7 @@ impl Viewer {
     fn switch(&mut self, command: Command) {
         let (view, panels) = (&mut self.settings.view, &mut self.settings.panels);
         if command == Command::PanelDesign && panels.text {
-            // It stands where the text stands.
+            // The design panel takes the place of the text.
             (panels.text, panels.design) = (false, true);
             return;
         }
@@ -139,39 +139,42 @@ impl Viewer {
         self.view3d.set_perspective(self.settings.view.perspective);
     }
 
-    fn change_look(&mut self, command: Command, ctx: &Context) {
+    fn change_appearance(&mut self, command: Command, ctx: &Context) {
         if command == Command::DarkLight {
-            self.settings.look = Look::other(ctx);
+            self.settings.appearance = Appearance::other(ctx);
         } else {
             self.settings.scale = self.settings.scale.next();
         }
-        apply(ctx, self.settings.look, self.settings.scale.factor());
+        apply(ctx, self.settings.appearance, self.settings.scale.factor());
     }
 
-    /// Starts a run of the scene as it stands.
+    /// Runs the current scene.
     pub(super) fn run(&mut self) {
-        if self.shown.file.is_some() {
-            self.say("a motion file has nothing to run; open its scene", false);
+        if self.display.file.is_some() {
+            self.notify(
+                "A motion file cannot be run. Open its scene instead.",
+                false,
+            );
             return;
         }
         if self.jobs.run.is_some() {
-            self.say("a run is under way; cancel it first (Esc)", false);
+            self.notify("A run is in progress. Cancel it first (Esc).", false);
             return;
         }
         let Some(study) = self.resolved.study.clone() else {
-            let words = self.resolved.faults.first().map_or_else(
-                || "the scene is still being resolved".to_owned(),
-                |fault| fault.message.clone(),
+            let words = self.resolved.errors.first().map_or_else(
+                || "The scene is still being resolved.".to_owned(),
+                |error| error.message.clone(),
             );
-            self.say(words, false);
+            self.notify(words, false);
             return;
         };
         self.jobs.preview = None;
-        self.jobs.hold = None;
+        self.jobs.interaction = None;
         self.jobs.best_rate = 0;
-        let scene = moving_part(self.document.scene());
-        self.jobs.run = Some((scene, Run::start(&study, self.wake.clone())));
-        self.shown.follows_run = true;
+        let scene = motion_keys(self.document.scene());
+        self.jobs.run = Some((scene, RunJob::start(&study, self.repaint.clone())));
+        self.display.follows_run = true;
         self.playback.is_playing = false;
     }
 
@@ -180,69 +183,70 @@ impl Viewer {
             run.stop();
         } else if let Some((_, job)) = &self.jobs.recording {
             job.stop();
-        } else if self.jobs.hold.is_some() {
-            self.jobs.hold = None;
+        } else if self.jobs.interaction.is_some() {
+            self.jobs.interaction = None;
         } else if let Some((_, job)) = &self.jobs.opening {
             job.stop();
         }
     }
 
-    /// Takes the sheet in the hand as it is shown, or lets it go.
-    fn take_in_hand(&mut self) {
-        if self.jobs.hold.take().is_some() {
-            self.timings.rate("hand", self.jobs.best_rate as f64);
-            self.shown.pulled = None;
+    /// Lets the user move the sheet by hand from its current state, or ends that.
+    fn toggle_interaction(&mut self) {
+        if self.jobs.interaction.take().is_some() {
+            self.timings
+                .rate("moving by hand", self.jobs.best_rate as f64);
+            self.display.pulled = None;
             return;
         }
-        let (Some(study), Some(act)) = (self.resolved.study.clone(), self.act()) else {
-            self.say(
-                "the sheet cannot be taken in the hand before the scene is resolved",
+        let (Some(study), Some(shown)) = (self.resolved.study.clone(), self.shown_motion()) else {
+            self.notify(
+                "The sheet can be moved by hand once the scene is resolved.",
                 false,
             );
             return;
         };
-        if self.shown.file.is_some() || self.is_stale(&act) {
-            self.say(
-                "only the sheet of the scene as it stands can be taken in the hand",
+        if self.display.file.is_some() || self.is_stale(&shown) {
+            self.notify(
+                "Only the sheet of the current scene can be moved by hand.",
                 false,
             );
             return;
         }
         self.jobs.best_rate = 0;
         self.playback.is_playing = false;
-        let from = (self.playback.time, act.state(self.playback.time));
-        let start = (!act.is_exact()).then_some(from);
+        let from = (self.playback.time, shown.state(self.playback.time));
+        let start = (!shown.is_exact()).then_some(from);
         if start.is_none() {
             self.playback.go_to(self.playback.range[0]);
         }
-        self.jobs.hold = Some(Hold::start(study, start, self.wake.clone()));
+        self.jobs.interaction = Some(Interaction::start(study, start, self.repaint.clone()));
     }
 
-    /// Opens any file, in the background.
+    /// Opens a file in the background.
     pub(super) fn open(&mut self, path: PathBuf) {
-        let job = open(path.clone(), self.wake.clone());
+        let job = open(path.clone(), self.repaint.clone());
         self.jobs.opening = Some((path, job));
     }
 
     pub(super) fn choose_file(&mut self) {
         let recent = self.settings.recent.folders();
         let folder = self.folder();
-        self.dialog = Dialog::Open(Picker::open("Open", &OPENED, &folder, &recent));
+        self.dialog = Dialog::Open(FilePicker::open("Open", &OPENED, &folder, &recent));
     }
 
-    pub(super) fn choose_place(&mut self) {
+    pub(super) fn choose_save_path(&mut self) {
         let name = self.document.name_to_save();
         let recent = self.settings.recent.folders();
         let folder = self.folder();
         self.dialog = Dialog::Save(
-            Picker::save("Save as", &["toml"], &folder, &name, &recent),
+            FilePicker::save("Save as", &["toml"], &folder, &name, &recent),
             None,
         );
     }
 
-    /// The folder of the scene; where the program was started for one that has none.
+    /// The folder of the scene, or the current folder if it has none.
     fn folder(&self) -> PathBuf {
-        let beside = self.document.place().parent().map(Path::to_owned);
+        let beside = self.document.location().parent().map(Path::to_owned);
         let folder = beside.filter(|folder| folder.is_dir());
         folder
             .or_else(|| std::env::current_dir().ok())
@@ -252,48 +256,48 @@ impl Viewer {
     fn save_document(&mut self) {
         match self.document.save() {
             Ok(()) => self.saved(),
-            Err(SaveError::NoFile) => self.choose_place(),
+            Err(SaveError::NoFile) => self.choose_save_path(),
             Err(SaveError::Changed { .. }) => self.dialog = Dialog::Changed,
-            Err(error) => self.say(error.to_string(), false),
+            Err(error) => self.notify(error.to_string(), false),
         }
     }
 
     pub(super) fn saved(&mut self) {
         if let Some(path) = self.document.path().map(Path::to_owned) {
             self.settings.recent.add(&path);
-            self.say(format!("saved {}", path.display()), true);
+            self.notify(format!("Saved {}", path.display()), true);
         }
         self.keep_unsaved();
     }
 
-    /// Goes on with `then`, unless edits would be lost: then asks.
-    pub(super) fn unless_unsaved(&mut self, then: Then, ctx: &Context) {
-        if self.document.is_modified() && self.shown.file.is_none() {
+    /// Performs `then`, after asking about unsaved edits.
+    pub(super) fn confirm_unsaved(&mut self, then: NextAction, ctx: &Context) {
+        if self.document.is_modified() && self.display.file.is_none() {
             self.dialog = Dialog::Unsaved(then);
         } else {
-            self.go_on(then, ctx);
+            self.continue_with(then, ctx);
         }
     }
 
-    pub(super) fn go_on(&mut self, then: Then, ctx: &Context) {
+    pub(super) fn continue_with(&mut self, then: NextAction, ctx: &Context) {
         match then {
-            Then::New => self.take_document(Document::new()),
-            Then::ChooseFile => self.choose_file(),
-            Then::Open(path) => self.open(path),
-            Then::Quit => {
+            NextAction::New => self.take_document(Document::new()),
+            NextAction::ChooseFile => self.choose_file(),
+            NextAction::Open(path) => self.open(path),
+            NextAction::Quit => {
                 self.is_closing = true;
                 ctx.send_viewport_cmd(ViewportCommand::Close);
             }
         }
     }
 
-    /// Keeps unsaved edits where the next start finds them; forgets them once they are saved.
+    /// Keeps unsaved edits for the next start; deletes them once they are saved.
     pub(super) fn keep_unsaved(&mut self) {
         if let Some(unsaved) = &mut self.unsaved
             && let Err(error) = unsaved.keep(&self.document)
         {
-            let words = format!("unsaved edits cannot be kept: {error}; save the scene");
-            self.say(words, false);
+            let words = format!("Unsaved edits could not be kept: {error}. Save the scene.");
+            self.notify(words, false);
         }
     }
 
@@ -304,14 +308,15 @@ impl Viewer {
             return;
         };
         let ending = path.extension().unwrap_or_default().to_ascii_lowercase();
-        if OUTLINES.iter().any(|outline| ending == *outline) && self.shown.file.is_none() {
+        if OUTLINES.iter().any(|outline| ending == *outline) && self.display.file.is_none() {
             self.take_outline(&path);
         } else {
-            self.unless_unsaved(Then::Open(path), ctx);
+            self.confirm_unsaved(NextAction::Open(path), ctx);
         }
     }
 
-    /// Makes the outline in a file the profile. Rows, columns and width stay what they are, which a built-in profile brought.
+    /// Makes an outline file the profile. Rows, columns and width keep their values, even if they came from a built-in
+    /// profile.
     fn take_outline(&mut self, path: &Path) {
         let mut scene = self.document.scene().clone();
         scene.profile = ProfileScene {
@@ -333,9 +338,12 @@ impl Viewer {
                 .width
                 .or(Some(units.unit.width * units.columns as f64));
         }
-        if !self.document.change(scene, "take an outline", false) {
-            self.say(
-                "the scene's text has an error; mend it there first (F7)",
+        if !self
+            .document
+            .change(scene, "profile from an outline", false)
+        {
+            self.notify(
+                "The text of the scene has an error. Correct it there first (F7).",
                 false,
             );
         }

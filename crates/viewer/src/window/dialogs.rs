@@ -1,4 +1,4 @@
-//! What is asked before something is lost, and the other windows over the window.
+//! The dialogs: file pickers, questions before something is lost, the record dialog.
 
 use std::path::PathBuf;
 
@@ -6,32 +6,32 @@ use eframe::egui::{Button, Context, Id, Modal, RichText, Ui, ViewportCommand, Wi
 use foldmotion_study::scene::RecordScene;
 
 use super::Viewer;
-use super::record_panel::{Seen, Wish};
+use super::record_panel::{CurrentView, RecordRequest};
 use crate::document::SaveError;
-use crate::settings::{Picked, Picker, show_help};
+use crate::settings::{FilePicker, PickerResult, show_help};
 
 /// The dialog that is open.
 #[derive(Debug, Default)]
 pub(super) enum Dialog {
     #[default]
     None,
-    /// A file to open.
-    Open(Picker),
-    /// A place to save the scene, and what follows.
-    Save(Picker, Option<Then>),
-    /// A folder to record into.
-    Folder(Picker),
-    /// Unsaved edits, and what is to follow.
-    Unsaved(Then),
-    /// The file was changed by another program.
+    /// Chooses a file to open.
+    Open(FilePicker),
+    /// Chooses a file to save the scene in, and what to do after that.
+    Save(FilePicker, Option<NextAction>),
+    /// Chooses a folder for recordings.
+    Folder(FilePicker),
+    /// Asks about unsaved edits before the next action.
+    Unsaved(NextAction),
+    /// Asks what to do about a file that another program has changed.
     Changed,
-    /// Scenes that were left unsaved.
+    /// Offers unsaved scenes for recovery.
     Restore,
 }
 
-/// What follows a question.
+/// What to do after a question.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) enum Then {
+pub(super) enum NextAction {
     New,
     ChooseFile,
     Open(PathBuf),
@@ -45,28 +45,28 @@ impl Viewer {
         match std::mem::take(&mut self.dialog) {
             Dialog::None => {}
             Dialog::Open(mut picker) => match picker.show(ctx) {
-                Some(Picked::File(path)) => self.open(path),
-                Some(Picked::Cancelled) => {}
+                Some(PickerResult::File(path)) => self.open(path),
+                Some(PickerResult::Cancelled) => {}
                 None => self.dialog = Dialog::Open(picker),
             },
             Dialog::Save(mut picker, then) => match picker.show(ctx) {
-                Some(Picked::File(path)) => match self.document.save_as(&path) {
+                Some(PickerResult::File(path)) => match self.document.save_as(&path) {
                     Ok(()) => {
                         self.saved();
                         if let Some(then) = then {
-                            self.go_on(then, ctx);
+                            self.continue_with(then, ctx);
                         }
                     }
-                    Err(error) => self.say(error.to_string(), false),
+                    Err(error) => self.notify(error.to_string(), false),
                 },
-                Some(Picked::Cancelled) => {}
+                Some(PickerResult::Cancelled) => {}
                 None => self.dialog = Dialog::Save(picker, then),
             },
             Dialog::Folder(mut picker) => match picker.show(ctx) {
-                Some(Picked::File(path)) => {
+                Some(PickerResult::File(path)) => {
                     self.record_panel.folder = Some(path.display().to_string());
                 }
-                Some(Picked::Cancelled) => {}
+                Some(PickerResult::Cancelled) => {}
                 None => self.dialog = Dialog::Folder(picker),
             },
             Dialog::Unsaved(then) => self.ask_unsaved(ctx, then),
@@ -75,19 +75,19 @@ impl Viewer {
         }
     }
 
-    /// Closing the window with unsaved edits asks first.
+    /// Asks about unsaved edits before the window is closed.
     pub(super) fn ask_before_closing(&mut self, ctx: &Context) {
         let is_asked = ctx.input(|i| i.viewport().close_requested());
         if is_asked && !self.is_closing && self.document.is_modified() {
             ctx.send_viewport_cmd(ViewportCommand::CancelClose);
-            self.dialog = Dialog::Unsaved(Then::Quit);
+            self.dialog = Dialog::Unsaved(NextAction::Quit);
         }
     }
 
-    fn ask_unsaved(&mut self, ctx: &Context, then: Then) {
+    fn ask_unsaved(&mut self, ctx: &Context, then: NextAction) {
         let words = format!("{} has unsaved edits", self.document.name());
-        let about = "what is discarded is not offered again";
-        let answers: &[&str] = if then == Then::Quit {
+        let about = "Discarded edits cannot be recovered.";
+        let answers: &[&str] = if then == NextAction::Quit {
             &["Save", "Discard edits", "Keep for the next start", "Cancel"]
         } else {
             &["Save", "Discard edits", "Cancel"]
@@ -97,24 +97,24 @@ impl Viewer {
             Some("Save") => match self.document.save() {
                 Ok(()) => {
                     self.saved();
-                    self.go_on(then, ctx);
+                    self.continue_with(then, ctx);
                 }
                 Err(SaveError::Changed { .. }) => self.dialog = Dialog::Changed,
                 Err(_) => {
-                    self.choose_place();
+                    self.choose_save_path();
                     if let Dialog::Save(_, next) = &mut self.dialog {
                         *next = Some(then);
                     }
                 }
             },
             Some("Discard edits") => {
-                self.document.give_up();
+                self.document.revert();
                 if let Some(unsaved) = &mut self.unsaved {
-                    unsaved.forget();
+                    unsaved.clear();
                 }
-                self.go_on(then, ctx);
+                self.continue_with(then, ctx);
             }
-            Some("Keep for the next start") => self.go_on(then, ctx),
+            Some("Keep for the next start") => self.continue_with(then, ctx),
             Some(_) => {}
             None => self.dialog = Dialog::Unsaved(then),
         }
@@ -122,35 +122,35 @@ impl Viewer {
 
     fn ask_changed(&mut self, ctx: &Context) {
         let words = format!("{} was changed by another program", self.document.name());
-        let about = "reading it again can be undone; overwriting it cannot";
+        let about = "Reloading the file can be undone; overwriting it cannot.";
         match ask(
             ctx,
             "changed",
             &words,
             about,
-            &["Read it again", "Overwrite it", "Cancel"],
+            &["Reload", "Overwrite", "Cancel"],
         ) {
             Some(0) => {
                 if let Err(error) = self.document.reload() {
-                    self.say(error.to_string(), false);
+                    self.notify(error.to_string(), false);
                 }
             }
             Some(1) => match self.document.save_over() {
                 Ok(()) => self.saved(),
-                Err(error) => self.say(error.to_string(), false),
+                Err(error) => self.notify(error.to_string(), false),
             },
             Some(_) => {}
             None => self.dialog = Dialog::Changed,
         }
     }
 
-    /// Offers what was left unsaved.
+    /// Offers unsaved scenes for recovery.
     fn ask_restore(&mut self, ctx: &Context) {
         let Some(unsaved) = &mut self.unsaved else {
             return;
         };
         let left: Vec<String> = unsaved
-            .left()
+            .recovered()
             .map(crate::settings::UnsavedScene::describe)
             .collect();
         if left.is_empty() {
@@ -161,7 +161,7 @@ impl Viewer {
         Modal::new(Id::unique("restore")).show(ctx, |ui| {
             ui.set_max_width(460.0);
             ui.heading("Unsaved edits");
-            ui.label("the window was closed, or ended, with edits that were not saved");
+            ui.label("The window was closed or crashed before these edits were saved.");
             ui.separator();
             for (index, words) in left.iter().enumerate() {
                 ui.horizontal(|ui| {
@@ -184,7 +184,7 @@ impl Viewer {
                     return;
                 }
                 Ok(None) => {}
-                Err(error) => self.say(error.to_string(), false),
+                Err(error) => self.notify(error.to_string(), false),
             },
             Some((index, false)) => unsaved.discard(index),
             None => {}
@@ -201,32 +201,33 @@ impl Viewer {
         let stem = self.document.source().stem();
         let beside = || PathBuf::from("out").join(stem).display().to_string();
         self.record_panel.folder.get_or_insert_with(beside);
-        let act = self.act();
-        let is_ready = act.as_ref().is_some_and(|act| act.can_be_recorded());
+        let shown = self.shown_motion();
+        let is_ready = shown.as_ref().is_some_and(|shown| shown.can_be_recorded());
         let record: RecordScene = self.document.scene().record.clone();
-        let seen = Seen {
+        let current = CurrentView {
             orbit: self.view3d.orbit(),
             time: self.playback.time,
             colour: self.settings.view.colour,
-            is_file: self.shown.file.is_some(),
+            is_file: self.display.file.is_some(),
         };
         let mut is_open = true;
-        let mut wish = None;
+        let mut request = None;
         Window::new("Record")
             .open(&mut is_open)
             .default_pos(ctx.content_rect().center() - eframe::egui::vec2(200.0, 220.0))
             .resizable(false)
             .show(ctx, |ui: &mut Ui| {
                 if let Some((_, job)) = &self.jobs.recording {
-                    ui.label("recording…");
+                    ui.label("Recording…");
                     ui.add(
-                        eframe::egui::ProgressBar::new(job.stand().done as f32).show_percentage(),
+                        eframe::egui::ProgressBar::new(job.progress().done as f32)
+                            .show_percentage(),
                     );
                     if ui.button("Stop").clicked() {
                         job.stop();
                     }
                 } else if !is_ready {
-                    ui.label("a preview is not recorded: run the scene first");
+                    ui.label("A preview cannot be recorded. Run the scene first.");
                     if ui
                         .add_enabled(
                             self.resolved.study.is_some() && self.jobs.run.is_none(),
@@ -237,60 +238,62 @@ impl Viewer {
                         self.run();
                     }
                 } else {
-                    wish = self.record_panel.show(ui, &record, &seen);
+                    request = self.record_panel.show(ui, &record, &current);
                 }
             });
         self.settings.panels.record = is_open;
-        match wish {
-            Some(Wish::Record(record, folder)) => self.record(&record, folder),
-            Some(Wish::Choose) => {
+        match request {
+            Some(RecordRequest::Record(record, folder)) => self.record(&record, folder),
+            Some(RecordRequest::ChooseFolder) => {
                 let recent = self.settings.recent.folders();
                 let folder = std::env::current_dir().unwrap_or_default();
-                self.dialog = Dialog::Folder(Picker::save(
-                    "Folder of the recording",
+                self.dialog = Dialog::Folder(FilePicker::save(
+                    "Folder for the recording",
                     &[],
                     &folder,
                     "recording",
                     &recent,
                 ));
             }
-            Some(Wish::Close) => self.settings.panels.record = false,
+            Some(RecordRequest::Close) => self.settings.panels.record = false,
             None => {}
         }
     }
 
-    /// Records what is shown, with the camera as it stands.
+    /// Records the motion with the current camera.
     fn record(&mut self, record: &RecordScene, folder: PathBuf) {
-        let Some(act) = self.act() else { return };
-        if let Some(job) = act.record(record, folder.clone(), self.wake.clone()) {
+        let Some(shown) = self.shown_motion() else {
+            return;
+        };
+        if let Some(job) = shown.record(record, folder.clone(), self.repaint.clone()) {
             self.jobs.recording = Some((folder, job));
         }
     }
 
-    /// Asks before the window closes with unsaved edits; they are kept for the next start either way.
+    /// Updates the title of the window.
     pub(super) fn title(&mut self, ctx: &Context) {
         let mark = if self.document.is_modified() {
             "• "
         } else {
             ""
         };
-        let name = match &self.shown.file {
-            Some(act) => act
+        let name = match &self.display.file {
+            Some(shown) => shown
                 .opened()
                 .map(|motion| motion.title().to_owned())
                 .unwrap_or_default(),
             None => self.document.name(),
         };
         let title = format!("{mark}{name} — foldmotion");
-        // The system may hand another text back.
-        if self.shown.title != title {
+        // The system may report another title, so the last one set is remembered.
+        if self.display.title != title {
             ctx.send_viewport_cmd(ViewportCommand::Title(title.clone()));
-            self.shown.title = title;
+            self.display.title = title;
         }
     }
 }
 
-/// A question with its answers; the index of the one that was chosen, the last for Escape.
+/// Asks a question; returns the index of the chosen answer, the last one if the user presses Escape.
 fn ask(ctx: &Context, id: &str, words: &str, about: &str, answers: &[&str]) -> Option<usize> {
     let mut chosen = None;
     let modal = Modal::new(Id::unique(id)).show(ctx, |ui| {

@@ -1,4 +1,4 @@
-//! The menus and the line at the foot of the window.
+//! The menus and the status bar.
 
 use std::path::PathBuf;
 use std::time::Duration;
@@ -6,13 +6,13 @@ use std::time::Duration;
 use eframe::egui::{Button, Color32, MenuBar, ProgressBar, RichText, Ui};
 
 use super::Viewer;
-use super::dialogs::Then;
-use crate::settings::{Command, Look, apply, keys_of, name_of};
+use super::dialogs::NextAction;
+use crate::settings::{Appearance, Command, apply, keys_of, name_of};
 
-/// How long a notice is said.
+/// How long a notice is shown.
 const NOTICE: Duration = Duration::from_secs(12);
 
-/// Menus with their commands; none stands for a line between.
+/// The menus with their commands; `None` is a separator.
 const MENUS: [(&str, &[Option<Command>]); 4] = [
     (
         "Edit",
@@ -28,7 +28,7 @@ const MENUS: [(&str, &[Option<Command>]); 4] = [
         &[
             Some(Command::Run),
             Some(Command::Cancel),
-            Some(Command::Hand),
+            Some(Command::Interact),
             None,
             Some(Command::Record),
             None,
@@ -85,7 +85,7 @@ impl Viewer {
             for (name, commands) in MENUS {
                 ui.menu_button(name, |ui| {
                     if name == "Window" {
-                        self.look_menu(ui);
+                        self.appearance_menu(ui);
                     }
                     for command in commands {
                         match command {
@@ -111,7 +111,7 @@ impl Viewer {
         ui.menu_button("Open recent", |ui| {
             let recent = self.settings.recent.existing_first();
             if recent.is_empty() {
-                ui.weak("none yet");
+                ui.weak("No files yet");
             }
             for (path, is_there) in recent {
                 let button = Button::new(path.display().to_string());
@@ -127,16 +127,19 @@ impl Viewer {
         self.item(ui, Command::Quit, wanted);
         if let Some(path) = chosen {
             let ctx = ui.ctx().clone();
-            self.unless_unsaved(Then::Open(path), &ctx);
+            self.confirm_unsaved(NextAction::Open(path), &ctx);
         }
     }
 
-    fn look_menu(&mut self, ui: &mut Ui) {
-        ui.menu_button("Colours of the window", |ui| {
-            for look in Look::ALL {
-                if ui.radio(self.settings.look == look, look.name()).clicked() {
-                    self.settings.look = look;
-                    apply(ui.ctx(), look, self.settings.scale.factor());
+    fn appearance_menu(&mut self, ui: &mut Ui) {
+        ui.menu_button("Appearance", |ui| {
+            for appearance in Appearance::ALL {
+                if ui
+                    .radio(self.settings.appearance == appearance, appearance.name())
+                    .clicked()
+                {
+                    self.settings.appearance = appearance;
+                    apply(ui.ctx(), appearance, self.settings.scale.factor());
                 }
             }
         });
@@ -149,13 +152,13 @@ impl Viewer {
             Command::Undo => (
                 self.document
                     .can_undo()
-                    .map(|label| format!("Undo {label}")),
+                    .map(|label| format!("Undo: {label}")),
                 self.document.can_undo().is_some(),
             ),
             Command::Redo => (
                 self.document
                     .can_redo()
-                    .map(|label| format!("Redo {label}")),
+                    .map(|label| format!("Redo: {label}")),
                 self.document.can_redo().is_some(),
             ),
             Command::Run => (
@@ -175,37 +178,39 @@ impl Viewer {
 
     fn run_button(&mut self, ui: &mut Ui, wanted: &mut Option<Command>) {
         if let Some((_, run)) = &self.jobs.run {
-            let stand = run.stand();
-            let phase = stand.phase.map_or("start", |phase| phase.name());
-            let bar = ProgressBar::new(stand.done as f32).desired_width(150.0);
-            ui.add(bar.text(format!("{phase} {:.0} %", 100.0 * stand.done)));
+            let progress = run.progress();
+            let phase = progress.phase.map_or("start", |phase| phase.name());
+            let bar = ProgressBar::new(progress.done as f32).desired_width(150.0);
+            ui.add(bar.text(format!("{phase} {:.0} %", 100.0 * progress.done)));
             if ui.button("Cancel").on_hover_text("Esc").clicked() {
                 *wanted = Some(Command::Cancel);
             }
-            let mut follows = self.shown.follows_run;
+            let mut follows = self.display.follows_run;
             let follow = ui.checkbox(&mut follows, "follow");
             if follow
-                .on_hover_text("show the sheet as it is computed")
+                .on_hover_text("Show the sheet while it is computed")
                 .changed()
             {
-                self.shown.follows_run = follows;
+                self.display.follows_run = follows;
             }
         } else {
-            let is_on = self.resolved.study.is_some() && self.shown.file.is_none();
+            let is_on = self.resolved.study.is_some() && self.display.file.is_none();
             let button = Button::new(RichText::new("Run").strong());
             let hint = format!(
-                "fold, check and report ({})",
+                "Fold, check and report ({})",
                 keys_of(ui.ctx(), Command::Run)
             );
             if ui.add_enabled(is_on, button).on_hover_text(hint).clicked() {
                 *wanted = Some(Command::Run);
             }
             ui.checkbox(&mut self.settings.view.folds_at_once, "preview")
-                .on_hover_text("fold the sheet after every edit, without contact and unchecked");
+                .on_hover_text(
+                    "Fold the sheet after every edit, without contact and without a check",
+                );
         }
     }
 
-    /// What is the matter, at the foot of the window.
+    /// The status bar: a notice, an error of the scene, or facts about the sheet.
     pub(super) fn status(&mut self, ui: &mut Ui) {
         ui.horizontal(|ui| {
             let is_old = self
@@ -225,8 +230,8 @@ impl Viewer {
                 ui.ctx().request_repaint_after(NOTICE);
                 return;
             }
-            if let Some(fault) = self.resolved.faults.first() {
-                ui.colored_label(ui.visuals().error_fg_color, &fault.message);
+            if let Some(error) = self.resolved.errors.first() {
+                ui.colored_label(ui.visuals().error_fg_color, &error.message);
                 return;
             }
             self.facts(ui);
@@ -234,26 +239,28 @@ impl Viewer {
     }
 
     fn facts(&self, ui: &mut Ui) {
-        let Some(act) = self.act() else { return };
-        let sheet = &act.motion().sheet;
+        let Some(shown) = self.shown_motion() else {
+            return;
+        };
+        let sheet = &shown.motion().sheet;
         let words = format!(
             "{} vertices, {} facets, {} frames",
             sheet.vertices.len(),
             sheet.facets.len(),
-            act.motion().frames.len()
+            shown.motion().frames.len()
         );
         ui.weak(words);
-        if self.resolved.drafts.is_busy() {
-            ui.weak("resolving…");
+        if self.resolved.resolver.is_busy() {
+            ui.weak("Resolving…");
         } else if self.jobs.preview.is_some() {
-            ui.weak("folding a preview…");
+            ui.weak("Folding a preview…");
         } else if self.jobs.opening.is_some() {
-            ui.weak("opening…");
-        } else if self.jobs.judging.is_some() {
-            ui.weak("checking…");
+            ui.weak("Opening…");
+        } else if self.jobs.checking.is_some() {
+            ui.weak("Checking…");
         }
-        if let Some(fault) = self.view3d.fault() {
-            ui.colored_label(Color32::from_rgb(200, 120, 0), fault);
+        if let Some(error) = self.view3d.error() {
+            ui.colored_label(Color32::from_rgb(200, 120, 0), error);
         }
     }
 }

@@ -1,18 +1,19 @@
-//! The window: what it holds, and how a frame of it goes.
+//! The window: its state, and what happens in a frame.
 //!
-//! The scene's text is the truth ([`Document`]); everything else follows from it in the background ([`crate::work`]) and is
-//! shown when it comes: the draft at once, a preview of the motion some hundred milliseconds later, a run with its verdict
-//! when the user asks for one. Nothing that takes long happens in a frame.
+//! The text of the scene is authoritative ([`Document`]). Everything else follows from it in the background
+//! ([`crate::work`]) and is shown when it is ready: the draft at once, a preview of the motion some hundred
+//! milliseconds later, and a run with its verdict when the user asks for one. Nothing that takes long happens in a
+//! frame.
 
-mod act;
 mod commands;
 mod dialogs;
-mod figures;
 mod menu;
+mod plots;
 mod poll;
-mod pose;
 mod record_panel;
 mod scene_view;
+mod shown_motion;
+mod shown_state;
 mod text_panel;
 
 use std::path::PathBuf;
@@ -22,25 +23,25 @@ use std::time::{Duration, Instant};
 use eframe::egui::{self, CentralPanel, Panel, ScrollArea, Ui};
 use foldmotion_study::{Draft, Opened, Preview, Scene, Study};
 
-use crate::ViewOptions;
-use crate::design::{DesignPanel, Facts, Fault};
+use crate::design::{DesignInput, DesignPanel, SceneError};
 use crate::document::Document;
+use crate::options::ViewOptions;
 use crate::results::results;
 use crate::settings::{Settings, UnsavedScenes, apply};
-use crate::timeline::{Curves, Marks, Playback, Timeline};
-use crate::timings::{Pace, Timings};
+use crate::timeline::{Marks, Playback, Plots, Timeline};
+use crate::timings::{Activity, Timings};
 use crate::view3d::View3d;
-use crate::work::{Drafts, Hold, Job, Judged, Run, State, Wake};
+use crate::work::{CheckedMotion, Interaction, Job, RepaintSignal, Resolver, RunJob, SheetState};
 
-use self::act::Act;
 use self::dialogs::Dialog;
-use self::pose::Pose;
 use self::record_panel::RecordPanel;
+use self::shown_motion::ShownMotion;
+use self::shown_state::ShownState;
 
 /// The window.
 #[expect(
     clippy::struct_excessive_bools,
-    reason = "what is open over the window, each by itself"
+    reason = "independent flags of the window"
 )]
 pub struct Viewer {
     document: Document,
@@ -51,65 +52,65 @@ pub struct Viewer {
     playback: Playback,
     timings: Timings,
     prints_timings: bool,
-    wake: Wake,
+    repaint: RepaintSignal,
     resolved: ResolvedScene,
-    shown: Shown,
+    display: Display,
     jobs: Jobs,
     dialog: Dialog,
     record_panel: RecordPanel,
-    /// What went wrong or well, and since when it is said.
+    /// The notice in the status bar: its text, whether it is good news, and since when it is shown.
     notice: Option<(String, bool, Instant)>,
     shows_help: bool,
-    /// Whether the text is shown because the scene could not be read.
-    mends_text: bool,
+    /// Whether the text is shown because it has an error that must be corrected there.
+    must_fix_text: bool,
     /// Whether the window closes without asking again.
     is_closing: bool,
 }
 
-/// What became of the scene.
+/// What the scene resolves to.
 struct ResolvedScene {
-    drafts: Drafts,
-    /// The revision of the document that was asked about, and the number of the question.
-    asked: Option<(u64, u64)>,
-    /// The last good draft, with the number of its question and its scene.
+    resolver: Resolver,
+    /// The revision of the document that was submitted last, and the serial number of the request.
+    requested: Option<(u64, u64)>,
+    /// The last valid draft, with the serial number of its request and its scene.
     draft: Option<(u64, Scene, Arc<Draft>)>,
-    /// The study of the scene as it stands.
+    /// The study of the current scene.
     study: Option<Arc<Study>>,
-    faults: Vec<Fault>,
+    errors: Vec<SceneError>,
 }
 
-/// What is shown of which motion.
+/// What is shown, and of which motion.
 #[derive(Default)]
-struct Shown {
-    /// Exact states or a preview of the last good draft, and the last run, each with its scene.
-    draft: Option<(Scene, Arc<Act>)>,
-    run: Option<(Scene, Arc<Act>)>,
-    /// A motion that was opened in place of a scene.
-    file: Option<Arc<Act>>,
-    pose: Pose,
+struct Display {
+    /// The exact states or a preview of the last valid draft, and the last run, each with its scene.
+    draft: Option<(Scene, Arc<ShownMotion>)>,
+    run: Option<(Scene, Arc<ShownMotion>)>,
+    /// A motion file that was opened instead of a scene.
+    file: Option<Arc<ShownMotion>>,
+    state: ShownState,
     next_key: u64,
     /// The title of the window.
     title: String,
-    /// Whether the view is to be fitted to the next motion.
+    /// Whether to fit the view to the next motion.
     fits: bool,
-    /// Whether the view follows the run under way.
+    /// Whether the view follows the current run.
     follows_run: bool,
-    /// The vertex that is pulled, and where to.
-    pulled: Option<crate::view3d::Handle>,
+    /// The vertex that is being pulled, and its target.
+    pulled: Option<crate::view3d::VertexPull>,
     /// The triangle and the vertex under the pointer.
     pointed: Option<(u32, Option<u32>)>,
 }
 
-/// What is done in the background.
+/// Jobs in the background.
 #[derive(Default)]
 struct Jobs {
     preview: Option<(Scene, Arc<Draft>, Job<Preview>)>,
-    run: Option<(Scene, Run)>,
-    hold: Option<Hold>,
+    run: Option<(Scene, RunJob)>,
+    interaction: Option<Interaction>,
     opening: Option<(PathBuf, Job<Opened>)>,
-    judging: Option<Job<Judged>>,
+    checking: Option<Job<CheckedMotion>>,
     recording: Option<(PathBuf, Job<Vec<String>>)>,
-    /// The highest rate of states of the run or hand at hand.
+    /// The highest number of states per second of the current run or interaction.
     best_rate: usize,
 }
 
@@ -123,7 +124,7 @@ impl std::fmt::Debug for Viewer {
 }
 
 impl Viewer {
-    /// The window with what `options` ask for; `started`: when the program was.
+    /// The window with its options; `started` is the time at which the program started.
     pub fn new(
         creation: &eframe::CreationContext<'_>,
         options: ViewOptions,
@@ -131,9 +132,9 @@ impl Viewer {
     ) -> Self {
         let settings = Settings::load(creation.storage);
         let ctx = creation.egui_ctx.clone();
-        apply(&ctx, settings.look, settings.scale.factor());
-        let waking = ctx.clone();
-        let wake = Wake::new(move || waking.request_repaint());
+        apply(&ctx, settings.appearance, settings.scale.factor());
+        let context = ctx.clone();
+        let repaint = RepaintSignal::new(move || context.request_repaint());
         let unsaved = options.unsaved.clone().or_else(|| {
             let storage = creation.storage.and(eframe::storage_dir("foldmotion"));
             storage.map(|folder| folder.join("unsaved"))
@@ -149,25 +150,25 @@ impl Viewer {
             timings: Timings::new(started),
             prints_timings: options.timings,
             resolved: ResolvedScene {
-                drafts: Drafts::new(wake.clone()),
-                asked: None,
+                resolver: Resolver::new(repaint.clone()),
+                requested: None,
                 draft: None,
                 study: None,
-                faults: Vec::new(),
+                errors: Vec::new(),
             },
-            shown: Shown {
+            display: Display {
                 fits: true,
-                ..Shown::default()
+                ..Display::default()
             },
             jobs: Jobs::default(),
             dialog: Dialog::None,
             record_panel: RecordPanel::default(),
             notice: None,
             shows_help: false,
-            mends_text: false,
+            must_fix_text: false,
             is_closing: false,
             settings,
-            wake,
+            repaint,
         };
         viewer
             .view3d
@@ -176,7 +177,7 @@ impl Viewer {
         viewer
     }
 
-    /// Opens the file asked for; else offers what was left unsaved.
+    /// Opens the given file, or offers unsaved scenes for recovery.
     fn begin(&mut self, file: Option<PathBuf>) {
         match file {
             Some(path) => self.open(path),
@@ -184,7 +185,7 @@ impl Viewer {
                 if self
                     .unsaved
                     .as_ref()
-                    .is_some_and(|u| u.left().next().is_some())
+                    .is_some_and(|u| u.recovered().next().is_some())
                 {
                     self.dialog = Dialog::Restore;
                 }
@@ -192,102 +193,106 @@ impl Viewer {
         }
     }
 
-    /// The motion that is shown: that of the scene as it stands, if there is one.
-    fn act(&self) -> Option<Arc<Act>> {
-        if let Some(act) = &self.shown.file {
-            return Some(Arc::clone(act));
+    /// The motion that is shown: that of the current scene, if there is one.
+    fn shown_motion(&self) -> Option<Arc<ShownMotion>> {
+        if let Some(shown) = &self.display.file {
+            return Some(Arc::clone(shown));
         }
-        let scene = moving_part(self.document.scene());
-        let is_of_scene = |act: &&(Scene, Arc<Act>)| act.0 == scene;
-        let run = self.shown.run.as_ref();
-        let draft = self.shown.draft.as_ref();
-        // A run says more than the draft of the same scene, even once both are old.
-        let is_best = |draft: &&(Scene, Arc<Act>)| {
+        let scene = motion_keys(self.document.scene());
+        let is_of_scene = |shown: &&(Scene, Arc<ShownMotion>)| shown.0 == scene;
+        let run = self.display.run.as_ref();
+        let draft = self.display.draft.as_ref();
+        // A run says more than the draft of the same scene, even if both are out of date.
+        let is_best = |draft: &&(Scene, Arc<ShownMotion>)| {
             is_of_scene(draft) || run.is_none_or(|run| run.0 != draft.0)
         };
         let best = run.filter(is_of_scene).or(draft.filter(is_best)).or(run);
-        best.map(|(_, act)| Arc::clone(act))
+        best.map(|(_, shown)| Arc::clone(shown))
     }
 
-    /// Whether what is shown is not of the scene as it stands.
-    fn is_stale(&self, act: &Act) -> bool {
-        let scene = moving_part(self.document.scene());
-        let mut acts = self.shown.run.iter().chain(&self.shown.draft);
-        self.shown.file.is_none() && !acts.any(|(of, other)| other.key == act.key && *of == scene)
+    /// Whether the shown motion does not belong to the current scene.
+    fn is_stale(&self, shown: &ShownMotion) -> bool {
+        let scene = motion_keys(self.document.scene());
+        let mut candidates = self.display.run.iter().chain(&self.display.draft);
+        self.display.file.is_none()
+            && !candidates.any(|(of, other)| other.key == shown.key && *of == scene)
     }
 
-    /// Whether what the scene moves is about to be shown.
+    /// Whether a motion of the current scene will be shown soon.
     fn is_resolving(&self) -> bool {
         let revision = self.document.revision();
-        let is_asked = self.resolved.asked.is_some_and(|(of, _)| of == revision);
-        !is_asked || self.resolved.drafts.is_busy() || self.jobs.preview.is_some()
+        let is_asked = self
+            .resolved
+            .requested
+            .is_some_and(|(of, _)| of == revision);
+        !is_asked || self.resolved.resolver.is_busy() || self.jobs.preview.is_some()
     }
 
-    /// The state that is computed while it is shown: in the hand, or of the run that is followed.
-    fn live(&self) -> Option<State> {
-        let run = self.jobs.run.as_ref().filter(|_| self.shown.follows_run);
-        match (&self.jobs.hold, run) {
-            (Some(hold), _) => hold.live().newer(0),
-            (None, Some((_, run))) => run.live().newer(0),
+    /// The latest state of the interaction, or of the run that is followed.
+    fn live_state(&self) -> Option<SheetState> {
+        let run = self.jobs.run.as_ref().filter(|_| self.display.follows_run);
+        match (&self.jobs.interaction, run) {
+            (Some(interaction), _) => interaction.states().latest(),
+            (None, Some((_, run))) => run.states().latest(),
             (None, None) => None,
         }
     }
 
-    /// Brings the pose up to date with what is shown now.
-    fn pose(&mut self, act: &Act) {
-        let count = act.motion().sheet.vertices.len();
-        match self.live() {
+    /// Updates the shown state.
+    fn update_state(&mut self, shown: &ShownMotion) {
+        let count = shown.motion().sheet.vertices.len();
+        match self.live_state() {
             Some(state) if state.positions.len() == count => {
-                let is_in_hand = self.jobs.hold.is_some();
-                if !is_in_hand {
+                let is_interacting = self.jobs.interaction.is_some();
+                if !is_interacting {
                     self.playback.time = state.time;
                 }
-                self.shown.pose.show_live(&state, act, is_in_hand);
+                self.display.state.show_live(&state, shown, is_interacting);
             }
-            _ => self.shown.pose.show(act, self.playback.time),
+            _ => self.display.state.show(shown, self.playback.time),
         }
     }
 
-    /// The timeline, with room for curves where there are any.
+    /// The timeline, with space for plots if there are any.
     fn timeline_panel(&mut self, ui: &mut Ui) {
-        let act = self.act();
-        let has_curves = act.is_some_and(|act| !act.curves.panels.is_empty());
-        let (name, height) = if has_curves && self.settings.panels.plots {
+        let shown = self.shown_motion();
+        let has_plots = shown.is_some_and(|shown| !shown.plots.plots.is_empty());
+        let (name, height) = if has_plots && self.settings.panels.plots {
             ("plots", 312.0_f32)
         } else {
             ("bar", 72.0)
         };
         let panel = Panel::bottom(name).resizable(name == "plots");
-        // A small window is for the sheet first.
+        // In a small window, most of the space is for the sheet.
         let height = height.min(0.45 * ui.available_height()).max(72.0);
         panel.default_size(height).show(ui, |ui| self.timeline(ui));
     }
 
     fn timeline(&mut self, ui: &mut Ui) {
-        let act = self.act();
-        let (none, no_curves) = (Marks::default(), Curves::default());
-        let (marks, curves) = act.as_ref().map_or((&none, &no_curves), |act| {
+        let shown = self.shown_motion();
+        let (none, no_plots) = (Marks::default(), Plots::default());
+        let (marks, curves) = shown.as_ref().map_or((&none, &no_plots), |shown| {
             let curves = if self.settings.panels.plots {
-                &act.curves
+                &shown.plots
             } else {
-                &no_curves
+                &no_plots
             };
-            (&act.marks, curves)
+            (&shown.marks, curves)
         });
-        if let Some(act) = &act {
-            self.playback.set_range(act.range());
+        if let Some(shown) = &shown {
+            self.playback.set_range(shown.range());
         }
         if Timeline::show(ui, &mut self.playback, marks, curves) {
-            self.shown.follows_run = false;
+            self.display.follows_run = false;
         }
         self.settings.view.repeat = self.playback.repeat;
-        if let Some(hold) = &self.jobs.hold {
-            hold.aim(self.playback.time);
+        if let Some(interaction) = &self.jobs.interaction {
+            interaction.set_target_time(self.playback.time);
         }
     }
 
     fn side_panels(&mut self, ui: &mut Ui) {
-        let shows_text = self.settings.panels.text || self.mends_text;
+        let shows_text = self.settings.panels.text || self.must_fix_text;
         if self.settings.panels.design || shows_text {
             Panel::left("design")
                 .default_size(348.0)
@@ -313,63 +318,60 @@ impl Viewer {
     }
 
     fn design_panel(&mut self, ui: &mut Ui) {
-        if self.shown.file.is_some() {
+        if self.display.file.is_some() {
             ui.add_space(8.0);
-            ui.label("a motion file has no scene to edit; open or start a scene");
+            ui.label("A motion file has no scene to edit. Open a scene or start a new one.");
             return;
         }
         let draft = self.resolved.draft.as_ref();
-        let facts = Facts {
+        let facts = DesignInput {
             scene: self.document.scene(),
             draft: draft.map(|(_, _, draft)| &**draft),
             draft_number: draft.map_or(0, |(number, ..)| *number),
-            faults: &self.resolved.faults,
+            errors: &self.resolved.errors,
         };
         if let Some(change) = self.design.show(ui, &facts)
             && !self
                 .document
                 .change(change.scene, change.label, change.continues)
         {
-            self.say(
-                "the scene's text has an error; mend it there first (F7)",
+            self.notify(
+                "The text of the scene has an error. Correct it there first (F7).",
                 false,
             );
         }
     }
 
     fn verdict_panel(&mut self, ui: &mut Ui) {
-        let act = self.act();
-        let Some(act) = act else {
-            ui.weak("nothing yet");
+        let shown = self.shown_motion();
+        let Some(shown) = shown else {
+            ui.weak("No result yet");
             return;
         };
-        if let Some(t) = self.findings(ui, &act) {
+        if let Some(t) = self.findings(ui, &shown) {
             self.playback.go_to(t);
-            self.shown.follows_run = false;
+            self.display.follows_run = false;
         }
     }
 
-    /// What is known of the motion; a motion time that was clicked.
-    fn findings(&mut self, ui: &mut Ui, act: &Act) -> Option<f64> {
+    /// Shows what is known about the motion; returns the motion time that was clicked, if any.
+    fn findings(&mut self, ui: &mut Ui, shown: &ShownMotion) -> Option<f64> {
         ui.add_space(6.0);
-        if self.is_stale(act) {
-            ui.colored_label(
-                ui.visuals().warn_fg_color,
-                "of the scene before the last edits",
-            );
+        if self.is_stale(shown) {
+            ui.colored_label(ui.visuals().warn_fg_color, shown.out_of_date_text());
         }
-        match &act.source {
-            act::Source::Run { report, .. } => {
-                self.write_button(ui, act);
+        match &shown.source {
+            shown_motion::MotionSource::Run { report, .. } => {
+                self.write_button(ui, shown);
                 results(ui, report)
             }
-            act::Source::File { judged, motion } => {
-                crate::results::file_results(ui, motion.title(), judged.as_deref())
+            shown_motion::MotionSource::File { checked, motion } => {
+                crate::results::file_results(ui, motion.title(), checked.as_deref())
             }
-            act::Source::Exact(_) | act::Source::Preview(_) => {
-                ui.heading("not run yet");
+            shown_motion::MotionSource::Exact(_) | shown_motion::MotionSource::Preview(_) => {
+                ui.heading("Not run yet");
                 ui.label(
-                    "what is shown is a preview: quasi-static, its layers pass through each other, and nothing is proved of it",
+                    "The sheet is a preview: folded quasi-statically, without contact between layers, and not checked. Nothing is proved about it.",
                 );
                 ui.add_space(6.0);
                 let can_run = self.resolved.study.is_some() && self.jobs.run.is_none();
@@ -382,23 +384,23 @@ impl Viewer {
         }
     }
 
-    /// What was found out about the run of a scene before this one; a motion time that was clicked.
+    /// Shows the report of the last run, if it was of another scene; returns the motion time that was clicked, if any.
     fn last_run(&self, ui: &mut Ui) -> Option<f64> {
-        let (_, last) = self.shown.run.as_ref()?;
-        let act::Source::Run { report, .. } = &last.source else {
+        let (_, last) = self.display.run.as_ref()?;
+        let shown_motion::MotionSource::Run { report, .. } = &last.source else {
             return None;
         };
         ui.separator();
-        let words = "the last run, of the scene before the last edits";
+        let words = "Last run (out of date: the scene has changed since)";
         ui.colored_label(ui.visuals().warn_fg_color, words);
         results(ui, report)
     }
 
-    /// Writes the results of a run where `foldmotion run` would.
-    fn write_button(&mut self, ui: &mut Ui, act: &Act) {
+    /// Writes the results of a run into the folder that `foldmotion run` uses.
+    fn write_button(&mut self, ui: &mut Ui, shown: &ShownMotion) {
         let folder = PathBuf::from("out").join(self.document.source().stem());
         let hint = format!(
-            "report.json, certificate.json, motion.fold and what the scene records, into {}",
+            "Writes report.json, certificate.json, motion.fold and the scene's recordings into {}",
             folder.display()
         );
         let is_free = self.jobs.recording.is_none();
@@ -408,27 +410,27 @@ impl Viewer {
             .on_hover_text(hint)
             .clicked()
         {
-            let job = act.write(folder.clone(), self.wake.clone());
+            let job = shown.write(folder.clone(), self.repaint.clone());
             self.jobs.recording = job.map(|job| (folder, job));
         }
     }
 
-    /// Says something at the foot of the window for a while.
-    fn say(&mut self, words: impl Into<String>, is_good: bool) {
+    /// Shows a notice in the status bar for a while.
+    fn notify(&mut self, words: impl Into<String>, is_good: bool) {
         self.notice = Some((words.into(), is_good, Instant::now()));
     }
 
     fn is_busy(&self) -> bool {
         let jobs = &self.jobs;
         jobs.run.is_some()
-            || jobs.hold.is_some()
+            || jobs.interaction.is_some()
             || jobs.recording.is_some()
-            || jobs.judging.is_some()
+            || jobs.checking.is_some()
     }
 }
 
-/// What of a scene moves its sheet: not its title, nor what is recorded.
-fn moving_part(scene: &Scene) -> Scene {
+/// The scene without its title and recording, which do not affect the motion.
+fn motion_keys(scene: &Scene) -> Scene {
     Scene {
         title: None,
         record: foldmotion_study::scene::RecordScene::default(),
@@ -439,11 +441,11 @@ fn moving_part(scene: &Scene) -> Scene {
 impl eframe::App for Viewer {
     fn ui(&mut self, ui: &mut Ui, frame: &mut eframe::Frame) {
         let pace = if self.is_busy() {
-            Pace::Busy
+            Activity::Busy
         } else if self.playback.is_playing {
-            Pace::Playing
+            Activity::Playing
         } else {
-            Pace::Idle
+            Activity::Idle
         };
         self.timings.frame(pace, self.view3d.drawn() > 0);
         let ctx = ui.ctx().clone();
@@ -481,7 +483,7 @@ impl eframe::App for Viewer {
         self.keep_unsaved();
         if self.prints_timings {
             use std::io::Write as _;
-            // Nothing is left to do where stderr is closed.
+            // There is nothing left to do if stderr is closed.
             let _ = write!(std::io::stderr(), "{}", self.timings.summary());
         }
     }

@@ -1,4 +1,4 @@
-//! Recording what is seen: which files, how large, where.
+//! The record dialog: which files, in which size and folder.
 
 use std::path::PathBuf;
 
@@ -6,41 +6,41 @@ use eframe::egui::{Button, Checkbox, DragValue, Grid, TextEdit, Ui};
 use foldmotion_study::scene::{CameraScene, ColourChoice, OutputChoice, OwnCamera, RecordScene};
 
 use crate::settings::Colour;
-use crate::view3d::Orbit;
+use crate::view3d::OrbitCamera;
 
-/// Outputs that can be asked for in the window, with what they are.
+/// The outputs that the dialog offers, with their labels.
 const OUTPUTS: [(OutputChoice, &str); 9] = [
     (OutputChoice::Gif, "film, GIF"),
     (OutputChoice::Mp4, "film, MP4"),
-    (OutputChoice::Png, "film as pictures, PNG"),
+    (OutputChoice::Png, "film frames, PNG"),
     (OutputChoice::Svg, "figure of states, SVG"),
     (OutputChoice::Pdf, "figure of states, PDF"),
     (OutputChoice::Glb, "3D file with the motion, GLB"),
     (OutputChoice::Obj, "3D state, OBJ"),
     (OutputChoice::Stl, "3D state, STL"),
-    (OutputChoice::Html, "page for any browser, HTML"),
+    (OutputChoice::Html, "web page, HTML"),
 ];
 
-/// What is to be recorded.
+/// The settings of the dialog.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct RecordPanel {
     outputs: Vec<OutputChoice>,
     size: [u32; 2],
     seconds: f64,
-    /// Only the state at hand in figures and models, not the five of a whole motion.
+    /// Whether figures and models show only the current state, not the five states of the whole motion.
     only_now: bool,
-    /// The folder, as typed; none until the panel is shown for a scene.
+    /// The folder, as typed; `None` until the dialog is shown for a scene.
     pub(crate) folder: Option<String>,
 }
 
-/// What the user wants of the panel.
+/// What the user asks the dialog to do.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) enum Wish {
-    /// The files, as the scene's `[record]` says them, into the folder.
+pub(crate) enum RecordRequest {
+    /// Record these outputs into the folder.
     Record(Box<RecordScene>, PathBuf),
-    /// To choose the folder.
-    Choose,
-    /// To leave.
+    /// Choose the folder.
+    ChooseFolder,
+    /// Close the dialog.
     Close,
 }
 
@@ -57,12 +57,17 @@ impl Default for RecordPanel {
 }
 
 impl RecordPanel {
-    /// The panel; `scene` is what the scene says of recording.
-    pub(crate) fn show(&mut self, ui: &mut Ui, scene: &RecordScene, seen: &Seen) -> Option<Wish> {
-        let mut wish = None;
+    /// Shows the dialog; `scene` is the `[record]` table of the scene.
+    pub(crate) fn show(
+        &mut self,
+        ui: &mut Ui,
+        scene: &RecordScene,
+        current: &CurrentView,
+    ) -> Option<RecordRequest> {
+        let mut request = None;
         let mut folder = self.folder.take().unwrap_or_default();
         ui.label(
-            "the camera is the one of the view; the rest is as the scene's record section says",
+            "The camera is that of the view. Everything else is as in the scene's [record] table.",
         );
         ui.add_space(4.0);
         Grid::new("outputs").num_columns(2).show(ui, |ui| {
@@ -90,7 +95,7 @@ impl RecordPanel {
             ui.add(field).labelled_by(label.id);
             ui.end_row();
         });
-        let words = format!("figures and models of t = {:.4} only", seen.time);
+        let words = format!("only t = {:.4} in figures and models", current.time);
         ui.checkbox(&mut self.only_now, words);
         ui.add_space(4.0);
         let label = ui.label("folder");
@@ -98,7 +103,7 @@ impl RecordPanel {
             ui.add(TextEdit::singleline(&mut folder).desired_width(300.0))
                 .labelled_by(label.id);
             if ui.button("Choose…").clicked() {
-                wish = Some(Wish::Choose);
+                request = Some(RecordRequest::ChooseFolder);
             }
         });
         ui.separator();
@@ -108,18 +113,21 @@ impl RecordPanel {
                 .add_enabled(is_ready, Button::new("Record now"))
                 .clicked()
             {
-                let record = self.record(scene, seen);
-                wish = Some(Wish::Record(Box::new(record), PathBuf::from(folder.trim())));
+                let record = self.record(scene, current);
+                request = Some(RecordRequest::Record(
+                    Box::new(record),
+                    PathBuf::from(folder.trim()),
+                ));
             }
             if ui.button("Close").clicked() {
-                wish = Some(Wish::Close);
+                request = Some(RecordRequest::Close);
             }
         });
         self.folder = Some(folder);
-        wish
+        request
     }
 
-    /// Whether an output is wanted.
+    /// The check box of an output.
     fn switch(&mut self, ui: &mut Ui, output: OutputChoice, name: &str) {
         let is_there = output != OutputChoice::Mp4 || cfg!(feature = "mp4");
         let mut is_on = self.outputs.contains(&output);
@@ -137,9 +145,9 @@ impl RecordPanel {
         }
     }
 
-    /// `[record]` of what is asked for.
-    fn record(&self, scene: &RecordScene, seen: &Seen) -> RecordScene {
-        let orbit = &seen.orbit;
+    /// The `[record]` table for the outputs and the current view.
+    fn record(&self, scene: &RecordScene, current: &CurrentView) -> RecordScene {
+        let orbit = &current.orbit;
         let camera = OwnCamera {
             azimuth: orbit.azimuth,
             elevation: orbit.elevation,
@@ -152,28 +160,28 @@ impl RecordPanel {
             size: Some(self.size.map(i64::from)),
             seconds: Some([self.seconds; 2].map(|seconds| 0.5 * seconds)),
             camera: Some(CameraScene::Own(camera)),
-            colour: match seen.colour {
+            colour: match current.colour {
                 Colour::Strain => Some(ColourChoice::Strain),
                 Colour::Bending => Some(ColourChoice::Bending),
                 Colour::Plain | Colour::Unit | Colour::Layer => scene.colour,
             },
             at: if self.only_now {
-                Some(vec![seen.time])
+                Some(vec![current.time])
             } else {
                 scene.at.clone()
             },
-            profile: if seen.is_file { None } else { scene.profile },
+            profile: if current.is_file { None } else { scene.profile },
             ..scene.clone()
         }
     }
 }
 
-/// What is seen as recording is asked for.
+/// The view at the time of recording.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Seen {
-    pub(crate) orbit: Orbit,
+pub(crate) struct CurrentView {
+    pub(crate) orbit: OrbitCamera,
     pub(crate) time: f64,
     pub(crate) colour: Colour,
-    /// Whether it is a motion file, with no scene.
+    /// Whether it shows a motion file, which has no scene.
     pub(crate) is_file: bool,
 }

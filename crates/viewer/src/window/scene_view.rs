@@ -1,4 +1,4 @@
-//! The middle of the window: the sheet, how it is shown, and what is said over it.
+//! The middle of the window: toolbar, sheet, and the text over it.
 
 use std::sync::Arc;
 use std::time::Duration;
@@ -10,58 +10,59 @@ use eframe::egui::{
     Stroke, StrokeKind, Ui, Vec2, WidgetInfo, pos2, vec2,
 };
 use eframe::egui_wgpu::RenderState;
+use foldmotion_check::Verdict;
 use foldmotion_pattern::{Facet, FacetKind, Sheet};
 use foldmotion_record::{Style, colour_of};
 
 use super::Viewer;
-use super::act::{Act, Source};
+use super::shown_motion::{MotionSource, ShownMotion};
 use crate::results::{outcome_colour, verdict_colour};
 use crate::settings::{Colour, Command, keys_of, name_of};
 use crate::timeline::number;
-use crate::view3d::{Colours, CreaseClasses, Handle, Overlay, Picture, Shape};
+use crate::view3d::{Colours, CreaseClasses, Overlay, Picture, Shape, VertexPull};
 
-/// How long a flash of penetrating facets lasts, seconds.
+/// Duration of a flash of penetrating facets, seconds.
 const FLASH: f64 = 0.9;
 
 impl Viewer {
-    /// The tools over the view, and the view.
+    /// Shows the toolbar and the view.
     pub(super) fn scene_view(&mut self, ui: &mut Ui, render_state: Option<&RenderState>) {
         self.tools(ui);
-        let Some(act) = self.act() else {
+        let Some(shown) = self.shown_motion() else {
             ui.centered_and_justified(|ui| {
-                let words = if self.resolved.faults.is_empty() {
+                let words = if self.resolved.errors.is_empty() {
                     "…"
                 } else {
-                    "no sheet yet: the foot of the window says what is wrong"
+                    "No sheet yet. See the status bar."
                 };
                 ui.label(RichText::new(words).weak());
             });
             return;
         };
-        self.pose(&act);
+        self.update_state(&shown);
         let rect = ui.available_rect_before_wrap();
-        let pull = self.picture(ui, render_state, &act);
-        if pull != self.shown.pulled
-            && let Some(hold) = &self.jobs.hold
+        let pull = self.picture(ui, render_state, &shown);
+        if pull != self.display.pulled
+            && let Some(interaction) = &self.jobs.interaction
         {
-            hold.pull(pull.map(|handle| (handle.vertex, handle.target)));
+            interaction.pull(pull.map(|pull| (pull.vertex, pull.target)));
         }
-        self.shown.pulled = pull;
-        self.words_over(ui, rect, &act);
+        self.display.pulled = pull;
+        self.words_over(ui, rect, &shown);
     }
 
-    /// Draws the sheet; answers the vertex that is pulled.
+    /// Draws the sheet; returns the vertex that is being pulled.
     fn picture(
         &mut self,
         ui: &mut Ui,
         render_state: Option<&RenderState>,
-        act: &Act,
-    ) -> Option<Handle> {
+        shown: &ShownMotion,
+    ) -> Option<VertexPull> {
         let looks = &self.settings.view;
-        let sheet = &act.motion().sheet;
-        let (faces, points) = self.shown.pose.penetrating.clone();
-        let positions = Arc::clone(&self.shown.pose.positions);
-        let state_key = self.shown.pose.key;
+        let sheet = &shown.motion().sheet;
+        let (faces, points) = self.display.state.penetrating.clone();
+        let positions = Arc::clone(&self.display.state.positions);
+        let state_key = self.display.state.key;
         let visuals = ui.visuals();
         let background = visuals.panel_fill;
         let style = style(visuals.dark_mode);
@@ -69,17 +70,17 @@ impl Viewer {
         let weak = visuals.weak_text_color();
         let marked = visuals.error_fg_color;
         let mut overlays: Vec<Overlay<'_>> = Vec::new();
-        // The profile is what the deployed sheet follows, the box what the folding one comes to.
-        if looks.profile && !act.profile.is_empty() && self.playback.time <= 1.0 {
+        // The profile is compared with the deployed sheet, the boxes with the compact one.
+        if looks.profile && !shown.profile.is_empty() && self.playback.time <= 1.0 {
             overlays.push(Overlay {
-                shape: Shape::Path(&act.profile),
+                shape: Shape::Path(&shown.profile),
                 colour: accent,
                 width: 2.0,
             });
         }
         for (wanted, bounds, colour) in [
-            (looks.compact_box, act.boxes[0], weak),
-            (looks.closed_form_box, act.boxes[1], accent),
+            (looks.compact_box, shown.boxes[0], weak),
+            (looks.closed_form_box, shown.boxes[1], accent),
         ] {
             if let Some([low, sides]) = bounds.filter(|_| wanted && self.playback.time > 1.0) {
                 let edges = glam::DMat3::from_diagonal(sides);
@@ -101,7 +102,7 @@ impl Viewer {
         let pulse = if faces.is_empty() { 0.0 } else { flash(ui) };
         let colours = match (
             looks.colour,
-            self.shown.pose.values(act, sheet, looks.colour),
+            self.display.state.values(shown, sheet, looks.colour),
         ) {
             (_, Some((values, range, _))) => Colours::Values {
                 values,
@@ -119,10 +120,10 @@ impl Viewer {
         };
         let picture = Picture {
             sheet,
-            sheet_key: act.key,
+            sheet_key: shown.key,
             positions: &positions,
             state_key,
-            layers: Some(&act.layers),
+            layers: Some(&shown.layers),
             colours,
             creases,
             style: &style,
@@ -130,20 +131,20 @@ impl Viewer {
             overlays: &overlays,
             flash: &faces,
             pulse,
-            handle: self.shown.pulled,
-            can_pull: self.jobs.hold.is_some(),
+            pull: self.display.pulled,
+            can_pull: self.jobs.interaction.is_some(),
         };
-        let seen = self.view3d.show(ui, render_state, &picture);
-        self.shown.pointed = seen.face.map(|face| (face, seen.vertex));
-        seen.pull
+        let current = self.view3d.show(ui, render_state, &picture);
+        self.display.pointed = current.face.map(|face| (face, current.vertex));
+        current.pull
     }
 
-    /// What is shown, and what it is worth.
-    fn words_over(&mut self, ui: &Ui, rect: Rect, act: &Act) {
+    /// The text over the view: motion time, kind of motion and verdict.
+    fn words_over(&mut self, ui: &Ui, rect: Rect, shown: &ShownMotion) {
         let painter = ui.painter_at(rect);
         let visuals = ui.visuals();
-        let lines = self.lines_over(ui, act);
-        // Its place is known once the words are laid out, over which it would lie.
+        let lines = self.lines_over(ui, shown);
+        // The background is drawn first, but its size is only known once the text is laid out.
         let ground = painter.add(RectShape::filled(Rect::NOTHING, 0.0, Color32::TRANSPARENT));
         let mut area = Rect::from_min_size(rect.left_top() + vec2(12.0, 8.0), Vec2::ZERO);
         for (words, size, colour) in &lines {
@@ -161,7 +162,7 @@ impl Viewer {
                 let words: Vec<&str> = lines.iter().map(|line| line.0.as_str()).collect();
                 WidgetInfo::labeled(Role::Label, true, words.join(", "))
             });
-        let sheet = &act.motion().sheet;
+        let sheet = &shown.motion().sheet;
         if let Some(words) = self.pointed_words(sheet) {
             let corner = rect.left_bottom() + vec2(12.0, -10.0);
             let font = FontId::proportional(12.0);
@@ -174,14 +175,14 @@ impl Viewer {
             );
         }
         let colour = self.settings.view.colour;
-        if let Some((_, range, title)) = self.shown.pose.values(act, sheet, colour) {
+        if let Some((_, range, title)) = self.display.state.values(shown, sheet, colour) {
             scale(&painter, ui, rect, range, title);
         }
     }
 
-    /// What is under the pointer.
+    /// A description of what is under the pointer.
     fn pointed_words(&self, sheet: &Sheet) -> Option<String> {
-        let (face, vertex) = self.shown.pointed?;
+        let (face, vertex) = self.display.pointed?;
         let facet = *sheet.face_facets.get(face as usize)?;
         let Facet {
             row, column, kind, ..
@@ -194,21 +195,21 @@ impl Viewer {
         Some(format!("facet {facet}{place}{corner}"))
     }
 
-    /// The lines over the view, with the size of their letters and their colour.
-    fn lines_over(&self, ui: &Ui, act: &Act) -> Vec<(String, f32, Color32)> {
+    /// The lines over the view, with font size and colour.
+    fn lines_over(&self, ui: &Ui, shown: &ShownMotion) -> Vec<(String, f32, Color32)> {
         const SMALL: f32 = 13.0;
         let visuals = ui.visuals();
-        let (badge, colour) = self.badge(ui, act);
+        let (badge, colour) = self.badge(ui, shown);
         let time = format!("t = {:.4}", self.shown_time());
         let mut lines = vec![
             (time, 18.0, visuals.strong_text_color()),
             (badge, SMALL, colour),
         ];
-        if self.is_stale(act) && !self.is_resolving() {
-            let words = "of the scene before the last edits".to_owned();
+        if self.is_stale(shown) && !self.is_resolving() {
+            let words = shown.out_of_date_text().to_owned();
             lines.push((words, SMALL, visuals.warn_fg_color));
         }
-        let penetrating = self.shown.pose.penetrating.0.len();
+        let penetrating = self.display.state.penetrating.0.len();
         if penetrating > 0 {
             let words = format!("{penetrating} triangles penetrate here");
             lines.push((words, SMALL, visuals.error_fg_color));
@@ -216,38 +217,38 @@ impl Viewer {
         lines
     }
 
-    /// What the sheet that is shown is worth, and in which colour that is said.
-    fn badge(&self, ui: &Ui, act: &Act) -> (String, Color32) {
+    /// What kind of motion is shown and its verdict, with the colour of that text.
+    fn badge(&self, ui: &Ui, shown: &ShownMotion) -> (String, Color32) {
         let visuals = ui.visuals();
         let accent = visuals.hyperlink_color;
-        if let Some(hold) = &self.jobs.hold {
-            let held = hold.held();
-            let mut words = "in the hand: drag the timeline, or pull a vertex".to_owned();
-            if held.mishaps > 0 {
-                words += "; it ran away and was taken back";
+        if let Some(interaction) = &self.jobs.interaction {
+            let status = interaction.status();
+            let mut words = "moved by hand: drag the timeline or pull a vertex".to_owned();
+            if status.resets > 0 {
+                words += "; it became unstable and was reset";
             }
             return (words, accent);
         }
-        if let Some((_, run)) = self.jobs.run.as_ref().filter(|_| self.shown.follows_run) {
-            let words = format!("running, {} states a second", run.live().rate());
+        if let Some((_, run)) = self.jobs.run.as_ref().filter(|_| self.display.follows_run) {
+            let words = format!("running, {} states per second", run.states().rate());
             return (words, accent);
         }
-        let judged = |verdict: &str| (verdict.to_owned(), verdict_colour(ui, verdict));
-        match &act.source {
-            Source::Exact(_) => (
+        let checked = |verdict: Verdict| (verdict.to_string(), verdict_colour(ui, verdict));
+        match &shown.source {
+            MotionSource::Exact(_) => (
                 "exact states: deployed, planar, compact".to_owned(),
                 visuals.weak_text_color(),
             ),
-            Source::Preview(_) => (
+            MotionSource::Preview(_) => (
                 "preview: without contact, not checked".to_owned(),
                 visuals.warn_fg_color,
             ),
-            Source::Run { report, .. } => (
+            MotionSource::Run { report, .. } => (
                 report.outcome.headline(),
                 outcome_colour(ui, report.outcome.kind),
             ),
-            Source::File { judged: found, .. } => match found {
-                Some(found) => judged(&found.certificate.verdict),
+            MotionSource::File { checked: found, .. } => match found {
+                Some(found) => checked(found.certificate.verdict),
                 None => ("not checked yet".to_owned(), visuals.weak_text_color()),
             },
         }
@@ -255,10 +256,11 @@ impl Viewer {
 
     /// The motion time of what is shown.
     pub(super) fn shown_time(&self) -> f64 {
-        self.live().map_or(self.playback.time, |state| state.time)
+        self.live_state()
+            .map_or(self.playback.time, |state| state.time)
     }
 
-    /// Buttons over the view.
+    /// The toolbar over the view.
     fn tools(&mut self, ui: &mut Ui) {
         let mut command = None;
         ScrollArea::horizontal().auto_shrink([false, true]).show(ui, |ui| {
@@ -293,12 +295,12 @@ impl Viewer {
                 ui.menu_button("creases", |ui| self.crease_switches(ui));
                 ui.menu_button("overlays", |ui| self.overlay_switches(ui));
                 ui.separator();
-                let mut is_held = self.jobs.hold.is_some();
-                let hand = ui.toggle_value(&mut is_held, "hand").on_hover_text(
-                    "moves the sheet as masses and springs: the timeline sets the fold, a vertex can be pulled (H)",
+                let mut is_interacting = self.jobs.interaction.is_some();
+                let hand = ui.toggle_value(&mut is_interacting, "by hand").on_hover_text(
+                    "Move the sheet by hand: the timeline sets the fold angles, and vertices can be pulled (H)",
                 );
                 if hand.clicked() {
-                    command = Some(Command::Hand);
+                    command = Some(Command::Interact);
                 }
             });
         });
@@ -332,14 +334,14 @@ impl Viewer {
         ui.checkbox(&mut looks.profile, "profile curve");
         ui.checkbox(&mut looks.compact_box, "compact box, measured");
         ui.checkbox(&mut looks.closed_form_box, "compact box, closed form")
-            .on_hover_text("equations 3 to 7 of the paper; shown while the sheet folds");
+            .on_hover_text("Equations 3 to 7 of the paper; shown while the sheet folds");
         if ui.checkbox(&mut looks.perspective, "perspective").changed() {
             self.view3d.set_perspective(looks.perspective);
         }
     }
 }
 
-/// Paper and lines on the ground at hand.
+/// Colours of paper and lines for the theme.
 fn style(is_dark: bool) -> Style {
     let standard = Style::default();
     if !is_dark {
@@ -351,14 +353,14 @@ fn style(is_dark: bool) -> Style {
     }
 }
 
-/// The brightness of what flashes, now; asks for the next frame.
+/// The current brightness of flashing triangles; requests the next frame.
 fn flash(ui: &Ui) -> f32 {
     ui.ctx().request_repaint_after(Duration::from_millis(50));
     let part = (ui.input(|i| i.time) / FLASH).fract();
     (0.65 + 0.35 * (std::f64::consts::TAU * part).cos()) as f32
 }
 
-/// The scale of values, in the lower right corner.
+/// The colour scale of values, in the lower right corner.
 fn scale(painter: &Painter, ui: &Ui, rect: Rect, range: [f64; 2], title: &str) {
     const SIZE: [f32; 2] = [160.0, 10.0];
     const STEPS: u32 = 32;

@@ -1,4 +1,4 @@
-//! The scene as text, for what has no control and for scenes with errors.
+//! The scene as text, for keys without a control and for scenes with errors.
 
 use eframe::egui::{Align, FontId, Id, Layout, ScrollArea, TextEdit, TextStyle, Ui};
 
@@ -15,15 +15,15 @@ impl Viewer {
                     .clicked()
                 {
                     self.settings.panels.text = false;
-                    self.mends_text = false;
+                    self.must_fix_text = false;
                 }
             });
             label
         });
         if let Some(error) = self.document.parse_error() {
             ui.colored_label(ui.visuals().error_fg_color, error.to_string());
-        } else if let Some(fault) = self.resolved.faults.first() {
-            ui.colored_label(ui.visuals().error_fg_color, &fault.message);
+        } else if let Some(error) = self.resolved.errors.first() {
+            ui.colored_label(ui.visuals().error_fg_color, &error.message);
         }
         let mut text = self.document.text().to_owned();
         let height = ui.available_height();
@@ -33,7 +33,7 @@ impl Viewer {
             .show(ui, |ui| {
                 let font: FontId = TextStyle::Monospace.resolve(ui.style());
                 let editor = TextEdit::multiline(&mut text)
-                    // Its own id: what is said above it comes and goes, the focus stays.
+                    // It has its own id so that it keeps the keyboard focus when messages above it come and go.
                     .id(Id::unique("scene text"))
                     .font(font)
                     .desired_width(f32::INFINITY)
@@ -44,7 +44,7 @@ impl Viewer {
                     self.document.set_text(&text, true);
                 }
                 if response.lost_focus() {
-                    self.document.settle();
+                    self.document.end_step();
                 }
             });
     }

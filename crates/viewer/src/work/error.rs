@@ -1,47 +1,47 @@
-//! What can go wrong in the background.
+//! Errors of background jobs.
 
 use std::any::Any;
 
 use foldmotion_solver::SolverError;
 use foldmotion_study::StudyError;
 
-use crate::launch::words;
+use crate::error::panic_message;
 
-/// Why a worker has no result.
+/// Why a job has no result.
 #[derive(Debug, thiserror::Error)]
 pub(crate) enum WorkError {
     /// The study failed.
     #[error("{0}")]
     Study(StudyError),
-    /// The sheet cannot be taken in the hand.
+    /// The engine cannot move the sheet by hand.
     #[error("the sheet cannot be moved by hand: {0}")]
-    Hand(#[from] SolverError),
-    /// The user stopped it.
+    Interaction(#[from] SolverError),
+    /// The user stopped the job.
     #[error("stopped")]
     Stopped,
-    /// No thread can be started.
-    #[error("no thread can be started for it: {message}; close other programs")]
+    /// The system cannot start a thread.
+    #[error("cannot start a thread: {message}; close other programs")]
     Thread {
-        /// What the system said.
+        /// The error of the system.
         message: String,
     },
-    /// A fault of this program.
-    #[error("a fault of this program ended it: {message}; please report it with the scene")]
+    /// A bug in this program.
+    #[error("internal error: {message}; please report it together with the scene")]
     Panic {
-        /// What the panic said.
+        /// The message of the panic.
         message: String,
     },
 }
 
 impl WorkError {
-    /// Of a panic's payload.
+    /// The error for the payload of a panic.
     pub(super) fn of_panic(payload: &(dyn Any + Send)) -> Self {
         Self::Panic {
-            message: words(payload),
+            message: panic_message(payload),
         }
     }
 
-    /// The dotted key of the scene at fault, where it is one's.
+    /// The dotted key of the scene that is wrong, if the error belongs to one.
     pub(crate) fn key(&self) -> Option<&str> {
         match self {
             Self::Study(error) => error.key(),

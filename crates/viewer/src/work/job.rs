@@ -1,4 +1,4 @@
-//! A piece of work with a result: how far it is, stopping it, what came of it.
+//! A background job: its progress, its result, and stopping it.
 
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex};
@@ -7,19 +7,19 @@ use std::thread::JoinHandle;
 use foldmotion_study::Phase;
 
 use super::lock::lock;
-use super::threads::{part_from, spread, start};
-use super::{Wake, WorkError};
+use super::threads::{in_thread_pool, join_briefly, start};
+use super::{RepaintSignal, WorkError};
 
-/// How far a job is.
+/// The progress of a job.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Stand {
-    /// What it does; none before it has begun.
+pub(crate) struct Progress {
+    /// The current phase; `None` before the job has begun.
     pub(crate) phase: Option<Phase>,
-    /// How much of that is done, from 0 to 1.
+    /// The fraction of the phase that is done, from 0 to 1.
     pub(crate) done: f64,
 }
 
-/// Work in the background that ends with a `T`. Dropping it stops it.
+/// A background job with a result `T`. Dropping it stops it.
 #[derive(Debug)]
 pub(crate) struct Job<T> {
     shared: Arc<Shared<T>>,
@@ -28,30 +28,30 @@ pub(crate) struct Job<T> {
 
 #[derive(Debug)]
 struct Shared<T> {
-    ticket: Ticket,
+    context: JobContext,
     outcome: Mutex<Option<Result<T, WorkError>>>,
     is_done: AtomicBool,
 }
 
-/// What the work itself holds: it reports and learns whether to go on.
+/// The job's side: it reports progress and learns whether to continue.
 #[derive(Debug, Clone)]
-pub(super) struct Ticket(Arc<Inner>);
+pub(super) struct JobContext(Arc<Inner>);
 
 #[derive(Debug)]
 struct Inner {
     is_stopped: AtomicBool,
-    stand: Mutex<Stand>,
-    wake: Wake,
+    progress: Mutex<Progress>,
+    repaint: RepaintSignal,
 }
 
-impl Ticket {
-    /// Reports, and answers whether to go on.
-    pub(super) fn progress(&self, phase: Phase, done: f64) -> bool {
-        *lock(&self.0.stand) = Stand {
+impl JobContext {
+    /// Reports progress; returns whether to continue.
+    pub(super) fn report(&self, phase: Phase, done: f64) -> bool {
+        *lock(&self.0.progress) = Progress {
             phase: Some(phase),
             done: done.clamp(0.0, 1.0),
         };
-        self.0.wake.soon();
+        self.0.repaint.send_limited();
         !self.0.is_stopped.load(Ordering::Relaxed)
     }
 }
@@ -60,26 +60,26 @@ impl<T: Send + 'static> Job<T> {
     /// Starts `work` on threads of its own.
     pub(super) fn start(
         name: &str,
-        wake: Wake,
-        work: impl FnOnce(&Ticket) -> Result<T, WorkError> + Send + 'static,
+        repaint: RepaintSignal,
+        work: impl FnOnce(&JobContext) -> Result<T, WorkError> + Send + 'static,
     ) -> Self {
-        let stand = Stand {
+        let progress = Progress {
             phase: None,
             done: 0.0,
         };
         let shared = Arc::new(Shared {
-            ticket: Ticket(Arc::new(Inner {
+            context: JobContext(Arc::new(Inner {
                 is_stopped: AtomicBool::new(false),
-                stand: Mutex::new(stand),
-                wake,
+                progress: Mutex::new(progress),
+                repaint,
             })),
             outcome: Mutex::new(None),
             is_done: AtomicBool::new(false),
         });
-        let held = Arc::clone(&shared);
+        let status = Arc::clone(&shared);
         let thread = start(name, move || {
-            let outcome = spread(|| work(&held.ticket));
-            held.finish(outcome);
+            let outcome = in_thread_pool(|| work(&status.context));
+            status.finish(outcome);
         });
         match thread {
             Ok(thread) => Self {
@@ -101,28 +101,28 @@ impl<T> Shared<T> {
     fn finish(&self, outcome: Result<T, WorkError>) {
         *lock(&self.outcome) = Some(outcome);
         self.is_done.store(true, Ordering::Release);
-        self.ticket.0.wake.now();
+        self.context.0.repaint.send();
     }
 }
 
 impl<T> Job<T> {
-    /// How far it is.
-    pub(crate) fn stand(&self) -> Stand {
-        *lock(&self.shared.ticket.0.stand)
+    /// The current progress.
+    pub(crate) fn progress(&self) -> Progress {
+        *lock(&self.shared.context.0.progress)
     }
 
-    /// Whether it has ended.
+    /// Whether the job has ended.
     pub(crate) fn is_done(&self) -> bool {
         self.shared.is_done.load(Ordering::Acquire)
     }
 
-    /// Tells it to stop; it then ends as [`WorkError::Stopped`].
+    /// Asks the job to stop; its result is then [`WorkError::Stopped`].
     pub(crate) fn stop(&self) {
-        let inner = &self.shared.ticket.0;
+        let inner = &self.shared.context.0;
         inner.is_stopped.store(true, Ordering::Relaxed);
     }
 
-    /// What came of it, once it has ended; none if that was taken before.
+    /// The result, once the job has ended; `None` if it was taken before.
     pub(crate) fn take(&self) -> Option<Result<T, WorkError>> {
         lock(&self.shared.outcome).take()
     }
@@ -131,7 +131,7 @@ impl<T> Job<T> {
 impl<T> Drop for Job<T> {
     fn drop(&mut self) {
         self.stop();
-        part_from(self.thread.take());
+        join_briefly(self.thread.take());
     }
 }
 
@@ -142,31 +142,31 @@ pub(super) mod tests {
 
     use super::*;
 
-    /// Waits until `is` or fails.
-    pub(in crate::work) fn wait(is: impl Fn() -> bool) {
+    /// Waits until `is_so`, with a time limit.
+    pub(in crate::work) fn wait(is_so: impl Fn() -> bool) {
         let started = Instant::now();
-        while !is() {
+        while !is_so() {
             assert!(started.elapsed() < Duration::from_mins(2), "it never came");
             sleep(Duration::from_millis(1));
         }
     }
 
-    fn quiet() -> Wake {
-        Wake::new(|| {})
+    fn quiet() -> RepaintSignal {
+        RepaintSignal::new(|| {})
     }
 
     #[test]
     fn a_job_reports_wakes_and_gives_its_result_once() {
         let woken = Arc::new(AtomicBool::new(false));
         let seen = Arc::clone(&woken);
-        let wake = Wake::new(move || seen.store(true, Ordering::Relaxed));
-        let job = Job::start("job", wake, |ticket| {
-            assert!(ticket.progress(Phase::Check, 0.25));
+        let repaint = RepaintSignal::new(move || seen.store(true, Ordering::Relaxed));
+        let job = Job::start("job", repaint, |context| {
+            assert!(context.report(Phase::Check, 0.25));
             Ok(7)
         });
         wait(|| job.is_done());
-        assert_eq!(job.stand().phase, Some(Phase::Check));
-        assert_eq!(job.stand().done, 0.25);
+        assert_eq!(job.progress().phase, Some(Phase::Check));
+        assert_eq!(job.progress().done, 0.25);
         assert!(matches!(job.take(), Some(Ok(7))));
         assert!(job.take().is_none() && job.is_done());
         assert!(woken.load(Ordering::Relaxed));
@@ -182,8 +182,8 @@ pub(super) mod tests {
 
     #[test]
     fn a_job_that_is_stopped_or_dropped_ends() {
-        let endless = |ticket: &Ticket| {
-            while ticket.progress(Phase::Fold, 0.0) {
+        let endless = |context: &JobContext| {
+            while context.report(Phase::Fold, 0.0) {
                 sleep(Duration::from_millis(1));
             }
             Err::<(), _>(WorkError::Stopped)

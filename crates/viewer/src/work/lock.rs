@@ -1,9 +1,9 @@
-//! Locks that a panic does not take away.
+//! Locking mutexes that a panic does not make unusable.
 
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
-/// The guard of `mutex`. What is behind the locks of workers is whole after every statement, so a panic elsewhere leaves
-/// nothing to protect.
+/// Locks `mutex`. The data behind the locks of workers is consistent after every statement, so a poisoned lock can be
+/// used.
 pub(super) fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
     mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }

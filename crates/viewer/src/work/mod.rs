@@ -1,29 +1,30 @@
-//! Work in the background: drafts, runs, opened files, sheets held in the hand, recordings.
+//! Background work: resolving scenes, previews, runs, opening files, checks, recordings, moving the sheet by hand.
 //!
-//! Each worker owns a thread. What it has to say lies behind a lock that is held for a copy at most; after that it wakes
-//! the window. A panic of a worker becomes an error to show. A worker that is dropped is told to stop.
+//! Each worker owns a thread. Its results lie behind a lock that is only held for the time of a copy; then it requests
+//! a repaint of the window. A panic of a worker becomes an error that is shown. A worker that is dropped is asked to
+//! stop.
 
-mod drafts;
 mod error;
-mod hold;
+mod interaction;
 mod job;
-mod latest;
-mod live;
+mod latest_worker;
 mod lock;
 mod open;
 mod preview;
 mod record;
+mod repaint;
+mod resolver;
 mod run;
+mod state_feed;
 mod threads;
-mod wake;
 
-pub(crate) use drafts::{Drafts, Resolved};
 pub(crate) use error::WorkError;
-pub(crate) use hold::Hold;
-pub(crate) use job::{Job, Stand};
-pub(crate) use live::{Live, State};
-pub(crate) use open::{Judged, judge, open};
+pub(crate) use interaction::Interaction;
+pub(crate) use job::{Job, Progress};
+pub(crate) use open::{CheckedMotion, check_motion, open};
 pub(crate) use preview::preview;
 pub(crate) use record::{record, record_opened, write};
-pub(crate) use run::{Finished, Run};
-pub(crate) use wake::Wake;
+pub(crate) use repaint::RepaintSignal;
+pub(crate) use resolver::{Resolved, Resolver};
+pub(crate) use run::{FinishedRun, RunJob};
+pub(crate) use state_feed::{SheetState, StateFeed};

@@ -1,35 +1,38 @@
-//! Opening files and judging motions.
+//! Opening files and checking motions.
 
 use std::path::PathBuf;
 use std::sync::Arc;
 
 use foldmotion_study::{Certificate, CheckOptions, Findings, Opened, OpenedMotion};
 
-use super::{Job, Wake};
+use super::{Job, RepaintSignal};
 
-/// What is proved of a motion file.
+/// The result of checking a motion file.
 #[derive(Debug)]
-pub(crate) struct Judged {
-    /// What was found.
+pub(crate) struct CheckedMotion {
+    /// The findings of the check.
     pub(crate) findings: Arc<Findings>,
-    /// The same as a certificate.
+    /// The certificate of the findings.
     pub(crate) certificate: Certificate,
 }
 
-/// Reads the file at `path`, whatever it is.
-pub(crate) fn open(path: PathBuf, wake: Wake) -> Job<Opened> {
-    Job::start("foldmotion open", wake, move |ticket| {
-        let progress = |phase, done| ticket.progress(phase, done);
+/// Reads a file: a scene, a crease pattern or a motion.
+pub(crate) fn open(path: PathBuf, repaint: RepaintSignal) -> Job<Opened> {
+    Job::start("foldmotion open", repaint, move |context| {
+        let progress = |phase, done| context.report(phase, done);
         Ok(Opened::read(&path, &progress)?)
     })
 }
 
-/// Judges a motion that was opened.
-pub(crate) fn judge(motion: Arc<OpenedMotion>, wake: Wake) -> Job<Judged> {
-    Job::start("foldmotion check", wake, move |ticket| {
-        let progress = |phase, done| ticket.progress(phase, done);
+/// Checks a motion file.
+pub(crate) fn check_motion(
+    motion: Arc<OpenedMotion>,
+    repaint: RepaintSignal,
+) -> Job<CheckedMotion> {
+    Job::start("foldmotion check", repaint, move |context| {
+        let progress = |phase, done| context.report(phase, done);
         let (findings, certificate) = motion.check(&CheckOptions::default(), &progress)?;
-        Ok(Judged {
+        Ok(CheckedMotion {
             findings: Arc::new(findings),
             certificate,
         })

@@ -1,14 +1,14 @@
-//! A quick look at the motion of a scene.
+//! Previews of motions.
 
 use std::sync::Arc;
 
 use foldmotion_study::{Preview, Study};
 
-use super::{Job, Wake};
+use super::{Job, RepaintSignal};
 
-/// Folds the sheet of `study` quickly, without contact; nothing is checked.
-pub(crate) fn preview(study: Arc<Study>, wake: Wake) -> Job<Preview> {
-    Job::start("foldmotion preview", wake, move |ticket| {
-        Ok(study.preview(&|phase, done| ticket.progress(phase, done))?)
+/// Folds the sheet of `study` quickly, without contact and without a check.
+pub(crate) fn preview(study: Arc<Study>, repaint: RepaintSignal) -> Job<Preview> {
+    Job::start("foldmotion preview", repaint, move |context| {
+        Ok(study.preview(&|phase, done| context.report(phase, done))?)
     })
 }

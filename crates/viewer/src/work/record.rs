@@ -1,4 +1,4 @@
-//! Films, figures, models and whole results of a motion, written in the background.
+//! Writing films, figures, models and the results of runs.
 
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -6,46 +6,46 @@ use std::sync::Arc;
 use foldmotion_study::scene::RecordScene;
 use foldmotion_study::{Findings, Folded, OpenedMotion, Study};
 
-use super::{Job, Wake};
+use super::{Job, RepaintSignal};
 
-/// Records a run into `folder` as `record` says; ends with the names of the files.
+/// Records a run into `folder` as `record` says; the result is the names of the files.
 pub(crate) fn record(
     study: Arc<Study>,
     folded: Arc<Folded>,
     record: RecordScene,
     folder: PathBuf,
-    wake: Wake,
+    repaint: RepaintSignal,
 ) -> Job<Vec<String>> {
-    Job::start("foldmotion record", wake, move |ticket| {
-        let progress = |phase, done| ticket.progress(phase, done);
+    Job::start("foldmotion record", repaint, move |context| {
+        let progress = |phase, done| context.report(phase, done);
         Ok(study.record_as(&folded, &record, &folder, &progress)?)
     })
 }
 
-/// Records a motion that was opened, with what was found of it.
+/// Records a motion file with its findings.
 pub(crate) fn record_opened(
     motion: Arc<OpenedMotion>,
     findings: Option<Arc<Findings>>,
     record: RecordScene,
     folder: PathBuf,
-    wake: Wake,
+    repaint: RepaintSignal,
 ) -> Job<Vec<String>> {
-    Job::start("foldmotion record", wake, move |ticket| {
-        let progress = |phase, done| ticket.progress(phase, done);
+    Job::start("foldmotion record", repaint, move |context| {
+        let progress = |phase, done| context.report(phase, done);
         let made = motion.record_as(findings.as_deref(), &record, &folder, &progress)?;
         Ok(made.files)
     })
 }
 
-/// Writes the results of a run into `folder` as `foldmotion run` does; ends with the names of the files.
+/// Writes the results of a run into `folder` as `foldmotion run` does; the result is the names of the files.
 pub(crate) fn write(
     study: Arc<Study>,
     folded: Arc<Folded>,
     folder: PathBuf,
-    wake: Wake,
+    repaint: RepaintSignal,
 ) -> Job<Vec<String>> {
-    Job::start("foldmotion write", wake, move |ticket| {
-        let progress = |phase, done| ticket.progress(phase, done);
+    Job::start("foldmotion write", repaint, move |context| {
+        let progress = |phase, done| context.report(phase, done);
         let mut files = study.write(&folded, &folder, &progress)?.files;
         files.push("report.json".to_owned());
         Ok(files)
@@ -61,11 +61,11 @@ mod tests {
 
     use super::super::job::tests::wait;
     use super::super::run::tests::source;
-    use super::super::{WorkError, judge, open};
+    use super::super::{WorkError, check_motion, open};
     use super::*;
 
-    fn quiet() -> Wake {
-        Wake::new(|| {})
+    fn quiet() -> RepaintSignal {
+        RepaintSignal::new(|| {})
     }
 
     fn done<T>(job: &Job<T>) -> Result<T, WorkError> {
@@ -105,15 +105,15 @@ mod tests {
             panic!("a motion was written")
         };
         assert_eq!(motion.motion().frames, folded.motion.frames);
-        let judged = done(&judge(Arc::clone(&motion), quiet())).unwrap();
+        let checked = done(&check_motion(Arc::clone(&motion), quiet())).unwrap();
         assert_eq!(
-            judged.findings.collision.verdict,
+            checked.findings.collision.verdict,
             folded.findings.collision.verdict
         );
         let certificate = fs::read_to_string(at("mine/certificate.json")).unwrap();
-        assert_eq!(judged.certificate.to_json(), certificate);
+        assert_eq!(checked.certificate.to_json(), certificate);
         let pictures = [OutputChoice::Png];
-        let findings = Some(judged.findings);
+        let findings = Some(checked.findings);
         let job = record_opened(motion, findings, view(&pictures), at("again"), quiet());
         assert!(done(&job).unwrap().contains(&"frames/0001.png".to_owned()));
         let files = done(&write(study, folded, at("whole"), quiet())).unwrap();

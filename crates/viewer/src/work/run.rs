@@ -1,98 +1,98 @@
-//! A run of a study that shows where the sheet is.
+//! Runs of studies, with the states of the sheet while it is computed.
 
 use std::sync::Arc;
 
 use foldmotion_check::FittedBox;
 use foldmotion_study::{Folded, Moment, Phase, Report, Study, Watch};
 
-use super::job::Ticket;
-use super::{Job, Live, Stand, Wake, WorkError};
+use super::job::JobContext;
+use super::{Job, Progress, RepaintSignal, StateFeed, WorkError};
 
 /// A run in the background. Dropping it stops it.
 #[derive(Debug)]
-pub(crate) struct Run {
-    job: Job<Finished>,
-    live: Live,
+pub(crate) struct RunJob {
+    job: Job<FinishedRun>,
+    states: StateFeed,
 }
 
-/// What came of a run.
+/// The result of a run.
 #[derive(Debug)]
-pub(crate) struct Finished {
-    /// What was run.
+pub(crate) struct FinishedRun {
+    /// The study that was run.
     pub(crate) study: Arc<Study>,
-    /// The motion, and what was found out about it.
+    /// The motion and its findings.
     pub(crate) folded: Arc<Folded>,
-    /// Its report, without files.
+    /// The report, without files.
     pub(crate) report: Report,
     /// The box of every frame.
     pub(crate) boxes: Vec<FittedBox>,
 }
 
-impl Run {
+impl RunJob {
     /// Starts to fold and check `study`.
-    pub(crate) fn start(study: &Arc<Study>, wake: Wake) -> Self {
-        let live = Live::default();
-        let (run, shown, woken) = (Arc::clone(study), live.clone(), wake.clone());
-        let job = Job::start("foldmotion run", wake, move |ticket| {
+    pub(crate) fn start(study: &Arc<Study>, repaint: RepaintSignal) -> Self {
+        let states = StateFeed::default();
+        let (run, shown, woken) = (Arc::clone(study), states.clone(), repaint.clone());
+        let job = Job::start("foldmotion run", repaint, move |context| {
             let watcher = Watcher {
                 study: &run,
-                ticket,
-                live: &shown,
-                wake: &woken,
+                context,
+                states: &shown,
+                repaint: &woken,
             };
             let folded = run.compute(&watcher)?;
-            Ok(Finished {
+            Ok(FinishedRun {
                 report: run.report_of(&folded),
                 boxes: run.boxes(&folded.motion),
                 folded: Arc::new(folded),
                 study: Arc::clone(&run),
             })
         });
-        Self { job, live }
+        Self { job, states }
     }
 
-    /// Where the sheet is.
-    pub(crate) fn live(&self) -> &Live {
-        &self.live
+    /// The states of the sheet.
+    pub(crate) fn states(&self) -> &StateFeed {
+        &self.states
     }
 
-    /// How far it is.
-    pub(crate) fn stand(&self) -> Stand {
-        self.job.stand()
+    /// The current progress.
+    pub(crate) fn progress(&self) -> Progress {
+        self.job.progress()
     }
 
-    /// Whether it has ended.
+    /// Whether the run has ended.
     pub(crate) fn is_done(&self) -> bool {
         self.job.is_done()
     }
 
-    /// Tells it to stop.
+    /// Asks the run to stop.
     pub(crate) fn stop(&self) {
         self.job.stop();
     }
 
-    /// What came of it, once it has ended; none if that was taken before.
-    pub(crate) fn take(&self) -> Option<Result<Finished, WorkError>> {
+    /// The result, once the run has ended; `None` if it was taken before.
+    pub(crate) fn take(&self) -> Option<Result<FinishedRun, WorkError>> {
         self.job.take()
     }
 }
 
 struct Watcher<'a> {
     study: &'a Study,
-    ticket: &'a Ticket,
-    live: &'a Live,
-    wake: &'a Wake,
+    context: &'a JobContext,
+    states: &'a StateFeed,
+    repaint: &'a RepaintSignal,
 }
 
 impl Watch for Watcher<'_> {
     fn progress(&self, phase: Phase, done: f64) -> bool {
-        self.ticket.progress(phase, done)
+        self.context.report(phase, done)
     }
 
     fn state(&self, moment: &Moment<'_>) {
         let positions = || self.study.subject.show(moment.positions());
-        if self.live.show(moment.time, positions) {
-            self.wake.soon();
+        if self.states.show(moment.time, positions) {
+            self.repaint.send_limited();
         }
     }
 }
@@ -106,7 +106,7 @@ pub(super) mod tests {
     use super::super::job::tests::wait;
     use super::*;
 
-    /// A small scene; `more` follows its text.
+    /// A small scene, with `more` appended to its text.
     pub(in crate::work) fn source(more: &str) -> SceneSource {
         let text = format!(
             "[profile]\nmodel = \"shelter\"\n[sheet]\nrows = 3\ncolumns = 2\n[record]\noutputs = [\"png\"]\nsize = [64, 48]\n\
@@ -124,9 +124,9 @@ pub(super) mod tests {
     fn a_run_shows_states_of_its_motion_and_ends_as_the_study_alone() {
         for engine in ["quasi-static", "dynamic"] {
             let study = study(engine);
-            let run = Run::start(&study, Wake::new(|| {}));
+            let run = RunJob::start(&study, RepaintSignal::new(|| {}));
             wait(|| run.is_done());
-            let state = run.live().newer(0).unwrap();
+            let state = run.states().latest().unwrap();
             assert_eq!(state.positions.len(), study.subject.sheet().vertices.len());
             assert!(state.positions.iter().all(|p| p.is_finite()));
             let finished = run.take().unwrap().unwrap();
@@ -139,7 +139,7 @@ pub(super) mod tests {
 
     #[test]
     fn a_run_that_is_stopped_says_so() {
-        let run = Run::start(&study("dynamic"), Wake::new(|| {}));
+        let run = RunJob::start(&study("dynamic"), RepaintSignal::new(|| {}));
         run.stop();
         wait(|| run.is_done());
         assert!(matches!(run.take(), Some(Err(WorkError::Stopped))));

@@ -1,4 +1,4 @@
-//! The threads of workers.
+//! Threads of background workers.
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::thread::{Builder, JoinHandle, available_parallelism, sleep};
@@ -6,8 +6,8 @@ use std::time::{Duration, Instant};
 
 use super::WorkError;
 
-/// How long a dropped worker is waited for: long enough for most to end, too short to be felt.
-const PATIENCE: Duration = Duration::from_millis(100);
+/// How long to wait for a worker that was dropped: long enough for most to end, too short to be noticed.
+const JOIN_TIMEOUT: Duration = Duration::from_millis(100);
 
 /// Starts a thread called `name`.
 pub(super) fn start(
@@ -20,10 +20,10 @@ pub(super) fn start(
     })
 }
 
-/// Does `work` with one thread less than there are cores, so that the window has one.
+/// Runs `work` in a pool with one thread fewer than there are cores, which leaves one for the window.
 ///
-/// Every piece of work has threads of its own: one that runs long would keep another waiting.
-pub(super) fn spread<T: Send>(
+/// Every job has its own pool, so that a long job does not delay another.
+pub(super) fn in_thread_pool<T: Send>(
     work: impl FnOnce() -> Result<T, WorkError> + Send,
 ) -> Result<T, WorkError> {
     let cores = available_parallelism().map_or(1, usize::from);
@@ -34,25 +34,25 @@ pub(super) fn spread<T: Send>(
         .map_err(|e| WorkError::Thread {
             message: e.to_string(),
         })?;
-    pool.install(|| caught(work))
+    pool.install(|| catch_panic(work))
 }
 
-/// Does `work`; a panic in it is an error.
-pub(super) fn caught<T>(work: impl FnOnce() -> Result<T, WorkError>) -> Result<T, WorkError> {
-    // What a panic leaves half done is dropped with the work.
+/// Runs `work` and turns a panic into an error.
+pub(super) fn catch_panic<T>(work: impl FnOnce() -> Result<T, WorkError>) -> Result<T, WorkError> {
+    // Whatever a panic leaves unfinished is dropped with `work`.
     catch_unwind(AssertUnwindSafe(work))
         .unwrap_or_else(|payload| Err(WorkError::of_panic(payload.as_ref())))
 }
 
-/// Waits a little for a thread that was told to stop, so that it can clean up; goes on without it where it takes longer.
-pub(super) fn part_from(thread: Option<JoinHandle<()>>) {
+/// Waits briefly for a thread that was asked to stop, so that it can clean up.
+pub(super) fn join_briefly(thread: Option<JoinHandle<()>>) {
     let Some(thread) = thread else { return };
     let started = Instant::now();
-    while !thread.is_finished() && started.elapsed() < PATIENCE {
+    while !thread.is_finished() && started.elapsed() < JOIN_TIMEOUT {
         sleep(Duration::from_millis(1));
     }
     if thread.is_finished() {
-        // Its panics are caught inside.
+        // Panics are caught inside the thread.
         let _ = thread.join();
     }
 }

@@ -1,18 +1,18 @@
-//! Every short-cut does what it says, and none while something is typed.
+//! Every shortcut executes its command, and none does while the user types.
 
 use eframe::egui::{Key, Modifiers, ViewportCommand};
 
 use crate::driver::{SMALL, Window};
 
-/// What is looked at to see whether a command was done.
-type Look = fn(&mut Window) -> String;
+/// What is inspected to see whether a command was executed.
+type Probe = fn(&mut Window) -> String;
 
 const CTRL: Modifiers = Modifiers::COMMAND;
 const SHIFT: Modifiers = Modifiers::SHIFT;
 const NONE: Modifiers = Modifiers::NONE;
 
-/// The commands that change nothing of the scene, by their names in the help.
-const LOOKS: [(&str, Modifiers, Key, Look); 32] = [
+/// The commands that do not change the scene, by their names in the help.
+const LOOKS: [(&str, Modifiers, Key, Probe); 32] = [
     ("Play or pause", NONE, Key::Space, |w| {
         w.has("Pause").to_string()
     }),
@@ -24,10 +24,10 @@ const LOOKS: [(&str, Modifiers, Key, Look); 32] = [
     ("Slower", NONE, Key::Minus, |w| w.value("speed")),
     ("Faster", NONE, Key::Plus, |w| w.value("speed")),
     ("Loop", NONE, Key::L, |w| w.value("At the end")),
-    ("From the front", NONE, Key::Num1, camera),
-    ("From the side", NONE, Key::Num2, camera),
-    ("From the top", NONE, Key::Num3, camera),
-    ("Isometric", NONE, Key::Num4, camera),
+    ("Front view", NONE, Key::Num1, camera),
+    ("Side view", NONE, Key::Num2, camera),
+    ("Top view", NONE, Key::Num3, camera),
+    ("Isometric view", NONE, Key::Num4, camera),
     ("Perspective", NONE, Key::V, camera),
     ("Colour: strain", NONE, Key::Num6, colour),
     ("Colour: facet bending", NONE, Key::Num7, colour),
@@ -53,22 +53,22 @@ const LOOKS: [(&str, Modifiers, Key, Look); 32] = [
     ("Verdict", NONE, Key::F4, |w| {
         w.says("pairs tested").to_string()
     }),
-    ("Record panel", NONE, Key::F6, |w| {
+    ("Record dialog", NONE, Key::F6, |w| {
         w.has("Record now").to_string()
     }),
     ("Scene as text", NONE, Key::F7, |w| {
         w.has("Scene as text").to_string()
     }),
-    ("Larger, for presentation", NONE, Key::F9, |w| {
+    ("Larger, for presentations", NONE, Key::F9, |w| {
         w.harness.ctx.zoom_factor().to_string()
     }),
     ("Dark or light", NONE, Key::F10, |w| {
         format!("{:?}", w.harness.ctx.theme())
     }),
-    ("Take the sheet in the hand", NONE, Key::H, |w| {
-        w.is_on("hand").to_string()
+    ("Move the sheet by hand", NONE, Key::H, |w| {
+        w.is_on("by hand").to_string()
     }),
-    ("Short-cuts and help", NONE, Key::F1, |w| {
+    ("Shortcuts and help", NONE, Key::F1, |w| {
         w.has("Help").to_string()
     }),
 ];
@@ -85,7 +85,7 @@ fn colour(window: &mut Window) -> String {
     window.value("colour")
 }
 
-/// Whether a switch in a menu over the view is on.
+/// The check boxes of this name in a menu over the view.
 fn switch(window: &mut Window, menu: &str, label: &str) -> String {
     window.click(menu);
     let boxes = window.switches(label);
@@ -94,7 +94,7 @@ fn switch(window: &mut Window, menu: &str, label: &str) -> String {
 }
 
 #[test]
-fn every_short_cut_changes_what_it_names() {
+fn every_shortcut_changes_what_it_names() {
     let mut window = Window::over(SMALL);
     window.run_scene();
     window.press(Key::Home);
@@ -102,7 +102,7 @@ fn every_short_cut_changes_what_it_names() {
         let before = look(&mut window);
         window.press_with(modifiers, key);
         assert_ne!(before, look(&mut window), "{name}");
-        if ["Play or pause", "Scene as text", "Record panel"].contains(&name) {
+        if ["Play or pause", "Scene as text", "Record dialog"].contains(&name) {
             window.press_with(modifiers, key);
             assert_eq!(before, look(&mut window), "{name} again");
         }
@@ -125,11 +125,11 @@ fn fitting_shows_the_sheet_as_large_as_it_can_be() {
 }
 
 #[test]
-fn short_cuts_of_files_and_runs_do_what_they_name() {
+fn shortcuts_of_files_and_runs_do_what_they_name() {
     let mut window = Window::over(SMALL);
     window.until("the scene is resolved", |w| w.is_enabled("Run"));
     window.press_with(CTRL, Key::S);
-    assert!(window.says("saved "));
+    assert!(window.says("Saved "));
     window.press_with(CTRL | SHIFT, Key::S);
     assert!(window.has("Name"));
     window.press(Key::Escape);
@@ -138,12 +138,12 @@ fn short_cuts_of_files_and_runs_do_what_they_name() {
     window.press(Key::Escape);
     window.enter("width W", "6.5");
     window.press_with(CTRL, Key::Z);
-    assert!(window.says("undone: change the width"));
+    assert!(window.says("Undone: width W"));
     window.press_with(CTRL, Key::Y);
-    assert!(window.says("done again: change the width"));
+    assert!(window.says("Redone: width W"));
     window.press_with(CTRL, Key::Z);
     window.press_with(CTRL, Key::E);
-    assert!(window.says("a preview is not recorded") || window.has("Record now"));
+    assert!(window.says("A preview cannot be recorded") || window.has("Record now"));
     window.until("the scene is resolved", |w| w.is_enabled("Run"));
     window.strike(CTRL, Key::R);
     assert!(window.has("Cancel"));
@@ -154,7 +154,7 @@ fn short_cuts_of_files_and_runs_do_what_they_name() {
 }
 
 #[test]
-fn no_plain_short_cut_fires_while_something_is_typed() {
+fn no_plain_shortcut_fires_while_the_user_types() {
     let mut window = Window::over(SMALL);
     window.run_scene();
     window.press(Key::P);
@@ -176,9 +176,9 @@ fn every_entry_of_the_menus_is_there() {
     let mut window = Window::over(SMALL);
     window.until_preview();
     for (menu, entry, words) in [
-        ("View", "From the top", "elevation 90°"),
+        ("View", "Top view", "elevation 90°"),
         ("Motion", "Compact state", "t = 2.0000"),
-        ("Window", "Short-cuts and help", "Mouse in the 3D view"),
+        ("Window", "Shortcuts and help", "Mouse in the 3D view"),
     ] {
         window.choose(menu, entry);
         let is_said = window.says(words) || camera(&mut window).contains(words);

@@ -1,4 +1,4 @@
-//! A window under the hand: finds controls by their names, and waits for what comes from the background.
+//! A window under test: finds controls by name and waits for background jobs.
 
 use std::path::{Path, PathBuf};
 use std::thread::sleep;
@@ -14,10 +14,10 @@ use tempfile::TempDir;
 use crate::storage::Storage;
 use crate::system::System;
 
-/// How long anything from the background may take on the slowest machine.
+/// The time limit for background jobs, for the slowest machine.
 const PATIENCE: Duration = Duration::from_mins(2);
 
-/// A sheet that is folded and checked in a moment.
+/// A sheet that is folded and checked quickly.
 pub(crate) const SMALL: &str = "\
 # A small shelter.
 title = \"Small shelter\"
@@ -36,7 +36,7 @@ case = \"S\"
 frames = 8
 ";
 
-/// The same with control points to drag.
+/// A scene with control points to drag.
 pub(crate) const ARCH: &str = "\
 [profile]
 control_points = [[3.0, 0.0], [2.0, 0.0], [2.0, 2.5], [0.0, 3.5], [-2.0, 2.5], [-3.0, 0.0]]
@@ -66,12 +66,12 @@ contact = false
 frames = 24
 ";
 
-/// The scenes that come with the project.
+/// The folder of scenes in the repository.
 pub(crate) fn scenes() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes")
 }
 
-/// A window with a folder of its own.
+/// A window with its own temporary folder.
 pub(crate) struct Window {
     pub(crate) harness: Harness<'static, Viewer>,
     pub(crate) folder: TempDir,
@@ -84,7 +84,7 @@ impl Window {
         Self::start(tempfile::tempdir().unwrap(), None, None)
     }
 
-    /// A window over a file of this text.
+    /// A window with a scene file of this text.
     pub(crate) fn over(text: &str) -> Self {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("scene.toml");
@@ -92,12 +92,12 @@ impl Window {
         Self::start(folder, Some(path), None)
     }
 
-    /// A window over a file.
+    /// A window with this file.
     pub(crate) fn of(path: &Path) -> Self {
         Self::start(tempfile::tempdir().unwrap(), Some(path.to_owned()), None)
     }
 
-    /// A window over a file, or none, that keeps its unsaved scenes in `folder` and remembers what `storage` does.
+    /// A window with or without a file, which keeps unsaved scenes in `folder` and has the settings in `storage`.
     pub(crate) fn start(folder: TempDir, file: Option<PathBuf>, storage: Option<&Storage>) -> Self {
         let builder = Harness::builder().with_size(vec2(1500.0, 1800.0));
         Self::built(builder, folder, file, storage)
@@ -130,7 +130,7 @@ impl Window {
         }
     }
 
-    /// The scene's file in a window [`Self::over`] a text.
+    /// The scene file of a window made by [`Self::over`].
     pub(crate) fn path(&self) -> PathBuf {
         self.folder.path().join("scene.toml")
     }
@@ -151,7 +151,7 @@ impl Window {
         self.harness.check_accessibility();
     }
 
-    /// Waits until something that is shown says `words`.
+    /// Waits until some text in the window contains `words`.
     #[track_caller]
     pub(crate) fn until_said(&mut self, words: &str) {
         self.until(words, |window| window.says(words));
@@ -162,12 +162,12 @@ impl Window {
     pub(crate) fn until_preview(&mut self) {
         self.until("a preview", |window| {
             window.says("preview: without contact, not checked")
-                && !window.words_over().contains("before the last edits")
+                && !window.words_over().contains("Out of date")
                 && window.is_at_rest()
         });
     }
 
-    /// Runs the scene, and waits for its verdict.
+    /// Runs the scene and waits for its verdict.
     #[track_caller]
     pub(crate) fn run_scene(&mut self) {
         self.until("the scene is resolved", |window| window.is_enabled("Run"));
@@ -178,16 +178,16 @@ impl Window {
     }
 
     fn is_at_rest(&self) -> bool {
-        !self.says("resolving…") && !self.says("folding a preview…")
+        !self.says("Resolving…") && !self.says("Folding a preview…")
     }
 
-    /// Lets everything settle that was asked for.
+    /// Runs frames until nothing changes any more.
     pub(crate) fn settle(&mut self) {
         let _ = self.harness.try_run();
         self.harness.check_accessibility();
     }
 
-    /// Everything that is shown in words.
+    /// All text in the window.
     pub(crate) fn all_words(&self) -> String {
         let nodes = self.harness.root().children_recursive();
         let words = nodes.filter_map(|node| {
@@ -202,7 +202,7 @@ impl Window {
         words.collect::<Vec<_>>().join("\n")
     }
 
-    /// Whether something that is shown says `words` somewhere.
+    /// Whether some text in the window contains `words`.
     pub(crate) fn says(&self, words: &str) -> bool {
         self.harness
             .query_all_by_label_contains(words)
@@ -210,13 +210,13 @@ impl Window {
             .is_some()
     }
 
-    /// Where something is said.
+    /// The rectangles of texts that contain `words`.
     pub(crate) fn rects_saying<'a>(&'a self, words: &'a str) -> impl Iterator<Item = Rect> + 'a {
         let found = self.harness.query_all_by_label_contains(words);
         found.map(|node| node.rect())
     }
 
-    /// What is said over the view: the motion time, and what the sheet is worth.
+    /// The text over the view: motion time, kind of motion and verdict.
     pub(crate) fn words_over(&self) -> String {
         let found = self.harness.query_all_by_label_contains("t = ");
         let words = found.filter_map(|node| node.value());
@@ -225,12 +225,12 @@ impl Window {
             .collect()
     }
 
-    /// Whether there is a control or text of exactly this name.
+    /// Whether there is a control or text with exactly this name.
     pub(crate) fn has(&self, label: &str) -> bool {
         self.harness.query_all_by_label(label).next().is_some()
     }
 
-    /// Whether the button can be pressed.
+    /// Whether a control is enabled.
     pub(crate) fn is_enabled(&self, label: &str) -> bool {
         let mut found = self.harness.query_all_by_label(label);
         found.any(|node| !node.accesskit_node().is_disabled())
@@ -242,20 +242,20 @@ impl Window {
         self.harness.get_by_label(label).accesskit_node().toggled() == Some(Toggled::True)
     }
 
-    /// Whether the switches of this name are on; buttons of it are none.
+    /// Whether the check boxes with this name are on.
     pub(crate) fn switches(&self, label: &str) -> Vec<bool> {
         let found = self.harness.query_all_by_label(label);
         let found = found.filter_map(|node| node.accesskit_node().toggled());
         found.map(|toggled| toggled == Toggled::True).collect()
     }
 
-    /// What a field or menu shows.
+    /// The value of a field or menu.
     #[track_caller]
     pub(crate) fn value(&self, label: &str) -> String {
         self.harness.get_by_label(label).value().unwrap_or_default()
     }
 
-    /// Motion time, as the timeline has it.
+    /// The motion time of the timeline.
     pub(crate) fn time(&self) -> f64 {
         let bar = self.harness.get_by_label("Motion time");
         bar.accesskit_node().numeric_value().unwrap()
@@ -272,7 +272,7 @@ impl Window {
         self.settle();
     }
 
-    /// Chooses from a menu of the menu bar; `item` is how the entry begins.
+    /// Chooses an entry of a menu; `item` is part of its name.
     #[track_caller]
     pub(crate) fn choose(&mut self, menu: &str, item: &str) {
         let menu = self.harness.get_all_by_label(menu).next();
@@ -294,7 +294,7 @@ impl Window {
         self.settle();
     }
 
-    /// Presses keys and shows one frame, no more.
+    /// Presses keys and runs a single frame.
     pub(crate) fn strike(&mut self, modifiers: Modifiers, key: Key) {
         self.harness.event(Event::Key {
             key,
@@ -310,14 +310,14 @@ impl Window {
         self.press_with(Modifiers::COMMAND, Key::Z);
     }
 
-    /// Types a text in the place of what is in the field, and leaves it.
+    /// Replaces the text of a field and leaves the field.
     #[track_caller]
     pub(crate) fn enter(&mut self, label: &str, text: &str) {
         self.type_into(label, text);
         self.press(Key::Enter);
     }
 
-    /// Types a text in the place of what is in the field, and stays there.
+    /// Replaces the text of a field and stays there.
     #[track_caller]
     pub(crate) fn type_into(&mut self, label: &str, text: &str) {
         self.harness.get_by_label(label).focus();
@@ -332,7 +332,7 @@ impl Window {
         }
     }
 
-    /// Presses a link of these words.
+    /// Clicks a link with this text.
     #[track_caller]
     pub(crate) fn follow_link(&mut self, words: &str) {
         let mut links = self.harness.query_all_by_role_and_label(Role::Link, words);
@@ -344,7 +344,7 @@ impl Window {
         self.settle();
     }
 
-    /// Drags from one place along a way.
+    /// Drags from a position.
     pub(crate) fn drag(&mut self, from: Pos2, way: Vec2) {
         const STEPS: u16 = 4;
         self.harness.hover_at(from);
@@ -360,7 +360,7 @@ impl Window {
         self.settle();
     }
 
-    /// The scene's text, read where it is shown as text.
+    /// The text of the scene, read from the text panel.
     pub(crate) fn text(&mut self) -> String {
         let is_shown = self.has("Scene as text");
         if !is_shown {
@@ -373,7 +373,7 @@ impl Window {
         text
     }
 
-    /// Types a text in the place of the scene's.
+    /// Replaces the text of the scene.
     pub(crate) fn set_text(&mut self, text: &str) {
         let is_shown = self.has("Scene as text");
         if !is_shown {
@@ -390,12 +390,12 @@ impl Window {
         self.system.title()
     }
 
-    /// Whether the window asked for it since it was last asked here.
+    /// Whether the window has sent this command since the last call.
     pub(crate) fn asked_for(&self, command: &ViewportCommand) -> bool {
         self.system.was_asked_for(command)
     }
 
-    /// Hides how long a run took, which is never the same.
+    /// Hides the durations of a run, which always differ.
     pub(crate) fn hide_seconds(&mut self) {
         let rows: Vec<Rect> = ["folded: ", " engine on "]
             .iter()
@@ -406,7 +406,7 @@ impl Window {
         }
     }
 
-    /// Ends the window as a crash would, and starts another over the same unsaved scenes.
+    /// Ends the window as a crash would, and starts another with the same unsaved scenes.
     pub(crate) fn killed(self, file: Option<PathBuf>) -> Self {
         let Self {
             harness, folder, ..

@@ -1,4 +1,4 @@
-//! The scene is edited in the design panel; every edit can be taken back.
+//! The scene is edited in the design panel, and every edit can be undone.
 
 use eframe::egui::{Key, Modifiers, vec2};
 
@@ -30,7 +30,7 @@ fn a_dragged_control_point_changes_the_text_and_the_closed_forms_and_can_be_take
     assert_ne!(closed_forms(&window), before);
     window.undo();
     assert_eq!(window.text(), ARCH, "a drag is one change");
-    assert!(window.says("undone: move point"));
+    assert!(window.says("Undone: move point"));
     assert_eq!(window.title(), "scene.toml — foldmotion");
     window.until_preview();
     assert_eq!(closed_forms(&window), before);
@@ -75,19 +75,19 @@ fn a_bad_value_says_so_under_its_control_and_the_sheet_stays() {
     let mut window = Window::over(SMALL);
     window.until_preview();
     window.enter("width W", "-1");
-    window.until("the fault of the width is shown", |window| {
+    window.until("the error of the width is shown", |window| {
         window.rects_saying("sheet.width").next().is_some()
     });
-    window.until_said("of the scene before the last edits");
+    window.until_said("Out of date: the scene has changed");
     assert!(window.says("preview: without contact, not checked"));
     let below = window.node("width W").rect();
     let next = window.node("rows Nr").rect();
-    let faults: Vec<_> = window.rects_saying("sheet.width").collect();
+    let errors: Vec<_> = window.rects_saying("sheet.width").collect();
     assert!(
-        faults
+        errors
             .iter()
             .any(|rect| rect.top() >= below.bottom() - 1.0 && rect.bottom() <= next.top() + 1.0),
-        "{faults:?} not between {below:?} and {next:?}"
+        "{errors:?} not between {below:?} and {next:?}"
     );
     assert!(!window.is_enabled("Run"));
     window.undo();
@@ -104,7 +104,11 @@ fn an_edit_in_the_panel_waits_for_a_text_without_errors() {
     let broken = SMALL.replace("[motion]", "[motion");
     window.set_text(&broken);
     window.enter("width W", "6.5");
-    assert!(window.says("mend it there first"), "{}", window.all_words());
+    assert!(
+        window.says("Correct it there first"),
+        "{}",
+        window.all_words()
+    );
     assert_eq!(window.text(), broken);
 }
 

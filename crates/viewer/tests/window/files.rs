@@ -1,4 +1,4 @@
-//! Files: saved, opened, changed by others, dropped, remembered.
+//! Files are saved, opened, changed by other programs, dropped and remembered.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -11,7 +11,7 @@ use egui_kittest::kittest::Queryable as _;
 use crate::driver::{ARCH, SMALL, Window};
 use crate::storage::Storage;
 
-/// A window over [`SMALL`] with an edit that is not saved.
+/// A window with [`SMALL`] and an edit that is not saved.
 pub(crate) fn edited() -> (Window, String) {
     let mut window = Window::over(SMALL);
     window.until_preview();
@@ -25,7 +25,7 @@ fn an_edit_is_saved_into_its_file() {
     let (mut window, text) = edited();
     window.press_with(Modifiers::COMMAND, Key::S);
     assert_eq!(fs::read_to_string(window.path()).unwrap(), text);
-    assert!(window.says("saved "));
+    assert!(window.says("Saved "));
     assert_eq!(window.title(), "scene.toml — foldmotion");
     window.undo();
     assert_eq!(window.title(), "• scene.toml — foldmotion");
@@ -43,7 +43,7 @@ fn a_scene_is_saved_under_another_name_and_overwrites_only_when_told_to() {
     assert_eq!(window.title(), "other.toml — foldmotion");
     window.choose("File", "Save as");
     window.enter("Name", "scene.toml");
-    assert!(window.says("scene.toml exists already"));
+    assert!(window.says("scene.toml already exists"));
     window.click("Keep it");
     assert_eq!(fs::read_to_string(window.path()).unwrap(), SMALL);
     window.click("Save");
@@ -69,12 +69,12 @@ fn another_scene_is_opened_through_the_window() {
     fs::write(&other, ARCH).unwrap();
     window.press_with(Modifiers::COMMAND, Key::O);
     window.enter("Name or path", "nothing.toml");
-    assert!(window.says("there is no such file"));
+    assert!(window.says("file not found"));
     window.enter("Name or path", "arch");
     window.until("the other scene", |w| w.title() == "arch.toml — foldmotion");
     window.until_preview();
     assert_eq!(window.text(), ARCH);
-    assert!(!window.says("Undo "));
+    assert!(!window.says("Undo: "));
 }
 
 #[test]
@@ -119,8 +119,8 @@ fn escape_answers_the_question_with_cancel() {
 fn a_file_that_another_program_has_changed_is_not_overwritten_unasked() {
     for (answer, on_disk, title) in [
         ("Cancel", ARCH, "• scene.toml — foldmotion"),
-        ("Read it again", ARCH, "scene.toml — foldmotion"),
-        ("Overwrite it", "", "scene.toml — foldmotion"),
+        ("Reload", ARCH, "scene.toml — foldmotion"),
+        ("Overwrite", "", "scene.toml — foldmotion"),
     ] {
         let (mut window, text) = edited();
         fs::write(window.path(), ARCH).unwrap();
@@ -134,11 +134,7 @@ fn a_file_that_another_program_has_changed_is_not_overwritten_unasked() {
             expected,
             "{answer}"
         );
-        let shown = if answer == "Read it again" {
-            ARCH
-        } else {
-            &text
-        };
+        let shown = if answer == "Reload" { ARCH } else { &text };
         assert_eq!(window.text(), shown, "{answer}");
     }
 }

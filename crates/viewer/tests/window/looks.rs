@@ -1,4 +1,4 @@
-//! How the window looks, and how it is used without a mouse.
+//! The appearance of the window, and its use without a mouse.
 
 use std::collections::BTreeSet;
 
@@ -67,7 +67,7 @@ fn tab_reaches_the_controls() {
         "Run",
         "front",
         "colour",
-        "hand",
+        "by hand",
         "3D view",
         "profile canvas",
         "width W",
@@ -91,7 +91,7 @@ fn help_opens_over_everything_and_closes() {
     assert!(
         window
             .harness
-            .query_by_label("Take the sheet in the hand")
+            .query_by_label("Move the sheet by hand")
             .is_some()
     );
     window.press(Key::Escape);
@@ -102,7 +102,7 @@ fn help_opens_over_everything_and_closes() {
 fn the_smallest_window_has_room_for_the_record_dialog() {
     let mut window = Window::over(SMALL);
     window.run_scene();
-    // As small as the system lets it become.
+    // The smallest size that the system allows.
     window.harness.set_size(vec2(640.0, 420.0));
     window.press(Key::F6);
     window.settle();

@@ -1,4 +1,4 @@
-//! The whole window, driven without a screen: what is asked of it by mouse and keys, and what it shows then.
+//! Tests of the whole window without a screen: mouse and keyboard input, and what is shown after it.
 
 #![expect(
     clippy::unwrap_used,
@@ -9,7 +9,7 @@ mod commands;
 mod driver;
 mod edits;
 mod files;
-mod hand;
+mod interaction;
 mod looks;
 mod openings;
 mod pictures;

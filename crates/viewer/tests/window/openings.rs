@@ -1,4 +1,4 @@
-//! Scenes, crease patterns and motions are opened and shown.
+//! Opening scenes, crease patterns and motions.
 
 use std::sync::Arc;
 
@@ -13,7 +13,7 @@ fn a_scene_shows_its_exact_states_and_then_a_preview() {
     assert!(window.says("t = 0.0000"));
     window.until_preview();
     assert_eq!(window.title(), "one-unit.toml — foldmotion");
-    assert!(window.has("not run yet") && window.says("121 frames"));
+    assert!(window.has("Not run yet") && window.says("121 frames"));
     assert_eq!(window.value("columns Nc"), "1");
 }
 
@@ -25,14 +25,14 @@ fn a_window_without_a_file_shows_a_scene_to_start_from() {
 }
 
 #[test]
-fn the_text_of_a_scene_with_errors_is_mended_and_the_sheet_appears() {
+fn the_text_of_a_scene_with_errors_is_corrected_and_the_sheet_appears() {
     let mut window = Window::over(&SMALL.replace("rows = 4", "rows = four"));
     window.until_said("scene.toml:10");
-    assert!(window.says("no sheet yet"));
+    assert!(window.says("No sheet yet"));
     assert!(window.value("Scene as text").contains("rows = four"));
     window.set_text(SMALL);
     window.until_preview();
-    assert!(!window.says("scene.toml:10") && !window.says("no sheet yet"));
+    assert!(!window.says("scene.toml:10") && !window.says("No sheet yet"));
     assert_eq!(window.title(), "• scene.toml — foldmotion");
 }
 
@@ -58,7 +58,7 @@ fn crease_patterns_open_as_scenes_of_their_own() {
 }
 
 #[test]
-fn a_motion_is_opened_and_judged() {
+fn a_motion_is_opened_and_checked() {
     let folder = tempfile::tempdir().unwrap();
     let text = SMALL.replace("frames = 8", "frames = 8\n[record]\noutputs = [\"fold\"]");
     let source = SceneSource::new(&folder.path().join("small.toml"), text);
@@ -69,7 +69,7 @@ fn a_motion_is_opened_and_judged() {
     let frames = report.path.frames;
     window.until_said(&format!("pairs tested between {frames} frames"));
     assert!(
-        window.has(&report.collision.verdict),
+        window.has(report.collision.verdict.name()),
         "{}",
         window.all_words()
     );
@@ -78,7 +78,7 @@ fn a_motion_is_opened_and_judged() {
         "{}",
         window.title()
     );
-    assert!(window.says("a motion file has no scene to edit"));
+    assert!(window.says("A motion file has no scene to edit"));
     assert!(!window.is_enabled("Run"));
 }
 

@@ -1,11 +1,11 @@
-//! What the window looks like: small pictures, compared with those that were looked at.
+//! Small pictures of the window, compared with reference pictures.
 
 use eframe::egui::{Key, Modifiers, Theme, vec2};
 use egui_kittest::{Harness, SnapshotOptions};
 
 use crate::driver::{SMALL, Window};
 
-/// A window as small as it may be, drawn by the GPU.
+/// A window of a small size, drawn by the GPU.
 fn drawn(theme: Theme, text: &str) -> Window {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("scene.toml");
@@ -18,7 +18,7 @@ fn drawn(theme: Theme, text: &str) -> Window {
     Window::built(builder, folder, Some(path), None)
 }
 
-/// Compares with the picture of that name: edges and shades may differ between drivers, what is drawn may not.
+/// Compares with the reference picture of that name. Edges and shades may differ between drivers.
 fn compare(window: &mut Window, name: &str) {
     window.harness.remove_cursor();
     // The camera comes to rest.

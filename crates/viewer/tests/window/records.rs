@@ -1,4 +1,4 @@
-//! What is seen is recorded.
+//! Recording what is shown.
 
 use std::path::Path;
 
@@ -8,7 +8,7 @@ use foldmotion_study::{SceneSource, Study};
 
 use crate::driver::{SMALL, Window};
 
-/// The files of the same motion that do not depend on the camera, as `foldmotion record` writes them.
+/// Records the same motion as `foldmotion record` does, into files that do not depend on the camera.
 fn recorded(output: OutputChoice, folder: &Path) {
     let source = SceneSource::new(Path::new("scene.toml"), SMALL.to_owned());
     let study = Study::resolve(&source).unwrap();
@@ -36,7 +36,7 @@ fn a_run_is_recorded_as_film_figure_and_model() {
     window.click("figure of states, SVG");
     window.click("3D file with the motion, GLB");
     window.click("Record now");
-    window.until_said("recorded ");
+    window.until_said("Recorded ");
     let mut files: Vec<_> = std::fs::read_dir(&folder)
         .unwrap()
         .map(|entry| entry.unwrap().path())
@@ -62,7 +62,7 @@ fn a_run_is_recorded_as_film_figure_and_model() {
     recorded(OutputChoice::Glb, &other);
     let model = |path: &Path| {
         let glb = std::fs::read(path).unwrap();
-        // The text before the numbers says what was asked for, the camera too.
+        // The text before the numbers contains the settings of the recording, including the camera.
         let text = u32::from_le_bytes(glb[12..16].try_into().unwrap()) as usize;
         assert_eq!(&glb[..4], b"glTF");
         glb[20 + text..].to_vec()
@@ -77,7 +77,7 @@ fn a_preview_is_not_recorded_and_the_way_out_is_shown() {
     let mut window = Window::over(SMALL);
     window.until_preview();
     window.press_with(Modifiers::COMMAND, Key::E);
-    assert!(window.has("a preview is not recorded: run the scene first"));
+    assert!(window.has("A preview cannot be recorded. Run the scene first."));
     assert!(!window.has("Record now"));
     window.click("Run the scene");
     window.until("it can be recorded", |w| w.is_enabled("Record now"));
@@ -106,7 +106,7 @@ fn a_folder_that_cannot_be_written_is_an_error_that_names_it() {
     let file = window.path().join("below-a-file");
     window.enter("folder", &file.display().to_string());
     window.click("Record now");
-    window.until_said("recording failed");
+    window.until_said("The recording failed");
     assert!(window.says("scene.toml"));
 }
 

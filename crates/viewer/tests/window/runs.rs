@@ -1,4 +1,4 @@
-//! Scenes are run in the background, and their verdicts shown.
+//! Scenes are run in the background, and their verdicts are shown.
 
 use std::path::Path;
 
@@ -7,7 +7,7 @@ use foldmotion_study::{Report, SceneSource, Study};
 
 use crate::driver::{PENETRATING, SMALL, Window, scenes};
 
-/// The report of the same scene by the library.
+/// The report of the same scene from the library.
 fn report_of(text: &str) -> Report {
     let source = SceneSource::new(Path::new("scene.toml"), text.to_owned());
     let study = Study::resolve(&source).unwrap();
@@ -33,7 +33,7 @@ fn a_run_shows_the_numbers_that_the_library_computes() {
     let strain = format!("largest strain {:.2e} at", report.stages[0].peak_strain);
     assert!(window.has(&strain), "{strain}");
     assert!(window.says("bar strain, % over motion time"));
-    assert!(!window.says("of the scene before"));
+    assert!(!window.says("ut of date"));
 }
 
 #[test]
@@ -42,13 +42,13 @@ fn a_run_is_followed_and_then_shown_at_its_end() {
     window.until("the scene is resolved", |w| w.is_enabled("Run"));
     window.press(Key::F5);
     assert!(window.has("Cancel") && window.is_on("follow"));
-    window.until_said("states a second");
+    window.until_said("states per second");
     let first = window.words_over();
     window.until("another state", |w| w.words_over() != first);
     window.click("follow");
-    assert!(!window.says("states a second"));
+    assert!(!window.says("states per second"));
     window.click("Cancel");
-    window.until_said("the run was stopped");
+    window.until_said("The run was stopped");
     window.until("it may run again", |w| w.is_enabled("Run"));
     assert!(!window.says("pairs tested"));
 }
@@ -59,9 +59,9 @@ fn escape_cancels_a_run_and_a_second_run_has_to_wait() {
     window.until("the scene is resolved", |w| w.is_enabled("Run"));
     window.press(Key::F5);
     window.press(Key::F5);
-    assert!(window.says("cancel it first"));
+    assert!(window.says("Cancel it first"));
     window.press(Key::Escape);
-    window.until_said("the run was stopped");
+    window.until_said("The run was stopped");
 }
 
 #[test]
@@ -75,16 +75,14 @@ fn an_edit_during_a_run_is_taken_and_the_result_is_marked_until_it_is_undone() {
         w.says("pairs tested between") && !w.has("Cancel")
     });
     assert!(
-        window.says("of the scene before the last edits"),
+        window.says("Out of date: the scene has changed since this run"),
         "{}",
         window.all_words()
     );
     window.until_preview();
-    assert!(window.says("the last run, of the scene before the last edits"));
+    assert!(window.says("Last run (out of date"));
     window.undo();
-    window.until("the run's own scene again", |w| {
-        !w.says("before the last edits")
-    });
+    window.until("the run's own scene again", |w| !w.says("ut of date"));
     let outcome = report_of(SMALL).outcome.headline();
     assert!(
         window.words_over().ends_with(&outcome),
@@ -98,7 +96,7 @@ fn a_run_stays_in_sight_while_an_edit_cannot_be_drawn() {
     let mut window = Window::over(SMALL);
     window.run_scene();
     window.enter("width W", "-1");
-    window.until_said("of the scene before the last edits");
+    window.until_said("Out of date: the scene has changed since this run");
     assert!(window.says("pairs tested between"));
     assert!(!window.says("preview: without contact"));
 }
@@ -108,7 +106,7 @@ fn penetrations_are_shown_and_the_time_of_the_first_is_a_link() {
     let mut window = Window::over(PENETRATING);
     window.run_scene();
     let report = report_of(PENETRATING);
-    assert_eq!(report.collision.verdict, "penetrating");
+    assert_eq!(report.collision.verdict.name(), "penetrating");
     let first = report.collision.first.unwrap();
     assert!(window.says("collides at t = "), "{}", window.all_words());
     window.press(Key::Home);

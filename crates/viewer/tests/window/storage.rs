@@ -1,13 +1,13 @@
-//! What a window remembers, kept in memory.
+//! The settings of a window, kept in memory.
 
 use std::collections::BTreeMap;
 
-/// A storage that the windows of a test share, one after the other.
+/// A storage that successive windows of a test share.
 #[derive(Debug, Default)]
 pub(crate) struct Storage(BTreeMap<String, String>);
 
 impl Storage {
-    /// As it is now, for a window that may live as long as the program.
+    /// A copy of the current state, for a window that may live as long as the program.
     pub(crate) fn shared(&self) -> &'static Self {
         Box::leak(Box::new(Self(self.0.clone())))
     }

@@ -1,15 +1,15 @@
-//! What the window asks of the system, frame by frame.
+//! The commands that the window sends to the system.
 
 use std::sync::{Arc, Mutex};
 
 use eframe::egui::{Context, FullOutput, Plugin, ViewportCommand, ViewportId};
 
-/// Notes what is asked for.
+/// Records the commands.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct System(Arc<Mutex<Vec<ViewportCommand>>>);
 
 impl System {
-    /// The title that was asked for last.
+    /// The last title that was set.
     pub(crate) fn title(&self) -> String {
         let asked = self.0.lock().unwrap();
         let mut titles = asked.iter().filter_map(|command| match command {
@@ -19,7 +19,7 @@ impl System {
         titles.next_back().unwrap_or_default()
     }
 
-    /// Whether it was asked for since this was last asked for.
+    /// Whether the command was sent since the last call.
     pub(crate) fn was_asked_for(&self, command: &ViewportCommand) -> bool {
         let mut asked = self.0.lock().unwrap();
         let before = asked.len();

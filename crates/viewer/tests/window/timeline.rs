@@ -1,10 +1,10 @@
-//! Motion time under the hand.
+//! Changing the motion time.
 
 use eframe::egui::{Key, pos2, vec2};
 
 use crate::driver::{SMALL, Window};
 
-/// Where motion time `t` of 0 to 2 stands on the bar: 64 points of numbers on its left, 18 on its right.
+/// The position of motion time `t` (0 to 2) on the bar, which leaves 64 points on its left and 18 on its right.
 fn place(window: &Window, t: f32) -> eframe::egui::Pos2 {
     let bar = window.node("Motion time").rect();
     let (first, last) = (bar.left() + 64.0, bar.right() - 18.0);
@@ -23,7 +23,7 @@ fn the_bar_is_dragged_to_any_time() {
     let (from, to) = (place(&window, 0.0), place(&window, 1.5));
     window.drag(from, to - from);
     assert!((window.time() - 1.5).abs() < 0.01, "{}", window.time());
-    assert!(window.says("folds, 50 %"));
+    assert!(window.says("folding, 50 %"));
     let said = format!("t = {:.4}", window.time());
     assert!(
         window.words_over().starts_with(&said),
@@ -109,7 +109,7 @@ fn it_plays_at_its_speed_and_ends_as_was_chosen() {
         window.harness.run_steps(steps);
         window.time() - before
     };
-    // A step is a twentieth of a second, a stage four seconds.
+    // A step takes a twentieth of a second, a stage four seconds.
     assert!((seconds(&mut window, 8) - 0.1).abs() < 1e-6);
     window.harness.key_press(Key::Plus);
     window.harness.run_steps(2);

@@ -1,4 +1,4 @@
-//! No edit is lost: when the window is closed, and when it ends without warning.
+//! No edit is lost when the window is closed or crashes.
 
 use std::fs;
 
@@ -19,7 +19,7 @@ fn ask_to_close(window: &mut Window) {
     window.harness.step();
 }
 
-/// A window that comes after one that was killed with an edit, and the text with the edit.
+/// A window that follows one that crashed with an edit, and the text with that edit.
 fn after_a_crash() -> (Window, String) {
     let (mut window, text) = edited();
     window.harness.state_mut().save(&mut Storage::default());
@@ -69,12 +69,12 @@ fn closing_with_edits_asks_and_does_what_is_answered() {
 fn a_window_that_ended_without_warning_offers_its_edits_to_the_next() {
     let (mut window, text) = after_a_crash();
     assert!(
-        window.has("Unsaved edits") && window.says("unsaved changes of scene.toml, a moment ago")
+        window.has("Unsaved edits") && window.says("unsaved changes to scene.toml, a moment ago")
     );
     window.click("Restore");
     assert_eq!(window.title(), "• scene.toml — foldmotion");
     assert_eq!(window.text(), text);
-    // They are kept from the first moment on.
+    // A restored scene is kept immediately.
     let mut window = window.killed(None);
     assert!(window.has("Unsaved edits"));
     window.click("Restore");

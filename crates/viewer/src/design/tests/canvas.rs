@@ -1,21 +1,21 @@
-//! The profile canvas under the hand.
+//! Editing on the profile canvas.
 
 use eframe::egui::{Key, Modifiers, PointerButton, Pos2, vec2};
 use egui_kittest::kittest::Queryable as _;
 use foldmotion_study::models;
 
 use super::super::curve::own_profile;
-use super::bench::{Bench, bench, click, drag, enter};
+use super::test_panel::{TestPanel, bench, click, drag, enter};
 
 const ARCH: &str = "[profile]\ncontrol_points = [[3.0, 0.0], [2.0, 0.0], [2.0, 2.5], [0.0, 3.5], [-2.0, 2.5], [-3.0, 0.0]]\n\
                     [sheet]\nrows = 6\ncolumns = 2\n";
 
-fn points(bench: &Bench) -> Vec<[f64; 2]> {
+fn points(bench: &TestPanel) -> Vec<[f64; 2]> {
     bench.scene.profile.control_points.clone().unwrap()
 }
 
-/// Points of the screen a unit of length.
-fn scale(harness: &egui_kittest::Harness<'static, Bench>) -> f64 {
+/// Points on the screen per unit of length.
+fn scale(harness: &egui_kittest::Harness<'static, TestPanel>) -> f64 {
     let at = |name: &str| harness.get_by_label(name).rect().center();
     let way = at("control point 1") - at("control point 6");
     f64::from(way.x) / 6.0
@@ -69,7 +69,7 @@ fn a_double_click_on_the_polygon_adds_a_control_point_there() {
     assert_eq!(harness.state().labels(), [("add point", false)]);
 }
 
-fn double_click(harness: &mut egui_kittest::Harness<'static, Bench>, at: Pos2) {
+fn double_click(harness: &mut egui_kittest::Harness<'static, TestPanel>, at: Pos2) {
     harness.hover_at(at);
     harness.run();
     for _ in 0..2 {
@@ -130,10 +130,10 @@ fn a_model_is_turned_into_control_points_of_the_same_curve() {
                 model.name
             );
         }
-        let heights = |bench: &Bench| bench.draft.as_ref().unwrap().units().unwrap().units.unit;
+        let heights = |bench: &TestPanel| bench.draft.as_ref().unwrap().units().unwrap().units.unit;
         let unit = heights(harness.state());
         harness.state_mut().redraft();
-        assert_eq!(harness.state().faults, [], "{}", model.name);
+        assert_eq!(harness.state().errors, [], "{}", model.name);
         let again = heights(harness.state());
         assert!(
             (unit.height - again.height).abs() < 1e-9 && (unit.width - again.width).abs() < 1e-9

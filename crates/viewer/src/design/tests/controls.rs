@@ -1,11 +1,11 @@
-//! Fields, menus, sections and what stands beside them.
+//! Fields, menus, sections and error messages.
 
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use foldmotion_study::scene::{CaseChoice, CreasesChoice, EngineChoice, OutputChoice, StageChoice};
 use foldmotion_study::{Scene, SceneSource};
 
-use super::super::Fault;
-use super::bench::{bench, bench_in, bench_of, click, drag, enter, scenes};
+use super::super::SceneError;
+use super::test_panel::{bench, bench_in, bench_of, click, drag, enter, scenes};
 
 const SHELTER: &str =
     "[profile]\nmodel = \"shelter\"\n[sheet]\nwidth = 5.0\ncolumns = 3\ncase = \"S\"\n";
@@ -21,7 +21,7 @@ fn a_typed_width_becomes_the_width_and_an_empty_field_leaves_it_out() {
     let mut harness = bench(SHELTER);
     enter(&mut harness, "width W", "6.25");
     assert_eq!(harness.state().scene.sheet.width, Some(6.25));
-    assert_eq!(harness.state().labels(), [("change the width", false)]);
+    assert_eq!(harness.state().labels(), [("width W", false)]);
     enter(&mut harness, "width W", "");
     assert_eq!(harness.state().scene.sheet.width, None);
 }
@@ -124,15 +124,15 @@ fn the_case_at_hand_stays_enabled_while_it_contradicts() {
 #[test]
 fn a_fault_stands_once_at_its_control_or_else_in_its_section_or_at_the_top() {
     let mut harness = bench(SHELTER);
-    let fault = |key: Option<&str>, message: &str| Fault {
+    let error = |key: Option<&str>, message: &str| SceneError {
         key: key.map(str::to_owned),
         message: message.to_owned(),
     };
-    harness.state_mut().faults = vec![
-        fault(Some("sheet.width"), "too wide"),
-        fault(Some("division"), "not divided"),
-        fault(None, "no such file"),
-        fault(Some("record.fps"), "too fast"),
+    harness.state_mut().errors = vec![
+        error(Some("sheet.width"), "too wide"),
+        error(Some("division"), "not divided"),
+        error(None, "no such file"),
+        error(Some("record.fps"), "too fast"),
     ];
     harness.run();
     let y = |label: &str| harness.get_by_label(label).rect().center().y;
@@ -150,7 +150,7 @@ fn a_fault_that_comes_and_goes_does_not_take_the_focus() {
     let mut harness = bench(SHELTER);
     harness.get_by_label("rows Nr").focus();
     harness.run();
-    harness.state_mut().faults = vec![Fault {
+    harness.state_mut().errors = vec![SceneError {
         key: Some("sheet.width".to_owned()),
         message: "too wide".to_owned(),
     }];
@@ -309,8 +309,8 @@ fn the_rows_of_a_step_are_one_or_a_range_or_all() {
 #[test]
 fn the_closed_forms_of_every_case_that_the_unit_allows_stand_beside_each_other() {
     let harness = bench(SHELTER);
-    // Nr = 7, Nc = 3, W = 5, h = 1: equation 6 gives V = Nc (Nr + 1) / 4 (w - h) h² = 4.
-    // In the table and as the compact box of the draft.
+    // Nr = 7, Nc = 3, W = 5, h = 1: equation 6 gives V = Nc (Nr + 1) / 4 (w - h) h² = 4. The size is shown in the table
+    // and as the compact box of the draft.
     assert_eq!(harness.query_all_by_label("4 × 2 × 0.5").count(), 2);
     assert!(harness.query_by_label("needs w = h").is_some());
     assert!(harness.query_by_label("needs w < h").is_some());

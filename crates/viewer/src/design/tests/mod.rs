@@ -1,7 +1,7 @@
-//! The panel driven headless: controls found by their names, the scene as they leave it.
+//! Tests that drive the panel without a window: they find controls by name and check the scene.
 
-mod bench;
 mod canvas;
 mod controls;
 mod pictures;
 mod scenes;
+mod test_panel;

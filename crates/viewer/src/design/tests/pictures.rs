@@ -1,4 +1,4 @@
-//! The panel drawn, dark and light. FOLDMOTION_PICTURES names a folder in which the pictures are left to be looked at.
+//! Pictures of the panel, dark and light. If FOLDMOTION_PICTURES names a folder, they are saved there to be looked at.
 
 use std::collections::BTreeSet;
 use std::path::Path;
@@ -8,11 +8,11 @@ use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable as _;
 use foldmotion_study::SceneSource;
 
-use super::super::Fault;
-use super::bench::{Bench, bench_of, click, scenes};
+use super::super::SceneError;
+use super::test_panel::{TestPanel, bench_of, click, scenes};
 
-/// Draws the panel; how many colours the picture has.
-fn colours(harness: &mut Harness<'static, Bench>, name: &str) -> usize {
+/// Draws the panel and returns the number of colours in the picture.
+fn colours(harness: &mut Harness<'static, TestPanel>, name: &str) -> usize {
     let picture = harness.render().unwrap();
     if let Ok(folder) = std::env::var("FOLDMOTION_PICTURES") {
         picture
@@ -28,7 +28,7 @@ fn colours(harness: &mut Harness<'static, Bench>, name: &str) -> usize {
 
 #[test]
 #[cfg_attr(not(gpu_tests), ignore = "needs a GPU and FOLDMOTION_GPU_TESTS=yes")]
-fn a_narrow_panel_shows_a_selected_point_the_unit_under_the_pointer_and_faults() {
+fn a_narrow_panel_shows_a_selected_point_the_unit_under_the_pointer_and_errors() {
     let path = scenes().join("omega-sii.toml");
     for (theme, name) in [(Theme::Dark, "dark"), (Theme::Light, "light")] {
         let mut harness = bench_of(&SceneSource::read(&path).unwrap(), theme, 1400.0);
@@ -36,12 +36,12 @@ fn a_narrow_panel_shows_a_selected_point_the_unit_under_the_pointer_and_faults()
         harness.run();
         click(&mut harness, "control point 5");
         let message = "omega.toml:9:9: sheet.width = -4.8: must be a positive, finite number";
-        harness.state_mut().faults = vec![
-            Fault {
+        harness.state_mut().errors = vec![
+            SceneError {
                 key: Some("sheet.width".to_owned()),
                 message: message.to_owned(),
             },
-            Fault {
+            SceneError {
                 key: Some("division".to_owned()),
                 message: "the profile cannot be divided".to_owned(),
             },
@@ -104,7 +104,7 @@ fn the_panel_is_drawn_dark_and_light() {
             for section in ["Material", "Motion", "Record"] {
                 click(&mut harness, section);
             }
-            harness.state_mut().faults = vec![Fault {
+            harness.state_mut().errors = vec![SceneError {
                 key: Some("motion.frames".to_owned()),
                 message: "scene.toml:12:9: motion.frames = 3: must be an even number between 2 and 100000".to_owned(),
             }];

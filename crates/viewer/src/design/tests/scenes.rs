@@ -1,4 +1,4 @@
-//! The panel over every scene that comes with the project.
+//! The panel over every scene in the repository.
 
 use std::path::PathBuf;
 
@@ -6,7 +6,7 @@ use eframe::egui::{Event, Key, Modifiers, PointerButton, Theme, pos2, vec2};
 use egui_kittest::kittest::Queryable as _;
 use foldmotion_study::SceneSource;
 
-use super::bench::{bench_of, drag, scenes};
+use super::test_panel::{bench_of, drag, scenes};
 
 fn all() -> Vec<PathBuf> {
     let files = |folder: PathBuf| {
@@ -56,10 +56,10 @@ fn an_empty_scene_is_shown() {
     assert!(harness.state().draft.is_none());
 }
 
-/// Whole numbers below `below`, the same ones in every run (Marsaglia 2003).
-struct Dice(u32);
+/// A random number generator with a fixed seed (Marsaglia 2003).
+struct Random(u32);
 
-impl Dice {
+impl Random {
     fn below(&mut self, below: u16) -> u16 {
         self.0 ^= self.0 << 13;
         self.0 ^= self.0 >> 17;
@@ -79,7 +79,7 @@ fn a_hand_that_presses_and_types_anywhere_breaks_nothing() {
         Key::Escape,
         Key::Backspace,
     ];
-    let mut dice = Dice(2_463_534_242);
+    let mut dice = Random(2_463_534_242);
     for scene in ["omega-sii", "shelter-unequal", "map-fold", "imported/frame"] {
         let source = SceneSource::read(&scenes().join(scene).with_extension("toml")).unwrap();
         let mut harness = bench_of(&source, Theme::Dark, 2400.0);

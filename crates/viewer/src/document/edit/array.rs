@@ -1,21 +1,22 @@
-//! Lists: elements at either end that stay, stay as they are written.
+//! Edits of arrays: unchanged elements at either end keep their formatting.
 
 use std::ops::Range;
 
-use toml_edit::{Array, ArrayOfTables};
+use toml_edit::Array;
 
-use super::comments::{apart, has_comment, text_of};
+use super::comments::{has_comment, text_of};
 use super::value::Value;
-use super::{Place, literal, table};
 
-/// Which elements change: these of the old list become those of the new one.
-struct Change {
-    old: Range<usize>,
-    new: Range<usize>,
+/// The elements that differ between two lists.
+pub(super) struct ChangedRange {
+    /// Indices of the elements of the old list that change.
+    pub(super) old: Range<usize>,
+    /// Indices of the elements of the new list that they become.
+    pub(super) new: Range<usize>,
 }
 
-impl Change {
-    fn between(old: &[Value], new: &[Value]) -> Self {
+impl ChangedRange {
+    pub(super) fn between(old: &[Value], new: &[Value]) -> Self {
         let shorter = old.len().min(new.len());
         let start = (0..shorter).take_while(|&i| old[i] == new[i]).count();
         let end = (0..shorter - start)
@@ -27,49 +28,23 @@ impl Change {
         }
     }
 
-    /// How many elements are changed in place.
-    fn shared(&self) -> usize {
+    /// The number of elements that are changed in place.
+    pub(super) fn shared(&self) -> usize {
         self.old.len().min(self.new.len())
     }
 
-    /// The elements that come, each with its index.
-    fn inserted<'a>(&self, new: &'a [Value]) -> impl Iterator<Item = (usize, &'a Value)> + use<'a> {
+    /// The elements that are inserted, each with its index.
+    pub(super) fn inserted<'a>(
+        &self,
+        new: &'a [Value],
+    ) -> impl Iterator<Item = (usize, &'a Value)> + use<'a> {
         let start = self.new.start + self.shared();
         (start..).zip(&new[start..self.new.end.max(start)])
     }
 }
 
-/// Changes the elements of a list that says `old`.
-pub(super) fn edit(list: &mut Array, old: &[Value], new: &[Value]) {
-    if list.is_empty() || list.len() != old.len() {
-        let decor = list.decor().clone();
-        if let toml_edit::Value::Array(fresh) = literal::literal(&Value::List(new.to_vec())) {
-            *list = fresh;
-        }
-        *list.decor_mut() = decor;
-        return;
-    }
-    let change = Change::between(old, new);
-    let shared = change.shared();
-    for k in 0..shared {
-        let index = change.old.start + k;
-        if let Some(value) = list.get_mut(index) {
-            table::edit_value(value, Some(&old[index]), &new[index]);
-        }
-    }
-    if change.old.len() != change.new.len() {
-        loosen_end(list);
-    }
-    for _ in shared..change.old.len() {
-        remove(list, change.old.start + shared);
-    }
-    for (index, value) in change.inserted(new) {
-        insert(list, index, literal::literal(value));
-    }
-}
-
-/// Hands the space behind the last element to the list.
-fn loosen_end(list: &mut Array) {
+/// Moves the whitespace after the last element to the end of the list.
+pub(super) fn release_trailing_space(list: &mut Array) {
     if list.trailing_comma() {
         return;
     }
@@ -93,8 +68,8 @@ fn set_prefix(list: &mut Array, index: usize, space: &str) {
     }
 }
 
-/// Removes an element; the one that becomes the first stands where that stood.
-fn remove(list: &mut Array, index: usize) {
+/// Removes an element. If it was the first, the next one takes over the whitespace before it.
+pub(super) fn remove(list: &mut Array, index: usize) {
     let first = (index == 0).then(|| prefix(list, 0)).flatten();
     list.remove(index);
     if let (Some(first), Some(own)) = (first, prefix(list, 0))
@@ -109,8 +84,8 @@ fn remove(list: &mut Array, index: usize) {
     }
 }
 
-/// Inserts an element, spaced as its neighbours are.
-fn insert(list: &mut Array, index: usize, mut value: toml_edit::Value) {
+/// Inserts an element with the spacing of its neighbours.
+pub(super) fn insert(list: &mut Array, index: usize, mut value: toml_edit::Value) {
     let lead = prefix(list, 0).unwrap_or_default();
     let between = match prefix(list, index.saturating_sub(1).max(1)) {
         Some(space) => bare(&space),
@@ -130,59 +105,11 @@ fn insert(list: &mut Array, index: usize, mut value: toml_edit::Value) {
     list.insert_formatted(index, value);
 }
 
-/// The space without its comments.
+/// The whitespace without its comments.
 fn bare(space: &str) -> String {
     if !has_comment(space) {
         return space.to_owned();
     }
     let indent = space.rfind('\n').map_or("", |end| &space[end + 1..]);
     format!("\n{indent}")
-}
-
-/// Changes the tables of a list that says `old`, each under its header.
-pub(super) fn edit_tables(
-    tables: &mut ArrayOfTables,
-    old: &[Value],
-    new: &[Value],
-    place: &mut Place<'_>,
-) {
-    let old = if tables.len() == old.len() { old } else { &[] };
-    if old.is_empty() {
-        let at = tables.get(0).and_then(toml_edit::Table::position);
-        let fresh = new.iter().filter_map(Value::as_table);
-        let fresh = fresh.map(|inner| literal::table(inner, at.unwrap_or(place.position)));
-        *tables = fresh.collect();
-        return;
-    }
-    let change = Change::between(old, new);
-    let shared = change.shared();
-    for k in 0..shared {
-        let index = change.old.start + k;
-        if let (Some(inner), Value::Table(old), Value::Table(new)) =
-            (tables.get_mut(index), &old[index], &new[index])
-        {
-            let mut place = place.within(inner);
-            table::edit(inner, old, new, &mut place);
-        }
-    }
-    for _ in shared..change.old.len() {
-        let removed = tables.remove(change.old.start + shared);
-        keep_above(&removed, place);
-    }
-    for (index, value) in change.inserted(new) {
-        let neighbour = tables.get(index.saturating_sub(1));
-        let at = neighbour.and_then(toml_edit::Table::position);
-        if let Value::Table(inner) = value {
-            tables.insert(index, literal::table(inner, at.unwrap_or(place.position)));
-        }
-    }
-}
-
-/// Keeps the comments above a removed header that do not belong to it.
-pub(super) fn keep_above(removed: &toml_edit::Table, place: &mut Place<'_>) {
-    let above = text_of(removed.decor().prefix());
-    let apart = apart(&above);
-    if has_comment(apart) {
-        place.within(removed).keep(apart.to_owned());
-    }
 }

@@ -1,12 +1,12 @@
-//! Comments whose key or table goes.
+//! Comments whose key or table is removed.
 
 use toml_edit::{DocumentMut, Item, RawString, Table};
 
-/// A comment that has lost what it stood above.
-pub(super) struct Orphan {
-    /// The header it stood under, in the order of headers.
+/// A comment above a key or header that was removed.
+pub(super) struct DetachedComment {
+    /// The position of the header that it stood under, in the order of headers.
     pub(super) position: isize,
-    /// Its lines.
+    /// The lines of the comment.
     pub(super) comment: String,
 }
 
@@ -17,17 +17,17 @@ pub(super) fn text_of(raw: Option<&RawString>) -> String {
         .to_owned()
 }
 
-/// Whether there is a comment in the space around something.
+/// Whether whitespace contains a comment.
 pub(super) fn has_comment(space: &str) -> bool {
     space.contains('#')
 }
 
-/// The part of the space above a header that belongs to what stands before it: up to the last empty line.
+/// The part of the whitespace above a header that belongs to the table before it: up to the last empty line.
 pub(super) fn apart(space: &str) -> &str {
     space.rfind("\n\n").map_or("", |end| &space[..end + 2])
 }
 
-/// What an empty document says, comments only, up to an empty line.
+/// Removes and returns the comments of a document without keys, followed by an empty line.
 pub(super) fn take_all(document: &mut DocumentMut) -> String {
     let all = text_of(Some(document.trailing()));
     document.set_trailing("");
@@ -37,9 +37,9 @@ pub(super) fn take_all(document: &mut DocumentMut) -> String {
     }
 }
 
-/// Puts comments above the header that follows the one they stood under, or at the end.
-pub(super) fn adopt(document: &mut DocumentMut, orphans: Vec<Orphan>) {
-    for Orphan { position, comment } in orphans.into_iter().rev() {
+/// Puts each comment above the header that follows the one it stood under, or at the end of the document.
+pub(super) fn reattach(document: &mut DocumentMut, orphans: Vec<DetachedComment>) {
+    for DetachedComment { position, comment } in orphans.into_iter().rev() {
         let next = next_position(document.as_table(), position);
         if let Some(table) = next.and_then(|next| table_at(document.as_table_mut(), next)) {
             let own = text_of(table.decor().prefix());
@@ -51,7 +51,7 @@ pub(super) fn adopt(document: &mut DocumentMut, orphans: Vec<Orphan>) {
     }
 }
 
-/// The first header after `position`.
+/// The position of the first header after `position`.
 fn next_position(table: &Table, position: isize) -> Option<isize> {
     headers(table)
         .into_iter()
@@ -60,7 +60,7 @@ fn next_position(table: &Table, position: isize) -> Option<isize> {
         .min()
 }
 
-/// The last header at or below an item.
+/// The position of the last header at or below an item.
 pub(super) fn last_position(item: &Item) -> Option<isize> {
     let of_table = |table: &Table| {
         let below = headers(table).into_iter().filter_map(Table::position);
@@ -73,7 +73,7 @@ pub(super) fn last_position(item: &Item) -> Option<isize> {
     }
 }
 
-/// Every table below one.
+/// All tables below a table.
 fn headers(table: &Table) -> Vec<&Table> {
     let mut found = Vec::new();
     for (_, item) in table {
@@ -108,7 +108,7 @@ fn table_at(table: &mut Table, position: isize) -> Option<&mut Table> {
     })
 }
 
-/// Whether a table has its header there; tables that only exist by their parts have none.
+/// Whether a table has its header at this position; implicit tables have none.
 fn is_at(table: &Table, position: isize) -> bool {
     table.position() == Some(position) && !table.is_implicit()
 }

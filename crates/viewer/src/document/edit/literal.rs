@@ -1,10 +1,10 @@
-//! Values as TOML.
+//! Scene values as TOML values.
 
 use toml_edit::{Array, ArrayOfTables, InlineTable, Item, Table};
 
 use super::value::{Keys, Value};
 
-/// Lists of lists longer than this stand one element a line.
+/// A nested list longer than this has one element per line.
 const LONGEST_LINE: usize = 80;
 
 /// A value in its shortest form.
@@ -22,7 +22,7 @@ pub(super) fn literal(value: &Value) -> toml_edit::Value {
     }
 }
 
-/// A value that takes the place of another: a whole number stays one where a fraction could stand.
+/// A value that replaces `before`: if that was an integer, a float without a fraction is written as one.
 pub(super) fn in_place_of(before: &toml_edit::Value, value: &Value) -> toml_edit::Value {
     const EXACT: f64 = 9e15;
     match value {
@@ -35,7 +35,7 @@ pub(super) fn in_place_of(before: &toml_edit::Value, value: &Value) -> toml_edit
     }
 }
 
-/// An item of a table: a list of tables has headers of its own where `headers` are possible.
+/// An item of a table. A list of tables gets `[[headers]]` if `headers` allows them.
 pub(super) fn item(value: &Value, headers: bool, position: isize) -> Item {
     match value {
         Value::List(values) if headers && is_list_of_tables(values) => {
@@ -51,7 +51,7 @@ pub(super) fn is_list_of_tables(values: &[Value]) -> bool {
     !values.is_empty() && values.iter().all(|v| v.as_table().is_some())
 }
 
-/// A table under a header of its own, after an empty line.
+/// A table with its own header, after an empty line.
 pub(super) fn table(values: &Keys, position: isize) -> Table {
     let mut table = Table::new();
     table.set_position(Some(position));
@@ -62,7 +62,7 @@ pub(super) fn table(values: &Keys, position: isize) -> Table {
     table
 }
 
-/// Text on one line: JSON's escapes are TOML's but for DEL.
+/// A string on one line. JSON's escapes are valid in TOML except for DEL.
 fn string(text: &str) -> toml_edit::Value {
     let plain = toml_edit::Value::from(text);
     if !plain.to_string().contains('\n') {
@@ -72,7 +72,7 @@ fn string(text: &str) -> toml_edit::Value {
     line.replace('\u{7f}', "\\u007f").parse().unwrap_or(plain)
 }
 
-/// The shortest text that reads back as the same number.
+/// The shortest text that parses to the same number.
 fn float(number: f64) -> toml_edit::Value {
     if number.is_nan() {
         return number.into();

@@ -1,4 +1,4 @@
-//! An edit of a scene, written into its text: what did not change keeps its bytes, comments and order.
+//! Edits of a scene, written into its text: everything that is unchanged keeps its bytes, comments and order.
 
 mod array;
 mod comments;
@@ -12,14 +12,15 @@ mod tests;
 use foldmotion_study::Scene;
 use toml_edit::DocumentMut;
 
-use comments::Orphan;
+use comments::DetachedComment;
 use value::Keys;
 
-/// The text of `old` with what differs in `new` written into it.
+/// The text of `old`, with the differences to `new` written into it.
 ///
-/// Changed values stand where the old ones stood, with their comments; new keys follow the ones that they follow in a
-/// scene; the comments above a removed key stay, the one beside its value goes with it, as do those of a removed table. None where the text is no TOML.
-/// Whether the result says `new` is the caller's to check: a text that did not say `old` may not.
+/// Changed values keep their position and comments. New keys are placed in the order in which a scene lists its keys.
+/// Comments above a removed key stay; the comment beside its value and those of a removed table are removed with it.
+/// `None` if the text is not valid TOML. The caller must check that the result means `new`, because a text that does
+/// not mean `old` may not.
 pub(super) fn edited(text: &str, old: &Scene, new: &Scene) -> Option<String> {
     let (old, new) = (Keys::of(old)?, Keys::of(new)?);
     if old == new {
@@ -40,16 +41,16 @@ pub(super) fn edited(text: &str, old: &Scene, new: &Scene) -> Option<String> {
         document.as_table_mut(),
         &old,
         &new,
-        &mut Place::root(&mut orphans),
+        &mut EditContext::root(&mut orphans),
     );
-    comments::adopt(&mut document, orphans);
+    comments::reattach(&mut document, orphans);
     let edited = format!("{head}{document}");
-    // A header that has become the first needs no empty line above.
+    // A header that has become the first needs no empty line above it.
     let edited = match edited.strip_prefix('\n') {
         Some(rest) if !body.starts_with(['\n', '\r']) => rest,
         _ => &edited,
     };
-    // The editor writes line feeds only.
+    // toml_edit writes line feeds only.
     Some(if body.contains("\r\n") {
         format!("{mark}{}", edited.replace('\n', "\r\n"))
     } else {
@@ -59,18 +60,18 @@ pub(super) fn edited(text: &str, old: &Scene, new: &Scene) -> Option<String> {
 
 const BYTE_ORDER_MARK: &str = "\u{feff}";
 
-/// Where in the document an edit is.
-struct Place<'a> {
-    /// The place of the header above, in the order of headers.
+/// The position of an edit in the document.
+struct EditContext<'a> {
+    /// The position of the header above, in the order of headers.
     position: isize,
-    /// Whether this is the document itself.
+    /// Whether this is the root table of the document.
     root: bool,
-    /// Comments that have lost what they stood above.
-    orphans: &'a mut Vec<Orphan>,
+    /// Comments whose key or table was removed.
+    orphans: &'a mut Vec<DetachedComment>,
 }
 
-impl<'a> Place<'a> {
-    fn root(orphans: &'a mut Vec<Orphan>) -> Self {
+impl<'a> EditContext<'a> {
+    fn root(orphans: &'a mut Vec<DetachedComment>) -> Self {
         Self {
             position: 0,
             root: true,
@@ -78,17 +79,17 @@ impl<'a> Place<'a> {
         }
     }
 
-    fn within(&mut self, table: &toml_edit::Table) -> Place<'_> {
-        Place {
+    fn within(&mut self, table: &toml_edit::Table) -> EditContext<'_> {
+        EditContext {
             position: table.position().unwrap_or(self.position),
             root: false,
             orphans: self.orphans,
         }
     }
 
-    /// Keeps a comment for whatever follows the header at hand.
-    fn keep(&mut self, comment: String) {
-        self.orphans.push(Orphan {
+    /// Keeps a comment for whatever follows the current header.
+    fn keep_comment(&mut self, comment: String) {
+        self.orphans.push(DetachedComment {
             position: self.position,
             comment,
         });

@@ -1,4 +1,4 @@
-//! Texts of every style, edited to say what other scenes say.
+//! Texts in every style, edited to mean other scenes.
 
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
@@ -18,7 +18,7 @@ fn to(text: &str, new: &Scene) -> String {
     edited(text, &parsed(text), new).unwrap()
 }
 
-/// Edits a text by a closure on its scene.
+/// Edits a text by a closure that changes its scene.
 fn by(text: &str, change: impl FnOnce(&mut Scene)) -> String {
     let mut scene = parsed(text);
     change(&mut scene);
@@ -27,7 +27,7 @@ fn by(text: &str, change: impl FnOnce(&mut Scene)) -> String {
     edited
 }
 
-/// Keys of a scene with values they may have.
+/// Keys of a scene with possible values.
 const CHOICES: &[(&str, &[&str])] = &[
     ("title", &["\"A\"", "\"quote \\\" and é\"", "\"two words\""]),
     ("pattern.file", &["\"miura.svg\"", "\"../a b.fold\""]),
@@ -90,7 +90,7 @@ const CHOICES: &[(&str, &[&str])] = &[
     ("record.thickened", &["true", "0.25"]),
 ];
 
-/// A choice for every key, 0 for none.
+/// A choice of a value for every key; 0 omits the key.
 fn choices() -> impl Strategy<Value = Vec<usize>> {
     let each: Vec<_> = CHOICES.iter().map(|(_, values)| 0..=values.len()).collect();
     each
@@ -116,7 +116,7 @@ fn table_of(choice: &[usize]) -> Table {
     text
 }
 
-/// The ways in which a scene is written.
+/// The styles in which a scene can be written.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Style {
     Headers,
@@ -216,7 +216,7 @@ proptest! {
     }
 }
 
-/// A scene without `[pattern]`, steps and `[record.camera]`, whose headers take their comments with them.
+/// A scene without `[pattern]`, steps and `[record.camera]`, because removing these removes their comments.
 fn without_tables_that_go(mut table: Table) -> Table {
     table.remove("pattern");
     table.insert("title".to_owned(), Value::from("one line"));

@@ -1,4 +1,4 @@
-//! What a scene says, key by key, in the order of a scene.
+//! The keys and values of a scene, in the order of a scene.
 
 use foldmotion_study::Scene;
 use toml_edit::{DocumentMut, Item, TableLike};
@@ -19,7 +19,7 @@ pub(super) enum Value {
 pub(super) struct Keys(Vec<(String, Value)>);
 
 impl Keys {
-    /// The keys that a scene has; no steps are no key.
+    /// The keys of a scene; an empty list of steps is omitted.
     pub(super) fn of(scene: &Scene) -> Option<Self> {
         let text = toml::to_string(scene).ok()?;
         let mut document: DocumentMut = text.parse().ok()?;
@@ -72,7 +72,7 @@ impl Value {
                 Self::List(list.iter().map(Self::of_value).collect::<Option<_>>()?)
             }
             toml_edit::Value::InlineTable(table) => Self::Table(Keys::of_table(table)?),
-            // A scene has no dates.
+            // A scene contains no dates.
             toml_edit::Value::Datetime(_) => return None,
         })
     }

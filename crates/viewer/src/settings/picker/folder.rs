@@ -1,12 +1,12 @@
-//! What is in a folder.
+//! The contents of a folder.
 
 use std::io;
 use std::path::{Path, PathBuf};
 
-/// Entries read at most.
+/// The largest number of entries that are read.
 const MOST: usize = 200_000;
 
-/// A folder, or a file that may be chosen.
+/// A folder, or a file that can be chosen.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Entry {
     pub(super) name: String,
@@ -14,17 +14,17 @@ pub(super) struct Entry {
     pub(super) is_folder: bool,
 }
 
-/// Folders, then files with one of the endings, by name.
+/// The folders, then the files with one of the extensions, sorted by name.
 ///
 /// # Errors
-/// Where the folder cannot be read.
+/// If the folder cannot be read.
 pub(super) fn read(folder: &Path, endings: &[&str], hidden: bool) -> io::Result<Vec<Entry>> {
     let entries = std::fs::read_dir(folder)?.take(MOST);
     let entries = entries.filter_map(Result::ok).filter_map(|entry| {
         let name = entry.file_name().to_string_lossy().into_owned();
         let path = entry.path();
         let kind = entry.file_type().ok()?;
-        // A link is what it leads to.
+        // A symbolic link counts as what it points to.
         let is_folder = kind.is_dir() || (kind.is_symlink() && path.is_dir());
         let shown = hidden || !name.starts_with('.');
         let fits = is_folder || has_ending(&path, endings);
@@ -39,7 +39,7 @@ pub(super) fn read(folder: &Path, endings: &[&str], hidden: bool) -> io::Result<
     Ok(entries)
 }
 
-/// Whether a name ends in one of the endings; in any where there are none.
+/// Whether a path has one of the extensions; true if there are none.
 pub(super) fn has_ending(path: &Path, endings: &[&str]) -> bool {
     let own = path.extension().and_then(|e| e.to_str());
     endings.is_empty()
@@ -48,7 +48,7 @@ pub(super) fn has_ending(path: &Path, endings: &[&str]) -> bool {
             .any(|e| own.is_some_and(|own| own.eq_ignore_ascii_case(e)))
 }
 
-/// A typed path: from the root, from home (`~/`), or from the folder at hand.
+/// The path that was typed: absolute, relative to the home folder (`~/`), or relative to `folder`.
 pub(super) fn resolve(folder: &Path, typed: &str) -> PathBuf {
     let typed = typed.trim();
     if let Some(rest) = typed.strip_prefix('~')
@@ -60,7 +60,7 @@ pub(super) fn resolve(folder: &Path, typed: &str) -> PathBuf {
     folder.join(typed)
 }
 
-/// What is typed, as far as all that begins so goes on alike; none where nothing does.
+/// The typed path, extended by what all entries that begin with it have in common; `None` if there are none.
 pub(super) fn completed(folder: &Path, typed: &str, endings: &[&str]) -> Option<String> {
     let split = typed.rfind(['/', '\\']).map_or(0, |at| at + 1);
     let (way, begun) = typed.split_at(split);

@@ -1,4 +1,5 @@
-//! Choosing a file inside the window.
+//! A file picker inside the window. It is our own because it must work on a bare X server and in headless tests: rfd
+//! needs a desktop portal or GTK on Linux, and egui-file-dialog (0.15) is made for an older egui than ours.
 
 mod folder;
 mod show;
@@ -10,47 +11,44 @@ use std::path::{Path, PathBuf};
 
 use folder::Entry;
 
-/// What became of a picker.
+/// The result of a file picker.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) enum Picked {
-    /// This file was chosen; one to be saved may exist, the user was asked.
+pub(crate) enum PickerResult {
+    /// The chosen file. If it is for saving and exists, the user has agreed to overwrite it.
     File(PathBuf),
-    /// None was.
+    /// The user cancelled.
     Cancelled,
 }
 
-/// A modal in which a file is chosen.
+/// A modal dialog for choosing a file.
 #[derive(Debug)]
-#[expect(
-    clippy::struct_excessive_bools,
-    reason = "what is asked of the next frame is a switch each"
-)]
-pub(crate) struct Picker {
+#[expect(clippy::struct_excessive_bools, reason = "independent flags")]
+pub(crate) struct FilePicker {
     title: String,
-    saves: bool,
+    is_saving: bool,
     endings: Vec<&'static str>,
     folder: PathBuf,
     entries: Vec<Entry>,
-    /// Those of the entries that what is typed leaves.
+    /// Indices of the entries that match the typed text.
     shown: Vec<usize>,
     /// The name or path in the text field.
     typed: String,
-    /// Which of the shown is selected.
+    /// The selected row of the shown entries.
     selected: Option<usize>,
     hidden: bool,
-    /// Folders to go to: home and recent ones.
-    places: Vec<(String, PathBuf)>,
+    /// Named folders to jump to: the home folder and recent folders.
+    bookmarks: Vec<(String, PathBuf)>,
     message: Option<String>,
-    /// The file that exists and may be overwritten.
+    /// The existing file that the user is asked about overwriting.
     overwrites: Option<PathBuf>,
-    /// Whether the list is to be scrolled to the selected entry.
+    /// Whether to scroll the list to the selected entry in the next frame.
     scrolls: bool,
-    /// Whether the text field is to be focused, its cursor at the end.
+    /// Whether to focus the text field in the next frame, with the cursor at the end.
     focuses: bool,
 }
 
-impl Picker {
-    /// Chooses a file to open, among those with one of the endings (without dots).
+impl FilePicker {
+    /// Chooses an existing file with one of the extensions (without dots).
     pub(crate) fn open(
         title: &str,
         endings: &[&'static str],
@@ -60,7 +58,7 @@ impl Picker {
         Self::new(title, endings, folder, recent)
     }
 
-    /// Chooses a file to write; a name without an ending gets the first of them.
+    /// Chooses a file to write; a name without an extension gets the first one.
     pub(crate) fn save(
         title: &str,
         endings: &[&'static str],
@@ -69,7 +67,7 @@ impl Picker {
         recent: &[PathBuf],
     ) -> Self {
         let mut picker = Self::new(title, endings, folder, recent);
-        picker.saves = true;
+        picker.is_saving = true;
         name.clone_into(&mut picker.typed);
         picker
     }
@@ -82,7 +80,7 @@ impl Picker {
         });
         let mut picker = Self {
             title: title.to_owned(),
-            saves: false,
+            is_saving: false,
             endings: endings.to_vec(),
             folder: PathBuf::new(),
             entries: Vec::new(),
@@ -90,7 +88,7 @@ impl Picker {
             typed: String::new(),
             selected: None,
             hidden: false,
-            places: home.into_iter().chain(named).collect(),
+            bookmarks: home.into_iter().chain(named).collect(),
             message: None,
             overwrites: None,
             scrolls: false,
@@ -100,11 +98,11 @@ impl Picker {
         picker
     }
 
-    /// Shows another folder; one that cannot be read is shown empty, with the reason.
+    /// Shows another folder. If it cannot be read, the list is empty and a message says why.
     fn go(&mut self, folder: &Path) {
         let whole = std::path::absolute(folder).unwrap_or_else(|_| folder.to_owned());
         self.folder = whole.canonicalize().unwrap_or(whole);
-        if !self.saves {
+        if !self.is_saving {
             self.typed.clear();
         }
         self.focuses = true;
@@ -126,10 +124,11 @@ impl Picker {
         self.filter();
     }
 
-    /// Leaves those whose name has what is typed in it, while that is no path; what is to be saved leaves all.
+    /// Shows the entries whose name contains the typed text, or all entries if the text is a path or the picker is for
+    /// saving.
     fn filter(&mut self) {
         let typed = self.typed.trim().to_lowercase();
-        let all = self.saves || typed.contains(['/', '\\', '~']);
+        let all = self.is_saving || typed.contains(['/', '\\', '~']);
         let entries = self.entries.iter().enumerate();
         let fitting = entries.filter(|(_, e)| all || e.name.to_lowercase().contains(&typed));
         self.shown = fitting.map(|(index, _)| index).collect();
@@ -150,7 +149,7 @@ impl Picker {
         }
     }
 
-    /// Moves the selection by some rows.
+    /// Moves the selection by a number of rows.
     fn step(&mut self, by: isize) {
         let Some(last) = self.shown.len().checked_sub(1) else {
             return;
@@ -164,11 +163,11 @@ impl Picker {
         self.name_selected();
     }
 
-    /// What is to be saved takes the name of the selected file.
+    /// Copies the name of the selected file into the text field when saving.
     fn name_selected(&mut self) {
         let entry = self.selected.and_then(|row| self.shown.get(row));
         if let Some(entry) = entry.map(|&index| &self.entries[index])
-            && self.saves
+            && self.is_saving
             && !entry.is_folder
         {
             self.typed.clone_from(&entry.name);
@@ -176,7 +175,7 @@ impl Picker {
         }
     }
 
-    /// Completes what is typed as far as it can be told.
+    /// Completes the typed text as far as it is unambiguous.
     fn complete(&mut self) {
         if let Some(completed) = folder::completed(&self.folder, &self.typed, &self.endings) {
             self.typed = completed;
@@ -185,56 +184,56 @@ impl Picker {
         }
     }
 
-    /// Goes into the selected folder, or chooses the selected file; without one, does what is typed.
-    fn enter(&mut self) -> Option<Picked> {
+    /// Opens the selected folder or chooses the selected file; without a selection, uses the typed text.
+    fn enter(&mut self) -> Option<PickerResult> {
         let entry = self.selected.and_then(|row| self.shown.get(row)).copied();
         match entry.map(|index| self.entries[index].clone()) {
             Some(entry) if entry.is_folder => {
                 self.go(&entry.path);
                 None
             }
-            Some(entry) if !self.saves => Some(Picked::File(entry.path)),
+            Some(entry) if !self.is_saving => Some(PickerResult::File(entry.path)),
             _ => self.enter_typed(),
         }
     }
 
-    fn enter_typed(&mut self) -> Option<Picked> {
+    fn enter_typed(&mut self) -> Option<PickerResult> {
         if self.typed.trim().is_empty() {
-            self.message = Some("type a name, or select one".to_owned());
+            self.message = Some("Type a name or select one.".to_owned());
             return None;
         }
         let path = folder::resolve(&self.folder, &self.typed);
         if path.is_dir() {
-            if self.saves {
+            if self.is_saving {
                 self.typed.clear();
             }
             self.go(&path);
             return None;
         }
-        if self.saves {
+        if self.is_saving {
             return self.enter_new(path);
         }
         if path.is_file() {
-            return Some(Picked::File(path));
+            return Some(PickerResult::File(path));
         }
-        self.message = Some(format!("{}: there is no such file", path.display()));
+        self.message = Some(format!("{}: file not found", path.display()));
         None
     }
 
-    /// Chooses a file to be written, or asks first where it exists.
-    fn enter_new(&mut self, mut path: PathBuf) -> Option<Picked> {
+    /// Chooses a file to write, or asks first if it exists.
+    fn enter_new(&mut self, mut path: PathBuf) -> Option<PickerResult> {
         if let (None, Some(ending)) = (path.extension(), self.endings.first()) {
             path.set_extension(ending);
         }
         if !folder::has_ending(&path, &self.endings) {
             let endings = self.endings.join(", .");
-            self.message = Some(format!("the name must end in .{endings}"));
+            self.message = Some(format!("The name must end in .{endings}"));
         } else if !path.parent().is_some_and(Path::is_dir) {
-            self.message = Some(format!("{}: there is no such folder", path.display()));
+            self.message = Some(format!("{}: folder not found", path.display()));
         } else if path.exists() {
             self.overwrites = Some(path);
         } else {
-            return Some(Picked::File(path));
+            return Some(PickerResult::File(path));
         }
         None
     }

@@ -1,4 +1,4 @@
-//! The picker on screen.
+//! The user interface of the file picker.
 
 use eframe::egui::text::CCursorRange;
 use eframe::egui::text_edit::TextEditState;
@@ -7,45 +7,45 @@ use eframe::egui::{
     Ui, text::CCursor,
 };
 
-use super::super::theme::modal_frame;
-use super::{Picked, Picker};
+use super::super::appearance::modal_frame;
+use super::{FilePicker, PickerResult};
 
-/// Crumbs shown of a long path.
-const MOST_CRUMBS: usize = 6;
+/// The largest number of parent folders shown.
+const MOST_BREADCRUMBS: usize = 6;
 
-impl Picker {
-    /// Shows the picker; tells when it is done, after which it is not to be shown again.
-    pub(crate) fn show(&mut self, ctx: &Context) -> Option<Picked> {
+impl FilePicker {
+    /// Shows the picker; returns the result once, after which it must not be shown again.
+    pub(crate) fn show(&mut self, ctx: &Context) -> Option<PickerResult> {
         let room = ctx.content_rect().size();
         let modal = Modal::new(Id::unique("picker")).frame(modal_frame(ctx));
         let modal = modal.show(ctx, |ui| {
             ui.set_width((room.x - 80.0).clamp(240.0, 640.0));
             let picked = self.press_keys(ui);
             ui.heading(&self.title);
-            self.crumbs(ui);
+            self.breadcrumbs(ui);
             ui.separator();
             let height = (room.y - 260.0).clamp(80.0, 380.0);
             let chosen = ui.horizontal_top(|ui| {
-                self.list_places(ui, height);
+                self.list_bookmarks(ui, height);
                 ui.vertical(|ui| self.list(ui, height)).inner
             });
             ui.separator();
-            picked.or(chosen.inner).or(self.foot(ui))
+            picked.or(chosen.inner).or(self.footer(ui))
         });
         if modal.inner.is_some() {
             return modal.inner;
         }
         if modal.should_close() {
-            // Escape answers the question first.
+            // Escape answers the question about overwriting first.
             if self.overwrites.take().is_none() {
-                return Some(Picked::Cancelled);
+                return Some(PickerResult::Cancelled);
             }
         }
         None
     }
 
-    /// Keys that move through the list, unless another control has the focus.
-    fn press_keys(&mut self, ui: &Ui) -> Option<Picked> {
+    /// Handles keys that move through the list, unless another control has the focus.
+    fn press_keys(&mut self, ui: &Ui) -> Option<PickerResult> {
         let focused = ui.memory(Memory::focused);
         if self.overwrites.is_some() || focused.is_some_and(|id| id != text_id()) {
             return None;
@@ -73,11 +73,11 @@ impl Picker {
         }
     }
 
-    /// The folders on the way to this one.
-    fn crumbs(&mut self, ui: &mut Ui) {
+    /// Buttons for the parent folders.
+    fn breadcrumbs(&mut self, ui: &mut Ui) {
         let mut way: Vec<_> = self.folder.ancestors().map(ToOwned::to_owned).collect();
-        let hidden = way.len() > MOST_CRUMBS;
-        way.truncate(MOST_CRUMBS);
+        let hidden = way.len() > MOST_BREADCRUMBS;
+        way.truncate(MOST_BREADCRUMBS);
         ui.horizontal_wrapped(|ui| {
             ui.spacing_mut().item_spacing.x = 3.0;
             if hidden {
@@ -96,12 +96,12 @@ impl Picker {
         });
     }
 
-    /// Home and recent folders.
-    fn list_places(&mut self, ui: &mut Ui, height: f32) {
+    /// The home folder and recent folders.
+    fn list_bookmarks(&mut self, ui: &mut Ui, height: f32) {
         ui.vertical(|ui| {
             ui.set_width(110.0);
             ui.set_height(height);
-            for (name, folder) in self.places.clone() {
+            for (name, folder) in self.bookmarks.clone() {
                 let button = Button::new(&name).frame(false).truncate();
                 let tip = folder.display().to_string();
                 if ui.add(button).on_hover_text(tip).clicked() {
@@ -111,8 +111,8 @@ impl Picker {
         });
     }
 
-    /// Folders and files; only the rows in sight are laid out.
-    fn list(&mut self, ui: &mut Ui, height: f32) -> Option<Picked> {
+    /// The folders and files. Only visible rows are laid out.
+    fn list(&mut self, ui: &mut Ui, height: f32) -> Option<PickerResult> {
         let row = ui
             .text_style_height(&TextStyle::Button)
             .max(ui.spacing().interact_size.y);
@@ -127,7 +127,7 @@ impl Picker {
             scroll = scroll.vertical_scroll_offset(above.min(most).max(0.0));
         }
         if self.shown.is_empty() {
-            ui.weak("nothing to choose here");
+            ui.weak("No matching files");
             return None;
         }
         let mut entered = false;
@@ -155,11 +155,11 @@ impl Picker {
         if entered { self.enter() } else { None }
     }
 
-    /// The text field, what is wrong, and the buttons; or the question whether to overwrite.
-    fn foot(&mut self, ui: &mut Ui) -> Option<Picked> {
+    /// The text field, the error message and the buttons, or the question about overwriting.
+    fn footer(&mut self, ui: &mut Ui) -> Option<PickerResult> {
         if let Some(path) = self.overwrites.clone() {
             let name = path.file_name().unwrap_or_default().to_string_lossy();
-            ui.label(format!("{name} exists already. Overwrite it?"));
+            ui.label(format!("{name} already exists. Overwrite it?"));
             return ui
                 .horizontal(|ui| {
                     if ui.button("Keep it").clicked() {
@@ -167,12 +167,16 @@ impl Picker {
                     }
                     ui.button("Overwrite")
                         .clicked()
-                        .then_some(Picked::File(path))
+                        .then_some(PickerResult::File(path))
                 })
                 .inner;
         }
         ui.horizontal(|ui| {
-            let label = ui.label(if self.saves { "Name" } else { "Name or path" });
+            let label = ui.label(if self.is_saving {
+                "Name"
+            } else {
+                "Name or path"
+            });
             let tabs = !self.typed.is_empty();
             let field = TextEdit::singleline(&mut self.typed)
                 .id(text_id())
@@ -195,9 +199,9 @@ impl Picker {
         self.buttons(ui)
     }
 
-    fn buttons(&mut self, ui: &mut Ui) -> Option<Picked> {
+    fn buttons(&mut self, ui: &mut Ui) -> Option<PickerResult> {
         ui.horizontal(|ui| {
-            let action = if self.saves { "Save" } else { "Open" };
+            let action = if self.is_saving { "Save" } else { "Open" };
             let entered = ui.button(action).clicked();
             let cancelled = ui.button("Cancel").clicked();
             if ui.checkbox(&mut self.hidden, "hidden files").changed() {
@@ -207,7 +211,7 @@ impl Picker {
                 ui.weak(format!(".{}", self.endings.join(" .")));
             }
             if cancelled {
-                Some(Picked::Cancelled)
+                Some(PickerResult::Cancelled)
             } else if entered {
                 self.enter()
             } else {
@@ -222,7 +226,7 @@ fn text_id() -> Id {
     Id::unique("picker text")
 }
 
-/// What was completed is gone on with at its end.
+/// Moves the cursor to the end of the text, after a completion.
 fn put_cursor_last(ui: &Ui, text: &str) {
     let mut state = TextEditState::load(ui.ctx(), text_id()).unwrap_or_default();
     let end = CCursor::new(text.chars().count());

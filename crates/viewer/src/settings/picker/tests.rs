@@ -1,4 +1,4 @@
-//! The picker by keyboard and mouse.
+//! The file picker, driven by keyboard and mouse.
 
 use std::fs;
 use std::path::Path;
@@ -9,27 +9,27 @@ use egui_kittest::kittest::Queryable as _;
 use tempfile::TempDir;
 
 use super::super::tests::drawn;
-use super::super::{Look, apply};
+use super::super::{Appearance, apply};
 use super::*;
 
 struct App {
-    picker: Picker,
-    picked: Option<Picked>,
+    picker: FilePicker,
+    picked: Option<PickerResult>,
 }
 
-fn harness(picker: Picker, look: Look) -> Harness<'static, App> {
+fn harness(picker: FilePicker, appearance: Appearance) -> Harness<'static, App> {
     let app = App {
         picker,
         picked: None,
     };
     let builder = Harness::builder().with_size(vec2(800.0, 600.0));
-    let theme = if look == Look::Light {
+    let theme = if appearance == Appearance::Light {
         Theme::Light
     } else {
         Theme::Dark
     };
     let builder = builder.with_theme(theme).with_step_dt(0.02);
-    let builder = builder.with_context_setup(move |ctx| apply(ctx, look, 1.0));
+    let builder = builder.with_context_setup(move |ctx| apply(ctx, appearance, 1.0));
     let show = |ui: &mut eframe::egui::Ui, app: &mut App| {
         if app.picked.is_none() {
             app.picked = app.picker.show(ui.ctx());
@@ -53,17 +53,17 @@ fn folder() -> TempDir {
     folder
 }
 
-fn open(folder: &Path) -> Picker {
-    Picker::open("Open a scene", &["toml"], folder, &[])
+fn open(folder: &Path) -> FilePicker {
+    FilePicker::open("Open a scene", &["toml"], folder, &[])
 }
 
-fn save(folder: &Path, name: &str) -> Picker {
-    Picker::save("Save the scene", &["toml"], folder, name, &[])
+fn save(folder: &Path, name: &str) -> FilePicker {
+    FilePicker::save("Save the scene", &["toml"], folder, name, &[])
 }
 
 fn file_of(harness: &Harness<'_, App>) -> PathBuf {
     match &harness.state().picked {
-        Some(Picked::File(path)) => path.clone(),
+        Some(PickerResult::File(path)) => path.clone(),
         other => panic!("{other:?} {:?}", harness.state().picker),
     }
 }
@@ -104,7 +104,7 @@ fn folders_come_first_and_only_fitting_files_are_listed() {
 #[test]
 fn arrows_and_enter_go_into_a_folder_and_choose_a_file() {
     let folder = folder();
-    let mut harness = harness(open(folder.path()), Look::Dark);
+    let mut harness = harness(open(folder.path()), Appearance::Dark);
     press(&mut harness, Key::ArrowDown);
     press(&mut harness, Key::Enter);
     assert!(harness.state().picker.folder.ends_with("imported"));
@@ -116,26 +116,26 @@ fn arrows_and_enter_go_into_a_folder_and_choose_a_file() {
 #[test]
 fn backspace_goes_up_and_escape_cancels() {
     let folder = folder();
-    let mut harness = harness(open(&folder.path().join("imported")), Look::Dark);
+    let mut harness = harness(open(&folder.path().join("imported")), Appearance::Dark);
     press(&mut harness, Key::Backspace);
     let picker = &harness.state().picker;
     assert_eq!(picker.folder, folder.path().canonicalize().unwrap());
     assert_eq!(picker.selected, Some(0));
     press(&mut harness, Key::Escape);
-    assert_eq!(harness.state().picked, Some(Picked::Cancelled));
+    assert_eq!(harness.state().picked, Some(PickerResult::Cancelled));
 }
 
 #[test]
 fn typing_narrows_the_list_tab_completes_and_a_wrong_name_says_so() {
     let folder = folder();
-    let mut harness = harness(open(folder.path()), Look::Dark);
+    let mut harness = harness(open(folder.path()), Appearance::Dark);
     typed(&mut harness, "spi");
     assert_eq!(harness.state().picker.shown.len(), 1);
     press(&mut harness, Key::Tab);
     assert_eq!(harness.state().picker.typed, "Spiral.TOML");
     typed(&mut harness, "x");
     press(&mut harness, Key::Enter);
-    harness.get_by_label_contains("there is no such file");
+    harness.get_by_label_contains("file not found");
     press(&mut harness, Key::Backspace);
     press(&mut harness, Key::Enter);
     assert!(file_of(&harness).ends_with("Spiral.TOML"));
@@ -165,7 +165,7 @@ fn a_path_is_completed_step_by_step() {
 #[test]
 fn a_double_click_chooses_and_the_crumbs_go_back() {
     let folder = folder();
-    let mut harness = harness(open(&folder.path().join("imported")), Look::Dark);
+    let mut harness = harness(open(&folder.path().join("imported")), Appearance::Dark);
     let name = folder
         .path()
         .file_name()
@@ -175,7 +175,7 @@ fn a_double_click_chooses_and_the_crumbs_go_back() {
         .to_owned();
     harness.get_by_label(&name).click();
     harness.run();
-    // Long enough that the next click is the first of its own.
+    // Long enough that the next click does not count as a double click.
     harness.run_steps(30);
     for _ in 0..2 {
         harness.get_by_label("shelter.toml").click();
@@ -188,16 +188,16 @@ fn a_double_click_chooses_and_the_crumbs_go_back() {
 #[test]
 fn saving_adds_the_ending_and_asks_before_it_overwrites() {
     let folder = folder();
-    let mut fresh = harness(save(folder.path(), "new"), Look::Dark);
+    let mut fresh = harness(save(folder.path(), "new"), Appearance::Dark);
     press(&mut fresh, Key::Enter);
     assert_eq!(
         file_of(&fresh),
         folder.path().canonicalize().unwrap().join("new.toml")
     );
 
-    let mut harness = harness(save(folder.path(), "shelter.toml"), Look::Dark);
+    let mut harness = harness(save(folder.path(), "shelter.toml"), Appearance::Dark);
     press(&mut harness, Key::Enter);
-    harness.get_by_label("shelter.toml exists already. Overwrite it?");
+    harness.get_by_label("shelter.toml already exists. Overwrite it?");
     press(&mut harness, Key::Escape);
     assert!(harness.state().picked.is_none());
     press(&mut harness, Key::Enter);
@@ -211,10 +211,10 @@ fn saving_refuses_other_endings_and_folders_that_are_not_there() {
     let folder = folder();
     for (name, reason) in [
         ("a.fold", "must end in .toml"),
-        ("no/a", "no such folder"),
-        ("", "type a name"),
+        ("no/a", "folder not found"),
+        ("", "Type a name"),
     ] {
-        let mut harness = harness(save(folder.path(), name), Look::Dark);
+        let mut harness = harness(save(folder.path(), name), Appearance::Dark);
         press(&mut harness, Key::Enter);
         harness.get_by_label_contains(reason);
     }
@@ -223,7 +223,7 @@ fn saving_refuses_other_endings_and_folders_that_are_not_there() {
 #[test]
 fn a_folder_that_cannot_be_read_says_so() {
     let folder = folder();
-    let harness = harness(open(&folder.path().join("gone")), Look::Dark);
+    let harness = harness(open(&folder.path().join("gone")), Appearance::Dark);
     harness.get_by_label_contains("cannot be read");
 }
 
@@ -233,7 +233,7 @@ fn of_ten_thousand_files_only_those_in_sight_are_laid_out() {
     for k in 0..10_000 {
         fs::write(folder.path().join(format!("{k:05}.toml")), "").unwrap();
     }
-    let mut harness = harness(open(folder.path()), Look::Dark);
+    let mut harness = harness(open(folder.path()), Appearance::Dark);
     assert_eq!(harness.state().picker.shown.len(), 10_000);
     let laid_out = harness.get_all_by_label_contains(".toml").count();
     assert!(laid_out < 60, "{laid_out}");
@@ -247,24 +247,28 @@ fn of_ten_thousand_files_only_those_in_sight_are_laid_out() {
 #[cfg_attr(not(gpu_tests), ignore = "no adapter: set FOLDMOTION_GPU_TESTS=yes")]
 fn the_picker_is_drawn_dark_and_light() {
     let folder = folder();
-    for look in [Look::Dark, Look::Light] {
+    for appearance in [Appearance::Dark, Appearance::Light] {
         let recent = [folder.path().join("imported")];
-        let picker = Picker::open(
+        let picker = FilePicker::open(
             "Open a scene",
             &["toml", "fold", "svg"],
             folder.path(),
             &recent,
         );
-        let mut harness = harness(picker, look);
+        let mut harness = harness(picker, appearance);
         press(&mut harness, Key::ArrowDown);
-        drawn(&mut harness, &format!("picker-{}", look.name()), [400, 150]);
-        let mut harness = self::harness(save(folder.path(), "shelter"), look);
+        drawn(
+            &mut harness,
+            &format!("picker-{}", appearance.name()),
+            [400, 150],
+        );
+        let mut harness = self::harness(save(folder.path(), "shelter"), appearance);
         press(&mut harness, Key::Enter);
         let lit = drawn(
             &mut harness,
-            &format!("picker-save-{}", look.name()),
+            &format!("picker-save-{}", appearance.name()),
             [400, 150],
         );
-        assert_eq!(lit < 128, look == Look::Dark, "{lit}");
+        assert_eq!(lit < 128, appearance == Appearance::Dark, "{lit}");
     }
 }

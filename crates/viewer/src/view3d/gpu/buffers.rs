@@ -1,18 +1,18 @@
-//! The sheet in the memory of the GPU. Vertex places and lifts are tables in textures: every device can read these in a
-//! vertex pass.
+//! The sheet in GPU memory. Vertex positions and layer offsets are tables in textures, which every device can read in a
+//! vertex shader.
 
 use eframe::egui_wgpu::wgpu;
 
-/// Cells in a row of a table, as the shader counts them.
+/// Cells in a row of a table, as in the shader.
 const ROW: u32 = 512;
 
-/// A buffer that grows.
+/// A buffer of instance records that grows as needed.
 #[derive(Debug)]
 pub(super) struct Buffer {
     label: &'static str,
     usage: wgpu::BufferUsages,
     held: Option<wgpu::Buffer>,
-    /// Records written.
+    /// Number of records written.
     pub(super) count: u32,
 }
 
@@ -26,7 +26,7 @@ impl Buffer {
         }
     }
 
-    /// Holds `records` from now on.
+    /// Replaces the contents by `records`.
     pub(super) fn write<T: bytemuck::NoUninit>(
         &mut self,
         device: &wgpu::Device,
@@ -52,22 +52,22 @@ impl Buffer {
         self.held = Some(buffer);
     }
 
-    /// What was written, none where that is nothing.
+    /// The buffer; `None` if it is empty.
     pub(super) fn written(&self) -> Option<&wgpu::Buffer> {
         self.held.as_ref().filter(|_| self.count > 0)
     }
 }
 
-/// A list that vertex passes look up.
+/// A table that vertex shaders look up.
 #[derive(Debug)]
-pub(super) struct Table {
+pub(super) struct DataTexture {
     texture: wgpu::Texture,
-    /// Floats a cell.
+    /// Floats per cell.
     width: u32,
 }
 
-impl Table {
-    /// For `count` cells of two floats or four.
+impl DataTexture {
+    /// A table of `count` cells with two or four floats each.
     pub(super) fn new(device: &wgpu::Device, count: usize, width: u32) -> Self {
         let format = match width {
             2 => wgpu::TextureFormat::Rg32Float,
@@ -95,7 +95,7 @@ impl Table {
         self.texture.create_view(&default)
     }
 
-    /// Holds `floats` from now on.
+    /// Replaces the contents by `floats`.
     pub(super) fn write(&self, queue: &wgpu::Queue, mut floats: Vec<f32>) {
         let size = self.texture.size();
         let cells = (size.width * size.height * self.width) as usize;
@@ -112,7 +112,7 @@ impl Table {
         );
     }
 
-    /// Cells that a device of this limit can hold.
+    /// The largest number of cells on a device with these limits.
     pub(super) fn most(limits: &wgpu::Limits) -> usize {
         (limits.max_texture_dimension_2d * ROW) as usize
     }

@@ -1,7 +1,7 @@
-//! The sheet drawn on the GPU, when something changed.
+//! The sheet, drawn on the GPU when something has changed.
 
 mod buffers;
-mod fault;
+mod errors;
 mod pipelines;
 mod target;
 #[cfg(test)]
@@ -12,21 +12,21 @@ use eframe::egui::{Color32, Rgba, TextureId};
 use eframe::egui_wgpu::{RenderState, wgpu};
 use glam::DVec3;
 
-use self::buffers::{Buffer, Table};
-pub(super) use self::fault::Watch;
-use self::fault::caught;
+use self::buffers::{Buffer, DataTexture};
+pub(super) use self::errors::LossMonitor;
+use self::errors::catch_errors;
 use self::pipelines::Pipelines;
-use self::target::{Shelf, Target, drawn_format};
-pub(super) use self::view::View;
+use self::target::{EguiTexture, Target, drawn_format};
+pub(super) use self::view::FrameView;
 use self::view::{VIEW_FLOATS, numbers};
 use super::CreaseClasses;
 use super::paints::{PaintKey, paints};
 use super::picture::Picture;
 use super::segments::{Segment, segments};
 
-/// What the picture was drawn from.
+/// What the picture depends on; it is drawn again when this changes.
 #[derive(Debug, PartialEq, Default)]
-struct Drawn {
+struct PictureKey {
     sheet_key: Option<u64>,
     state_key: Option<u64>,
     creases: Option<CreaseClasses>,
@@ -44,18 +44,18 @@ pub(super) struct Gpu {
     format: wgpu::TextureFormat,
     pipelines: Pipelines,
     uniform: wgpu::Buffer,
-    places: Table,
-    layers: Table,
+    places: DataTexture,
+    layers: DataTexture,
     bind_group: wgpu::BindGroup,
     corners: Buffer,
     paints: Buffer,
     creases: Buffer,
     segments: Buffer,
     target: Option<Target>,
-    shelf: Shelf,
+    egui_texture: EguiTexture,
     origin: DVec3,
-    drawn: Drawn,
-    /// Pictures drawn so far.
+    drawn: PictureKey,
+    /// The number of pictures drawn so far.
     pub(super) count: u64,
 }
 
@@ -69,9 +69,9 @@ impl std::fmt::Debug for Gpu {
 
 impl Gpu {
     /// # Errors
-    /// What the driver or wgpu says.
+    /// The message of the driver or of wgpu.
     pub(super) fn new(state: &RenderState) -> Result<Self, String> {
-        caught(&state.device, || Self::open(state))
+        catch_errors(&state.device, || Self::open(state))
     }
 
     fn open(state: &RenderState) -> Self {
@@ -84,7 +84,10 @@ impl Gpu {
             usage: wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST,
             mapped_at_creation: false,
         });
-        let (places, layers) = (Table::new(&device, 1, 4), Table::new(&device, 1, 2));
+        let (places, layers) = (
+            DataTexture::new(&device, 1, 4),
+            DataTexture::new(&device, 1, 2),
+        );
         let bind_group = bind(&device, &pipelines, &uniform, [&places, &layers]);
         Self {
             format,
@@ -98,38 +101,40 @@ impl Gpu {
             creases: Buffer::instances("creases"),
             segments: Buffer::instances("segments"),
             target: None,
-            shelf: Shelf::new(state),
+            egui_texture: EguiTexture::new(state),
             origin: DVec3::ZERO,
-            drawn: Drawn::default(),
+            drawn: PictureKey::default(),
             count: 0,
             device,
             queue,
         }
     }
 
-    /// The picture, drawn again if it changed.
+    /// Shows the picture, which is drawn again if it has changed.
     ///
     /// # Errors
-    /// What the driver or wgpu says, and where the sheet is too large for the device.
+    /// The message of the driver or of wgpu, or that the sheet is too large for the device.
     pub(super) fn show(
         &mut self,
         picture: &Picture<'_>,
-        view: &View<'_>,
+        view: &FrameView<'_>,
     ) -> Result<TextureId, String> {
         let limits = self.device.limits();
-        let most = Table::most(&limits);
+        let most = DataTexture::most(&limits);
         let largest = picture.positions.len().max(picture.sheet.faces.len());
         if largest > most {
             return Err(format!(
-                "{largest} vertices or triangles: the GPU holds {most}"
+                "{largest} vertices or triangles are too many for the GPU (at most {most})"
             ));
         }
         let device = self.device.clone();
-        caught(&device, || self.follow(picture, view))?;
-        self.shelf.id().ok_or_else(|| "no picture".to_owned())
+        catch_errors(&device, || self.follow(picture, view))?;
+        self.egui_texture
+            .id()
+            .ok_or_else(|| "no picture".to_owned())
     }
 
-    fn follow(&mut self, picture: &Picture<'_>, view: &View<'_>) {
+    fn follow(&mut self, picture: &Picture<'_>, view: &FrameView<'_>) {
         let mut is_new = self.take_sheet(picture);
         is_new |= self.take_state(picture, view);
         is_new |= self.take_paints(picture);
@@ -140,7 +145,7 @@ impl Gpu {
         }
     }
 
-    /// Whether the sheet or its creases changed.
+    /// Updates the sheet and its creases; returns whether they have changed.
     fn take_sheet(&mut self, picture: &Picture<'_>) -> bool {
         let (key, sheet) = (Some(picture.sheet_key), picture.sheet);
         let is_other = self.drawn.sheet_key != key;
@@ -149,8 +154,8 @@ impl Gpu {
             self.drawn.state_key = None;
             self.drawn.creases = None;
             self.drawn.paints = None;
-            self.places = Table::new(&self.device, sheet.vertices.len(), 4);
-            self.layers = Table::new(&self.device, sheet.faces.len(), 2);
+            self.places = DataTexture::new(&self.device, sheet.vertices.len(), 4);
+            self.layers = DataTexture::new(&self.device, sheet.faces.len(), 2);
             let tables = [&self.places, &self.layers];
             self.bind_group = bind(&self.device, &self.pipelines, &self.uniform, tables);
             self.corners.write(&self.device, &self.queue, &sheet.faces);
@@ -164,20 +169,21 @@ impl Gpu {
         is_other || !is_drawn
     }
 
-    fn take_state(&mut self, picture: &Picture<'_>, view: &View<'_>) -> bool {
+    fn take_state(&mut self, picture: &Picture<'_>, view: &FrameView<'_>) -> bool {
         let key = Some(picture.state_key);
         if self.drawn.state_key == key {
             return false;
         }
         self.drawn.state_key = key;
-        self.origin = view.pose.ball.middle;
+        self.origin = view.prepared.sphere.middle;
         let place = |p: &DVec3| {
             let [x, y, z] = (*p - self.origin).as_vec3().to_array();
             [x, y, z, 0.0]
         };
         let places = picture.positions.iter().flat_map(place).collect();
         self.places.write(&self.queue, places);
-        self.layers.write(&self.queue, view.pose.before.concat());
+        self.layers
+            .write(&self.queue, view.prepared.before.concat());
         true
     }
 
@@ -192,7 +198,7 @@ impl Gpu {
         true
     }
 
-    fn take_view(&mut self, picture: &Picture<'_>, view: &View<'_>) -> bool {
+    fn take_view(&mut self, picture: &Picture<'_>, view: &FrameView<'_>) -> bool {
         let segments = segments(picture);
         let numbers = numbers(picture, view, self.origin, !self.format.is_srgb());
         let is_same = self.drawn.segments == segments
@@ -221,7 +227,7 @@ impl Gpu {
             return false;
         }
         let target = Target::new(&self.device, size, self.format);
-        self.shelf.put(&self.device, &target.shown());
+        self.egui_texture.put(&self.device, &target.shown());
         self.target = Some(target);
         true
     }
@@ -272,9 +278,9 @@ fn bind(
     device: &wgpu::Device,
     pipelines: &Pipelines,
     uniform: &wgpu::Buffer,
-    tables: [&Table; 2],
+    tables: [&DataTexture; 2],
 ) -> wgpu::BindGroup {
-    let [places, layers] = tables.map(Table::view);
+    let [places, layers] = tables.map(DataTexture::view);
     let entry = |binding, resource| wgpu::BindGroupEntry { binding, resource };
     device.create_bind_group(&wgpu::BindGroupDescriptor {
         label: Some("sheet"),

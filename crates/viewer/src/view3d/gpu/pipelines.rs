@@ -2,16 +2,16 @@
 
 use eframe::egui_wgpu::wgpu;
 
-/// The shader.
+/// The source text of the shader.
 pub(in super::super) const SOURCE: &str = include_str!("../../../../../shaders/sheet.wgsl");
 
-/// Samples a pixel.
+/// Samples per pixel.
 pub(super) const SAMPLES: u32 = 4;
 
-/// Of depth.
+/// The format of the depth buffer.
 pub(super) const DEPTH: wgpu::TextureFormat = wgpu::TextureFormat::Depth32Float;
 
-/// Vertex buffers by their attributes, one record an instance.
+/// Attributes of the vertex buffers, which have one record per instance.
 pub(in super::super) const CORNERS: [wgpu::VertexAttribute; 1] =
     wgpu::vertex_attr_array![0 => Uint32x3];
 pub(in super::super) const PAINTS: [wgpu::VertexAttribute; 1] =
@@ -21,29 +21,29 @@ pub(in super::super) const CREASES: [wgpu::VertexAttribute; 4] =
 pub(in super::super) const SEGMENTS: [wgpu::VertexAttribute; 4] =
     wgpu::vertex_attr_array![0 => Float32x3, 1 => Float32x3, 2 => Float32x4, 3 => Float32x2];
 
-/// All that draws.
+/// The pipelines and their bindings.
 #[derive(Debug)]
 pub(super) struct Pipelines {
     pub(super) bindings: wgpu::BindGroupLayout,
     pub(super) faces: wgpu::RenderPipeline,
     pub(super) creases: wgpu::RenderPipeline,
     pub(super) overlays: wgpu::RenderPipeline,
-    /// Overlays where paper hides them.
+    /// Overlays where the sheet hides them.
     pub(super) hidden: wgpu::RenderPipeline,
 }
 
-/// What a pipeline draws and how it meets the depth that is there.
+/// What a pipeline draws and how it uses the depth buffer.
 struct Pass<'a> {
     vertex: &'a str,
     fragment: &'a str,
     buffers: &'a [Option<wgpu::VertexBufferLayout<'a>>],
     compare: wgpu::CompareFunction,
-    /// Faces write depth and cover; lines do neither.
+    /// Triangles write depth and cover what is behind them; lines do neither.
     is_solid: bool,
 }
 
 impl Pipelines {
-    /// For pictures of `format`.
+    /// Pipelines for pictures of `format`.
     pub(super) fn new(device: &wgpu::Device, format: wgpu::TextureFormat) -> Self {
         let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {
             label: Some("sheet"),
@@ -69,7 +69,7 @@ impl Pipelines {
                 vertex: "face_vertex",
                 fragment: "face_fragment",
                 buffers: &[Some(buffer(&CORNERS)), Some(buffer(&PAINTS))],
-                // Of two at one depth the first is in front, as in films.
+                // Of two triangles at the same depth the first is in front, as in films.
                 compare: wgpu::CompareFunction::Greater,
                 is_solid: true,
             }),

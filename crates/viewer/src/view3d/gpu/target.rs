@@ -1,4 +1,4 @@
-//! What is drawn into, and the same as egui shows it.
+//! The textures that are drawn into, and the picture as egui shows it.
 
 use std::sync::Arc;
 
@@ -8,11 +8,11 @@ use eframe::egui_wgpu::{RenderState, Renderer, wgpu};
 
 use super::pipelines::{DEPTH, SAMPLES};
 
-/// As egui reads pictures: sRGB as it is.
+/// The format in which egui reads pictures: sRGB values without conversion.
 const SHOWN: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
 
-/// The format that pictures are drawn in: samples are averaged in linear light where the device can see one texture as
-/// two formats.
+/// The format in which pictures are drawn. Samples are averaged in linear light if the device supports views of one
+/// texture in two formats.
 pub(super) fn drawn_format(state: &RenderState) -> wgpu::TextureFormat {
     let flags = state.adapter.get_downlevel_capabilities().flags;
     if flags.contains(wgpu::DownlevelFlags::VIEW_FORMATS) {
@@ -22,7 +22,7 @@ pub(super) fn drawn_format(state: &RenderState) -> wgpu::TextureFormat {
     }
 }
 
-/// Textures of a size.
+/// The textures for one size of the picture.
 pub(super) struct Target {
     pub(super) size: [u32; 2],
     samples: wgpu::TextureView,
@@ -64,7 +64,7 @@ impl Target {
         }
     }
 
-    /// The view that egui shows.
+    /// The view of the picture that egui shows.
     pub(super) fn shown(&self) -> wgpu::TextureView {
         self.picture.create_view(&wgpu::TextureViewDescriptor {
             format: Some(SHOWN),
@@ -72,13 +72,13 @@ impl Target {
         })
     }
 
-    /// What was drawn.
+    /// The picture that was drawn.
     #[cfg(test)]
     pub(super) fn picture(&self) -> &wgpu::Texture {
         &self.picture
     }
 
-    /// Begins to draw on `background`.
+    /// Begins a render pass over `background`.
     pub(super) fn begin<'a>(
         &self,
         encoder: &'a mut wgpu::CommandEncoder,
@@ -108,13 +108,13 @@ impl Target {
     }
 }
 
-/// A place among egui's textures, given back at the end.
-pub(super) struct Shelf {
+/// A texture registered with egui, which is released when this is dropped.
+pub(super) struct EguiTexture {
     renderer: Arc<RwLock<Renderer>>,
     id: Option<TextureId>,
 }
 
-impl Shelf {
+impl EguiTexture {
     pub(super) fn new(state: &RenderState) -> Self {
         Self {
             renderer: Arc::clone(&state.renderer),
@@ -122,7 +122,7 @@ impl Shelf {
         }
     }
 
-    /// Lets egui show `view`.
+    /// Makes egui show `view`.
     pub(super) fn put(&mut self, device: &wgpu::Device, view: &wgpu::TextureView) {
         let mut renderer = self.renderer.write();
         let filter = wgpu::FilterMode::Linear;
@@ -137,7 +137,7 @@ impl Shelf {
     }
 }
 
-impl Drop for Shelf {
+impl Drop for EguiTexture {
     fn drop(&mut self) {
         if let Some(id) = self.id {
             self.renderer.write().free_texture(&id);

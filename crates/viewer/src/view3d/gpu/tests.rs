@@ -1,7 +1,7 @@
-//! The shader by itself, and what it draws against the pictures of films.
+//! Tests of the shader, and of its pictures against those of films.
 //!
 //! Tests that need a GPU are ignored unless FOLDMOTION_GPU_TESTS=yes is set when they are built; Mesa's software Vulkan
-//! will do.
+//! is enough.
 
 use eframe::egui_wgpu::wgpu::naga;
 use eframe::egui_wgpu::{RendererOptions, wgpu};
@@ -10,12 +10,12 @@ use foldmotion_pattern::{Case, LayerOrder, Unit, UnitSheet};
 use foldmotion_record::{Image, Layers, Style, View as Direction, picture as film_picture, png};
 use glam::{DVec2, DVec3};
 
-use super::super::eye::Eye;
-use super::super::pose::Pose;
+use super::super::prepared::PreparedSheet;
+use super::super::projection::Projection;
 use super::pipelines::{CORNERS, CREASES, PAINTS, SEGMENTS, SOURCE};
 use super::*;
 use crate::view3d::picture::{Overlay, Shape};
-use crate::view3d::{Colours, Handle, Orbit};
+use crate::view3d::{Colours, OrbitCamera, VertexPull};
 
 const SIZE: [u32; 2] = [480, 360];
 
@@ -64,7 +64,7 @@ fn the_view_has_the_size_of_the_shader_and_passes_read_what_buffers_hold() {
     assert_eq!(read("hidden_vertex"), held(&[&SEGMENTS]));
 }
 
-/// A sheet of units with all that a picture borrows.
+/// A sheet of units with everything that a picture borrows.
 pub(in super::super) struct Subject {
     pub(in super::super) units: UnitSheet,
     pub(in super::super) order: LayerOrder,
@@ -104,7 +104,7 @@ impl Subject {
             overlays: &[],
             flash: &[],
             pulse: 1.0,
-            handle: None,
+            pull: None,
             can_pull: false,
         }
     }
@@ -114,16 +114,18 @@ pub(in super::super) fn device() -> RenderState {
     create_render_state(default_wgpu_setup(), RendererOptions::PREDICTABLE)
 }
 
-/// Draws `picture` in pixels.
-fn drawn(gpu: &mut Gpu, picture: &Picture<'_>, orbit: &Orbit) -> Image {
-    let pose = Pose::new(picture);
+/// Draws `picture` and returns its pixels.
+fn drawn(gpu: &mut Gpu, picture: &Picture<'_>, orbit: &OrbitCamera) -> Image {
+    let prepared = PreparedSheet::new(picture);
     let size = DVec2::from(SIZE.map(f64::from));
     let lines = segments(picture);
-    let ball = pose.ball.with(lines.iter().flat_map(|line| line.ends));
-    let eye = Eye::new(orbit, size, ball);
-    let view = View {
-        eye: &eye,
-        pose: &pose,
+    let sphere = prepared
+        .sphere
+        .with(lines.iter().flat_map(|line| line.ends));
+    let projection = Projection::new(orbit, size, sphere);
+    let view = FrameView {
+        projection: &projection,
+        prepared: &prepared,
         size: SIZE,
         pixels_per_point: 1.0,
     };
@@ -131,7 +133,7 @@ fn drawn(gpu: &mut Gpu, picture: &Picture<'_>, orbit: &Orbit) -> Image {
     read(gpu)
 }
 
-/// What was drawn last.
+/// The picture that was drawn last.
 fn read(gpu: &Gpu) -> Image {
     let [width, height] = SIZE;
     let row = (4 * width).next_multiple_of(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT);
@@ -172,7 +174,7 @@ fn read(gpu: &Gpu) -> Image {
     }
 }
 
-/// Saves a picture where FOLDMOTION_PICTURES says, to be looked at.
+/// Saves a picture in the folder FOLDMOTION_PICTURES, if it is set, to be looked at.
 pub(in super::super) fn keep(image: &Image, name: &str) {
     if let Ok(folder) = std::env::var("FOLDMOTION_PICTURES") {
         let path = std::path::Path::new(&folder).join(format!("{name}.png"));
@@ -180,7 +182,7 @@ pub(in super::super) fn keep(image: &Image, name: &str) {
     }
 }
 
-/// Front, back or background of a picture without lines.
+/// What a pixel of a picture without lines shows: front, back or background.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Class {
     Front,
@@ -196,7 +198,7 @@ fn class([r, _, b]: [u8; 3]) -> Class {
     }
 }
 
-/// The part of the pixels of `a` and `b` that `differ`.
+/// The fraction of the pixels of `a` and `b` that `differ`.
 fn part(a: &Image, b: &Image, differ: impl Fn([u8; 3], [u8; 3]) -> bool) -> f64 {
     let pairs = a.pixels.iter().zip(&b.pixels);
     let count = pairs.filter(|&(&p, &q)| differ(p, q)).count();
@@ -210,7 +212,7 @@ const CASES: [(Case, f64); 4] = [
     (Case::SII, 1.7),
 ];
 
-/// Views of the compact state from all around, also from below.
+/// Views of the compact state from all sides, also from below.
 fn views() -> Vec<Direction> {
     let mut views = Direction::NAMES.map(|(_, view)| view).to_vec();
     for (azimuth, elevation) in [(130.0, 25.0), (-60.0, -35.0), (20.0, 70.0)] {
@@ -219,14 +221,15 @@ fn views() -> Vec<Direction> {
     views
 }
 
-fn fitted(view: Direction, positions: &[DVec3]) -> Orbit {
-    let mut orbit = Orbit::default();
-    orbit.stand(view, DVec3::ZERO);
+fn fitted(view: Direction, positions: &[DVec3]) -> OrbitCamera {
+    let mut orbit = OrbitCamera::default();
+    orbit.set_view(view, DVec3::ZERO);
     orbit.fit(positions.iter().copied(), DVec2::from(SIZE.map(f64::from)));
     orbit
 }
 
-/// The parts of pixels of the wrong class without lines, and clearly of another colour with lines.
+/// The fraction of pixels of the wrong class in pictures without lines, and of a clearly different colour in pictures
+/// with lines.
 fn apart(
     gpu: &mut Gpu,
     subject: &mut Subject,
@@ -245,7 +248,7 @@ fn apart(
                 film_picture(sheet, positions, &subject.order, &camera, style, SIZE).unwrap();
             let mut picture = subject.picture(positions, key);
             if line_width == 0.0 {
-                // A line of no width is still a hair.
+                // A line of width 0 is still drawn as a hairline.
                 picture.creases = NO_CREASES;
             }
             let window = drawn(gpu, &picture, &orbit);
@@ -297,7 +300,8 @@ fn the_compact_state_shows_the_layers_that_films_show_from_all_around() {
     }
 }
 
-/// Moved to and fro by up to 3e-3, so that layers cross each other as a motion without contact lets them.
+/// Positions displaced by up to 3e-3 in each coordinate, so that layers intersect as they do in a motion without
+/// contact.
 fn crossing(positions: &[DVec3]) -> Vec<DVec3> {
     let moved = |(k, &p): (usize, &DVec3)| {
         let part = |n: usize| (k * 7919 + n * 104_729) % 1000;
@@ -328,15 +332,16 @@ fn a_dot_is_drawn_where_its_place_is_projected_also_in_perspective() {
             }];
             let mut picture = subject.picture(&compact, 1);
             picture.overlays = &dots;
-            let ball = Pose::new(&picture).ball;
-            let at = Eye::new(&orbit, DVec2::from(SIZE.map(f64::from)), ball).project(place);
+            let sphere = PreparedSheet::new(&picture).sphere;
+            let at =
+                Projection::new(&orbit, DVec2::from(SIZE.map(f64::from)), sphere).project(place);
             let image = drawn(&mut gpu, &picture, &orbit);
             assert_eq!(image.pixels[at_pixel(at)], [255, 0, 0], "{place} at {at}");
         }
     }
 }
 
-/// The index of the pixel that holds `at`.
+/// The index of the pixel that contains `at`.
 #[expect(clippy::cast_sign_loss, reason = "points in the picture are positive")]
 fn at_pixel(at: DVec3) -> usize {
     at.y as usize * SIZE[0] as usize + at.x as usize
@@ -400,7 +405,7 @@ fn path(points: &[DVec3]) -> [Overlay<'_>; 1] {
     }]
 }
 
-/// Pixels of the line across the row through the middle, each by how dark it is.
+/// The darkness of the middle row of pixels, summed up.
 fn darkness(image: &Image) -> f64 {
     let row = SIZE[1] / 2;
     let pixels = (0..SIZE[0]).map(|x| image.pixel(x, row));
@@ -425,7 +430,7 @@ fn lines_are_as_wide_however_near_one_looks() {
     };
     let flat = subject.units.sheet.planar();
     let mut picture = subject.picture(&flat, 1);
-    // Only the border, its left side in the middle of the view.
+    // Only the border is drawn, its left side in the middle of the view.
     picture.creases = CreaseClasses {
         border: true,
         ..NO_CREASES
@@ -439,7 +444,7 @@ fn lines_are_as_wide_however_near_one_looks() {
         near.width /= zoom;
         let image = drawn(&mut gpu, &picture, &near);
         keep(&image, &format!("line-{zoom}"));
-        // Paper that reflects less than all is darker to the right of the line.
+        // Paper does not reflect all light, so it adds to the darkness to the right of the line.
         let paper = image.pixel(SIZE[0] - 2, SIZE[1] / 2)[1];
         let dark = darkness(&image) - f64::from(255 - paper) / 255.0 * f64::from(SIZE[0] / 2 - 3);
         widths.push(dark);
@@ -470,10 +475,10 @@ fn overlays_are_drawn_before_paper_and_dimmed_behind_it_and_handles_never() {
             middle + DVec3::new(0.5, 0.0, z),
         ]
     };
-    let colour = |gpu: &mut Gpu, overlays: &[Overlay<'_>], handle| {
+    let colour = |gpu: &mut Gpu, overlays: &[Overlay<'_>], pull| {
         let picture = Picture {
             overlays,
-            handle,
+            pull,
             ..picture
         };
         drawn(gpu, &picture, &orbit).pixel(SIZE[0] / 2, SIZE[1] / 2)
@@ -494,11 +499,11 @@ fn overlays_are_drawn_before_paper_and_dimmed_behind_it_and_handles_never() {
         width: 9.0,
     }];
     assert_eq!(colour(&mut gpu, &dot, None), [255, 0, 0]);
-    let handle = Handle {
+    let pull = VertexPull {
         vertex: 0,
         target: dots[0],
     };
-    assert_eq!(colour(&mut gpu, &[], Some(handle)), subject.style.mark);
+    assert_eq!(colour(&mut gpu, &[], Some(pull)), subject.style.mark);
 }
 
 #[test]
@@ -533,7 +538,7 @@ fn triangles_that_flash_pulse_from_paper_to_the_colour_of_marks() {
 )]
 fn an_error_of_the_driver_is_told_and_not_thrown() {
     let state = device();
-    let caught = caught(&state.device, || {
+    let catch_errors = catch_errors(&state.device, || {
         state.device.create_buffer(&wgpu::BufferDescriptor {
             label: Some("too large"),
             size: 1 << 60,
@@ -541,5 +546,5 @@ fn an_error_of_the_driver_is_told_and_not_thrown() {
             mapped_at_creation: false,
         })
     });
-    assert!(caught.unwrap_err().contains("too large"));
+    assert!(catch_errors.unwrap_err().contains("too large"));
 }

@@ -1,4 +1,4 @@
-//! A panel over a scene that takes every change, as the window does.
+//! A panel over a scene that applies every edit, as the window does.
 
 use std::path::{Path, PathBuf};
 
@@ -7,24 +7,24 @@ use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable as _;
 use foldmotion_study::{Draft, Scene, SceneSource};
 
-use super::super::{Change, DesignPanel, Facts, Fault};
+use super::super::{Change, DesignInput, DesignPanel, SceneError};
 
-/// What the window holds beside the panel.
-pub(super) struct Bench {
+/// The panel with the state that the window keeps for it.
+pub(super) struct TestPanel {
     panel: DesignPanel,
     pub(super) scene: Scene,
     pub(super) draft: Option<Draft>,
     pub(super) draft_number: u64,
-    pub(super) faults: Vec<Fault>,
+    pub(super) errors: Vec<SceneError>,
     pub(super) changes: Vec<Change>,
 }
 
 /// A panel 360 points wide and tall enough to show all of it.
-pub(super) fn bench(text: &str) -> Harness<'static, Bench> {
+pub(super) fn bench(text: &str) -> Harness<'static, TestPanel> {
     bench_in(text, Path::new("test.toml"), egui::Theme::Dark, 2600.0)
 }
 
-/// The scenes that come with the project.
+/// The folder of scenes in the repository.
 pub(super) fn scenes() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes")
 }
@@ -34,7 +34,7 @@ pub(super) fn bench_in(
     path: &Path,
     theme: egui::Theme,
     height: f32,
-) -> Harness<'static, Bench> {
+) -> Harness<'static, TestPanel> {
     bench_of(&SceneSource::new(path, text.to_owned()), theme, height)
 }
 
@@ -42,21 +42,21 @@ pub(super) fn bench_of(
     source: &SceneSource,
     theme: egui::Theme,
     height: f32,
-) -> Harness<'static, Bench> {
-    let state = Bench {
+) -> Harness<'static, TestPanel> {
+    let state = TestPanel {
         panel: DesignPanel::default(),
         scene: source.scene().unwrap(),
         draft: Draft::resolve(source).ok(),
         draft_number: 1,
-        faults: Vec::new(),
+        errors: Vec::new(),
         changes: Vec::new(),
     };
-    let show = |ui: &mut egui::Ui, bench: &mut Bench| {
-        let facts = Facts {
+    let show = |ui: &mut egui::Ui, bench: &mut TestPanel| {
+        let facts = DesignInput {
             scene: &bench.scene,
             draft: bench.draft.as_ref(),
             draft_number: bench.draft_number,
-            faults: &bench.faults,
+            errors: &bench.errors,
         };
         if let Some(change) = bench.panel.show(ui, &facts) {
             bench.scene = change.scene.clone();
@@ -74,16 +74,16 @@ pub(super) fn bench_of(
     harness
 }
 
-impl Bench {
-    /// Makes the draft of the scene as it is, as the window does in the background.
+impl TestPanel {
+    /// Makes a draft of the current scene, as the window does in the background.
     pub(super) fn redraft(&mut self) {
         let text = toml::to_string(&self.scene).unwrap();
         let source = SceneSource::new(Path::new("test.toml"), text);
         self.draft_number += 1;
-        self.faults.clear();
+        self.errors.clear();
         match Draft::resolve(&source) {
             Ok(draft) => self.draft = Some(draft),
-            Err(error) => self.faults.push(Fault {
+            Err(error) => self.errors.push(SceneError {
                 key: error.key().map(str::to_owned),
                 message: error.to_string(),
             }),
@@ -98,14 +98,14 @@ impl Bench {
     }
 }
 
-/// Opens or closes a section, or presses a button.
-pub(super) fn click(harness: &mut Harness<'static, Bench>, label: &str) {
+/// Clicks a button or the header of a section.
+pub(super) fn click(harness: &mut Harness<'static, TestPanel>, label: &str) {
     harness.get_by_label(label).click();
     harness.run();
 }
 
-/// Types a text into the field of that name and leaves it.
-pub(super) fn enter(harness: &mut Harness<'static, Bench>, label: &str, text: &str) {
+/// Types text into the field with this name and leaves the field.
+pub(super) fn enter(harness: &mut Harness<'static, TestPanel>, label: &str, text: &str) {
     harness.get_by_label(label).focus();
     harness.run();
     harness.key_combination_modifiers(egui::Modifiers::COMMAND, &[egui::Key::A]);
@@ -119,9 +119,9 @@ pub(super) fn enter(harness: &mut Harness<'static, Bench>, label: &str, text: &s
     harness.run();
 }
 
-/// Drags from one place to another in `steps` moves.
+/// Drags from a position in `steps` moves.
 pub(super) fn drag(
-    harness: &mut Harness<'static, Bench>,
+    harness: &mut Harness<'static, TestPanel>,
     from: egui::Pos2,
     way: egui::Vec2,
     steps: u16,

@@ -1,4 +1,4 @@
-//! The section of the crease pattern.
+//! The section that shows the crease pattern.
 
 use eframe::egui::{self, Align2, FontId, RichText, Shape, Stroke, Ui};
 use foldmotion_pattern::{Sheet, UnitSheet};
@@ -7,21 +7,21 @@ use glam::DVec2;
 
 use super::creases::{Creases, MOST_EDGES};
 use super::form::{Form, NOTE_SIZE};
-use super::plane::{Plane, View, bounds, canvas};
+use super::plane::{Plane, PlaneView, bounds, canvas};
 
-/// How the pattern is turned: its long side lies across, its front faces the viewer.
+/// How the pattern is rotated so that its long side is horizontal and its front faces the viewer.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-enum Turn {
-    /// As it is: an imported pattern.
+enum Orientation {
+    /// Not rotated, for imported patterns.
     #[default]
     None,
-    /// Rows run to the right.
+    /// Rotated by half a turn: rows run to the right.
     Half,
-    /// Rows run downwards.
+    /// Rotated by a quarter turn: rows run downwards.
     Quarter,
 }
 
-impl Turn {
+impl Orientation {
     fn of(draft: &Draft) -> Self {
         let Draft::Units(draft) = draft else {
             return Self::None;
@@ -48,18 +48,18 @@ impl Turn {
     }
 }
 
-/// What the section remembers.
+/// State of the section that lasts from frame to frame.
 #[derive(Debug, Default)]
-pub(super) struct Preview {
-    view: View,
+pub(super) struct PatternPreview {
+    view: PlaneView,
     creases: Creases,
-    /// The draft whose bounds these are.
+    /// The number of the draft that the bounds belong to.
     of: Option<u64>,
     bounds: [DVec2; 2],
-    turn: Turn,
+    orientation: Orientation,
 }
 
-impl Preview {
+impl PatternPreview {
     pub(super) fn show(&mut self, form: &mut Form<'_>, ui: &mut Ui) {
         form.section(ui, "Crease pattern", true, &[], |form, ui| {
             let Some(draft) = form.draft else {
@@ -68,14 +68,14 @@ impl Preview {
             };
             self.update(form.draft_number, draft);
             self.paint(form, ui, draft);
-            form.part(ui, "pattern buttons", |_, ui| {
+            form.scope(ui, "pattern buttons", |_, ui| {
                 ui.horizontal(|ui| {
                     let [mountain, valley] = super::plane::crease_colours(ui);
                     ui.label(RichText::new("— mountain").size(NOTE_SIZE).color(mountain));
                     ui.label(RichText::new("- - valley").size(NOTE_SIZE).color(valley));
                     let fit = ui
                         .small_button("fit pattern")
-                        .on_hover_text("show the whole pattern");
+                        .on_hover_text("Show the whole pattern");
                     if fit.clicked() {
                         self.view.fit();
                     }
@@ -89,8 +89,12 @@ impl Preview {
             return;
         }
         self.of = Some(draft_number);
-        self.turn = Turn::of(draft);
-        let turned = draft.sheet().vertices.iter().map(|&v| self.turn.apply(v));
+        self.orientation = Orientation::of(draft);
+        let turned = draft
+            .sheet()
+            .vertices
+            .iter()
+            .map(|&v| self.orientation.apply(v));
         self.bounds = bounds(turned);
     }
 
@@ -101,8 +105,8 @@ impl Preview {
         let (response, painter) = canvas(ui, height, "crease pattern");
         let plane = self.view.plane(ui, &response, self.bounds);
         let sheet = draft.sheet();
-        let turn = self.turn;
-        let place = |v| turn.apply(v);
+        let orientation = self.orientation;
+        let place = |v| orientation.apply(v);
         painter.add(
             self.creases
                 .shape(ui, form.draft_number, sheet, &plane, place),
@@ -113,17 +117,17 @@ impl Preview {
             painter.text(
                 at,
                 Align2::CENTER_TOP,
-                "the first creases only",
+                "only the first creases are shown",
                 FontId::proportional(11.0),
                 colour,
             );
         }
         if let Some(at) = response.hover_pos() {
-            let found = found(draft, turn.undo(plane.to_plane(at)));
+            let found = found(draft, orientation.undo(plane.to_plane(at)));
             if let Some((corners, text)) = found {
                 let corners: Vec<_> = corners
                     .iter()
-                    .map(|&c| plane.to_screen(turn.apply(c)))
+                    .map(|&c| plane.to_screen(orientation.apply(c)))
                     .collect();
                 mark(ui, &painter, &plane, corners, &text);
             }
@@ -143,7 +147,7 @@ fn mark(ui: &Ui, painter: &egui::Painter, plane: &Plane, corners: Vec<egui::Pos2
     painter.galley(at, galley, ui.visuals().strong_text_color());
 }
 
-/// The unit or the facet at a point of the pattern: its corners and its name.
+/// The corners and the name of the unit or facet at a point of the pattern.
 fn found(draft: &Draft, at: DVec2) -> Option<(Vec<DVec2>, String)> {
     match draft {
         Draft::Units(draft) => unit_at(&draft.units, at),
@@ -228,11 +232,11 @@ mod tests {
 
     #[test]
     fn turns_are_undone_and_keep_the_front_in_front() {
-        for turn in [Turn::None, Turn::Half, Turn::Quarter] {
+        for orientation in [Orientation::None, Orientation::Half, Orientation::Quarter] {
             let (a, b) = (DVec2::new(1.0, 2.0), DVec2::new(-3.0, 0.5));
-            assert_eq!(turn.undo(turn.apply(a)), a);
-            let turned = turn.apply(a).perp_dot(turn.apply(b));
-            assert!((turned - a.perp_dot(b)).abs() < 1e-12, "{turn:?}");
+            assert_eq!(orientation.undo(orientation.apply(a)), a);
+            let turned = orientation.apply(a).perp_dot(orientation.apply(b));
+            assert!((turned - a.perp_dot(b)).abs() < 1e-12, "{orientation:?}");
         }
     }
 }

@@ -1,43 +1,43 @@
-//! The sheet in the hand.
+//! Moving the sheet by hand.
 
 use eframe::egui::Key;
 
 use crate::driver::{SMALL, Window};
 
 #[test]
-fn a_sheet_in_the_hand_follows_the_timeline_until_it_is_let_go() {
+fn a_sheet_moved_by_hand_follows_the_timeline_until_that_ends() {
     let mut window = Window::over(SMALL);
     window.until_preview();
     window.enter("t", "1.2");
-    window.click("hand");
-    assert!(window.is_on("hand") && window.says("in the hand: drag the timeline"));
+    window.click("by hand");
+    assert!(window.is_on("by hand") && window.says("moved by hand: drag the timeline"));
     window.until("its first state", |w| w.words_over().starts_with("t = 1.2"));
     window.enter("t", "1.6");
     window.until("it has followed", |w| {
-        w.words_over().starts_with("t = 1.6000, in the hand")
+        w.words_over().starts_with("t = 1.6000, moved by hand")
     });
     window.press(Key::H);
-    assert!(!window.is_on("hand"));
+    assert!(!window.is_on("by hand"));
     assert!(window.says("preview: without contact, not checked"));
     assert!(window.words_over().starts_with("t = 1.6000"));
 }
 
 #[test]
-fn escape_lets_the_sheet_go() {
+fn escape_ends_moving_the_sheet_by_hand() {
     let mut window = Window::over(SMALL);
     window.until_preview();
     window.press(Key::H);
-    assert!(window.says("in the hand"));
+    assert!(window.says("moved by hand"));
     window.press(Key::Escape);
-    assert!(!window.says("in the hand") && !window.is_on("hand"));
+    assert!(!window.says("moved by hand") && !window.is_on("by hand"));
 }
 
 #[test]
-fn an_edit_takes_the_new_sheet_and_lets_the_old_one_go() {
+fn an_edit_shows_the_new_sheet_and_ends_moving_the_old_one() {
     let mut window = Window::over(SMALL);
     window.until_preview();
     window.press(Key::H);
     window.enter("columns Nc", "3");
     window.until_preview();
-    assert!(!window.is_on("hand"), "{}", window.words_over());
+    assert!(!window.is_on("by hand"), "{}", window.words_over());
 }

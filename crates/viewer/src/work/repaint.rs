@@ -1,4 +1,4 @@
-//! Waking the window when there is something new to draw.
+//! Requests to repaint the window when there is something new to show.
 
 use std::fmt;
 use std::sync::{Arc, Mutex};
@@ -6,18 +6,18 @@ use std::time::{Duration, Instant};
 
 use super::lock::lock;
 
-/// The shortest time between two calls for what comes often: faster than any screen.
+/// The shortest interval between limited requests: shorter than a frame of any screen.
 const SPACING: Duration = Duration::from_micros(8_333);
 
-/// Wakes the window. Clones share the rate.
+/// Requests a repaint of the window. Clones share the limit.
 #[derive(Clone)]
-pub(crate) struct Wake {
+pub(crate) struct RepaintSignal {
     call: Arc<dyn Fn() + Send + Sync>,
     last: Arc<Mutex<Option<Instant>>>,
 }
 
-impl Wake {
-    /// Wakes by `call`.
+impl RepaintSignal {
+    /// Requests repaints by `call`.
     pub(crate) fn new(call: impl Fn() + Send + Sync + 'static) -> Self {
         Self {
             call: Arc::new(call),
@@ -25,14 +25,15 @@ impl Wake {
         }
     }
 
-    /// Wakes at once.
-    pub(crate) fn now(&self) {
+    /// Requests a repaint.
+    pub(crate) fn send(&self) {
         *lock(&self.last) = Some(Instant::now());
         (self.call)();
     }
 
-    /// Wakes unless it did so less than a hundredth of a second ago: for what comes again soon.
-    pub(crate) fn soon(&self) {
+    /// Requests a repaint unless the last request was less than a hundredth of a second ago. For updates that are
+    /// followed by others soon.
+    pub(crate) fn send_limited(&self) {
         let now = Instant::now();
         let mut last = lock(&self.last);
         if last.is_some_and(|last| now - last < SPACING) {
@@ -44,9 +45,9 @@ impl Wake {
     }
 }
 
-impl fmt::Debug for Wake {
+impl fmt::Debug for RepaintSignal {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct("Wake").finish_non_exhaustive()
+        f.debug_struct("RepaintSignal").finish_non_exhaustive()
     }
 }
 
@@ -60,18 +61,18 @@ mod tests {
     fn what_comes_often_wakes_at_a_bounded_rate_and_what_comes_once_always() {
         let count = Arc::new(AtomicUsize::new(0));
         let counted = Arc::clone(&count);
-        let wake = Wake::new(move || {
+        let repaint = RepaintSignal::new(move || {
             counted.fetch_add(1, Ordering::Relaxed);
         });
         let started = Instant::now();
         for _ in 0..10_000 {
-            wake.clone().soon();
+            repaint.clone().send_limited();
         }
         let most = started.elapsed().as_micros() / SPACING.as_micros() + 1;
         let often = count.load(Ordering::Relaxed);
         assert!((1..=most as usize).contains(&often), "{often} of {most}");
-        wake.now();
-        wake.now();
+        repaint.send();
+        repaint.send();
         assert_eq!(count.load(Ordering::Relaxed), often + 2);
     }
 }

@@ -1,29 +1,29 @@
-//! From what was found out about a motion to the curves under the timeline.
+//! The plots of a motion, from the findings of its check.
 
 use foldmotion_check::FittedBox;
 use foldmotion_pattern::CompactBox;
 use foldmotion_study::FrameFigures;
 
-use crate::timeline::{Curve, Curves, Panel};
+use crate::timeline::{Curve, Plot, Plots};
 
-/// Strain, bending, energy and separation of every frame, and its box against the closed form.
-pub(crate) fn curves(
+/// Strain, bending, energy and separation of every frame, and its box compared with the closed form.
+pub(crate) fn plots_of(
     series: &[FrameFigures],
     boxes: &[FittedBox],
     closed_form: Option<CompactBox>,
     unit: &str,
-) -> Curves {
-    let mut panels = figures(series);
-    panels.extend(box_panels(series, boxes, closed_form, unit));
-    Curves { panels }
+) -> Plots {
+    let mut plots = frame_plots(series);
+    plots.extend(box_plots(series, boxes, closed_form, unit));
+    Plots { plots }
 }
 
-fn figures(series: &[FrameFigures]) -> Vec<Panel> {
+fn frame_plots(series: &[FrameFigures]) -> Vec<Plot> {
     let curve = |name, value: fn(&FrameFigures) -> f64| Curve {
         name,
         points: series.iter().map(|f| [f.time, value(f)]).collect(),
     };
-    let panel = |title: &str, about, is_logarithmic, curves| Panel {
+    let plot = |title: &str, about, is_logarithmic, curves| Plot {
         title: title.to_owned(),
         about,
         is_logarithmic,
@@ -39,46 +39,46 @@ fn figures(series: &[FrameFigures]) -> Vec<Panel> {
         energy.push(curve("contact", |f| f.contact_energy));
     }
     vec![
-        panel(
+        plot(
             "bar strain, %",
-            "|l/l₀ − 1| of all edges: 0 where the sheet folds rigidly",
+            "Strain |l/l₀ − 1| of all edges; 0 if the sheet folds rigidly",
             false,
             vec![
                 curve("largest", |f| 100.0 * f.peak_strain),
                 curve("mean", |f| 100.0 * f.mean_strain),
             ],
         ),
-        panel(
+        plot(
             "facet bending, degrees",
-            "the largest fold angle inside a facet",
+            "Largest fold angle inside a facet",
             false,
             vec![curve("largest", |f| f.peak_bending_deg)],
         ),
-        panel("energy", "in units of EA·h at EA = 1", false, energy),
-        panel(
+        plot("energy", "Energy in units of EA·h at EA = 1", false, energy),
+        plot(
             "separation, h",
-            "the smallest distance of facets that share no vertex",
+            "Smallest distance between facets without a common vertex",
             true,
             vec![curve("smallest", |f| f.separation)],
         ),
     ]
     .into_iter()
-    .filter(Panel::has_values)
+    .filter(Plot::has_values)
     .collect()
 }
 
-fn box_panels(
+fn box_plots(
     series: &[FrameFigures],
     boxes: &[FittedBox],
     closed_form: Option<CompactBox>,
     unit: &str,
-) -> Vec<Panel> {
+) -> Vec<Plot> {
     if boxes.len() != series.len() {
         return Vec::new();
     }
-    let panel = |title: String, about, value: fn(&FittedBox) -> f64, form: Option<f64>| {
+    let plot = |title: String, about, value: fn(&FittedBox) -> f64, form: Option<f64>| {
         let points = series.iter().zip(boxes);
-        Panel {
+        Plot {
             title,
             about,
             is_logarithmic: false,
@@ -90,15 +90,15 @@ fn box_panels(
         }
     };
     vec![
-        panel(
+        plot(
             format!("area x·z, {unit}²"),
-            "of the bounding box, against the area of the compact state in closed form (equations 3 to 7)",
+            "Area of the bounding box, compared with the closed form of the compact state (equations 3 to 7)",
             |b| b.area,
             closed_form.map(|form| form.area),
         ),
-        panel(
+        plot(
             format!("volume, {unit}³"),
-            "of the bounding box, against the volume of the compact state in closed form (equations 3 to 7)",
+            "Volume of the bounding box, compared with the closed form of the compact state (equations 3 to 7)",
             |b| b.volume,
             closed_form.map(|form| form.volume),
         ),

@@ -1,4 +1,4 @@
-//! Errors of the GPU: caught where they arise, none panics.
+//! Errors of the GPU, which are returned as messages instead of causing a panic.
 
 use std::future::Future;
 use std::pin::pin;
@@ -8,20 +8,20 @@ use std::task::{Context, Poll, Waker};
 use eframe::egui::mutex::RwLock;
 use eframe::egui_wgpu::{RenderState, Renderer, wgpu};
 
-/// Letters of a message.
+/// The largest length of a message, characters.
 const LONGEST: usize = 240;
 
-/// Tells whether a device was lost.
-pub(in super::super) struct Watch {
+/// Notices when a device is lost.
+pub(in super::super) struct LossMonitor {
     device: wgpu::Device,
-    /// Tells devices apart: those of two instances may compare as equal.
+    /// Identifies the device, because devices of two instances may compare as equal.
     renderer: Arc<RwLock<Renderer>>,
     lost: Arc<Mutex<Option<String>>>,
 }
 
-impl Watch {
-    /// Watches the device of `state`. A device has one watcher, the last.
-    pub(in super::super) fn over(state: &RenderState) -> Self {
+impl LossMonitor {
+    /// Monitors the device of `state`. A device has one monitor, the last.
+    pub(in super::super) fn new(state: &RenderState) -> Self {
         let lost: Arc<Mutex<Option<String>>> = Arc::default();
         let told = Arc::clone(&lost);
         state
@@ -37,33 +37,36 @@ impl Watch {
         }
     }
 
-    /// Whether it watches the device of `state`.
-    pub(in super::super) fn is_over(&self, state: &RenderState) -> bool {
+    /// Whether it monitors the device of `state`.
+    pub(in super::super) fn monitors(&self, state: &RenderState) -> bool {
         Arc::ptr_eq(&self.renderer, &state.renderer)
     }
 
-    /// Why it was lost, if it was.
+    /// Why the device was lost, if it was.
     pub(in super::super) fn loss(&self) -> Option<String> {
-        // A loss is told when the device is asked, which takes no time. What it answers does not matter here.
+        // The callback runs when the device is polled, which takes no time. The result of polling does not matter here.
         let _ = self.device.poll(wgpu::PollType::Poll);
         let lost = self.lost.lock().unwrap_or_else(PoisonError::into_inner);
         lost.clone()
     }
 }
 
-impl std::fmt::Debug for Watch {
+impl std::fmt::Debug for LossMonitor {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.debug_struct("Watch")
+        f.debug_struct("LossMonitor")
             .field("lost", &self.lost)
             .finish_non_exhaustive()
     }
 }
 
-/// What `work` gives, or the first error that it raises on `device`.
+/// Runs `work`; returns its result, or the first error that it causes on `device`.
 ///
 /// # Errors
-/// The driver's or wgpu's words.
-pub(super) fn caught<T>(device: &wgpu::Device, work: impl FnOnce() -> T) -> Result<T, String> {
+/// The message of the driver or of wgpu.
+pub(super) fn catch_errors<T>(
+    device: &wgpu::Device,
+    work: impl FnOnce() -> T,
+) -> Result<T, String> {
     let memory = device.push_error_scope(wgpu::ErrorFilter::OutOfMemory);
     let inner = device.push_error_scope(wgpu::ErrorFilter::Internal);
     let validation = device.push_error_scope(wgpu::ErrorFilter::Validation);
@@ -75,14 +78,14 @@ pub(super) fn caught<T>(device: &wgpu::Device, work: impl FnOnce() -> T) -> Resu
     }
 }
 
-/// `words` as one short line of plain letters: wgpu underlines code with what few fonts have.
+/// A message as one short line of ASCII words, because wgpu underlines code with characters that few fonts contain.
 fn line(words: &str) -> String {
     let plain = words.split_whitespace().filter(|word| word.is_ascii());
     let line = plain.collect::<Vec<_>>().join(" ");
     line.chars().take(LONGEST).collect()
 }
 
-/// The answer of a future that is ready at once, as those of error scopes are but in browsers.
+/// The result of a future that is ready at once, as those of error scopes are except in browsers.
 fn now<T>(future: impl Future<Output = Option<T>>) -> Option<T> {
     let mut context = Context::from_waker(Waker::noop());
     match pin!(future).poll(&mut context) {

@@ -1,4 +1,4 @@
-//! Control points, and points the curve runs through, under the hand.
+//! Dragging and editing of control points and interpolation points.
 
 use eframe::egui::{
     self, Event, EventFilter, Id, Key, PointerButton, Rect, Response, Sense, Stroke, Ui, Vec2, vec2,
@@ -8,30 +8,30 @@ use glam::DVec2;
 use super::curve::{handles_mut, remove_handle};
 use super::form::Form;
 use super::number::Number;
-use super::plane::{Plane, View, round_step};
+use super::plane::{Plane, PlaneView, round_step};
 
-/// More points than this are drawn by their curve alone.
+/// If a curve has more points than this, only the curve is drawn.
 pub(super) const MOST_HANDLES: usize = 400;
-/// The reach of a point, points of the screen.
+/// Size of the area around a point in which it can be grabbed, points on the screen.
 const REACH: f32 = 16.0;
 
-/// The point that is selected, and the drag under way.
+/// The selected point and the drag in progress.
 #[derive(Debug, Default)]
-pub(super) struct Hand {
+pub(super) struct HandleEditor {
     selected: Option<usize>,
-    /// Where the point was when the drag began.
+    /// The position of the point when the drag began.
     origin: Option<DVec2>,
-    /// Whether the view is held still only for the drag.
+    /// Whether the view is pinned only while the drag lasts.
     holds_view: bool,
 }
 
-/// What was done to a point.
-enum Deed {
+/// A user action on a point.
+enum HandleAction {
     Move(DVec2, bool),
     Remove,
 }
 
-impl Hand {
+impl HandleEditor {
     pub(super) fn select(&mut self, index: usize) {
         self.selected = Some(index);
     }
@@ -40,7 +40,7 @@ impl Hand {
         self.selected = None;
     }
 
-    /// The lines from control point to control point.
+    /// Draws the control polygon.
     pub(super) fn paint_polygon(
         form: &Form<'_>,
         ui: &Ui,
@@ -62,7 +62,7 @@ impl Hand {
         painter.line(line, Stroke::new(1.0, colour));
     }
 
-    /// The points, and what the user did to one of them.
+    /// Shows the points and applies the user's action on one of them.
     pub(super) fn show(
         &mut self,
         form: &mut Form<'_>,
@@ -70,10 +70,10 @@ impl Hand {
         painter: &egui::Painter,
         plane: &Plane,
         points: &[DVec2],
-        view: &mut View,
+        view: &mut PlaneView,
     ) {
         self.selected = self.selected.filter(|&index| index < points.len());
-        let mut deed = None;
+        let mut action = None;
         for (index, &point) in points.iter().enumerate() {
             let id = form.id("point").with(index);
             let place = plane.to_screen(point);
@@ -93,26 +93,26 @@ impl Hand {
                 egui::WidgetInfo::labeled(egui::accesskit::Role::GraphicsObject, true, name)
             });
             self.paint(ui, painter, place, &response, index);
-            if let Some(done) = self.deed(ui, &response, plane, view, index, point) {
-                deed = Some((index, done, id));
+            if let Some(done) = self.action(ui, &response, plane, view, index, point) {
+                action = Some((index, done, id));
             }
         }
-        if let Some((index, deed, id)) = deed {
-            self.apply(form, index, &deed, id);
+        if let Some((index, action, id)) = action {
+            self.apply(form, index, &action, id);
         }
     }
 
-    /// Does to the scene what was done to a point.
-    fn apply(&mut self, form: &mut Form<'_>, index: usize, deed: &Deed, id: Id) {
+    /// Applies an action on a point to the scene.
+    fn apply(&mut self, form: &mut Form<'_>, index: usize, action: &HandleAction, id: Id) {
         let profile = &mut form.scene.profile;
-        match deed {
-            &Deed::Move(point, ongoing) => {
+        match action {
+            &HandleAction::Move(point, ongoing) => {
                 if let Some(moved) = handles_mut(profile).and_then(|p| p.get_mut(index)) {
                     *moved = point.into();
                     form.record("move point", id, ongoing);
                 }
             }
-            Deed::Remove => {
+            HandleAction::Remove => {
                 if remove_handle(profile, index) {
                     self.selected = None;
                     form.record("remove point", id, false);
@@ -145,16 +145,16 @@ impl Hand {
         painter.circle(place, if lively { 5.0 } else { 4.0 }, fill, stroke);
     }
 
-    /// What the user does to one point.
-    fn deed(
+    /// The user's action on a point in this frame.
+    fn action(
         &mut self,
         ui: &Ui,
         response: &Response,
         plane: &Plane,
-        view: &mut View,
+        view: &mut PlaneView,
         index: usize,
         point: DVec2,
-    ) -> Option<Deed> {
+    ) -> Option<HandleAction> {
         if response.clicked() || response.drag_started_by(PointerButton::Primary) {
             self.selected = Some(index);
             response.request_focus();
@@ -165,29 +165,30 @@ impl Hand {
         if response.drag_started_by(PointerButton::Primary) {
             self.origin = Some(point);
             self.holds_view = view.is_fitted();
-            view.keep(plane);
+            view.pin(plane);
         }
         if response.drag_stopped() && std::mem::take(&mut self.holds_view) {
             view.fit();
         }
         if response.secondary_clicked() {
-            return Some(Deed::Remove);
+            return Some(HandleAction::Remove);
         }
         if response.dragged_by(PointerButton::Primary) {
             let way = response.total_drag_delta().unwrap_or(Vec2::ZERO);
             let moved = rounded_on(plane, self.origin.unwrap_or(point) + plane.vector(way));
-            return (moved != point).then_some(Deed::Move(moved, true));
+            return (moved != point).then_some(HandleAction::Move(moved, true));
         }
         if response.has_focus() && self.selected == Some(index) {
-            return keyed(ui, response, plane, point);
+            return key_action(ui, response, plane, point);
         }
         None
     }
 
-    /// The exact place of the selected point.
+    /// Number fields with the coordinates of the selected point.
     pub(super) fn show_fields(&mut self, form: &mut Form<'_>, ui: &mut Ui) {
         let Some(index) = self.selected else {
-            let text = "drag points; double-click adds one, right-click removes it";
+            let text =
+                "Drag points to move them. Double-click adds a point, right-click removes it.";
             ui.add(egui::Label::new(super::form::note(ui, text)).wrap());
             return;
         };
@@ -197,9 +198,9 @@ impl Hand {
         };
         let number =
             Number::within(-1e6..=1e6).speed(round_step((x.abs().max(z.abs()) / 500.0).max(1e-3)));
-        form.part(ui, "selected point", |form, ui| {
+        form.scope(ui, "selected point", |form, ui| {
             ui.horizontal(|ui| {
-                super::form::name(ui, &format!("point {}", index + 1), "the selected point");
+                super::form::name(ui, &format!("point {}", index + 1), "The selected point");
                 let width = ((ui.available_width() - 50.0) / 2.0).max(40.0);
                 let mut place = [x, z];
                 for (axis, name) in ["x", "z"].into_iter().enumerate() {
@@ -220,8 +221,8 @@ impl Hand {
     }
 }
 
-/// A move by arrow keys, ten times as far with shift; Delete and Backspace remove.
-fn keyed(ui: &Ui, response: &Response, plane: &Plane, point: DVec2) -> Option<Deed> {
+/// The action of a key press: arrow keys move the point, ten times as far with Shift; Delete and Backspace remove it.
+fn key_action(ui: &Ui, response: &Response, plane: &Plane, point: DVec2) -> Option<HandleAction> {
     let filter = EventFilter {
         horizontal_arrows: true,
         vertical_arrows: true,
@@ -254,14 +255,14 @@ fn keyed(ui: &Ui, response: &Response, plane: &Plane, point: DVec2) -> Option<De
         }
     });
     if removes {
-        return Some(Deed::Remove);
+        return Some(HandleAction::Remove);
     }
     let moved = (point + way) / step * 1e3;
     let moved = moved.round() / 1e3 * step;
-    (way != DVec2::ZERO).then_some(Deed::Move(moved, true))
+    (way != DVec2::ZERO).then_some(HandleAction::Move(moved, true))
 }
 
-/// A point rounded to a decimal place that the eye cannot tell on the screen.
+/// Rounds a point to a decimal place too small to see on the screen.
 pub(super) fn rounded_on(plane: &Plane, point: DVec2) -> DVec2 {
     super::curve::rounded(point, 2e3 / plane.scale)
 }

@@ -1,4 +1,4 @@
-//! The latest state of a sheet that moves elsewhere.
+//! The latest state of a sheet that moves in the background.
 
 use std::collections::VecDeque;
 use std::sync::{Arc, Mutex};
@@ -8,41 +8,40 @@ use glam::DVec3;
 
 use super::lock::lock;
 
-/// The shortest time between two states that are kept: faster than any screen.
+/// The shortest interval between states that are kept: shorter than a frame of any screen.
 const SPACING: Duration = Duration::from_millis(8);
-/// Over how long states are counted.
+/// The interval over which states are counted.
 const WINDOW: Duration = Duration::from_secs(1);
 
 /// A state of the sheet.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct State {
-    /// Which one it is, from 1.
+pub(crate) struct SheetState {
+    /// The number of the state, from 1.
     pub(crate) serial: u64,
-    /// Its motion time.
+    /// The motion time.
     pub(crate) time: f64,
-    /// One position a vertex, in the sheet's unit.
+    /// One position per vertex, in the sheet's unit.
     pub(crate) positions: Arc<Vec<DVec3>>,
 }
 
-/// Where a worker leaves the sheet's latest state. Clones share it.
+/// Where a worker publishes the latest state of the sheet. Clones share it.
 #[derive(Debug, Clone, Default)]
-pub(crate) struct Live(Arc<Mutex<Inner>>);
+pub(crate) struct StateFeed(Arc<Mutex<Inner>>);
 
 #[derive(Debug, Default)]
 struct Inner {
-    state: Option<State>,
-    /// When the last states came.
+    state: Option<SheetState>,
+    /// When the latest states were published.
     times: VecDeque<Instant>,
 }
 
-impl Live {
-    /// The latest state, if it is another than that of `serial`; 0 for any.
-    pub(crate) fn newer(&self, serial: u64) -> Option<State> {
-        let inner = lock(&self.0);
-        inner.state.clone().filter(|state| state.serial != serial)
+impl StateFeed {
+    /// The latest state, if there is one.
+    pub(crate) fn latest(&self) -> Option<SheetState> {
+        lock(&self.0).state.clone()
     }
 
-    /// How many states came in the last second.
+    /// The number of states in the last second.
     pub(crate) fn rate(&self) -> usize {
         let now = Instant::now();
         let inner = lock(&self.0);
@@ -50,19 +49,19 @@ impl Live {
         recent.count()
     }
 
-    /// Leaves the state in which the sheet comes to rest.
+    /// Publishes the state in which the sheet comes to rest.
     pub(super) fn show_last(&self, time: f64, positions: Vec<DVec3>) {
         self.put(time, positions);
     }
 
-    /// Leaves a state; `positions` are asked for unless one came just before. Answers whether they were.
+    /// Publishes a state unless the last one is too recent; only then are `positions` computed. Returns whether it did.
     pub(super) fn show(&self, time: f64, positions: impl FnOnce() -> Vec<DVec3>) -> bool {
         let now = Instant::now();
         let is_due = |inner: &Inner| inner.times.back().is_none_or(|last| now - *last >= SPACING);
         if !is_due(&lock(&self.0)) {
             return false;
         }
-        // Not under the lock: the window must not wait for a large sheet.
+        // The lock is not held here, so that the window does not wait for a large sheet.
         self.put(time, positions());
         true
     }
@@ -71,7 +70,7 @@ impl Live {
         let now = Instant::now();
         let mut inner = lock(&self.0);
         let serial = inner.state.as_ref().map_or(0, |state| state.serial) + 1;
-        inner.state = Some(State {
+        inner.state = Some(SheetState {
             serial,
             time,
             positions: Arc::new(positions),
@@ -90,17 +89,16 @@ mod tests {
 
     #[test]
     fn states_are_numbered_bounded_in_rate_and_counted() {
-        let live = Live::default();
-        assert!(live.newer(0).is_none() && live.rate() == 0);
+        let states = StateFeed::default();
+        assert!(states.latest().is_none() && states.rate() == 0);
         let started = Instant::now();
         let mut shown = 0_u64;
         while shown < 5 {
-            shown += u64::from(live.show(shown as f64, || vec![DVec3::X]));
+            shown += u64::from(states.show(shown as f64, || vec![DVec3::X]));
         }
         assert!(started.elapsed() >= 4 * SPACING);
-        let state = live.newer(4).unwrap();
+        let state = states.latest().unwrap();
         assert_eq!((state.serial, state.time), (5, 4.0));
-        assert!(live.newer(5).is_none());
-        assert!(live.rate() <= 5);
+        assert!(states.rate() <= 5);
     }
 }

@@ -1,18 +1,18 @@
-//! The projection of a view: lengths to points on the screen and back, and its numbers for the shader.
+//! The projection of a view: from space to the screen and back, and its coefficients for the shader.
 
 use glam::{DVec2, DVec3};
 
-use super::Orbit;
+use super::OrbitCamera;
 
-/// A ball that holds all that is drawn.
+/// A sphere around everything that is drawn.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Ball {
+pub(super) struct Sphere {
     pub(super) middle: DVec3,
     pub(super) radius: f64,
 }
 
-impl Ball {
-    /// The ball about the box around `points`; about the origin where there is none.
+impl Sphere {
+    /// The sphere around the bounding box of `points`; the unit sphere if there are none.
     pub(super) fn around(points: impl IntoIterator<Item = DVec3>) -> Self {
         let (mut low, mut high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
         for point in points {
@@ -29,7 +29,7 @@ impl Ball {
         }
     }
 
-    /// About the same middle, with all `points` in it.
+    /// A sphere with the same centre that contains `points` too.
     pub(super) fn with(self, points: impl IntoIterator<Item = DVec3>) -> Self {
         let distances = points.into_iter().map(|p| (p - self.middle).length());
         let radius = distances
@@ -39,26 +39,27 @@ impl Ball {
     }
 }
 
-/// A view of a size.
+/// The projection of a view of a given size.
 ///
-/// A place at depth d towards the viewer from the centre is divided by w = 1 − d / D, D the distance of the eye (1 / D
-/// = 0 in a parallel view). Its nearness d / w is linear over every plane on the screen and grows with d.
+/// A point at depth d from the centre towards the viewer is divided by w = 1 − d / D, where D is the distance of the
+/// eye (1 / D = 0 in a parallel projection). Its nearness d / w is linear over every plane on the screen and grows with
+/// d.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Eye {
+pub(super) struct Projection {
     axes: [DVec3; 3],
     centre: DVec3,
-    /// Points on the screen a length, at the depth of the centre.
+    /// Points on the screen per unit of length, at the depth of the centre.
     scale: f64,
     size: DVec2,
-    /// 1 / D.
+    /// 1 / D, zero in a parallel projection.
     inverse_distance: f64,
-    ball: Ball,
+    sphere: Sphere,
 }
 
-impl Eye {
-    /// `size`: of the view in points.
-    pub(super) fn new(orbit: &Orbit, size: DVec2, ball: Ball) -> Self {
-        let distance = orbit.eye_distance(ball.middle, ball.radius);
+impl Projection {
+    /// `size` is the size of the view in points.
+    pub(super) fn new(orbit: &OrbitCamera, size: DVec2, sphere: Sphere) -> Self {
+        let distance = orbit.eye_distance(sphere.middle, sphere.radius);
         Self {
             axes: orbit.axes(),
             centre: orbit.centre,
@@ -69,11 +70,11 @@ impl Eye {
             } else {
                 0.0
             },
-            ball,
+            sphere,
         }
     }
 
-    /// Points to the right and down from the upper left corner, and the nearness.
+    /// The position on the screen, in points right and down from the upper left corner, and the nearness.
     pub(super) fn project(&self, point: DVec3) -> DVec3 {
         let [x, y, depth] = self.axes.map(|axis| axis.dot(point - self.centre));
         let w = 1.0 - depth * self.inverse_distance;
@@ -81,7 +82,7 @@ impl Eye {
         DVec3::new(0.5 * self.size.x + x, 0.5 * self.size.y - y, depth / w)
     }
 
-    /// The point seen at `at` in the plane through `point` parallel to the screen.
+    /// The point at screen position `at` in the plane through `point` parallel to the screen.
     pub(super) fn beside(&self, point: DVec3, at: DVec2) -> DVec3 {
         let [right, up, toward] = self.axes;
         let depth = toward.dot(point - self.centre);
@@ -89,12 +90,12 @@ impl Eye {
         self.centre + right * across.x - up * across.y + toward * depth
     }
 
-    /// Right, up and towards the viewer.
+    /// Unit vectors to the right, up and towards the viewer.
     pub(super) fn axes(&self) -> [DVec3; 3] {
         self.axes
     }
 
-    /// The first four rows of the shader's `View`, for places given from `origin`.
+    /// The first four rows of the shader's `View`, for positions relative to `origin`.
     pub(super) fn rows(&self, origin: DVec3) -> [[f32; 4]; 4] {
         let row = |axis: DVec3| {
             let [x, y, z] = axis.as_vec3().to_array();
@@ -102,10 +103,10 @@ impl Eye {
         };
         let [right, up, toward] = self.axes.map(row);
         let across = 2.0 * self.scale / self.size;
-        let middle = self.axes[2].dot(self.ball.middle - self.centre);
-        // A tenth more than the ball for layers and lines.
+        let middle = self.axes[2].dot(self.sphere.middle - self.centre);
+        // A tenth more than the sphere, for layers and lines.
         let ends = [-1.1, 1.1].map(|side| {
-            let depth = middle + side * self.ball.radius;
+            let depth = middle + side * self.sphere.radius;
             (depth / (1.0 - depth * self.inverse_distance)).abs()
         });
         let range = 0.5 / ends[0].max(ends[1]).max(f64::MIN_POSITIVE);
@@ -118,30 +119,30 @@ impl Eye {
 mod tests {
     use super::*;
 
-    fn eye(perspective: bool) -> Eye {
-        let orbit = Orbit {
+    fn projection(perspective: bool) -> Projection {
+        let orbit = OrbitCamera {
             centre: DVec3::new(1.0, 2.0, 3.0),
             width: 8.0,
             perspective,
-            ..Orbit::default()
+            ..OrbitCamera::default()
         };
-        Eye::new(
+        Projection::new(
             &orbit,
             DVec2::new(400.0, 300.0),
-            Ball::around([DVec3::ZERO, DVec3::ONE * 5.0]),
+            Sphere::around([DVec3::ZERO, DVec3::ONE * 5.0]),
         )
     }
 
     #[test]
     fn a_parallel_eye_projects_as_the_camera_of_films_does() {
-        let orbit = Orbit {
+        let orbit = OrbitCamera {
             centre: DVec3::new(1.0, 2.0, 3.0),
             width: 8.0,
-            ..Orbit::default()
+            ..OrbitCamera::default()
         };
         let camera = orbit.camera([400, 300]).unwrap();
         for point in [DVec3::ZERO, DVec3::X, DVec3::new(-2.0, 5.0, 1.0)] {
-            let apart = (camera.project(point) - eye(false).project(point)).truncate();
+            let apart = (camera.project(point) - projection(false).project(point)).truncate();
             assert!(apart.length() < 1e-9);
         }
     }
@@ -149,32 +150,32 @@ mod tests {
     #[test]
     fn what_is_seen_beside_a_point_is_at_its_depth_and_projects_back() {
         for perspective in [false, true] {
-            let eye = eye(perspective);
+            let projection = projection(perspective);
             let (point, at) = (DVec3::new(2.0, 1.0, 4.0), DVec2::new(33.0, 250.0));
-            let beside = eye.beside(point, at);
-            assert!((eye.project(beside).truncate() - at).length() < 1e-9);
-            assert!((eye.axes()[2].dot(beside - point)).abs() < 1e-12);
+            let beside = projection.beside(point, at);
+            assert!((projection.project(beside).truncate() - at).length() < 1e-9);
+            assert!((projection.axes()[2].dot(beside - point)).abs() < 1e-12);
         }
     }
 
     #[test]
     fn the_eye_of_a_perspective_stays_outside_however_near_one_looks() {
         for width in [1e-3, 1.0, 50.0] {
-            let orbit = Orbit {
+            let orbit = OrbitCamera {
                 centre: DVec3::splat(2.5),
                 width,
                 perspective: true,
-                ..Orbit::default()
+                ..OrbitCamera::default()
             };
-            let ball = Ball::around([DVec3::ZERO, DVec3::ONE * 5.0]);
-            let eye = Eye::new(&orbit, DVec2::ONE, ball);
-            let nearest = ball.middle + eye.axes()[2] * ball.radius;
-            let behind = eye.project(ball.middle - eye.axes()[2]);
+            let sphere = Sphere::around([DVec3::ZERO, DVec3::ONE * 5.0]);
+            let projection = Projection::new(&orbit, DVec2::ONE, sphere);
+            let nearest = sphere.middle + projection.axes()[2] * sphere.radius;
+            let behind = projection.project(sphere.middle - projection.axes()[2]);
             assert!(
-                eye.project(nearest).z > eye.project(ball.middle).z,
+                projection.project(nearest).z > projection.project(sphere.middle).z,
                 "{width}"
             );
-            assert!(behind.z < eye.project(ball.middle).z);
+            assert!(behind.z < projection.project(sphere.middle).z);
         }
     }
 }

@@ -1,4 +1,4 @@
-//! The size of the unit that the scene as it stands would have: w and h, also while no draft can be made of it.
+//! The size of the unit that the current scene would have, w and h, known even if no draft can be made of the scene.
 
 use foldmotion_pattern::{Case, PatternError, Unit};
 use foldmotion_study::scene::{CaseChoice, DivisionChoice};
@@ -7,24 +7,24 @@ use foldmotion_study::{Draft, ProfileModel};
 use super::curve::{columns_case, model};
 use super::form::Form;
 
-/// λ with which case SII is tried where the scene gives none.
+/// λ used for case SII if the scene gives none.
 pub(super) const USUAL_LAMBDA: f64 = 0.7;
 
-/// A unit and how many there are.
+/// The size of a unit and the numbers of rows and columns.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Size {
-    /// w; none where case and profile ask for a width that is not given.
+pub(super) struct UnitSize {
+    /// Width w; `None` if case and profile require a width and the scene gives none.
     pub(super) width: Option<f64>,
-    /// h.
+    /// Height h: the mean of all rows.
     pub(super) height: f64,
-    /// Nr.
+    /// Number of rows Nr.
     pub(super) rows: usize,
-    /// Nc.
+    /// Number of columns Nc.
     pub(super) columns: usize,
 }
 
-impl Size {
-    /// That of the scene with another case; none where nothing says how high rows are.
+impl UnitSize {
+    /// The size in another case; `None` if the scene does not determine the height of rows.
     pub(super) fn of(form: &Form<'_>, case: Option<CaseChoice>) -> Option<Self> {
         let scene = &form.scene;
         let built_in = model(scene);
@@ -46,7 +46,7 @@ impl Size {
         })
     }
 
-    /// The unit of a case; none where the width is not known.
+    /// The unit in a case; `None` if the width is not known.
     pub(super) fn unit(
         &self,
         case: Case,
@@ -60,7 +60,7 @@ impl Size {
         Some(Unit::new(case, self.width?, self.height, lambda, offset))
     }
 
-    /// Why a case contradicts w/h, if it does.
+    /// Why w/h rules out a case, if it does.
     pub(super) fn contradiction(&self, case: Case) -> Option<String> {
         match self.unit(case, None, None)? {
             Err(error @ PatternError::CaseContradictsUnit { .. }) => Some(error.to_string()),
@@ -69,7 +69,7 @@ impl Size {
     }
 }
 
-/// The case that a choice stands for by itself.
+/// The case that a choice stands for; `None` for `auto`.
 pub(super) fn own_case(choice: CaseChoice) -> Option<Case> {
     match choice {
         CaseChoice::E => Some(Case::E),
@@ -81,7 +81,6 @@ pub(super) fn own_case(choice: CaseChoice) -> Option<Case> {
     }
 }
 
-/// Nr.
 fn rows(form: &Form<'_>, built_in: Option<&ProfileModel>) -> Option<usize> {
     let drafted = || Some(form.draft.and_then(Draft::units)?.units.rows);
     let splits = form.scene.division.method == Some(DivisionChoice::DouglasPeucker)
@@ -94,7 +93,8 @@ fn rows(form: &Form<'_>, built_in: Option<&ProfileModel>) -> Option<usize> {
         .or_else(drafted)
 }
 
-/// h, the mean of the rows: from the length of the polygon where that is known, else as last divided.
+/// The height h, the mean of all rows: from the length of the polygon if that is known, otherwise from the last
+/// division.
 fn height(form: &Form<'_>, built_in: Option<&ProfileModel>, rows: usize) -> Option<f64> {
     let length = form
         .scene

@@ -1,34 +1,34 @@
-//! What is drawn under the timeline: figures of every frame.
+//! The data of the plots under the timeline.
 
-/// Curves of one kind over motion time.
+/// Curves of related quantities over motion time.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Panel {
-    /// What is drawn, with its unit.
+pub(crate) struct Plot {
+    /// The quantity, with its unit.
     pub(crate) title: String,
-    /// What a tooltip says of it.
+    /// The tooltip.
     pub(crate) about: &'static str,
     pub(crate) is_logarithmic: bool,
     pub(crate) curves: Vec<Curve>,
-    /// A level to compare with, and its name.
+    /// A value to compare with, and its name.
     pub(crate) reference: Option<(f64, &'static str)>,
 }
 
-/// One curve.
+/// A curve of one quantity.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Curve {
     pub(crate) name: &'static str,
-    /// Motion time and value, in order of time; values that are no number leave a gap.
+    /// Pairs of motion time and value, in order of time; a value that is not a number leaves a gap.
     pub(crate) points: Vec<[f64; 2]>,
 }
 
-/// The panels of a motion.
+/// The plots of a motion.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub(crate) struct Curves {
-    pub(crate) panels: Vec<Panel>,
+pub(crate) struct Plots {
+    pub(crate) plots: Vec<Plot>,
 }
 
-impl Panel {
-    /// Whether there is anything to draw.
+impl Plot {
+    /// Whether any value can be drawn.
     pub(crate) fn has_values(&self) -> bool {
         let mut values = self.curves.iter().flat_map(|curve| &curve.points);
         values.any(|p| self.shows(p[1]))
@@ -39,7 +39,7 @@ impl Panel {
         value.is_finite() && (!self.is_logarithmic || value > 0.0)
     }
 
-    /// A value on the scale of the panel: itself, or its decimal logarithm.
+    /// A value on the scale of the plot: the value itself, or its decimal logarithm.
     pub(super) fn level(&self, value: f64) -> f64 {
         if self.is_logarithmic {
             value.log10()
@@ -48,7 +48,7 @@ impl Panel {
         }
     }
 
-    /// The lowest and the highest level drawn; linear panels begin at 0 where nothing is below.
+    /// The lowest and the highest level; a linear plot starts at 0 if no value is negative.
     pub(super) fn levels(&self) -> [f64; 2] {
         let values = self
             .curves
@@ -73,7 +73,7 @@ impl Panel {
 }
 
 impl Curve {
-    /// The value at motion time `t`, between the frames along a straight line.
+    /// The value at motion time `t`, interpolated linearly between frames.
     pub(super) fn at(&self, t: f64) -> Option<f64> {
         let next = self.points.partition_point(|p| p[0] < t);
         let after = self.points.get(next)?;
@@ -90,9 +90,9 @@ impl Curve {
 mod tests {
     use super::*;
 
-    fn panel(is_logarithmic: bool, values: &[f64]) -> Panel {
+    fn plot(is_logarithmic: bool, values: &[f64]) -> Plot {
         let points = values.iter().enumerate().map(|(k, &v)| [k as f64, v]);
-        Panel {
+        Plot {
             title: String::new(),
             about: "",
             is_logarithmic,
@@ -106,19 +106,19 @@ mod tests {
 
     #[test]
     fn levels_hold_every_value_that_can_be_drawn() {
-        assert_eq!(panel(false, &[1.0, 3.0, f64::NAN]).levels(), [0.0, 3.0]);
-        assert_eq!(panel(true, &[0.0, 0.01, 10.0]).levels(), [-2.0, 1.0]);
-        assert_eq!(panel(true, &[0.0, -1.0]).levels(), [0.0, 1.0]);
-        let mut with = panel(false, &[1.0]);
+        assert_eq!(plot(false, &[1.0, 3.0, f64::NAN]).levels(), [0.0, 3.0]);
+        assert_eq!(plot(true, &[0.0, 0.01, 10.0]).levels(), [-2.0, 1.0]);
+        assert_eq!(plot(true, &[0.0, -1.0]).levels(), [0.0, 1.0]);
+        let mut with = plot(false, &[1.0]);
         with.reference = Some((5.0, "closed form"));
         assert_eq!(with.levels(), [0.0, 5.0]);
-        let [low, high] = panel(true, &[7.0, 7.0]).levels();
+        let [low, high] = plot(true, &[7.0, 7.0]).levels();
         assert!(low < high, "a constant has a scale too");
     }
 
     #[test]
     fn values_between_frames_lie_on_a_line() {
-        let curve = &panel(false, &[1.0, 3.0, 2.0]).curves[0];
+        let curve = &plot(false, &[1.0, 3.0, 2.0]).curves[0];
         assert_eq!(curve.at(0.5), Some(2.0));
         assert_eq!(curve.at(1.0), Some(3.0));
         assert_eq!(curve.at(0.0), Some(1.0));

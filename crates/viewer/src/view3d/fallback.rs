@@ -1,5 +1,5 @@
-//! The sheet drawn by egui's painter: triangles from the farthest to the nearest, lines with them. What is nearer is
-//! decided triangle by triangle, so that those that pass through each other show it wrongly.
+//! The sheet drawn by egui's painter, without a GPU: triangles sorted from the farthest to the nearest, together with
+//! their lines. The order is decided per triangle, so triangles that intersect are drawn wrongly.
 
 use std::sync::Arc;
 
@@ -10,63 +10,65 @@ use glam::{DVec3, Vec3};
 
 use super::CreaseClasses;
 use super::creases::ink;
-use super::eye::Eye;
 use super::paints::{MARK, PaintKey, TINT, VALUE, paints, unpacked};
 use super::picture::Picture;
-use super::pose::Pose;
+use super::prepared::PreparedSheet;
+use super::projection::Projection;
 use super::segments::segments;
 
-/// The light of the films and of the shader.
+/// The light of films and of the shader.
 const LIGHT: DVec3 = DVec3::new(-0.52, 0.66, 0.54);
 const AMBIENT: f64 = 0.42;
 const TINTED_BACK: f32 = 0.62;
 
-/// What the triangles were drawn from.
+/// What the mesh depends on; it is made again when this changes.
 #[derive(Debug, PartialEq)]
-struct Source {
+struct MeshKey {
     sheet_key: u64,
     state_key: u64,
     creases: CreaseClasses,
     paints: PaintKey,
     style: Style,
     pulse: f32,
-    eye: Eye,
+    projection: Projection,
     corner: Pos2,
 }
 
-/// The triangles, kept as long as they stay.
+/// Draws the sheet without a GPU; keeps the mesh until something changes.
 #[derive(Debug, Default)]
-pub(super) struct Plain {
-    source: Option<Source>,
+pub(super) struct FallbackRenderer {
+    source: Option<MeshKey>,
     mesh: Arc<Mesh>,
 }
 
-impl Plain {
+impl FallbackRenderer {
     pub(super) fn paint(
         &mut self,
         painter: &Painter,
         rect: Rect,
         picture: &Picture<'_>,
-        eye: &Eye,
-        pose: Option<&Pose>,
+        projection: &Projection,
+        prepared: Option<&PreparedSheet>,
     ) {
-        let source = Some(Source {
+        let source = Some(MeshKey {
             sheet_key: picture.sheet_key,
             state_key: picture.state_key,
             creases: picture.creases,
             paints: PaintKey::of(picture),
             style: picture.style.clone(),
             pulse: picture.pulse,
-            eye: *eye,
+            projection: *projection,
             corner: rect.min,
         });
         if self.source != source {
             self.source = source;
-            self.mesh = Arc::new(mesh(picture, eye, rect.min, pose));
+            self.mesh = Arc::new(mesh(picture, projection, rect.min, prepared));
         }
         painter.add(Shape::Mesh(Arc::clone(&self.mesh)));
         for segment in segments(picture) {
-            let [a, b] = segment.ends.map(|end| at(rect.min, eye.project(end)));
+            let [a, b] = segment
+                .ends
+                .map(|end| at(rect.min, projection.project(end)));
             if a == b {
                 painter.circle_filled(a, 0.5 * segment.width, segment.colour);
             } else {
@@ -80,10 +82,19 @@ fn at(corner: Pos2, point: DVec3) -> Pos2 {
     corner + vec2(point.x as f32, point.y as f32)
 }
 
-/// The triangles and their lines from the farthest to the nearest.
-fn mesh(picture: &Picture<'_>, eye: &Eye, corner: Pos2, pose: Option<&Pose>) -> Mesh {
+/// The triangles with their lines, from the farthest to the nearest.
+fn mesh(
+    picture: &Picture<'_>,
+    projection: &Projection,
+    corner: Pos2,
+    prepared: Option<&PreparedSheet>,
+) -> Mesh {
     let sheet = picture.sheet;
-    let points: Vec<DVec3> = picture.positions.iter().map(|&p| eye.project(p)).collect();
+    let points: Vec<DVec3> = picture
+        .positions
+        .iter()
+        .map(|&p| projection.project(p))
+        .collect();
     let mut lines = vec![Vec::new(); sheet.faces.len()];
     for edge in sheet
         .edges
@@ -98,12 +109,14 @@ fn mesh(picture: &Picture<'_>, eye: &Eye, corner: Pos2, pose: Option<&Pose>) -> 
     let mut faces: Vec<(f64, usize, Vec3)> = (0..sheet.faces.len())
         .map(|index| {
             let corners = sheet.faces[index].map(|v| points[v as usize]);
-            let n = normal(picture, eye, index);
+            let n = normal(picture, projection, index);
             let side = if is_front(corners) { 1.0 } else { -1.0 };
-            let sunk = pose.map_or(0.0, |pose| pose.sunk(index, side, sheet.unit_length));
+            let depth_offset = prepared.map_or(0.0, |prepared| {
+                prepared.depth_offset(index, side, sheet.unit_length)
+            });
             let depth = corners.iter().map(|p| p.z).sum::<f64>() / 3.0;
             let light = painted(picture, paints[index], side, side * n);
-            (depth - sunk, index, light)
+            (depth - depth_offset, index, light)
         })
         .collect();
     faces.sort_by(|(a, i, _), (b, j, _)| a.total_cmp(b).then(j.cmp(i)));
@@ -148,19 +161,19 @@ fn line(mesh: &mut Mesh, [a, b]: [Pos2; 2], width: f32, colour: Color32) {
     polygon(mesh, &[a - aside, b - aside, b + aside, a + aside], colour);
 }
 
-/// Whether the front is seen: counter-clockwise, y down.
+/// Whether the front of a triangle is visible: its corners are counter-clockwise, with y pointing down.
 fn is_front([a, b, c]: [DVec3; 3]) -> bool {
     (b - a).truncate().perp_dot((c - a).truncate()) <= 0.0
 }
 
-/// The unit normal of a triangle in the view.
-fn normal(picture: &Picture<'_>, eye: &Eye, face: usize) -> DVec3 {
+/// The unit normal of a triangle, in the axes of the view.
+fn normal(picture: &Picture<'_>, projection: &Projection, face: usize) -> DVec3 {
     let [a, b, c] = picture.sheet.faces[face].map(|v| picture.positions[v as usize]);
     let n = (b - a).cross(c - a).normalize_or_zero();
-    DVec3::from_array(eye.axes().map(|axis| axis.dot(n)))
+    DVec3::from_array(projection.axes().map(|axis| axis.dot(n)))
 }
 
-/// The colour of a triangle in linear light, as in the shader. `n`: the unit normal of the side that is seen.
+/// The colour of a triangle in linear light, as in the shader. `n` is the unit normal of the visible side.
 fn painted(picture: &Picture<'_>, paint: u32, side: f64, n: DVec3) -> Vec3 {
     let light = |[r, g, b]: [u8; 3]| {
         let [r, g, b, _] = Rgba::from(Color32::from_rgb(r, g, b)).to_array();

@@ -1,4 +1,4 @@
-//! The state that is shown, with the colours of its triangles: worked out once, as long as nothing changes.
+//! The state that is shown, with the values of its triangles, computed only when something has changed.
 
 use std::sync::Arc;
 
@@ -6,57 +6,63 @@ use foldmotion_pattern::Sheet;
 use foldmotion_study::Quantity;
 use glam::DVec3;
 
-use super::act::Act;
+use super::shown_motion::ShownMotion;
 use crate::settings::Colour;
-use crate::work::State;
+use crate::work::SheetState;
 
 /// The state that is shown.
 #[derive(Debug, Default)]
-pub(crate) struct Pose {
-    /// Changes with the positions.
+pub(crate) struct ShownState {
+    /// A number that changes with the positions.
     pub(crate) key: u64,
-    of: Option<Of>,
+    of: Option<StateKey>,
     pub(crate) positions: Arc<Vec<DVec3>>,
-    /// Triangles that penetrate now, and where they met.
+    /// The triangles that penetrate now, and the points where they met.
     pub(crate) penetrating: (Vec<u32>, Vec<DVec3>),
     values: Option<(u64, Quantity, Vec<f64>)>,
     ranges: Option<(u64, Quantity, [f64; 2])>,
 }
 
-/// What a pose is of.
+/// What the state depends on.
 #[derive(Debug, Clone, Copy, PartialEq)]
-enum Of {
-    /// A motion at a time.
-    Act(u64, f64),
-    /// The state of a run, or in the hand, by its serial number.
-    Live(u64, bool),
+enum StateKey {
+    /// The key of a motion and the motion time.
+    Motion(u64, f64),
+    /// The serial number of a state of a run or an interaction, and whether it is an interaction.
+    StateFeed(u64, bool),
 }
 
-impl Pose {
-    /// Takes the state of `act` at motion time `t`.
-    pub(crate) fn show(&mut self, act: &Act, t: f64) {
-        let of = Of::Act(act.key, t);
+impl ShownState {
+    /// Shows the state of a motion at motion time `t`.
+    pub(crate) fn show(&mut self, shown: &ShownMotion, t: f64) {
+        let of = StateKey::Motion(shown.key, t);
         if self.of == Some(of) {
             return;
         }
-        self.set(of, Arc::new(act.state(t)));
-        self.penetrating = act.penetrating(t);
+        self.set(of, Arc::new(shown.state(t)));
+        self.penetrating = shown.penetrating(t);
     }
 
-    /// Takes a state that is computed while it is shown: where the engine has it, or, in the hand, where `act` is shown.
-    pub(crate) fn show_live(&mut self, state: &State, act: &Act, is_in_hand: bool) {
-        let of = Of::Live(state.serial, is_in_hand);
+    /// Shows a state while it is computed. The states of a run are moved to where `shown` is placed; those of an
+    /// interaction are there already.
+    pub(crate) fn show_live(
+        &mut self,
+        state: &SheetState,
+        shown: &ShownMotion,
+        is_interacting: bool,
+    ) {
+        let of = StateKey::StateFeed(state.serial, is_interacting);
         if self.of == Some(of) {
             return;
         }
-        let positions = if is_in_hand {
+        let positions = if is_interacting {
             Arc::clone(&state.positions)
         } else {
             Arc::new(
                 state
                     .positions
                     .iter()
-                    .map(|&p| act.place.apply(p))
+                    .map(|&p| shown.placement.apply(p))
                     .collect(),
             )
         };
@@ -64,16 +70,16 @@ impl Pose {
         self.penetrating = (Vec::new(), Vec::new());
     }
 
-    fn set(&mut self, of: Of, positions: Arc<Vec<DVec3>>) {
+    fn set(&mut self, of: StateKey, positions: Arc<Vec<DVec3>>) {
         self.of = Some(of);
         self.positions = positions;
         self.key += 1;
     }
 
-    /// The values of the triangles that `colour` shows, if it shows values, with their range and title.
+    /// The values of the triangles, their range and their title, if `colour` shows values.
     pub(crate) fn values(
         &mut self,
-        act: &Act,
+        shown: &ShownMotion,
         sheet: &Sheet,
         colour: Colour,
     ) -> Option<(&[f64], [f64; 2], &'static str)> {
@@ -84,10 +90,10 @@ impl Pose {
         };
         if self
             .ranges
-            .is_none_or(|(key, q, _)| (key, q) != (act.key, quantity))
+            .is_none_or(|(key, q, _)| (key, q) != (shown.key, quantity))
         {
-            let range = quantity.of_motion(act.motion()).range;
-            self.ranges = Some((act.key, quantity, range));
+            let range = quantity.of_motion(shown.motion()).range;
+            self.ranges = Some((shown.key, quantity, range));
         }
         let is_known = self
             .values

@@ -1,35 +1,35 @@
-//! The camera as a hand moves it: a turntable.
+//! The camera that the user moves around the sheet.
 
 use foldmotion_record::View;
 #[cfg(test)]
 use foldmotion_record::{Camera, RecordError};
 use glam::{DVec2, DVec3};
 
-/// Seconds that a preset takes to turn into.
-const TURNING: f64 = 0.15;
+/// Duration of a transition to another view, seconds.
+const TRANSITION_SECONDS: f64 = 0.15;
 
-/// The part of the view kept free on each side of what is fitted, as films have it.
+/// The fraction of the view left free on each side of fitted points, as in films.
 const MARGIN: f64 = 0.05;
 
-/// The eye of a perspective view is this many widths of it away: about what a 50 mm lens sees.
-const EYE: f64 = 1.4;
+/// Distance of the eye in perspective, in widths of the view: about that of a 50 mm lens.
+const EYE_DISTANCE: f64 = 1.4;
 
-/// Where the viewer stands and what is in the middle.
+/// Direction, centre and width of the view.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Orbit {
-    /// Degrees, as in [`View::Around`].
+pub(crate) struct OrbitCamera {
+    /// Azimuth in degrees, as in [`View::Around`].
     pub(crate) azimuth: f64,
-    /// Degrees, as in [`View::Around`].
+    /// Elevation in degrees, as in [`View::Around`].
     pub(crate) elevation: f64,
-    /// The point in the middle of the view.
+    /// The point in the centre of the view.
     pub(crate) centre: DVec3,
-    /// What the view is wide, at the depth of the centre.
+    /// The length that the view shows across its width, at the depth of the centre.
     pub(crate) width: f64,
-    /// Whether what is near looks larger; else the projection is parallel, as in films.
+    /// Whether the projection is a perspective; otherwise it is parallel, as in films.
     pub(crate) perspective: bool,
 }
 
-impl Default for Orbit {
+impl Default for OrbitCamera {
     fn default() -> Self {
         let [azimuth, elevation] = direction(View::Iso);
         Self {
@@ -49,7 +49,7 @@ fn direction(view: View) -> [f64; 2] {
         View::Side => [0.0, 0.0],
         View::Top => [-90.0, 90.0],
         View::Around { azimuth, elevation } => [azimuth, elevation],
-        // The direction of record's isometric view.
+        // The direction of the isometric view of films.
         View::Iso => [
             f64::atan2(-0.74, 0.42).to_degrees(),
             f64::atan2(0.53, f64::hypot(0.42, 0.74)).to_degrees(),
@@ -57,8 +57,8 @@ fn direction(view: View) -> [f64; 2] {
     }
 }
 
-impl Orbit {
-    /// The same view for films and figures.
+impl OrbitCamera {
+    /// The same direction for films and figures.
     pub(crate) fn view(&self) -> View {
         View::Around {
             azimuth: self.azimuth,
@@ -66,7 +66,7 @@ impl Orbit {
         }
     }
 
-    /// Right, up and towards the viewer, unit vectors.
+    /// Unit vectors to the right, up and towards the viewer.
     pub(crate) fn axes(&self) -> [DVec3; 3] {
         let (sin, cos) = self.azimuth.to_radians().sin_cos();
         let (rise, across) = self.elevation.to_radians().sin_cos();
@@ -75,7 +75,7 @@ impl Orbit {
         [right, toward.cross(right), toward]
     }
 
-    /// The camera of a film of `size` pixels that shows what the view shows; a perspective is left out.
+    /// The camera of a film of `size` pixels that shows the same as this one, without its perspective.
     ///
     /// # Errors
     /// Those of [`Camera::centred`].
@@ -85,12 +85,12 @@ impl Orbit {
         Camera::centred(self.view(), middle, size, f64::from(size[0]) / self.width)
     }
 
-    /// Looks from where `view` does; `pivot` stays where it is on the screen.
-    pub(crate) fn stand(&mut self, view: View, pivot: DVec3) {
+    /// Looks from the direction of `view`; `pivot` stays where it is on the screen.
+    pub(crate) fn set_view(&mut self, view: View, pivot: DVec3) {
         self.look_from(direction(view), pivot);
     }
 
-    /// Turns by degrees about `pivot`, which stays where it is on the screen.
+    /// Turns by degrees; `pivot` stays where it is on the screen.
     pub(crate) fn turn(&mut self, azimuth: f64, elevation: f64, pivot: DVec3) {
         let azimuth = (self.azimuth + azimuth + 180.0).rem_euclid(360.0) - 180.0;
         let elevation = (self.elevation + elevation).clamp(-90.0, 90.0);
@@ -104,20 +104,22 @@ impl Orbit {
         self.centre = pivot + (0..3).map(|i| axes[i] * aside[i]).sum::<DVec3>();
     }
 
-    /// Moves what is seen by `by`, lengths to the right and up.
+    /// Moves the contents of the view by `by`, lengths to the right and up.
     pub(crate) fn pan(&mut self, by: DVec2) {
         let [right, up, _] = self.axes();
         self.centre -= right * by.x + up * by.y;
     }
 
-    /// Shows all `factor` times as large; what is seen at `at`, lengths right and up of the centre, stays there.
+    /// Enlarges the view by `factor`; the point at `at`, lengths right and up of the centre, stays where it is on the
+    /// screen.
     pub(crate) fn zoom(&mut self, factor: f64, at: DVec2, limits: [f64; 2]) {
         let width = (self.width / factor).clamp(limits[0], limits[1]);
         self.pan(-at * (1.0 - width / self.width));
         self.width = width;
     }
 
-    /// Shows all `points` as large as they fit a view of `size`. No points, or such as are not finite, change nothing.
+    /// Shows all `points` as large as possible in a view of `size`. Without points, or if one is not finite, nothing
+    /// changes.
     pub(crate) fn fit(&mut self, points: impl IntoIterator<Item = DVec3> + Clone, size: DVec2) {
         let [right, up, toward] = self.axes();
         let [low, high] = self.view().extent(points.clone());
@@ -135,9 +137,9 @@ impl Orbit {
         let depth = 0.5 * (near + far);
         self.centre = right * middle.x + up * middle.y + toward * depth;
         if width > 0.0 {
-            // What is near looks larger in perspective.
+            // Near points look larger in perspective.
             let bulge = if self.perspective {
-                0.5 * (near - far) / EYE
+                0.5 * (near - far) / EYE_DISTANCE
             } else {
                 0.0
             };
@@ -145,14 +147,14 @@ impl Orbit {
         }
     }
 
-    /// How far the eye of a perspective view is from the centre: always outside the ball about `middle`.
+    /// The distance of the eye from the centre in perspective, always outside the sphere around `middle`.
     pub(crate) fn eye_distance(&self, middle: DVec3, radius: f64) -> f64 {
         let [_, _, toward] = self.axes();
         let ahead = toward.dot(middle - self.centre);
-        (EYE * self.width).max(ahead + 1.5 * radius)
+        (EYE_DISTANCE * self.width).max(ahead + 1.5 * radius)
     }
 
-    /// The orbit a `part` of the way to `to`, by the shorter way around.
+    /// The camera at `part` of the transition to `to`, turning the shorter way round.
     fn between(&self, to: &Self, part: f64) -> Self {
         let mix = |a: f64, b: f64| a + (b - a) * part;
         let around = (to.azimuth - self.azimuth + 180.0).rem_euclid(360.0) - 180.0;
@@ -166,16 +168,16 @@ impl Orbit {
     }
 }
 
-/// A turn from one orbit to another that takes a moment.
+/// A short transition from one camera to another.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Turning {
-    from: Orbit,
-    to: Orbit,
+pub(super) struct CameraTransition {
+    from: OrbitCamera,
+    to: OrbitCamera,
     passed: f64,
 }
 
-impl Turning {
-    pub(super) fn new(from: Orbit, to: Orbit) -> Self {
+impl CameraTransition {
+    pub(super) fn new(from: OrbitCamera, to: OrbitCamera) -> Self {
         Self {
             from,
             to,
@@ -183,15 +185,15 @@ impl Turning {
         }
     }
 
-    /// Where it leads.
-    pub(super) fn end(&self) -> Orbit {
+    /// The camera at the end of the transition.
+    pub(super) fn end(&self) -> OrbitCamera {
         self.to
     }
 
-    /// The orbit `seconds` later, and whether it has arrived.
-    pub(super) fn step(&mut self, seconds: f64) -> (Orbit, bool) {
+    /// The camera `seconds` later, and whether the transition has ended.
+    pub(super) fn step(&mut self, seconds: f64) -> (OrbitCamera, bool) {
         self.passed += seconds;
-        let part = (self.passed / TURNING).clamp(0.0, 1.0);
+        let part = (self.passed / TRANSITION_SECONDS).clamp(0.0, 1.0);
         if part >= 1.0 {
             return (self.to, true);
         }
@@ -216,8 +218,8 @@ mod tests {
         let size = [640, 400];
         for (name, view) in View::NAMES {
             let film = Camera::fit(view, POINTS, size, MARGIN).unwrap();
-            let mut orbit = Orbit::default();
-            orbit.stand(view, DVec3::ZERO);
+            let mut orbit = OrbitCamera::default();
+            orbit.set_view(view, DVec3::ZERO);
             orbit.fit(POINTS, DVec2::new(640.0, 400.0));
             let camera = orbit.camera(size).unwrap();
             for point in POINTS {
@@ -230,8 +232,8 @@ mod tests {
     #[test]
     fn a_turn_keeps_its_pivot_and_a_zoom_what_is_under_the_pointer() {
         let size = [500, 300];
-        let at = |orbit: &Orbit, point| orbit.camera(size).unwrap().project(point).truncate();
-        let mut orbit = Orbit::default();
+        let at = |orbit: &OrbitCamera, point| orbit.camera(size).unwrap().project(point).truncate();
+        let mut orbit = OrbitCamera::default();
         orbit.fit(POINTS, DVec2::new(500.0, 300.0));
         let before = at(&orbit, POINTS[1]);
         orbit.turn(67.0, -20.0, POINTS[1]);
@@ -248,25 +250,25 @@ mod tests {
 
     #[test]
     fn a_turn_into_a_preset_goes_the_shorter_way_and_arrives() {
-        let from = Orbit {
+        let from = OrbitCamera {
             azimuth: 170.0,
-            ..Orbit::default()
+            ..OrbitCamera::default()
         };
-        let to = Orbit {
+        let to = OrbitCamera {
             azimuth: -170.0,
             ..from
         };
-        let mut turning = Turning::new(from, to);
-        let (half, arrived) = turning.step(0.5 * TURNING);
+        let mut transition = CameraTransition::new(from, to);
+        let (half, arrived) = transition.step(0.5 * TRANSITION_SECONDS);
         assert!((half.azimuth - 180.0).abs() < 1e-9 && !arrived);
-        assert_eq!(turning.step(1.0), (to, true));
+        assert_eq!(transition.step(1.0), (to, true));
     }
 
     #[test]
     fn nothing_to_fit_changes_nothing() {
-        let mut orbit = Orbit::default();
+        let mut orbit = OrbitCamera::default();
         orbit.fit([], DVec2::new(5.0, 3.0));
         orbit.fit([DVec3::NAN], DVec2::new(5.0, 3.0));
-        assert_eq!(orbit, Orbit::default());
+        assert_eq!(orbit, OrbitCamera::default());
     }
 }

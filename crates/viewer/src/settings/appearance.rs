@@ -1,29 +1,29 @@
-//! How the window looks: dark or light, and how large.
+//! The appearance of the window: dark or light, and the zoom factor.
 
 use eframe::egui::{self, Color32, CornerRadius, Stroke, Style, Theme, ThemePreference, vec2};
 use serde::{Deserialize, Serialize};
 
-/// Sizes of everything; the larger ones for a room to read.
+/// Zoom factors of the whole window; the larger ones are for presentations.
 pub(crate) const SCALES: [f32; 4] = [1.0, 1.25, 1.5, 2.0];
 
 /// Dark or light.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
-pub(crate) enum Look {
-    /// As the system is.
+pub(crate) enum Appearance {
+    /// As the system.
     #[default]
     System,
-    /// Light text on a dark ground.
+    /// Light text on a dark background.
     Dark,
-    /// Dark text on a light ground.
+    /// Dark text on a light background.
     Light,
 }
 
-impl Look {
-    /// Every look.
+impl Appearance {
+    /// All appearances.
     pub(crate) const ALL: [Self; 3] = [Self::System, Self::Dark, Self::Light];
 
-    /// Light where the window is dark, dark where it is light.
+    /// The opposite of the current theme.
     pub(crate) fn other(ctx: &egui::Context) -> Self {
         match ctx.theme() {
             Theme::Dark => Self::Light,
@@ -31,35 +31,36 @@ impl Look {
         }
     }
 
-    /// Its name in menus.
+    /// The name in menus.
     pub(crate) fn name(self) -> &'static str {
         match self {
-            Self::System => "as the system",
+            Self::System => "as the system is",
             Self::Dark => "dark",
             Self::Light => "light",
         }
     }
 }
 
-/// Dresses the window. To be called at the start and when either has changed: keyboard zoom stays in between.
-pub(crate) fn apply(ctx: &egui::Context, look: Look, scale: f32) {
+/// Applies the appearance to the window. Call it at the start and when a setting has changed, not in every frame,
+/// because it resets the user's keyboard zoom.
+pub(crate) fn apply(ctx: &egui::Context, appearance: Appearance, scale: f32) {
     for theme in [Theme::Dark, Theme::Light] {
         ctx.set_style_of(theme, style_of(theme));
     }
-    ctx.set_theme(match look {
-        Look::System => ThemePreference::System,
-        Look::Dark => ThemePreference::Dark,
-        Look::Light => ThemePreference::Light,
+    ctx.set_theme(match appearance {
+        Appearance::System => ThemePreference::System,
+        Appearance::Dark => ThemePreference::Dark,
+        Appearance::Light => ThemePreference::Light,
     });
     ctx.set_zoom_factor(scale);
 }
 
-/// What stands around a modal.
+/// The frame around a modal dialog.
 pub(super) fn modal_frame(ctx: &egui::Context) -> egui::Frame {
     egui::Frame::window(&ctx.global_style()).inner_margin(14.0)
 }
 
-/// The colours that make the difference between dark and light.
+/// The colours that differ between dark and light.
 struct Palette {
     ground: Color32,
     raised: Color32,
@@ -141,7 +142,7 @@ fn style_of(theme: Theme) -> Style {
 mod tests {
     use super::*;
 
-    /// Relative luminance and contrast as WCAG 2.1 defines them.
+    /// The contrast of two colours, from their relative luminance as in WCAG 2.1.
     fn contrast(a: Color32, b: Color32) -> f64 {
         let channel = |c: u8| {
             let c = f64::from(c) / 255.0;
@@ -179,9 +180,9 @@ mod tests {
     #[test]
     fn a_look_is_applied_to_the_window() {
         let ctx = egui::Context::default();
-        apply(&ctx, Look::Light, 1.5);
+        apply(&ctx, Appearance::Light, 1.5);
         assert_eq!(ctx.theme(), Theme::Light);
-        apply(&ctx, Look::Dark, 1.0);
+        apply(&ctx, Appearance::Dark, 1.0);
         assert_eq!(ctx.theme(), Theme::Dark);
     }
 }

@@ -1,4 +1,4 @@
-//! The motion at hand, wherever it comes from, with all that the window shows of it.
+//! The motion that is shown, whatever its source, with everything the window shows of it.
 
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -11,54 +11,54 @@ use foldmotion_study::scene::RecordScene;
 use foldmotion_study::{Draft, Folded, OpenedMotion, Preview, Report, Scene, Study, UnitDraft};
 use glam::DVec3;
 
-use super::figures::curves;
-use crate::timeline::{Curves, Marks};
-use crate::work::{Finished, Job, Judged, Wake, record, record_opened, write};
+use super::plots::plots_of;
+use crate::timeline::{Marks, Plots};
+use crate::work::{CheckedMotion, FinishedRun, Job, RepaintSignal, record, record_opened, write};
 
-/// Points of the profile that are drawn.
+/// Number of segments of the profile that are drawn.
 const PROFILE_POINTS: u32 = 240;
 
-/// Where a motion comes from.
+/// The source of a motion.
 #[derive(Debug)]
-pub(crate) enum Source {
-    /// The exact deployed, planar and compact states of the scene; nothing between.
+pub(crate) enum MotionSource {
+    /// The exact deployed, planar and compact states of the scene, with nothing between them.
     Exact(Motion),
-    /// Folded quickly, without contact, not checked.
+    /// A preview, folded quickly without contact and not checked.
     Preview(Motion),
-    /// A run, checked.
+    /// A run with its report.
     Run {
         study: Arc<Study>,
         folded: Arc<Folded>,
         report: Box<Report>,
     },
-    /// A motion file, with what was found of it once it is judged.
+    /// A motion file, with the result of its check once that is known.
     File {
         motion: Arc<OpenedMotion>,
-        judged: Option<Box<Judged>>,
+        checked: Option<Box<CheckedMotion>>,
     },
 }
 
-/// A motion with all that the window shows of it.
+/// A motion with everything the window shows of it.
 #[derive(Debug)]
-pub(crate) struct Act {
-    pub(crate) source: Source,
-    /// Another number for each.
+pub(crate) struct ShownMotion {
+    pub(crate) source: MotionSource,
+    /// A number that differs between motions.
     pub(crate) key: u64,
     pub(crate) layers: Layers,
-    pub(crate) curves: Curves,
+    pub(crate) plots: Plots,
     pub(crate) marks: Marks,
     spans: Vec<PenetrationSpan>,
-    /// Where facets meet, one a span.
-    meetings: Vec<DVec3>,
-    /// Γ where the deployed state stands.
+    /// For each span, a point where the facets meet.
+    contact_points: Vec<DVec3>,
+    /// The profile Γ, placed where the deployed state is shown.
     pub(crate) profile: Vec<DVec3>,
-    /// From where the engine starts to where the motion is shown.
-    pub(crate) place: RigidMotion,
-    /// The lower corner and the sides of the measured box of the last state, and of the closed form.
+    /// The rigid motion from the engine's coordinates to those that are shown.
+    pub(crate) placement: RigidMotion,
+    /// Lower corner and sides of two boxes: of the last state as measured, and of the closed form.
     pub(crate) boxes: [Option<[DVec3; 2]>; 2],
 }
 
-impl Act {
+impl ShownMotion {
     /// The exact states of a draft.
     pub(crate) fn exact(draft: &Draft, key: u64) -> Self {
         let mut states = vec![draft.start()];
@@ -78,10 +78,10 @@ impl Act {
             frames: frames.collect(),
             compact_order,
         };
-        Self::new(Source::Exact(motion), key).beside(draft)
+        Self::new(MotionSource::Exact(motion), key).with_draft(draft)
     }
 
-    /// A motion that was folded quickly.
+    /// A preview.
     pub(crate) fn preview(draft: &Draft, preview: Preview, scene: &Scene, key: u64) -> Self {
         let Preview {
             motion,
@@ -95,66 +95,72 @@ impl Act {
             }
             Draft::Imported(study) => (None, study.unit_name),
         };
-        let mut act = Self::new(Source::Preview(motion), key).beside(draft);
-        act.curves = curves(&series, &boxes, closed_form, unit);
-        act
+        let mut shown = Self::new(MotionSource::Preview(motion), key).with_draft(draft);
+        shown.plots = plots_of(&series, &boxes, closed_form, unit);
+        shown
     }
 
     /// A run.
-    pub(crate) fn run(finished: &Finished, key: u64) -> Self {
-        let Finished {
+    pub(crate) fn run(finished: &FinishedRun, key: u64) -> Self {
+        let FinishedRun {
             study,
             folded,
             report,
             boxes,
         } = finished;
-        let source = Source::Run {
+        let source = MotionSource::Run {
             study: Arc::clone(study),
             folded: Arc::clone(folded),
             report: Box::new(report.clone()),
         };
-        let mut act = Self::new(source, key);
+        let mut shown = Self::new(source, key);
         if let Some(units) = study.subject.units() {
-            act = act.with_units(&units.units, &units.profile, &units.deployed);
+            shown = shown.with_units(&units.units, &units.profile, &units.deployed);
         }
         let closed_form = study.subject.closed_form();
         let series = &folded.findings.series;
-        act.curves = curves(series, boxes, closed_form, study.unit_name);
-        act.judge(&folded.findings.collision);
-        act.marks.jam = folded.jam().map(|jam| jam.time);
-        act
+        shown.plots = plots_of(series, boxes, closed_form, study.unit_name);
+        shown.add_collisions(&folded.findings.collision);
+        shown.marks.jam = folded.jam().map(|jam| jam.time);
+        shown
     }
 
-    /// A motion file; `judged`: what was found of it, once it was.
-    pub(crate) fn file(motion: Arc<OpenedMotion>, judged: Option<Judged>, key: u64) -> Self {
+    /// A motion file; `checked` is the result of its check, once that is known.
+    pub(crate) fn file(
+        motion: Arc<OpenedMotion>,
+        checked: Option<CheckedMotion>,
+        key: u64,
+    ) -> Self {
         let unit = motion.unit_name().to_owned();
-        let findings = judged.as_ref().map(|judged| Arc::clone(&judged.findings));
-        let source = Source::File {
+        let findings = checked
+            .as_ref()
+            .map(|checked| Arc::clone(&checked.findings));
+        let source = MotionSource::File {
             motion,
-            judged: judged.map(Box::new),
+            checked: checked.map(Box::new),
         };
-        let mut act = Self::new(source, key);
+        let mut shown = Self::new(source, key);
         if let Some(findings) = findings {
-            act.curves = curves(&findings.series, &[], None, &unit);
-            act.judge(&findings.collision);
+            shown.plots = plots_of(&findings.series, &[], None, &unit);
+            shown.add_collisions(&findings.collision);
         }
-        act
+        shown
     }
 
-    fn new(source: Source, key: u64) -> Self {
-        let mut act = Self {
+    fn new(source: MotionSource, key: u64) -> Self {
+        let mut shown = Self {
             source,
             key,
             layers: Layers::default(),
-            curves: Curves::default(),
+            plots: Plots::default(),
             marks: Marks::default(),
             spans: Vec::new(),
-            meetings: Vec::new(),
+            contact_points: Vec::new(),
             profile: Vec::new(),
-            place: RigidMotion::IDENTITY,
+            placement: RigidMotion::IDENTITY,
             boxes: [None; 2],
         };
-        let motion = act.motion();
+        let motion = shown.motion();
         let last = motion
             .frames
             .last()
@@ -162,15 +168,15 @@ impl Act {
         let layers = Layers::new(&motion.sheet, &motion.compact_order, last);
         let measured = bounds(last);
         let frames: Vec<f64> = motion.frames.iter().map(|frame| frame.time).collect();
-        act.marks.reached = frames.last().copied();
-        act.marks.frames = frames;
-        act.layers = layers;
-        act.boxes[0] = measured;
-        act
+        shown.marks.reached = frames.last().copied();
+        shown.marks.frames = frames;
+        shown.layers = layers;
+        shown.boxes[0] = measured;
+        shown
     }
 
-    /// What the draft adds: the profile and the box of the closed form.
-    fn beside(self, draft: &Draft) -> Self {
+    /// Adds the profile and the closed-form box of a draft.
+    fn with_draft(self, draft: &Draft) -> Self {
         match draft.units() {
             Some(d) => self.with_units(&d.units, &d.profile, &d.deployed),
             None => self,
@@ -180,23 +186,23 @@ impl Act {
     fn with_units(mut self, units: &UnitSheet, profile: &Profile, deployed: &[DVec3]) -> Self {
         let first = self.motion().frames.first();
         if let Some(first) = first.filter(|frame| frame.positions.len() == deployed.len()) {
-            self.place = RigidMotion::best_fit(deployed, &first.positions);
+            self.placement = RigidMotion::best_fit(deployed, &first.positions);
             let point = |k: u32| {
                 let p = profile.position(f64::from(k) / f64::from(PROFILE_POINTS));
-                self.place.apply(DVec3::new(p.x, 0.0, p.y))
+                self.placement.apply(DVec3::new(p.x, 0.0, p.y))
             };
             self.profile = (0..=PROFILE_POINTS).map(point).collect();
         }
         if units.closed_form().is_some() {
-            // The last state lies where the exact one does, so the box of that is in place.
+            // The last state lies where the exact compact state does, so its box needs no placement.
             self.boxes[1] = bounds(&units.compact());
         }
         self
     }
 
-    fn judge(&mut self, collision: &CollisionReport) {
+    fn add_collisions(&mut self, collision: &CollisionReport) {
         self.spans = penetration_spans(self.motion(), collision);
-        self.meetings = collision.penetrations.iter().map(|p| p.point).collect();
+        self.contact_points = collision.penetrations.iter().map(|p| p.point).collect();
         let mut times: Vec<f64> = self.spans.iter().map(|span| span.from).collect();
         times.sort_by(f64::total_cmp);
         times.dedup();
@@ -206,76 +212,96 @@ impl Act {
     /// The motion.
     pub(crate) fn motion(&self) -> &Motion {
         match &self.source {
-            Source::Exact(motion) | Source::Preview(motion) => motion,
-            Source::Run { folded, .. } => &folded.motion,
-            Source::File { motion, .. } => motion.motion(),
+            MotionSource::Exact(motion) | MotionSource::Preview(motion) => motion,
+            MotionSource::Run { folded, .. } => &folded.motion,
+            MotionSource::File { motion, .. } => motion.motion(),
         }
     }
 
-    /// The motion file it comes from.
+    /// The motion file that was opened, if this is one.
     pub(crate) fn opened(&self) -> Option<&Arc<OpenedMotion>> {
         match &self.source {
-            Source::File { motion, .. } => Some(motion),
+            MotionSource::File { motion, .. } => Some(motion),
             _ => None,
         }
     }
 
-    /// Whether nothing is known between its states.
+    /// What to say if the scene has changed since this motion was computed.
+    pub(crate) fn out_of_date_text(&self) -> &'static str {
+        match self.source {
+            MotionSource::Run { .. } => "Out of date: the scene has changed since this run",
+            _ => "Out of date: the scene has changed",
+        }
+    }
+
+    /// Whether there is nothing between its states.
     pub(crate) fn is_exact(&self) -> bool {
-        matches!(self.source, Source::Exact(_))
+        matches!(self.source, MotionSource::Exact(_))
     }
 
-    /// Whether it is more than a preview.
+    /// Whether it is a run or a motion file.
     pub(crate) fn can_be_recorded(&self) -> bool {
-        matches!(self.source, Source::Run { .. } | Source::File { .. })
+        matches!(
+            self.source,
+            MotionSource::Run { .. } | MotionSource::File { .. }
+        )
     }
 
-    /// Records it in the background; none where it cannot be.
+    /// Records it in the background; `None` if it cannot be recorded.
     pub(crate) fn record(
         &self,
         scene: &RecordScene,
         folder: PathBuf,
-        wake: Wake,
+        repaint: RepaintSignal,
     ) -> Option<Job<Vec<String>>> {
         let scene = scene.clone();
         match &self.source {
-            Source::Run { study, folded, .. } => Some(record(
+            MotionSource::Run { study, folded, .. } => Some(record(
                 Arc::clone(study),
                 Arc::clone(folded),
                 scene,
                 folder,
-                wake,
+                repaint,
             )),
-            Source::File { motion, judged } => {
-                let findings = judged.as_ref().map(|judged| Arc::clone(&judged.findings));
+            MotionSource::File { motion, checked } => {
+                let findings = checked
+                    .as_ref()
+                    .map(|checked| Arc::clone(&checked.findings));
                 Some(record_opened(
                     Arc::clone(motion),
                     findings,
                     scene,
                     folder,
-                    wake,
+                    repaint,
                 ))
             }
-            Source::Exact(_) | Source::Preview(_) => None,
+            MotionSource::Exact(_) | MotionSource::Preview(_) => None,
         }
     }
 
-    /// Writes all results of a run in the background; none of what is no run.
-    pub(crate) fn write(&self, folder: PathBuf, wake: Wake) -> Option<Job<Vec<String>>> {
+    /// Writes all results of a run in the background; `None` if this is not a run.
+    pub(crate) fn write(
+        &self,
+        folder: PathBuf,
+        repaint: RepaintSignal,
+    ) -> Option<Job<Vec<String>>> {
         match &self.source {
-            Source::Run { study, folded, .. } => {
-                Some(write(Arc::clone(study), Arc::clone(folded), folder, wake))
-            }
+            MotionSource::Run { study, folded, .. } => Some(write(
+                Arc::clone(study),
+                Arc::clone(folded),
+                folder,
+                repaint,
+            )),
             _ => None,
         }
     }
 
-    /// The middle of the box around the state at motion time `t`.
+    /// The centre of the bounding box at motion time `t`.
     pub(crate) fn middle(&self, t: f64) -> Option<DVec3> {
         bounds(&self.state(t)).map(|[low, sides]| low + 0.5 * sides)
     }
 
-    /// Points that show how far the motion reaches: of its first, middle and last states.
+    /// The vertices of the first, middle and last states, which show the extent of the motion.
     pub(crate) fn reach(&self) -> Vec<DVec3> {
         let frames = &self.motion().frames;
         let some = [0, frames.len() / 2, frames.len().saturating_sub(1)];
@@ -285,16 +311,16 @@ impl Act {
             .collect()
     }
 
-    /// The first and the last motion time that can be shown: those of the whole motion, however far it came.
+    /// The first and the last motion time of the whole motion, even if it ended early.
     pub(crate) fn range(&self) -> [f64; 2] {
         let first = self.motion().frames.first().map_or(0.0, |frame| frame.time);
         [first.min(1.0), 2.0]
     }
 
-    /// The state at motion time `t`; of exact states the nearest.
+    /// The state at motion time `t`; of exact states, the nearest one.
     pub(crate) fn state(&self, t: f64) -> Vec<DVec3> {
         let motion = self.motion();
-        if matches!(self.source, Source::Exact(_)) {
+        if matches!(self.source, MotionSource::Exact(_)) {
             let distance = |frame: &&Frame| (frame.time - t).abs();
             let nearest = |a: &&Frame, b: &&Frame| distance(a).total_cmp(&distance(b));
             let frame = motion.frames.iter().min_by(nearest);
@@ -303,9 +329,9 @@ impl Act {
         positions_at(motion, t)
     }
 
-    /// The triangles that penetrate at motion time `t`, and where they met.
+    /// The triangles that penetrate at motion time `t`, and the points where they met.
     pub(crate) fn penetrating(&self, t: f64) -> (Vec<u32>, Vec<DVec3>) {
-        let now = self.spans.iter().zip(&self.meetings);
+        let now = self.spans.iter().zip(&self.contact_points);
         let now = now.filter(|(span, _)| span.from <= t && t <= span.to);
         let (mut faces, mut points) = (Vec::new(), Vec::new());
         for (span, &point) in now {
@@ -316,10 +342,10 @@ impl Act {
     }
 }
 
-/// Pairs of the order of the exact compact state, at most: it is built while a hand waits.
+/// The largest number of pairs in the layer order of exact states, which is computed while the user waits.
 const MOST_ORDERED: usize = 500_000;
 
-/// The lower corner and the sides of the box around `points`.
+/// Lower corner and sides of the bounding box of `points`.
 fn bounds(points: &[DVec3]) -> Option<[DVec3; 2]> {
     let low = points.iter().copied().reduce(DVec3::min)?;
     let high = points.iter().copied().reduce(DVec3::max)?;

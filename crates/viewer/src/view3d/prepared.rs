@@ -1,52 +1,53 @@
-//! What is derived from a sheet and its state once, not once a frame.
+//! What is derived once from a sheet and its state, rather than in every frame.
 
 use foldmotion_pattern::Sheet;
 use foldmotion_record::{Layers, TIE_TOLERANCE};
 use glam::DVec3;
 
-use super::eye::Ball;
 use super::picture::Picture;
+use super::projection::Sphere;
 
-/// The lowest layer of a stack sinks by no more than this, in units of `unit_length`: else layers come closer than
+/// The largest depth of the lowest layer of a stack, in units of `unit_length`; in high stacks, layers are closer than
 /// [`TIE_TOLERANCE`].
 const DEEPEST: f64 = 0.2;
 
-/// Cosines of the angle between neighbours of a stack: moved apart in full, and not at all.
+/// Cosines of the angle between neighbouring triangles of a stack at which they are separated fully and not at all.
 const PARALLEL: [f64; 2] = [0.966, 0.866];
 
-/// A sheet in a state.
+/// A sheet in a state, prepared for drawing.
 #[derive(Debug)]
-pub(super) struct Pose {
+pub(super) struct PreparedSheet {
     sheet_key: u64,
     state_key: u64,
-    /// Each triangle of a stack and the nearest to it.
+    /// Each triangle of a stack with its nearest neighbour.
     pairs: Vec<[u32; 2]>,
-    /// The most layers before a triangle.
+    /// The largest number of layers in front of a triangle.
     most: i32,
-    /// Around the sheet.
-    pub(super) ball: Ball,
-    /// Layers before each triangle seen from its front and its back, fewer where the stack is open.
+    /// A sphere around the sheet.
+    pub(super) sphere: Sphere,
+    /// The number of layers in front of each triangle, seen from its front and from its back; smaller where the stack
+    /// is open.
     pub(super) before: Vec<[f32; 2]>,
-    /// Whether every place is finite.
+    /// Whether all positions are finite.
     pub(super) is_finite: bool,
 }
 
-impl Pose {
+impl PreparedSheet {
     pub(super) fn new(picture: &Picture<'_>) -> Self {
-        let mut pose = Self {
+        let mut prepared = Self {
             sheet_key: picture.sheet_key,
             state_key: picture.state_key,
             pairs: picture.layers.map(neighbours).unwrap_or_default(),
             most: picture.layers.map_or(0, most_before),
-            ball: Ball::around([]),
+            sphere: Sphere::around([]),
             before: Vec::new(),
             is_finite: false,
         };
-        pose.take(picture);
-        pose
+        prepared.take(picture);
+        prepared
     }
 
-    /// Follows `picture`; whether another sheet came.
+    /// Follows `picture`; returns whether the sheet has changed.
     pub(super) fn follow(&mut self, picture: &Picture<'_>) -> bool {
         if self.sheet_key != picture.sheet_key {
             *self = Self::new(picture);
@@ -62,22 +63,23 @@ impl Pose {
         self.state_key = picture.state_key;
         let positions = picture.positions;
         self.is_finite = positions.iter().all(|p| p.is_finite());
-        self.ball = Ball::around(positions.iter().copied());
+        self.sphere = Sphere::around(positions.iter().copied());
         self.before = match picture.layers {
             Some(layers) if picture.is_whole() && picture.has_layers() => {
-                closed(picture.sheet, positions, layers, &self.pairs)
+                layers_in_front(picture.sheet, positions, layers, &self.pairs)
             }
             _ => vec![[0.0; 2]; picture.sheet.faces.len()],
         };
     }
 
-    /// The distance of layers.
+    /// The distance between layers.
     pub(super) fn layer(&self, unit_length: f64) -> f64 {
         unit_length * TIE_TOLERANCE.min(DEEPEST / f64::from(self.most.max(1)))
     }
 
-    /// How far triangle `face` sinks behind the first of its stack where the front (`side` > 0) or the back is seen.
-    pub(super) fn sunk(&self, face: usize, side: f64, unit_length: f64) -> f64 {
+    /// How far triangle `face` is moved behind the first of its stack, if its front (`side` > 0) or its back is
+    /// visible.
+    pub(super) fn depth_offset(&self, face: usize, side: f64, unit_length: f64) -> f64 {
         let [front, back] = self.before.get(face).copied().unwrap_or_default();
         f64::from(if side > 0.0 { front } else { back }) * self.layer(unit_length)
     }
@@ -87,7 +89,7 @@ fn most_before(layers: &Layers) -> i32 {
     layers.before.iter().flatten().copied().max().unwrap_or(0)
 }
 
-/// Each triangle of a stack with the one that has the fewest layers between: all pairs would grow with the square of
+/// Each triangle of a stack with the one that has the fewest layers between. All pairs would grow with the square of
 /// the stack.
 fn neighbours(layers: &Layers) -> Vec<[u32; 2]> {
     let mut nearest: Vec<Option<(u32, u32)>> = vec![None; layers.heights.len()];
@@ -110,8 +112,8 @@ fn neighbours(layers: &Layers) -> Vec<[u32; 2]> {
         .collect()
 }
 
-/// The layers before each triangle, as far as it is parallel to its neighbour.
-fn closed(
+/// The number of layers in front of each triangle, reduced where it is not parallel to its neighbour.
+fn layers_in_front(
     sheet: &Sheet,
     positions: &[DVec3],
     layers: &Layers,

@@ -1,4 +1,4 @@
-//! One panel of curves, drawn along the axis of the timeline.
+//! A plot, drawn along the axis of the timeline.
 
 use eframe::egui::{
     Align2, Color32, FontId, Pos2, Rect, Response, Sense, Shape, Stroke, StrokeKind, Ui, Visuals,
@@ -6,12 +6,12 @@ use eframe::egui::{
 };
 
 use super::axis::Axis;
-use super::curves::{Curve, Panel};
+use super::plot::{Curve, Plot};
 
-/// Height of a panel, points.
+/// Height of a plot, points.
 pub(super) const HEIGHT: f32 = 40.0;
 
-/// The colours of curves, apart for every common colour blindness (Okabe and Ito 2008).
+/// Colours of curves that can be told apart with colour blindness (Okabe and Ito 2008).
 const COLOURS: [[u8; 3]; 5] = [
     [0, 114, 178],
     [213, 94, 0],
@@ -20,7 +20,7 @@ const COLOURS: [[u8; 3]; 5] = [
     [230, 159, 0],
 ];
 
-/// The colour of the curve `index`, lighter on dark ground.
+/// The colour of curve `index`, lighter on a dark background.
 fn colour(index: usize, visuals: &Visuals) -> Color32 {
     let [r, g, b] = COLOURS[index % COLOURS.len()];
     let colour = Color32::from_rgb(r, g, b);
@@ -31,13 +31,13 @@ fn colour(index: usize, visuals: &Visuals) -> Color32 {
     }
 }
 
-/// Draws `panel`; answers the response of its area, in which one scrubs.
-pub(super) fn strip(ui: &mut Ui, panel: &Panel, axis: &Axis, time: f64) -> Response {
+/// Draws a plot and returns the response of its area, in which the user can scrub.
+pub(super) fn show_plot(ui: &mut Ui, plot: &Plot, axis: &Axis, time: f64) -> Response {
     let width = ui.available_width();
     let (rect, response) = ui.allocate_exact_size(vec2(width, HEIGHT), Sense::click_and_drag());
-    let name = format!("{} over motion time", panel.title);
+    let name = format!("{} over motion time", plot.title);
     response.widget_info(|| {
-        let words = readings(panel, time);
+        let words = readings(plot, time);
         WidgetInfo::labeled(
             eframe::egui::accesskit::Role::Image,
             true,
@@ -45,18 +45,18 @@ pub(super) fn strip(ui: &mut Ui, panel: &Panel, axis: &Axis, time: f64) -> Respo
         )
     });
     if ui.is_rect_visible(rect) {
-        paint(ui, panel, axis, time, rect);
+        paint(ui, plot, axis, time, rect);
     }
-    // Not over the curves, where it would cover what one scrubs.
+    // The tooltip is not shown over the curves, where it would cover what is being scrubbed.
     let is_beside = response.hover_pos().is_some_and(|at| at.x < axis.span.min);
     if is_beside {
-        response.on_hover_text(panel.about)
+        response.on_hover_text(plot.about)
     } else {
         response
     }
 }
 
-fn paint(ui: &Ui, panel: &Panel, axis: &Axis, time: f64, rect: Rect) {
+fn paint(ui: &Ui, plot: &Plot, axis: &Axis, time: f64, rect: Rect) {
     let visuals = ui.visuals();
     let area = Rect::from_x_y_ranges(axis.span, rect.y_range()).shrink2(vec2(0.0, 2.0));
     let painter = ui.painter();
@@ -68,7 +68,7 @@ fn paint(ui: &Ui, panel: &Panel, axis: &Axis, time: f64, rect: Rect) {
         StrokeKind::Inside,
     );
     let weak = visuals.weak_text_color();
-    let levels = panel.levels();
+    let levels = plot.levels();
     let font = FontId::proportional(10.0);
     let y = |level: f64| {
         let part = (level - levels[0]) / (levels[1] - levels[0]);
@@ -78,7 +78,7 @@ fn paint(ui: &Ui, panel: &Panel, axis: &Axis, time: f64, rect: Rect) {
         (levels[1], Align2::RIGHT_TOP),
         (levels[0], Align2::RIGHT_BOTTOM),
     ] {
-        let value = if panel.is_logarithmic {
+        let value = if plot.is_logarithmic {
             10_f64.powf(level)
         } else {
             level
@@ -102,27 +102,27 @@ fn paint(ui: &Ui, panel: &Panel, axis: &Axis, time: f64, rect: Rect) {
             painter.vline(axis.x(whole), area.y_range(), stroke);
         }
     }
-    if let Some((value, _)) = panel.reference
-        && panel.shows(value)
+    if let Some((value, _)) = plot.reference
+        && plot.shows(value)
     {
-        let at = y(panel.level(value));
+        let at = y(plot.level(value));
         let ends = [pos2(area.left(), at), pos2(area.right(), at)];
         painter.extend(Shape::dashed_line(&ends, Stroke::new(1.0, weak), 4.0, 3.0));
     }
-    for (index, curve) in panel.curves.iter().enumerate() {
+    for (index, curve) in plot.curves.iter().enumerate() {
         let stroke = Stroke::new(1.4, colour(index, visuals));
-        for piece in pieces(panel, curve, axis, &y) {
+        for piece in pieces(plot, curve, axis, &y) {
             painter.line(piece, stroke);
         }
     }
     let now = Stroke::new(1.0, visuals.strong_text_color());
     painter.vline(axis.x(time), area.y_range(), now);
-    legend(ui, panel, time, area);
+    legend(ui, plot, time, area);
 }
 
-/// The curve on the screen, in pieces between gaps: of the points that fall on the same column of points only the lowest
-/// and the highest, so that a motion of thousands of frames costs no more than what is seen.
-fn pieces(panel: &Panel, curve: &Curve, axis: &Axis, y: &impl Fn(f64) -> f32) -> Vec<Vec<Pos2>> {
+/// The curve on the screen, in pieces between gaps. Of all points in one column of pixels only the lowest and the
+/// highest are kept, so that drawing does not slow down with thousands of frames.
+fn pieces(plot: &Plot, curve: &Curve, axis: &Axis, y: &impl Fn(f64) -> f32) -> Vec<Vec<Pos2>> {
     let mut pieces: Vec<Vec<Pos2>> = Vec::new();
     let mut is_open = false;
     let mut column: Option<(f32, f32, f32, f32)> = None;
@@ -142,12 +142,12 @@ fn pieces(panel: &Panel, curve: &Curve, axis: &Axis, y: &impl Fn(f64) -> f32) ->
         }
     };
     for &[t, value] in &curve.points {
-        if !panel.shows(value) {
+        if !plot.shows(value) {
             flush(&mut column, &mut is_open);
             is_open = false;
             continue;
         }
-        let (x, at) = (axis.x(t), y(panel.level(value)));
+        let (x, at) = (axis.x(t), y(plot.level(value)));
         column = match column {
             Some((first, low, high, _)) if x - first < 1.0 => {
                 Some((first, low.min(at), high.max(at), at))
@@ -163,11 +163,11 @@ fn pieces(panel: &Panel, curve: &Curve, axis: &Axis, y: &impl Fn(f64) -> f32) ->
 }
 
 /// Title, and the values at `time` in the colours of their curves.
-fn legend(ui: &Ui, panel: &Panel, time: f64, area: Rect) {
+fn legend(ui: &Ui, plot: &Plot, time: f64, area: Rect) {
     let visuals = ui.visuals();
     let font = FontId::proportional(11.0);
     let painter = ui.painter().with_clip_rect(area);
-    // Its place is known once the words are laid out, over which it would lie.
+    // The background is drawn first, but its size is only known once the text is laid out.
     let ground = painter.add(Shape::Noop);
     let corner = area.left_top() + vec2(5.0, 2.0);
     let mut place = Rect::from_min_size(corner, vec2(0.0, 0.0));
@@ -178,13 +178,13 @@ fn legend(ui: &Ui, panel: &Panel, time: f64, area: Rect) {
         place |= Rect::from_min_size(at, galley.size());
         painter.galley(at, galley, colour);
     };
-    write(panel.title.clone(), visuals.text_color());
-    for (index, curve) in panel.curves.iter().enumerate() {
+    write(plot.title.clone(), visuals.text_color());
+    for (index, curve) in plot.curves.iter().enumerate() {
         let value = curve.at(time).filter(|v| v.is_finite());
         let value = value.map_or_else(|| "–".to_owned(), number);
         write(format!("{} {value}", curve.name), colour(index, visuals));
     }
-    if let Some((value, name)) = panel.reference {
+    if let Some((value, name)) = plot.reference {
         write(
             format!("{name} {}", number(value)),
             visuals.weak_text_color(),
@@ -197,8 +197,8 @@ fn legend(ui: &Ui, panel: &Panel, time: f64, area: Rect) {
     );
 }
 
-/// The values at `time` in words.
-fn readings(panel: &Panel, time: f64) -> String {
+/// The values at `time` as text.
+fn readings(plot: &Plot, time: f64) -> String {
     let value = |curve: &Curve| {
         let value = curve.at(time).filter(|v| v.is_finite());
         format!(
@@ -207,15 +207,10 @@ fn readings(panel: &Panel, time: f64) -> String {
             value.map_or_else(|| "none".to_owned(), number)
         )
     };
-    panel
-        .curves
-        .iter()
-        .map(value)
-        .collect::<Vec<_>>()
-        .join(", ")
+    plot.curves.iter().map(value).collect::<Vec<_>>().join(", ")
 }
 
-/// Three digits.
+/// Formats a number with about three significant digits.
 pub(crate) fn number(value: f64) -> String {
     let size = value.abs();
     if size == 0.0 {
@@ -249,7 +244,7 @@ mod tests {
             .collect();
         points[7_777][1] = 9.0;
         points[15_000][1] = f64::NAN;
-        let panel = Panel {
+        let plot = Plot {
             title: String::new(),
             about: "",
             is_logarithmic: false,
@@ -260,7 +255,7 @@ mod tests {
             times: [0.0, 2.0],
             span: Rangef::new(0.0, 300.0),
         };
-        let pieces = pieces(&panel, &panel.curves[0], &axis, &|level| level as f32);
+        let pieces = pieces(&plot, &plot.curves[0], &axis, &|level| level as f32);
         assert_eq!(pieces.len(), 2, "a value that is no number is a gap");
         let all: Vec<Pos2> = pieces.concat();
         assert!(all.len() < 1_000, "{}", all.len());

@@ -1,36 +1,36 @@
-//! The view under the user's hand: turning, moving, zooming, pulling a vertex.
+//! Mouse and keyboard in the view: turning, moving, zooming, and pulling a vertex.
 
 use eframe::egui::{self, EventFilter, Key, PointerButton, Pos2, Rect, Response, StrokeKind, Ui};
 use glam::{DVec2, DVec3};
 
-use super::eye::Eye;
 use super::pick::Hit;
-use super::picture::{Handle, Picture};
-use super::{Seen, View3d};
+use super::picture::{Picture, VertexPull};
+use super::projection::Projection;
+use super::{View3d, ViewResponse};
 
-/// Degrees a point of a drag.
+/// Degrees per point of a drag.
 const DEGREES_A_POINT: f64 = 0.4;
 
-/// Degrees a press of an arrow key.
+/// Degrees per press of an arrow key.
 const DEGREES_A_KEY: f64 = 5.0;
 
-/// Factor a press of plus or minus.
+/// Zoom factor per press of plus or minus.
 const ZOOM_A_KEY: f64 = 1.2;
 
-/// Logarithm of the factor a point of scrolling.
+/// Logarithm of the zoom factor per point of scrolling.
 const ZOOM_A_POINT: f64 = 1.0 / 200.0;
 
-/// The longest time a frame stands for, in seconds.
+/// The longest duration of a frame that a camera transition takes into account, seconds.
 const LONGEST_FRAME: f32 = 0.05;
 
-/// `at` as points from the upper left corner of `rect`.
+/// `at` in points from the upper left corner of `rect`.
 pub(super) fn within(rect: Rect, at: Pos2) -> DVec2 {
     let at = at - rect.min;
     DVec2::new(f64::from(at.x), f64::from(at.y))
 }
 
 impl View3d {
-    /// Does what the user asks of the camera, and goes on turning.
+    /// Moves the camera as the user asks, and continues a transition.
     pub(super) fn move_camera(
         &mut self,
         ui: &Ui,
@@ -51,10 +51,10 @@ impl View3d {
         self.scroll(ui, response, rect);
         self.press_keys(ui, response);
         if self.orbit != before {
-            self.turning = None;
+            self.transition = None;
         }
-        self.fit_now(rect);
-        self.go_on(ui);
+        self.apply_pending_fit(rect);
+        self.step_transition(ui);
     }
 
     fn drag(&mut self, ui: &Ui, response: &Response, rect: Rect) {
@@ -68,7 +68,7 @@ impl View3d {
             let length = self.orbit.width / f64::from(rect.width());
             self.orbit.pan(DVec2::new(by.x, -by.y) * length);
         } else if response.dragged_by(PointerButton::Primary) && !response.drag_started() {
-            // In the frame in which a drag begins it is not known yet whether it pulls a vertex.
+            // In the frame in which a drag begins it is not yet known whether it pulls a vertex.
             let [azimuth, elevation] = [-by.x, by.y].map(|points| points * DEGREES_A_POINT);
             self.orbit.turn(azimuth, elevation, self.pivot);
         }
@@ -89,7 +89,7 @@ impl View3d {
         }
     }
 
-    /// Arrow keys turn and plus and minus zoom while the view has the focus.
+    /// Arrow keys turn, and plus and minus zoom, while the view has the keyboard focus.
     fn press_keys(&mut self, ui: &Ui, response: &Response) {
         if !response.has_focus() {
             return;
@@ -121,51 +121,51 @@ impl View3d {
         }
     }
 
-    /// Fits what waits to be fitted: the first time at once.
-    fn fit_now(&mut self, rect: Rect) {
-        let Some(points) = self.fitting.take() else {
+    /// Fits the pending points: immediately the first time, later in a transition.
+    fn apply_pending_fit(&mut self, rect: Rect) {
+        let Some(points) = self.pending_fit.take() else {
             return;
         };
         let mut to = self.orbit();
         let size = DVec2::new(f64::from(rect.width()), f64::from(rect.height()));
         to.fit(points, size);
         if self.was_shown {
-            self.turn_into(to);
+            self.move_to(to);
         } else {
             self.set_orbit(to);
         }
     }
 
-    /// A step of a turn; asks for the next.
-    fn go_on(&mut self, ui: &Ui) {
-        if let Some(turning) = &mut self.turning {
+    /// Advances the camera transition and requests the next frame.
+    fn step_transition(&mut self, ui: &Ui) {
+        if let Some(transition) = &mut self.transition {
             let seconds = ui.input(|input| input.stable_dt).min(LONGEST_FRAME);
-            let (orbit, has_arrived) = turning.step(f64::from(seconds));
+            let (orbit, has_arrived) = transition.step(f64::from(seconds));
             self.orbit = orbit;
             if has_arrived {
-                self.turning = None;
+                self.transition = None;
             }
             ui.ctx().request_repaint();
         }
     }
 
-    /// What is under the pointer, and the vertex in the hand.
-    pub(super) fn look_under_pointer(
+    /// Finds what is under the pointer, and handles pulling a vertex.
+    pub(super) fn pick(
         &mut self,
         ui: &Ui,
         response: &Response,
         rect: Rect,
         picture: &Picture<'_>,
-        eye: &Eye,
-    ) -> Seen {
+        projection: &Projection,
+    ) -> ViewResponse {
         let pointer = response.hover_pos().filter(|_| !response.dragged());
-        self.points.follow(picture, eye);
+        self.points.follow(picture, projection);
         let hit = self.hit(picture, pointer.map(|at| within(rect, at)));
-        self.take_vertex(ui, response, rect, picture);
-        let pull = self.pull(response, rect, picture, eye);
+        self.update_pulled_vertex(ui, response, rect, picture);
+        let pull = self.pull(response, rect, picture, projection);
         let vertex = hit.vertex;
         self.mark(ui, response, rect, vertex.filter(|_| picture.can_pull));
-        Seen {
+        ViewResponse {
             vertex,
             face: hit.face,
             pull,
@@ -173,14 +173,20 @@ impl View3d {
     }
 
     fn hit(&self, picture: &Picture<'_>, at: Option<DVec2>) -> Hit {
-        match (&self.pose, at) {
-            (Some(pose), Some(at)) => self.points.hit(picture, pose, at),
+        match (&self.prepared, at) {
+            (Some(prepared), Some(at)) => self.points.hit(picture, prepared, at),
             _ => Hit::default(),
         }
     }
 
-    /// Takes the vertex where a drag begins, lets it go where it ends.
-    fn take_vertex(&mut self, ui: &Ui, response: &Response, rect: Rect, picture: &Picture<'_>) {
+    /// Grabs a vertex where a drag begins and releases it where the drag ends.
+    fn update_pulled_vertex(
+        &mut self,
+        ui: &Ui,
+        response: &Response,
+        rect: Rect,
+        picture: &Picture<'_>,
+    ) {
         let is_held = response.dragged_by(PointerButton::Primary) && picture.can_pull;
         if !is_held {
             self.pulled = None;
@@ -196,18 +202,18 @@ impl View3d {
         response: &Response,
         rect: Rect,
         picture: &Picture<'_>,
-        eye: &Eye,
-    ) -> Option<Handle> {
+        projection: &Projection,
+    ) -> Option<VertexPull> {
         let vertex = self.pulled?;
         let at = response.interact_pointer_pos()?;
         let place: DVec3 = *picture.positions.get(vertex as usize)?;
-        Some(Handle {
+        Some(VertexPull {
             vertex,
-            target: eye.beside(place, within(rect, at)),
+            target: projection.beside(place, within(rect, at)),
         })
     }
 
-    /// Rings the vertex that can be taken, and the view where it has the focus.
+    /// Marks the vertex that can be grabbed, and the view if it has the keyboard focus.
     fn mark(&self, ui: &Ui, response: &Response, rect: Rect, vertex: Option<u32>) {
         let stroke = egui::Stroke::new(1.0, ui.visuals().hyperlink_color);
         if let Some(at) = vertex.and_then(|vertex| self.points.at(vertex)) {
