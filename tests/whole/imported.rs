@@ -153,7 +153,7 @@ fn the_report_of_an_import_has_no_unit_and_starts_at_the_flat_sheet() {
             .all(|a| *a == 0.0)
     );
     assert_eq!(time(frames(&motion).last().unwrap()), 2.0);
-    assert_eq!(report.stages[0].name, "fold");
+    assert_eq!(report.stages[0].name.name(), "fold");
 }
 
 #[test]

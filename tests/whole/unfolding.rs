@@ -43,11 +43,11 @@ fn a_fermat_spiral_unfolded_uniformly_penetrates_and_by_energy_does_not() {
         &[&BARE[..], &["motion.unfold=uniform"]].concat(),
     );
     let of_uniform = uniform.unfold.unwrap();
-    assert_eq!(of_uniform.method, "uniform");
+    assert_eq!(of_uniform.method.name(), "uniform");
     assert!(!of_uniform.certified && of_uniform.steps.is_none());
     let first = uniform.collision.first.unwrap();
     assert_eq!(
-        (uniform.collision.verdict.name(), first.stage.as_str()),
+        (uniform.collision.verdict.name(), first.stage.name()),
         ("penetrating", "unfold")
     );
     // Straight paths between 20 frames a stage stray a little from the motion.
@@ -61,7 +61,7 @@ fn a_fermat_spiral_unfolded_uniformly_penetrates_and_by_energy_does_not() {
     let auto = run("spiral-energy", &BARE);
     let of_auto = auto.unfold.as_ref().unwrap();
     assert_eq!(
-        (of_auto.method.as_str(), of_auto.asked.as_str()),
+        (of_auto.method.name(), of_auto.asked.name()),
         ("energy", "auto")
     );
     assert!(of_auto.certified && of_auto.steps.unwrap() > 10);
@@ -91,7 +91,7 @@ fn a_shelter_unfolds_uniformly_unless_energy_is_asked_for() {
     ] {
         let unfolding = unfolding("shelter-e", &[&format!("motion.unfold={asked}")]);
         assert_eq!(
-            (unfolding.method(), unfolding.asked.name()),
+            (unfolding.method().name(), unfolding.asked.name()),
             (method, asked)
         );
         assert!(
@@ -113,7 +113,7 @@ fn a_shelter_unfolds_uniformly_unless_energy_is_asked_for() {
     );
     assert_eq!(
         (
-            report.unfold.as_ref().unwrap().method.as_str(),
+            report.unfold.as_ref().unwrap().method.name(),
             report.collision.verdict.name()
         ),
         ("energy", "touching")
@@ -147,10 +147,10 @@ fn every_built_in_profile_unfolds_on_a_way_proved_clear() {
 fn rows_that_unfold_in_turn_are_uniform_and_nothing_is_proved_of_them() {
     let step = "motion.step=[{stage=\"unfold\", rows=[0, 20], to=0.5}]";
     let auto = unfolding("spiral-energy", &[step]);
-    assert_eq!((auto.method(), auto.certified), ("uniform", false));
+    assert_eq!((auto.method().name(), auto.certified), ("uniform", false));
     assert!(auto.crosses_at.is_some());
     let energy = unfolding("spiral-energy", &[step, "motion.unfold=energy"]);
-    assert_eq!((energy.method(), energy.certified), ("energy", false));
+    assert_eq!((energy.method().name(), energy.certified), ("energy", false));
     let all = "motion.step=[{stage=\"unfold\", creases=\"rows\", ease=\"smooth\"}]";
     assert!(unfolding("spiral-energy", &[all]).certified);
 }

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
 use foldmotion_study::scene::{
-    CameraChoice, CameraScene, ColourChoice, HoldScene, LoopChoice, OutputChoice, OwnCamera,
+    CameraChoice, CameraScene, ColourChoice, HoldScene, OutputChoice, OwnCamera, Playback,
     RecordScene, ThickenedScene,
 };
 
@@ -136,8 +136,8 @@ impl RecordArguments {
             seconds: self.seconds,
             hold: self.hold,
             playback: self.playback.map(|playback| match playback {
-                Loop::Forward => LoopChoice::Forward,
-                Loop::BackAndForth => LoopChoice::BackAndForth,
+                Loop::Forward => Playback::Once,
+                Loop::BackAndForth => Playback::BackAndForth,
             }),
             camera: self.camera,
             colour: self.colour.map(|colour| match colour {

@@ -1,6 +1,7 @@
 //! The division of a profile into segments (section 2 of the paper).
 
 use glam::DVec2;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::chain;
@@ -17,7 +18,7 @@ const MOST_SEGMENTS: usize = 1_000_000;
 const SAME_DIVISION: f64 = 1e-9;
 
 /// How a profile is divided.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 #[non_exhaustive]
 pub enum DivisionMethod {

@@ -6,13 +6,14 @@
 //! model N5B8); Liu and Paulino 2018 (MERLIN2).
 
 use glam::{DVec2, DVec3};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::layout::split;
 use crate::{Facet, UnitSheet};
 
 /// How a quadrilateral facet is cut into triangles.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum FacetModel {
     /// Four triangles around a middle node, where the diagonals cross.

@@ -10,13 +10,14 @@ use std::collections::BTreeMap;
 use std::f64::consts::PI;
 
 use glam::DVec3;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::layout::Place;
 use crate::{Assignment, CompactBox, CreaseKind, Facet, FacetKind, PatternError, Unit, UnitSheet};
 
 /// How a sheet of units is folded.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum Folding {
     /// Each unit folds: the paper's compact states.

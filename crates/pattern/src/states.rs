@@ -1,5 +1,8 @@
 //! The exact states of a sheet of units: deployed, planar (see [`Sheet::planar`](crate::Sheet::planar)), compact.
 
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
 use std::collections::VecDeque;
 
 use foldmotion_geometry::RigidMotion;
@@ -9,7 +12,8 @@ use crate::layout::{Family, Place};
 use crate::{Case, CreaseKind, Folding, PatternError, Sheet, UnitSheet};
 
 /// The side of the profile, seen along it from its start, on which the flaps stand.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
 pub enum Facing {
     /// On the left in the x–z plane with x to the right and z up.
     #[default]

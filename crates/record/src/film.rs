@@ -1,5 +1,8 @@
 //! The timeline of a film: which motion time is shown when, and for how long.
 
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
 use foldmotion_pattern::{Frame, Motion};
 use glam::DVec3;
 
@@ -20,10 +23,12 @@ const MAX_SETTLING_SECONDS: f64 = 1.0;
 const MAX_TURN: f64 = 3600.0;
 
 /// How often the states of a motion are shown.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
 pub enum Playback {
     /// From the first to the last.
     #[default]
+    #[serde(rename = "forward")]
     Once,
     /// To the last and back to the first; a film that repeats then has no jump.
     BackAndForth,

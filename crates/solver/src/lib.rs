@@ -20,7 +20,7 @@ mod schedule;
 
 pub use budget::Budget;
 pub use error::SolverError;
-pub use material::Material;
+pub use material::{Material, Preset};
 pub use model::{Bar, EnergyByKind, FaceAngles, Hinge, HingeKind, Model};
 pub use moment::{Moment, Watcher};
 pub use schedule::{CreaseGroup, Ease, Schedule, ScheduleStep, Stage, UnfoldPath};

@@ -13,7 +13,36 @@
 //! κ_fold = D / L*, of the order of κ_facet for h/2 ≈ 50 τ. Equilibrium shapes depend on these ratios alone, so E drops
 //! out; the estimates hold to a factor, as the tributary widths of real facets differ.
 
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
 use crate::SolverError;
+
+/// Materials by name.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Preset {
+    /// Origami Simulator's constants, with its face-angle springs.
+    OrigamiSimulator,
+    /// Stiff bars, soft creases.
+    Paper,
+    /// Bars that strain by less than a thousandth.
+    NearRigid,
+}
+
+impl Preset {
+    /// Every preset, the softest first.
+    pub const ALL: [Self; 3] = [Self::OrigamiSimulator, Self::Paper, Self::NearRigid];
+
+    /// Its constants.
+    pub fn material(self) -> Material {
+        match self {
+            Self::OrigamiSimulator => Material::ORIGAMI_SIMULATOR,
+            Self::Paper => Material::PAPER,
+            Self::NearRigid => Material::NEAR_RIGID,
+        }
+    }
+}
 
 /// Stiffness and damping of the bars and hinges.
 ///
@@ -63,19 +92,6 @@ impl Material {
         face_angle_stiffness: 0.0,
         damping_ratio: 0.45,
     };
-
-    /// The names [`Self::preset`] knows.
-    pub const PRESETS: [&'static str; 3] = ["origami-simulator", "paper", "near-rigid"];
-
-    /// The material of that name; none where there is none.
-    pub fn preset(name: &str) -> Option<Self> {
-        match name {
-            "origami-simulator" => Some(Self::ORIGAMI_SIMULATOR),
-            "paper" => Some(Self::PAPER),
-            "near-rigid" => Some(Self::NEAR_RIGID),
-            _ => None,
-        }
-    }
 
     /// The smallest stiffness taken; together with [`Self::MAX_STIFFNESS`] it keeps every product of two within f64.
     pub const MIN_STIFFNESS: f64 = 1e-9;
@@ -133,15 +149,14 @@ mod tests {
 
     #[test]
     fn every_named_preset_exists_and_is_valid_and_no_other() {
-        for name in Material::PRESETS {
-            assert_eq!(Material::preset(name).map(|m| m.validate()), Some(Ok(())));
+        for preset in Preset::ALL {
+            assert_eq!(preset.material().validate(), Ok(()));
         }
-        assert_eq!(Material::preset("steel"), None);
     }
 
     #[test]
     fn presets_rise_in_stiffness_and_keep_the_hinges() {
-        let [soft, paper, rigid] = Material::PRESETS.map(|n| Material::preset(n).unwrap());
+        let [soft, paper, rigid] = Preset::ALL.map(Preset::material);
         assert!(soft.axial_stiffness < paper.axial_stiffness);
         assert!(paper.axial_stiffness < rigid.axial_stiffness);
         assert_eq!(soft.fold_stiffness, rigid.fold_stiffness);

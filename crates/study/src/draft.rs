@@ -1,15 +1,15 @@
 //! What a scene folds, before anything says how it moves: quick enough to follow a hand that drags a control point.
 
 use foldmotion_geometry::{Division, Fit, Profile};
-use foldmotion_pattern::{CompactBox, Facing, PatternCheck, Sheet, UnitSheet};
+use foldmotion_pattern::{CompactBox, PatternCheck, Sheet, UnitSheet};
 use glam::DVec3;
 
 use crate::resolve::imported::{ImportedStudy, imported};
 use crate::resolve::input::Input;
 use crate::resolve::unit::pattern_error;
 use crate::resolve::units::{ResolvedSheet, sheet};
-use crate::scene::{DivisionChoice, FacingChoice};
-use crate::{Scene, SceneSource, StudyError};
+use crate::scene::DivisionMethod;
+use crate::{SceneSource, StudyError};
 
 /// What a scene folds.
 #[derive(Debug, Clone)]
@@ -30,7 +30,7 @@ pub struct UnitDraft {
     /// Γ divided.
     pub division: Division,
     /// How.
-    pub division_method: DivisionChoice,
+    pub division_method: DivisionMethod,
     /// How far Γ is from its segments.
     pub fit: Fit,
     /// The sheet of units.
@@ -85,16 +85,6 @@ impl Draft {
     }
 }
 
-impl Scene {
-    /// The side of the profile on which the flaps stand.
-    pub(crate) fn facing(&self) -> Facing {
-        match self.sheet.facing {
-            Some(FacingChoice::Right) => Facing::Right,
-            _ => Facing::Left,
-        }
-    }
-}
-
 fn unit_draft(input: &Input<'_>) -> Result<UnitDraft, StudyError> {
     let ResolvedSheet {
         profile_source,
@@ -103,7 +93,10 @@ fn unit_draft(input: &Input<'_>) -> Result<UnitDraft, StudyError> {
         ..
     } = sheet(input)?;
     let deployed = units
-        .deployed(&divided.division.points, input.scene.facing())
+        .deployed(
+            &divided.division.points,
+            input.scene.sheet.facing.unwrap_or_default(),
+        )
         .map_err(|e| pattern_error(input, &e))?;
     Ok(UnitDraft {
         pattern: units.check(),

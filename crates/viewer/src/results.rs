@@ -220,7 +220,7 @@ fn boxes(ui: &mut Ui, report: &Report) {
 
 fn stage_rows(ui: &mut Ui, stage: &StageReport) -> Option<f64> {
     let mut chosen = None;
-    ui.strong(format!("stage {}", stage.name));
+    ui.strong(format!("stage {}", stage.name.name()));
     if !stage.converged {
         let words = format!("no equilibrium beyond t = {:.4}", stage.reached_t);
         ui.colored_label(ui.visuals().warn_fg_color, words);
@@ -249,6 +249,10 @@ fn engine(ui: &mut Ui, report: &Report) {
     );
     ui.weak(format!(
         "{} engine on {} ({gap}): {:.2} s for {} steps; check {:.2} s",
-        engine.name, engine.device, engine.seconds, engine.steps, report.seconds.check
+        engine.name.name(),
+        engine.device,
+        engine.seconds,
+        engine.steps,
+        report.seconds.check
     ));
 }

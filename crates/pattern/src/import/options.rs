@@ -1,5 +1,8 @@
 //! How a crease pattern is read, and how much of one.
 
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
 use super::ImportError;
 
 /// The most bytes of a file.
@@ -53,7 +56,8 @@ impl MergeTolerance {
 }
 
 /// What becomes of what cannot be read.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
 pub enum Unknown {
     /// The file is refused; the error names every such element.
     #[default]

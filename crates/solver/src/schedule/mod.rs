@@ -1,5 +1,8 @@
 //! The schedule: the target fold angle of every hinge along the motion.
 
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
 use foldmotion_pattern::{Edge, Sheet};
 use glam::DVec3;
 
@@ -22,7 +25,8 @@ use crate::{Model, SolverError};
 const MAX_ANGLE: f64 = std::f64::consts::TAU;
 
 /// A stage of the motion.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
 pub enum Stage {
     /// Deployed to planar: motion time t from 0 to 1.
     Unfold,

@@ -1,5 +1,8 @@
 //! A step of the schedule: which creases move when.
 
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
 use foldmotion_pattern::{Assignment, CreaseKind, Edge, Sheet};
 
 use super::Stage;
@@ -10,7 +13,8 @@ use crate::SolverError;
 const MIN_DURATION: f64 = 1e-6;
 
 /// Creases named by their place in the unit, or by the way they fold.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
 pub enum CreaseGroup {
     /// Every crease.
     #[default]

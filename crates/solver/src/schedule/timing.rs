@@ -1,7 +1,11 @@
 //! When a hinge turns within its stage, and how.
 
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
 /// How a crease moves between the start and the end of its step.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
 pub enum Ease {
     /// At constant speed: the share u of the time has made the share u of the turn.
     #[default]

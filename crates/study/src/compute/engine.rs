@@ -7,6 +7,9 @@ use foldmotion_solver::quasi_static::{
 };
 use foldmotion_solver::{Budget, Stage, Watcher};
 
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
 use crate::scene::EngineChoice;
 use crate::{Study, StudyError};
 
@@ -56,25 +59,15 @@ pub(crate) struct StopSummary {
 }
 
 /// Why a stage ended before its end.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum StopCause {
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum StopCause {
     /// No equilibrium was found further on.
     NoEquilibrium,
     /// The budget of steps or iterations was used up.
     OutOfSteps,
     /// The budget of time was used up.
     OutOfTime,
-}
-
-impl StopCause {
-    /// Its name in reports.
-    pub(crate) fn name(self) -> &'static str {
-        match self {
-            Self::NoEquilibrium => "no-equilibrium",
-            Self::OutOfSteps => "out-of-steps",
-            Self::OutOfTime => "out-of-time",
-        }
-    }
 }
 
 impl From<StopReason> for StopCause {

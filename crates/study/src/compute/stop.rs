@@ -4,7 +4,7 @@ use foldmotion_geometry::Number;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::compute::engine::StageSummary;
+use super::engine::{StageSummary, StopCause};
 
 /// The engine stopped before the end of the motion.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -13,7 +13,7 @@ pub struct StopReport {
     pub t: f64,
     /// no-equilibrium: none was found further on, however short the load step; out-of-steps: the budget of steps or
     /// iterations was used up before one was; out-of-time: the budget of time was.
-    pub reason: String,
+    pub reason: StopCause,
     /// The load step that the quasi-static engine tried last, in motion time; null for the dynamic engine.
     pub load_step: Option<f64>,
     /// Unbalanced force left by the last attempt, as the engine states it.
@@ -28,7 +28,7 @@ impl StopReport {
         let stop = stage.stop?;
         Some(Self {
             t: stage.reached,
-            reason: stop.reason.name().to_owned(),
+            reason: stop.reason,
             load_step: stop.step,
             residual: stop.residual,
             residual_tolerance: stop.tolerance,
@@ -37,12 +37,14 @@ impl StopReport {
 
     /// Why, in a few words.
     pub fn words(&self) -> String {
-        match self.reason.as_str() {
-            "out-of-steps" => {
+        match self.reason {
+            StopCause::OutOfSteps => {
                 "the budget of steps was used up before the next equilibrium was found"
             }
-            "out-of-time" => "the budget of time was used up before the next equilibrium was found",
-            _ => "no equilibrium was found further on",
+            StopCause::OutOfTime => {
+                "the budget of time was used up before the next equilibrium was found"
+            }
+            StopCause::NoEquilibrium => "no equilibrium was found further on",
         }
         .to_owned()
     }
@@ -65,7 +67,7 @@ mod tests {
     use foldmotion_solver::Stage;
 
     use super::*;
-    use crate::compute::engine::{StopCause, StopSummary};
+    use crate::compute::engine::StopSummary;
 
     fn report(reason: StopCause, step: Option<f64>) -> Option<StopReport> {
         StopReport::of(&StageSummary {
@@ -87,7 +89,7 @@ mod tests {
     #[test]
     fn a_stop_is_told_with_its_reason_and_its_evidence() {
         let none = report(StopCause::NoEquilibrium, Some(1e-5)).unwrap();
-        assert_eq!((none.t, none.reason.as_str()), (1.25, "no-equilibrium"));
+        assert_eq!((none.t, none.reason), (1.25, StopCause::NoEquilibrium));
         assert_eq!(
             none.line(),
             "unbalanced force left in the last attempt, a load step of 1e-5: 0.5; at most 1e-9 counts as \

@@ -62,8 +62,8 @@ pub struct DecidedBy {
 pub struct PenetrationReport {
     /// Motion time.
     pub t: f64,
-    /// unfold or fold.
-    pub stage: String,
+    /// The stage in which it begins: unfold or fold.
+    pub stage: Stage,
     /// What went through what.
     pub kind: PenetrationKind,
     /// The two facets of the crease pattern.
@@ -100,7 +100,7 @@ impl PenetrationReport {
         format!(
             "t = {:.5} ({}): {}, facets {}{} and {}{}, vertices {:?}{}, depth {:.2} {h}",
             self.t,
-            self.stage,
+            self.stage.name(),
             self.kind,
             self.facets[0],
             unit(0),
@@ -158,7 +158,7 @@ impl Study {
         };
         PenetrationReport {
             t: p.time,
-            stage: stage.name().to_owned(),
+            stage,
             kind: p.kind,
             facets,
             faces: p.faces,

@@ -12,7 +12,6 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::results::Published;
-use crate::scene::EngineChoice;
 use crate::{Study, VERSION};
 
 pub use self::collision::{CollisionSection, DecidedBy, PenetrationReport};
@@ -25,6 +24,7 @@ pub use self::sheet::{
     UnitReport, VertexReport,
 };
 use self::sheet::{division_report, profile_report, row_reports, unfold_report};
+pub use crate::compute::engine::StopCause;
 pub use crate::compute::fold_angles::FoldAngleReport;
 use crate::compute::folded::Folded;
 pub use crate::compute::jam::JamReport;
@@ -169,11 +169,7 @@ impl Study {
             collision: self.collision_section(&findings.collision),
             path: folded.path,
             engine: EngineReport {
-                name: match self.engine {
-                    EngineChoice::Dynamic => "dynamic",
-                    EngineChoice::QuasiStatic => "quasi-static",
-                }
-                .to_owned(),
+                name: self.engine,
                 contact_gap: self.contact_gap,
                 steps: computed.steps,
                 seconds: folded.engine_seconds,

@@ -1,16 +1,18 @@
 //! Stages and engine in the report.
 
+use foldmotion_solver::Stage;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::compute::engine::StageSummary;
 use crate::compute::series::FrameFigures;
+use crate::scene::EngineChoice;
 
 /// What happened in a stage.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct StageReport {
-    /// unfold or fold.
-    pub name: String,
+    /// The stage: unfold or fold.
+    pub name: Stage,
     /// Largest |l/l0 − 1| of all edges and frames.
     pub peak_strain: f64,
     /// Motion time of the largest strain.
@@ -57,8 +59,8 @@ pub struct EnergyReport {
 /// The engine.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct EngineReport {
-    /// dynamic or quasi-static.
-    pub name: String,
+    /// The engine: dynamic or quasi-static.
+    pub name: EngineChoice,
     /// Closest approach of layers, units of h; null without contact.
     pub contact_gap: Option<f64>,
     /// Steps of all stages.
@@ -109,7 +111,7 @@ pub(super) fn stage_report(outcome: &StageSummary, series: &[FrameFigures]) -> S
     let (peak_facet_bending_deg, peak_facet_bending_t) = peak(|f| f.peak_bending_deg);
     let most = |value: fn(&FrameFigures) -> f64| peak(value).0;
     StageReport {
-        name: outcome.stage.name().to_owned(),
+        name: outcome.stage,
         peak_strain,
         peak_strain_t,
         mean_strain: within.iter().map(|f| f.mean_strain).sum::<f64>() / within.len().max(1) as f64,

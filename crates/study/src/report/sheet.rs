@@ -2,12 +2,14 @@
 
 use std::fmt::Write as _;
 
+use foldmotion_geometry::DivisionMethod;
 use foldmotion_pattern::{Unit, UnitSheet};
 use glam::DVec2;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::compact::BoxReport;
+use crate::scene::UnfoldChoice;
 use crate::{Study, Unfolding, UnitStudy};
 
 /// A row of its own height.
@@ -66,8 +68,8 @@ pub struct FitReport {
 /// The division of Γ (equations 1 and 2).
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct DivisionReport {
-    /// How.
-    pub method: String,
+    /// How the profile was divided.
+    pub method: DivisionMethod,
     /// |R_max|.
     pub max_residual: f64,
     /// |R_ave|.
@@ -125,9 +127,9 @@ pub struct VertexReport {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct UnfoldReport {
     /// uniform or energy.
-    pub method: String,
+    pub method: UnfoldChoice,
     /// uniform, energy or auto.
-    pub asked: String,
+    pub asked: UnfoldChoice,
     /// Whether the divided profile was proved not to cross itself on this path.
     pub certified: bool,
     /// Where uniform scaling makes it cross itself first, as a share of the stage; null where it does not or was not looked at.
@@ -182,7 +184,7 @@ impl UnfoldReport {
         let crosses = self.crosses_at.map_or_else(String::new, |share| {
             format!(" (uniform scaling crosses at t = {share:.4})")
         });
-        format!("unfold: {}, {certified}{crosses}", self.method)
+        format!("unfold: {}, {certified}{crosses}", self.method.name())
     }
 }
 
@@ -238,7 +240,7 @@ pub(super) fn profile_report(study: &UnitStudy) -> ProfileReport {
 
 pub(super) fn division_report(study: &UnitStudy) -> DivisionReport {
     DivisionReport {
-        method: study.division_method.name().to_owned(),
+        method: study.division_method,
         fit: FitReport {
             largest: study.fit.largest,
             mean: study.fit.mean,
@@ -254,8 +256,8 @@ pub(super) fn division_report(study: &UnitStudy) -> DivisionReport {
 pub(super) fn unfold_report(unfolding: &Unfolding) -> UnfoldReport {
     let path = unfolding.path.as_ref();
     UnfoldReport {
-        method: unfolding.method().to_owned(),
-        asked: unfolding.asked.name().to_owned(),
+        method: unfolding.method(),
+        asked: unfolding.asked,
         certified: unfolding.certified,
         crosses_at: unfolding.crosses_at,
         steps: path.map(|path| path.steps),

@@ -38,7 +38,7 @@ impl Report {
             let _ = writeln!(
                 out,
                 "{:<8} {:>10.3} %  {:>10.4} %  {:>11.2} deg   {:<9}   {:.2}",
-                s.name,
+                s.name.name(),
                 s.peak_strain * 100.0,
                 s.mean_strain * 100.0,
                 s.peak_facet_bending_deg,
@@ -64,7 +64,7 @@ impl Report {
         let _ = writeln!(
             out,
             "engine {}: {} steps in {:.2} s, {} thread(s), {}; check {:.2} s, record {:.2} s",
-            e.name,
+            e.name.name(),
             e.steps,
             e.seconds,
             e.threads,

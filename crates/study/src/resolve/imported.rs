@@ -4,14 +4,14 @@ use std::path::Path;
 
 use foldmotion_pattern::{
     Curves, ImportError, ImportOptions, Imported, LARGEST_IMPORT_FILE, MergeTolerance,
-    PatternCheck, Unknown, import_fold, import_svg,
+    PatternCheck, import_fold, import_svg,
 };
 use foldmotion_solver::{Schedule, ScheduleStep, Stage};
 
 use super::input::Input;
 use super::motion::{schedule_error, steps};
-use crate::scene::pattern::{PatternScene, UnknownChoice};
-use crate::scene::{CreasesChoice, DivisionScene, ProfileScene, SheetScene, StageChoice};
+use crate::scene::pattern::PatternScene;
+use crate::scene::{CreaseGroup, DivisionScene, ProfileScene, SheetScene};
 use crate::{SceneSource, StudyError, input_file};
 
 /// A crease pattern of a file.
@@ -146,10 +146,7 @@ fn read_pattern(input: &Input<'_>, scene: &PatternScene) -> Result<Imported, Stu
     };
     let options = ImportOptions {
         merge: scene.vertex_tolerance.map(MergeTolerance::Absolute),
-        unknown: match scene.unknown {
-            Some(UnknownChoice::Ignore) => Unknown::Ignore,
-            Some(UnknownChoice::Refuse) | None => Unknown::Refuse,
-        },
+        unknown: scene.unknown.unwrap_or_default(),
         curves: scene
             .curve_tolerance
             .map_or(Curves::Refuse, Curves::Flatten),
@@ -210,10 +207,10 @@ fn imported_steps(input: &Input<'_>) -> Result<Vec<ScheduleStep>, StudyError> {
     for (index, step) in input.scene.motion.step.iter().enumerate() {
         let is_of_units = !matches!(
             step.creases,
-            None | Some(CreasesChoice::All | CreasesChoice::Mountains | CreasesChoice::Valleys)
+            None | Some(CreaseGroup::All | CreaseGroup::Mountains | CreaseGroup::Valleys)
         );
         let faults = [
-            ("stage", step.stage == StageChoice::Unfold),
+            ("stage", step.stage == Stage::Unfold),
             ("creases", is_of_units),
             ("rows", step.rows.is_some()),
             ("columns", step.columns.is_some()),

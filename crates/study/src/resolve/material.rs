@@ -9,7 +9,7 @@ use crate::StudyError;
 pub(crate) fn material(input: &Input<'_>) -> Result<Material, StudyError> {
     let scene = &input.scene.material;
     let standard = match scene.preset {
-        Some(preset) => Material::preset(preset.name()).unwrap_or_default(),
+        Some(preset) => preset.material(),
         None => Material::default(),
     };
     let material = Material {

@@ -1,10 +1,10 @@
 //! `[motion]`: engine, frames and the steps of the schedule.
 
-use foldmotion_solver::{CreaseGroup, Ease, ScheduleStep, SolverError, Stage};
+use foldmotion_solver::{ScheduleStep, SolverError};
 
 use super::input::Input;
 use crate::StudyError;
-use crate::scene::{CreasesChoice, EaseChoice, EngineChoice, StageChoice, StepScene};
+use crate::scene::{EngineChoice, StepScene};
 
 /// Frames of a motion, at most: the file of a small sheet then stays below some gigabytes.
 const MOST_FRAMES: usize = 100_000;
@@ -32,36 +32,21 @@ pub(crate) fn steps(input: &Input<'_>) -> Result<Vec<ScheduleStep>, StudyError> 
     let step = |(index, step): (usize, &StepScene)| {
         let range = |key: &str, range: &Option<Vec<i64>>| match range.as_deref() {
             None => Ok(None),
-            Some(&[one]) => place_range(input, index, key, [one, one]),
-            Some(&[first, last]) => place_range(input, index, key, [first, last]),
+            Some(&[one]) => index_range(input, index, key, [one, one]),
+            Some(&[first, last]) => index_range(input, index, key, [first, last]),
             Some(_) => {
                 let message = "must be [first, last], both included, or [one]";
                 Err(input.error(&format!("motion.step.{index}.{key}"), message))
             }
         };
         Ok(ScheduleStep {
-            stage: match step.stage {
-                StageChoice::Unfold => Stage::Unfold,
-                StageChoice::Fold => Stage::Fold,
-            },
-            creases: match step.creases {
-                None | Some(CreasesChoice::All) => CreaseGroup::All,
-                Some(CreasesChoice::Rows) => CreaseGroup::Rows,
-                Some(CreasesChoice::Columns) => CreaseGroup::Columns,
-                Some(CreasesChoice::Diagonals) => CreaseGroup::Diagonals,
-                Some(CreasesChoice::Verticals) => CreaseGroup::Verticals,
-                Some(CreasesChoice::Pads) => CreaseGroup::Pads,
-                Some(CreasesChoice::Mountains) => CreaseGroup::Mountains,
-                Some(CreasesChoice::Valleys) => CreaseGroup::Valleys,
-            },
+            stage: step.stage,
+            creases: step.creases.unwrap_or_default(),
             rows: range("rows", &step.rows)?,
             columns: range("columns", &step.columns)?,
             from: step.from.unwrap_or(0.0),
             to: step.to.unwrap_or(1.0),
-            ease: match step.ease {
-                None | Some(EaseChoice::Linear) => Ease::Linear,
-                Some(EaseChoice::Smooth) => Ease::Smooth,
-            },
+            ease: step.ease.unwrap_or_default(),
         })
     };
     input
@@ -74,7 +59,7 @@ pub(crate) fn steps(input: &Input<'_>) -> Result<Vec<ScheduleStep>, StudyError> 
         .collect()
 }
 
-fn place_range(
+fn index_range(
     input: &Input<'_>,
     index: usize,
     key: &str,

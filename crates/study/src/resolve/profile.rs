@@ -9,7 +9,7 @@ use glam::DVec2;
 
 use super::input::Input;
 use crate::StudyError;
-use crate::scene::{Closed, DivisionChoice, ProfileScene, UnequalChoice};
+use crate::scene::{Closed, ProfileScene, UnequalChoice};
 
 /// Rows of a sheet differ by at most this, over their mean height.
 pub(crate) const EQUAL_ROWS: f64 = 1e-9;
@@ -18,7 +18,7 @@ pub(crate) const EQUAL_ROWS: f64 = 1e-9;
 pub(crate) struct DividedProfile {
     pub(crate) profile: Profile,
     pub(crate) division: Division,
-    pub(crate) method: DivisionChoice,
+    pub(crate) method: DivisionMethod,
     pub(crate) fit: Fit,
 }
 
@@ -133,12 +133,12 @@ pub(crate) fn division(input: &Input<'_>, curve: &Curve) -> Result<DividedProfil
         .scene
         .division
         .method
-        .unwrap_or(DivisionChoice::EqualLength);
+        .unwrap_or(DivisionMethod::EqualLength);
     let length = match (input.scene.profile.length, curve.model) {
         (Some(length), _) => Some(input.length("profile.length", length)?),
         (None, model) => model.map(ProfileModel::length),
     };
-    let is_split = method == DivisionChoice::DouglasPeucker;
+    let is_split = method == DivisionMethod::DouglasPeucker;
     let tolerance = input.scene.division.tolerance.filter(|_| is_split);
     let (profile, division) = match tolerance {
         Some(tolerance) => simplified(input, curve, tolerance, length)?,
@@ -178,7 +178,7 @@ fn simplified(
 fn divided(
     input: &Input<'_>,
     curve: &Curve,
-    method: DivisionChoice,
+    method: DivisionMethod,
     length: Option<f64>,
 ) -> Result<(Profile, Division), StudyError> {
     let rows = curve.model.map(|m| m.rows);
@@ -204,7 +204,7 @@ fn check_equal(input: &Input<'_>, divided: &DividedProfile) -> Result<(), StudyE
         return Ok(());
     }
     let segments = division.points.len() - 1;
-    if divided.method != DivisionChoice::EqualLength {
+    if divided.method != DivisionMethod::EqualLength {
         let message = format!(
             "divides the profile into {segments} segments that differ by up to {:.3} of their mean (the curve is at most {:.6} and on average {:.6} away from them), but the units of a sheet are equal; use \"equal-length\", or set sheet.unequal = \"common-flap\"",
             division.max_residual, divided.fit.largest, divided.fit.mean
@@ -226,15 +226,11 @@ fn check_equal(input: &Input<'_>, divided: &DividedProfile) -> Result<(), StudyE
 
 fn division_options(
     input: &Input<'_>,
-    method: DivisionChoice,
+    method: DivisionMethod,
 ) -> Result<DivisionOptions, StudyError> {
     let scene = &input.scene.division;
     let mut options = DivisionOptions {
-        method: match method {
-            DivisionChoice::EqualLength => DivisionMethod::EqualLength,
-            DivisionChoice::Parametric => DivisionMethod::Parametric,
-            DivisionChoice::DouglasPeucker => DivisionMethod::DouglasPeucker,
-        },
+        method,
         ..DivisionOptions::default()
     };
     if let Some(tolerance) = scene.tolerance {

@@ -3,12 +3,12 @@
 use std::ops::RangeInclusive;
 
 use foldmotion_geometry::Number;
-use foldmotion_record::{FilmOptions, Mp4, Playback, RecordError, Style, View};
+use foldmotion_record::{FilmOptions, Mp4, RecordError, Style, View};
 use glam::DVec3;
 
 use super::input::Input;
 use crate::scene::{
-    CameraChoice, CameraScene, ColourChoice, HoldScene, LoopChoice, OutputChoice, ThickenedScene,
+    CameraChoice, CameraScene, ColourChoice, HoldScene, OutputChoice, ThickenedScene,
 };
 use crate::{Scene, StudyError};
 
@@ -133,10 +133,7 @@ fn film(input: &Input<'_>) -> Result<FilmOptions, StudyError> {
             Some(HoldScene::Each(seconds)) => [seconds; 3],
             Some(HoldScene::States(seconds)) => seconds,
         },
-        playback: match scene.playback {
-            None | Some(LoopChoice::Forward) => Playback::Once,
-            Some(LoopChoice::BackAndForth) => Playback::BackAndForth,
-        },
+        playback: scene.playback.unwrap_or_default(),
         view,
         turn,
         centre,

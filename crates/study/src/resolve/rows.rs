@@ -12,7 +12,7 @@ use super::input::Input;
 use super::motion::steps;
 use super::profile::{EQUAL_ROWS, curve, division};
 use super::unit::{Purpose, pattern_error, require_moderate, unit, unit_width};
-use crate::scene::{CaseChoice, FacetModelChoice, FoldingChoice, UnequalChoice};
+use crate::scene::{CaseChoice, UnequalChoice};
 use crate::{SceneSource, StudyError};
 
 /// λ of a common flap where the scene leaves it open: below 1, so that the lowest rows are split like the others.
@@ -47,20 +47,18 @@ pub(crate) fn units(
 }
 
 fn facet_model(input: &Input<'_>, sheet: &UnitSheet) -> FacetModel {
-    match input.scene.material.facet_model {
-        Some(FacetModelChoice::OneDiagonal) => FacetModel::OneDiagonal,
-        // Whole units of a map lie on each other: a middle node in each of their facets makes the stack jam.
-        None if folding(input) == Folding::Map => FacetModel::OneDiagonal,
-        None if sheet.narrowest_facet() < NARROW => FacetModel::OneDiagonal,
-        None | Some(FacetModelChoice::Symmetric) => FacetModel::Symmetric,
-    }
+    // Whole units of a map lie on each other: a middle node in each of their facets makes the stack jam.
+    let is_split = folding(input) == Folding::Map || sheet.narrowest_facet() < NARROW;
+    let default = if is_split {
+        FacetModel::OneDiagonal
+    } else {
+        FacetModel::Symmetric
+    };
+    input.scene.material.facet_model.unwrap_or(default)
 }
 
 fn folding(input: &Input<'_>) -> Folding {
-    match input.scene.sheet.folding {
-        None | Some(FoldingChoice::Waterbomb) => Folding::Waterbomb,
-        Some(FoldingChoice::Map) => Folding::Map,
-    }
+    input.scene.sheet.folding.unwrap_or_default()
 }
 
 /// The unit of each row.

@@ -64,12 +64,12 @@ impl Unfolding {
         Ok(unfolding)
     }
 
-    /// uniform or energy.
-    pub fn method(&self) -> &'static str {
+    /// Uniform or energy, whichever was taken.
+    pub fn method(&self) -> UnfoldChoice {
         if self.path.is_some() {
-            "energy"
+            UnfoldChoice::Energy
         } else {
-            "uniform"
+            UnfoldChoice::Uniform
         }
     }
 

@@ -13,7 +13,7 @@ use super::profile::{DividedProfile, curve, division};
 use super::rows::{steps_of, units};
 use super::unfolding::Unfolding;
 use super::unit::{MOST_ORDERED, Purpose, case_asked_for, pattern_error, too_many_layers};
-use crate::scene::DivisionChoice;
+use crate::scene::DivisionMethod;
 use crate::{SceneSource, StudyError};
 
 /// A sheet of units on a divided profile.
@@ -26,7 +26,7 @@ pub struct UnitStudy {
     /// Γ divided.
     pub division: Division,
     /// How.
-    pub division_method: DivisionChoice,
+    pub division_method: DivisionMethod,
     /// How far Γ is from its segments.
     pub fit: Fit,
     /// Seconds the division took.
@@ -77,7 +77,7 @@ pub(crate) fn unit_study(input: &Input<'_>) -> Result<(UnitStudy, Schedule), Stu
         units,
     } = laid_out(input, Purpose::Fold)?;
     let (profile, division) = (divided.profile, divided.division);
-    let facing = input.scene.facing();
+    let facing = input.scene.sheet.facing.unwrap_or_default();
     let deployed = units
         .deployed(&division.points, facing)
         .map_err(|e| pattern_error(input, &e))?;

@@ -12,9 +12,13 @@ pub(crate) mod pattern;
 pub(crate) mod record;
 pub(crate) mod source;
 
-pub use self::pattern::{PatternScene, UnknownChoice};
+pub use foldmotion_geometry::DivisionMethod;
+pub use foldmotion_pattern::{FacetModel, Facing, Folding};
+pub use foldmotion_solver::{CreaseGroup, Ease, Preset, Stage};
+
+pub use self::pattern::PatternScene;
 pub use self::record::{
-    CameraChoice, CameraScene, ColourChoice, HoldScene, LoopChoice, OutputChoice, OwnCamera,
+    CameraChoice, CameraScene, ColourChoice, HoldScene, OutputChoice, OwnCamera, Playback,
     RecordScene, ThickenedScene,
 };
 
@@ -161,13 +165,13 @@ pub struct SheetScene {
     pub offset: Option<f64>,
     /// The side of Γ, seen along it, on which the flaps stand; `left` where left out.
     #[serde(deserialize_with = "choice::optional")]
-    pub facing: Option<FacingChoice>,
+    pub facing: Option<Facing>,
     /// What becomes of rows of unequal height, which a division other than `equal-length` gives; `refuse` where left out.
     #[serde(deserialize_with = "choice::optional")]
     pub unequal: Option<UnequalChoice>,
     /// How the flat sheet folds; `waterbomb` where left out.
     #[serde(deserialize_with = "choice::optional")]
-    pub folding: Option<FoldingChoice>,
+    pub folding: Option<Folding>,
 }
 
 /// What becomes of rows of unequal height.
@@ -180,16 +184,6 @@ pub enum UnequalChoice {
     OwnCase,
     /// All have one flap width, a = λ·min(h, w)/2 of the lowest row, with `lambda` in (0, 1], 0.9 where left out.
     CommonFlap,
-}
-
-/// How the flat sheet folds.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
-pub enum FoldingChoice {
-    /// Every unit folds: the paper's compact state.
-    Waterbomb,
-    /// The lines between units fold, columns first, then rows: one unit of Nr·Nc layers.
-    Map,
 }
 
 /// A case by name, or the one that w/h allows.
@@ -211,17 +205,6 @@ pub enum CaseChoice {
     Auto,
 }
 
-impl DivisionChoice {
-    /// The name in scenes and reports.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::EqualLength => "equal-length",
-            Self::Parametric => "parametric",
-            Self::DouglasPeucker => "douglas-peucker",
-        }
-    }
-}
-
 impl CaseChoice {
     /// The case, by w and h where the scene leaves it open.
     pub fn resolve(self, width: f64, height: f64, lambda: Option<f64>) -> Case {
@@ -236,40 +219,18 @@ impl CaseChoice {
     }
 }
 
-/// A side of the profile.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
-#[serde(rename_all = "lowercase")]
-pub enum FacingChoice {
-    /// On the left, seen along Γ with x to the right and z up.
-    Left,
-    /// On the right.
-    Right,
-}
-
 /// `[division]`.
 #[derive(Debug, Clone, Default, PartialEq, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct DivisionScene {
     /// `equal-length` where left out.
     #[serde(deserialize_with = "choice::optional")]
-    pub method: Option<DivisionChoice>,
+    pub method: Option<DivisionMethod>,
     /// Equal length: the iteration ends once |R_max| is at most this; 1e-14 where left out. Douglas–Peucker: the largest
     /// distance from the curve, over its length; the rows follow from it.
     pub tolerance: Option<f64>,
     /// Iterations at most; 200 where left out.
     pub max_iterations: Option<i64>,
-}
-
-/// The ways of dividing a profile.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
-pub enum DivisionChoice {
-    /// Segments of equal length (equations 1 and 2).
-    EqualLength,
-    /// Even in the parameter of the curve.
-    Parametric,
-    /// Split where the curve is farthest from its segment.
-    DouglasPeucker,
 }
 
 /// `[material]`: Origami Simulator's constants; only their ratios shape the equilibrium.
@@ -278,7 +239,7 @@ pub enum DivisionChoice {
 pub struct MaterialScene {
     /// The constants to start from; keys beside it replace single ones.
     #[serde(deserialize_with = "choice::optional")]
-    pub preset: Option<PresetChoice>,
+    pub preset: Option<Preset>,
     /// Thickness of the sheet in profile.unit or the unit of the pattern: layers then come no closer than this. Not with motion.gap.
     pub thickness: Option<f64>,
     /// EA of the bars; 20 where left out.
@@ -289,44 +250,11 @@ pub struct MaterialScene {
     pub facet_stiffness: Option<f64>,
     /// How quadrilateral facets of the units are cut into triangles; `symmetric` where left out, but `one-diagonal` for maps
     /// and where one is narrower than a tenth of its length. Not with a pattern of a file.
-    pub facet_model: Option<FacetModelChoice>,
+    pub facet_model: Option<FacetModel>,
     /// Stiffness of the angles of each triangle; 0 where left out (Origami Simulator sets 0.2).
     pub face_angle_stiffness: Option<f64>,
     /// ζ of the bars' dampers; 0.45 where left out.
     pub damping_ratio: Option<f64>,
-}
-
-/// How a quadrilateral facet is cut into triangles.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
-pub enum FacetModelChoice {
-    /// Four triangles around a node in the middle: a symmetric sheet moves symmetrically.
-    Symmetric,
-    /// Two triangles along one diagonal: fewer nodes.
-    OneDiagonal,
-}
-
-/// Materials by name.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
-pub enum PresetChoice {
-    /// Origami Simulator's constants, with its face-angle springs.
-    OrigamiSimulator,
-    /// Stiff bars, soft creases.
-    Paper,
-    /// Bars that strain by less than a thousandth.
-    NearRigid,
-}
-
-impl PresetChoice {
-    /// Its name in scene files.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::OrigamiSimulator => "origami-simulator",
-            Self::Paper => "paper",
-            Self::NearRigid => "near-rigid",
-        }
-    }
 }
 
 /// `[motion]`.
@@ -383,10 +311,10 @@ impl UnfoldChoice {
 pub struct StepScene {
     /// `unfold` or `fold`.
     #[serde(deserialize_with = "choice::required")]
-    pub stage: StageChoice,
+    pub stage: Stage,
     /// The creases, by their place in the unit or by the way they fold; `all` where left out.
     #[serde(default, deserialize_with = "choice::optional")]
-    pub creases: Option<CreasesChoice>,
+    pub creases: Option<CreaseGroup>,
     /// First and last row, both included, or one; every row where left out.
     pub rows: Option<Vec<i64>>,
     /// First and last column, both included, or one; every column where left out.
@@ -397,49 +325,7 @@ pub struct StepScene {
     pub to: Option<f64>,
     /// How they move; `linear` where left out.
     #[serde(default, deserialize_with = "choice::optional")]
-    pub ease: Option<EaseChoice>,
-}
-
-/// The stages.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
-#[serde(rename_all = "lowercase")]
-pub enum StageChoice {
-    /// Deployed to planar.
-    Unfold,
-    /// Planar to compact.
-    Fold,
-}
-
-/// Creases by their place in the unit, or by the way they fold.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
-#[serde(rename_all = "lowercase")]
-pub enum CreasesChoice {
-    /// Every crease.
-    All,
-    /// On the boundaries between rows.
-    Rows,
-    /// Between the columns of a map.
-    Columns,
-    /// Between flaps and tucks.
-    Diagonals,
-    /// Along corner and mid lines.
-    Verticals,
-    /// Beside and across pads.
-    Pads,
-    /// Mountain creases.
-    Mountains,
-    /// Valley creases.
-    Valleys,
-}
-
-/// How a crease moves within its step.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
-#[serde(rename_all = "lowercase")]
-pub enum EaseChoice {
-    /// At constant speed.
-    Linear,
-    /// From rest to rest.
-    Smooth,
+    pub ease: Option<Ease>,
 }
 
 /// The engines.
@@ -450,6 +336,16 @@ pub enum EngineChoice {
     QuasiStatic,
     /// Mass, spring, damper, explicit steps.
     Dynamic,
+}
+
+impl EngineChoice {
+    /// Its name in scenes and reports.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::QuasiStatic => "quasi-static",
+            Self::Dynamic => "dynamic",
+        }
+    }
 }
 
 /// `[check]`.

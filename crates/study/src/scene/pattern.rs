@@ -1,5 +1,6 @@
 //! `[pattern]`: a crease pattern of a file.
 
+use foldmotion_pattern::Unknown;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -25,21 +26,11 @@ pub struct PatternScene {
     pub vertex_tolerance: Option<f64>,
     /// What becomes of strokes and elements that mean nothing in a crease pattern; `refuse` where left out.
     #[serde(default, deserialize_with = "choice::optional")]
-    pub unknown: Option<UnknownChoice>,
+    pub unknown: Option<Unknown>,
     /// Bézier curves become chords that stray from them by no more than this, in parts of the diagonal; without it they are
     /// unknown elements.
     pub curve_tolerance: Option<f64>,
     /// The index of the facet that stays in place, as a list of one; an empty one for none; what the file says where left
     /// out.
     pub fixed: Option<Vec<i64>>,
-}
-
-/// What becomes of what cannot be read.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
-#[serde(rename_all = "lowercase")]
-pub enum UnknownChoice {
-    /// The file is refused.
-    Refuse,
-    /// It is left out.
-    Ignore,
 }

@@ -1,5 +1,6 @@
 //! `[record]`: what is written of a motion, and how it looks.
 
+pub use foldmotion_record::Playback;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -25,7 +26,7 @@ pub struct RecordScene {
     /// How films run; `forward` where left out.
     #[serde(rename = "loop")]
     #[serde(deserialize_with = "choice::optional")]
-    pub playback: Option<LoopChoice>,
+    pub playback: Option<Playback>,
     /// Where the viewer stands: a preset, or angles; `iso` where left out.
     pub camera: Option<CameraScene>,
     /// Whether films come nearer where the sheet is small, so that it fills a fair part of the picture; true where left out.
@@ -147,16 +148,6 @@ pub enum HoldScene {
     Each(f64),
     /// The deployed, the planar and the compact state.
     States([f64; 3]),
-}
-
-/// How films run.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
-pub enum LoopChoice {
-    /// From the first state to the last.
-    Forward,
-    /// To the last and back, so that a film that repeats has no jump.
-    BackAndForth,
 }
 
 /// Where the viewer stands.

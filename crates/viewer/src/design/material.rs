@@ -1,7 +1,7 @@
 //! The section of the material.
 
 use eframe::egui::{Label, Ui};
-use foldmotion_solver::Material;
+use foldmotion_solver::{Material, Preset};
 use foldmotion_study::Scene;
 
 use super::form::{Field, Form, note};
@@ -17,7 +17,7 @@ pub(super) fn show(form: &mut Form<'_>, ui: &mut Ui) {
         let text = "Only the ratios of the constants shape the fold. Constants given below replace those of the preset.";
         ui.add(Label::new(note(ui, text)).wrap());
         let preset = form.scene.material.preset;
-        let preset = preset.and_then(|preset| Material::preset(preset.name()));
+        let preset = preset.map(Preset::material);
         show_constants(form, ui, &preset.unwrap_or_default());
         let field = Field::new("material.facet_model", "facets");
         form.menu(ui, &field, "automatic", |scene| {

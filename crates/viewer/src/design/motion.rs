@@ -1,7 +1,7 @@
 //! The section of the motion: engine, contact, schedule, check.
 
 use eframe::egui::Ui;
-use foldmotion_study::scene::{EngineChoice, StageChoice, StepScene};
+use foldmotion_study::scene::{EngineChoice, Stage, StepScene};
 
 use super::form::{Field, Form, note};
 use super::number::Number;
@@ -77,7 +77,7 @@ fn show_steps(form: &mut Form<'_>, ui: &mut Ui) {
         );
         if add.clicked() {
             form.scene.motion.step.push(StepScene {
-                stage: StageChoice::Fold,
+                stage: Stage::Fold,
                 creases: None,
                 rows: None,
                 columns: None,

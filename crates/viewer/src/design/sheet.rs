@@ -2,7 +2,7 @@
 
 use eframe::egui::Ui;
 use foldmotion_study::Draft;
-use foldmotion_study::scene::{CaseChoice, DivisionChoice, UnequalChoice};
+use foldmotion_study::scene::{CaseChoice, DivisionMethod, UnequalChoice};
 
 use super::curve::{columns_case, model};
 use super::form::{Field, Form, note};
@@ -168,7 +168,7 @@ fn show_division(form: &mut Form<'_>, ui: &mut Ui) {
     form.menu(ui, &field, "equal-length", |scene| {
         &mut scene.division.method
     });
-    let is_split = form.scene.division.method == Some(DivisionChoice::DouglasPeucker);
+    let is_split = form.scene.division.method == Some(DivisionMethod::DouglasPeucker);
     let field = Field::new("division.tolerance", "tolerance");
     let number = if is_split {
         Number::within(1e-6..=0.5).hint("from rows").speed(1e-4)

@@ -1,7 +1,7 @@
 //! One step of the schedule.
 
 use eframe::egui::{self, Frame, Id, Margin, Rect, RichText, Stroke, Ui, pos2, vec2};
-use foldmotion_study::scene::{StageChoice, StepScene};
+use foldmotion_study::scene::{Stage, StepScene};
 
 use super::form::{Field, Form};
 use super::number::{AccessibleName, Number, control_width};
@@ -100,10 +100,10 @@ fn show_what(form: &mut Form<'_>, ui: &mut Ui, index: usize) {
         return;
     };
     let stage = step.stage;
-    if !is_imported || stage == StageChoice::Unfold {
+    if !is_imported || stage == Stage::Unfold {
         let field = Field::new(key("stage"), "stage");
         form.row(ui, &field, |form, ui, _| {
-            for (choice, name) in [(StageChoice::Unfold, "unfold"), (StageChoice::Fold, "fold")] {
+            for (choice, name) in [(Stage::Unfold, "unfold"), (Stage::Fold, "fold")] {
                 let option = ui.selectable_label(choice == stage, name);
                 if option.clicked() && choice != stage {
                     if let Some(step) = form.scene.motion.step.get_mut(index) {

@@ -1,7 +1,7 @@
 //! The size of the unit that the current scene would have, w and h, known even if no draft can be made of the scene.
 
 use foldmotion_pattern::{Case, PatternError, Unit};
-use foldmotion_study::scene::{CaseChoice, DivisionChoice};
+use foldmotion_study::scene::{CaseChoice, DivisionMethod};
 use foldmotion_study::{Draft, ProfileModel};
 
 use super::curve::{columns_case, model};
@@ -83,7 +83,7 @@ pub(super) fn own_case(choice: CaseChoice) -> Option<Case> {
 
 fn rows(form: &Form<'_>, built_in: Option<&ProfileModel>) -> Option<usize> {
     let drafted = || Some(form.draft.and_then(Draft::units)?.units.rows);
-    let splits = form.scene.division.method == Some(DivisionChoice::DouglasPeucker)
+    let splits = form.scene.division.method == Some(DivisionMethod::DouglasPeucker)
         && form.scene.division.tolerance.is_some();
     if splits {
         return drafted();

@@ -1,7 +1,7 @@
 //! Fields, menus, sections and error messages.
 
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
-use foldmotion_study::scene::{CaseChoice, CreasesChoice, EngineChoice, OutputChoice, StageChoice};
+use foldmotion_study::scene::{CaseChoice, CreaseGroup, EngineChoice, OutputChoice, Stage};
 use foldmotion_study::{Scene, SceneSource};
 
 use super::super::SceneError;
@@ -177,15 +177,9 @@ fn steps_are_added_filled_moved_and_removed() {
     harness.get_all_by_label("to").next().unwrap();
     harness.get_all_by_label("unfold").next().unwrap().click();
     harness.run();
-    assert_eq!(
-        harness.state().scene.motion.step[0].stage,
-        StageChoice::Unfold
-    );
+    assert_eq!(harness.state().scene.motion.step[0].stage, Stage::Unfold);
     click(&mut harness, "down step 1");
-    assert_eq!(
-        harness.state().scene.motion.step[1].stage,
-        StageChoice::Unfold
-    );
+    assert_eq!(harness.state().scene.motion.step[1].stage, Stage::Unfold);
     click(&mut harness, "remove step 1");
     assert_eq!(steps(&harness.state().scene), 1);
     enter(&mut harness, "from", "0.25");
@@ -255,7 +249,7 @@ fn a_scene_of_an_imported_pattern_shows_its_keys_in_place_of_the_sheet() {
     assert!(harness.query_by_label("unfolds").is_none());
     assert_eq!(
         harness.state().scene.motion.step[0].creases,
-        Some(CreasesChoice::Mountains)
+        Some(CreaseGroup::Mountains)
     );
 }
 
