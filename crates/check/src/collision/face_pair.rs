@@ -4,7 +4,7 @@ use foldmotion_geometry::collide::PairPose;
 use foldmotion_pattern::Sheet;
 use glam::DVec3;
 
-/// Triangles f < g, corners rearranged so that the shared ones come first, in the same order.
+/// Triangles f < g, their corners rearranged so that the shared ones come first, in the same order in both.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct FacePair {
     pub(super) faces: [u32; 2],
@@ -32,7 +32,7 @@ impl FacePair {
         }
     }
 
-    /// The two faces, as they are looked up.
+    /// The key under which the pair is looked up.
     pub(super) fn key(&self) -> (u32, u32) {
         (self.faces[0], self.faces[1])
     }
