@@ -1,4 +1,4 @@
-//! Whether the stated closest approach is attained where it is stated.
+//! Whether the stated closest approach is attained when and where it is stated.
 
 use foldmotion_pattern::Frame;
 
@@ -9,7 +9,7 @@ use crate::verifier::{POINT_ACCURACY, Verifier};
 use foldmotion_check::Separation;
 
 impl Verifier<'_> {
-    /// Whether the stated closest approach is what it says, if it falls between `start` and the last frame.
+    /// Compares the stated closest approach with the motion, if its time lies between `start` and the last frame.
     pub(crate) fn meet_separation(&mut self, start: &Frame) {
         let Some(stated) = self
             .claim

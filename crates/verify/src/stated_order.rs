@@ -1,4 +1,4 @@
-//! What the certificate states of the order of layers, beside what was found.
+//! What the certificate states about the order of layers, compared with what was found.
 
 use crate::closest::on_triangle;
 use crate::cluster::{Contradiction, FoundCluster};
@@ -8,7 +8,7 @@ use crate::verifier::Verifier;
 use foldmotion_check::{Cluster, LayerConflict, LayerProof};
 use foldmotion_check::{Penetration, PenetrationKind};
 
-/// The stated point lies within this many τ of all triangles concerned.
+/// The stated point lies within this multiple of τ of all triangles concerned.
 const POINT_TOLERANCES: f64 = 20.0;
 
 const NONE: &str = "no such cluster";
@@ -22,7 +22,8 @@ fn name(faces: &[u32], frames: [usize; 2]) -> String {
 }
 
 impl Verifier<'_> {
-    /// Every stated contradiction of a frame is found, and every one found is stated, there or for the same pair before.
+    /// Checks that every contradiction stated at a frame is found, and that every one found is stated, there or earlier
+    /// for the same pair.
     pub(crate) fn compare_contradictions(
         &mut self,
         frame: usize,
@@ -58,7 +59,7 @@ impl Verifier<'_> {
         }
     }
 
-    /// What is not as it was found.
+    /// The first difference between a stated contradiction and the one found.
     fn fault_in(
         &self,
         stated: &Penetration,
@@ -99,7 +100,7 @@ impl Verifier<'_> {
         }
     }
 
-    /// Refutes what is stated of a frame; names it open where the frame is in doubt.
+    /// Refutes a statement about a frame, or names it as open if the frame is in doubt.
     fn refute_at(&mut self, frame: usize, field: &str, stated: &str, found: &str) {
         match self.layer_state.doubts.get(&frame) {
             Some(&(faces, what)) => self.outcome.unproved.push(Unproved {
@@ -117,7 +118,7 @@ impl Verifier<'_> {
         doubtful.next().map(|(&frame, _)| frame)
     }
 
-    /// Holds the stated clusters and claims to those found.
+    /// Compares the stated clusters and claims with those found.
     pub(crate) fn compare_clusters(&mut self) {
         let (stated, found) = (self.claim.claims, self.layer_state.claims);
         let mut clusters = std::mem::take(&mut self.layer_state.clusters);
@@ -156,8 +157,8 @@ impl Verifier<'_> {
 }
 
 impl FoundCluster {
-    /// In what a stated cluster is another: stated, found. `is_open`: sides are in doubt there, and a stated order that is
-    /// unproved, which says nothing, differs from none.
+    /// The differences between a stated cluster and the one found: stated, found. `is_open`: sides are in doubt there,
+    /// and a stated order of *unproved* is accepted.
     fn differences(&self, stated: &Cluster, is_open: bool) -> Vec<(String, String)> {
         let mut differences = Vec::new();
         let mut require = |is_so: bool, stated: String, found: String| {

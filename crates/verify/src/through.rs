@@ -1,4 +1,4 @@
-//! Whether a part passes through an edge between triangles where and when it is said to.
+//! Whether a part passes through an edge between triangles where and when it is stated to.
 
 use foldmotion_pattern::Frame;
 use glam::DVec3;
@@ -12,20 +12,20 @@ use crate::penetration::{POINT_TOLERANCES, is_kind_right, meeting_fault};
 use crate::piercing::Surface;
 use foldmotion_check::{Penetration, PenetrationKind};
 
-/// Instants looked at in an interval, besides those that draw near to a passage.
+/// The number of instants examined in an interval, besides those that approach a passage.
 const SAMPLES: u32 = 32;
-/// Instants looked at in an interval after the one at which something is stated.
+/// The number of instants examined in each interval after the one at which something is stated.
 const LATER_SAMPLES: u32 = 4;
-/// The most steps towards the instant at which the stated point is met.
+/// The largest number of steps towards the instant at which the stated point is met.
 const MOST_STEPS: u32 = 1 << 14;
 
-/// An edge and what it goes through.
+/// An edge and a surface that it passes through.
 pub(crate) type Piercing = ([u32; 2], Surface);
 
-/// Field, what is stated, what was found.
+/// The field, what is stated, and what was found.
 type Fault = (&'static str, String, &'static str);
 
-/// The frames around a penetration.
+/// The frames at both ends of the interval of a penetration.
 pub(crate) struct Interval<'a> {
     pub(crate) around: &'a Neighbourhood,
     pub(crate) frames: [&'a Frame; 2],
@@ -44,7 +44,7 @@ impl Interval<'_> {
         p + (q - p) * t
     }
 
-    /// The part of the interval gone at a time, cut off at its ends.
+    /// The share of the interval at a motion time, clamped to [0, 1].
     fn share(&self, time: f64) -> f64 {
         let [start, end] = self.times();
         if end > start {
@@ -54,8 +54,8 @@ impl Interval<'_> {
         }
     }
 
-    /// Whether near the stated triangles an edge pierces the sheet so far that no push by τ undoes it, at one of the
-    /// instants looked at.
+    /// Whether, at one of the instants examined, an edge near the stated triangles pierces the sheet so far that no
+    /// push by τ undoes it.
     pub(crate) fn is_pierced_around(&self, stated: &Penetration) -> bool {
         let samples = (0..=SAMPLES).map(|k| f64::from(k) / f64::from(SAMPLES));
         let mut instants = samples.chain(instants_after(self.share(stated.passed)));
@@ -63,15 +63,16 @@ impl Interval<'_> {
         instants.any(|t| all.iter().any(|piercing| self.is_sure(piercing, t)))
     }
 
-    /// What goes through what near the stated triangles at the end of the interval, be it by less than τ.
+    /// The edges near the stated triangles that pass through a surface at the end of the interval, possibly by less
+    /// than τ.
     pub(crate) fn piercings_at_end(&self, stated: &Penetration) -> Vec<Piercing> {
         let mut all = self.piercings(stated);
         all.retain(|piercing| self.is_through(piercing, 1.0));
         all
     }
 
-    /// Whether a piercing of the interval before goes on in this one until no push by τ undoes it; those that come to an
-    /// end are dropped.
+    /// Whether a piercing of the previous interval continues in this one until no push by τ undoes it; those that end
+    /// are dropped.
     pub(crate) fn is_pierced_later(&self, piercings: &mut Vec<Piercing>) -> bool {
         let samples = || (1..=LATER_SAMPLES).map(|k| f64::from(k) / f64::from(LATER_SAMPLES));
         let lasts = |piercing: &Piercing| {
@@ -85,7 +86,7 @@ impl Interval<'_> {
         false
     }
 
-    /// The edges around the one triangle and the surfaces around the other, both ways.
+    /// The edges around each triangle, paired with the surfaces around the other.
     fn piercings(&self, stated: &Penetration) -> Vec<Piercing> {
         let corners = stated.faces.map(|f| *self.around.corners(f));
         let mut all = Vec::new();
@@ -106,7 +107,7 @@ impl Interval<'_> {
         surface.is_met(*edge, &|v| self.place(v, t), self.tolerance)
     }
 
-    /// What is wrong with a stated penetration whatever passes through what.
+    /// What is wrong with a stated penetration, independently of what passes through.
     pub(crate) fn fault(&self, stated: &Penetration, pair: &FacePair) -> Option<Fault> {
         let [_, end] = self.times();
         if !(stated.time <= stated.passed && stated.passed <= end) {
@@ -154,8 +155,8 @@ impl Interval<'_> {
         Some(("point", stated.point.to_string(), found))
     }
 
-    /// The simplices that may be named, each as a triangle with corners repeated: the one in the one triangle of the pair,
-    /// the other in the other.
+    /// The simplices that the vertices may name, each as a triangle with repeated corners: one in each triangle of the
+    /// pair.
     fn features(stated: &Penetration, pair: &FacePair) -> Vec<[[u32; 3]; 2]> {
         let v = &stated.vertices;
         let mut splits: Vec<[[u32; 3]; 2]> = match **v {
@@ -182,9 +183,9 @@ impl Interval<'_> {
         closest(&self.pose(features, t)).distance()
     }
 
-    /// Whether a point is on both features at an instant from t on.
+    /// Whether a point lies on both features at some instant from `from` on.
     ///
-    /// No corner moves faster than all of them, and nor does the distance of the point change faster.
+    /// The distance of the point from a feature changes no faster than the fastest corner moves.
     fn is_met(&self, point: DVec3, features: [[u32; 3]; 2], from: f64) -> bool {
         let near = POINT_TOLERANCES * self.tolerance;
         let moves = features.iter().flatten();
@@ -206,7 +207,7 @@ impl Interval<'_> {
         true
     }
 
-    /// No edge around stands farther beyond a triangle around, at the instants looked at and as far as can be between.
+    /// A bound of how far an edge nearby lies beyond a triangle nearby, at the instants examined and between them.
     fn deepest(&self, stated: &Penetration) -> f64 {
         let corners = stated.faces.map(|f| *self.around.corners(f));
         let faces = self.around.faces_at(&corners.concat());
