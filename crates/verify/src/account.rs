@@ -8,6 +8,7 @@ use rayon::prelude::*;
 use crate::coupling::{ContactPair, EdgePassage, NeighbourState, uncoupled};
 use crate::distance::{DistanceProof, keeps_distance};
 use crate::face_pair::FacePair;
+use crate::findings::PairFindings;
 use crate::follow::{FollowOutcome, follow_leniently};
 use crate::lost::LostSide;
 use crate::moving_pair::MovingPair;
@@ -15,7 +16,7 @@ use crate::outcome::Unproved;
 use crate::parts::disjoint_parts;
 use crate::penetration::FoundPenetration;
 use crate::trail::Trail;
-use crate::verifier::{PairFindings, SURELY_APART, SURELY_TOUCHING, Verifier};
+use crate::verifier::{SURELY_APART, SURELY_TOUCHING, Verifier};
 use foldmotion_check::Verdict;
 
 /// The largest number of steps for the distance between parts of triangles.

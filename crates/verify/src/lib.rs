@@ -113,6 +113,7 @@ mod cluster;
 mod coupling;
 mod distance;
 mod face_pair;
+mod findings;
 mod follow;
 mod instant;
 mod layer;

@@ -10,6 +10,7 @@ use crate::boxes::Boxes;
 use crate::closest::closest;
 use crate::distance::{DistanceProof, keeps_distance};
 use crate::face_pair::{FacePair, assignments, front_normal};
+use crate::findings::PairFindings;
 use crate::follow::{FollowOutcome, SideCrossing, follow_leniently};
 use crate::layer_state::LayerState;
 use crate::line;
@@ -22,7 +23,6 @@ use crate::penetration::FoundPenetration;
 use crate::side::{Limits, Side};
 use crate::statement;
 use crate::through::Piercing;
-use crate::trail::Trail;
 use foldmotion_check::{CollisionReport, Penetration, Verdict};
 
 /// The largest number of steps spent on a pair in an interval.
@@ -78,48 +78,6 @@ pub struct Verifier<'a> {
     pub(crate) is_separation_met: bool,
     pub(crate) layer_state: LayerState,
     pub(crate) outcome: Verification,
-}
-
-/// What was found about a pair in an interval.
-pub(crate) struct PairFindings {
-    side: Option<Side>,
-    pub(crate) lost: Option<LostSide>,
-    /// The side reached from the narrowed sides, which may be fewer.
-    pub(crate) narrowed: Option<Side>,
-    pub(crate) lost_narrowed: Option<LostSide>,
-    /// How the pair was followed, if it was in contact.
-    pub(crate) trail: Option<Trail>,
-    pub(crate) touching: [bool; 2],
-    nearer: Option<(f64, f64)>,
-    unproved: Option<&'static str>,
-    is_followed: bool,
-    /// Whether nothing is claimed about the pair.
-    pub(crate) is_skipped: bool,
-}
-
-impl PairFindings {
-    pub(crate) fn apart() -> Self {
-        Self {
-            side: None,
-            lost: None,
-            narrowed: None,
-            lost_narrowed: None,
-            trail: None,
-            touching: [false; 2],
-            nearer: None,
-            unproved: None,
-            is_followed: false,
-            is_skipped: false,
-        }
-    }
-
-    pub(crate) fn at_rest(trail: Option<Trail>, is_skipped: bool) -> Self {
-        Self {
-            trail,
-            is_skipped,
-            ..Self::apart()
-        }
-    }
 }
 
 impl<'a> Verifier<'a> {
