@@ -49,7 +49,7 @@ pub enum CheckError {
     },
     /// A triangle without area: its sides cannot be told apart.
     #[error(
-        "triangle {face} of frame {frame} has the height {height:e}: more than {limit:e} is needed to tell its sides"
+        "triangle {face} of frame {frame} has the height {height:e}: more than {limit:e} is needed to tell its sides apart"
     )]
     DegenerateFace {
         /// The index of the frame.
@@ -87,7 +87,7 @@ pub enum CheckError {
         vertices: usize,
     },
     /// Two triangles with the same corners.
-    #[error("triangles {f} and {g} have the same corners: each may stand once")]
+    #[error("triangles {f} and {g} have the same corners: each triangle may be listed only once")]
     DuplicateFace {
         /// The first of the two triangles.
         f: u32,

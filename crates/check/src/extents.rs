@@ -138,13 +138,13 @@ mod tests {
     #[test]
     fn a_rectangle_has_its_sides_as_principal_extents_however_it_is_cut_and_turned() {
         let turn = DQuat::from_axis_angle(DVec3::new(1.0, -2.0, 0.4).normalize(), 2.1);
-        let place = |x: f64, y: f64| turn * DVec3::new(x, y, 0.0) + DVec3::new(5.0, 1.0, -9.0);
+        let at = |x: f64, y: f64| turn * DVec3::new(x, y, 0.0) + DVec3::new(5.0, 1.0, -9.0);
         let positions = [
-            place(0.0, 0.0),
-            place(2.0, 0.0),
-            place(2.0, 5.0),
-            place(0.0, 5.0),
-            place(0.1, 0.7),
+            at(0.0, 0.0),
+            at(2.0, 0.0),
+            at(2.0, 5.0),
+            at(0.0, 5.0),
+            at(0.1, 0.7),
         ];
         let halves = [[0, 1, 2], [0, 2, 3]];
         let fan = [[0, 1, 4], [1, 2, 4], [2, 3, 4], [3, 0, 4]];

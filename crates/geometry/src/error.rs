@@ -33,7 +33,7 @@ pub enum GeometryError {
     },
     /// Too few or too many points for a curve through them.
     #[error(
-        "the outline has {count} points; {minimum} to {maximum} are taken, {minimum} of them distinct"
+        "the outline has {count} points; {minimum} to {maximum} are allowed, at least {minimum} of them distinct"
     )]
     PointCount {
         /// How many were given.
@@ -58,7 +58,7 @@ pub enum GeometryError {
         limit: f64,
     },
     /// Two consecutive points are equal or nearly so.
-    #[error("points {index} and {next} both stand at ({}, {}) or too near to it; remove one", Number(*x), Number(*z), next = index + 1)]
+    #[error("points {index} and {next} are both at ({}, {}) or too close to it; remove one", Number(*x), Number(*z), next = index + 1)]
     RepeatedPoint {
         /// The index of the first of the two, from 0.
         index: usize,
@@ -69,7 +69,7 @@ pub enum GeometryError {
     },
     /// A closed outline ends far from its start.
     #[error(
-        "the closed outline ends {:.6} away from its start, more than twice its longest step ({:.6}); repeat its first point as the last, or do not call it closed", Number(*gap), Number(*longest)
+        "the closed outline ends {:.6} away from its start, more than twice its longest step ({:.6}); repeat its first point as the last, or do not declare it closed", Number(*gap), Number(*longest)
     )]
     EndsApart {
         /// The distance between the first and the last point.
@@ -118,7 +118,9 @@ pub enum GeometryError {
         end: f64,
     },
     /// A knot is repeated so often that the curve breaks.
-    #[error("the knot at u = {u} is repeated {count} times; at most {limit} are allowed there")]
+    #[error(
+        "the knot at u = {u} is repeated {count} times; at most {limit} times are allowed there"
+    )]
     KnotMultiplicity {
         /// The value of the knot, normalised to [0, 1].
         u: f64,
@@ -165,7 +167,7 @@ pub enum GeometryError {
         value: f64,
     },
     /// Too few or too many segments.
-    #[error("the division has {count} segments; this profile takes {minimum} to {maximum}")]
+    #[error("the division has {count} segments; this profile needs {minimum} to {maximum}")]
     SegmentCount {
         /// How many segments were requested.
         count: usize,
@@ -212,7 +214,7 @@ pub enum GeometryError {
     },
     /// Douglas and Peucker's method found nothing more to split.
     #[error(
-        "only {possible} segments can be told apart by their distance from the curve, {count} are asked for; use fewer, or another method"
+        "only {possible} segments can be told apart by their distance from the curve, {count} are requested; use fewer, or another method"
     )]
     NothingToSplit {
         /// How many segments were requested.
@@ -221,7 +223,9 @@ pub enum GeometryError {
         possible: usize,
     },
     /// The parameters from which a division was to start do not increase from 0 to 1.
-    #[error("parameter {index} of the start is {value}; parameters must rise strictly from 0 to 1")]
+    #[error(
+        "parameter {index} of the start is {value}; parameters must increase strictly from 0 to 1"
+    )]
     Start {
         /// The index of the parameter, from 0.
         index: usize,

@@ -144,7 +144,7 @@ impl Verifier<'_> {
             ),
             // If nothing nearby is listed either, that was refuted when the evidence was evaluated.
             None if self.is_listed_around(faces, self.last.time) => {
-                self.refute("penetrations", "not all of them", evidence.what);
+                self.refute("penetrations", "an incomplete list", evidence.what);
             }
             None => {}
         }
@@ -168,7 +168,7 @@ impl Verifier<'_> {
             return;
         }
         if !is_listed {
-            self.refute("penetrations", "none of them", evidence.what);
+            self.refute("penetrations", "none that accounts for this", evidence.what);
         }
         self.accounted.extend(evidence.pairs);
     }

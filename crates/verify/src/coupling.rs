@@ -145,20 +145,21 @@ impl ContactPair<'_> {
         } else {
             ((b, pose.b), (a, pose.a))
         };
-        let places = |(corners, places): (&[u32; 3], [DVec3; 3]), kept: &dyn Fn(&u32) -> bool| {
-            let both = corners.iter().zip(places);
+        let kept_corners = |(corners, positions): (&[u32; 3], [DVec3; 3]),
+                            kept: &dyn Fn(&u32) -> bool| {
+            let both = corners.iter().zip(positions);
             let mut left: Vec<DVec3> = both.filter_map(|(v, p)| kept(v).then_some(p)).collect();
             left.resize(3, left.last().copied().unwrap_or_default());
             [left[0], left[1], left[2]]
         };
-        let whole = places(of_wall, &|_| true);
-        let line = places(of_face, &|v| edge.contains(v));
+        let whole = kept_corners(of_wall, &|_| true);
+        let line = kept_corners(of_face, &|v| edge.contains(v));
         let is_shared = |v: &u32| of_wall.0.contains(v) && edge.contains(v);
         if !edge.iter().any(is_shared) {
             return vec![PairPose { a: whole, b: line }];
         }
-        let rest = places(of_wall, &|v| !is_shared(v));
-        let end = places(of_face, &|v| edge.contains(v) && !is_shared(v));
+        let rest = kept_corners(of_wall, &|v| !is_shared(v));
+        let end = kept_corners(of_face, &|v| edge.contains(v) && !is_shared(v));
         vec![PairPose { a: rest, b: line }, PairPose { a: whole, b: end }]
     }
 }

@@ -39,10 +39,10 @@ impl FacePair {
     }
 
     pub(crate) fn moving(&self, start: &[DVec3], end: &[DVec3]) -> MovingPair {
-        let place = |positions: &[DVec3]| {
+        let corners = |positions: &[DVec3]| {
             [self.a, self.b].map(|corners| corners.map(|v| positions[v as usize]))
         };
-        MovingPair::new(place(start), place(end), self.shared)
+        MovingPair::new(corners(start), corners(end), self.shared)
     }
 
     /// Whether the distance of the pair counts towards the separation: its facets have no vertex in common.

@@ -270,10 +270,10 @@ impl<'a> Follower<'a> {
         let reached = self.reached.as_deref().unwrap_or_default();
         let mut landed: Vec<DVec3> = Vec::new();
         let mut directions: Vec<StepDirection> = Vec::new();
-        let mut keep = |direction: DVec3, way: StepDirection| {
+        let mut keep = |direction: DVec3, step_direction: StepDirection| {
             if landed.iter().all(|d| d.dot(direction) < 1.0 - 1e-13) {
                 landed.push(direction);
-                directions.push(way);
+                directions.push(step_direction);
             }
         };
         for axis in reached {

@@ -59,7 +59,7 @@ impl Verifier<'_> {
             .refuted
             .filter(|_| self.claim.penetrations.is_empty())
         {
-            let found = format!("the faces lie the other way round at frame {frame}");
+            let found = format!("the faces are stacked the other way round at frame {frame}");
             self.refute("faceOrders", format!("{entry:?}"), found);
         }
     }
@@ -251,7 +251,7 @@ impl Verifier<'_> {
                 || self.is_listed_around(pair, self.last.time)
         });
         if let (Some(first), false) = (pairs().next(), is_explained) {
-            let what = format!("whether the order of layers {faces:?} is possible");
+            let what = format!("whether the layers {faces:?} can have this order");
             self.leave_open(first, &what);
         }
     }

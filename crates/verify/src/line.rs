@@ -133,17 +133,18 @@ impl LayerStacks<'_> {
     fn chord(&self, line: &Line, face: u32) -> Option<Chord> {
         let narrow = self.scale.narrow();
         let triangle = corners(self.sheet, self.positions, face);
-        let places = triangle.map(|p| (line.along.dot(p - line.at), line.inward.dot(p - line.at)));
-        let side = places.map(|(_, h)| {
+        let coordinates =
+            triangle.map(|p| (line.along.dot(p - line.at), line.inward.dot(p - line.at)));
+        let side = coordinates.map(|(_, h)| {
             let is_off = h.abs() > narrow;
             if is_off { h.signum() } else { 0.0 }
         });
         let on_line = (0..3).find(|&k| side[k] == 0.0 && side[(k + 1) % 3] == 0.0);
         let ends: Vec<f64> = if let Some(k) = on_line {
-            vec![places[k].0, places[(k + 1) % 3].0]
+            vec![coordinates[k].0, coordinates[(k + 1) % 3].0]
         } else if side.contains(&1.0) && side.contains(&-1.0) {
             let cut = |k: usize| {
-                let ((s, p), (t, q)) = (places[k], places[(k + 1) % 3]);
+                let ((s, p), (t, q)) = (coordinates[k], coordinates[(k + 1) % 3]);
                 (p.is_sign_negative() != q.is_sign_negative()).then(|| s + (t - s) * (p / (p - q)))
             };
             (0..3).filter_map(cut).collect()
@@ -219,19 +220,19 @@ impl LayerStacks<'_> {
 
     /// The chords of all ends, in order around the line; `None` if coincident layers have no known strict order.
     fn sorted(&self, line: &Line, ends: &[ChordEnd]) -> Option<Vec<usize>> {
-        let mut places = vec![0; ends.len()];
+        let mut ranks = vec![0; ends.len()];
         for (k, x) in ends.iter().enumerate() {
-            let mut place = ends.iter().filter(|y| y.group < x.group).count();
+            let mut rank = ends.iter().filter(|y| y.group < x.group).count();
             let group = ends.iter().enumerate().filter(|(_, y)| y.group == x.group);
             for (_, y) in group.filter(|&(l, _)| l != k) {
-                place += usize::from(!self.is_before(line, x, y)?);
+                rank += usize::from(!self.is_before(line, x, y)?);
             }
-            places[k] = place;
+            ranks[k] = rank;
         }
         let mut sorted = vec![None; ends.len()];
-        for (end, &place) in ends.iter().zip(&places) {
+        for (end, &rank) in ends.iter().zip(&ranks) {
             // Two ends with the same rank: the orders form a cycle.
-            if sorted[place].replace(end.chord).is_some() {
+            if sorted[rank].replace(end.chord).is_some() {
                 return None;
             }
         }

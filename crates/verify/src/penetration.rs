@@ -196,7 +196,7 @@ pub(crate) fn compare(
         differ(
             "kind",
             format!("{:?}", stated.kind),
-            "not what the facets share and the depth say".to_owned(),
+            "it does not agree with the shared vertices and the depth".to_owned(),
         );
     }
     let passed = found.share(stated.passed);
@@ -285,5 +285,5 @@ pub(crate) fn meeting_fault(
         PenetrationKind::EdgeEdge => are_edges(),
         _ => is_vertex || are_edges(),
     };
-    (!is_met).then_some("the vertices named do not meet there")
+    (!is_met).then_some("the named vertices do not meet there")
 }

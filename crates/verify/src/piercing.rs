@@ -59,35 +59,36 @@ impl Surface {
     pub(crate) fn is_met(
         &self,
         edge: [u32; 2],
-        place: &dyn Fn(u32) -> DVec3,
+        position: &dyn Fn(u32) -> DVec3,
         tolerance: f64,
     ) -> bool {
-        self.placed(edge, place).is_some_and(|(ends, triangles)| {
-            let mut times = times_through(ends, &triangles, tolerance).skip(1);
-            times.all(|times| times.is_some_and(|times| times != 0))
-        })
+        self.placed(edge, position)
+            .is_some_and(|(ends, triangles)| {
+                let mut times = times_through(ends, &triangles, tolerance).skip(1);
+                times.all(|times| times.is_some_and(|times| times != 0))
+            })
     }
 
     /// The ends of an edge and the triangles, in space; `None` if they have a vertex in common.
     fn placed(
         &self,
         edge: [u32; 2],
-        place: &dyn Fn(u32) -> DVec3,
+        position: &dyn Fn(u32) -> DVec3,
     ) -> Option<([DVec3; 2], Vec<[DVec3; 3]>)> {
         let mut corners = self.triangles.iter().flatten();
         let is_apart = !corners.any(|v| edge.contains(v));
-        let triangles = || self.triangles.iter().map(|t| t.map(place)).collect();
-        is_apart.then(|| (edge.map(place), triangles()))
+        let triangles = || self.triangles.iter().map(|t| t.map(position)).collect();
+        is_apart.then(|| (edge.map(position), triangles()))
     }
 
-    /// Whether an edge surely passes through the surface. `place`: the position of a vertex.
+    /// Whether an edge surely passes through the surface. `position`: the position of a vertex.
     pub(crate) fn is_pierced(
         &self,
         edge: [u32; 2],
-        place: &dyn Fn(u32) -> DVec3,
+        position: &dyn Fn(u32) -> DVec3,
         tolerance: f64,
     ) -> bool {
-        let Some((ends, triangles)) = self.placed(edge, place) else {
+        let Some((ends, triangles)) = self.placed(edge, position) else {
             return false;
         };
         let reach = (1.0 + LONGEST_OFFSET) * tolerance;
@@ -100,7 +101,7 @@ impl Surface {
                 triangles.iter().all(|t| off(t) > reach)
             })
             && self.rim.iter().all(|side| {
-                let [[p, q], [u, v]] = [ends, side.map(place)];
+                let [[p, q], [u, v]] = [ends, side.map(position)];
                 let both = PairPose {
                     a: [p, q, q],
                     b: [u, v, v],
@@ -165,7 +166,7 @@ mod tests {
 
     /// Four triangles around vertex 4, a roof with a ridge along x; the edge from 5 to 6 goes down at (x, y).
     fn is_pierced(faces: &[[u32; 3]], x: f64, y: f64, beyond: f64) -> bool {
-        let place = |v: u32| match v {
+        let position = |v: u32| match v {
             0 => DVec3::new(-1.0, 0.0, 0.0),
             1 => DVec3::new(0.0, -1.0, -0.5),
             2 => DVec3::new(1.0, 0.0, 0.0),
@@ -175,7 +176,7 @@ mod tests {
             _ => DVec3::new(x, y, -beyond),
         };
         let surface = Surface::of(faces).unwrap();
-        surface.is_pierced([5, 6], &place, 0.1)
+        surface.is_pierced([5, 6], &position, 0.1)
     }
 
     const AROUND: [[u32; 3]; 4] = [[4, 0, 1], [2, 4, 1], [4, 2, 3], [4, 0, 3]];
@@ -203,7 +204,7 @@ mod tests {
     fn an_edge_that_goes_down_one_wall_of_a_fold_and_up_through_the_other_pierces_neither_for_sure()
     {
         // Across the ridge and below it: in through one side and out through the other.
-        let place = |v: u32| match v {
+        let position = |v: u32| match v {
             0 => DVec3::new(-1.0, 0.0, 0.0),
             1 => DVec3::new(1.0, 0.0, 0.0),
             2 => DVec3::new(0.0, -1.0, -2.0),
@@ -212,9 +213,9 @@ mod tests {
             _ => DVec3::new(0.0, 2.0, -0.5),
         };
         let surface = Surface::of(&[[0, 1, 2], [0, 1, 3]]).unwrap();
-        assert!(!surface.is_pierced([4, 5], &place, 0.1));
+        assert!(!surface.is_pierced([4, 5], &position, 0.1));
         let one = Surface::of(&[[0, 1, 2]]).unwrap();
-        assert!(one.is_pierced([4, 5], &place, 0.1));
+        assert!(one.is_pierced([4, 5], &position, 0.1));
     }
 
     #[test]

@@ -37,7 +37,7 @@ impl Verifier<'_> {
         for (stated, conflict) in conflicts.clone().filter(|(p, _)| p.frame == frame) {
             let is_it = |f: &&Contradiction| f.rule == conflict.rule && f.faces == conflict.faces;
             let what = match contradictions.iter().find(is_it) {
-                None => Some("the order of these layers contradicts nothing so"),
+                None => Some("these layers do not break this rule"),
                 Some(contradiction) => self.fault_in(stated, conflict, contradiction),
             };
             if let Some(what) = what {
@@ -54,7 +54,7 @@ impl Verifier<'_> {
                     "{:?} of triangles {:?} at frame {frame}",
                     contradiction.rule, contradiction.faces
                 );
-                self.refute_at(frame, "penetrations", "none of them", &what);
+                self.refute_at(frame, "penetrations", "none that accounts for this", &what);
             }
         }
     }
@@ -86,15 +86,15 @@ impl Verifier<'_> {
         let is_pair = stated.faces.iter().all(|f| conflict.faces.contains(f))
             && self.layer_state.order(stated.faces).is_some();
         if stated.kind != PenetrationKind::LayerOrder || stated.depth != 0.0 {
-            Some("it is an order of layers, 0 deep")
+            Some("a contradiction of layers has kind layer-order and depth 0")
         } else if [stated.time, stated.passed] != [self.last.time; 2] {
-            Some("it is found at a frame")
+            Some("a contradiction of layers is found at the time of a frame")
         } else if !is_pair {
-            Some("the pair is no two of the layers")
+            Some("the pair is not among these layers")
         } else if !has_vertices {
-            Some("the vertices are not those of what meets")
+            Some("the vertices are not those of the creases and layers that meet")
         } else if !is_there {
-            Some("they do not meet at the point")
+            Some("the layers do not meet at the point")
         } else {
             None
         }
@@ -106,7 +106,7 @@ impl Verifier<'_> {
             Some(&(faces, what)) => self.outcome.unproved.push(Unproved {
                 faces,
                 frame,
-                what: format!("{what}: {field} state {stated}, found: {found}"),
+                what: format!("{what}: {field} states {stated}, found {found}"),
             }),
             None => self.refute(field, stated, found),
         }

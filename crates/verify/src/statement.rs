@@ -69,9 +69,9 @@ fn separation_fault(claim: &CollisionReport, rounding: f64) -> Option<&'static s
     let open = stated.attained - stated.distance;
     let accuracy = (0.01 * claim.tolerance).max(1e-4 * stated.attained) + rounding;
     if !(stated.distance >= 0.0 && open >= 0.0) {
-        Some("a lower bound is at least 0 and at most what is attained")
+        Some("the lower bound must be at least 0 and at most the distance attained")
     } else if stated.is_tight && open > accuracy {
-        Some("these bounds are not as near as promised")
+        Some("the bounds are farther apart than is_tight promises")
     } else {
         None
     }
@@ -87,7 +87,7 @@ fn order_of_penetrations(claim: &CollisionReport, refuted: &mut Vec<Refutation>)
             refuted.push(Refutation::new(
                 "penetrations",
                 format!("{:?} after {:?}", key(k), key(k - 1)),
-                "they are in order of time",
+                "penetrations are listed in order of time",
             ));
         }
     }
@@ -99,7 +99,7 @@ fn order_of_penetrations(claim: &CollisionReport, refuted: &mut Vec<Refutation>)
         refuted.push(Refutation::new(
             "penetrations",
             format!("triangles {:?} twice", twice.0),
-            "each pair stands once",
+            "each pair is listed once",
         ));
     }
 }

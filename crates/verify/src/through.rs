@@ -39,7 +39,7 @@ impl Interval<'_> {
         self.frames.map(|frame| frame.time)
     }
 
-    fn place(&self, v: u32, t: f64) -> DVec3 {
+    fn position(&self, v: u32, t: f64) -> DVec3 {
         let [p, q] = self.frames.map(|frame| frame.positions[v as usize]);
         p + (q - p) * t
     }
@@ -100,22 +100,23 @@ impl Interval<'_> {
     }
 
     fn is_sure(&self, (edge, surface): &Piercing, t: f64) -> bool {
-        surface.is_pierced(*edge, &|v| self.place(v, t), self.tolerance)
+        surface.is_pierced(*edge, &|v| self.position(v, t), self.tolerance)
     }
 
     fn is_through(&self, (edge, surface): &Piercing, t: f64) -> bool {
-        surface.is_met(*edge, &|v| self.place(v, t), self.tolerance)
+        surface.is_met(*edge, &|v| self.position(v, t), self.tolerance)
     }
 
     /// What is wrong with a stated penetration, independently of what passes through.
     pub(crate) fn fault(&self, stated: &Penetration, pair: &FacePair) -> Option<Fault> {
         let [_, end] = self.times();
         if !(stated.time <= stated.passed && stated.passed <= end) {
-            let found = "the contact begins before, in the interval or earlier";
+            let found =
+                "the contact must begin before that, and no later than the end of the interval";
             return Some(("passed_t", stated.passed.to_string(), found));
         }
         if !is_kind_right(stated, pair, self.tolerance / self.unit) {
-            let found = "not what the facets share and the depth say";
+            let found = "it does not agree with the shared vertices and the depth";
             return Some(("kind", format!("{:?}", stated.kind), found));
         }
         if stated.kind != PenetrationKind::ThroughEdge {
@@ -125,21 +126,21 @@ impl Interval<'_> {
         let all = Self::features(stated, pair).into_iter();
         let nearest = all.min_by(|&p, &q| self.apart(p, from).total_cmp(&self.apart(q, from)));
         let Some([a, b]) = nearest else {
-            let found = "not two simplices of the triangles without a common vertex";
+            let found = "these are not two simplices of the triangles without a common vertex";
             return Some(("vertices", format!("{:?}", stated.vertices), found));
         };
         let near = POINT_TOLERANCES * self.tolerance;
         if stated.passed >= self.times()[0] && self.apart([a, b], from) > near {
-            let found = "the vertices named do not meet then";
+            let found = "the named vertices do not meet then";
             return Some(("passed_t", stated.passed.to_string(), found));
         }
         if !self.is_met(stated.point, [a, b], from) {
-            let found = "the vertices named do not meet there";
+            let found = "the named vertices do not meet there";
             return Some(("point", stated.point.to_string(), found));
         }
         let most = self.deepest(stated) + near;
         if !(stated.depth >= 0.0 && stated.depth * self.unit <= most) {
-            let found = "no edge around stands so far beyond a triangle around";
+            let found = "no edge nearby lies so far beyond a triangle nearby";
             return Some(("depth", format!("{:e}", stated.depth), found));
         }
         None
@@ -175,7 +176,7 @@ impl Interval<'_> {
     }
 
     fn pose(&self, features: [[u32; 3]; 2], t: f64) -> PairPose {
-        let [a, b] = features.map(|corners| corners.map(|v| self.place(v, t)));
+        let [a, b] = features.map(|corners| corners.map(|v| self.position(v, t)));
         PairPose { a, b }
     }
 
@@ -189,7 +190,7 @@ impl Interval<'_> {
     fn is_met(&self, point: DVec3, features: [[u32; 3]; 2], from: f64) -> bool {
         let near = POINT_TOLERANCES * self.tolerance;
         let moves = features.iter().flatten();
-        let moves = moves.map(|&v| self.place(v, 0.0).distance(self.place(v, 1.0)));
+        let moves = moves.map(|&v| self.position(v, 0.0).distance(self.position(v, 1.0)));
         let speed = moves.fold(0.0, f64::max);
         let mut t = from;
         for _ in 0..MOST_STEPS {
@@ -217,10 +218,10 @@ impl Interval<'_> {
             .collect();
         let beyond = |t: f64| {
             let heights = faces.iter().flat_map(|&face| {
-                let [p, q, r] = self.around.corners(face).map(|v| self.place(v, t));
+                let [p, q, r] = self.around.corners(face).map(|v| self.position(v, t));
                 let normal = (q - p).cross(r - p).normalize_or_zero();
                 all.iter().map(move |edge| {
-                    let [above, below] = edge.map(|v| normal.dot(self.place(v, t) - p));
+                    let [above, below] = edge.map(|v| normal.dot(self.position(v, t) - p));
                     above.min(-below).max(below.min(-above))
                 })
             });
@@ -229,7 +230,7 @@ impl Interval<'_> {
         let samples = (0..=SAMPLES).map(|k| beyond(f64::from(k) / f64::from(SAMPLES)));
         let largest = samples.fold(0.0, f64::max);
         let moves = corners.iter().flatten();
-        let moves = moves.map(|&v| self.place(v, 0.0).distance(self.place(v, 1.0)));
+        let moves = moves.map(|&v| self.position(v, 0.0).distance(self.position(v, 1.0)));
         largest + 2.0 * moves.fold(0.0, f64::max) / f64::from(SAMPLES)
     }
 }

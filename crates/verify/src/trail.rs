@@ -66,10 +66,12 @@ impl Trail {
         }
         let pose = moving.at(t);
         let here = moving.part(&pose, &pose);
-        let directions = directions.iter().filter_map(|way| match *way {
-            StepDirection::Along(feature) => here.directed(feature).ends()[0].try_normalize(),
-            StepDirection::Fixed(direction) => Some(direction),
-        });
+        let directions = directions
+            .iter()
+            .filter_map(|step_direction| match *step_direction {
+                StepDirection::Along(feature) => here.directed(feature).ends()[0].try_normalize(),
+                StepDirection::Fixed(direction) => Some(direction),
+            });
         directions.collect()
     }
 }

@@ -45,8 +45,8 @@ impl Verifier<'_> {
         self.is_pierced = true;
         let t = start.time + (self.last.time - start.time) * instant;
         let what =
-            format!("edge {edge:?} goes through the sheet at triangle {face}, seen at t = {t}");
-        self.refute("penetrations", "none of them", what);
+            format!("edge {edge:?} passes through the sheet at triangle {face}, seen at t = {t}");
+        self.refute("penetrations", "none that accounts for this", what);
     }
 
     /// An edge of one triangle that passes through the sheet at another.
@@ -54,19 +54,19 @@ impl Verifier<'_> {
         let corners = self.around.corners(face);
         let tolerance = self.limits.tolerance;
         for instant in INSTANTS {
-            let place = |v: u32| -> DVec3 {
+            let position = |v: u32| -> DVec3 {
                 let frames = [start, &self.last].map(|frame| frame.positions[v as usize]);
                 frames[0] + (frames[1] - frames[0]) * instant
             };
-            let triangle = corners.map(place);
+            let triangle = corners.map(position);
             let mut edges = edges(self.around.corners(wall)).into_iter();
             let pierced = edges.find(|&edge| {
-                may_pierce(edge.map(place), &triangle, tolerance)
+                may_pierce(edge.map(position), &triangle, tolerance)
                     && self
                         .around
                         .surfaces_of(face)
                         .iter()
-                        .any(|surface| surface.is_pierced(edge, &place, tolerance))
+                        .any(|surface| surface.is_pierced(edge, &position, tolerance))
             });
             if let Some(edge) = pierced {
                 return Some(Pierced {

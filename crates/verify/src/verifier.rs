@@ -180,7 +180,7 @@ impl<'a> Verifier<'a> {
             .filter(|_| !self.is_separation_met)
         {
             let fault = self.separation_fault.take();
-            let found = fault.unwrap_or_else(|| "it is at no time of the motion".to_owned());
+            let found = fault.unwrap_or_else(|| "the motion does not include this time".to_owned());
             self.refute(
                 "min_separation",
                 format!("{:e} at t = {}", separation.attained, separation.time),
@@ -244,7 +244,7 @@ impl<'a> Verifier<'a> {
             if pair.shared > 2 {
                 self.refute(
                     "triangles",
-                    "each stands once",
+                    "each triangle once",
                     format!("{faces:?} have the same corners"),
                 );
                 continue;

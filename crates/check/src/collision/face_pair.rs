@@ -38,10 +38,10 @@ impl FacePair {
     }
 
     pub(super) fn pose(&self, positions: &[DVec3]) -> PairPose {
-        let place = |corners: [u32; 3]| corners.map(|v| positions[v as usize]);
+        let positions_of = |corners: [u32; 3]| corners.map(|v| positions[v as usize]);
         PairPose {
-            a: place(self.a),
-            b: place(self.b),
+            a: positions_of(self.a),
+            b: positions_of(self.b),
             shared: self.shared,
         }
     }

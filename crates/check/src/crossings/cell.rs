@@ -264,8 +264,8 @@ mod tests {
     /// The signed number of times that the edge from the moving vertex to its fixed end at b passes through the vertex
     /// at c while the vertex traverses the triangle p, m, q and the triangle is contracted to a point: 1 or −1 if c
     /// lies in the tetrahedron, otherwise 0.
-    fn turns_of_edge(way: [DVec3; 3], b: DVec3, c: DVec3) -> i64 {
-        let [p, m, q] = way;
+    fn turns_of_edge(path: [DVec3; 3], b: DVec3, c: DVec3) -> i64 {
+        let [p, m, q] = path;
         let whole = sign_of_volume([p, m, q, b]);
         let parts = [[c, m, q, b], [p, c, q, b], [p, m, c, b], [p, m, q, c]];
         let is_inside = parts.into_iter().all(|part| sign_of_volume(part) == whole);
@@ -280,11 +280,11 @@ mod tests {
         for _ in 0..400 {
             let rest: Vec<DVec3> = (0..8).map(|_| random.vector()).collect();
             let vertex = random.index(8) as u32;
-            let way = [rest[vertex as usize], random.vector(), random.vector()];
+            let path = [rest[vertex as usize], random.vector(), random.vector()];
             let frames: Vec<Vec<DVec3>> = [0, 1, 2, 0]
                 .map(|k: usize| {
                     let mut frame = rest.clone();
-                    frame[vertex as usize] = way[k];
+                    frame[vertex as usize] = path[k];
                     frame
                 })
                 .to_vec();
@@ -294,7 +294,7 @@ mod tests {
                     continue;
                 }
                 let ends = topology.ends(edge).map(|v| rest[v as usize]);
-                let turns = turns_around(way, ends);
+                let turns = turns_around(path, ends);
                 turned += turns.abs();
                 for (cell, sign) in turn(&topology, vertex, edge) {
                     *expected.entry(cell).or_insert(0) += turns * sign;
@@ -305,7 +305,7 @@ mod tests {
                 let far = if ends[0] == vertex { ends[1] } else { ends[0] };
                 let sense = if ends[0] == vertex { 1 } else { -1 };
                 for c in (0..8).filter(|c| !ends.contains(c)) {
-                    let turns = -sense * turns_of_edge(way, rest[far as usize], rest[c as usize]);
+                    let turns = -sense * turns_of_edge(path, rest[far as usize], rest[c as usize]);
                     turned += turns.abs();
                     for (cell, sign) in turn(&topology, c, edge) {
                         *expected.entry(cell).or_insert(0) += turns * sign;

@@ -155,8 +155,8 @@ impl CrossingCounter {
     }
 
     fn moved(&self, positions: &[DVec3]) -> Vec<DVec3> {
-        let places = positions.iter().zip(&self.offsets);
-        places.map(|(p, offset)| *p + *offset).collect()
+        let both = positions.iter().zip(&self.offsets);
+        both.map(|(p, offset)| *p + *offset).collect()
     }
 
     /// Whether one of the pairs of triangles around a cell is excluded from the counts.

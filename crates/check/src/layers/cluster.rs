@@ -98,7 +98,7 @@ fn groups(faces: usize, pairs: &[LayerPair]) -> Vec<Group> {
         parent[f.max(g) as usize] = f.min(g);
     }
     // The root is the smallest triangle, so groups come in the order of their roots.
-    let mut place = vec![usize::MAX; faces];
+    let mut group_of = vec![usize::MAX; faces];
     let mut groups: Vec<Group> = Vec::new();
     let mut is_layer = vec![false; faces];
     for face in pairs.iter().flat_map(|pair| pair.faces) {
@@ -106,18 +106,18 @@ fn groups(faces: usize, pairs: &[LayerPair]) -> Vec<Group> {
     }
     for face in (0..faces as u32).filter(|&f| is_layer[f as usize]) {
         let root = root(&mut parent, face) as usize;
-        if place[root] == usize::MAX {
-            place[root] = groups.len();
+        if group_of[root] == usize::MAX {
+            group_of[root] = groups.len();
             groups.push(Group {
                 faces: Vec::new(),
                 pairs: Vec::new(),
             });
         }
-        groups[place[root]].faces.push(face);
+        groups[group_of[root]].faces.push(face);
     }
     for (index, pair) in pairs.iter().enumerate() {
         let root = root(&mut parent, pair.faces[0]) as usize;
-        groups[place[root]].pairs.push(index);
+        groups[group_of[root]].pairs.push(index);
     }
     groups
 }

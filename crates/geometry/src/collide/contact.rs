@@ -120,8 +120,8 @@ fn greatest_motion(pair: &MovingPair) -> f64 {
     let moved = |start: &[DVec3; 3], end: &[DVec3; 3]| [0, 1, 2].map(|i| end[i] - start[i]);
     let a = moved(&pair.start.a, &pair.end.a);
     let b = moved(&pair.start.b, &pair.end.b);
-    let ways = a.iter().flat_map(|u| b.iter().map(|v| u.distance(*v)));
-    ways.fold(0.0, f64::max)
+    let displacements = a.iter().flat_map(|u| b.iter().map(|v| u.distance(*v)));
+    displacements.fold(0.0, f64::max)
 }
 
 /// The closest points, by the kinds of the features.

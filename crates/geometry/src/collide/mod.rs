@@ -7,7 +7,7 @@
 //!
 //! o_d(t) = max_i d·a_i(t) − min_j d·b_j(t),
 //!
-//! the depth at an instant is min_d o_d, and D(t) = { d : o_d(t) ≤ τ }. [`certify`] looks for a continuous path d(t) ∈
+//! the depth at an instant is min_d o_d, and D(t) = { d : o_d(t) ≤ τ }. [`certify()`] looks for a continuous path d(t) ∈
 //! D(t). If there is one, the depth never exceeds τ, and the triangles never change sides: changing sides means that d
 //! jumps between components of D(t), as from n to −n while two plates are coplanar to within τ. Corners that are the
 //! same vertices of the sheet overlap by exactly 0 and take part like the others.
@@ -34,7 +34,7 @@
 //! Triangles that start apart meet first where a vertex meets a facet or an edge meets an edge. [`vertex_facet`] and
 //! [`edge_edge`] decide that conservatively, with a minimum separation, and return the time from which on an impact is
 //! possible. Their bounds are relative to the differences of the vertices, not to the extent, and they do not need an
-//! area. [`certify`] uses them before it reports a pair that starts and ends apart as crossing or undecided, because
+//! area. [`certify()`] uses them before it reports a pair that starts and ends apart as crossing or undecided, because
 //! the axes of triangles that shrink to segments during the motion are undefined. A pair cleared by them is farther
 //! apart than the margin throughout, which is stronger than the guarantee above.
 //!
@@ -49,7 +49,7 @@
 //! `tests/exact_oracle.rs`, and `examples/exact_oracle.rs` at length, decide queries of every degenerate kind in
 //! integers, without rounding: the kernels missed no impact and certified none as free, and no pair passed that is
 //! deeper than τ at an instant. Limits: squares of coordinates must not overflow and fourth powers of edges must not
-//! underflow (lengths between about 10⁻⁷⁵ and 10¹⁵⁰ for [`certify`], which may refuse others; the queries scale their
+//! underflow (lengths between about 10⁻⁷⁵ and 10¹⁵⁰ for [`certify()`], which may refuse others; the queries scale their
 //! input and accept whatever can be subtracted). Facets without area are handled safely, but may be refused.
 
 mod certifier;

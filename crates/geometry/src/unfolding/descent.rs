@@ -43,7 +43,7 @@ pub(super) struct Waypoint {
 /// # Errors
 /// [`GeometryError::NotStraightened`] if rounding ends the descent before that, or the number of steps is insufficient.
 pub(super) fn descend(chain: &Chain, turns: Vec<f64>) -> Result<Vec<Waypoint>, GeometryError> {
-    let mut way = Vec::new();
+    let mut waypoints = Vec::new();
     let mut turns = turns;
     let mut length = f64::INFINITY;
     while !Chain::is_monotone(&turns) {
@@ -66,21 +66,21 @@ pub(super) fn descend(chain: &Chain, turns: Vec<f64>) -> Result<Vec<Waypoint>, G
             }
             length *= 0.5;
             let is_lost = !length.is_finite() || length * squared.sqrt() < SHORTEST;
-            if is_lost || way.len() >= MOST_STEPS {
+            if is_lost || waypoints.len() >= MOST_STEPS {
                 return Err(GeometryError::NotStraightened {
-                    steps: way.len(),
+                    steps: waypoints.len(),
                     clearance: limit.clearance,
                 });
             }
         };
-        way.push(Waypoint {
+        waypoints.push(Waypoint {
             turns: std::mem::replace(&mut turns, next),
             clearance: limit.clearance,
         });
     }
     let clearance = clearance(&chain.points(&turns));
-    way.push(Waypoint { turns, clearance });
-    Ok(way)
+    waypoints.push(Waypoint { turns, clearance });
+    Ok(waypoints)
 }
 
 /// The limit of a step.

@@ -53,15 +53,15 @@ fn for_each_term(points: &[DVec2], mut visit: impl FnMut(usize, usize, Term)) {
     for (v, &point) in points.iter().enumerate() {
         let mut from_a = (point - points[0], point.distance(points[0]));
         for (k, length) in lengths.iter().enumerate() {
-            let way = point - points[k + 1];
-            let from_b = (way, way.length());
+            let offset = point - points[k + 1];
+            let from_b = (offset, offset.length());
             if v != k && v != k + 1 {
                 visit(
                     v,
                     k,
                     Term {
                         excess: from_a.1 + from_b.1 - length,
-                        directions: [from_a, from_b].map(|(way, distance)| way / distance),
+                        directions: [from_a, from_b].map(|(offset, distance)| offset / distance),
                     },
                 );
             }

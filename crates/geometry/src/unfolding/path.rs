@@ -61,9 +61,9 @@ pub fn straighten(chain: &Chain) -> Result<TurnPath, GeometryError> {
     } else {
         start
     };
-    let way = descend(chain, opened)?;
-    let steps = way.len() - 1;
-    knots.extend(thinned(chain, way));
+    let waypoints = descend(chain, opened)?;
+    let steps = waypoints.len() - 1;
+    knots.extend(thinned(chain, waypoints));
     let straight = vec![0.0; chain.turns().len()];
     if knots.last() != Some(&straight) || knots.len() == 1 {
         knots.push(straight);
@@ -76,13 +76,13 @@ pub fn straighten(chain: &Chain) -> Result<TurnPath, GeometryError> {
 }
 
 /// As few of the states as possible such that the straight pieces between them are certified.
-fn thinned(chain: &Chain, way: Vec<Waypoint>) -> Vec<Vec<f64>> {
-    let last = way.len() - 1;
+fn thinned(chain: &Chain, waypoints: Vec<Waypoint>) -> Vec<Vec<f64>> {
+    let last = waypoints.len() - 1;
     let is_clear = |from: usize, to: usize| {
-        let least = way[from..=to]
+        let least = waypoints[from..=to]
             .iter()
             .fold(f64::INFINITY, |a, w| a.min(w.clearance));
-        let sweep = Sweep::new(chain, &way[from].turns, &way[to].turns);
+        let sweep = Sweep::new(chain, &waypoints[from].turns, &waypoints[to].turns);
         let clearance = if least.is_finite() { KEPT * least } else { 0.0 };
         sweep.run(clearance, BUDGET) == SweepVerdict::Clear
     };
@@ -109,7 +109,7 @@ fn thinned(chain: &Chain, way: Vec<Waypoint>) -> Vec<Vec<f64>> {
         from = reached;
     }
     let is_kept = |k: &usize| kept.binary_search(k).is_ok();
-    let numbered = way.into_iter().enumerate();
+    let numbered = waypoints.into_iter().enumerate();
     numbered
         .filter(|(k, _)| is_kept(k))
         .map(|(_, w)| w.turns)
@@ -118,7 +118,7 @@ fn thinned(chain: &Chain, way: Vec<Waypoint>) -> Vec<Vec<f64>> {
 
 /// The progress at each knot, proportional to the largest change of a heading relative to the mean heading.
 fn progress(chain: &Chain, knots: &[Vec<f64>]) -> Vec<f64> {
-    let ways: Vec<f64> = knots
+    let changes: Vec<f64> = knots
         .windows(2)
         .map(|pair| {
             let change: Vec<f64> = pair[0].iter().zip(&pair[1]).map(|(a, b)| b - a).collect();
@@ -131,7 +131,7 @@ fn progress(chain: &Chain, knots: &[Vec<f64>]) -> Vec<f64> {
                 .fold(1e-9, |a: f64, h| a.max((h - mean).abs()))
         })
         .collect();
-    let sums = sums(&ways);
+    let sums = sums(&changes);
     let total = sums[sums.len() - 1];
-    sums.into_iter().map(|way| way / total).collect()
+    sums.into_iter().map(|sum| sum / total).collect()
 }
