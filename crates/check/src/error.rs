@@ -1,4 +1,4 @@
-//! What makes a check impossible.
+//! Errors that make a check impossible.
 
 use foldmotion_geometry::Number;
 
@@ -18,21 +18,21 @@ pub enum CheckError {
     /// A frame with the wrong number of positions.
     #[error("frame {frame} has {found} positions: the sheet has {expected} vertices")]
     FrameSize {
-        /// Which frame.
+        /// The index of the frame.
         frame: usize,
         /// How many positions it has.
         found: usize,
-        /// How many it should have.
+        /// How many it needs: one for each vertex.
         expected: usize,
     },
     /// A coordinate that is not a number or infinite.
     #[error("vertex {vertex} of frame {frame} is at {position}: coordinates must be finite")]
     NotFinite {
-        /// Which frame.
+        /// The index of the frame.
         frame: usize,
-        /// Which vertex.
+        /// The index of the vertex.
         vertex: usize,
-        /// Where it is.
+        /// The position that was given.
         position: glam::DVec3,
     },
     /// Times must increase.
@@ -40,61 +40,61 @@ pub enum CheckError {
         "frame {frame} is at t = {time}, the frame before at t = {before}: times must increase"
     )]
     TimeOrder {
-        /// Which frame.
+        /// The index of the frame.
         frame: usize,
-        /// Its time.
+        /// Its motion time.
         time: f64,
-        /// The time of the frame before.
+        /// The motion time of the frame before it.
         before: f64,
     },
-    /// A triangle without area has no sides.
+    /// A triangle without area: its sides cannot be told apart.
     #[error(
-        "triangle {face} of frame {frame} has the height {height:e}: more than {limit:e} is needed to tell its sides"
+        "triangle {face} of frame {frame} has the height {height:e}: more than {limit:e} is needed to tell its sides apart"
     )]
     DegenerateFace {
-        /// Which frame.
+        /// The index of the frame.
         frame: usize,
-        /// Which triangle.
+        /// The index of the triangle.
         face: usize,
-        /// Its least height.
+        /// Its smallest height, a length.
         height: f64,
-        /// The least height that can be judged.
+        /// The smallest height that can be judged, a length.
         limit: f64,
     },
-    /// A claim about facets that lie apart from each other contradicts where they are.
+    /// A claim about facets that lie a gap apart contradicts their positions.
     #[error(
         "faceOrders has [{f}, {g}, {sign}] at frame {frame}: face {f} lies on the other side of face {g}; turn the sign round \
          or leave the entry out"
     )]
     FalseOrder {
-        /// Which frame.
+        /// The index of the frame.
         frame: usize,
-        /// The face that is said to lie above or below.
+        /// The face that is claimed to lie above or below.
         f: u32,
-        /// The face whose front is meant.
+        /// The face whose front the claim refers to.
         g: u32,
-        /// 1 above, -1 below.
+        /// 1 if the claim says above, −1 if it says below.
         sign: i8,
     },
-    /// A corner that does not exist.
+    /// A triangle with a corner that does not exist.
     #[error("triangle {face} has the corner {vertex}: the sheet has {vertices} vertices")]
     CornerOutOfRange {
-        /// Which triangle.
+        /// The index of the triangle.
         face: usize,
-        /// Its corner.
+        /// The index of the missing vertex.
         vertex: u32,
-        /// How many vertices there are.
+        /// How many vertices the sheet has.
         vertices: usize,
     },
     /// Two triangles with the same corners.
-    #[error("triangles {f} and {g} have the same corners: each may stand once")]
+    #[error("triangles {f} and {g} have the same corners: each triangle may be listed only once")]
     DuplicateFace {
-        /// One triangle.
+        /// The first of the two triangles.
         f: u32,
-        /// The other.
+        /// The second of them.
         g: u32,
     },
-    /// The tolerance cannot be used.
+    /// The tolerance is out of range.
     #[error(
         "the touch tolerance is {} units of length: it must be positive, finite and below 0.1",
         Number(*value)
@@ -103,10 +103,10 @@ pub enum CheckError {
         /// The tolerance in units of h.
         value: f64,
     },
-    /// The unit of length cannot be used.
+    /// The unit of length is out of range.
     #[error("the unit of length is {value}: it must be positive and finite")]
     UnitLength {
-        /// The unit.
+        /// The unit of length that was given.
         value: f64,
     },
     /// Coordinates too large for the tolerance.
@@ -118,11 +118,11 @@ pub enum CheckError {
         Number(*extent)
     )]
     ToleranceBelowRounding {
-        /// Which frame.
+        /// The index of the frame.
         frame: usize,
         /// The largest distance from the centre of the first frame.
         extent: f64,
-        /// The bound of the rounding errors.
+        /// The bound of the rounding errors, a length.
         margin: f64,
         /// The tolerance, a length.
         tolerance: f64,

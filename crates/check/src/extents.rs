@@ -1,25 +1,25 @@
-//! The box of a state, measured against an exact one.
+//! The box of a state, compared with that of an exact state.
 
 use foldmotion_geometry::{Aabb, RigidMotion};
 use glam::{DMat3, DVec3};
 use serde::Serialize;
 
-/// The box of a state after the rigid motion that best fits it to the exact one, or along its principal axes.
+/// The box of a state, after the rigid motion that best fits it to the exact state or along its principal axes.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct FittedBox {
-    /// Along x, y, z of the exact state; along the principal axes from the longest spread to the shortest.
+    /// The extents along x, y and z of the exact state, or along the principal axes in order of decreasing spread.
     pub extents: DVec3,
-    /// x · z.
+    /// The area x · z covered by the box.
     pub area: f64,
-    /// x · y · z.
+    /// The volume x · y · z of the box.
     pub volume: f64,
-    /// The root mean square distance of the vertices from the exact state, where there is one.
+    /// The root mean square distance of the vertices from the exact state; `None` if there is no exact state.
     pub rms_to_exact: Option<f64>,
 }
 
 /// Fits `positions` to `exact` by a rotation and a translation (no reflection) and measures the box.
 ///
-/// Precondition: as many positions as exact ones; none give zeros.
+/// Precondition: both have the same length. Without positions, all values are 0.
 pub fn fitted_box(positions: &[DVec3], exact: &[DVec3]) -> FittedBox {
     let fit = RigidMotion::best_fit(positions, exact);
     let fitted = || positions.iter().map(|&p| fit.apply(p));
@@ -31,7 +31,7 @@ pub fn fitted_box(positions: &[DVec3], exact: &[DVec3]) -> FittedBox {
     measured(Aabb::around(fitted()), Some(rms))
 }
 
-/// Measures the box along x, y and z as they are.
+/// Measures the box along the coordinate axes, without moving the state.
 pub fn upright_box(positions: &[DVec3]) -> FittedBox {
     measured(Aabb::around(positions.iter().copied()), None)
 }
@@ -48,7 +48,8 @@ fn measured(bounds: Aabb, rms_to_exact: Option<f64>) -> FittedBox {
 
 /// Measures the box of a sheet along its principal axes, those of the second moments of its area.
 ///
-/// `faces`: its triangles. Precondition: their corners lie within `positions`; without area the axes are x, y and z.
+/// `faces`: the triangles of the sheet. Precondition: their corners are indices into `positions`. If the sheet has no
+/// area, the axes are x, y and z.
 pub fn principal_box(positions: &[DVec3], faces: &[[u32; 3]]) -> FittedBox {
     let corners = || faces.iter().map(|face| face.map(|v| positions[v as usize]));
     let area = |[a, b, c]: [DVec3; 3]| 0.5 * (b - a).cross(c - a).length();
@@ -71,20 +72,20 @@ pub fn principal_box(positions: &[DVec3], faces: &[[u32; 3]]) -> FittedBox {
     )
 }
 
-/// What a measured box is off its closed form by.
+/// How far a measured box is from its closed form.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct RelativeError {
-    /// Of each extent.
+    /// The relative error of each extent.
     pub extents: DVec3,
-    /// Of x · z.
+    /// The relative error of the area x · z.
     pub area: f64,
-    /// Of x · y · z.
+    /// The relative error of the volume x · y · z.
     pub volume: f64,
 }
 
-/// (measured − closed form), each divided by the closed form or, where that is 0, by h, h², h³.
+/// (measured − closed form), each divided by the closed form or, if that is 0, by h, h² or h³.
 ///
-/// `extents`: the closed form's; area and volume follow from it. `unit_length`: h.
+/// `extents`: those of the closed form; its area and volume follow from them. `unit_length`: h.
 pub fn relative_error(measured: &FittedBox, extents: DVec3, unit_length: f64) -> RelativeError {
     let relative = |value: f64, exact: f64, unit: f64| {
         (value - exact) / if exact == 0.0 { unit } else { exact }
@@ -137,13 +138,13 @@ mod tests {
     #[test]
     fn a_rectangle_has_its_sides_as_principal_extents_however_it_is_cut_and_turned() {
         let turn = DQuat::from_axis_angle(DVec3::new(1.0, -2.0, 0.4).normalize(), 2.1);
-        let place = |x: f64, y: f64| turn * DVec3::new(x, y, 0.0) + DVec3::new(5.0, 1.0, -9.0);
+        let at = |x: f64, y: f64| turn * DVec3::new(x, y, 0.0) + DVec3::new(5.0, 1.0, -9.0);
         let positions = [
-            place(0.0, 0.0),
-            place(2.0, 0.0),
-            place(2.0, 5.0),
-            place(0.0, 5.0),
-            place(0.1, 0.7),
+            at(0.0, 0.0),
+            at(2.0, 0.0),
+            at(2.0, 5.0),
+            at(0.0, 5.0),
+            at(0.1, 0.7),
         ];
         let halves = [[0, 1, 2], [0, 2, 3]];
         let fan = [[0, 1, 4], [1, 2, 4], [2, 3, 4], [3, 0, 4]];

@@ -1,26 +1,26 @@
-//! What is proved of a motion: the collision verdict, strain, and the box of the compact state.
+//! What is proved about a motion: the collision verdict, the strain, and the box of the compact state.
 //!
 //! # The collision verdict
 //!
 //! [`collisions`] judges every pair of triangles of a sheet over every interval between recorded frames, in which each
-//! vertex moves on a straight line. With τ the touch tolerance, facets *touch* where they come within τ or overlap by
-//! at most τ and leave contact on the side they entered; they *penetrate* where they overlap deeper than τ or leave
-//! on the other side. The depth is the smallest overlap along any direction; across a crease folded past ±180° that
+//! vertex moves on a straight line. Let τ be the touch tolerance. Facets *touch* if they come within τ, or overlap by
+//! at most τ and leave contact on the side on which they entered it. They *penetrate* if they overlap by more than τ or
+//! leave on the other side. The depth is the smallest overlap along any direction; across a crease folded past ±180° it
 //! is the height, normal to the facets, of what lies beyond each other.
 //!
 //! What is proved, and under which assumptions:
-//! - A verdict *free* or *touching* is a proof for the frames as f64 numbers and straight paths between them: the tree
-//!   drops only pairs whose swept boxes lie apart, and every other pair has a separating-axis certificate
+//! - A verdict of *free* or *touching* is a proof for the frames as f64 numbers and straight paths between them. The
+//!   tree drops only pairs whose swept boxes are disjoint, and every other pair has a separating-axis certificate
 //!   (`foldmotion_geometry::collide`) without a gap in time. Rounding is bounded, not ignored.
-//! - *Penetrating* is confirmed by an instant at which the overlap, from the side on which the pair was followed,
-//!   exceeds τ. What overlaps by τ to within rounding at its deepest may come out either way or undecided.
-//! - Triangles in contact at the first frame may be on any side that D(t) allows there; creases folded by exactly
-//!   ±180° at the first frame are taken to be on the side of their assignment, others on the side that a file's
+//! - *Penetrating* is confirmed by an instant at which the overlap, seen from the side on which the pair was followed,
+//!   exceeds τ. A pair whose deepest overlap equals τ to within rounding may come out either way, or undecided.
+//! - Triangles in contact at the first frame may be on any side that D(t) allows there. Creases folded by exactly ±180°
+//!   at the first frame are taken to be on the side of their assignment, other layers on the side that the file's
 //!   `faceOrders` claim ([`Checker::claim`]).
-//! - Triangles that lie on each other are tested as a stack: whether the orders of its pairs are possible together
-//!   ([`Cluster`], [`LayerRule`]). A stack with open orders is tested as far as they are known.
-//! - Nothing is said about the paths the engine took between the frames if they were not straight, nor about the
-//!   thickness of the material.
+//! - Triangles that lie on each other are tested as a stack: are the orders of its pairs possible together
+//!   ([`Cluster`], [`LayerRule`])? A stack in which some orders are unknown is tested as far as they are known.
+//! - Nothing is said about the paths the engine took between frames if they were not straight, nor about the thickness
+//!   of the material.
 
 mod collision;
 mod crossings;

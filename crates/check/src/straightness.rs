@@ -1,21 +1,21 @@
-//! How far the straight paths between frames stray from a smooth motion through them.
+//! How far the straight paths between frames stray from a smooth motion through the frames.
 
 use foldmotion_pattern::Frame;
 use glam::DVec3;
 
-/// The planar state: the motion may turn sharply where its stages meet.
+/// The motion time of the planar state, at which the motion may turn sharply because its stages meet there.
 const STAGES_MEET: f64 = 1.0;
 
-/// For each interval between frames, an estimate of how far a straight path strays from the smooth motion that the
-/// frames sample, in their unit of length.
+/// For each interval between frames, an estimate of how far the straight paths stray from the smooth motion that the
+/// frames sample, in the unit of length of the frames.
 ///
-/// A path x(t) leaves its chord over an interval Δ by at most max |x″| Δ²/8 (the remainder of linear interpolation).
-/// x″ is taken from the second divided differences with the frame before and the frame after, the larger of the two;
-/// frames on both sides of t = 1, where the stages meet, are not combined.
+/// A path x(t) leaves its chord over an interval Δ by at most max |x″| Δ²/8 (the remainder of linear interpolation). x″
+/// is taken from the second divided differences with the frame before and the frame after, whichever is larger; frames
+/// on both sides of t = 1, where the stages meet, are not combined.
 ///
-/// Infinite where no third frame of the same stage says anything. An estimate, no bound: what happens between frames
-/// and leaves no trace in them is not seen. Precondition: times increase strictly, all frames have equally many
-/// positions.
+/// The estimate is infinite if no third frame of the same stage is available. It is not a bound: movement between
+/// frames that leaves no trace in them is not seen. Preconditions: times increase strictly, and all frames have the
+/// same number of positions.
 pub fn straying(frames: &[Frame]) -> Vec<f64> {
     let bend: Vec<Option<f64>> = frames
         .windows(3)
@@ -33,7 +33,7 @@ pub fn straying(frames: &[Frame]) -> Vec<f64> {
         .collect()
 }
 
-/// The largest |x″| / 2 of a vertex over three frames.
+/// The largest |x″| / 2 of any vertex over three frames.
 fn second_difference(frames: &[Frame]) -> f64 {
     let [a, b, c] = [0, 1, 2].map(|k| &frames[k]);
     let slope = |p: DVec3, q: DVec3, from: &Frame, to: &Frame| (q - p) / (to.time - from.time);
@@ -58,7 +58,7 @@ mod tests {
 
     #[test]
     fn on_a_parabola_the_estimate_is_the_sagitta() {
-        // |x″| = 2·3: a chord over Δ is left by 6 Δ²/8 at its middle.
+        // |x″| = 2·3: the sagitta of a chord over Δ is 6 Δ²/8.
         let times = [0.0, 0.1, 0.25, 0.3];
         let frames = sampled(&times, |t| DVec3::new(t, 3.0 * t * t, 1.0));
         for (stray, span) in straying(&frames).into_iter().zip([0.1, 0.15, 0.05]) {

@@ -1,23 +1,23 @@
-//! How much the sheet is stretched and its facets are bent.
+//! How much the sheet is stretched and how much its facets are bent.
 
 use foldmotion_pattern::{Assignment, Sheet};
 use glam::DVec3;
 use serde::Serialize;
 
-/// Bar strain |l / l₀ − 1| over all edges.
+/// The bar strain |l / l₀ − 1|, over all edges.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct BarStrain {
-    /// The largest.
+    /// The largest bar strain of any edge.
     pub peak: f64,
-    /// The edge that has it.
+    /// The index of the edge with the largest strain.
     pub peak_edge: usize,
-    /// The mean over the edges.
+    /// The mean bar strain over all edges.
     pub mean: f64,
 }
 
-/// The bar strain of every edge against its length in the crease pattern; zeros for a sheet without edges.
+/// The bar strain of every edge relative to its length in the crease pattern; zeros for a sheet without edges.
 ///
-/// `positions`: one a vertex. Precondition: no edge of the crease pattern has length 0.
+/// `positions`: one for each vertex. Precondition: no edge of the crease pattern has length 0.
 pub fn bar_strain(sheet: &Sheet, positions: &[DVec3]) -> BarStrain {
     let mut strain = BarStrain {
         peak: 0.0,
@@ -42,18 +42,18 @@ pub fn bar_strain(sheet: &Sheet, positions: &[DVec3]) -> BarStrain {
 pub struct FacetBending {
     /// The largest |fold angle| of an edge inside a facet, in radians.
     pub peak_rad: f64,
-    /// The edge that has it, if any edge lies inside a facet.
+    /// The index of the edge with the largest bend; `None` if no edge lies inside a facet.
     pub peak_edge: Option<usize>,
 }
 
 impl FacetBending {
-    /// The largest bend in degrees.
+    /// The largest bend, in degrees.
     pub fn peak_deg(&self) -> f64 {
         self.peak_rad.to_degrees()
     }
 }
 
-/// The largest bend of a facet. `positions`: one a vertex.
+/// The largest bend of any facet. `positions`: one for each vertex.
 pub fn facet_bending(sheet: &Sheet, positions: &[DVec3]) -> FacetBending {
     let angles = sheet.fold_angles(positions);
     let mut bending = FacetBending {

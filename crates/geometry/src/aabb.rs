@@ -5,20 +5,20 @@ use glam::DVec3;
 /// The points x with `min` ≤ x ≤ `max` in every coordinate.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Aabb {
-    /// The lowest coordinates.
+    /// The smallest coordinates of the box.
     pub min: DVec3,
-    /// The highest coordinates.
+    /// The largest coordinates of the box.
     pub max: DVec3,
 }
 
 impl Aabb {
-    /// The box of no point: the neutral element of [`Aabb::union`].
+    /// The box that contains no point: the neutral element of [`Aabb::union`].
     pub const EMPTY: Self = Self {
         min: DVec3::INFINITY,
         max: DVec3::NEG_INFINITY,
     };
 
-    /// The smallest box around the points.
+    /// The smallest box that contains the points.
     pub fn around(points: impl IntoIterator<Item = DVec3>) -> Self {
         points.into_iter().fold(Self::EMPTY, |hull, p| Self {
             min: hull.min.min(p),
@@ -26,7 +26,7 @@ impl Aabb {
         })
     }
 
-    /// The smallest box around both.
+    /// The smallest box that contains both.
     #[must_use]
     pub fn union(&self, other: &Self) -> Self {
         Self {
@@ -51,7 +51,7 @@ impl Aabb {
         self.min.cmple(other.max).all() && other.min.cmple(self.max).all()
     }
 
-    /// The squared distance between the boxes, 0 where they share a point.
+    /// The squared distance between the boxes; 0 if they share a point.
     pub fn distance_squared(&self, other: &Self) -> f64 {
         let gap = (self.min - other.max).max(other.min - self.max);
         gap.max(DVec3::ZERO).length_squared()

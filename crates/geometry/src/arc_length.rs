@@ -8,7 +8,7 @@ const GAUSS_5: [(f64, f64); 3] = [
     (0.538_469_310_105_683_1, 0.478_628_670_499_366_47),
     (0.906_179_845_938_664, 0.236_926_885_056_189_08),
 ];
-/// Halvings of one knot span; only next to a cusp are more than a few needed.
+/// The largest number of times a knot span is halved; only next to a cusp are more than a few needed.
 const DEEPEST: u32 = 40;
 
 /// ∫ |C'(u)| du over [a, b] by one five-point rule. Precondition: [a, b] lies in one knot span.
@@ -25,8 +25,8 @@ pub(crate) fn piece_length(curve: &Nurbs, a: f64, b: f64) -> f64 {
     half * sum
 }
 
-/// The length of the curve: each knot span is halved until the rule and its two halves agree within its share of
-/// `accuracy`, or within the rounding of the speeds.
+/// The length of the curve. Each knot span is halved until the rule for it and for its two halves agree within its
+/// share of `accuracy`, or within the rounding of the speeds.
 pub(crate) fn arc_length(curve: &Nurbs, accuracy: f64) -> f64 {
     let breakpoints = curve.breakpoints();
     let share = accuracy / (breakpoints.len() - 1) as f64;

@@ -1,14 +1,16 @@
-//! Chains of equal chords followed along a curve, from a short chain at its start to one that ends at its end.
+//! Chains of equal chords continued along a curve, from a short chain at its start to one that ends at its end.
 //!
-//! N points t_1 < … < t_N behind t_0 = 0 with equal chords h_k = |Γ(t_k) − Γ(t_{k−1})| satisfy the N − 1 equations
-//! h_{k+1} = h_k: where these are regular, the chains form curves in ℝᴺ. On a curve Γ that does not meet itself the chains
-//! that start with all points at Γ(0) cannot come back there nor end before t_N = 1, so following them leads to an
-//! equal division, past sharp turns too, where single points run backwards and the common chord shrinks for a while.
+//! N points t_1 < … < t_N after t_0 = 0 with equal chords h_k = |Γ(t_k) − Γ(t_{k−1})| satisfy the N − 1 equations
+//! h_{k+1} = h_k. Where these are regular, the chains form curves in ℝᴺ. On a curve Γ that does not meet itself, a
+//! chain that starts with all points at Γ(0) cannot come back there, nor end before t_N = 1. So continuing it leads to
+//! an equal division, past sharp turns too, where single points move backwards and the common chord shrinks for a
+//! while.
 //!
-//! Followed by pseudo-arclength continuation (Allgower and Georg 1990, *Numerical Continuation Methods*, chapters 2 to 6): a
-//! step along the tangent, then Newton steps of least norm. Both come from one QR factorisation of the banded
+//! The method is pseudo-arclength continuation (Allgower and Georg 1990, *Numerical Continuation Methods*, chapters 2
+//! to 6): a step along the tangent, then Newton steps of least norm. Both come from one QR factorisation of the banded
 //! Jacobian by Givens rotations, O(N). The sign of the determinant of the Jacobian bordered by the tangent stays the
-//! same along the curve, which tells forward from backward; a step after which they disagree has jumped and is halved.
+//! same along the curve, which distinguishes forward from backward; a step after which the signs differ has jumped and
+//! is halved.
 
 use glam::DVec2;
 
@@ -16,31 +18,31 @@ use crate::Profile;
 use crate::compass::Samples;
 use crate::length_table::LengthTable;
 
-/// Steps, and chords of all steps together, after which the search is given up.
+/// The number of steps, and of chords in all steps together, after which the search is abandoned.
 const MOST_STEPS: usize = 20_000;
 const MOST_CHORDS: usize = 1_000_000;
-/// Equal chords, over the mean one.
+/// Chords count as equal if they differ by at most this share of the mean chord.
 const EQUAL: f64 = 1e-9;
-/// Newton steps after each step along the tangent.
+/// The number of Newton steps after each step along the tangent.
 const CORRECTIONS: usize = 5;
-/// The length of a chain, over that of the curve, below which it has shrunk into a seam.
+/// The length of a chain, relative to the curve, below which it has shrunk into a seam.
 const SHORTEST_CHAIN: f64 = 1e-3;
-/// Steps after which a chain can be back where it started.
+/// The number of steps after which a chain can be back where it started.
 const FEWEST_STEPS_OF_A_LOOP: usize = 20;
-/// The cosine of neighbouring tangents, at least.
+/// The smallest cosine of the angle between consecutive tangents.
 const STRAIGHTNESS: f64 = 0.9;
-/// The longest and the shortest step of a point, over the mean chord.
+/// The longest and the shortest step of a point, relative to the mean chord.
 const LONGEST_STEP: f64 = 0.25;
 const SHORTEST_STEP: f64 = 1e-9;
-/// Points move as if the curve were run through no slower than this, over its mean speed: so they pass cusps of the
+/// Points move as if the speed of the curve were at least this share of its mean speed, so that they pass cusps of the
 /// parametrisation.
 const SLOWEST: f64 = 0.05;
 
-/// Openings of the compasses with which chains are started, over the widest that fits: a wide one starts near the end, but may
-/// lie on a closed curve of chains.
+/// The openings of the compasses with which chains are started, relative to the widest that fits. A wide one starts
+/// near the end, but may lie on a closed curve of chains.
 const OPENINGS: [f64; 7] = [0.98, 0.8, 0.5, 0.25, 0.1, 0.03, 0.01];
 
-/// Nearly equal divisions found by following chains from the start of the profile, then from its end, as asked for.
+/// Nearly equal divisions, found on demand by continuing chains from the start of the profile, then from its end.
 pub(crate) fn divisions(
     profile: &Profile,
     segments: usize,
@@ -63,14 +65,15 @@ pub(crate) fn divisions(
     along(profile.clone(), samples).chain(along(reversed, turned).map(backwards))
 }
 
-/// Follows the chain that starts near `start` (t_1 … t_N, rising, t_N < 1) towards longer chords, until it ends at u = 1.
+/// Continues the chain that starts near `start` (t_1 … t_N, increasing, t_N < 1) towards longer chords, until it ends
+/// at u = 1.
 ///
-/// The parameters of the division, 0 and 1 included, with chords equal to about 1e-9; none where the chains come back to the
-/// start, shrink into an acute seam of a closed profile, or are too many.
+/// Returns the parameters of the division, 0 and 1 included, with chords equal to about 1e-9; `None` if the chains come
+/// back to the start, shrink into an acute seam of a closed profile, or are too many.
 fn follow(profile: &Profile, start: Vec<f64>, length: f64) -> Option<Vec<f64>> {
     let mut chain = Chain::new(profile, start, SLOWEST * length)?;
     let mut tangent = chain.corrected()?;
-    // The common chord grows where the first point moves away from the start.
+    // The common chord grows if the first point moves away from the start.
     let direction = (tangent[0] * chain.slopes[0][1]).signum();
     for z in &mut tangent {
         *z *= direction;
@@ -105,19 +108,19 @@ fn follow(profile: &Profile, start: Vec<f64>, length: f64) -> Option<Vec<f64>> {
 #[derive(Clone)]
 struct Chain<'a> {
     profile: &'a Profile,
-    /// t_1 … t_N.
+    /// The parameters t_1 … t_N of the points.
     parameters: Vec<f64>,
-    /// |Γ'(t_k)|, or `slowest`: what a unit of the unknown k moves the parameter by is 1 over this.
+    /// |Γ'(t_k)|, or `slowest` if that is larger: a unit of unknown k changes the parameter by 1 over this.
     speeds: Vec<f64>,
     slowest: f64,
     chords: Vec<f64>,
     mean: f64,
-    /// Derivatives of chord k by the unknowns k − 1 and k.
+    /// The derivatives of chord k with respect to the unknowns k − 1 and k.
     slopes: Vec<[f64; 2]>,
 }
 
 impl<'a> Chain<'a> {
-    /// None where the parameters do not rise strictly from 0.
+    /// `None` if the parameters do not increase strictly from 0.
     fn new(profile: &'a Profile, parameters: Vec<f64>, slowest: f64) -> Option<Self> {
         let before = std::iter::once(0.0).chain(parameters.iter().copied());
         if !before.zip(&parameters).all(|(a, &b)| a < b) {
@@ -170,7 +173,7 @@ impl<'a> Chain<'a> {
             })
     }
 
-    /// The chain behind a step, corrected, with its tangent; none if the step was too long.
+    /// The chain after a step, corrected, with its tangent; `None` if the step was too long.
     fn accepted(
         &self,
         mut next: Self,
@@ -192,7 +195,7 @@ impl<'a> Chain<'a> {
         worst.fold(0.0, f64::max) / self.mean
     }
 
-    /// Makes the chords equal by Newton steps of least norm; the tangent there, its largest entry 1.
+    /// Makes the chords equal by Newton steps of least norm. Returns the tangent there, its largest entry 1.
     fn corrected(&mut self) -> Option<Vec<f64>> {
         for _ in 0..CORRECTIONS {
             let factors = Factors::new(self);
@@ -232,7 +235,7 @@ impl<'a> Chain<'a> {
     }
 }
 
-/// Γ and Γ' at t, straight on beyond t = 1.
+/// Γ and Γ' at t, continued straight beyond t = 1.
 fn beyond_the_end(profile: &Profile, t: f64) -> (DVec2, DVec2) {
     let velocity = profile.derivative(t);
     (

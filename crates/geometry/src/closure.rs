@@ -1,4 +1,4 @@
-//! How a curve ends.
+//! How a profile ends.
 
 use serde::{Deserialize, Serialize};
 
@@ -6,11 +6,11 @@ use serde::{Deserialize, Serialize};
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Closure {
-    /// It has two ends.
+    /// The profile has two ends.
     #[default]
     Open,
-    /// It returns to its start with a corner there.
+    /// The profile returns to its start and has a corner there.
     Corner,
-    /// It returns to its start with continuous first and second derivative.
+    /// The profile returns to its start with continuous first and second derivatives.
     Smooth,
 }

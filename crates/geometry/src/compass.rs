@@ -1,8 +1,8 @@
-//! Stepping equal chords off a curve with a pair of compasses.
+//! Stepping equal chords along a curve with a pair of compasses.
 
 use glam::DVec2;
 
-/// Halvings of the interval in which the opening of the compasses is sought.
+/// The number of times the interval is halved in which the opening of the compasses is sought.
 const HALVINGS: usize = 40;
 
 /// Samples of a curve in order: parameters and points.
@@ -12,7 +12,7 @@ pub(crate) struct Samples {
 }
 
 impl Samples {
-    /// The samples of the curve run backwards.
+    /// The samples of the curve in the opposite direction.
     pub(crate) fn reversed(&self) -> Self {
         Self {
             parameters: self.parameters.iter().rev().map(|u| 1.0 - u).collect(),
@@ -20,10 +20,10 @@ impl Samples {
         }
     }
 
-    /// The widest opening at which `segments` chords fit on the curve of this `length`, each ending at the first point that
-    /// far from its start.
+    /// The widest opening at which `segments` chords fit on the curve of this `length`, each ending at the first point
+    /// at that distance from its start.
     ///
-    /// As accurate as the samples are; where the number of chords jumps with the opening, the last chord ends early.
+    /// It is as accurate as the samples. If the number of chords jumps with the opening, the last chord ends early.
     pub(crate) fn widest_opening(&self, segments: usize, length: f64) -> f64 {
         let (mut fits, mut too_wide) = (0.0, 2.0 * length / segments as f64);
         for _ in 0..HALVINGS {
@@ -37,7 +37,7 @@ impl Samples {
         fits
     }
 
-    /// The ends of at most `segments` chords, each the first point that far from the end before it.
+    /// The ends of at most `segments` chords, each the first point at that distance from the previous end.
     pub(crate) fn walk(&self, segments: usize, opening: f64) -> Vec<f64> {
         let mut ends = Vec::with_capacity(segments + 1);
         let mut centre = self.points[0];

@@ -1,12 +1,12 @@
 //! The fold angle between two triangles that share an edge, and its gradient.
 //!
-//! A hinge has four points: the ends `e0`, `e1` of the shared edge, the apex `left` of the triangle on the left of
-//! e0 → e1 seen from the front, and the apex `right` of the other. With e = e1 − e0,
-//! n_l = e × (left − e0) and n_r = (right − e0) × e are the front normals, and
+//! A hinge has four points: the ends `e0`, `e1` of the shared edge, the apex `left` of the triangle on the left of e0 →
+//! e1 seen from the front, and the apex `right` of the other. With e = e1 − e0, the front normals are n_l = e × (left −
+//! e0) and n_r = (right − e0) × e, and
 //!
 //! θ = atan2((n_r × n_l)·e / |e|, n_l·n_r)
 //!
-//! so θ > 0 (valley) where the facets rise on their front sides.
+//! so θ > 0 (valley) if the facets rise on their front sides.
 
 use std::f64::consts::{PI, TAU};
 
@@ -26,9 +26,9 @@ pub fn fold_angle(e0: DVec3, e1: DVec3, left: DVec3, right: DVec3) -> f64 {
 
 /// The gradient of [`fold_angle`] with respect to (e0, e1, left, right).
 ///
-/// ∂θ/∂left = n̂_l / h_l and ∂θ/∂right = n̂_r / h_r with the apex heights h over the edge; the shares of e0 and e1
-/// follow from invariance under translation and rotation (Schenk and Guest 2011; Bridson et al. 2003).
-/// Precondition: both triangles have positive area.
+/// ∂θ/∂left = n̂_l / h_l and ∂θ/∂right = n̂_r / h_r with the apex heights h above the edge; the parts of e0 and e1
+/// follow from invariance under translation and rotation (Schenk and Guest 2011; Bridson et al. 2003). Precondition:
+/// both triangles have positive area.
 pub fn fold_angle_gradient(e0: DVec3, e1: DVec3, left: DVec3, right: DVec3) -> [DVec3; 4] {
     let e = e1 - e0;
     let length_squared = e.length_squared();
@@ -50,9 +50,9 @@ pub fn fold_angle_gradient(e0: DVec3, e1: DVec3, left: DVec3, right: DVec3) -> [
     ]
 }
 
-/// The angle equal to `angle` modulo 2π that lies nearest to `previous`: follows a fold past ±π.
+/// The angle equal to `angle` modulo 2π that is nearest to `previous`: it follows a fold past ±π.
 ///
-/// Precondition: the true angle changed by less than π since `previous`.
+/// Precondition: the true angle has changed by less than π since `previous`.
 pub fn nearest_turn(angle: f64, previous: f64) -> f64 {
     let turns = ((previous - angle) / TAU).round();
     let unwrapped = angle + turns * TAU;

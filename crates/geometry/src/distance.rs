@@ -5,11 +5,11 @@ use glam::DVec3;
 /// The closest points of two sets.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Closest {
-    /// Their distance, 0 where the sets meet.
+    /// Their distance, a length; 0 if the sets intersect.
     pub distance: f64,
-    /// The point of the first set.
+    /// The closest point of the first set.
     pub on_a: DVec3,
-    /// The point of the second set.
+    /// The closest point of the second set.
     pub on_b: DVec3,
 }
 
@@ -55,7 +55,8 @@ impl From<Points> for Closest {
     }
 }
 
-/// Below this sin² of their angle segments count as nearly parallel; triangles below this (2 area / longest²)² as slivers.
+/// Segments count as nearly parallel if the squared sine of their angle is below this; triangles count as slivers if (2
+/// area / longest²)² is.
 const NEARLY_PARALLEL: f64 = 1e-4;
 
 /// The point of a segment nearest to `point`.
@@ -74,9 +75,9 @@ fn on_segment(point: DVec3, [from, to]: [DVec3; 2]) -> DVec3 {
 
 /// The closest points of segments `a` and `b`.
 ///
-/// Ericson 2005, "Real-Time Collision Detection", section 5.1.9, whose parameters lose 1 / sin² of the angle to
-/// rounding; segments of an angle below a hundredth therefore go another way. Segments of no length and parallel
-/// segments are allowed. The distance is that of the points given, and off by some hundred roundings of the lengths at most.
+/// Ericson 2005, "Real-Time Collision Detection", section 5.1.9. Its parameters lose accuracy by 1 / sin² of the angle,
+/// so segments at an angle below a hundredth are handled differently. Segments without length and parallel segments are
+/// allowed. The distance is that of the points returned, and off by at most about a hundred roundings of the lengths.
 pub fn segment_segment(a: [DVec3; 2], b: [DVec3; 2]) -> Closest {
     of_segments(a, b).into()
 }
@@ -94,7 +95,7 @@ fn of_segments(a: [DVec3; 2], b: [DVec3; 2]) -> Points {
         }
         return Points::between(a[0] + u * s, b[0] + v * t_inside);
     }
-    // The nearest of the four ends above the other segment, and of the points where the lines are closest.
+    // The closest of the four ends above the other segment, and of the points where the lines are closest.
     let on_a = |along: f64| a[0] + u * share(along, uu);
     let on_b = |along: f64| b[0] + v * share(along, vv);
     let mut closest = Points::between(a[0], on_b(vw));
@@ -111,7 +112,7 @@ fn of_segments(a: [DVec3; 2], b: [DVec3; 2]) -> Points {
     closest
 }
 
-/// x / y within [0, 1]; 0 where y is 0.
+/// x / y clamped to [0, 1]; 0 if y is 0.
 fn share(x: f64, y: f64) -> f64 {
     if y > 0.0 {
         (x / y).clamp(0.0, 1.0)
@@ -120,10 +121,11 @@ fn share(x: f64, y: f64) -> f64 {
     }
 }
 
-/// Where in (0, 1) the second of two nearly parallel segments crosses the first, seen along their common normal.
+/// The parameter in (0, 1) at which the second of two nearly parallel segments crosses the first, seen along their
+/// common normal; `None` if it does not.
 ///
-/// u, v: along them; w: from the start of the second to that of the first, u the longer. With f the part of v normal
-/// to u that is where (w − v t)·f = 0: t is off by a rounding over |f|, v·f t by a rounding only.
+/// u, v: their directions; w: from the start of the second to that of the first; u is the longer. Let f be the part of
+/// v normal to u. The crossing is at (w − v t)·f = 0: t is off by a rounding over |f|, but v·f t only by a rounding.
 fn where_crossed(u: DVec3, v: DVec3, w: DVec3) -> Option<f64> {
     let uu = u.length_squared();
     if uu == 0.0 {
@@ -136,21 +138,21 @@ fn where_crossed(u: DVec3, v: DVec3, w: DVec3) -> Option<f64> {
     (t > 0.0 && t < squared).then(|| t / squared)
 }
 
-/// The part of v normal to the unit vector `along`, to within a rounding of |v| even where it is small.
+/// The part of v normal to the unit vector `along`, to within a rounding of |v| even if it is small.
 pub(crate) fn normal_part(v: DVec3, along: DVec3) -> DVec3 {
     let once = v - along * along.dot(v);
     once - along * along.dot(once)
 }
 
-/// A triangle with what is asked of it several times.
+/// A triangle with quantities that are needed several times.
 struct Facet {
     corners: [DVec3; 3],
-    /// From each corner to the next.
+    /// The vectors from each corner to the next.
     sides: [DVec3; 3],
     normal: DVec3,
-    /// Its squared length.
+    /// The squared length of the normal.
     squared: f64,
-    /// Whether it is so thin that its normal is lost to rounding.
+    /// Whether the triangle is so thin that its normal is lost to rounding.
     is_sliver: bool,
 }
 
@@ -176,8 +178,8 @@ impl Facet {
         [[p, q], [q, r], [r, p]]
     }
 
-    /// The foot of `point` on the plane where it falls inside the triangle; in a sliver, the nearest point of the
-    /// section through the foot along the longest edge.
+    /// The foot of `point` on the plane, if it is inside the triangle; for a sliver, the nearest point of the section
+    /// through the foot parallel to the longest edge.
     fn foot_inside(&self, point: DVec3) -> Option<DVec3> {
         if self.is_sliver {
             return self.foot_in_sliver(point);
@@ -189,8 +191,8 @@ impl Facet {
         (is_inside(0) && is_inside(1) && is_inside(2)).then_some(foot)
     }
 
-    /// The lowest of three corners that all lie on one side of the plane, where it lies above the facet, and its foot:
-    /// no points are closer, as the gap along the normal is as large as their distance.
+    /// The lowest of three corners that all lie on one side of the plane, if it is above the facet, and its foot. Then
+    /// no points are closer, because the gap along the normal equals their distance.
     fn facing(&self, corners: &[DVec3; 3]) -> Option<Points> {
         if self.is_sliver {
             return None;
@@ -209,13 +211,14 @@ impl Facet {
         lowest.find_map(|corner| Some(Points::between(corner, self.foot_inside(corner)?)))
     }
 
-    /// A point of a sliver: how far from the longest edge the foot lies is not sure, along it the point is the nearest.
+    /// A point of a sliver: the distance of the foot from the longest edge is uncertain, but along the edge the point
+    /// is the nearest.
     fn foot_in_sliver(&self, point: DVec3) -> Option<DVec3> {
         self.section(point)
             .map(|section| on_segment(point, section))
     }
 
-    /// The number of the longest edge, and the part of the next normal to it.
+    /// The index of the longest edge, and the part of the next edge normal to it.
     fn long_edge(&self) -> (usize, DVec3) {
         let length = |i: usize| self.sides[i].length_squared();
         let longest = (1..3).fold(0, |i, j| if length(j) > length(i) { j } else { i });
@@ -224,7 +227,8 @@ impl Facet {
         (longest, height)
     }
 
-    /// The normal; of a sliver, the one that is normal to the longest edge to within rounding. Of any length.
+    /// The normal; for a sliver, the one that is normal to the longest edge to within rounding. Its length is
+    /// arbitrary.
     fn normal_to_long_edge(&self) -> DVec3 {
         if !self.is_sliver {
             return self.normal;
@@ -233,7 +237,7 @@ impl Facet {
         self.sides[longest].cross(height)
     }
 
-    /// Parallel to the longest edge, as far from it as the foot of `point`.
+    /// The section parallel to the longest edge at the distance of the foot of `point`.
     fn section(&self, point: DVec3) -> Option<[DVec3; 2]> {
         let (longest, height) = self.long_edge();
         let [from, to, apex] = [0, 1, 2].map(|k| self.corners[(longest + k) % 3]);
@@ -245,7 +249,7 @@ impl Facet {
         Some([from, to].map(|end| end + (apex - end) * share))
     }
 
-    /// Where the segment crosses the triangle: in a sliver, a point of each.
+    /// The point at which the segment crosses the triangle; for a sliver, a point of each.
     fn crossing(&self, [from, to]: [DVec3; 2]) -> Option<Points> {
         let normal = self.normal_to_long_edge();
         let height = |end: DVec3| normal.dot(end - self.corners[0]);
@@ -270,7 +274,7 @@ impl Facet {
     }
 }
 
-/// The point itself and the point of a triangle closest to it; a triangle of no area is its edges.
+/// The point itself and the point of a triangle closest to it; a triangle without area is treated as its edges.
 pub(crate) fn point_triangle(point: DVec3, triangle: &[DVec3; 3]) -> Closest {
     let facet = Facet::new(triangle);
     let foot = facet.foot_inside(point).into_iter();
@@ -287,8 +291,8 @@ pub(crate) fn point_triangle(point: DVec3, triangle: &[DVec3; 3]) -> Closest {
 
 /// The closest points of two triangles.
 ///
-/// The minimum over the six corners above the other facet and the nine pairs of edges; 0 where an edge crosses a facet.
-/// Triangles of no area are treated as their edges. The distance is that of the points given, slivers included; where
+/// The minimum over the six corners above the other facet and the nine pairs of edges; 0 if an edge crosses a facet.
+/// Triangles without area are treated as their edges. The distance is that of the points returned, for slivers too; if
 /// features tie to within rounding, the points are those of any of them.
 pub fn triangle_triangle(a: &[DVec3; 3], b: &[DVec3; 3]) -> Closest {
     let (a, b) = (Facet::new(a), Facet::new(b));

@@ -12,7 +12,7 @@ use crate::levenberg_marquardt::{Ending, Minimum, minimise};
 use crate::polygon::first_crossing;
 use crate::{GeometryError, Profile};
 
-/// The most segments a profile is divided into.
+/// The largest number of segments of a division.
 const MOST_SEGMENTS: usize = 1_000_000;
 /// Parameters of one division reached from two starts, at most apart.
 const SAME_DIVISION: f64 = 1e-9;
@@ -25,20 +25,20 @@ pub enum DivisionMethod {
     /// Segments of equal length: E of equation 2 is minimised.
     #[default]
     EqualLength,
-    /// Even in the parameter u.
+    /// Segments at equal steps of the parameter u.
     Parametric,
-    /// The segment that the curve leaves farthest is split there, again and again (Douglas and Peucker 1973).
+    /// The segment from which the curve deviates most is split repeatedly (Douglas and Peucker 1973).
     DouglasPeucker,
 }
 
-/// What the caller chooses about a division.
+/// The choices that the caller has about a division.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct DivisionOptions {
-    /// How.
+    /// The method by which the profile is divided.
     pub method: DivisionMethod,
-    /// The iteration ends once |R_max| (dimensionless) is at most this; 0 asks for all that rounding allows.
+    /// The iteration ends once |R_max| (dimensionless) is at most this; 0 continues as far as rounding allows.
     pub tolerance: f64,
-    /// It ends after so many linear solves in any case.
+    /// The iteration ends after this many linear solves in any case.
     pub max_iterations: usize,
 }
 
@@ -55,19 +55,20 @@ impl Default for DivisionOptions {
 /// A profile divided into segments.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Division {
-    /// The sampling points s_1 … s_{Nr+1} as (x, z); bitwise Γ at `parameters`. The last equals the first where Γ is closed.
+    /// The sampling points s_1 … s_{Nr+1} as (x, z), bitwise Γ at `parameters`. The last equals the first if Γ is
+    /// closed.
     pub points: Vec<DVec2>,
-    /// Their parameters, strictly rising from 0 to 1.
+    /// The parameters of the points, strictly increasing from 0 to 1.
     pub parameters: Vec<f64>,
-    /// h̄, in the unit of the profile.
+    /// The mean segment length h̄, in the unit of the profile.
     pub mean_length: f64,
-    /// |R_max| = max |h_k − h̄| / h̄.
+    /// The largest residual, |R_max| = max |h_k − h̄| / h̄.
     pub max_residual: f64,
-    /// |R_ave| = Σ |h_k − h̄| / h̄ / Nr.
+    /// The mean residual, |R_ave| = Σ |h_k − h̄| / h̄ / Nr.
     pub mean_residual: f64,
-    /// Linear solves made.
+    /// The number of linear solves.
     pub iterations: usize,
-    /// Why it ended.
+    /// The reason why the iteration ended.
     pub ending: Ending,
 }
 
@@ -85,20 +86,21 @@ impl Division {
 
 /// Divides the profile into `segments` chords.
 ///
-/// *Equal length* starts from points even in arc length, so that among several equal divisions the one near them is
-/// taken. On ordinary curves |R_max| ends near ε (Nr + coordinate size / h̄): below 1e-13 up to some hundred segments. Where a
-/// turn tighter than a chord holds the iteration up in a local minimum of E, chains of equal chords are followed along the
-/// curve to its end; an open curve that does not meet itself has an equal division there. Where that fails too (chains that shrink into
-/// an acute seam of a closed profile: 0.3 % of random curves with such turns, of which the iteration alone misses 7 to 11 %), the
-/// best division found is returned as it is: see [`Division::converged`]. Cost: linear in `segments` without such turns.
+/// *Equal length* starts from points at equal steps of arc length, so that of several equal divisions the one near them
+/// is found. On ordinary curves |R_max| ends near ε (Nr + coordinate size / h̄): below 1e-13 for up to some hundred
+/// segments. If a turn tighter than a chord holds the iteration in a local minimum of E, chains of equal chords are
+/// continued along the curve to its end; an open curve that does not meet itself has an equal division there. If that
+/// fails too (chains that shrink into an acute seam of a closed profile: 0.3 % of random curves with such turns, of
+/// which the iteration alone misses 7 to 11 %), the best division found is returned: see [`Division::converged`]. Cost:
+/// linear in `segments` without such turns.
 ///
-/// *Douglas–Peucker* splits the segment that the curve leaves farthest until there are `segments`; distances are those of
-/// samples, at least 64 a segment. See [`simplify`] for a tolerance instead of a number.
+/// *Douglas–Peucker* splits the segment from which the curve deviates most until there are `segments`; distances are
+/// those of samples, at least 64 for each segment. See [`simplify`] for a tolerance instead of a number.
 ///
 /// # Errors
 /// No segment, fewer than 3 for a closed profile, or more than a million; a negative or NaN tolerance; segments below
-/// 1e-12 of the largest coordinate or 1e-100; a profile ([`Profile::check_simple`]) or a divided polygon (exact) that meets itself;
-/// more segments than samples for Douglas–Peucker, as on a straight line.
+/// 1e-12 of the largest coordinate or 1e-100; a profile ([`Profile::check_simple`]) or a divided polygon (exact) that
+/// meets itself; more segments than samples for Douglas–Peucker, as on a straight line.
 pub fn divide(
     profile: &Profile,
     segments: usize,
@@ -121,11 +123,12 @@ pub fn divide(
 
 /// Divides the profile by Douglas and Peucker's method into as few chords as keep it within `tolerance` of them.
 ///
-/// `tolerance` is a distance over the length of the profile, so that scaling changes nothing. Distances are those of samples,
-/// as in [`divide`].
+/// `tolerance` is a distance relative to the length of the profile, so that scaling changes nothing. Distances are
+/// those of samples, as in [`divide`].
 ///
 /// # Errors
-/// As [`divide`]; a tolerance outside (0, 1), or one that leaves one segment (fewer than 3 of a closed profile).
+/// As for [`divide`]; a tolerance outside (0, 1), or one that leaves a single segment (fewer than 3 of a closed
+/// profile).
 pub fn simplify(profile: &Profile, tolerance: f64) -> Result<Division, GeometryError> {
     if !(tolerance > 0.0 && tolerance < 1.0) {
         return Err(GeometryError::SplitTolerance { tolerance });
@@ -146,13 +149,14 @@ pub fn simplify(profile: &Profile, tolerance: f64) -> Result<Division, GeometryE
     finish(profile, direct(profile, parameters)?)
 }
 
-/// As [`divide`], with segments of equal length, from the caller's start: parameters that rise strictly from 0 to 1.
+/// Divides the profile as [`divide`] does, with segments of equal length, starting from the caller's parameters, which
+/// increase strictly from 0 to 1.
 ///
-/// The start decides how the iteration runs, never which division is returned: where it leads to another equal
-/// division than points even in arc length do, or to none, theirs is returned.
+/// The start decides how the iteration runs, never which division is returned: if it leads to another equal division
+/// than points at equal steps of arc length do, or to none, the division from those points is returned.
 ///
 /// # Errors
-/// As [`divide`]; parameters that do not rise so.
+/// As for [`divide`]; parameters that do not increase strictly from 0 to 1.
 pub fn divide_from(
     profile: &Profile,
     start: &[f64],
@@ -175,7 +179,7 @@ pub fn divide_from(
 /// Scales the profile so that its divided polygon is `length` long (within rounding), and divides it.
 ///
 /// # Errors
-/// As [`divide`]; a length that is not positive and finite, or that takes the profile out of range.
+/// As for [`divide`]; a length that is not positive and finite, or that takes the profile out of range.
 pub fn divide_to_length(
     profile: &Profile,
     segments: usize,
@@ -186,10 +190,10 @@ pub fn divide_to_length(
     scaled_to_length(profile, divide(profile, segments, options)?, length)
 }
 
-/// As [`divide_to_length`], with the method of [`simplify`].
+/// Scales and divides the profile as [`divide_to_length`] does, with the method of [`simplify`].
 ///
 /// # Errors
-/// As [`simplify`] and [`divide_to_length`].
+/// As for [`simplify`] and [`divide_to_length`].
 pub fn simplify_to_length(
     profile: &Profile,
     tolerance: f64,
@@ -205,7 +209,7 @@ fn scaled_to_length(
     length: f64,
 ) -> Result<(Profile, Division), GeometryError> {
     let scaled = profile.scaled(length / unscaled.length())?;
-    // Scaling changes no residual; the points are taken anew so that they lie on the scaled curve.
+    // Scaling changes no residual; the points are computed anew so that they lie on the scaled curve.
     let chords = Chords::new(&scaled, &unscaled.parameters)?;
     let minimum = Minimum {
         parameters: unscaled.parameters,

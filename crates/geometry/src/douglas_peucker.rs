@@ -1,8 +1,8 @@
 //! The method of Douglas and Peucker on a profile.
 //!
-//! Of all segments, the one that the curve between its ends leaves farthest is split at the farthest point. Taken in this order,
-//! the splits of the paper's second method (Douglas and Peucker 1973) give any number of segments, and stopping below a
-//! tolerance gives the polygon that its recursion gives.
+//! Of all segments, the one from which the curve between its ends deviates most is split at the farthest point. In this
+//! order, the splits of the paper's second method (Douglas and Peucker 1973) give any number of segments, and stopping
+//! below a tolerance gives the polygon that its recursion gives.
 
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
@@ -11,15 +11,16 @@ use glam::DVec2;
 
 use crate::{GeometryError, Profile};
 
-/// Samples of the curve a segment, at least, and altogether.
+/// The smallest number of samples of the curve for each segment, and altogether.
 const SAMPLES_PER_SEGMENT: usize = 64;
 const FEWEST_SAMPLES: usize = 4096;
 const MOST_SAMPLES: usize = 4_000_000;
 
-/// Parameters from 0 to 1: splits until there are `segments` or the curve is within `tolerance` (a length) of them.
+/// The parameters of the segments, from 0 to 1. Splits until there are `segments`, or the curve is within `tolerance`
+/// (a length) of them.
 ///
 /// # Errors
-/// No tolerance, and nothing left to split before there are enough segments.
+/// Without a tolerance: nothing is left to split before there are enough segments.
 pub(crate) fn split(
     profile: &Profile,
     segments: usize,
@@ -37,7 +38,7 @@ pub(crate) fn split(
         .collect();
     let mut kept = vec![0, count];
     let mut pending: BinaryHeap<_> = farthest(&points, 0, count).into_iter().collect();
-    // What is nearer than rounding is no deviation.
+    // A deviation below rounding counts as none.
     let least = tolerance.max(16.0 * f64::EPSILON * profile.magnitude());
     while kept.len() <= segments {
         match pending.pop() {
@@ -92,7 +93,7 @@ pub(crate) fn distance_to_segment(p: DVec2, a: DVec2, b: DVec2) -> f64 {
     p.distance(a + share * (b - a))
 }
 
-/// By distance; of equal ones the first along the curve is the greatest.
+/// Ordered by distance; of equal ones, the first along the curve is the greatest.
 impl Ord for Farthest {
     fn cmp(&self, other: &Self) -> Ordering {
         (self.distance.total_cmp(&other.distance)).then(other.at.cmp(&self.at))

@@ -1,11 +1,11 @@
-//! What can be wrong with a profile or its division, with the evidence.
+//! The errors of a profile or its division, with the evidence.
 
 use glam::DVec2;
 use thiserror::Error;
 
 use crate::Number;
 
-/// What can be wrong with a profile or its division.
+/// Why a profile cannot be built or divided.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
 pub enum GeometryError {
@@ -22,25 +22,25 @@ pub enum GeometryError {
         "control point {index} is ({}, {}); coordinates must be finite and at most {} in size", Number(*x), Number(*z), Number(*limit)
     )]
     ControlPoint {
-        /// Which one, from 0.
+        /// The index of the control point, from 0.
         index: usize,
-        /// Its x.
+        /// Its x coordinate.
         x: f64,
-        /// Its z.
+        /// Its z coordinate.
         z: f64,
-        /// The largest size allowed.
+        /// The largest absolute value allowed.
         limit: f64,
     },
-    /// A curve through points needs some.
+    /// Too few or too many points for a curve through them.
     #[error(
-        "the outline has {count} points; {minimum} to {maximum} are taken, {minimum} of them distinct"
+        "the outline has {count} points; {minimum} to {maximum} are allowed, at least {minimum} of them distinct"
     )]
     PointCount {
         /// How many were given.
         count: usize,
         /// 2, or 3 for a closed outline.
         minimum: usize,
-        /// The most.
+        /// The largest number of points.
         maximum: usize,
     },
     /// A point is NaN, infinite or too large to be squared.
@@ -48,33 +48,33 @@ pub enum GeometryError {
         "point {index} is ({}, {}); coordinates must be finite and at most {} in size", Number(*x), Number(*z), Number(*limit)
     )]
     Point {
-        /// Which one, from 0.
+        /// The index of the point, from 0.
         index: usize,
-        /// Its x.
+        /// Its x coordinate.
         x: f64,
-        /// Its z.
+        /// Its z coordinate.
         z: f64,
-        /// The largest size allowed.
+        /// The largest absolute value allowed.
         limit: f64,
     },
-    /// Two points in a row are the same or nearly so.
-    #[error("points {index} and {next} both stand at ({}, {}) or too near to it; remove one", Number(*x), Number(*z), next = index + 1)]
+    /// Two consecutive points are equal or nearly so.
+    #[error("points {index} and {next} are both at ({}, {}) or too close to it; remove one", Number(*x), Number(*z), next = index + 1)]
     RepeatedPoint {
-        /// The first of the two, from 0.
+        /// The index of the first of the two, from 0.
         index: usize,
-        /// Its x.
+        /// Its x coordinate.
         x: f64,
-        /// Its z.
+        /// Its z coordinate.
         z: f64,
     },
     /// A closed outline ends far from its start.
     #[error(
-        "the closed outline ends {:.6} away from its start, more than twice its longest step ({:.6}); repeat its first point as the last, or do not call it closed", Number(*gap), Number(*longest)
+        "the closed outline ends {:.6} away from its start, more than twice its longest step ({:.6}); repeat its first point as the last, or do not declare it closed", Number(*gap), Number(*longest)
     )]
     EndsApart {
-        /// Distance between the first and the last point.
+        /// The distance between the first and the last point.
         gap: f64,
-        /// The longest distance between neighbouring points.
+        /// The longest distance between consecutive points.
         longest: f64,
     },
     /// The knot vector does not fit the control points.
@@ -84,30 +84,30 @@ pub enum GeometryError {
         count: usize,
         /// How many control points they are for, a repeated closing point included.
         control_points: usize,
-        /// Control points + 4.
+        /// How many knots are needed: the number of control points + 4.
         expected: usize,
     },
     /// A knot is NaN or infinite.
     #[error("knot {index} is {}; knots must be finite", Number(*value))]
     KnotNotFinite {
-        /// Which one, from 0.
+        /// The index of the knot, from 0.
         index: usize,
-        /// Its value.
+        /// The value of the knot.
         value: f64,
     },
-    /// The knots run backwards.
+    /// The knots decrease.
     #[error(
         "knot {index} is {}, below the knot before it, {}; knots must not decrease", Number(*value), Number(*previous)
     )]
     KnotsDecrease {
-        /// Which one, from 0.
+        /// The index of the knot, from 0.
         index: usize,
-        /// The knot before it.
+        /// The value of the knot before it.
         previous: f64,
-        /// Its value.
+        /// The value of the knot.
         value: f64,
     },
-    /// The curve would have no parameters to run over.
+    /// The range of the knots is empty or infinite.
     #[error(
         "the curve runs from knot {} to knot {}; the end must be above the start by a finite amount", Number(*start), Number(*end)
     )]
@@ -118,84 +118,86 @@ pub enum GeometryError {
         end: f64,
     },
     /// A knot is repeated so often that the curve breaks.
-    #[error("the knot at u = {u} is repeated {count} times; at most {limit} are allowed there")]
+    #[error(
+        "the knot at u = {u} is repeated {count} times; at most {limit} times are allowed there"
+    )]
     KnotMultiplicity {
-        /// Its value, normalised to [0, 1].
+        /// The value of the knot, normalised to [0, 1].
         u: f64,
-        /// How often it stands there.
+        /// How often the value is repeated.
         count: usize,
-        /// 3 inside the curve, 4 at its ends.
+        /// How often it may be repeated: 3 times inside the curve, 4 times at its ends.
         limit: usize,
     },
     /// Two knots differ by so little that derivatives lose their digits.
     #[error("knots {index} and {next} are {:.3} of the range apart; make them equal or at least {} apart", Number(*width), Number(*minimum), next = index + 1)]
     KnotSpanTooNarrow {
-        /// The first of the two, from 0.
+        /// The index of the first of the two, from 0.
         index: usize,
-        /// Their distance over the knot range.
+        /// Their distance, relative to the knot range.
         width: f64,
-        /// The least distance allowed.
+        /// The smallest distance allowed.
         minimum: f64,
     },
-    /// A smooth closed profile has uniform knots.
+    /// Knots were given for a smooth closed profile, whose knots are uniform.
     #[error(
         "a profile that is closed smoothly has uniform knots; leave the knots out or close it with a corner"
     )]
     KnotsOfSmoothProfile,
-    /// A closed profile with knots of its own misses its start.
+    /// A closed profile with its own knots does not end at its start.
     #[error(
         "the closed profile ends {:.6} away from its start; clamp its knots (repeat the first and the last four times)", Number(*gap)
     )]
     NotClosed {
-        /// Distance between start and end.
+        /// The distance between its start and its end.
         gap: f64,
     },
-    /// The scale is no positive number or takes the profile out of range.
+    /// The scale is not a positive number, or takes the profile out of range.
     #[error(
         "the profile cannot be scaled by {}; a positive, finite factor of moderate size is needed", Number(*factor)
     )]
     Scale {
-        /// The factor.
+        /// The factor that was given.
         factor: f64,
     },
-    /// The length asked for is no positive number.
+    /// The requested length is not a positive number.
     #[error("the requested polygon length is {}; it must be positive and finite", Number(*value))]
     Length {
-        /// What was asked for.
+        /// The length that was requested.
         value: f64,
     },
     /// Too few or too many segments.
-    #[error("the division has {count} segments; this profile takes {minimum} to {maximum}")]
+    #[error("the division has {count} segments; this profile needs {minimum} to {maximum}")]
     SegmentCount {
-        /// How many were asked for.
+        /// How many segments were requested.
         count: usize,
-        /// 1, or 3 for a closed profile.
+        /// The smallest number: 1, or 3 for a closed profile.
         minimum: usize,
         /// The largest number supported.
         maximum: usize,
     },
-    /// Segments too short for f64 to tell their ends apart.
+    /// Segments too short for f64 to distinguish their ends.
     #[error(
         "the mean segment is {:.3} long, below {:.3}, what f64 resolves at coordinates of this size; use fewer segments", Number(*length), Number(*minimum)
     )]
     SegmentTooShort {
-        /// The mean length.
+        /// The mean length of the segments.
         length: f64,
-        /// The least length allowed.
+        /// The smallest length allowed.
         minimum: f64,
     },
-    /// The tolerance is no number ≥ 0.
+    /// The tolerance is not a number of at least 0.
     #[error("the division tolerance is {}; it must be a number of at least 0", Number(*value))]
     Tolerance {
-        /// What was given.
+        /// The tolerance that was given.
         value: f64,
     },
-    /// The tolerance of Douglas and Peucker's method is no distance over the length of the profile.
+    /// The tolerance of Douglas and Peucker's method is not between 0 and 1.
     #[error(
         "the tolerance is {}; as a distance over the length of the profile it must lie between 0 and 1", Number(*tolerance)
     )]
     SplitTolerance {
-        /// What was given.
+        /// The tolerance that was given.
         tolerance: f64,
     },
     /// The tolerance of Douglas and Peucker's method leaves too few segments.
@@ -203,67 +205,69 @@ pub enum GeometryError {
         "a tolerance of {tolerance} times its length leaves {segments} of the profile's segments; at least {minimum} are needed: use a smaller one"
     )]
     TooCoarse {
-        /// What was given, over the length of the profile.
+        /// The tolerance that was given, relative to the length of the profile.
         tolerance: f64,
-        /// The segments it leaves.
+        /// How many segments it leaves.
         segments: usize,
-        /// 2, or 3 for a closed profile.
+        /// The smallest number: 2, or 3 for a closed profile.
         minimum: usize,
     },
     /// Douglas and Peucker's method found nothing more to split.
     #[error(
-        "only {possible} segments can be told apart by their distance from the curve, {count} are asked for; use fewer, or another method"
+        "only {possible} segments can be told apart by their distance from the curve, {count} are requested; use fewer, or another method"
     )]
     NothingToSplit {
-        /// What was asked for.
+        /// How many segments were requested.
         count: usize,
-        /// What there is.
+        /// How many segments are possible.
         possible: usize,
     },
-    /// A caller's start for the division is no division.
-    #[error("parameter {index} of the start is {value}; parameters must rise strictly from 0 to 1")]
+    /// The parameters from which a division was to start do not increase from 0 to 1.
+    #[error(
+        "parameter {index} of the start is {value}; parameters must increase strictly from 0 to 1"
+    )]
     Start {
-        /// Which one, from 0.
+        /// The index of the parameter, from 0.
         index: usize,
-        /// Its value.
+        /// The value of the parameter.
         value: f64,
     },
     /// The curve meets itself.
     #[error("the profile crosses itself near ({:.6}, {:.6}), at u = {:.6} and u = {:.6}; {}", point.x, point.y, parameters[0], parameters[1], uncrossed(*parameters))]
     CurveCrosses {
-        /// The two parameters, ascending.
+        /// The two parameters, in increasing order.
         parameters: [f64; 2],
-        /// Where, (x, z).
+        /// The point at which it meets itself, (x, z).
         point: DVec2,
     },
     /// The divided polygon meets itself although the curve does not.
     #[error("segments {} and {} of the divided profile cross near ({:.6}, {:.6}); use more rows or move the control points apart", segments[0], segments[1], point.x, point.y)]
     PolygonCrosses {
-        /// The two segments, from 0, ascending.
+        /// The indices of the two segments, from 0, in increasing order.
         segments: [usize; 2],
-        /// Where, (x, z).
+        /// The point at which they cross, (x, z).
         point: DVec2,
     },
-    /// The ends of a closed chain could not be parted.
+    /// The ends of a closed chain could not be separated.
     #[error(
         "the closed profile could not be opened at its seam: its first and last segment all but coincide; give them an angle"
     )]
     SeamClosed,
-    /// The descent that straightens a chain came to its end before it was straight.
+    /// The descent that straightens a chain ended before it was straight.
     #[error(
         "the profile could not be straightened: after {steps} steps its segments are {:.3} mean segments apart; move its layers apart", Number(*clearance)
     )]
     NotStraightened {
-        /// Steps made.
+        /// The number of steps made.
         steps: usize,
-        /// The least distance of segments that are no neighbours, in mean segments.
+        /// The smallest distance of segments that are not neighbours, in mean segments.
         clearance: f64,
     },
 }
 
-/// What keeps a curve from meeting itself at two parameters.
+/// The advice for a curve that meets itself at two parameters.
 fn uncrossed(parameters: [f64; 2]) -> &'static str {
-    /// Ends of a curve meet this near to them, over its parameters.
+    /// Crossings within this distance of both ends, in the parameter, count as meeting ends.
     const END: f64 = 0.02;
     if parameters[0] < END && parameters[1] > 1.0 - END {
         "its ends meet: close it (closed = \"corner\" or \"smooth\"), or move its points apart"

@@ -5,21 +5,22 @@ use serde::{Deserialize, Serialize};
 use crate::douglas_peucker::distance_to_segment;
 use crate::{Division, Profile};
 
-/// Samples of the curve over each segment.
+/// The number of samples of the curve for each segment.
 const SAMPLES: usize = 32;
 
 /// Distances of the curve from its polygon, in the unit of the profile.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Fit {
-    /// The largest.
+    /// The largest distance of any sample.
     pub largest: f64,
-    /// The mean over the length of the curve.
+    /// The mean distance over the length of the curve.
     pub mean: f64,
 }
 
 impl Division {
-    /// How far the curve is from the polygon: each piece of the curve from its own segment, at 33 points even in the
-    /// parameter. The largest distance is therefore up to about a thousandth too small on smooth pieces.
+    /// How far the curve is from the polygon: the distance of each piece of the curve from its own segment, at 33
+    /// points at equal steps of the parameter. The largest distance may therefore be too small by up to about a
+    /// thousandth on smooth pieces.
     ///
     /// Precondition: `profile` is the profile that was divided.
     pub fn fit(&self, profile: &Profile) -> Fit {

@@ -16,7 +16,7 @@ use crate::nurbs::{LARGEST_COORDINATE, NARROWEST_SPAN};
 use crate::tridiagonal::Tridiagonal;
 use crate::{GeometryError, Nurbs};
 
-/// The most points a curve is led through.
+/// The largest number of points of a curve.
 const MOST_POINTS: usize = 20_000;
 
 /// The C² cubic spline through `points` with centripetal parameters; see [`Profile::through`](crate::Profile::through).
@@ -30,7 +30,7 @@ pub(crate) fn interpolate(points: &[DVec2], closure: Closure) -> Result<Nurbs, G
     }
 }
 
-/// The points, the first repeated as the last where the curve is closed.
+/// The points, with the first repeated as the last if the curve is closed.
 fn checked(points: &[DVec2], closure: Closure) -> Result<Vec<DVec2>, GeometryError> {
     let closed = closure != Closure::Open;
     let mut points = points.to_vec();
@@ -68,7 +68,8 @@ fn checked(points: &[DVec2], closure: Closure) -> Result<Vec<DVec2>, GeometryErr
     Ok(points)
 }
 
-/// Parameters from 0 to 1, spaced as the roots of the chords (Lee 1989, *Computer-Aided Design* 21).
+/// Parameters from 0 to 1 whose spacings are proportional to the square roots of the chords (Lee 1989, *Computer-Aided
+/// Design* 21).
 fn centripetal(points: &[DVec2]) -> Result<Vec<f64>, GeometryError> {
     let mut parameters = vec![0.0];
     let mut sum = 0.0;
@@ -133,7 +134,7 @@ fn natural(points: &[DVec2], u: &[f64], c: &[f64]) -> Result<Nurbs, GeometryErro
     Nurbs::with_knots(control_points, knots)
 }
 
-/// The spline that returns to its first point with both derivatives, with knots that repeat beyond both ends.
+/// The spline that returns to its first point with both derivatives; its knots repeat beyond both ends.
 fn periodic(points: &[DVec2], u: &[f64], c: &[f64]) -> Result<Nurbs, GeometryError> {
     let count = points.len() - 1;
     let before = |k: usize| (k + count - 1) % count;
@@ -186,7 +187,8 @@ fn solve(factors: &Tridiagonal, right: &[DVec2]) -> Vec<DVec2> {
         .collect()
 }
 
-/// The cyclic system: tridiagonal but for the corners, which a matrix of rank one takes away (Sherman–Morrison).
+/// Solves the cyclic system, which is tridiagonal except for its corners; they are removed as a matrix of rank one
+/// (Sherman–Morrison).
 fn solve_cyclic(c: &[f64], right: &[DVec2]) -> Vec<DVec2> {
     let count = c.len();
     let corner = c[count - 1];

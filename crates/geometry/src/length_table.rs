@@ -1,17 +1,17 @@
-//! Arc length along a profile in pieces fine enough to start a division from.
+//! A table of arc length along a profile, fine enough to start a division from.
 
 use crate::arc_length::piece_length;
 use crate::compass::Samples;
 use crate::{GeometryError, Profile};
 
-/// Pieces a segment, at least.
+/// The smallest number of pieces for each segment.
 const PIECES_PER_SEGMENT: usize = 4;
-/// Pieces a knot span, at least.
+/// The smallest number of pieces for each knot span.
 const PIECES_PER_SPAN: usize = 4;
-/// Pieces of a profile, at least.
+/// The smallest number of pieces for a profile.
 const PIECES: usize = 512;
 
-/// Parameters from 0 to 1 and the arc length up to each.
+/// Parameters from 0 to 1, and the arc length up to each.
 pub(crate) struct LengthTable {
     parameters: Vec<f64>,
     lengths: Vec<f64>,
@@ -45,10 +45,10 @@ impl LengthTable {
         self.lengths[self.lengths.len() - 1]
     }
 
-    /// Parameters even in arc length, by linear interpolation.
+    /// Parameters at equal steps of arc length, by linear interpolation.
     ///
     /// # Errors
-    /// Points nearer than f64 resolves.
+    /// Points closer together than f64 resolves.
     pub(crate) fn even(&self, segments: usize) -> Result<Vec<f64>, GeometryError> {
         let (u, s) = (&self.parameters, &self.lengths);
         let inner = (1..segments).map(|k| {

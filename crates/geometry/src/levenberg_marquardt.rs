@@ -1,11 +1,11 @@
-//! Levenberg–Marquardt on the chord lengths of a profile.
+//! The Levenberg–Marquardt method for the chord lengths of a profile.
 //!
 //! The unknowns are the parameters u_1 … u_{N−1} of the inner sampling points of N chords h_k = |Γ(u_{k+1}) − Γ(u_k)|.
-//! Minimised is E = ½ Σ r_k² with r_k = (h_k − h̄) / h̄, h̄ the mean chord (equations 1 and 2 of the paper), by
+//! The method minimises E = ½ Σ r_k² with r_k = (h_k − h̄) / h̄, h̄ the mean chord (equations 1 and 2 of the paper), by
 //! algorithm 3.16 of Madsen, Nielsen and Tingleff 2004, *Methods for non-linear least squares problems*, section 3.2.
 //!
-//! Each r_k depends on every unknown through h̄, yet a step costs O(N). With D = ∂(h/h̄)/∂u at constant h̄ (two entries a
-//! row), g = Dᵀ1 / N = ∇h̄ / h̄ and v = Dᵀr, the Jacobian is J = D − (1 + r) gᵀ, and because Σ r_k = 0
+//! Each r_k depends on every unknown through h̄, yet a step costs O(N). With D = ∂(h/h̄)/∂u at constant h̄ (two entries
+//! in each row), g = Dᵀ1 / N = ∇h̄ / h̄ and v = Dᵀr, the Jacobian is J = D − (1 + r) gᵀ, and because Σ r_k = 0
 //!
 //! Jᵀr = v − (r·r) g,  JᵀJ = DᵀD + (r·r − N) g gᵀ − v gᵀ − g vᵀ:
 //!
@@ -18,28 +18,29 @@ use crate::chords::{Chords, dot};
 use crate::tridiagonal::Tridiagonal;
 use crate::{GeometryError, Profile};
 
-/// μ starts as this times the largest diagonal entry of DᵀD: even arc length is a good start (section 3.2 of the source).
+/// The initial μ, relative to the largest diagonal entry of DᵀD: equal steps of arc length are a good start (section
+/// 3.2 of the source).
 const INITIAL_DAMPING: f64 = 1e-6;
-/// A step takes at most this part of any gap between neighbouring parameters: order is kept.
+/// A step shrinks no gap between consecutive parameters by more than this share, so that their order is kept.
 const LARGEST_SHRINKAGE: f64 = 0.9;
-/// Rejections in a row after which no damping will help: μ has grown by 2^(1 + 2 + … + 12).
+/// The number of rejections in a row after which no damping will help: μ has grown by 2^(1 + 2 + … + 12).
 const REJECTIONS: u32 = 12;
-/// Rejections in a row after which a residual within rounding is as small as it gets.
+/// The number of rejections in a row after which a residual within rounding is as small as it gets.
 const REJECTIONS_WITHIN_ROUNDING: u32 = 3;
 
-/// Why the iteration ended.
+/// The reason why an iteration ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Ending {
     /// |R_max| is within the tolerance.
     Tolerance,
-    /// |R_max| is above the tolerance, but as small as the rounding of points and parameters lets it be.
+    /// |R_max| is above the tolerance, but as small as the rounding of points and parameters permits.
     Rounding,
-    /// No further step lowers E: a local minimum with unequal segments, or a corner of the curve in the way.
+    /// No further step reduces E: a local minimum with unequal segments, or a corner of the curve in between.
     Stalled,
-    /// The iteration limit came first.
+    /// The iteration limit was reached.
     Iterations,
-    /// Nothing was iterated: the method does not seek equal segments.
+    /// There was no iteration: the method does not aim at equal segments.
     Direct,
 }
 
@@ -49,7 +50,7 @@ impl Ending {
     }
 }
 
-/// Where the iteration ended.
+/// The state in which the iteration ended.
 pub(crate) struct Minimum {
     pub(crate) parameters: Vec<f64>,
     pub(crate) chords: Chords,
@@ -63,8 +64,8 @@ impl Minimum {
     }
 }
 
-/// Minimises E from `parameters`, which rise strictly from 0 to 1; the ends stay. Order is kept at every step, and E
-/// never rises. An iteration is one linear solve, accepted or not.
+/// Minimises E from `parameters`, which increase strictly from 0 to 1; the ends are fixed. The order of the parameters
+/// is kept at every step, and E never increases. An iteration is one linear solve, whether accepted or not.
 pub(crate) fn minimise(
     profile: &Profile,
     mut parameters: Vec<f64>,
@@ -113,13 +114,13 @@ pub(crate) fn minimise(
     })
 }
 
-/// A step of the unknowns and the reduction of E that the linear model promises for it.
+/// A step of the unknowns, and the reduction of E that the linear model predicts for it.
 struct Step {
     change: Vec<f64>,
     promised: f64,
 }
 
-/// Takes the step if it lowers E; the gain ratio ρ, the reduction over the promised one.
+/// Takes the step if it reduces E. Returns the gain ratio ρ, the actual reduction over the predicted one.
 fn take(
     profile: &Profile,
     parameters: &mut Vec<f64>,
@@ -149,11 +150,11 @@ struct Linearised {
     residuals: Vec<f64>,
     /// Row k of D: ∂(h_k/h̄)/∂u_k and ∂(h_k/h̄)/∂u_{k+1} at constant h̄.
     slopes: Vec<[f64; 2]>,
-    /// g.
+    /// The vector g of the module documentation.
     mean_gradient: Vec<f64>,
-    /// v.
+    /// The vector v of the module documentation.
     pull: Vec<f64>,
-    /// A bound on what rounding in points and parameters does to a residual.
+    /// A bound of the effect of rounding in points and parameters on a residual.
     rounding: f64,
 }
 
@@ -182,14 +183,14 @@ impl Linearised {
         linear
     }
 
-    /// Dᵀy. Unknown j is the end of chord j and the start of chord j + 1.
+    /// The product Dᵀy. Unknown j is the end of chord j and the start of chord j + 1.
     fn transposed(&self, y: impl Fn(usize) -> f64) -> Vec<f64> {
         (0..self.slopes.len() - 1)
             .map(|j| self.slopes[j][1] * y(j) + self.slopes[j + 1][0] * y(j + 1))
             .collect()
     }
 
-    /// Jᵀr, the gradient of E.
+    /// The gradient Jᵀr of E.
     fn gradient(&self) -> Vec<f64> {
         let squared = dot(&self.residuals, &self.residuals);
         self.pull
@@ -209,7 +210,8 @@ impl Linearised {
         self.diagonal().fold(f64::MIN_POSITIVE, f64::max)
     }
 
-    /// The solution of (JᵀJ + μI) δ = −Jᵀr, shortened so that order is kept; none if it is not finite.
+    /// The solution of (JᵀJ + μI) δ = −Jᵀr, shortened so that the order of the parameters is kept; `None` if it is not
+    /// finite.
     fn step(&self, damping: f64, parameters: &[f64]) -> Option<Step> {
         let gradient = self.gradient();
         let mut change = self.solve(damping, &gradient)?;
@@ -257,7 +259,7 @@ impl Linearised {
     }
 }
 
-/// The largest share of the step that takes no gap between parameters down by more than [`LARGEST_SHRINKAGE`].
+/// The largest share of the step that shrinks no gap between parameters by more than [`LARGEST_SHRINKAGE`].
 fn admissible_share(change: &[f64], parameters: &[f64]) -> f64 {
     let moved = |k: usize| match k {
         0 => 0.0,

@@ -2,9 +2,9 @@
 
 use std::fmt;
 
-/// A number as people read it: plain from 0.001 to a million, else with an exponent.
+/// A number as people read it: plain from 0.001 to a million, otherwise with an exponent.
 ///
-/// A precision is a number of significant digits: `{:.3}` of 0.000 123 456 is 1.23e-4. Zeros at the end are left out.
+/// A precision is a number of significant digits: `{:.3}` of 0.000 123 456 is 1.23e-4. Trailing zeros are left out.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Number(pub f64);
 
@@ -20,7 +20,7 @@ impl fmt::Display for Number {
         let is_plain = value == 0.0 || (1e-3..1e6).contains(&value.abs());
         let text = match value {
             _ if !value.is_finite() => format!("{value}"),
-            // No sign of a zero.
+            // A zero has no sign.
             0.0 => "0".to_owned(),
             _ if is_plain => format!("{value}"),
             _ => format!("{value:e}"),

@@ -9,9 +9,9 @@ use glam::DVec2;
 use crate::GeometryError;
 
 const DEGREE: usize = 3;
-/// Coordinates up to here can be squared and multiplied again without overflow.
+/// Coordinates up to this size can be squared and multiplied again without overflow.
 pub(crate) const LARGEST_COORDINATE: f64 = 1e100;
-/// Two knots are equal or at least this far apart, over the knot range.
+/// Two knots are equal or at least this far apart, relative to the knot range.
 pub(crate) const NARROWEST_SPAN: f64 = 1e-9;
 
 /// A cubic B-spline curve (NURBS of unit weights) over u ∈ [0, 1]; points are (x, z).
@@ -72,19 +72,19 @@ impl Nurbs {
         &self.control_points
     }
 
-    /// The normalised knots, four more than control points.
+    /// The normalised knots, four more than there are control points.
     pub fn knots(&self) -> &[f64] {
         &self.knots
     }
 
-    /// The ends of the knot spans, strictly rising from 0 to 1: the curve is one cubic between two of them.
+    /// The ends of the knot spans, strictly increasing from 0 to 1: the curve is a single cubic between two of them.
     pub fn breakpoints(&self) -> Vec<f64> {
         let mut domain = self.knots[DEGREE..=self.control_points.len()].to_vec();
         domain.dedup();
         domain
     }
 
-    /// C(u); u outside [0, 1] is taken to the nearer end.
+    /// The point C(u); u outside [0, 1] is clamped to the nearer end.
     ///
     /// Rounding: within a few units in the last place of the largest nearby control point, and exactly that point at a
     /// clamped end.
@@ -97,7 +97,7 @@ impl Nurbs {
             .sum()
     }
 
-    /// dC/du, from the right where the curve has a corner, from the left at u = 1.
+    /// The derivative dC/du, from the right at a corner of the curve, from the left at u = 1.
     pub fn derivative(&self, u: f64) -> DVec2 {
         let (span, u) = self.span(u);
         let basis = self.basis::<3>(span, u);
@@ -106,7 +106,7 @@ impl Nurbs {
             .sum()
     }
 
-    /// d²C/du², from the right at knots where it jumps, from the left at u = 1.
+    /// The second derivative d²C/du², from the right at knots where it jumps, from the left at u = 1.
     pub fn second_derivative(&self, u: f64) -> DVec2 {
         let (span, u) = self.span(u);
         let basis = self.basis::<2>(span, u);
@@ -119,7 +119,7 @@ impl Nurbs {
             .sum()
     }
 
-    /// The same curve run backwards: u ↦ C(1 − u).
+    /// The same curve in the opposite direction: u ↦ C(1 − u).
     #[must_use]
     pub fn reversed(&self) -> Self {
         Self {
@@ -144,7 +144,7 @@ impl Nurbs {
             / (self.knots[i + 4] - self.knots[i + 1])
     }
 
-    /// The span i with U_i ≤ u < U_{i+1}, the last one for u = 1 (algorithm A2.1), and u taken into [0, 1].
+    /// The span i with U_i ≤ u < U_{i+1}, the last one for u = 1 (algorithm A2.1), and u clamped to [0, 1].
     fn span(&self, u: f64) -> (usize, f64) {
         let u = u.clamp(0.0, 1.0);
         let n = self.control_points.len();
@@ -184,7 +184,7 @@ fn check_control_points(points: &[DVec2]) -> Result<(), GeometryError> {
             minimum: DEGREE + 1,
         });
     }
-    // NaN has no size either.
+    // NaN fails the comparison too.
     let in_range = |c: f64| c.abs() <= LARGEST_COORDINATE;
     match points
         .iter()
@@ -223,7 +223,7 @@ fn check_knots(knots: &[f64], control_points: usize) -> Result<(), GeometryError
     Ok(())
 }
 
-/// Multiplicities and distances of normalised knots.
+/// Checks the multiplicities and distances of normalised knots.
 fn check_knot_spacing(knots: &[f64]) -> Result<(), GeometryError> {
     for group in knots.chunk_by(|a, b| a == b) {
         let u = group[0];

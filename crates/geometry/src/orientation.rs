@@ -4,12 +4,12 @@ use std::cmp::Ordering;
 
 use glam::DVec2;
 
-/// The sign of (a − c) × (b − c): `Greater` where a, b, c turn counter-clockwise, `Equal` where they are exactly collinear.
+/// The sign of (a − c) × (b − c): `Greater` if a, b, c turn counter-clockwise, `Equal` if they are exactly collinear.
 ///
-/// The determinant is evaluated in f64 and trusted beyond its rounding error bound (3 + 16ε)ε(|l| + |r|), with ε = 2⁻⁵³; below it the six
-/// products are expanded and summed exactly (Shewchuk 1997, "Adaptive precision floating-point arithmetic and fast robust
-/// geometric predicates", sections 2 and 4.2).
-/// Precondition for exactness: products of coordinates neither overflow nor underflow.
+/// The determinant is evaluated in f64 and trusted if it exceeds its rounding error bound (3 + 16ε)ε(|l| + |r|), with ε
+/// = 2⁻⁵³; otherwise the six products are expanded and summed exactly (Shewchuk 1997, "Adaptive precision
+/// floating-point arithmetic and fast robust geometric predicates", sections 2 and 4.2). Precondition for exactness:
+/// products of coordinates neither overflow nor underflow.
 pub(crate) fn orientation(a: DVec2, b: DVec2, c: DVec2) -> Ordering {
     let left = (a.x - c.x) * (b.y - c.y);
     let right = (a.y - c.y) * (b.x - c.x);
@@ -24,7 +24,7 @@ pub(crate) fn orientation(a: DVec2, b: DVec2, c: DVec2) -> Ordering {
     sign.total_cmp(&0.0)
 }
 
-/// A number of the sign of a.x b.y − a.y b.x + b.x c.y − b.y c.x + c.x a.y − c.y a.x, exactly.
+/// A number with exactly the sign of a.x b.y − a.y b.x + b.x c.y − b.y c.x + c.x a.y − c.y a.x.
 fn exact_determinant_sign(a: DVec2, b: DVec2, c: DVec2) -> f64 {
     let mut expansion = Vec::with_capacity(12);
     for (p, q) in [
@@ -44,7 +44,7 @@ fn exact_determinant_sign(a: DVec2, b: DVec2, c: DVec2) -> f64 {
     largest.copied().unwrap_or(0.0) + 0.0
 }
 
-/// Adds a number to an expansion of ascending, non-overlapping parts (GROW-EXPANSION by two-sums).
+/// Adds a number to an expansion of increasing, non-overlapping parts (GROW-EXPANSION by two-sums).
 fn add(expansion: &mut Vec<f64>, number: f64) {
     let mut carried = number;
     for part in expansion.iter_mut() {
@@ -62,7 +62,7 @@ mod tests {
 
     #[test]
     fn points_an_ulp_beside_a_line_are_told_from_points_on_it() {
-        // The line z = x; 0.5 and 12, 24 are the classic points where plain f64 answers at random.
+        // The line z = x; 0.5 and 12, 24 are the classic points at which plain f64 gives arbitrary answers.
         let (b, c) = (DVec2::splat(12.0), DVec2::splat(24.0));
         let ulp = f64::EPSILON / 2.0;
         for i in -8..=8 {

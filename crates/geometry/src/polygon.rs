@@ -6,21 +6,22 @@ use glam::DVec2;
 
 use crate::orientation::orientation;
 
-/// Two segments of a polyline that share a point they should not share.
+/// Two segments of a polyline that share a point which they should not share.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Crossing {
-    /// The segments, from 0, ascending.
+    /// The indices of the segments, from 0, in increasing order.
     pub segments: [usize; 2],
-    /// The common point (rounded).
+    /// The common point, rounded to f64.
     pub point: DVec2,
 }
 
-/// A place where the polyline through `points` crosses or touches itself, if there is one; always the same one.
+/// A point at which the polyline through `points` crosses or touches itself, if there is one; always the same one.
 ///
 /// Segment k runs from point k to point k + 1. Neighbouring segments may share their common point, but not fold back
-/// onto each other; so may the last and the first segment of a `closed` polyline, whose last point equals its
-/// first. Decided without rounding error. Boxes around runs of segments, halved again and again, keep it near n log n
-/// for curves that do not fill the plane. Preconditions: no two consecutive points are equal, coordinates are finite.
+/// onto each other; the same holds for the last and the first segment of a `closed` polyline, whose last point equals
+/// its first. Decided without rounding error. Boxes around runs of segments, halved repeatedly, keep the cost near n
+/// log n for curves that do not fill the plane. Preconditions: no two consecutive points are equal, coordinates are
+/// finite.
 pub fn first_crossing(points: &[DVec2], closed: bool) -> Option<Crossing> {
     let count = points.len().saturating_sub(1);
     if count < 2 {
@@ -42,7 +43,7 @@ pub fn first_crossing(points: &[DVec2], closed: bool) -> Option<Crossing> {
                     });
                 }
             }
-            // Both runs are of the same depth, so both are split; a run against itself gives three pairs.
+            // Both runs have the same depth, so both are split; a run paired with itself gives three pairs.
             _ if a == b => {
                 pending.extend([(2 * a + 1, 2 * a + 1), (2 * a, 2 * a + 1), (2 * a, 2 * a)]);
             }
@@ -57,7 +58,8 @@ pub fn first_crossing(points: &[DVec2], closed: bool) -> Option<Crossing> {
     None
 }
 
-/// Bounding boxes of runs of segments: node 1 holds all, node k halves into 2k and 2k + 1, leaves hold one segment.
+/// Bounding boxes of runs of segments: node 1 contains all, node k splits into 2k and 2k + 1, leaves contain one
+/// segment.
 struct RunBoxes {
     corners: Vec<(DVec2, DVec2)>,
     first_leaf: usize,
@@ -66,7 +68,7 @@ struct RunBoxes {
 impl RunBoxes {
     fn new(points: &[DVec2]) -> Self {
         let first_leaf = (points.len() - 1).next_power_of_two();
-        // An empty box has its corners the wrong way round and meets nothing.
+        // An empty box has its corners in the wrong order and overlaps nothing.
         let empty = (DVec2::INFINITY, DVec2::NEG_INFINITY);
         let mut corners = vec![empty; 2 * first_leaf];
         for (leaf, pair) in corners[first_leaf..].iter_mut().zip(points.windows(2)) {
@@ -96,7 +98,7 @@ impl RunBoxes {
     }
 }
 
-/// A point that segments i ≤ j share beyond what neighbours may.
+/// A point that segments i ≤ j share, beyond what neighbours may share.
 fn shared_point(points: &[DVec2], closed: bool, i: usize, j: usize) -> Option<DVec2> {
     let last = points.len() - 2;
     if i == j {
@@ -110,12 +112,12 @@ fn shared_point(points: &[DVec2], closed: bool, i: usize, j: usize) -> Option<DV
     }
 }
 
-/// The nearer end of b → a and b → c if the two overlap.
+/// The nearer end of b → a and b → c, if the two overlap.
 fn folded_back(a: DVec2, b: DVec2, c: DVec2) -> Option<DVec2> {
     if orientation(a, b, c) != Ordering::Equal {
         return None;
     }
-    // Exactly collinear: the order along either axis tells the direction.
+    // The points are exactly collinear: the order along either axis tells the direction.
     let same_way = |p: f64, q: f64, r: f64| (p < q && r < q) || (p > q && r > q);
     let overlap = same_way(a.x, b.x, c.x) || same_way(a.y, b.y, c.y);
     let nearer = if (a - b).length_squared() < (c - b).length_squared() {

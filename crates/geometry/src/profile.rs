@@ -8,9 +8,9 @@ use crate::interpolation::interpolate;
 use crate::polygon::first_crossing;
 use crate::{GeometryError, Nurbs};
 
-/// The fewest control points a profile is given.
+/// The smallest number of control points of a profile.
 const FEWEST_CONTROL_POINTS: usize = 4;
-/// How finely [`Profile::check_simple`] samples each knot span of a profile of many, and all of them together.
+/// The number of samples by which [`Profile::check_simple`] tests each knot span at least, and all of them together.
 const SAMPLES_PER_SPAN: usize = 8;
 const SAMPLES: usize = 1024;
 
@@ -22,11 +22,11 @@ pub struct Profile {
 }
 
 impl Profile {
-    /// The profile of uniform knots through or near its control points.
+    /// The profile with uniform knots through or near its control points.
     ///
-    /// `Open` and `Corner` are clamped; `Corner` repeats the first control point as the last unless it stands there already.
-    /// `Smooth` is the periodic uniform B-spline; a last control point equal to the first is taken as that repetition
-    /// and dropped.
+    /// `Open` and `Corner` are clamped; `Corner` repeats the first control point as the last unless it is already
+    /// there. `Smooth` is the periodic uniform B-spline; a last control point equal to the first counts as that
+    /// repetition and is dropped.
     ///
     /// # Errors
     /// Fewer than 4 control points, or one that is not finite or larger than 1e100.
@@ -40,11 +40,11 @@ impl Profile {
         Ok(Self { curve, closure })
     }
 
-    /// The profile with the caller's knots, one each for the control points (a repeated closing point included) and 4 more.
+    /// The profile with the caller's knots: one for each control point (a repeated closing point included) and 4 more.
     ///
     /// # Errors
-    /// As [`Profile::new`] and [`Nurbs::with_knots`]; `Smooth`, whose knots are uniform; `Corner` with knots that are not
-    /// clamped, so that the curve misses its start.
+    /// As for [`Profile::new`] and [`Nurbs::with_knots`]; `Smooth`, whose knots are uniform; `Corner` with knots that
+    /// are not clamped, so that the curve does not return to its start.
     pub fn with_knots(
         control_points: &[DVec2],
         knots: &[f64],
@@ -64,17 +64,18 @@ impl Profile {
         Ok(Self { curve, closure })
     }
 
-    /// The profile that runs through `points` in order: a C² cubic spline, held as a NURBS with unit weights.
+    /// The profile that passes through `points` in order: a C² cubic spline, represented as a NURBS with unit weights.
     ///
-    /// The parameters of the points are centripetal (the root of the chords between them, Lee 1989), and they are the knots: the
-    /// curve is one cubic from point to point, however many there are, at a cost linear in their number. `Open` and
-    /// `Corner` end without curvature (natural spline); `Corner` and `Smooth` return to the first point, which may be repeated as the
-    /// last. The curve passes through every point, noise included: thin or smooth a scan before.
+    /// The parameters of the points are centripetal (proportional to the square roots of the chords, Lee 1989), and
+    /// they are the knots: the curve is a single cubic from point to point, however many there are, at a cost linear in
+    /// their number. `Open` and `Corner` end without curvature (natural spline); `Corner` and `Smooth` return to the
+    /// first point, which may be repeated as the last. The curve passes through every point, noise included: thin out
+    /// or smooth a scan first.
     ///
     /// # Errors
-    /// Fewer than 2 points, or 3 distinct ones for a closed profile; more than 20 000; one that is not finite, larger than
-    /// 1e100, or equal to the one before it; points so unevenly spaced that parameters come nearer than 1e-9; a closed
-    /// profile whose last point is farther from its start than twice the longest step before.
+    /// Fewer than 2 points, or 3 distinct ones for a closed profile; more than 20 000; one that is not finite, larger
+    /// than 1e100, or equal to the one before it; points so unevenly spaced that parameters are closer than 1e-9; a
+    /// closed profile whose last point is farther from its start than twice the longest step before.
     pub fn through(points: &[DVec2], closure: Closure) -> Result<Self, GeometryError> {
         let curve = interpolate(points, closure)?;
         Ok(Self { curve, closure })
@@ -95,7 +96,7 @@ impl Profile {
         self.closure != Closure::Open
     }
 
-    /// Γ(u); for a closed profile Γ(1) is bitwise Γ(0).
+    /// The point Γ(u); for a closed profile Γ(1) is bitwise Γ(0).
     pub fn position(&self, u: f64) -> DVec2 {
         if self.is_closed() && u >= 1.0 {
             self.curve.position(0.0)
@@ -104,17 +105,17 @@ impl Profile {
         }
     }
 
-    /// dΓ/du, as [`Nurbs::derivative`].
+    /// The derivative dΓ/du, see [`Nurbs::derivative`].
     pub fn derivative(&self, u: f64) -> DVec2 {
         self.curve.derivative(u)
     }
 
-    /// d²Γ/du², as [`Nurbs::second_derivative`].
+    /// The second derivative d²Γ/du², see [`Nurbs::second_derivative`].
     pub fn second_derivative(&self, u: f64) -> DVec2 {
         self.curve.second_derivative(u)
     }
 
-    /// The largest absolute coordinate of a control point: what rounding in positions is relative to.
+    /// The largest absolute coordinate of a control point, to which rounding in positions is relative.
     pub fn magnitude(&self) -> f64 {
         self.curve
             .control_points()
@@ -122,7 +123,8 @@ impl Profile {
             .fold(0.0, |size: f64, p| size.max(p.abs().max_element()))
     }
 
-    /// The length ∫ |Γ'| du, within `accuracy` (absolute, same unit as the profile), but no better than rounding allows.
+    /// The length ∫ |Γ'| du, within `accuracy` (absolute, in the unit of the profile), but no better than rounding
+    /// allows.
     pub fn arc_length(&self, accuracy: f64) -> f64 {
         arc_length(&self.curve, accuracy)
     }
@@ -141,7 +143,7 @@ impl Profile {
         })
     }
 
-    /// The same profile run backwards.
+    /// The same profile in the opposite direction.
     #[must_use]
     pub fn reversed(&self) -> Self {
         Self {
@@ -150,14 +152,15 @@ impl Profile {
         }
     }
 
-    /// Finds out whether the profile meets itself, apart from the common start and end of a closed one.
+    /// Checks that the profile does not meet itself, apart from the common start and end of a closed one.
     ///
-    /// Checks, exactly, a polyline of n samples in each knot span: 1024 over the number of spans, at least 8. So a loop
-    /// smaller than about 1/n of a span can be missed, and two strands closer than the sagitta of a sample (about
-    /// κ (span length / n)² / 8) can be taken for a crossing. [`divide`](crate::divide) checks its polygon exactly beside this.
+    /// The check is exact for a polyline of n samples in each knot span: 1024 over the number of spans, at least 8. So
+    /// a loop smaller than about 1/n of a span can be missed, and two strands closer than the sagitta of a sample
+    /// (about κ (span length / n)² / 8) can be taken for a crossing. [`divide`](crate::divide) also checks its polygon
+    /// exactly.
     ///
     /// # Errors
-    /// `CurveCrosses` with one place where it does; touching counts.
+    /// `CurveCrosses` with one point at which it does; touching counts as crossing.
     pub fn check_simple(&self) -> Result<(), GeometryError> {
         let (parameters, points) = self.samples();
         let Some(crossing) = first_crossing(&points, self.is_closed()) else {
@@ -199,7 +202,7 @@ fn check_count(control_points: &[DVec2]) -> Result<(), GeometryError> {
     Ok(())
 }
 
-/// The control points with the first repeated as the last.
+/// The control points, with the first repeated as the last.
 fn returning(control_points: &[DVec2]) -> Vec<DVec2> {
     let mut points = control_points.to_vec();
     if points.first() != points.last() {
@@ -208,7 +211,7 @@ fn returning(control_points: &[DVec2]) -> Vec<DVec2> {
     points
 }
 
-/// The periodic uniform B-spline: the first three control points follow the last once more.
+/// The periodic uniform B-spline: the first three control points are repeated after the last.
 fn periodic(control_points: &[DVec2]) -> Result<Nurbs, GeometryError> {
     let n = control_points.len() - usize::from(control_points.first() == control_points.last());
     let points: Vec<_> = (0..n + 3).map(|i| control_points[i % n]).collect();

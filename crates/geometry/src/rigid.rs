@@ -1,15 +1,15 @@
-//! Rigid motions (rotation and translation, no reflection) and the one that fits two point sets best.
+//! Rigid motions (rotation and translation, no reflection), and the one that fits two point sets best.
 
 use glam::{DMat3, DQuat, DVec3};
 
 use crate::symmetric::diagonalise;
 
-/// x ↦ R x + c.
+/// The rigid motion x ↦ R x + c.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RigidMotion {
-    /// R, a rotation.
+    /// The rotation R of the motion.
     pub rotation: DMat3,
-    /// c.
+    /// The translation c of the motion.
     pub translation: DVec3,
 }
 
@@ -20,7 +20,7 @@ impl RigidMotion {
         translation: DVec3::ZERO,
     };
 
-    /// R x + c.
+    /// Applies the motion: R x + c.
     pub fn apply(&self, point: DVec3) -> DVec3 {
         self.rotation * point + self.translation
     }
@@ -28,9 +28,9 @@ impl RigidMotion {
     /// The rigid motion that minimises Σ |R source + c − target|².
     ///
     /// Horn 1987, "Closed-form solution of absolute orientation using unit quaternions": the rotation is the
-    /// eigenvector of the largest eigenvalue of a symmetric 4 × 4 matrix of the covariance, found here by Jacobi
-    /// rotations, which also holds for planar and collinear sets. Never a reflection. Fewer than two points give a
-    /// translation, none the identity. Precondition: both slices are equally long.
+    /// eigenvector of the largest eigenvalue of a symmetric 4 × 4 matrix built from the covariance, computed here by
+    /// Jacobi rotations, which also works for planar and collinear sets. It is never a reflection. A single point gives
+    /// a translation, no points give the identity. Precondition: both slices have the same length.
     pub fn best_fit(source: &[DVec3], target: &[DVec3]) -> Self {
         debug_assert_eq!(source.len(), target.len(), "best_fit pairs points");
         if source.is_empty() {
@@ -51,8 +51,8 @@ impl RigidMotion {
         }
     }
 
-    /// The rigid motion that moves `centre` to the origin and the principal axes of `covariance`, a symmetric matrix, to
-    /// x, y and z, that of the largest eigenvalue first.
+    /// The rigid motion that moves `centre` to the origin and the principal axes of `covariance`, a symmetric matrix,
+    /// to x, y and z, in order of decreasing eigenvalue.
     pub fn to_principal_axes(centre: DVec3, covariance: DMat3) -> Self {
         let mut a = covariance.transpose().to_cols_array_2d();
         let vectors = diagonalise(&mut a);

@@ -1,10 +1,10 @@
 //! Eigenvalues and eigenvectors of small symmetric matrices by Jacobi rotations.
 
-/// Sweeps at most; a matrix of four rows takes six.
+/// The largest number of sweeps; a matrix of four rows takes six.
 const SWEEPS: usize = 64;
 
-/// Turns `a`, a symmetric matrix, into a diagonal one and returns the rotation that does it: its column i is the
-/// eigenvector of the eigenvalue left in `a[i][i]`.
+/// Diagonalises `a`, a symmetric matrix, and returns the rotation that does so: its column i is the eigenvector of the
+/// eigenvalue left in `a[i][i]`.
 pub(crate) fn diagonalise<const N: usize>(a: &mut [[f64; N]; N]) -> [[f64; N]; N] {
     let mut vectors = [[0.0; N]; N];
     for (i, row) in vectors.iter_mut().enumerate() {

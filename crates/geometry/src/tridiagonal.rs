@@ -3,7 +3,7 @@
 /// L D Lᵀ of a symmetric positive definite tridiagonal matrix (Golub and Van Loan 2013, algorithm 4.3.6).
 pub(crate) struct Tridiagonal {
     pivots: Vec<f64>,
-    /// Below the unit diagonal of L; one fewer than pivots.
+    /// The entries below the unit diagonal of L, one fewer than there are pivots.
     lower: Vec<f64>,
 }
 

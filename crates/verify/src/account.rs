@@ -1,4 +1,4 @@
-//! What was found to pass through the sheet, held against what is listed.
+//! Passages through the sheet that were found, compared with the penetrations that are listed.
 
 use std::collections::BTreeMap;
 
@@ -8,6 +8,7 @@ use rayon::prelude::*;
 use crate::coupling::{ContactPair, EdgePassage, NeighbourState, uncoupled};
 use crate::distance::{DistanceProof, keeps_distance};
 use crate::face_pair::FacePair;
+use crate::findings::PairFindings;
 use crate::follow::{FollowOutcome, follow_leniently};
 use crate::lost::LostSide;
 use crate::moving_pair::MovingPair;
@@ -15,24 +16,24 @@ use crate::outcome::Unproved;
 use crate::parts::disjoint_parts;
 use crate::penetration::FoundPenetration;
 use crate::trail::Trail;
-use crate::verifier::{PairFindings, SURELY_APART, SURELY_TOUCHING, Verifier};
+use crate::verifier::{SURELY_APART, SURELY_TOUCHING, Verifier};
 use foldmotion_check::Verdict;
 
-/// The most steps for the distance of parts.
+/// The largest number of steps for the distance between parts of triangles.
 const PART_BUDGET: u32 = 1 << 12;
 
-/// Something that passes through the sheet.
+/// Evidence that something passes through the sheet.
 #[derive(Debug)]
 pub(crate) struct PassageEvidence {
-    /// Pairs of triangles at which it does.
+    /// The pairs of triangles at which it passes.
     pairs: [[u32; 2]; 2],
     what: String,
-    /// Whether it surely does.
+    /// Whether it surely passes.
     is_sure: bool,
 }
 
 impl Verifier<'_> {
-    /// Follows a pair from the sides that fit together with others.
+    /// Follows a pair from those of its sides that fit together with the sides of other pairs.
     pub(crate) fn follow_narrowed(
         &self,
         pair: &FacePair,
@@ -56,7 +57,7 @@ impl Verifier<'_> {
         }
     }
 
-    /// Whether a listed penetration accounts for what passes through around a pair up to a time.
+    /// Whether a listed penetration accounts for passages around a pair up to a time.
     pub(crate) fn is_listed_around(&self, faces: [u32; 2], time: f64) -> bool {
         self.claimed.values().any(|stated| {
             stated.time <= time
@@ -69,7 +70,7 @@ impl Verifier<'_> {
         f < g && (g as usize) < self.sheet.faces.len()
     }
 
-    /// Takes in what passes through in the interval that begins at `start`.
+    /// Evaluates the passages in the interval that begins at `start`.
     pub(crate) fn account(
         &mut self,
         start: &Frame,
@@ -131,7 +132,7 @@ impl Verifier<'_> {
         });
     }
 
-    /// A deep pair that is not listed at this frame.
+    /// Handles a deep pair that is not listed at this frame.
     pub(crate) fn drop_deep(&mut self, faces: [u32; 2], lost: &LostSide) {
         let evidence = self.evidence_of(faces, lost);
         let stated = self.claimed.get(&faces).map(|p| p.frame);
@@ -141,16 +142,16 @@ impl Verifier<'_> {
                 frame,
                 self.frames - 1,
             ),
-            // Where nothing around is listed either, it was refuted as it was taken in.
+            // If nothing nearby is listed either, that was refuted when the evidence was evaluated.
             None if self.is_listed_around(faces, self.last.time) => {
-                self.refute("penetrations", "not all of them", evidence.what);
+                self.refute("penetrations", "an incomplete list", evidence.what);
             }
             None => {}
         }
         self.dropped.insert(faces, self.frames);
     }
 
-    /// Refutes a list that has nothing around.
+    /// Refutes the list of penetrations if nothing on it accounts for the evidence.
     pub(crate) fn take(&mut self, evidence: PassageEvidence) {
         let time = self.last.time;
         if evidence.pairs.iter().all(|p| self.accounted.contains(p)) {
@@ -167,12 +168,12 @@ impl Verifier<'_> {
             return;
         }
         if !is_listed {
-            self.refute("penetrations", "none of them", evidence.what);
+            self.refute("penetrations", "none that accounts for this", evidence.what);
         }
         self.accounted.extend(evidence.pairs);
     }
 
-    /// Where the sides of pairs in contact do not fit together across an edge.
+    /// Passages of pairs in contact whose sides do not fit together across an edge.
     fn uncoupled(
         &self,
         start: &Frame,
@@ -220,7 +221,7 @@ impl Verifier<'_> {
             .collect()
     }
 
-    /// Likewise at the first frame.
+    /// Evaluates whether sides fit together at the first frame.
     pub(crate) fn uncoupled_at_rest(&mut self, near: &[[u32; 2]]) {
         let pairs: Vec<FacePair> = near
             .iter()
@@ -242,7 +243,7 @@ impl Verifier<'_> {
         }
     }
 
-    /// Whether what two triangles that share vertices do not share comes within τ, where something depends on it.
+    /// Measures whether the parts that two triangles do not share come within τ, if the verdict depends on it.
     pub(crate) fn measure_parts(&self, moving: &MovingPair, judged: &mut PairFindings) {
         let tolerance = self.limits.tolerance;
         let least = |limit: f64| {
@@ -270,7 +271,7 @@ impl Verifier<'_> {
         }
     }
 
-    /// What is to be said of a motion of one frame.
+    /// Finishes the proof of a motion of a single frame.
     pub(crate) fn finish_at_rest(&mut self) {
         let first = self.last.clone();
         self.meet_claims(&first, &BTreeMap::new());

@@ -1,19 +1,19 @@
 //! Which directions of D = { d : max d·a − min d·b ≤ τ } are connected in D, exactly.
 //!
 //! The overlap h(d) = max d·a − min d·b is the support function of the convex polytope K = { a − b }. On the cone of
-//! directions in which one corner of K is the highest, h is the height of that corner; its local minima on the sphere are
-//! the normals of facets of K, and two of them are connected at the level at which a path along the edges of K connects
-//! them: an edge of K is an arc between the normals of the facets beside it. All normals that a facet can have, and all
-//! arcs between them, hold these paths and are paths themselves, so they give the same level; that also holds where K is
-//! flat.
+//! directions for which one corner of K is the highest, h is the height of that corner. Its local minima on the sphere
+//! are the normals of facets of K, and two of them are connected at the level at which a path along the edges of K
+//! connects them: an edge of K is an arc between the normals of its two facets. The set of all possible facet normals,
+//! with all arcs between them, contains these paths and consists of paths itself, so it gives the same level; that also
+//! holds if K is flat.
 
 use glam::DVec3;
 
 use crate::moving_pair::{COORDINATES, PairPose};
 
-/// Normals with a length below this share of the sides they are made of have no direction.
+/// Cross products shorter than this share of the product of their factors have no direction.
 const PARALLEL: f64 = 1e-12;
-/// Directions with a cosine below this have no arc of their own.
+/// Directions whose cosine is below this have no unique arc between them.
 const OPPOSITE: f64 = -0.999_999;
 
 fn differences(pose: &PairPose) -> impl Iterator<Item = DVec3> {
@@ -23,8 +23,8 @@ fn differences(pose: &PairPose) -> impl Iterator<Item = DVec3> {
 
 /// The largest overlap on the arc from u to v, two unit directions that are not opposite.
 ///
-/// A corner's height along the arc is x cos φ + y sin φ: largest at an end, or hypot(x, y) where it rises at the one and
-/// falls at the other.
+/// The height of a corner along the arc is x cos φ + y sin φ: it is largest at an end, or equals hypot(x, y) if it
+/// rises at one end and falls at the other.
 pub(crate) fn highest(pose: &PairPose, u: DVec3, v: DVec3) -> f64 {
     let cosine = u.dot(v);
     let across = v - u * cosine;
@@ -48,7 +48,7 @@ pub(crate) fn is_arc_within(pose: &PairPose, u: DVec3, v: DVec3, limit: f64) -> 
     u.dot(v) > OPPOSITE && highest(pose, u, v) <= limit
 }
 
-/// Where the way down from a direction leaves the cone of its corner of K: there an edge of K is reached.
+/// The point at which the descent from a direction leaves the cone of its corner of K and reaches an edge of K.
 fn foot(pose: &PairPose, from: DVec3) -> Option<DVec3> {
     let top = differences(pose).max_by(|p, q| p.dot(from).total_cmp(&q.dot(from)))?;
     let down = (from * top.dot(from) - top).try_normalize()?;
@@ -62,7 +62,7 @@ fn foot(pose: &PairPose, from: DVec3) -> Option<DVec3> {
     (from * angle.cos() + down * angle.sin()).try_normalize()
 }
 
-/// The normals that facets of K can have, and those in their planes, both ways; triangles may be edges or points.
+/// The possible normals of facets of K, and those in their planes, in both senses. Triangles may be edges or points.
 pub(crate) fn normals(pose: &PairPose) -> Vec<DVec3> {
     let sides = |t: &[DVec3; 3]| [t[1] - t[0], t[2] - t[1], t[0] - t[2]];
     let (a, b) = (sides(&pose.a), sides(&pose.b));
@@ -90,7 +90,7 @@ pub(crate) fn normals(pose: &PairPose) -> Vec<DVec3> {
             push(n, side);
         }
     }
-    // Where all lies near a line, products of sides are known badly.
+    // If everything lies near a line, cross products of sides are inaccurate.
     let longest = a.into_iter().chain(b);
     let longest = longest.max_by(|u, v| u.length_squared().total_cmp(&v.length_squared()));
     for (side, axis) in longest
@@ -102,13 +102,13 @@ pub(crate) fn normals(pose: &PairPose) -> Vec<DVec3> {
     normals
 }
 
-/// The depth: the least overlap of all directions where it is positive.
+/// The depth: the smallest overlap over all directions, if it is positive.
 pub(crate) fn depth(pose: &PairPose) -> f64 {
     let overlaps = normals(pose).into_iter().map(|n| pose.overlap(n));
     overlaps.fold(f64::INFINITY, f64::min)
 }
 
-/// Which of the nodes are connected to a seed at a level; those above it are not.
+/// Which nodes are connected to a seed at a level; nodes above the level are not.
 pub(crate) fn reached(pose: &PairPose, nodes: &[DVec3], seeds: &[DVec3], level: f64) -> Vec<bool> {
     let mut is_reached = vec![false; nodes.len()];
     let is_low: Vec<bool> = nodes.iter().map(|&n| pose.overlap(n) <= level).collect();
@@ -127,7 +127,7 @@ pub(crate) fn reached(pose: &PairPose, nodes: &[DVec3], seeds: &[DVec3], level: 
     is_reached
 }
 
-/// Whether some direction of `from` is connected to some of `to` at a level.
+/// Whether some direction of `from` is connected to some direction of `to` at a level.
 pub(crate) fn are_connected(pose: &PairPose, from: &[DVec3], to: &[DVec3], level: f64) -> bool {
     let is_direct = |u: &DVec3| to.iter().any(|&v| is_arc_within(pose, *u, v, level));
     if from.iter().any(is_direct) {
@@ -172,7 +172,7 @@ mod tests {
         }
     }
 
-    /// Directions all around, and which of them are connected by short steps at a level, from the first that is.
+    /// Whether `to` is connected to `from` at a level by short steps between directions that cover the sphere.
     fn flooded(pose: &PairPose, from: DVec3, to: DVec3, level: f64) -> bool {
         let count = 6000;
         let turn = std::f64::consts::PI * (3.0 - 5.0_f64.sqrt());

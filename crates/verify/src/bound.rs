@@ -1,21 +1,21 @@
-//! What the Bernstein coefficients of the heights along an axis prove of a pair of triangles over a stretch of time.
+//! What the Bernstein coefficients of the heights along an axis prove about a pair of triangles over a time interval.
 
 use glam::DVec3;
 
 use crate::moving_pair::{Feature, MovingPair, OnPlane};
 use crate::path::Path;
 
-/// What is sure of a pair along a path.
+/// What is certain about a pair along a path.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Bound {
-    /// The gap min n·b − max n·a, divided by |n|, is at least this at every instant, whatever the triangles share.
+    /// A lower bound, at every instant, of the gap (min n·b − max n·a) / |n|, whatever the triangles share.
     pub(crate) gap: f64,
-    /// What they do not share is apart by at least this at every instant, where positive.
+    /// A lower bound, at every instant, of the distance between the parts that are not shared, if positive.
     pub(crate) room: f64,
 }
 
 impl Path {
-    /// What the Bernstein coefficients prove of the pair along this path.
+    /// What the Bernstein coefficients prove about the pair along this path.
     pub(crate) fn bound(&self, moving: &MovingPair, on_plane: OnPlane) -> Bound {
         let margin = self.margin(moving.size);
         let origin = moving.a[0];
@@ -55,7 +55,7 @@ impl Path {
 }
 
 impl MovingPair {
-    /// What an axis, the right way round, proves.
+    /// What an axis, in the given sense, proves.
     pub(crate) fn bound(&self, axis: (Feature, f64)) -> Bound {
         let path = self.directed(axis);
         let bound = path.bound(self, self.on_plane(axis.0));

@@ -3,10 +3,10 @@
 use glam::DVec3;
 use rayon::prelude::*;
 
-/// Boxes tested before one asks whether any of them overlaps.
+/// The number of boxes tested before the results are examined.
 const BLOCK: usize = 64;
 
-/// Boxes, coordinate by coordinate, rounded outward to f32.
+/// Boxes stored coordinate by coordinate, rounded outward to f32.
 #[derive(Debug, Default)]
 pub(crate) struct Boxes {
     low: [Vec<f32>; 3],
@@ -14,7 +14,7 @@ pub(crate) struct Boxes {
 }
 
 impl Boxes {
-    /// Adds the box of some points, larger by `radius` on every side.
+    /// Adds the box around some points, enlarged by `radius` on every side.
     pub(crate) fn push(&mut self, points: impl Iterator<Item = DVec3>, radius: f64) {
         let (mut low, mut high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
         for p in points {
@@ -27,7 +27,7 @@ impl Boxes {
         }
     }
 
-    /// All pairs i < j whose boxes overlap, in order.
+    /// All pairs i < j whose boxes overlap, in increasing order.
     pub(crate) fn overlapping(&self) -> Vec<[u32; 2]> {
         let count = self.low[0].len();
         let rows: Vec<Vec<u32>> = (0..count).into_par_iter().map(|i| self.row(i)).collect();
@@ -59,7 +59,7 @@ impl Boxes {
         found
     }
 
-    /// Whether box i overlaps any of the boxes `from` to `to`: no branch inside, so that it runs several lanes wide.
+    /// Whether box i overlaps any of the boxes `from` to `to`. The loop has no branch, so that it is vectorised.
     #[expect(
         clippy::needless_bitwise_bool,
         reason = "lazy operators would be branches"

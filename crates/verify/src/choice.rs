@@ -1,7 +1,7 @@
-//! Sides that are open, narrowed down by those of the triangles beyond an edge.
+//! Ambiguous sides, narrowed down by the sides of the triangles beyond an edge.
 //!
-//! A pair that slid into contact may be on either side of each other, and so may each of two pairs across an edge. Where
-//! the one is on one side, the other is on the side that fits together with it, from then on.
+//! A pair that slid into contact may be on either side of each other, and so may each of two pairs across an edge. If
+//! one of them is on one side, the other is on the side that fits together with it, from then on.
 
 use glam::DVec3;
 
@@ -13,13 +13,14 @@ use crate::side::Side;
 use crate::trail::{Trail, apart};
 use crate::verifier::Verifier;
 
-/// How often sides are passed on at an instant.
+/// The largest number of rounds in which sides are passed on at an instant.
 const MOST_ROUNDS: usize = 8;
 
 impl Verifier<'_> {
-    /// Notes which of the open sides at the last frame fit together.
+    /// Finds which of the ambiguous sides at the last frame fit together.
     ///
-    /// The order of layers is told from what was followed alone: only what passes through what depends on the choice.
+    /// The order of layers depends only on the sides that were followed; the choice made here is used for passages
+    /// only.
     pub(crate) fn narrow_sides(&mut self) {
         let is_open = |side: &[DVec3]| side.iter().any(|d| d.dot(side[0]) < 0.5);
         for _ in 0..MOST_ROUNDS {
@@ -49,7 +50,7 @@ impl Verifier<'_> {
         }
     }
 
-    /// Those directions of a pair that fit together with the sides of all pairs across an edge; all where none do.
+    /// The directions of a pair that fit together with the sides of all pairs across an edge; all of them if none fits.
     fn fitting(&self, faces: [u32; 2], directions: Vec<DVec3>) -> Vec<DVec3> {
         let positions = &self.last.positions;
         let pair = FacePair::new(self.sheet, faces);
@@ -88,7 +89,7 @@ impl Verifier<'_> {
         kept
     }
 
-    /// The directions of a pair at the last frame; none where it has no side.
+    /// The directions of a pair at the last frame; empty if it has no side.
     fn side_of_pair(&self, pair: &FacePair) -> Vec<DVec3> {
         let faces = pair.faces;
         if let Some(narrowed) = self.narrowed.get(&faces) {

@@ -34,16 +34,17 @@ fn on_segment(p: DVec3, [u, v]: [DVec3; 2]) -> DVec3 {
     u + along * ((p - u).dot(along) / squared).clamp(0.0, 1.0)
 }
 
-/// The point of a triangle nearest to p: below it where it is above the triangle, otherwise on the rim.
+/// The point of a triangle nearest to p: the foot of p if p is above the triangle, otherwise a point of the rim.
 pub(crate) fn on_triangle(p: DVec3, t: &[DVec3; 3]) -> DVec3 {
     let rim = (0..3).map(|i| on_segment(p, [t[i], t[(i + 1) % 3]]));
     nearest(rim.chain(below(p, t)), p)
 }
 
-/// A point of the triangle, below p where p is above it.
+/// A point of the triangle, which is the foot of p if p is above the triangle.
 ///
-/// The share of the corner across the longest side comes from areas; of the section at this share the nearest point is
-/// taken. Where the triangle is thin the share is not sure, but then the section moves little with it.
+/// The barycentric coordinate of the corner opposite the longest side comes from areas; of the section at this
+/// coordinate the nearest point is taken. In a thin triangle the coordinate is inaccurate, but then the section changes
+/// little with it.
 fn below(p: DVec3, t: &[DVec3; 3]) -> Option<DVec3> {
     let normal = (t[1] - t[0]).cross(t[2] - t[0]);
     let squared = normal.length_squared();
@@ -72,8 +73,8 @@ fn nearest(points: impl Iterator<Item = DVec3>, p: DVec3) -> DVec3 {
 
 /// The closest points of two segments: where their lines are closest, if that is inside both, otherwise at an end.
 ///
-/// Where the lines are closest is not sure along nearly parallel ones; so of a point of the one the nearest of the
-/// other is taken, and of that the nearest again.
+/// For nearly parallel lines, the place of closest approach is inaccurate. So for a point on one segment the nearest
+/// point of the other is taken, and for that the nearest again.
 fn of_segments(s: [DVec3; 2], r: [DVec3; 2]) -> Closest {
     let ends = [
         (s[0], on_segment(s[0], r)),
@@ -111,7 +112,7 @@ fn closer(all: impl Iterator<Item = Closest>) -> Closest {
         .unwrap_or(far)
 }
 
-/// A point of a segment that goes through a triangle's plane, and the point of the triangle nearest to it.
+/// The point at which a segment crosses the plane of a triangle, and the point of the triangle nearest to it.
 fn pierced([u, v]: [DVec3; 2], t: &[DVec3; 3]) -> Option<Closest> {
     let normal = (t[1] - t[0]).cross(t[2] - t[0]);
     let (above, below) = ((u - t[0]).dot(normal), (v - t[0]).dot(normal));
@@ -123,7 +124,7 @@ fn pierced([u, v]: [DVec3; 2], t: &[DVec3; 3]) -> Option<Closest> {
     Some(Closest { on_a, on_b })
 }
 
-/// The closest points of two triangles, of each within a rounding; nearly the same point twice where they meet.
+/// The closest points of two triangles, each to within rounding; nearly the same point twice if they intersect.
 pub(crate) fn closest(pose: &PairPose) -> Closest {
     let edge = |t: &[DVec3; 3], i: usize| [t[i], t[(i + 1) % 3]];
     let (a, b) = (&pose.a, &pose.b);

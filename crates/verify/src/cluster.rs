@@ -1,4 +1,4 @@
-//! The clusters of an instant, and the order in each.
+//! The clusters of layers at an instant, and the order in each.
 
 use std::collections::BTreeMap;
 
@@ -11,27 +11,27 @@ use crate::line::{Junction, JunctionKey, LayerStacks, around};
 use crate::plane::{Plane, holds, inset, least_width, within};
 use foldmotion_check::{LayerProof, LayerRule};
 
-/// Sides of triangles are moved inward by this share of τ, so that neighbours are not counted as lying on each other.
+/// The sides of triangles are moved inward by this share of τ, so that neighbours do not count as lying on each other.
 const INSET: f64 = 0.1;
 
 /// Layers whose orders are not possible together.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Contradiction {
     pub(crate) rule: LayerRule,
-    /// Each once, in order.
+    /// The triangles, each once, in increasing order.
     pub(crate) faces: Vec<u32>,
-    /// Of what meets, each once, in order; empty where that may be any of the triangles.
+    /// The vertices of what meets, each once, in increasing order; empty if any of the triangles may be named.
     pub(crate) vertices: Vec<u32>,
 }
 
 /// Triangles that lie on each other, directly or through others.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct FoundCluster {
-    /// The first and the last frame.
+    /// The indices of the first and the last frame.
     pub(crate) frames: [usize; 2],
     pub(crate) times: [f64; 2],
     pub(crate) faces: Vec<u32>,
-    /// No more lie over one point.
+    /// The largest number of layers over any point.
     pub(crate) layers: usize,
     pub(crate) pairs: usize,
     pub(crate) order: LayerProof,
@@ -39,7 +39,7 @@ pub(crate) struct FoundCluster {
 }
 
 impl FoundCluster {
-    /// Takes in the same triangles at the next frame.
+    /// Extends the cluster by the same triangles at the next frame.
     pub(crate) fn go_on(&mut self, next: &Self) {
         self.frames[1] = next.frames[1];
         self.times[1] = next.times[1];
@@ -72,7 +72,7 @@ pub(crate) fn prove(
 }
 
 impl LayerStacks<'_> {
-    /// What can be reached from each triangle over layers, in order of the first triangles.
+    /// The connected components of the layers, in the order of their first triangles.
     fn groups(&self) -> Vec<Vec<u32>> {
         let mut is_seen = vec![false; self.around.len()];
         let mut groups = Vec::new();
@@ -136,7 +136,7 @@ impl LayerStacks<'_> {
         }
     }
 
-    /// Pairs of layers of a cluster, the smaller index first.
+    /// The pairs of layers of a cluster, the smaller index first.
     fn pairs<'a>(&'a self, faces: &'a [u32]) -> impl Iterator<Item = (u32, u32)> + Clone + 'a {
         let later = |f: u32| {
             let others = self.around[f as usize].iter().map(|&(g, _)| g);
@@ -167,10 +167,10 @@ impl LayerStacks<'_> {
     }
 }
 
-/// A cluster as seen along the normal of its first triangle.
+/// A cluster projected along the normal of its first triangle.
 struct Flat<'a> {
     faces: &'a [u32],
-    /// In the order of `faces`.
+    /// The projected triangles, in the order of `faces`.
     triangles: Vec<[DVec2; 3]>,
     plane: Option<Plane>,
 }
@@ -191,9 +191,9 @@ impl<'a> Flat<'a> {
         &self.triangles[self.faces.partition_point(|&f| f < face)]
     }
 
-    /// Every three layers over a common region of which each lies above the one before, around.
+    /// Every three layers over a common region of which each lies above the one before, in a cycle.
     ///
-    /// All threes are tried: layers over one point have a strict order exactly where no three of them go round.
+    /// All triples are tried: layers over one point have a strict order exactly if no three of them form a cycle.
     fn rounds(&self, stacks: &LayerStacks<'_>) -> Vec<Contradiction> {
         let Some(plane) = self.plane else {
             return Vec::new();
@@ -227,11 +227,11 @@ impl<'a> Flat<'a> {
         least_width(&within(&two, self.triangle(h))) > narrow
     }
 
-    /// The most layers over one point.
+    /// The largest number of layers over any point.
     ///
-    /// The region under the deepest stack is a convex polygon. Its first corner, by coordinates, is that of what two of
-    /// its layers have in common, whichever these are; so it is enough to count at such corners. All triangles are a
-    /// little smaller here, so that those that only touch at the corner are not counted.
+    /// The region under the deepest stack is a convex polygon. Its first corner, ordered by coordinates, is also the
+    /// first corner of the common region of two of its layers, whichever these are; so it is enough to count at such
+    /// corners. All triangles are slightly shrunk here, so that those that only touch at the corner are not counted.
     fn depth(&self, stacks: &LayerStacks<'_>) -> usize {
         let by = INSET * stacks.scale.narrow() / NARROW;
         let small: Vec<_> = self.triangles.iter().map(|t| inset(t, by)).collect();

@@ -1,10 +1,10 @@
-//! Whether the sides of a triangle to the two on an edge fit together.
+//! Whether the sides of a triangle to the two triangles at an edge fit together.
 //!
-//! Let B and B' share the edge e, and let d and d' be the directions in which A may be pushed off them. Both push A off e,
-//! D(A, B) ⊂ D(A, e). A push that goes from the one to the other across e without A meeting e is there where d and d' are
-//! connected in D(A, e). Where e runs farther than τ off A, D(A, e) is connected and nothing is asked. Where the plane of
-//! A holds e, and A passes between B and B', D(A, e) falls into two parts, with d in the one and d' in the other: A passes
-//! through the edge, beside both triangles.
+//! Let B and B' share the edge e, and let d and d' be the directions in which A may be pushed off them. Both push A off
+//! e, because D(A, B) ⊂ D(A, e). A push that changes from one to the other across e without A meeting e exists if d and
+//! d' are connected in D(A, e). If e is farther than τ from A, D(A, e) is connected and nothing needs to be tested. If
+//! the plane of A contains e, and A passes between B and B', D(A, e) falls into two parts, with d in one and d' in the
+//! other: A passes through the edge, beside both triangles.
 
 use glam::DVec3;
 
@@ -14,17 +14,17 @@ use crate::moving_pair::{MovingPair, PairPose};
 use crate::neighbourhood::{Neighbourhood, edges};
 use crate::trail::{Trail, apart};
 
-/// Directions that are connected at this many τ are left alone.
+/// Directions that are connected at this multiple of τ are accepted.
 pub(crate) const CLEAR: f64 = 1.25;
-/// Those that are not connected at this many τ either are not so for sure: near a corner of the boundary a push of one
-/// triangle as a whole has farther to go than one that differs from point to point.
+/// Directions that are not connected even at this multiple of τ surely do not fit together: near a corner of the
+/// boundary, a push of a whole triangle may have to be longer than one that differs from point to point.
 const SURE: f64 = 2.0;
-/// Instants looked at in an interval, besides the ends of steps.
+/// The number of instants tested in an interval, besides the ends of steps.
 const SAMPLES: u32 = 16;
-/// At most so many ends of steps are looked at.
+/// The largest number of ends of steps that are tested.
 const MOST_ENDS: usize = 64;
 
-/// A pair in an interval.
+/// A pair that was followed in contact through an interval.
 pub(crate) struct ContactPair<'a> {
     pub(crate) pair: &'a FacePair,
     pub(crate) moving: MovingPair,
@@ -33,28 +33,28 @@ pub(crate) struct ContactPair<'a> {
     pub(crate) tolerance: f64,
 }
 
-/// What is asked of the pairs beside those followed in contact.
+/// What is known about a pair of triangles next to one that was followed in contact.
 pub(crate) enum NeighbourState<'a> {
     Contact(&'a Trail),
     Apart,
-    /// It has no side.
+    /// The pair has no side.
     Lost,
 }
 
-/// A triangle that passes through an edge between two others.
+/// A triangle that passes through the edge between two others.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct EdgePassage {
     pub(crate) face: u32,
     pub(crate) between: [u32; 2],
-    /// The part of the interval gone.
+    /// The time, as a share of the interval.
     pub(crate) time: f64,
-    /// Whether it surely does.
+    /// Whether it surely passes through.
     pub(crate) is_sure: bool,
 }
 
-/// Where the first triangle of a pair followed in contact passes through an edge of the second, or the other way round.
+/// The passages of either triangle of a pair in contact through an edge of the other.
 ///
-/// `beside`: what is known of a pair of triangles.
+/// `beside`: what is known about a pair of triangles.
 pub(crate) fn uncoupled<'a>(
     followed: &ContactPair<'_>,
     around: &Neighbourhood,
@@ -72,7 +72,7 @@ pub(crate) fn uncoupled<'a>(
                 let (pair, moving, known) = beside([wall.min(other), wall.max(other)]);
                 let trail = match known {
                     NeighbourState::Lost => continue,
-                    // Looked at once.
+                    // Each two pairs are tested once.
                     NeighbourState::Contact(_) if other < face => continue,
                     NeighbourState::Contact(trail) => Some(trail),
                     NeighbourState::Apart => None,
@@ -95,7 +95,7 @@ pub(crate) fn uncoupled<'a>(
     all
 }
 
-/// The pair beyond an edge.
+/// The pair of triangles beyond an edge.
 struct NeighbourPair<'a> {
     pair: FacePair,
     moving: MovingPair,
@@ -103,7 +103,7 @@ struct NeighbourPair<'a> {
 }
 
 impl ContactPair<'_> {
-    /// The first instant looked at at which the sides surely do not fit together, or else do not.
+    /// The first tested instant at which the sides surely do not fit together, or else the first at which they do not.
     fn uncoupled_at(
         &self,
         (wall, edge): (u32, [u32; 2]),
@@ -135,7 +135,8 @@ impl ContactPair<'_> {
         sure.map(|&t| (t, true)).or(first)
     }
 
-    /// The first triangle, and the edge in the place of the second; what they do not share where they share a vertex.
+    /// The first triangle, and the edge instead of the second; if they share a vertex, the parts that they do not
+    /// share.
     pub(crate) fn to_edge(&self, wall: u32, edge: [u32; 2], t: f64) -> Vec<PairPose> {
         let pose = self.moving.at(t);
         let FacePair { faces, a, b, .. } = self.pair;
@@ -144,25 +145,26 @@ impl ContactPair<'_> {
         } else {
             ((b, pose.b), (a, pose.a))
         };
-        let places = |(corners, places): (&[u32; 3], [DVec3; 3]), kept: &dyn Fn(&u32) -> bool| {
-            let both = corners.iter().zip(places);
+        let kept_corners = |(corners, positions): (&[u32; 3], [DVec3; 3]),
+                            kept: &dyn Fn(&u32) -> bool| {
+            let both = corners.iter().zip(positions);
             let mut left: Vec<DVec3> = both.filter_map(|(v, p)| kept(v).then_some(p)).collect();
             left.resize(3, left.last().copied().unwrap_or_default());
             [left[0], left[1], left[2]]
         };
-        let whole = places(of_wall, &|_| true);
-        let line = places(of_face, &|v| edge.contains(v));
+        let whole = kept_corners(of_wall, &|_| true);
+        let line = kept_corners(of_face, &|v| edge.contains(v));
         let is_shared = |v: &u32| of_wall.0.contains(v) && edge.contains(v);
         if !edge.iter().any(is_shared) {
             return vec![PairPose { a: whole, b: line }];
         }
-        let rest = places(of_wall, &|v| !is_shared(v));
-        let end = places(of_face, &|v| edge.contains(v) && !is_shared(v));
+        let rest = kept_corners(of_wall, &|v| !is_shared(v));
+        let end = kept_corners(of_face, &|v| edge.contains(v) && !is_shared(v));
         vec![PairPose { a: rest, b: line }, PairPose { a: whole, b: end }]
     }
 }
 
-/// Directions from the wall to the other.
+/// The directions, oriented from the wall to the other triangle.
 pub(crate) fn oriented(pair: &FacePair, wall: u32, mut directions: Vec<DVec3>) -> Vec<DVec3> {
     if pair.faces[0] != wall {
         for direction in &mut directions {

@@ -7,22 +7,23 @@ use crate::follow::SHORTEST_STEP;
 use crate::moving_pair::{MovingPair, OnPlane, PairPose};
 use crate::path::Path;
 
-/// What came of the search for a pair nearer than asked.
+/// The result of the search for an instant at which a pair is nearer than a limit.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum DistanceProof {
-    /// Never nearer.
+    /// The pair is never nearer than the limit.
     Kept,
-    /// Nearer at this instant.
+    /// The pair is nearer than the limit at this instant.
     Nearer { time: f64, distance: f64 },
-    /// Neither was found in the budget.
+    /// Neither could be shown within the budget.
     Unproved,
 }
 
-/// The unit direction from A to B along which they lie apart most clearly; 0 where they meet.
+/// The unit direction from A to B along which they are apart most clearly; 0 if they intersect.
 ///
-/// Along the line of closest points the gap is the distance, unless that line is ill known: a rounding of the points
-/// turns it, and where features tie they may be those of the wrong one. Then one edge, or two, of the six that should
-/// be level along it are made so, all of them in turn; of the directions found the one with the widest gap is taken.
+/// Along the line of closest points the gap is the distance, unless that line is ill-conditioned: rounding of the
+/// points turns it, and if several features are equally near, the points may belong to the wrong one. Then one or two
+/// of the six edges, which should be level along the line, are made level, all combinations in turn, and the direction
+/// with the widest gap is returned.
 fn clearest(pose: &PairPose, closest: &Closest, slack: f64) -> DVec3 {
     let line = (closest.on_b - closest.on_a).normalize_or_zero();
     let gap = -pose.overlap(line);
@@ -51,9 +52,9 @@ fn clearest(pose: &PairPose, closest: &Closest, slack: f64) -> DVec3 {
     best
 }
 
-/// The direction turned so that one edge or two are level along it, to within rounding of their lengths.
+/// The direction turned so that one or two edges are level along it, to within rounding of their lengths.
 ///
-/// The longer edge first: of the other, however nearly parallel it is, the part normal to it is what remains.
+/// The longer edge comes first; of the other, however nearly parallel it is, the component normal to it remains.
 fn levelled(direction: DVec3, edges: &[DVec3]) -> DVec3 {
     let mut sorted = edges.to_vec();
     sorted.sort_by(|p, q| q.length_squared().total_cmp(&p.length_squared()));
@@ -74,8 +75,9 @@ fn without(v: DVec3, basis: &[DVec3]) -> DVec3 {
 
 /// Searches the interval for an instant at which the triangles are nearer than `limit`, or proves that there is none.
 ///
-/// Between two instants the direction goes straight from the one along which they are clearest to the other, or rests
-/// on one of them; the Bernstein coefficients bound the gap along it from below, and so the distance.
+/// Between two instants, the direction moves straight from the one along which the triangles are clearest at the first
+/// to that at the second, or stays at one of them. The Bernstein coefficients bound the gap along it from below, and so
+/// the distance.
 pub(crate) fn keeps_distance(moving: &MovingPair, limit: f64, budget: u32) -> DistanceProof {
     let none = OnPlane {
         a: [false; 3],

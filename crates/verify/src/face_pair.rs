@@ -1,4 +1,4 @@
-//! Two triangles of the sheet, what they share first.
+//! Two triangles of the sheet with their shared corners first.
 
 use std::collections::BTreeMap;
 
@@ -39,13 +39,13 @@ impl FacePair {
     }
 
     pub(crate) fn moving(&self, start: &[DVec3], end: &[DVec3]) -> MovingPair {
-        let place = |positions: &[DVec3]| {
+        let corners = |positions: &[DVec3]| {
             [self.a, self.b].map(|corners| corners.map(|v| positions[v as usize]))
         };
-        MovingPair::new(place(start), place(end), self.shared)
+        MovingPair::new(corners(start), corners(end), self.shared)
     }
 
-    /// Whether the distance of the pair counts: its facets have no vertex in common.
+    /// Whether the distance of the pair counts towards the separation: its facets have no vertex in common.
     pub(crate) fn is_measured(&self, sheet: &Sheet) -> bool {
         let [p, q] = self.faces.map(|f| {
             let facet = sheet.face_facets[f as usize];
@@ -64,7 +64,7 @@ pub(crate) fn assignments(sheet: &Sheet) -> BTreeMap<[u32; 2], Assignment> {
     between.collect()
 }
 
-/// The unit normal of a triangle, on its front.
+/// The unit normal of a triangle, pointing to its front.
 pub(crate) fn front_normal(sheet: &Sheet, face: u32, positions: &[DVec3]) -> DVec3 {
     let [p, q, r] = sheet.faces[face as usize].map(|v| positions[v as usize]);
     (q - p).cross(r - p).normalize_or_zero()

@@ -1,4 +1,4 @@
-//! The walk of a pair through an interval, on the side it came from.
+//! Follows a pair through an interval on the side it came from.
 
 use glam::DVec3;
 
@@ -9,59 +9,59 @@ use crate::path::Path;
 use crate::side::{Limits, Side, clear_of, clearance};
 use crate::trail::{StepDirection, Trail};
 
-/// Sides are kept at this many τ where they are not at τ: the first proof counts at 31/32 τ.
+/// Sides that are lost at τ are tried again at this multiple of τ: the first proof counts at 31/32 τ.
 const LENIENCE: f64 = 33.0 / 32.0;
-/// The longest steps of the walks tried, in turn.
+/// The longest steps of the attempts, in turn.
 const FIRST_STEPS: [f64; 4] = [1.0, 1.0, 1.0 / 16.0, 1.0 / 256.0];
-/// Steps are no longer than this share of the time left to where a walk got lost before.
+/// Steps are at most this share of the time left to the instant at which an earlier attempt failed.
 const APPROACH: f64 = 1.0 / 8.0;
-/// The shortest step.
+/// The shortest step, as a share of the interval.
 pub(crate) const SHORTEST_STEP: f64 = 1.0 / (1u64 << 34) as f64;
-/// Longer steps are halved before every axis is tried.
+/// Steps longer than this are halved before every axis is tried.
 const SEARCH_STEP: f64 = 1.0 / 8.0;
-/// Longer steps are halved before triangles apart at both ends are taken to touch in between.
+/// Steps longer than this are halved before triangles that are apart at both ends are assumed to touch in between.
 const GRAZING_STEP: f64 = 1.0 / 1024.0;
-/// How many axes a long step tries.
+/// The number of axes that a long step tries.
 const FAVOURITES: usize = 4;
 
 /// A pair that gets deeper than τ on its side.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct SideCrossing {
-    /// When the contact began, 0 if before the interval.
+    /// The time at which the contact began, as a share of the interval; 0 if it began before.
     pub(crate) contact: f64,
-    /// Up to here it is certified.
+    /// The time up to which the pair is certified, as a share of the interval.
     pub(crate) passed: f64,
-    /// The largest depth at the sampled instants passed + 2^(k − 34), and at 1.
+    /// The largest depth at the instants passed + 2^(k − 34), and at 1.
     pub(crate) depth: f64,
-    /// The largest overlap from its side at those instants.
+    /// The largest overlap, seen from its side, at those instants.
     pub(crate) reach: f64,
-    /// The directions in which it could go on, up to there.
+    /// The directions in which it could continue, up to `passed`.
     pub(crate) side: Vec<DVec3>,
 }
 
-/// What came of a walk.
+/// The result of following a pair.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum FollowOutcome {
     Clean {
         side: Side,
-        /// How it got there; none where it was never in contact.
+        /// The directions along which it was kept on its side; `None` if it was never in contact.
         trail: Option<Trail>,
     },
     Crosses(SideCrossing),
     Undecided {
-        /// Up to here it is certified.
+        /// The time up to which the pair is certified, as a share of the interval.
         time: f64,
     },
 }
 
-/// A direction along which the triangles are strictly apart, on a side.
+/// A direction along which the triangles are strictly apart, among those near a side.
 fn strictly_apart(axes: &[Axis], side: &[DVec3]) -> Option<DVec3> {
     let apart = axes.iter().filter(|axis| axis.room > 0.0);
     let mut apart = apart.map(|axis| axis.direction);
     apart.find(|d| side.iter().any(|s| s.dot(*d) > 0.5))
 }
 
-/// Likewise; a pair that loses its side is given a little more than τ.
+/// Follows a pair as [`follow`] does, but with a slightly larger tolerance if it loses its side at τ.
 pub(crate) fn follow_leniently(moving: &MovingPair, side: &Side, limits: &Limits) -> FollowOutcome {
     let followed = follow(moving, side, limits);
     let is_deep = |c: &SideCrossing| moving.shared == 0 && c.depth > limits.tolerance;
@@ -81,10 +81,10 @@ pub(crate) fn follow_leniently(moving: &MovingPair, side: &Side, limits: &Limits
     }
 }
 
-/// Walks a pair through t in [0, 1] from the side it is on at 0.
+/// Follows a pair through t in [0, 1] from the side it is on at 0.
 ///
-/// A long step may lose a side that a short one keeps: from where a walk gets lost on, the next one comes there in ever
-/// shorter steps.
+/// A long step may lose a side that a short one keeps. If an attempt fails at some instant, the next one approaches
+/// that instant in ever shorter steps.
 pub(crate) fn follow(moving: &MovingPair, side: &Side, limits: &Limits) -> FollowOutcome {
     let mut followed = FollowOutcome::Undecided { time: 0.0 };
     let mut lost = Vec::with_capacity(FIRST_STEPS.len());
@@ -106,9 +106,9 @@ struct Follower<'a> {
     time: f64,
     pose: PairPose,
     side: Side,
-    /// What can be reached at `time`, once asked for.
+    /// The axes that can be reached at `time`, once computed.
     reached: Option<Vec<Axis>>,
-    /// Further directions that can be reached then.
+    /// Other directions that can be reached at `time`.
     others: Vec<DVec3>,
     last_apart: Option<(f64, DVec3)>,
     /// The end of the step in which the present contact began.
@@ -121,9 +121,9 @@ struct Follower<'a> {
 /// A step that is proved.
 struct Step {
     side: Side,
-    /// A direction along which the pair is strictly apart at its end.
+    /// A direction along which the pair is strictly apart at the end of the step.
     apart: Option<DVec3>,
-    /// The directions along which it is, where it is in contact.
+    /// The directions along which the pair is kept on its side, if it is in contact.
     directions: Vec<StepDirection>,
 }
 
@@ -150,7 +150,7 @@ impl<'a> Follower<'a> {
         }
     }
 
-    /// `lost`: where others got lost.
+    /// `lost`: the instants at which earlier attempts failed.
     fn run(mut self, first_step: f64, lost: &[f64]) -> FollowOutcome {
         let mut step = first_step;
         for _ in 0..self.limits.budget {
@@ -168,7 +168,7 @@ impl<'a> Follower<'a> {
             let end = self.moving.at(self.time + step);
             if let Some(leg) = self.cross(&end, step) {
                 self.land(leg, end, step);
-                // t stays a multiple of the step.
+                // The time stays a multiple of the step.
                 if step < first_step && (self.time / (2.0 * step)).fract() == 0.0 {
                     step *= 2.0;
                 }
@@ -226,7 +226,7 @@ impl<'a> Follower<'a> {
         self.stay_within(&part, end)
     }
 
-    /// Along one axis the triangles are strictly apart throughout; where it points at the end.
+    /// Tries to keep the triangles strictly apart along one axis throughout the step; returns its direction at the end.
     fn stay_apart(&self, part: &MovingPair, step: f64) -> Option<DVec3> {
         let limit = clearance(self.moving, self.limits);
         let free = |from: DVec3, to: DVec3| {
@@ -263,17 +263,17 @@ impl<'a> Follower<'a> {
         centre.or_else(|| free(centre_at(0.0)?, centre_at(1.0)?))
     }
 
-    /// Along one reachable axis the overlap is at most τ throughout.
+    /// Tries to keep the overlap within τ along one reachable axis throughout the step.
     fn stay_within(&mut self, part: &MovingPair, end: &PairPose) -> Option<Step> {
         let limit = self.limits.tolerance;
         self.reach();
         let reached = self.reached.as_deref().unwrap_or_default();
         let mut landed: Vec<DVec3> = Vec::new();
         let mut directions: Vec<StepDirection> = Vec::new();
-        let mut keep = |direction: DVec3, way: StepDirection| {
+        let mut keep = |direction: DVec3, step_direction: StepDirection| {
             if landed.iter().all(|d| d.dot(direction) < 1.0 - 1e-13) {
                 landed.push(direction);
-                directions.push(way);
+                directions.push(step_direction);
             }
         };
         for axis in reached {
@@ -310,7 +310,7 @@ impl<'a> Follower<'a> {
         })
     }
 
-    /// Finds what can be reached at the present instant.
+    /// Computes the directions that can be reached at the present instant.
     fn reach(&mut self) {
         if self.reached.is_some() {
             return;
@@ -326,7 +326,7 @@ impl<'a> Follower<'a> {
         let reached = joined(&self.pose, &all, &seeds, limit);
         self.others.clear();
         if reached.is_empty() {
-            // Where triangles are all but edges, rounding takes their axes.
+            // If triangles are almost edges, their axes are lost to rounding.
             let nodes = arcs::normals(&self.pose);
             let is_reached = arcs::reached(&self.pose, &nodes, &seeds, limit);
             let both = nodes.into_iter().zip(is_reached);
@@ -338,7 +338,7 @@ impl<'a> Follower<'a> {
         self.reached = Some(reached);
     }
 
-    /// No step leads on: looks for an instant at which the pair is deeper than τ on its side.
+    /// Called when no step succeeds: searches for an instant at which the pair is deeper than τ on its side.
     fn examine(mut self) -> FollowOutcome {
         self.reach();
         let reached = self.reached.take().unwrap_or_default();
@@ -364,7 +364,7 @@ impl<'a> Follower<'a> {
         })
     }
 
-    /// When the present contact began, by bisection.
+    /// The time at which the present contact began, by bisection.
     fn contact_start(&self) -> f64 {
         let Some((mut apart, direction)) = self.last_apart else {
             return 0.0;
@@ -379,7 +379,7 @@ impl<'a> Follower<'a> {
             all.filter(|axis| axis.room > 0.0)
                 .map(|axis| axis.direction)
         };
-        // The step that ends in contact is proved along some direction of those along which they were apart.
+        // The step that ended in contact was proved along one of the directions along which the triangles were apart.
         let before: Vec<DVec3> = parting(apart).chain([direction]).collect();
         for _ in 0..40 {
             let middle = f64::midpoint(apart, contact);
@@ -393,7 +393,7 @@ impl<'a> Follower<'a> {
     }
 }
 
-/// The corners on the plane of an axis that is none of the triangles' own: the shared ones.
+/// The corners on the plane of an axis that is not built from the triangles: the shared ones.
 fn corners(moving: &MovingPair) -> OnPlane {
     let shared = [0, 1, 2].map(|i| i < moving.shared);
     OnPlane {
@@ -406,12 +406,12 @@ fn first_direction(side: &Side) -> DVec3 {
     side.directions.first().copied().unwrap_or(DVec3::ZERO)
 }
 
-/// Where an axis points at the end of a part.
+/// The direction of an axis at the end of a step.
 fn unit_end(part: &MovingPair, axis: &Axis) -> Option<DVec3> {
     part.directed(axis.feature).ends()[1].try_normalize()
 }
 
-/// The instants time + 2^(k − 34), k = 0, 1, …, up to 1 and 1 itself.
+/// The instants time + 2^(k − 34) for k = 0, 1, … that are less than 1, and 1 itself.
 pub(crate) fn instants_after(time: f64) -> impl Iterator<Item = f64> {
     let later = std::iter::successors(Some(SHORTEST_STEP), |after| Some(2.0 * after));
     let within = later

@@ -8,17 +8,18 @@ use crate::moving_pair::{COORDINATES, Feature, MovingPair, PairPose};
 /// An axis at an instant.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Axis {
-    /// What it is built from, and 1 or −1 for its sense.
+    /// The feature it is built from, and 1 or −1 for its sense.
     pub(crate) feature: (Feature, f64),
-    /// A unit direction.
+    /// The unit direction of the axis.
     pub(crate) direction: DVec3,
-    /// max d·a − min d·b, rounding included: not less than the true one.
+    /// max d·a − min d·b plus a bound of the rounding error, so that it is not less than the true overlap.
     pub(crate) overlap: f64,
-    /// How clearly what is not shared lies apart, rounding taken off; positive: apart.
+    /// By how much the parts that are not shared are apart, minus a bound of the rounding error; positive if they are
+    /// apart.
     pub(crate) room: f64,
 }
 
-/// All axes, each in both senses; those too short to have a direction are left out.
+/// All axes in both senses; those too short to have a direction are left out.
 pub(crate) fn axes(moving: &MovingPair, pose: &PairPose) -> Vec<Axis> {
     let edges = |t: &[DVec3; 3]| [t[1] - t[0], t[2] - t[1], t[0] - t[2]];
     let (a, b) = (edges(&pose.a), edges(&pose.b));
@@ -86,14 +87,14 @@ pub(crate) fn roomiest(axes: &[Axis]) -> Option<DVec3> {
     best.map(|axis| axis.direction)
 }
 
-/// The depth: the least overlap over all axes (exact where it is positive and the triangles share nothing).
+/// The depth: the smallest overlap over all axes (exact if it is positive and the triangles share nothing).
 pub(crate) fn depth(moving: &MovingPair, pose: &PairPose) -> f64 {
     let overlaps = axes(moving, pose).into_iter();
     let overlaps = overlaps.map(|axis| pose.overlap(axis.direction));
     overlaps.fold(arcs::depth(pose), f64::min)
 }
 
-/// The direction in the middle of those along which the triangles lie off each other, to within rounding.
+/// The mean of the directions along which the triangles do not overlap, to within rounding.
 pub(crate) fn inner(moving: &MovingPair, axes: &[Axis]) -> Option<DVec3> {
     let rounding = 1e-12 * moving.size;
     let rim = axes.iter().filter(|axis| axis.overlap <= rounding);

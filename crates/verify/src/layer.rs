@@ -6,30 +6,31 @@ use rayon::prelude::*;
 
 use crate::plane::{self, Plane};
 
-/// Overlaps and distances of lines up to this multiple of τ count as none.
+/// Overlaps, and distances of lines, up to this multiple of τ count as none.
 pub(crate) const NARROW: f64 = 10.0;
-/// A direction is on a side of a triangle where it is within 60° of its normal, and planes are one up to that.
+/// The cosine of 60°: a direction points to a side of a triangle if it is within 60° of its normal, and planes that
+/// differ by less count as parallel.
 pub(crate) const CLEAR: f64 = 0.5;
 
 /// Two triangles that lie on each other.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Layer {
-    /// The smaller index first.
+    /// The two triangles, the smaller index first.
     pub(crate) faces: [u32; 2],
-    /// Normal to the first: along it the first lies below the second; none where that is open.
+    /// The normal of the first triangle along which the first lies below the second; `None` if the order is unknown.
     pub(crate) up: Option<DVec3>,
-    /// Whether they went through each other.
+    /// Whether they passed through each other.
     pub(crate) is_lost: bool,
-    /// Why another proof may see the pair otherwise.
+    /// Why another proof may judge the pair differently.
     pub(crate) doubt: Option<&'static str>,
 }
 
-/// What an instant is measured with.
+/// The tolerances used at an instant.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct LayerTolerances {
     /// τ, a length.
     pub(crate) tolerance: f64,
-    /// What is nearer than this to a limit may be on either side of it.
+    /// Values nearer than this to a limit may be on either side of it.
     pub(crate) slack: f64,
 }
 
@@ -42,7 +43,7 @@ impl LayerTolerances {
         }
     }
 
-    /// How far lines may be apart that count as one, and layers may overlap that count as none.
+    /// Lines nearer than this count as one, and smaller overlaps of layers count as none.
     pub(crate) fn narrow(&self) -> f64 {
         NARROW * self.tolerance
     }
@@ -54,8 +55,8 @@ pub(crate) fn corners(sheet: &Sheet, positions: &[DVec3], face: u32) -> [DVec3; 
 
 /// The layers among some pairs, without their order.
 ///
-/// Two triangles are layers where the corners of one lie within τ of the plane of the other, and the two overlap by more
-/// than 10 τ as seen along the normal of the first.
+/// Two triangles are layers if the corners of one lie within τ of the plane of the other, and the two overlap by more
+/// than 10 τ, projected along the normal of the first.
 pub(crate) fn find(
     sheet: &Sheet,
     positions: &[DVec3],
@@ -76,7 +77,7 @@ pub(crate) fn find(
     found.collect()
 }
 
-/// By how much the least fulfilled condition of layers is fulfilled, a length.
+/// The margin of the condition for layers that is closest to failing, a length; negative if it fails.
 fn margin(a: &[DVec3; 3], b: &[DVec3; 3], scale: &LayerTolerances) -> f64 {
     let (Some(p), Some(q)) = (Plane::of(a), Plane::of(b)) else {
         return f64::NEG_INFINITY;
@@ -94,7 +95,7 @@ fn margin(a: &[DVec3; 3], b: &[DVec3; 3], scale: &LayerTolerances) -> f64 {
     near.min(along).min(overlap - scale.narrow())
 }
 
-/// Whichever of ±`normal` all directions point along.
+/// `normal` or its opposite, whichever all directions point along; `None` if they do not agree.
 pub(crate) fn side_of(normal: DVec3, directions: &[DVec3]) -> Option<DVec3> {
     let points = |n: DVec3| directions.iter().all(|d| d.dot(n) > CLEAR);
     [normal, -normal]

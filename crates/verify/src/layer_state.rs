@@ -7,19 +7,19 @@ use foldmotion_check::Claims;
 use crate::cluster::{Contradiction, FoundCluster};
 use crate::layer::Layer;
 
-/// What is known of layers.
+/// What is known about the layers of the last frame.
 #[derive(Debug, Default)]
 pub(crate) struct LayerState {
-    /// Those of the last frame, in order.
+    /// The layers of the last frame, sorted by their faces.
     pub(crate) layers: Vec<Layer>,
     pub(crate) hinges: Vec<[Option<(u32, u32)>; 3]>,
     pub(crate) clusters: Vec<FoundCluster>,
     pub(crate) claims: Claims,
-    /// Layers whose order is that of a claim or of an assignment, not of the motion.
+    /// Layers whose order comes from a claim or an assignment, not from the motion.
     pub(crate) claimed: BTreeSet<[u32; 2]>,
-    /// What claims of the last frame contradict.
+    /// The contradictions between claims and known orders at the last frame.
     pub(crate) contradictions: Vec<Contradiction>,
-    /// Why other proofs may see a frame otherwise, and whose pair it is.
+    /// For frames that another proof may judge differently, the pair concerned and the reason.
     pub(crate) doubts: BTreeMap<usize, ([u32; 2], &'static str)>,
     pub(crate) is_proved: bool,
 }

@@ -16,9 +16,9 @@ use crate::stacked::SheetState;
 use crate::verifier::Verifier;
 
 impl Verifier<'_> {
-    /// Takes in what the file claims of the order at the last frame taken in; at most once a frame.
+    /// Applies the claims of the file about the order at the last frame; at most once for each frame.
     ///
-    /// `face_of`: the face of the file that a triangle belongs to; `order` is of such faces.
+    /// `face_of`: the face of the file that a triangle belongs to; `order` refers to these faces.
     pub fn claim(&mut self, order: &LayerOrder, face_of: &dyn Fn(u32) -> u32) {
         if self.is_over {
             return;
@@ -30,7 +30,7 @@ impl Verifier<'_> {
             if is_lost || f == g {
                 continue;
             }
-            // FOLD: a sign tells on which side of the second's front the first lies.
+            // In FOLD, the sign tells on which side of the front of the second face the first lies.
             for (claim, above, front) in [((g, f), 1.0, faces[0]), ((f, g), -1.0, faces[1])] {
                 let Some(sign) = order.sign(claim.0, claim.1) else {
                     continue;
@@ -59,12 +59,12 @@ impl Verifier<'_> {
             .refuted
             .filter(|_| self.claim.penetrations.is_empty())
         {
-            let found = format!("the faces lie the other way round at frame {frame}");
+            let found = format!("the faces are stacked the other way round at frame {frame}");
             self.refute("faceOrders", format!("{entry:?}"), found);
         }
     }
 
-    /// Takes in that the first layer lies below the second along `up`.
+    /// Applies the claim that the first layer lies below the second along `up`.
     fn claim_pair(&mut self, index: usize, up: DVec3) {
         let layer = &mut self.layer_state.layers[index];
         let faces = layer.faces;
@@ -89,7 +89,7 @@ impl Verifier<'_> {
         }
     }
 
-    /// Follows a pair on one side from now on.
+    /// Restricts the side of a pair from now on.
     fn keep_side(&mut self, faces: [u32; 2], up: DVec3) {
         match self.sides.binary_search_by(|(pair, _)| pair.cmp(&faces)) {
             Ok(index) => {
@@ -120,7 +120,8 @@ impl Verifier<'_> {
         Plane::of(&corners(self.sheet, &self.last.positions, face)).map(|plane| plane.normal)
     }
 
-    /// The crease between two triangles that is to be folded, and the side of the first to which.
+    /// The normal of the first triangle that points to the second according to the assignment of the crease between
+    /// them.
     fn assigned(&self, [f, g]: [u32; 2]) -> Option<DVec3> {
         let mut hinges = self.layer_state.hinges[f as usize].iter().flatten();
         let &(edge, _) = hinges.find(|&&(_, beyond)| beyond == g)?;
@@ -132,10 +133,10 @@ impl Verifier<'_> {
         }
     }
 
-    /// Finds the layers of the last frame among the pairs near each other, and their order from the sides followed.
+    /// Finds the layers of the last frame among nearby pairs, and their order from the sides that were followed.
     ///
-    /// A pair in contact since the first frame has the order of its crease there, or what is claimed, and none otherwise;
-    /// it gets one only after it was seen not to be a layer. `open`: pairs on which this proof gave up.
+    /// A pair in contact since the first frame has the order of its crease, or the one claimed, if any. It gets another
+    /// only after it was seen not to be a layer. `open`: pairs that this proof could not decide.
     pub(crate) fn find_layers(&mut self, near: &[[u32; 2]], open: &BTreeSet<[u32; 2]>) {
         let scale = LayerTolerances::new(self.limits.tolerance, &self.last.positions);
         let mut layers = layer::find(self.sheet, &self.last.positions, near, &scale);
@@ -175,8 +176,8 @@ impl Verifier<'_> {
         }
     }
 
-    /// The side of the first on which the second was followed to the last frame, and whether there is no other: where both
-    /// are left open, the one on which it is strictly apart.
+    /// The side of the first triangle on which the second was followed to the last frame, and whether it is the only
+    /// one. If both are possible, it is the one on which the triangles are strictly apart.
     fn followed_side(&self, faces: [u32; 2]) -> (Option<DVec3>, bool) {
         let Some(normal) = self.front(faces[0]) else {
             return (None, false);
@@ -193,7 +194,7 @@ impl Verifier<'_> {
         (up, up.is_some() && side.is_err())
     }
 
-    /// Proves the order at the last frame, once, and holds what is stated there to it.
+    /// Proves the order at the last frame, once, and compares it with what is stated.
     pub(crate) fn prove_layers(&mut self) {
         if std::mem::replace(&mut self.layer_state.is_proved, true) {
             return;
@@ -226,18 +227,18 @@ impl Verifier<'_> {
         self.compare_contradictions(frame, &contradictions);
     }
 
-    /// Whether orders that are not possible together are those of the sheet: claimed, or over one point.
+    /// Whether a contradiction shows that the sheet penetrates: it involves a claim, or is over one point.
     ///
-    /// Along a line, sides as they were followed may not be possible together though the sheet can be pushed apart: a
-    /// contact may be left another way. What passes through there is shown by the sides coupled across edges.
+    /// Along a line, sides as they were followed may contradict each other although the sheet can be pushed apart,
+    /// because a contact may be left in another way. Passages there are shown by the sides coupled across edges.
     fn is_sure(&self, contradiction: &Contradiction) -> bool {
         let is_among = |pair: &[u32; 2]| pair.iter().all(|face| contradiction.faces.contains(face));
         contradiction.rule == LayerRule::Transitivity
             || self.layer_state.claimed.iter().any(is_among)
     }
 
-    /// Names layers whose sides are not possible together, unless something passes through around them, or the side of
-    /// two of them is open: then it may be the other.
+    /// Names layers whose sides contradict each other, unless something passes through around them, or the side of two
+    /// of them is ambiguous, so that it may be the other one.
     fn leave_order_open(&mut self, contradiction: &Contradiction) {
         let faces = &contradiction.faces;
         let pairs = || {
@@ -250,7 +251,7 @@ impl Verifier<'_> {
                 || self.is_listed_around(pair, self.last.time)
         });
         if let (Some(first), false) = (pairs().next(), is_explained) {
-            let what = format!("whether the order of layers {faces:?} is possible");
+            let what = format!("whether the layers {faces:?} can have this order");
             self.leave_open(first, &what);
         }
     }

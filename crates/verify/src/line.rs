@@ -1,4 +1,4 @@
-//! What meets along a crease: the layers and creases at its line, as sorted on all sides of it.
+//! What meets along a crease: the layers and creases on its line, sorted around it.
 
 use std::collections::BTreeMap;
 use std::f64::consts::{PI, TAU};
@@ -9,47 +9,48 @@ use glam::DVec3;
 use crate::layer::{Layer, LayerTolerances, corners};
 use foldmotion_check::LayerRule;
 
-/// Half-planes at less than this angle are told apart by their layers.
+/// Half-planes whose angles differ by less than this, in radians, are ordered by their layers.
 const SAME_ANGLE: f64 = 1e-3;
 
-/// The layers of an instant, and what lies beside each side of each triangle.
+/// The layers of an instant, and what lies beyond each side of each triangle.
 #[derive(Debug)]
 pub(crate) struct LayerStacks<'a> {
     pub(crate) sheet: &'a Sheet,
     pub(crate) positions: &'a [DVec3],
     pub(crate) scale: LayerTolerances,
-    /// For each triangle those it lies on, in order, each with the direction in which the triangle lies below it.
+    /// For each triangle the triangles it lies on, in increasing order, each with the direction along which the first
+    /// lies below it.
     pub(crate) around: Vec<Vec<(u32, Option<DVec3>)>>,
     /// For each side of each triangle, from corner i to the next, its edge and the triangle beyond.
     pub(crate) hinges: &'a [[Option<(u32, u32)>; 3]],
 }
 
-/// Which hinge meets which other (false) or which triangle that it crosses (true).
+/// The edge of a hinge, whether its partner is a triangle that it crosses, and the edge or triangle of the partner.
 pub(crate) type JunctionKey = (u32, bool, u32);
 
-/// What came of a hinge and what meets it.
+/// A hinge, what meets it, and whether they pass through each other.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Junction {
     pub(crate) rule: LayerRule,
-    /// Whether they go through each other; none where an order is open.
+    /// Whether they pass through each other; `None` if an order is unknown.
     pub(crate) crosses: Option<bool>,
-    /// The triangles concerned, and the vertices of the hinge and of what meets it, each once, in order.
+    /// The triangles concerned, each once, in increasing order.
     pub(crate) faces: Vec<u32>,
     pub(crate) vertices: Vec<u32>,
 }
 
-/// Two half-planes that are joined at a line: a hinge, or a triangle that runs on across it.
+/// Two half-planes joined at a line: a hinge, or a triangle that continues across the line.
 struct Chord {
     key: JunctionKey,
     faces: [u32; 2],
-    /// Around the line.
+    /// The angles of the half-planes around the line, in radians.
     angles: [f64; 2],
-    /// Where on the line.
+    /// The part of the line that it covers: distances from the start of the line.
     reach: [f64; 2],
     vertices: Vec<u32>,
 }
 
-/// A side of a triangle, which lies at angle 0 around it.
+/// The line along a side of a triangle, with the triangle at angle 0.
 struct Line {
     at: DVec3,
     along: DVec3,
@@ -58,13 +59,13 @@ struct Line {
     length: f64,
 }
 
-/// An end of a chord.
+/// One of the two half-planes of a chord.
 #[derive(Clone, Copy)]
 struct ChordEnd {
     chord: usize,
     face: u32,
     angle: f64,
-    /// Ends with the same number lie on each other.
+    /// Ends with the same number coincide.
     group: usize,
 }
 
@@ -86,21 +87,21 @@ impl Line {
         self.up.dot(towards).atan2(self.inward.dot(towards))
     }
 
-    /// Where a half-plane moves as its angle grows.
+    /// The direction in which a half-plane moves as its angle grows.
     fn growing(&self, angle: f64) -> DVec3 {
         self.up * angle.cos() - self.inward * angle.sin()
     }
 }
 
 impl LayerStacks<'_> {
-    /// Along which direction `f` is known to lie below `g`.
+    /// The direction along which `f` is known to lie below `g`.
     pub(crate) fn below(&self, f: u32, g: u32) -> Option<DVec3> {
         let around = &self.around[f as usize];
         let found = around.binary_search_by_key(&g, |&(face, _)| face).ok()?;
         around[found].1
     }
 
-    /// Tests what meets along side `i` of a triangle, one stretch of it after the other.
+    /// Tests what meets along side `i` of a triangle, piece by piece.
     pub(crate) fn meet(&self, face: u32, i: usize, found: &mut BTreeMap<JunctionKey, Junction>) {
         let triangle = corners(self.sheet, self.positions, face);
         let (Some((edge, beyond)), Some(line)) =
@@ -128,21 +129,22 @@ impl LayerStacks<'_> {
         }
     }
 
-    /// What of a triangle meets the line: a hinge along it, or the triangle across it.
+    /// The part of a triangle that meets the line: a hinge along it, or the triangle across it.
     fn chord(&self, line: &Line, face: u32) -> Option<Chord> {
         let narrow = self.scale.narrow();
         let triangle = corners(self.sheet, self.positions, face);
-        let places = triangle.map(|p| (line.along.dot(p - line.at), line.inward.dot(p - line.at)));
-        let side = places.map(|(_, h)| {
+        let coordinates =
+            triangle.map(|p| (line.along.dot(p - line.at), line.inward.dot(p - line.at)));
+        let side = coordinates.map(|(_, h)| {
             let is_off = h.abs() > narrow;
             if is_off { h.signum() } else { 0.0 }
         });
         let on_line = (0..3).find(|&k| side[k] == 0.0 && side[(k + 1) % 3] == 0.0);
         let ends: Vec<f64> = if let Some(k) = on_line {
-            vec![places[k].0, places[(k + 1) % 3].0]
+            vec![coordinates[k].0, coordinates[(k + 1) % 3].0]
         } else if side.contains(&1.0) && side.contains(&-1.0) {
             let cut = |k: usize| {
-                let ((s, p), (t, q)) = (places[k], places[(k + 1) % 3]);
+                let ((s, p), (t, q)) = (coordinates[k], coordinates[(k + 1) % 3]);
                 (p.is_sign_negative() != q.is_sign_negative()).then(|| s + (t - s) * (p / (p - q)))
             };
             (0..3).filter_map(cut).collect()
@@ -186,7 +188,7 @@ impl LayerStacks<'_> {
         }
     }
 
-    /// Sorts all ends around the line and joins them; the first chord is the hinge whose meetings are noted.
+    /// Sorts all ends around the line and joins them. The first chord is the hinge whose junctions are recorded.
     fn test(&self, line: &Line, chords: &[&Chord], found: &mut BTreeMap<JunctionKey, Junction>) {
         let ends = grouped_ends(chords);
         let sorted = self.sorted(line, &ends);
@@ -216,21 +218,21 @@ impl LayerStacks<'_> {
         }
     }
 
-    /// The chords of all ends, in order around the line; none where the layers of a sheaf have no known strict order.
+    /// The chords of all ends, in order around the line; `None` if coincident layers have no known strict order.
     fn sorted(&self, line: &Line, ends: &[ChordEnd]) -> Option<Vec<usize>> {
-        let mut places = vec![0; ends.len()];
+        let mut ranks = vec![0; ends.len()];
         for (k, x) in ends.iter().enumerate() {
-            let mut place = ends.iter().filter(|y| y.group < x.group).count();
+            let mut rank = ends.iter().filter(|y| y.group < x.group).count();
             let group = ends.iter().enumerate().filter(|(_, y)| y.group == x.group);
             for (_, y) in group.filter(|&(l, _)| l != k) {
-                place += usize::from(!self.is_before(line, x, y)?);
+                rank += usize::from(!self.is_before(line, x, y)?);
             }
-            places[k] = place;
+            ranks[k] = rank;
         }
         let mut sorted = vec![None; ends.len()];
-        for (end, &place) in ends.iter().zip(&places) {
-            // Two in one place: the orders go round.
-            if sorted[place].replace(end.chord).is_some() {
+        for (end, &rank) in ends.iter().zip(&ranks) {
+            // Two ends with the same rank: the orders form a cycle.
+            if sorted[rank].replace(end.chord).is_some() {
                 return None;
             }
         }
@@ -245,7 +247,7 @@ impl LayerStacks<'_> {
         Some(up.dot(line.growing(x.angle)) > 0.0)
     }
 
-    /// Whether one end of chord `k`, and not the other, lies between the ends of the first chord.
+    /// Whether exactly one end of chord `k` lies between the ends of the first chord.
     fn crosses(&self, line: &Line, ends: &[ChordEnd], k: usize) -> Option<bool> {
         let of = |chord: usize| ends.iter().filter(move |end| end.chord == chord);
         let mut between = 0;
@@ -275,7 +277,8 @@ fn is_planar(sorted: &[usize]) -> bool {
     true
 }
 
-/// The ends of all chords, those at one angle numbered alike, in the order of the angles from the widest gap on.
+/// The ends of all chords in the order of their angles, starting after the widest gap, with coincident ends numbered
+/// alike.
 fn grouped_ends(chords: &[&Chord]) -> Vec<ChordEnd> {
     let of = |(chord, c): (usize, &&Chord)| {
         let end = |k: usize| ChordEnd {
@@ -323,7 +326,7 @@ fn once(mut all: Vec<u32>) -> Vec<u32> {
     all
 }
 
-/// For each triangle those it lies on.
+/// For each triangle the triangles it lies on, each with the direction along which the first lies below it.
 pub(crate) fn around(faces: usize, layers: &[Layer]) -> Vec<Vec<(u32, Option<DVec3>)>> {
     let mut around = vec![Vec::new(); faces];
     for layer in layers {
@@ -337,7 +340,7 @@ pub(crate) fn around(faces: usize, layers: &[Layer]) -> Vec<Vec<(u32, Option<DVe
     around
 }
 
-/// For each side of each triangle its edge and the triangle beyond.
+/// For each side of each triangle, its edge and the triangle beyond.
 pub(crate) fn hinges(sheet: &Sheet) -> Vec<[Option<(u32, u32)>; 3]> {
     let mut hinges = vec![[None; 3]; sheet.faces.len()];
     for (index, edge) in (0..).zip(&sheet.edges) {

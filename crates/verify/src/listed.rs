@@ -1,4 +1,4 @@
-//! What is listed, held against what was found.
+//! The penetrations that are listed, compared with what was found.
 
 use std::collections::BTreeMap;
 
@@ -15,7 +15,7 @@ use crate::verifier::Verifier;
 use foldmotion_check::{Penetration, PenetrationKind};
 
 impl<'a> Verifier<'a> {
-    /// Holds what is listed at the interval that begins at `start` against what was found.
+    /// Compares what is listed at the interval that begins at `start` with what was found.
     pub(crate) fn meet_claims(&mut self, start: &Frame, found: &BTreeMap<[u32; 2], LostSide>) {
         let frame = self.frames - 1;
         let listed: Vec<&'a Penetration> = self
@@ -84,7 +84,7 @@ impl<'a> Verifier<'a> {
         all.any(|&faces| self.around.is_around(stated.faces, faces))
     }
 
-    /// Follows what is listed at earlier intervals and goes through the sheet by less than τ there, until it does so by
+    /// Follows listed penetrations of earlier intervals that pass through the sheet by less than τ, until they do so by
     /// more or not at all.
     pub(crate) fn meet_pending(&mut self, start: &Frame) {
         let pending = std::mem::take(&mut self.pending);
@@ -97,7 +97,7 @@ impl<'a> Verifier<'a> {
         }
     }
 
-    /// Names what is listed and was not found.
+    /// Names the listed penetrations that were not found.
     pub(crate) fn leave_pending_open(&mut self) {
         let pending = std::mem::take(&mut self.pending).into_iter();
         self.outcome
@@ -116,7 +116,7 @@ impl<'a> Verifier<'a> {
         }
     }
 
-    /// A pair without a side at the first frame.
+    /// Handles a pair without a side at the first frame.
     pub(crate) fn starts_lost(&mut self, pair: &FacePair, moving: &MovingPair) {
         let deepest = depth_at(moving, 0.0);
         let found = FoundPenetration::at_first_frame(moving, self.last.time, deepest);

@@ -9,27 +9,27 @@ use crate::parts::disjoint_parts;
 use crate::penetration::FoundPenetration;
 use crate::side::{Limits, Side};
 
-/// A pair without a side with this many times τ surely changes sides.
+/// A pair without a side even at this multiple of τ surely changes sides.
 const CLEAR: f64 = 2.0;
 
-/// Pairs of triangles.
+/// A set of pairs of triangles, the smaller index first.
 pub(crate) type PairSet = BTreeSet<[u32; 2]>;
 
-/// A pair that was not followed to the end of an interval.
+/// A pair that could not be followed to the end of an interval.
 #[derive(Debug)]
 pub(crate) struct LostSide {
-    /// What was found, if anything.
+    /// The penetration that was found, if any.
     pub(crate) found: Option<FoundPenetration>,
     /// Whether it is deeper than τ at an instant and shares no vertex.
     pub(crate) is_deep: bool,
-    /// Whether it surely passes through, also with twice the tolerance.
+    /// Whether it surely passes through, even with twice the tolerance.
     pub(crate) is_clear: bool,
-    /// Whether what it does not share was followed to the end.
+    /// Whether the parts that the triangles do not share were followed to the end.
     pub(crate) are_parts_clean: bool,
 }
 
 impl LostSide {
-    /// Looks closer at a pair that lost its side. `is_open`: it may have begun on any.
+    /// Examines a pair that lost its side. `is_open`: it may have begun on any side.
     pub(crate) fn new(
         moving: &MovingPair,
         (side, is_open): (&Side, bool),
@@ -55,7 +55,7 @@ impl LostSide {
             let all = Side::at_start(part, limits);
             all.filter(|_| is_open).unwrap_or_else(|| side.clone())
         };
-        // A part may have been on more sides than the whole.
+        // A part of a triangle may have been on more sides than the whole.
         let any = |part: &MovingPair| {
             let all = Side::at_start(part, &wide);
             all.filter(|_| moving.shared > 0 && (!side.is_apart || is_open))

@@ -1,4 +1,4 @@
-//! Two triangles over a stretch of time, and the axes that may separate them.
+//! Two triangles over a time interval, and the axes that may separate them.
 
 use glam::DVec3;
 
@@ -7,17 +7,17 @@ use crate::path::Path;
 /// Two triangles whose corners move straight from the first to the second of their positions.
 ///
 /// `shared` corners (0, 1 or 2) are the same vertices and come first, in the same order, in both. Positions are
-/// relative to a corner of the pair, so that rounding goes with the size of the pair, not with its place.
+/// relative to a corner of the pair, so that rounding depends on the size of the pair and not on its position.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct MovingPair {
     pub(crate) a: [[DVec3; 2]; 3],
     pub(crate) b: [[DVec3; 2]; 3],
     pub(crate) shared: usize,
-    /// Where the positions are counted from.
+    /// The point that positions are relative to.
     pub(crate) origin: DVec3,
-    /// No two corners are farther apart at any instant.
+    /// A bound of the distance between any two corners at any instant.
     pub(crate) size: f64,
-    /// Whether a triangle is an edge or a point, its corners repeated.
+    /// Whether a triangle is an edge or a point, represented with repeated corners.
     pub(crate) is_part: bool,
 }
 
@@ -28,7 +28,7 @@ pub(crate) struct PairPose {
     pub(crate) b: [DVec3; 3],
 }
 
-/// The corners that lie exactly on the plane through what the triangles share.
+/// The corners that lie exactly on the plane through the shared corners.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct OnPlane {
     pub(crate) a: [bool; 3],
@@ -41,11 +41,11 @@ pub(crate) enum Feature {
     NormalA,
     NormalB,
     Edges(usize, usize),
-    /// In A's plane, normal to its edge.
+    /// In the plane of A, normal to its edge.
     SideA(usize),
     SideB(usize),
     Coordinate(usize),
-    /// In A's plane, normal to an edge of B in it.
+    /// In the plane of A, normal to an edge of B in it.
     AcrossA(usize),
     AcrossB(usize),
     /// In the plane of two edges, normal to that of A.
@@ -53,11 +53,11 @@ pub(crate) enum Feature {
     BesideB,
 }
 
-/// How many of the features two triangles with an area need.
+/// The number of features that triangles with an area need.
 const OF_TRIANGLES: usize = 20;
 
-/// All of them: the face normals of A − B, those in the planes, and three that never degenerate; then those needed where
-/// a triangle is an edge or a point.
+/// All features: the face normals of A − B, the normals in those planes, and three that never degenerate; then those
+/// needed if a triangle is an edge or a point.
 const FEATURES: [Feature; 28] = {
     use Feature::{
         AcrossA, AcrossB, BesideA, BesideB, Coordinate, Edges, NormalA, NormalB, SideA, SideB,
@@ -97,7 +97,7 @@ const FEATURES: [Feature; 28] = {
 pub(crate) const COORDINATES: [DVec3; 3] = [DVec3::X, DVec3::Y, DVec3::Z];
 
 impl MovingPair {
-    /// `start`, `end`: the corners of A and of B at the two ends.
+    /// `start`, `end`: the corners of A and of B at both ends of the interval.
     pub(crate) fn new(start: [[DVec3; 3]; 2], end: [[DVec3; 3]; 2], shared: usize) -> Self {
         let origin = start[0][0];
         let relative = |t: usize| [0, 1, 2].map(|i| [start[t][i] - origin, end[t][i] - origin]);
@@ -137,7 +137,7 @@ impl MovingPair {
         }
     }
 
-    /// The part between two instants; corners move straight there too.
+    /// The pair between two instants; corners move straight there too.
     pub(crate) fn part(&self, from: &PairPose, to: &PairPose) -> Self {
         Self {
             a: [0, 1, 2].map(|i| [from.a[i], to.a[i]]),
@@ -170,7 +170,7 @@ impl MovingPair {
         }
     }
 
-    /// Which corners lie on the axis's plane through what is shared, by construction.
+    /// Which corners lie on the plane of the axis through the shared corners, by construction.
     pub(crate) fn on_plane(&self, feature: Feature) -> OnPlane {
         let shared = [0, 1, 2].map(|i| i < self.shared);
         let mut on_plane = OnPlane {
@@ -201,7 +201,7 @@ impl MovingPair {
         on_plane
     }
 
-    /// Two shared corners must both lie on the plane: only these axes are normal to their edge.
+    /// Both shared corners must lie on the plane: only these axes are normal to their edge.
     pub(crate) fn may_clear(&self, feature: Feature) -> bool {
         use Feature::{NormalA, NormalB, SideA, SideB};
         self.shared < 2 || matches!(feature, NormalA | NormalB | SideA(0) | SideB(0))
@@ -214,7 +214,7 @@ impl MovingPair {
 }
 
 impl PairPose {
-    /// max d·a − min d·b.
+    /// The overlap max d·a − min d·b along a direction.
     pub(crate) fn overlap(&self, d: DVec3) -> f64 {
         let origin = self.a[0];
         let height = |p: DVec3| d.dot(p - origin);

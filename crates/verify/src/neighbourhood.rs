@@ -1,4 +1,4 @@
-//! Which triangles lie around which edges and vertices of the sheet.
+//! Which triangles surround which edges and vertices of the sheet.
 
 use std::collections::BTreeMap;
 
@@ -6,7 +6,7 @@ use foldmotion_pattern::Sheet;
 
 use crate::piercing::Surface;
 
-/// The triangles of the sheet by their corners.
+/// The triangles of the sheet, looked up by their edges and vertices.
 #[derive(Debug)]
 pub(crate) struct Neighbourhood {
     pub(crate) faces: Vec<[u32; 3]>,
@@ -49,12 +49,12 @@ impl Neighbourhood {
         self.corners(f).iter().any(|v| g.contains(v))
     }
 
-    /// Whether a pair lies around another: each triangle of it meets one of the other's.
+    /// Whether a pair is around another: each triangle of it shares a vertex with a different triangle of the other.
     pub(crate) fn is_around(&self, [f, g]: [u32; 2], [p, q]: [u32; 2]) -> bool {
         (self.meet(f, p) && self.meet(g, q)) || (self.meet(f, q) && self.meet(g, p))
     }
 
-    /// The triangles that have a vertex among these, each once.
+    /// The triangles with a vertex among those given, each once.
     pub(crate) fn faces_at(&self, vertices: &[u32]) -> Vec<u32> {
         let mut faces: Vec<u32> = vertices
             .iter()
@@ -65,7 +65,7 @@ impl Neighbourhood {
         faces
     }
 
-    /// A triangle, the twos at its edges and all around each of its vertices.
+    /// A triangle, the two triangles at each of its edges, and the triangles around each of its vertices.
     pub(crate) fn surfaces_of(&self, face: u32) -> Vec<Surface> {
         let corners = self.corners(face);
         let at_edges = edges(corners).map(|side| self.at_edge.get(&side));
@@ -77,7 +77,8 @@ impl Neighbourhood {
             .collect()
     }
 
-    /// The triangles that have a vertex among these, the two at each edge of them, and all around each of these vertices.
+    /// The triangles with a vertex among those given, the two at each of their edges, and the triangles around each of
+    /// the vertices.
     pub(crate) fn surfaces_at(&self, vertices: &[u32]) -> Vec<Surface> {
         let faces = self.faces_at(vertices);
         let mut sides: Vec<[u32; 2]> = faces.iter().flat_map(|&f| edges(self.corners(f))).collect();
@@ -94,7 +95,7 @@ impl Neighbourhood {
             .collect()
     }
 
-    /// The edges that have an end among these, each once.
+    /// The edges with an end among the vertices given, each once.
     pub(crate) fn edges_at(&self, vertices: &[u32]) -> Vec<[u32; 2]> {
         let faces = self.faces_at(vertices);
         let all = faces.iter().flat_map(|&face| edges(self.corners(face)));

@@ -1,13 +1,13 @@
-//! What comes of a verification.
+//! The result of a verification.
 
 /// A statement that is false.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Refutation {
-    /// The field of the certificate.
+    /// The field of the certificate that states it.
     pub field: String,
-    /// What it states.
+    /// What the certificate states.
     pub stated: String,
-    /// What was found.
+    /// What the second proof found instead.
     pub found: String,
 }
 
@@ -16,7 +16,7 @@ impl Refutation {
         clippy::needless_pass_by_value,
         reason = "numbers and texts just made are handed over"
     )]
-    /// A field, what it states and what was found.
+    /// A refutation of a field, from what it states and what was found.
     pub fn new(field: impl Into<String>, stated: impl ToString, found: impl ToString) -> Self {
         Self {
             field: field.into(),
@@ -26,31 +26,31 @@ impl Refutation {
     }
 }
 
-/// What could be neither proved nor refuted.
+/// A statement that could be neither proved nor refuted.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Unproved {
-    /// The triangles.
+    /// The indices of the two triangles concerned.
     pub faces: [u32; 2],
-    /// The frame at the start of the interval.
+    /// The index of the frame at the start of the interval.
     pub frame: usize,
-    /// What is open.
+    /// The question that remains open.
     pub what: String,
 }
 
-/// What came of the second proof.
+/// The result of the second proof.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct Verification {
-    /// Statements found false.
+    /// The statements found false.
     pub refuted: Vec<Refutation>,
-    /// Statements left open.
+    /// The statements that could be neither proved nor refuted.
     pub unproved: Vec<Unproved>,
-    /// Pairs of triangles, counted once an interval.
+    /// The number of pairs of triangles, counted once for each interval.
     pub pairs: u64,
-    /// Those whose swept boxes came near enough to be looked at.
+    /// The number of pairs whose swept boxes came close enough to be examined.
     pub near: u64,
-    /// Those followed by sides.
+    /// The number of pairs whose sides were followed.
     pub followed: u64,
-    /// Pairs that surely touch, and pairs that may.
+    /// The number of pairs that surely touch, and of those that may.
     pub touching: [usize; 2],
 }
 

@@ -1,8 +1,8 @@
-//! Simplices without a common vertex: the parts of two triangles that share one or two.
+//! Simplices without a common vertex: the parts of two triangles that share one or two vertices.
 
 use crate::moving_pair::MovingPair;
 
-/// The largest parts of two triangles that share no vertex, as triangles with corners repeated.
+/// The largest parts of two triangles that share no vertex, as triangles with repeated corners.
 pub(crate) fn disjoint_parts(moving: &MovingPair) -> Vec<MovingPair> {
     let corners: &[[[usize; 3]; 2]] = match moving.shared {
         0 => return vec![*moving],

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-/// Roundings a height takes, with room: see [`Path::margin`].
+/// A bound of the roundings in a height, with room to spare: see [`Path::margin`].
 const ROUNDINGS: f64 = 256.0;
 
 /// n(t) = Σ N_k B_k(t), t in [0, 1], of degree 0 to 3, in Bernstein form.
@@ -10,12 +10,12 @@ const ROUNDINGS: f64 = 256.0;
 pub(crate) struct Path {
     coefficients: [DVec3; 4],
     pub(crate) degree: usize,
-    /// |N_k| ≤ size^power: how many lengths are multiplied in n.
+    /// The number of lengths multiplied in n: |N_k| ≤ size^power.
     power: i32,
 }
 
 impl Path {
-    /// From one direction straight to another; at rest where they are the same. Precondition: at most 1 long.
+    /// From one direction straight to another; constant if they are equal. Precondition: their lengths are at most 1.
     pub(crate) fn straight(from: DVec3, to: DVec3) -> Self {
         Self {
             coefficients: [from, to, DVec3::ZERO, DVec3::ZERO],
@@ -62,7 +62,7 @@ impl Path {
         [self.coefficients[0], self.coefficients[self.degree]]
     }
 
-    /// The Bernstein coefficients of n(t)·v(t), of degree one more; v moves straight.
+    /// The Bernstein coefficients of n(t)·v(t), whose degree is one higher; v moves straight.
     ///
     /// c_k = ((m − k) N_k·v_0 + k N_{k−1}·v_1) / m with m = degree + 1 (Farin 2002, product of Bernstein forms).
     pub(crate) fn heights(&self, v: [DVec3; 2]) -> [f64; 5] {
@@ -81,7 +81,7 @@ impl Path {
         heights
     }
 
-    /// What rounding may change a height n·v by, where no vector is longer than `size`.
+    /// A bound of the rounding error of a height n·v, if no vector is longer than `size`.
     ///
     /// The corners come from one subtraction and one interpolation, a path multiplies at most three vectors, a height
     /// one more: fewer than 100 roundings, each of at most ε size^(power + 1).
@@ -89,7 +89,8 @@ impl Path {
         ROUNDINGS * f64::EPSILON * size.powi(self.power + 1)
     }
 
-    /// Bounds |n(t)| from below by its component along the sum of its coefficients, and from above by the longest.
+    /// A lower bound of |n(t)|, its component along the sum of its coefficients, and an upper bound, the longest of
+    /// them.
     pub(crate) fn lengths(&self) -> (f64, f64) {
         let used = &self.coefficients[..=self.degree];
         let along = used.iter().sum::<DVec3>().normalize_or_zero();
@@ -107,7 +108,7 @@ mod tests {
     use super::*;
     use crate::random::Random;
 
-    /// n(t) by its definition.
+    /// n(t) by its definition (de Casteljau's algorithm).
     fn de_casteljau(path: &Path, t: f64) -> DVec3 {
         let mut points = path.coefficients[..=path.degree].to_vec();
         while points.len() > 1 {

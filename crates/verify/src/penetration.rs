@@ -1,4 +1,4 @@
-//! A penetration found by the second proof, beside the one that is stated.
+//! A penetration found by the second proof, compared with the one that is stated.
 
 use foldmotion_pattern::Sheet;
 use glam::DVec3;
@@ -13,15 +13,15 @@ use crate::parts::disjoint_parts;
 use crate::side::Limits;
 use foldmotion_check::{Penetration, PenetrationKind};
 
-/// To this share of an interval two proofs agree about when a contact begins and when it gets too deep.
+/// The share of an interval to which two proofs agree about the beginning of a contact and the time it gets too deep.
 const TIME_ACCURACY: f64 = 1e-6;
-/// To this share two proofs agree about a depth.
+/// The relative accuracy to which two proofs agree about a depth.
 const DEPTH_ACCURACY: f64 = 1e-5;
-/// Where a contact begins or a pair gets deeper than τ, the pair touches, and the stated point lies on what meets there,
-/// to within this many τ.
+/// Where a contact begins or a pair gets deeper than τ, the pair touches, and the stated point lies on the features
+/// that meet, to within this multiple of τ.
 pub(crate) const POINT_TOLERANCES: f64 = 16.0;
 
-/// Where a pair gets too deep.
+/// A pair that gets too deep in an interval.
 #[derive(Debug)]
 pub(crate) struct FoundPenetration {
     moving: MovingPair,
@@ -63,8 +63,8 @@ impl FoundPenetration {
         self.times[0] + (self.times[1] - self.times[0]) * t
     }
 
-    /// How far apart two proofs may put an instant: a millionth of the interval, or as long as the corners take to move by
-    /// half of τ relative to each other.
+    /// How much two proofs may differ about an instant: a millionth of the interval, or the time the corners take to
+    /// move by half of τ relative to each other.
     fn time_slack(&self, limits: &Limits) -> f64 {
         let corners = || self.moving.a.iter().chain(&self.moving.b);
         let moved = corners()
@@ -75,21 +75,21 @@ impl FoundPenetration {
         share.min(1.0) * (end - start) + 4.0 * f64::EPSILON * start.abs().max(end.abs())
     }
 
-    /// The part of the interval gone at motion time `time`, if it lies within.
+    /// The share of the interval at motion time `time`; `None` if it is outside.
     fn share(&self, time: f64) -> Option<f64> {
         let [start, end] = self.times;
         let is_within = start < end && (start..=end).contains(&time);
         is_within.then(|| (time - start) / (end - start))
     }
 
-    /// The least overlap at motion time `time` of triangles that share no vertex.
+    /// The smallest overlap at motion time `time`, for triangles that share no vertex.
     fn overlap(&self, time: f64, pair: &FacePair) -> Option<f64> {
         let share = self.share(time).filter(|_| pair.shared == 0)?;
         Some(depth(&self.moving, &self.moving.at(share)))
     }
 
-    /// Whether the contact may be said to begin when stated: pairs that graze each other on the way, or are within τ
-    /// for a while, come into contact more than once; there they must touch, and not be too deep before.
+    /// Whether the contact may begin when stated. Pairs that graze each other, or stay within τ for a while, come into
+    /// contact more than once; at the stated time they must touch, and must not be too deep before.
     fn may_begin(&self, stated: &Penetration, pair: &FacePair, limits: &Limits) -> bool {
         let near = POINT_TOLERANCES * limits.tolerance;
         let is_met = match self.share(stated.time) {
@@ -104,8 +104,8 @@ impl FoundPenetration {
         stated.time <= stated.passed && is_met
     }
 
-    /// Whether the pair may be said to get too deep when stated: which side it was on may be left open by a contact
-    /// that allows several; then it must touch there, and be too deep later in the interval.
+    /// Whether the pair may get too deep when stated. A contact that allows several sides may leave open which one the
+    /// pair was on; then it must touch at the stated time and be too deep later in the interval.
     fn may_pass(&self, stated: &Penetration, pair: &FacePair, limits: &Limits) -> bool {
         let overlap = self.overlap(stated.passed, pair);
         let is_deep_later = self.share(stated.passed).is_some_and(|share| {
@@ -117,8 +117,9 @@ impl FoundPenetration {
 
     /// Whether the pair is as deep as stated.
     ///
-    /// For triangles that share no vertex: the largest depth. Otherwise no more than the overlaps at the instants looked
-    /// at: which axes count as the side on which the pair was is left to the prover.
+    /// For triangles that share no vertex, the stated depth must equal the largest depth. Otherwise it must be at most
+    /// the largest overlap at the instants examined: which axes count as the side of the pair is left to the first
+    /// proof.
     fn is_as_deep(&self, stated: &Penetration, unit: f64, pair: &FacePair) -> bool {
         let is_close = |depth: f64| {
             let slack = DEPTH_ACCURACY * depth.abs() + 1e-9 * self.moving.size;
@@ -128,7 +129,7 @@ impl FoundPenetration {
             return true;
         }
         if pair.shared == 0 {
-            // The depth is taken at instants after the one stated, which both proofs find only nearly alike.
+            // The depth is taken at instants after the stated one, about which the two proofs agree only approximately.
             let depths = self.share(stated.passed).into_iter();
             let depths = depths.flat_map(instants_after);
             let depths = depths.map(|t| depth(&self.moving, &self.moving.at(t)));
@@ -158,10 +159,10 @@ impl FoundPenetration {
     }
 }
 
-/// Field, what is stated, what was found.
+/// The field, what is stated, and what was found.
 type Difference = (&'static str, String, String);
 
-/// In what a stated penetration differs from the one found.
+/// The differences between a stated penetration and the one found.
 pub(crate) fn compare(
     stated: &Penetration,
     found: &FoundPenetration,
@@ -195,7 +196,7 @@ pub(crate) fn compare(
         differ(
             "kind",
             format!("{:?}", stated.kind),
-            "not what the facets share and the depth say".to_owned(),
+            "it does not agree with the shared vertices and the depth".to_owned(),
         );
     }
     let passed = found.share(stated.passed);
@@ -222,10 +223,10 @@ pub(crate) fn is_kind_right(stated: &Penetration, pair: &FacePair, tolerance: f6
     }
 }
 
-/// Why the stated vertices do not meet at the stated point, if they do not.
+/// Why the stated vertices do not meet at the stated point; `None` if they do.
 ///
-/// `near`: what counts as there. At the first frame (`is_far`) the two may be far through each other already: the point
-/// is then the vertex itself or halfway between the edges.
+/// `near`: the distance that counts as meeting. At the first frame (`is_far`) the triangles may already be far through
+/// each other: then the point is the vertex itself, or halfway between the edges.
 pub(crate) fn meeting_fault(
     stated: &Penetration,
     pair: &FacePair,
@@ -284,5 +285,5 @@ pub(crate) fn meeting_fault(
         PenetrationKind::EdgeEdge => are_edges(),
         _ => is_vertex || are_edges(),
     };
-    (!is_met).then_some("the vertices named do not meet there")
+    (!is_met).then_some("the named vertices do not meet there")
 }

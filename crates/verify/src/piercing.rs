@@ -1,16 +1,16 @@
-//! Whether an edge goes through a part of the sheet such that no push by τ undoes it.
+//! Whether an edge passes through a part of the sheet such that no push by τ undoes it.
 //!
 //! Let S be some triangles of the sheet that can be oriented alike, and e an edge that has no vertex in common with
-//! them. How often e goes through S, counted with signs, is the degree of the difference of their points on the rim of
-//! S × e: pushes by τ do not change it while the ends of e are farther than τ from S, and e is so from the rim of S.
-//! Where it is not 0, e meets S whatever the push.
+//! them. The number of times that e passes through S, counted with signs, is the degree of the difference of their
+//! points on the boundary of S × e. Pushes by τ do not change it while the ends of e are farther than τ from S, and e
+//! is farther than τ from the rim of S. If it is not 0, e intersects S whatever the push.
 
 use glam::DVec3;
 
 use crate::closest::{closest, on_triangle};
 use crate::moving_pair::PairPose;
 
-/// Offsets of an edge, in units of τ: none, and both ways along some directions.
+/// The offsets of an edge, in units of τ: none, and both senses of some directions.
 const OFFSETS: [DVec3; 5] = [
     DVec3::ZERO,
     DVec3::new(3.1e-3, -2.3e-3, 1.7e-3),
@@ -18,12 +18,12 @@ const OFFSETS: [DVec3; 5] = [
     DVec3::new(1.3e-3, 1.9e-3, 2.9e-3),
     DVec3::new(-1.3e-3, -1.9e-3, -2.9e-3),
 ];
-/// Longer than all of them.
+/// A bound of the lengths of the offsets, in units of τ.
 const LONGEST_OFFSET: f64 = 5e-3;
-/// What rounding may change a product of three lengths by, in units of ε and the cube of the largest.
+/// A bound of the rounding error of a product of three lengths, in units of ε and the cube of the largest.
 const ROUNDINGS: f64 = 256.0;
 
-/// Triangles of the sheet, oriented alike, and the edges that only one of them has.
+/// Triangles of the sheet, oriented alike, and the edges that belong to only one of them.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct Surface {
     triangles: Vec<[u32; 3]>,
@@ -31,7 +31,7 @@ pub(crate) struct Surface {
 }
 
 impl Surface {
-    /// None where they are not connected across edges or cannot be oriented alike.
+    /// `None` if the triangles are not connected across edges or cannot be oriented alike.
     pub(crate) fn of(triangles: &[[u32; 3]]) -> Option<Self> {
         let (first, others) = triangles.split_first()?;
         let mut left = others.to_vec();
@@ -55,39 +55,40 @@ impl Surface {
         })
     }
 
-    /// Whether an edge goes through, be it by less than τ, wherever it is moved by an offset.
+    /// Whether an edge passes through the surface for every offset, possibly by less than τ.
     pub(crate) fn is_met(
         &self,
         edge: [u32; 2],
-        place: &dyn Fn(u32) -> DVec3,
+        position: &dyn Fn(u32) -> DVec3,
         tolerance: f64,
     ) -> bool {
-        self.placed(edge, place).is_some_and(|(ends, triangles)| {
-            let mut times = times_through(ends, &triangles, tolerance).skip(1);
-            times.all(|times| times.is_some_and(|times| times != 0))
-        })
+        self.placed(edge, position)
+            .is_some_and(|(ends, triangles)| {
+                let mut times = times_through(ends, &triangles, tolerance).skip(1);
+                times.all(|times| times.is_some_and(|times| times != 0))
+            })
     }
 
-    /// The ends of an edge and the triangles; none where they have a vertex in common.
+    /// The ends of an edge and the triangles, in space; `None` if they have a vertex in common.
     fn placed(
         &self,
         edge: [u32; 2],
-        place: &dyn Fn(u32) -> DVec3,
+        position: &dyn Fn(u32) -> DVec3,
     ) -> Option<([DVec3; 2], Vec<[DVec3; 3]>)> {
         let mut corners = self.triangles.iter().flatten();
         let is_apart = !corners.any(|v| edge.contains(v));
-        let triangles = || self.triangles.iter().map(|t| t.map(place)).collect();
-        is_apart.then(|| (edge.map(place), triangles()))
+        let triangles = || self.triangles.iter().map(|t| t.map(position)).collect();
+        is_apart.then(|| (edge.map(position), triangles()))
     }
 
-    /// Whether an edge goes through for sure; `place`: where a vertex is.
+    /// Whether an edge surely passes through the surface. `position`: the position of a vertex.
     pub(crate) fn is_pierced(
         &self,
         edge: [u32; 2],
-        place: &dyn Fn(u32) -> DVec3,
+        position: &dyn Fn(u32) -> DVec3,
         tolerance: f64,
     ) -> bool {
-        let Some((ends, triangles)) = self.placed(edge, place) else {
+        let Some((ends, triangles)) = self.placed(edge, position) else {
             return false;
         };
         let reach = (1.0 + LONGEST_OFFSET) * tolerance;
@@ -100,7 +101,7 @@ impl Surface {
                 triangles.iter().all(|t| off(t) > reach)
             })
             && self.rim.iter().all(|side| {
-                let [[p, q], [u, v]] = [ends, side.map(place)];
+                let [[p, q], [u, v]] = [ends, side.map(position)];
                 let both = PairPose {
                     a: [p, q, q],
                     b: [u, v, v],
@@ -110,7 +111,7 @@ impl Surface {
     }
 }
 
-/// Whether a segment may go through a surface with this triangle, at it, for sure.
+/// Whether a segment may surely pass through a surface that contains this triangle.
 pub(crate) fn may_pierce(ends: [DVec3; 2], triangle: &[DVec3; 3], tolerance: f64) -> bool {
     let is_off = |end: DVec3| on_triangle(end, triangle).distance(end) > tolerance;
     let triangles = std::slice::from_ref(triangle);
@@ -122,7 +123,7 @@ fn sides([p, q, r]: &[u32; 3]) -> [[u32; 2]; 3] {
     [[*p, *q], [*q, *r], [*r, *p]]
 }
 
-/// How often a segment goes through triangles, with signs, for each of the offsets; none where rounding hides it.
+/// How often a segment passes through the triangles, with signs, for each of the offsets; `None` if rounding hides it.
 fn times_through(
     ends: [DVec3; 2],
     triangles: &[[DVec3; 3]],
@@ -134,8 +135,8 @@ fn times_through(
     })
 }
 
-/// 1 or −1 where a segment goes through a triangle from its back to its front or the other way, 0 where it does not; none
-/// where rounding hides it.
+/// 1 or −1 if a segment passes through a triangle from its back to its front or the other way, 0 if it does not; `None`
+/// if rounding hides it.
 fn through([p, q]: [DVec3; 2], t: &[DVec3; 3]) -> Option<i32> {
     let all = [p, q, t[0], t[1], t[2]];
     let size = all.iter().map(|v| v.distance(p)).fold(0.0, f64::max);
@@ -165,7 +166,7 @@ mod tests {
 
     /// Four triangles around vertex 4, a roof with a ridge along x; the edge from 5 to 6 goes down at (x, y).
     fn is_pierced(faces: &[[u32; 3]], x: f64, y: f64, beyond: f64) -> bool {
-        let place = |v: u32| match v {
+        let position = |v: u32| match v {
             0 => DVec3::new(-1.0, 0.0, 0.0),
             1 => DVec3::new(0.0, -1.0, -0.5),
             2 => DVec3::new(1.0, 0.0, 0.0),
@@ -175,7 +176,7 @@ mod tests {
             _ => DVec3::new(x, y, -beyond),
         };
         let surface = Surface::of(faces).unwrap();
-        surface.is_pierced([5, 6], &place, 0.1)
+        surface.is_pierced([5, 6], &position, 0.1)
     }
 
     const AROUND: [[u32; 3]; 4] = [[4, 0, 1], [2, 4, 1], [4, 2, 3], [4, 0, 3]];
@@ -202,8 +203,8 @@ mod tests {
     #[test]
     fn an_edge_that_goes_down_one_wall_of_a_fold_and_up_through_the_other_pierces_neither_for_sure()
     {
-        // Across the ridge, below it: in through one side and out through the other.
-        let place = |v: u32| match v {
+        // Across the ridge and below it: in through one side and out through the other.
+        let position = |v: u32| match v {
             0 => DVec3::new(-1.0, 0.0, 0.0),
             1 => DVec3::new(1.0, 0.0, 0.0),
             2 => DVec3::new(0.0, -1.0, -2.0),
@@ -212,14 +213,14 @@ mod tests {
             _ => DVec3::new(0.0, 2.0, -0.5),
         };
         let surface = Surface::of(&[[0, 1, 2], [0, 1, 3]]).unwrap();
-        assert!(!surface.is_pierced([4, 5], &place, 0.1));
+        assert!(!surface.is_pierced([4, 5], &position, 0.1));
         let one = Surface::of(&[[0, 1, 2]]).unwrap();
-        assert!(one.is_pierced([4, 5], &place, 0.1));
+        assert!(one.is_pierced([4, 5], &position, 0.1));
     }
 
     #[test]
     fn what_cannot_be_oriented_alike_is_no_surface() {
-        // Three triangles at one edge; a band with a half turn.
+        // Three triangles at one edge, and a band with a half twist.
         assert_eq!(Surface::of(&[[0, 1, 2], [1, 0, 3], [0, 1, 4]]), None);
         let moebius = [[0, 1, 2], [1, 2, 3], [2, 3, 4], [3, 4, 0], [4, 0, 1]];
         assert_eq!(Surface::of(&moebius), None);

@@ -2,10 +2,11 @@
 
 use glam::{DVec2, DVec3};
 
-/// Sides of a difference of triangles shorter than this share of it are corners that rounding has parted.
+/// Sides of a difference of triangles that are shorter than this share of its size come from corners separated by
+/// rounding.
 const ROUNDING: f64 = 1e-10;
 
-/// Coordinates in the plane of a triangle.
+/// A coordinate system in the plane of a triangle.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Plane {
     origin: DVec3,
@@ -14,7 +15,7 @@ pub(crate) struct Plane {
 }
 
 impl Plane {
-    /// The plane of a triangle seen from its front; none where it has no area.
+    /// The plane of a triangle seen from its front; `None` if the triangle has no area.
     pub(crate) fn of(triangle: &[DVec3; 3]) -> Option<Self> {
         let [p, q, r] = *triangle;
         let normal = (q - p).cross(r - p).try_normalize()?;
@@ -30,14 +31,14 @@ impl Plane {
         self.normal.dot(p - self.origin)
     }
 
-    /// A point as seen along the normal.
+    /// The projection of a point along the normal.
     pub(crate) fn seen(&self, p: DVec3) -> DVec2 {
         let p = p - self.origin;
         let [x, y] = self.axes;
         DVec2::new(x.dot(p), y.dot(p))
     }
 
-    /// A triangle as seen along the normal, counter-clockwise.
+    /// The projection of a triangle along the normal, counter-clockwise.
     pub(crate) fn triangle(&self, corners: &[DVec3; 3]) -> [DVec2; 3] {
         let [p, q, r] = corners.map(|p| self.seen(p));
         if (q - p).perp_dot(r - p) < 0.0 {
@@ -48,11 +49,11 @@ impl Plane {
     }
 }
 
-/// How far two counter-clockwise triangles overlap: the least push that parts them, or the least width of one of them
-/// where that is less; at most 0 where they are apart.
+/// How far two counter-clockwise triangles overlap: the shortest push that separates them, or the smallest width of one
+/// of them if that is less; at most 0 if they are apart.
 ///
-/// The pushes that do not part A and B are the differences { a − b }, a convex polygon spanned by those of the corners;
-/// the least one that does is the distance of 0 from its rim.
+/// The pushes that do not separate A and B are the differences { a − b }, a convex polygon spanned by those of the
+/// corners; the shortest push that does is the distance of 0 from its boundary.
 pub(crate) fn overlap(a: &[DVec2; 3], b: &[DVec2; 3]) -> f64 {
     let differences = a.iter().flat_map(|&p| b.iter().map(move |&q| p - q));
     let rim = hull(differences.collect());
@@ -65,7 +66,7 @@ pub(crate) fn overlap(a: &[DVec2; 3], b: &[DVec2; 3]) -> f64 {
     push.min(least_width(a)).min(least_width(b))
 }
 
-/// The convex hull, counter-clockwise, from the leftmost point around and back (Andrew 1979).
+/// The convex hull, counter-clockwise from the leftmost point (Andrew 1979).
 fn hull(mut points: Vec<DVec2>) -> Vec<DVec2> {
     points.sort_by(|p, q| p.x.total_cmp(&q.x).then(p.y.total_cmp(&q.y)));
     let mut rim = chain(points.iter());
@@ -75,7 +76,7 @@ fn hull(mut points: Vec<DVec2>) -> Vec<DVec2> {
     rim
 }
 
-/// Left turns only.
+/// The points of one half of the hull: those at which the chain turns left.
 fn chain<'a>(points: impl Iterator<Item = &'a DVec2>) -> Vec<DVec2> {
     let mut kept: Vec<DVec2> = Vec::new();
     for &p in points {
@@ -89,7 +90,7 @@ fn chain<'a>(points: impl Iterator<Item = &'a DVec2>) -> Vec<DVec2> {
     kept
 }
 
-/// The least width of a counter-clockwise convex polygon: across one of its sides; 0 where it has no area.
+/// The smallest width of a counter-clockwise convex polygon, perpendicular to one of its sides; 0 if it has no area.
 pub(crate) fn least_width(polygon: &[DVec2]) -> f64 {
     let sides = (0..polygon.len()).map(|i| (polygon[i], polygon[(i + 1) % polygon.len()]));
     let across = sides.filter_map(|(p, q)| {
@@ -101,7 +102,7 @@ pub(crate) fn least_width(polygon: &[DVec2]) -> f64 {
     if least.is_finite() { least } else { 0.0 }
 }
 
-/// What of a convex polygon lies in a counter-clockwise triangle.
+/// The part of a convex polygon inside a counter-clockwise triangle.
 pub(crate) fn within(polygon: &[DVec2], triangle: &[DVec2; 3]) -> Vec<DVec2> {
     let mut left = polygon.to_vec();
     for i in 0..3 {
@@ -122,8 +123,8 @@ pub(crate) fn within(polygon: &[DVec2], triangle: &[DVec2; 3]) -> Vec<DVec2> {
     left
 }
 
-/// A counter-clockwise triangle with its sides moved inward: shrunk about the centre of its inscribed circle. One that
-/// is too small for that becomes a point.
+/// A counter-clockwise triangle with its sides moved inward: shrunk about the centre of its inscribed circle. A
+/// triangle that is too small for that becomes a point.
 pub(crate) fn inset(triangle: &[DVec2; 3], by: f64) -> [DVec2; 3] {
     let [p, q, r] = *triangle;
     let (a, b, c) = (q.distance(r), r.distance(p), p.distance(q));
@@ -134,7 +135,7 @@ pub(crate) fn inset(triangle: &[DVec2; 3], by: f64) -> [DVec2; 3] {
     triangle.map(|corner| centre + (corner - centre) * share)
 }
 
-/// Whether a counter-clockwise triangle holds a point, up to `beyond` outside its sides.
+/// Whether a point lies inside a counter-clockwise triangle, or outside by at most `beyond`.
 pub(crate) fn holds(triangle: &[DVec2; 3], point: DVec2, beyond: f64) -> bool {
     (0..3).all(|i| {
         let side = triangle[(i + 1) % 3] - triangle[i];

@@ -1,4 +1,4 @@
-//! Seeded random numbers of the tests (`SplitMix64`, Steele, Lea and Flood 2014).
+//! Seeded random numbers for the tests (`SplitMix64`, Steele, Lea and Flood 2014).
 
 use glam::DVec3;
 
@@ -10,7 +10,7 @@ impl Random {
         Self(seed)
     }
 
-    /// In [−1, 1).
+    /// A number in [−1, 1).
     pub(crate) fn number(&mut self) -> f64 {
         self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
         let mut z = self.0;
@@ -20,7 +20,7 @@ impl Random {
         (z >> 11) as f64 / (1u64 << 52) as f64 - 1.0
     }
 
-    /// In the cube [−1, 1)³.
+    /// A vector in the cube [−1, 1)³.
     pub(crate) fn vector(&mut self) -> DVec3 {
         DVec3::new(self.number(), self.number(), self.number())
     }

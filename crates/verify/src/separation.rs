@@ -1,4 +1,4 @@
-//! Whether the stated closest approach is attained where it is stated.
+//! Whether the stated closest approach is attained when and where it is stated.
 
 use foldmotion_pattern::Frame;
 
@@ -9,7 +9,7 @@ use crate::verifier::{POINT_ACCURACY, Verifier};
 use foldmotion_check::Separation;
 
 impl Verifier<'_> {
-    /// Whether the stated closest approach is what it says, if it falls between `start` and the last frame.
+    /// Compares the stated closest approach with the motion, if its time lies between `start` and the last frame.
     pub(crate) fn meet_separation(&mut self, start: &Frame) {
         let Some(stated) = self
             .claim
@@ -37,17 +37,17 @@ impl Verifier<'_> {
         let unit = self.sheet.unit_length;
         let count = self.sheet.faces.len();
         if stated.faces[0] >= stated.faces[1] || stated.faces[1] as usize >= count {
-            return Some(format!("there are no such triangles {:?}", stated.faces));
+            return Some(format!("triangles {:?} do not exist", stated.faces));
         }
         let pair = FacePair::new(self.sheet, stated.faces);
         if !pair.is_measured(self.sheet) {
             return Some("the facets share a vertex".to_owned());
         }
-        let place = |v: u32| {
+        let position = |v: u32| {
             let (p, q) = (start.positions[v as usize], self.last.positions[v as usize]);
             p + (q - p) * t
         };
-        let (a, b) = (pair.a.map(place), pair.b.map(place));
+        let (a, b) = (pair.a.map(position), pair.b.map(position));
         let far = a.iter().chain(&b).map(|p| p.length()).fold(0.0, f64::max);
         let slack = POINT_ACCURACY * unit + 64.0 * f64::EPSILON * far;
         for (point, triangle) in stated.points.iter().zip([&a, &b]) {

@@ -6,29 +6,30 @@ use crate::arcs;
 use crate::instant::{Axis, axes};
 use crate::moving_pair::MovingPair;
 
-/// The share of their size by which triangles with common vertices are clear of each other.
+/// Triangles with common vertices are clear of each other if they are apart by more than this share of their size.
 const CLEAR_SHARE: f64 = 1e-3;
 
 /// On which side of each other two triangles are.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Side {
-    /// Apart by more than τ (`clearance`): every separating direction can then be reached from every other.
+    /// Whether they are apart by more than τ (`clearance`): then every separating direction can be reached from every
+    /// other.
     pub(crate) is_apart: bool,
-    /// Unit directions in the part of D(t) that the pair has reached; may be empty where it is apart.
+    /// Unit directions in the part of D(t) that the pair has reached; may be empty if the triangles are apart.
     pub(crate) directions: Vec<DVec3>,
 }
 
-/// The numbers a walk depends on.
+/// The limits for following a pair.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Limits {
     /// τ, a length.
     pub(crate) tolerance: f64,
-    /// The most steps for a pair in an interval.
+    /// The largest number of steps for a pair in an interval.
     pub(crate) budget: u32,
 }
 
 impl Side {
-    /// The side at the first instant of a motion: any that D(t) allows; none where the triangles are deeper than τ.
+    /// The side at the first instant of a motion: any that D(t) allows; `None` if the triangles are deeper than τ.
     pub(crate) fn at_start(moving: &MovingPair, limits: &Limits) -> Option<Self> {
         let pose = moving.at(0.0);
         let all = axes(moving, &pose);
@@ -54,10 +55,9 @@ impl Side {
     }
 }
 
-/// Triangles with more room than this have one side only.
+/// Triangles that are apart by more than this have only one side.
 ///
-/// What corners on a plane through common vertices have of room is none, so that where vertices are common it takes more
-/// than τ.
+/// Corners on a plane through common vertices have no room, so that with common vertices more than τ is needed.
 pub(crate) fn clearance(moving: &MovingPair, limits: &Limits) -> f64 {
     match moving.shared {
         0 => limits.tolerance,
@@ -65,7 +65,7 @@ pub(crate) fn clearance(moving: &MovingPair, limits: &Limits) -> f64 {
     }
 }
 
-/// The direction with the most room, if that is more than asked for.
+/// The direction with the most room, if that exceeds the tolerance.
 pub(crate) fn clear_of(axes: &[Axis], tolerance: f64) -> Option<DVec3> {
     let clear = axes.iter().filter(|axis| axis.room > tolerance);
     let best = clear.reduce(|p, q| if q.room > p.room { q } else { p });

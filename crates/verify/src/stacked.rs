@@ -1,4 +1,4 @@
-//! What the file claims of faces that lie a gap apart.
+//! The claims of the file about faces that lie a gap apart.
 
 use std::collections::BTreeMap;
 
@@ -8,25 +8,25 @@ use glam::{DVec2, DVec3};
 use crate::layer::{LayerTolerances, corners};
 use crate::plane::{self, Plane};
 
-/// Faces are stacked where their planes are within 20° of each other (its cosine), and come somewhere within this many
-/// units of length.
+/// Faces are stacked if their planes are within 20° of each other (the cosine), and they come within this many units of
+/// length of each other somewhere.
 const PARALLEL: f64 = 0.94;
 const NEAR: f64 = 0.1;
-/// Conditions that are fulfilled or missed by less than this share may be seen otherwise by another proof.
+/// Conditions that are met or missed by less than this share may be judged differently by another proof.
 const DOUBTFUL: f64 = 1e-3;
 
-/// What became of the claims about faces that are no layers in contact.
+/// What became of the claims about faces that are not layers in contact.
 #[derive(Debug, Default)]
 pub(crate) struct StackingResult {
-    /// How many hold.
+    /// The number of claims that hold.
     pub(crate) held: usize,
-    /// The first that is false.
+    /// The first false claim: the two faces and the sign.
     pub(crate) refuted: Option<[i64; 3]>,
-    /// Triangles of the first of which another proof may think otherwise.
+    /// The triangles of the first claim that another proof may judge differently.
     pub(crate) doubtful: Option<[u32; 2]>,
 }
 
-/// Where the first of two triangles lies over the front of the second.
+/// The heights of the first of two triangles above the front of the second.
 struct HeightRange {
     triangles: [u32; 2],
     low: f64,
@@ -34,7 +34,7 @@ struct HeightRange {
     is_doubtful: bool,
 }
 
-/// A state of the sheet.
+/// A state of the sheet, with the faces of the file.
 pub(crate) struct SheetState<'a> {
     pub(crate) sheet: &'a Sheet,
     pub(crate) positions: &'a [DVec3],
@@ -43,7 +43,7 @@ pub(crate) struct SheetState<'a> {
 }
 
 impl SheetState<'_> {
-    /// Judges the entries of `order` of which `is_open` holds.
+    /// Judges the entries of `order` for which `is_open` returns true.
     pub(crate) fn judge(
         &self,
         order: &LayerOrder,
@@ -88,7 +88,7 @@ impl SheetState<'_> {
         stacked
     }
 
-    /// Heights of triangle `a` over the front of `b`, over what both cover; none where they are not stacked.
+    /// The heights of triangle `a` above the front of `b`, where both overlap; `None` if they are not stacked.
     fn heights(&self, a: u32, b: u32) -> Option<HeightRange> {
         let triangles = [a, b];
         let [a, b] = triangles.map(|face| corners(self.sheet, self.positions, face));
@@ -117,7 +117,7 @@ impl SheetState<'_> {
     }
 }
 
-/// The height over `point` of the plane through three points with heights.
+/// The height at `point` of the plane through three points with heights.
 fn height_at(point: DVec2, [(p, at_p), (q, at_q), (r, at_r)]: &[(DVec2, f64); 3]) -> f64 {
     let area = (*q - *p).perp_dot(*r - *p);
     let of_q = (point - *p).perp_dot(*r - *p) / area;

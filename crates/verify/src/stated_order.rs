@@ -1,4 +1,4 @@
-//! What the certificate states of the order of layers, beside what was found.
+//! What the certificate states about the order of layers, compared with what was found.
 
 use crate::closest::on_triangle;
 use crate::cluster::{Contradiction, FoundCluster};
@@ -8,7 +8,7 @@ use crate::verifier::Verifier;
 use foldmotion_check::{Cluster, LayerConflict, LayerProof};
 use foldmotion_check::{Penetration, PenetrationKind};
 
-/// The stated point lies within this many τ of all triangles concerned.
+/// The stated point lies within this multiple of τ of all triangles concerned.
 const POINT_TOLERANCES: f64 = 20.0;
 
 const NONE: &str = "no such cluster";
@@ -22,7 +22,8 @@ fn name(faces: &[u32], frames: [usize; 2]) -> String {
 }
 
 impl Verifier<'_> {
-    /// Every stated contradiction of a frame is found, and every one found is stated, there or for the same pair before.
+    /// Checks that every contradiction stated at a frame is found, and that every one found is stated, there or earlier
+    /// for the same pair.
     pub(crate) fn compare_contradictions(
         &mut self,
         frame: usize,
@@ -36,7 +37,7 @@ impl Verifier<'_> {
         for (stated, conflict) in conflicts.clone().filter(|(p, _)| p.frame == frame) {
             let is_it = |f: &&Contradiction| f.rule == conflict.rule && f.faces == conflict.faces;
             let what = match contradictions.iter().find(is_it) {
-                None => Some("the order of these layers contradicts nothing so"),
+                None => Some("these layers do not break this rule"),
                 Some(contradiction) => self.fault_in(stated, conflict, contradiction),
             };
             if let Some(what) = what {
@@ -53,12 +54,12 @@ impl Verifier<'_> {
                     "{:?} of triangles {:?} at frame {frame}",
                     contradiction.rule, contradiction.faces
                 );
-                self.refute_at(frame, "penetrations", "none of them", &what);
+                self.refute_at(frame, "penetrations", "none that accounts for this", &what);
             }
         }
     }
 
-    /// What is not as it was found.
+    /// The first difference between a stated contradiction and the one found.
     fn fault_in(
         &self,
         stated: &Penetration,
@@ -85,27 +86,27 @@ impl Verifier<'_> {
         let is_pair = stated.faces.iter().all(|f| conflict.faces.contains(f))
             && self.layer_state.order(stated.faces).is_some();
         if stated.kind != PenetrationKind::LayerOrder || stated.depth != 0.0 {
-            Some("it is an order of layers, 0 deep")
+            Some("a contradiction of layers has kind layer-order and depth 0")
         } else if [stated.time, stated.passed] != [self.last.time; 2] {
-            Some("it is found at a frame")
+            Some("a contradiction of layers is found at the time of a frame")
         } else if !is_pair {
-            Some("the pair is no two of the layers")
+            Some("the pair is not among these layers")
         } else if !has_vertices {
-            Some("the vertices are not those of what meets")
+            Some("the vertices are not those of the creases and layers that meet")
         } else if !is_there {
-            Some("they do not meet at the point")
+            Some("the layers do not meet at the point")
         } else {
             None
         }
     }
 
-    /// Refutes what is stated of a frame; names it open where the frame is in doubt.
+    /// Refutes a statement about a frame, or names it as open if the frame is in doubt.
     fn refute_at(&mut self, frame: usize, field: &str, stated: &str, found: &str) {
         match self.layer_state.doubts.get(&frame) {
             Some(&(faces, what)) => self.outcome.unproved.push(Unproved {
                 faces,
                 frame,
-                what: format!("{what}: {field} state {stated}, found: {found}"),
+                what: format!("{what}: {field} states {stated}, found {found}"),
             }),
             None => self.refute(field, stated, found),
         }
@@ -117,7 +118,7 @@ impl Verifier<'_> {
         doubtful.next().map(|(&frame, _)| frame)
     }
 
-    /// Holds the stated clusters and claims to those found.
+    /// Compares the stated clusters and claims with those found.
     pub(crate) fn compare_clusters(&mut self) {
         let (stated, found) = (self.claim.claims, self.layer_state.claims);
         let mut clusters = std::mem::take(&mut self.layer_state.clusters);
@@ -156,8 +157,8 @@ impl Verifier<'_> {
 }
 
 impl FoundCluster {
-    /// In what a stated cluster is another: stated, found. `is_open`: sides are in doubt there, and a stated order that is
-    /// unproved, which says nothing, differs from none.
+    /// The differences between a stated cluster and the one found: stated, found. `is_open`: sides are in doubt there,
+    /// and a stated order of *unproved* is accepted.
     fn differences(&self, stated: &Cluster, is_open: bool) -> Vec<(String, String)> {
         let mut differences = Vec::new();
         let mut require = |is_so: bool, stated: String, found: String| {

@@ -1,4 +1,4 @@
-//! What a report must say if it says the rest: the parts of the verdict.
+//! The consistency of a report: what its parts imply about each other.
 
 use foldmotion_pattern::Sheet;
 
@@ -6,18 +6,18 @@ use crate::face_pair::FacePair;
 use crate::outcome::Refutation;
 use foldmotion_check::{CollisionReport, Verdict};
 
-/// What the second proof knows.
+/// What the second proof has found.
 pub(crate) struct Findings<'a> {
     pub(crate) sheet: &'a Sheet,
-    /// The last frame proved, and its time.
+    /// The index of the last frame proved, and its motion time.
     pub(crate) last: (usize, f64),
-    /// Pairs that surely touch, pairs that may.
+    /// The number of pairs that surely touch, and of those that may.
     pub(crate) touching: [usize; 2],
-    /// What rounding may change a distance by, in units of length.
+    /// A bound of the rounding error of a distance, in units of length.
     pub(crate) rounding: f64,
 }
 
-/// Everything the report contradicts itself or what was found in.
+/// Everything in which the report contradicts itself or what was found.
 pub(crate) fn consistency(claim: &CollisionReport, facts: &Findings<'_>) -> Vec<Refutation> {
     let mut refuted = Vec::new();
     if let Some(says) = verdict_fault(claim, facts.touching) {
@@ -47,10 +47,10 @@ pub(crate) fn consistency(claim: &CollisionReport, facts: &Findings<'_>) -> Vec<
     refuted
 }
 
-/// Why a check would not have ended where it is said to.
+/// Why the check would not have ended when it is said to have.
 fn stop_fault(claim: &CollisionReport, (frame, time): (usize, f64)) -> Option<Refutation> {
     let stopped = claim.stopped?;
-    // Each pair stands once, as is refuted elsewhere.
+    // That each pair occurs once is checked elsewhere.
     let of_pairs = claim.penetrations.iter().filter(|p| p.conflict.is_none());
     let count = of_pairs.count();
     let found = if (stopped.frame, stopped.time) != (frame, time) {
@@ -69,9 +69,9 @@ fn separation_fault(claim: &CollisionReport, rounding: f64) -> Option<&'static s
     let open = stated.attained - stated.distance;
     let accuracy = (0.01 * claim.tolerance).max(1e-4 * stated.attained) + rounding;
     if !(stated.distance >= 0.0 && open >= 0.0) {
-        Some("a lower bound is at least 0 and at most what is attained")
+        Some("the lower bound must be at least 0 and at most the distance attained")
     } else if stated.is_tight && open > accuracy {
-        Some("these bounds are not as near as promised")
+        Some("the bounds are farther apart than is_tight promises")
     } else {
         None
     }
@@ -87,11 +87,11 @@ fn order_of_penetrations(claim: &CollisionReport, refuted: &mut Vec<Refutation>)
             refuted.push(Refutation::new(
                 "penetrations",
                 format!("{:?} after {:?}", key(k), key(k - 1)),
-                "they are in order of time",
+                "penetrations are listed in order of time",
             ));
         }
     }
-    // Of one pair there may be a penetration and an order of layers.
+    // A pair may have one penetration and one contradiction of layers.
     let kinds = claim.penetrations.iter();
     let mut faces: Vec<_> = kinds.map(|p| (p.faces, p.conflict.is_some())).collect();
     faces.sort_unstable();
@@ -99,14 +99,14 @@ fn order_of_penetrations(claim: &CollisionReport, refuted: &mut Vec<Refutation>)
         refuted.push(Refutation::new(
             "penetrations",
             format!("triangles {:?} twice", twice.0),
-            "each pair stands once",
+            "each pair is listed once",
         ));
     }
 }
 
-/// What the rest of the report, or what was found, says where the verdict is another.
+/// Why the verdict does not follow from the rest of the report, or from what was found.
 ///
-/// Between *free* and *touching* the pairs decide that come within τ for sure, or may do so.
+/// Between *free* and *touching*, the pairs that surely or possibly come within τ decide.
 fn verdict_fault(claim: &CollisionReport, [sure, possible]: [usize; 2]) -> Option<&'static str> {
     let is_close = claim
         .min_separation

@@ -1,4 +1,4 @@
-//! Whether a part passes through an edge between triangles where and when it is said to.
+//! Whether a part passes through an edge between triangles where and when it is stated to.
 
 use foldmotion_pattern::Frame;
 use glam::DVec3;
@@ -12,20 +12,20 @@ use crate::penetration::{POINT_TOLERANCES, is_kind_right, meeting_fault};
 use crate::piercing::Surface;
 use foldmotion_check::{Penetration, PenetrationKind};
 
-/// Instants looked at in an interval, besides those that draw near to a passage.
+/// The number of instants examined in an interval, besides those that approach a passage.
 const SAMPLES: u32 = 32;
-/// Instants looked at in an interval after the one at which something is stated.
+/// The number of instants examined in each interval after the one at which something is stated.
 const LATER_SAMPLES: u32 = 4;
-/// The most steps towards the instant at which the stated point is met.
+/// The largest number of steps towards the instant at which the stated point is met.
 const MOST_STEPS: u32 = 1 << 14;
 
-/// An edge and what it goes through.
+/// An edge and a surface that it passes through.
 pub(crate) type Piercing = ([u32; 2], Surface);
 
-/// Field, what is stated, what was found.
+/// The field, what is stated, and what was found.
 type Fault = (&'static str, String, &'static str);
 
-/// The frames around a penetration.
+/// The frames at both ends of the interval of a penetration.
 pub(crate) struct Interval<'a> {
     pub(crate) around: &'a Neighbourhood,
     pub(crate) frames: [&'a Frame; 2],
@@ -39,12 +39,12 @@ impl Interval<'_> {
         self.frames.map(|frame| frame.time)
     }
 
-    fn place(&self, v: u32, t: f64) -> DVec3 {
+    fn position(&self, v: u32, t: f64) -> DVec3 {
         let [p, q] = self.frames.map(|frame| frame.positions[v as usize]);
         p + (q - p) * t
     }
 
-    /// The part of the interval gone at a time, cut off at its ends.
+    /// The share of the interval at a motion time, clamped to [0, 1].
     fn share(&self, time: f64) -> f64 {
         let [start, end] = self.times();
         if end > start {
@@ -54,8 +54,8 @@ impl Interval<'_> {
         }
     }
 
-    /// Whether near the stated triangles an edge pierces the sheet so far that no push by τ undoes it, at one of the
-    /// instants looked at.
+    /// Whether, at one of the instants examined, an edge near the stated triangles pierces the sheet so far that no
+    /// push by τ undoes it.
     pub(crate) fn is_pierced_around(&self, stated: &Penetration) -> bool {
         let samples = (0..=SAMPLES).map(|k| f64::from(k) / f64::from(SAMPLES));
         let mut instants = samples.chain(instants_after(self.share(stated.passed)));
@@ -63,15 +63,16 @@ impl Interval<'_> {
         instants.any(|t| all.iter().any(|piercing| self.is_sure(piercing, t)))
     }
 
-    /// What goes through what near the stated triangles at the end of the interval, be it by less than τ.
+    /// The edges near the stated triangles that pass through a surface at the end of the interval, possibly by less
+    /// than τ.
     pub(crate) fn piercings_at_end(&self, stated: &Penetration) -> Vec<Piercing> {
         let mut all = self.piercings(stated);
         all.retain(|piercing| self.is_through(piercing, 1.0));
         all
     }
 
-    /// Whether a piercing of the interval before goes on in this one until no push by τ undoes it; those that come to an
-    /// end are dropped.
+    /// Whether a piercing of the previous interval continues in this one until no push by τ undoes it; those that end
+    /// are dropped.
     pub(crate) fn is_pierced_later(&self, piercings: &mut Vec<Piercing>) -> bool {
         let samples = || (1..=LATER_SAMPLES).map(|k| f64::from(k) / f64::from(LATER_SAMPLES));
         let lasts = |piercing: &Piercing| {
@@ -85,7 +86,7 @@ impl Interval<'_> {
         false
     }
 
-    /// The edges around the one triangle and the surfaces around the other, both ways.
+    /// The edges around each triangle, paired with the surfaces around the other.
     fn piercings(&self, stated: &Penetration) -> Vec<Piercing> {
         let corners = stated.faces.map(|f| *self.around.corners(f));
         let mut all = Vec::new();
@@ -99,22 +100,23 @@ impl Interval<'_> {
     }
 
     fn is_sure(&self, (edge, surface): &Piercing, t: f64) -> bool {
-        surface.is_pierced(*edge, &|v| self.place(v, t), self.tolerance)
+        surface.is_pierced(*edge, &|v| self.position(v, t), self.tolerance)
     }
 
     fn is_through(&self, (edge, surface): &Piercing, t: f64) -> bool {
-        surface.is_met(*edge, &|v| self.place(v, t), self.tolerance)
+        surface.is_met(*edge, &|v| self.position(v, t), self.tolerance)
     }
 
-    /// What is wrong with a stated penetration whatever passes through what.
+    /// What is wrong with a stated penetration, independently of what passes through.
     pub(crate) fn fault(&self, stated: &Penetration, pair: &FacePair) -> Option<Fault> {
         let [_, end] = self.times();
         if !(stated.time <= stated.passed && stated.passed <= end) {
-            let found = "the contact begins before, in the interval or earlier";
+            let found =
+                "the contact must begin before that, and no later than the end of the interval";
             return Some(("passed_t", stated.passed.to_string(), found));
         }
         if !is_kind_right(stated, pair, self.tolerance / self.unit) {
-            let found = "not what the facets share and the depth say";
+            let found = "it does not agree with the shared vertices and the depth";
             return Some(("kind", format!("{:?}", stated.kind), found));
         }
         if stated.kind != PenetrationKind::ThroughEdge {
@@ -124,21 +126,21 @@ impl Interval<'_> {
         let all = Self::features(stated, pair).into_iter();
         let nearest = all.min_by(|&p, &q| self.apart(p, from).total_cmp(&self.apart(q, from)));
         let Some([a, b]) = nearest else {
-            let found = "not two simplices of the triangles without a common vertex";
+            let found = "these are not two simplices of the triangles without a common vertex";
             return Some(("vertices", format!("{:?}", stated.vertices), found));
         };
         let near = POINT_TOLERANCES * self.tolerance;
         if stated.passed >= self.times()[0] && self.apart([a, b], from) > near {
-            let found = "the vertices named do not meet then";
+            let found = "the named vertices do not meet then";
             return Some(("passed_t", stated.passed.to_string(), found));
         }
         if !self.is_met(stated.point, [a, b], from) {
-            let found = "the vertices named do not meet there";
+            let found = "the named vertices do not meet there";
             return Some(("point", stated.point.to_string(), found));
         }
         let most = self.deepest(stated) + near;
         if !(stated.depth >= 0.0 && stated.depth * self.unit <= most) {
-            let found = "no edge around stands so far beyond a triangle around";
+            let found = "no edge nearby lies so far beyond a triangle nearby";
             return Some(("depth", format!("{:e}", stated.depth), found));
         }
         None
@@ -154,8 +156,8 @@ impl Interval<'_> {
         Some(("point", stated.point.to_string(), found))
     }
 
-    /// The simplices that may be named, each as a triangle with corners repeated: the one in the one triangle of the pair,
-    /// the other in the other.
+    /// The simplices that the vertices may name, each as a triangle with repeated corners: one in each triangle of the
+    /// pair.
     fn features(stated: &Penetration, pair: &FacePair) -> Vec<[[u32; 3]; 2]> {
         let v = &stated.vertices;
         let mut splits: Vec<[[u32; 3]; 2]> = match **v {
@@ -174,7 +176,7 @@ impl Interval<'_> {
     }
 
     fn pose(&self, features: [[u32; 3]; 2], t: f64) -> PairPose {
-        let [a, b] = features.map(|corners| corners.map(|v| self.place(v, t)));
+        let [a, b] = features.map(|corners| corners.map(|v| self.position(v, t)));
         PairPose { a, b }
     }
 
@@ -182,13 +184,13 @@ impl Interval<'_> {
         closest(&self.pose(features, t)).distance()
     }
 
-    /// Whether a point is on both features at an instant from t on.
+    /// Whether a point lies on both features at some instant from `from` on.
     ///
-    /// No corner moves faster than all of them, and nor does the distance of the point change faster.
+    /// The distance of the point from a feature changes no faster than the fastest corner moves.
     fn is_met(&self, point: DVec3, features: [[u32; 3]; 2], from: f64) -> bool {
         let near = POINT_TOLERANCES * self.tolerance;
         let moves = features.iter().flatten();
-        let moves = moves.map(|&v| self.place(v, 0.0).distance(self.place(v, 1.0)));
+        let moves = moves.map(|&v| self.position(v, 0.0).distance(self.position(v, 1.0)));
         let speed = moves.fold(0.0, f64::max);
         let mut t = from;
         for _ in 0..MOST_STEPS {
@@ -206,7 +208,7 @@ impl Interval<'_> {
         true
     }
 
-    /// No edge around stands farther beyond a triangle around, at the instants looked at and as far as can be between.
+    /// A bound of how far an edge nearby lies beyond a triangle nearby, at the instants examined and between them.
     fn deepest(&self, stated: &Penetration) -> f64 {
         let corners = stated.faces.map(|f| *self.around.corners(f));
         let faces = self.around.faces_at(&corners.concat());
@@ -216,10 +218,10 @@ impl Interval<'_> {
             .collect();
         let beyond = |t: f64| {
             let heights = faces.iter().flat_map(|&face| {
-                let [p, q, r] = self.around.corners(face).map(|v| self.place(v, t));
+                let [p, q, r] = self.around.corners(face).map(|v| self.position(v, t));
                 let normal = (q - p).cross(r - p).normalize_or_zero();
                 all.iter().map(move |edge| {
-                    let [above, below] = edge.map(|v| normal.dot(self.place(v, t) - p));
+                    let [above, below] = edge.map(|v| normal.dot(self.position(v, t) - p));
                     above.min(-below).max(below.min(-above))
                 })
             });
@@ -228,7 +230,7 @@ impl Interval<'_> {
         let samples = (0..=SAMPLES).map(|k| beyond(f64::from(k) / f64::from(SAMPLES)));
         let largest = samples.fold(0.0, f64::max);
         let moves = corners.iter().flatten();
-        let moves = moves.map(|&v| self.place(v, 0.0).distance(self.place(v, 1.0)));
+        let moves = moves.map(|&v| self.position(v, 0.0).distance(self.position(v, 1.0)));
         largest + 2.0 * moves.fold(0.0, f64::max) / f64::from(SAMPLES)
     }
 }

@@ -1,4 +1,4 @@
-//! The way a pair took through an interval: along which directions it was kept on its side.
+//! The directions along which a pair was kept on its side through an interval.
 
 use glam::DVec3;
 
@@ -6,15 +6,15 @@ use crate::instant::{axes, roomiest};
 use crate::moving_pair::{Feature, MovingPair};
 use crate::side::Side;
 
-/// A direction over a step.
+/// The direction used over a step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum StepDirection {
-    /// The normal that features give, and its sense.
+    /// The normal given by a feature, and its sense.
     Along((Feature, f64)),
     Fixed(DVec3),
 }
 
-/// The steps of a walk in order; those along which the pair is strictly apart have no ways.
+/// The steps in order. Steps over which the pair is strictly apart have no directions.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub(crate) struct Trail {
     start: Vec<DVec3>,
@@ -30,7 +30,7 @@ impl Trail {
         }
     }
 
-    /// Of a pair that stays where it is.
+    /// The trail of a pair that does not move.
     pub(crate) fn at_rest(side: &Side) -> Self {
         let directions = side.directions.iter().copied().map(StepDirection::Fixed);
         Self {
@@ -52,8 +52,8 @@ impl Trail {
         in_contact.flat_map(|(times, _)| *times)
     }
 
-    /// Directions in the part of D(t) that the pair has reached, some in each of its parts; none where there is none to
-    /// be told.
+    /// Directions in the part of D(t) that the pair has reached, some in each of its components; empty if none is
+    /// known.
     pub(crate) fn at(&self, moving: &MovingPair, t: f64) -> Vec<DVec3> {
         if t <= 0.0 && !self.start.is_empty() {
             return self.start.clone();
@@ -66,15 +66,17 @@ impl Trail {
         }
         let pose = moving.at(t);
         let here = moving.part(&pose, &pose);
-        let directions = directions.iter().filter_map(|way| match *way {
-            StepDirection::Along(feature) => here.directed(feature).ends()[0].try_normalize(),
-            StepDirection::Fixed(direction) => Some(direction),
-        });
+        let directions = directions
+            .iter()
+            .filter_map(|step_direction| match *step_direction {
+                StepDirection::Along(feature) => here.directed(feature).ends()[0].try_normalize(),
+                StepDirection::Fixed(direction) => Some(direction),
+            });
         directions.collect()
     }
 }
 
-/// A direction along which the triangles are strictly apart.
+/// A direction along which the triangles are strictly apart, if there is one.
 pub(crate) fn apart(moving: &MovingPair, t: f64) -> Vec<DVec3> {
     let pose = moving.at(t);
     roomiest(&axes(moving, &pose)).into_iter().collect()

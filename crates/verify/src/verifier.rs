@@ -10,6 +10,7 @@ use crate::boxes::Boxes;
 use crate::closest::closest;
 use crate::distance::{DistanceProof, keeps_distance};
 use crate::face_pair::{FacePair, assignments, front_normal};
+use crate::findings::PairFindings;
 use crate::follow::{FollowOutcome, SideCrossing, follow_leniently};
 use crate::layer_state::LayerState;
 use crate::line;
@@ -22,20 +23,19 @@ use crate::penetration::FoundPenetration;
 use crate::side::{Limits, Side};
 use crate::statement;
 use crate::through::Piercing;
-use crate::trail::Trail;
 use foldmotion_check::{CollisionReport, Penetration, Verdict};
 
-/// The most steps spent on a pair in an interval.
+/// The largest number of steps spent on a pair in an interval.
 const BUDGET: u32 = 1 << 16;
-/// Pairs farther than this, in units of τ, are surely not touching; the first prover resolves distances to τ/100.
+/// Pairs farther apart than this multiple of τ surely do not touch; the first proof resolves distances to τ/100.
 pub(crate) const SURELY_APART: f64 = 1.02;
-/// Pairs nearer than this, in units of τ, surely touch: *free* states that none are.
+/// Pairs nearer than this multiple of τ surely touch: a verdict of *free* states that there are none.
 pub(crate) const SURELY_TOUCHING: f64 = 0.98;
-/// What rounding may take off a bound of the distance, in units of ε and the size of the pair, twice over.
+/// Twice a bound of the rounding error of a distance, in units of ε and the size of the pair.
 const DISTANCE_ROUNDINGS: f64 = 512.0;
-/// How many refutations are listed; the rest are of the same motion.
+/// The largest number of refutations that are listed; further ones are about the same motion.
 const MOST_LISTED: usize = 20;
-/// To this share of the unit of length the stated points are met.
+/// The accuracy to which the stated points are attained, in units of length.
 pub(crate) const POINT_ACCURACY: f64 = 1e-9;
 
 /// Proves the statement of a collision report again, by other means.
@@ -45,88 +45,46 @@ pub struct Verifier<'a> {
     pub(crate) claim: &'a CollisionReport,
     pub(crate) limits: Limits,
     pub(crate) last: Frame,
-    /// The greatest distance of a vertex in any frame from the first of the first frame.
+    /// The largest distance, in any frame, of a vertex from the first vertex of the first frame.
     reach: f64,
     reference: DVec3,
-    /// Frames taken in.
+    /// The number of frames accepted so far.
     pub(crate) frames: usize,
-    /// Whether a frame was given of which nothing is stated.
+    /// Whether a frame was given about which nothing is stated.
     pub(crate) is_over: bool,
     /// The sides of the pairs in contact, ordered by pair.
     pub(crate) sides: Vec<([u32; 2], Side)>,
     pub(crate) claimed: BTreeMap<[u32; 2], &'a Penetration>,
     pub(crate) undecided: BTreeSet<([u32; 2], usize)>,
-    /// Pairs with a penetration behind them, and the intervals in which each was judged.
+    /// Pairs that have penetrated, and the number of intervals in which each was judged.
     pub(crate) dropped: BTreeMap<[u32; 2], usize>,
     pub(crate) around: Neighbourhood,
-    /// Pairs not followed to the end of the interval before.
+    /// Pairs that could not be followed to the end of the previous interval.
     pub(crate) lost: PairSet,
-    /// Sides that are fewer than those followed, as they fit together with those beyond an edge.
+    /// For pairs with ambiguous sides, those that fit together with the sides beyond an edge.
     pub(crate) narrowed: BTreeMap<[u32; 2], Side>,
-    /// Pairs at which something was found to pass through.
+    /// Pairs at which a passage was found.
     pub(crate) accounted: PairSet,
-    /// Pairs of which it was left open.
+    /// Pairs for which it is open whether something passes.
     pub(crate) questioned: PairSet,
-    /// Whether an edge was found to go through the sheet where nothing is listed.
+    /// Whether an edge was found to pass through the sheet where nothing is listed.
     pub(crate) is_pierced: bool,
-    /// What is listed up to here and was not found yet, with what goes through the sheet there.
+    /// Listed penetrations that have not been found yet, with the piercings at the end of the last interval.
     pub(crate) pending: Vec<(&'a Penetration, Vec<Piercing>)>,
     pub(crate) surely_touching: BTreeSet<[u32; 2]>,
     pub(crate) perhaps_touching: BTreeSet<[u32; 2]>,
-    /// Whether the stated closest approach was met, where one is stated.
+    /// Why the stated closest approach is not attained; `None` if it is or has not been examined.
     pub(crate) separation_fault: Option<String>,
     pub(crate) is_separation_met: bool,
     pub(crate) layer_state: LayerState,
     pub(crate) outcome: Verification,
 }
 
-/// What was found of a pair in an interval.
-pub(crate) struct PairFindings {
-    side: Option<Side>,
-    pub(crate) lost: Option<LostSide>,
-    /// Likewise from the sides that fit together with others, which may be fewer.
-    pub(crate) narrowed: Option<Side>,
-    pub(crate) lost_narrowed: Option<LostSide>,
-    /// How it was followed, where it was in contact.
-    pub(crate) trail: Option<Trail>,
-    pub(crate) touching: [bool; 2],
-    nearer: Option<(f64, f64)>,
-    unproved: Option<&'static str>,
-    is_followed: bool,
-    /// Whether nothing is to be said of it.
-    pub(crate) is_skipped: bool,
-}
-
-impl PairFindings {
-    pub(crate) fn apart() -> Self {
-        Self {
-            side: None,
-            lost: None,
-            narrowed: None,
-            lost_narrowed: None,
-            trail: None,
-            touching: [false; 2],
-            nearer: None,
-            unproved: None,
-            is_followed: false,
-            is_skipped: false,
-        }
-    }
-
-    pub(crate) fn at_rest(trail: Option<Trail>, is_skipped: bool) -> Self {
-        Self {
-            trail,
-            is_skipped,
-            ..Self::apart()
-        }
-    }
-}
-
 impl<'a> Verifier<'a> {
-    /// Takes in the first frame. `claim`: what the certificate states; its counts of work and of pairs that touch, and
-    /// its series of separations, are not looked at.
+    /// Accepts the first frame. `claim`: what the certificate states; its counts of work and of touching pairs, and its
+    /// series of separations, are ignored.
     ///
-    /// Preconditions: the sheet's corners are in range; every frame has a finite position for every vertex.
+    /// Preconditions: the corners of the sheet are in range; every frame has a finite position for every vertex.
     pub fn new(sheet: &'a Sheet, first: Frame, claim: &'a CollisionReport) -> Self {
         let unit = sheet.unit_length;
         let of_pairs = claim.penetrations.iter().filter(|p| p.conflict.is_none());
@@ -164,7 +122,7 @@ impl<'a> Verifier<'a> {
         verifier
     }
 
-    /// Takes in the next frame and proves the interval before it; nothing is stated, nor proved, of a frame after the
+    /// Accepts the next frame and proves the interval before it. Nothing is stated, or proved, about frames after the
     /// one at which the check stopped.
     pub fn advance(&mut self, frame: Frame) {
         let last = self.claim.stopped.map(|stopped| stopped.frame);
@@ -208,7 +166,7 @@ impl<'a> Verifier<'a> {
         self.find_layers(&near, &open);
     }
 
-    /// What came of it.
+    /// The result of the verification.
     pub fn finish(mut self) -> Verification {
         if self.frames == 1 {
             self.finish_at_rest();
@@ -222,7 +180,7 @@ impl<'a> Verifier<'a> {
             .filter(|_| !self.is_separation_met)
         {
             let fault = self.separation_fault.take();
-            let found = fault.unwrap_or_else(|| "it is at no time of the motion".to_owned());
+            let found = fault.unwrap_or_else(|| "the motion does not include this time".to_owned());
             self.refute(
                 "min_separation",
                 format!("{:e} at t = {}", separation.attained, separation.time),
@@ -275,7 +233,7 @@ impl<'a> Verifier<'a> {
         }
     }
 
-    /// The first frame: which sides are possible, and what is too deep already.
+    /// Handles the first frame: which sides are possible, and which pairs are too deep already.
     fn begin(&mut self) {
         self.extend_reach();
         let first = self.last.positions.clone();
@@ -286,7 +244,7 @@ impl<'a> Verifier<'a> {
             if pair.shared > 2 {
                 self.refute(
                     "triangles",
-                    "each stands once",
+                    "each triangle once",
                     format!("{faces:?} have the same corners"),
                 );
                 continue;
@@ -335,7 +293,7 @@ impl<'a> Verifier<'a> {
         let stated = self.claim.min_separation.map_or(0.0, |s| s.distance);
         let unit = self.sheet.unit_length;
         let radius = 0.5 * (SURELY_APART * self.limits.tolerance).max(stated * unit);
-        // Relative to a vertex: rounding to f32 goes with the size of the sheet, not with its place.
+        // Relative to a vertex, so that rounding to f32 depends on the size of the sheet and not on its position.
         let origin = start[0];
         let mut boxes = Boxes::default();
         for corners in &self.sheet.faces {
@@ -375,7 +333,7 @@ impl<'a> Verifier<'a> {
         judged
     }
 
-    /// Whether the pair keeps more than τ apart; notes whether it comes nearer than stated.
+    /// Whether the pair stays farther apart than τ; also records whether it comes nearer than stated.
     fn measure(&self, pair: &FacePair, moving: &MovingPair, judged: &mut PairFindings) -> bool {
         let apart = SURELY_APART * self.limits.tolerance;
         let limit = self
@@ -407,7 +365,7 @@ impl<'a> Verifier<'a> {
         false
     }
 
-    /// Whether a pair near τ keeps as far apart as *free* states.
+    /// Tests whether a pair near τ stays as far apart as a verdict of *free* states.
     fn keeps_free(&self, moving: &MovingPair, judged: &mut PairFindings) {
         match keeps_distance(moving, SURELY_TOUCHING * self.limits.tolerance, BUDGET) {
             DistanceProof::Kept => {}
@@ -416,7 +374,7 @@ impl<'a> Verifier<'a> {
         }
     }
 
-    /// What is to be proved of all distances: the stated lower bound, to the accuracy of this proof.
+    /// The lower bound to be proved for all distances: the stated one, to the accuracy of this proof.
     fn least_distance(&self) -> Option<f64> {
         let stated = self.claim.min_separation?.distance * self.sheet.unit_length;
         Some(stated - (1e-3 * self.limits.tolerance).max(1e-5 * stated))

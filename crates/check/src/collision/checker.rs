@@ -1,4 +1,4 @@
-//! The walk over the frames: which pairs are judged in an interval, and what is remembered of them.
+//! The check, frame by frame: which pairs are judged in an interval, and what is remembered about them.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -26,10 +26,10 @@ use crate::{
     layers::{Claims, FaceEdges, LayerPair, front_normal},
 };
 
-/// The tolerance in bounds of rounding errors: so the offsets that bring a motion into general position, a 4096th of it, are
-/// above these.
+/// The tolerance must be at least this many bounds of rounding errors, so that the offsets that bring a motion into
+/// general position, 1/4096 of the tolerance, exceed rounding.
 const ROUNDINGS: f64 = 4096.0;
-/// Fewer pairs than this are not worth a thread.
+/// The number of pairs below which starting another thread does not pay.
 const PAIRS_A_TASK: usize = 128;
 
 /// Judges a motion frame by frame, holding two frames at a time.
@@ -40,31 +40,31 @@ pub struct Checker<'a> {
     /// τ, a length.
     pub(super) tolerance: f64,
     budget: u32,
-    /// Once more pairs have penetrated, no further frame is taken in; 0: no limit.
+    /// Once more pairs than this have penetrated, no further frame is accepted; 0: no limit.
     stop_at: usize,
     pub(super) origin: DVec3,
     tree: Tree,
     pub(super) last: CentredFrame,
-    /// The number of frames taken in.
+    /// The number of frames accepted so far.
     pub(super) frames: usize,
     /// The sides of the pairs judged in the last interval, ordered by pair.
     pub(super) sides: Vec<((u32, u32), Side)>,
-    /// Pairs without a side whose boxes met in the last interval: they have penetrated or could not be decided.
+    /// Pairs without a side whose boxes overlapped in the last interval: they have penetrated or could not be decided.
     pub(super) unfollowed: Vec<(u32, u32)>,
     /// The layers of the last frame, ordered by pair.
     pub(super) layers: Vec<LayerPair>,
-    /// Layers whose order the file or an assignment has claimed, as long as they are in contact.
+    /// Layers whose order was claimed by the file or an assignment, for as long as they stay in contact.
     pub(super) claimed: BTreeSet<[u32; 2]>,
-    /// Whether the rules were tested at the last frame.
+    /// Whether the layer rules have been tested at the last frame.
     pub(super) is_proved: bool,
     pub(super) penetrating: BTreeSet<(u32, u32)>,
-    /// Pairs of layers that were found in an order that contradicts others.
+    /// Pairs of layers whose order was found to contradict other orders.
     pub(super) contradicting: BTreeSet<[u32; 2]>,
     pub(super) touching: BTreeSet<(u32, u32)>,
     /// Pairs that may have been within τ in the last interval, in order.
     pub(super) near: Vec<[u32; 2]>,
-    /// Pairs that left the side they were followed on, without an instant at which they are surely too deep, with the
-    /// last interval in which they did: whether they pass through each other is counted on the sheet.
+    /// Pairs that left the side they were followed on although no instant shows them to be surely too deep, with the
+    /// last interval in which they did. Whether they pass through each other is decided by the crossing counts.
     pub(super) suspects: BTreeMap<(u32, u32), Suspect>,
     pub(super) crossings: CrossingCounter,
     /// The closest approach so far.
@@ -73,10 +73,10 @@ pub struct Checker<'a> {
 }
 
 impl<'a> Checker<'a> {
-    /// Takes in the first frame.
+    /// Accepts the first frame.
     ///
     /// # Errors
-    /// Tolerance, unit of length, sheet or frame as the variants of [`CheckError`] say.
+    /// A tolerance, unit of length, sheet or frame that cannot be used: see the variants of [`CheckError`].
     pub fn new(
         sheet: &'a Sheet,
         first: &Frame,
@@ -132,11 +132,11 @@ impl<'a> Checker<'a> {
         Ok(checker)
     }
 
-    /// Takes in the next frame and judges the interval before it; where more pairs have penetrated than
-    /// [`CollisionOptions::stop_at`], it does nothing, and [`Self::is_stopped`] from then on.
+    /// Accepts the next frame and judges the interval before it. Once more pairs have penetrated than
+    /// [`CollisionOptions::stop_at`], it does nothing, and [`Self::is_stopped`] returns true from then on.
     ///
     /// # Errors
-    /// A frame that cannot be judged, as the variants of [`CheckError`] say; the checker is as it was before.
+    /// A frame that cannot be judged: see the variants of [`CheckError`]. The checker is then unchanged.
     pub fn advance(&mut self, frame: &Frame) -> Result<(), CheckError> {
         if self.stops() {
             return Ok(());
@@ -163,12 +163,12 @@ impl<'a> Checker<'a> {
         Ok(())
     }
 
-    /// Whether a frame was not taken in because too many pairs had penetrated.
+    /// Whether a frame was refused because too many pairs had penetrated.
     pub fn is_stopped(&self) -> bool {
         self.report.stopped.is_some()
     }
 
-    /// Ends the check at the last frame where too many pairs have penetrated; whether it has ended.
+    /// Ends the check at the last frame if too many pairs have penetrated. Returns whether the check has ended.
     fn stops(&mut self) -> bool {
         if self.stop_at > 0 && self.penetrating.len() > self.stop_at {
             self.report.stopped = Some(Stopped {
@@ -180,7 +180,7 @@ impl<'a> Checker<'a> {
         self.is_stopped()
     }
 
-    /// The report on the frames taken in so far.
+    /// The report about the frames accepted so far.
     pub fn finish(mut self) -> CollisionReport {
         self.prove_layers();
         if self.frames == 1 {
@@ -216,7 +216,7 @@ impl<'a> Checker<'a> {
         report
     }
 
-    /// The exact separation at the last frame.
+    /// Measures the exact separation at the last frame.
     fn measure_separation(&mut self) {
         let hint = self.nearest.faces();
         let Some((closest, faces)) = self.last.nearest(self.sheet, &mut self.tree, hint) else {
@@ -232,7 +232,7 @@ impl<'a> Checker<'a> {
         pair.shared == 0 && !facets_share_a_vertex(self.sheet, f, g)
     }
 
-    /// The lower bound of the separation of a motion without an interval.
+    /// Computes the lower bound of the separation for a motion of a single frame.
     fn bound_only_frame(&mut self) {
         let (Some(nearest), Ok(limits)) = (
             self.nearest.distance(),
@@ -253,7 +253,7 @@ impl<'a> Checker<'a> {
         }
     }
 
-    /// Pairs whose boxes, swept from `start` to the last frame, come within τ and within the smallest separation.
+    /// Pairs whose boxes, swept from `start` to the last frame, come within τ or within the smallest separation so far.
     fn candidates(&mut self, start: &CentredFrame) -> Vec<FacePair> {
         let nearest = self.nearest.distance().unwrap_or(0.0);
         let radius = 0.5 * nearest.max(self.tolerance);
@@ -271,7 +271,7 @@ impl<'a> Checker<'a> {
             .collect()
     }
 
-    /// The sides at the first frame.
+    /// Determines the sides at the first frame.
     fn judge_first_frame(&mut self, limits: &Limits) -> Result<(), CheckError> {
         let swept: Vec<_> = self
             .last
@@ -289,7 +289,7 @@ impl<'a> Checker<'a> {
             let pose = pair.pose(&self.last.positions);
             if may_be_near(&pair, &MovingPair::at_rest(pose), 0.0, limits) {
                 self.near.push([f, g]);
-                // Of triangles that share nothing the intervals find it, by their distance.
+                // For triangles without a common vertex, the distance over the intervals decides whether they touch.
                 if pair.shared > 0 || triangle_triangle(&pose.a, &pose.b).distance <= self.tolerance
                 {
                     self.touching.insert((f, g));
@@ -402,7 +402,7 @@ impl<'a> Checker<'a> {
             }
             Judgement::Undecided { is_near, distance } => {
                 self.nearest.record(pair.faces, times, &distance);
-                // What passes through what is counted, whatever the sides.
+                // Whatever the sides are, the crossing counts decide whether something passes through.
                 decided_by.search += 1;
                 self.unfollowed.push(pair.key());
                 if is_near {
@@ -414,7 +414,7 @@ impl<'a> Checker<'a> {
     }
 }
 
-/// The numbers a verdict depends on, up to a frame.
+/// The limits used for the verdict up to a frame.
 fn limits_for(
     frame: usize,
     extent: f64,
@@ -480,7 +480,7 @@ fn assignments(sheet: &Sheet) -> BTreeMap<(u32, u32), Assignment> {
     between
 }
 
-/// The axes that point to the side of `normal`; all where none does.
+/// The axes that point to the side of `normal`; all of them if none does.
 pub(super) fn on_side(axes: &[DVec3], normal: DVec3) -> Vec<DVec3> {
     let kept: Vec<_> = axes
         .iter()

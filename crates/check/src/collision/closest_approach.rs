@@ -8,15 +8,15 @@ use glam::DVec3;
 
 use super::{judge::DistanceBounds, report::Separation};
 
-/// Bounds of the smallest distance of facets that share no vertex: lengths, relative to the origin of the check.
+/// Bounds of the smallest distance between facets that share no vertex: lengths, relative to the origin of the check.
 #[derive(Debug)]
 pub(super) struct ClosestApproach {
-    /// Where the smallest distance found is attained; none where no pair is measured.
+    /// Where the smallest distance found is attained; `None` if no pair is measured.
     attained: Option<Attained>,
-    /// No pair that was looked at is nearer than this in any interval so far. Those left out are farther than the
-    /// distance attained by then, or by at most what it was to be known to.
+    /// No measured pair has come nearer than this in any interval so far. Pairs that were left out are farther apart
+    /// than the distance attained by then, up to the accuracy to which it was needed.
     at_least: f64,
-    /// What the bounds are known to, for the largest extent so far.
+    /// The limits that determine the accuracy of the bounds, for the largest extent so far.
     limits: Limits,
 }
 
@@ -36,7 +36,7 @@ impl ClosestApproach {
         }
     }
 
-    /// The smallest distance found; none where no pair is measured.
+    /// The smallest distance found; `None` if no pair is measured.
     pub(super) fn distance(&self) -> Option<f64> {
         self.attained.map(|attained| attained.closest.distance)
     }
@@ -45,12 +45,12 @@ impl ClosestApproach {
         self.attained.map(|attained| attained.faces)
     }
 
-    /// Takes in the numbers that hold for the next interval.
+    /// Adopts the margin of the next interval if it is larger.
     pub(super) fn extend(&mut self, limits: &Limits) {
         self.limits.margin = self.limits.margin.max(limits.margin);
     }
 
-    /// Takes in a distance that is attained.
+    /// Records a distance that is attained, if it is the smallest so far.
     pub(super) fn keep(&mut self, faces: [u32; 2], time: f64, closest: Closest) {
         if self.distance().is_none_or(|least| closest.distance < least) {
             self.attained = Some(Attained {
@@ -61,7 +61,7 @@ impl ClosestApproach {
         }
     }
 
-    /// Takes in what was found of a pair between two motion times.
+    /// Records the distance bounds of a pair between two motion times.
     pub(super) fn record(&mut self, faces: [u32; 2], times: [f64; 2], distance: &DistanceBounds) {
         self.at_least = self.at_least.min(distance.at_least);
         if let Some(approach) = distance.approach {

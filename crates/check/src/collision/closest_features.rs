@@ -1,23 +1,24 @@
-//! What meets where: the corner and facet, or the two edges, of a pair that are nearest to each other.
+//! The features of two triangles that are nearest to each other: a corner and a facet, or two edges.
 
 use foldmotion_geometry::{collide::PairPose, segment_segment, triangle_triangle};
 use glam::DVec3;
 
 use super::face_pair::FacePair;
 
-/// Two features that meet.
+/// A corner and a facet, or two edges, that are nearest to each other.
 #[derive(Debug, Clone)]
 pub(super) struct ClosestFeatures {
-    /// A corner and a facet's three, or the ends of two edges, each vertex once.
+    /// The corner followed by the three of the facet, or the ends of both edges; each vertex once.
     pub(super) vertices: Vec<u32>,
     pub(super) point: DVec3,
-    /// Whether they are two edges.
+    /// Whether the features are two edges.
     pub(super) are_edges: bool,
     pub(super) distance: f64,
 }
 
 impl ClosestFeatures {
-    /// The features nearest to each other, but for those that share a vertex; the wanted kind within `slack` of that.
+    /// The features nearest to each other, leaving out those that share a vertex. The wanted kind is returned if its
+    /// distance exceeds the smallest one by at most `slack`.
     pub(super) fn nearest(pair: &FacePair, pose: &PairPose, wants_edges: bool, slack: f64) -> Self {
         let (corner, edges) = (Self::corner_and_facet(pair, pose), Self::edges(pair, pose));
         let (wanted, other) = if wants_edges {
@@ -32,7 +33,7 @@ impl ClosestFeatures {
         }
     }
 
-    /// The corner, of those not shared, that is nearest to the other facet.
+    /// The corner, among those not shared, that is nearest to the other facet.
     fn corner_and_facet(pair: &FacePair, pose: &PairPose) -> Self {
         let mut nearest = Self::far();
         for (of, at, facet, triangle) in [

@@ -4,7 +4,7 @@ use foldmotion_geometry::collide::PairPose;
 use foldmotion_pattern::Sheet;
 use glam::DVec3;
 
-/// Triangles f < g, corners rearranged so that the shared ones come first, in the same order.
+/// Triangles f < g, their corners rearranged so that the shared ones come first, in the same order in both.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct FacePair {
     pub(super) faces: [u32; 2],
@@ -32,16 +32,16 @@ impl FacePair {
         }
     }
 
-    /// The two faces, as they are looked up.
+    /// The key under which the pair is looked up.
     pub(super) fn key(&self) -> (u32, u32) {
         (self.faces[0], self.faces[1])
     }
 
     pub(super) fn pose(&self, positions: &[DVec3]) -> PairPose {
-        let place = |corners: [u32; 3]| corners.map(|v| positions[v as usize]);
+        let positions_of = |corners: [u32; 3]| corners.map(|v| positions[v as usize]);
         PairPose {
-            a: place(self.a),
-            b: place(self.b),
+            a: positions_of(self.a),
+            b: positions_of(self.b),
             shared: self.shared,
         }
     }

@@ -1,4 +1,4 @@
-//! A frame made ready: validated, moved to the origin, with the boxes of its triangles.
+//! A frame prepared for the check: validated, moved to the origin, with the boxes of its triangles.
 
 use foldmotion_geometry::{
     Aabb, Closest,
@@ -17,12 +17,12 @@ pub(super) struct CentredFrame {
     pub(super) time: f64,
     pub(super) positions: Vec<DVec3>,
     pub(super) boxes: Vec<Aabb>,
-    /// The largest distance of a vertex from the origin.
+    /// The largest distance of a vertex from the origin, a length.
     pub(super) extent: f64,
 }
 
 impl CentredFrame {
-    /// Precondition: the sheet's corners are in range.
+    /// Validates a frame and moves it to the origin. Precondition: the corners of the sheet are in range.
     pub(super) fn new(
         sheet: &Sheet,
         frame: &Frame,
@@ -71,7 +71,7 @@ impl CentredFrame {
         })
     }
 
-    /// The closest triangles of facets that share no vertex.
+    /// The closest triangles among facets that share no vertex.
     ///
     /// `hint`: a pair that is likely to be close.
     pub(super) fn nearest(
@@ -84,7 +84,7 @@ impl CentredFrame {
         let measure = |f: u32, g: u32| triangle_triangle(&corners(f), &corners(g));
         let mut best = hint.map(|[f, g]| (measure(f, g), [f, g]));
         let bound = best.as_ref().map_or(f64::INFINITY, |b| b.0.distance);
-        // Pairs as near as the bound to within rounding need no exact distance.
+        // Pairs that are as near as the bound to within rounding need no exact distance.
         let rounding = Limits::margin_for(self.extent);
         tree.refit(&self.boxes);
         tree.visit_near(&self.boxes, bound, |f, g, bound| {
@@ -106,7 +106,7 @@ impl CentredFrame {
     }
 }
 
-/// Whether one of three directions shows the triangles to be at least `bound` apart.
+/// Whether one of three directions shows that the triangles are at least `bound` apart.
 fn is_farther(a: &[DVec3; 3], b: &[DVec3; 3], bound: f64) -> bool {
     let normal = |t: &[DVec3; 3]| (t[1] - t[0]).cross(t[2] - t[0]);
     let centres = b.iter().sum::<DVec3>() - a.iter().sum::<DVec3>();
@@ -123,7 +123,7 @@ fn is_farther(a: &[DVec3; 3], b: &[DVec3; 3], bound: f64) -> bool {
     })
 }
 
-/// Twice the area over the longest side.
+/// The smallest height of a triangle: twice its area over its longest side.
 fn least_height([p, q, r]: [DVec3; 3]) -> f64 {
     let longest = p.distance(q).max(q.distance(r)).max(r.distance(p));
     (q - p).cross(r - p).length() / longest

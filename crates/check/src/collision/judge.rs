@@ -1,4 +1,4 @@
-//! The judgement of one pair in one interval.
+//! The judgement of one pair of triangles in one interval.
 
 use foldmotion_geometry::collide::{
     Approach, ApproachBounds, Axis, Effort, Feature, Limits, MovingPair, Outcome, PairCertificate,
@@ -8,38 +8,38 @@ use glam::DVec3;
 
 use super::{closest_features::ClosestFeatures, face_pair::FacePair, report::PenetrationKind};
 
-/// Pairs nearer than this share of τ are near.
+/// Pairs nearer than this multiple of τ count as near.
 const NEAR: f64 = 1.01;
-/// Features farther than this many τ from each other do not meet.
+/// Features farther apart than this multiple of τ are not in contact.
 const MET: f64 = 8.0;
 
-/// What an interval did to a pair.
+/// What happened to a pair in an interval.
 #[derive(Debug)]
 pub(super) enum Judgement {
     Passed {
         side: Side,
         effort: Effort,
         is_touching: bool,
-        /// Whether what the triangles do not share may come within τ.
+        /// Whether the parts of the triangles that are not shared may come within τ.
         is_near: bool,
         distance: DistanceBounds,
     },
-    /// It gets deeper than τ, or leaves the side it was followed on.
+    /// The pair gets deeper than τ, or leaves the side it was followed on.
     Penetrates(PenetrationEvidence),
-    /// Its side is open.
+    /// The side of the pair could not be determined.
     Undecided {
-        /// Whether what the triangles do not share may come within τ.
+        /// Whether the parts of the triangles that are not shared may come within τ.
         is_near: bool,
         distance: DistanceBounds,
     },
 }
 
-/// What was found of the distance of a pair in an interval.
+/// Bounds of the distance of a pair in an interval.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct DistanceBounds {
-    /// The closest approach, where it may be news.
+    /// The closest approach, if it may be closer than those known.
     pub(super) approach: Option<Approach>,
-    /// The triangles are at least this far apart throughout; infinite for pairs that are not measured.
+    /// A lower bound of the distance throughout the interval; infinite for pairs that are not measured.
     pub(super) at_least: f64,
 }
 
@@ -67,19 +67,20 @@ pub(super) struct PenetrationEvidence {
     pub(super) kind: PenetrationKind,
     pub(super) vertices: Vec<u32>,
     pub(super) point: DVec3,
-    /// How far apart what meets is there; 0 for pairs that start deep in each other.
+    /// The distance between the features that meet; 0 for pairs that start deeper than τ.
     gap: f64,
     pub(super) depth: f64,
     pub(super) distance: DistanceBounds,
 }
 
 impl PenetrationEvidence {
-    /// Whether the triangles meet as they leave their side: what lost it for want of a way may be apart by then.
+    /// Whether the triangles are in contact when they leave their side. A pair that lost its side because no path of
+    /// directions was found may be apart by then.
     pub(super) fn is_in_contact(&self, tolerance: f64) -> bool {
         self.gap <= MET * tolerance
     }
 
-    /// Whether the triangles are deeper than τ in each other at an instant: no push by τ parts them then.
+    /// Whether the triangles are deeper than τ at an instant: then no push by τ separates them.
     pub(super) fn is_sure(&self, tolerance: f64) -> bool {
         use PenetrationKind::{EdgeEdge, VertexFacet};
         matches!(self.kind, EdgeEdge | VertexFacet) && self.depth > tolerance
@@ -94,18 +95,18 @@ pub(super) struct Suspect {
     pub(super) evidence: PenetrationEvidence,
 }
 
-/// What a pair is asked.
+/// What is known about a pair before it is judged.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct PairTest<'a> {
     pub(super) limits: &'a Limits,
-    /// The closest approach is wanted where it is nearer than this; none where the pair's facets share a vertex.
+    /// The closest approach matters only if it is nearer than this, a length; `None` if the facets share a vertex.
     pub(super) nearer_than: Option<f64>,
-    /// Whether the pair is known to touch.
+    /// Whether the pair is already known to touch.
     pub(super) has_touched: bool,
 }
 
 impl PairTest<'_> {
-    /// Judges a pair from its side; none stands for a pair that starts deeper than τ.
+    /// Judges a pair that starts on `side`; `None` stands for a pair that starts deeper than τ.
     pub(super) fn judge(
         &self,
         pair: &FacePair,
@@ -174,7 +175,7 @@ impl PairTest<'_> {
         Judgement::Passed {
             side: passage.side,
             effort: passage.effort,
-            // Free is claimed only where it is proved.
+            // A pair is called free only if that is proved.
             is_touching: may_touch && at_least <= tolerance,
             is_near,
             distance: if self.nearer_than.is_some() {
@@ -191,7 +192,8 @@ impl PairTest<'_> {
         moving: &MovingPair,
         crossing: &PairCrossing,
     ) -> PenetrationEvidence {
-        // Just as it gets too deep the features still meet; later they may be far through.
+        // At the instant at which the pair gets too deep its features still meet; later they may be far through each
+        // other.
         let pose = moving.at(crossing.passed);
         let is_deep = crossing.depth > self.limits.tolerance;
         let features = features(pair, &pose, &crossing.axis, self.limits);
@@ -216,7 +218,8 @@ impl PairTest<'_> {
 
 /// Whether simplices of the two triangles without a common vertex may come within τ of each other.
 ///
-/// `clearance`: how far what the triangles do not share stays apart, where they share at most a vertex.
+/// `clearance`: a lower bound of the distance between the parts that are not shared, for triangles that share at most
+/// one vertex.
 pub(super) fn may_be_near(
     pair: &FacePair,
     moving: &MovingPair,
@@ -234,7 +237,8 @@ pub(super) fn may_be_near(
             .any(|&[a, b]| comes_within(&part(moving, a, b), reach, limits))
 }
 
-/// Whether an apex is so near the line of the shared edge at an end that disjoint corners may be near in an open fold.
+/// Whether an apex is so close to the line of the shared edge, at either end of the interval, that disjoint corners may
+/// be near each other although the fold is open.
 fn is_sliver(pair: &FacePair, moving: &MovingPair, reach: f64) -> bool {
     debug_assert_eq!(pair.shared, 2, "the edge is shared");
     let is_low = |pose: &PairPose, apex: DVec3| {
@@ -247,7 +251,7 @@ fn is_sliver(pair: &FacePair, moving: &MovingPair, reach: f64) -> bool {
         .any(|pose| is_low(pose, pose.a[2]) || is_low(pose, pose.b[2]))
 }
 
-/// Corners of the two triangles that span the largest simplices without a common vertex, shared corners first.
+/// The corners of the two triangles that span the largest simplices without a common vertex, shared corners first.
 fn disjoint_parts(shared: usize) -> &'static [[[usize; 3]; 2]] {
     match shared {
         0 => &[[[0, 1, 2], [0, 1, 2]]],
@@ -273,7 +277,7 @@ fn part(moving: &MovingPair, a: [usize; 3], b: [usize; 3]) -> MovingPair {
     }
 }
 
-/// The witness of a pair that is deeper than τ at the start of an interval.
+/// The evidence for a pair that is deeper than τ at the start of an interval.
 pub(super) fn starts_deep(
     pair: &FacePair,
     pose: &PairPose,
@@ -297,7 +301,7 @@ pub(super) fn starts_deep(
     }
 }
 
-/// What meets; of the kind the axis says where that is as near.
+/// The closest features, of the kind that the axis suggests if those are as near as the others.
 fn features(pair: &FacePair, pose: &PairPose, axis: &Axis, limits: &Limits) -> ClosestFeatures {
     let wants_edges = matches!(axis.feature, Feature::Edges(..));
     ClosestFeatures::nearest(pair, pose, wants_edges, limits.tolerance)
@@ -311,7 +315,7 @@ fn kind_of(features: &ClosestFeatures) -> PenetrationKind {
     }
 }
 
-/// Those that meet, each once; the hinge's four for triangles that share an edge.
+/// The vertices of the features, each once; the four of the hinge for triangles that share an edge.
 fn vertices(pair: &FacePair, features: &ClosestFeatures) -> Vec<u32> {
     if pair.shared == 2 {
         return vec![pair.a[0], pair.a[1], pair.a[2], pair.b[2]];

@@ -1,4 +1,4 @@
-//! What the walk over the frames does with the layers of each: finds them, hears what the file claims, tests the rules.
+//! The layers of each frame: finding them, applying the claims of the file, testing the rules.
 
 use std::collections::BTreeSet;
 
@@ -18,27 +18,29 @@ use crate::layers::{
 };
 
 impl Checker<'_> {
-    /// The order of the triangles that coincide at the last frame taken in, as the motion leaves it, in both
-    /// directions; pairs whose order is not known are left out.
+    /// The order, in both directions, of the triangles that coincide at the last frame, as the motion leaves it. Pairs
+    /// whose order is unknown are left out.
     pub fn layer_order(&self) -> LayerOrder {
         order_of(self.sheet, &self.last.positions, &self.layers)
     }
 
-    /// Whether nothing has penetrated before the last frame, nor between the last two.
+    /// Whether nothing has penetrated up to the last frame.
     pub fn is_clean(&self) -> bool {
         self.report.penetrations.is_empty()
     }
 
-    /// Takes in what a file claims of the order at the last frame taken in; at most once a frame.
-    /// Nothing once the check [has stopped](Self::is_stopped).
+    /// Applies the claims of a file about the order of layers at the last frame; at most once for each frame. Does
+    /// nothing once the check [has stopped](Self::is_stopped).
     ///
-    /// `face_of`: the face of the file that a triangle belongs to; `order` is of such faces. A claim of two layers
-    /// whose order the motion shows must agree with it, otherwise it is a penetration. Where the motion leaves both
-    /// sides open, as at the first frame, the claim decides, for the frames to come too. A claim of facets that are stacked
-    /// a gap apart must agree with their heights. Claims of other facets are counted and ignored.
+    /// `face_of`: the face of the file that a triangle belongs to; `order` refers to these faces. A claim about two
+    /// layers whose order is known from the motion must agree with it, otherwise it is reported as a penetration. If
+    /// the motion leaves both sides open, as at the first frame, the claim decides, also for the frames to come. A
+    /// claim about facets that are stacked a gap apart must agree with their heights. Claims about other facets are
+    /// counted and ignored.
     ///
     /// # Errors
-    /// [`CheckError::FalseOrder`]: facets that lie apart are stacked the other way, in a motion that has not penetrated.
+    /// [`CheckError::FalseOrder`] if facets that lie a gap apart are stacked the other way round in a motion that has
+    /// not penetrated.
     pub fn claim(
         &mut self,
         order: &LayerOrder,
@@ -55,7 +57,8 @@ impl Checker<'_> {
             if pair.is_lost || a == b {
                 continue;
             }
-            // The sign of (a, b) speaks of b's front, where f is above; that of (b, a) of a's, where g is.
+            // The sign of (a, b) refers to the front of b, above which f lies; that of (b, a) to the front of a, above
+            // which g lies.
             let of_first = order.sign(a, b).map(|sign| ((a, b), -f64::from(sign), g));
             let of_second = order.sign(b, a).map(|sign| ((b, a), f64::from(sign), f));
             for (claim, sign, face) in [of_first, of_second].into_iter().flatten() {
@@ -80,8 +83,8 @@ impl Checker<'_> {
         }
     }
 
-    /// `order`, of triangles, without what is false of the last frame taken in: facets that lie a gap apart may be stacked
-    /// the other way, as in a motion that jammed.
+    /// `order`, which refers to triangles, without the claims that are false at the last frame: facets that lie a gap
+    /// apart may be stacked the other way round, as in a motion that jammed.
     pub fn without_false(&self, order: &LayerOrder) -> LayerOrder {
         self.stack(&|triangle| triangle).without_false(order)
     }
@@ -95,7 +98,7 @@ impl Checker<'_> {
         }
     }
 
-    /// Takes in the claim that the first layer of a pair lies below the second along `up`.
+    /// Applies the claim that the first layer of a pair lies below the second along `up`.
     fn apply_claim(&mut self, index: usize, up: DVec3) {
         let LayerPair {
             faces, up: known, ..
@@ -123,7 +126,7 @@ impl Checker<'_> {
         }
     }
 
-    /// Follows a pair from now on along `up`.
+    /// Restricts the side of a pair to `up` from now on.
     fn keep_side(&mut self, [f, g]: [u32; 2], up: DVec3) {
         let Ok(found) = self.sides.binary_search_by(|(pair, _)| pair.cmp(&(f, g))) else {
             return;
@@ -140,7 +143,8 @@ impl Checker<'_> {
         }
     }
 
-    /// At the first frame the only order known is that of creases folded flat, from their assignment.
+    /// The rule that a contradicted claim breaks. At the first frame the only known orders are those of creases folded
+    /// flat, from their assignments.
     fn claim_rule(&self, faces: [u32; 2]) -> LayerRule {
         if self.frames == 1 && self.crease_between(faces).is_some() {
             LayerRule::Crease
@@ -149,7 +153,8 @@ impl Checker<'_> {
         }
     }
 
-    /// The side of the first on which the second lies by the assignment of the crease between them, where there is one.
+    /// The normal of the first face that points to the second according to the assignment of the crease between them;
+    /// `None` if there is no such crease.
     fn assigned_side(&self, faces: [u32; 2]) -> Option<DVec3> {
         let front = front_normal(self.sheet, faces[0], &self.last.positions);
         match self.sheet.edges[self.crease_between(faces)? as usize].assignment {
@@ -167,8 +172,8 @@ impl Checker<'_> {
 
     /// Finds the layers of the last frame.
     ///
-    /// What is closer than τ may lie on either side: a gap that small shows no order. So a pair without an order gets
-    /// none before it was seen apart, and at the first frame only creases folded flat have one.
+    /// Triangles closer than τ may lie on either side of each other: a gap that small shows no order. So a pair without
+    /// an order gets one only after it was seen apart, and at the first frame only creases folded flat have an order.
     pub(super) fn find_layers(&mut self) {
         let followed = self.sides.iter().map(|(pair, side)| (*pair, Some(side)));
         let unfollowed = self.unfollowed.iter().map(|&pair| (pair, None));
@@ -197,7 +202,7 @@ impl Checker<'_> {
         }
     }
 
-    /// Tests the rules at the last frame, once.
+    /// Tests the layer rules at the last frame, once.
     pub(super) fn prove_layers(&mut self) {
         if std::mem::replace(&mut self.is_proved, true) || self.layers.is_empty() {
             return;
@@ -234,11 +239,11 @@ impl Checker<'_> {
         }
     }
 
-    /// Whether a contradiction is one of the sheet.
+    /// Whether a contradiction between layers shows that the sheet penetrates.
     ///
-    /// Whether creases and layers pass through each other along a line is decided by what passes through the sheet in the
-    /// motion (`crossings`), which knows every way out of a contact; the side on which a pair was followed knows one. Orders that the
-    /// file or an assignment claims are not in the motion: there the rules decide.
+    /// Whether creases and layers pass through each other along a line is decided by the crossing counts, which
+    /// consider every way of leaving a contact; the side on which a pair was followed is only one of them. Orders that
+    /// are claimed by the file or an assignment do not follow from the motion: for them the rules decide.
     fn counts(&self, contradiction: &Contradiction) -> bool {
         use LayerRule::{Bent, TacoTaco, TacoTortilla, TortillaTortilla};
         let conflict = &contradiction.conflict;
@@ -250,7 +255,7 @@ impl Checker<'_> {
         !is_along_line || self.claimed.iter().any(is_among)
     }
 
-    /// Records a contradiction, the first of every pair.
+    /// Records the first contradiction of every pair.
     fn record_contradiction(&mut self, found: Contradiction) {
         if !self.contradicting.insert(found.faces) {
             return;

@@ -24,10 +24,10 @@ use crate::CheckError;
 
 /// Judges a motion: every pair of triangles in every interval between frames.
 ///
-/// `progress` is told the share that is done, from 0 to 1, once an interval; where it returns false the check ends.
-/// The whole motion is judged, also after the first penetration, unless more pairs than
-/// [`CollisionOptions::stop_at`] penetrate; a pair is dropped after its first penetration. The report
-/// is bitwise the same for any number of threads.
+/// `progress` is called once for each interval with the share that is done, from 0 to 1; if it returns false, the check
+/// is cancelled. The whole motion is judged, also after the first penetration, unless more pairs than
+/// [`CollisionOptions::stop_at`] penetrate. A pair is not followed beyond its first penetration. The report is bitwise
+/// the same for any number of threads.
 ///
 /// # Errors
 /// [`CheckError::Cancelled`] if `progress` returned false; the other variants if the motion cannot be judged.

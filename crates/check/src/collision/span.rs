@@ -8,19 +8,19 @@ use super::{CollisionReport, Penetration, PenetrationKind, face_pair::FacePair};
 /// The motion times between which a pair of triangles penetrates.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PenetrationSpan {
-    /// The triangles.
+    /// The indices of the two triangles.
     pub faces: [u32; 2],
-    /// The beginning of the contact that leads to the penetration.
+    /// The motion time at which the contact begins that leads to the penetration.
     pub from: f64,
-    /// The last frame that shows them deeper than τ in each other, without a frame between that does not; at least
-    /// the end of the interval in which they penetrate.
+    /// The motion time of the last frame up to which every frame shows them deeper than τ in each other; at least the
+    /// end of the interval in which they penetrate.
     pub to: f64,
 }
 
-/// The span of each penetration of `report`, which is about `motion`, in its order.
+/// The span of each penetration of `report`, in the order of the report; `motion` is the motion it is about.
 ///
-/// A pair that has passed through to the other side is no longer in the other: its span ends with the interval.
-/// Layers out of order are named at the time of one frame.
+/// A pair that has passed through to the other side is no longer deep, so its span ends with the interval. Layers out
+/// of order are reported at the time of a single frame.
 pub fn penetration_spans(motion: &Motion, report: &CollisionReport) -> Vec<PenetrationSpan> {
     let tolerance = report.tolerance * motion.sheet.unit_length;
     let span = |p: &Penetration| PenetrationSpan {

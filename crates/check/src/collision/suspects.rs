@@ -1,5 +1,4 @@
-//! What the walk over the frames does with what passes through the sheet: pairs that leave their side are suspects, and what
-//! is counted on the sheet decides.
+//! Pairs that leave the side they were followed on are suspects; the crossing counts decide whether they penetrate.
 
 use super::{
     checker::Checker,
@@ -11,7 +10,7 @@ use super::{
 use crate::crossings;
 
 impl Checker<'_> {
-    /// Takes in that a pair is deeper than τ, or else not where it was followed to.
+    /// Records that a pair is deeper than τ or has left the side it was followed on.
     pub(super) fn record_lost_side(
         &mut self,
         pair: &FacePair,
@@ -21,7 +20,7 @@ impl Checker<'_> {
         let frame = self.frames - 1;
         self.unfollowed.push(pair.key());
         self.nearest.record(pair.faces, times, &evidence.distance);
-        // The side that a claim names is the only one.
+        // A side that was claimed is the only possible one.
         if evidence.is_sure(self.tolerance) || self.claimed.contains(&pair.faces) {
             self.record_penetration(pair.faces, frame, times, evidence);
             return;
@@ -38,7 +37,8 @@ impl Checker<'_> {
         );
     }
 
-    /// Counts the passages of the sheet through itself in the interval that begins at `start`, or at the first frame.
+    /// Counts the passages of the sheet through itself in the interval that begins at `start`; `None`: at the first
+    /// frame.
     pub(super) fn count_crossings(&mut self, start: Option<&CentredFrame>) {
         self.near.sort_unstable();
         self.near.dedup();
@@ -71,7 +71,7 @@ impl Checker<'_> {
         }
     }
 
-    /// Pairs that penetrate have no side any more.
+    /// Pairs that penetrate no longer have a side.
     fn unfollow_penetrating(&mut self) {
         let penetrating = &self.penetrating;
         let lost = self
@@ -80,8 +80,8 @@ impl Checker<'_> {
         self.unfollowed.extend(lost.map(|(pair, _)| pair));
     }
 
-    /// Names the pairs that left their side in this interval where the counts are silent, as what passes there is not counted
-    /// beside a pair that penetrates: there the pair's own finding stands.
+    /// Reports the pairs that left their side in this interval where nothing is counted. Passages next to a pair that
+    /// already penetrates are not counted; there the evidence of the pair itself decides.
     fn name_uncounted(&mut self, frame: usize) {
         let is_lost = |[f, g]: [u32; 2]| self.penetrating.contains(&(f, g));
         let is_uncounted = |&((f, g), suspect): &(&(u32, u32), &Suspect)| {
@@ -96,7 +96,8 @@ impl Checker<'_> {
         }
     }
 
-    /// Records what passes through the sheet: as its pair of triangles was found to, or else beside each of them.
+    /// Records a crossing of the sheet: with the evidence of a suspect pair if there is one, otherwise as a passage
+    /// beside each of the triangles.
     fn record_crossing(&mut self, crossing: crossings::SheetCrossing, frame: usize) {
         let mut is_named = false;
         for &[f, g] in &crossing.pairs {
@@ -136,7 +137,7 @@ impl Checker<'_> {
         });
     }
 
-    /// A pair penetrates: it meets somewhere, and is not looked at afterwards.
+    /// Marks a pair as penetrating: it is in contact somewhere, and is not followed any more.
     fn mark_penetrating(&mut self, faces: [u32; 2], times: [f64; 2]) {
         self.penetrating.insert((faces[0], faces[1]));
         if self.is_measured(&FacePair::new(self.sheet, faces[0], faces[1])) {

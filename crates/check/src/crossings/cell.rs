@@ -12,15 +12,15 @@ use super::topology::Topology;
 /// A pair of disjoint simplices that may meet.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Cell {
-    /// They pass through each other at an instant.
+    /// The vertex may pass through the facet.
     VertexFacet { vertex: u32, face: u32 },
-    /// Likewise; the lower edge first.
+    /// The edges may pass through each other; the lower index first.
     Edges([u32; 2]),
-    /// They pass by each other on either side.
+    /// The vertex may pass the edge on any side of it.
     VertexEdge { vertex: u32, edge: u32 },
 }
 
-/// Passings through before passings by; compared very often.
+/// Cells in which something passes through something come first. Cells are compared very often.
 impl Ord for Cell {
     fn cmp(&self, other: &Self) -> Ordering {
         self.key().cmp(&other.key())
@@ -33,7 +33,7 @@ impl PartialOrd for Cell {
     }
 }
 
-/// Positions at the two ends of an interval.
+/// The positions at both ends of an interval.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct IntervalEnds<'a>(pub(super) [&'a [DVec3]; 2]);
 
@@ -57,7 +57,7 @@ impl Cell {
         Self::Edges([a.min(b), a.max(b)])
     }
 
-    /// The vertices of one simplex and of the other, each repeated up to three.
+    /// The vertices of both simplices, each padded to three by repetition.
     pub(super) fn corners(self, topology: &Topology) -> [[u32; 3]; 2] {
         let edge = |edge: u32| {
             let [p, q] = topology.ends(edge);
@@ -79,7 +79,7 @@ impl Cell {
         MovingPair { start, end }
     }
 
-    /// The passages through each other; none where rounding hides them. Passing by has none.
+    /// The passages of the simplices through each other; `None` if rounding hides one. A vertex and an edge have none.
     pub(super) fn passages(
         self,
         topology: &Topology,
@@ -98,7 +98,7 @@ impl Cell {
         }
     }
 
-    /// The cells of passing by that lie in a cell of passing through.
+    /// The cells of a vertex with an edge that lie on the rim of this cell.
     pub(super) fn rim(self, topology: &Topology) -> impl Iterator<Item = Self> {
         let (around, crossed) = match self {
             Self::VertexFacet { vertex, face } => {
@@ -116,7 +116,7 @@ impl Cell {
             .map(|(vertex, edge)| Self::VertexEdge { vertex, edge })
     }
 
-    /// Pairs of triangles that hold the one simplex and the other.
+    /// The pairs of triangles that contain the two simplices.
     pub(super) fn faces(self, topology: &Topology) -> impl Iterator<Item = [u32; 2]> {
         let around_edge = |edge: u32| topology.edge_faces[edge as usize].clone();
         let around_vertex = |vertex: u32| topology.vertex_faces[vertex as usize].clone();
@@ -132,12 +132,12 @@ impl Cell {
     }
 }
 
-/// All cells in a pair of triangles, with those of passing by.
+/// All cells in a pair of triangles.
 pub(super) fn cells_of(topology: &Topology, [f, g]: [u32; 2]) -> Vec<Cell> {
     let mut cells = Vec::with_capacity(39);
     for (f, g) in [(f, g), (g, f)] {
         let beyond = topology.corners(g);
-        // A triangle thinner than the reach lets its corners around its own edges.
+        // The corners of a triangle thinner than the reach can pass around its own edges.
         for (i, edge) in topology.face_edges[f as usize].into_iter().enumerate() {
             let vertex = topology.corners(f)[(i + 2) % 3];
             cells.push(Cell::VertexEdge { vertex, edge });
@@ -161,10 +161,11 @@ pub(super) fn cells_of(topology: &Topology, [f, g]: [u32; 2]) -> Vec<Cell> {
     cells
 }
 
-/// What a turn of `vertex` around `edge`, right-handed about the edge from its lower end to its higher one, adds to the
-/// passages of other cells.
+/// What one turn of `vertex` around `edge` adds to the passages of other cells. The turn is right-handed about the edge
+/// from its lower end to its higher one.
 ///
-/// The vertex passes once through each triangle at the edge, and each edge that ends at the vertex once through `edge`.
+/// The vertex passes once through each triangle at the edge, and each edge that ends at the vertex passes once through
+/// `edge`.
 pub(super) fn turn(topology: &Topology, vertex: u32, edge: u32) -> Vec<(Cell, i64)> {
     let faces = topology.edge_faces[edge as usize].iter();
     let through_faces = faces
@@ -183,8 +184,8 @@ pub(super) fn turn(topology: &Topology, vertex: u32, edge: u32) -> Vec<(Cell, i6
     through_faces.chain(through_edge).collect()
 }
 
-/// What passages of the ends and through the rim make of an edge and a triangle: by how much each adds to how often the
-/// edge pierces the triangle from back to front.
+/// How the passages of the ends of an edge, and of the edge through the rim of a triangle, change the number of times
+/// the edge pierces the triangle from back to front.
 pub(super) fn piercing_terms(topology: &Topology, edge: u32, face: u32) -> Vec<(Cell, i64)> {
     let [a, b] = topology.ends(edge);
     let mut terms = vec![
@@ -197,8 +198,8 @@ pub(super) fn piercing_terms(topology: &Topology, edge: u32, face: u32) -> Vec<(
     terms
 }
 
-/// How often an edge pierces a triangle from back to front, from its lower end to its higher one: −1, 0 or 1; none where
-/// they meet at a corner, along the rim or in one plane.
+/// How often an edge, from its lower end to its higher one, pierces a triangle from back to front: −1, 0 or 1. `None`
+/// if they meet at a corner, along the rim or in one plane.
 pub(super) fn piercing(
     topology: &Topology,
     edge: u32,
@@ -219,7 +220,7 @@ pub(super) fn piercing(
     if sides.contains(&0) || around.contains(&0) {
         return None;
     }
-    // The volume is positive for an end behind the triangle.
+    // The volume is positive if the end is behind the triangle.
     Some(i64::from(sides[0]))
 }
 
@@ -228,7 +229,7 @@ mod tests {
     use super::*;
     use crate::crossings::random::Random;
 
-    /// Two sheets of two triangles each, with a vertex in common only where `f` says so.
+    /// Two sheets of two triangles each, without a common vertex.
     fn scene() -> Topology {
         Topology::new(&[[0, 1, 2], [1, 3, 2], [4, 5, 6], [6, 5, 7]], 8)
     }
@@ -252,7 +253,7 @@ mod tests {
         passages.map(|p| i64::from(p.sign)).sum()
     }
 
-    /// The signed number of times an edge passes through the triangle that a vertex runs around.
+    /// The signed number of times the edge passes through the triangle that a vertex traverses.
     fn turns_around([p, m, q]: [DVec3; 3], [c, d]: [DVec3; 2]) -> i64 {
         let sides = [sign_of_volume([p, m, q, c]), sign_of_volume([p, m, q, d])];
         let around = [(p, m), (m, q), (q, p)].map(|(u, v)| sign_of_volume([c, d, u, v]));
@@ -260,10 +261,11 @@ mod tests {
         if is_through { i64::from(sides[0]) } else { 0 }
     }
 
-    /// The signed number of times the edge from the vertex that runs around p, m, q to its end at b meets the vertex at c
-    /// while the way is drawn together to a point: whether c lies between.
-    fn turns_of_edge(way: [DVec3; 3], b: DVec3, c: DVec3) -> i64 {
-        let [p, m, q] = way;
+    /// The signed number of times that the edge from the moving vertex to its fixed end at b passes through the vertex
+    /// at c while the vertex traverses the triangle p, m, q and the triangle is contracted to a point: 1 or −1 if c
+    /// lies in the tetrahedron, otherwise 0.
+    fn turns_of_edge(path: [DVec3; 3], b: DVec3, c: DVec3) -> i64 {
+        let [p, m, q] = path;
         let whole = sign_of_volume([p, m, q, b]);
         let parts = [[c, m, q, b], [p, c, q, b], [p, m, c, b], [p, m, q, c]];
         let is_inside = parts.into_iter().all(|part| sign_of_volume(part) == whole);
@@ -278,11 +280,11 @@ mod tests {
         for _ in 0..400 {
             let rest: Vec<DVec3> = (0..8).map(|_| random.vector()).collect();
             let vertex = random.index(8) as u32;
-            let way = [rest[vertex as usize], random.vector(), random.vector()];
+            let path = [rest[vertex as usize], random.vector(), random.vector()];
             let frames: Vec<Vec<DVec3>> = [0, 1, 2, 0]
                 .map(|k: usize| {
                     let mut frame = rest.clone();
-                    frame[vertex as usize] = way[k];
+                    frame[vertex as usize] = path[k];
                     frame
                 })
                 .to_vec();
@@ -292,7 +294,7 @@ mod tests {
                     continue;
                 }
                 let ends = topology.ends(edge).map(|v| rest[v as usize]);
-                let turns = turns_around(way, ends);
+                let turns = turns_around(path, ends);
                 turned += turns.abs();
                 for (cell, sign) in turn(&topology, vertex, edge) {
                     *expected.entry(cell).or_insert(0) += turns * sign;
@@ -303,7 +305,7 @@ mod tests {
                 let far = if ends[0] == vertex { ends[1] } else { ends[0] };
                 let sense = if ends[0] == vertex { 1 } else { -1 };
                 for c in (0..8).filter(|c| !ends.contains(c)) {
-                    let turns = -sense * turns_of_edge(way, rest[far as usize], rest[c as usize]);
+                    let turns = -sense * turns_of_edge(path, rest[far as usize], rest[c as usize]);
                     turned += turns.abs();
                     for (cell, sign) in turn(&topology, c, edge) {
                         *expected.entry(cell).or_insert(0) += turns * sign;

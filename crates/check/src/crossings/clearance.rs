@@ -1,4 +1,4 @@
-//! Lower bounds of how far apart the cells are, so that what is far and moves little need not be measured again.
+//! Lower bounds of the distances of cells, so that simplices that are far apart and move little are not measured again.
 
 use glam::DVec3;
 
@@ -8,18 +8,18 @@ use super::{
 };
 use rayon::prelude::*;
 
-/// The cells of the pairs looked at last, each with a lower bound of the distance of its simplices at the last frame.
+/// The cells of the current pairs, each with a lower bound of the distance of its simplices at the last frame.
 #[derive(Debug, Default)]
 pub(super) struct Clearances {
     near: Vec<[u32; 2]>,
-    /// In order.
+    /// The cells in increasing order, each once.
     pub(super) cells: Vec<Cell>,
-    /// Of each cell; 0 where nothing is known.
+    /// The lower bound for each cell, a length; 0 if nothing is known.
     pub(super) bounds: Vec<f64>,
 }
 
 impl Clearances {
-    /// Takes in the pairs of an interval: what is known of cells that stay is kept.
+    /// Replaces the pairs by those of the next interval, keeping what is known about cells that remain.
     pub(super) fn follow(&mut self, topology: &Topology, near: &[[u32; 2]], cells_a_task: usize) {
         if self.near == near {
             return;
@@ -43,7 +43,7 @@ impl Clearances {
 }
 
 impl Cell {
-    /// By how much the simplices may come nearer to each other while every vertex goes its `way`.
+    /// A bound of how much nearer the simplices may come to each other while each vertex moves by its displacement.
     pub(super) fn approach(self, topology: &Topology, displacements: &[DVec3]) -> f64 {
         let [a, b] = self.corners(topology);
         let squared =

@@ -1,4 +1,4 @@
-//! Contacts: stretches of time in which two simplices are within reach of each other.
+//! Contacts: time intervals in which two simplices are within reach of each other.
 
 use foldmotion_geometry::collide::{
     Limits, MovingPair, Passage, contact_times, corners_are_within, feature_distance,
@@ -7,40 +7,40 @@ use foldmotion_geometry::collide::{
 use super::cell::{Cell, IntervalEnds};
 use super::topology::Topology;
 
-/// A cell in an interval.
+/// The state of a cell in an interval between frames.
 #[derive(Debug)]
 pub(super) struct CellState {
     pub(super) passages: Vec<Passage>,
-    /// Whether rounding hides a passage, or when they are within reach.
+    /// Whether rounding hides a passage, or the contact times are unknown.
     pub(super) is_unsure: bool,
-    /// A lower bound at the frame at the end; 0 where the simplices are within reach.
+    /// A lower bound of the distance at the end of the interval, a length; 0 if the simplices are within reach there.
     pub(super) distance: f64,
-    /// Whether the simplices are within reach at the frame at the end.
+    /// Whether the simplices are within reach at the end of the interval.
     pub(super) is_near: bool,
-    /// When they are within reach, as shares of the interval; empty until asked for.
+    /// The contact times, as shares of the interval; empty until they are computed.
     pub(super) times: Vec<[f64; 2]>,
 }
 
-/// What is balanced when a contact ends.
+/// What enters the equation of a contact once it ends.
 #[derive(Debug, Clone)]
 pub(super) struct Contact {
     pub(super) number: u64,
-    /// The motion time at which it begins.
+    /// The motion time at which the contact begins.
     pub(super) since: f64,
-    /// The motion time of the last passage.
+    /// The motion time of the last passage; `None` if there was none.
     pub(super) passed: Option<f64>,
-    /// The signed number of passages.
+    /// The signed number of passages so far.
     pub(super) sum: i64,
-    /// Unknown numbers of turns, with their signs.
+    /// The unknown numbers of turns, with their signs.
     pub(super) terms: Vec<(u32, i64)>,
 }
 
-/// A contact in an interval.
+/// The part of a contact that lies in one interval between frames.
 #[derive(Debug)]
 pub(super) struct ContactInterval {
-    /// Shares of the interval.
+    /// The first and the last instant, as shares of the interval.
     pub(super) times: [f64; 2],
-    /// Whether it lasts at the frame at the end.
+    /// Whether the contact lasts at the end of the interval.
     pub(super) is_open: bool,
     pub(super) contact: Contact,
 }
@@ -81,7 +81,7 @@ impl CellState {
         }
     }
 
-    /// Finds the times of contact; they end at the end of the interval exactly where the frame shows a contact.
+    /// Finds the contact times. They include the ends of the interval exactly if the frames there show a contact.
     pub(super) fn time(&mut self, pair: &MovingPair, reach: f64, limits: &Limits) {
         let found = contact_times(pair, reach, limits);
         self.is_unsure |= found.is_none();
@@ -91,7 +91,7 @@ impl CellState {
         self.times = times;
     }
 
-    /// The times of contact, joined with those of the cells on the rim and the times of passages.
+    /// The contact times, merged with those of the cells on the rim and with the times of passages.
     pub(super) fn all_times<'a>(&self, rim: impl Iterator<Item = &'a Self>) -> Vec<[f64; 2]> {
         if self.times == [[0.0, 1.0]] {
             return self.times.clone();
@@ -111,7 +111,7 @@ impl CellState {
     }
 }
 
-/// Makes the times hold the end of the interval at which the frame shows a contact.
+/// Makes the contact times include an end of the interval if the frame there shows a contact.
 fn hold(times: &mut Vec<[f64; 2]>, end: f64, is_near: impl Fn() -> bool) {
     if !times.iter().any(|t| t.contains(&end)) && is_near() {
         times.push([end; 2]);

@@ -16,32 +16,33 @@ use super::perturbation::offsets;
 use super::system::EquationSystem;
 use super::topology::Topology;
 
-/// Contacts are those within this share of τ.
+/// Features are in contact if they are within this share of τ of each other.
 const CONTACT: f64 = 31.0 / 32.0;
-/// The most intervals put off.
+/// The largest number of intervals whose evaluation is postponed.
 const MOST_QUIET: usize = 16;
-/// Fewer cells than this are not worth a thread.
+/// The number of cells below which starting another thread does not pay.
 const CELLS_A_TASK: usize = 64;
 
 /// Counts the passages of a sheet through itself, frame by frame.
 #[derive(Debug)]
 pub(crate) struct CrossingCounter {
     topology: Topology,
-    /// What the vertices are moved by.
+    /// The offset by which each vertex is moved, a length in each coordinate.
     offsets: Vec<DVec3>,
-    /// The distance within which features are in contact.
+    /// The distance within which features are in contact, a length.
     reach: f64,
     limits: Limits,
     system: EquationSystem,
     clearances: Clearances,
-    /// Passings through whose contact lasts at the last frame.
+    /// Contacts of vertices with facets and of edges with edges that last at the last frame.
     open: BTreeMap<Cell, Contact>,
-    /// Passings by whose contact lasts: the unknown, and the contacts it stands in.
+    /// Contacts of vertices with edges that last at the last frame: the unknown number of turns, and the numbers of the
+    /// contacts in whose equations it appears.
     open_turns: BTreeMap<Cell, (u32, Vec<u64>)>,
     contacts: u64,
-    /// Intervals put off.
+    /// Intervals whose evaluation is postponed.
     quiet: Vec<MovedInterval>,
-    /// What passed in them.
+    /// The cells in which something passed during those intervals.
     passed: BTreeSet<Cell>,
 }
 
@@ -63,7 +64,7 @@ impl CrossingCounter {
         }
     }
 
-    /// Takes in the first frame: the interval's two frames are the same.
+    /// Accepts the first frame: both frames of the interval are the same.
     pub(crate) fn begin(&mut self, interval: &Interval<'_>) -> Found {
         let positions = self.moved(interval.positions[0]);
         let ends = IntervalEnds([&positions, &positions]);
@@ -105,10 +106,11 @@ impl CrossingCounter {
         found
     }
 
-    /// Takes in the next frame.
+    /// Accepts the next frame.
     ///
-    /// Where all that passes through something stays in contact, all equations hold without a turn: such intervals are put
-    /// off, as long as no earlier contact lasts, and only looked at once a contact ends in which something passed.
+    /// As long as everything that passes through something stays in contact, no equation is closed. Such intervals are
+    /// postponed, provided that no earlier contact lasts, and are evaluated only once a contact ends in which something
+    /// passed.
     pub(crate) fn advance(&mut self, interval: &Interval<'_>) -> Found {
         let positions = interval.positions.map(|positions| self.moved(positions));
         let states = self.observe(interval, IntervalEnds([&positions[0], &positions[1]]));
@@ -135,7 +137,7 @@ impl CrossingCounter {
         found
     }
 
-    /// Whether no contact lasts that was looked at, and none ends in which something passed.
+    /// Whether no contact that was evaluated lasts, and none ends in which something passed.
     fn is_quiet(&self, step: &MovedInterval) -> bool {
         let lasts = |cell: &Cell| step.states.get(cell).is_some_and(|state| state.is_near);
         let mut state = step.states.values();
@@ -153,17 +155,17 @@ impl CrossingCounter {
     }
 
     fn moved(&self, positions: &[DVec3]) -> Vec<DVec3> {
-        let places = positions.iter().zip(&self.offsets);
-        places.map(|(p, offset)| *p + *offset).collect()
+        let both = positions.iter().zip(&self.offsets);
+        both.map(|(p, offset)| *p + *offset).collect()
     }
 
-    /// Whether one of the pairs of triangles around a cell is not counted.
+    /// Whether one of the pairs of triangles around a cell is excluded from the counts.
     fn is_lost(&self, cell: Cell, interval: &Interval<'_>) -> bool {
         cell.faces(&self.topology)
             .any(|pair| (interval.is_lost)(pair))
     }
 
-    /// Whether all that can pass through something in a pair of triangles is counted.
+    /// Whether everything that can pass through something in a pair of triangles is counted.
     pub(crate) fn counts(&self, faces: [u32; 2], is_lost: &dyn Fn([u32; 2]) -> bool) -> bool {
         let is_beside = |cell: &Cell| matches!(cell, Cell::VertexEdge { .. });
         let mut through = cells_of(&self.topology, faces)
@@ -172,7 +174,7 @@ impl CrossingCounter {
         !through.any(|cell| cell.faces(&self.topology).any(is_lost))
     }
 
-    /// The triangles at an edge, each with the one given.
+    /// The pairs of `face` with each triangle at an edge.
     fn pairs_of(&self, edge: u32, face: u32) -> Vec<[u32; 2]> {
         let around = self.topology.edge_faces[edge as usize].iter();
         around.map(|&f| [f.min(face), f.max(face)]).collect()
@@ -183,8 +185,8 @@ impl CrossingCounter {
         Contact::new(self.contacts, since)
     }
 
-    /// The cells of the pairs with their passages and whether they are in contact at the end; those lost are left out, and
-    /// those that stay farther apart than the reach.
+    /// The cells of the pairs with their passages and whether they are in contact at the end. Cells that are excluded,
+    /// and those that stay farther apart than the reach, are left out.
     fn observe(
         &mut self,
         interval: &Interval<'_>,
@@ -194,7 +196,7 @@ impl CrossingCounter {
         clearances.follow(&self.topology, interval.near, CELLS_A_TASK);
         let both = ends.0[0].iter().zip(ends.0[1]);
         let displacements: Vec<DVec3> = both.map(|(p, q)| *q - *p).collect();
-        // Twice the reach covers to what share it is told.
+        // Twice the reach covers the accuracy to which contact times are found.
         let far = 2.0 * self.reach + self.limits.margin;
         let cells = clearances.cells.par_iter().with_min_len(CELLS_A_TASK);
         let states: Vec<_> = cells
@@ -220,7 +222,7 @@ impl CrossingCounter {
         states
     }
 
-    /// What is near an edge of a facet is near the facet, also where rounding says otherwise.
+    /// A vertex that is near an edge of a facet is near the facet, even if rounding says otherwise.
     fn mark_near_rims(&self, states: &mut BTreeMap<Cell, CellState>) {
         let near_edges = states.iter().filter_map(|(cell, state)| match cell {
             Cell::VertexEdge { vertex, edge } if state.is_near => Some((*vertex, *edge)),
@@ -235,7 +237,7 @@ impl CrossingCounter {
         }
     }
 
-    /// When the cells are in contact.
+    /// Finds the times at which the cells are in contact.
     fn time_contacts(&self, states: &mut BTreeMap<Cell, CellState>, ends: IntervalEnds<'_>) {
         let mut list: Vec<_> = states.iter_mut().collect();
         list.par_iter_mut()
@@ -247,7 +249,7 @@ impl CrossingCounter {
         self.mark_unsure_around(states);
     }
 
-    /// Where it is open when something passes by, what passes through there is open too.
+    /// If it is unknown when a vertex is in contact with an edge, the passages around them are unsure as well.
     fn mark_unsure_around(&self, states: &mut BTreeMap<Cell, CellState>) {
         let open = states.iter().filter_map(|(cell, state)| match cell {
             Cell::VertexEdge { vertex, edge } if state.is_unsure => Some((*vertex, *edge)),
@@ -262,7 +264,7 @@ impl CrossingCounter {
         }
     }
 
-    /// The stretches of contact of all cells of passing through, with their passages.
+    /// The contacts of all cells of vertices with facets and edges with edges, with their passages.
     fn intervals(
         &mut self,
         step: &MovedInterval,
@@ -286,7 +288,7 @@ impl CrossingCounter {
                 all.insert(cell, intervals);
             }
         }
-        // What is in contact but not watched any more was lost: it is not counted.
+        // Cells in contact that are no longer observed have been excluded from the counts.
         all
     }
 
@@ -312,7 +314,7 @@ impl CrossingCounter {
                 contact,
             });
         }
-        // A contact that lasted to the frame before and is not seen at its beginning ended there.
+        // A contact that lasted until the previous frame but is not seen at the beginning of this interval ended there.
         intervals.extend(earlier.map(|contact| ContactInterval {
             times: [0.0, 0.0],
             is_open: false,
@@ -321,7 +323,7 @@ impl CrossingCounter {
         intervals
     }
 
-    /// Lets every vertex that passes by an edge turn around it.
+    /// Adds an unknown number of turns for every contact of a vertex with an edge.
     fn add_turns(
         &mut self,
         states: &BTreeMap<Cell, CellState>,
@@ -352,7 +354,7 @@ impl CrossingCounter {
         }
     }
 
-    /// An unknown number of turns, which stands in the contacts around.
+    /// A new unknown number of turns, added to the equations of the contacts around.
     fn new_turn(
         &mut self,
         intervals: &mut BTreeMap<Cell, Vec<ContactInterval>>,
@@ -368,7 +370,7 @@ impl CrossingCounter {
         unknown
     }
 
-    /// Balances what has ended and keeps the rest.
+    /// Adds the equations of the contacts that have ended, and keeps the others open.
     fn close(
         &mut self,
         intervals: BTreeMap<Cell, Vec<ContactInterval>>,
@@ -399,7 +401,7 @@ impl CrossingCounter {
         }
     }
 
-    /// Every edge and facet without a common vertex of the pairs, once.
+    /// Every edge and facet of the pairs that have no common vertex, once.
     fn edges_and_facets(&self, near: &[[u32; 2]]) -> BTreeSet<(u32, u32)> {
         let both = near.iter().flat_map(|&[f, g]| [(f, g), (g, f)]);
         both.flat_map(|(f, g)| self.topology.face_edges[f as usize].map(|edge| (edge, g)))

@@ -1,4 +1,4 @@
-//! Where and how deep a part passes through another.
+//! Where one part of the sheet passes through another, and how deep.
 
 use foldmotion_geometry::triangle_triangle;
 use glam::DVec3;
@@ -6,23 +6,23 @@ use glam::DVec3;
 use super::cell::{Cell, IntervalEnds, piercing};
 use super::topology::Topology;
 
-/// The shortest stretch of time after a passage at which the depth is taken: 2⁻³⁴ of the interval.
+/// The first instant after a passage at which the depth is measured: 2⁻³⁴ of the interval.
 const FIRST_INSTANT: f64 = 1.0 / (1u64 << 34) as f64;
 
-/// What meets, where, and how deep.
+/// The features that meet, the point at which they do, and the depth.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct CrossingEvidence {
-    /// A vertex and a facet's three, the ends of two edges, or an edge's and a facet's.
+    /// A vertex and the three of a facet, the ends of two edges, or the ends of an edge and the three of a facet.
     pub(crate) vertices: Vec<u32>,
-    /// Where they meet.
+    /// The point at which they meet.
     pub(crate) point: DVec3,
-    /// By how much the nearer end of an edge stands beyond a facet that the edge pierces, the largest found; 0 where the
-    /// parts have passed through each other in an instant.
+    /// The largest distance found by which the nearer end of an edge lies beyond a facet that the edge pierces; 0 if
+    /// the parts have passed through each other at an instant.
     pub(crate) depth: f64,
 }
 
 impl CrossingEvidence {
-    /// An edge that pierces a facet at an instant.
+    /// The evidence for an edge that pierces a facet at an instant.
     pub(super) fn of_piercing(
         topology: &Topology,
         edge: u32,
@@ -40,7 +40,7 @@ impl CrossingEvidence {
         }
     }
 
-    /// A passage in a stretch of an interval: at its end the features are apart again.
+    /// The evidence for a passage between two times of an interval; at the second the features are apart again.
     pub(super) fn of_passage(
         topology: &Topology,
         cell: Cell,
@@ -74,7 +74,7 @@ impl CrossingEvidence {
     }
 }
 
-/// Edges at one of the features and triangles around the other.
+/// The edges at each feature, paired with the triangles around the other.
 fn pierced_around(topology: &Topology, cell: Cell) -> Vec<(u32, u32)> {
     let [a, b] = cell.corners(topology);
     let edges_at = |corners: [u32; 3]| -> Vec<u32> {
@@ -102,7 +102,8 @@ fn pierced_around(topology: &Topology, cell: Cell) -> Vec<(u32, u32)> {
     pairs
 }
 
-/// By how much the nearer end of an edge stands beyond a triangle without a common vertex; none where it does not pierce it.
+/// The distance by which the nearer end of an edge lies beyond a triangle without a common vertex; `None` if the edge
+/// does not pierce it.
 fn depth(topology: &Topology, edge: u32, face: u32, positions: &[DVec3]) -> Option<f64> {
     let ends = topology.ends(edge);
     let corners = topology.corners(face);

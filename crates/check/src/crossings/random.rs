@@ -19,7 +19,7 @@ impl Random {
         (super::perturbation::scrambled(self.0) % count as u64) as usize
     }
 
-    /// A whole number from −`most` to `most`.
+    /// An integer from −`most` to `most`.
     pub(super) fn whole(&mut self, most: i32) -> i64 {
         let count = 2 * most.unsigned_abs() as usize + 1;
         i64::from(self.index(count) as u32) - i64::from(most)

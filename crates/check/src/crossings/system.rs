@@ -1,13 +1,13 @@
-//! Linear equations between whole numbers, added one by one.
+//! A system of linear equations in integers, to which equations are added one by one.
 
 use std::collections::BTreeMap;
 
-/// The equations are solved modulo each of these primes: what is solvable in whole numbers is. The converse fails only
-/// where a solution in fractions needs a denominator of another prime; 2 is the one that a contact around a
-/// Möbius band asks for.
+/// The equations are solved modulo each of these primes. A system with an integer solution has one modulo both. The
+/// converse fails only if every rational solution needs a denominator divisible by another prime; contacts around a
+/// Möbius band need the prime 2.
 const PRIMES: [u64; 2] = [(1 << 31) - 1, 2];
 
-/// Equations in whole numbers of turns.
+/// Linear equations whose unknowns are integer numbers of turns.
 #[derive(Debug)]
 pub(super) struct EquationSystem {
     unknowns: u32,
@@ -23,7 +23,7 @@ struct Triangular {
 
 #[derive(Debug, Clone, Default)]
 struct Row {
-    /// Coefficients by unknown, none 0.
+    /// The coefficients by unknown; none of them is 0.
     terms: BTreeMap<u32, u64>,
     sum: u64,
 }
@@ -44,7 +44,7 @@ impl EquationSystem {
         self.unknowns - 1
     }
 
-    /// Adds Σ coefficient · unknown = `sum`; false, and nothing is added, where that contradicts what is there.
+    /// Adds Σ coefficient · unknown = `sum`. Returns false, and adds nothing, if that contradicts the system.
     pub(super) fn add(&mut self, terms: &[(u32, i64)], sum: i64) -> bool {
         let reduced = self.residues.each_ref().map(|r| r.reduced(terms, sum));
         let is_possible = |row: &Row| row.sum == 0 || !row.terms.is_empty();
@@ -61,7 +61,7 @@ impl EquationSystem {
 }
 
 impl Triangular {
-    /// An equation with everything known put in, its last coefficient 1.
+    /// The equation reduced by all rows, its last coefficient scaled to 1.
     fn reduced(&self, terms: &[(u32, i64)], sum: i64) -> Row {
         let mut row = Row {
             terms: BTreeMap::new(),

@@ -1,14 +1,14 @@
-//! The vertices, edges and triangles of a sheet, and which meet which.
+//! The vertices, edges and triangles of a sheet, and their adjacency.
 
 use std::collections::BTreeMap;
 
-/// What surrounds what in a triangulated sheet; an edge may have any number of triangles.
+/// The adjacency of a triangulated sheet; an edge may have any number of triangles.
 #[derive(Debug)]
 pub(super) struct Topology {
     pub(super) faces: Vec<[u32; 3]>,
-    /// The ends of every edge, the lower first: the direction in which it counts.
+    /// The ends of every edge, the lower index first, which defines the direction of the edge.
     pub(super) edges: Vec<[u32; 2]>,
-    /// Edge i of a triangle runs between corners i and i + 1.
+    /// Edge i of a triangle runs from corner i to corner i + 1.
     pub(super) face_edges: Vec<[u32; 3]>,
     pub(super) edge_faces: Vec<Vec<u32>>,
     pub(super) vertex_edges: Vec<Vec<u32>>,
@@ -16,7 +16,7 @@ pub(super) struct Topology {
 }
 
 impl Topology {
-    /// Precondition: corners are below `vertices`.
+    /// Precondition: all corners are less than `vertices`.
     pub(super) fn new(faces: &[[u32; 3]], vertices: usize) -> Self {
         let mut topology = Self {
             faces: faces.to_vec(),
@@ -66,7 +66,7 @@ impl Topology {
         !a.iter().any(|v| b.contains(v))
     }
 
-    /// 1 where the corners of `face` run along `edge` from its lower end to its higher one, −1 where they run back.
+    /// 1 if the corners of `face` run along `edge` from its lower end to its higher one, −1 if they run the other way.
     pub(super) fn direction_in(&self, edge: u32, face: u32) -> i64 {
         let corners = self.corners(face);
         let ends = self.ends(edge);

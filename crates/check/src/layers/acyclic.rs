@@ -1,24 +1,24 @@
-//! Transitivity: layers over one region have an order without a cycle.
+//! Transitivity: the order of the layers over a region has no cycle.
 
 use glam::DVec2;
 
 use super::flat;
 
-/// The layers of a cluster in its plane.
+/// The layers of a cluster, projected into its plane.
 #[derive(Debug)]
 pub(super) struct LayerStack {
-    /// Their corners, counter-clockwise.
+    /// The corners of each layer, counter-clockwise.
     pub(super) triangles: Vec<[DVec2; 3]>,
-    /// For each layer those known to lie above it, in order.
+    /// For each layer, the layers known to lie above it, in increasing order.
     pub(super) above: Vec<Vec<usize>>,
 }
 
 impl LayerStack {
-    /// Every three layers that lie above each other in turn over a common region wider than `width`, the lowest index
-    /// first, with a point of that region.
+    /// Every three layers that lie above each other in a cycle over a common region wider than `width`, the lowest
+    /// index first, with a point of that region.
     ///
-    /// Where the layers have one linear order there is none. The rest, what no layer that is lowest or highest can be
-    /// taken away from, is searched: layers that go round without a common region are possible.
+    /// If the layers have a linear order there is no such cycle. Layers that are lowest or highest are removed
+    /// repeatedly, and the rest is searched, because layers may form a cycle if they have no region in common.
     pub(super) fn cycles(&self, width: f64) -> Vec<([usize; 3], DVec2)> {
         let is_left = self.unsorted();
         let mut found = Vec::new();
@@ -39,7 +39,7 @@ impl LayerStack {
         found
     }
 
-    /// Which layers are left when the lowest are taken away again and again, and then the highest.
+    /// Which layers are left after repeatedly removing the lowest and then the highest ones.
     fn unsorted(&self) -> Vec<bool> {
         let count = self.above.len();
         let mut below = vec![Vec::new(); count];
@@ -67,8 +67,8 @@ impl LayerStack {
         is_left
     }
 
-    /// The most layers over the middle of a layer or of what two have in common, farther than `margin` from the sides
-    /// of all but one.
+    /// The largest number of layers over the centre of a layer, or over the centre of the common region of two layers,
+    /// counting those whose sides are farther than `margin` from it.
     pub(super) fn depth(&self, neighbours: &[Vec<usize>], margin: f64) -> usize {
         let count = |i: usize, point: DVec2| {
             let others = neighbours[i].iter();
@@ -128,7 +128,7 @@ mod tests {
 
     #[test]
     fn a_pinwheel_may_go_round_where_its_blades_share_no_region() {
-        // Three long blades around an empty middle, each over the next.
+        // Three long blades around an empty centre, each over the next.
         let turn = |k: u32| DVec2::from_angle(f64::from(k) * std::f64::consts::TAU / 3.0);
         let blade = [
             DVec2::new(-2.0, 0.5),

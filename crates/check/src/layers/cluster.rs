@@ -1,4 +1,4 @@
-//! The clusters of a frame, and what is proved of their order.
+//! The clusters of a frame, and what is proved about their order.
 
 use foldmotion_pattern::{Assignment, Sheet};
 use glam::{DVec2, DVec3};
@@ -11,10 +11,10 @@ use super::{
     hinges::{FrameLayers, Junction},
 };
 
-/// Fewer pairs than this are not worth a thread.
+/// The number of pairs below which starting another thread does not pay.
 const PAIRS_A_TASK: usize = 64;
 
-/// The clusters of a frame, without its number and time, and what contradicts itself in them.
+/// The clusters of a frame, without frame index and time, and the contradictions in them.
 #[derive(Debug)]
 pub(crate) struct Proof {
     pub(crate) clusters: Vec<Cluster>,
@@ -28,13 +28,13 @@ pub(crate) struct Contradiction {
     pub(crate) faces: [u32; 2],
     pub(crate) conflict: LayerConflict,
     pub(crate) vertices: Vec<u32>,
-    /// Where they lie on each other.
+    /// A point at which they lie on each other.
     pub(crate) point: DVec3,
 }
 
 /// Groups the layers of a frame into clusters and tests the rules in each.
 ///
-/// `pairs`: in order of their faces. `tolerance`: τ, a length.
+/// `pairs`: sorted by their faces. `tolerance`: τ, a length.
 pub(crate) fn prove(
     sheet: &Sheet,
     edges: &FaceEdges,
@@ -84,21 +84,21 @@ pub(crate) fn prove(
 
 /// A connected component of the layers.
 struct Group {
-    /// In order.
+    /// The triangles, in increasing order.
     faces: Vec<u32>,
-    /// Indices of its pairs, in order.
+    /// The indices of its pairs, in increasing order.
     pairs: Vec<usize>,
 }
 
-/// The components, in order of their first triangle.
+/// The connected components, in the order of their first triangles.
 fn groups(faces: usize, pairs: &[LayerPair]) -> Vec<Group> {
     let mut parent: Vec<u32> = (0..faces as u32).collect();
     for pair in pairs {
         let [f, g] = pair.faces.map(|face| root(&mut parent, face));
         parent[f.max(g) as usize] = f.min(g);
     }
-    // The root is the smallest triangle, so groups come in its order.
-    let mut place = vec![usize::MAX; faces];
+    // The root is the smallest triangle, so groups come in the order of their roots.
+    let mut group_of = vec![usize::MAX; faces];
     let mut groups: Vec<Group> = Vec::new();
     let mut is_layer = vec![false; faces];
     for face in pairs.iter().flat_map(|pair| pair.faces) {
@@ -106,18 +106,18 @@ fn groups(faces: usize, pairs: &[LayerPair]) -> Vec<Group> {
     }
     for face in (0..faces as u32).filter(|&f| is_layer[f as usize]) {
         let root = root(&mut parent, face) as usize;
-        if place[root] == usize::MAX {
-            place[root] = groups.len();
+        if group_of[root] == usize::MAX {
+            group_of[root] = groups.len();
             groups.push(Group {
                 faces: Vec::new(),
                 pairs: Vec::new(),
             });
         }
-        groups[place[root]].faces.push(face);
+        groups[group_of[root]].faces.push(face);
     }
     for (index, pair) in pairs.iter().enumerate() {
         let root = root(&mut parent, pair.faces[0]) as usize;
-        groups[place[root]].pairs.push(index);
+        groups[group_of[root]].pairs.push(index);
     }
     groups
 }
@@ -131,17 +131,17 @@ fn root(parent: &mut [u32], face: u32) -> u32 {
     at
 }
 
-/// What the tests in a cluster gave.
+/// The results of the tests in a cluster.
 #[derive(Default)]
 struct ClusterTests {
     counts: RuleCounts,
     contradictions: Vec<Contradiction>,
-    /// Whether a test needed an order that is not known.
+    /// Whether a test was skipped because an order is unknown.
     is_partial: bool,
 }
 
 impl FrameLayers<'_> {
-    /// Taco–taco, taco–tortilla, tortilla–tortilla and bent creases.
+    /// Tests taco–taco, taco–tortilla, tortilla–tortilla and bent creases.
     fn test_hinges(&self, group: &Group, tests: &mut ClusterTests) {
         let indices = group.pairs.par_iter().with_min_len(PAIRS_A_TASK);
         let mut junctions: Vec<_> = indices.flat_map_iter(|&i| self.junctions(i)).collect();
@@ -172,7 +172,7 @@ impl FrameLayers<'_> {
         }
     }
 
-    /// Transitivity; returns the depth of the stack.
+    /// Tests transitivity. Returns the depth of the stack.
     fn test_cycles(&self, group: &Group, tests: &mut ClusterTests) -> usize {
         let corners =
             |face: u32| self.sheet.faces[face as usize].map(|v| self.positions[v as usize]);
@@ -220,7 +220,7 @@ impl FrameLayers<'_> {
 
     /// Counts the creases that are folded flat to the side of their assignment.
     ///
-    /// One folded the other way is no contradiction: the motion shows how it came there.
+    /// A crease folded to the other side is no contradiction: the motion shows how it came there.
     fn count_creases(&self, group: &Group, tests: &mut ClusterTests) {
         for pair in group.pairs.iter().map(|&i| &self.pairs[i]) {
             let [f, g] = pair.faces;

@@ -2,7 +2,7 @@
 
 use glam::DVec2;
 
-/// The corners counter-clockwise.
+/// Sorts the corners counter-clockwise.
 pub(super) fn counter_clockwise([p, q, r]: [DVec2; 3]) -> [DVec2; 3] {
     if (q - p).perp_dot(r - p) < 0.0 {
         [p, r, q]
@@ -13,7 +13,7 @@ pub(super) fn counter_clockwise([p, q, r]: [DVec2; 3]) -> [DVec2; 3] {
 
 /// Whether the triangles overlap by more than `width` in every direction.
 ///
-/// The least overlap of two convex polygons is along the normal of a side (Minkowski difference).
+/// The smallest overlap of two convex polygons is attained along the normal of a side (Minkowski difference).
 pub(super) fn overlap(a: &[DVec2; 3], b: &[DVec2; 3], width: f64) -> bool {
     let normals = |t: &[DVec2; 3]| [t[1] - t[0], t[2] - t[1], t[0] - t[2]].map(DVec2::perp);
     let mut all = normals(a).into_iter().chain(normals(b));
@@ -31,7 +31,7 @@ fn span(points: &[DVec2], direction: DVec2) -> [f64; 2] {
     })
 }
 
-/// The common part of counter-clockwise triangles, cut side by side (Sutherland and Hodgman 1974).
+/// The intersection of counter-clockwise triangles, clipped side by side (Sutherland and Hodgman 1974).
 pub(super) fn common(triangles: &[[DVec2; 3]]) -> Vec<DVec2> {
     let Some((first, others)) = triangles.split_first() else {
         return Vec::new();
@@ -45,7 +45,7 @@ pub(super) fn common(triangles: &[[DVec2; 3]]) -> Vec<DVec2> {
     polygon
 }
 
-/// The part of a convex polygon on the left of the line from `from` to `to`.
+/// The part of a convex polygon to the left of the line from `from` to `to`.
 fn left_of(polygon: &[DVec2], from: DVec2, to: DVec2) -> Vec<DVec2> {
     let height = |p: DVec2| (to - from).perp_dot(p - from);
     let mut kept = Vec::with_capacity(polygon.len() + 1);
@@ -62,7 +62,8 @@ fn left_of(polygon: &[DVec2], from: DVec2, to: DVec2) -> Vec<DVec2> {
     kept
 }
 
-/// Whether a convex polygon is wider than `width` in every direction: its least width is across one of its sides.
+/// Whether a convex polygon is wider than `width` in every direction: its smallest width is perpendicular to one of its
+/// sides.
 pub(super) fn is_wide(polygon: &[DVec2], width: f64) -> bool {
     let sides = (0..polygon.len()).map(|i| polygon[(i + 1) % polygon.len()] - polygon[i]);
     let normals = sides.filter_map(|side| side.perp().try_normalize());
@@ -73,12 +74,12 @@ pub(super) fn is_wide(polygon: &[DVec2], width: f64) -> bool {
     polygon.len() > 2 && widths.fold(f64::INFINITY, f64::min) > width
 }
 
-/// The mean of the corners, inside a convex polygon.
+/// The mean of the corners, which lies inside a convex polygon.
 pub(super) fn middle(polygon: &[DVec2]) -> DVec2 {
     polygon.iter().sum::<DVec2>() / polygon.len().max(1) as f64
 }
 
-/// Whether a counter-clockwise triangle holds `point`, farther than `margin` from its sides.
+/// Whether `point` lies inside a counter-clockwise triangle, farther than `margin` from its sides.
 pub(super) fn holds(triangle: &[DVec2; 3], point: DVec2, margin: f64) -> bool {
     (0..3).all(|i| {
         let side = triangle[(i + 1) % 3] - triangle[i];
@@ -94,7 +95,7 @@ mod tests {
 
     #[test]
     fn triangles_overlap_by_the_least_push_that_parts_them() {
-        // Pushed along the diagonal they part after √½ (1 − 2·0.2).
+        // Pushed along the diagonal they separate after √½ (1 − 2·0.2).
         let other = CORNER.map(|p| p + DVec2::splat(0.2));
         let exact = 0.6 * std::f64::consts::FRAC_1_SQRT_2;
         assert!(overlap(&CORNER, &other, exact - 1e-12));
@@ -114,7 +115,7 @@ mod tests {
         let area: f64 = (0..polygon.len())
             .map(|i| 0.5 * polygon[i].perp_dot(polygon[(i + 1) % polygon.len()]))
             .sum();
-        // The strip 0 ≤ x ≤ 0.5 under y = 0.75 − x, y = 0.5 + x: a roof over a rectangle 0.5 × 0.25.
+        // The strip 0 ≤ x ≤ 0.5 below y = 0.75 − x and y = 0.5 + x: a roof over a rectangle of 0.5 × 0.25.
         let roof = |x: f64| (0.75 - x).min(0.5 + x);
         let steps = 100_000;
         let sum: f64 = (0..steps)

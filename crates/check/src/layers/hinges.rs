@@ -1,4 +1,4 @@
-//! Creases and layers along one line: whether they pass through each other there.
+//! Creases and layers along a common line: whether they pass through each other there.
 
 use std::f64::consts::{PI, TAU};
 
@@ -7,59 +7,60 @@ use glam::DVec3;
 
 use super::{FaceEdges, LayerPair, LayerRule, NARROW, front_normal};
 
-/// Half-planes at less than this angle are told apart by their layers, not by the angle. It is far above what
-/// coincident layers differ by, τ over the size of a triangle, and far below the angles that creases rest at.
+/// Half-planes whose angles differ by less than this, in radians, are ordered by their layers instead of the angle. It
+/// is far above the angle between coincident layers, τ over the size of a triangle, and far below the angles at which
+/// creases rest.
 const SAME_ANGLE: f64 = 1e-3;
 
-/// What meets the hinge at its line.
+/// What meets a hinge along its line.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 enum Partner {
-    /// Another hinge on the same line, by its edge.
+    /// Another hinge on the same line, given by its edge.
     Hinge { edge: u32 },
     /// A triangle that the line crosses.
     Across { face: u32 },
 }
 
-/// A hinge, and what meets it along the same line on the side of one of its triangles.
+/// A hinge and what meets it along the same line, on the side of one of its triangles.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Junction {
     edge: u32,
     other: Partner,
-    /// The triangles of the hinge, the one that is a layer of the other first.
+    /// The triangles of the hinge; the one that is a layer of the partner comes first.
     faces: [u32; 2],
-    /// The triangles of the other, the layer first; twice the one that is crossed.
+    /// The triangles of the partner, the layer first; a crossed triangle is listed twice.
     others: [u32; 2],
-    /// The index of the pair of layers it was found at.
+    /// The index of the pair of layers at which the junction was found.
     pub(super) pair: usize,
-    /// A point of the line where the two meet.
+    /// A point of the line at which the two meet.
     pub(super) point: DVec3,
 }
 
-/// A half-plane that ends in the line.
+/// A half-plane bounded by the line.
 #[derive(Debug, Clone, Copy)]
 struct HalfPlane {
     face: u32,
-    /// Around the line, from the layer that the meeting was found at.
+    /// The angle around the line, in radians, from the layer at which the junction was found.
     angle: f64,
 }
 
-/// The layers of a frame, to be looked up.
+/// The layers of a frame, with what is needed to look them up.
 pub(super) struct FrameLayers<'a> {
     pub(super) sheet: &'a Sheet,
     pub(super) edges: &'a FaceEdges,
     pub(super) positions: &'a [DVec3],
-    /// In order of their faces.
+    /// The pairs of layers, sorted by their faces.
     pub(super) pairs: &'a [LayerPair],
     /// τ, a length.
     pub(super) tolerance: f64,
 }
 
-/// A line in space with the directions of a half-plane and of growing angles.
+/// A line in space, with the direction into a half-plane and the direction of increasing angle.
 struct Line {
     at: DVec3,
     along: DVec3,
     inward: DVec3,
-    /// Along × inward.
+    /// The direction along × inward.
     up: DVec3,
     length: f64,
 }
@@ -71,12 +72,12 @@ impl Line {
 }
 
 impl Junction {
-    /// The same for one meeting, however it was found.
+    /// A key that is the same however the junction was found.
     pub(super) fn key(&self) -> impl Ord + use<> {
         (self.edge, self.other)
     }
 
-    /// The triangles that meet, each once, in order.
+    /// The triangles that meet, each once, in increasing order.
     pub(super) fn all_faces(&self) -> Vec<u32> {
         let mut faces = [self.faces, self.others].concat();
         faces.sort_unstable();
@@ -84,7 +85,7 @@ impl Junction {
         faces
     }
 
-    /// The ends of the hinge and of the other one.
+    /// The vertices of the hinge and of its partner, each once.
     pub(super) fn vertices(&self, sheet: &Sheet) -> Vec<u32> {
         let mut vertices = sheet.edges[self.edge as usize].vertices.to_vec();
         let others = match self.other {
@@ -101,7 +102,7 @@ impl Junction {
 }
 
 impl FrameLayers<'_> {
-    /// What meets along the edges of the two layers of a pair.
+    /// The junctions along the edges of the two layers of a pair.
     pub(super) fn junctions(&self, index: usize) -> Vec<Junction> {
         let [f, g] = self.pairs[index].faces;
         let mut found = Vec::new();
@@ -127,7 +128,7 @@ impl FrameLayers<'_> {
         found
     }
 
-    /// What of triangle `b` meets edge `i` of its layer `a`.
+    /// The part of triangle `b` that meets edge `i` of its layer `a`.
     fn at_line(&self, a: u32, i: usize, b: u32) -> Option<(Partner, [u32; 2], DVec3)> {
         let width = NARROW * self.tolerance;
         let line = self.line(a, i)?;
@@ -161,7 +162,7 @@ impl FrameLayers<'_> {
         Some((Partner::Across { face: b }, [b, b], point))
     }
 
-    /// Which rule a meeting falls under and whether it is kept; none where an order it depends on is not known.
+    /// The rule that applies to a junction and whether it holds; `None` if an order it depends on is unknown.
     pub(super) fn test(&self, junction: &Junction) -> Option<(LayerRule, bool)> {
         let corners = self.sheet.faces[junction.faces[0] as usize];
         let ends = self.sheet.edges[junction.edge as usize].vertices;
@@ -188,11 +189,11 @@ impl FrameLayers<'_> {
                 crossings += u32::from(self.is_before(&line, x, y, cut)?);
             }
         }
-        // The two pairs interleave where an odd number of the four comparisons hold, wherever the circle is cut.
+        // The two pairs interleave if an odd number of the four comparisons hold, wherever the circle is cut.
         Some((rule_of(&own, &others), crossings % 2 == 0))
     }
 
-    /// Whether half-plane `x` comes before `y` in the direction of growing angles from `cut` on.
+    /// Whether half-plane `x` comes before `y` in the direction of increasing angle, starting from `cut`.
     fn is_before(&self, line: &Line, x: &HalfPlane, y: &HalfPlane, cut: f64) -> Option<bool> {
         let apart = (y.angle - x.angle + PI).rem_euclid(TAU) - PI;
         if apart.abs() >= SAME_ANGLE {
@@ -224,7 +225,7 @@ impl FrameLayers<'_> {
         }
     }
 
-    /// Edge `i` of a triangle, its apex inward.
+    /// The line through edge `i` of a triangle, with the apex inward.
     fn line(&self, face: u32, i: usize) -> Option<Line> {
         let corners = self.corners(face);
         let (at, end, apex) = (corners[i], corners[(i + 1) % 3], corners[(i + 2) % 3]);
@@ -246,7 +247,7 @@ impl FrameLayers<'_> {
 }
 
 impl Junction {
-    /// The hinge of two with the smaller edge first; none for a hinge that meets itself.
+    /// The junction with the smaller edge first; `None` if the hinge is its own partner.
     fn in_order(self) -> Option<Self> {
         match self.other {
             Partner::Hinge { edge } if edge == self.edge => None,
@@ -282,7 +283,7 @@ fn widest_gap(mut angles: [f64; 4]) -> f64 {
     let widest = (0..4)
         .max_by(|&i, &j| gap(i).total_cmp(&gap(j)))
         .unwrap_or(0);
-    // Four equal angles leave a gap of a whole turn, which is 0 here.
+    // If all four angles are equal, the gap is a full turn, which the remainder turns into 0.
     let half = 0.5 * gap(widest);
     angles[widest] + if half > 0.0 { half } else { PI }
 }

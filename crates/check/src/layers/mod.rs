@@ -1,35 +1,36 @@
 //! The order of layers that lie on each other.
 //!
-//! Two triangles are *layers* of each other at a frame where the corners of one lie within τ of the plane of the
-//! other and the two, seen along its normal, overlap by more than 10 τ in every direction. Their order is the side on
-//! which the motion has kept them: the directions along which the first lies below the second all point to one side
-//! of it. Layers that overlap, directly or through others, are a *cluster*.
+//! Two triangles are *layers* of each other at a frame if the corners of one lie within τ of the plane of the other and
+//! the two, projected along its normal, overlap by more than 10 τ in every direction. Their order is the side on which
+//! the motion has kept them: the directions along which the first lies below the second all point to one side of it.
+//! Layers that overlap, directly or through others, form a *cluster*.
 //!
 //! # The rules
 //!
-//! The orders of pairs, each right for itself, need not be possible together. In a cluster they are tested by the
-//! rules of flat foldings (Justin 1994, "Towards a mathematical theory of origami"; Bern and Hayes 1996, "The
-//! complexity of flat origami"; the names are those of Akitaya, Cheung, Demaine, Horiyama, Hull, Ku, Tachi and Uehara
-//! 2016, "Box pleating is hard"):
+//! Orders of pairs that are right one by one need not be possible together. In a cluster they are tested by the rules
+//! of flat foldings (Justin 1994, "Towards a mathematical theory of origami"; Bern and Hayes 1996, "The complexity of
+//! flat origami"; the names are those of Akitaya, Cheung, Demaine, Horiyama, Hull, Ku, Tachi and Uehara 2016, "Box
+//! pleating is hard"):
 //!
 //! - *transitivity*: over no common region is a above b, b above c and c above a;
-//! - *taco–taco*, *taco–tortilla*, *tortilla–tortilla*: two creases on one line, or a crease and a layer that it
-//!   crosses, do not pass through each other there.
+//! - *taco–taco*, *taco–tortilla*, *tortilla–tortilla*: two creases on one line, or a crease and a layer that crosses
+//!   it, do not pass through each other there.
 //!
-//! The last three are one. Around a line, two creases (or a crease and a layer, which bends by 0 there) are two pairs
-//! of half-planes; they pass through each other exactly where the pairs interleave in the cyclic order of the four.
-//! Half-planes that coincide are ordered by their layers. So creases that leave the plane of the cluster, as beside
-//! the walls of case S, need no rule of their own: the layer that such a crease crosses must not lie on the side to
-//! which it bends (*bent*). A crease folded flat is a taco, one with angle 0, also within a facet, a tortilla.
+//! The last three are one rule. Around a line, two creases (or a crease and a layer, which is bent by 0 there) are two
+//! pairs of half-planes. They pass through each other exactly if the pairs interleave in the cyclic order of the four.
+//! Half-planes that coincide are ordered by their layers. So creases that leave the plane of the cluster, as beside the
+//! walls of case S, need no rule of their own: the layer that such a crease crosses must not lie on the side to which
+//! the crease bends (*bent*). A crease folded flat is a taco; an edge of angle 0, which may lie inside a facet, is a
+//! tortilla.
 //!
-//! These rules are necessary. Together with orders known for all pairs they are sufficient for layers of a flat
-//! folding (Justin); what happens at a vertex beyond its creases follows from them.
+//! These rules are necessary. If the orders of all pairs are known, they are also sufficient for the layers of a flat
+//! folding (Justin); what happens at a vertex follows from its creases.
 //!
 //! # Limits
 //!
-//! Overlaps of at most 10 τ are shared edges; creases at most 10 τ apart are one line. A pair that the motion never
-//! held on one side, because it is in contact from the first frame on, has no order unless the file claims one; a
-//! cluster with such a pair is *unproved*, and only rules between pairs of known order are tested in it.
+//! Overlaps of at most 10 τ count as shared edges, and creases at most 10 τ apart count as one line. A pair that the
+//! motion never held on one side, because it was in contact from the first frame on, has no order unless the file
+//! claims one. A cluster with such a pair is *unproved*, and only rules between pairs of known order are tested in it.
 
 mod acyclic;
 mod cluster;
@@ -46,10 +47,10 @@ pub(crate) use stacking::{FaceStack, unused_claims};
 
 use foldmotion_pattern::Sheet;
 
-/// Overlaps and distances of lines up to this multiple of τ count as none.
+/// Overlaps, and distances of lines, up to this multiple of τ count as none.
 const NARROW: f64 = 10.0;
 
-/// The edges of the triangles of a sheet.
+/// For each triangle of a sheet, the edge of the sheet along each of its sides.
 #[derive(Debug)]
 pub(crate) struct FaceEdges(Vec<[Option<u32>; 3]>);
 
@@ -71,7 +72,7 @@ impl FaceEdges {
         Self(edges)
     }
 
-    /// The edge from corner `i` of `face` to the next one, and the triangle beyond it, where there is one.
+    /// The edge from corner `i` of `face` to the next corner, and the triangle beyond it; `None` at the boundary.
     pub(crate) fn hinge(&self, sheet: &Sheet, face: u32, i: usize) -> Option<(u32, u32)> {
         let edge = self.0[face as usize][i]?;
         let faces = sheet.edges[edge as usize].faces;

@@ -7,17 +7,18 @@ use rayon::prelude::*;
 
 use super::{NARROW, flat};
 
-/// A direction says on which side of a layer it points where it is within 60° of its normal.
+/// A direction points to a side of a layer if its cosine with the normal is greater than this: it is within 60° of the
+/// normal.
 const CLEAR: f64 = 0.5;
 
 /// Two triangles that lie on each other.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct LayerPair {
-    /// The smaller index first.
+    /// The two triangles, the smaller index first.
     pub(crate) faces: [u32; 2],
-    /// The unit normal along which the first lies below the second; none where either may lie below.
+    /// The unit normal along which the first lies below the second; `None` if the order is unknown.
     pub(crate) up: Option<DVec3>,
-    /// Whether they have passed through each other, so that their order means nothing.
+    /// Whether they have passed through each other, so that their order has no meaning.
     pub(crate) is_lost: bool,
 }
 
@@ -26,7 +27,7 @@ pub(crate) fn front_normal(sheet: &Sheet, face: u32, positions: &[DVec3]) -> DVe
     (q - p).cross(r - p).normalize_or_zero()
 }
 
-/// The pairs among `sides` that are layers, in the order of `sides`; a pair without a side gets no order.
+/// The pairs among `sides` that are layers, in the order of `sides`. A pair without a side gets no order.
 pub(crate) fn layer_pairs(
     sheet: &Sheet,
     positions: &[DVec3],
@@ -63,7 +64,7 @@ pub(crate) fn layer_pairs(
         .collect()
 }
 
-/// ±`normal`, whichever side all directions agree on.
+/// `normal` or its opposite, whichever side all directions point to; `None` if they disagree.
 fn upward(side: &Side, normal: DVec3) -> Option<DVec3> {
     let agree = |axes: &[DVec3], normal: DVec3| axes.iter().all(|d| d.dot(normal) > CLEAR);
     let axes = match side {
@@ -86,7 +87,7 @@ pub(crate) fn layer_point(sheet: &Sheet, positions: &[DVec3], [f, g]: [u32; 2]) 
     origin + x * middle.x + y * middle.y
 }
 
-/// The known orders of `pairs` with FOLD's sign, in both directions.
+/// The known orders of `pairs` with the signs of FOLD, in both directions.
 pub(crate) fn order_of(sheet: &Sheet, positions: &[DVec3], pairs: &[LayerPair]) -> LayerOrder {
     let mut order = LayerOrder::default();
     for pair in pairs {

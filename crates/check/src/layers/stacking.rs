@@ -7,21 +7,21 @@ use glam::{DVec2, DVec3};
 
 use super::{NARROW, flat, front_normal};
 
-/// Facets are stacked where their planes are at most this far from parallel: the cosine of 20°.
+/// Facets are stacked only if the cosine of the angle between their planes is at least this: 20°.
 const PARALLEL: f64 = 0.94;
-/// And where the gap between them is somewhere at most this, in units of the sheet's unit length.
+/// Facets are stacked only if the gap between them is at most this somewhere, in unit lengths of the sheet.
 const NEAR: f64 = 0.1;
 
-/// How the claims of an order that are not about layers in contact stand to a state.
+/// How the claims about facets that are not layers in contact compare with a state of the sheet.
 #[derive(Debug, Default, PartialEq, Eq)]
 pub(crate) struct StackingResult {
-    /// How many hold.
+    /// The number of claims that hold.
     pub(crate) held: usize,
-    /// The first that is false: the faces and the sign.
+    /// The first false claim: the two faces and the sign.
     pub(crate) refuted: Option<(u32, u32, i8)>,
 }
 
-/// The sheet in one state, with the faces of the file that its triangles belong to.
+/// A state of the sheet, with the faces of the file that its triangles belong to.
 pub(crate) struct FaceStack<'a> {
     pub(crate) sheet: &'a Sheet,
     pub(crate) positions: &'a [DVec3],
@@ -31,13 +31,13 @@ pub(crate) struct FaceStack<'a> {
 }
 
 impl FaceStack<'_> {
-    /// Compares `claims`, faces with FOLD's sign, with the heights of the first face over the second's front where both
-    /// lie over the same points.
+    /// Compares `claims`, faces with the sign of FOLD, with the heights of the first face above the front of the second
+    /// where both cover the same points.
     pub(crate) fn compare(&self, claims: impl Iterator<Item = (u32, u32, i8)>) -> StackingResult {
         let mut claims = claims.peekable();
         let mut stacked = StackingResult::default();
         if claims.peek().is_none() {
-            // Most frames have no such claim: the faces are sorted for those that do.
+            // Most frames have no such claims; then the faces need not be sorted.
             return stacked;
         }
         let triangles = self.triangles();
@@ -63,7 +63,7 @@ impl FaceStack<'_> {
         kept
     }
 
-    /// The triangles of each face.
+    /// The triangles of each face of the file.
     fn triangles(&self) -> BTreeMap<u32, Vec<u32>> {
         let mut triangles: BTreeMap<u32, Vec<u32>> = BTreeMap::new();
         for triangle in 0..self.sheet.faces.len() as u32 {
@@ -73,8 +73,8 @@ impl FaceStack<'_> {
         triangles
     }
 
-    /// Whether a claim holds: all of the first face lies on the side claimed, but for τ; it is false where all of it lies on
-    /// the other side. None where the faces are not stacked, or cross.
+    /// Whether a claim holds: it is true if all of the first face lies on the claimed side, up to τ, and false if all
+    /// of it lies on the other side. `None` if the faces are not stacked, or cross.
     fn holds(
         &self,
         triangles: &BTreeMap<u32, Vec<u32>>,
@@ -100,8 +100,8 @@ impl FaceStack<'_> {
         }
     }
 
-    /// The least and the greatest height of triangle `a` over the front of `b`, over what both cover of `b`'s plane; none
-    /// where they are not stacked.
+    /// The smallest and the largest height of triangle `a` above the front of `b`, where both cover the plane of `b`;
+    /// `None` if they are not stacked.
     fn heights(&self, a: u32, b: u32) -> Option<[f64; 2]> {
         let corners =
             |face: u32| self.sheet.faces[face as usize].map(|v| self.positions[v as usize]);

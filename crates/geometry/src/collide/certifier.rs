@@ -1,4 +1,4 @@
-//! The walk through time that certifies a pair of moving triangles, or finds where it crosses.
+//! Steps through time that certify a pair of moving triangles, or find where it crosses.
 
 use glam::DVec3;
 
@@ -11,12 +11,12 @@ use super::{
 
 /// The shortest step: motions over it are far below τ.
 const SHORTEST_STEP: f64 = 1.0 / (1u64 << 34) as f64;
-/// Longer steps are halved before a pair that parts is left on an axis along which it still touches: over shorter ones
-/// overlaps grow by less than τ, but in motions of more than 2²⁶ τ an interval.
+/// Steps longer than this are halved before a pair that separates is left on an axis along which it still touches. Over
+/// shorter steps, overlaps grow by less than τ, unless the motion exceeds 2²⁶ τ in the interval.
 const PARTING_STEP: f64 = 1.0 / (1u64 << 26) as f64;
-/// Longer steps are halved before all axes are tried.
+/// Steps longer than this are halved before all axes are tried.
 const SEARCH_STEP: f64 = 1.0 / 8.0;
-/// Longer steps are halved before a contact is assumed between two instants at which the triangles are apart.
+/// Steps longer than this are halved before a contact is assumed between two instants at which the triangles are apart.
 const GRAZING_STEP: f64 = 1.0 / 1024.0;
 
 /// Marks all axes that are linked to a marked one, directly or through others.
@@ -47,11 +47,11 @@ pub(super) struct Certifier<'a> {
     time: f64,
     pose: PairPose,
     side: Side,
-    /// Whether the axis that separates has been chosen anew at `time`.
+    /// Whether the separating axis was chosen anew at `time`.
     is_fresh: bool,
-    /// The axes the path may be on at `time`, once asked for.
+    /// The axes that the path may be on at `time`, once computed.
     reached: Option<Vec<DVec3>>,
-    /// When the triangles were last known to be apart, and along which axis.
+    /// The last time at which the triangles were known to be apart, and the axis.
     last_apart: Option<(f64, DVec3)>,
     /// The end of the step in which the present contact began.
     first_contact: f64,
@@ -82,7 +82,7 @@ impl<'a> Certifier<'a> {
         }
     }
 
-    /// Walks to t = 1 in dyadic steps of at most `first_step`.
+    /// Advances to t = 1 in dyadic steps of at most `first_step`.
     pub(super) fn run(mut self, first_step: f64) -> Outcome {
         let mut step = first_step;
         for _ in 0..self.limits.budget {
@@ -97,7 +97,7 @@ impl<'a> Certifier<'a> {
             let end = self.pair.at(self.time + step);
             if let Some(side) = self.cross(&end, step) {
                 self.land(side, end, step);
-                // t stays a multiple of the step.
+                // The time stays a multiple of the step.
                 if step < first_step && (self.time / (2.0 * step)).fract() == 0.0 {
                     step *= 2.0;
                 }
@@ -123,7 +123,7 @@ impl<'a> Certifier<'a> {
         self.reached = None;
     }
 
-    /// Certifies the step to `end` and gives the side there.
+    /// Certifies the step to `end` and returns the side there.
     fn cross(&mut self, end: &PairPose, step: f64) -> Option<Side> {
         let Side::Apart(direction) = self.side else {
             let parts =
@@ -155,10 +155,10 @@ impl<'a> Certifier<'a> {
         self.touch(end)
     }
 
-    /// Comes out of contact on the way to `end`, where the triangles are apart.
+    /// Leaves contact during the step to `end`, where the triangles are apart.
     ///
-    /// A path that ends on an axis along which they still touch may be on a part of D(t) that closes: a shorter step
-    /// may find the way to where they are apart.
+    /// A path that ends on an axis along which they still touch may be in a part of D(t) that vanishes; a shorter step
+    /// may find a path to an axis along which they are apart.
     fn part(&mut self, end: &PairPose, step: f64) -> Option<Side> {
         let before = (self.clearance, self.in_contact);
         let side = self.touch(end);
@@ -169,7 +169,7 @@ impl<'a> Certifier<'a> {
         side
     }
 
-    /// Stays strictly apart on the way to `end`, on an axis at rest or turning along with the triangles.
+    /// Stays strictly apart during the step to `end`, on an axis that is at rest or turns along with the triangles.
     fn glide(&mut self, direction: DVec3, end: &PairPose) -> Option<DVec3> {
         let (pose, limits) = (self.pose, self.limits);
         let step = MovingPair {
@@ -181,7 +181,7 @@ impl<'a> Certifier<'a> {
             return is_open.then(|| end.bisector().unwrap_or(direction));
         }
         let at_rest = step.least_gap_at_rest(direction, limits);
-        // An axis with little room left is tried against turning ones, which may leave more.
+        // An axis with little room left is compared with turning axes, which may leave more.
         if at_rest > limits.tolerance {
             self.clearance = self.clearance.min(at_rest);
             return Some(direction);
@@ -197,7 +197,7 @@ impl<'a> Certifier<'a> {
         apart
     }
 
-    /// Stays strictly apart on the way to `end`, from any axis that separates here to any that separates there.
+    /// Stays strictly apart during the step to `end`, from any axis that separates here to any that separates there.
     fn switch(&mut self, end: &PairPose) -> Option<DVec3> {
         self.effort = Effort::Search;
         let (pose, limits) = (self.pose, self.limits);
@@ -210,7 +210,7 @@ impl<'a> Certifier<'a> {
         self.best_of(&step, &here, &there)
     }
 
-    /// Where the path ends that leaves the most room, if any leaves enough.
+    /// The end of the path that leaves the most room, if any leaves enough.
     fn best_of(&mut self, step: &MovingPair, here: &[DVec3], there: &[DVec3]) -> Option<DVec3> {
         let (mut best, mut room) = (None, self.limits.margin);
         for &d0 in here {
@@ -227,7 +227,7 @@ impl<'a> Certifier<'a> {
         best
     }
 
-    /// Stays within the tolerance on the way to `end`, from any axis reached here to any there.
+    /// Stays within the tolerance during the step to `end`, from any axis reached here to any axis there.
     fn touch(&mut self, end: &PairPose) -> Option<Side> {
         self.effort = Effort::Search;
         let seeds = self.seeds().to_vec();
@@ -260,7 +260,7 @@ impl<'a> Certifier<'a> {
         if reached.iter().any(is_apart) {
             return widest(end, limits).map(Side::Apart);
         }
-        // An axis carried over is kept only where no fresh one of its part of D(t) was found.
+        // An axis carried over is kept only if no fresh axis of its part of D(t) was found.
         let is_covered = |i: usize| {
             let mut fresh_ones = reached.iter().filter(|&&j| j < fresh);
             i >= fresh && fresh_ones.any(|&j| are_linked(&axes[i], &axes[j], limits))
@@ -269,7 +269,7 @@ impl<'a> Certifier<'a> {
         Some(Side::Contact(kept.map(|&i| axes[i].direction).collect()))
     }
 
-    /// The axes the path may be on now.
+    /// The axes that the path may be on now.
     fn seeds(&mut self) -> &[DVec3] {
         let (side, pose, limits) = (&self.side, &self.pose, self.limits);
         self.reached.get_or_insert_with(|| match side {
@@ -278,7 +278,7 @@ impl<'a> Certifier<'a> {
         })
     }
 
-    /// No step leads on from here: looks for an instant that proves a crossing.
+    /// Called when no step succeeds: searches for an instant that proves a crossing.
     fn examine(&mut self, step: f64) -> Outcome {
         let seeds = self.seeds().to_vec();
         let too_deep = self.limits.tolerance + self.limits.margin;
@@ -314,17 +314,17 @@ impl<'a> Certifier<'a> {
         })
     }
 
-    /// When the present contact began, by bisection of the step in which the triangles met.
+    /// The time at which the present contact began, by bisection of the step in which the triangles met.
     fn contact_start(&self) -> f64 {
         let Some((mut apart, direction)) = self.last_apart else {
             return 0.0;
         };
-        // Met in a step that could not be certified at all, or in the one that ended in contact.
+        // They met in a step that could not be certified at all, or in the one that ended in contact.
         let mut contact = match self.side {
             Side::Apart(_) => self.time,
             Side::Contact(_) => self.first_contact,
         };
-        // Apart along any direction, the triangles are on the side of all along which they are.
+        // Triangles that are apart along some direction are on the side of every direction along which they are apart.
         let last = self.pair.at(apart);
         let before = separating(&last, self.limits).map(|(d, _)| d);
         let before: Vec<DVec3> = before.chain([direction]).collect();
@@ -361,7 +361,7 @@ fn reached_from_apart(direction: DVec3, pose: &PairPose, limits: &Limits) -> Vec
     reached.map(|(axis, _)| axis.direction).collect()
 }
 
-/// The least overlap among the axes within 60° of those the pair was followed on.
+/// The smallest overlap among the axes within 60° of those the pair was followed on.
 fn overlap_from_side(pose: &PairPose, seeds: &[DVec3], limits: &Limits) -> Axis {
     let is_near = |axis: &Axis| seeds.iter().any(|d| d.dot(axis.direction) > 0.5);
     let all = pose.axes_within(f64::INFINITY, limits);

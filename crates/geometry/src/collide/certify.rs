@@ -1,4 +1,4 @@
-//! The verdict on a pair of moving triangles.
+//! Certifies a pair of moving triangles.
 
 use super::{
     Effort, Limits, MovingPair, Outcome, PairCertificate, Side, certifier::Certifier,
@@ -10,9 +10,9 @@ const FIRST_STEPS: [f64; 3] = [1.0, 1.0 / 16.0, 1.0 / 256.0];
 
 /// Certifies a pair from the side it starts on (see the module documentation).
 ///
-/// `side`: from [`Side::at_start`], or the side the pair had at the end of the interval before. What the walk does not
-/// certify is put to the vertex–facet and edge–edge queries, which need no axes: those of triangles that shrink to a
-/// segment on the way are not defined.
+/// `side`: from [`Side::at_start`], or the side the pair had at the end of the previous interval. If the steps do not
+/// certify the pair, the vertex–facet and edge–edge queries are tried, which need no axes: those of triangles that
+/// shrink to a segment during the motion are undefined.
 pub fn certify(pair: &MovingPair, side: &Side, limits: &Limits) -> Outcome {
     let mut outcome = Outcome::Undecided { time: 0.0 };
     for first_step in FIRST_STEPS {
@@ -28,7 +28,7 @@ pub fn certify(pair: &MovingPair, side: &Side, limits: &Limits) -> Outcome {
     passage_without_meeting(pair, side, limits).map_or(outcome, Outcome::Passed)
 }
 
-/// The passage of triangles that share no vertex, start apart, end apart and are proved to meet nowhere between.
+/// The certificate of triangles that share no vertex, start apart, end apart and are proved never to meet in between.
 fn passage_without_meeting(
     pair: &MovingPair,
     side: &Side,

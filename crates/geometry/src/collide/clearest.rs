@@ -1,17 +1,17 @@
-//! The direction along which two triangles lie apart most clearly at an instant.
+//! The direction along which two triangles are apart most clearly at an instant.
 //!
-//! The largest gap min d·b − max d·a over unit directions is the distance of triangles that lie apart, attained along
-//! the line of closest points. Closest points tie to within rounding where a corner passes an edge near its end: on the
-//! line from the wrong one the gap is smaller by as much as √ε of a length. The directions that the features give are
-//! free of that: what a direction must be normal to is taken out of it twice, so that it remains normal to within
-//! rounding whatever the angle between edges and the height of slivers.
+//! For triangles that are apart, the largest gap min d·b − max d·a over all unit directions is their distance, attained
+//! along the line of closest points. Closest points tie to within rounding if a corner passes an edge near its end;
+//! along the line from the wrong one, the gap is smaller by as much as √ε of a length. Directions built from features
+//! do not have that problem: the component along what a direction must be normal to is subtracted twice, so that it
+//! stays normal to within rounding, whatever the angle between edges and the height of slivers.
 
 use glam::DVec3;
 
 use super::{Limits, PairPose};
 use crate::distance::{Closest, normal_part};
 
-/// A unit direction, A below and B above, and the gap along it.
+/// A unit direction with A below and B above, and the gap along it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Clearest {
     pub(super) direction: DVec3,
@@ -19,8 +19,8 @@ pub(super) struct Clearest {
 }
 
 impl Clearest {
-    /// From the closest points, and from all features where the gap along those falls short of the distance by more
-    /// than `slack`. None where the triangles meet.
+    /// Taken from the closest points, and from all features if the gap along those falls short of the distance by more
+    /// than `slack`. `None` if the triangles intersect.
     ///
     /// Precondition: the triangles share no corner.
     pub(super) fn of(
@@ -47,8 +47,8 @@ impl Clearest {
     }
 }
 
-/// The unit directions that may separate most clearly, by what meets along them: two corners, a corner and an edge, a
-/// corner and a facet, two edges.
+/// Visits the unit directions that may separate most clearly, by the features that meet along them: two corners, a
+/// corner and an edge, a corner and a facet, two edges.
 fn visit_directions(pose: &PairPose, mut visit: impl FnMut(DVec3)) {
     let mut give = |direction: DVec3, is_either_way: bool| {
         if let Some(direction) = direction.try_normalize() {
@@ -82,7 +82,7 @@ fn visit_directions(pose: &PairPose, mut visit: impl FnMut(DVec3)) {
     }
 }
 
-/// u × v over |u|, normal to both to within rounding even where they are nearly parallel; 0 where they are.
+/// u × v over |u|, normal to both to within rounding even if they are nearly parallel; 0 if they are parallel.
 fn common_normal(u: DVec3, v: DVec3) -> DVec3 {
     let (long, short) = if u.length_squared() >= v.length_squared() {
         (u, v)

@@ -1,41 +1,41 @@
-//! The closest approach of two moving triangles, between bounds.
+//! The closest approach of two moving triangles, between two bounds.
 
 use std::{cmp::Ordering, collections::BinaryHeap};
 
 use super::{Limits, MovingPair, PairPose, clearest::Clearest};
 use crate::distance::{Closest, triangle_triangle};
 
-/// Stretches of time shorter than this are not divided further.
+/// Time intervals shorter than this are not divided further.
 const SHORTEST_STRETCH: f64 = 1.0 / (1u64 << 46) as f64;
 
 /// An instant of closest approach.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Approach {
-    /// t in [0, 1].
+    /// The time t in [0, 1] of the approach.
     pub time: f64,
-    /// The distance and where it is attained.
+    /// The distance and the points at which it is attained.
     pub closest: Closest,
 }
 
-/// Between what the smallest distance lies, as far as it is below a bound.
+/// Bounds of the smallest distance, as far as it is below a limit.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ApproachBounds {
-    /// The nearest instant found, an upper bound of the smallest distance; none where none is nearer than the bound.
+    /// The nearest instant found, an upper bound of the smallest distance; `None` if none is nearer than the limit.
     pub nearest: Option<Approach>,
-    /// The triangles are at least this far apart at every t in [0, 1]: at most the bound, at least 0.
+    /// A lower bound of the distance over all t in [0, 1]: at least 0, at most the limit.
     pub at_least: f64,
-    /// Whether the two are as near to each other as [`accuracy`] says.
+    /// Whether the two bounds are as close to each other as [`accuracy`] requires.
     pub is_complete: bool,
 }
 
-/// How near to each other the bounds of a distance are brought: the largest of τ / 100, a ten thousandth of it and four
-/// margins of rounding.
+/// The accuracy to which the bounds of a distance are computed: the largest of τ / 100, a ten thousandth of the
+/// distance, and four margins of rounding.
 pub fn accuracy(distance: f64, limits: &Limits) -> f64 {
     let share = (0.01 * limits.tolerance).max(1e-4 * distance);
     share.max(4.0 * limits.margin)
 }
 
-/// A lower bound of the distance that makes a search below `bound` pointless, to within [`accuracy`].
+/// The lower bound of the distance from which on a search below `bound` is unnecessary, according to [`accuracy`].
 pub fn enough_clearance(bound: f64, limits: &Limits) -> f64 {
     if bound == f64::INFINITY {
         return bound;
@@ -45,9 +45,9 @@ pub fn enough_clearance(bound: f64, limits: &Limits) -> f64 {
 
 /// The closest approach over t in [0, 1], as far as it is nearer than `bound`.
 ///
-/// Branch and bound over time, the stretch with the smallest lower bound first. At an instant the distance is bounded
-/// from above by closest points and from below by the gap along a direction; over a stretch, by the gap along the
-/// directions of its two ends, at rest and turning from one to the other.
+/// Branch and bound over time; the interval with the smallest lower bound comes first. At an instant, the distance is
+/// bounded from above by closest points and from below by the gap along a direction; over an interval, by the gap along
+/// the directions of its two ends, at rest and turning from one to the other.
 ///
 /// Precondition: the triangles share no corner.
 pub fn closest_approach(pair: &MovingPair, bound: f64, limits: &Limits) -> ApproachBounds {
@@ -67,11 +67,11 @@ pub fn closest_approach(pair: &MovingPair, bound: f64, limits: &Limits) -> Appro
 struct Instant {
     time: f64,
     pose: PairPose,
-    /// None where they meet.
+    /// The clearest direction; `None` if the triangles intersect.
     clearest: Option<Clearest>,
 }
 
-/// The time between two instants, by their numbers, and a lower bound of the distance over it.
+/// The time between two instants, given by their indices, and a lower bound of the distance over it.
 #[derive(Debug)]
 struct Stretch {
     at_least: f64,
@@ -79,7 +79,7 @@ struct Stretch {
 }
 
 impl Ord for Stretch {
-    /// The greatest is the one with the smallest bound, the first found of those.
+    /// The interval with the smallest bound is the greatest; of equal ones, the one found first.
     fn cmp(&self, other: &Self) -> Ordering {
         let by_bound = other.at_least.total_cmp(&self.at_least);
         by_bound.then(other.ends.cmp(&self.ends))
@@ -103,7 +103,7 @@ impl Eq for Stretch {}
 struct Search<'a> {
     pair: &'a MovingPair,
     limits: &'a Limits,
-    /// The distance of `nearest`, or what was asked for.
+    /// The distance of `nearest`, or the limit of the search.
     bound: f64,
     nearest: Option<Approach>,
     instants: Vec<Instant>,
@@ -132,7 +132,7 @@ impl Search<'_> {
         at_least >= enough_clearance(self.bound, self.limits)
     }
 
-    /// Halves the stretch with the smallest bound; false where nothing is left to do.
+    /// Halves the interval with the smallest bound; false if there is nothing left to do.
     fn divide(&mut self) -> bool {
         let Some(stretch) = self.open.pop() else {
             return false;
@@ -166,7 +166,7 @@ impl Search<'_> {
         self.instants.len() - 1
     }
 
-    /// `known`: a lower bound over a longer stretch.
+    /// `known`: a lower bound over a longer interval.
     fn add(&mut self, ends: [usize; 2], known: f64) {
         let [from, to] = ends.map(|i| &self.instants[i]);
         let at_least = least_distance(from, to, self.limits).max(known);
@@ -174,7 +174,7 @@ impl Search<'_> {
     }
 }
 
-/// A lower bound of the distance between two instants; 0 or less where there is none.
+/// A lower bound of the distance between two instants; 0 or less if there is none.
 fn least_distance(from: &Instant, to: &Instant, limits: &Limits) -> f64 {
     let pair = MovingPair {
         start: from.pose,
@@ -194,9 +194,9 @@ fn least_distance(from: &Instant, to: &Instant, limits: &Limits) -> f64 {
     gap - limits.margin
 }
 
-/// The minimum over s in [0, 1] of the greater of two linear functions, given their values at 0 and 1.
+/// The minimum over s in [0, 1] of the larger of two linear functions, given their values at 0 and 1.
 ///
-/// The gap along a direction at rest is concave in time, so it is at least linear between its ends. The greater of two
+/// The gap along a direction at rest is concave in time, so it is at least linear between its ends. The larger of two
 /// linear functions is convex, and has its minimum at an end or where they are equal.
 fn least_of_greater(p: [f64; 2], q: [f64; 2]) -> f64 {
     let least = p[0].max(q[0]).min(p[1].max(q[1]));

@@ -1,27 +1,29 @@
-//! When two moving features are within a distance of each other.
+//! The times at which two moving features are within a distance of each other.
 
 use glam::DVec3;
 
 use super::{Limits, MovingPair, PairPose};
 use crate::distance::{Closest, point_triangle, segment_segment, triangle_triangle};
 
-/// Stretches of time in which the features move by less than this share of the distance count by their ends.
+/// Time intervals in which the features move by less than this share of the distance are judged by their ends.
 const RESOLUTION: f64 = 1.0 / 64.0;
-/// Shorter stretches are not cut.
+/// Time intervals shorter than this are not divided.
 const SHORTEST: f64 = 1.0 / (1u64 << 44) as f64;
-/// Closest points nearer to each other than this share of the features' size do not tell their direction: it turns the
-/// features by a rounding of the size over their distance, and that moves their ends by more than the distance.
+/// If closest points are nearer to each other than this share of the features' size, they do not determine a direction:
+/// it is off by the rounding of the size over their distance, which shifts the ends of the features by more than the
+/// distance.
 const NO_DIRECTION: f64 = 1e-6;
-/// Spans at a smaller angle are one.
+/// Spans at a smaller angle than this count as parallel.
 const PARALLEL: f64 = 1e-12;
-/// The most stretches looked at.
+/// The largest number of time intervals examined.
 const BUDGET: u32 = 1 << 16;
 
-/// The stretches of time in which two features are within `distance` of each other, in order; they share no end.
+/// The time intervals in which two features are within `distance` of each other, in order; they share no end.
 ///
 /// A feature is a triangle with moving corners; an edge is one with two equal corners, a vertex one with three. In each
-/// stretch the features are within 65/64 of the distance throughout; outside, farther than 63/64 of it, but for
-/// approaches shorter than 2⁻⁴⁴: what is not shown to be near counts as far. None where the budget ended.
+/// interval the features are within 65/64 of the distance throughout; outside, they are farther than 63/64 of it,
+/// except for approaches shorter than 2⁻⁴⁴: features that are not shown to be near count as far apart. `None` if the
+/// budget was exhausted.
 pub fn contact_times(pair: &MovingPair, distance: f64, limits: &Limits) -> Option<Vec<[f64; 2]>> {
     if corners_stay_within(pair, distance) {
         return Some(vec![[0.0, 1.0]]);
@@ -94,14 +96,15 @@ pub fn feature_distance(pose: &PairPose) -> f64 {
     closest(pose).distance
 }
 
-/// Whether a corner of one feature is within `distance` of one of the other, as in layers whose corners lie on each other.
+/// Whether a corner of one feature is within `distance` of a corner of the other, as in layers with coincident corners.
 pub fn corners_are_within(pose: &PairPose, distance: f64) -> bool {
     let squared = distance * distance;
     let is_near = |p: &DVec3, q: &DVec3| p.distance_squared(*q) <= squared;
     pose.a.iter().any(|p| pose.b.iter().any(|q| is_near(p, q)))
 }
 
-/// Whether two corners are within `distance` of each other at both ends: then they are throughout, as they move straight.
+/// Whether two corners are within `distance` of each other at both ends. As they move straight, they then are
+/// throughout.
 fn corners_stay_within(pair: &MovingPair, distance: f64) -> bool {
     let squared = distance * distance;
     let (start, end) = (&pair.start, &pair.end);
@@ -112,16 +115,16 @@ fn corners_stay_within(pair: &MovingPair, distance: f64) -> bool {
     (0..3).any(|i| (0..3).any(|j| is_near(i, j)))
 }
 
-/// The longest way of a corner of one triangle as seen from a corner of the other.
+/// The largest displacement of a corner of one triangle relative to a corner of the other.
 fn greatest_motion(pair: &MovingPair) -> f64 {
     let moved = |start: &[DVec3; 3], end: &[DVec3; 3]| [0, 1, 2].map(|i| end[i] - start[i]);
     let a = moved(&pair.start.a, &pair.end.a);
     let b = moved(&pair.start.b, &pair.end.b);
-    let ways = a.iter().flat_map(|u| b.iter().map(|v| u.distance(*v)));
-    ways.fold(0.0, f64::max)
+    let displacements = a.iter().flat_map(|u| b.iter().map(|v| u.distance(*v)));
+    displacements.fold(0.0, f64::max)
 }
 
-/// The closest points, by what the features are.
+/// The closest points, by the kinds of the features.
 fn closest(pose: &PairPose) -> Closest {
     let (a, b) = (&pose.a, &pose.b);
     let is_segment = |t: &[DVec3; 3]| t[1] == t[2];
@@ -161,7 +164,7 @@ impl Instant {
         }
     }
 
-    /// The direction along which the features are farthest apart, or nearly.
+    /// The direction along which the features are farthest apart, approximately.
     fn direction(&self) -> Option<DVec3> {
         let between = (self.closest.on_b - self.closest.on_a).try_normalize()?;
         let (a, b) = (&self.pose.a, &self.pose.b);
@@ -180,7 +183,7 @@ impl Instant {
         all.max_by(|d, e| apart(d).total_cmp(&apart(e)))
     }
 
-    /// What the closest points are made of: the shares of the corners.
+    /// The barycentric coordinates of the closest points.
     fn shares(&self) -> [[f64; 3]; 2] {
         [
             shares(self.closest.on_a, &self.pose.a),
@@ -189,8 +192,8 @@ impl Instant {
     }
 }
 
-/// The direction at a right angle to what spans the features that is nearest to another: a normal to two spans, or what is
-/// left of the other direction beside one.
+/// The direction nearest to another one that is perpendicular to the spans of the features: a normal to two spans, or
+/// the component of the other direction perpendicular to one.
 fn normal_to(spans: [DVec3; 4], nearest: DVec3) -> Option<DVec3> {
     let by_length = |s: &DVec3, t: &DVec3| s.length_squared().total_cmp(&t.length_squared());
     let longest = spans.into_iter().max_by(by_length)?;
@@ -210,7 +213,7 @@ fn normal_to(spans: [DVec3; 4], nearest: DVec3) -> Option<DVec3> {
     })
 }
 
-/// Whether a direction shows the features to be farther apart than `distance` throughout.
+/// Whether a direction shows that the features are farther apart than `distance` throughout.
 fn stays_farther(from: &Instant, to: &Instant, distance: f64, limits: &Limits) -> bool {
     if from.closest.distance.min(to.closest.distance) <= distance {
         return false;
@@ -228,7 +231,8 @@ fn stays_farther(from: &Instant, to: &Instant, distance: f64, limits: &Limits) -
         || pair.least_gap(d0, d1, limits) > farther
 }
 
-/// Whether two points, one of each feature, whose shares of the corners change evenly, are within `distance` throughout.
+/// Whether two points, one on each feature, whose barycentric coordinates change linearly are within `distance`
+/// throughout.
 ///
 /// Their difference is a quadratic in time that stays in the hull of its Bernstein coefficients.
 fn stays_within(from: &Instant, to: &Instant, distance: f64) -> bool {
@@ -244,7 +248,7 @@ fn stays_within(from: &Instant, to: &Instant, distance: f64) -> bool {
     middle.length() <= distance
 }
 
-/// Shares of the corners that make up a point of a triangle, or nearly.
+/// Barycentric coordinates of a point of a triangle, approximately.
 fn shares(point: DVec3, corners: &[DVec3; 3]) -> [f64; 3] {
     let [p, q, r] = *corners;
     let (u, v, w) = (q - p, r - p, point - p);
@@ -342,7 +346,8 @@ mod tests {
         assert_eq!(contact_times(&pair, 1e-6, &LIMITS).unwrap(), [[0.0, 1.0]]);
     }
 
-    /// Edges that come to lie across each other tangentially: their distance is a third of the square of the time left.
+    /// Edges that come to lie across each other tangentially: their distance is a third of the square of the remaining
+    /// time.
     #[test]
     fn edges_that_lie_down_on_each_other_are_near_from_when_on_to_the_end() {
         let [start, end] = [1.0, 0.0].map(|left| {

@@ -1,12 +1,12 @@
-//! Numbers of one and of two f64, for signs that plain f64 leaves open.
+//! Arithmetic on one and on two f64, for signs that plain f64 cannot determine.
 
 use std::ops::{Add, Mul, Sub};
 
-/// A number that sums and products round by at most [`Scalar::ROUNDOFF`] of their size.
+/// A number whose sums and products are rounded by at most [`Scalar::ROUNDOFF`] of their size.
 pub(super) trait Scalar:
     Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self>
 {
-    /// The relative error of one operation, at most.
+    /// A bound of the relative error of one operation.
     const ROUNDOFF: f64;
 
     fn new(value: f64) -> Self;
@@ -14,7 +14,7 @@ pub(super) trait Scalar:
     /// a − b, with the relative error of one operation.
     fn difference(a: f64, b: f64) -> Self;
 
-    /// The nearest f64, or one beside it.
+    /// The nearest f64, or one of its neighbours.
     fn value(self) -> f64;
 }
 
@@ -34,11 +34,11 @@ impl Scalar for f64 {
     }
 }
 
-/// The sum of two f64, the second at most half a unit in the last place of the first: some 106 bits.
+/// The sum of two f64, the second at most half a unit in the last place of the first: about 106 bits.
 ///
 /// Dekker 1971, "A floating-point technique for extending the available precision"; the bounds of Joldes, Muller and
-/// Popescu 2017, "Tight and rigorous error bounds for basic building blocks of double-word arithmetic": 3 u² for the sum
-/// and 5 u² for the product, with u = 2⁻⁵³.
+/// Popescu 2017, "Tight and rigorous error bounds for basic building blocks of double-word arithmetic": 3 u² for the
+/// sum and 5 u² for the product, with u = 2⁻⁵³.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct DoubleWord {
     high: f64,
@@ -53,7 +53,7 @@ fn two_sum(a: f64, b: f64) -> DoubleWord {
     DoubleWord { high, low }
 }
 
-/// Likewise where |a| ≥ |b|.
+/// a + b = sum + error, exactly, if |a| ≥ |b| (Dekker 1971).
 fn fast_two_sum(a: f64, b: f64) -> DoubleWord {
     let high = a + b;
     let low = b - (high - a);
@@ -95,7 +95,7 @@ impl Mul for DoubleWord {
 }
 
 impl Scalar for DoubleWord {
-    /// 8 u².
+    /// The bound 8 u².
     const ROUNDOFF: f64 = 2.0 * f64::EPSILON * f64::EPSILON;
 
     fn new(value: f64) -> Self {

@@ -1,22 +1,22 @@
-//! When a moving vertex meets a moving facet, and when two moving edges meet.
+//! Whether and when a moving vertex meets a moving facet, or a moving edge another.
 //!
 //! # The guarantee
 //!
-//! [`Impact::Never`] is proved for the given f64 numbers in exact arithmetic: at no t in [0, 1] are the features
-//! within the separation of each other. `from` of the other answers is proved likewise: not before. Every bound
-//! includes its rounding, derived in `patch`; a query that cannot be decided counts as meeting, and so do coordinates
-//! that are not finite or whose differences overflow. The converse holds up to rounding only: features that pass by
-//! each other nearer than about 10⁻¹⁵ of their size, or turn around each other too fast for the resolution, may be
-//! said to meet.
+//! [`Impact::Never`] is proved for the given f64 numbers in exact arithmetic: at no t in [0, 1] are the features within
+//! the separation of each other. It is proved in the same way that they are not before `from` in the other answers.
+//! Every bound includes its rounding, derived in `patch`. A query that cannot be decided counts as an impact, and so do
+//! coordinates that are not finite or whose differences overflow. The converse holds up to rounding only: features that
+//! pass each other at less than about 10⁻¹⁵ of their size, or turn around each other too fast for the resolution, may
+//! be reported as meeting.
 //!
-//! # How
+//! # Method
 //!
-//! The differences of the two features form a moving triangle or parallelogram, which holds the origin exactly where
-//! they meet. Time is halved, the earliest half first; a stretch is discarded by the first of three filters that
-//! proves it: the intervals of the coordinates; the sign of the coplanarity cubic in Bernstein form; a plane that turns
-//! along between the patch and the origin. Stretches of the resolution that remain are taken as meeting. This is the
-//! inclusion-based search of Wang, Ferguson, Schneider, Jiang, Attene and Panozzo 2021 ("A large-scale benchmark and
-//! an inclusion-based algorithm for continuous collision detection") in t only: a patch is convex, so that a plane
+//! The differences of the two features form a moving triangle or parallelogram, which contains the origin exactly when
+//! they meet. Time is halved, the earlier half first; an interval is discarded by the first of three filters that
+//! proves it clear: the ranges of the coordinates; the sign of the coplanarity cubic in Bernstein form; a plane between
+//! the patch and the origin that turns along. Intervals as short as the resolution that remain count as impacts. This
+//! is the inclusion-based search of Wang, Ferguson, Schneider, Jiang, Attene and Panozzo 2021 ("A large-scale benchmark
+//! and an inclusion-based algorithm for continuous collision detection") in t only: a patch is convex, so that a plane
 //! decides for all (u, v) together what their boxes decide one by one.
 
 use glam::DVec3;
@@ -26,19 +26,19 @@ use super::{Limits, MovingPair, patch::Patch};
 /// Times are multiples of this, which keeps t and 1 − t exact.
 const FINEST: f64 = 1.0 / (1u64 << 50) as f64;
 
-/// What a query asks.
+/// The parameters of a query.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ImpactSearch {
-    /// δ: features within this distance of each other meet. A length, not negative.
+    /// δ: features within this distance of each other meet. A length of at least 0.
     pub separation: f64,
-    /// The longest stretch of time taken as meeting without a closer look; not below 2⁻⁵⁰.
+    /// The longest time interval that counts as an impact without further division; at least 2⁻⁵⁰.
     pub resolution: f64,
-    /// The most stretches looked at.
+    /// The largest number of time intervals examined.
     pub budget: u32,
 }
 
 impl Default for ImpactSearch {
-    /// Meeting at distance 0, told to within 2⁻⁴⁴.
+    /// Impacts at distance 0, located to within 2⁻⁴⁴.
     fn default() -> Self {
         Self {
             separation: 0.0,
@@ -51,16 +51,17 @@ impl Default for ImpactSearch {
 /// The answer to a query over t in [0, 1].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Impact {
-    /// Proved never to come within the separation.
+    /// The features are proved never to come within the separation.
     Never,
-    /// May meet in [from, to], no longer than the resolution; proved not to before `from`.
+    /// The features may meet in [from, to], an interval no longer than the resolution; they are proved not to before
+    /// `from`.
     Within {
-        /// When the first meeting may begin.
+        /// The earliest time at which the first impact may begin.
         from: f64,
-        /// The end of the stretch looked at.
+        /// The end of the interval examined.
         to: f64,
     },
-    /// The budget ended at `from`: proved not to meet before.
+    /// The budget was exhausted at `from`; the features are proved not to meet before.
     Undecided {
         /// The time up to which the query is decided.
         from: f64,
@@ -69,8 +70,8 @@ pub enum Impact {
 
 /// Whether and when a vertex comes within the separation of a facet.
 ///
-/// `vertex`: where it is at t = 0 and at t = 1; `facet`: likewise for each corner. Every point moves on a straight
-/// line. Facets of no area are their edges.
+/// `vertex`: its positions at t = 0 and at t = 1; `facet`: those of each corner. Every point moves on a straight line.
+/// A facet without area is treated as its edges.
 pub fn vertex_facet(vertex: [DVec3; 2], facet: [[DVec3; 2]; 3], search: &ImpactSearch) -> Impact {
     let differences = |end: usize| facet.map(|corner| corner[end] - vertex[end]);
     first_impact(differences(0), differences(1), search)
@@ -78,7 +79,8 @@ pub fn vertex_facet(vertex: [DVec3; 2], facet: [[DVec3; 2]; 3], search: &ImpactS
 
 /// Whether and when two edges come within the separation of each other.
 ///
-/// `a`, `b`: the ends of the edges, each at t = 0 and at t = 1, moving on straight lines. Edges of no length are points.
+/// `a`, `b`: the ends of the edges, each at t = 0 and at t = 1, moving on straight lines. An edge without length is
+/// treated as a point.
 pub fn edge_edge(a: [[DVec3; 2]; 2], b: [[DVec3; 2]; 2], search: &ImpactSearch) -> Impact {
     let around = [(0, 0), (1, 0), (1, 1), (0, 1)];
     let differences = |end: usize| around.map(|(i, j)| a[i][end] - b[j][end]);
@@ -87,9 +89,9 @@ pub fn edge_edge(a: [[DVec3; 2]; 2], b: [[DVec3; 2]; 2], search: &ImpactSearch) 
 
 /// Whether two triangles that share no vertex and start apart are proved to stay farther apart than the margin.
 ///
-/// As long as triangles are apart, their distance is that of a vertex from a facet or of two edges: where none of the
-/// six and nine queries meets, they stay apart. Precondition: at t = 0 they are farther apart than the margin (inside
-/// each other, with an edge through a facet, no vertex need meet a facet and no edge another).
+/// As long as triangles are apart, their distance is that of a vertex from a facet or of two edges. If none of the six
+/// and nine queries finds an impact, they stay apart. Precondition: at t = 0 they are farther apart than the margin.
+/// (If an edge started inside a facet, no vertex would have to meet a facet and no edge another.)
 pub(super) fn never_meet(pair: &MovingPair, limits: &Limits) -> bool {
     let paths = |from: &[DVec3; 3], to: &[DVec3; 3]| [0, 1, 2].map(|i| [from[i], to[i]]);
     let a = paths(&pair.start.a, &pair.end.a);
@@ -175,8 +177,8 @@ mod tests {
 
     #[test]
     fn the_separation_is_kept_exactly() {
-        // δ and the gap are dyadic: at rest at distance δ counts as within, an ulp farther need not but is told apart
-        // a thousand ulps farther.
+        // δ and the gap are dyadic. At rest at distance δ the features count as within it; one ulp farther they need
+        // not, and a thousand ulps farther they must not.
         let at = |gap: f64, separation: f64| {
             let search = ImpactSearch {
                 separation,

@@ -1,4 +1,4 @@
-//! Two triangles whose corners move on straight lines, and bounds that hold over a whole stretch of time.
+//! Two triangles whose corners move on straight lines, and bounds that hold over the whole interval.
 
 use glam::DVec3;
 
@@ -13,14 +13,14 @@ use super::{
 /// Bernstein coefficients d_0·p_0, (d_0·p_1 + d_1·p_0) / 2 and d_1·p_1, and stays between the smallest and the largest.
 #[derive(Debug, Clone, Copy)]
 pub struct MovingPair {
-    /// At t = 0.
+    /// The positions at t = 0.
     pub start: PairPose,
-    /// At t = 1.
+    /// The positions at t = 1.
     pub end: PairPose,
 }
 
 impl MovingPair {
-    /// A pair that stays where it is.
+    /// A pair that does not move.
     pub fn at_rest(pose: PairPose) -> Self {
         Self {
             start: pose,
@@ -28,7 +28,7 @@ impl MovingPair {
         }
     }
 
-    /// The pose at t in [0, 1].
+    /// The positions at t in [0, 1].
     pub fn at(&self, t: f64) -> PairPose {
         if t <= 0.0 {
             return self.start;
@@ -70,7 +70,8 @@ impl MovingPair {
             .all(|(a, b)| overlap_of(a, b) <= allowed)
     }
 
-    /// A lower bound of the gap along the direction moving from `d0` to `d1`; positive: apart throughout.
+    /// A lower bound of the gap along the direction moving from `d0` to `d1`; if positive, the triangles are apart
+    /// throughout.
     ///
     /// As |d(s)| ≤ 1, it is also a lower bound of the distance of triangles that share no vertex.
     pub(super) fn least_gap(&self, d0: DVec3, d1: DVec3, limits: &Limits) -> f64 {
@@ -88,11 +89,11 @@ impl MovingPair {
         self.start.gap(d, limits).min(self.end.gap(d, limits))
     }
 
-    /// Whether two triangles that share an edge e stay off each other: never folded to ±180°.
+    /// Whether two triangles that share an edge e stay off each other, which means that they are never folded to ±180°.
     ///
-    /// With l and r from the start of e to the apexes, sin θ has the sign of f = det(e, l, r), a cubic in time, and
-    /// cos θ the opposite sign of g = (e × l)·(e × r), a quartic. Either f ≠ 0 throughout, or g < 0 throughout
-    /// (the fold angle stays within ±90°), by the Bernstein coefficients.
+    /// With l and r from the start of e to the apexes, sin θ has the sign of f = det(e, l, r), a cubic in time, and cos
+    /// θ the opposite sign of g = (e × l)·(e × r), a quartic. By the Bernstein coefficients, either f ≠ 0 throughout or
+    /// g < 0 throughout (the fold angle stays within ±90°).
     pub(super) fn hinge_stays_open(&self, limits: &Limits) -> bool {
         let hinge = Hinge::new(self);
         let f = hinge.sines();
@@ -102,19 +103,18 @@ impl MovingPair {
             || hinge.stays_within_right_angle(limits)
     }
 
-    /// Whether two triangles that share an edge stay folded by less than 90°.
+    /// Whether two triangles that share an edge are proved to stay folded by less than 90°.
     pub fn hinge_stays_within_right_angle(&self, limits: &Limits) -> bool {
         Hinge::new(self).stays_within_right_angle(limits)
     }
 }
 
-/// Two triangles that share an edge, over a stretch of time: the Bernstein coefficients of their normals, as long as twice
-/// their areas.
+/// Two triangles that share an edge: the Bernstein coefficients of their normals, whose lengths are twice the areas.
 struct Hinge {
     normals: [[DVec3; 3]; 2],
-    /// From the start of the edge to the second apex, at both ends.
+    /// From the start of the edge to the second apex, at both ends of the interval.
     r: [DVec3; 2],
-    /// The largest squared length of an edge that starts there.
+    /// The largest squared length of a vector from the start of the edge.
     squared: f64,
 }
 
@@ -137,7 +137,7 @@ impl Hinge {
         }
     }
 
-    /// f = det(e, l, r).
+    /// The Bernstein coefficients of f = det(e, l, r).
     fn sines(&self) -> [f64; 4] {
         let ([n, _], [r0, r1]) = (self.normals, self.r);
         [

@@ -1,12 +1,12 @@
-//! When the origin passes through a moving patch: zeros of the volume, isolated, with signs that are sure.
+//! The times at which the origin passes through a moving patch: isolated zeros of the volume with certain signs.
 //!
 //! # Rounding
 //!
-//! With u the relative error of an operation and M_i the largest |coordinate i| of a corner at either end, a coordinate
-//! at a dyadic t is off by at most 5 u M_i (the difference, two products, a sum and 1 − t, which is exact). A volume
-//! det(x, y, z), six terms of three coordinates, is off by 6 (3 · 5 + 5 + 3) u M_x M_y M_z at most, a Bernstein coefficient, the mean of three,
-//! by 3 u more: [`VOLUME_ERROR`] allows 256 u. A component of a cross product, two terms of two coordinates, is off by
-//! 2 (2 · 5 + 3) u M_i M_j: [`CROSS_ERROR`] allows 64 u.
+//! Let u be the relative error of an operation and M_i the largest |coordinate i| of a corner at either end. A
+//! coordinate at a dyadic t is off by at most 5 u M_i (the difference, two products, a sum and 1 − t, which is exact).
+//! A volume det(x, y, z), six terms of three coordinates, is off by at most 6 (3 · 5 + 5 + 3) u M_x M_y M_z, and a
+//! Bernstein coefficient, the mean of three, by 3 u more: [`VOLUME_ERROR`] allows 256 u. A component of a cross
+//! product, two terms of two coordinates, is off by 2 (2 · 5 + 3) u M_i M_j: [`CROSS_ERROR`] allows 64 u.
 
 use glam::DVec3;
 
@@ -14,35 +14,36 @@ use super::double_word::Scalar;
 
 const VOLUME_ERROR: f64 = 256.0;
 const CROSS_ERROR: f64 = 64.0;
-/// What underflows, in lengths scaled to at most 1.
+/// A bound of what underflows, for lengths scaled to at most 1.
 const TINY: f64 = f64::from_bits(63 << 52);
-/// Shorter stretches are not cut: times stay multiples of 2⁻⁵².
+/// Intervals shorter than this are not divided, so that times stay multiples of 2⁻⁵².
 const SHORTEST_CUT: f64 = 1.0 / (1u64 << 46) as f64;
-/// Stretches are cut until the time of a passage is told to this.
+/// Intervals are divided until the time of a passage is known to this accuracy.
 const RESOLUTION: f64 = 1.0 / (1u64 << 40) as f64;
-/// To this it is told at least: of edges that are nearly parallel the sign of the volume is known only away from its zero.
+/// The accuracy required at least: for edges that are nearly parallel, the sign of the volume is known only away from
+/// its zero.
 const COARSEST: f64 = 1.0 / (1u64 << 24) as f64;
-/// The most stretches looked at.
+/// The largest number of intervals examined.
 const BUDGET: u32 = 1 << 14;
 
 type Vector<T> = [T; 3];
 
-/// The difference of two features, N corners in order around a plane patch, at both ends of an interval.
+/// The difference of two features at both ends of an interval: N corners in order around a plane patch.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct MovingPatch<T, const N: usize> {
     ends: [[Vector<T>; N]; 2],
     reach: DVec3,
 }
 
-/// Where the origin is while it lies in the plane of the patch.
+/// The position of the origin while it lies in the plane of the patch.
 #[derive(Debug, Clone, Copy)]
 enum Zero {
-    /// In the patch, in this stretch of time.
+    /// Inside the patch, during this time interval.
     Inside([f64; 2]),
     Beside,
 }
 
-/// A stretch of time with the signs of the volume at its ends.
+/// A time interval with the signs of the volume at its ends.
 #[derive(Debug, Clone, Copy)]
 struct SignedInterval {
     times: [f64; 2],
@@ -50,7 +51,7 @@ struct SignedInterval {
 }
 
 impl<T: Scalar, const N: usize> MovingPatch<T, N> {
-    /// `corners`: for each end and each corner the two points whose difference it is.
+    /// `corners`: for each end and each corner, the two points whose difference it is.
     pub(super) fn new(corners: [[[DVec3; 2]; N]; 2]) -> Self {
         let difference = |[p, q]: [DVec3; 2]| [0, 1, 2].map(|i| T::difference(p[i], q[i]));
         let ends = corners.map(|at| at.map(difference));
@@ -67,11 +68,11 @@ impl<T: Scalar, const N: usize> MovingPatch<T, N> {
         })
     }
 
-    /// Every stretch of time, at most [`COARSEST`] long, in which the origin passes through the patch once, in order,
-    /// with the sign of the volume afterwards; none where rounding hides a passage.
+    /// The time intervals, each at most [`COARSEST`] long, in which the origin passes through the patch once, in order,
+    /// with the sign of the volume afterwards; `None` if rounding hides a passage.
     ///
-    /// `signs`: the exact signs of the volume at both ends. A zero is isolated where the volume is monotone and changes
-    /// its sign; there the origin lies in the patch where all c_k × c_{k+1} point to one side.
+    /// `signs`: the exact signs of the volume at both ends. A zero is isolated if the volume is monotone and changes
+    /// its sign; there the origin lies in the patch if all c_k × c_{k+1} point to one side.
     pub(super) fn passages(&self, signs: [i8; 2]) -> Option<Vec<([f64; 2], i8)>> {
         let mut found = Vec::new();
         let mut open = vec![SignedInterval {
@@ -124,7 +125,7 @@ impl<T: Scalar, const N: usize> MovingPatch<T, N> {
         VOLUME_ERROR * T::ROUNDOFF * self.reach.element_product() + TINY
     }
 
-    /// Where the origin is at the only zero of the volume in a stretch; none where rounding hides it.
+    /// The position of the origin at the only zero of the volume in an interval; `None` if rounding hides it.
     fn passage_within(&self, interval: SignedInterval) -> Option<Zero> {
         let mut times = interval.times;
         let mut is_known = false;
@@ -147,7 +148,7 @@ impl<T: Scalar, const N: usize> MovingPatch<T, N> {
         }
     }
 
-    /// A time inside a stretch at which the sign of the volume is sure; none where the stretch is too short.
+    /// A time inside an interval at which the sign of the volume is certain; `None` if the interval is too short.
     fn cut(&self, [from, to]: [f64; 2]) -> Option<(f64, i8)> {
         let length = to - from;
         if length < SHORTEST_CUT {
@@ -171,7 +172,7 @@ impl<T: Scalar, const N: usize> MovingPatch<T, N> {
         low > error || high < -error
     }
 
-    /// Whether the origin, while it lies in the plane of the patch, is inside the patch; none where it is not sure.
+    /// Whether the origin, while it lies in the plane of the patch, is inside the patch; `None` if that is uncertain.
     fn is_origin_inside(&self, from: &[Vector<T>; N], to: &[Vector<T>; N]) -> Option<bool> {
         let mut is_outside = false;
         for axis in 0..3 {
@@ -210,7 +211,7 @@ fn spanning<T: Scalar, const N: usize>(corners: &[Vector<T>; N]) -> [&Vector<T>;
     [&corners[0], &corners[1], &corners[N - 1]]
 }
 
-/// Component `axis` of p × q.
+/// Component `axis` of the cross product p × q.
 fn cross<T: Scalar>(p: &Vector<T>, q: &Vector<T>, axis: usize) -> T {
     let (i, j) = ((axis + 1) % 3, (axis + 2) % 3);
     p[i] * q[j] - p[j] * q[i]

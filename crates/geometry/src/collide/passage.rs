@@ -1,8 +1,8 @@
-//! When, and which way, a moving vertex passes through a moving facet, or an edge through an edge.
+//! The times and directions in which a moving vertex passes through a moving facet, or an edge through an edge.
 //!
-//! These are the signed intersection numbers of a path with a surface: over a stretch of time their sum does not change
-//! however the paths are bent, as long as the vertex keeps away from the rim of the facet (the edges from each other's
-//! ends). See `patch` for how a passage is isolated and for the rounding of every sign.
+//! These are the signed intersection numbers of a path with a surface: over a time interval, their sum does not change
+//! however the paths are deformed, as long as the vertex stays away from the rim of the facet (or the edges from each
+//! other's ends). See `moving_patch` for how a passage is isolated and for the rounding of every sign.
 
 use glam::DVec3;
 use robust::{Coord3D, orient3d};
@@ -12,14 +12,15 @@ use super::{double_word::DoubleWord, moving_patch::MovingPatch, patch::Patch};
 /// A passage through a feature.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Passage {
-    /// The ends of a stretch of t in [0, 1] in which it lies: 2⁻⁴⁰ long, up to 2⁻²⁴ where edges are nearly parallel.
+    /// The ends of the time interval within [0, 1] that contains it: 2⁻⁴⁰ long, up to 2⁻²⁴ for edges that are nearly
+    /// parallel.
     pub times: [f64; 2],
-    /// 1 or −1: which way (see [`vertex_passages`] and [`edge_passages`]).
+    /// The direction of the passage, 1 or −1 (see [`vertex_passages`] and [`edge_passages`]).
     pub sign: i8,
 }
 
 impl Passage {
-    /// The middle of the stretch in which it lies.
+    /// The middle of the time interval that contains it.
     pub fn time(&self) -> f64 {
         f64::midpoint(self.times[0], self.times[1])
     }
@@ -27,24 +28,25 @@ impl Passage {
 
 /// Every passage of a vertex through a facet over t in [0, 1], in order of time.
 ///
-/// `vertex`, `facet`: each point at t = 0 and at t = 1, moving straight. The sign is 1 where the vertex passes from the
-/// back of the facet to its front (its corners run counter-clockwise seen from the front). None where a passage cannot
-/// be told from its absence: the vertex touches the facet or its rim to within rounding, or lies in its plane at an end.
+/// `vertex`, `facet`: each point at t = 0 and at t = 1, moving straight. The sign is 1 if the vertex passes from the
+/// back of the facet to its front (the corners are counter-clockwise seen from the front). `None` if a passage cannot
+/// be told from its absence: the vertex touches the facet or its rim to within rounding, or lies in its plane at an
+/// end.
 pub fn vertex_passages(vertex: [DVec3; 2], facet: [[DVec3; 2]; 3]) -> Option<Vec<Passage>> {
     let points = [0, 1].map(|end: usize| facet.map(|corner| [corner[end], vertex[end]]));
     let volume = |end: usize| {
         let [p, q, r] = facet.map(|corner| corner[end]);
         move || sign_of_volume([p, q, r, vertex[end]])
     };
-    // The volume det(p − v, q − v, r − v) is positive where the vertex is behind.
+    // The volume det(p − v, q − v, r − v) is positive if the vertex is behind.
     signed(points, [volume(0), volume(1)], -1)
 }
 
 /// Every passage of two edges through each other over t in [0, 1], in order of time.
 ///
-/// `a`, `b`: the ends of the edges, each at t = 0 and at t = 1, moving straight. The sign is that of
-/// det(a_1 − a_0, b_1 − b_0, b_0 − a_0) afterwards: it is the same for (b, a), and changes where one edge is reversed.
-/// None as for [`vertex_passages`].
+/// `a`, `b`: the ends of the edges, each at t = 0 and at t = 1, moving straight. The sign is that of det(a_1 − a_0, b_1
+/// − b_0, b_0 − a_0) afterwards: it is the same for (b, a), and changes if one edge is reversed. `None` in the same
+/// cases as for [`vertex_passages`].
 pub fn edge_passages(a: [[DVec3; 2]; 2], b: [[DVec3; 2]; 2]) -> Option<Vec<Passage>> {
     let around = [(0, 0), (1, 0), (1, 1), (0, 1)];
     let points = [0, 1].map(|end: usize| around.map(|(i, j)| [a[i][end], b[j][end]]));
@@ -52,7 +54,7 @@ pub fn edge_passages(a: [[DVec3; 2]; 2], b: [[DVec3; 2]; 2]) -> Option<Vec<Passa
     signed(points, [volume(0), volume(1)], 1)
 }
 
-/// The sign of det(a − d, b − d, c − d), exact; 0 where the four points lie in one plane.
+/// The exact sign of det(a − d, b − d, c − d); 0 if the four points lie in one plane.
 pub fn sign_of_volume(points: [DVec3; 4]) -> i8 {
     let [a, b, c, d] = points.map(|p| Coord3D {
         x: p.x,
@@ -63,8 +65,8 @@ pub fn sign_of_volume(points: [DVec3; 4]) -> i8 {
     i8::from(value > 0.0) - i8::from(value < 0.0)
 }
 
-/// `points`: for each end the corners of the patch of differences, each as the two points it is the difference of;
-/// `signs`: the exact signs of the volume at the two ends, computed only where they are needed.
+/// `points`: for each end, the corners of the patch of differences, each as the two points whose difference it is;
+/// `signs`: the exact signs of the volume at both ends, computed only if needed.
 fn signed<const N: usize>(
     points: [[[DVec3; 2]; N]; 2],
     signs: [impl Fn() -> i8; 2],
@@ -159,9 +161,9 @@ mod tests {
     /// The signed number of passages of a closed loop of motions is the number of times it winds around what it avoids.
     #[test]
     fn passages_over_a_closed_box_sum_to_zero() {
-        // The degree of (v(t) − q(t)) over the rim of facet × time: the bottom, the top and the three sides, where the
-        // vertex must cross as often into the prism as out of it. Here: motions out and back by another way that avoids
-        // the rim have the same sum.
+        // The degree of (v(t) − q(t)) over the boundary of facet × time: the bottom, the top and the three sides; the
+        // vertex must enter the prism as often as it leaves it. Here: motions out and back along another path that
+        // avoids the rim have the same sum.
         let mut random = Random::new(71);
         let mut passed = 0;
         for _ in 0..2000 {
@@ -170,7 +172,7 @@ mod tests {
             let direct: i32 = sum(&[p, q], facet);
             let detour = p.midpoint(q) + random.vector() * 0.05;
             let bent = sum(&[p, detour, q], facet);
-            // The triangle p, detour, q meets the rim an even or odd number of times: count it exactly.
+            // The triangle p, detour, q meets the rim an even or odd number of times; they are counted exactly.
             let rim: i32 = (0..3)
                 .map(|k| pierced([p, detour, q], [facet[k], facet[(k + 1) % 3]]))
                 .sum();
@@ -186,7 +188,7 @@ mod tests {
         passings.map(|p| i32::from(p.sign)).sum()
     }
 
-    /// The signed number of times an edge passes through the triangle p, m, q, as the linking of path and rim counts it.
+    /// The signed number of times an edge passes through the triangle p, m, q, as the linking number of path and rim.
     fn pierced([p, m, q]: [DVec3; 3], [c, d]: [DVec3; 2]) -> i32 {
         let above = sign_of_volume([p, m, q, c]);
         let below = sign_of_volume([p, m, q, d]);

@@ -1,4 +1,4 @@
-//! The difference of two features in motion, and conservative proofs that the origin stays away from it.
+//! The difference of two moving features, and conservative proofs that the origin stays away from it.
 //!
 //! # Rounding
 //!
@@ -7,12 +7,12 @@
 //! dyadic t both t and 1 − t are exact, so that (1 − t) D_0 + t D_1 adds two products and a sum, 2 u M_i: a coordinate
 //! is off by at most 4 u M_i, second-order terms included.
 //!
-//! - Height d·D: products and sums add 3 u Σ |d_i| M_i to the 4 u Σ |d_i| M_i of the coordinates, the halving of a
-//!   middle coefficient one more: 8 u Σ |d_i| M_i. [`HEIGHT_ERROR`] allows 12 u.
+//! - Height d·D: products and sums add 3 u Σ |d_i| M_i to the 4 u Σ |d_i| M_i of the coordinates, and the halving of a
+//!   middle coefficient adds one more: 8 u Σ |d_i| M_i. [`HEIGHT_ERROR`] allows 12 u.
 //! - Determinant: with P = M_x M_y M_z, the coordinates change it by 72 u P (six terms, three factors each), the
 //!   subtractions and products by 30 u P, the mean of three by 18 u P: 120 u P. [`VOLUME_ERROR`] allows 128 u.
 //!
-//! [`TINY`] covers what underflows.
+//! [`TINY`] covers underflow.
 
 use glam::DVec3;
 
@@ -22,15 +22,15 @@ use super::pose::{highest, lowest};
 const HEIGHT_ERROR: f64 = 6.0 * f64::EPSILON;
 /// Rounding of a Bernstein coefficient of the volume, in units of M_x M_y M_z: 128 u.
 const VOLUME_ERROR: f64 = 64.0 * f64::EPSILON;
-/// More than all underflows of one evaluation together: 2⁻⁹⁶⁰.
+/// A bound of all underflows of one evaluation together: 2⁻⁹⁶⁰.
 const TINY: f64 = f64::from_bits(63 << 52);
-/// Unit vectors as computed are no longer than this.
+/// A bound of the length of unit vectors as computed.
 const LONGEST: f64 = 1.0 + 8.0 * f64::EPSILON;
 
 /// The convex hull of N moving corners that lie in one plane at every instant, in order around it: a triangle or a
 /// parallelogram.
 ///
-/// Two features meet at t exactly where the patch of their differences holds the origin.
+/// Two features meet at t exactly if the patch of their differences contains the origin.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Patch<const N: usize> {
     start: [DVec3; N],
@@ -41,7 +41,7 @@ pub(super) struct Patch<const N: usize> {
 }
 
 impl<const N: usize> Patch<N> {
-    /// The patch of differences `start` and `end`, scaled to coordinates below 1; none where one is not finite.
+    /// The patch of differences `start` and `end`, scaled to coordinates below 1; `None` if one is not finite.
     pub(super) fn new(start: [DVec3; N], end: [DVec3; N], separation: f64) -> Option<Self> {
         let corners = start.iter().chain(&end);
         let reach = corners.fold(DVec3::ZERO, |reach, p| reach.max(p.abs()));
@@ -109,7 +109,7 @@ impl<const N: usize> Patch<N> {
     /// Whether the plane of the patch is proved to stay farther than the separation from the origin.
     ///
     /// With three corners x, y, z of the patch, f = det(x, y, z) = x·n is a cubic in time, n = (y − x) × (z − x). A
-    /// point q of the plane has q·n = f, so that |q| ≤ δ needs |f| ≤ δ |n|, and |n| ≤ 4 |M|².
+    /// point q of the plane has q·n = f, so that |q| ≤ δ requires |f| ≤ δ |n|, and |n| ≤ 4 |M|².
     fn is_never_coplanar(&self, from: &[DVec3; N], to: &[DVec3; N]) -> bool {
         let ([x0, y0, z0], [x1, y1, z1]) = (spanning(from), spanning(to));
         let volume = |x: DVec3, y: DVec3, z: DVec3| x.dot(y.cross(z));
@@ -130,7 +130,7 @@ fn spanning<const N: usize>(corners: &[DVec3; N]) -> [DVec3; 3] {
     [corners[0], corners[1], corners[N - 1]]
 }
 
-/// Two powers of two whose product takes `size` into [1/4, 1], each of them representable.
+/// Two powers of two whose product scales `size` into [1/4, 1], each of them representable.
 fn scale_to_one(size: f64) -> (f64, f64) {
     if size == 0.0 {
         return (1.0, 1.0);
@@ -140,12 +140,12 @@ fn scale_to_one(size: f64) -> (f64, f64) {
     (2.0_f64.powi(half), 2.0_f64.powi(exponent - half))
 }
 
-/// The unit direction along which the patch lies farthest from the origin, on its positive side; none where every
+/// The unit direction along which the patch is farthest from the origin, on its positive side; `None` if every
 /// candidate fails.
 ///
 /// The nearest point of a convex polygon lies inside it, on an edge or at a corner: the candidates are its normal, the
 /// perpendiculars to its edges through the origin, and its corners. Built from edges, not from the nearest point, they
-/// stay well conditioned however near the patch is.
+/// stay well-conditioned however near the patch is.
 fn direction_away<const N: usize>(corners: &[DVec3; N]) -> Option<DVec3> {
     let [x, y, z] = spanning(corners);
     let mut best: Option<DVec3> = None;

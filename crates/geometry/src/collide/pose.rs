@@ -6,34 +6,34 @@ use glam::DVec3;
 
 use super::Limits;
 
-/// Directions with a sine below this are one.
+/// Directions at an angle whose sine is below this count as equal.
 const PARALLEL: f64 = 1e-6;
 
-/// What an [`Axis`] is built from, and so which vertices meet along it.
+/// What an [`Axis`] is built from, which tells which vertices meet along it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Feature {
-    /// Normal to triangle A: A's facet and a corner of B.
+    /// Normal to triangle A: a facet of A and a corner of B.
     NormalA,
-    /// Normal to triangle B: B's facet and a corner of A.
+    /// Normal to triangle B: a facet of B and a corner of A.
     NormalB,
     /// Normal to edge i of A and edge j of B (edge i runs from corner i to corner i + 1).
     Edges(u8, u8),
-    /// In A's plane, normal to its edge.
+    /// In the plane of A, normal to this edge.
     SideA(u8),
-    /// In B's plane, normal to its edge.
+    /// In the plane of B, normal to this edge.
     SideB(u8),
-    /// Anything else: a bisector, a coordinate axis, an axis carried over from the instant before.
+    /// Anything else: a bisector, a coordinate axis, an axis carried over from the previous instant.
     Free,
 }
 
 /// A unit direction and the overlap along it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Axis {
-    /// d, |d| = 1.
+    /// The unit direction d of the axis.
     pub direction: DVec3,
-    /// max d·a − min d·b: negative where A lies below B along d.
+    /// max d·a − min d·b: negative if A lies below B along d.
     pub overlap: f64,
-    /// What d is built from.
+    /// The feature that the direction is built from.
     pub feature: Feature,
 }
 
@@ -42,11 +42,11 @@ pub struct Axis {
 /// `shared` corners (0, 1 or 2) are the same vertices of the sheet and come first, in the same order, in both.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PairPose {
-    /// The corners of A.
+    /// The positions of the corners of A.
     pub a: [DVec3; 3],
-    /// The corners of B.
+    /// The positions of the corners of B.
     pub b: [DVec3; 3],
-    /// How many leading corners are the same vertices.
+    /// The number of leading corners that are the same vertices.
     pub shared: usize,
 }
 
@@ -58,14 +58,14 @@ pub(super) fn lowest(values: &[f64]) -> f64 {
     values.iter().copied().fold(f64::INFINITY, f64::min)
 }
 
-/// max a − min b: how far the numbers `a` reach above the numbers `b`.
+/// max a − min b: how far the numbers `a` extend above the numbers `b`.
 pub(super) fn overlap_of(a: &[f64; 3], b: &[f64; 3]) -> f64 {
     highest(a) - lowest(b)
 }
 
-/// How clearly the corners that are not shared lie apart: all of A's below, all of B's above, the shared ones between.
+/// By how much the corners that are not shared are apart: all of A's below, all of B's above, the shared ones between.
 ///
-/// With two shared corners their common edge must be normal to the direction, to within `limits.tolerance / 1000`.
+/// If two corners are shared, their edge must be normal to the direction, to within `limits.tolerance / 1000`.
 pub(super) fn gap_of(a: &[f64; 3], b: &[f64; 3], shared: usize, limits: &Limits) -> f64 {
     if shared == 0 {
         return -overlap_of(a, b);
@@ -84,25 +84,25 @@ impl PairPose {
         (self.a.map(project), self.b.map(project))
     }
 
-    /// max d·a − min d·b over the corners: how deep A reaches into B's side along d. Precondition: |d| = 1.
+    /// max d·a − min d·b over the corners: how far A extends beyond the start of B along d. Precondition: |d| = 1.
     pub fn overlap(&self, direction: DVec3) -> f64 {
         let (a, b) = self.projections(direction);
         overlap_of(&a, &b)
     }
 
-    /// How far the triangles lie apart along d, not counting what they share; not positive where they do not.
+    /// How far the triangles are apart along d, not counting what they share; not positive if they are not.
     pub fn gap(&self, direction: DVec3, limits: &Limits) -> f64 {
         let (a, b) = self.projections(direction);
         gap_of(&a, &b, self.shared, limits)
     }
 
-    /// The depth: the smallest overlap over all unit directions, with the axis where it is attained; for triangles
-    /// that lie apart, an axis that separates them.
+    /// The depth: the smallest overlap over all unit directions, with the axis at which it is attained; for triangles
+    /// that are apart, an axis that separates them.
     ///
-    /// The overlap along d is the support function of the Minkowski difference A − B. Where that polytope holds the
+    /// The overlap along d is the support function of the Minkowski difference A − B. If that polytope contains the
     /// origin, the support function has its minima over the unit sphere at face normals, which are ±n_A, ±n_B and
-    /// ±(edge of A × edge of B) (Gottschalk, Lin and Manocha 1996): the depth is exact. Where A − B does not hold
-    /// the origin, one of them separates, or an in-plane edge normal if the triangles are coplanar.
+    /// ±(edge of A × edge of B) (Gottschalk, Lin and Manocha 1996), so the depth is exact. If it does not, one of them
+    /// separates, or an in-plane edge normal if the triangles are coplanar.
     pub fn depth(&self) -> Axis {
         let mut deepest = Axis {
             direction: DVec3::X,
@@ -119,8 +119,8 @@ impl PairPose {
 
     /// Every candidate axis with an overlap of at most `limit`.
     ///
-    /// Every component of the set { d : overlap ≤ limit } holds one of them (for 0 ≤ limit): its minimum is a face
-    /// normal of A − B or lies where the triangles are separated.
+    /// Every component of the set { d : overlap ≤ limit } contains one of them (for 0 ≤ limit): its minimum is a face
+    /// normal of A − B or separates the triangles.
     pub fn axes_within(&self, limit: f64, limits: &Limits) -> Vec<Axis> {
         let mut axes = Vec::with_capacity(16);
         let mut inner = DVec3::ZERO;
@@ -132,8 +132,8 @@ impl PairPose {
                 axes.push(axis);
             }
         });
-        // Around shared corners the separating directions form a cone; the face normals are its rim, their sum lies
-        // inside.
+        // Around shared corners the separating directions form a cone. The face normals form its rim, and their sum
+        // lies inside.
         if self.shared > 0 {
             let bisector = (self.shared == 2).then(|| self.bisector()).flatten();
             for direction in bisector.into_iter().chain(inner.try_normalize()) {
@@ -150,7 +150,8 @@ impl PairPose {
         axes
     }
 
-    /// For triangles that share an edge: the direction normal to it from A's apex towards B's, where it is defined.
+    /// For triangles that share an edge, the direction perpendicular to it from the apex of A towards that of B; `None`
+    /// if it is undefined.
     pub fn bisector(&self) -> Option<DVec3> {
         let edge = (self.a[1] - self.a[0]).try_normalize()?;
         let across = |apex: DVec3| {
@@ -195,7 +196,8 @@ impl PairPose {
             both_ways(eb.cross(normal_b), Feature::SideB(j as u8));
         }
         if normal_a == DVec3::ZERO && normal_b == DVec3::ZERO {
-            // Both have shrunk to segments, at an instant between frames; parallel ones have no other normals.
+            // Both triangles have shrunk to segments, at an instant between frames; parallel segments have no other
+            // normals.
             let longest = edges_a.into_iter().chain(edges_b).reduce(|p, q| {
                 if q.length_squared() > p.length_squared() {
                     q
@@ -214,8 +216,8 @@ impl PairPose {
     }
 }
 
-/// `direction`, turned along with a triangle that moves from `from` to `to`: the heights of the corners along it and
-/// its component along the normal are kept. None where a triangle has no area.
+/// `direction` turned along with a triangle that moves from `from` to `to`: the heights of the corners along it and its
+/// component along the normal are kept. `None` if the triangle has no area at either end.
 pub(super) fn turned_along(direction: DVec3, from: &[DVec3; 3], to: &[DVec3; 3]) -> Option<DVec3> {
     let (e1, e2) = (from[1] - from[0], from[2] - from[0]);
     let (f1, f2) = (to[1] - to[0], to[2] - to[0]);
@@ -238,9 +240,9 @@ pub(super) fn are_linked(p: &Axis, q: &Axis, limits: &Limits) -> bool {
 
 /// An upper bound of the overlaps along the arc between two unit directions, from those at its ends and its cosine.
 ///
-/// For d(s) = (1 − s) d_1 + s d_2 the overlap along d(s), not normalised, is convex in s and so below its chord, the height
-/// of a fixed vector along d(s). At angle φ of the arc that is x cos φ + y sin φ: largest at an end, or √(x² + y²) where
-/// it rises at the one and falls at the other.
+/// For d(s) = (1 − s) d_1 + s d_2 the overlap along d(s), not normalised, is convex in s and so below its chord, the
+/// height of a fixed vector along d(s). At angle φ of the arc that is x cos φ + y sin φ, which is largest at an end, or
+/// √(x² + y²) if it rises at one end and falls at the other.
 fn highest_between(start: f64, end: f64, cosine: f64) -> f64 {
     let sine = (1.0 - cosine * cosine).max(0.0).sqrt();
     if sine < PARALLEL {
@@ -254,7 +256,7 @@ fn highest_between(start: f64, end: f64, cosine: f64) -> f64 {
     }
 }
 
-/// |d(s)| for d(s) between `from` and `to` is at least this; none where they are more than 90° apart.
+/// A lower bound of |d(s)| for d(s) between `from` and `to`; `None` if they are more than 90° apart.
 pub(super) fn shortest_between(from: DVec3, to: DVec3) -> Option<f64> {
     let cosine = from.dot(to);
     let shortest = f64::midpoint(1.0, cosine).max(0.0).sqrt();
@@ -288,7 +290,7 @@ mod tests {
         assert!(tight > 500, "{tight}");
     }
 
-    /// The least overlap found by random descent from many directions.
+    /// The smallest overlap found by random descent from many directions.
     fn brute_force_depth(pose: &PairPose, random: &mut Random) -> f64 {
         let mut least = f64::INFINITY;
         for _ in 0..30 {

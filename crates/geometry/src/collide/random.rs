@@ -1,4 +1,4 @@
-//! Seeded random shapes for the tests (`SplitMix64`, Steele, Lea and Flood 2014).
+//! Seeded random shapes for the unit tests (`SplitMix64`, Steele, Lea and Flood 2014).
 
 use glam::DVec3;
 
@@ -18,12 +18,12 @@ impl Random {
         z ^ (z >> 31)
     }
 
-    /// In [−1, 1).
+    /// A number in [−1, 1).
     pub(crate) fn number(&mut self) -> f64 {
         (self.bits() >> 11) as f64 / (1u64 << 52) as f64 - 1.0
     }
 
-    /// In the cube [−1, 1)³.
+    /// A vector in the cube [−1, 1)³.
     pub(crate) fn vector(&mut self) -> DVec3 {
         DVec3::new(self.number(), self.number(), self.number())
     }

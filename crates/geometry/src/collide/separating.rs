@@ -15,7 +15,7 @@ pub(super) fn separating(pose: &PairPose, limits: &Limits) -> impl Iterator<Item
         .filter(|&(_, gap)| gap > limits.margin)
 }
 
-/// The direction along which the triangles are apart most clearly, where there is one.
+/// The direction along which the triangles are apart most clearly; `None` if no axis separates them.
 pub(super) fn widest(pose: &PairPose, limits: &Limits) -> Option<DVec3> {
     separating(pose, limits)
         .reduce(|best, next| if next.1 > best.1 { next } else { best })

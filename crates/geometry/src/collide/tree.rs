@@ -7,7 +7,7 @@ const LEAF_SIZE: usize = 4;
 #[derive(Debug, Clone, Copy)]
 struct Node {
     hull: Aabb,
-    /// Where its items start in `items` (leaf), or its first child in `nodes` (the second follows).
+    /// The index of the first item in `items` (leaf), or of the first child in `nodes` (the second follows it).
     first: u32,
     /// The number of items of a leaf; 0 for an inner node.
     count: u32,
@@ -15,11 +15,11 @@ struct Node {
 
 /// A hierarchy over boxes numbered 0, 1, 2, …
 ///
-/// The answers of its queries depend on the boxes only, never on the shape of the tree: it may be refitted to boxes
-/// that have moved far, and is then slower, not wrong.
+/// The answers to its queries depend only on the boxes, never on the shape of the tree: after a refit to boxes that
+/// have moved far it is slower, but not wrong.
 #[derive(Debug, Clone)]
 pub struct Tree {
-    /// Parents before children.
+    /// The nodes, parents before children.
     nodes: Vec<Node>,
     items: Vec<u32>,
 }
@@ -72,7 +72,7 @@ impl Tree {
 
     /// Every pair (i, j), i < j, whose boxes overlap, in increasing order.
     ///
-    /// `boxes`: those the tree was last fitted to.
+    /// `boxes`: those to which the tree was last fitted.
     pub fn overlapping_pairs(&self, boxes: &[Aabb]) -> Vec<(u32, u32)> {
         let mut pairs = Vec::new();
         let touching = |a: &Aabb, b: &Aabb| a.overlaps(b);
@@ -87,7 +87,8 @@ impl Tree {
 
     /// Branch and bound: calls `measure(i, j, bound)` for pairs whose boxes are nearer than the bound it last returned.
     ///
-    /// `measure` returns the bound to go on with. Every pair whose boxes are nearer than the final bound is measured.
+    /// `measure` returns the bound to continue with. Every pair whose boxes are nearer than the final bound is
+    /// measured.
     pub fn visit_near(
         &self,
         boxes: &[Aabb],
@@ -103,7 +104,8 @@ impl Tree {
         });
     }
 
-    /// Calls `visit(i, j)`, i < j, for all pairs in leaves whose hulls, like those of all their parents, are `close`.
+    /// Calls `visit(i, j)`, i < j, for all pairs in leaves for which their hulls and those of all their ancestors are
+    /// `close`.
     fn visit_pairs(&self, close: impl Fn(&Aabb, &Aabb) -> bool, mut visit: impl FnMut(u32, u32)) {
         let mut open = vec![(0usize, 0usize)];
         while let Some((p, q)) = open.pop() {
@@ -144,7 +146,7 @@ impl Tree {
     }
 
     fn is_leaf(&self, node: usize) -> bool {
-        // The root is never anybody's child, so an inner node points past itself.
+        // The root is nobody's child, so an inner node never points to itself.
         self.nodes[node].count > 0 || self.items.is_empty()
     }
 
@@ -154,7 +156,7 @@ impl Tree {
     }
 }
 
-/// Puts the `middle` items with the lowest centres along the longest side first.
+/// Moves the `middle` items with the lowest centres along the longest side to the front.
 fn split(items: &mut [u32], middle: usize, boxes: &[Aabb]) {
     let centre = |i: u32| boxes[i as usize].min + boxes[i as usize].max;
     let extents = Aabb::around(items.iter().map(|&i| centre(i))).extents();

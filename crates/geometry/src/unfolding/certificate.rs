@@ -1,10 +1,11 @@
-//! A proof that a turning chain does not cross itself, or where it does.
+//! A proof that a chain whose turns change does not cross itself, or the point at which it does.
 //!
-//! Along a sweep every turn goes linearly from one value to another. Seen from the middle of the chain between them,
-//! segments i < j approach no faster than V = Σ |dτ_k| · lever, over the joints k between them, where the lever is at
-//! most the shorter way along the chain from the joint to the far end of either segment. So a distance d at the middle of an
-//! interval of width w keeps the two apart throughout it if d > V w / 2; else the interval is halved. Neighbours meet only
-//! where their turn reaches ±π, which the ends of the sweep exclude for all of it.
+//! During a sweep every turn changes linearly from one value to another. Seen from the middle of the chain between
+//! them, segments i < j approach each other no faster than V = Σ |dτ_k| · lever, over the joints k between them, where
+//! the lever is at most the shorter distance along the chain from the joint to the far end of either segment. So a
+//! distance d at the middle of an interval of width w keeps the two apart throughout if d > V w / 2; otherwise the
+//! interval is halved. Neighbours meet only if their turn reaches ±π, which the ends of the sweep exclude for all of
+//! it.
 
 use std::f64::consts::PI;
 
@@ -13,56 +14,57 @@ use glam::DVec2;
 use super::chain::{Chain, segment_distance, sums};
 use super::seam::seam_opens_until;
 
-/// Intervals of a sweep are not divided below this.
+/// Intervals of a sweep shorter than this are not divided.
 const SHORTEST: f64 = 1e-10;
-/// Where two segments cannot be told apart, a meeting is looked for as far ahead.
+/// How far ahead an intersection is searched for once two segments cannot be told apart.
 const LOOK_AHEAD: f64 = 1e-5;
-/// Distances computed for one certificate, at most.
+/// The largest number of distances computed for one certificate.
 const BUDGET: u64 = 200_000_000;
 
-/// What is known of a sweep; fractions count from 0 at its start to 1 at its end.
+/// What is known about a sweep; fractions run from 0 at its start to 1 at its end.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum SweepVerdict {
-    /// No two segments meet, but neighbours at their joints and the ends of a closed chain at its start: proved.
+    /// It is proved that no two segments meet, other than neighbours at their joints and the ends of a closed chain at
+    /// its start.
     Clear,
-    /// Two segments meet at this fraction (to 1e-10); up to 1e-5 before it the chain is proved to be clear.
+    /// Two segments meet at this fraction (to 1e-10); up to 1e-5 before it, the chain is proved to be clear.
     Crosses {
-        /// Where in the sweep.
+        /// The fraction of the sweep at which they meet.
         fraction: f64,
-        /// The segments, from 0, ascending.
+        /// The indices of the segments, from 0, in increasing order.
         segments: [usize; 2],
     },
-    /// Proved up to this fraction; there two segments come so close that neither answer can be given, or the budget of
-    /// distances ended.
+    /// The chain is proved to be clear up to this fraction; there two segments come so close that neither answer can be
+    /// given, or the budget of distances was exhausted.
     Undecided {
-        /// Where in the sweep.
+        /// The fraction of the sweep up to which it is proved.
         fraction: f64,
-        /// The segments, from 0, ascending.
+        /// The indices of the segments, from 0, in increasing order.
         segments: [usize; 2],
     },
 }
 
-/// Whether `chain` crosses itself while its turns go linearly from `from` to `to`.
+/// Whether `chain` crosses itself while its turns change linearly from `from` to `to`.
 ///
-/// Rounding is bounded, not ignored: distances count from n² ε (1 + the largest heading) mean segments up. Ends of a
-/// closed chain that are together at the start must part to be clear.
+/// Rounding is bounded, not ignored: distances count if they exceed n² ε (1 + the largest heading) mean segments. Ends
+/// of a closed chain that coincide at the start must separate for the verdict to be clear.
 ///
-/// Precondition: both have n − 1 turns within (−π, π), where the chain does not cross itself at `from`.
+/// Precondition: both have n − 1 turns within (−π, π), and the chain does not cross itself at `from`.
 pub fn certify(chain: &Chain, from: &[f64], to: &[f64]) -> SweepVerdict {
     Sweep::new(chain, from, to).run(0.0, BUDGET)
 }
 
-/// A sweep with what bounds the approach of its segments.
+/// A sweep, with bounds of the speed at which its segments approach each other.
 pub(super) struct Sweep<'a> {
     chain: &'a Chain,
     from: &'a [f64],
-    /// By how much each turn changes over the sweep.
+    /// The change of each turn over the sweep, in radians.
     change: Vec<f64>,
-    /// Sums of |change| and of |change| · arc over the joints.
+    /// The cumulative sums of |change| and of |change| · arc over the joints.
     turned: Vec<f64>,
     moments: Vec<f64>,
     rounding: f64,
-    /// Up to here the ends of a closed chain are known to part.
+    /// The fraction up to which the ends of a closed chain are known to separate.
     seam_until: f64,
 }
 
@@ -89,7 +91,7 @@ impl<'a> Sweep<'a> {
         }
     }
 
-    /// Whether all segments that are no neighbours stay further apart than `clearance`, within `budget` distances.
+    /// Whether all segments that are not neighbours stay farther apart than `clearance`, within `budget` distances.
     pub(super) fn run(&self, clearance: f64, budget: u64) -> SweepVerdict {
         if let Some(joint) = self.folded_back() {
             return SweepVerdict::Undecided {
@@ -101,7 +103,7 @@ impl<'a> Sweep<'a> {
         let all = (0..count).flat_map(|i| (i + 2..count).map(move |j| [i, j]));
         let mut pending = vec![(0.0, 1.0, all.collect::<Vec<_>>())];
         let mut spent = 0;
-        // Earlier halves first, so that what is taken off lies after all that is proved.
+        // Earlier halves come first, so that the interval taken next follows everything that is proved.
         while let Some((start, end, pairs)) = pending.pop() {
             let middle = 0.5 * (start + end);
             let points = self.points(middle);
@@ -152,7 +154,7 @@ impl<'a> Sweep<'a> {
         }
     }
 
-    /// A joint that is folded back at an end of the sweep.
+    /// A joint that is folded back at an end of the sweep; `None` if there is none.
     fn folded_back(&self) -> Option<usize> {
         let ends = self.from.iter().zip(&self.change);
         ends.into_iter()
@@ -177,8 +179,8 @@ impl<'a> Sweep<'a> {
     pub(super) fn approach(&self, [i, j]: [usize; 2]) -> f64 {
         let arcs = &self.chain.arcs;
         let (start, end) = (arcs[i], arcs[j + 1]);
-        // Joint k, at arcs[k], has index k − 1 among the turns; joints i + 1 … j lie between the two. Those in the first
-        // half turn the first segment, the others the second.
+        // Joint k, at arcs[k], has index k − 1 among the turns; joints i + 1 … j lie between the two segments. Those in
+        // the first half turn the first segment, the others the second.
         let half = arcs[i + 1..=j].partition_point(|&arc| arc - start < end - arc) + i;
         let turned = |from: usize, to: usize| self.turned[to] - self.turned[from];
         let moment = |from: usize, to: usize| self.moments[to] - self.moments[from];
@@ -189,7 +191,7 @@ impl<'a> Sweep<'a> {
     }
 }
 
-/// Whether two segments are no further apart than `reach`.
+/// Whether the distance of two segments is at most `reach`.
 fn is_within(points: &[DVec2], [i, j]: [usize; 2], reach: f64) -> bool {
     let (a, b) = ([points[i], points[i + 1]], [points[j], points[j + 1]]);
     let apart = (a[0] + a[1]).distance(b[0] + b[1]);

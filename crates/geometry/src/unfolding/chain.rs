@@ -1,4 +1,4 @@
-//! A planar chain, told by its lengths and turns.
+//! A planar chain, described by its lengths and turns.
 
 use std::f64::consts::PI;
 
@@ -6,29 +6,30 @@ use glam::DVec2;
 
 use crate::{GeometryError, first_crossing};
 
-/// Segments of a chain, at most: work and memory grow with their square.
+/// The largest number of segments: work and memory grow with its square.
 const MOST_SEGMENTS: usize = 2000;
 
 /// A planar polyline of n segments of fixed length, free of crossings, whose n − 1 turns can be changed.
 ///
-/// Lengths are in units of the mean segment, so that nothing depends on the size of the input. A closed chain starts
-/// with its ends together, at the seam, where it may open.
+/// Lengths are in units of the mean segment, so that nothing depends on the size of the input. The ends of a closed
+/// chain coincide at the start, at the seam, where it may open.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Chain {
-    /// Segment lengths over their mean.
+    /// The segment lengths, relative to their mean.
     pub(super) lengths: Vec<f64>,
-    /// Where each point lies along the chain; one more than segments.
+    /// The arc length of each point along the chain; one more than there are segments.
     pub(super) arcs: Vec<f64>,
     turns: Vec<f64>,
     is_closed: bool,
 }
 
 impl Chain {
-    /// The chain through `points` ((x, z), any unit, finite). The last point of a `closed` one equals its first.
+    /// The chain through `points` ((x, z), any unit, finite). The last point of a `closed` chain equals its first.
     ///
     /// # Errors
-    /// [`GeometryError::SegmentCount`] for no segment or more than 2000, [`GeometryError::RepeatedPoint`] for a segment of
-    /// no length, [`GeometryError::PolygonCrosses`] where the chain crosses or touches itself elsewhere than at its seam.
+    /// [`GeometryError::SegmentCount`] for no segment or more than 2000, [`GeometryError::RepeatedPoint`] for a segment
+    /// without length, [`GeometryError::PolygonCrosses`] if the chain crosses or touches itself elsewhere than at its
+    /// seam.
     pub fn new(points: &[DVec2], is_closed: bool) -> Result<Self, GeometryError> {
         let count = points.len().saturating_sub(1);
         let minimum = if is_closed { 3 } else { 1 };
@@ -61,7 +62,7 @@ impl Chain {
         })
     }
 
-    /// The number of segments, n.
+    /// The number n of segments.
     pub fn segment_count(&self) -> usize {
         self.lengths.len()
     }
@@ -71,7 +72,7 @@ impl Chain {
         &self.turns
     }
 
-    /// Whether its ends start together.
+    /// Whether its ends coincide at the start.
     pub fn is_closed(&self) -> bool {
         self.is_closed
     }
@@ -108,7 +109,7 @@ impl Chain {
     }
 }
 
-/// 0 and the sums of the first 1, 2, … values.
+/// The cumulative sums of the values, starting with 0.
 pub(super) fn sums(values: &[f64]) -> Vec<f64> {
     let mut sum = 0.0;
     let running = values.iter().map(|value| {
@@ -118,7 +119,7 @@ pub(super) fn sums(values: &[f64]) -> Vec<f64> {
     std::iter::once(0.0).chain(running).collect()
 }
 
-/// The distance of two segments in the plane; 0 where they share a point.
+/// The distance of two segments in the plane; 0 if they share a point.
 pub(super) fn segment_distance(a: [DVec2; 2], b: [DVec2; 2]) -> f64 {
     let side = |[p, q]: [DVec2; 2], x: DVec2| (q - p).perp_dot(x - p);
     let [a0, a1] = [side(b, a[0]), side(b, a[1])];

@@ -1,13 +1,14 @@
-//! Descent of the energy by steps that provably cross nothing.
+//! Descent of the energy by steps that provably do not cross anything.
 //!
-//! A step changes all turns linearly by s·δ. Its length s is limited for every pair of segments i < j by either of two
-//! bounds of what they can approach, whichever allows more:
+//! A step changes all turns linearly by s·δ. For every pair of segments i < j, its length s is limited by the larger of
+//! two bounds on how much they can approach each other:
 //!
 //! - s V_ij along the chain (see the certificate);
-//! - what their points move in a frame that turns with the mean heading and moves with the mean point: a point whose velocity
-//!   is a_p moves by at most s |a_p| + s² b / 2, with b = Σ l_k ψ_k² and ψ_k the change of heading of segment k there.
+//! - the displacement of their points in a frame that turns with the mean heading and moves with the mean point: a
+//!   point with velocity a_p moves by at most s |a_p| + s² b / 2, with b = Σ l_k ψ_k² and ψ_k the change of heading of
+//!   segment k in that frame.
 //!
-//! Half of the distance of the two is allowed, so that the step leaves them apart.
+//! Half of the distance of the two is allowed, so that they are still apart after the step.
 
 use std::f64::consts::PI;
 
@@ -18,31 +19,31 @@ use super::chain::{Chain, segment_distance, sums};
 use super::energy::{energy, energy_and_gradient};
 use crate::GeometryError;
 
-/// The share of a distance, and of the turn left to ±π, that a step may use up.
+/// The share of a distance, and of the turn remaining to ±π, that a step may use.
 const ALLOWED: f64 = 0.5;
-/// A step must bring this share of the descent its slope promises (Armijo).
+/// A step must achieve this share of the descent that its slope predicts (Armijo).
 const SUFFICIENT: f64 = 1e-4;
-/// A step is at first this many times as long as the last one.
+/// The first attempt at a step is this many times as long as the previous step.
 const GROWTH: f64 = 2.0;
-/// Steps that turn the joints by less, radians in the root of squares, are lost in rounding.
+/// Steps that turn the joints by less than this, in radians (root of the sum of squares), are lost in rounding.
 const SHORTEST: f64 = 1e-14;
-/// Steps, at most.
+/// The largest number of steps.
 const MOST_STEPS: usize = 100_000;
 
 /// A state of the descent.
 #[derive(Debug, Clone)]
 pub(super) struct Waypoint {
     pub(super) turns: Vec<f64>,
-    /// The least distance of segments that are no neighbours.
+    /// The smallest distance of segments that are not neighbours, in mean segments.
     pub(super) clearance: f64,
 }
 
-/// The states from `turns` to the first whose headings lie within less than a half turn.
+/// The states from `turns` to the first one whose headings all lie within less than half a turn.
 ///
 /// # Errors
-/// [`GeometryError::NotStraightened`] where rounding ends the descent before, or the steps do not suffice.
+/// [`GeometryError::NotStraightened`] if rounding ends the descent before that, or the number of steps is insufficient.
 pub(super) fn descend(chain: &Chain, turns: Vec<f64>) -> Result<Vec<Waypoint>, GeometryError> {
-    let mut way = Vec::new();
+    let mut waypoints = Vec::new();
     let mut turns = turns;
     let mut length = f64::INFINITY;
     while !Chain::is_monotone(&turns) {
@@ -65,24 +66,24 @@ pub(super) fn descend(chain: &Chain, turns: Vec<f64>) -> Result<Vec<Waypoint>, G
             }
             length *= 0.5;
             let is_lost = !length.is_finite() || length * squared.sqrt() < SHORTEST;
-            if is_lost || way.len() >= MOST_STEPS {
+            if is_lost || waypoints.len() >= MOST_STEPS {
                 return Err(GeometryError::NotStraightened {
-                    steps: way.len(),
+                    steps: waypoints.len(),
                     clearance: limit.clearance,
                 });
             }
         };
-        way.push(Waypoint {
+        waypoints.push(Waypoint {
             turns: std::mem::replace(&mut turns, next),
             clearance: limit.clearance,
         });
     }
     let clearance = clearance(&chain.points(&turns));
-    way.push(Waypoint { turns, clearance });
-    Ok(way)
+    waypoints.push(Waypoint { turns, clearance });
+    Ok(waypoints)
 }
 
-/// How far a step may go.
+/// The limit of a step.
 struct Limit {
     length: f64,
     clearance: f64,
@@ -102,7 +103,7 @@ fn limit(chain: &Chain, turns: &[f64], points: &[DVec2], gradient: &[f64]) -> Li
             let distance = segment_distance([points[i], points[i + 1]], [points[j], points[j + 1]]);
             let allowed = ALLOWED * distance;
             let along_chain = allowed / sweep.approach([i, j]);
-            // The square root is left out where it cannot matter.
+            // The square root is skipped if it cannot matter.
             if along_chain < limit.length {
                 limit.length = limit
                     .length
@@ -117,11 +118,11 @@ fn limit(chain: &Chain, turns: &[f64], points: &[DVec2], gradient: &[f64]) -> Li
     limit
 }
 
-/// How the points move as the turns change at the rates of the gradient, in the frame of the module.
+/// The motion of the points as the turns change at the rates of the gradient, in the frame of the module documentation.
 struct Motion {
-    /// The larger speed of the two ends of every segment.
+    /// The larger speed of the two ends of each segment.
     speeds: Vec<f64>,
-    /// b.
+    /// The bound b of the module documentation.
     curvature: f64,
 }
 
@@ -156,7 +157,7 @@ impl Motion {
     }
 }
 
-/// The least distance of segments that are no neighbours; infinite where there are none.
+/// The smallest distance of segments that are not neighbours; infinite if there are none.
 pub(super) fn clearance(points: &[DVec2]) -> f64 {
     let count = points.len() - 1;
     let pairs = (0..count).flat_map(|i| (i + 2..count).map(move |j| [i, j]));

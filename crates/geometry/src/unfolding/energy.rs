@@ -3,9 +3,9 @@
 use glam::DVec2;
 
 /// E = Σ 1 / (|v − a| + |v − b| − |ab|)², over all points v and segments ab that do not end in v, of a chain through
-/// `points`; infinite where a point lies on a segment.
+/// `points`; infinite if a point lies on a segment.
 ///
-/// Source: Cantarella, Demaine, Iben and O'Brien 2004, section 3. It descends along every motion in which no distance
+/// Source: Cantarella, Demaine, Iben and O'Brien 2004, section 3. It decreases along every motion in which no distance
 /// shrinks.
 pub(super) fn energy(points: &[DVec2]) -> f64 {
     let mut energy = 0.0;
@@ -13,10 +13,10 @@ pub(super) fn energy(points: &[DVec2]) -> f64 {
     energy
 }
 
-/// E and its gradient by the turns of a chain through `points`.
+/// E and its gradient with respect to the turns of a chain through `points`.
 ///
-/// Turning joint k moves every point p_j beyond it by (p_j − p_k) turned by a quarter, so that
-/// ∂E/∂τ_k = Σ_{j>k} ⟂(p_j − p_k) · ∂E/∂p_j.
+/// Turning joint k moves every point p_j beyond it by (p_j − p_k) rotated by a right angle, so that ∂E/∂τ_k = Σ_{j>k}
+/// ⟂(p_j − p_k) · ∂E/∂p_j.
 pub(super) fn energy_and_gradient(points: &[DVec2]) -> (f64, Vec<f64>) {
     let mut energy = 0.0;
     let mut by_point = vec![DVec2::ZERO; points.len()];
@@ -39,29 +39,29 @@ pub(super) fn energy_and_gradient(points: &[DVec2]) -> (f64, Vec<f64>) {
     (energy, gradient)
 }
 
-/// What a point v and a segment ab bring to the energy.
+/// The contribution of a point v and a segment ab to the energy.
 struct Term {
-    /// |v − a| + |v − b| − |ab|.
+    /// The excess |v − a| + |v − b| − |ab|.
     excess: f64,
-    /// Unit vectors from a and from b to v.
+    /// The unit vectors from a and from b to v.
     directions: [DVec2; 2],
 }
 
-/// Visits every point and every segment that does not end in it. Segments keep their length, so |ab| is no variable.
+/// Visits every point and every segment that does not end in it. Segments keep their length, so |ab| is constant.
 fn for_each_term(points: &[DVec2], mut visit: impl FnMut(usize, usize, Term)) {
     let lengths: Vec<f64> = points.windows(2).map(|p| p[0].distance(p[1])).collect();
     for (v, &point) in points.iter().enumerate() {
         let mut from_a = (point - points[0], point.distance(points[0]));
         for (k, length) in lengths.iter().enumerate() {
-            let way = point - points[k + 1];
-            let from_b = (way, way.length());
+            let offset = point - points[k + 1];
+            let from_b = (offset, offset.length());
             if v != k && v != k + 1 {
                 visit(
                     v,
                     k,
                     Term {
                         excess: from_a.1 + from_b.1 - length,
-                        directions: [from_a, from_b].map(|(way, distance)| way / distance),
+                        directions: [from_a, from_b].map(|(offset, distance)| offset / distance),
                     },
                 );
             }

@@ -5,17 +5,18 @@ use glam::{DMat2, DVec2};
 use super::certificate::{Sweep, SweepVerdict};
 use super::chain::Chain;
 
-/// How far the ends are taken apart at first, in mean segments, and how often that is halved at most.
+/// The distance by which the ends are first separated, in mean segments, and the largest number of times it is halved.
 const OPENING: f64 = 0.25;
 const MOST_HALVINGS: i32 = 40;
-/// Distances computed to certify an opening, at most.
+/// The largest number of distances computed to certify an opening.
 const BUDGET: u64 = 20_000_000;
 
-/// The turns of a closed chain with its ends apart, reached by a certified sweep from its own.
+/// The turns of a closed chain with its ends apart, reached by a certified sweep from its own turns.
 ///
-/// The last end is drawn away along −(e + f), the sum of the directions of the first and the last segment, by the least
-/// change of the turns in the sense of squares, Jᵀ(JJᵀ)⁻¹δ with J the derivative of that end by the turns; as far as it is
-/// certified clear. None where no opening of 2⁻⁴⁰ quarter segments is, as at a cusp of no angle.
+/// The last end is moved along −(e + f), the sum of the directions of the first and the last segment, by the change of
+/// the turns with the smallest sum of squares, Jᵀ(JJᵀ)⁻¹δ with J the derivative of that end with respect to the turns,
+/// as far as the sweep is certified clear. `None` if not even an opening of 2⁻⁴⁰ quarter segments is clear, as at a
+/// cusp of angle 0.
 pub(super) fn open_seam(chain: &Chain) -> Option<Vec<f64>> {
     let points = chain.points(chain.turns());
     let last = points.len() - 1;

@@ -4,13 +4,14 @@ use glam::DVec2;
 
 use super::chain::Chain;
 
-/// Up to which fraction of a sweep the first and the last segment, together at its start, are known to part.
+/// The fraction of a sweep up to which the first and the last segment, which coincide in a point at its start, are
+/// known to separate.
 ///
-/// Seen from the first segment, of direction e, the other end moves by g(u), and the last segment, of direction f, turns.
-/// Take a unit vector m with m·e, m·f and −m·g′/|g′| all at least μ > 0. As long as m·f ≥ 0 and m·g′ < 0, the first segment
-/// lies on the side m·x ≥ 0 of its end and the last one, which runs towards g, on the side m·x < 0. f turns at the rate
-/// |ψ_n|, the sum of all changes, and |g″| ≤ Σ l_k ψ_k², where ψ_k is that up to segment k. 0 where there is no such m, or
-/// the ends are already apart.
+/// Seen from the first segment, of direction e, the other end moves by g(u), and the last segment, of direction f,
+/// turns. Take a unit vector m such that m·e, m·f and −m·g′/|g′| are all at least μ > 0. As long as m·f ≥ 0 and m·g′ <
+/// 0, the first segment lies on the side m·x ≥ 0 of its end, and the last one, which runs towards g, on the side m·x <
+/// 0. f turns at the rate |ψ_n|, the sum of all changes, and |g″| ≤ Σ l_k ψ_k², where ψ_k is the sum up to segment k.
+/// The result is 0 if there is no such m, or if the ends are already apart.
 pub(super) fn seam_opens_until(chain: &Chain, from: &[f64], change: &[f64], rounding: f64) -> f64 {
     let points = chain.points(from);
     let last = points.len() - 1;
