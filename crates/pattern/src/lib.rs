@@ -10,10 +10,10 @@
 mod clash_figure;
 mod closed_form;
 mod cut;
+mod delaunay;
 mod error;
 mod facet_model;
-mod fold_file;
-mod fold_read;
+mod fold;
 mod import;
 mod layer_count;
 mod layers;
@@ -38,8 +38,7 @@ pub use cut::{
 };
 pub use error::PatternError;
 pub use facet_model::FacetModel;
-pub use fold_file::FoldHeader;
-pub use fold_read::{FoldError, FoldFile, FrameNumber};
+pub use fold::{FoldError, FoldFile, FoldHeader, FrameNumber};
 pub use import::{
     Curves, ImportError, ImportOptions, Imported, LARGEST_IMPORT_FILE, LengthUnit, MOST_LINES,
     MOST_NESTED, MOST_NODES, MOST_PIECES, MOST_STAGE_ANGLES, MOST_STYLE_RULES, MOST_VERTICES,

@@ -21,11 +21,11 @@ impl fmt::Display for FrameNumber {
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
 pub enum FoldError {
-    /// No JSON, no UTF-8, a key given twice, or a value of the wrong type or out of range.
-    #[error("{place}: {message}")]
+    /// Not JSON, not UTF-8, a key given twice, or a value of the wrong type or out of range.
+    #[error("{location}: {message}")]
     Json {
-        /// What was being read.
-        place: String,
+        /// The frame, key and list element that was being read.
+        location: String,
         /// What is wrong, with line and column.
         message: String,
     },
