@@ -3,6 +3,7 @@
 //! Lengths are units of the page, x to the right, y down; colours are sRGB. SVG and PDF keep lines and words as such and
 //! carry pictures inside; the PNG has [`PIXELS_A_UNIT`] pixels a unit. All come from the same items in the same order.
 
+mod deflate;
 mod label;
 mod pdf;
 mod pdf_font;

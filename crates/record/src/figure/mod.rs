@@ -6,18 +6,19 @@
 //! together are left out.
 
 mod bounds;
+mod foot;
 mod keys;
 mod layout;
 mod look;
 mod measure;
 mod paint;
 mod pose;
+mod spot;
 
 use glam::DVec2;
 
 pub use self::look::LineStyle;
-pub use self::measure::Dimension;
-pub use self::pose::{Bounds, Pose};
+pub use self::pose::{Bounds, Dimension, Pose};
 
 use self::layout::Layout;
 use self::paint::Painter;
@@ -156,6 +157,6 @@ pub fn strip(
             drawing.words(at, text, layout.letters, Anchor::Middle);
         }
     }
-    keys::draw(&mut drawing, poses, options, &layout)?;
+    foot::draw(&mut drawing, poses, options, &layout)?;
     Ok(drawing)
 }

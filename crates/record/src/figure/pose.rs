@@ -3,7 +3,6 @@
 use foldmotion_pattern::{LayerOrder, Motion, Sheet};
 use glam::DVec3;
 
-use super::measure::Dimension;
 use crate::caption::stage;
 use crate::{Marks, RecordError, positions_at};
 
@@ -17,6 +16,17 @@ pub struct Bounds {
     /// What stands at an edge along x, y and z; empty: nothing.
     pub sizes: [String; 3],
     /// What stands below the label, such as a closed form.
+    pub words: String,
+}
+
+/// A length of a state, written beside it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Dimension {
+    /// What is measured.
+    pub ends: [DVec3; 2],
+    /// A point on the other side than the words, such as the middle of the state.
+    pub inside: DVec3,
+    /// What stands at the line, such as "h = 1 m".
     pub words: String,
 }
 

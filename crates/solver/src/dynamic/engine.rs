@@ -14,13 +14,10 @@ use super::increments::increments;
 use super::options::{Device, DynamicOptions, Run, StageOutcome, StageStatus};
 use super::recorder::Recorder;
 use super::relaxation::{Progress, Relaxation};
+use super::stability::SAFETY;
 use super::state::State;
 use crate::budget::Allowance;
 use crate::{Model, Moment, Schedule, SolverError, Stage, Watcher};
-
-/// The share of the stable time step that is used: covers what the bound only estimates (see `stability`) and the
-/// change of geometry until it is evaluated again.
-pub(super) const SAFETY: f64 = 0.9;
 
 /// Moves the sheet of `model` along `schedule` from `start` (one position a vertex, in the sheet's unit) through the stages
 /// asked for.

@@ -14,8 +14,8 @@
 //! is stable for every c ≥ 0 where the undamped steps are. The equilibrium does not depend on c or on the masses.
 
 use super::State;
-use super::engine::SAFETY;
 use super::recorder::PATH_STEP;
+use super::stability::SAFETY;
 
 /// Steps between two looks at the residual.
 const STEPS_A_LOOK: u64 = 10;

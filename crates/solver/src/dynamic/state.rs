@@ -14,7 +14,7 @@ use pulp::Arch;
 use super::lanes::{Quad, WIDTH};
 use super::layout::{Layout, NO_HINGE};
 use super::passes::{After, Before, BlockStep, Hinges, Mass, Pace, Scratch, Totals};
-use super::stability::RowSums;
+use super::row_sums::RowSums;
 use crate::Model;
 
 /// Positions and velocities of a sheet, with the buffers of a step. Lengths in unit lengths.
