@@ -10,31 +10,11 @@ use std::collections::BTreeMap;
 use std::f64::consts::PI;
 
 use glam::DVec3;
-use serde::{Deserialize, Serialize};
 
-use crate::layout::Place;
-use crate::{Assignment, CompactBox, CreaseKind, Facet, FacetKind, PatternError, Unit, UnitSheet};
-
-/// How a sheet of units is folded.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Folding {
-    /// Each unit folds: the paper's compact states.
-    #[default]
-    Waterbomb,
-    /// The lines between units fold: one unit, Nr·Nc layers thick.
-    Map,
-}
-
-impl Folding {
-    /// The name in scene files and reports.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Waterbomb => "waterbomb",
-            Self::Map => "map",
-        }
-    }
-}
+use crate::unit_sheet::Place;
+use crate::{
+    Assignment, CompactBox, CreaseKind, Facet, FacetKind, Folding, PatternError, Unit, UnitSheet,
+};
 
 impl UnitSheet {
     /// The sheet of [`Self::with_rows`] folded like a map: one facet a unit, creases between units only, also between

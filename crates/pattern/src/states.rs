@@ -5,7 +5,7 @@ use std::collections::VecDeque;
 use foldmotion_geometry::RigidMotion;
 use glam::{DMat3, DQuat, DVec2, DVec3};
 
-use crate::layout::{Family, Place};
+use crate::unit_sheet::{Family, Place};
 use crate::{Case, CreaseKind, Folding, PatternError, Sheet, UnitSheet};
 
 /// The side of the profile, seen along it from its start, on which the flaps stand.

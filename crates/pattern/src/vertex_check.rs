@@ -8,7 +8,7 @@ use std::f64::consts::{PI, TAU};
 
 use serde::{Deserialize, Serialize};
 
-use crate::layout::{Place, is_mid};
+use crate::unit_sheet::{Place, is_mid};
 use crate::{Assignment, Folding, Imported, Sheet, UnitSheet};
 
 /// Angle sums may differ from 2π and π by this much, radians.
@@ -212,7 +212,7 @@ impl UnitSheet {
     fn vertex_type(&self, vertex: usize) -> VertexType {
         let (line, place) = self.places[vertex];
         let unit = &self.unit;
-        let at_pad = if self.lines[line as usize].family == crate::layout::Family::P {
+        let at_pad = if self.lines[line as usize].family == crate::unit_sheet::Family::P {
             unit.side_pad > 0.0
         } else {
             unit.centre_pad > 0.0

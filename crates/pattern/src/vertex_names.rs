@@ -1,7 +1,7 @@
 //! The names the paper gives the vertices of a unit (figures 3, 4 and 5a–b).
 
 use crate::UnitSheet;
-use crate::layout::{Family, Place};
+use crate::unit_sheet::{Family, Place};
 
 impl UnitSheet {
     /// The paper's name of a vertex as part of the unit at (`row`, `column`): C1 … C7 in a unit U^O, D1 … D8 in a

@@ -35,6 +35,13 @@ pub struct CutPage<'a> {
     pub marks: Vec<[DVec2; 2]>,
 }
 
+impl CutPattern {
+    /// The whole pattern on one page of its own size, with its margin around it.
+    pub fn whole(&self) -> CutPage<'_> {
+        CutPage::whole(self)
+    }
+}
+
 impl<'a> CutPage<'a> {
     pub(super) fn whole(pattern: &'a CutPattern) -> Self {
         let margin = DVec2::splat(pattern.options.margin);

@@ -4,7 +4,7 @@ use glam::DVec2;
 
 use super::long_lines::{Segment, join};
 use super::travel::{outline, sweep, travel};
-use super::{CutError, CutLine, CutOptions, CutPage, LineClass, PageLayout, Tiles};
+use super::{CutError, CutLine, CutOptions, LineClass};
 use crate::Sheet;
 
 /// The least side of a sheet on paper, mm: nothing smaller can be cut.
@@ -71,19 +71,6 @@ impl CutPattern {
             row,
             options: options.clone(),
         })
-    }
-
-    /// The whole pattern on one page of its own size, with its margin around it.
-    pub fn whole(&self) -> CutPage<'_> {
-        CutPage::whole(self)
-    }
-
-    /// The pattern cut into pages.
-    ///
-    /// # Errors
-    /// [`CutError`]: no room between the margins, too much overlap, more than 1000 pages.
-    pub fn tiles(&self, layout: PageLayout) -> Result<Tiles<'_>, CutError> {
-        Tiles::new(self, layout)
     }
 
     /// How many lines a class has.

@@ -36,6 +36,16 @@ pub struct Tiles<'a> {
     rows: usize,
 }
 
+impl CutPattern {
+    /// The pattern cut into pages.
+    ///
+    /// # Errors
+    /// [`CutError`]: no room between the margins, too much overlap, more than 1000 pages.
+    pub fn tiles(&self, layout: PageLayout) -> Result<Tiles<'_>, CutError> {
+        Tiles::new(self, layout)
+    }
+}
+
 impl<'a> Tiles<'a> {
     pub(super) fn new(pattern: &'a CutPattern, layout: PageLayout) -> Result<Self, CutError> {
         let PageLayout {

@@ -6,7 +6,7 @@ use super::ImportError;
 use super::plan::Plan;
 use super::predicate::{from_segment, side};
 use crate::delaunay::delaunay;
-use crate::layout::split;
+use crate::facet_model::split;
 
 /// A quadrilateral has a corner worth the name where its corners lie farther from the chords beside them than this, in
 /// parts of the chord.

@@ -6,8 +6,8 @@ use super::super::drawing::{Line, Role};
 use super::super::warning::{WarningKind, Warnings};
 use super::super::{ImportError, Source};
 use super::FoldPattern;
-use super::faces::Sides;
 use super::frames::Frames;
+use super::sides::Sides;
 
 /// What an edge is.
 #[derive(Debug, Clone, Copy, PartialEq)]

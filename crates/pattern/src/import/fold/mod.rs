@@ -6,6 +6,7 @@ mod edges;
 mod faces;
 mod flat;
 mod frames;
+mod sides;
 mod stages;
 
 use glam::DVec3;
@@ -117,7 +118,7 @@ impl<'a> FoldPattern<'a> {
         }
         let drawing = Drawing {
             points: flat,
-            lines: edges::lines(self, &faces::Sides::new(), warnings),
+            lines: edges::lines(self, &sides::Sides::new(), warnings),
             sources: (0..self.edges.len() as u32).map(Source::FoldEdge).collect(),
         };
         let merge = options.merge.unwrap_or(MergeTolerance::LISTED);
