@@ -21,7 +21,7 @@ pub enum FacetModel {
 }
 
 impl FacetModel {
-    /// The name in scene files.
+    /// The name by which scene files call it.
     pub fn name(self) -> &'static str {
         match self {
             Self::Symmetric => "symmetric",

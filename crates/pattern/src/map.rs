@@ -32,7 +32,7 @@ impl UnitSheet {
         self.crease_between_units();
     }
 
-    /// Nr·Nc layers of a map; none of a sheet that folds unit by unit.
+    /// Nr·Nc layers of a map; `None` for a sheet that folds unit by unit.
     pub fn map_layers(&self) -> Option<usize> {
         (self.folding == Folding::Map).then_some(self.rows * self.columns)
     }

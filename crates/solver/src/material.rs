@@ -67,7 +67,7 @@ impl Material {
     /// The names [`Self::preset`] knows.
     pub const PRESETS: [&'static str; 3] = ["origami-simulator", "paper", "near-rigid"];
 
-    /// The material of that name; none where there is none.
+    /// The material of that name; `None` if there is none.
     pub fn preset(name: &str) -> Option<Self> {
         match name {
             "origami-simulator" => Some(Self::ORIGAMI_SIMULATOR),

@@ -25,7 +25,7 @@ const NEED_COORDINATES: &str = "one position for every vertex is needed there or
 /// `sheet.unit_length` is `foldmotion:unitLength`; if that is missing, the mean side of the faces at rest.
 #[derive(Debug)]
 pub struct FoldFile {
-    /// `file_title`.
+    /// The title of the file, `file_title`.
     pub title: Option<String>,
     /// `foldmotion:outcome`: how the run ended that made the motion, in its own words.
     pub outcome: Option<String>,
@@ -33,7 +33,7 @@ pub struct FoldFile {
     pub sheet: Sheet,
     /// The face of the file each triangle of the sheet belongs to.
     pub triangle_faces: Vec<u32>,
-    /// `faces_vertices`.
+    /// The faces as the file lists them, `faces_vertices`.
     pub polygons: Vec<Vec<u32>>,
     /// Whether `faces_foldmotion:facet` names the facets.
     pub has_facets: bool,

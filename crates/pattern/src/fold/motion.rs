@@ -11,9 +11,9 @@ use crate::{Frame, LayerOrder, Motion, Sheet};
 /// The keys of a FOLD file of a motion that do not follow from the motion itself.
 #[derive(Debug, Clone, Copy)]
 pub struct FoldHeader<'a> {
-    /// `file_title`.
+    /// The title of the file, `file_title`.
     pub title: &'a str,
-    /// `file_creator`.
+    /// The program that wrote the file, `file_creator`.
     pub creator: &'a str,
     /// `frame_unit`: one of FOLD's `unit`, `in`, `pt`, `m`, `cm`, `mm`, `um`, `nm`.
     pub unit: &'a str,

@@ -17,7 +17,7 @@ pub(super) struct Topology {
     pub(super) faces: Vec<u32>,
 }
 
-/// Builds the sheet of the key frame; `rest`: one position a vertex, in which polygons are cut and edges measured.
+/// Builds the sheet of the key frame; `rest`: one position for each vertex, in which polygons are cut and edges measured.
 pub(super) fn build(
     key: &FrameFields,
     polygons: &[Vec<u32>],

@@ -108,7 +108,7 @@ impl Imported {
 /// Which elements are written, and where they come from.
 struct Lists<'a> {
     imported: &'a Imported,
-    /// The edges written.
+    /// The indices of the edges that are written.
     edges: Vec<usize>,
     /// `faces_vertices`.
     faces: Value,

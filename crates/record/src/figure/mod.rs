@@ -44,9 +44,9 @@ pub struct Legend {
 /// How a strip of states is drawn. Lengths on the page are millimetres.
 #[derive(Debug, Clone, PartialEq)]
 pub struct StripOptions {
-    /// Of the page.
+    /// The width of the page.
     pub width: f64,
-    /// Of the page, at most.
+    /// The largest height of the page.
     pub height: f64,
     /// States in a row, at most; at least one.
     pub columns: usize,
@@ -58,7 +58,7 @@ pub struct StripOptions {
     pub style: Style,
     /// How mountains and valleys are told apart.
     pub lines: LineStyle,
-    /// Of all lines.
+    /// The width of all lines.
     pub line_width: f64,
     /// The size of letters.
     pub letters: f64,

@@ -191,7 +191,7 @@ struct Seen<'a> {
     visible: &'a Visible,
     /// From the screen to the page.
     shift: DVec2,
-    /// Of its lines.
+    /// The width of its lines.
     width: f64,
 }
 

@@ -19,7 +19,7 @@ use super::state::State;
 use crate::budget::Allowance;
 use crate::{Model, Moment, Schedule, SolverError, Stage, Watcher};
 
-/// Moves the sheet of `model` along `schedule` from `start` (one position a vertex, in the sheet's unit) through the stages
+/// Moves the sheet of `model` along `schedule` from `start` (one position for each vertex, in the sheet's unit) through the stages
 /// asked for.
 ///
 /// `progress` is called before every increment and at every look at the residual (every ten steps); answering false ends
@@ -293,7 +293,7 @@ impl Engine<'_, '_> {
         budget.allowance(budget.left(standard, self.taken))
     }
 
-    /// Settles as far as f32 goes; none where the CPU is to go on from there, or there is no GPU.
+    /// Settles as far as f32 goes; `None` if the CPU is to go on from there, or there is no GPU.
     #[cfg(feature = "gpu")]
     fn settle_on_gpu(
         &mut self,

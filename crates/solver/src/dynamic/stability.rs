@@ -69,7 +69,7 @@ struct BlockRows<'a> {
     hinges: &'a Hinges,
     positions: &'a [Quad],
     scratch: &'a mut Scratch,
-    /// Of each edge what its hinge weighs at an apex.
+    /// The weight of the hinge of each edge at an apex.
     weights: &'a mut Vec<f64>,
     damping: f64,
     face_angle_stiffness: f64,
@@ -89,7 +89,7 @@ impl WithSimd for BlockRows<'_> {
 }
 
 impl BlockRows<'_> {
-    /// Of each edge: the rows of its ends and of its damper, and what its hinge weighs at an apex.
+    /// Evaluates the rows of each edge at its ends, those of its damper, and the weight of its hinge at an apex.
     #[inline(always)]
     fn edge_rows<S: Simd>(&mut self, simd: S) {
         let scratch = &mut *self.scratch;
@@ -135,7 +135,7 @@ impl BlockRows<'_> {
         }
     }
 
-    /// Of each triangle: the rows of its corners as apexes and of its angles.
+    /// Evaluates the rows of each triangle at its corners: as apexes of hinges and as angles.
     #[inline(always)]
     fn face_rows<S: Simd>(&mut self, simd: S) {
         let scratch = &mut *self.scratch;
