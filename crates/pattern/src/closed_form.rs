@@ -17,7 +17,7 @@ pub struct CompactBox {
 
 impl CompactBox {
     /// Extents x = Nr·h − (Nr − 1)·a, y = Nc·(2s + 2d), z = a; A = x·z (equations 3, 4 and the A^S of 5);
-    /// V = Nc·(2s + 2d)·A (equations 6 and 7). None for the unmodified rectangle, which has no closed form.
+    /// V = Nc·(2s + 2d)·A (equations 6 and 7). `None` for the unmodified rectangle, which has no closed form.
     pub fn closed_form(unit: &Unit, rows: usize, columns: usize) -> Option<Self> {
         if unit.case == Case::Plain {
             return None;
@@ -37,7 +37,7 @@ impl CompactBox {
 impl UnitSheet {
     /// The compact bounding box in closed form: equations 3 to 7, and with rows of their own heights h_k
     /// x = Σ h_k − (Nr − 1)·a, the other extents as they are: each row lies a further on than the one before it ends,
-    /// whatever its height. A folded map is as large as one unit and flat. None for the unmodified rectangle.
+    /// whatever its height. A folded map is as large as one unit and flat. `None` for the unmodified rectangle.
     pub fn closed_form(&self) -> Option<CompactBox> {
         match self.folding {
             Folding::Waterbomb => self.waterbomb_box(),

@@ -10,9 +10,9 @@ pub enum PatternError {
     /// A size that must be positive and finite is not.
     #[error("{name} is {}: it must be a positive, finite number", Number(*value))]
     NotPositive {
-        /// What was given.
+        /// The name of the quantity or option.
         name: &'static str,
-        /// Its value.
+        /// The value that was given.
         value: f64,
     },
     /// Rows or columns are missing or too many for 32-bit indices.
@@ -20,7 +20,7 @@ pub enum PatternError {
     CountOutOfRange {
         /// `rows` or `columns`.
         name: &'static str,
-        /// Its value.
+        /// The value that was given.
         value: usize,
         /// The largest value allowed with the other count.
         limit: usize,
@@ -33,15 +33,15 @@ pub enum PatternError {
         Number(width / height)
     )]
     CaseContradictsUnit {
-        /// The case asked for.
+        /// The name of the case that was requested.
         case: &'static str,
-        /// The relation it needs.
+        /// The relation between w and h that the case needs.
         need: &'static str,
-        /// w.
+        /// The width w of the unit.
         width: f64,
-        /// h.
+        /// The height h of the unit.
         height: f64,
-        /// What to change.
+        /// What to change so that it works.
         remedy: &'static str,
     },
     /// λ is missing or out of range.
@@ -55,13 +55,13 @@ pub enum PatternError {
         "lambda is {}: one flap width for rows of unequal height needs it above 0 and at most 1", Number(*value)
     )]
     CommonFlapOutOfRange {
-        /// The value given.
+        /// The value that was given.
         value: f64,
     },
     /// d is out of range.
     #[error("offset d is {}: it must satisfy 0 <= d < w1' = {}", Number(*value), Number(*limit))]
     OffsetOutOfRange {
-        /// The value given.
+        /// The value that was given.
         value: f64,
         /// w1' = w/2 − λh/2.
         limit: f64,
@@ -71,15 +71,15 @@ pub enum PatternError {
     KeyWithoutCase {
         /// `lambda` or `offset`.
         key: &'static str,
-        /// The case asked for.
+        /// The name of the case that was requested.
         case: &'static str,
     },
     /// The divided profile does not have one point more than the sheet has rows.
     #[error("the divided profile has {found} points, but {rows} rows need {expected}", expected = rows + 1)]
     WrongPolygon {
-        /// Points found.
+        /// The number of points of the divided profile.
         found: usize,
-        /// Rows of the sheet.
+        /// The number of rows of the sheet.
         rows: usize,
     },
     /// The creases of two neighbouring rows do not end at the same places.
@@ -100,13 +100,13 @@ pub enum PatternError {
     /// Unit parts too thin for the arithmetic.
     #[error("{part} of the unit is {} wide, less than 1e-9 of h = {}; {remedy}", Number(*value), Number(*height))]
     DegenerateUnit {
-        /// The part.
+        /// The name of the part that is too narrow.
         part: &'static str,
-        /// Its width.
+        /// The width of the part, in the unit of h.
         value: f64,
-        /// h.
+        /// The height h of the unit.
         height: f64,
-        /// What to change.
+        /// What to change so that it works.
         remedy: &'static str,
     },
 }

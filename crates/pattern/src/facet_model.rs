@@ -5,12 +5,11 @@
 //! Sources: Filipov, Liu, Tachi, Schenk, Paulino 2017, "Bar and hinge models for scalable analysis of origami" (its
 //! model N5B8); Liu and Paulino 2018 (MERLIN2).
 
-use glam::{DVec2, DVec3};
+use glam::DVec2;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::layout::split;
-use crate::{Facet, UnitSheet};
+use crate::Facet;
 
 /// How a quadrilateral facet is cut into triangles.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
@@ -23,7 +22,7 @@ pub enum FacetModel {
 }
 
 impl FacetModel {
-    /// The name in scene files.
+    /// The name by which scene files call it.
     pub fn name(self) -> &'static str {
         match self {
             Self::Symmetric => "symmetric",
@@ -36,9 +35,9 @@ impl FacetModel {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct MiddleNode {
     /// The ends of one diagonal.
-    diagonal: [u32; 2],
-    /// Where the other one crosses it, from 0 to 1.
-    share: f64,
+    pub(crate) diagonal: [u32; 2],
+    /// Where the other diagonal crosses it, as a fraction of its length.
+    pub(crate) share: f64,
 }
 
 impl MiddleNode {
@@ -84,58 +83,19 @@ impl CutFacets {
     }
 }
 
-impl UnitSheet {
-    /// How its quadrilaterals are cut into triangles.
-    pub fn facet_model(&self) -> FacetModel {
-        self.facet_model
-    }
-
-    /// The same crease pattern with its quadrilaterals cut as `model` says.
-    ///
-    /// The vertices of the crease pattern keep their numbers; middle nodes follow them, in the order of their facets.
-    #[must_use]
-    pub fn with_facet_model(self, model: FacetModel) -> Self {
-        if model == self.facet_model {
-            return self;
-        }
-        Self::assemble(
-            self.unit,
-            self.row_units,
-            self.boundaries,
-            self.columns,
-            self.folding,
-            model,
-        )
-    }
-
-    /// The shorter side of the narrowest quadrilateral over its longer one, means of opposite sides; 1 where there is none.
-    pub fn narrowest_facet(&self) -> f64 {
-        let ratio = |facet: &Facet| {
-            let &[a, b, c, d] = &facet.polygon[..] else {
-                return 1.0;
-            };
-            let length = |v: u32, w: u32| {
-                self.sheet.vertices[v as usize].distance(self.sheet.vertices[w as usize])
-            };
-            let sides = [length(a, b) + length(c, d), length(b, c) + length(d, a)];
-            sides[0].min(sides[1]) / sides[0].max(sides[1])
-        };
-        self.sheet.facets.iter().map(ratio).fold(1.0, f64::min)
-    }
-
-    /// The number of vertices of the crease pattern; middle nodes follow.
-    pub fn pattern_vertices(&self) -> usize {
-        self.places.len()
-    }
-
-    /// A state of the whole sheet from that of its crease pattern, every facet of which is flat in it.
-    pub(crate) fn with_middle_nodes(&self, mut positions: Vec<DVec3>) -> Vec<DVec3> {
-        let middles = self.middle_nodes.iter().map(|node| {
-            let [p, r] = node.diagonal.map(|v| positions[v as usize]);
-            p.lerp(r, node.share)
-        });
-        let middles: Vec<DVec3> = middles.collect();
-        positions.extend(middles);
-        positions
+/// Triangles of a facet, counter-clockwise: a quadrilateral is split by the shorter diagonal (ties by the lowest vertex).
+pub(crate) fn split(vertices: &[DVec2], polygon: &[u32]) -> Vec<[u32; 3]> {
+    let &[a, b, c, d] = polygon else {
+        return vec![[polygon[0], polygon[1], polygon[2]]];
+    };
+    let length = |i: u32, j: u32| vertices[i as usize].distance(vertices[j as usize]);
+    let (ac, bd) = (length(a, c), length(b, d));
+    // Lengths that differ only by rounding tie.
+    let tie = (ac - bd).abs() <= 1e-12 * ac.max(bd);
+    let lowest_on_ac = a.min(c) < b.min(d);
+    if (tie && lowest_on_ac) || (!tie && ac < bd) {
+        vec![[a, b, c], [a, c, d]]
+    } else {
+        vec![[a, b, d], [b, c, d]]
     }
 }

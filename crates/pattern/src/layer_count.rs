@@ -12,7 +12,7 @@ const FIRST: [usize; 2] = [3, 4];
 const STEP: [usize; 2] = [1, 2];
 
 impl UnitSheet {
-    /// The number of entries of [`Self::compact_order`] of `rows` × `columns` of this `unit`; none where it is not known
+    /// The number of entries of [`Self::compact_order`] of `rows` × `columns` of this `unit`; `None` if it is not known
     /// without laying them out (small sheets, and cases whose columns lie beside each other).
     pub fn count_compact_order(
         unit: Unit,

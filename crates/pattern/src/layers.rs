@@ -22,7 +22,7 @@ impl UnitSheet {
         self.compact_order_within(usize::MAX).unwrap_or_default()
     }
 
-    /// The same order where it has at most `pairs` entries; none as soon as it outgrows them.
+    /// The same order where it has at most `pairs` entries; `None` as soon as it outgrows them.
     ///
     /// The columns of case E lie in one plane in the compact state, so that its order grows with the square of their
     /// number.

@@ -10,14 +10,14 @@
 mod clash_figure;
 mod closed_form;
 mod cut;
+mod delaunay;
 mod error;
 mod facet_model;
-mod fold_file;
-mod fold_read;
+mod fold;
+mod folding;
 mod import;
 mod layer_count;
 mod layers;
-mod layout;
 mod map;
 mod model;
 mod motion;
@@ -27,6 +27,7 @@ mod skin;
 mod states;
 mod unequal;
 mod unit;
+mod unit_sheet;
 mod vertex_check;
 mod vertex_names;
 
@@ -38,15 +39,13 @@ pub use cut::{
 };
 pub use error::PatternError;
 pub use facet_model::FacetModel;
-pub use fold_file::FoldHeader;
-pub use fold_read::{FoldError, FoldFile, FrameNumber};
+pub use fold::{FoldError, FoldFile, FoldHeader, FrameNumber};
+pub use folding::Folding;
 pub use import::{
     Curves, ImportError, ImportOptions, Imported, LARGEST_IMPORT_FILE, LengthUnit, MOST_LINES,
     MOST_NESTED, MOST_NODES, MOST_PIECES, MOST_STAGE_ANGLES, MOST_STYLE_RULES, MOST_VERTICES,
     MergeTolerance, PatternStage, Source, Unknown, Warning, WarningKind, import_fold, import_svg,
 };
-pub use layout::UnitSheet;
-pub use map::Folding;
 pub use model::{CaseColumns, NacaSection, ProfileModel, Shape, find as find_model, models};
 pub use motion::{Frame, LayerOrder, Motion};
 pub use outline::{LARGEST_OUTLINE_FILE, Outline, OutlineError};
@@ -55,4 +54,5 @@ pub use skin::{Skin, SkinPlane};
 pub use states::Facing;
 pub use unequal::{Clash, clashes, common_flap, own_cases};
 pub use unit::{Case, EQUAL_WIDTH_TOLERANCE, Unit};
+pub use unit_sheet::UnitSheet;
 pub use vertex_check::{ANGLE_TOLERANCE, PatternCheck, VertexCheck, VertexGroup, VertexType};

@@ -10,32 +10,11 @@ use std::collections::BTreeMap;
 use std::f64::consts::PI;
 
 use glam::DVec3;
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
 
-use crate::layout::Place;
-use crate::{Assignment, CompactBox, CreaseKind, Facet, FacetKind, PatternError, Unit, UnitSheet};
-
-/// How a sheet of units is folded.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "lowercase")]
-pub enum Folding {
-    /// Each unit folds: the paper's compact states.
-    #[default]
-    Waterbomb,
-    /// The lines between units fold: one unit, Nr·Nc layers thick.
-    Map,
-}
-
-impl Folding {
-    /// The name in scene files and reports.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Waterbomb => "waterbomb",
-            Self::Map => "map",
-        }
-    }
-}
+use crate::unit_sheet::Place;
+use crate::{
+    Assignment, CompactBox, CreaseKind, Facet, FacetKind, Folding, PatternError, Unit, UnitSheet,
+};
 
 impl UnitSheet {
     /// The sheet of [`Self::with_rows`] folded like a map: one facet a unit, creases between units only, also between
@@ -53,7 +32,7 @@ impl UnitSheet {
         self.crease_between_units();
     }
 
-    /// Nr·Nc layers of a map; none of a sheet that folds unit by unit.
+    /// Nr·Nc layers of a map; `None` for a sheet that folds unit by unit.
     pub fn map_layers(&self) -> Option<usize> {
         (self.folding == Folding::Map).then_some(self.rows * self.columns)
     }

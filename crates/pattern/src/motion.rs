@@ -11,14 +11,14 @@ use crate::Sheet;
 pub struct Frame {
     /// Motion time t: 0 deployed, 1 planar, 2 compact; settling after the schedule ends lies above 2.
     pub time: f64,
-    /// One position a vertex.
+    /// One position for each vertex.
     pub positions: Vec<DVec3>,
 }
 
 /// A sheet and its frames in order of time. Between frames every vertex moves on a straight line.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Motion {
-    /// What moves.
+    /// The sheet that moves.
     pub sheet: Sheet,
     /// At least one; times increase strictly.
     pub frames: Vec<Frame>,
@@ -40,7 +40,7 @@ impl LayerOrder {
         self.above.insert((f, g), sign);
     }
 
-    /// +1 where `f` is known to lie above `g` (on g's front side), −1 below, none where the order is unknown.
+    /// +1 where `f` is known to lie above `g` (on g's front side), −1 below, `None` if the order is unknown.
     ///
     /// Only the recorded direction (f, g) is looked up; built-in sheets record both.
     pub fn sign(&self, f: u32, g: u32) -> Option<i8> {

@@ -50,22 +50,22 @@ pub enum CreaseKind {
     Pad,
     /// Between two columns, where the sheet folds like a map.
     Column,
-    /// Of an imported sheet, with no unit.
+    /// Part of an imported sheet, which has no units.
     Imported,
     /// The border of the sheet.
     Border,
-    /// Inside a facet.
+    /// A line inside a facet, no crease.
     Facet,
 }
 
 /// An edge of the triangulated sheet.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Edge {
-    /// Its ends.
+    /// The vertices at its ends.
     pub vertices: [u32; 2],
     /// Mountain, valley, border, inside a facet or a free hinge.
     pub assignment: Assignment,
-    /// Its place in the unit.
+    /// The position of the edge in its unit.
     pub kind: CreaseKind,
     /// The row it lies in; an edge on a boundary between rows carries the row below the boundary (the later one).
     pub row: u32,
@@ -103,12 +103,12 @@ pub enum FacetKind {
     Wall,
     /// A whole unit, its creases held flat: of a sheet that folds like a map.
     Unit,
-    /// Of an imported sheet, with no unit.
+    /// Part of an imported sheet, which has no units.
     Plain,
 }
 
 impl FacetKind {
-    /// Its name in words.
+    /// The name in words, for people.
     pub fn name(self) -> &'static str {
         match self {
             Self::Flap => "flap",
@@ -127,7 +127,7 @@ impl FacetKind {
 pub struct Facet {
     /// Its corners, counter-clockwise seen from the front; of a facet with holes those of its outer border.
     pub polygon: Vec<u32>,
-    /// The row.
+    /// The row of the unit, counted from 0.
     pub row: u32,
     /// The column; a pad between two columns carries the smaller one.
     pub column: u32,
@@ -164,7 +164,7 @@ impl Sheet {
             .find(|v| !edge.vertices.contains(v))
     }
 
-    /// The four points of a hinge, [e0, e1, left apex, right apex]; none for a border edge.
+    /// The four points of a hinge, [e0, e1, left apex, right apex]; `None` for a border edge.
     pub fn hinge_vertices(&self, edge: &Edge) -> Option<[u32; 4]> {
         let [left, right] = edge.faces;
         Some([
@@ -175,9 +175,9 @@ impl Sheet {
         ])
     }
 
-    /// The fold angle of every edge in radians in (−π, π]; none for border edges.
+    /// The fold angle of every edge in radians in (−π, π]; `None` for border edges.
     ///
-    /// `positions`: one a vertex.
+    /// `positions`: one for each vertex.
     pub fn fold_angles(&self, positions: &[DVec3]) -> Vec<Option<f64>> {
         let angle = |edge: &Edge| {
             let [e0, e1, left, right] = self.hinge_vertices(edge)?.map(|v| positions[v as usize]);

@@ -39,7 +39,7 @@ impl UnitSheet {
     /// What `positions`, a compact state, touches the planes z = 0 and z = −a with; a feature touches where all its
     /// vertices are within `tolerance`.
     ///
-    /// Preconditions: one position a vertex, placed as [`Self::compact`] places them, and `tolerance` < a/2. None for
+    /// Preconditions: one position for each vertex, placed as [`Self::compact`] places them, and `tolerance` < a/2. `None` for
     /// the unmodified rectangle and a map, whose compact states have no such planes.
     pub fn skin(&self, positions: &[DVec3], tolerance: f64) -> Option<Skin> {
         if self.folding == Folding::Map {
@@ -58,7 +58,7 @@ impl UnitSheet {
     ///
     /// upper = Nc·(2s·Σ_O h + 2d·Σ_E h),  lower = Nc·(2d·Σ_O (h − 2a) + 2s·Σ_E (h − 2a)).
     ///
-    /// None for the unmodified rectangle and for a map.
+    /// `None` for the unmodified rectangle and for a map.
     pub fn skin_areas(&self) -> Option<[f64; 2]> {
         if self.unit.case == Case::Plain || self.folding == Folding::Map {
             return None;

@@ -8,7 +8,7 @@ use std::collections::VecDeque;
 use foldmotion_geometry::RigidMotion;
 use glam::{DMat3, DQuat, DVec2, DVec3};
 
-use crate::layout::{Family, Place};
+use crate::unit_sheet::{Family, Place};
 use crate::{Case, CreaseKind, Folding, PatternError, Sheet, UnitSheet};
 
 /// The side of the profile, seen along it from its start, on which the flaps stand.
@@ -171,7 +171,7 @@ fn turn(from: DVec2, to: DVec2) -> f64 {
     from.perp_dot(to).atan2(from.dot(to))
 }
 
-/// Folds the sheet by the given fold angles (radians, one an edge), facet by facet from the first flap outwards, each
+/// Folds the sheet by the given fold angles (radians, one for each edge), facet by facet from the first flap outwards, each
 /// turned about the edge over which it is reached. Returns the positions and the triangle that stayed in the plane.
 ///
 /// The result is a state of the sheet only where the angles close around every vertex; the caller checks that.

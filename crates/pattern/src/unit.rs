@@ -55,11 +55,11 @@ impl Case {
 /// One unit: its size and the widths its column is divided into. Lengths in the unit of the scene.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Unit {
-    /// The case.
+    /// The case of the unit.
     pub case: Case,
-    /// w.
+    /// The width w of the unit.
     pub width: f64,
-    /// h.
+    /// The height h of the unit.
     pub height: f64,
     /// a, the width of a flap.
     pub flap: f64,

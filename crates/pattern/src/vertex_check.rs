@@ -8,7 +8,7 @@ use std::f64::consts::{PI, TAU};
 
 use serde::{Deserialize, Serialize};
 
-use crate::layout::{Place, is_mid};
+use crate::unit_sheet::{Place, is_mid};
 use crate::{Assignment, Folding, Imported, Sheet, UnitSheet};
 
 /// Angle sums may differ from 2π and π by this much, radians.
@@ -32,13 +32,13 @@ pub enum VertexType {
     /// On the lines between the units of a map.
     #[serde(rename = "grid")]
     Grid,
-    /// Of an imported pattern, with no unit.
+    /// A vertex of an imported pattern, which has no units.
     #[serde(rename = "imported")]
     Imported,
 }
 
 impl VertexType {
-    /// Its name in reports.
+    /// The name in reports and files.
     pub fn name(self) -> &'static str {
         match self {
             Self::I => "I",
@@ -55,9 +55,9 @@ impl VertexType {
 /// The creases around one interior vertex.
 #[derive(Debug, Clone, PartialEq)]
 pub struct VertexCheck {
-    /// The vertex.
+    /// The index of the vertex.
     pub vertex: u32,
-    /// Its type.
+    /// The type of the vertex in its unit.
     pub kind: VertexType,
     /// Sector angles between neighbouring creases, counter-clockwise, radians.
     pub sectors: Vec<f64>,
@@ -71,7 +71,7 @@ impl VertexCheck {
         self.sectors.iter().sum()
     }
 
-    /// The sums of every other sector angle, radians; none for an odd number of creases.
+    /// The sums of every other sector angle, radians; `None` for an odd number of creases.
     pub fn alternate_sums(&self) -> Option<[f64; 2]> {
         let sum = |start: usize| self.sectors.iter().skip(start).step_by(2).sum();
         self.sectors
@@ -97,7 +97,7 @@ impl VertexCheck {
 /// Vertices of one type that have the same number of creases, the same signs and the same sums of sector angles.
 #[derive(Debug, Clone, PartialEq)]
 pub struct VertexGroup {
-    /// The type.
+    /// The type of the vertices of the group.
     pub kind: VertexType,
     /// Creases that meet at each.
     pub degree: usize,
@@ -111,7 +111,7 @@ pub struct VertexGroup {
     pub mountains_minus_valleys: i32,
     /// Angle sum, radians.
     pub angle_sum: f64,
-    /// Alternate sums, the smaller first; none for an odd number of creases.
+    /// Alternate sums, the smaller first; `None` for an odd number of creases.
     pub alternate_sums: Option<[f64; 2]>,
 }
 
@@ -212,7 +212,7 @@ impl UnitSheet {
     fn vertex_type(&self, vertex: usize) -> VertexType {
         let (line, place) = self.places[vertex];
         let unit = &self.unit;
-        let at_pad = if self.lines[line as usize].family == crate::layout::Family::P {
+        let at_pad = if self.lines[line as usize].family == crate::unit_sheet::Family::P {
             unit.side_pad > 0.0
         } else {
             unit.centre_pad > 0.0
@@ -233,7 +233,7 @@ impl UnitSheet {
     }
 }
 
-/// For every interior vertex the far ends of its creases; none for vertices on the border.
+/// For every interior vertex the far ends of its creases; `None` for vertices on the border.
 fn creases_around(sheet: &Sheet) -> Vec<Option<Vec<(u32, Assignment)>>> {
     let mut around = vec![Some(Vec::new()); sheet.vertices.len()];
     for edge in &sheet.edges {

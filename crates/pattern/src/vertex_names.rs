@@ -1,13 +1,13 @@
 //! The names the paper gives the vertices of a unit (figures 3, 4 and 5a–b).
 
 use crate::UnitSheet;
-use crate::layout::{Family, Place};
+use crate::unit_sheet::{Family, Place};
 
 impl UnitSheet {
     /// The paper's name of a vertex as part of the unit at (`row`, `column`): C1 … C7 in a unit U^O, D1 … D8 in a
     /// unit U^E, with the superscripts 1 and 2 for the two halves of a split vertex, such as `C4^1`.
     ///
-    /// None for vertices of other units, the outer corners of pads, and units with a centre pad, whose two mid lines
+    /// `None` for vertices of other units, the outer corners of pads, and units with a centre pad, whose two mid lines
     /// share the names.
     pub fn vertex_name(&self, vertex: u32, row: u32, column: u32) -> Option<String> {
         let &(line, place) = self.places.get(vertex as usize)?;

@@ -23,7 +23,7 @@ pub enum RecordError {
     /// The rate of film frames is out of range.
     #[error("fps = {value} cannot be filmed: it must lie above 0 and be at most {limit}")]
     FramesPerSecond {
-        /// What was asked for.
+        /// The value that was requested.
         value: f64,
         /// The largest rate: viewers slow down GIF frames shorter than two hundredths of a second.
         limit: f64,
@@ -31,9 +31,9 @@ pub enum RecordError {
     /// A duration is negative, too long or not a number.
     #[error("{name} = {value} s cannot be filmed: it must lie in 0 to {limit} s")]
     Seconds {
-        /// The option.
+        /// The name of the option.
         name: &'static str,
-        /// What was asked for.
+        /// The value that was requested.
         value: f64,
         /// The longest duration.
         limit: f64,
@@ -41,7 +41,7 @@ pub enum RecordError {
     /// The camera turns too far or by something that is no number.
     #[error("turn = {value}° cannot be filmed: it must lie in −{limit}° to {limit}°")]
     Turn {
-        /// What was asked for.
+        /// The value that was requested.
         value: f64,
         /// The largest turn.
         limit: f64,
@@ -79,13 +79,13 @@ pub enum RecordError {
     /// The H.264 encoder failed or refuses the size.
     #[error("the film could not be encoded as H.264: {message}")]
     H264 {
-        /// Why.
+        /// The reason, as the system or library gave it.
         message: String,
     },
     /// A 3D file would be too large.
     #[error("a {format} file of {bytes} bytes cannot be written: at most {limit} fit; {remedy}")]
     FileSize {
-        /// The format.
+        /// The name of the file format.
         format: &'static str,
         /// What the file would take.
         bytes: u64,
@@ -109,15 +109,15 @@ pub enum RecordError {
     /// A tolerance, a duration or a thickness is not positive and finite.
     #[error("{name} = {value} cannot be used: it must be finite and above 0")]
     NotPositive {
-        /// The option.
+        /// The name of the option.
         name: &'static str,
-        /// What was asked for.
+        /// The value that was requested.
         value: f64,
     },
     /// A line width is negative, too wide or not a number.
     #[error("line_width = {value} cannot be drawn: it must lie in 0 to {limit} pixels")]
     LineWidth {
-        /// What was asked for.
+        /// The value that was requested.
         value: f64,
         /// The widest line.
         limit: f64,
@@ -139,7 +139,7 @@ pub enum RecordError {
         "a page with {value} mm a unit cannot be made: that must lie above 0 and no side of the page be longer than {limit} mm"
     )]
     Unit {
-        /// What was asked for.
+        /// The value that was requested.
         value: f64,
         /// The longest side.
         limit: f64,
@@ -147,9 +147,9 @@ pub enum RecordError {
     /// A length of a figure is not positive or too large.
     #[error("{name} = {value} mm cannot be drawn: it must lie above 0 and be at most {limit} mm")]
     Length {
-        /// The option.
+        /// The name of the option.
         name: &'static str,
-        /// What was asked for.
+        /// The value that was requested.
         value: f64,
         /// The largest length.
         limit: f64,
@@ -159,9 +159,9 @@ pub enum RecordError {
         "{states} states do not fit on {width} × {height} mm beside their labels: allow a larger page, smaller letters or fewer states a row"
     )]
     NoRoom {
-        /// Of the page, millimetres.
+        /// The width of the page, millimetres.
         width: f64,
-        /// Of the page at most, millimetres.
+        /// The largest height of the page, millimetres.
         height: f64,
         /// How many there are.
         states: usize,
@@ -175,7 +175,7 @@ pub enum RecordError {
     /// The motion has no frames.
     #[error("the motion has no frames: a film needs at least one")]
     NoFrames,
-    /// A frame does not hold one position a vertex.
+    /// A frame does not hold one position for each vertex.
     #[error("frame {frame} has {found} positions: the sheet has {expected} vertices")]
     VertexCount {
         /// The frame, 0 for a single picture.
@@ -192,7 +192,7 @@ pub enum RecordError {
     NotFinite {
         /// The frame, 0 for a single picture.
         frame: usize,
-        /// The vertex.
+        /// The index of the vertex.
         vertex: usize,
         /// Where it lies.
         position: [f64; 3],
@@ -202,9 +202,9 @@ pub enum RecordError {
         "frame {frame} has the time {time}: times must be finite and increase from frame to frame"
     )]
     Time {
-        /// The frame.
+        /// The frame with the error.
         frame: usize,
-        /// Its time.
+        /// The motion time of the frame.
         time: f64,
     },
     /// The points cannot be brought into the picture.

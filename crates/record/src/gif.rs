@@ -110,7 +110,7 @@ impl<W: Write + Send> Reel for Gif<W> {
     }
 }
 
-/// The GIF frame that turns the picture `before` into `after`, the whole picture where there is none before.
+/// The GIF frame that turns the picture `before` into `after`, the whole picture if there is none before.
 fn compressed(before: Option<&Vec<u8>>, after: &[u8], width: u16, delay: u16) -> Frame<'static> {
     let row = usize::from(width);
     let height = (after.len() / row) as u16;
@@ -151,7 +151,7 @@ fn compressed(before: Option<&Vec<u8>>, after: &[u8], width: u16, delay: u16) ->
     frame
 }
 
-/// The rectangle [left, top, right, bottom) that holds every difference; one pixel where there is none, because a GIF
+/// The rectangle [left, top, right, bottom) that holds every difference; one pixel if there is none, because a GIF
 /// frame cannot be empty.
 fn changed(before: &[u8], after: &[u8], row: usize) -> [u16; 4] {
     let mut found: Option<[usize; 4]> = None;

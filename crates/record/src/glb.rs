@@ -224,7 +224,7 @@ impl Model<'_> {
         self.primitive(&positions, normals.as_deref(), side, 4, Some(indices))
     }
 
-    /// The lines of one kind, none where the sheet has none.
+    /// The lines of one kind, `None` if the sheet has none.
     fn lines(&mut self, kind: Assignment, material: usize) -> Option<Value> {
         let edges = self.motion.sheet.edges.iter();
         let chosen = edges.filter(|edge| edge.assignment == kind);

@@ -17,7 +17,7 @@ const LEAST: f64 = 0.25;
 /// The height of facets is the mean height of the projected triangles over their longest edges, weighted by their
 /// areas, because that is what is seen of them. It changes as smoothly as the sheet moves.
 ///
-/// Precondition: one position a vertex.
+/// Precondition: one position for each vertex.
 pub fn line_width(sheet: &Sheet, positions: &[DVec3], camera: &Camera, widest: f64) -> f64 {
     let points: Vec<DVec2> = (positions.iter())
         .map(|&p| camera.project(p).truncate())

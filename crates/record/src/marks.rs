@@ -17,7 +17,7 @@ pub struct Spot {
 }
 
 impl Spot {
-    /// The point of triangle `face` that is the nearest to `point` at motion time `time`, from `from` on; none where the sheet
+    /// The point of triangle `face` that is the nearest to `point` at motion time `time`, from `from` on; `None` if the sheet
     /// has no such triangle.
     ///
     /// Precondition: the times of the motion increase.

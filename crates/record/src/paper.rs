@@ -5,7 +5,7 @@ use foldmotion_pattern::{Assignment, LayerOrder, Sheet};
 /// A sheet with the lines of its facets and its layer order, ready to be looked up once a sample.
 #[derive(Debug, Clone)]
 pub struct Paper<'a> {
-    /// The sheet.
+    /// The sheet that is drawn.
     pub sheet: &'a Sheet,
     /// The drawn edges of each triangle.
     face_edges: Vec<Vec<u32>>,

@@ -14,7 +14,7 @@ use crate::{Style, Surface};
 pub(crate) struct Canvas<'a> {
     pub(crate) surface: &'a Surface<'a>,
     pub(crate) inks: Inks,
-    /// Of each triangle, in linear light and as sRGB.
+    /// The colour of each triangle, in linear light.
     pub(crate) faces: Vec<Vec3>,
     pub(crate) colors: Vec<[u8; 3]>,
 }

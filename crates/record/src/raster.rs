@@ -20,7 +20,7 @@ const LARGEST: usize = 64;
 
 /// One state of a sheet.
 ///
-/// `positions`: one a vertex. `order`: of the triangles that coincide. The picture does not depend on the number of
+/// `positions`: one for each vertex. `order`: of the triangles that coincide. The picture does not depend on the number of
 /// threads, nor on the sequence of the triangles (but for exact ties of unordered triangles).
 ///
 /// # Errors
@@ -123,9 +123,9 @@ struct Strip<'a> {
     width: usize,
     /// The first row and the one after the last.
     rows: [usize; 2],
-    /// The triangles that may show in the square at hand, after those of the squares around it.
+    /// The triangles that may show in the current square, after those of the squares around it.
     faces: Vec<u32>,
-    /// The same of the edges whose lines may show.
+    /// The edges whose lines may show, stacked in the same way.
     edges: Vec<u32>,
     found: Vec<Candidate>,
     pixel: Pixel,

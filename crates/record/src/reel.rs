@@ -41,7 +41,7 @@ pub struct Scene<'a> {
 /// What a film needs to know before its first picture.
 #[derive(Debug, Clone, Copy)]
 pub struct Title<'a> {
-    /// How it is made.
+    /// The options of the film.
     pub options: &'a FilmOptions,
     /// The colours of its areas, for reels of few colours.
     pub palette: &'a Palette,
@@ -50,11 +50,11 @@ pub struct Title<'a> {
 /// A picture on its way into the reels.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Picture {
-    /// How long it is shown.
+    /// The state and how long it is shown.
     pub shot: Shot,
-    /// Before its background.
+    /// The picture over its background.
     pub image: Image,
-    /// How far each pixel of the sheet covers the background, where asked for by [`FilmOptions::is_transparent`].
+    /// How far each pixel of the sheet covers the background, if requested by [`FilmOptions::is_transparent`].
     pub alpha: Option<Vec<u8>>,
 }
 
@@ -145,7 +145,7 @@ struct Set<'a> {
     options: &'a FilmOptions,
     shots: Vec<Shot>,
     paper: Paper<'a>,
-    /// Of each shot.
+    /// The camera of each shot.
     cameras: Vec<Camera>,
     legend: Option<Overlay>,
 }

@@ -10,7 +10,7 @@ pub(crate) struct Segment {
     along: DVec2,
     /// 1 / |along|², 0 for a segment seen end-on.
     inverse_squared: f64,
-    /// Of the start and the end.
+    /// The depths of its start and end.
     depths: [f64; 2],
     /// Whether the sheet ends or turns over here, so that the line is drawn beyond its triangles too.
     pub(crate) is_outline: bool,

@@ -40,15 +40,15 @@ pub struct Style {
     pub front: [u8; 3],
     /// Fully lit back of the paper.
     pub back: [u8; 3],
-    /// Mountain creases.
+    /// The colour of mountain creases.
     pub mountain: [u8; 3],
-    /// Valley creases.
+    /// The colour of valley creases.
     pub valley: [u8; 3],
-    /// The border of the sheet.
+    /// The colour of the border of the sheet.
     pub border: [u8; 3],
     /// Fully lit facets that are marked, on both sides.
     pub mark: [u8; 3],
-    /// Behind the sheet.
+    /// The colour behind the sheet.
     pub background: [u8; 3],
     /// The width of all lines in pixels; 0 draws none.
     pub line_width: f64,

@@ -34,7 +34,7 @@ const LEAST_COSINE: f64 = 0.26;
 /// A triangle that may be seen at a point of the screen.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Candidate {
-    /// The triangle.
+    /// The index of the triangle.
     pub face: u32,
     /// Its depth there in pixels, larger is nearer.
     pub depth: f64,
@@ -155,7 +155,7 @@ impl<'a> Surface<'a> {
         }
     }
 
-    /// The triangle in front at `point`, none where the background shows: outlines count with half their width.
+    /// The triangle in front at `point`, `None` if the background shows: outlines count with half their width.
     pub fn front_at(&self, point: DVec2) -> Option<Candidate> {
         let all: Vec<u32> = (0..self.faces.len() as u32).collect();
         self.front_among(&all, point, &mut Vec::new())
@@ -255,7 +255,7 @@ impl<'a> Surface<'a> {
         self.front_of(found)
     }
 
-    /// The same of those that cover the point themselves.
+    /// The front one among those triangles that cover the point themselves.
     pub(crate) fn front_covering(
         &self,
         list: &[u32],
@@ -475,7 +475,7 @@ impl<'a> Surface<'a> {
         &self.points
     }
 
-    /// The prepared sheet.
+    /// The sheet and its layer order.
     pub(crate) fn paper(&self) -> &Paper<'a> {
         self.paper
     }

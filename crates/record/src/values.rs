@@ -14,7 +14,7 @@ pub struct Values {
     pub title: String,
     /// The values of the first and the last colour; others are clamped.
     pub range: [f64; 2],
-    /// One list a frame of the motion, one value a triangle. A triangle whose value is not a number shows its paper.
+    /// One list a frame of the motion, one value for each triangle. A triangle whose value is not a number shows its paper.
     pub frames: Vec<Vec<f64>>,
 }
 

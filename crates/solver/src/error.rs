@@ -9,7 +9,7 @@ pub enum SolverError {
     MaterialOutOfRange {
         /// The key of the constant.
         name: &'static str,
-        /// Its value.
+        /// The value that was given.
         value: f64,
         /// The smallest value taken.
         minimum: f64,
@@ -30,9 +30,9 @@ pub enum SolverError {
         "edge {edge} (vertices {vertices:?}) is {length} unit lengths long; it must be finite and at least {minimum}"
     )]
     DegenerateEdge {
-        /// The edge of the sheet.
+        /// The index of the edge in the sheet.
         edge: usize,
-        /// Its ends.
+        /// The vertices at its ends.
         vertices: [u32; 2],
         /// Its length over the unit length.
         length: f64,
@@ -46,7 +46,7 @@ pub enum SolverError {
     DegenerateFace {
         /// The triangle of the sheet.
         face: usize,
-        /// Its corners.
+        /// The vertices at its corners.
         vertices: [u32; 3],
         /// Its smallest height over the unit length.
         height: f64,
@@ -68,7 +68,7 @@ pub enum SolverError {
     NotFinite {
         /// What the number belongs to.
         what: &'static str,
-        /// Which one.
+        /// The index of the element.
         index: usize,
     },
     /// A target fold angle lies beyond what a hinge can turn.
@@ -76,9 +76,9 @@ pub enum SolverError {
     AngleOutOfRange {
         /// What the angle belongs to.
         what: &'static str,
-        /// Which one.
+        /// The index of the element.
         index: usize,
-        /// Its value in radians.
+        /// The value that was given, radians.
         value: f64,
         /// The largest magnitude taken.
         limit: f64,
@@ -86,9 +86,9 @@ pub enum SolverError {
     /// A step of the schedule begins or ends outside its stage.
     #[error("step {step} of the schedule: {name} is {value}; it must lie between 0 and 1")]
     StepTime {
-        /// The step.
+        /// The index of the step in the schedule.
         step: usize,
-        /// Which time of it.
+        /// Which of its two times.
         name: &'static str,
         /// Its value, in stage-local time.
         value: f64,
@@ -98,7 +98,7 @@ pub enum SolverError {
         "step {step} of the schedule goes from {from} to {to}; it must end at least {minimum} after it begins"
     )]
     StepDuration {
-        /// The step.
+        /// The index of the step in the schedule.
         step: usize,
         /// The stage-local time at which it begins.
         from: f64,
@@ -113,15 +113,15 @@ pub enum SolverError {
          sheet has {count} {what}, counted from 0"
     )]
     StepRange {
-        /// The step.
+        /// The index of the step in the schedule.
         step: usize,
-        /// Rows or columns.
+        /// Whether rows or columns are out of range.
         what: &'static str,
         /// The first one named.
         first: u32,
         /// The last one named.
         last: u32,
-        /// How many the sheet has.
+        /// The number of them in the sheet.
         count: u32,
     },
     /// A step of the schedule names no crease.
@@ -129,7 +129,7 @@ pub enum SolverError {
         "step {step} of the schedule names no crease; its kind of crease must occur in its rows and columns"
     )]
     StepNamesNone {
-        /// The step.
+        /// The index of the step in the schedule.
         step: usize,
     },
     /// Two steps of the schedule name the same crease in the same stage.
@@ -154,7 +154,7 @@ pub enum SolverError {
     PathProgress {
         /// The knot, from 0.
         knot: usize,
-        /// Its progress.
+        /// The progress of the knot.
         value: f64,
     },
     /// An unfold path does not lead from the deployed angle of a crease to 0.
@@ -164,7 +164,7 @@ pub enum SolverError {
         ends[1]
     )]
     PathEnds {
-        /// The edge of the sheet.
+        /// The index of the edge in the sheet.
         edge: usize,
         /// The angles at the ends of the path, radians.
         ends: [f64; 2],
@@ -174,7 +174,7 @@ pub enum SolverError {
     /// The number of frames cannot be recorded.
     #[error("{frames} frames were asked for; an even number from 2 to {maximum} is needed")]
     Frames {
-        /// The number asked for.
+        /// The number of frames that was requested.
         frames: usize,
         /// The largest number taken.
         maximum: usize,
@@ -182,9 +182,9 @@ pub enum SolverError {
     /// An option of the engine is out of range.
     #[error("{name} is {value}; it must be finite and above 0")]
     Option {
-        /// Its name.
+        /// The name of the option.
         name: &'static str,
-        /// Its value.
+        /// The value that was given.
         value: f64,
     },
     /// The stiffness matrix is too large to factorise.
@@ -192,7 +192,7 @@ pub enum SolverError {
     Factorisation {
         /// The number of nodes.
         nodes: usize,
-        /// Why.
+        /// The reason why it failed.
         reason: &'static str,
     },
     /// The gap between layers cannot be kept.
@@ -201,7 +201,7 @@ pub enum SolverError {
          triangle of the sheet"
     )]
     GapTooLarge {
-        /// The gap asked for.
+        /// The gap that was requested.
         gap: f64,
         /// The largest the sheet can close to.
         maximum: f64,
@@ -230,7 +230,7 @@ pub enum SolverError {
         /// Its displacement in that step over the unit length; NaN where it is no number.
         displacement: f64,
     },
-    /// No GPU can be used.
+    /// There is no GPU that can be used.
     #[error(
         "no GPU can be used: {reason}; install a Vulkan driver (Mesa has one in software, in Debian's package \
          mesa-vulkan-drivers), or run on the CPU"
@@ -244,17 +244,17 @@ pub enum SolverError {
         "{what} of the sheet take {bytes} bytes on the GPU, which allows {limit} in one buffer; run on the CPU"
     )]
     GpuTooSmall {
-        /// Which records.
+        /// The records that do not fit.
         what: &'static str,
-        /// Their size.
+        /// The size of the records, bytes.
         bytes: u64,
-        /// The largest buffer.
+        /// The size of the largest buffer, bytes.
         limit: u64,
     },
     /// The GPU gave up.
     #[error("the GPU {gpu} stopped: {reason}; run on the CPU")]
     GpuLost {
-        /// Its name.
+        /// The name of the GPU.
         gpu: String,
         /// What the driver said.
         reason: String,

@@ -32,11 +32,11 @@ const MIN_LENGTH: f64 = 1e-6;
 /// An axial spring along an edge.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Bar {
-    /// Its nodes.
+    /// The nodes of the element.
     pub vertices: [u32; 2],
     /// l₀, its length in the crease pattern, in unit lengths.
     pub rest_length: f64,
-    /// k = EA / l₀.
+    /// The axial stiffness k = EA / l₀.
     pub stiffness: f64,
 }
 
@@ -56,7 +56,7 @@ pub enum HingeKind {
 pub struct Hinge {
     /// Ends e₀, e₁ of the edge and the apexes on its left and right, as [`fold_angle`] takes them.
     pub vertices: [u32; 4],
-    /// The edge of the sheet.
+    /// The index of the edge in the sheet.
     pub edge: u32,
     /// k l₀, the moment per radian.
     pub stiffness: f64,
@@ -67,7 +67,7 @@ pub struct Hinge {
 /// A triangle with its rest angles.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FaceAngles {
-    /// Its nodes.
+    /// The nodes of the element.
     pub vertices: [u32; 3],
     /// α₀ at each of them, in radians.
     pub rest_angles: [f64; 3],
@@ -76,18 +76,18 @@ pub struct FaceAngles {
 /// Energy by the kind of element that stores it.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct EnergyByKind {
-    /// Of the bars.
+    /// The energy of the bars.
     pub bars: f64,
-    /// Of the creases.
+    /// The energy of the creases.
     pub creases: f64,
-    /// Of the facet hinges.
+    /// The energy of the facet hinges.
     pub facets: f64,
-    /// Of the face-angle springs.
+    /// The energy of the face-angle springs.
     pub face_angles: f64,
 }
 
 impl EnergyByKind {
-    /// U.
+    /// The total energy U.
     pub fn total(&self) -> f64 {
         self.bars + self.creases + self.facets + self.face_angles
     }
@@ -106,7 +106,7 @@ pub struct Model {
     pub hinges: Vec<Hinge>,
     /// The nodes of the triangles of the sheet, in its order.
     pub faces: Vec<[u32; 3]>,
-    /// The triangles whose angles are held: all, or none where the face-angle stiffness is 0.
+    /// The triangles whose angles are held: all, or none if the face-angle stiffness is 0.
     pub face_angles: Vec<FaceAngles>,
     /// The crease pattern in unit lengths.
     pub(crate) pattern: Vec<DVec2>,

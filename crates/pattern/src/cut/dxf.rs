@@ -119,7 +119,7 @@ fn colour(class: LineClass) -> u8 {
     }
 }
 
-/// A DXF text under way: pairs of group code and value.
+/// A DXF text in progress: pairs of group code and value.
 #[derive(Default)]
 struct Dxf {
     text: String,

@@ -11,17 +11,17 @@ pub enum CutError {
     /// A length or factor that must be positive is not.
     #[error("{name} is {value}: it must be a positive, finite number")]
     NotPositive {
-        /// What was given.
+        /// The name of the quantity or option.
         name: &'static str,
-        /// Its value.
+        /// The value that was given.
         value: f64,
     },
     /// A length that may be 0 is negative or no number.
     #[error("{name} is {value} mm: it must be 0 or a positive, finite length")]
     Negative {
-        /// What was given.
+        /// The name of the quantity or option.
         name: &'static str,
-        /// Its value, mm.
+        /// The value that was given, mm.
         value: f64,
     },
     /// The sheet is too small or too large to make.
@@ -31,11 +31,11 @@ pub enum CutError {
         size[0], size[1]
     )]
     Size {
-        /// Its sides, mm.
+        /// Width and height of the sheet on paper, mm.
         size: [f64; 2],
-        /// The least side, mm.
+        /// The shortest side allowed, mm.
         minimum: f64,
-        /// The longest side, mm.
+        /// The longest side allowed, mm.
         maximum: f64,
     },
     /// A dash pattern that does not alternate dashes and gaps.
@@ -44,11 +44,11 @@ pub enum CutError {
         class.name()
     )]
     Dashes {
-        /// The lines.
+        /// The class of the lines with these dashes.
         class: LineClass,
-        /// What was given.
+        /// The dashes that were given, mm.
         dashes: Vec<f64>,
-        /// The most entries.
+        /// The largest number of entries allowed.
         limit: usize,
     },
     /// Margins leave no room on the paper.
@@ -57,9 +57,9 @@ pub enum CutError {
         paper[0], paper[1]
     )]
     PaperTooSmall {
-        /// Its sides, mm.
+        /// Width and height of the paper, mm.
         paper: [f64; 2],
-        /// The margin, mm.
+        /// The margin on every side, mm.
         margin: f64,
     },
     /// Pages would overlap by more than half.
@@ -67,9 +67,9 @@ pub enum CutError {
         "the overlap is {value} mm: it must lie between 0 and {limit} mm, half of the paper between its margins"
     )]
     Overlap {
-        /// The overlap, mm.
+        /// The overlap that was given, mm.
         value: f64,
-        /// The most, mm.
+        /// The largest overlap allowed, mm.
         limit: f64,
     },
     /// More pages than anyone glues.
@@ -77,15 +77,15 @@ pub enum CutError {
         "the pattern needs {pages} pages: at most {limit} are made; choose larger paper or a smaller scale"
     )]
     TooManyPages {
-        /// Pages needed.
+        /// The number of pages that the pattern would need.
         pages: f64,
-        /// The most.
+        /// The largest number allowed.
         limit: usize,
     },
     /// A text that is no length.
     #[error("\"{text}\" is no length: write a number with mm, cm, m, in or pt, such as 10mm")]
     LengthText {
-        /// The text.
+        /// The text that was given.
         text: String,
     },
     /// A text that names no paper.
@@ -94,7 +94,7 @@ pub enum CutError {
          WIDTHxHEIGHT such as 300x600mm"
     )]
     PaperText {
-        /// The text.
+        /// The text that was given.
         text: String,
     },
 }

@@ -55,7 +55,7 @@ impl LineClass {
 /// A line of one class.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct CutLine {
-    /// What is done along it.
+    /// Whether the line is cut or folded, and how.
     pub class: LineClass,
     /// From where to where, mm, x to the right and y downwards.
     pub ends: [DVec2; 2],

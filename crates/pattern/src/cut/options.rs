@@ -28,11 +28,11 @@ pub struct CutOptions {
     pub keeps_segments: bool,
     /// Whether the lines that cut facets into triangles are drawn.
     pub draws_facets: bool,
-    /// Dash, gap, dash, gap …; empty for a solid line, by the height of a row where left out.
+    /// Dash, gap, dash, gap …; empty for a solid line, by the height of a row if omitted.
     pub mountain_dashes: Option<Vec<f64>>,
-    /// As `mountain_dashes`.
+    /// Dash, gap, dash, gap … of valley lines, as for `mountain_dashes`.
     pub valley_dashes: Option<Vec<f64>>,
-    /// The width of the lines; a 2000th of the page's diagonal where left out, at least 0.1 mm.
+    /// The width of the lines; a 2000th of the page's diagonal if omitted, at least 0.1 mm.
     pub stroke_width: Option<f64>,
 }
 

@@ -7,13 +7,13 @@ use super::{CutLine, CutPattern, LineClass};
 /// Which of the tiles of a pattern a page is, counted from 0.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct PageNumber {
-    /// From the top.
+    /// Row of the page, counted from the top.
     pub row: usize,
-    /// From the left.
+    /// Column of the page, counted from the left.
     pub column: usize,
-    /// Rows of pages.
+    /// The number of rows of pages.
     pub rows: usize,
-    /// Columns of pages.
+    /// The number of columns of pages.
     pub columns: usize,
 }
 
@@ -21,7 +21,7 @@ pub struct PageNumber {
 #[derive(Debug, Clone, PartialEq)]
 pub struct CutPage<'a> {
     pub(super) pattern: &'a CutPattern,
-    /// Its place among the tiles; none for the whole pattern.
+    /// Its place among the tiles; `None` for the whole pattern.
     pub number: Option<PageNumber>,
     /// Width and height of the paper, mm.
     pub size: DVec2,
@@ -33,6 +33,13 @@ pub struct CutPage<'a> {
     pub lines: Vec<CutLine>,
     /// Marks in page coordinates: where the neighbouring pages begin, with ticks across.
     pub marks: Vec<[DVec2; 2]>,
+}
+
+impl CutPattern {
+    /// The whole pattern on one page of its own size, with its margin around it.
+    pub fn whole(&self) -> CutPage<'_> {
+        CutPage::whole(self)
+    }
 }
 
 impl<'a> CutPage<'a> {

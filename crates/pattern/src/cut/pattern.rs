@@ -4,7 +4,7 @@ use glam::DVec2;
 
 use super::long_lines::{Segment, join};
 use super::travel::{outline, sweep, travel};
-use super::{CutError, CutLine, CutOptions, CutPage, LineClass, PageLayout, Tiles};
+use super::{CutError, CutLine, CutOptions, LineClass};
 use crate::Sheet;
 
 /// The least side of a sheet on paper, mm: nothing smaller can be cut.
@@ -13,10 +13,10 @@ const LEAST_SIDE: f64 = 1.0;
 const LONGEST_SIDE: f64 = 1e7;
 
 /// The lines of a sheet on paper, in the order in which a plotter follows them: mountain creases, valley creases,
-/// facet lines if asked for, and the outline last.
+/// facet lines if requested, and the outline last.
 #[derive(Debug, Clone, PartialEq)]
 pub struct CutPattern {
-    /// Width and height, mm.
+    /// Width and height of the sheet on paper, mm.
     pub size: DVec2,
     /// Every line once; x from 0 to the width and y, downwards, from 0 to the height.
     pub lines: Vec<CutLine>,
@@ -31,7 +31,7 @@ pub struct CutPattern {
 impl CutPattern {
     /// Puts a sheet on paper.
     ///
-    /// `target_angles`: the fold angle every edge is to take, radians, one an edge; 0 where it is no crease. A crease
+    /// `target_angles`: the fold angle every edge is to take, radians, one for each edge; 0 where it is no crease. A crease
     /// with the target 0 would be drawn invisible.
     ///
     /// # Errors
@@ -71,19 +71,6 @@ impl CutPattern {
             row,
             options: options.clone(),
         })
-    }
-
-    /// The whole pattern on one page of its own size, with its margin around it.
-    pub fn whole(&self) -> CutPage<'_> {
-        CutPage::whole(self)
-    }
-
-    /// The pattern cut into pages.
-    ///
-    /// # Errors
-    /// [`CutError`]: no room between the margins, too much overlap, more than 1000 pages.
-    pub fn tiles(&self, layout: PageLayout) -> Result<Tiles<'_>, CutError> {
-        Tiles::new(self, layout)
     }
 
     /// How many lines a class has.

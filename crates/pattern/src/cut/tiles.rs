@@ -36,6 +36,16 @@ pub struct Tiles<'a> {
     rows: usize,
 }
 
+impl CutPattern {
+    /// The pattern cut into pages.
+    ///
+    /// # Errors
+    /// [`CutError`]: no room between the margins, too much overlap, more than 1000 pages.
+    pub fn tiles(&self, layout: PageLayout) -> Result<Tiles<'_>, CutError> {
+        Tiles::new(self, layout)
+    }
+}
+
 impl<'a> Tiles<'a> {
     pub(super) fn new(pattern: &'a CutPattern, layout: PageLayout) -> Result<Self, CutError> {
         let PageLayout {
@@ -164,7 +174,7 @@ impl<'a> Tiles<'a> {
     }
 }
 
-/// The part of a line inside a box, in the same direction; none where it has no length there.
+/// The part of a line inside a box, in the same direction; `None` if it has no length there.
 ///
 /// A line along a side of the box and within [`SEAM`] of it is inside. Ends that lie inside are kept bit for bit; new ends lie exactly on the side of the box that cuts the line.
 /// Source: Liang & Barsky 1984, "A new concept and method for line clipping".

@@ -18,7 +18,7 @@ pub(super) struct Assembled {
     pub(super) sheet: Sheet,
     /// The fold angle every edge is to take, radians; 0 where it is no crease.
     pub(super) targets: Vec<f64>,
-    /// The line of the plan each edge comes from; none for those that cut facets into triangles.
+    /// The line of the plan each edge comes from; `None` for those that cut facets into triangles.
     pub(super) edge_lines: Vec<Option<u32>>,
     /// The point of the plan each vertex comes from.
     pub(super) vertex_points: Vec<u32>,

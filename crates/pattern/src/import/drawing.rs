@@ -57,7 +57,7 @@ pub(super) struct Drawing {
 }
 
 impl Drawing {
-    /// The lower left and the upper right corner of the lines; none without lines.
+    /// The lower left and the upper right corner of the lines; `None` without lines.
     pub(super) fn bounds(&self) -> Option<[DVec2; 2]> {
         let ends = self.lines.iter().flat_map(|line| line.ends);
         let points: Vec<DVec2> = ends.map(|v| self.points[v as usize]).collect();
@@ -65,7 +65,7 @@ impl Drawing {
     }
 }
 
-/// The lower left and the upper right corner; none without points.
+/// The lower left and the upper right corner; `None` without points.
 pub(super) fn bounds(points: &[DVec2]) -> Option<[DVec2; 2]> {
     let first = *points.first()?;
     let grown = |[low, high]: [DVec2; 2], p: &DVec2| [low.min(*p), high.max(*p)];

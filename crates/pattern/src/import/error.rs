@@ -13,19 +13,19 @@ pub enum ImportError {
     /// The file is too large.
     #[error("the file has {size} bytes: at most {limit} are read")]
     TooLarge {
-        /// Its bytes.
+        /// The size of the file, bytes.
         size: usize,
-        /// The most.
+        /// The largest number allowed.
         limit: usize,
     },
     /// Too many of something.
     #[error("there are {found} {what}: at most {limit} are read; thin the pattern")]
     TooMany {
-        /// What.
+        /// The name of the elements that are too many.
         what: &'static str,
         /// How many were found when reading ended.
         found: usize,
-        /// The most.
+        /// The largest number allowed.
         limit: usize,
     },
     /// The tolerance of merging is out of range.
@@ -33,9 +33,9 @@ pub enum ImportError {
         "the merge tolerance is {}: it must lie between 1e-12 and 0.1 of the drawing's diagonal of {}", Number(*value), Number(*diagonal)
     )]
     Tolerance {
-        /// The tolerance.
+        /// The tolerance that was given.
         value: f64,
-        /// The diagonal.
+        /// The diagonal of the drawing.
         diagonal: f64,
     },
     /// The tolerance of flattened curves is out of range.
@@ -49,13 +49,13 @@ pub enum ImportError {
     /// The percentage of folding is out of range.
     #[error("the fold percentage is {}: it must lie between -1 and 1", Number(*value))]
     Percentage {
-        /// The value.
+        /// The value that was given.
         value: f64,
     },
     /// Not UTF-8.
     #[error("the bytes from {byte} on are no UTF-8")]
     NotUtf8 {
-        /// The first bad byte.
+        /// The index of the first byte that is not UTF-8.
         byte: usize,
     },
     /// Not XML, or a document type with entities, which are not read.
@@ -67,19 +67,19 @@ pub enum ImportError {
     /// XML, but no SVG.
     #[error("the root element is <{found}>: an SVG starts with <svg>")]
     NotSvg {
-        /// The root element.
+        /// The name of the root element.
         found: String,
     },
     /// An attribute or property of an SVG element that cannot be read.
     #[error("{element}: {name} is {value:?}: {need}")]
     Attribute {
-        /// The element.
+        /// The element with the error.
         element: Source,
         /// The attribute or property.
         name: &'static str,
-        /// Its value.
+        /// The value as the file has it.
         value: String,
-        /// What would be right.
+        /// What is needed instead.
         need: &'static str,
     },
     /// Strokes and elements without a meaning.
@@ -89,9 +89,9 @@ pub enum ImportError {
         listed(.elements), .reasons.join(", ")
     )]
     Unknown {
-        /// The elements, in order.
+        /// The elements concerned, in the order of the file.
         elements: Vec<Source>,
-        /// Why, each once.
+        /// The reasons, each listed once.
         reasons: Vec<String>,
     },
     /// A pattern too small, too large, or too far from the origin.
@@ -100,9 +100,9 @@ pub enum ImportError {
          and 1e30, and the origin no more than a million diagonals away"
     )]
     Extent {
-        /// The diagonal.
+        /// The diagonal of the drawing.
         diagonal: f64,
-        /// The largest coordinate.
+        /// The largest coordinate by absolute value.
         farthest: f64,
     },
     /// No lines at all.
@@ -116,7 +116,7 @@ pub enum ImportError {
         "{element} is a border with the sheet on both sides: draw a cut (#0f0 in SVG, C in FOLD) or a crease instead"
     )]
     BorderInside {
-        /// The line.
+        /// The line with the error.
         element: Source,
     },
     /// Splitting lines does not come to an end.
@@ -124,7 +124,7 @@ pub enum ImportError {
         "the lines still cross after {passes} rounds of splitting them within {tolerance:e}: use a smaller merge tolerance"
     )]
     Tangled {
-        /// Rounds.
+        /// The number of passes over all lines.
         passes: usize,
         /// The tolerance of merging.
         tolerance: f64,
@@ -136,11 +136,11 @@ pub enum ImportError {
         listed(.sources)
     )]
     Facet {
-        /// Its number.
+        /// The index of the facet.
         facet: usize,
-        /// Its corners.
+        /// The number of corners of the face.
         corners: usize,
-        /// Lines around it.
+        /// The lines around the facet.
         sources: Vec<Source>,
     },
     /// More than two facets at an edge.
@@ -149,11 +149,11 @@ pub enum ImportError {
         listed(.sources)
     )]
     NonManifold {
-        /// The ends.
+        /// The vertices at the ends of the edge.
         vertices: [u32; 2],
-        /// The facets.
+        /// The facets that meet at the edge.
         facets: Vec<u32>,
-        /// The edge.
+        /// The elements that the edge comes from.
         sources: Vec<Source>,
     },
     /// Two facets on the same side of an edge: a folded state, or faces on each other.
@@ -163,19 +163,19 @@ pub enum ImportError {
         listed(.sources)
     )]
     Overlap {
-        /// The ends.
+        /// The vertices at the ends of the edge.
         vertices: [u32; 2],
-        /// The facets.
+        /// The facets that meet at the edge.
         facets: Vec<u32>,
-        /// The edge.
+        /// The elements that the edge comes from.
         sources: Vec<Source>,
     },
     /// Pieces that nothing joins.
     #[error("the sheet is in {pieces} pieces, one with {}: only one can be folded", listed(.sources))]
     Disconnected {
-        /// How many.
+        /// The number of separate pieces.
         pieces: usize,
-        /// An element of each.
+        /// One element of each piece.
         sources: Vec<Source>,
     },
     /// FOLD that cannot be read.
@@ -184,37 +184,37 @@ pub enum ImportError {
     /// A list of a FOLD frame has another length than what it describes.
     #[error("{key} has {found} entries: {expected} are needed, one for each of {of}")]
     Count {
-        /// The list.
+        /// The FOLD key of the list.
         key: String,
-        /// Its length.
+        /// The number of entries of the list.
         found: usize,
-        /// The length needed.
+        /// The number of entries needed.
         expected: usize,
-        /// What it describes.
+        /// The elements that the list describes.
         of: &'static str,
     },
     /// An assignment that is no letter of FOLD.
     #[error("edges_assignment[{edge}] is {found:?}: B, M, V, F, U, C and J are known")]
     Assignment {
-        /// The edge.
+        /// The index of the edge.
         edge: usize,
-        /// What stands there.
+        /// The text found there.
         found: String,
     },
     /// A fold angle out of range.
     #[error("{key}[{edge}] is {degrees}: fold angles lie between -180 and 180 degrees")]
     FoldAngle {
-        /// The list.
+        /// The FOLD key of the list.
         key: String,
-        /// The edge.
+        /// The index of the edge.
         edge: usize,
-        /// The angle.
+        /// The fold angle, degrees.
         degrees: f64,
     },
     /// A unit of length that FOLD does not know.
     #[error("frame_unit is {found:?}: unit, in, pt, m, cm, mm, um and nm are known")]
     Unit {
-        /// What stands there.
+        /// The text found there.
         found: String,
     },
     /// A shape that is not flat.
@@ -223,13 +223,13 @@ pub enum ImportError {
          flat crease pattern can be folded, in the key frame or in a frame of the class creasePattern"
     )]
     NotFlat {
-        /// The frame.
+        /// The frame with the error.
         frame: FrameNumber,
-        /// The vertex farthest off.
+        /// The vertex farthest from the plane.
         vertex: usize,
-        /// How far.
+        /// The distance of that vertex from the plane.
         height: f64,
-        /// What is taken.
+        /// The largest distance allowed.
         limit: f64,
     },
 }

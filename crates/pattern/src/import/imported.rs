@@ -19,7 +19,7 @@ pub struct Imported {
     ///
     /// An SVG lies as it is seen, front towards who looks: x to the right, y upwards.
     pub sheet: Sheet,
-    /// What a length of 1 is.
+    /// The unit of length of the coordinates.
     pub unit: LengthUnit,
     /// The fold angle every edge is to take, radians; 0 where it is no crease.
     pub targets: Vec<f64>,
@@ -30,9 +30,9 @@ pub struct Imported {
     pub fixed_facets: Vec<u32>,
     /// What the edges come from.
     pub sources: Vec<Source>,
-    /// The place in `sources` of every edge; none for those that cut facets into triangles.
+    /// The place in `sources` of every edge; `None` for those that cut facets into triangles.
     pub edge_sources: Vec<Option<u32>>,
-    /// The FOLD vertex every vertex comes from; none where lines were drawn or split.
+    /// The FOLD vertex every vertex comes from; `None` if lines were drawn or split.
     pub vertex_sources: Vec<Option<u32>>,
     /// The vertices as a FOLD file places them, where that is not in the plane z = 0 with the fronts up: its
     /// coordinates, for the vertices of the sheet.
@@ -50,9 +50,9 @@ pub struct Imported {
 pub struct PatternStage {
     /// The element of `file_frames`.
     pub frame: u32,
-    /// `frame_title`.
+    /// The title of the frame, `frame_title`.
     pub title: Option<String>,
-    /// The fold angle of every edge, radians; none where the frame leaves the edge free or it has no angle.
+    /// The fold angle of every edge, radians; `None` if the frame leaves the edge free or it has no angle.
     pub angles: Vec<Option<f64>>,
 }
 
@@ -81,7 +81,7 @@ impl Imported {
             .map(|(_, index)| index)
     }
 
-    /// What edge `edge` comes from; none for one that cuts a facet into triangles.
+    /// What edge `edge` comes from; `None` for one that cuts a facet into triangles.
     pub fn edge_source(&self, edge: u32) -> Option<&Source> {
         let source = (*self.edge_sources.get(edge as usize)?)?;
         self.sources.get(source as usize)

@@ -80,7 +80,7 @@ pub enum Curves {
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct ImportOptions {
     /// How far apart two points may lie to be one vertex; [`MergeTolerance::DRAWING`] in SVG and
-    /// [`MergeTolerance::LISTED`] in FOLD where left out.
+    /// [`MergeTolerance::LISTED`] in FOLD if omitted.
     pub merge: Option<MergeTolerance>,
     /// What becomes of strokes and elements that have no meaning here.
     pub unknown: Unknown,

@@ -12,7 +12,7 @@ use super::{ImportError, Source};
 #[derive(Debug)]
 pub(super) struct Plan {
     pub(super) points: Vec<DVec2>,
-    /// The vertex of the file each point is; none for crossings.
+    /// The vertex of the file each point is; `None` for crossings.
     pub(super) origins: Vec<Option<u32>>,
     /// Each pair of ends once.
     pub(super) lines: Vec<Line>,

@@ -20,7 +20,7 @@ pub enum Source {
     Svg {
         /// Its name: `path`, `line` …
         tag: String,
-        /// Its `id`.
+        /// The attribute `id` of the element.
         id: Option<String>,
         /// The line on which it starts, counted from 1.
         line: u32,

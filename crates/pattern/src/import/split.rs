@@ -23,7 +23,7 @@ const MOST_PAIRS: u64 = 1_000_000_000;
 #[derive(Debug)]
 pub(super) struct Graph {
     pub(super) points: Vec<DVec2>,
-    /// The point of the drawing each point comes from; none for crossings.
+    /// The point of the drawing each point comes from; `None` for crossings.
     pub(super) origins: Vec<Option<u32>>,
     pub(super) lines: Vec<Line>,
 }

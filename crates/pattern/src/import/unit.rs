@@ -44,7 +44,7 @@ impl LengthUnit {
         self.entry().1
     }
 
-    /// Its length in metres; none where it has no physical length.
+    /// Its length in metres; `None` if it has no physical length.
     pub fn metres(self) -> Option<f64> {
         self.entry().2
     }

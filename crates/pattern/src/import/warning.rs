@@ -83,7 +83,7 @@ impl WarningKind {
 /// What an import changed or left out, of one kind.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Warning {
-    /// What.
+    /// What was changed or left out.
     pub kind: WarningKind,
     /// Which, in order, each once: the first thousand.
     pub sources: Vec<Source>,
@@ -97,7 +97,7 @@ impl fmt::Display for Warning {
     }
 }
 
-/// The warnings under way: each kind once.
+/// The warnings in progress: each kind once.
 #[derive(Debug, Default)]
 pub(super) struct Warnings {
     found: BTreeMap<WarningKind, BTreeSet<Source>>,

@@ -3,6 +3,7 @@
 use serde_json::{Map, Value, json};
 
 use super::Imported;
+use crate::fold::object_text;
 use crate::{Assignment, Sheet};
 
 /// Keys of FOLD that say what this writer says itself, or that a changed sheet makes wrong.
@@ -85,11 +86,7 @@ impl Imported {
         if !frames.is_empty() {
             file.insert("file_frames".into(), json!(frames));
         }
-        let lines: Vec<String> = file
-            .iter()
-            .map(|(key, value)| format!("{}: {value}", json!(key)))
-            .collect();
-        format!("{{\n{}\n}}\n", lines.join(",\n"))
+        object_text(file.iter().map(|(key, value)| (key.as_str(), value)))
     }
 
     /// The keys of the FOLD file that were not read, as they stand in a file whose faces are the triangles of the sheet:
@@ -111,7 +108,7 @@ impl Imported {
 /// Which elements are written, and where they come from.
 struct Lists<'a> {
     imported: &'a Imported,
-    /// The edges written.
+    /// The indices of the edges that are written.
     edges: Vec<usize>,
     /// `faces_vertices`.
     faces: Value,

@@ -61,9 +61,9 @@ pub struct ProfileModel {
     pub name: &'static str,
     /// What it is, in a few words.
     pub title: &'static str,
-    /// The curve.
+    /// The curve of the profile.
     pub shape: Shape,
-    /// How it ends.
+    /// Whether the profile is open or closed.
     pub closure: Closure,
     /// Rows Nr (table 1).
     pub rows: usize,
@@ -77,7 +77,7 @@ impl ProfileModel {
     /// The curve Γ, in the size of its shape.
     ///
     /// # Errors
-    /// None for the profiles of this crate.
+    /// `None` for the profiles of this crate.
     pub fn profile(&self) -> Result<Profile, GeometryError> {
         let list = |points: &[[f64; 2]]| -> Vec<DVec2> {
             points.iter().copied().map(DVec2::from).collect()

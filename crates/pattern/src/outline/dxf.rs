@@ -15,7 +15,7 @@ const CURVED: u32 = 2 | 4 | 16 | 64;
 /// Entities that may be a profile but are not read.
 const REFUSED: [&str; 4] = ["ARC", "SPLINE", "ELLIPSE", "CIRCLE"];
 
-/// A polyline under way.
+/// A polyline in progress.
 #[derive(Default)]
 struct Polyline {
     line: usize,

@@ -17,29 +17,29 @@ pub enum OutlineError {
     /// The file cannot be read.
     #[error("cannot be read: {message}")]
     Read {
-        /// Why.
+        /// The reason, as the system or library gave it.
         message: String,
     },
     /// The file is too large.
     #[error("it has {size} bytes; at most {limit} are read: thin the outline")]
     TooLarge {
-        /// Its bytes.
+        /// The size of the file, bytes.
         size: u64,
-        /// The most.
+        /// The largest number allowed.
         limit: u64,
     },
     /// A coordinate is no number.
     #[error("line {line}: {value:?} is no finite number")]
     NotANumber {
-        /// Where.
+        /// The number of the line in the file, from 1.
         line: usize,
-        /// What stands there.
+        /// The text found there.
         value: String,
     },
     /// A line does not hold two coordinates.
     #[error("line {line}: {count} values; two are needed, x and z")]
     NotAPoint {
-        /// Where.
+        /// The number of the line in the file, from 1.
         line: usize,
         /// How many values stand there.
         count: usize,
@@ -47,7 +47,7 @@ pub enum OutlineError {
     /// The file holds no points.
     #[error("it holds no points; {expected}")]
     Empty {
-        /// What was looked for.
+        /// What the file should have contained.
         expected: &'static str,
     },
     /// An airfoil in Lednicer's order has other numbers of points than it announces.
@@ -55,13 +55,13 @@ pub enum OutlineError {
         "line {line}: {upper} points of the upper and {lower} of the lower side are announced, but {found} points follow"
     )]
     PointCounts {
-        /// Where the numbers stand.
+        /// The number of the line with the two counts, from 1.
         line: usize,
         /// Points of the upper side.
         upper: f64,
         /// Points of the lower side.
         lower: f64,
-        /// Points in the file.
+        /// The number of points in the file.
         found: usize,
     },
     /// A drawing in DXF's binary form.
@@ -70,15 +70,15 @@ pub enum OutlineError {
     /// A DXF file is not made of pairs of group code and value.
     #[error("line {line}: {value:?} is no group code; is this an ASCII DXF?")]
     GroupCode {
-        /// Where.
+        /// The number of the line in the file, from 1.
         line: usize,
-        /// What stands there.
+        /// The text found there.
         value: String,
     },
     /// A DXF file has no end.
     #[error("line {line}: the drawing ends here without EOF: the file was cut off; save it again")]
     CutOff {
-        /// Its last line.
+        /// The number of the last line of the file.
         line: usize,
     },
     /// A polyline has another number of vertices than it announces.
@@ -86,11 +86,11 @@ pub enum OutlineError {
         "line {line}: the polyline announces {announced} vertices (code 90), but {found} follow; save the drawing again"
     )]
     VertexCount {
-        /// Where it begins.
+        /// The number of the line where it begins, from 1.
         line: usize,
-        /// What it announces.
+        /// The number of vertices that it announces.
         announced: usize,
-        /// What there is.
+        /// The number of vertices found.
         found: usize,
     },
     /// A drawing without polyline holds a curve.
@@ -99,9 +99,9 @@ pub enum OutlineError {
          flatten, then join)"
     )]
     Entity {
-        /// Where.
+        /// The number of the line in the file, from 1.
         line: usize,
-        /// What stands there.
+        /// The kind of entity found there.
         entity: &'static str,
     },
     /// More than two segments meet.
@@ -117,7 +117,7 @@ pub enum OutlineError {
         "line {line}: this LINE is not joined to the chain of the others; leave one chain, the profile, without gaps"
     )]
     SeveralChains {
-        /// Where it begins.
+        /// The number of the line where it begins, from 1.
         line: usize,
     },
     /// A drawing holds several polylines.
@@ -125,7 +125,7 @@ pub enum OutlineError {
         "it holds {count} polylines (the second one starts at line {line}); leave one, the profile"
     )]
     SeveralPolylines {
-        /// How many.
+        /// The number of separate curves.
         count: usize,
         /// Where the second one starts.
         line: usize,
@@ -135,9 +135,9 @@ pub enum OutlineError {
         "line {line}: the polyline has an arc (bulge {value}); only straight segments are read: turn arcs into points first"
     )]
     Bulge {
-        /// Where.
+        /// The number of the line in the file, from 1.
         line: usize,
-        /// The bulge.
+        /// The bulge of the polyline segment.
         value: String,
     },
     /// A polyline is fitted by a spline in the drawing.
@@ -145,9 +145,9 @@ pub enum OutlineError {
         "line {line}: the polyline is curve-fitted or a mesh (flags {flags}); decompose it into a plain polyline"
     )]
     CurvedPolyline {
-        /// Where.
+        /// The number of the line in the file, from 1.
         line: usize,
-        /// Group code 70.
+        /// The flags of the polyline, group code 70.
         flags: u32,
     },
 }

@@ -3,6 +3,7 @@
 //! Lengths are units of the page, x to the right, y down; colours are sRGB. SVG and PDF keep lines and words as such and
 //! carry pictures inside; the PNG has [`PIXELS_A_UNIT`] pixels a unit. All come from the same items in the same order.
 
+mod deflate;
 mod label;
 mod pdf;
 mod pdf_font;
@@ -32,9 +33,9 @@ const UNIT_MILLIMETRES: f64 = 25.4 / 96.0;
 /// A line's look.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Stroke {
-    /// Its colour.
+    /// The colour of the line, sRGB.
     pub color: [u8; 3],
-    /// Its width.
+    /// The width of the line in units of the page.
     pub width: f64,
     /// The lengths of a dash, a gap, another dash and another gap; all ends are round and half a width longer.
     pub dash: Option<[f64; 4]>,
@@ -50,7 +51,7 @@ impl Stroke {
         }
     }
 
-    /// The same line in dashes.
+    /// This line, dashed.
     #[must_use]
     pub fn dashed(self, dash: f64, gap: f64) -> Self {
         Self {
@@ -59,7 +60,7 @@ impl Stroke {
         }
     }
 
-    /// The same line in dashes with a dot in each gap.
+    /// This line, dashed with a dot in each gap.
     #[must_use]
     pub fn dash_dotted(self, dash: f64, gap: f64) -> Self {
         Self {
@@ -75,9 +76,9 @@ pub enum Anchor {
     /// Its start.
     #[default]
     Start,
-    /// Its middle.
+    /// The middle of the text is at the position.
     Middle,
-    /// Its end.
+    /// The end of the text is at the position.
     End,
 }
 

@@ -1,10 +1,10 @@
 //! Drawings as PDF 1.7 (ISO 32000-1).
 
 use glam::DVec2;
-use miniz_oxide::deflate::compress_to_vec_zlib;
 use pdf_writer::types::{LineCapStyle, LineJoinStyle};
 use pdf_writer::{Content, Filter, Finish, Name, Pdf, Rect, Ref, Str, TextStr};
 
+use super::deflate::deflated;
 use super::label::runs;
 use super::pdf_font::PdfFont;
 use super::{Anchor, Drawing, Item, PIXELS_A_UNIT, Stroke, WORDS};
@@ -12,9 +12,6 @@ use crate::{Image, RecordError};
 
 /// Points, of which PDF counts lengths, in a millimetre.
 const POINTS_A_MILLIMETRE: f64 = 72.0 / 25.4;
-
-/// How hard streams are compressed, of 10.
-const EFFORT: u8 = 8;
 
 const FONT: Name<'static> = Name(b"F");
 
@@ -135,11 +132,6 @@ impl Drawing {
         }
         content.finish().into_vec()
     }
-}
-
-/// Compressed as streams are.
-pub(super) fn deflated(bytes: &[u8]) -> Vec<u8> {
-    compress_to_vec_zlib(bytes, EFFORT)
 }
 
 /// To a thousandth, so that numbers are short.

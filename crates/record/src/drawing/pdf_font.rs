@@ -11,7 +11,7 @@ use pdf_writer::{Finish, Name, Pdf, Rect, Ref, Str};
 use subsetter::GlyphRemapper;
 use ttf_parser::{Face, GlyphId};
 
-use super::pdf::deflated;
+use super::deflate::deflated;
 use crate::RecordError;
 
 /// Its name: six letters tell a subset from the whole font.

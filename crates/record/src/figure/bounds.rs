@@ -2,10 +2,11 @@
 
 use glam::DVec2;
 
-use super::measure::INK;
-use super::paint::Painter;
 use super::pose::Bounds;
 use crate::{Camera, Drawing, Stroke};
+
+/// The colour of boxes and dimension lines.
+pub(super) const INK: [u8; 3] = [110, 110, 115];
 
 /// A box on the page.
 struct Shown {
@@ -59,34 +60,27 @@ pub(super) fn outer_edges(bounds: &Bounds, camera: &Camera) -> [([DVec2; 2], DVe
     [0, 1, 2].map(|axis| (shown.outer(axis), shown.centre()))
 }
 
-impl Painter<'_> {
-    fn box_stroke(&self) -> Stroke {
-        Stroke::new(INK, self.layout.line_width)
-    }
+/// The edges of the box that the state may hide, dashed.
+pub(super) fn draw_back(
+    drawing: &mut Drawing,
+    bounds: &Bounds,
+    camera: &Camera,
+    shift: DVec2,
+    line_width: f64,
+) {
+    let shown = Shown::new(bounds, camera, shift);
+    let stroke = Stroke::new(INK, line_width).dashed(3.0 * line_width, 3.0 * line_width);
+    drawing.lines(shown.edges(true), stroke);
+}
 
-    /// The edges of the box that the state may hide.
-    pub(super) fn back_of_box(
-        &self,
-        drawing: &mut Drawing,
-        bounds: &Bounds,
-        camera: &Camera,
-        shift: DVec2,
-    ) {
-        let shown = Shown::new(bounds, camera, shift);
-        let width = self.layout.line_width;
-        let stroke = self.box_stroke().dashed(3.0 * width, 3.0 * width);
-        drawing.lines(shown.edges(true), stroke);
-    }
-
-    /// The other edges.
-    pub(super) fn front_of_box(
-        &self,
-        drawing: &mut Drawing,
-        bounds: &Bounds,
-        camera: &Camera,
-        shift: DVec2,
-    ) {
-        let shown = Shown::new(bounds, camera, shift);
-        drawing.lines(shown.edges(false), self.box_stroke());
-    }
+/// The other edges.
+pub(super) fn draw_front(
+    drawing: &mut Drawing,
+    bounds: &Bounds,
+    camera: &Camera,
+    shift: DVec2,
+    line_width: f64,
+) {
+    let shown = Shown::new(bounds, camera, shift);
+    drawing.lines(shown.edges(false), Stroke::new(INK, line_width));
 }

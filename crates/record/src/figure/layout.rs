@@ -35,7 +35,7 @@ pub(super) struct Cell {
 #[derive(Debug)]
 pub(super) struct Layout {
     pub(super) page: [u32; 2],
-    /// Of a unit.
+    /// The length of a unit, millimetres.
     pub(super) millimetres: f64,
     /// Units a length of the sheet.
     pub(super) scale: f64,
@@ -145,7 +145,7 @@ impl Layout {
     }
 }
 
-/// The widest scale at which every row and all rows together fit into `room`, none where the text alone does not.
+/// The widest scale at which every row and all rows together fit into `room`, `None` if the text alone does not.
 fn fitting_scale(rows: &[&[Need]], room: [f64; 2], letters: f64) -> Option<f64> {
     let fits = |scale: f64| {
         let widest = rows.iter().map(|row| row_width(row, scale, letters));

@@ -3,23 +3,9 @@
 use glam::{DVec2, DVec3};
 
 use super::Pose;
-use super::bounds::outer_edges;
+use super::bounds::{INK, outer_edges};
 use crate::drawing::words_width;
 use crate::{Anchor, Camera, Drawing, RecordError, Stroke};
-
-/// A length of a state, written beside it.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Dimension {
-    /// What is measured.
-    pub ends: [DVec3; 2],
-    /// A point on the other side than the words, such as the middle of the state.
-    pub inside: DVec3,
-    /// What stands at the line, such as "h = 1 m".
-    pub words: String,
-}
-
-/// The colour of dimension lines.
-pub(super) const INK: [u8; 3] = [110, 110, 115];
 
 /// What is shorter than this on the page has no dimension line.
 const SHORTEST: f64 = 2.0;

@@ -6,18 +6,19 @@
 //! together are left out.
 
 mod bounds;
+mod foot;
 mod keys;
 mod layout;
 mod look;
 mod measure;
 mod paint;
 mod pose;
+mod spot;
 
 use glam::DVec2;
 
 pub use self::look::LineStyle;
-pub use self::measure::Dimension;
-pub use self::pose::{Bounds, Pose};
+pub use self::pose::{Bounds, Dimension, Pose};
 
 use self::layout::Layout;
 use self::paint::Painter;
@@ -43,9 +44,9 @@ pub struct Legend {
 /// How a strip of states is drawn. Lengths on the page are millimetres.
 #[derive(Debug, Clone, PartialEq)]
 pub struct StripOptions {
-    /// Of the page.
+    /// The width of the page.
     pub width: f64,
-    /// Of the page, at most.
+    /// The largest height of the page.
     pub height: f64,
     /// States in a row, at most; at least one.
     pub columns: usize,
@@ -57,7 +58,7 @@ pub struct StripOptions {
     pub style: Style,
     /// How mountains and valleys are told apart.
     pub lines: LineStyle,
-    /// Of all lines.
+    /// The width of all lines.
     pub line_width: f64,
     /// The size of letters.
     pub letters: f64,
@@ -156,6 +157,6 @@ pub fn strip(
             drawing.words(at, text, layout.letters, Anchor::Middle);
         }
     }
-    keys::draw(&mut drawing, poses, options, &layout)?;
+    foot::draw(&mut drawing, poses, options, &layout)?;
     Ok(drawing)
 }

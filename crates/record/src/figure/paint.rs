@@ -5,10 +5,10 @@ use std::collections::BTreeMap;
 use foldmotion_pattern::{Assignment, Edge};
 use glam::{DVec2, DVec3};
 
-use super::keys::ring;
 use super::layout::{Cell, Layout};
 use super::measure::measures;
-use super::{Pose, StripOptions};
+use super::spot::ring;
+use super::{Pose, StripOptions, bounds};
 use crate::line_width::line_width;
 use crate::shade::{Inks, encoded, linear};
 use crate::visible::{doubled_area, perimeter};
@@ -56,10 +56,10 @@ impl Painter<'_> {
         };
         let surface = Surface::new(self.paper, &pose.positions, &camera, &style);
         let visible = surface.visible();
-        if let Some(bounds) = &pose.bounds {
-            self.back_of_box(drawing, bounds, &camera, shift);
-        }
         let widest = self.layout.line_width;
+        if let Some(bounds) = &pose.bounds {
+            bounds::draw_back(drawing, bounds, &camera, shift, widest);
+        }
         let width = line_width(self.paper.sheet, &pose.positions, &camera, widest);
         let seen = Seen {
             surface: &surface,
@@ -70,7 +70,7 @@ impl Painter<'_> {
         self.areas(drawing, pose, &seen);
         self.lines(drawing, pose, &seen);
         if let Some(bounds) = &pose.bounds {
-            self.front_of_box(drawing, bounds, &camera, shift);
+            bounds::draw_front(drawing, bounds, &camera, shift, widest);
         }
         for measure in measures(pose, &camera) {
             measure.draw(drawing, shift, self.layout.letters, self.layout.line_width);
@@ -191,7 +191,7 @@ struct Seen<'a> {
     visible: &'a Visible,
     /// From the screen to the page.
     shift: DVec2,
-    /// Of its lines.
+    /// The width of its lines.
     width: f64,
 }
 

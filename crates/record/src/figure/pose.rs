@@ -3,7 +3,6 @@
 use foldmotion_pattern::{LayerOrder, Motion, Sheet};
 use glam::DVec3;
 
-use super::measure::Dimension;
 use crate::caption::stage;
 use crate::{Marks, RecordError, positions_at};
 
@@ -20,20 +19,31 @@ pub struct Bounds {
     pub words: String,
 }
 
+/// A length of a state, written beside it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Dimension {
+    /// What is measured.
+    pub ends: [DVec3; 2],
+    /// A point on the other side than the words, such as the middle of the state.
+    pub inside: DVec3,
+    /// What stands at the line, such as "h = 1 m".
+    pub words: String,
+}
+
 /// One state of a strip.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Pose<'a> {
-    /// One a vertex.
+    /// One position for each vertex.
     pub positions: Vec<DVec3>,
-    /// Of the triangles that coincide.
+    /// The order of the triangles that coincide.
     pub order: &'a LayerOrder,
-    /// Below the state.
+    /// The label below the state.
     pub label: String,
     /// For each triangle whether it takes the colour of marks; empty: none does.
     pub marked: Vec<bool>,
-    /// One value a triangle, shown as its colour; one that is not a number shows the paper. Empty: none.
+    /// One value for each triangle, shown as its colour; one that is not a number shows the paper. Empty: none.
     pub values: Vec<f64>,
-    /// One value an edge, shown as the line's colour; one that is not a number shows the line. Empty: none.
+    /// One value for each edge, shown as the line's colour; one that is not a number shows the line. Empty: none.
     pub bars: Vec<f64>,
     /// A curve to compare with, drawn over the state; empty: none.
     pub target: Vec<DVec3>,

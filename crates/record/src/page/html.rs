@@ -72,7 +72,7 @@ pub(super) fn facts(rows: &[(&str, Option<String>)]) -> String {
     html
 }
 
-/// A number as papers print it: six digits, powers of ten beyond 1e-3 and 1e6; none where `value` is no number.
+/// A number as papers print it: six digits, powers of ten beyond 1e-3 and 1e6; `None` if `value` is no number.
 pub(super) fn number(value: &Value) -> Option<String> {
     if value.is_u64() || value.is_i64() {
         return Some(value.to_string().replace('-', "−"));

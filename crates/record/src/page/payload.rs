@@ -19,7 +19,7 @@ pub(super) fn base64(bytes: &[u8]) -> String {
     STANDARD.encode(bytes)
 }
 
-/// Bytes deflated (zlib, RFC 1950), as base64; none for none.
+/// Bytes deflated (zlib, RFC 1950), as base64; the empty string if there are none.
 pub(super) fn archived(bytes: &[u8]) -> String {
     if bytes.is_empty() {
         return String::new();

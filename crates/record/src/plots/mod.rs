@@ -41,7 +41,7 @@ const COLOURS: [[u8; 3]; 4] = [[0, 0, 0], [0, 114, 178], [213, 94, 0], [0, 158, 
 /// One curve of a panel.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Curve {
-    /// Its name in the legend.
+    /// The name of the curve in the legend.
     pub name: &'static str,
     /// (t, value), in order of t; the curve is interrupted where a value is not finite.
     pub points: Vec<(f64, f64)>,
@@ -54,7 +54,7 @@ pub struct Panel {
     pub title: &'static str,
     /// Whether the vertical axis is logarithmic; curves are then interrupted where a value is not positive.
     pub is_logarithmic: bool,
-    /// At most four.
+    /// The curves of the panel, at most four.
     pub curves: Vec<Curve>,
 }
 

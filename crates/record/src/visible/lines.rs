@@ -22,7 +22,7 @@ struct Half {
     /// Its ends: pixels and depth.
     ends: [(DVec2, f64); 2],
     face: u32,
-    /// Into the triangle; none where that is seen edge-on and has no inside.
+    /// Into the triangle; `None` if that is seen edge-on and has no inside.
     inward: Option<DVec2>,
 }
 

@@ -34,7 +34,7 @@ const LEAST_WIDTH: f64 = 1e-4;
 /// The visible part of a triangle.
 #[derive(Debug, Clone, PartialEq)]
 pub struct VisibleArea {
-    /// The triangle.
+    /// The index of the triangle.
     pub face: u32,
     /// Above the levels of all that the triangle hides: painted in this order, what is in front lies on top.
     pub level: u32,
@@ -45,13 +45,13 @@ pub struct VisibleArea {
 /// A visible part of an edge.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct VisibleLine {
-    /// The edge of the sheet.
+    /// The index of the edge in the sheet.
     pub edge: u32,
     /// The triangle on whose side it is seen, the front one of two.
     pub face: u32,
     /// Whether it is seen on the triangles to its left and to its right, see [`foldmotion_pattern::Edge`].
     pub seen: [bool; 2],
-    /// That of the triangle.
+    /// The level of the triangle.
     pub level: u32,
     /// Where it begins and ends, pixels, from the edge's first vertex towards its second.
     pub ends: [DVec2; 2],

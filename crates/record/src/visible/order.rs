@@ -30,7 +30,7 @@ impl Ord for Waiting {
 /// The level of each triangle: above those of all that it hides in part, as far as these relations run in no circle;
 /// circles are broken at the farthest.
 ///
-/// `depths`: one a triangle, larger is nearer.
+/// `depths`: one for each triangle, larger is nearer.
 pub(super) fn levels(seen: &[Seen], depths: &[f64]) -> Vec<u32> {
     let mut open = vec![0_u32; depths.len()];
     for hider in seen.iter().flat_map(|seen| &seen.hiders) {

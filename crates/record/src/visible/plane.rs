@@ -23,7 +23,7 @@ pub(crate) struct Plane {
 }
 
 impl Plane {
-    /// The plane that holds all `points`; none where they are not finite.
+    /// The plane that holds all `points`; `None` if they are not finite.
     pub(crate) fn new(points: impl Iterator<Item = DVec2>) -> Option<Self> {
         let (mut low, mut high) = (DVec2::ZERO, DVec2::ZERO);
         for (k, point) in points.enumerate() {

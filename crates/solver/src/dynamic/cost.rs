@@ -9,9 +9,9 @@ use super::passes::Mass;
 /// three differences, 5 + 3 for the length, 2 for the pull, 18 for the normals, 12 for sine and cosine, 34 for the angle,
 /// 10 for the turn and the moment.
 const EDGE_OPERATIONS: f64 = 93.0;
-/// Of a triangle without its angle springs, counted in `face_loads`.
+/// The operations of a triangle without its angle springs, counted in `face_loads`.
 const FACE_OPERATIONS: f64 = 91.0;
-/// Of a node beside its sum, counted in `node_step`, and of each corner in it.
+/// The operations of a node apart from its sum, counted in `node_step`, and of each corner in it.
 const NODE_OPERATIONS: f64 = 36.0;
 const CORNER_OPERATIONS: f64 = 3.0;
 

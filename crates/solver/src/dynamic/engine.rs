@@ -14,15 +14,12 @@ use super::increments::increments;
 use super::options::{Device, DynamicOptions, Run, StageOutcome, StageStatus};
 use super::recorder::Recorder;
 use super::relaxation::{Progress, Relaxation};
+use super::stability::SAFETY;
 use super::state::State;
 use crate::budget::Allowance;
 use crate::{Model, Moment, Schedule, SolverError, Stage, Watcher};
 
-/// The share of the stable time step that is used: covers what the bound only estimates (see `stability`) and the
-/// change of geometry until it is evaluated again.
-pub(super) const SAFETY: f64 = 0.9;
-
-/// Moves the sheet of `model` along `schedule` from `start` (one position a vertex, in the sheet's unit) through the stages
+/// Moves the sheet of `model` along `schedule` from `start` (one position for each vertex, in the sheet's unit) through the stages
 /// asked for.
 ///
 /// `progress` is called before every increment and at every look at the residual (every ten steps); answering false ends
@@ -296,7 +293,7 @@ impl Engine<'_, '_> {
         budget.allowance(budget.left(standard, self.taken))
     }
 
-    /// Settles as far as f32 goes; none where the CPU is to go on from there, or there is no GPU.
+    /// Settles as far as f32 goes; `None` if the CPU is to go on from there, or there is no GPU.
     #[cfg(feature = "gpu")]
     fn settle_on_gpu(
         &mut self,

@@ -31,7 +31,7 @@ const SOUND: f64 = 0.05;
 /// Where a hand pulls.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Pull {
-    /// The vertex it holds.
+    /// The vertex that is pulled.
     pub vertex: u32,
     /// The point it pulls towards, in the sheet's unit.
     pub point: DVec3,
@@ -62,7 +62,7 @@ struct Sound {
 }
 
 impl<'a> Hand<'a> {
-    /// The sheet of `model` at rest at `start` (one position a vertex, in the sheet's unit), a state of the motion along
+    /// The sheet of `model` at rest at `start` (one position for each vertex, in the sheet's unit), a state of the motion along
     /// `schedule` at motion time `time`. `stages`: those of the motion, in order.
     ///
     /// # Errors

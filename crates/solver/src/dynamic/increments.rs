@@ -1,6 +1,6 @@
 //! The increments of a stage's ramp.
 //!
-//! The stage is cut at the frames, at the times asked for, and where a step of the schedule begins or ends. Each piece is divided into equal
+//! The stage is cut at the frames, at the requested times, and where a step of the schedule begins or ends. Each piece is divided into equal
 //! increments so that none turns a target by more than [`LARGEST_TURN`]. In `fold`, towards the end of every turn, there
 //! is also a geometric series, each closing increment leaving [`CLOSING_RATIO`] of the turn that was left. There the
 //! layers that the turn closes come together: with ε left to turn, neighbouring layers lie of the order of ε² apart, so

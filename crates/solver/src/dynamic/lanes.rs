@@ -11,7 +11,7 @@ use pulp::{Arch, Simd, WithSimd};
 /// Elements in a group of records: a multiple of the lanes of every instruction set.
 pub(super) const WIDTH: usize = 8;
 
-/// f64 numbers, one a lane.
+/// f64 numbers, one for each lane.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Lanes<S: Simd> {
     simd: S,
@@ -149,7 +149,7 @@ impl<S: Simd> Mul for Lanes<S> {
     }
 }
 
-/// Vectors in space, one a lane.
+/// Vectors in space, one for each lane.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Vectors<S: Simd> {
     pub(super) x: Lanes<S>,
@@ -161,7 +161,7 @@ pub(super) struct Vectors<S: Simd> {
 pub(super) type Quad = [f64; 4];
 
 impl<S: Simd> Vectors<S> {
-    /// The vectors of `points` that `indices` names, one a lane.
+    /// The vectors of `points` that `indices` names, one for each lane.
     #[inline(always)]
     pub(super) fn gather(simd: S, points: &[Quad], indices: &[u16]) -> Self {
         let elements = elements(simd);

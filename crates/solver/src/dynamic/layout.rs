@@ -31,7 +31,7 @@ pub(super) struct EdgeGroup {
     pub(super) stiffness: [f64; WIDTH],
     /// k l₀ over that number.
     pub(super) tension: [f64; WIDTH],
-    /// Of the damper along the bar, over that number.
+    /// The coefficient of the damper along the bar, divided by that number.
     pub(super) damper: [f64; WIDTH],
     /// κ l₀ of the hinge; 0 without one.
     pub(super) hinge_stiffness: [f64; WIDTH],
@@ -57,7 +57,7 @@ pub(super) struct Block {
     pub(super) halo: Vec<u32>,
     pub(super) edges: Vec<EdgeGroup>,
     pub(super) faces: Vec<FaceGroup>,
-    /// The rest angles at the corners of the triangles; none where they are not held.
+    /// The rest angles at the corners of the triangles; empty if they are not held.
     pub(super) rest_angles: Vec<[[f64; WIDTH]; 3]>,
     /// The hinge of each edge in the model, or [`NO_HINGE`].
     pub(super) hinges: Vec<u32>,

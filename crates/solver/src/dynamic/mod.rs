@@ -29,6 +29,7 @@ mod part;
 mod passes;
 mod recorder;
 mod relaxation;
+mod row_sums;
 mod stability;
 mod state;
 

@@ -101,7 +101,7 @@ pub enum StageStatus {
 /// How a stage went.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct StageOutcome {
-    /// Which stage.
+    /// The stage of the motion.
     pub stage: Stage,
     /// Whether it was run to its end and that is an equilibrium.
     pub status: StageStatus,
@@ -135,7 +135,7 @@ pub struct Run {
     pub frames: Vec<Frame>,
     /// One for each stage begun, in order.
     pub stages: Vec<StageOutcome>,
-    /// Steps of the whole run.
+    /// The number of steps of the whole run.
     pub steps: u64,
     /// What moved the sheet: "cpu", or the name of the GPU.
     pub device: String,

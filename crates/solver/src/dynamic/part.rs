@@ -42,7 +42,7 @@ impl<S: Simd> Part<S> {
         Lanes::load(self.simd, group, self.index)
     }
 
-    /// Of `numbers` those that the part of `indices` names.
+    /// The `numbers` at these `indices`.
     #[inline(always)]
     pub(super) fn gathered(self, numbers: &[f64], indices: &[u16; WIDTH]) -> Lanes<S> {
         let mut group = [0.0; WIDTH];
@@ -52,7 +52,7 @@ impl<S: Simd> Part<S> {
         Lanes::load(self.simd, &group, 0)
     }
 
-    /// Of `points` those that the part of `indices` names.
+    /// The `points` at these `indices`.
     #[inline(always)]
     pub(super) fn vectors(self, points: &[Quad], indices: &[u16; WIDTH]) -> Vectors<S> {
         let first = self.index * S::F64_LANES;

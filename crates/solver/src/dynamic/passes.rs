@@ -37,7 +37,7 @@ const TURN: f64 = std::f64::consts::TAU;
 /// How a step moves the nodes.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Pace {
-    /// Δt.
+    /// The time step Δt.
     pub(super) dt: f64,
     /// c of a viscous force −c m v, centred in the step.
     pub(super) viscosity: f64,
@@ -108,7 +108,7 @@ pub(super) struct Hinges {
 pub(super) struct Scratch {
     pub(super) positions: Vec<Quad>,
     velocities: Vec<Quad>,
-    /// Of each edge what it asks of each of its triangles: g, k (1 − l₀/l) and d.
+    /// The loads of each edge on its triangles: g, k (1 − l₀/l) and d.
     pub(super) loads: Vec<[Quad; WIDTH]>,
     pub(super) corner_forces: Vec<[[Quad; WIDTH]; 3]>,
 }

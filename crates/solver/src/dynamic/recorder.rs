@@ -27,7 +27,7 @@ pub(super) struct Recorder<'m> {
 }
 
 impl<'m> Recorder<'m> {
-    /// Nothing recorded yet.
+    /// A recorder without frames.
     pub(super) fn new(model: &'m Model) -> Self {
         Self {
             model,

@@ -14,8 +14,8 @@
 //! is stable for every c ≥ 0 where the undamped steps are. The equilibrium does not depend on c or on the masses.
 
 use super::State;
-use super::engine::SAFETY;
 use super::recorder::PATH_STEP;
+use super::stability::SAFETY;
 
 /// Steps between two looks at the residual.
 const STEPS_A_LOOK: u64 = 10;
@@ -31,11 +31,11 @@ pub(super) const DT: f64 = 2.0 * SAFETY;
 pub(super) enum Progress {
     /// Residual and speed lie below the tolerance.
     Settled,
-    /// Not yet.
+    /// The residual is still above the tolerance.
     Moving,
 }
 
-/// A relaxation under way: the state it moves and its memory of the last step.
+/// A relaxation in progress: the state it moves and its memory of the last step.
 #[derive(Debug)]
 pub(super) struct Relaxation<'a, 'm> {
     state: &'a mut State<'m>,
@@ -50,12 +50,12 @@ pub(super) struct Past {
     /// c and Δt of the last one.
     pub(super) damping: f64,
     pub(super) dt: f64,
-    /// How many there were.
+    /// The number of steps taken.
     steps: u64,
 }
 
 impl Past {
-    /// No step yet.
+    /// The state before the first step.
     pub(super) const NONE: Self = Self {
         damping: 0.0,
         dt: DT,
@@ -80,7 +80,7 @@ impl<'a, 'm> Relaxation<'a, 'm> {
         }
     }
 
-    /// What it remembers.
+    /// The history that the relaxation adapts to.
     pub(super) fn past(&self) -> Past {
         self.past
     }

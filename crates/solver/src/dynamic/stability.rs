@@ -23,26 +23,11 @@ use super::lanes::{Lanes, Quad, Vectors, WIDTH};
 use super::layout::Block;
 use super::part::{Edge, Face, LEAST_SQUARE, Part};
 use super::passes::{Hinges, Scratch, load};
+use super::row_sums::RowSums;
 
-/// The row sums of the block norms of the stiffness and of the damping matrix at a node.
-#[derive(Debug, Clone, Copy, Default, PartialEq)]
-pub(super) struct RowSums {
-    pub(super) stiffness: f64,
-    pub(super) damping: f64,
-}
-
-impl RowSums {
-    /// The largest Δt that is stable for this row and unit masses; infinite for a node that nothing holds.
-    fn stable_time_step(self) -> f64 {
-        let Self { stiffness, damping } = self;
-        if stiffness > 0.0 {
-            // (√(c² + 4k) − c) / k without its cancellation.
-            4.0 / ((damping * damping + 4.0 * stiffness).sqrt() + damping)
-        } else {
-            f64::INFINITY
-        }
-    }
-}
+/// The share of the stable time step that is used: covers what the bound only estimates and the change of geometry
+/// until it is evaluated again.
+pub(super) const SAFETY: f64 = 0.9;
 
 impl State<'_> {
     /// The largest time step that is stable at the present positions, targets and angles of the last evaluation, for
@@ -84,7 +69,7 @@ struct BlockRows<'a> {
     hinges: &'a Hinges,
     positions: &'a [Quad],
     scratch: &'a mut Scratch,
-    /// Of each edge what its hinge weighs at an apex.
+    /// The weight of the hinge of each edge at an apex.
     weights: &'a mut Vec<f64>,
     damping: f64,
     face_angle_stiffness: f64,
@@ -104,7 +89,7 @@ impl WithSimd for BlockRows<'_> {
 }
 
 impl BlockRows<'_> {
-    /// Of each edge: the rows of its ends and of its damper, and what its hinge weighs at an apex.
+    /// Evaluates the rows of each edge at its ends, those of its damper, and the weight of its hinge at an apex.
     #[inline(always)]
     fn edge_rows<S: Simd>(&mut self, simd: S) {
         let scratch = &mut *self.scratch;
@@ -150,7 +135,7 @@ impl BlockRows<'_> {
         }
     }
 
-    /// Of each triangle: the rows of its corners as apexes and of its angles.
+    /// Evaluates the rows of each triangle at its corners: as apexes of hinges and as angles.
     #[inline(always)]
     fn face_rows<S: Simd>(&mut self, simd: S) {
         let scratch = &mut *self.scratch;

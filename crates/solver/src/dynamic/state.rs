@@ -14,7 +14,7 @@ use pulp::Arch;
 use super::lanes::{Quad, WIDTH};
 use super::layout::{Layout, NO_HINGE};
 use super::passes::{After, Before, BlockStep, Hinges, Mass, Pace, Scratch, Totals};
-use super::stability::RowSums;
+use super::row_sums::RowSums;
 use crate::Model;
 
 /// Positions and velocities of a sheet, with the buffers of a step. Lengths in unit lengths.
@@ -27,7 +27,7 @@ pub struct State<'a> {
     /// The force on every node at the last evaluation.
     forces: Vec<Quad>,
     pub(super) masses: Vec<Mass>,
-    /// Of every node, at the last look at them.
+    /// The row sums of every node when they were last evaluated.
     pub(super) row_sums: Vec<RowSums>,
     pub(super) hinges: Vec<Hinges>,
     /// Fraction of the material's damping that acts: 1, or 0 for undamped motion.

@@ -20,7 +20,7 @@ impl Configuration {
 
     /// This state moved by `length` × `direction`, its fold angles followed.
     ///
-    /// None where a hinge turned by more than `largest_turn`, so that following it would be a guess.
+    /// `None` if a hinge turned by more than `largest_turn`, so that following it would be a guess.
     pub(super) fn moved(
         &self,
         model: &Model,

@@ -86,7 +86,7 @@ pub(super) fn coupled_nodes(model: &Model) -> Vec<[u32; 2]> {
     bars.chain(apexes).collect()
 }
 
-/// None for a bar pressed to a point, which has no direction.
+/// `None` for a bar pressed to a point, which has no direction.
 fn bar_blocks(bar: &Bar, state: &Configuration, curvature: Curvature) -> Option<[[DMat3; 2]; 2]> {
     let [a, b] = bar.vertices.map(|v| state.positions[v as usize]);
     let along = b - a;

@@ -77,7 +77,7 @@ impl History {
         self.states.back().map_or(0.0, |(s, _)| *s)
     }
 
-    /// The state at `s` extrapolated; none where a hinge would turn too far.
+    /// The state at `s` extrapolated; `None` if a hinge would turn too far.
     pub(super) fn extrapolate(&self, model: &Model, s: f64) -> Option<Configuration> {
         let ahead = self.foretell(s, self.used);
         let moves = ahead.iter().zip(&self.last.positions);

@@ -77,7 +77,7 @@ pub(super) struct Newton<'a> {
     /// The Hessian in the matrix, whether it is supported, and the mean of its diagonal, while the state is the one it was
     /// assembled at.
     assembled: Option<(Curvature, bool, f64)>,
-    /// The largest move of the last step, where the factor at hand is an exact one and served for it.
+    /// The largest move of the last step, if the current factor is exact and was used for it.
     chord: Option<f64>,
     pub(super) contact: Option<ContactField>,
     pub(super) factorisations: usize,
@@ -184,7 +184,7 @@ impl<'a> Newton<'a> {
         gradient
     }
 
-    /// One accepted step, or none where no direction lowers the energy.
+    /// One accepted step, or `None` if no direction lowers the energy.
     fn step(
         &mut self,
         state: &Configuration,
@@ -225,7 +225,7 @@ impl<'a> Newton<'a> {
         Ok(None)
     }
 
-    /// A step with the factor of an earlier one; none where it would not be much smaller than the step before.
+    /// A step with the factor of an earlier one; `None` if it would not be much smaller than the step before.
     fn chord_step(
         &mut self,
         state: &Configuration,
@@ -312,7 +312,7 @@ impl<'a> Newton<'a> {
         scale
     }
 
-    /// −(K + S + μ I)⁻¹ ∇U with the factor at hand.
+    /// −(K + S + μ I)⁻¹ ∇U with the current factor.
     fn direction(&mut self, state: &Configuration, gradient: &[DVec3]) -> Vec<DVec3> {
         let mut direction: Vec<DVec3> = gradient.iter().map(|&g| -g).collect();
         self.matrix.solve(&mut direction);
@@ -380,7 +380,7 @@ impl<'a> Newton<'a> {
     }
 }
 
-/// An accepted step.
+/// A step of Newton's method that was accepted.
 struct Step {
     state: Configuration,
     energy: f64,

@@ -8,7 +8,7 @@ use crate::{EnergyByKind, Stage};
 /// The motion and how it was found.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct QuasiStaticRun {
-    /// In order of time, positions in the sheet's unit: the states at t = 2k/frames and at the times asked for, and states between where the
+    /// In order of time, positions in the sheet's unit: the states at t = 2k/frames and at the requested times, and states between where the
     /// straight way from one to the next would lead through contact. Those up to the last state reached.
     pub frames: Vec<Frame>,
     /// Figures of each frame.
@@ -48,7 +48,7 @@ pub struct FrameFigures {
 /// How a stage went.
 #[derive(Debug, Clone, PartialEq)]
 pub struct StageOutcome {
-    /// Which one.
+    /// The stage of the motion.
     pub stage: Stage,
     /// Whether it was run to its end and every load step ended in equilibrium.
     pub converged: bool,
@@ -57,7 +57,7 @@ pub struct StageOutcome {
     /// The largest nodal force left at any accepted load step; where the stage did not converge, that left by the
     /// last attempt.
     pub residual: f64,
-    /// Load steps accepted.
+    /// The number of load steps that were accepted.
     pub load_steps: usize,
     /// Load steps that found no equilibrium and were tried again shorter.
     pub shortened_steps: usize,
@@ -65,14 +65,14 @@ pub struct StageOutcome {
     pub snaps: usize,
     /// Newton iterations, those of failed load steps included.
     pub iterations: usize,
-    /// What ended the stage before its end; none where it converged.
+    /// What ended the stage before its end; `None` if it converged.
     pub stop: Option<Stop>,
 }
 
 /// A stage ended before its end, in the state at [`StageOutcome::reached`].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Stop {
-    /// Why.
+    /// The reason why the stage ended.
     pub reason: StopReason,
     /// The last load step tried, in motion time: no equilibrium was found this far on.
     pub step: f64,

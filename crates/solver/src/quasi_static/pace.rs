@@ -29,7 +29,7 @@ pub(super) struct Pace {
 }
 
 impl Pace {
-    /// Of a stage of which `frames` / 2 states are recorded.
+    /// The step control of a stage with `frames` / 2 recorded states.
     pub(super) fn new(frames: usize, in_contact: bool) -> Self {
         let least_steps = LEAST_STEPS.max(frames / 2);
         let longest = 1.0 / least_steps as f64;

@@ -36,10 +36,10 @@ const TIGHT: f64 = 0.1;
 const STIFFENING: f64 = 4.0;
 const MOST_STIFFENING: f64 = 1e4;
 
-/// Folds the sheet of `model` slowly along `schedule`, from `start` (one position a vertex, in the sheet's unit).
+/// Folds the sheet of `model` slowly along `schedule`, from `start` (one position for each vertex, in the sheet's unit).
 ///
 /// At every load step the sheet is brought to the nearest minimum of its energy downhill from the last state, itself
-/// extrapolated. Load steps hit every t = 2k/frames and every time asked for; between them they shorten where Newton's method fails and grow
+/// extrapolated. Load steps hit every t = 2k/frames and every requested time; between them they shorten where Newton's method fails and grow
 /// again where it is easy. Where short ones fail too, the sheet snaps: the search is given time to descend to the next
 /// equilibrium, however far. `progress` is told after each load step and after each Newton step within it, and ends the run
 /// by returning false.
@@ -135,7 +135,7 @@ struct Run<'a> {
     options: &'a QuasiStaticOptions,
     progress: Watcher<'a>,
     newton: Newton<'a>,
-    /// The last equilibrium, and the targets of the load step at hand.
+    /// The last equilibrium, and the targets of the current load step.
     state: Configuration,
     targets: Vec<f64>,
     last_recorded: Vec<DVec3>,
@@ -323,7 +323,7 @@ impl Run<'_> {
         self.stiffen_barriers(&trial.state);
     }
 
-    /// Makes the barriers stiffer where a pair has been pressed close to its gap; false where there is none.
+    /// Makes the barriers stiffer where a pair has been pressed close to its gap; false if there is none.
     fn stiffen_barriers(&mut self, state: &Configuration) -> bool {
         let limit = MOST_STIFFENING * barrier_force(self.model);
         let Some(contact) = &mut self.newton.contact else {

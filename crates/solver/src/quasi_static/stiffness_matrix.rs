@@ -65,7 +65,7 @@ impl StiffnessMatrix {
         self.values.fill([0.0; 9]);
     }
 
-    /// Where the blocks of an element lie; none where the pattern has no room for one.
+    /// Where the blocks of an element lie; `None` if the pattern has no room for one.
     pub(super) fn element<const N: usize>(&self, nodes: &[u32; N]) -> Option<ElementPlaces<N>> {
         let ranks = self.ranks(*nodes);
         let mut order: [u8; N] = std::array::from_fn(|i| i as u8);

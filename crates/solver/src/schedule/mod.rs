@@ -38,7 +38,7 @@ impl Stage {
     /// Both, in the order of the motion.
     pub const ALL: [Self; 2] = [Self::Unfold, Self::Fold];
 
-    /// Its name in reports.
+    /// The name in reports and files.
     pub fn name(self) -> &'static str {
         match self {
             Self::Unfold => "unfold",
@@ -83,7 +83,7 @@ pub(crate) struct Turn {
     /// The fold angle in the deployed or the compact state, radians; along a path that turns a crease to and fro, its
     /// greatest rate for the unit of progress, as seen by [`Schedule::turns`].
     pub(crate) angle: f64,
-    /// When it is made.
+    /// When the turn is made.
     pub(crate) timing: Timing,
 }
 
@@ -235,7 +235,7 @@ impl Schedule {
         Ok(self)
     }
 
-    /// Whether `start` (one position a vertex) is a state of `model` from which this schedule can move it.
+    /// Whether `start` (one position for each vertex) is a state of `model` from which this schedule can move it.
     ///
     /// # Errors
     /// [`SolverError::Count`] where positions or hinges are too few or too many, [`SolverError::NotFinite`].
@@ -293,7 +293,7 @@ impl Schedule {
     }
 
     /// The turns of `stage` that differ in their timing, each with the largest angle, in radians, made with it or, along a
-    /// path, the greatest rate for the unit of progress; none where nothing turns.
+    /// path, the greatest rate for the unit of progress; `None` if nothing turns.
     pub(crate) fn turns(&self, stage: Stage) -> Vec<Turn> {
         let mut turns: Vec<Turn> = Vec::new();
         for (hinge, ends) in self.hinges.iter().enumerate() {

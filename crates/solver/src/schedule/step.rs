@@ -57,9 +57,9 @@ impl CreaseGroup {
 /// `from` and `to`, and are held there. In `unfold` only row creases have an angle to leave.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ScheduleStep {
-    /// The stage.
+    /// The stage of the motion.
     pub stage: Stage,
-    /// The creases.
+    /// The creases that the step folds.
     pub creases: CreaseGroup,
     /// Those of these rows only, first and last, counted from 0 ([`Edge::row`]: a crease between two rows belongs to
     /// the later one); none: of every row.

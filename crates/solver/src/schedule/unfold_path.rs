@@ -85,7 +85,7 @@ impl UnfoldPath {
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct FollowedPath {
     path: UnfoldPath,
-    /// The place of each hinge's boundary in the path; none for hinges that are no row creases.
+    /// The place of each hinge's boundary in the path; `None` for hinges that are no row creases.
     boundaries: Vec<Option<u32>>,
 }
 
@@ -126,13 +126,13 @@ impl FollowedPath {
         Ok(Self { path, boundaries })
     }
 
-    /// The angle of `hinge` at `progress`; none where it does not follow the path.
+    /// The angle of `hinge` at `progress`; `None` if it does not follow the path.
     pub(super) fn angle(&self, hinge: usize, progress: f64) -> Option<f64> {
         let boundary = self.boundaries[hinge]? as usize;
         Some(self.path.angle(boundary, progress))
     }
 
-    /// The greatest rate of the angle of `hinge`, radians per unit of progress; none where it does not follow the path.
+    /// The greatest rate of the angle of `hinge`, radians per unit of progress; `None` if it does not follow the path.
     pub(super) fn fastest(&self, hinge: usize) -> Option<f64> {
         let boundary = self.boundaries[hinge]? as usize;
         Some(self.path.fastest(boundary))

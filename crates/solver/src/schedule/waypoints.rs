@@ -31,7 +31,7 @@ impl Waypoints {
         Ok(Self { angles })
     }
 
-    /// The angles with which the stage ends; none without waypoints.
+    /// The angles with which the stage ends; `None` without waypoints.
     pub(super) fn last(&self) -> Option<&[f64]> {
         self.angles.last().map(Vec::as_slice)
     }

@@ -6,8 +6,8 @@ use super::super::drawing::{Line, Role};
 use super::super::warning::{WarningKind, Warnings};
 use super::super::{ImportError, Source};
 use super::FoldPattern;
-use super::faces::Sides;
 use super::frames::Frames;
+use super::sides::Sides;
 
 /// What an edge is.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -61,7 +61,7 @@ fn staged_signs(frames: &Frames, pattern: usize, edges: usize) -> Vec<f64> {
     signs
 }
 
-/// The meaning of a letter and an angle in degrees; none for a letter that FOLD does not have.
+/// The meaning of a letter and an angle in degrees; `None` for a letter that FOLD does not have.
 fn meaning(letter: Option<&str>, angle: Option<f64>, staged: f64) -> Option<Meaning> {
     let plain = |role, warning| Meaning {
         role,

@@ -9,6 +9,7 @@ use super::super::plan::Plan;
 use super::super::warning::{WarningKind, Warnings};
 use super::super::{ImportError, Source};
 use super::FoldPattern;
+use super::sides::sides;
 use crate::FoldError;
 
 /// The listed faces as facets, counter-clockwise; `points`: the vertices in the plane.
@@ -89,19 +90,6 @@ pub(super) fn plan(
         facets,
         sources,
     })
-}
-
-/// The faces at every side, by its ends in order.
-pub(super) type Sides = BTreeMap<[u32; 2], Vec<u32>>;
-
-fn sides(faces: &[Vec<u32>]) -> Sides {
-    let mut sides = Sides::new();
-    for (face, index) in faces.iter().zip(0..) {
-        for (&a, &b) in face.iter().zip(face.iter().cycle().skip(1)) {
-            sides.entry([a.min(b), a.max(b)]).or_default().push(index);
-        }
-    }
-    sides
 }
 
 fn twice_area(face: &[u32], points: &[DVec2]) -> f64 {

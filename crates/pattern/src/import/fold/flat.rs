@@ -70,7 +70,7 @@ pub(super) fn in_plane(pattern: &FoldPattern<'_>) -> Result<Vec<DVec2>, ImportEr
         .collect())
 }
 
-/// The unit normal of the pattern; none where it has no area.
+/// The unit normal of the pattern; `None` if it has no area.
 fn normal(pattern: &FoldPattern<'_>, size: f64) -> Option<DVec3> {
     let points = pattern.coordinates;
     let is_level = points.iter().all(|p| p.z == points[0].z);

@@ -4,7 +4,7 @@ use glam::DVec3;
 use serde_json::{Map, Value};
 
 use super::super::ImportError;
-use crate::fold_read::{FrameFields, Keep, Walk, walk};
+use crate::fold::{FrameFields, FrameVisitor, Selection, read_frames};
 use crate::{FoldError, FrameNumber};
 
 /// The most frames.
@@ -19,7 +19,7 @@ impl Frames {
     /// Reads the frames; each inherits from one before it.
     pub(super) fn read(bytes: &[u8]) -> Result<Self, ImportError> {
         let mut list = vec![FrameFields::default()];
-        let keep = |_| Keep {
+        let select = |_| Selection {
             coordinates: true,
             topology: true,
             rest: true,
@@ -28,10 +28,10 @@ impl Frames {
             list.push(fields);
             list.len() <= MOST_FRAMES
         };
-        let walked = walk(
+        let finished = read_frames(
             bytes,
-            Walk {
-                keep: &keep,
+            FrameVisitor {
+                select: &select,
                 each: &mut each,
             },
         );
@@ -42,16 +42,9 @@ impl Frames {
                 limit: MOST_FRAMES,
             });
         }
-        list[0] = walked?;
+        list[0] = finished?;
         for (number, frame) in list.iter().enumerate().skip(1) {
-            let is_earlier = frame.parent.is_some_and(|p| p < number as u64);
-            if (frame.inherit || frame.parent.is_some()) && !is_earlier {
-                return Err(FoldError::Parent {
-                    frame: FrameNumber(number),
-                    parent: frame.parent.map_or("none".to_owned(), |p| p.to_string()),
-                }
-                .into());
-            }
+            frame.parent(number)?;
         }
         Ok(Self { list })
     }
@@ -140,24 +133,4 @@ impl Frames {
         let frames = self.list.iter().enumerate();
         frames.filter(move |(number, f)| *number > 0 && *number != pattern && f.angles.is_some())
     }
-}
-
-/// Refuses lists that name vertices that do not exist.
-pub(super) fn check_indices(
-    key: &'static str,
-    list: &[impl AsRef<[u32]>],
-    vertices: usize,
-) -> Result<(), FoldError> {
-    for (element, corners) in list.iter().enumerate() {
-        let beyond = corners.as_ref().iter().find(|&&v| v as usize >= vertices);
-        if let Some(&vertex) = beyond {
-            return Err(FoldError::VertexOutOfRange {
-                key,
-                element,
-                vertex,
-                vertices,
-            });
-        }
-    }
-    Ok(())
 }

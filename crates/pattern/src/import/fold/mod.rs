@@ -6,6 +6,7 @@ mod edges;
 mod faces;
 mod flat;
 mod frames;
+mod sides;
 mod stages;
 
 use glam::DVec3;
@@ -19,6 +20,7 @@ use super::{
     ImportError, ImportOptions, Imported, LengthUnit, MOST_PIECES, MOST_VERTICES, MergeTolerance,
     Source, check_size, plan_of,
 };
+use crate::fold::check_vertices;
 use frames::Frames;
 
 /// Reads a crease pattern from FOLD.
@@ -80,8 +82,12 @@ impl<'a> FoldPattern<'a> {
                 return Err(ImportError::TooMany { what, found, limit });
             }
         }
-        frames::check_indices("edges_vertices", edges, coordinates.len())?;
-        frames::check_indices("faces_vertices", faces, coordinates.len())?;
+        for (element, ends) in edges.iter().enumerate() {
+            check_vertices("edges_vertices", element, ends, coordinates.len())?;
+        }
+        for (element, corners) in faces.iter().enumerate() {
+            check_vertices("faces_vertices", element, corners, coordinates.len())?;
+        }
         Ok(Self {
             frame,
             coordinates,
@@ -112,7 +118,7 @@ impl<'a> FoldPattern<'a> {
         }
         let drawing = Drawing {
             points: flat,
-            lines: edges::lines(self, &faces::Sides::new(), warnings),
+            lines: edges::lines(self, &sides::Sides::new(), warnings),
             sources: (0..self.edges.len() as u32).map(Source::FoldEdge).collect(),
         };
         let merge = options.merge.unwrap_or(MergeTolerance::LISTED);

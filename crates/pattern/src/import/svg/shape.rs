@@ -25,7 +25,7 @@ pub(super) enum Piece {
 pub(super) struct Stroke {
     pub(super) source: Source,
     pub(super) role: Role,
-    /// Radians.
+    /// The target fold angle, radians.
     pub(super) target: f64,
     pub(super) pieces: Vec<Piece>,
 }

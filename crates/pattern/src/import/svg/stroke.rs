@@ -36,7 +36,7 @@ pub(super) fn target(role: Role, opacity: f64) -> f64 {
     }
 }
 
-/// An opacity between 0 and 1, given as number or percentage; none where it is neither.
+/// An opacity between 0 and 1, given as number or percentage; `None` if it is neither.
 pub(super) fn opacity(text: &str) -> Option<f64> {
     let (number, scale) = match text.strip_suffix('%') {
         Some(percent) => (percent, 0.01),

@@ -30,7 +30,7 @@ pub(super) fn wrong(
     }
 }
 
-/// A length in mm where its unit is physical; otherwise in user units; none for percentages and font sizes.
+/// A length in mm where its unit is physical; otherwise in user units; `None` for percentages and font sizes.
 pub(super) fn parsed(text: &str) -> Option<Result<(f64, bool), ()>> {
     let Ok(Length { number, unit }) = Length::from_str(text.trim()) else {
         return Some(Err(()));
@@ -50,7 +50,7 @@ pub(super) fn parsed(text: &str) -> Option<Result<(f64, bool), ()>> {
     Some(Ok((number * mm, true)))
 }
 
-/// An attribute that is a length, in user units; 0 where left out.
+/// An attribute that is a length, in user units; 0 if omitted.
 pub(super) fn length(
     node: Node<'_, '_>,
     places: &Places,

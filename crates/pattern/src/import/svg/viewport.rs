@@ -88,7 +88,7 @@ pub(super) fn nested(node: Node<'_, '_>, places: &Places) -> Result<DAffine2, Im
     Ok(place * shift * DAffine2::from_scale(scale) * origin)
 }
 
-/// A side of the viewport and whether it is in mm; none where it is left out or depends on what is around.
+/// A side of the viewport and whether it is in mm; `None` if it is left out or depends on what is around.
 fn side(
     node: Node<'_, '_>,
     places: &Places,
@@ -139,7 +139,7 @@ fn aspect_ratio(node: Node<'_, '_>, places: &Places) -> Result<AspectRatio, Impo
     }
 }
 
-/// The factors by which a view box fits a viewport; none where the viewport has no size.
+/// The factors by which a view box fits a viewport; `None` if the viewport has no size.
 fn fit(
     node: Node<'_, '_>,
     places: &Places,

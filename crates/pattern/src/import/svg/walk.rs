@@ -25,7 +25,7 @@ struct Inherited<'a> {
     is_visible: bool,
 }
 
-/// The walk under way.
+/// The walk in progress.
 pub(super) struct Walk<'a, 'b> {
     places: &'b Places,
     styles: Styles<'a>,

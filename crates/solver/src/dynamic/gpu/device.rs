@@ -4,7 +4,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 use crate::SolverError;
 
-/// The shader.
+/// The source of the shader.
 pub(super) const SOURCE: &str = include_str!("../../../../../shaders/solver.wgsl");
 
 /// A GPU that can run the passes.
@@ -25,7 +25,7 @@ impl Gpu {
     /// The GPU that is expected to be the fastest.
     ///
     /// # Errors
-    /// [`SolverError::NoGpu`] where there is none, or its driver refuses.
+    /// [`SolverError::NoGpu`] if there is none, or its driver refuses.
     pub fn new() -> Result<Self, SolverError> {
         Self::with_shader(SOURCE)
     }

@@ -118,7 +118,7 @@ impl Columns<'_> {
         }
     }
 
-    /// The same for all vectors from `first` on.
+    /// Does so for all vectors from `first` on.
     #[inline(always)]
     fn subtract_from<S: Simd, const N: usize>(
         self,

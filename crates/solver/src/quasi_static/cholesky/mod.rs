@@ -271,7 +271,7 @@ fn take_up(panel: &mut [f64], update: &mut [f64], shape: Shape, handed: &[f64], 
     }
 }
 
-/// One solution.
+/// The solution of one system.
 struct Solution<'a> {
     fronts: &'a Fronts,
     shapes: &'a [Shape],

@@ -23,9 +23,9 @@ pub(super) struct Closest {
     /// ∂w/∂t for each free parameter.
     tangents: [[f64; 4]; 2],
     free: usize,
-    /// r.
+    /// The difference r of the two nearest points.
     pub(super) apart: DVec3,
-    /// D.
+    /// The distance D of the two nearest points.
     pub(super) distance: f64,
 }
 

@@ -146,7 +146,7 @@ impl ContactField {
         LAYERS * self.gap / self.smallest_height
     }
 
-    /// d̂.
+    /// The reach d̂ of the barrier.
     pub(super) fn reach(&self) -> f64 {
         self.reach
     }

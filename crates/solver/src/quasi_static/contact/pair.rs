@@ -19,7 +19,7 @@ use super::closest::Closest;
 /// Mollified are edges whose squared sine is below this (in the lengths of the sheet at rest).
 const MOLLIFIED: f64 = 1e-3;
 
-/// What meets.
+/// The kinds of primitives that meet.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum PairKind {
     /// Vertex x₀ and facet x₁x₂x₃.
@@ -35,9 +35,9 @@ pub(super) struct Pair {
     pub(super) nodes: [u32; 4],
     /// The triangles it was found from.
     pub(super) faces: [u32; 2],
-    /// g.
+    /// The gap g of the barrier.
     pub(super) gap: f64,
-    /// d̂.
+    /// The reach d̂ of the barrier.
     pub(super) reach: f64,
     /// ε; 0 for a vertex and a facet.
     pub(super) mollifier: f64,
@@ -94,7 +94,7 @@ impl Pair {
         -force * barrier(y)[1] * self.mollified(x).0
     }
 
-    /// ∇(B m); none where the pair is out of reach.
+    /// ∇(B m); `None` if the pair is out of reach.
     pub(super) fn gradient(&self, x: &[DVec3; 4], force: f64) -> Option<[DVec3; 4]> {
         let closest = self.closest(x);
         let y = (closest.distance - self.gap) / self.reach;

@@ -21,42 +21,42 @@ impl fmt::Display for FrameNumber {
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
 pub enum FoldError {
-    /// No JSON, no UTF-8, a key given twice, or a value of the wrong type or out of range.
-    #[error("{place}: {message}")]
+    /// Not JSON, not UTF-8, a key given twice, or a value of the wrong type or out of range.
+    #[error("{location}: {message}")]
     Json {
-        /// What was being read.
-        place: String,
+        /// The frame, key and list element that was being read.
+        location: String,
         /// What is wrong, with line and column.
         message: String,
     },
     /// A key that is needed is absent or empty.
     #[error("{frame} has no {key}: {need}")]
     Missing {
-        /// Where.
+        /// The frame with the error.
         frame: FrameNumber,
-        /// The key.
+        /// The FOLD key that is missing or empty.
         key: &'static str,
-        /// What would be right.
+        /// What is needed instead.
         need: &'static str,
     },
     /// A list has another length than what it describes.
     #[error("{frame}: {key} has {found} entries: {expected} are needed, one for each of {of}")]
     Count {
-        /// Where.
+        /// The frame with the error.
         frame: FrameNumber,
-        /// The list.
+        /// The FOLD key of the list.
         key: &'static str,
-        /// Its length.
+        /// The number of entries of the list.
         found: usize,
-        /// The length needed.
+        /// The number of entries needed.
         expected: usize,
-        /// What it describes.
+        /// The elements that the list describes.
         of: &'static str,
     },
     /// A frame with other faces than the key frame.
     #[error("{frame} has other faces_vertices than the key frame: one sheet must move throughout")]
     OtherTopology {
-        /// The frame.
+        /// The frame with the error.
         frame: FrameNumber,
     },
     /// A frame inherits from itself, from a later frame or from none.
@@ -65,7 +65,7 @@ pub enum FoldError {
         number = frame.0
     )]
     Parent {
-        /// The frame.
+        /// The frame with the error.
         frame: FrameNumber,
         /// Its `frame_parent`, or `none`.
         parent: String,
@@ -75,23 +75,23 @@ pub enum FoldError {
         "{frame} is the {held}th frame whose coordinates later frames inherit: at most {limit} can be held at a time"
     )]
     HeldFrames {
-        /// The frame.
+        /// The frame with the error.
         frame: FrameNumber,
-        /// Frames held.
+        /// The number of frames held at that moment.
         held: usize,
-        /// The most that are.
+        /// The largest number of frames that are held.
         limit: usize,
     },
     /// A corner or end that does not exist.
     #[error("{key}[{element}] names vertex {vertex}: there are {vertices} vertices")]
     VertexOutOfRange {
-        /// The list.
+        /// The FOLD key of the list.
         key: &'static str,
-        /// The face or edge.
+        /// The index of the face or edge in the list.
         element: usize,
-        /// The vertex.
+        /// The index of the vertex.
         vertex: u32,
-        /// How many there are.
+        /// The number of vertices of the file.
         vertices: usize,
     },
     /// An entry of `faceOrders` that orders no two faces.
@@ -101,11 +101,11 @@ pub enum FoldError {
         order.0, order.1, order.2
     )]
     FaceOrder {
-        /// The frame.
+        /// The frame with the error.
         frame: FrameNumber,
-        /// Which entry.
+        /// The index of the entry in `faceOrders`.
         entry: usize,
-        /// The entry.
+        /// The entry: two faces and a sign.
         order: (u32, u32, i8),
         /// How many faces there are.
         faces: usize,
@@ -115,21 +115,21 @@ pub enum FoldError {
         "{frame}: faceOrders[{entry}] gives faces {f} and {g} another order than an earlier entry"
     )]
     TwoOrders {
-        /// The frame.
+        /// The frame with the error.
         frame: FrameNumber,
-        /// The later entry.
+        /// The index of the later of the two entries.
         entry: usize,
-        /// One face.
+        /// The index of one face.
         f: u32,
-        /// The other.
+        /// The index of the other face.
         g: u32,
     },
     /// A face with too few or too many corners.
     #[error("faces_vertices[{face}] has {corners} corners: between 3 and {limit} are needed")]
     Corners {
-        /// The face.
+        /// The index of the face.
         face: usize,
-        /// Its corners.
+        /// The number of corners of the face.
         corners: usize,
         /// The most a face may have.
         limit: usize,
@@ -137,11 +137,11 @@ pub enum FoldError {
     /// A vertex stands twice in a face or an edge.
     #[error("{key}[{element}] names vertex {vertex} twice")]
     RepeatedVertex {
-        /// The list.
+        /// The FOLD key of the list.
         key: &'static str,
-        /// The face or edge.
+        /// The index of the face or edge in the list.
         element: usize,
-        /// The vertex.
+        /// The index of the vertex.
         vertex: u32,
     },
     /// A face without area.
@@ -149,11 +149,11 @@ pub enum FoldError {
         "faces_vertices[{face}] has no area: twice its area is {area:e}, more than {limit:e} is needed"
     )]
     ZeroArea {
-        /// The face.
+        /// The index of the face.
         face: usize,
-        /// Twice its area at rest.
+        /// Twice the area of the face at rest.
         area: f64,
-        /// What it must exceed.
+        /// Twice the area that it must exceed.
         limit: f64,
     },
     /// A polygon that crosses or touches itself.
@@ -161,7 +161,7 @@ pub enum FoldError {
         "faces_vertices[{face}] cannot be cut into triangles: its outline must not cross or touch itself"
     )]
     NotSimple {
-        /// The face.
+        /// The index of the face.
         face: usize,
     },
     /// More than two faces on an edge.
@@ -169,25 +169,25 @@ pub enum FoldError {
         "the edge {vertices:?} belongs to faces {faces:?}: at most 2 faces may meet at an edge"
     )]
     NonManifold {
-        /// The ends.
+        /// The vertices at the ends of the edge.
         vertices: [u32; 2],
-        /// Three of the faces.
+        /// Three of the faces at the edge.
         faces: [u32; 3],
     },
     /// `foldmotion:unitLength` cannot be used.
     #[error("foldmotion:unitLength is {value}: it must be positive")]
     UnitLength {
-        /// The value.
+        /// The value that was given.
         value: f64,
     },
     /// More elements than indices.
     #[error("there are {found} {what}: at most {limit} can be numbered")]
     TooMany {
-        /// What.
+        /// The name of the elements that are too many.
         what: &'static str,
-        /// How many.
+        /// The number of elements found.
         found: usize,
-        /// The most.
+        /// The largest number allowed.
         limit: usize,
     },
 }

@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use glam::DVec3;
 
 use super::error::{FoldError, FrameNumber};
-use super::stream::FrameFields;
+use super::frames::{FrameFields, check_vertices};
 use super::triangulate::{MOST_CORNERS, triangulate};
 use crate::{Assignment, CreaseKind, Edge, Facet, FacetKind, Sheet};
 
@@ -17,7 +17,7 @@ pub(super) struct Topology {
     pub(super) faces: Vec<u32>,
 }
 
-/// Builds the sheet of the key frame; `rest`: one position a vertex, in which polygons are cut and edges measured.
+/// Builds the sheet of the key frame; `rest`: one position for each vertex, in which polygons are cut and edges measured.
 pub(super) fn build(
     key: &FrameFields,
     polygons: &[Vec<u32>],
@@ -78,24 +78,7 @@ fn validate(face: usize, polygon: &[u32], vertices: usize) -> Result<(), FoldErr
             vertex: pair[0],
         });
     }
-    in_range(key, face, polygon, vertices)
-}
-
-fn in_range(
-    key: &'static str,
-    element: usize,
-    corners: &[u32],
-    vertices: usize,
-) -> Result<(), FoldError> {
-    match corners.iter().find(|&&v| v as usize >= vertices) {
-        None => Ok(()),
-        Some(&vertex) => Err(FoldError::VertexOutOfRange {
-            key,
-            element,
-            vertex,
-            vertices,
-        }),
-    }
+    check_vertices(key, face, polygon, vertices)
 }
 
 /// The facet of each triangle and the facets: those of `faces_foldmotion:facet`, otherwise the faces of the file.
@@ -194,7 +177,7 @@ fn edges(
     let mut sides = sides(triangles);
     let mut edges = Vec::with_capacity(sides.len());
     for (element, &[a, b]) in listed.iter().enumerate() {
-        in_range("edges_vertices", element, &[a, b], vertices)?;
+        check_vertices("edges_vertices", element, &[a, b], vertices)?;
         if a == b {
             return Err(FoldError::RepeatedVertex {
                 key: "edges_vertices",

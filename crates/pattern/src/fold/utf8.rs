@@ -3,16 +3,16 @@
 use std::io::{self, Read};
 use std::str;
 
-/// Passes bytes on and fails at the first that are no UTF-8.
+/// Passes bytes on and fails at the first that are not UTF-8.
 ///
 /// The JSON reader checks only the strings it keeps.
 #[derive(Debug)]
 pub(super) struct Utf8Reader<R> {
     inner: R,
-    /// The beginning of a character that the last read cut.
+    /// The beginning of a character that the last read cut off.
     cut: Vec<u8>,
-    /// Bytes found good.
-    good: u64,
+    /// The number of bytes read so far that are valid.
+    valid: u64,
 }
 
 impl<R: Read> Utf8Reader<R> {
@@ -20,7 +20,7 @@ impl<R: Read> Utf8Reader<R> {
         Self {
             inner,
             cut: Vec::new(),
-            good: 0,
+            valid: 0,
         }
     }
 
@@ -32,7 +32,7 @@ impl<R: Read> Utf8Reader<R> {
             rest = after;
             match str::from_utf8(&self.cut) {
                 Ok(_) => {
-                    self.good += self.cut.len() as u64;
+                    self.valid += self.cut.len() as u64;
                     self.cut.clear();
                 }
                 Err(e) if e.error_len().is_some() => return Err(self.failure(0)),
@@ -40,10 +40,10 @@ impl<R: Read> Utf8Reader<R> {
             }
         }
         match str::from_utf8(rest) {
-            Ok(_) => self.good += rest.len() as u64,
+            Ok(_) => self.valid += rest.len() as u64,
             Err(e) if e.error_len().is_some() => return Err(self.failure(e.valid_up_to())),
             Err(e) => {
-                self.good += e.valid_up_to() as u64;
+                self.valid += e.valid_up_to() as u64;
                 self.cut.extend_from_slice(&rest[e.valid_up_to()..]);
             }
         }
@@ -51,8 +51,8 @@ impl<R: Read> Utf8Reader<R> {
     }
 
     fn failure(&self, further: usize) -> io::Error {
-        let byte = self.good + further as u64;
-        let message = format!("the bytes from {byte} on are no UTF-8");
+        let byte = self.valid + further as u64;
+        let message = format!("the bytes from {byte} on are not UTF-8");
         io::Error::new(io::ErrorKind::InvalidData, message)
     }
 }

@@ -1,21 +1,19 @@
 //! Writes a motion as FOLD 1.2: the crease pattern as key frame, the frames of the motion as `file_frames`.
-//!
-//! Source: Demaine, Ku, Lang, "A New File Standard to Represent Folded Structures" (FOLD specification 1.2). Keys
-//! with the prefix `foldmotion:` tie the triangles to the facets of the paper's units.
 
 use std::io::{self, Write};
 
 use glam::DVec3;
 use serde_json::{Map, Value, json};
 
+use super::CreasePattern;
 use crate::{Frame, LayerOrder, Motion, Sheet};
 
-/// What a FOLD file says beside the motion itself.
+/// The keys of a FOLD file of a motion that do not follow from the motion itself.
 #[derive(Debug, Clone, Copy)]
 pub struct FoldHeader<'a> {
-    /// `file_title`.
+    /// The title of the file, `file_title`.
     pub title: &'a str,
-    /// `file_creator`.
+    /// The program that wrote the file, `file_creator`.
     pub creator: &'a str,
     /// `frame_unit`: one of FOLD's `unit`, `in`, `pt`, `m`, `cm`, `mm`, `um`, `nm`.
     pub unit: &'a str,
@@ -24,11 +22,11 @@ pub struct FoldHeader<'a> {
     pub target_angles: &'a [f64],
     /// The order of the triangles that coincide, by the index of the frame, in order: its `faceOrders`.
     pub layer_orders: &'a [(usize, LayerOrder)],
-    /// Further keys of the key frame; those that the motion writes itself are passed over.
+    /// Further keys of the key frame; those that the motion writes itself are ignored.
     pub keys: &'a Map<String, Value>,
 }
 
-/// Bytes a written number takes at most on average: 17 digits, sign, point and comma.
+/// An upper estimate of the mean size of a written number, bytes: 17 digits, sign, point and comma.
 const BYTES_A_NUMBER: u64 = 20;
 
 impl Motion {
@@ -42,13 +40,24 @@ impl Motion {
     /// Streams the motion to `out` as FOLD 1.2, one frame a line.
     ///
     /// Coordinates are the shortest decimals that read back as the same f64; fold angles are measured, in degrees,
-    /// clamped to ±180; `faceOrders` stand in the frames for which the header has an order.
+    /// clamped to ±180; frames for which the header has an order get `faceOrders`.
     ///
     /// # Errors
     /// Those of `out`.
     pub fn write_fold(&self, header: &FoldHeader<'_>, out: &mut impl Write) -> io::Result<()> {
         writeln!(out, "{{")?;
-        let own = key_frame(&self.sheet, header);
+        let own = CreasePattern {
+            sheet: &self.sheet,
+            target_angles: header.target_angles,
+            title: header.title,
+            creator: header.creator,
+            description: None,
+            file_classes: &["singleModel", "animation"],
+            unit: header.unit,
+            scale: 1.0,
+            has_triangles: true,
+        }
+        .keys();
         for (key, value) in &own {
             writeln!(out, "\"{key}\": {value},")?;
         }
@@ -61,72 +70,12 @@ impl Motion {
             let last = index + 1 == self.frames.len();
             let orders = header.layer_orders;
             let order = orders.binary_search_by_key(&index, |(frame, _)| *frame);
-            let order = order.ok().map(|place| &orders[place].1);
+            let order = order.ok().map(|index| &orders[index].1);
             write_frame(&self.sheet, frame, order, out)?;
             writeln!(out, "{}", if last { "" } else { "," })?;
         }
         writeln!(out, "]\n}}")
     }
-}
-
-fn key_frame(sheet: &Sheet, header: &FoldHeader<'_>) -> Vec<(&'static str, Value)> {
-    let facet = |face: usize| &sheet.facets[sheet.face_facets[face] as usize];
-    let faces = 0..sheet.faces.len();
-    let degrees =
-        |(edge, &angle): (&crate::Edge, &f64)| edge.is_hinge().then(|| angle.to_degrees());
-    let angles: Vec<Option<f64>> = sheet
-        .edges
-        .iter()
-        .zip(header.target_angles)
-        .map(degrees)
-        .collect();
-    vec![
-        ("file_spec", json!(1.2)),
-        ("file_creator", json!(header.creator)),
-        ("file_title", json!(header.title)),
-        ("file_classes", json!(["singleModel", "animation"])),
-        ("frame_title", json!("crease pattern")),
-        ("frame_classes", json!(["creasePattern"])),
-        (
-            "frame_attributes",
-            json!(["2D", "manifold", "orientable", "noCuts", "noJoins"]),
-        ),
-        ("frame_unit", json!(header.unit)),
-        ("foldmotion:unitLength", json!(sheet.unit_length)),
-        (
-            "vertices_coords",
-            json!(
-                sheet
-                    .vertices
-                    .iter()
-                    .map(|v| [v.x, v.y])
-                    .collect::<Vec<_>>()
-            ),
-        ),
-        (
-            "edges_vertices",
-            json!(sheet.edges.iter().map(|e| e.vertices).collect::<Vec<_>>()),
-        ),
-        (
-            "edges_assignment",
-            json!(sheet.edges.iter().map(|e| e.assignment).collect::<Vec<_>>()),
-        ),
-        ("edges_foldAngle", json!(angles)),
-        ("faces_vertices", json!(sheet.faces)),
-        ("faces_foldmotion:facet", json!(sheet.face_facets)),
-        (
-            "faces_foldmotion:row",
-            json!(faces.clone().map(|f| facet(f).row).collect::<Vec<_>>()),
-        ),
-        (
-            "faces_foldmotion:column",
-            json!(faces.clone().map(|f| facet(f).column).collect::<Vec<_>>()),
-        ),
-        (
-            "faces_foldmotion:kind",
-            json!(faces.map(|f| facet(f).kind).collect::<Vec<_>>()),
-        ),
-    ]
 }
 
 fn write_frame(

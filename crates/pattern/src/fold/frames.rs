@@ -1,4 +1,4 @@
-//! The walk over the text of a FOLD file: one frame at a time.
+//! The reader: the text of a FOLD file as a stream, one frame at a time.
 
 use std::cell::Cell;
 use std::fmt;
@@ -14,7 +14,7 @@ use super::utf8::Utf8Reader;
 /// Bytes read at a time.
 const BUFFER: usize = 1 << 16;
 
-/// What a frame says itself, before inheritance.
+/// The keys that a frame has itself, before inheritance.
 #[derive(Debug, Default)]
 pub(crate) struct FrameFields {
     pub(crate) title: Option<String>,
@@ -38,7 +38,7 @@ pub(crate) struct FrameFields {
     pub(crate) angles: Option<Vec<Option<f64>>>,
     pub(crate) frame_title: Option<String>,
     pub(crate) unit: Option<String>,
-    /// Every other key, where they are kept.
+    /// Every other key, if [`Selection::rest`] is set.
     pub(crate) other: serde_json::Map<String, serde_json::Value>,
     seen: Vec<String>,
 }
@@ -46,60 +46,64 @@ pub(crate) struct FrameFields {
 /// An entry of `faceOrders`: [f, g, s].
 pub(crate) type FaceOrder = (u32, u32, i8);
 
-/// What of a frame is kept.
+/// Which keys of a frame are kept; the values of others are skipped.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) struct Keep {
+pub(crate) struct Selection {
     /// Coordinates and the order of the layers.
     pub(crate) coordinates: bool,
     pub(crate) topology: bool,
-    /// Fold angles, unit, and every key not known here.
+    /// Fold angles, unit, and every key that is not listed in [`known`].
     pub(crate) rest: bool,
 }
 
-/// What a walk keeps of which frame, and whom it tells of each.
-pub(crate) struct Walk<'a> {
-    pub(crate) keep: &'a dyn Fn(FrameNumber) -> Keep,
-    /// Told every element of `file_frames` in order; false ends the walk.
+/// The two callbacks of [`read_frames`].
+pub(crate) struct FrameVisitor<'a> {
+    /// Which keys of a frame to keep.
+    pub(crate) select: &'a dyn Fn(FrameNumber) -> Selection,
+    /// Called with every element of `file_frames` in order; reading ends if it returns false.
     pub(crate) each: &'a mut dyn FnMut(FrameNumber, FrameFields) -> bool,
 }
 
-/// Walks over a file; returns the key frame.
-pub(crate) fn walk(input: impl Read, walk: Walk<'_>) -> Result<FrameFields, FoldError> {
-    let place = Place::default();
+/// Reads a file from start to end and returns its key frame.
+pub(crate) fn read_frames(
+    input: impl Read,
+    visitor: FrameVisitor<'_>,
+) -> Result<FrameFields, FoldError> {
+    let location = Location::default();
     let input = BufReader::with_capacity(BUFFER, Utf8Reader::new(input));
     let mut reader = serde_json::Deserializer::from_reader(input);
     let file = FileObject {
-        walk,
-        place: &place,
+        visitor,
+        location: &location,
     };
     let read = reader.deserialize_map(file);
     read.and_then(|fields| {
-        place.key.set("end of the file");
-        place.element.set(None);
+        location.key.set("end of the file");
+        location.element.set(None);
         reader.end().map(|()| fields)
     })
     .map_err(|e| FoldError::Json {
-        place: place.to_string(),
+        location: location.to_string(),
         message: e.to_string(),
     })
 }
 
-/// What is being read, for messages.
+/// The frame, key and list element being read, for error messages.
 #[derive(Debug, Default)]
-struct Place {
+struct Location {
     frame: Cell<usize>,
     key: Cell<&'static str>,
     element: Cell<Option<usize>>,
 }
 
-impl Place {
+impl Location {
     fn enter(&self, key: &'static str) {
         self.key.set(key);
         self.element.set(None);
     }
 }
 
-impl fmt::Display for Place {
+impl fmt::Display for Location {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{}", FrameNumber(self.frame.get()))?;
         if !self.key.get().is_empty() {
@@ -113,8 +117,8 @@ impl fmt::Display for Place {
 
 /// The whole file: the key frame's keys beside `file_frames`.
 struct FileObject<'a, 'b> {
-    walk: Walk<'b>,
-    place: &'a Place,
+    visitor: FrameVisitor<'b>,
+    location: &'a Location,
 }
 
 impl<'de> Visitor<'de> for FileObject<'_, '_> {
@@ -126,18 +130,18 @@ impl<'de> Visitor<'de> for FileObject<'_, '_> {
 
     fn visit_map<A: MapAccess<'de>>(mut self, mut map: A) -> Result<FrameFields, A::Error> {
         let mut fields = FrameFields::default();
-        let keep = (self.walk.keep)(FrameNumber(0));
+        let select = (self.visitor.select)(FrameNumber(0));
         while let Some(key) = map.next_key::<String>()? {
             if key == "file_frames" {
                 fields.once(&key)?;
                 map.next_value_seed(FrameList {
-                    walk: &mut self.walk,
-                    place: self.place,
+                    visitor: &mut self.visitor,
+                    location: self.location,
                 })?;
-                self.place.frame.set(0);
-                self.place.enter("");
+                self.location.frame.set(0);
+                self.location.enter("");
             } else {
-                fields.read(&key, keep, self.place, &mut map)?;
+                fields.read(&key, select, self.location, &mut map)?;
             }
         }
         Ok(fields)
@@ -146,8 +150,8 @@ impl<'de> Visitor<'de> for FileObject<'_, '_> {
 
 /// The elements of `file_frames`.
 struct FrameList<'a, 'b> {
-    walk: &'a mut Walk<'b>,
-    place: &'a Place,
+    visitor: &'a mut FrameVisitor<'b>,
+    location: &'a Location,
 }
 
 impl<'de> DeserializeSeed<'de> for FrameList<'_, '_> {
@@ -167,18 +171,18 @@ impl<'de> Visitor<'de> for FrameList<'_, '_> {
 
     fn visit_seq<A: SeqAccess<'de>>(self, mut list: A) -> Result<(), A::Error> {
         for number in 1.. {
-            self.place.frame.set(number);
-            self.place.enter("");
+            self.location.frame.set(number);
+            self.location.enter("");
             let number = FrameNumber(number);
             let frame = FrameObject {
-                keep: (self.walk.keep)(number),
-                place: self.place,
+                select: (self.visitor.select)(number),
+                location: self.location,
             };
             let Some(fields) = list.next_element_seed(frame)? else {
                 break;
             };
-            if !(self.walk.each)(number, fields) {
-                return Err(A::Error::custom("the walk was ended here"));
+            if !(self.visitor.each)(number, fields) {
+                return Err(A::Error::custom("reading ended here"));
             }
         }
         Ok(())
@@ -187,8 +191,8 @@ impl<'de> Visitor<'de> for FrameList<'_, '_> {
 
 /// One element of `file_frames`.
 struct FrameObject<'a> {
-    keep: Keep,
-    place: &'a Place,
+    select: Selection,
+    location: &'a Location,
 }
 
 impl<'de> DeserializeSeed<'de> for FrameObject<'_> {
@@ -209,25 +213,43 @@ impl<'de> Visitor<'de> for FrameObject<'_> {
     fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<FrameFields, A::Error> {
         let mut fields = FrameFields::default();
         while let Some(key) = map.next_key::<String>()? {
-            fields.read(&key, self.keep, self.place, &mut map)?;
+            fields.read(&key, self.select, self.location, &mut map)?;
         }
         Ok(fields)
     }
 }
 
 impl FrameFields {
-    /// Reads the value of `key`; values of no use here are passed over.
+    /// The earlier frame that frame `number` inherits from, if it inherits.
+    ///
+    /// # Errors
+    /// [`FoldError::Parent`] if it names itself, a later frame, or none although it inherits.
+    pub(crate) fn parent(&self, number: usize) -> Result<Option<usize>, FoldError> {
+        let earlier = |&parent: &u64| parent < number as u64;
+        let parent = self.parent.filter(earlier);
+        if (self.inherit || self.parent.is_some()) && parent.is_none() {
+            return Err(FoldError::Parent {
+                frame: FrameNumber(number),
+                parent: self.parent.map_or("none".to_owned(), |p| p.to_string()),
+            });
+        }
+        Ok(parent
+            .filter(|_| self.inherit)
+            .map(|parent| parent as usize))
+    }
+
+    /// Reads the value of `key` or skips it.
     fn read<'de, A: MapAccess<'de>>(
         &mut self,
         key: &str,
-        keep: Keep,
-        place: &Place,
+        select: Selection,
+        location: &Location,
         map: &mut A,
     ) -> Result<(), A::Error> {
-        place.enter(known(key).unwrap_or(""));
+        location.enter(known(key).unwrap_or(""));
         match known(key) {
             Some(known) => self.once(known)?,
-            None if keep.rest => {
+            None if select.rest => {
                 self.once(key)?;
                 self.other.insert(key.to_owned(), map.next_value()?);
                 return Ok(());
@@ -244,8 +266,8 @@ impl FrameFields {
             "foldmotion:unitLength" => self.unit_length = Some(map.next_value()?),
             "vertices_coords" => {
                 self.has_coordinates = true;
-                if keep.coordinates {
-                    let points = map.next_value_seed(List::<Point>::new(place))?;
+                if select.coordinates {
+                    let points = map.next_value_seed(List::<Point>::new(location))?;
                     self.coordinates = points.into_iter().map(|p| p.0).collect();
                 } else {
                     map.next_value::<IgnoredAny>()?;
@@ -253,30 +275,34 @@ impl FrameFields {
             }
             "faceOrders" => {
                 self.has_orders = true;
-                if keep.coordinates {
-                    self.orders = map.next_value_seed(List::new(place))?;
+                if select.coordinates {
+                    self.orders = map.next_value_seed(List::new(location))?;
                 } else {
                     map.next_value::<IgnoredAny>()?;
                 }
             }
-            "frame_unit" if keep.topology && !keep.rest => {
+            "frame_unit" if select.topology && !select.rest => {
                 self.unit = Some(map.next_value()?);
             }
-            "edges_foldAngle" | "edges_foldAngles" | "frame_title" | "frame_unit" if !keep.rest => {
+            "edges_foldAngle" | "edges_foldAngles" | "frame_title" | "frame_unit"
+                if !select.rest =>
+            {
                 map.next_value::<IgnoredAny>()?;
             }
             "edges_foldAngle" | "edges_foldAngles" => {
-                self.angles = Some(map.next_value_seed(List::new(place))?);
+                self.angles = Some(map.next_value_seed(List::new(location))?);
             }
             "frame_title" => self.frame_title = Some(map.next_value()?),
             "frame_unit" => self.unit = Some(map.next_value()?),
-            _ if !keep.topology => drop(map.next_value::<IgnoredAny>()?),
-            "faces_vertices" => self.faces = Some(map.next_value_seed(List::new(place))?),
-            "edges_vertices" => self.edges = Some(map.next_value_seed(List::new(place))?),
-            "edges_assignment" => self.assignments = Some(map.next_value_seed(List::new(place))?),
-            _ => self.facets = Some(map.next_value_seed(List::new(place))?),
+            _ if !select.topology => drop(map.next_value::<IgnoredAny>()?),
+            "faces_vertices" => self.faces = Some(map.next_value_seed(List::new(location))?),
+            "edges_vertices" => self.edges = Some(map.next_value_seed(List::new(location))?),
+            "edges_assignment" => {
+                self.assignments = Some(map.next_value_seed(List::new(location))?)
+            }
+            _ => self.facets = Some(map.next_value_seed(List::new(location))?),
         }
-        place.enter("");
+        location.enter("");
         Ok(())
     }
 
@@ -289,7 +315,7 @@ impl FrameFields {
     }
 }
 
-/// The keys that matter to a motion or a crease pattern.
+/// `key` if it matters to a motion or a crease pattern.
 fn known(key: &str) -> Option<&'static str> {
     const KEYS: [&str; 17] = [
         "edges_foldAngle",
@@ -313,16 +339,16 @@ fn known(key: &str) -> Option<&'static str> {
     KEYS.into_iter().find(|&k| k == key)
 }
 
-/// A list whose elements are named in messages.
+/// A list whose elements are named in error messages by their index.
 struct List<'a, T> {
-    place: &'a Place,
+    location: &'a Location,
     elements: Vec<T>,
 }
 
 impl<'a, T> List<'a, T> {
-    fn new(place: &'a Place) -> Self {
+    fn new(location: &'a Location) -> Self {
         Self {
-            place,
+            location,
             elements: Vec::new(),
         }
     }
@@ -345,7 +371,7 @@ impl<'de, T: Deserialize<'de>> Visitor<'de> for List<'_, T> {
 
     fn visit_seq<A: SeqAccess<'de>>(mut self, mut list: A) -> Result<Vec<T>, A::Error> {
         loop {
-            self.place.element.set(Some(self.elements.len()));
+            self.location.element.set(Some(self.elements.len()));
             match list.next_element()? {
                 Some(element) => self.elements.push(element),
                 None => return Ok(self.elements),
@@ -354,7 +380,7 @@ impl<'de, T: Deserialize<'de>> Visitor<'de> for List<'_, T> {
     }
 }
 
-/// Two or three coordinates; the third is 0 where left out.
+/// Two or three coordinates; the third is 0 if omitted.
 struct Point(DVec3);
 
 impl<'de> Deserialize<'de> for Point {
@@ -388,5 +414,23 @@ impl<'de> Visitor<'de> for PointVisitor {
             return Err(A::Error::invalid_length(count, &self));
         }
         Ok(Point(point))
+    }
+}
+
+/// Refuses a list element that names a vertex that does not exist.
+pub(crate) fn check_vertices(
+    key: &'static str,
+    element: usize,
+    corners: &[u32],
+    vertices: usize,
+) -> Result<(), FoldError> {
+    match corners.iter().find(|&&v| v as usize >= vertices) {
+        Some(&vertex) => Err(FoldError::VertexOutOfRange {
+            key,
+            element,
+            vertex,
+            vertices,
+        }),
+        None => Ok(()),
     }
 }

@@ -3,20 +3,21 @@
 use glam::{DVec2, DVec3};
 
 use super::error::FoldError;
+use crate::delaunay::delaunay;
 
-/// The most corners of a face: cutting ears takes up to the cube of it.
+/// The most corners of a face: far more than crease patterns have, few enough to bound the time that one face takes.
 pub(super) const MOST_CORNERS: usize = 1024;
 
 /// Twice the area below which a polygon counts as having none, in squares of its size.
 const AREA_LIMIT: f64 = 1e-12;
 
-/// The triangles of face `face` with `polygon` as corners, each in the polygon's sense of turning.
+/// The triangles of face `face` with `polygon` as corners, each oriented as the polygon is.
 ///
-/// Judged in the plane normal to the polygon's area vector (Newell): strictly convex outlines become a fan from their
-/// first corner, others are cut ear by ear (Meisters 1975), the first ear by index first. A triangle stays as it is.
+/// The polygon is seen in the plane normal to its area vector (Newell). A strictly convex outline becomes a fan from its
+/// first corner, any other its constrained Delaunay triangulation. A triangle stays as it is.
 ///
 /// # Errors
-/// [`FoldError::ZeroArea`], or [`FoldError::NotSimple`] where no ear is left.
+/// [`FoldError::ZeroArea`], or [`FoldError::NotSimple`] if the outline crosses or touches itself.
 pub(super) fn triangulate(
     face: usize,
     polygon: &[u32],
@@ -47,11 +48,7 @@ pub(super) fn triangulate(
         .map(|i| DVec2::new(corner(i).dot(x), corner(i).dot(y)))
         .collect();
     let outline = Outline { plane, limit };
-    let triangles = if outline.is_convex() {
-        (1..polygon.len() - 1).map(|i| [0, i, i + 1]).collect()
-    } else {
-        outline.ears().ok_or(FoldError::NotSimple { face })?
-    };
+    let triangles = outline.triangles().ok_or(FoldError::NotSimple { face })?;
     Ok(triangles
         .into_iter()
         .map(|t| t.map(|i| polygon[i]))
@@ -66,44 +63,30 @@ struct Outline {
 }
 
 impl Outline {
-    /// Twice the signed area.
-    fn area(&self, [a, b, c]: [usize; 3]) -> f64 {
-        (self.plane[b] - self.plane[a]).perp_dot(self.plane[c] - self.plane[a])
+    /// Whether twice the area of a triangle exceeds the limit.
+    fn has_area(&self, [a, b, c]: [usize; 3]) -> bool {
+        let [a, b, c] = [a, b, c].map(|corner| self.plane[corner]);
+        (b - a).perp_dot(c - a) > self.limit
     }
 
     /// Whether every corner turns left and the outline winds once.
     fn is_convex(&self) -> bool {
         let n = self.plane.len();
-        let turns_left = (0..n).all(|i| self.area([i, (i + 1) % n, (i + 2) % n]) > self.limit);
-        turns_left && (1..n - 1).all(|i| self.area([0, i, i + 1]) > self.limit)
+        (0..n).all(|i| self.has_area([i, (i + 1) % n, (i + 2) % n]))
+            && (1..n - 1).all(|i| self.has_area([0, i, i + 1]))
     }
 
-    fn ears(&self) -> Option<Vec<[usize; 3]>> {
-        let mut left: Vec<usize> = (0..self.plane.len()).collect();
-        let mut triangles = Vec::with_capacity(left.len() - 2);
-        while left.len() > 3 {
-            let n = left.len();
-            let around = |i: usize| [left[(i + n - 1) % n], left[i], left[(i + 1) % n]];
-            let ear = (0..n).find(|&i| self.is_ear(around(i), &left))?;
-            triangles.push(around(ear));
-            left.remove(ear);
+    /// A fan from the first corner if the outline is strictly convex, otherwise the Delaunay triangulation.
+    fn triangles(&self) -> Option<Vec<[usize; 3]>> {
+        let n = self.plane.len();
+        if self.is_convex() {
+            return Some((1..n - 1).map(|i| [0, i, i + 1]).collect());
         }
-        let last = [left[0], left[1], left[2]];
-        (self.area(last) > self.limit).then(|| {
-            triangles.push(last);
-            triangles
-        })
-    }
-
-    /// Whether the triangle turns left and no other corner lies in it or on its border.
-    fn is_ear(&self, [a, b, c]: [usize; 3], left: &[usize]) -> bool {
-        let holds = |&p: &usize| {
-            ![a, b, c].contains(&p)
-                && self.area([a, b, p]) >= -self.limit
-                && self.area([b, c, p]) >= -self.limit
-                && self.area([c, a, p]) >= -self.limit
-        };
-        self.area([a, b, c]) > self.limit && !left.iter().any(holds)
+        let corners = vec![(0..n as u32).collect()];
+        let triangles = delaunay(&corners, &self.plane)?.into_iter();
+        let triangles: Vec<_> = triangles.map(|t| t.map(|corner| corner as usize)).collect();
+        let covers_all = triangles.len() == n - 2 && triangles.iter().all(|&t| self.has_area(t));
+        covers_all.then_some(triangles)
     }
 }
 
