@@ -196,12 +196,18 @@ fn take_over_counts(scene: &mut Scene) {
 
 /// The case whose number of columns a built-in model uses.
 pub(super) fn columns_case(case: Option<CaseChoice>) -> Case {
-    match case {
-        Some(CaseChoice::T) => Case::T,
-        Some(CaseChoice::S) => Case::S,
-        Some(CaseChoice::SII) => Case::SII,
-        Some(CaseChoice::Plain) => Case::Plain,
-        None | Some(CaseChoice::E | CaseChoice::Auto) => Case::E,
+    case.and_then(own_case).unwrap_or(Case::E)
+}
+
+/// The case that a choice stands for; `None` for `auto`.
+pub(super) fn own_case(choice: CaseChoice) -> Option<Case> {
+    match choice {
+        CaseChoice::E => Some(Case::E),
+        CaseChoice::T => Some(Case::T),
+        CaseChoice::S => Some(Case::S),
+        CaseChoice::SII => Some(Case::SII),
+        CaseChoice::Plain => Some(Case::Plain),
+        CaseChoice::Auto => None,
     }
 }
 

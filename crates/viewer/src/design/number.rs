@@ -162,23 +162,10 @@ impl Form<'_> {
         number: &Number,
         of: impl Fn(&mut Scene) -> &mut Option<f64>,
     ) {
-        self.row(ui, field, |form, ui, label| {
-            let width = control_width(ui);
-            let mut value = *of(&mut form.scene);
-            if form.cell(
-                ui,
-                field.name,
-                AccessibleName::By(label),
-                number,
-                width,
-                &mut value,
-            ) {
-                *of(&mut form.scene) = value;
-            }
-            if form.reset(ui, field, value.is_some()) {
-                *of(&mut form.scene) = None;
-            }
-        });
+        let mut value = *of(&mut self.scene);
+        if self.number_row(ui, field, number, &mut value) {
+            *of(&mut self.scene) = value;
+        }
     }
 
     /// A row with a field for a whole number.
@@ -189,24 +176,30 @@ impl Form<'_> {
         number: Number,
         of: impl Fn(&mut Scene) -> &mut Option<i64>,
     ) {
-        let number = number.whole();
+        let mut value = of(&mut self.scene).map(|whole| whole as f64);
+        if self.number_row(ui, field, &number.whole(), &mut value) {
+            *of(&mut self.scene) = value.map(|number| number as i64);
+        }
+    }
+
+    /// A row with a number field and its reset button; returns whether `value` has changed.
+    fn number_row(
+        &mut self,
+        ui: &mut Ui,
+        field: &Field,
+        number: &Number,
+        value: &mut Option<f64>,
+    ) -> bool {
+        let before = *value;
         self.row(ui, field, |form, ui, label| {
             let width = control_width(ui);
-            let mut value = *of(&mut form.scene);
-            if form.whole_cell(
-                ui,
-                field.name,
-                AccessibleName::By(label),
-                &number,
-                width,
-                &mut value,
-            ) {
-                *of(&mut form.scene) = value;
-            }
+            let name = AccessibleName::By(label);
+            form.cell(ui, field.name, name, number, width, value);
             if form.reset(ui, field, value.is_some()) {
-                *of(&mut form.scene) = None;
+                *value = None;
             }
         });
+        *value != before
     }
 
     /// A number field; returns whether its value has changed.

@@ -189,7 +189,7 @@ mod tests {
     }
 
     #[test]
-    #[cfg_attr(not(gpu_tests), ignore = "no adapter: set FOLDMOTION_GPU_TESTS=yes")]
+    #[cfg_attr(not(gpu_tests), ignore = "needs a GPU and FOLDMOTION_GPU_TESTS=yes")]
     fn the_sheet_is_drawn_dark_and_light() {
         for (appearance, theme) in [
             (Appearance::Dark, Theme::Dark),

@@ -17,7 +17,7 @@ pub(crate) use appearance::{Appearance, SCALES, apply};
 pub(crate) use help::show_help;
 pub(crate) use picker::{FilePicker, PickerResult};
 pub(crate) use recent::RecentFiles;
-pub(crate) use shortcuts::{Command, keys_of, name_of, pressed};
+pub(crate) use shortcuts::{Command, Group, commands_of, keys_of, name_of, pressed};
 pub(crate) use unsaved::{UnsavedScene, UnsavedScenes};
 pub(crate) use view::{Colour, PanelSettings, ViewSettings};
 

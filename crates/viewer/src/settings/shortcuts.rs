@@ -2,9 +2,9 @@
 
 use eframe::egui::{Context, Event, Id, Key, KeyboardShortcut, Memory, Modifiers, Popup};
 
-/// The groups in which the help sheet lists commands.
+/// The groups in which menus and the help sheet list commands.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Group {
+pub(crate) enum Group {
     File,
     Edit,
     Motion,
@@ -138,6 +138,14 @@ commands! {
         DarkLight "Dark or light" plain(Key::F10);
         Help "Shortcuts and help" plain(Key::F1), plain(Key::Questionmark);
     }
+}
+
+/// The commands of a group.
+pub(crate) fn commands_of(group: Group) -> impl Iterator<Item = Command> {
+    let shortcuts = SHORTCUTS
+        .iter()
+        .filter(move |shortcut| shortcut.group == group);
+    shortcuts.map(|shortcut| shortcut.command)
 }
 
 /// The name of a command in menus.

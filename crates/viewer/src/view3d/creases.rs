@@ -34,33 +34,27 @@ pub(crate) struct CreaseClasses {
 
 impl Default for CreaseClasses {
     fn default() -> Self {
-        Self {
-            mountains: true,
-            valleys: true,
-            border: true,
-            free: true,
-            row: true,
-            diagonal: true,
-            vertical: true,
-            pad: true,
-            column: true,
-        }
+        Self::uniform(true)
     }
 }
 
 impl CreaseClasses {
     /// No creases.
-    pub(crate) const NONE: Self = Self {
-        mountains: false,
-        valleys: false,
-        border: false,
-        free: false,
-        row: false,
-        diagonal: false,
-        vertical: false,
-        pad: false,
-        column: false,
-    };
+    pub(crate) const NONE: Self = Self::uniform(false);
+
+    const fn uniform(is_drawn: bool) -> Self {
+        Self {
+            mountains: is_drawn,
+            valleys: is_drawn,
+            border: is_drawn,
+            free: is_drawn,
+            row: is_drawn,
+            diagonal: is_drawn,
+            vertical: is_drawn,
+            pad: is_drawn,
+            column: is_drawn,
+        }
+    }
 
     /// Whether `edge` is drawn.
     pub(crate) fn shows(&self, edge: &Edge) -> bool {

@@ -23,6 +23,11 @@ const ZOOM_A_POINT: f64 = 1.0 / 200.0;
 /// The longest duration of a frame that a camera transition takes into account, seconds.
 const LONGEST_FRAME: f32 = 0.05;
 
+/// The size of `rect` in points.
+pub(super) fn size(rect: Rect) -> DVec2 {
+    DVec2::new(f64::from(rect.width()), f64::from(rect.height()))
+}
+
 /// `at` in points from the upper left corner of `rect`.
 pub(super) fn within(rect: Rect, at: Pos2) -> DVec2 {
     let at = at - rect.min;
@@ -82,8 +87,7 @@ impl View3d {
         let factor = f64::from(pinch) * (f64::from(scroll) * ZOOM_A_POINT).exp();
         if factor != 1.0 {
             let length = self.orbit.width / f64::from(rect.width());
-            let size = DVec2::new(f64::from(rect.width()), f64::from(rect.height()));
-            let at = (within(rect, at) - 0.5 * size) * length;
+            let at = (within(rect, at) - 0.5 * size(rect)) * length;
             self.orbit
                 .zoom(factor, DVec2::new(at.x, -at.y), self.widths());
         }
@@ -127,8 +131,7 @@ impl View3d {
             return;
         };
         let mut to = self.orbit();
-        let size = DVec2::new(f64::from(rect.width()), f64::from(rect.height()));
-        to.fit(points, size);
+        to.fit(points, size(rect));
         if self.was_shown {
             self.move_to(to);
         } else {

@@ -359,10 +359,7 @@ fn render(harness: &mut Harness<'_, Window>, name: &str) {
 type Change = fn(&mut Window);
 
 #[test]
-#[cfg_attr(
-    not(gpu_tests),
-    ignore = "no GPU: set FOLDMOTION_GPU_TESTS=yes where there is one"
-)]
+#[cfg_attr(not(gpu_tests), ignore = "needs a GPU and FOLDMOTION_GPU_TESTS=yes")]
 fn an_idle_frame_draws_nothing_and_every_change_draws_once() {
     let mut harness = with_gpu(flat(), [400.0, 300.0], true);
     harness.run();
@@ -389,10 +386,7 @@ fn an_idle_frame_draws_nothing_and_every_change_draws_once() {
 }
 
 #[test]
-#[cfg_attr(
-    not(gpu_tests),
-    ignore = "no GPU: set FOLDMOTION_GPU_TESTS=yes where there is one"
-)]
+#[cfg_attr(not(gpu_tests), ignore = "needs a GPU and FOLDMOTION_GPU_TESTS=yes")]
 fn a_lost_device_is_told_and_another_one_draws_again() {
     let mut window = flat();
     let state = device();
@@ -434,10 +428,7 @@ fn shelter() -> Window {
 }
 
 #[test]
-#[cfg_attr(
-    not(gpu_tests),
-    ignore = "no GPU: set FOLDMOTION_GPU_TESTS=yes where there is one"
-)]
+#[cfg_attr(not(gpu_tests), ignore = "needs a GPU and FOLDMOTION_GPU_TESTS=yes")]
 fn every_state_colour_and_look_is_drawn() {
     for (theme, is_dark) in [("dark", true), ("light", false)] {
         let mut harness = with_gpu(shelter(), [800.0, 560.0], is_dark);

@@ -12,7 +12,7 @@ use super::{Viewer, motion_keys};
 use crate::document::{Document, SaveError};
 use crate::settings::{Appearance, Colour, Command, FilePicker, apply};
 use crate::timeline::Repeat;
-use crate::work::{Interaction, RunJob, open};
+use crate::work::{Interaction, open, run};
 
 /// Extensions of files that can be opened.
 const OPENED: [&str; 3] = ["toml", "fold", "svg"];
@@ -173,7 +173,8 @@ impl Viewer {
         self.jobs.interaction = None;
         self.jobs.best_rate = 0;
         let scene = motion_keys(self.document.scene());
-        self.jobs.run = Some((scene, RunJob::start(&study, self.repaint.clone())));
+        let (states, job) = run(&study, self.repaint.clone());
+        self.jobs.run = Some(((scene, states), job));
         self.display.follows_run = true;
         self.playback.is_playing = false;
     }

@@ -21,7 +21,7 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use eframe::egui::{self, CentralPanel, Panel, ScrollArea, Ui};
-use foldmotion_study::{Draft, Opened, Preview, Scene, Study};
+use foldmotion_study::{Draft, Opened, OpenedMotion, Preview, Scene, Study};
 
 use crate::design::{DesignInput, DesignPanel, SceneError};
 use crate::document::Document;
@@ -31,7 +31,9 @@ use crate::settings::{Settings, UnsavedScenes, apply};
 use crate::timeline::{Marks, Playback, Plots, Timeline};
 use crate::timings::{Activity, Timings};
 use crate::view3d::View3d;
-use crate::work::{CheckedMotion, Interaction, Job, RepaintSignal, Resolver, RunJob, SheetState};
+use crate::work::{
+    CheckedMotion, FinishedRun, Interaction, Job, RepaintSignal, Resolver, SheetState, StateFeed,
+};
 
 use self::dialogs::Dialog;
 use self::record_panel::RecordPanel;
@@ -104,11 +106,11 @@ struct Display {
 /// Jobs in the background.
 #[derive(Default)]
 struct Jobs {
-    preview: Option<(Scene, Arc<Draft>, Job<Preview>)>,
-    run: Option<(Scene, RunJob)>,
+    preview: Option<((Scene, Arc<Draft>), Job<Preview>)>,
+    run: Option<((Scene, StateFeed), Job<FinishedRun>)>,
     interaction: Option<Interaction>,
     opening: Option<(PathBuf, Job<Opened>)>,
-    checking: Option<Job<CheckedMotion>>,
+    checking: Option<(Arc<OpenedMotion>, Job<CheckedMotion>)>,
     recording: Option<(PathBuf, Job<Vec<String>>)>,
     /// The highest number of states per second of the current run or interaction.
     best_rate: usize,
@@ -233,7 +235,7 @@ impl Viewer {
         let run = self.jobs.run.as_ref().filter(|_| self.display.follows_run);
         match (&self.jobs.interaction, run) {
             (Some(interaction), _) => interaction.states().latest(),
-            (None, Some((_, run))) => run.states().latest(),
+            (None, Some(((_, states), _))) => states.latest(),
             (None, None) => None,
         }
     }

@@ -228,8 +228,9 @@ impl Viewer {
             }
             return (words, accent);
         }
-        if let Some((_, run)) = self.jobs.run.as_ref().filter(|_| self.display.follows_run) {
-            let words = format!("running, {} states per second", run.states().rate());
+        if let Some(((_, states), _)) = self.jobs.run.as_ref().filter(|_| self.display.follows_run)
+        {
+            let words = format!("running, {} states per second", states.rate());
             return (words, accent);
         }
         let checked = |verdict: &str| (verdict.to_owned(), verdict_colour(ui, verdict));

@@ -212,9 +212,9 @@ impl Shared {
         status.fold_angle_error = hand.fold_angle_error();
         drop(status);
         if is_at_rest {
-            states.show_last(hand.time(), hand.positions());
+            states.publish(hand.time(), hand.positions());
             self.repaint.send();
-        } else if states.show(hand.time(), || hand.positions()) {
+        } else if states.publish_limited(hand.time(), || hand.positions()) {
             self.repaint.send_limited();
         }
     }

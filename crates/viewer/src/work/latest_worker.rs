@@ -48,26 +48,15 @@ impl<I: Send + 'static, O: Send + 'static> LatestWorker<I, O> {
             requested: Condvar::new(),
             repaint,
         });
-        let status = Arc::clone(&shared);
+        let working = Arc::clone(&shared);
         let thread = start(name, move || {
-            while let Some((serial, request)) = status.next(delay) {
+            while let Some((serial, request)) = working.next(delay) {
                 let result = catch_panic(|| work(request));
-                status.finish(serial, result);
+                working.finish(serial, result);
             }
         });
-        match thread {
-            Ok(thread) => Self {
-                shared,
-                thread: Some(thread),
-            },
-            Err(error) => {
-                shared.finish(0, Err(error));
-                Self {
-                    shared,
-                    thread: None,
-                }
-            }
-        }
+        let thread = thread.map_err(|error| shared.finish(0, Err(error))).ok();
+        Self { shared, thread }
     }
 
     /// Submits a request, replacing the one that is waiting.

@@ -49,24 +49,24 @@ impl StateFeed {
         recent.count()
     }
 
-    /// Publishes the state in which the sheet comes to rest.
-    pub(super) fn show_last(&self, time: f64, positions: Vec<DVec3>) {
-        self.put(time, positions);
-    }
-
     /// Publishes a state unless the last one is too recent; only then are `positions` computed. Returns whether it did.
-    pub(super) fn show(&self, time: f64, positions: impl FnOnce() -> Vec<DVec3>) -> bool {
+    pub(super) fn publish_limited(
+        &self,
+        time: f64,
+        positions: impl FnOnce() -> Vec<DVec3>,
+    ) -> bool {
         let now = Instant::now();
         let is_due = |inner: &Inner| inner.times.back().is_none_or(|last| now - *last >= SPACING);
         if !is_due(&lock(&self.0)) {
             return false;
         }
         // The lock is not held here, so that the window does not wait for a large sheet.
-        self.put(time, positions());
+        self.publish(time, positions());
         true
     }
 
-    fn put(&self, time: f64, positions: Vec<DVec3>) {
+    /// Publishes a state.
+    pub(super) fn publish(&self, time: f64, positions: Vec<DVec3>) {
         let now = Instant::now();
         let mut inner = lock(&self.0);
         let serial = inner.state.as_ref().map_or(0, |state| state.serial) + 1;
@@ -94,7 +94,7 @@ mod tests {
         let started = Instant::now();
         let mut shown = 0_u64;
         while shown < 5 {
-            shown += u64::from(states.show(shown as f64, || vec![DVec3::X]));
+            shown += u64::from(states.publish_limited(shown as f64, || vec![DVec3::X]));
         }
         assert!(started.elapsed() >= 4 * SPACING);
         let state = states.latest().unwrap();

@@ -33,7 +33,7 @@ fn a_run_shows_the_numbers_that_the_library_computes() {
     let strain = format!("largest strain {:.2e} at", report.stages[0].peak_strain);
     assert!(window.has(&strain), "{strain}");
     assert!(window.says("bar strain, % over motion time"));
-    assert!(!window.says("ut of date"));
+    assert!(!window.says("of date: the scene has changed"));
 }
 
 #[test]
@@ -82,7 +82,9 @@ fn an_edit_during_a_run_is_taken_and_the_result_is_marked_until_it_is_undone() {
     window.until_preview();
     assert!(window.says("Last run (out of date"));
     window.undo();
-    window.until("the run's own scene again", |w| !w.says("ut of date"));
+    window.until("the run's own scene again", |w| {
+        !w.says("of date: the scene has changed")
+    });
     let outcome = report_of(SMALL).outcome.headline();
     assert!(
         window.words_over().ends_with(&outcome),

@@ -244,7 +244,7 @@ fn of_ten_thousand_files_only_those_in_sight_are_laid_out() {
 }
 
 #[test]
-#[cfg_attr(not(gpu_tests), ignore = "no adapter: set FOLDMOTION_GPU_TESTS=yes")]
+#[cfg_attr(not(gpu_tests), ignore = "needs a GPU and FOLDMOTION_GPU_TESTS=yes")]
 fn the_picker_is_drawn_dark_and_light() {
     let folder = folder();
     for appearance in [Appearance::Dark, Appearance::Light] {

@@ -249,7 +249,7 @@ fn apart(
             let mut picture = subject.picture(positions, key);
             if line_width == 0.0 {
                 // A line of width 0 is still drawn as a hairline.
-                picture.creases = NO_CREASES;
+                picture.creases = CreaseClasses::NONE;
             }
             let window = drawn(gpu, &picture, &orbit);
             let differ = |p: [u8; 3], q: [u8; 3]| match j {
@@ -266,23 +266,8 @@ fn apart(
     worst
 }
 
-const NO_CREASES: CreaseClasses = CreaseClasses {
-    mountains: false,
-    valleys: false,
-    border: false,
-    free: false,
-    row: true,
-    diagonal: true,
-    vertical: true,
-    pad: true,
-    column: true,
-};
-
 #[test]
-#[cfg_attr(
-    not(gpu_tests),
-    ignore = "no GPU: set FOLDMOTION_GPU_TESTS=yes where there is one"
-)]
+#[cfg_attr(not(gpu_tests), ignore = "needs a GPU and FOLDMOTION_GPU_TESTS=yes")]
 fn the_compact_state_shows_the_layers_that_films_show_from_all_around() {
     let mut gpu = Gpu::new(&device()).unwrap();
     for (key, (case, width)) in (1..).zip(CASES) {
@@ -312,10 +297,7 @@ fn crossing(positions: &[DVec3]) -> Vec<DVec3> {
 }
 
 #[test]
-#[cfg_attr(
-    not(gpu_tests),
-    ignore = "no GPU: set FOLDMOTION_GPU_TESTS=yes where there is one"
-)]
+#[cfg_attr(not(gpu_tests), ignore = "needs a GPU and FOLDMOTION_GPU_TESTS=yes")]
 fn a_dot_is_drawn_where_its_place_is_projected_also_in_perspective() {
     let mut gpu = Gpu::new(&device()).unwrap();
     let subject = Subject::new(Case::S, 1.6, 3, 2);
@@ -348,10 +330,7 @@ fn at_pixel(at: DVec3) -> usize {
 }
 
 #[test]
-#[cfg_attr(
-    not(gpu_tests),
-    ignore = "no GPU: set FOLDMOTION_GPU_TESTS=yes where there is one"
-)]
+#[cfg_attr(not(gpu_tests), ignore = "needs a GPU and FOLDMOTION_GPU_TESTS=yes")]
 fn without_the_order_of_layers_the_same_comparison_fails() {
     let mut gpu = Gpu::new(&device()).unwrap();
     let mut subject = Subject::new(Case::E, 1.0, 4, 3);
@@ -362,10 +341,7 @@ fn without_the_order_of_layers_the_same_comparison_fails() {
 }
 
 #[test]
-#[cfg_attr(
-    not(gpu_tests),
-    ignore = "no GPU: set FOLDMOTION_GPU_TESTS=yes where there is one"
-)]
+#[cfg_attr(not(gpu_tests), ignore = "needs a GPU and FOLDMOTION_GPU_TESTS=yes")]
 fn paper_has_the_colours_of_films_on_both_sides() {
     let mut gpu = Gpu::new(&device()).unwrap();
     let mut subject = Subject::new(Case::S, 1.6, 2, 2);
@@ -384,7 +360,7 @@ fn paper_has_the_colours_of_films_on_both_sides() {
         let (sheet, style) = (&subject.units.sheet, &subject.style);
         let film = film_picture(sheet, &flat, &subject.order, &camera, style, SIZE).unwrap();
         let mut picture = subject.picture(&flat, key);
-        picture.creases = NO_CREASES;
+        picture.creases = CreaseClasses::NONE;
         let window = drawn(&mut gpu, &picture, &orbit);
         let middle = |image: &Image| image.pixel(SIZE[0] / 2, SIZE[1] / 2);
         let [a, b] = [&film, &window].map(middle);
@@ -414,10 +390,7 @@ fn darkness(image: &Image) -> f64 {
 }
 
 #[test]
-#[cfg_attr(
-    not(gpu_tests),
-    ignore = "no GPU: set FOLDMOTION_GPU_TESTS=yes where there is one"
-)]
+#[cfg_attr(not(gpu_tests), ignore = "needs a GPU and FOLDMOTION_GPU_TESTS=yes")]
 fn lines_are_as_wide_however_near_one_looks() {
     let mut gpu = Gpu::new(&device()).unwrap();
     let mut subject = Subject::new(Case::E, 1.0, 1, 1);
@@ -433,7 +406,7 @@ fn lines_are_as_wide_however_near_one_looks() {
     // Only the border is drawn, its left side in the middle of the view.
     picture.creases = CreaseClasses {
         border: true,
-        ..NO_CREASES
+        ..CreaseClasses::NONE
     };
     let mut orbit = fitted(Direction::Top, &flat);
     let left = flat.iter().map(|p| p.x).fold(f64::INFINITY, f64::min);
@@ -456,17 +429,14 @@ fn lines_are_as_wide_however_near_one_looks() {
 }
 
 #[test]
-#[cfg_attr(
-    not(gpu_tests),
-    ignore = "no GPU: set FOLDMOTION_GPU_TESTS=yes where there is one"
-)]
+#[cfg_attr(not(gpu_tests), ignore = "needs a GPU and FOLDMOTION_GPU_TESTS=yes")]
 fn overlays_are_drawn_before_paper_and_dimmed_behind_it_and_handles_never() {
     let mut gpu = Gpu::new(&device()).unwrap();
     let subject = Subject::new(Case::E, 1.0, 2, 2);
     let flat = subject.units.sheet.planar();
     let orbit = fitted(Direction::Top, &flat);
     let mut picture = subject.picture(&flat, 1);
-    picture.creases = NO_CREASES;
+    picture.creases = CreaseClasses::NONE;
     let plain = drawn(&mut gpu, &picture, &orbit);
     let middle = orbit.centre;
     let line = |z: f64| {
@@ -507,10 +477,7 @@ fn overlays_are_drawn_before_paper_and_dimmed_behind_it_and_handles_never() {
 }
 
 #[test]
-#[cfg_attr(
-    not(gpu_tests),
-    ignore = "no GPU: set FOLDMOTION_GPU_TESTS=yes where there is one"
-)]
+#[cfg_attr(not(gpu_tests), ignore = "needs a GPU and FOLDMOTION_GPU_TESTS=yes")]
 fn triangles_that_flash_pulse_from_paper_to_the_colour_of_marks() {
     let mut gpu = Gpu::new(&device()).unwrap();
     let subject = Subject::new(Case::E, 1.0, 2, 2);
@@ -518,7 +485,7 @@ fn triangles_that_flash_pulse_from_paper_to_the_colour_of_marks() {
     let orbit = fitted(Direction::Top, &flat);
     let flash: Vec<u32> = (0..subject.units.sheet.faces.len() as u32).collect();
     let mut picture = subject.picture(&flat, 1);
-    picture.creases = NO_CREASES;
+    picture.creases = CreaseClasses::NONE;
     picture.flash = &flash;
     let mut at = |pulse| {
         picture.pulse = pulse;
@@ -532,10 +499,7 @@ fn triangles_that_flash_pulse_from_paper_to_the_colour_of_marks() {
 }
 
 #[test]
-#[cfg_attr(
-    not(gpu_tests),
-    ignore = "no GPU: set FOLDMOTION_GPU_TESTS=yes where there is one"
-)]
+#[cfg_attr(not(gpu_tests), ignore = "needs a GPU and FOLDMOTION_GPU_TESTS=yes")]
 fn an_error_of_the_driver_is_told_and_not_thrown() {
     let state = device();
     let catch_errors = catch_errors(&state.device, || {
