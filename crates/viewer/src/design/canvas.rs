@@ -109,7 +109,6 @@ impl Canvas {
         }
     }
 
-    /// Adds a point at the position of a double click.
     fn add_point(
         &mut self,
         form: &mut Form<'_>,

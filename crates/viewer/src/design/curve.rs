@@ -74,7 +74,6 @@ pub(super) fn handles_mut(scene: &mut ProfileScene) -> Option<&mut Vec<[f64; 2]>
     scene.control_points.as_mut().or(scene.points.as_mut())
 }
 
-/// The smallest number of points that defines a curve.
 pub(super) fn fewest_handles(scene: &ProfileScene) -> usize {
     match (&scene.control_points, scene.closed) {
         (Some(_), _) => 4,

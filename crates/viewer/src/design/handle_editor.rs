@@ -40,7 +40,6 @@ impl HandleEditor {
         self.selected = None;
     }
 
-    /// Draws the control polygon.
     pub(super) fn paint_polygon(
         form: &Form<'_>,
         ui: &Ui,

@@ -92,29 +92,17 @@ fn show_facts(study: &ImportedStudy, measurements: &Measurements, ui: &mut Ui) {
         fact(ui, "title", title, "The title in the file.");
     }
     let length = format!("{} {}", short(imported.sheet.unit_length), study.unit_name);
-    fact(
-        ui,
-        "mean edge",
-        &length,
-        "The unit of the contact gap and of tolerances.",
-    );
+    let tip = "The unit of the contact gap and of tolerances.";
+    fact(ui, "mean edge", &length, tip);
     measurements.counts.show(ui);
     let stages = study.waypoints.len();
     if stages > 1 {
-        fact(
-            ui,
-            "stages",
-            &stages.to_string(),
-            "Stages of the motion, from the frames of the file.",
-        );
+        let tip = "Stages of the motion, from the frames of the file.";
+        fact(ui, "stages", &stages.to_string(), tip);
     }
     if let Some(facet) = study.fixed {
-        fact(
-            ui,
-            "stays",
-            &format!("facet {facet}"),
-            "The facet that stays in place.",
-        );
+        let tip = "The facet that stays in place.";
+        fact(ui, "stays", &format!("facet {facet}"), tip);
     }
     for warning in &imported.warnings {
         let text = RichText::new(warning.to_string())

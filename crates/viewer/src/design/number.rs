@@ -147,9 +147,7 @@ pub(super) fn control_width(ui: &Ui) -> f32 {
 /// The accessible name of a field.
 #[derive(Debug, Clone, Copy)]
 pub(super) enum AccessibleName<'a> {
-    /// The label with this id.
     By(Id),
-    /// This text.
     As(&'a str),
 }
 

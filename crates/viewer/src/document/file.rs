@@ -16,24 +16,13 @@ pub(crate) enum SaveError {
     NoFile,
     /// The file has changed since it was last read or written.
     #[error("{}: another program has changed the file; overwrite or reload it", path.display())]
-    Changed {
-        /// The scene file.
-        path: PathBuf,
-    },
+    Changed { path: PathBuf },
     /// Saving would overwrite a crease pattern.
     #[error("{}: this is the file name of a crease pattern; save the scene under a name that ends in .toml", path.display())]
-    Ending {
-        /// The file that was to be written.
-        path: PathBuf,
-    },
+    Ending { path: PathBuf },
     /// The file cannot be written.
     #[error("{}: cannot be written: {source}", path.display())]
-    Write {
-        /// The file that was to be written.
-        path: PathBuf,
-        /// The error of the file system.
-        source: io::Error,
-    },
+    Write { path: PathBuf, source: io::Error },
 }
 
 /// The largest size of a scene file, bytes.

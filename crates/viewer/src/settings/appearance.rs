@@ -20,7 +20,6 @@ pub(crate) enum Appearance {
 }
 
 impl Appearance {
-    /// All appearances.
     pub(crate) const ALL: [Self; 3] = [Self::System, Self::Dark, Self::Light];
 
     /// The opposite of the current theme.
@@ -31,7 +30,6 @@ impl Appearance {
         }
     }
 
-    /// The name in menus.
     pub(crate) fn name(self) -> &'static str {
         match self {
             Self::System => "as the system is",

@@ -50,7 +50,6 @@ const TERMS: [(&str, &str); 3] = [
 const CITE: &str = "Please cite foldmotion with its version, and the paper it implements: Constructing foldable \
                     cylindrical surfaces via unfolded waterbomb origami units. CITATION.cff has the entries.";
 
-/// Shows the help sheet while it is open.
 pub(crate) fn show_help(ctx: &Context, open: &mut bool) {
     if !*open {
         return;

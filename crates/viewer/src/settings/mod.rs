@@ -24,19 +24,15 @@ pub(crate) use view::{Colour, PanelSettings, ViewSettings};
 /// The key under which the settings are stored.
 const KEY: &str = "settings";
 
-/// Settings that are kept from one start to the next.
 #[derive(Debug, Clone, Default, PartialEq, Serialize)]
 pub(crate) struct Settings {
-    /// Files that were opened or saved.
     pub(crate) recent: RecentFiles,
     /// Dark, light, or as the system.
     #[serde(rename = "look")]
     pub(crate) appearance: Appearance,
     /// The zoom factor of the whole window.
     pub(crate) scale: Scale,
-    /// How the sheet is shown.
     pub(crate) view: ViewSettings,
-    /// Which panels are open.
     pub(crate) panels: PanelSettings,
 }
 

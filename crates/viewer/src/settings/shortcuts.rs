@@ -140,7 +140,6 @@ commands! {
     }
 }
 
-/// The commands of a group.
 pub(crate) fn commands_of(group: Group) -> impl Iterator<Item = Command> {
     let shortcuts = SHORTCUTS
         .iter()
@@ -148,7 +147,6 @@ pub(crate) fn commands_of(group: Group) -> impl Iterator<Item = Command> {
     shortcuts.map(|shortcut| shortcut.command)
 }
 
-/// The name of a command in menus.
 pub(crate) fn name_of(command: Command) -> &'static str {
     shortcut_of(command).map_or("", |shortcut| shortcut.name)
 }

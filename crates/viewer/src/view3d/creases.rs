@@ -12,11 +12,8 @@ use serde::{Deserialize, Serialize};
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(default)]
 pub(crate) struct CreaseClasses {
-    /// Mountain creases.
     pub(crate) mountains: bool,
-    /// Valley creases.
     pub(crate) valleys: bool,
-    /// The border of the sheet.
     pub(crate) border: bool,
     /// Hinges that nothing drives.
     pub(crate) free: bool,
@@ -39,7 +36,6 @@ impl Default for CreaseClasses {
 }
 
 impl CreaseClasses {
-    /// No creases.
     pub(crate) const NONE: Self = Self::uniform(false);
 
     const fn uniform(is_drawn: bool) -> Self {
@@ -56,7 +52,6 @@ impl CreaseClasses {
         }
     }
 
-    /// Whether `edge` is drawn.
     pub(crate) fn shows(&self, edge: &Edge) -> bool {
         let assigned = match edge.assignment {
             Assignment::Mountain => self.mountains,

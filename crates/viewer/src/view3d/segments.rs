@@ -18,7 +18,6 @@ pub(super) struct Segment {
     pub(super) colour: Color32,
     /// The width of the line or the diameter of the dot, points.
     pub(super) width: f32,
-    /// The opacity behind the sheet.
     pub(super) hidden: f32,
 }
 
@@ -93,7 +92,6 @@ fn of_overlay(overlay: &Overlay<'_>) -> Vec<Segment> {
     }
 }
 
-/// The twelve edges of a box.
 fn box_edges(corner: DVec3, edges: [DVec3; 3]) -> [[DVec3; 2]; 12] {
     std::array::from_fn(|k| {
         let (along, i, j) = (k / 4, (k / 4 + 1) % 3, (k / 4 + 2) % 3);

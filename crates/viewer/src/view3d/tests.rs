@@ -400,13 +400,8 @@ fn a_lost_device_is_told_and_another_one_draws_again() {
     let _ = state.device.poll(wait);
     harness.state_mut().view.look(View::Top);
     harness.run();
-    assert!(
-        harness
-            .state()
-            .view
-            .error()
-            .is_some_and(|f| f.contains("lost"))
-    );
+    let error = harness.state().view.error();
+    assert!(error.is_some_and(|error| error.contains("lost")));
     harness.get_by_label("3D view");
     harness.state_mut().render_state = Some(device());
     harness.run();
@@ -478,16 +473,9 @@ fn how_long_a_frame_takes() {
         let (vertices, faces) = (flat.len(), subject.units.sheet.faces.len());
         let mut harness = with_gpu(Window::new(subject, flat), [1016.0, 716.0], true);
         harness.run();
-        let device = harness
-            .state()
-            .render_state
-            .as_ref()
-            .unwrap()
-            .device
-            .clone();
-        let mut shown = Vec::new();
-        let mut drawn = Vec::new();
-        let mut idle = Vec::new();
+        let state = harness.state().render_state.clone();
+        let device = state.unwrap().device;
+        let [mut shown, mut drawn, mut idle] = [const { Vec::new() }; 3];
         for _ in 0..20 {
             harness.state_mut().state_key += 1;
             let start = std::time::Instant::now();

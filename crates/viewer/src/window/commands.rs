@@ -21,7 +21,6 @@ const OPENED: [&str; 3] = ["toml", "fold", "svg"];
 const OUTLINES: [&str; 3] = ["csv", "dat", "dxf"];
 
 impl Viewer {
-    /// Executes a command.
     pub(super) fn perform(&mut self, command: Command, ctx: &Context) {
         match command {
             Command::New => self.confirm_unsaved(NextAction::New, ctx),
@@ -148,7 +147,6 @@ impl Viewer {
         apply(ctx, self.settings.appearance, self.settings.scale.factor());
     }
 
-    /// Runs the current scene.
     pub(super) fn run(&mut self) {
         if self.display.file.is_some() {
             self.notify(

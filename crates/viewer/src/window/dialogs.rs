@@ -10,7 +10,6 @@ use super::record_panel::{CurrentView, RecordRequest};
 use crate::document::SaveError;
 use crate::settings::{FilePicker, PickerResult, show_help};
 
-/// The dialog that is open.
 #[derive(Debug, Default)]
 pub(super) enum Dialog {
     #[default]

@@ -6,10 +6,10 @@ use eframe::egui::Context;
 use foldmotion_study::{Draft, Opened, Scene};
 
 use super::shown_motion::ShownMotion;
-use super::{Viewer, motion_keys};
+use super::{Pending, Viewer, motion_keys};
 use crate::design::SceneError;
 use crate::document::Document;
-use crate::work::{FinishedRun, Job, Resolved, WorkError, check_motion, preview};
+use crate::work::{FinishedRun, Resolved, WorkError, check_motion, preview};
 
 /// Sheets with more vertices get no preview.
 const LARGEST_PREVIEW: usize = 20_000;
@@ -108,7 +108,6 @@ impl Viewer {
         self.change_motion(|display| display.draft = Some((scene, shown)));
     }
 
-    /// Starts a preview of the current scene.
     pub(super) fn fold_at_once(&mut self) {
         let Some(study) = self.resolved.study.clone() else {
             return;
@@ -200,7 +199,6 @@ impl Viewer {
         }
     }
 
-    /// Replaces the document.
     pub(super) fn take_document(&mut self, document: Document) {
         // A text with a syntax error can only be corrected as text.
         self.must_fix_text = document.parse_error().is_some();
@@ -303,7 +301,7 @@ impl super::Jobs {
 }
 
 /// The result of a job, with the data stored beside it, once the job is done; the slot is then empty.
-fn take_done<A, T>(slot: &mut Option<(A, Job<T>)>) -> Option<(A, Result<T, WorkError>)> {
+fn take_done<A, T>(slot: &mut Pending<A, T>) -> Option<(A, Result<T, WorkError>)> {
     let (data, job) = slot.take_if(|(_, job)| job.is_done())?;
     Some((data, job.take()?))
 }

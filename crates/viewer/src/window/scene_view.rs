@@ -69,13 +69,16 @@ impl Viewer {
         let weak = visuals.weak_text_color();
         let marked = visuals.error_fg_color;
         let mut overlays: Vec<Overlay<'_>> = Vec::new();
+        let mut add = |shape, colour, width| {
+            overlays.push(Overlay {
+                shape,
+                colour,
+                width,
+            });
+        };
         // The profile is compared with the deployed sheet, the boxes with the compact one.
         if looks.profile && !shown.profile.is_empty() && self.playback.time <= 1.0 {
-            overlays.push(Overlay {
-                shape: Shape::Path(&shown.profile),
-                colour: accent,
-                width: 2.0,
-            });
+            add(Shape::Path(&shown.profile), accent, 2.0);
         }
         for (wanted, bounds, colour) in [
             (looks.compact_box, shown.boxes[0], weak),
@@ -84,25 +87,15 @@ impl Viewer {
             if let Some([low, sides]) = bounds.filter(|_| wanted && self.playback.time > 1.0) {
                 let edges = glam::DMat3::from_diagonal(sides);
                 let edges = [edges.x_axis, edges.y_axis, edges.z_axis];
-                overlays.push(Overlay {
-                    shape: Shape::Box(low, edges),
-                    colour,
-                    width: 1.2,
-                });
+                add(Shape::Box(low, edges), colour, 1.2);
             }
         }
         if !points.is_empty() {
-            overlays.push(Overlay {
-                shape: Shape::Dots(&points),
-                colour: marked,
-                width: 9.0,
-            });
+            add(Shape::Dots(&points), marked, 9.0);
         }
         let pulse = if faces.is_empty() { 0.0 } else { flash(ui) };
-        let colours = match (
-            looks.colour,
-            self.display.state.values(shown, sheet, looks.colour),
-        ) {
+        let values = self.display.state.values(shown, sheet, looks.colour);
+        let colours = match (looks.colour, values) {
             (_, Some((values, range, _))) => Colours::Values {
                 values,
                 range,
@@ -179,7 +172,6 @@ impl Viewer {
         }
     }
 
-    /// A description of what is under the pointer.
     fn pointed_words(&self, sheet: &Sheet) -> Option<String> {
         let (face, vertex) = self.display.pointed?;
         let facet = *sheet.face_facets.get(face as usize)?;
@@ -260,7 +252,6 @@ impl Viewer {
             .map_or(self.playback.time, |state| state.time)
     }
 
-    /// The toolbar over the view.
     fn tools(&mut self, ui: &mut Ui) {
         let mut command = None;
         ScrollArea::horizontal().auto_shrink([false, true]).show(ui, |ui| {

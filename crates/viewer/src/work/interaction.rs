@@ -27,7 +27,6 @@ pub(crate) struct Interaction {
     thread: Option<JoinHandle<()>>,
 }
 
-/// The status of an interaction.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(crate) struct InteractionStatus {
     /// The current motion time.
@@ -114,12 +113,10 @@ impl Interaction {
         self.shared.request(|request| request.pull = pull);
     }
 
-    /// The states of the sheet.
     pub(crate) fn states(&self) -> &StateFeed {
         &self.states
     }
 
-    /// The current status.
     pub(crate) fn status(&self) -> InteractionStatus {
         *lock(&self.shared.status)
     }

@@ -81,12 +81,10 @@ impl<T> Shared<T> {
 }
 
 impl<T> Job<T> {
-    /// The current progress.
     pub(crate) fn progress(&self) -> Progress {
         *lock(&self.shared.progress)
     }
 
-    /// Whether the job has ended.
     pub(crate) fn is_done(&self) -> bool {
         self.shared.is_done.load(Ordering::Acquire)
     }

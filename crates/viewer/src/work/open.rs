@@ -10,9 +10,7 @@ use super::{Job, RepaintSignal};
 /// The result of checking a motion file.
 #[derive(Debug)]
 pub(crate) struct CheckedMotion {
-    /// The findings of the check.
     pub(crate) findings: Arc<Findings>,
-    /// The certificate of the findings.
     pub(crate) certificate: Certificate,
 }
 

@@ -11,13 +11,9 @@ use super::{Job, RepaintSignal, StateFeed};
 /// The result of a run.
 #[derive(Debug)]
 pub(crate) struct FinishedRun {
-    /// The study that was run.
     pub(crate) study: Arc<Study>,
-    /// The motion and its findings.
     pub(crate) folded: Arc<Folded>,
-    /// The report, without files.
     pub(crate) report: Report,
-    /// The box of every frame.
     pub(crate) boxes: Vec<FittedBox>,
 }
 

@@ -16,9 +16,7 @@ const WINDOW: Duration = Duration::from_secs(1);
 /// A state of the sheet.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct SheetState {
-    /// The number of the state, from 1.
     pub(crate) serial: u64,
-    /// The motion time.
     pub(crate) time: f64,
     /// One position per vertex, in the sheet's unit.
     pub(crate) positions: Arc<Vec<DVec3>>,

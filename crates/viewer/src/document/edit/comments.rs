@@ -6,11 +6,9 @@ use toml_edit::{DocumentMut, Item, RawString, Table};
 pub(super) struct DetachedComment {
     /// The position of the header that it stood under, in the order of headers.
     pub(super) position: isize,
-    /// The lines of the comment.
     pub(super) comment: String,
 }
 
-/// The text of a prefix or suffix.
 pub(super) fn text_of(raw: Option<&RawString>) -> String {
     raw.and_then(RawString::as_str)
         .unwrap_or_default()

@@ -16,7 +16,6 @@ use folder::Entry;
 pub(crate) enum PickerResult {
     /// The chosen file. If it is for saving and exists, the user has agreed to overwrite it.
     File(PathBuf),
-    /// The user cancelled.
     Cancelled,
 }
 

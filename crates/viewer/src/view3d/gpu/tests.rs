@@ -307,11 +307,7 @@ fn a_dot_is_drawn_where_its_place_is_projected_also_in_perspective() {
         orbit.perspective = perspective;
         for &place in compact.iter().step_by(9) {
             let places = [place];
-            let dots = [Overlay {
-                shape: Shape::Dots(&places),
-                colour: RED,
-                width: 5.0,
-            }];
+            let dots = red(Shape::Dots(&places), 5.0);
             let mut picture = subject.picture(&compact, 1);
             picture.overlays = &dots;
             let sphere = PreparedSheet::new(&picture).sphere;
@@ -371,13 +367,11 @@ fn paper_has_the_colours_of_films_on_both_sides() {
     }
 }
 
-const RED: Color32 = Color32::from_rgb(255, 0, 0);
-
-fn path(points: &[DVec3]) -> [Overlay<'_>; 1] {
+fn red(shape: Shape<'_>, width: f32) -> [Overlay<'_>; 1] {
     [Overlay {
-        shape: Shape::Path(points),
-        colour: RED,
-        width: 5.0,
+        shape,
+        colour: Color32::from_rgb(255, 0, 0),
+        width,
     }]
 }
 
@@ -439,12 +433,7 @@ fn overlays_are_drawn_before_paper_and_dimmed_behind_it_and_handles_never() {
     picture.creases = CreaseClasses::NONE;
     let plain = drawn(&mut gpu, &picture, &orbit);
     let middle = orbit.centre;
-    let line = |z: f64| {
-        [
-            middle + DVec3::new(-0.5, 0.0, z),
-            middle + DVec3::new(0.5, 0.0, z),
-        ]
-    };
+    let line = |z: f64| [-0.5, 0.5].map(|x| middle + DVec3::new(x, 0.0, z));
     let colour = |gpu: &mut Gpu, overlays: &[Overlay<'_>], pull| {
         let picture = Picture {
             overlays,
@@ -454,20 +443,16 @@ fn overlays_are_drawn_before_paper_and_dimmed_behind_it_and_handles_never() {
         drawn(gpu, &picture, &orbit).pixel(SIZE[0] / 2, SIZE[1] / 2)
     };
     let [above, below] = [1.0, -1.0].map(line);
-    let before = colour(&mut gpu, &path(&above), None);
+    let before = colour(&mut gpu, &red(Shape::Path(&above), 5.0), None);
     assert_eq!(before, [255, 0, 0]);
-    let behind = colour(&mut gpu, &path(&below), None);
+    let behind = colour(&mut gpu, &red(Shape::Path(&below), 5.0), None);
     let paper = plain.pixel(SIZE[0] / 2, SIZE[1] / 2);
     assert!(
         behind[1] < paper[1] && behind[1] > 100,
         "{behind:?} on {paper:?}"
     );
     let dots = [middle + DVec3::new(0.0, 0.0, -1.0)];
-    let dot = [Overlay {
-        shape: Shape::Dots(&dots),
-        colour: RED,
-        width: 9.0,
-    }];
+    let dot = red(Shape::Dots(&dots), 9.0);
     assert_eq!(colour(&mut gpu, &dot, None), [255, 0, 0]);
     let pull = VertexPull {
         vertex: 0,
