@@ -139,20 +139,12 @@ mod tests {
     use egui_kittest::Harness;
     use egui_kittest::kittest::Queryable as _;
 
-    use super::super::tests::drawn;
-    use super::super::{Appearance, apply};
+    use super::super::Appearance;
+    use super::super::tests::{builder, drawn};
     use super::*;
 
     fn harness(appearance: Appearance) -> Harness<'static, bool> {
-        let builder = Harness::builder().with_size(vec2(900.0, 1000.0));
-        let theme = if appearance == Appearance::Light {
-            Theme::Light
-        } else {
-            Theme::Dark
-        };
-        let builder = builder
-            .with_theme(theme)
-            .with_context_setup(move |ctx| apply(ctx, appearance, 1.0));
+        let builder = builder(appearance, vec2(900.0, 1000.0));
         builder.build_ui_state(|ui, open| show_help(ui.ctx(), open), true)
     }
 

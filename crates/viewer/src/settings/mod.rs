@@ -102,9 +102,22 @@ fn field<T: DeserializeOwned + Default>(stored: &Map<String, Value>, name: &str)
 mod tests {
     use std::path::Path;
 
-    use egui_kittest::Harness;
+    use eframe::egui::{Theme, Vec2};
+    use egui_kittest::{Harness, HarnessBuilder};
 
     use super::*;
+
+    /// A harness with this appearance.
+    pub(super) fn builder<S>(appearance: Appearance, size: Vec2) -> HarnessBuilder<S> {
+        let theme = match appearance {
+            Appearance::Light => Theme::Light,
+            _ => Theme::Dark,
+        };
+        Harness::builder()
+            .with_size(size)
+            .with_theme(theme)
+            .with_context_setup(move |ctx| apply(ctx, appearance, 1.0))
+    }
 
     /// Renders the window, saves the picture in the folder FOLDMOTION_PICTURES if it is set, and returns the brightness
     /// of a pixel.

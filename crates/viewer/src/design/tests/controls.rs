@@ -124,10 +124,7 @@ fn the_case_at_hand_stays_enabled_while_it_contradicts() {
 #[test]
 fn a_fault_stands_once_at_its_control_or_else_in_its_section_or_at_the_top() {
     let mut harness = panel(SHELTER);
-    let error = |key: Option<&str>, message: &str| SceneError {
-        key: key.map(str::to_owned),
-        message: message.to_owned(),
-    };
+    let error = |key: Option<&str>, message: &str| SceneError::new(key, &message);
     harness.state_mut().errors = vec![
         error(Some("sheet.width"), "too wide"),
         error(Some("division"), "not divided"),
@@ -150,10 +147,7 @@ fn a_fault_that_comes_and_goes_does_not_take_the_focus() {
     let mut harness = panel(SHELTER);
     harness.get_by_label("rows Nr").focus();
     harness.run();
-    harness.state_mut().errors = vec![SceneError {
-        key: Some("sheet.width".to_owned()),
-        message: "too wide".to_owned(),
-    }];
+    harness.state_mut().errors = vec![SceneError::new(Some("sheet.width"), &"too wide")];
     harness.run();
     assert!(harness.get_by_label("rows Nr").is_focused());
 }

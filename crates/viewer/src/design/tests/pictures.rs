@@ -37,14 +37,8 @@ fn a_narrow_panel_shows_a_selected_point_the_unit_under_the_pointer_and_errors()
         click(&mut harness, "control point 5");
         let message = "omega.toml:9:9: sheet.width = -4.8: must be a positive, finite number";
         harness.state_mut().errors = vec![
-            SceneError {
-                key: Some("sheet.width".to_owned()),
-                message: message.to_owned(),
-            },
-            SceneError {
-                key: Some("division".to_owned()),
-                message: "the profile cannot be divided".to_owned(),
-            },
+            SceneError::new(Some("sheet.width"), &message),
+            SceneError::new(Some("division"), &"the profile cannot be divided"),
         ];
         harness.run();
         let pattern = harness.get_by_label("crease pattern").rect();
@@ -104,10 +98,10 @@ fn the_panel_is_drawn_dark_and_light() {
             for section in ["Material", "Motion", "Record"] {
                 click(&mut harness, section);
             }
-            harness.state_mut().errors = vec![SceneError {
-                key: Some("motion.frames".to_owned()),
-                message: "scene.toml:12:9: motion.frames = 3: must be an even number between 2 and 100000".to_owned(),
-            }];
+            harness.state_mut().errors = vec![SceneError::new(
+                Some("motion.frames"),
+                &"scene.toml:12:9: motion.frames = 3: must be an even number between 2 and 100000",
+            )];
             harness.run();
             assert!(colours(&mut harness, &format!("{short}-{name}-rest")) > 20);
         }

@@ -74,10 +74,7 @@ impl TestPanel {
         self.errors.clear();
         match Draft::resolve(&source) {
             Ok(draft) => self.draft = Some(draft),
-            Err(error) => self.errors.push(SceneError {
-                key: error.key().map(str::to_owned),
-                message: error.to_string(),
-            }),
+            Err(error) => self.errors.push(SceneError::new(error.key(), &error)),
         }
     }
 

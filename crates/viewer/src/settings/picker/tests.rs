@@ -3,13 +3,13 @@
 use std::fs;
 use std::path::Path;
 
-use eframe::egui::{Key, Theme, vec2};
+use eframe::egui::{Key, vec2};
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable as _;
 use tempfile::TempDir;
 
-use super::super::tests::drawn;
-use super::super::{Appearance, apply};
+use super::super::Appearance;
+use super::super::tests::{builder, drawn};
 use super::*;
 
 struct App {
@@ -22,14 +22,7 @@ fn harness(picker: FilePicker, appearance: Appearance) -> Harness<'static, App> 
         picker,
         picked: None,
     };
-    let builder = Harness::builder().with_size(vec2(800.0, 600.0));
-    let theme = if appearance == Appearance::Light {
-        Theme::Light
-    } else {
-        Theme::Dark
-    };
-    let builder = builder.with_theme(theme).with_step_dt(0.02);
-    let builder = builder.with_context_setup(move |ctx| apply(ctx, appearance, 1.0));
+    let builder = builder(appearance, vec2(800.0, 600.0)).with_step_dt(0.02);
     let show = |ui: &mut eframe::egui::Ui, app: &mut App| {
         if app.picked.is_none() {
             app.picked = app.picker.show(ui.ctx());
