@@ -8,13 +8,13 @@ use glam::DVec2;
 
 use super::curve::{add_handle, handles, own_profile, vectors};
 use super::form::Form;
-use super::handle_editor::{HandleEditor, MOST_HANDLES, rounded_on};
+use super::handle_editor::{HandleEditor, MAX_HANDLES, rounded_on};
 use super::plane::{Plane, PlaneView, bounds, canvas};
 
 /// Number of points at which the curve is sampled for drawing.
 const SAMPLES: usize = 600;
 /// The largest number of division points that are drawn.
-const MOST_DIVISION_POINTS: usize = 2000;
+const MAX_DIVISION_POINTS: usize = 2000;
 
 /// State of the canvas that lasts from frame to frame.
 #[derive(Debug, Default)]
@@ -93,7 +93,7 @@ impl Canvas {
         let plane = self.view.plane(ui, &response, size);
         plane.paint_grid(ui, &painter);
         self.paint_curve(form, ui, &painter, &plane);
-        if points.len() > MOST_HANDLES {
+        if points.len() > MAX_HANDLES {
             note(ui, &painter, &plane, "too many points to drag");
             return;
         }
@@ -151,7 +151,7 @@ impl Canvas {
 
 /// The points that divide the curve, in the units of the scene.
 fn chords<'a>(profile: &'a Profile, draft: &'a UnitDraft) -> impl Iterator<Item = DVec2> + 'a {
-    let parameters = draft.division.parameters.iter().take(MOST_DIVISION_POINTS);
+    let parameters = draft.division.parameters.iter().take(MAX_DIVISION_POINTS);
     parameters.map(|&u| profile.position(u))
 }
 

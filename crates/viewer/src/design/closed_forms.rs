@@ -51,7 +51,7 @@ impl Counts {
             self.vertices, self.facets, self.creases
         );
         let tip = "Vertices, facets, and mountain and valley creases of the pattern";
-        fact(ui, "sheet", &text, tip);
+        value_row(ui, "sheet", &text, tip);
         let foldable = if self.is_flat_foldable {
             "flat-foldable"
         } else {
@@ -64,7 +64,7 @@ impl Counts {
         };
         let tip = "Developable: the sector angles at each vertex sum to 2π. Flat-foldable: alternate angles sum to π, and the \
              numbers of mountains and valleys differ by two (section 2).";
-        fact(ui, "vertices", &format!("{developable}, {foldable}"), tip);
+        value_row(ui, "vertices", &format!("{developable}, {foldable}"), tip);
     }
 }
 
@@ -111,16 +111,16 @@ impl Measurements {
     fn show_sizes(&self, draft: &UnitDraft, ui: &mut Ui) {
         let [x, y, z] = self.deployed.to_array();
         let tip = "Extents of the deployed state along x, y and z";
-        fact(ui, "deployed", &sizes(&[x, y, z]), tip);
+        value_row(ui, "deployed", &sizes(&[x, y, z]), tip);
         let tip = "Size of the crease pattern: Nr h and W";
-        fact(ui, "flat", &sizes(&self.flat), tip);
+        value_row(ui, "flat", &sizes(&self.flat), tip);
         let Some(compact) = draft.closed_form else {
             let tip = "The unmodified rectangle has no closed form.";
-            fact(ui, "compact", "no closed form", tip);
+            value_row(ui, "compact", "no closed form", tip);
             return;
         };
         let tip = "x = Nr h − (Nr − 1) a, y = Nc (2s + 2d), z = a (equations 3 to 7)";
-        fact(ui, "compact", &sizes(&compact.extents), tip);
+        value_row(ui, "compact", &sizes(&compact.extents), tip);
         let (area, volume) = (x * z, x * y * z);
         let mut ratios = vec![format!("area {}", times(area / compact.area))];
         if compact.volume > 0.0 && volume > 0.0 {
@@ -128,7 +128,7 @@ impl Measurements {
         }
         let tip = "The box of the deployed state divided by that of the compact one: area in the x–z plane (equations 3 to 5), \
              and volume (equations 6 and 7) if the compact state is not flat.";
-        fact(ui, "size ratio", &ratios.join(", "), tip);
+        value_row(ui, "size ratio", &ratios.join(", "), tip);
     }
 }
 
@@ -142,7 +142,7 @@ fn show_unit(draft: &UnitDraft, ui: &mut Ui) {
         brief(ratio)
     );
     let tip = "w = W/Nc and h, the mean length of a segment";
-    fact(ui, "unit w × h", &text, tip);
+    value_row(ui, "unit w × h", &text, tip);
     let text = format!(
         "{}: a = {}, s = {}, 2d = {}",
         draft.units.case_name(),
@@ -151,7 +151,7 @@ fn show_unit(draft: &UnitDraft, ui: &mut Ui) {
         brief(unit.centre_pad)
     );
     let tip = "Flap a, side pad s, centre pad 2d: the width of a column is s + a + 2d + a + s (figures 2 to 5).";
-    fact(ui, "case", &text, tip);
+    value_row(ui, "case", &text, tip);
 }
 
 /// Shows a table of the compact box in every case.
@@ -224,7 +224,7 @@ fn show_case(form: &Form<'_>, ui: &mut Ui, case: Case) {
 }
 
 /// A row with a name and a value.
-pub(super) fn fact(ui: &mut Ui, title: &str, text: &str, tip: &str) {
+pub(super) fn value_row(ui: &mut Ui, title: &str, text: &str, tip: &str) {
     ui.scope(|ui| {
         ui.spacing_mut().interact_size.y = 17.0;
         ui.horizontal(|ui| {

@@ -5,7 +5,7 @@ use foldmotion_pattern::{Sheet, UnitSheet};
 use foldmotion_study::Draft;
 use glam::DVec2;
 
-use super::creases::{Creases, MOST_EDGES};
+use super::creases::{Creases, MAX_EDGES};
 use super::form::{Form, NOTE_SIZE};
 use super::plane::{Plane, PlaneView, bounds, canvas};
 
@@ -111,7 +111,7 @@ impl PatternPreview {
             self.creases
                 .shape(ui, form.draft_number, sheet, &plane, place),
         );
-        if sheet.edges.len() > MOST_EDGES {
+        if sheet.edges.len() > MAX_EDGES {
             let colour = ui.visuals().weak_text_color();
             let at = plane.rect.center_top();
             painter.text(

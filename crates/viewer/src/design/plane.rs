@@ -180,7 +180,7 @@ impl PlaneView {
             self.pin(&plane);
         }
         if let Some(place) = response.hover_pos().filter(|_| response.contains_pointer()) {
-            let factor = taken_zoom(ui);
+            let factor = consume_zoom(ui);
             if factor != 1.0 {
                 let scale = (plane.scale * factor).clamp(fitted.scale / ZOOM, fitted.scale * ZOOM);
                 let fixed = plane.to_plane(place);
@@ -194,7 +194,7 @@ impl PlaneView {
 }
 
 /// The zoom factor of the wheel in this frame, which is then not used for scrolling.
-fn taken_zoom(ui: &Ui) -> f64 {
+fn consume_zoom(ui: &Ui) -> f64 {
     ui.input_mut(|input| {
         let scrolled = std::mem::take(&mut input.smooth_scroll_delta).y;
         f64::from(input.zoom_delta() * (scrolled * 0.004).exp())
@@ -273,7 +273,7 @@ mod tests {
     }
 
     #[test]
-    fn points_that_are_no_numbers_have_a_place() {
+    fn points_that_are_not_finite_have_a_position() {
         let plane = plane();
         for x in [f64::NAN, f64::INFINITY, -1e100] {
             let place = plane.to_screen(DVec2::new(x, 0.0));

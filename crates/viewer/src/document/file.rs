@@ -26,7 +26,7 @@ pub(crate) enum SaveError {
 }
 
 /// The largest size of a scene file, bytes.
-const MOST_BYTES: u64 = 16 << 20;
+const MAX_BYTES: u64 = 16 << 20;
 
 /// Checks that the path is a regular file, not too large for a scene, and readable.
 pub(super) fn check_readable(path: &Path) -> Result<(), StudyError> {
@@ -34,9 +34,9 @@ pub(super) fn check_readable(path: &Path) -> Result<(), StudyError> {
         if !metadata.is_file() {
             return Err(io::Error::other("not a regular file"));
         }
-        if metadata.len() > MOST_BYTES && !SceneSource::is_pattern(path) {
+        if metadata.len() > MAX_BYTES && !SceneSource::is_pattern(path) {
             let size = metadata.len();
-            let message = format!("{size} bytes are too many for a scene (at most {MOST_BYTES})");
+            let message = format!("{size} bytes are too many for a scene (at most {MAX_BYTES})");
             return Err(io::Error::other(message));
         }
         File::open(path).map(drop)

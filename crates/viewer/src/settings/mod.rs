@@ -158,7 +158,7 @@ mod tests {
     }
 
     #[test]
-    fn sizes_go_round() {
+    fn scale_factors_repeat_after_the_largest() {
         let mut scale = Scale::default();
         let mut seen = Vec::new();
         for _ in 0..=SCALES.len() {

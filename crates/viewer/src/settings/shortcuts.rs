@@ -302,7 +302,7 @@ mod tests {
     }
 
     #[test]
-    fn keys_find_their_command_and_others_stay_in_the_input() {
+    fn keys_execute_their_command_and_others_stay_in_the_input() {
         let ctx = Context::default();
         let mut commands = Vec::new();
         let mut left = 0;
@@ -335,7 +335,7 @@ mod tests {
     }
 
     #[test]
-    fn a_text_field_keeps_what_it_can_type_and_a_control_what_moves_it() {
+    fn a_text_field_gets_the_keys_that_type_and_a_control_those_that_move_it() {
         let found = |event: Event| {
             [Focus::None, Focus::Canvas, Focus::Control, Focus::Text]
                 .map(|focus| command_of(&event, focus))

@@ -188,7 +188,7 @@ mod tests {
     }
 
     #[test]
-    fn frames_are_stepped_one_by_one_and_end_at_the_ends() {
+    fn stepping_goes_frame_by_frame_and_stops_at_the_ends() {
         let times = [0.0, 0.5, 1.0, 2.0];
         let mut playback = Playback::default();
         let mut seen = Vec::new();
@@ -203,7 +203,7 @@ mod tests {
     }
 
     #[test]
-    fn a_shorter_motion_takes_the_time_along() {
+    fn a_shorter_range_clamps_the_time() {
         let mut playback = Playback::default();
         playback.set_range([1.0, 2.0]);
         assert_eq!(playback.time, 1.0);

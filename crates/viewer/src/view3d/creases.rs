@@ -103,7 +103,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_class_that_is_off_takes_its_creases_and_no_others_and_facets_are_never_drawn() {
+    fn a_class_that_is_off_hides_only_its_creases_and_facet_diagonals_are_never_drawn() {
         let unit = Unit::new(Case::S, 1.6, 1.0, None, None).unwrap();
         let sheet = UnitSheet::new(unit, 3, 2).unwrap().sheet;
         let count = |is: &dyn Fn(&Edge) -> bool| sheet.edges.iter().filter(|edge| is(edge)).count();

@@ -9,7 +9,7 @@ use super::picture::{Overlay, Picture, Shape};
 const HIDDEN: f32 = 0.28;
 
 /// Diameter of the dot on a pulled vertex, points.
-const HANDLE: f32 = 9.0;
+const PULL_DIAMETER: f32 = 9.0;
 
 /// A line between two points, or a dot if they are equal.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -64,8 +64,8 @@ pub(super) fn segments(picture: &Picture<'_>) -> Vec<Segment> {
             hidden: 1.0,
         };
         segments.push(segment([from, pull.target], 2.0));
-        segments.push(segment([from; 2], HANDLE));
-        segments.push(segment([pull.target; 2], 0.7 * HANDLE));
+        segments.push(segment([from; 2], PULL_DIAMETER));
+        segments.push(segment([pull.target; 2], 0.7 * PULL_DIAMETER));
     }
     segments.retain(|segment| segment.ends.iter().all(|end| end.is_finite()));
     segments

@@ -189,7 +189,7 @@ fn the_vertex_and_the_facet_under_the_pointer_are_found() {
 }
 
 #[test]
-fn a_vertex_behind_paper_is_not_taken() {
+fn a_vertex_hidden_by_the_sheet_is_not_picked() {
     let subject = Subject::new(Case::S, 1.6, 3, 2);
     let compact = subject.units.compact();
     let mut harness = harness(Window::new(subject, compact));
@@ -303,7 +303,7 @@ fn arrow_keys_turn_the_view_that_has_the_focus() {
 }
 
 #[test]
-fn presets_are_turned_into_within_a_moment_and_then_nothing_moves() {
+fn a_transition_to_a_standard_view_ends_and_then_nothing_moves() {
     let mut harness = harness(flat());
     harness.run();
     harness.state_mut().view.look(View::Front);
@@ -315,7 +315,7 @@ fn presets_are_turned_into_within_a_moment_and_then_nothing_moves() {
 }
 
 #[test]
-fn places_that_are_missing_or_not_finite_leave_the_view_empty() {
+fn missing_or_infinite_positions_leave_the_view_empty() {
     for positions in [vec![], vec![DVec3::ZERO], vec![DVec3::NAN; 1000]] {
         let mut window = flat();
         let count = window.positions.len();
@@ -387,7 +387,7 @@ fn an_idle_frame_draws_nothing_and_every_change_draws_once() {
 
 #[test]
 #[cfg_attr(not(gpu_tests), ignore = "needs a GPU and FOLDMOTION_GPU_TESTS=yes")]
-fn a_lost_device_is_told_and_another_one_draws_again() {
+fn a_lost_device_is_reported_and_another_one_draws_again() {
     let mut window = flat();
     let state = device();
     window.render_state = Some(state.clone());

@@ -76,7 +76,7 @@ impl Viewer {
             Resolved::Study(number, Ok(study)) if number == asked => {
                 self.resolved.errors.clear();
                 self.resolved.study = Some(study);
-                self.fold_at_once();
+                self.start_preview();
             }
             Resolved::Draft(number, Err(error)) | Resolved::Study(number, Err(error))
                 if number == asked =>
@@ -108,7 +108,7 @@ impl Viewer {
         self.change_motion(|display| display.draft = Some((scene, shown)));
     }
 
-    pub(super) fn fold_at_once(&mut self) {
+    pub(super) fn start_preview(&mut self) {
         let Some(study) = self.resolved.study.clone() else {
             return;
         };

@@ -47,7 +47,7 @@ impl Viewer {
             interaction.pull(pull.map(|pull| (pull.vertex, pull.target)));
         }
         self.display.pulled = pull;
-        self.words_over(ui, rect, &shown);
+        self.text_over_view(ui, rect, &shown);
     }
 
     /// Draws the sheet; returns the vertex that is being pulled.
@@ -132,10 +132,10 @@ impl Viewer {
     }
 
     /// The text over the view: motion time, kind of motion and verdict.
-    fn words_over(&mut self, ui: &Ui, rect: Rect, shown: &ShownMotion) {
+    fn text_over_view(&mut self, ui: &Ui, rect: Rect, shown: &ShownMotion) {
         let painter = ui.painter_at(rect);
         let visuals = ui.visuals();
-        let lines = self.lines_over(ui, shown);
+        let lines = self.lines_over_view(ui, shown);
         // The background is drawn first, but its size is only known once the text is laid out.
         let ground = painter.add(RectShape::filled(Rect::NOTHING, 0.0, Color32::TRANSPARENT));
         let mut area = Rect::from_min_size(rect.left_top() + vec2(12.0, 8.0), Vec2::ZERO);
@@ -155,7 +155,7 @@ impl Viewer {
                 WidgetInfo::labeled(Role::Label, true, words.join(", "))
             });
         let sheet = &shown.motion().sheet;
-        if let Some(words) = self.pointed_words(sheet) {
+        if let Some(words) = self.pointed_text(sheet) {
             let corner = rect.left_bottom() + vec2(12.0, -10.0);
             let font = FontId::proportional(12.0);
             painter.text(
@@ -172,7 +172,7 @@ impl Viewer {
         }
     }
 
-    fn pointed_words(&self, sheet: &Sheet) -> Option<String> {
+    fn pointed_text(&self, sheet: &Sheet) -> Option<String> {
         let (face, vertex) = self.display.pointed?;
         let facet = *sheet.face_facets.get(face as usize)?;
         let Facet {
@@ -187,7 +187,7 @@ impl Viewer {
     }
 
     /// The lines over the view, with font size and colour.
-    fn lines_over(&self, ui: &Ui, shown: &ShownMotion) -> Vec<(String, f32, Color32)> {
+    fn lines_over_view(&self, ui: &Ui, shown: &ShownMotion) -> Vec<(String, f32, Color32)> {
         const SMALL: f32 = 13.0;
         let visuals = ui.visuals();
         let (badge, colour) = self.badge(ui, shown);

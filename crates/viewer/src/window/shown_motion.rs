@@ -66,7 +66,7 @@ impl ShownMotion {
         let mut first = 1.0;
         if let Some(UnitDraft { units, .. }) = draft.units() {
             states.extend([units.sheet.planar(), units.compact()]);
-            compact_order = units.compact_order_within(MOST_ORDERED).unwrap_or_default();
+            compact_order = units.compact_order_within(MAX_ORDERED).unwrap_or_default();
             first = 0.0;
         }
         let frames = states.into_iter().zip(0_u32..).map(|(positions, k)| Frame {
@@ -328,7 +328,7 @@ impl ShownMotion {
 }
 
 /// The largest number of pairs in the layer order of exact states, which is computed while the user waits.
-const MOST_ORDERED: usize = 500_000;
+const MAX_ORDERED: usize = 500_000;
 
 /// Lower corner and sides of the bounding box of `points`.
 fn bounds(points: &[DVec3]) -> Option<[DVec3; 2]> {

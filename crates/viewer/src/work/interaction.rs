@@ -249,7 +249,7 @@ mod tests {
     }
 
     #[test]
-    fn a_held_sheet_follows_the_time_asked_for_and_a_pull() {
+    fn the_sheet_follows_the_requested_time_and_a_pull() {
         let study = study();
         let interaction = Interaction::start(Arc::clone(&study), None, RepaintSignal::new(|| {}));
         let start = settled(&interaction, 0.0);
@@ -271,7 +271,7 @@ mod tests {
     }
 
     #[test]
-    fn a_sheet_at_rest_is_not_woken_by_the_same_wish_again() {
+    fn a_sheet_at_rest_is_not_woken_by_the_same_request() {
         let interaction = Interaction::start(study(), None, RepaintSignal::new(|| {}));
         settled(&interaction, 0.0);
         let requested = || lock(&interaction.shared.request).serial;
@@ -284,7 +284,7 @@ mod tests {
     }
 
     #[test]
-    fn a_sheet_is_taken_up_in_any_state_and_a_wrong_one_is_an_error() {
+    fn an_interaction_starts_in_any_state_and_a_wrong_one_is_an_error() {
         let study = study();
         let folded = study.compute(&|_, _| true).unwrap();
         let frame = folded.motion.frames[30].clone();

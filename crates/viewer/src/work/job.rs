@@ -128,7 +128,7 @@ pub(super) mod tests {
     }
 
     #[test]
-    fn a_job_reports_wakes_and_gives_its_result_once() {
+    fn a_job_reports_progress_requests_repaints_and_gives_its_result_once() {
         let woken = Arc::new(AtomicBool::new(false));
         let seen = Arc::clone(&woken);
         let repaint = RepaintSignal::new(move || seen.store(true, Ordering::Relaxed));
@@ -145,7 +145,7 @@ pub(super) mod tests {
     }
 
     #[test]
-    fn a_panic_is_an_error_that_says_what_it_said() {
+    fn a_panic_is_an_error_with_its_message() {
         let job: Job<()> = Job::start("job", quiet(), |_| panic!("out of {}", "luck"));
         wait(|| job.is_done());
         let text = job.take().unwrap().unwrap_err().to_string();

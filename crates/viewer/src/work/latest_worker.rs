@@ -131,7 +131,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn questions_that_come_meanwhile_are_answered_by_the_last_of_them() {
+    fn of_requests_that_arrive_while_it_is_busy_only_the_last_is_handled() {
         let (go, may) = channel::<()>();
         let (heard, hears) = channel::<u32>();
         let latest = LatestWorker::new(
@@ -157,7 +157,7 @@ mod tests {
     }
 
     #[test]
-    fn a_panic_is_an_answer_and_the_next_question_is_answered() {
+    fn after_a_panic_the_next_request_is_handled() {
         let latest = LatestWorker::new(
             "latest",
             Duration::from_millis(1),

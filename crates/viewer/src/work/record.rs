@@ -87,7 +87,7 @@ mod tests {
     }
 
     #[test]
-    fn a_run_is_written_opened_judged_and_recorded_from_the_window() {
+    fn a_run_is_written_opened_checked_and_recorded() {
         let more = "[motion]\nengine = \"dynamic\"\nframes = 24\n";
         let study = Arc::new(Study::resolve(&source(more)).unwrap());
         let folded = Arc::new(study.compute(&|_, _| true).unwrap());

@@ -87,7 +87,7 @@ fn double_click(harness: &mut egui_kittest::Harness<'static, TestPanel>, at: Pos
 }
 
 #[test]
-fn points_leave_by_right_click_and_by_key_until_four_are_left() {
+fn points_are_removed_by_right_click_and_by_key_until_four_are_left() {
     let mut harness = panel(ARCH);
     harness.get_by_label("control point 2").click_secondary();
     harness.run();
@@ -101,7 +101,7 @@ fn points_leave_by_right_click_and_by_key_until_four_are_left() {
 }
 
 #[test]
-fn arrow_keys_nudge_the_selected_point_and_its_fields_place_it_exactly() {
+fn arrow_keys_move_the_selected_point_and_its_fields_set_it_exactly() {
     let mut harness = panel(ARCH);
     click(&mut harness, "control point 4");
     harness.run();
@@ -115,7 +115,7 @@ fn arrow_keys_nudge_the_selected_point_and_its_fields_place_it_exactly() {
 }
 
 #[test]
-fn a_model_is_turned_into_control_points_of_the_same_curve() {
+fn a_model_is_converted_to_control_points_of_the_same_curve() {
     for model in models() {
         let mut harness = panel(&format!("[profile]\nmodel = \"{}\"\n", model.name));
         click(&mut harness, "edit as control points");

@@ -17,7 +17,7 @@ fn a_panel_that_nobody_touches_changes_nothing() {
 }
 
 #[test]
-fn a_typed_width_becomes_the_width_and_an_empty_field_leaves_it_out() {
+fn a_typed_width_becomes_the_width_and_an_empty_field_omits_it() {
     let mut harness = panel(SHELTER);
     enter(&mut harness, "width W", "6.25");
     assert_eq!(harness.state().scene.sheet.width, Some(6.25));
@@ -45,7 +45,7 @@ fn entering_a_field_and_leaving_it_writes_nothing() {
 }
 
 #[test]
-fn what_is_no_number_is_not_taken() {
+fn text_that_is_not_a_number_is_refused() {
     let mut harness = panel(SHELTER);
     for text in ["five", "NaN", "1e999"] {
         enter(&mut harness, "width W", text);
@@ -61,14 +61,14 @@ fn a_typed_value_may_lie_beyond_where_a_drag_ends() {
 }
 
 #[test]
-fn a_key_is_left_out_again_by_its_button() {
+fn a_reset_button_omits_the_key() {
     let mut harness = panel(SHELTER);
     click(&mut harness, "default of width W");
     assert_eq!(harness.state().scene.sheet.width, None);
 }
 
 #[test]
-fn a_case_is_chosen_and_brings_what_it_needs() {
+fn a_chosen_case_sets_the_keys_it_needs() {
     let mut harness = panel(SHELTER);
     click(&mut harness, "case SII");
     let sheet = &harness.state().scene.sheet;
@@ -103,7 +103,7 @@ fn cases_that_contradict_the_unit_cannot_be_chosen() {
 }
 
 #[test]
-fn the_case_at_hand_stays_enabled_while_it_contradicts() {
+fn the_current_case_stays_enabled_even_if_w_h_rules_it_out() {
     let harness =
         panel("[profile]\nmodel = \"shelter\"\n[sheet]\nwidth = 5.0\ncolumns = 3\ncase = \"T\"\n");
     assert!(harness.state().draft.is_none());
@@ -122,7 +122,7 @@ fn the_case_at_hand_stays_enabled_while_it_contradicts() {
 }
 
 #[test]
-fn a_fault_stands_once_at_its_control_or_else_in_its_section_or_at_the_top() {
+fn an_error_is_shown_once_at_its_control_or_else_in_its_section_or_at_the_top() {
     let mut harness = panel(SHELTER);
     let error = |key: Option<&str>, message: &str| SceneError::new(key, &message);
     harness.state_mut().errors = vec![
@@ -143,7 +143,7 @@ fn a_fault_stands_once_at_its_control_or_else_in_its_section_or_at_the_top() {
 }
 
 #[test]
-fn a_fault_that_comes_and_goes_does_not_take_the_focus() {
+fn an_error_that_appears_does_not_take_the_focus() {
     let mut harness = panel(SHELTER);
     harness.get_by_label("rows Nr").focus();
     harness.run();
@@ -197,7 +197,7 @@ fn steps_are_added_filled_moved_and_removed() {
 }
 
 #[test]
-fn a_menu_sets_a_key_and_its_default_leaves_it_out() {
+fn a_menu_sets_a_key_and_its_default_omits_it() {
     let mut harness = panel(SHELTER);
     click(&mut harness, "Motion");
     click(&mut harness, "engine");
@@ -212,7 +212,7 @@ fn a_menu_sets_a_key_and_its_default_leaves_it_out() {
 }
 
 #[test]
-fn outputs_start_from_those_that_are_written_anyway() {
+fn outputs_start_from_the_defaults() {
     let mut harness = panel(SHELTER);
     click(&mut harness, "Record");
     click(&mut harness, "mp4");
@@ -227,7 +227,7 @@ fn outputs_start_from_those_that_are_written_anyway() {
 }
 
 #[test]
-fn a_switch_that_says_what_holds_anyway_leaves_the_key_out() {
+fn a_switch_set_to_its_default_omits_the_key() {
     let mut harness = panel(SHELTER);
     click(&mut harness, "Motion");
     click(&mut harness, "layers keep apart");
@@ -305,7 +305,7 @@ fn the_rows_of_a_step_are_one_or_a_range_or_all() {
 }
 
 #[test]
-fn the_closed_forms_of_every_case_that_the_unit_allows_stand_beside_each_other() {
+fn the_closed_forms_of_every_allowed_case_are_in_the_table() {
     let harness = panel(SHELTER);
     // Nr = 7, Nc = 3, W = 5, h = 1: equation 6 gives V = Nc (Nr + 1) / 4 (w - h) h² = 4. The size is shown in the table
     // and as the compact box of the draft.

@@ -69,7 +69,7 @@ impl Random {
 }
 
 #[test]
-fn a_hand_that_presses_and_types_anywhere_breaks_nothing() {
+fn random_clicks_and_typing_break_nothing() {
     const KEYS: [Key; 7] = [
         Key::ArrowUp,
         Key::ArrowLeft,

@@ -156,7 +156,7 @@ fn a_path_is_completed_step_by_step() {
 }
 
 #[test]
-fn a_double_click_chooses_and_the_crumbs_go_back() {
+fn a_double_click_chooses_and_breadcrumbs_go_to_parent_folders() {
     let folder = folder();
     let mut harness = harness(open(&folder.path().join("imported")), Appearance::Dark);
     let name = folder
@@ -221,7 +221,7 @@ fn a_folder_that_cannot_be_read_says_so() {
 }
 
 #[test]
-fn of_ten_thousand_files_only_those_in_sight_are_laid_out() {
+fn only_visible_rows_of_ten_thousand_files_are_laid_out() {
     let folder = tempfile::tempdir().unwrap();
     for k in 0..10_000 {
         fs::write(folder.path().join(format!("{k:05}.toml")), "").unwrap();

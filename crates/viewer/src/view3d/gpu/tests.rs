@@ -298,7 +298,7 @@ fn crossing(positions: &[DVec3]) -> Vec<DVec3> {
 
 #[test]
 #[cfg_attr(not(gpu_tests), ignore = "needs a GPU and FOLDMOTION_GPU_TESTS=yes")]
-fn a_dot_is_drawn_where_its_place_is_projected_also_in_perspective() {
+fn a_dot_is_drawn_at_its_projection_also_in_perspective() {
     let mut gpu = Gpu::new(&device()).unwrap();
     let subject = Subject::new(Case::S, 1.6, 3, 2);
     let compact = subject.units.compact();
@@ -385,7 +385,7 @@ fn darkness(image: &Image) -> f64 {
 
 #[test]
 #[cfg_attr(not(gpu_tests), ignore = "needs a GPU and FOLDMOTION_GPU_TESTS=yes")]
-fn lines_are_as_wide_however_near_one_looks() {
+fn lines_have_the_same_width_at_any_zoom() {
     let mut gpu = Gpu::new(&device()).unwrap();
     let mut subject = Subject::new(Case::E, 1.0, 1, 1);
     subject.style = Style {
@@ -424,7 +424,7 @@ fn lines_are_as_wide_however_near_one_looks() {
 
 #[test]
 #[cfg_attr(not(gpu_tests), ignore = "needs a GPU and FOLDMOTION_GPU_TESTS=yes")]
-fn overlays_are_drawn_before_paper_and_dimmed_behind_it_and_handles_never() {
+fn overlays_are_dimmed_behind_the_sheet_and_dots_and_pulls_are_not() {
     let mut gpu = Gpu::new(&device()).unwrap();
     let subject = Subject::new(Case::E, 1.0, 2, 2);
     let flat = subject.units.sheet.planar();
@@ -463,7 +463,7 @@ fn overlays_are_drawn_before_paper_and_dimmed_behind_it_and_handles_never() {
 
 #[test]
 #[cfg_attr(not(gpu_tests), ignore = "needs a GPU and FOLDMOTION_GPU_TESTS=yes")]
-fn triangles_that_flash_pulse_from_paper_to_the_colour_of_marks() {
+fn flashing_triangles_go_from_the_colour_of_paper_to_that_of_marks() {
     let mut gpu = Gpu::new(&device()).unwrap();
     let subject = Subject::new(Case::E, 1.0, 2, 2);
     let flat = subject.units.sheet.planar();
@@ -485,7 +485,7 @@ fn triangles_that_flash_pulse_from_paper_to_the_colour_of_marks() {
 
 #[test]
 #[cfg_attr(not(gpu_tests), ignore = "needs a GPU and FOLDMOTION_GPU_TESTS=yes")]
-fn an_error_of_the_driver_is_told_and_not_thrown() {
+fn an_error_of_the_driver_is_returned() {
     let state = device();
     let catch_errors = catch_errors(&state.device, || {
         state.device.create_buffer(&wgpu::BufferDescriptor {
