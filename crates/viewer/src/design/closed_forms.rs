@@ -7,7 +7,7 @@ use foldmotion_study::{Draft, UnitDraft};
 use glam::DVec3;
 
 use super::form::{Form, NOTE_SIZE, name, note};
-use super::number::{decimal, scientific};
+use super::number::formatted;
 use super::unit_size::UnitSize;
 
 /// Measurements of the last draft.
@@ -244,10 +244,6 @@ fn times(ratio: f64) -> String {
 }
 
 /// Formats a number with four significant digits.
-pub(super) fn brief(number: f64) -> String {
-    let size = number.abs();
-    if size != 0.0 && !(1e-3..1e6).contains(&size) {
-        return scientific(number, 2);
-    }
-    decimal(number, 4)
+fn brief(number: f64) -> String {
+    formatted(number, 4)
 }

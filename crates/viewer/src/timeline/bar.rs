@@ -204,11 +204,8 @@ fn bar(ui: &mut Ui, playback: &Playback, marks: &Marks, axis: &Axis) -> Response
     let weak = visuals.weak_text_color();
     if marks.frames.len() as f32 * 3.0 < axis.span.span() {
         for &t in &marks.frames {
-            painter.vline(
-                axis.x(t),
-                middle - 2.0..=middle + 2.0,
-                Stroke::new(1.0, weak.gamma_multiply(0.5)),
-            );
+            let stroke = Stroke::new(1.0, weak.gamma_multiply(0.5));
+            painter.vline(axis.x(t), middle - 2.0..=middle + 2.0, stroke);
         }
     }
     for (t, name) in [(0.0, "deployed"), (1.0, "planar"), (2.0, "compact")] {
@@ -221,11 +218,8 @@ fn bar(ui: &mut Ui, playback: &Playback, marks: &Marks, axis: &Axis) -> Response
     }
     let marked = visuals.error_fg_color;
     for &t in marks.penetrations.iter().chain(&marks.jam) {
-        painter.vline(
-            axis.x(t),
-            middle - 7.0..=middle + 7.0,
-            Stroke::new(1.5, marked),
-        );
+        let stroke = Stroke::new(1.5, marked);
+        painter.vline(axis.x(t), middle - 7.0..=middle + 7.0, stroke);
     }
     let x = axis.x(time);
     let knob = if response.dragged() || response.hovered() {

@@ -324,12 +324,8 @@ impl Viewer {
             length: scene.profile.length,
             ..ProfileScene::default()
         };
-        let units = self
-            .resolved
-            .draft
-            .as_ref()
-            .and_then(|(_, _, draft)| draft.units());
-        if let Some(UnitDraft { units, .. }) = units {
+        let draft = self.resolved.draft.as_ref();
+        if let Some(UnitDraft { units, .. }) = draft.and_then(|(.., draft)| draft.units()) {
             let sheet = &mut scene.sheet;
             sheet.rows = sheet.rows.or(i64::try_from(units.rows).ok());
             sheet.columns = sheet.columns.or(i64::try_from(units.columns).ok());

@@ -60,11 +60,8 @@ impl Viewer {
         match answer {
             Resolved::Draft(number, Ok(draft)) if number == asked => {
                 let scene = motion_keys(self.document.scene());
-                let is_new = self
-                    .resolved
-                    .draft
-                    .as_ref()
-                    .is_none_or(|(_, of, _)| *of != scene);
+                let previous = self.resolved.draft.as_ref();
+                let is_new = previous.is_none_or(|(_, of, _)| *of != scene);
                 self.resolved.draft = Some((number, scene.clone(), Arc::clone(&draft)));
                 self.resolved.errors.clear();
                 if is_new {
@@ -96,11 +93,8 @@ impl Viewer {
         let t = self.playback.time;
         let is_of_size =
             |shown: &ShownMotion| shown.motion().sheet.faces.len() == draft.sheet().faces.len();
-        let stays = self
-            .display
-            .draft
-            .as_ref()
-            .is_some_and(|(_, shown)| is_of_size(shown));
+        let draft_shown = self.display.draft.as_ref();
+        let stays = draft_shown.is_some_and(|(_, shown)| is_of_size(shown));
         if stays && t.fract() != 0.0 && self.settings.view.folds_at_once {
             return;
         }

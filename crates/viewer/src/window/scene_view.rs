@@ -158,13 +158,8 @@ impl Viewer {
         if let Some(words) = self.pointed_text(sheet) {
             let corner = rect.left_bottom() + vec2(12.0, -10.0);
             let font = FontId::proportional(12.0);
-            painter.text(
-                corner,
-                Align2::LEFT_BOTTOM,
-                words,
-                font,
-                visuals.text_color(),
-            );
+            let colour = visuals.text_color();
+            painter.text(corner, Align2::LEFT_BOTTOM, words, font, colour);
         }
         let colour = self.settings.view.colour;
         if let Some((_, range, title)) = self.display.state.values(shown, sheet, colour) {
@@ -371,20 +366,11 @@ fn scale(painter: &Painter, ui: &Ui, rect: Rect, range: [f64; 2], title: &str) {
     painter.rect_stroke(bar, 0.0, stroke, StrokeKind::Outside);
     let font = FontId::proportional(11.0);
     let ink = visuals.text_color();
-    painter.text(
-        bar.center_top() - vec2(0.0, 4.0),
-        Align2::CENTER_BOTTOM,
-        title,
-        font.clone(),
-        ink,
-    );
+    let write = |place, align, text: &str| painter.text(place, align, text, font.clone(), ink);
+    let above = bar.center_top() - vec2(0.0, 4.0);
+    write(above, Align2::CENTER_BOTTOM, title);
     for (x, value) in [(bar.left(), range[0]), (bar.right(), range[1])] {
-        painter.text(
-            pos2(x, bar.bottom() + 4.0),
-            Align2::CENTER_TOP,
-            number(value),
-            font.clone(),
-            ink,
-        );
+        let below = pos2(x, bar.bottom() + 4.0);
+        write(below, Align2::CENTER_TOP, &number(value));
     }
 }
