@@ -173,48 +173,35 @@ fn boxes(ui: &mut Ui, report: &Report) {
         .num_columns(4)
         .striped(true)
         .show(ui, |ui| {
-            let about = "equations 3 to 7 of the paper";
-            let heads = [
-                ("", ""),
-                ("measured", ""),
-                ("closed form", about),
-                ("error", about),
-            ];
-            for (head, about) in heads {
-                let label = ui.weak(head);
-                if !about.is_empty() {
-                    label.on_hover_text(about);
-                }
-            }
+            let about = "Equations 3 to 7 of the paper";
+            ui.label("");
+            ui.weak("measured");
+            ui.weak("closed form").on_hover_text(about);
+            ui.weak("error").on_hover_text(about);
             ui.end_row();
             let (compact, form) = (&report.compact, report.closed_form.as_ref());
             let error = compact.relative_error.as_ref();
-            let mut row = |name: &str, value: f64, form: Option<f64>, error: Option<f64>| {
+            let extents = ["x, length", "y, width", "z, flaps"]
+                .into_iter()
+                .enumerate();
+            let extents = extents.map(|(k, name)| {
+                let form = form.map(|f| f.extents[k]);
+                let error = error.map(|e| e.extents[k]);
+                (name, compact.extents[k], form, error)
+            });
+            let (form_area, error_area) = (form.map(|f| f.area), error.map(|e| e.area));
+            let (form_volume, error_volume) = (form.map(|f| f.volume), error.map(|e| e.volume));
+            let sizes = [
+                ("area x·z", compact.area, form_area, error_area),
+                ("volume", compact.volume, form_volume, error_volume),
+            ];
+            for (name, value, form, error) in extents.chain(sizes) {
                 ui.label(name);
                 ui.label(format!("{value:.5}"));
                 ui.label(form.map_or_else(|| "–".to_owned(), |v| format!("{v:.5}")));
                 ui.label(error.map_or_else(|| "–".to_owned(), |v| format!("{v:+.1e}")));
                 ui.end_row();
-            };
-            for (k, name) in ["x, length", "y, width", "z, flaps"]
-                .into_iter()
-                .enumerate()
-            {
-                let form = form.map(|f| f.extents[k]);
-                row(name, compact.extents[k], form, error.map(|e| e.extents[k]));
             }
-            row(
-                "area x·z",
-                compact.area,
-                form.map(|f| f.area),
-                error.map(|e| e.area),
-            );
-            row(
-                "volume",
-                compact.volume,
-                form.map(|f| f.volume),
-                error.map(|e| e.volume),
-            );
         });
 }
 

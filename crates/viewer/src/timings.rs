@@ -165,7 +165,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn frames_are_counted_by_pace_and_the_summary_names_them() {
+    fn frames_are_counted_by_activity_and_the_summary_names_them() {
         let mut timings = Timings::new(Instant::now());
         assert!(timings.frame_times(Activity::Idle).is_none());
         for _ in 0..5 {

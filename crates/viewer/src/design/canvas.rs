@@ -1,6 +1,6 @@
 //! The profile canvas: the curve Γ, its division, and the points that shape it, which can be dragged.
 
-use eframe::egui::{self, Align2, FontId, Stroke, Ui, vec2};
+use eframe::egui::{self, Stroke, Ui};
 use foldmotion_geometry::Profile;
 use foldmotion_study::scene::ProfileScene;
 use foldmotion_study::{Draft, UnitDraft};
@@ -8,13 +8,13 @@ use glam::DVec2;
 
 use super::curve::{add_handle, handles, own_profile, vectors};
 use super::form::Form;
-use super::handle_editor::{HandleEditor, MOST_HANDLES, rounded_on};
-use super::plane::{Plane, PlaneView, bounds, canvas};
+use super::handle_editor::{HandleEditor, MAX_HANDLES, rounded_on};
+use super::plane::{Plane, PlaneView, bounds, canvas, message};
 
 /// Number of points at which the curve is sampled for drawing.
 const SAMPLES: usize = 600;
 /// The largest number of division points that are drawn.
-const MOST_DIVISION_POINTS: usize = 2000;
+const MAX_DIVISION_POINTS: usize = 2000;
 
 /// State of the canvas that lasts from frame to frame.
 #[derive(Debug, Default)]
@@ -58,24 +58,17 @@ impl SampledCurve {
     }
 
     fn is_of(&self, form: &Form<'_>) -> bool {
-        let number = form
-            .scene
-            .profile
-            .file
-            .is_some()
-            .then_some(form.draft_number);
-        self.draft_number == number && self.scene == form.scene.profile
+        let profile = &form.scene.profile;
+        let number = profile.file.is_some().then_some(form.draft_number);
+        self.draft_number == number && self.scene == *profile
     }
 }
 
 impl Canvas {
     /// Shows the canvas and applies the user's edits to the form.
     pub(super) fn show(&mut self, form: &mut Form<'_>, ui: &mut Ui) {
-        if !self
-            .traced
-            .as_ref()
-            .is_some_and(|traced| traced.is_of(form))
-        {
+        let traced = self.traced.as_ref();
+        if traced.is_none_or(|traced| !traced.is_of(form)) {
             self.traced = Some(SampledCurve::new(form));
         }
         let points = handles(&form.scene.profile)
@@ -93,8 +86,8 @@ impl Canvas {
         let plane = self.view.plane(ui, &response, size);
         plane.paint_grid(ui, &painter);
         self.paint_curve(form, ui, &painter, &plane);
-        if points.len() > MOST_HANDLES {
-            note(ui, &painter, &plane, "too many points to drag");
+        if points.len() > MAX_HANDLES {
+            message(ui, &painter, &plane, "too many points to drag");
             return;
         }
         HandleEditor::paint_polygon(form, ui, &painter, &plane, &points);
@@ -105,11 +98,10 @@ impl Canvas {
             self.handle_editor.select_none();
         }
         if is_bare {
-            note(ui, &painter, &plane, "no curve yet");
+            message(ui, &painter, &plane, "no curve yet");
         }
     }
 
-    /// Adds a point at the position of a double click.
     fn add_point(
         &mut self,
         form: &mut Form<'_>,
@@ -152,18 +144,6 @@ impl Canvas {
 
 /// The points that divide the curve, in the units of the scene.
 fn chords<'a>(profile: &'a Profile, draft: &'a UnitDraft) -> impl Iterator<Item = DVec2> + 'a {
-    let parameters = draft.division.parameters.iter().take(MOST_DIVISION_POINTS);
+    let parameters = draft.division.parameters.iter().take(MAX_DIVISION_POINTS);
     parameters.map(|&u| profile.position(u))
-}
-
-fn note(ui: &Ui, painter: &egui::Painter, plane: &Plane, text: &str) {
-    let colour = ui.visuals().weak_text_color();
-    let place = plane.rect.center_top() + vec2(0.0, 4.0);
-    painter.text(
-        place,
-        Align2::CENTER_TOP,
-        text,
-        FontId::proportional(11.0),
-        colour,
-    );
 }

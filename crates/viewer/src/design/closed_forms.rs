@@ -7,7 +7,7 @@ use foldmotion_study::{Draft, UnitDraft};
 use glam::DVec3;
 
 use super::form::{Form, NOTE_SIZE, name, note};
-use super::number::{decimal, scientific};
+use super::number::formatted;
 use super::unit_size::UnitSize;
 
 /// Measurements of the last draft.
@@ -50,12 +50,8 @@ impl Counts {
             "{} vertices, {} facets, {} creases",
             self.vertices, self.facets, self.creases
         );
-        fact(
-            ui,
-            "sheet",
-            &text,
-            "Vertices, facets, and mountain and valley creases of the pattern",
-        );
+        let tip = "Vertices, facets, and mountain and valley creases of the pattern";
+        value_row(ui, "sheet", &text, tip);
         let foldable = if self.is_flat_foldable {
             "flat-foldable"
         } else {
@@ -66,13 +62,9 @@ impl Counts {
         } else {
             "not developable"
         };
-        fact(
-            ui,
-            "vertices",
-            &format!("{developable}, {foldable}"),
-            "Developable: the sector angles at each vertex sum to 2π. Flat-foldable: alternate angles sum to π, and the \
-             numbers of mountains and valleys differ by two (section 2).",
-        );
+        let tip = "Developable: the sector angles at each vertex sum to 2π. Flat-foldable: alternate angles sum to π, and the \
+             numbers of mountains and valleys differ by two (section 2).";
+        value_row(ui, "vertices", &format!("{developable}, {foldable}"), tip);
     }
 }
 
@@ -118,45 +110,25 @@ impl Measurements {
 
     fn show_sizes(&self, draft: &UnitDraft, ui: &mut Ui) {
         let [x, y, z] = self.deployed.to_array();
-        fact(
-            ui,
-            "deployed",
-            &sizes(&[x, y, z]),
-            "Extents of the deployed state along x, y and z",
-        );
-        fact(
-            ui,
-            "flat",
-            &sizes(&self.flat),
-            "Size of the crease pattern: Nr h and W",
-        );
+        let tip = "Extents of the deployed state along x, y and z";
+        value_row(ui, "deployed", &sizes(&[x, y, z]), tip);
+        let tip = "Size of the crease pattern: Nr h and W";
+        value_row(ui, "flat", &sizes(&self.flat), tip);
         let Some(compact) = draft.closed_form else {
-            fact(
-                ui,
-                "compact",
-                "no closed form",
-                "The unmodified rectangle has no closed form.",
-            );
+            let tip = "The unmodified rectangle has no closed form.";
+            value_row(ui, "compact", "no closed form", tip);
             return;
         };
-        fact(
-            ui,
-            "compact",
-            &sizes(&compact.extents),
-            "x = Nr h − (Nr − 1) a, y = Nc (2s + 2d), z = a (equations 3 to 7)",
-        );
+        let tip = "x = Nr h − (Nr − 1) a, y = Nc (2s + 2d), z = a (equations 3 to 7)";
+        value_row(ui, "compact", &sizes(&compact.extents), tip);
         let (area, volume) = (x * z, x * y * z);
         let mut ratios = vec![format!("area {}", times(area / compact.area))];
         if compact.volume > 0.0 && volume > 0.0 {
             ratios.push(format!("volume {}", times(volume / compact.volume)));
         }
-        fact(
-            ui,
-            "size ratio",
-            &ratios.join(", "),
-            "The box of the deployed state divided by that of the compact one: area in the x–z plane (equations 3 to 5), \
-             and volume (equations 6 and 7) if the compact state is not flat.",
-        );
+        let tip = "The box of the deployed state divided by that of the compact one: area in the x–z plane (equations 3 to 5), \
+             and volume (equations 6 and 7) if the compact state is not flat.";
+        value_row(ui, "size ratio", &ratios.join(", "), tip);
     }
 }
 
@@ -169,12 +141,8 @@ fn show_unit(draft: &UnitDraft, ui: &mut Ui) {
         brief(unit.height),
         brief(ratio)
     );
-    fact(
-        ui,
-        "unit w × h",
-        &text,
-        "w = W/Nc and h, the mean length of a segment",
-    );
+    let tip = "w = W/Nc and h, the mean length of a segment";
+    value_row(ui, "unit w × h", &text, tip);
     let text = format!(
         "{}: a = {}, s = {}, 2d = {}",
         draft.units.case_name(),
@@ -182,12 +150,8 @@ fn show_unit(draft: &UnitDraft, ui: &mut Ui) {
         brief(unit.side_pad),
         brief(unit.centre_pad)
     );
-    fact(
-        ui,
-        "case",
-        &text,
-        "Flap a, side pad s, centre pad 2d: the width of a column is s + a + 2d + a + s (figures 2 to 5).",
-    );
+    let tip = "Flap a, side pad s, centre pad 2d: the width of a column is s + a + 2d + a + s (figures 2 to 5).";
+    value_row(ui, "case", &text, tip);
 }
 
 /// Shows a table of the compact box in every case.
@@ -260,7 +224,7 @@ fn show_case(form: &Form<'_>, ui: &mut Ui, case: Case) {
 }
 
 /// A row with a name and a value.
-pub(super) fn fact(ui: &mut Ui, title: &str, text: &str, tip: &str) {
+pub(super) fn value_row(ui: &mut Ui, title: &str, text: &str, tip: &str) {
     ui.scope(|ui| {
         ui.spacing_mut().interact_size.y = 17.0;
         ui.horizontal(|ui| {
@@ -280,10 +244,6 @@ fn times(ratio: f64) -> String {
 }
 
 /// Formats a number with four significant digits.
-pub(super) fn brief(number: f64) -> String {
-    let size = number.abs();
-    if size != 0.0 && !(1e-3..1e6).contains(&size) {
-        return scientific(number, 2);
-    }
-    decimal(number, 4)
+fn brief(number: f64) -> String {
+    formatted(number, 4)
 }

@@ -11,7 +11,7 @@ use glam::DVec2;
 use super::plane::{Plane, crease_colours};
 
 /// The largest number of edges that are drawn.
-pub(super) const MOST_EDGES: usize = 60_000;
+pub(super) const MAX_EDGES: usize = 60_000;
 /// A valley crease shorter than this, in points on the screen, is drawn without gaps.
 const SHORTEST_DASHED: f32 = 9.0;
 
@@ -80,7 +80,7 @@ fn mesh(ui: &Ui, sheet: &Sheet, plane: &Plane, place: impl Fn(DVec2) -> DVec2) -
         .map(|&v| plane.to_screen(place(v)))
         .collect();
     let mut shapes = Vec::with_capacity(sheet.edges.len());
-    for edge in sheet.edges.iter().take(MOST_EDGES) {
+    for edge in sheet.edges.iter().take(MAX_EDGES) {
         let ends = edge.vertices.map(|v| on_screen[v as usize]);
         if !Rect::from_two_pos(ends[0], ends[1]).intersects(plane.rect) {
             continue;

@@ -9,7 +9,7 @@ use glam::DVec2;
 use super::knots::{clamped, inserted, removed};
 
 /// Number of segments between the interpolation points that are taken from another curve.
-const TAKEN_POINTS: usize = 24;
+const INTERPOLATION_POINTS: usize = 24;
 /// Number of samples in the search for the point of a curve nearest to a position.
 const SAMPLES: usize = 2048;
 
@@ -74,7 +74,6 @@ pub(super) fn handles_mut(scene: &mut ProfileScene) -> Option<&mut Vec<[f64; 2]>
     scene.control_points.as_mut().or(scene.points.as_mut())
 }
 
-/// The smallest number of points that defines a curve.
 pub(super) fn fewest_handles(scene: &ProfileScene) -> usize {
     match (&scene.control_points, scene.closed) {
         (Some(_), _) => 4,
@@ -89,7 +88,7 @@ pub(super) fn into_control_points(scene: &mut Scene, profile: Option<&Profile>) 
     let Some(profile) = own_profile(&scene.profile).or_else(|| profile.cloned()) else {
         return false;
     };
-    take_over_counts(scene);
+    write_model_size(scene);
     let shape = model(scene).map(|model| model.shape);
     let (points, knots, closure) = if let Some(Shape::ControlPoints(points)) = shape {
         (points.to_vec(), None, profile.closure())
@@ -136,13 +135,13 @@ pub(super) fn into_points(scene: &mut Scene, profile: Option<&Profile>) -> bool 
     let Some(profile) = own_profile(&scene.profile).or_else(|| profile.cloned()) else {
         return false;
     };
-    take_over_counts(scene);
+    write_model_size(scene);
     let shape = model(scene).map(|model| model.shape);
     let points = if let Some(Shape::Points(points)) = shape {
         points.to_vec()
     } else {
-        let at = |k: usize| profile.position(k as f64 / TAKEN_POINTS as f64);
-        let last = TAKEN_POINTS - usize::from(profile.is_closed());
+        let at = |k: usize| profile.position(k as f64 / INTERPOLATION_POINTS as f64);
+        let last = INTERPOLATION_POINTS - usize::from(profile.is_closed());
         let size = profile.magnitude();
         (0..=last).map(|k| rounded(at(k), size).into()).collect()
     };
@@ -168,7 +167,7 @@ pub(super) fn into_model(scene: &mut Scene, name: &str) {
 
 /// Replaces the definition by a file of points.
 pub(super) fn into_file(scene: &mut Scene, file: String) {
-    take_over_counts(scene);
+    write_model_size(scene);
     scene.profile = ProfileScene {
         file: Some(file),
         length: scene.profile.length,
@@ -179,7 +178,7 @@ pub(super) fn into_file(scene: &mut Scene, file: String) {
 }
 
 /// Writes into the scene what a built-in model defines and other profiles do not: length, rows, columns and width.
-fn take_over_counts(scene: &mut Scene) {
+fn write_model_size(scene: &mut Scene) {
     let Some(model) = model(scene) else { return };
     let length = *scene.profile.length.get_or_insert(model.length());
     let rows = *scene.sheet.rows.get_or_insert(count(model.rows));
@@ -196,12 +195,18 @@ fn take_over_counts(scene: &mut Scene) {
 
 /// The case whose number of columns a built-in model uses.
 pub(super) fn columns_case(case: Option<CaseChoice>) -> Case {
-    match case {
-        Some(CaseChoice::T) => Case::T,
-        Some(CaseChoice::S) => Case::S,
-        Some(CaseChoice::SII) => Case::SII,
-        Some(CaseChoice::Plain) => Case::Plain,
-        None | Some(CaseChoice::E | CaseChoice::Auto) => Case::E,
+    case.and_then(own_case).unwrap_or(Case::E)
+}
+
+/// The case that a choice stands for; `None` for `auto`.
+pub(super) fn own_case(choice: CaseChoice) -> Option<Case> {
+    match choice {
+        CaseChoice::E => Some(Case::E),
+        CaseChoice::T => Some(Case::T),
+        CaseChoice::S => Some(Case::S),
+        CaseChoice::SII => Some(Case::SII),
+        CaseChoice::Plain => Some(Case::Plain),
+        CaseChoice::Auto => None,
     }
 }
 
@@ -360,7 +365,7 @@ mod tests {
     }
 
     #[test]
-    fn a_point_more_on_a_curve_with_knots_keeps_it() {
+    fn adding_a_point_to_a_curve_with_knots_keeps_the_curve() {
         for name in ["airfoil", "bunny", "fermat-spiral"] {
             let model = models().iter().find(|m| m.name == name).unwrap();
             let mut scene = scene_of(model);
@@ -383,7 +388,7 @@ mod tests {
     }
 
     #[test]
-    fn a_point_more_without_knots_goes_between_its_neighbours() {
+    fn a_point_added_without_knots_goes_between_its_neighbours() {
         let mut scene = ProfileScene {
             control_points: Some(vec![[0.0, 0.0], [1.0, 0.0], [2.0, 0.0], [3.0, 0.0]]),
             ..ProfileScene::default()
@@ -393,7 +398,7 @@ mod tests {
     }
 
     #[test]
-    fn four_control_points_stay() {
+    fn the_last_four_control_points_cannot_be_removed() {
         let mut scene = ProfileScene {
             control_points: Some((0..5).map(|k| [f64::from(k), 0.0]).collect()),
             knots: Some(vec![0.0, 0.0, 0.0, 0.0, 0.4, 1.0, 1.0, 1.0, 1.0]),
@@ -406,7 +411,7 @@ mod tests {
     }
 
     #[test]
-    fn a_curve_led_through_points_stays_near() {
+    fn a_curve_converted_to_interpolation_points_keeps_its_closure() {
         for model in models() {
             let before = model.profile().unwrap();
             let mut scene = scene_of(model);

@@ -21,7 +21,6 @@ const TABLES: [&str; 8] = [
 /// A key of the scene that has a row in the panel. Its tooltip is the description in the schema.
 #[derive(Debug, Clone)]
 pub(super) struct Field {
-    /// The dotted key.
     pub(super) key: Cow<'static, str>,
     /// The label to the left of the control, also its accessible name and the name of an edit to undo.
     pub(super) name: &'static str,
@@ -159,7 +158,6 @@ impl<'a> Form<'a> {
         self.errors_of(ui, &field.key);
     }
 
-    /// The errors of a key, in red below its control.
     pub(super) fn errors_of(&mut self, ui: &mut Ui, key: &str) {
         for error in self.errors {
             if let Some(at) = error.key.as_deref().filter(|at| is_at(at, key)) {

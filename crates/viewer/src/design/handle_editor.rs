@@ -11,7 +11,7 @@ use super::number::Number;
 use super::plane::{Plane, PlaneView, round_step};
 
 /// If a curve has more points than this, only the curve is drawn.
-pub(super) const MOST_HANDLES: usize = 400;
+pub(super) const MAX_HANDLES: usize = 400;
 /// Size of the area around a point in which it can be grabbed, points on the screen.
 const REACH: f32 = 16.0;
 
@@ -40,7 +40,6 @@ impl HandleEditor {
         self.selected = None;
     }
 
-    /// Draws the control polygon.
     pub(super) fn paint_polygon(
         form: &Form<'_>,
         ui: &Ui,

@@ -4,7 +4,7 @@ use eframe::egui::{RichText, Ui};
 use foldmotion_study::scene::PatternScene;
 use foldmotion_study::{Draft, ImportedStudy, Scene};
 
-use super::closed_forms::{Measurements, fact};
+use super::closed_forms::{Measurements, value_row};
 use super::form::{Field, Form, NOTE_SIZE};
 use super::number::{AccessibleName, Number, short};
 
@@ -89,32 +89,20 @@ fn show_facts(study: &ImportedStudy, measurements: &Measurements, ui: &mut Ui) {
     let imported = &study.imported;
     ui.add_space(4.0);
     if let Some(title) = &imported.title {
-        fact(ui, "title", title, "The title in the file.");
+        value_row(ui, "title", title, "The title in the file.");
     }
     let length = format!("{} {}", short(imported.sheet.unit_length), study.unit_name);
-    fact(
-        ui,
-        "mean edge",
-        &length,
-        "The unit of the contact gap and of tolerances.",
-    );
+    let tip = "The unit of the contact gap and of tolerances.";
+    value_row(ui, "mean edge", &length, tip);
     measurements.counts.show(ui);
     let stages = study.waypoints.len();
     if stages > 1 {
-        fact(
-            ui,
-            "stages",
-            &stages.to_string(),
-            "Stages of the motion, from the frames of the file.",
-        );
+        let tip = "Stages of the motion, from the frames of the file.";
+        value_row(ui, "stages", &stages.to_string(), tip);
     }
     if let Some(facet) = study.fixed {
-        fact(
-            ui,
-            "stays",
-            &format!("facet {facet}"),
-            "The facet that stays in place.",
-        );
+        let tip = "The facet that stays in place.";
+        value_row(ui, "stays", &format!("facet {facet}"), tip);
     }
     for warning in &imported.warnings {
         let text = RichText::new(warning.to_string())

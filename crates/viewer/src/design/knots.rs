@@ -100,7 +100,7 @@ mod tests {
     }
 
     #[test]
-    fn a_knot_more_keeps_the_curve() {
+    fn inserting_a_knot_keeps_the_curve() {
         for model in models() {
             let profile = model.profile().unwrap();
             let curve = profile.curve();
@@ -127,7 +127,7 @@ mod tests {
     }
 
     #[test]
-    fn a_curve_with_a_wrong_control_point_is_told_apart() {
+    fn a_curve_with_a_wrong_control_point_is_detected() {
         let profile = models()[0].profile().unwrap();
         let curve = profile.curve();
         let (mut points, knots) = inserted(curve.control_points(), curve.knots(), 0.5).unwrap();
@@ -137,7 +137,7 @@ mod tests {
     }
 
     #[test]
-    fn a_knot_outside_the_domain_or_there_three_times_is_refused() {
+    fn a_knot_outside_the_domain_or_of_multiplicity_three_is_refused() {
         let points: Vec<DVec2> = (0..5).map(|k| DVec2::new(f64::from(k), 0.0)).collect();
         let knots = [0.0, 0.0, 0.0, 0.0, 0.5, 1.0, 1.0, 1.0, 1.0];
         for u in [-0.1, 1.0, 1.1, f64::NAN] {
@@ -164,7 +164,7 @@ mod tests {
     }
 
     #[test]
-    fn a_control_point_leaves_with_one_knot_of_its_support() {
+    fn a_control_point_is_removed_with_one_knot_of_its_support() {
         let knots = [0.0, 0.0, 0.0, 0.0, 0.3, 0.6, 1.0, 1.0, 1.0, 1.0];
         for index in 0..6 {
             let fewer = removed(&knots, index);

@@ -37,13 +37,10 @@ use form::Form;
 /// What the panel shows.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct DesignInput<'a> {
-    /// The current scene.
     pub(crate) scene: &'a Scene,
-    /// The last valid draft, if any.
     pub(crate) draft: Option<&'a Draft>,
     /// A number that differs between drafts; cached drawings are kept until it changes.
     pub(crate) draft_number: u64,
-    /// The errors of the scene.
     pub(crate) errors: &'a [SceneError],
 }
 
@@ -69,7 +66,6 @@ impl SceneError {
 /// An edit of the scene.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Change {
-    /// The scene after the edit.
     pub(crate) scene: Scene,
     /// The name of the edit in the undo menu.
     pub(crate) label: &'static str,

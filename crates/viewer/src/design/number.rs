@@ -109,33 +109,25 @@ fn parsed(text: &str) -> Option<f64> {
 
 /// Formats a number with at most six significant digits.
 pub(super) fn short(number: f64) -> String {
-    let size = number.abs();
-    if size != 0.0 && !(1e-3..1e7).contains(&size) {
-        return scientific(number, 3);
-    }
-    decimal(number, 6)
+    formatted(number, 6)
 }
 
-/// Formats a number as a decimal with `digits` significant digits, without trailing zeros.
-pub(super) fn decimal(number: f64, digits: usize) -> String {
-    let whole_digits = format!("{}", number.abs().trunc()).len();
-    let text = format!("{number:.*}", digits.saturating_sub(whole_digits));
-    if text.contains('.') {
-        text.trim_end_matches('0').trim_end_matches('.').to_owned()
+/// Formats a number with at most `digits` significant digits and without trailing zeros, in scientific notation with half as
+/// many digits if it is very small or very large.
+pub(super) fn formatted(number: f64, digits: usize) -> String {
+    let size = number.abs();
+    let text = if size != 0.0 && !(1e-3..1e6).contains(&size) {
+        format!("{number:.*e}", digits / 2)
+    } else {
+        let whole_digits = size.trunc().to_string().len();
+        format!("{number:.*}", digits.saturating_sub(whole_digits))
+    };
+    let (mantissa, exponent) = text.split_at(text.find('e').unwrap_or(text.len()));
+    if mantissa.contains('.') {
+        let mantissa = mantissa.trim_end_matches('0').trim_end_matches('.');
+        format!("{mantissa}{exponent}")
     } else {
         text
-    }
-}
-
-/// Formats a number in scientific notation with at most `digits` digits after the point.
-pub(super) fn scientific(number: f64, digits: usize) -> String {
-    let text = format!("{number:.digits$e}");
-    match text.split_once('e') {
-        Some((size, power)) if size.contains('.') => {
-            let size = size.trim_end_matches('0').trim_end_matches('.');
-            format!("{size}e{power}")
-        }
-        _ => text,
     }
 }
 
@@ -147,9 +139,7 @@ pub(super) fn control_width(ui: &Ui) -> f32 {
 /// The accessible name of a field.
 #[derive(Debug, Clone, Copy)]
 pub(super) enum AccessibleName<'a> {
-    /// The label with this id.
     By(Id),
-    /// This text.
     As(&'a str),
 }
 
@@ -162,23 +152,10 @@ impl Form<'_> {
         number: &Number,
         of: impl Fn(&mut Scene) -> &mut Option<f64>,
     ) {
-        self.row(ui, field, |form, ui, label| {
-            let width = control_width(ui);
-            let mut value = *of(&mut form.scene);
-            if form.cell(
-                ui,
-                field.name,
-                AccessibleName::By(label),
-                number,
-                width,
-                &mut value,
-            ) {
-                *of(&mut form.scene) = value;
-            }
-            if form.reset(ui, field, value.is_some()) {
-                *of(&mut form.scene) = None;
-            }
-        });
+        let mut value = *of(&mut self.scene);
+        if self.number_row(ui, field, number, &mut value) {
+            *of(&mut self.scene) = value;
+        }
     }
 
     /// A row with a field for a whole number.
@@ -189,24 +166,30 @@ impl Form<'_> {
         number: Number,
         of: impl Fn(&mut Scene) -> &mut Option<i64>,
     ) {
-        let number = number.whole();
+        let mut value = of(&mut self.scene).map(|whole| whole as f64);
+        if self.number_row(ui, field, &number.whole(), &mut value) {
+            *of(&mut self.scene) = value.map(|number| number as i64);
+        }
+    }
+
+    /// A row with a number field and its reset button; returns whether `value` has changed.
+    fn number_row(
+        &mut self,
+        ui: &mut Ui,
+        field: &Field,
+        number: &Number,
+        value: &mut Option<f64>,
+    ) -> bool {
+        let before = *value;
         self.row(ui, field, |form, ui, label| {
             let width = control_width(ui);
-            let mut value = *of(&mut form.scene);
-            if form.whole_cell(
-                ui,
-                field.name,
-                AccessibleName::By(label),
-                &number,
-                width,
-                &mut value,
-            ) {
-                *of(&mut form.scene) = value;
-            }
+            let name = AccessibleName::By(label);
+            form.cell(ui, field.name, name, number, width, value);
             if form.reset(ui, field, value.is_some()) {
-                *of(&mut form.scene) = None;
+                *value = None;
             }
         });
+        *value != before
     }
 
     /// A number field; returns whether its value has changed.
@@ -290,5 +273,18 @@ impl Form<'_> {
             self.record(field.name, response.id, false);
         }
         clicked
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_have_few_digits_and_no_trailing_zeros() {
+        let numbers = [0.0, 5.0, 100.0, 0.1 + 0.2, -123.456_7, 1e-14, -2.5e9];
+        let texts = ["0", "5", "100", "0.3", "-123.457", "1e-14", "-2.5e9"];
+        assert_eq!(numbers.map(short), texts);
+        assert_eq!(formatted(2.0 / 3.0, 4), "0.667");
     }
 }

@@ -1,13 +1,13 @@
 //! The section that shows the crease pattern.
 
-use eframe::egui::{self, Align2, FontId, RichText, Shape, Stroke, Ui};
+use eframe::egui::{self, FontId, RichText, Shape, Stroke, Ui};
 use foldmotion_pattern::{Sheet, UnitSheet};
 use foldmotion_study::Draft;
 use glam::DVec2;
 
-use super::creases::{Creases, MOST_EDGES};
+use super::creases::{Creases, MAX_EDGES};
 use super::form::{Form, NOTE_SIZE};
-use super::plane::{Plane, PlaneView, bounds, canvas};
+use super::plane::{Plane, PlaneView, bounds, canvas, message};
 
 /// How the pattern is rotated so that its long side is horizontal and its front faces the viewer.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -111,16 +111,9 @@ impl PatternPreview {
             self.creases
                 .shape(ui, form.draft_number, sheet, &plane, place),
         );
-        if sheet.edges.len() > MOST_EDGES {
-            let colour = ui.visuals().weak_text_color();
-            let at = plane.rect.center_top();
-            painter.text(
-                at,
-                Align2::CENTER_TOP,
-                "only the first creases are shown",
-                FontId::proportional(11.0),
-                colour,
-            );
+        if sheet.edges.len() > MAX_EDGES {
+            let text = "only the first creases are shown";
+            message(ui, &painter, &plane, text);
         }
         if let Some(at) = response.hover_pos() {
             let found = found(draft, orientation.undo(plane.to_plane(at)));

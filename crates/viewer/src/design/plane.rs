@@ -1,6 +1,6 @@
 //! A view of a plane with equal scales on both axes. The wheel zooms; dragging with the right button moves.
 
-use eframe::egui::{self, Color32, Pos2, Rect, Response, Stroke, Ui, pos2, vec2};
+use eframe::egui::{self, Align2, Color32, FontId, Pos2, Rect, Response, Stroke, Ui, pos2, vec2};
 use glam::DVec2;
 
 use super::number::short;
@@ -64,8 +64,12 @@ impl Plane {
     pub(super) fn paint_grid(&self, ui: &Ui, painter: &egui::Painter) {
         let step = round_step(GRID_PITCH / self.scale);
         let weak = ui.visuals().weak_text_color().gamma_multiply(0.25);
-        let font = egui::FontId::proportional(9.0);
+        let font = FontId::proportional(9.0);
         let text = ui.visuals().weak_text_color();
+        let write = |place: Pos2, value: f64| {
+            let label = label(value, step);
+            painter.text(place, Align2::LEFT_BOTTOM, label, font.clone(), text);
+        };
         let (low, high) = (
             self.to_plane(self.rect.left_bottom()),
             self.to_plane(self.rect.right_top()),
@@ -84,26 +88,14 @@ impl Plane {
             let at = self.to_screen(DVec2::new(x, self.centre.y)).x;
             painter.vline(at, self.rect.y_range(), stroke(x));
             let place = pos2(at + 2.0, self.rect.bottom() - 1.0);
-            painter.text(
-                place,
-                egui::Align2::LEFT_BOTTOM,
-                label(x, step),
-                font.clone(),
-                text,
-            );
+            write(place, x);
         }
         for z in lines(low.y, high.y) {
             let at = self.to_screen(DVec2::new(self.centre.x, z)).y;
             painter.hline(self.rect.x_range(), at, stroke(z));
             if at < self.rect.bottom() - 14.0 {
                 let place = pos2(self.rect.left() + 2.0, at);
-                painter.text(
-                    place,
-                    egui::Align2::LEFT_BOTTOM,
-                    label(z, step),
-                    font.clone(),
-                    text,
-                );
+                write(place, z);
             }
         }
     }
@@ -180,7 +172,7 @@ impl PlaneView {
             self.pin(&plane);
         }
         if let Some(place) = response.hover_pos().filter(|_| response.contains_pointer()) {
-            let factor = taken_zoom(ui);
+            let factor = consume_zoom(ui);
             if factor != 1.0 {
                 let scale = (plane.scale * factor).clamp(fitted.scale / ZOOM, fitted.scale * ZOOM);
                 let fixed = plane.to_plane(place);
@@ -194,11 +186,19 @@ impl PlaneView {
 }
 
 /// The zoom factor of the wheel in this frame, which is then not used for scrolling.
-fn taken_zoom(ui: &Ui) -> f64 {
+fn consume_zoom(ui: &Ui) -> f64 {
     ui.input_mut(|input| {
         let scrolled = std::mem::take(&mut input.smooth_scroll_delta).y;
         f64::from(input.zoom_delta() * (scrolled * 0.004).exp())
     })
+}
+
+/// Writes a short message at the top of a canvas.
+pub(super) fn message(ui: &Ui, painter: &egui::Painter, plane: &Plane, text: &str) {
+    let place = plane.rect.center_top() + vec2(0.0, 4.0);
+    let font = FontId::proportional(11.0);
+    let colour = ui.visuals().weak_text_color();
+    painter.text(place, Align2::CENTER_TOP, text, font, colour);
 }
 
 /// A frame with a background to draw in.
@@ -273,7 +273,7 @@ mod tests {
     }
 
     #[test]
-    fn points_that_are_no_numbers_have_a_place() {
+    fn points_that_are_not_finite_have_a_position() {
         let plane = plane();
         for x in [f64::NAN, f64::INFINITY, -1e100] {
             let place = plane.to_screen(DVec2::new(x, 0.0));

@@ -70,7 +70,7 @@ impl ProfileSection {
                     let option = ui.selectable_label(kind == shown, name).on_hover_text(tip);
                     if option.clicked() && kind != shown {
                         self.names_file = kind == ProfileKind::File;
-                        if turn_into(form, kind) {
+                        if convert_to(form, kind) {
                             form.record("kind of profile", option.id, false);
                         }
                     }
@@ -98,7 +98,7 @@ impl ProfileSection {
                     let edit = ui.small_button("edit as control points").on_hover_text(
                         "Convert the same curve to control points, which can be dragged",
                     );
-                    if edit.clicked() && turn_into(form, ProfileKind::ControlPoints) {
+                    if edit.clicked() && convert_to(form, ProfileKind::ControlPoints) {
                         form.record("edit as control points", edit.id, false);
                     }
                 }
@@ -112,7 +112,7 @@ impl ProfileSection {
 }
 
 /// Converts the curve to another kind; returns false if it stays as it is for now.
-fn turn_into(form: &mut Form<'_>, kind: ProfileKind) -> bool {
+fn convert_to(form: &mut Form<'_>, kind: ProfileKind) -> bool {
     let drawn = form
         .draft
         .and_then(Draft::units)

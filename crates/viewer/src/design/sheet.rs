@@ -4,11 +4,11 @@ use eframe::egui::Ui;
 use foldmotion_study::Draft;
 use foldmotion_study::scene::{CaseChoice, DivisionMethod, UnequalChoice};
 
-use super::curve::{columns_case, model};
+use super::curve::{columns_case, model, own_case};
 use super::form::{Field, Form, note};
 use super::number::{Number, short};
 use super::scene_schema::{choices, description};
-use super::unit_size::{USUAL_LAMBDA, UnitSize, own_case};
+use super::unit_size::{USUAL_LAMBDA, UnitSize};
 
 /// State of the section that lasts from frame to frame.
 #[derive(Debug, Default)]

@@ -40,8 +40,8 @@ pub(super) fn show_step(
                 ui.horizontal(|ui| show_head(ui, index, count)).inner
             });
             form.errors_exactly_at(ui, &format!("motion.step.{index}"));
-            show_what(form, ui, index);
-            show_when(form, ui, index);
+            show_creases(form, ui, index);
+            show_timing(form, ui, index);
             order
         })
         .inner
@@ -58,7 +58,7 @@ fn show_head(ui: &mut Ui, index: usize, count: usize) -> Option<(StepAction, Id)
     let mut asked = None;
     for (name, order, is_possible) in buttons {
         let button = ui
-            .add_enabled_ui(is_possible, |ui| sign_button(ui, order))
+            .add_enabled_ui(is_possible, |ui| icon_button(ui, order))
             .inner;
         let button = button
             .accessible_name(format!("{name} step {number}"))
@@ -71,7 +71,7 @@ fn show_head(ui: &mut Ui, index: usize, count: usize) -> Option<(StepAction, Id)
 }
 
 /// A small button with a drawn icon, because the fonts have no arrows.
-fn sign_button(ui: &mut Ui, order: StepAction) -> egui::Response {
+fn icon_button(ui: &mut Ui, order: StepAction) -> egui::Response {
     let (rect, response) = ui.allocate_exact_size(vec2(18.0, 18.0), egui::Sense::click());
     response.widget_info(|| {
         egui::WidgetInfo::labeled(egui::accesskit::Role::Button, ui.is_enabled(), "")
@@ -93,7 +93,7 @@ fn sign_button(ui: &mut Ui, order: StepAction) -> egui::Response {
 }
 
 /// The stage and the creases of the step.
-fn show_what(form: &mut Form<'_>, ui: &mut Ui, index: usize) {
+fn show_creases(form: &mut Form<'_>, ui: &mut Ui, index: usize) {
     let key = |key: &str| format!("motion.step.{index}.{key}");
     let is_imported = form.scene.pattern.is_some();
     let Some(step) = form.scene.motion.step.get(index) else {
@@ -175,7 +175,7 @@ fn show_range(form: &mut Form<'_>, ui: &mut Ui, field: &Field, index: usize, of:
 }
 
 /// When in the stage the creases move, and how.
-fn show_when(form: &mut Form<'_>, ui: &mut Ui, index: usize) {
+fn show_timing(form: &mut Form<'_>, ui: &mut Ui, index: usize) {
     let key = |key: &str| format!("motion.step.{index}.{key}");
     let Some(step) = form.scene.motion.step.get(index) else {
         return;

@@ -69,18 +69,6 @@ impl UnitSize {
     }
 }
 
-/// The case that a choice stands for; `None` for `auto`.
-pub(super) fn own_case(choice: CaseChoice) -> Option<Case> {
-    match choice {
-        CaseChoice::E => Some(Case::E),
-        CaseChoice::T => Some(Case::T),
-        CaseChoice::S => Some(Case::S),
-        CaseChoice::SII => Some(Case::SII),
-        CaseChoice::Plain => Some(Case::Plain),
-        CaseChoice::Auto => None,
-    }
-}
-
 fn rows(form: &Form<'_>, built_in: Option<&ProfileModel>) -> Option<usize> {
     let drafted = || Some(form.draft.and_then(Draft::units)?.units.rows);
     let splits = form.scene.division.method == Some(DivisionMethod::DouglasPeucker)

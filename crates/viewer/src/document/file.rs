@@ -16,28 +16,17 @@ pub(crate) enum SaveError {
     NoFile,
     /// The file has changed since it was last read or written.
     #[error("{}: another program has changed the file; overwrite or reload it", path.display())]
-    Changed {
-        /// The scene file.
-        path: PathBuf,
-    },
+    Changed { path: PathBuf },
     /// Saving would overwrite a crease pattern.
     #[error("{}: this is the file name of a crease pattern; save the scene under a name that ends in .toml", path.display())]
-    Ending {
-        /// The file that was to be written.
-        path: PathBuf,
-    },
+    Ending { path: PathBuf },
     /// The file cannot be written.
     #[error("{}: cannot be written: {source}", path.display())]
-    Write {
-        /// The file that was to be written.
-        path: PathBuf,
-        /// The error of the file system.
-        source: io::Error,
-    },
+    Write { path: PathBuf, source: io::Error },
 }
 
 /// The largest size of a scene file, bytes.
-const MOST_BYTES: u64 = 16 << 20;
+const MAX_BYTES: u64 = 16 << 20;
 
 /// Checks that the path is a regular file, not too large for a scene, and readable.
 pub(super) fn check_readable(path: &Path) -> Result<(), StudyError> {
@@ -45,9 +34,9 @@ pub(super) fn check_readable(path: &Path) -> Result<(), StudyError> {
         if !metadata.is_file() {
             return Err(io::Error::other("not a regular file"));
         }
-        if metadata.len() > MOST_BYTES && !SceneSource::is_pattern(path) {
+        if metadata.len() > MAX_BYTES && !SceneSource::is_pattern(path) {
             let size = metadata.len();
-            let message = format!("{size} bytes are too many for a scene (at most {MOST_BYTES})");
+            let message = format!("{size} bytes are too many for a scene (at most {MAX_BYTES})");
             return Err(io::Error::other(message));
         }
         File::open(path).map(drop)

@@ -4,9 +4,9 @@ use std::collections::VecDeque;
 use std::sync::Arc;
 
 /// The largest number of steps that are kept.
-const MOST_STEPS: usize = 500;
+const MAX_STEPS: usize = 500;
 /// The largest size of the texts that are kept, bytes.
-const MOST_BYTES: usize = 16 << 20;
+const MAX_BYTES: usize = 16 << 20;
 
 /// A change of the text.
 #[derive(Debug, Clone)]
@@ -80,7 +80,7 @@ impl History {
     /// Removes the oldest steps. Neighbouring steps share a text, so only one text of each is counted.
     fn forget(&mut self) {
         let mut bytes: usize = self.done.iter().map(|step| step.before.len()).sum();
-        while self.done.len() > MOST_STEPS || (bytes > MOST_BYTES && self.done.len() > 1) {
+        while self.done.len() > MAX_STEPS || (bytes > MAX_BYTES && self.done.len() > 1) {
             if let Some(oldest) = self.done.pop_front() {
                 bytes -= oldest.before.len();
             }
@@ -103,26 +103,23 @@ mod tests {
     #[test]
     fn the_history_is_bounded_in_steps_and_bytes() {
         let mut history = History::default();
-        for k in 0..2 * MOST_STEPS {
+        for k in 0..2 * MAX_STEPS {
             history.record(step(&k.to_string(), &(k + 1).to_string()), false);
         }
-        assert_eq!(history.done.len(), MOST_STEPS);
-        assert_eq!(
-            &*history.undo().unwrap().after,
-            (2 * MOST_STEPS).to_string()
-        );
-        let large = "x".repeat(MOST_BYTES / 3);
+        assert_eq!(history.done.len(), MAX_STEPS);
+        assert_eq!(&*history.undo().unwrap().after, (2 * MAX_STEPS).to_string());
+        let large = "x".repeat(MAX_BYTES / 3);
         for _ in 0..9 {
             history.record(step(&large, &large), false);
         }
         assert_eq!(history.done.len(), 3);
-        let huge = "x".repeat(2 * MOST_BYTES);
+        let huge = "x".repeat(2 * MAX_BYTES);
         history.record(step(&huge, ""), false);
         assert_eq!(history.done.len(), 1);
     }
 
     #[test]
-    fn a_step_grows_only_while_changes_continue_it() {
+    fn changes_are_merged_only_if_they_continue_the_last() {
         let mut history = History::default();
         history.record(step("a", "b"), true);
         history.record(step("b", "c"), true);

@@ -197,7 +197,7 @@ fn a_link_stays_a_link() {
 }
 
 #[test]
-fn saved_elsewhere_a_scene_names_the_same_files_even_after_undo() {
+fn a_scene_saved_elsewhere_names_the_same_files_even_after_undo() {
     let (folder, path) = on_disk("[profile]\nfile = \"curve.csv\" # drawn\n");
     fs::write(folder.path().join("curve.csv"), "0,0\n1,0\n").unwrap();
     let mut document = Document::open(&path).unwrap();
@@ -222,7 +222,7 @@ fn saved_elsewhere_a_scene_names_the_same_files_even_after_undo() {
 }
 
 #[test]
-fn a_restored_scene_keeps_its_file_and_can_be_taken_back() {
+fn a_restored_scene_keeps_its_file_and_can_be_undone() {
     let (_folder, path) = on_disk("[sheet]\nrows = 3\n");
     let mut document = Document::restored(
         &path,

@@ -20,7 +20,6 @@ pub(crate) enum Appearance {
 }
 
 impl Appearance {
-    /// All appearances.
     pub(crate) const ALL: [Self; 3] = [Self::System, Self::Dark, Self::Light];
 
     /// The opposite of the current theme.
@@ -31,7 +30,6 @@ impl Appearance {
         }
     }
 
-    /// The name in menus.
     pub(crate) fn name(self) -> &'static str {
         match self {
             Self::System => "as the system is",
@@ -160,7 +158,7 @@ mod tests {
     }
 
     #[test]
-    fn text_stands_out_from_every_ground_it_is_on() {
+    fn text_has_enough_contrast_on_every_background() {
         assert!(contrast(Color32::BLACK, Color32::WHITE) > 20.9);
         for palette in [&DARK, &LIGHT] {
             for ground in [
@@ -178,7 +176,7 @@ mod tests {
     }
 
     #[test]
-    fn a_look_is_applied_to_the_window() {
+    fn an_appearance_is_applied_to_the_window() {
         let ctx = egui::Context::default();
         apply(&ctx, Appearance::Light, 1.5);
         assert_eq!(ctx.theme(), Theme::Light);

@@ -50,7 +50,6 @@ const TERMS: [(&str, &str); 3] = [
 const CITE: &str = "Please cite foldmotion with its version, and the paper it implements: Constructing foldable \
                     cylindrical surfaces via unfolded waterbomb origami units. CITATION.cff has the entries.";
 
-/// Shows the help sheet while it is open.
 pub(crate) fn show_help(ctx: &Context, open: &mut bool) {
     if !*open {
         return;
@@ -140,20 +139,12 @@ mod tests {
     use egui_kittest::Harness;
     use egui_kittest::kittest::Queryable as _;
 
-    use super::super::tests::drawn;
-    use super::super::{Appearance, apply};
+    use super::super::Appearance;
+    use super::super::tests::{builder, drawn};
     use super::*;
 
     fn harness(appearance: Appearance) -> Harness<'static, bool> {
-        let builder = Harness::builder().with_size(vec2(900.0, 1000.0));
-        let theme = if appearance == Appearance::Light {
-            Theme::Light
-        } else {
-            Theme::Dark
-        };
-        let builder = builder
-            .with_theme(theme)
-            .with_context_setup(move |ctx| apply(ctx, appearance, 1.0));
+        let builder = builder(appearance, vec2(900.0, 1000.0));
         builder.build_ui_state(|ui, open| show_help(ui.ctx(), open), true)
     }
 
@@ -189,7 +180,7 @@ mod tests {
     }
 
     #[test]
-    #[cfg_attr(not(gpu_tests), ignore = "no adapter: set FOLDMOTION_GPU_TESTS=yes")]
+    #[cfg_attr(not(gpu_tests), ignore = "needs a GPU and FOLDMOTION_GPU_TESTS=yes")]
     fn the_sheet_is_drawn_dark_and_light() {
         for (appearance, theme) in [
             (Appearance::Dark, Theme::Dark),

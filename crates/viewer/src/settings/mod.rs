@@ -17,26 +17,22 @@ pub(crate) use appearance::{Appearance, SCALES, apply};
 pub(crate) use help::show_help;
 pub(crate) use picker::{FilePicker, PickerResult};
 pub(crate) use recent::RecentFiles;
-pub(crate) use shortcuts::{Command, keys_of, name_of, pressed};
+pub(crate) use shortcuts::{Command, Group, commands_of, keys_of, name_of, pressed};
 pub(crate) use unsaved::{UnsavedScene, UnsavedScenes};
 pub(crate) use view::{Colour, PanelSettings, ViewSettings};
 
 /// The key under which the settings are stored.
 const KEY: &str = "settings";
 
-/// Settings that are kept from one start to the next.
 #[derive(Debug, Clone, Default, PartialEq, Serialize)]
 pub(crate) struct Settings {
-    /// Files that were opened or saved.
     pub(crate) recent: RecentFiles,
     /// Dark, light, or as the system.
     #[serde(rename = "look")]
     pub(crate) appearance: Appearance,
     /// The zoom factor of the whole window.
     pub(crate) scale: Scale,
-    /// How the sheet is shown.
     pub(crate) view: ViewSettings,
-    /// Which panels are open.
     pub(crate) panels: PanelSettings,
 }
 
@@ -106,9 +102,22 @@ fn field<T: DeserializeOwned + Default>(stored: &Map<String, Value>, name: &str)
 mod tests {
     use std::path::Path;
 
-    use egui_kittest::Harness;
+    use eframe::egui::{Theme, Vec2};
+    use egui_kittest::{Harness, HarnessBuilder};
 
     use super::*;
+
+    /// A harness with this appearance.
+    pub(super) fn builder<S>(appearance: Appearance, size: Vec2) -> HarnessBuilder<S> {
+        let theme = match appearance {
+            Appearance::Light => Theme::Light,
+            _ => Theme::Dark,
+        };
+        Harness::builder()
+            .with_size(size)
+            .with_theme(theme)
+            .with_context_setup(move |ctx| apply(ctx, appearance, 1.0))
+    }
 
     /// Renders the window, saves the picture in the folder FOLDMOTION_PICTURES if it is set, and returns the brightness
     /// of a pixel.
@@ -149,7 +158,7 @@ mod tests {
     }
 
     #[test]
-    fn sizes_go_round() {
+    fn scale_factors_repeat_after_the_largest() {
         let mut scale = Scale::default();
         let mut seen = Vec::new();
         for _ in 0..=SCALES.len() {

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use serde::{Deserialize, Serialize};
 
 /// The largest number of files that are kept.
-const MOST: usize = 10;
+const MAX_COUNT: usize = 10;
 
 /// Files that were opened or saved, without duplicates, the latest first.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
@@ -19,13 +19,13 @@ impl RecentFiles {
         let Some(path) = path.to_str() else { return };
         self.0.retain(|other| other != path);
         self.0.insert(0, path.to_owned());
-        self.0.truncate(MOST);
+        self.0.truncate(MAX_COUNT);
     }
 
     /// The files that exist, then the others, each group with the latest first. This accesses the disk, so do not call
     /// it in every frame.
     pub(crate) fn existing_first(&self) -> Vec<(PathBuf, bool)> {
-        let files = self.0.iter().take(MOST).map(PathBuf::from);
+        let files = self.0.iter().take(MAX_COUNT).map(PathBuf::from);
         let mut files: Vec<_> = files.map(|path| (path.clone(), path.exists())).collect();
         files.sort_by_key(|(_, exists)| !exists);
         files
@@ -34,7 +34,7 @@ impl RecentFiles {
     /// The folders of the files, without duplicates.
     pub(crate) fn folders(&self) -> Vec<PathBuf> {
         let mut folders: Vec<PathBuf> = Vec::new();
-        for path in self.0.iter().take(MOST) {
+        for path in self.0.iter().take(MAX_COUNT) {
             if let Some(folder) = Path::new(path).parent()
                 && !folders.iter().any(|other| other == folder)
             {
@@ -59,7 +59,7 @@ mod tests {
             recent.add(&file(k));
         }
         recent.add(&folder.path().join("./5.toml"));
-        assert_eq!(recent.0.len(), MOST);
+        assert_eq!(recent.0.len(), MAX_COUNT);
         assert!(recent.0[0].ends_with("5.toml") && recent.0[1].ends_with("11.toml"));
         std::fs::remove_file(file(5)).unwrap();
         let files = recent.existing_first();

@@ -2,9 +2,9 @@
 
 use eframe::egui::{Context, Event, Id, Key, KeyboardShortcut, Memory, Modifiers, Popup};
 
-/// The groups in which the help sheet lists commands.
+/// The groups in which menus and the help sheet list commands.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Group {
+pub(crate) enum Group {
     File,
     Edit,
     Motion,
@@ -140,7 +140,13 @@ commands! {
     }
 }
 
-/// The name of a command in menus.
+pub(crate) fn commands_of(group: Group) -> impl Iterator<Item = Command> {
+    let shortcuts = SHORTCUTS
+        .iter()
+        .filter(move |shortcut| shortcut.group == group);
+    shortcuts.map(|shortcut| shortcut.command)
+}
+
 pub(crate) fn name_of(command: Command) -> &'static str {
     shortcut_of(command).map_or("", |shortcut| shortcut.name)
 }
@@ -296,7 +302,7 @@ mod tests {
     }
 
     #[test]
-    fn keys_find_their_command_and_others_stay_in_the_input() {
+    fn keys_execute_their_command_and_others_stay_in_the_input() {
         let ctx = Context::default();
         let mut commands = Vec::new();
         let mut left = 0;
@@ -329,7 +335,7 @@ mod tests {
     }
 
     #[test]
-    fn a_text_field_keeps_what_it_can_type_and_a_control_what_moves_it() {
+    fn a_text_field_gets_the_keys_that_type_and_a_control_those_that_move_it() {
         let found = |event: Event| {
             [Focus::None, Focus::Canvas, Focus::Control, Focus::Text]
                 .map(|focus| command_of(&event, focus))

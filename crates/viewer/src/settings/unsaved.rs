@@ -13,9 +13,9 @@ use serde::{Deserialize, Serialize};
 use crate::document::{Document, write_whole};
 
 /// The largest number of scenes that are kept; the oldest are removed first.
-const MOST: usize = 10;
+const MAX_COUNT: usize = 10;
 /// Files larger than this are ignored.
-const MOST_BYTES: u64 = 256 << 20;
+const MAX_BYTES: u64 = 256 << 20;
 
 /// A scene that was not saved.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -140,7 +140,7 @@ impl UnsavedScenes {
             }
         }
         recovered.sort_by(|(a, x), (b, y)| b.time.cmp(&a.time).then_with(|| x.path.cmp(&y.path)));
-        for (_, kept) in recovered.drain(recovered.len().min(MOST)..) {
+        for (_, kept) in recovered.drain(recovered.len().min(MAX_COUNT)..) {
             kept.remove();
         }
         Ok(Self {
@@ -226,7 +226,7 @@ impl UnsavedScenes {
 
 fn read(path: &Path) -> Option<UnsavedScene> {
     let size = std::fs::metadata(path).ok()?.len();
-    let text = (size <= MOST_BYTES).then(|| std::fs::read_to_string(path).ok())??;
+    let text = (size <= MAX_BYTES).then(|| std::fs::read_to_string(path).ok())??;
     serde_json::from_str(&text).ok()
 }
 
@@ -267,7 +267,7 @@ mod tests {
     }
 
     #[test]
-    fn windows_at_once_leave_each_others_scenes_alone() {
+    fn simultaneous_windows_do_not_touch_each_others_scenes() {
         let folder = tempfile::tempdir().unwrap();
         let mut first = UnsavedScenes::in_folder(folder.path()).unwrap();
         first.keep(&edited(9)).unwrap();
@@ -364,7 +364,7 @@ mod tests {
     }
 
     #[test]
-    fn ages_are_told_in_the_largest_unit() {
+    fn ages_are_given_in_the_largest_unit() {
         assert_eq!(
             [59, 60, 7300, 200_000].map(ago),
             ["a moment ago", "1 minute ago", "2 hours ago", "2 days ago"]

@@ -8,14 +8,12 @@ use crate::view3d::CreaseClasses;
 /// The quantity that colours show.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 pub(crate) enum Colour {
-    /// Front and back of the paper.
     #[default]
     Plain,
     /// The largest strain of the edges of a triangle.
     Strain,
     /// The largest fold angle inside a facet.
     Bending,
-    /// A tint for each unit.
     Unit,
     /// The position of each facet in the compact stack.
     Layer,
@@ -30,7 +28,6 @@ impl Colour {
         Self::Layer,
     ];
 
-    /// The name on the screen.
     pub(crate) fn name(self) -> &'static str {
         match self {
             Self::Plain => "plain",
@@ -41,7 +38,6 @@ impl Colour {
         }
     }
 
-    /// The tooltip.
     pub(crate) fn about(self) -> &'static str {
         match self {
             Self::Plain => "Front and back of the paper",
@@ -53,7 +49,6 @@ impl Colour {
     }
 }
 
-/// How the sheet is shown.
 #[expect(
     clippy::struct_excessive_bools,
     reason = "each is a switch in the window"
@@ -90,7 +85,6 @@ impl Default for ViewSettings {
     }
 }
 
-/// Which panels are open.
 #[expect(
     clippy::struct_excessive_bools,
     reason = "each is a switch in the window"

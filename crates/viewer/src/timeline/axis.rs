@@ -48,7 +48,7 @@ mod tests {
     use eframe::egui::{pos2, vec2};
 
     #[test]
-    fn a_place_on_the_axis_reads_back_as_its_time() {
+    fn a_position_on_the_axis_reads_back_as_its_time() {
         let rect = Rect::from_min_size(pos2(10.0, 0.0), vec2(400.0, 20.0));
         for times in [[0.0, 2.0], [1.0, 2.0]] {
             let axis = Axis::within(rect, times);

@@ -10,7 +10,6 @@ use super::playback::{Playback, Repeat};
 use super::plot::Plots;
 use super::plot_view::show_plot;
 
-/// Height of the bar, points.
 const HEIGHT: f32 = 34.0;
 
 /// What the bar marks.
@@ -78,12 +77,7 @@ fn keys(ui: &Ui, response: &Response, playback: &mut Playback, marks: &Marks) ->
 fn buttons(ui: &mut Ui, playback: &mut Playback, marks: &Marks) -> bool {
     let mut moved = false;
     ui.horizontal(|ui| {
-        if icon(
-            ui,
-            Icon::Previous,
-            "Previous frame",
-            "Previous frame (comma)",
-        ) {
+        if icon(ui, Icon::Previous, "Previous frame", "comma") {
             playback.step(&marks.frames, false);
             moved = true;
         }
@@ -92,10 +86,10 @@ fn buttons(ui: &mut Ui, playback: &mut Playback, marks: &Marks) -> bool {
         } else {
             (Icon::Play, "Play")
         };
-        if icon(ui, sign, name, "Play or pause (space)") {
+        if icon(ui, sign, name, "space") {
             playback.toggle();
         }
-        if icon(ui, Icon::Next, "Next frame", "Next frame (period)") {
+        if icon(ui, Icon::Next, "Next frame", "period") {
             playback.step(&marks.frames, true);
             moved = true;
         }
@@ -145,9 +139,10 @@ enum Icon {
 }
 
 /// A button with an icon; returns whether it was clicked.
-fn icon(ui: &mut Ui, icon: Icon, name: &str, hint: &str) -> bool {
+fn icon(ui: &mut Ui, icon: Icon, name: &str, key: &str) -> bool {
     let button = Button::new("").min_size(vec2(28.0, 22.0));
-    let response = ui.add(button).accessible_name(name).on_hover_text(hint);
+    let response = ui.add(button).accessible_name(name);
+    let response = response.on_hover_text(format!("{name} ({key})"));
     let colour = ui.style().interact(&response).fg_stroke.color;
     let centre = response.rect.center();
     let painter = ui.painter();
@@ -158,11 +153,8 @@ fn icon(ui: &mut Ui, icon: Icon, name: &str, hint: &str) -> bool {
     };
     let bar = |x: f32| {
         let size = vec2(3.0, 10.0);
-        painter.rect_filled(
-            Rect::from_center_size(centre + vec2(x, 0.0), size),
-            0.5,
-            colour,
-        );
+        let rect = Rect::from_center_size(centre + vec2(x, 0.0), size);
+        painter.rect_filled(rect, 0.5, colour);
     };
     match icon {
         Icon::Play => triangle(0.0, 1.0),
@@ -212,11 +204,8 @@ fn bar(ui: &mut Ui, playback: &Playback, marks: &Marks, axis: &Axis) -> Response
     let weak = visuals.weak_text_color();
     if marks.frames.len() as f32 * 3.0 < axis.span.span() {
         for &t in &marks.frames {
-            painter.vline(
-                axis.x(t),
-                middle - 2.0..=middle + 2.0,
-                Stroke::new(1.0, weak.gamma_multiply(0.5)),
-            );
+            let stroke = Stroke::new(1.0, weak.gamma_multiply(0.5));
+            painter.vline(axis.x(t), middle - 2.0..=middle + 2.0, stroke);
         }
     }
     for (t, name) in [(0.0, "deployed"), (1.0, "planar"), (2.0, "compact")] {
@@ -229,11 +218,8 @@ fn bar(ui: &mut Ui, playback: &Playback, marks: &Marks, axis: &Axis) -> Response
     }
     let marked = visuals.error_fg_color;
     for &t in marks.penetrations.iter().chain(&marks.jam) {
-        painter.vline(
-            axis.x(t),
-            middle - 7.0..=middle + 7.0,
-            Stroke::new(1.5, marked),
-        );
+        let stroke = Stroke::new(1.5, marked);
+        painter.vline(axis.x(t), middle - 7.0..=middle + 7.0, stroke);
     }
     let x = axis.x(time);
     let knob = if response.dragged() || response.hovered() {

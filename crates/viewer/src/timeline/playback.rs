@@ -5,7 +5,6 @@ use serde::{Deserialize, Serialize};
 /// What happens at the end of a motion during playback.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 pub(crate) enum Repeat {
-    /// Playback stops.
     Once,
     /// It starts again from the beginning.
     Loop,
@@ -17,7 +16,6 @@ pub(crate) enum Repeat {
 impl Repeat {
     pub(crate) const ALL: [Self; 3] = [Self::Once, Self::Loop, Self::BackAndForth];
 
-    /// The name on the screen.
     pub(crate) fn name(self) -> &'static str {
         match self {
             Self::Once => "once",
@@ -34,11 +32,9 @@ pub(crate) struct Playback {
     pub(crate) time: f64,
     /// The first and the last motion time.
     pub(crate) range: [f64; 2],
-    /// Whether the motion plays.
     pub(crate) is_playing: bool,
     /// The speed relative to the standard speed.
     pub(crate) speed: f64,
-    /// What happens at the end.
     pub(crate) repeat: Repeat,
     is_backward: bool,
 }
@@ -57,7 +53,6 @@ impl Default for Playback {
 }
 
 impl Playback {
-    /// Duration of a stage at standard speed, seconds.
     const STAGE_SECONDS: f64 = 4.0;
     /// The slowest and the fastest speed.
     pub(crate) const SPEEDS: [f64; 2] = [1.0 / 16.0, 16.0];
@@ -193,7 +188,7 @@ mod tests {
     }
 
     #[test]
-    fn frames_are_stepped_one_by_one_and_end_at_the_ends() {
+    fn stepping_goes_frame_by_frame_and_stops_at_the_ends() {
         let times = [0.0, 0.5, 1.0, 2.0];
         let mut playback = Playback::default();
         let mut seen = Vec::new();
@@ -208,7 +203,7 @@ mod tests {
     }
 
     #[test]
-    fn a_shorter_motion_takes_the_time_along() {
+    fn a_shorter_range_clamps_the_time() {
         let mut playback = Playback::default();
         playback.set_range([1.0, 2.0]);
         assert_eq!(playback.time, 1.0);

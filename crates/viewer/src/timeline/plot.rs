@@ -5,7 +5,6 @@
 pub(crate) struct Plot {
     /// The quantity, with its unit.
     pub(crate) title: String,
-    /// The tooltip.
     pub(crate) about: &'static str,
     pub(crate) is_logarithmic: bool,
     pub(crate) curves: Vec<Curve>,
@@ -13,7 +12,6 @@ pub(crate) struct Plot {
     pub(crate) reference: Option<(f64, &'static str)>,
 }
 
-/// A curve of one quantity.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Curve {
     pub(crate) name: &'static str,
@@ -21,7 +19,6 @@ pub(crate) struct Curve {
     pub(crate) points: Vec<[f64; 2]>,
 }
 
-/// The plots of a motion.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub(crate) struct Plots {
     pub(crate) plots: Vec<Plot>,

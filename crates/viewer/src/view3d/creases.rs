@@ -12,11 +12,8 @@ use serde::{Deserialize, Serialize};
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(default)]
 pub(crate) struct CreaseClasses {
-    /// Mountain creases.
     pub(crate) mountains: bool,
-    /// Valley creases.
     pub(crate) valleys: bool,
-    /// The border of the sheet.
     pub(crate) border: bool,
     /// Hinges that nothing drives.
     pub(crate) free: bool,
@@ -34,35 +31,27 @@ pub(crate) struct CreaseClasses {
 
 impl Default for CreaseClasses {
     fn default() -> Self {
-        Self {
-            mountains: true,
-            valleys: true,
-            border: true,
-            free: true,
-            row: true,
-            diagonal: true,
-            vertical: true,
-            pad: true,
-            column: true,
-        }
+        Self::uniform(true)
     }
 }
 
 impl CreaseClasses {
-    /// No creases.
-    pub(crate) const NONE: Self = Self {
-        mountains: false,
-        valleys: false,
-        border: false,
-        free: false,
-        row: false,
-        diagonal: false,
-        vertical: false,
-        pad: false,
-        column: false,
-    };
+    pub(crate) const NONE: Self = Self::uniform(false);
 
-    /// Whether `edge` is drawn.
+    const fn uniform(is_drawn: bool) -> Self {
+        Self {
+            mountains: is_drawn,
+            valleys: is_drawn,
+            border: is_drawn,
+            free: is_drawn,
+            row: is_drawn,
+            diagonal: is_drawn,
+            vertical: is_drawn,
+            pad: is_drawn,
+            column: is_drawn,
+        }
+    }
+
     pub(crate) fn shows(&self, edge: &Edge) -> bool {
         let assigned = match edge.assignment {
             Assignment::Mountain => self.mountains,
@@ -114,7 +103,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_class_that_is_off_takes_its_creases_and_no_others_and_facets_are_never_drawn() {
+    fn a_class_that_is_off_hides_only_its_creases_and_facet_diagonals_are_never_drawn() {
         let unit = Unit::new(Case::S, 1.6, 1.0, None, None).unwrap();
         let sheet = UnitSheet::new(unit, 3, 2).unwrap().sheet;
         let count = |is: &dyn Fn(&Edge) -> bool| sheet.edges.iter().filter(|edge| is(edge)).count();

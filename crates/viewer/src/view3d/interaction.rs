@@ -9,19 +9,24 @@ use super::projection::Projection;
 use super::{View3d, ViewResponse};
 
 /// Degrees per point of a drag.
-const DEGREES_A_POINT: f64 = 0.4;
+const DEGREES_PER_POINT: f64 = 0.4;
 
 /// Degrees per press of an arrow key.
-const DEGREES_A_KEY: f64 = 5.0;
+const DEGREES_PER_KEY: f64 = 5.0;
 
 /// Zoom factor per press of plus or minus.
-const ZOOM_A_KEY: f64 = 1.2;
+const ZOOM_PER_KEY: f64 = 1.2;
 
 /// Logarithm of the zoom factor per point of scrolling.
-const ZOOM_A_POINT: f64 = 1.0 / 200.0;
+const LOG_ZOOM_PER_POINT: f64 = 1.0 / 200.0;
 
 /// The longest duration of a frame that a camera transition takes into account, seconds.
 const LONGEST_FRAME: f32 = 0.05;
+
+/// The size of `rect` in points.
+pub(super) fn size(rect: Rect) -> DVec2 {
+    DVec2::new(f64::from(rect.width()), f64::from(rect.height()))
+}
 
 /// `at` in points from the upper left corner of `rect`.
 pub(super) fn within(rect: Rect, at: Pos2) -> DVec2 {
@@ -69,7 +74,7 @@ impl View3d {
             self.orbit.pan(DVec2::new(by.x, -by.y) * length);
         } else if response.dragged_by(PointerButton::Primary) && !response.drag_started() {
             // In the frame in which a drag begins it is not yet known whether it pulls a vertex.
-            let [azimuth, elevation] = [-by.x, by.y].map(|points| points * DEGREES_A_POINT);
+            let [azimuth, elevation] = [-by.x, by.y].map(|points| points * DEGREES_PER_POINT);
             self.orbit.turn(azimuth, elevation, self.pivot);
         }
     }
@@ -79,11 +84,10 @@ impl View3d {
             return;
         };
         let (scroll, pinch) = ui.input(|i| (i.smooth_scroll_delta.y, i.zoom_delta()));
-        let factor = f64::from(pinch) * (f64::from(scroll) * ZOOM_A_POINT).exp();
+        let factor = f64::from(pinch) * (f64::from(scroll) * LOG_ZOOM_PER_POINT).exp();
         if factor != 1.0 {
             let length = self.orbit.width / f64::from(rect.width());
-            let size = DVec2::new(f64::from(rect.width()), f64::from(rect.height()));
-            let at = (within(rect, at) - 0.5 * size) * length;
+            let at = (within(rect, at) - 0.5 * size(rect)) * length;
             self.orbit
                 .zoom(factor, DVec2::new(at.x, -at.y), self.widths());
         }
@@ -108,13 +112,13 @@ impl View3d {
             (Key::ArrowDown, [0.0, -1.0]),
         ];
         for (_, by) in turns.iter().filter(|(key, _)| pressed(*key)) {
-            let [azimuth, elevation] = by.map(|steps: f64| steps * DEGREES_A_KEY);
+            let [azimuth, elevation] = by.map(|steps: f64| steps * DEGREES_PER_KEY);
             self.orbit.turn(azimuth, elevation, self.pivot);
         }
         let zooms = [
-            (Key::Plus, ZOOM_A_KEY),
-            (Key::Equals, ZOOM_A_KEY),
-            (Key::Minus, 1.0 / ZOOM_A_KEY),
+            (Key::Plus, ZOOM_PER_KEY),
+            (Key::Equals, ZOOM_PER_KEY),
+            (Key::Minus, 1.0 / ZOOM_PER_KEY),
         ];
         for (_, factor) in zooms.iter().filter(|(key, _)| pressed(*key)) {
             self.orbit.zoom(*factor, DVec2::ZERO, self.widths());
@@ -127,8 +131,7 @@ impl View3d {
             return;
         };
         let mut to = self.orbit();
-        let size = DVec2::new(f64::from(rect.width()), f64::from(rect.height()));
-        to.fit(points, size);
+        to.fit(points, size(rect));
         if self.was_shown {
             self.move_to(to);
         } else {

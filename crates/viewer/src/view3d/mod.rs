@@ -21,7 +21,7 @@ use eframe::egui::emath::GuiRounding as _;
 use eframe::egui::{self, Color32, Rect, Response, Role, Sense, TextureId, Ui, pos2};
 use eframe::egui_wgpu::RenderState;
 use foldmotion_record::View;
-use glam::{DVec2, DVec3};
+use glam::DVec3;
 
 use self::fallback::FallbackRenderer;
 use self::gpu::{Gpu, LossMonitor};
@@ -38,7 +38,7 @@ pub(crate) use self::picture::{Colours, Overlay, Picture, Shape, VertexPull};
 const TRIES: u32 = 3;
 
 /// The 3D view of a window.
-#[derive(Debug, Default)]
+#[derive(Default)]
 pub(crate) struct View3d {
     id: Option<egui::Id>,
     orbit: OrbitCamera,
@@ -60,7 +60,7 @@ pub(crate) struct View3d {
 }
 
 /// What is under the pointer, and what the user does in the view.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 pub(crate) struct ViewResponse {
     /// The vertex under the pointer: within 12 points and not hidden by the sheet.
     pub(crate) vertex: Option<u32>,
@@ -157,7 +157,7 @@ impl View3d {
         name(&response, &self.orbit());
         self.id = Some(response.id);
         self.follow(picture);
-        let size = DVec2::new(f64::from(rect.width()), f64::from(rect.height()));
+        let size = interaction::size(rect);
         self.move_camera(ui, &response, rect, picture);
         let sphere = self.prepared.as_ref().map(|prepared| prepared.sphere);
         let overlays = segments::segments(picture);
@@ -168,11 +168,7 @@ impl View3d {
         let projection = Projection::new(&self.orbit, size, sphere);
         ui.painter().rect_filled(rect, 0.0, picture.background);
         if !self.is_drawable(picture) {
-            return ViewResponse {
-                vertex: None,
-                face: None,
-                pull: None,
-            };
+            return ViewResponse::default();
         }
         if let Some(texture) = self.texture(ui, render_state, picture, &projection, rect) {
             let whole = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));

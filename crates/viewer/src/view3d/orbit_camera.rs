@@ -214,7 +214,7 @@ mod tests {
     ];
 
     #[test]
-    fn presets_put_every_point_on_the_pixel_where_films_have_it() {
+    fn standard_views_put_every_point_on_the_same_pixel_as_films() {
         let size = [640, 400];
         for (name, view) in View::NAMES {
             let film = Camera::fit(view, POINTS, size, MARGIN).unwrap();
@@ -249,7 +249,7 @@ mod tests {
     }
 
     #[test]
-    fn a_turn_into_a_preset_goes_the_shorter_way_and_arrives() {
+    fn a_transition_turns_the_shorter_way_round_and_ends() {
         let from = OrbitCamera {
             azimuth: 170.0,
             ..OrbitCamera::default()

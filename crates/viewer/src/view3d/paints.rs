@@ -144,7 +144,7 @@ mod tests {
     }
 
     #[test]
-    fn values_get_the_colours_of_the_map_and_what_is_no_number_shows_paper() {
+    fn values_get_the_colours_of_films_and_not_a_number_shows_paper() {
         let sheet = sheet();
         let paints = of_values(&sheet, &[0.0, 2.0, f64::NAN], [0.0, 2.0]);
         let shown = [unpacked(paints[0]), unpacked(paints[1])];

@@ -10,7 +10,6 @@ use super::projection::Projection;
 /// The largest distance of a vertex from the pointer, points.
 const REACH: f64 = 12.0;
 
-/// What is under the pointer.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub(super) struct Hit {
     pub(super) vertex: Option<u32>,

@@ -10,7 +10,6 @@ use super::CreaseClasses;
 /// What the view shows in a frame.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Picture<'a> {
-    /// The sheet.
     pub(crate) sheet: &'a Sheet,
     /// A number that changes with the sheet or its layers.
     pub(crate) sheet_key: u64,
@@ -56,7 +55,6 @@ impl Picture<'_> {
 /// How triangles are coloured.
 #[derive(Debug, Clone, Copy)]
 pub(crate) enum Colours<'a> {
-    /// Front and back of the paper.
     Plain,
     /// Values in the colours of films.
     Values {
@@ -76,7 +74,6 @@ pub(crate) enum Colours<'a> {
 /// A vertex that is being pulled.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct VertexPull {
-    /// The index of the vertex.
     pub(crate) vertex: u32,
     /// The point it is pulled towards.
     pub(crate) target: DVec3,
@@ -85,9 +82,7 @@ pub(crate) struct VertexPull {
 /// Lines or dots over the sheet.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Overlay<'a> {
-    /// The shape.
     pub(crate) shape: Shape<'a>,
-    /// The colour of lines and dots.
     pub(crate) colour: Color32,
     /// The width of lines or the diameter of dots, points.
     pub(crate) width: f32,

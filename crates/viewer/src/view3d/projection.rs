@@ -134,7 +134,7 @@ mod tests {
     }
 
     #[test]
-    fn a_parallel_eye_projects_as_the_camera_of_films_does() {
+    fn a_parallel_projection_is_that_of_the_camera_of_films() {
         let orbit = OrbitCamera {
             centre: DVec3::new(1.0, 2.0, 3.0),
             width: 8.0,
@@ -148,7 +148,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_seen_beside_a_point_is_at_its_depth_and_projects_back() {
+    fn a_point_found_on_the_screen_has_the_given_depth_and_projects_back() {
         for perspective in [false, true] {
             let projection = projection(perspective);
             let (point, at) = (DVec3::new(2.0, 1.0, 4.0), DVec2::new(33.0, 250.0));
@@ -159,7 +159,7 @@ mod tests {
     }
 
     #[test]
-    fn the_eye_of_a_perspective_stays_outside_however_near_one_looks() {
+    fn the_eye_in_perspective_stays_outside_the_sheet_at_any_zoom() {
         for width in [1e-3, 1.0, 50.0] {
             let orbit = OrbitCamera {
                 centre: DVec3::splat(2.5),

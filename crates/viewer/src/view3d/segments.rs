@@ -9,7 +9,7 @@ use super::picture::{Overlay, Picture, Shape};
 const HIDDEN: f32 = 0.28;
 
 /// Diameter of the dot on a pulled vertex, points.
-const HANDLE: f32 = 9.0;
+const PULL_DIAMETER: f32 = 9.0;
 
 /// A line between two points, or a dot if they are equal.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -18,7 +18,6 @@ pub(super) struct Segment {
     pub(super) colour: Color32,
     /// The width of the line or the diameter of the dot, points.
     pub(super) width: f32,
-    /// The opacity behind the sheet.
     pub(super) hidden: f32,
 }
 
@@ -65,8 +64,8 @@ pub(super) fn segments(picture: &Picture<'_>) -> Vec<Segment> {
             hidden: 1.0,
         };
         segments.push(segment([from, pull.target], 2.0));
-        segments.push(segment([from; 2], HANDLE));
-        segments.push(segment([pull.target; 2], 0.7 * HANDLE));
+        segments.push(segment([from; 2], PULL_DIAMETER));
+        segments.push(segment([pull.target; 2], 0.7 * PULL_DIAMETER));
     }
     segments.retain(|segment| segment.ends.iter().all(|end| end.is_finite()));
     segments
@@ -93,7 +92,6 @@ fn of_overlay(overlay: &Overlay<'_>) -> Vec<Segment> {
     }
 }
 
-/// The twelve edges of a box.
 fn box_edges(corner: DVec3, edges: [DVec3; 3]) -> [[DVec3; 2]; 12] {
     std::array::from_fn(|k| {
         let (along, i, j) = (k / 4, (k / 4 + 1) % 3, (k / 4 + 2) % 3);

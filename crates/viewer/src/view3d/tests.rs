@@ -189,7 +189,7 @@ fn the_vertex_and_the_facet_under_the_pointer_are_found() {
 }
 
 #[test]
-fn a_vertex_behind_paper_is_not_taken() {
+fn a_vertex_hidden_by_the_sheet_is_not_picked() {
     let subject = Subject::new(Case::S, 1.6, 3, 2);
     let compact = subject.units.compact();
     let mut harness = harness(Window::new(subject, compact));
@@ -303,7 +303,7 @@ fn arrow_keys_turn_the_view_that_has_the_focus() {
 }
 
 #[test]
-fn presets_are_turned_into_within_a_moment_and_then_nothing_moves() {
+fn a_transition_to_a_standard_view_ends_and_then_nothing_moves() {
     let mut harness = harness(flat());
     harness.run();
     harness.state_mut().view.look(View::Front);
@@ -315,7 +315,7 @@ fn presets_are_turned_into_within_a_moment_and_then_nothing_moves() {
 }
 
 #[test]
-fn places_that_are_missing_or_not_finite_leave_the_view_empty() {
+fn missing_or_infinite_positions_leave_the_view_empty() {
     for positions in [vec![], vec![DVec3::ZERO], vec![DVec3::NAN; 1000]] {
         let mut window = flat();
         let count = window.positions.len();
@@ -359,10 +359,7 @@ fn render(harness: &mut Harness<'_, Window>, name: &str) {
 type Change = fn(&mut Window);
 
 #[test]
-#[cfg_attr(
-    not(gpu_tests),
-    ignore = "no GPU: set FOLDMOTION_GPU_TESTS=yes where there is one"
-)]
+#[cfg_attr(not(gpu_tests), ignore = "needs a GPU and FOLDMOTION_GPU_TESTS=yes")]
 fn an_idle_frame_draws_nothing_and_every_change_draws_once() {
     let mut harness = with_gpu(flat(), [400.0, 300.0], true);
     harness.run();
@@ -389,11 +386,8 @@ fn an_idle_frame_draws_nothing_and_every_change_draws_once() {
 }
 
 #[test]
-#[cfg_attr(
-    not(gpu_tests),
-    ignore = "no GPU: set FOLDMOTION_GPU_TESTS=yes where there is one"
-)]
-fn a_lost_device_is_told_and_another_one_draws_again() {
+#[cfg_attr(not(gpu_tests), ignore = "needs a GPU and FOLDMOTION_GPU_TESTS=yes")]
+fn a_lost_device_is_reported_and_another_one_draws_again() {
     let mut window = flat();
     let state = device();
     window.render_state = Some(state.clone());
@@ -406,13 +400,8 @@ fn a_lost_device_is_told_and_another_one_draws_again() {
     let _ = state.device.poll(wait);
     harness.state_mut().view.look(View::Top);
     harness.run();
-    assert!(
-        harness
-            .state()
-            .view
-            .error()
-            .is_some_and(|f| f.contains("lost"))
-    );
+    let error = harness.state().view.error();
+    assert!(error.is_some_and(|error| error.contains("lost")));
     harness.get_by_label("3D view");
     harness.state_mut().render_state = Some(device());
     harness.run();
@@ -434,10 +423,7 @@ fn shelter() -> Window {
 }
 
 #[test]
-#[cfg_attr(
-    not(gpu_tests),
-    ignore = "no GPU: set FOLDMOTION_GPU_TESTS=yes where there is one"
-)]
+#[cfg_attr(not(gpu_tests), ignore = "needs a GPU and FOLDMOTION_GPU_TESTS=yes")]
 fn every_state_colour_and_look_is_drawn() {
     for (theme, is_dark) in [("dark", true), ("light", false)] {
         let mut harness = with_gpu(shelter(), [800.0, 560.0], is_dark);
@@ -487,16 +473,9 @@ fn how_long_a_frame_takes() {
         let (vertices, faces) = (flat.len(), subject.units.sheet.faces.len());
         let mut harness = with_gpu(Window::new(subject, flat), [1016.0, 716.0], true);
         harness.run();
-        let device = harness
-            .state()
-            .render_state
-            .as_ref()
-            .unwrap()
-            .device
-            .clone();
-        let mut shown = Vec::new();
-        let mut drawn = Vec::new();
-        let mut idle = Vec::new();
+        let state = harness.state().render_state.clone();
+        let device = state.unwrap().device;
+        let [mut shown, mut drawn, mut idle] = [const { Vec::new() }; 3];
         for _ in 0..20 {
             harness.state_mut().state_key += 1;
             let start = std::time::Instant::now();

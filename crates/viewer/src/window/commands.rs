@@ -12,7 +12,7 @@ use super::{Viewer, motion_keys};
 use crate::document::{Document, SaveError};
 use crate::settings::{Appearance, Colour, Command, FilePicker, apply};
 use crate::timeline::Repeat;
-use crate::work::{Interaction, RunJob, open};
+use crate::work::{Interaction, open, run};
 
 /// Extensions of files that can be opened.
 const OPENED: [&str; 3] = ["toml", "fold", "svg"];
@@ -21,7 +21,6 @@ const OPENED: [&str; 3] = ["toml", "fold", "svg"];
 const OUTLINES: [&str; 3] = ["csv", "dat", "dxf"];
 
 impl Viewer {
-    /// Executes a command.
     pub(super) fn perform(&mut self, command: Command, ctx: &Context) {
         match command {
             Command::New => self.confirm_unsaved(NextAction::New, ctx),
@@ -148,7 +147,6 @@ impl Viewer {
         apply(ctx, self.settings.appearance, self.settings.scale.factor());
     }
 
-    /// Runs the current scene.
     pub(super) fn run(&mut self) {
         if self.display.file.is_some() {
             self.notify(
@@ -173,7 +171,8 @@ impl Viewer {
         self.jobs.interaction = None;
         self.jobs.best_rate = 0;
         let scene = motion_keys(self.document.scene());
-        self.jobs.run = Some((scene, RunJob::start(&study, self.repaint.clone())));
+        let (states, job) = run(&study, self.repaint.clone());
+        self.jobs.run = Some(((scene, states), job));
         self.display.follows_run = true;
         self.playback.is_playing = false;
     }
@@ -325,12 +324,8 @@ impl Viewer {
             length: scene.profile.length,
             ..ProfileScene::default()
         };
-        let units = self
-            .resolved
-            .draft
-            .as_ref()
-            .and_then(|(_, _, draft)| draft.units());
-        if let Some(UnitDraft { units, .. }) = units {
+        let draft = self.resolved.draft.as_ref();
+        if let Some(UnitDraft { units, .. }) = draft.and_then(|(.., draft)| draft.units()) {
             let sheet = &mut scene.sheet;
             sheet.rows = sheet.rows.or(i64::try_from(units.rows).ok());
             sheet.columns = sheet.columns.or(i64::try_from(units.columns).ok());

@@ -2,7 +2,9 @@
 
 use std::path::PathBuf;
 
-use eframe::egui::{Button, Context, Id, Modal, RichText, Ui, ViewportCommand, Window};
+use eframe::egui::{
+    Button, Context, Id, Modal, ProgressBar, RichText, Ui, ViewportCommand, Window,
+};
 use foldmotion_study::scene::RecordScene;
 
 use super::Viewer;
@@ -10,7 +12,6 @@ use super::record_panel::{CurrentView, RecordRequest};
 use crate::document::SaveError;
 use crate::settings::{FilePicker, PickerResult, show_help};
 
-/// The dialog that is open.
 #[derive(Debug, Default)]
 pub(super) enum Dialog {
     #[default]
@@ -219,22 +220,16 @@ impl Viewer {
             .show(ctx, |ui: &mut Ui| {
                 if let Some((_, job)) = &self.jobs.recording {
                     ui.label("Recording…");
-                    ui.add(
-                        eframe::egui::ProgressBar::new(job.progress().done as f32)
-                            .show_percentage(),
-                    );
+                    let bar = ProgressBar::new(job.progress().done as f32);
+                    ui.add(bar.show_percentage());
                     if ui.button("Stop").clicked() {
                         job.stop();
                     }
                 } else if !is_ready {
                     ui.label("A preview cannot be recorded. Run the scene first.");
-                    if ui
-                        .add_enabled(
-                            self.resolved.study.is_some() && self.jobs.run.is_none(),
-                            Button::new("Run the scene"),
-                        )
-                        .clicked()
-                    {
+                    let can_run = self.resolved.study.is_some() && self.jobs.run.is_none();
+                    let button = Button::new("Run the scene");
+                    if ui.add_enabled(can_run, button).clicked() {
                         self.run();
                     }
                 } else {

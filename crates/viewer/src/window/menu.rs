@@ -7,74 +7,17 @@ use eframe::egui::{Button, Color32, MenuBar, ProgressBar, RichText, Ui};
 
 use super::Viewer;
 use super::dialogs::NextAction;
-use crate::settings::{Appearance, Command, apply, keys_of, name_of};
+use crate::settings::{Appearance, Command, Group, apply, commands_of, keys_of, name_of};
 
 /// How long a notice is shown.
 const NOTICE: Duration = Duration::from_secs(12);
 
-/// The menus with their commands; `None` is a separator.
-const MENUS: [(&str, &[Option<Command>]); 4] = [
-    (
-        "Edit",
-        &[
-            Some(Command::Undo),
-            Some(Command::Redo),
-            None,
-            Some(Command::PanelText),
-        ],
-    ),
-    (
-        "Motion",
-        &[
-            Some(Command::Run),
-            Some(Command::Cancel),
-            Some(Command::Interact),
-            None,
-            Some(Command::Record),
-            None,
-            Some(Command::Play),
-            Some(Command::Start),
-            Some(Command::Planar),
-            Some(Command::Compact),
-            Some(Command::Loop),
-        ],
-    ),
-    (
-        "View",
-        &[
-            Some(Command::ViewFront),
-            Some(Command::ViewSide),
-            Some(Command::ViewTop),
-            Some(Command::ViewIsometric),
-            Some(Command::Fit),
-            Some(Command::Perspective),
-            None,
-            Some(Command::ColourPlain),
-            Some(Command::ColourStrain),
-            Some(Command::ColourBending),
-            Some(Command::ColourUnit),
-            Some(Command::ColourLayer),
-            None,
-            Some(Command::Creases),
-            Some(Command::Profile),
-            Some(Command::CompactBox),
-            Some(Command::ClosedFormBox),
-        ],
-    ),
-    (
-        "Window",
-        &[
-            Some(Command::PanelDesign),
-            Some(Command::PanelPlots),
-            Some(Command::PanelVerdict),
-            Some(Command::PanelRecord),
-            None,
-            Some(Command::Presentation),
-            Some(Command::DarkLight),
-            None,
-            Some(Command::Help),
-        ],
-    ),
+/// The menus with their groups of commands, after the menu of files.
+const MENUS: [(&str, &[Group]); 4] = [
+    ("Edit", &[Group::Edit]),
+    ("Motion", &[Group::Motion, Group::Time]),
+    ("View", &[Group::View, Group::Colours]),
+    ("Window", &[Group::Window]),
 ];
 
 impl Viewer {
@@ -82,15 +25,17 @@ impl Viewer {
         let mut wanted = None;
         MenuBar::new().ui(ui, |ui| {
             ui.menu_button("File", |ui| self.file_menu(ui, &mut wanted));
-            for (name, commands) in MENUS {
+            for (name, groups) in MENUS {
                 ui.menu_button(name, |ui| {
                     if name == "Window" {
                         self.appearance_menu(ui);
                     }
-                    for command in commands {
-                        match command {
-                            Some(command) => self.item(ui, *command, &mut wanted),
-                            None => drop(ui.separator()),
+                    for (index, &group) in groups.iter().enumerate() {
+                        if index > 0 {
+                            ui.separator();
+                        }
+                        for command in commands_of(group) {
+                            self.item(ui, command, &mut wanted);
                         }
                     }
                 });

@@ -21,7 +21,7 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use eframe::egui::{self, CentralPanel, Panel, ScrollArea, Ui};
-use foldmotion_study::{Draft, Opened, Preview, Scene, Study};
+use foldmotion_study::{Draft, Opened, OpenedMotion, Preview, Scene, Study};
 
 use crate::design::{DesignInput, DesignPanel, SceneError};
 use crate::document::Document;
@@ -31,7 +31,9 @@ use crate::settings::{Settings, UnsavedScenes, apply};
 use crate::timeline::{Marks, Playback, Plots, Timeline};
 use crate::timings::{Activity, Timings};
 use crate::view3d::View3d;
-use crate::work::{CheckedMotion, Interaction, Job, RepaintSignal, Resolver, RunJob, SheetState};
+use crate::work::{
+    CheckedMotion, FinishedRun, Interaction, Job, RepaintSignal, Resolver, SheetState, StateFeed,
+};
 
 use self::dialogs::Dialog;
 use self::record_panel::RecordPanel;
@@ -89,7 +91,6 @@ struct Display {
     file: Option<Arc<ShownMotion>>,
     state: ShownState,
     next_key: u64,
-    /// The title of the window.
     title: String,
     /// Whether to fit the view to the next motion.
     fits: bool,
@@ -101,25 +102,25 @@ struct Display {
     pointed: Option<(u32, Option<u32>)>,
 }
 
+/// A job with the data that its result will be combined with.
+type Pending<A, T> = Option<(A, Job<T>)>;
+
 /// Jobs in the background.
 #[derive(Default)]
 struct Jobs {
-    preview: Option<(Scene, Arc<Draft>, Job<Preview>)>,
-    run: Option<(Scene, RunJob)>,
+    preview: Pending<(Scene, Arc<Draft>), Preview>,
+    run: Pending<(Scene, StateFeed), FinishedRun>,
     interaction: Option<Interaction>,
-    opening: Option<(PathBuf, Job<Opened>)>,
-    checking: Option<Job<CheckedMotion>>,
-    recording: Option<(PathBuf, Job<Vec<String>>)>,
+    opening: Pending<PathBuf, Opened>,
+    checking: Pending<Arc<OpenedMotion>, CheckedMotion>,
+    recording: Pending<PathBuf, Vec<String>>,
     /// The highest number of states per second of the current run or interaction.
     best_rate: usize,
 }
 
 impl std::fmt::Debug for Viewer {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        let mut debug = f.debug_struct("Viewer");
-        debug
-            .field("document", &self.document)
-            .finish_non_exhaustive()
+        f.debug_struct("Viewer").finish_non_exhaustive()
     }
 }
 
@@ -179,17 +180,11 @@ impl Viewer {
 
     /// Opens the given file, or offers unsaved scenes for recovery.
     fn begin(&mut self, file: Option<PathBuf>) {
-        match file {
-            Some(path) => self.open(path),
-            None => {
-                if self
-                    .unsaved
-                    .as_ref()
-                    .is_some_and(|u| u.recovered().next().is_some())
-                {
-                    self.dialog = Dialog::Restore;
-                }
-            }
+        let unsaved = self.unsaved.as_ref();
+        if let Some(path) = file {
+            self.open(path);
+        } else if unsaved.is_some_and(|unsaved| unsaved.recovered().next().is_some()) {
+            self.dialog = Dialog::Restore;
         }
     }
 
@@ -233,7 +228,7 @@ impl Viewer {
         let run = self.jobs.run.as_ref().filter(|_| self.display.follows_run);
         match (&self.jobs.interaction, run) {
             (Some(interaction), _) => interaction.states().latest(),
-            (None, Some((_, run))) => run.states().latest(),
+            (None, Some(((_, states), _))) => states.latest(),
             (None, None) => None,
         }
     }

@@ -6,10 +6,10 @@ use eframe::egui::Context;
 use foldmotion_study::{Draft, Opened, Scene};
 
 use super::shown_motion::ShownMotion;
-use super::{Viewer, motion_keys};
+use super::{Pending, Viewer, motion_keys};
 use crate::design::SceneError;
 use crate::document::Document;
-use crate::work::{FinishedRun, Job, Resolved, WorkError, check_motion, preview};
+use crate::work::{FinishedRun, Resolved, WorkError, check_motion, preview};
 
 /// Sheets with more vertices get no preview.
 const LARGEST_PREVIEW: usize = 20_000;
@@ -60,11 +60,8 @@ impl Viewer {
         match answer {
             Resolved::Draft(number, Ok(draft)) if number == asked => {
                 let scene = motion_keys(self.document.scene());
-                let is_new = self
-                    .resolved
-                    .draft
-                    .as_ref()
-                    .is_none_or(|(_, of, _)| *of != scene);
+                let previous = self.resolved.draft.as_ref();
+                let is_new = previous.is_none_or(|(_, of, _)| *of != scene);
                 self.resolved.draft = Some((number, scene.clone(), Arc::clone(&draft)));
                 self.resolved.errors.clear();
                 if is_new {
@@ -76,7 +73,7 @@ impl Viewer {
             Resolved::Study(number, Ok(study)) if number == asked => {
                 self.resolved.errors.clear();
                 self.resolved.study = Some(study);
-                self.fold_at_once();
+                self.start_preview();
             }
             Resolved::Draft(number, Err(error)) | Resolved::Study(number, Err(error))
                 if number == asked =>
@@ -96,11 +93,8 @@ impl Viewer {
         let t = self.playback.time;
         let is_of_size =
             |shown: &ShownMotion| shown.motion().sheet.faces.len() == draft.sheet().faces.len();
-        let stays = self
-            .display
-            .draft
-            .as_ref()
-            .is_some_and(|(_, shown)| is_of_size(shown));
+        let draft_shown = self.display.draft.as_ref();
+        let stays = draft_shown.is_some_and(|(_, shown)| is_of_size(shown));
         if stays && t.fract() != 0.0 && self.settings.view.folds_at_once {
             return;
         }
@@ -108,8 +102,7 @@ impl Viewer {
         self.change_motion(|display| display.draft = Some((scene, shown)));
     }
 
-    /// Starts a preview of the current scene.
-    pub(super) fn fold_at_once(&mut self) {
+    pub(super) fn start_preview(&mut self) {
         let Some(study) = self.resolved.study.clone() else {
             return;
         };
@@ -122,11 +115,11 @@ impl Viewer {
             return;
         }
         let job = preview(study, self.repaint.clone());
-        self.jobs.preview = Some((scene.clone(), Arc::clone(draft), job));
+        self.jobs.preview = Some(((scene.clone(), Arc::clone(draft)), job));
     }
 
     fn take_preview(&mut self) {
-        let Some((scene, draft, preview)) = self.jobs.preview.take_if_done() else {
+        let Some(((scene, draft), preview)) = take_done(&mut self.jobs.preview) else {
             return;
         };
         match preview {
@@ -141,27 +134,22 @@ impl Viewer {
     }
 
     fn take_run(&mut self) {
-        let Some((_, run)) = &self.jobs.run else {
+        let Some(((_, states), _)) = &self.jobs.run else {
             return;
         };
-        self.jobs.best_rate = self.jobs.best_rate.max(run.states().rate());
-        if !run.is_done() {
-            return;
-        }
-        let Some((scene, run)) = self.jobs.run.take() else {
+        self.jobs.best_rate = self.jobs.best_rate.max(states.rate());
+        let Some(((scene, _), finished)) = take_done(&mut self.jobs.run) else {
             return;
         };
         self.timings.rate("run", self.jobs.best_rate as f64);
-        match run.take() {
-            Some(Ok(finished)) => self.finish_run(scene, &finished),
-            Some(Err(WorkError::Stopped)) => self.notify("The run was stopped.", true),
-            Some(Err(error)) => {
-                self.resolved
-                    .errors
-                    .push(SceneError::new(error.key(), &error));
+        match finished {
+            Ok(finished) => self.finish_run(scene, &finished),
+            Err(WorkError::Stopped) => self.notify("The run was stopped.", true),
+            Err(error) => {
+                let scene_error = SceneError::new(error.key(), &error);
+                self.resolved.errors.push(scene_error);
                 self.notify(format!("The run failed: {error}"), false);
             }
-            None => {}
         }
     }
 
@@ -180,14 +168,15 @@ impl Viewer {
     }
 
     fn take_opened(&mut self) {
-        let Some((path, opened)) = self.jobs.opening.take_if_done() else {
+        let Some((path, opened)) = take_done(&mut self.jobs.opening) else {
             return;
         };
         match opened {
             Ok(Opened::Motion(motion)) => {
                 self.settings.recent.add(&path);
                 self.jobs.stop();
-                self.jobs.checking = Some(check_motion(Arc::clone(&motion), self.repaint.clone()));
+                let job = check_motion(Arc::clone(&motion), self.repaint.clone());
+                self.jobs.checking = Some((Arc::clone(&motion), job));
                 let key = self.display.key();
                 self.display.fits = true;
                 let shown = Arc::new(ShownMotion::file(motion, None, key));
@@ -204,7 +193,6 @@ impl Viewer {
         }
     }
 
-    /// Replaces the document.
     pub(super) fn take_document(&mut self, document: Document) {
         // A text with a syntax error can only be corrected as text.
         self.must_fix_text = document.parse_error().is_some();
@@ -226,28 +214,23 @@ impl Viewer {
     }
 
     fn take_checked(&mut self) {
-        let Some(job) = self.jobs.checking.take_if(|job| job.is_done()) else {
+        let Some((motion, checked)) = take_done(&mut self.jobs.checking) else {
             return;
         };
-        let shown = self.display.file.clone();
-        let Some(motion) = shown.as_ref().and_then(|shown| shown.opened()) else {
-            return;
-        };
-        match job.take() {
-            Some(Ok(checked)) => {
-                let key = self.display.key();
-                let shown = ShownMotion::file(Arc::clone(motion), Some(checked), key);
+        match checked {
+            Ok(checked) => {
+                let shown = ShownMotion::file(motion, Some(checked), self.display.key());
                 self.display.file = Some(Arc::new(shown));
             }
-            Some(Err(WorkError::Stopped)) | None => {}
-            Some(Err(error)) => {
-                self.notify(format!("The motion could not be checked: {error}"), false)
+            Err(WorkError::Stopped) => {}
+            Err(error) => {
+                self.notify(format!("The motion could not be checked: {error}"), false);
             }
         }
     }
 
     fn take_recording(&mut self) {
-        let Some((folder, files)) = self.jobs.recording.take_if_done() else {
+        let Some((folder, files)) = take_done(&mut self.jobs.recording) else {
             return;
         };
         match files {
@@ -311,25 +294,8 @@ impl super::Jobs {
     }
 }
 
-/// A job that is stored together with other data.
-trait TakeIfDone {
-    type Done;
-    /// The data and the result, once the job is done; leaves `None`.
-    fn take_if_done(&mut self) -> Option<Self::Done>;
-}
-
-impl<A, T> TakeIfDone for Option<(A, Job<T>)> {
-    type Done = (A, Result<T, WorkError>);
-    fn take_if_done(&mut self) -> Option<Self::Done> {
-        let (beside, job) = self.take_if(|(_, job)| job.is_done())?;
-        Some((beside, job.take()?))
-    }
-}
-
-impl<A, B, T> TakeIfDone for Option<(A, B, Job<T>)> {
-    type Done = (A, B, Result<T, WorkError>);
-    fn take_if_done(&mut self) -> Option<Self::Done> {
-        let (a, b, job) = self.take_if(|(_, _, job)| job.is_done())?;
-        Some((a, b, job.take()?))
-    }
+/// The result of a job, with the data stored beside it, once the job is done; the slot is then empty.
+fn take_done<A, T>(slot: &mut Pending<A, T>) -> Option<(A, Result<T, WorkError>)> {
+    let (data, job) = slot.take_if(|(_, job)| job.is_done())?;
+    Some((data, job.take()?))
 }

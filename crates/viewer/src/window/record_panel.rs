@@ -21,7 +21,6 @@ const OUTPUTS: [(OutputChoice, &str); 9] = [
     (OutputChoice::Html, "web page, HTML"),
 ];
 
-/// The settings of the dialog.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct RecordPanel {
     outputs: Vec<OutputChoice>,
@@ -38,9 +37,7 @@ pub(crate) struct RecordPanel {
 pub(crate) enum RecordRequest {
     /// Record these outputs into the folder.
     Record(Box<RecordScene>, PathBuf),
-    /// Choose the folder.
     ChooseFolder,
-    /// Close the dialog.
     Close,
 }
 
@@ -127,7 +124,6 @@ impl RecordPanel {
         request
     }
 
-    /// The check box of an output.
     fn switch(&mut self, ui: &mut Ui, output: OutputChoice, name: &str) {
         let is_there = output != OutputChoice::Mp4 || cfg!(feature = "mp4");
         let mut is_on = self.outputs.contains(&output);

@@ -48,7 +48,7 @@ impl Viewer {
             interaction.pull(pull.map(|pull| (pull.vertex, pull.target)));
         }
         self.display.pulled = pull;
-        self.words_over(ui, rect, &shown);
+        self.text_over_view(ui, rect, &shown);
     }
 
     /// Draws the sheet; returns the vertex that is being pulled.
@@ -70,13 +70,16 @@ impl Viewer {
         let weak = visuals.weak_text_color();
         let marked = visuals.error_fg_color;
         let mut overlays: Vec<Overlay<'_>> = Vec::new();
+        let mut add = |shape, colour, width| {
+            overlays.push(Overlay {
+                shape,
+                colour,
+                width,
+            });
+        };
         // The profile is compared with the deployed sheet, the boxes with the compact one.
         if looks.profile && !shown.profile.is_empty() && self.playback.time <= 1.0 {
-            overlays.push(Overlay {
-                shape: Shape::Path(&shown.profile),
-                colour: accent,
-                width: 2.0,
-            });
+            add(Shape::Path(&shown.profile), accent, 2.0);
         }
         for (wanted, bounds, colour) in [
             (looks.compact_box, shown.boxes[0], weak),
@@ -85,25 +88,15 @@ impl Viewer {
             if let Some([low, sides]) = bounds.filter(|_| wanted && self.playback.time > 1.0) {
                 let edges = glam::DMat3::from_diagonal(sides);
                 let edges = [edges.x_axis, edges.y_axis, edges.z_axis];
-                overlays.push(Overlay {
-                    shape: Shape::Box(low, edges),
-                    colour,
-                    width: 1.2,
-                });
+                add(Shape::Box(low, edges), colour, 1.2);
             }
         }
         if !points.is_empty() {
-            overlays.push(Overlay {
-                shape: Shape::Dots(&points),
-                colour: marked,
-                width: 9.0,
-            });
+            add(Shape::Dots(&points), marked, 9.0);
         }
         let pulse = if faces.is_empty() { 0.0 } else { flash(ui) };
-        let colours = match (
-            looks.colour,
-            self.display.state.values(shown, sheet, looks.colour),
-        ) {
+        let values = self.display.state.values(shown, sheet, looks.colour);
+        let colours = match (looks.colour, values) {
             (_, Some((values, range, _))) => Colours::Values {
                 values,
                 range,
@@ -140,10 +133,10 @@ impl Viewer {
     }
 
     /// The text over the view: motion time, kind of motion and verdict.
-    fn words_over(&mut self, ui: &Ui, rect: Rect, shown: &ShownMotion) {
+    fn text_over_view(&mut self, ui: &Ui, rect: Rect, shown: &ShownMotion) {
         let painter = ui.painter_at(rect);
         let visuals = ui.visuals();
-        let lines = self.lines_over(ui, shown);
+        let lines = self.lines_over_view(ui, shown);
         // The background is drawn first, but its size is only known once the text is laid out.
         let ground = painter.add(RectShape::filled(Rect::NOTHING, 0.0, Color32::TRANSPARENT));
         let mut area = Rect::from_min_size(rect.left_top() + vec2(12.0, 8.0), Vec2::ZERO);
@@ -163,16 +156,11 @@ impl Viewer {
                 WidgetInfo::labeled(Role::Label, true, words.join(", "))
             });
         let sheet = &shown.motion().sheet;
-        if let Some(words) = self.pointed_words(sheet) {
+        if let Some(words) = self.pointed_text(sheet) {
             let corner = rect.left_bottom() + vec2(12.0, -10.0);
             let font = FontId::proportional(12.0);
-            painter.text(
-                corner,
-                Align2::LEFT_BOTTOM,
-                words,
-                font,
-                visuals.text_color(),
-            );
+            let colour = visuals.text_color();
+            painter.text(corner, Align2::LEFT_BOTTOM, words, font, colour);
         }
         let colour = self.settings.view.colour;
         if let Some((_, range, title)) = self.display.state.values(shown, sheet, colour) {
@@ -180,8 +168,7 @@ impl Viewer {
         }
     }
 
-    /// A description of what is under the pointer.
-    fn pointed_words(&self, sheet: &Sheet) -> Option<String> {
+    fn pointed_text(&self, sheet: &Sheet) -> Option<String> {
         let (face, vertex) = self.display.pointed?;
         let facet = *sheet.face_facets.get(face as usize)?;
         let Facet {
@@ -196,7 +183,7 @@ impl Viewer {
     }
 
     /// The lines over the view, with font size and colour.
-    fn lines_over(&self, ui: &Ui, shown: &ShownMotion) -> Vec<(String, f32, Color32)> {
+    fn lines_over_view(&self, ui: &Ui, shown: &ShownMotion) -> Vec<(String, f32, Color32)> {
         const SMALL: f32 = 13.0;
         let visuals = ui.visuals();
         let (badge, colour) = self.badge(ui, shown);
@@ -229,8 +216,9 @@ impl Viewer {
             }
             return (words, accent);
         }
-        if let Some((_, run)) = self.jobs.run.as_ref().filter(|_| self.display.follows_run) {
-            let words = format!("running, {} states per second", run.states().rate());
+        if let Some(((_, states), _)) = self.jobs.run.as_ref().filter(|_| self.display.follows_run)
+        {
+            let words = format!("running, {} states per second", states.rate());
             return (words, accent);
         }
         let checked = |verdict: Verdict| (verdict.to_string(), verdict_colour(ui, verdict));
@@ -260,7 +248,6 @@ impl Viewer {
             .map_or(self.playback.time, |state| state.time)
     }
 
-    /// The toolbar over the view.
     fn tools(&mut self, ui: &mut Ui) {
         let mut command = None;
         ScrollArea::horizontal().auto_shrink([false, true]).show(ui, |ui| {
@@ -380,20 +367,11 @@ fn scale(painter: &Painter, ui: &Ui, rect: Rect, range: [f64; 2], title: &str) {
     painter.rect_stroke(bar, 0.0, stroke, StrokeKind::Outside);
     let font = FontId::proportional(11.0);
     let ink = visuals.text_color();
-    painter.text(
-        bar.center_top() - vec2(0.0, 4.0),
-        Align2::CENTER_BOTTOM,
-        title,
-        font.clone(),
-        ink,
-    );
+    let write = |place, align, text: &str| painter.text(place, align, text, font.clone(), ink);
+    let above = bar.center_top() - vec2(0.0, 4.0);
+    write(above, Align2::CENTER_BOTTOM, title);
     for (x, value) in [(bar.left(), range[0]), (bar.right(), range[1])] {
-        painter.text(
-            pos2(x, bar.bottom() + 4.0),
-            Align2::CENTER_TOP,
-            number(value),
-            font.clone(),
-            ink,
-        );
+        let below = pos2(x, bar.bottom() + 4.0);
+        write(below, Align2::CENTER_TOP, &number(value));
     }
 }

@@ -66,7 +66,7 @@ impl ShownMotion {
         let mut first = 1.0;
         if let Some(UnitDraft { units, .. }) = draft.units() {
             states.extend([units.sheet.planar(), units.compact()]);
-            compact_order = units.compact_order_within(MOST_ORDERED).unwrap_or_default();
+            compact_order = units.compact_order_within(MAX_ORDERED).unwrap_or_default();
             first = 0.0;
         }
         let frames = states.into_iter().zip(0_u32..).map(|(positions, k)| Frame {
@@ -81,7 +81,6 @@ impl ShownMotion {
         Self::new(MotionSource::Exact(motion), key).with_draft(draft)
     }
 
-    /// A preview.
     pub(crate) fn preview(draft: &Draft, preview: Preview, scene: &Scene, key: u64) -> Self {
         let Preview {
             motion,
@@ -100,7 +99,6 @@ impl ShownMotion {
         shown
     }
 
-    /// A run.
     pub(crate) fn run(finished: &FinishedRun, key: u64) -> Self {
         let FinishedRun {
             study,
@@ -209,7 +207,6 @@ impl ShownMotion {
         self.marks.penetrations = times;
     }
 
-    /// The motion.
     pub(crate) fn motion(&self) -> &Motion {
         match &self.source {
             MotionSource::Exact(motion) | MotionSource::Preview(motion) => motion,
@@ -256,24 +253,14 @@ impl ShownMotion {
     ) -> Option<Job<Vec<String>>> {
         let scene = scene.clone();
         match &self.source {
-            MotionSource::Run { study, folded, .. } => Some(record(
-                Arc::clone(study),
-                Arc::clone(folded),
-                scene,
-                folder,
-                repaint,
-            )),
+            MotionSource::Run { study, folded, .. } => {
+                let (study, folded) = (Arc::clone(study), Arc::clone(folded));
+                Some(record(study, folded, scene, folder, repaint))
+            }
             MotionSource::File { motion, checked } => {
-                let findings = checked
-                    .as_ref()
-                    .map(|checked| Arc::clone(&checked.findings));
-                Some(record_opened(
-                    Arc::clone(motion),
-                    findings,
-                    scene,
-                    folder,
-                    repaint,
-                ))
+                let findings = checked.as_ref().map(|checked| &checked.findings);
+                let (motion, findings) = (Arc::clone(motion), findings.cloned());
+                Some(record_opened(motion, findings, scene, folder, repaint))
             }
             MotionSource::Exact(_) | MotionSource::Preview(_) => None,
         }
@@ -286,12 +273,10 @@ impl ShownMotion {
         repaint: RepaintSignal,
     ) -> Option<Job<Vec<String>>> {
         match &self.source {
-            MotionSource::Run { study, folded, .. } => Some(write(
-                Arc::clone(study),
-                Arc::clone(folded),
-                folder,
-                repaint,
-            )),
+            MotionSource::Run { study, folded, .. } => {
+                let (study, folded) = (Arc::clone(study), Arc::clone(folded));
+                Some(write(study, folded, folder, repaint))
+            }
             _ => None,
         }
     }
@@ -343,7 +328,7 @@ impl ShownMotion {
 }
 
 /// The largest number of pairs in the layer order of exact states, which is computed while the user waits.
-const MOST_ORDERED: usize = 500_000;
+const MAX_ORDERED: usize = 500_000;
 
 /// Lower corner and sides of the bounding box of `points`.
 fn bounds(points: &[DVec3]) -> Option<[DVec3; 2]> {

@@ -27,7 +27,6 @@ pub(crate) struct Interaction {
     thread: Option<JoinHandle<()>>,
 }
 
-/// The status of an interaction.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(crate) struct InteractionStatus {
     /// The current motion time.
@@ -114,12 +113,10 @@ impl Interaction {
         self.shared.request(|request| request.pull = pull);
     }
 
-    /// The states of the sheet.
     pub(crate) fn states(&self) -> &StateFeed {
         &self.states
     }
 
-    /// The current status.
     pub(crate) fn status(&self) -> InteractionStatus {
         *lock(&self.shared.status)
     }
@@ -212,9 +209,9 @@ impl Shared {
         status.fold_angle_error = hand.fold_angle_error();
         drop(status);
         if is_at_rest {
-            states.show_last(hand.time(), hand.positions());
+            states.publish(hand.time(), hand.positions());
             self.repaint.send();
-        } else if states.show(hand.time(), || hand.positions()) {
+        } else if states.publish_limited(hand.time(), || hand.positions()) {
             self.repaint.send_limited();
         }
     }
@@ -252,7 +249,7 @@ mod tests {
     }
 
     #[test]
-    fn a_held_sheet_follows_the_time_asked_for_and_a_pull() {
+    fn the_sheet_follows_the_requested_time_and_a_pull() {
         let study = study();
         let interaction = Interaction::start(Arc::clone(&study), None, RepaintSignal::new(|| {}));
         let start = settled(&interaction, 0.0);
@@ -274,7 +271,7 @@ mod tests {
     }
 
     #[test]
-    fn a_sheet_at_rest_is_not_woken_by_the_same_wish_again() {
+    fn a_sheet_at_rest_is_not_woken_by_the_same_request() {
         let interaction = Interaction::start(study(), None, RepaintSignal::new(|| {}));
         settled(&interaction, 0.0);
         let requested = || lock(&interaction.shared.request).serial;
@@ -287,7 +284,7 @@ mod tests {
     }
 
     #[test]
-    fn a_sheet_is_taken_up_in_any_state_and_a_wrong_one_is_an_error() {
+    fn an_interaction_starts_in_any_state_and_a_wrong_one_is_an_error() {
         let study = study();
         let folded = study.compute(&|_, _| true).unwrap();
         let frame = folded.motion.frames[30].clone();

@@ -11,7 +11,7 @@ use super::threads::{in_thread_pool, join_briefly, start};
 use super::{RepaintSignal, WorkError};
 
 /// The progress of a job.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub(crate) struct Progress {
     /// The current phase; `None` before the job has begun.
     pub(crate) phase: Option<Phase>,
@@ -28,98 +28,70 @@ pub(crate) struct Job<T> {
 
 #[derive(Debug)]
 struct Shared<T> {
-    context: JobContext,
+    progress: Mutex<Progress>,
+    is_stopped: AtomicBool,
     outcome: Mutex<Option<Result<T, WorkError>>>,
     is_done: AtomicBool,
-}
-
-/// The job's side: it reports progress and learns whether to continue.
-#[derive(Debug, Clone)]
-pub(super) struct JobContext(Arc<Inner>);
-
-#[derive(Debug)]
-struct Inner {
-    is_stopped: AtomicBool,
-    progress: Mutex<Progress>,
     repaint: RepaintSignal,
 }
 
-impl JobContext {
-    /// Reports progress; returns whether to continue.
-    pub(super) fn report(&self, phase: Phase, done: f64) -> bool {
-        *lock(&self.0.progress) = Progress {
-            phase: Some(phase),
-            done: done.clamp(0.0, 1.0),
-        };
-        self.0.repaint.send_limited();
-        !self.0.is_stopped.load(Ordering::Relaxed)
-    }
-}
+/// Reports the progress of a job; returns whether to continue.
+pub(super) type Report<'a> = &'a (dyn Fn(Phase, f64) -> bool + Sync);
 
 impl<T: Send + 'static> Job<T> {
     /// Starts `work` on threads of its own.
     pub(super) fn start(
         name: &str,
         repaint: RepaintSignal,
-        work: impl FnOnce(&JobContext) -> Result<T, WorkError> + Send + 'static,
+        work: impl FnOnce(Report<'_>) -> Result<T, WorkError> + Send + 'static,
     ) -> Self {
-        let progress = Progress {
-            phase: None,
-            done: 0.0,
-        };
         let shared = Arc::new(Shared {
-            context: JobContext(Arc::new(Inner {
-                is_stopped: AtomicBool::new(false),
-                progress: Mutex::new(progress),
-                repaint,
-            })),
+            progress: Mutex::default(),
+            is_stopped: AtomicBool::new(false),
             outcome: Mutex::new(None),
             is_done: AtomicBool::new(false),
+            repaint,
         });
-        let status = Arc::clone(&shared);
+        let working = Arc::clone(&shared);
         let thread = start(name, move || {
-            let outcome = in_thread_pool(|| work(&status.context));
-            status.finish(outcome);
+            let report = |phase, done| working.report(phase, done);
+            let outcome = in_thread_pool(|| work(&report));
+            working.finish(outcome);
         });
-        match thread {
-            Ok(thread) => Self {
-                shared,
-                thread: Some(thread),
-            },
-            Err(error) => {
-                shared.finish(Err(error));
-                Self {
-                    shared,
-                    thread: None,
-                }
-            }
-        }
+        let thread = thread.map_err(|error| shared.finish(Err(error))).ok();
+        Self { shared, thread }
     }
 }
 
 impl<T> Shared<T> {
+    fn report(&self, phase: Phase, done: f64) -> bool {
+        *lock(&self.progress) = Progress {
+            phase: Some(phase),
+            done: done.clamp(0.0, 1.0),
+        };
+        self.repaint.send_limited();
+        !self.is_stopped.load(Ordering::Relaxed)
+    }
+
     fn finish(&self, outcome: Result<T, WorkError>) {
         *lock(&self.outcome) = Some(outcome);
         self.is_done.store(true, Ordering::Release);
-        self.context.0.repaint.send();
+        self.repaint.send();
     }
 }
 
 impl<T> Job<T> {
-    /// The current progress.
     pub(crate) fn progress(&self) -> Progress {
-        *lock(&self.shared.context.0.progress)
+        *lock(&self.shared.progress)
     }
 
-    /// Whether the job has ended.
     pub(crate) fn is_done(&self) -> bool {
         self.shared.is_done.load(Ordering::Acquire)
     }
 
     /// Asks the job to stop; its result is then [`WorkError::Stopped`].
     pub(crate) fn stop(&self) {
-        let inner = &self.shared.context.0;
-        inner.is_stopped.store(true, Ordering::Relaxed);
+        self.shared.is_stopped.store(true, Ordering::Relaxed);
     }
 
     /// The result, once the job has ended; `None` if it was taken before.
@@ -156,12 +128,12 @@ pub(super) mod tests {
     }
 
     #[test]
-    fn a_job_reports_wakes_and_gives_its_result_once() {
+    fn a_job_reports_progress_requests_repaints_and_gives_its_result_once() {
         let woken = Arc::new(AtomicBool::new(false));
         let seen = Arc::clone(&woken);
         let repaint = RepaintSignal::new(move || seen.store(true, Ordering::Relaxed));
-        let job = Job::start("job", repaint, |context| {
-            assert!(context.report(Phase::Check, 0.25));
+        let job = Job::start("job", repaint, |report| {
+            assert!(report(Phase::Check, 0.25));
             Ok(7)
         });
         wait(|| job.is_done());
@@ -173,7 +145,7 @@ pub(super) mod tests {
     }
 
     #[test]
-    fn a_panic_is_an_error_that_says_what_it_said() {
+    fn a_panic_is_an_error_with_its_message() {
         let job: Job<()> = Job::start("job", quiet(), |_| panic!("out of {}", "luck"));
         wait(|| job.is_done());
         let text = job.take().unwrap().unwrap_err().to_string();
@@ -182,8 +154,8 @@ pub(super) mod tests {
 
     #[test]
     fn a_job_that_is_stopped_or_dropped_ends() {
-        let endless = |context: &JobContext| {
-            while context.report(Phase::Fold, 0.0) {
+        let endless = |report: Report<'_>| {
+            while report(Phase::Fold, 0.0) {
                 sleep(Duration::from_millis(1));
             }
             Err::<(), _>(WorkError::Stopped)

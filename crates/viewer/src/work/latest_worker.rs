@@ -48,26 +48,15 @@ impl<I: Send + 'static, O: Send + 'static> LatestWorker<I, O> {
             requested: Condvar::new(),
             repaint,
         });
-        let status = Arc::clone(&shared);
+        let working = Arc::clone(&shared);
         let thread = start(name, move || {
-            while let Some((serial, request)) = status.next(delay) {
+            while let Some((serial, request)) = working.next(delay) {
                 let result = catch_panic(|| work(request));
-                status.finish(serial, result);
+                working.finish(serial, result);
             }
         });
-        match thread {
-            Ok(thread) => Self {
-                shared,
-                thread: Some(thread),
-            },
-            Err(error) => {
-                shared.finish(0, Err(error));
-                Self {
-                    shared,
-                    thread: None,
-                }
-            }
-        }
+        let thread = thread.map_err(|error| shared.finish(0, Err(error))).ok();
+        Self { shared, thread }
     }
 
     /// Submits a request, replacing the one that is waiting.
@@ -142,7 +131,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn questions_that_come_meanwhile_are_answered_by_the_last_of_them() {
+    fn of_requests_that_arrive_while_it_is_busy_only_the_last_is_handled() {
         let (go, may) = channel::<()>();
         let (heard, hears) = channel::<u32>();
         let latest = LatestWorker::new(
@@ -168,7 +157,7 @@ mod tests {
     }
 
     #[test]
-    fn a_panic_is_an_answer_and_the_next_question_is_answered() {
+    fn after_a_panic_the_next_request_is_handled() {
         let latest = LatestWorker::new(
             "latest",
             Duration::from_millis(1),

@@ -20,11 +20,11 @@ mod threads;
 
 pub(crate) use error::WorkError;
 pub(crate) use interaction::Interaction;
-pub(crate) use job::{Job, Progress};
+pub(crate) use job::Job;
 pub(crate) use open::{CheckedMotion, check_motion, open};
 pub(crate) use preview::preview;
 pub(crate) use record::{record, record_opened, write};
 pub(crate) use repaint::RepaintSignal;
 pub(crate) use resolver::{Resolved, Resolver};
-pub(crate) use run::{FinishedRun, RunJob};
+pub(crate) use run::{FinishedRun, run};
 pub(crate) use state_feed::{SheetState, StateFeed};

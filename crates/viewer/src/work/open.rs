@@ -10,17 +10,14 @@ use super::{Job, RepaintSignal};
 /// The result of checking a motion file.
 #[derive(Debug)]
 pub(crate) struct CheckedMotion {
-    /// The findings of the check.
     pub(crate) findings: Arc<Findings>,
-    /// The certificate of the findings.
     pub(crate) certificate: Certificate,
 }
 
 /// Reads a file: a scene, a crease pattern or a motion.
 pub(crate) fn open(path: PathBuf, repaint: RepaintSignal) -> Job<Opened> {
-    Job::start("foldmotion open", repaint, move |context| {
-        let progress = |phase, done| context.report(phase, done);
-        Ok(Opened::read(&path, &progress)?)
+    Job::start("foldmotion open", repaint, move |report| {
+        Ok(Opened::read(&path, report)?)
     })
 }
 
@@ -29,9 +26,8 @@ pub(crate) fn check_motion(
     motion: Arc<OpenedMotion>,
     repaint: RepaintSignal,
 ) -> Job<CheckedMotion> {
-    Job::start("foldmotion check", repaint, move |context| {
-        let progress = |phase, done| context.report(phase, done);
-        let (findings, certificate) = motion.check(&CheckOptions::default(), &progress)?;
+    Job::start("foldmotion check", repaint, move |report| {
+        let (findings, certificate) = motion.check(&CheckOptions::default(), report)?;
         Ok(CheckedMotion {
             findings: Arc::new(findings),
             certificate,

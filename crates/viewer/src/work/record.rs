@@ -16,9 +16,8 @@ pub(crate) fn record(
     folder: PathBuf,
     repaint: RepaintSignal,
 ) -> Job<Vec<String>> {
-    Job::start("foldmotion record", repaint, move |context| {
-        let progress = |phase, done| context.report(phase, done);
-        Ok(study.record_as(&folded, &record, &folder, &progress)?)
+    Job::start("foldmotion record", repaint, move |report| {
+        Ok(study.record_as(&folded, &record, &folder, report)?)
     })
 }
 
@@ -30,9 +29,8 @@ pub(crate) fn record_opened(
     folder: PathBuf,
     repaint: RepaintSignal,
 ) -> Job<Vec<String>> {
-    Job::start("foldmotion record", repaint, move |context| {
-        let progress = |phase, done| context.report(phase, done);
-        let made = motion.record_as(findings.as_deref(), &record, &folder, &progress)?;
+    Job::start("foldmotion record", repaint, move |report| {
+        let made = motion.record_as(findings.as_deref(), &record, &folder, report)?;
         Ok(made.files)
     })
 }
@@ -44,9 +42,8 @@ pub(crate) fn write(
     folder: PathBuf,
     repaint: RepaintSignal,
 ) -> Job<Vec<String>> {
-    Job::start("foldmotion write", repaint, move |context| {
-        let progress = |phase, done| context.report(phase, done);
-        let mut files = study.write(&folded, &folder, &progress)?.files;
+    Job::start("foldmotion write", repaint, move |report| {
+        let mut files = study.write(&folded, &folder, report)?.files;
         files.push("report.json".to_owned());
         Ok(files)
     })
@@ -90,7 +87,7 @@ mod tests {
     }
 
     #[test]
-    fn a_run_is_written_opened_judged_and_recorded_from_the_window() {
+    fn a_run_is_written_opened_checked_and_recorded() {
         let more = "[motion]\nengine = \"dynamic\"\nframes = 24\n";
         let study = Arc::new(Study::resolve(&source(more)).unwrap());
         let folded = Arc::new(study.compute(&|_, _| true).unwrap());

@@ -58,7 +58,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_comes_often_wakes_at_a_bounded_rate_and_what_comes_once_always() {
+    fn limited_requests_have_a_bounded_rate_and_others_always_repaint() {
         let count = Arc::new(AtomicUsize::new(0));
         let counted = Arc::clone(&count);
         let repaint = RepaintSignal::new(move || {

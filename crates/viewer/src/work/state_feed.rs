@@ -16,9 +16,7 @@ const WINDOW: Duration = Duration::from_secs(1);
 /// A state of the sheet.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct SheetState {
-    /// The number of the state, from 1.
     pub(crate) serial: u64,
-    /// The motion time.
     pub(crate) time: f64,
     /// One position per vertex, in the sheet's unit.
     pub(crate) positions: Arc<Vec<DVec3>>,
@@ -49,24 +47,24 @@ impl StateFeed {
         recent.count()
     }
 
-    /// Publishes the state in which the sheet comes to rest.
-    pub(super) fn show_last(&self, time: f64, positions: Vec<DVec3>) {
-        self.put(time, positions);
-    }
-
     /// Publishes a state unless the last one is too recent; only then are `positions` computed. Returns whether it did.
-    pub(super) fn show(&self, time: f64, positions: impl FnOnce() -> Vec<DVec3>) -> bool {
+    pub(super) fn publish_limited(
+        &self,
+        time: f64,
+        positions: impl FnOnce() -> Vec<DVec3>,
+    ) -> bool {
         let now = Instant::now();
         let is_due = |inner: &Inner| inner.times.back().is_none_or(|last| now - *last >= SPACING);
         if !is_due(&lock(&self.0)) {
             return false;
         }
         // The lock is not held here, so that the window does not wait for a large sheet.
-        self.put(time, positions());
+        self.publish(time, positions());
         true
     }
 
-    fn put(&self, time: f64, positions: Vec<DVec3>) {
+    /// Publishes a state.
+    pub(super) fn publish(&self, time: f64, positions: Vec<DVec3>) {
         let now = Instant::now();
         let mut inner = lock(&self.0);
         let serial = inner.state.as_ref().map_or(0, |state| state.serial) + 1;
@@ -94,7 +92,7 @@ mod tests {
         let started = Instant::now();
         let mut shown = 0_u64;
         while shown < 5 {
-            shown += u64::from(states.show(shown as f64, || vec![DVec3::X]));
+            shown += u64::from(states.publish_limited(shown as f64, || vec![DVec3::X]));
         }
         assert!(started.elapsed() >= 4 * SPACING);
         let state = states.latest().unwrap();

@@ -5,6 +5,7 @@ use std::thread::{Builder, JoinHandle, available_parallelism, sleep};
 use std::time::{Duration, Instant};
 
 use super::WorkError;
+use crate::error::panic_message;
 
 /// How long to wait for a worker that was dropped: long enough for most to end, too short to be noticed.
 const JOIN_TIMEOUT: Duration = Duration::from_millis(100);
@@ -40,8 +41,10 @@ pub(super) fn in_thread_pool<T: Send>(
 /// Runs `work` and turns a panic into an error.
 pub(super) fn catch_panic<T>(work: impl FnOnce() -> Result<T, WorkError>) -> Result<T, WorkError> {
     // Whatever a panic leaves unfinished is dropped with `work`.
-    catch_unwind(AssertUnwindSafe(work))
-        .unwrap_or_else(|payload| Err(WorkError::of_panic(payload.as_ref())))
+    catch_unwind(AssertUnwindSafe(work)).unwrap_or_else(|payload| {
+        let message = panic_message(payload.as_ref());
+        Err(WorkError::Panic { message })
+    })
 }
 
 /// Waits briefly for a thread that was asked to stop, so that it can clean up.

@@ -162,7 +162,7 @@ impl Window {
     pub(crate) fn until_preview(&mut self) {
         self.until("a preview", |window| {
             window.says("preview: without contact, not checked")
-                && !window.words_over().contains("Out of date")
+                && !window.text_over_view().contains("Out of date")
                 && window.is_at_rest()
         });
     }
@@ -217,7 +217,7 @@ impl Window {
     }
 
     /// The text over the view: motion time, kind of motion and verdict.
-    pub(crate) fn words_over(&self) -> String {
+    pub(crate) fn text_over_view(&self) -> String {
         let found = self.harness.query_all_by_label_contains("t = ");
         let words = found.filter_map(|node| node.value());
         words

@@ -12,7 +12,7 @@ fn closed_forms(window: &Window) -> Vec<String> {
 }
 
 #[test]
-fn a_dragged_control_point_changes_the_text_and_the_closed_forms_and_can_be_taken_back() {
+fn a_dragged_control_point_changes_the_text_and_the_closed_forms_and_can_be_undone() {
     let mut window = Window::over(ARCH);
     window.until_preview();
     let before = closed_forms(&window);
@@ -113,7 +113,7 @@ fn an_edit_in_the_panel_waits_for_a_text_without_errors() {
 }
 
 #[test]
-fn typing_in_the_text_is_taken_back_in_one_go() {
+fn typing_in_the_text_is_undone_in_one_step() {
     let mut window = Window::over(SMALL);
     window.press(Key::F7);
     window.set_text(ARCH);

@@ -52,7 +52,7 @@ fn a_scene_is_saved_under_another_name_and_overwrites_only_when_told_to() {
 }
 
 #[test]
-fn a_new_scene_asks_for_its_place_when_it_is_saved() {
+fn a_new_scene_asks_for_its_path_when_it_is_saved() {
     let mut window = Window::empty();
     window.press_with(Modifiers::COMMAND, Key::S);
     let path = window.folder.path().join("first");
@@ -78,7 +78,7 @@ fn another_scene_is_opened_through_the_window() {
 }
 
 #[test]
-fn unsaved_edits_are_asked_for_before_another_scene_comes() {
+fn the_window_asks_about_unsaved_edits_before_it_opens_another_scene() {
     for answer in ["Cancel", "Discard edits", "Save"] {
         let (mut window, text) = edited();
         window.press_with(Modifiers::COMMAND, Key::N);
@@ -116,7 +116,7 @@ fn escape_answers_the_question_with_cancel() {
 }
 
 #[test]
-fn a_file_that_another_program_has_changed_is_not_overwritten_unasked() {
+fn a_file_that_another_program_has_changed_is_not_overwritten_without_asking() {
     for (answer, on_disk, title) in [
         ("Cancel", ARCH, "• scene.toml — foldmotion"),
         ("Reload", ARCH, "scene.toml — foldmotion"),
@@ -153,7 +153,7 @@ impl DroppedFile for Dropped {
 }
 
 #[test]
-fn a_dropped_file_is_opened_after_unsaved_edits_were_asked_for() {
+fn a_dropped_file_is_opened_after_asking_about_unsaved_edits() {
     let (mut window, _) = edited();
     let other = window.folder.path().join("arch.toml");
     fs::write(&other, ARCH).unwrap();

@@ -11,15 +11,17 @@ fn a_sheet_moved_by_hand_follows_the_timeline_until_that_ends() {
     window.enter("t", "1.2");
     window.click("by hand");
     assert!(window.is_on("by hand") && window.says("moved by hand: drag the timeline"));
-    window.until("its first state", |w| w.words_over().starts_with("t = 1.2"));
+    window.until("its first state", |w| {
+        w.text_over_view().starts_with("t = 1.2")
+    });
     window.enter("t", "1.6");
     window.until("it has followed", |w| {
-        w.words_over().starts_with("t = 1.6000, moved by hand")
+        w.text_over_view().starts_with("t = 1.6000, moved by hand")
     });
     window.press(Key::H);
     assert!(!window.is_on("by hand"));
     assert!(window.says("preview: without contact, not checked"));
-    assert!(window.words_over().starts_with("t = 1.6000"));
+    assert!(window.text_over_view().starts_with("t = 1.6000"));
 }
 
 #[test]
@@ -39,5 +41,5 @@ fn an_edit_shows_the_new_sheet_and_ends_moving_the_old_one() {
     window.press(Key::H);
     window.enter("columns Nc", "3");
     window.until_preview();
-    assert!(!window.is_on("by hand"), "{}", window.words_over());
+    assert!(!window.is_on("by hand"), "{}", window.text_over_view());
 }

@@ -31,7 +31,7 @@ fn compare(window: &mut Window, name: &str) {
 }
 
 #[test]
-#[cfg_attr(not(gpu_tests), ignore = "no adapter: set FOLDMOTION_GPU_TESTS=yes")]
+#[cfg_attr(not(gpu_tests), ignore = "needs a GPU and FOLDMOTION_GPU_TESTS=yes")]
 fn the_deployed_sheet_in_dark() {
     let mut window = drawn(Theme::Dark, SMALL);
     window.until_preview();
@@ -39,7 +39,7 @@ fn the_deployed_sheet_in_dark() {
 }
 
 #[test]
-#[cfg_attr(not(gpu_tests), ignore = "no adapter: set FOLDMOTION_GPU_TESTS=yes")]
+#[cfg_attr(not(gpu_tests), ignore = "needs a GPU and FOLDMOTION_GPU_TESTS=yes")]
 fn the_deployed_sheet_in_light() {
     let mut window = drawn(Theme::Light, SMALL);
     window.until_preview();
@@ -47,7 +47,7 @@ fn the_deployed_sheet_in_light() {
 }
 
 #[test]
-#[cfg_attr(not(gpu_tests), ignore = "no adapter: set FOLDMOTION_GPU_TESTS=yes")]
+#[cfg_attr(not(gpu_tests), ignore = "needs a GPU and FOLDMOTION_GPU_TESTS=yes")]
 fn half_folded_with_strain_after_a_run() {
     let mut window = drawn(Theme::Dark, SMALL);
     window.run_scene();
@@ -58,7 +58,7 @@ fn half_folded_with_strain_after_a_run() {
 }
 
 #[test]
-#[cfg_attr(not(gpu_tests), ignore = "no adapter: set FOLDMOTION_GPU_TESTS=yes")]
+#[cfg_attr(not(gpu_tests), ignore = "needs a GPU and FOLDMOTION_GPU_TESTS=yes")]
 fn compact_with_its_boxes() {
     let mut window = drawn(Theme::Dark, SMALL);
     window.until_preview();
@@ -70,7 +70,7 @@ fn compact_with_its_boxes() {
 }
 
 #[test]
-#[cfg_attr(not(gpu_tests), ignore = "no adapter: set FOLDMOTION_GPU_TESTS=yes")]
+#[cfg_attr(not(gpu_tests), ignore = "needs a GPU and FOLDMOTION_GPU_TESTS=yes")]
 fn the_record_dialog() {
     let mut window = drawn(Theme::Light, SMALL);
     window.run_scene();

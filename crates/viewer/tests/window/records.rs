@@ -73,7 +73,7 @@ fn a_run_is_recorded_as_film_figure_and_model() {
 }
 
 #[test]
-fn a_preview_is_not_recorded_and_the_way_out_is_shown() {
+fn a_preview_is_not_recorded_and_a_run_is_offered() {
     let mut window = Window::over(SMALL);
     window.until_preview();
     window.press_with(Modifiers::COMMAND, Key::E);

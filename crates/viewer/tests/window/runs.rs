@@ -33,7 +33,7 @@ fn a_run_shows_the_numbers_that_the_library_computes() {
     let strain = format!("largest strain {:.2e} at", report.stages[0].peak_strain);
     assert!(window.has(&strain), "{strain}");
     assert!(window.says("bar strain, % over motion time"));
-    assert!(!window.says("ut of date"));
+    assert!(!window.says("of date: the scene has changed"));
 }
 
 #[test]
@@ -43,8 +43,8 @@ fn a_run_is_followed_and_then_shown_at_its_end() {
     window.press(Key::F5);
     assert!(window.has("Cancel") && window.is_on("follow"));
     window.until_said("states per second");
-    let first = window.words_over();
-    window.until("another state", |w| w.words_over() != first);
+    let first = window.text_over_view();
+    window.until("another state", |w| w.text_over_view() != first);
     window.click("follow");
     assert!(!window.says("states per second"));
     window.click("Cancel");
@@ -65,7 +65,7 @@ fn escape_cancels_a_run_and_a_second_run_has_to_wait() {
 }
 
 #[test]
-fn an_edit_during_a_run_is_taken_and_the_result_is_marked_until_it_is_undone() {
+fn an_edit_during_a_run_is_accepted_and_the_result_is_out_of_date_until_it_is_undone() {
     let mut window = Window::over(&SMALL.replace("frames = 8", "frames = 200"));
     window.until_preview();
     window.press(Key::F5);
@@ -75,24 +75,26 @@ fn an_edit_during_a_run_is_taken_and_the_result_is_marked_until_it_is_undone() {
         w.says("pairs tested between") && !w.has("Cancel")
     });
     assert!(
-        window.says("Out of date: the scene has changed since this run"),
+        window.says("of date: the scene has changed"),
         "{}",
         window.all_words()
     );
     window.until_preview();
     assert!(window.says("Last run (out of date"));
     window.undo();
-    window.until("the run's own scene again", |w| !w.says("ut of date"));
+    window.until("the run's own scene again", |w| {
+        !w.says("of date: the scene has changed")
+    });
     let outcome = report_of(SMALL).outcome.headline();
     assert!(
-        window.words_over().ends_with(&outcome),
+        window.text_over_view().ends_with(&outcome),
         "{}",
-        window.words_over()
+        window.text_over_view()
     );
 }
 
 #[test]
-fn a_run_stays_in_sight_while_an_edit_cannot_be_drawn() {
+fn a_run_stays_visible_while_an_edit_is_invalid() {
     let mut window = Window::over(SMALL);
     window.run_scene();
     window.enter("width W", "-1");
@@ -118,7 +120,7 @@ fn penetrations_are_shown_and_the_time_of_the_first_is_a_link() {
         window.time(),
         first.t
     );
-    assert!(window.says("penetrate here"), "{}", window.words_over());
+    assert!(window.says("penetrate here"), "{}", window.text_over_view());
 }
 
 #[test]

@@ -26,9 +26,9 @@ fn the_bar_is_dragged_to_any_time() {
     assert!(window.says("folding, 50 %"));
     let said = format!("t = {:.4}", window.time());
     assert!(
-        window.words_over().starts_with(&said),
+        window.text_over_view().starts_with(&said),
         "{}",
-        window.words_over()
+        window.text_over_view()
     );
     let (from, beyond) = (place(&window, 1.5), vec2(-3000.0, 0.0));
     window.drag(from, beyond);

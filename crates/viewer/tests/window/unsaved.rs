@@ -66,7 +66,7 @@ fn closing_with_edits_asks_and_does_what_is_answered() {
 }
 
 #[test]
-fn a_window_that_ended_without_warning_offers_its_edits_to_the_next() {
+fn the_edits_of_a_crashed_window_are_offered_to_the_next() {
     let (mut window, text) = after_a_crash();
     assert!(
         window.has("Unsaved edits") && window.says("unsaved changes to scene.toml, a moment ago")
@@ -85,7 +85,7 @@ fn a_window_that_ended_without_warning_offers_its_edits_to_the_next() {
 }
 
 #[test]
-fn offered_edits_can_wait_or_be_thrown_away() {
+fn offered_edits_can_be_kept_or_discarded() {
     let (mut window, _) = after_a_crash();
     window.click("Later");
     assert!(!window.has("Unsaved edits"));

@@ -5,13 +5,13 @@ use egui_kittest::kittest::Queryable as _;
 use foldmotion_study::models;
 
 use super::super::curve::own_profile;
-use super::test_panel::{TestPanel, bench, click, drag, enter};
+use super::test_panel::{TestPanel, click, drag, enter, panel};
 
 const ARCH: &str = "[profile]\ncontrol_points = [[3.0, 0.0], [2.0, 0.0], [2.0, 2.5], [0.0, 3.5], [-2.0, 2.5], [-3.0, 0.0]]\n\
                     [sheet]\nrows = 6\ncolumns = 2\n";
 
-fn points(bench: &TestPanel) -> Vec<[f64; 2]> {
-    bench.scene.profile.control_points.clone().unwrap()
+fn points(state: &TestPanel) -> Vec<[f64; 2]> {
+    state.scene.profile.control_points.clone().unwrap()
 }
 
 /// Points on the screen per unit of length.
@@ -23,7 +23,7 @@ fn scale(harness: &egui_kittest::Harness<'static, TestPanel>) -> f64 {
 
 #[test]
 fn a_dragged_control_point_moves_by_the_drag_over_the_scale() {
-    let mut harness = bench(ARCH);
+    let mut harness = panel(ARCH);
     let scale = scale(&harness);
     let from = harness.get_by_label("control point 4").rect().center();
     drag(&mut harness, from, vec2(24.0, -15.0), 4);
@@ -42,7 +42,7 @@ fn a_dragged_control_point_moves_by_the_drag_over_the_scale() {
 
 #[test]
 fn two_drags_are_two_changes_to_undo() {
-    let mut harness = bench(ARCH);
+    let mut harness = panel(ARCH);
     for _ in 0..2 {
         let from = harness.get_by_label("control point 3").rect().center();
         drag(&mut harness, from, vec2(12.0, 6.0), 3);
@@ -58,7 +58,7 @@ fn two_drags_are_two_changes_to_undo() {
 
 #[test]
 fn a_double_click_on_the_polygon_adds_a_control_point_there() {
-    let mut harness = bench(ARCH);
+    let mut harness = panel(ARCH);
     let at = |name: &str| harness.get_by_label(name).rect().center();
     let middle = at("control point 4") + (at("control point 5") - at("control point 4")) * 0.5;
     double_click(&mut harness, middle);
@@ -87,8 +87,8 @@ fn double_click(harness: &mut egui_kittest::Harness<'static, TestPanel>, at: Pos
 }
 
 #[test]
-fn points_leave_by_right_click_and_by_key_until_four_are_left() {
-    let mut harness = bench(ARCH);
+fn points_are_removed_by_right_click_and_by_key_until_four_are_left() {
+    let mut harness = panel(ARCH);
     harness.get_by_label("control point 2").click_secondary();
     harness.run();
     assert_eq!(points(harness.state()).len(), 5);
@@ -101,8 +101,8 @@ fn points_leave_by_right_click_and_by_key_until_four_are_left() {
 }
 
 #[test]
-fn arrow_keys_nudge_the_selected_point_and_its_fields_place_it_exactly() {
-    let mut harness = bench(ARCH);
+fn arrow_keys_move_the_selected_point_and_its_fields_set_it_exactly() {
+    let mut harness = panel(ARCH);
     click(&mut harness, "control point 4");
     harness.run();
     harness.key_press(Key::ArrowRight);
@@ -115,9 +115,9 @@ fn arrow_keys_nudge_the_selected_point_and_its_fields_place_it_exactly() {
 }
 
 #[test]
-fn a_model_is_turned_into_control_points_of_the_same_curve() {
+fn a_model_is_converted_to_control_points_of_the_same_curve() {
     for model in models() {
-        let mut harness = bench(&format!("[profile]\nmodel = \"{}\"\n", model.name));
+        let mut harness = panel(&format!("[profile]\nmodel = \"{}\"\n", model.name));
         click(&mut harness, "edit as control points");
         let after = own_profile(&harness.state().scene.profile).unwrap();
         let before = model.profile().unwrap();
@@ -130,7 +130,7 @@ fn a_model_is_turned_into_control_points_of_the_same_curve() {
                 model.name
             );
         }
-        let heights = |bench: &TestPanel| bench.draft.as_ref().unwrap().units().unwrap().units.unit;
+        let heights = |state: &TestPanel| state.draft.as_ref().unwrap().units().unwrap().units.unit;
         let unit = heights(harness.state());
         harness.state_mut().redraft();
         assert_eq!(harness.state().errors, [], "{}", model.name);
@@ -143,7 +143,7 @@ fn a_model_is_turned_into_control_points_of_the_same_curve() {
 
 #[test]
 fn the_canvas_stays_usable_without_a_draft_and_with_points_that_make_no_curve() {
-    let mut harness = bench("[profile]\ncontrol_points = [[0.0, 0.0], [1.0, 1.0], [2.0, 0.0]]\n");
+    let mut harness = panel("[profile]\ncontrol_points = [[0.0, 0.0], [1.0, 1.0], [2.0, 0.0]]\n");
     assert!(harness.state().draft.is_none());
     let from = harness.get_by_label("control point 2").rect().center();
     drag(&mut harness, from, vec2(0.0, 20.0), 2);
@@ -152,7 +152,7 @@ fn the_canvas_stays_usable_without_a_draft_and_with_points_that_make_no_curve() 
 
 #[test]
 fn the_wheel_zooms_and_the_right_button_moves_the_view_but_not_the_scene() {
-    let mut harness = bench(ARCH);
+    let mut harness = panel(ARCH);
     let before = scale(&harness);
     let centre = harness.get_by_label("profile canvas").rect().center();
     harness.hover_at(centre);
@@ -173,7 +173,7 @@ fn the_wheel_zooms_and_the_right_button_moves_the_view_but_not_the_scene() {
 
 #[test]
 fn a_curve_through_points_is_moved_by_its_points() {
-    let mut harness = bench(
+    let mut harness = panel(
         "[profile]\npoints = [[0.0, 0.0], [1.0, 1.0], [2.0, 0.0]]\n[sheet]\nrows = 4\ncolumns = 2\n",
     );
     let from = harness.get_by_label("point 2").rect().center();

@@ -5,20 +5,20 @@ use foldmotion_study::scene::{CaseChoice, CreaseGroup, EngineChoice, OutputChoic
 use foldmotion_study::{Scene, SceneSource};
 
 use super::super::SceneError;
-use super::test_panel::{bench, bench_in, bench_of, click, drag, enter, scenes};
+use super::test_panel::{click, drag, enter, panel, panel_of, scenes};
 
 const SHELTER: &str =
     "[profile]\nmodel = \"shelter\"\n[sheet]\nwidth = 5.0\ncolumns = 3\ncase = \"S\"\n";
 
 #[test]
 fn a_panel_that_nobody_touches_changes_nothing() {
-    let harness = bench(SHELTER);
+    let harness = panel(SHELTER);
     assert!(harness.state().changes.is_empty());
 }
 
 #[test]
-fn a_typed_width_becomes_the_width_and_an_empty_field_leaves_it_out() {
-    let mut harness = bench(SHELTER);
+fn a_typed_width_becomes_the_width_and_an_empty_field_omits_it() {
+    let mut harness = panel(SHELTER);
     enter(&mut harness, "width W", "6.25");
     assert_eq!(harness.state().scene.sheet.width, Some(6.25));
     assert_eq!(harness.state().labels(), [("width W", false)]);
@@ -28,7 +28,7 @@ fn a_typed_width_becomes_the_width_and_an_empty_field_leaves_it_out() {
 
 #[test]
 fn entering_a_field_and_leaving_it_writes_nothing() {
-    let mut harness = bench(
+    let mut harness = panel(
         "[profile]\nmodel = \"shelter\"\n[sheet]\nwidth = 5.123456789012345\ncolumns = 3\ncase = \"S\"\n",
     );
     for field in ["width W", "rows Nr", "columns Nc", "length", "tolerance"] {
@@ -45,8 +45,8 @@ fn entering_a_field_and_leaving_it_writes_nothing() {
 }
 
 #[test]
-fn what_is_no_number_is_not_taken() {
-    let mut harness = bench(SHELTER);
+fn text_that_is_not_a_number_is_refused() {
+    let mut harness = panel(SHELTER);
     for text in ["five", "NaN", "1e999"] {
         enter(&mut harness, "width W", text);
         assert_eq!(harness.state().scene.sheet.width, Some(5.0), "{text}");
@@ -55,21 +55,21 @@ fn what_is_no_number_is_not_taken() {
 
 #[test]
 fn a_typed_value_may_lie_beyond_where_a_drag_ends() {
-    let mut harness = bench(SHELTER);
+    let mut harness = panel(SHELTER);
     enter(&mut harness, "rows Nr", "4000");
     assert_eq!(harness.state().scene.sheet.rows, Some(4000));
 }
 
 #[test]
-fn a_key_is_left_out_again_by_its_button() {
-    let mut harness = bench(SHELTER);
+fn a_reset_button_omits_the_key() {
+    let mut harness = panel(SHELTER);
     click(&mut harness, "default of width W");
     assert_eq!(harness.state().scene.sheet.width, None);
 }
 
 #[test]
-fn a_case_is_chosen_and_brings_what_it_needs() {
-    let mut harness = bench(SHELTER);
+fn a_chosen_case_sets_the_keys_it_needs() {
+    let mut harness = panel(SHELTER);
     click(&mut harness, "case SII");
     let sheet = &harness.state().scene.sheet;
     assert_eq!(
@@ -88,7 +88,7 @@ fn a_case_is_chosen_and_brings_what_it_needs() {
 
 #[test]
 fn cases_that_contradict_the_unit_cannot_be_chosen() {
-    let harness = bench(SHELTER);
+    let harness = panel(SHELTER);
     let disabled = |case: &str| harness.get_by_label(case).accesskit_node().is_disabled();
     let cases = [
         "case E",
@@ -103,9 +103,9 @@ fn cases_that_contradict_the_unit_cannot_be_chosen() {
 }
 
 #[test]
-fn the_case_at_hand_stays_enabled_while_it_contradicts() {
+fn the_current_case_stays_enabled_even_if_w_h_rules_it_out() {
     let harness =
-        bench("[profile]\nmodel = \"shelter\"\n[sheet]\nwidth = 5.0\ncolumns = 3\ncase = \"T\"\n");
+        panel("[profile]\nmodel = \"shelter\"\n[sheet]\nwidth = 5.0\ncolumns = 3\ncase = \"T\"\n");
     assert!(harness.state().draft.is_none());
     assert!(
         !harness
@@ -122,12 +122,9 @@ fn the_case_at_hand_stays_enabled_while_it_contradicts() {
 }
 
 #[test]
-fn a_fault_stands_once_at_its_control_or_else_in_its_section_or_at_the_top() {
-    let mut harness = bench(SHELTER);
-    let error = |key: Option<&str>, message: &str| SceneError {
-        key: key.map(str::to_owned),
-        message: message.to_owned(),
-    };
+fn an_error_is_shown_once_at_its_control_or_else_in_its_section_or_at_the_top() {
+    let mut harness = panel(SHELTER);
+    let error = |key: Option<&str>, message: &str| SceneError::new(key, &message);
     harness.state_mut().errors = vec![
         error(Some("sheet.width"), "too wide"),
         error(Some("division"), "not divided"),
@@ -146,21 +143,18 @@ fn a_fault_stands_once_at_its_control_or_else_in_its_section_or_at_the_top() {
 }
 
 #[test]
-fn a_fault_that_comes_and_goes_does_not_take_the_focus() {
-    let mut harness = bench(SHELTER);
+fn an_error_that_appears_does_not_take_the_focus() {
+    let mut harness = panel(SHELTER);
     harness.get_by_label("rows Nr").focus();
     harness.run();
-    harness.state_mut().errors = vec![SceneError {
-        key: Some("sheet.width".to_owned()),
-        message: "too wide".to_owned(),
-    }];
+    harness.state_mut().errors = vec![SceneError::new(Some("sheet.width"), &"too wide")];
     harness.run();
     assert!(harness.get_by_label("rows Nr").is_focused());
 }
 
 #[test]
 fn steps_are_added_filled_moved_and_removed() {
-    let mut harness = bench(SHELTER);
+    let mut harness = panel(SHELTER);
     click(&mut harness, "Motion");
     click(&mut harness, "add step");
     click(&mut harness, "add step");
@@ -197,8 +191,8 @@ fn steps_are_added_filled_moved_and_removed() {
 }
 
 #[test]
-fn a_menu_sets_a_key_and_its_default_leaves_it_out() {
-    let mut harness = bench(SHELTER);
+fn a_menu_sets_a_key_and_its_default_omits_it() {
+    let mut harness = panel(SHELTER);
     click(&mut harness, "Motion");
     click(&mut harness, "engine");
     click(&mut harness, "dynamic");
@@ -212,8 +206,8 @@ fn a_menu_sets_a_key_and_its_default_leaves_it_out() {
 }
 
 #[test]
-fn outputs_start_from_those_that_are_written_anyway() {
-    let mut harness = bench(SHELTER);
+fn outputs_start_from_the_defaults() {
+    let mut harness = panel(SHELTER);
     click(&mut harness, "Record");
     click(&mut harness, "mp4");
     let outputs = harness.state().scene.record.outputs.clone().unwrap();
@@ -227,8 +221,8 @@ fn outputs_start_from_those_that_are_written_anyway() {
 }
 
 #[test]
-fn a_switch_that_says_what_holds_anyway_leaves_the_key_out() {
-    let mut harness = bench(SHELTER);
+fn a_switch_set_to_its_default_omits_the_key() {
+    let mut harness = panel(SHELTER);
     click(&mut harness, "Motion");
     click(&mut harness, "layers keep apart");
     assert_eq!(harness.state().scene.motion.contact, Some(false));
@@ -240,7 +234,11 @@ fn a_switch_that_says_what_holds_anyway_leaves_the_key_out() {
 fn a_scene_of_an_imported_pattern_shows_its_keys_in_place_of_the_sheet() {
     let path = scenes().join("imported/frame.toml");
     let text = std::fs::read_to_string(&path).unwrap();
-    let mut harness = bench_in(&text, &path, eframe::egui::Theme::Dark, 2600.0);
+    let mut harness = panel_of(
+        &SceneSource::new(&path, text),
+        eframe::egui::Theme::Dark,
+        2600.0,
+    );
     assert!(harness.query_by_label("Sheet").is_none());
     enter(&mut harness, "fold %", "-40");
     let pattern = harness.state().scene.pattern.clone().unwrap();
@@ -255,7 +253,7 @@ fn a_scene_of_an_imported_pattern_shows_its_keys_in_place_of_the_sheet() {
 
 #[test]
 fn a_text_is_taken_when_it_is_complete() {
-    let mut harness = bench(SHELTER);
+    let mut harness = panel(SHELTER);
     click(&mut harness, "Record");
     enter(&mut harness, "states at", "0, 1.25, 2");
     assert_eq!(harness.state().scene.record.at, Some(vec![0.0, 1.25, 2.0]));
@@ -264,7 +262,7 @@ fn a_text_is_taken_when_it_is_complete() {
 
 #[test]
 fn a_field_under_a_drag_is_one_change_to_undo() {
-    let mut harness = bench(SHELTER);
+    let mut harness = panel(SHELTER);
     let from = harness.get_by_label("width W").rect().center();
     drag(&mut harness, from, eframe::egui::vec2(40.0, 0.0), 5);
     assert!(harness.state().scene.sheet.width.unwrap() > 5.0);
@@ -279,7 +277,7 @@ fn a_field_under_a_drag_is_one_change_to_undo() {
 
 #[test]
 fn a_text_that_cannot_be_read_changes_nothing() {
-    let mut harness = bench(SHELTER);
+    let mut harness = panel(SHELTER);
     click(&mut harness, "Record");
     enter(&mut harness, "states at", "0, half, 2");
     assert!(harness.state().changes.is_empty());
@@ -287,7 +285,7 @@ fn a_text_that_cannot_be_read_changes_nothing() {
 
 #[test]
 fn the_rows_of_a_step_are_one_or_a_range_or_all() {
-    let mut harness = bench(SHELTER);
+    let mut harness = panel(SHELTER);
     click(&mut harness, "Motion");
     click(&mut harness, "add step");
     let mut rows = |label: &str, text: &str| {
@@ -301,8 +299,8 @@ fn the_rows_of_a_step_are_one_or_a_range_or_all() {
 }
 
 #[test]
-fn the_closed_forms_of_every_case_that_the_unit_allows_stand_beside_each_other() {
-    let harness = bench(SHELTER);
+fn the_closed_forms_of_every_allowed_case_are_in_the_table() {
+    let harness = panel(SHELTER);
     // Nr = 7, Nc = 3, W = 5, h = 1: equation 6 gives V = Nc (Nr + 1) / 4 (w - h) h² = 4. The size is shown in the table
     // and as the compact box of the draft.
     assert_eq!(harness.query_all_by_label("4 × 2 × 0.5").count(), 2);
@@ -323,7 +321,7 @@ fn nothing_is_wider_than_a_narrow_panel() {
     ] {
         let path = scenes().join(scene).with_extension("toml");
         let source = SceneSource::read(&path).unwrap();
-        let mut harness = bench_of(&source, eframe::egui::Theme::Dark, 4000.0);
+        let mut harness = panel_of(&source, eframe::egui::Theme::Dark, 4000.0);
         harness.set_size(eframe::egui::vec2(320.0, 4000.0));
         harness.run();
         for section in ["Material", "Motion", "Record"] {

@@ -9,7 +9,7 @@ use egui_kittest::kittest::Queryable as _;
 use foldmotion_study::SceneSource;
 
 use super::super::SceneError;
-use super::test_panel::{TestPanel, bench_of, click, scenes};
+use super::test_panel::{TestPanel, click, panel_of, scenes};
 
 /// Draws the panel and returns the number of colours in the picture.
 fn colours(harness: &mut Harness<'static, TestPanel>, name: &str) -> usize {
@@ -31,20 +31,14 @@ fn colours(harness: &mut Harness<'static, TestPanel>, name: &str) -> usize {
 fn a_narrow_panel_shows_a_selected_point_the_unit_under_the_pointer_and_errors() {
     let path = scenes().join("omega-sii.toml");
     for (theme, name) in [(Theme::Dark, "dark"), (Theme::Light, "light")] {
-        let mut harness = bench_of(&SceneSource::read(&path).unwrap(), theme, 1400.0);
+        let mut harness = panel_of(&SceneSource::read(&path).unwrap(), theme, 1400.0);
         harness.set_size(eframe::egui::vec2(320.0, 1400.0));
         harness.run();
         click(&mut harness, "control point 5");
         let message = "omega.toml:9:9: sheet.width = -4.8: must be a positive, finite number";
         harness.state_mut().errors = vec![
-            SceneError {
-                key: Some("sheet.width".to_owned()),
-                message: message.to_owned(),
-            },
-            SceneError {
-                key: Some("division".to_owned()),
-                message: "the profile cannot be divided".to_owned(),
-            },
+            SceneError::new(Some("sheet.width"), &message),
+            SceneError::new(Some("division"), &"the profile cannot be divided"),
         ];
         harness.run();
         let pattern = harness.get_by_label("crease pattern").rect();
@@ -62,7 +56,7 @@ fn steps_own_camera_and_cases_that_contradict_are_drawn() {
                 stage = \"unfold\"\ncreases = \"diagonals\"\nfrom = 0.25\nto = 0.75\nease = \"smooth\"\n[record]\n\
                 size = [640, 480]\nthickened = 0.02\ncamera = { azimuth = 30.0, elevation = 20.0 }\n";
     for (theme, name) in [(Theme::Dark, "dark"), (Theme::Light, "light")] {
-        let mut harness = bench_of(
+        let mut harness = panel_of(
             &SceneSource::new("own.toml".as_ref(), text.to_owned()),
             theme,
             1900.0,
@@ -93,7 +87,7 @@ fn the_panel_is_drawn_dark_and_light() {
         ] {
             let path = scenes().join(scene).with_extension("toml");
             let source = SceneSource::read(&path).unwrap();
-            let mut harness = bench_of(&source, theme, 1400.0);
+            let mut harness = panel_of(&source, theme, 1400.0);
             let short = scene.replace('/', "-");
             assert!(colours(&mut harness, &format!("{short}-{name}")) > 20);
             for section in ["Profile", "Sheet", "Closed forms", "Pattern"] {
@@ -104,10 +98,10 @@ fn the_panel_is_drawn_dark_and_light() {
             for section in ["Material", "Motion", "Record"] {
                 click(&mut harness, section);
             }
-            harness.state_mut().errors = vec![SceneError {
-                key: Some("motion.frames".to_owned()),
-                message: "scene.toml:12:9: motion.frames = 3: must be an even number between 2 and 100000".to_owned(),
-            }];
+            harness.state_mut().errors = vec![SceneError::new(
+                Some("motion.frames"),
+                &"scene.toml:12:9: motion.frames = 3: must be an even number between 2 and 100000",
+            )];
             harness.run();
             assert!(colours(&mut harness, &format!("{short}-{name}-rest")) > 20);
         }

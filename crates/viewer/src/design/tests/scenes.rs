@@ -6,7 +6,7 @@ use eframe::egui::{Event, Key, Modifiers, PointerButton, Theme, pos2, vec2};
 use egui_kittest::kittest::Queryable as _;
 use foldmotion_study::SceneSource;
 
-use super::test_panel::{bench_of, drag, scenes};
+use super::test_panel::{drag, panel_of, scenes};
 
 fn all() -> Vec<PathBuf> {
     let files = |folder: PathBuf| {
@@ -28,7 +28,7 @@ fn every_scene_is_shown_with_its_draft_without_it_and_with_that_of_another() {
     assert!(all().len() > 20);
     for path in all() {
         let source = SceneSource::read(&path).unwrap();
-        let mut harness = bench_of(&source, Theme::Dark, 4000.0);
+        let mut harness = panel_of(&source, Theme::Dark, 4000.0);
         for section in ["Material", "Motion", "Record"] {
             harness.get_by_label(section).click();
             harness.run();
@@ -48,7 +48,7 @@ fn every_scene_is_shown_with_its_draft_without_it_and_with_that_of_another() {
 #[test]
 fn an_empty_scene_is_shown() {
     let source = SceneSource::new("new.toml".as_ref(), String::new());
-    let mut harness = bench_of(&source, Theme::Light, 4000.0);
+    let mut harness = panel_of(&source, Theme::Light, 4000.0);
     for section in ["Material", "Motion", "Record"] {
         harness.get_by_label(section).click();
         harness.run();
@@ -69,7 +69,7 @@ impl Random {
 }
 
 #[test]
-fn a_hand_that_presses_and_types_anywhere_breaks_nothing() {
+fn random_clicks_and_typing_break_nothing() {
     const KEYS: [Key; 7] = [
         Key::ArrowUp,
         Key::ArrowLeft,
@@ -82,7 +82,7 @@ fn a_hand_that_presses_and_types_anywhere_breaks_nothing() {
     let mut dice = Random(2_463_534_242);
     for scene in ["omega-sii", "shelter-unequal", "map-fold", "imported/frame"] {
         let source = SceneSource::read(&scenes().join(scene).with_extension("toml")).unwrap();
-        let mut harness = bench_of(&source, Theme::Dark, 2400.0);
+        let mut harness = panel_of(&source, Theme::Dark, 2400.0);
         for section in ["Material", "Motion", "Record"] {
             harness.get_by_label(section).click();
             harness.run();

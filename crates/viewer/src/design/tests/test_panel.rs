@@ -20,25 +20,16 @@ pub(super) struct TestPanel {
 }
 
 /// A panel 360 points wide and tall enough to show all of it.
-pub(super) fn bench(text: &str) -> Harness<'static, TestPanel> {
-    bench_in(text, Path::new("test.toml"), egui::Theme::Dark, 2600.0)
+pub(super) fn panel(text: &str) -> Harness<'static, TestPanel> {
+    let source = SceneSource::new(Path::new("test.toml"), text.to_owned());
+    panel_of(&source, egui::Theme::Dark, 2600.0)
 }
 
-/// The folder of scenes in the repository.
 pub(super) fn scenes() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes")
 }
 
-pub(super) fn bench_in(
-    text: &str,
-    path: &Path,
-    theme: egui::Theme,
-    height: f32,
-) -> Harness<'static, TestPanel> {
-    bench_of(&SceneSource::new(path, text.to_owned()), theme, height)
-}
-
-pub(super) fn bench_of(
+pub(super) fn panel_of(
     source: &SceneSource,
     theme: egui::Theme,
     height: f32,
@@ -51,16 +42,16 @@ pub(super) fn bench_of(
         errors: Vec::new(),
         changes: Vec::new(),
     };
-    let show = |ui: &mut egui::Ui, bench: &mut TestPanel| {
+    let show = |ui: &mut egui::Ui, state: &mut TestPanel| {
         let facts = DesignInput {
-            scene: &bench.scene,
-            draft: bench.draft.as_ref(),
-            draft_number: bench.draft_number,
-            errors: &bench.errors,
+            scene: &state.scene,
+            draft: state.draft.as_ref(),
+            draft_number: state.draft_number,
+            errors: &state.errors,
         };
-        if let Some(change) = bench.panel.show(ui, &facts) {
-            bench.scene = change.scene.clone();
-            bench.changes.push(change);
+        if let Some(change) = state.panel.show(ui, &facts) {
+            state.scene = change.scene.clone();
+            state.changes.push(change);
         }
     };
     let builder = Harness::builder()
@@ -83,10 +74,7 @@ impl TestPanel {
         self.errors.clear();
         match Draft::resolve(&source) {
             Ok(draft) => self.draft = Some(draft),
-            Err(error) => self.errors.push(SceneError {
-                key: error.key().map(str::to_owned),
-                message: error.to_string(),
-            }),
+            Err(error) => self.errors.push(SceneError::new(error.key(), &error)),
         }
     }
 

@@ -6,11 +6,9 @@ use toml_edit::{DocumentMut, Item, RawString, Table};
 pub(super) struct DetachedComment {
     /// The position of the header that it stood under, in the order of headers.
     pub(super) position: isize,
-    /// The lines of the comment.
     pub(super) comment: String,
 }
 
-/// The text of a prefix or suffix.
 pub(super) fn text_of(raw: Option<&RawString>) -> String {
     raw.and_then(RawString::as_str)
         .unwrap_or_default()
@@ -23,7 +21,7 @@ pub(super) fn has_comment(space: &str) -> bool {
 }
 
 /// The part of the whitespace above a header that belongs to the table before it: up to the last empty line.
-pub(super) fn apart(space: &str) -> &str {
+pub(super) fn part_of_previous(space: &str) -> &str {
     space.rfind("\n\n").map_or("", |end| &space[..end + 2])
 }
 
@@ -38,8 +36,8 @@ pub(super) fn take_all(document: &mut DocumentMut) -> String {
 }
 
 /// Puts each comment above the header that follows the one it stood under, or at the end of the document.
-pub(super) fn reattach(document: &mut DocumentMut, orphans: Vec<DetachedComment>) {
-    for DetachedComment { position, comment } in orphans.into_iter().rev() {
+pub(super) fn reattach(document: &mut DocumentMut, detached: Vec<DetachedComment>) {
+    for DetachedComment { position, comment } in detached.into_iter().rev() {
         let next = next_position(document.as_table(), position);
         if let Some(table) = next.and_then(|next| table_at(document.as_table_mut(), next)) {
             let own = text_of(table.decor().prefix());

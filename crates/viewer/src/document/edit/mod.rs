@@ -36,14 +36,14 @@ pub(super) fn edited(text: &str, old: &Scene, new: &Scene) -> Option<String> {
     } else {
         String::new()
     };
-    let mut orphans = Vec::new();
+    let mut detached = Vec::new();
     table::edit(
         document.as_table_mut(),
         &old,
         &new,
-        &mut EditContext::root(&mut orphans),
+        &mut EditContext::root(&mut detached),
     );
-    comments::reattach(&mut document, orphans);
+    comments::reattach(&mut document, detached);
     let edited = format!("{head}{document}");
     // A header that has become the first needs no empty line above it.
     let edited = match edited.strip_prefix('\n') {
@@ -67,15 +67,15 @@ struct EditContext<'a> {
     /// Whether this is the root table of the document.
     root: bool,
     /// Comments whose key or table was removed.
-    orphans: &'a mut Vec<DetachedComment>,
+    detached: &'a mut Vec<DetachedComment>,
 }
 
 impl<'a> EditContext<'a> {
-    fn root(orphans: &'a mut Vec<DetachedComment>) -> Self {
+    fn root(detached: &'a mut Vec<DetachedComment>) -> Self {
         Self {
             position: 0,
             root: true,
-            orphans,
+            detached,
         }
     }
 
@@ -83,13 +83,13 @@ impl<'a> EditContext<'a> {
         EditContext {
             position: table.position().unwrap_or(self.position),
             root: false,
-            orphans: self.orphans,
+            detached: self.detached,
         }
     }
 
     /// Keeps a comment for whatever follows the current header.
     fn keep_comment(&mut self, comment: String) {
-        self.orphans.push(DetachedComment {
+        self.detached.push(DetachedComment {
             position: self.position,
             comment,
         });

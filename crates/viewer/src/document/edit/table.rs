@@ -3,7 +3,7 @@
 use toml_edit::{Array, ArrayOfTables, InlineTable, Item};
 
 use super::array::{self, ChangedRange};
-use super::comments::{apart, has_comment, last_position, text_of};
+use super::comments::{has_comment, last_position, part_of_previous, text_of};
 use super::value::{Keys, Value};
 use super::{EditContext, literal};
 
@@ -160,7 +160,7 @@ fn edit_tables(
 /// Keeps the comments above a removed header that belong to the table before it.
 fn keep_above(removed: &toml_edit::Table, context: &mut EditContext<'_>) {
     let above = text_of(removed.decor().prefix());
-    let apart = apart(&above);
+    let apart = part_of_previous(&above);
     if has_comment(apart) {
         context.within(removed).keep_comment(apart.to_owned());
     }
@@ -288,7 +288,7 @@ fn take_head(root: &mut toml_edit::Table) -> String {
         return String::new();
     };
     let space = text_of(first.decor().prefix());
-    let head = apart(&space).to_owned();
+    let head = part_of_previous(&space).to_owned();
     let rest = space[head.len()..].trim_start_matches('\n');
     first.decor_mut().set_prefix(format!("\n{rest}"));
     head

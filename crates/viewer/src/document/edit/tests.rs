@@ -164,7 +164,7 @@ proptest! {
     #![proptest_config(ProptestConfig { cases: 400, failure_persistence: None, ..ProptestConfig::default() })]
 
     #[test]
-    fn a_text_of_any_style_edited_to_another_scene_says_that_scene(a in choices(), b in choices()) {
+    fn a_text_of_any_style_edited_to_another_scene_means_that_scene(a in choices(), b in choices()) {
         let b: Scene = table_of(&b).try_into().unwrap();
         for style in STYLES {
             let text = written(&table_of(&a), style);
@@ -180,7 +180,7 @@ proptest! {
     }
 
     #[test]
-    fn every_scene_file_takes_on_what_any_other_scene_says_and_returns(b in choices(), file in any::<prop::sample::Index>()) {
+    fn every_scene_file_can_be_edited_to_any_other_scene_and_back(b in choices(), file in any::<prop::sample::Index>()) {
         let files = scene_files();
         let text = std::fs::read_to_string(file.get(&files)).unwrap();
         let b: Scene = table_of(&b).try_into().unwrap();
@@ -190,7 +190,7 @@ proptest! {
     }
 
     #[test]
-    fn comments_above_keys_survive_any_edit_and_those_beside_live_with_their_key(a in choices(), b in choices()) {
+    fn comments_above_keys_survive_any_edit_and_those_beside_a_value_go_with_it(a in choices(), b in choices()) {
         let (a, b) = (without_tables_that_go(table_of(&a)), without_tables_that_go(table_of(&b)));
         let mut text = String::from("# head\n\n");
         let mut beside = Vec::new();
@@ -255,7 +255,7 @@ fn no_change_gives_identical_bytes() {
 }
 
 #[test]
-fn a_changed_value_stands_in_its_place_with_its_comment() {
+fn a_changed_value_keeps_its_position_and_its_comment() {
     let text = by(FIRST_SCENE, |scene| scene.sheet.rows = Some(9));
     assert_eq!(text, FIRST_SCENE.replace("rows = 7 ", "rows = 9 "));
     let whole = by("[sheet]\nwidth = 5 # W\n", |scene| {
@@ -269,7 +269,7 @@ fn a_changed_value_stands_in_its_place_with_its_comment() {
 }
 
 #[test]
-fn a_new_key_follows_the_one_it_follows_in_a_scene() {
+fn a_new_key_is_placed_in_the_order_of_a_scene() {
     let text = by("[sheet]\nwidth = 5.0\n# why\ncase = \"S\"\n", |scene| {
         scene.sheet.rows = Some(3);
         scene.sheet.lambda = Some(0.5);
@@ -281,7 +281,7 @@ fn a_new_key_follows_the_one_it_follows_in_a_scene() {
 }
 
 #[test]
-fn a_new_table_follows_the_one_it_follows_in_a_scene() {
+fn a_new_table_is_placed_in_the_order_of_a_scene() {
     let text = by(
         "# head\n\n[profile]\nmodel = \"shelter\"\n\n[record]\nfps = 30\n",
         |scene| {
@@ -322,7 +322,7 @@ fn a_point_between_others_leaves_their_lines_as_they_are() {
 }
 
 #[test]
-fn many_new_points_stand_one_a_line() {
+fn many_new_points_are_written_one_per_line() {
     let text = by("[profile]\n", |scene| {
         scene.profile.points = Some((0..9).map(|k| [f64::from(k), 0.25]).collect());
     });
@@ -354,13 +354,13 @@ fn steps_change_one_by_one() {
 }
 
 #[test]
-fn a_text_that_is_no_toml_takes_no_edit() {
+fn invalid_toml_is_not_edited() {
     let new = parsed("[sheet]\nrows = 3\n");
     assert_eq!(edited("[sheet\n", &Scene::default(), &new), None);
 }
 
 #[test]
-fn a_text_that_does_not_say_the_old_scene_never_panics() {
+fn a_text_that_does_not_mean_the_old_scene_never_panics() {
     let old = parsed(&written(&table_of(&vec![1; CHOICES.len()]), Style::Headers));
     let new = parsed(&written(
         &table_of(

@@ -3,7 +3,6 @@
 use foldmotion_study::Scene;
 use toml_edit::{DocumentMut, Item, TableLike};
 
-/// A value of a scene.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) enum Value {
     String(String),

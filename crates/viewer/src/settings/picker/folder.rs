@@ -4,7 +4,7 @@ use std::io;
 use std::path::{Path, PathBuf};
 
 /// The largest number of entries that are read.
-const MOST: usize = 200_000;
+const MAX_COUNT: usize = 200_000;
 
 /// A folder, or a file that can be chosen.
 #[derive(Debug, Clone, PartialEq)]
@@ -19,7 +19,7 @@ pub(super) struct Entry {
 /// # Errors
 /// If the folder cannot be read.
 pub(super) fn read(folder: &Path, endings: &[&str], hidden: bool) -> io::Result<Vec<Entry>> {
-    let entries = std::fs::read_dir(folder)?.take(MOST);
+    let entries = std::fs::read_dir(folder)?.take(MAX_COUNT);
     let entries = entries.filter_map(Result::ok).filter_map(|entry| {
         let name = entry.file_name().to_string_lossy().into_owned();
         let path = entry.path();

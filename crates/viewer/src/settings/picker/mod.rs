@@ -16,7 +16,6 @@ use folder::Entry;
 pub(crate) enum PickerResult {
     /// The chosen file. If it is for saving and exists, the user has agreed to overwrite it.
     File(PathBuf),
-    /// The user cancelled.
     Cancelled,
 }
 
@@ -48,16 +47,6 @@ pub(crate) struct FilePicker {
 }
 
 impl FilePicker {
-    /// Chooses an existing file with one of the extensions (without dots).
-    pub(crate) fn open(
-        title: &str,
-        endings: &[&'static str],
-        folder: &Path,
-        recent: &[PathBuf],
-    ) -> Self {
-        Self::new(title, endings, folder, recent)
-    }
-
     /// Chooses a file to write; a name without an extension gets the first one.
     pub(crate) fn save(
         title: &str,
@@ -66,13 +55,19 @@ impl FilePicker {
         name: &str,
         recent: &[PathBuf],
     ) -> Self {
-        let mut picker = Self::new(title, endings, folder, recent);
+        let mut picker = Self::open(title, endings, folder, recent);
         picker.is_saving = true;
         name.clone_into(&mut picker.typed);
         picker
     }
 
-    fn new(title: &str, endings: &[&'static str], folder: &Path, recent: &[PathBuf]) -> Self {
+    /// Chooses an existing file with one of the extensions (without dots).
+    pub(crate) fn open(
+        title: &str,
+        endings: &[&'static str],
+        folder: &Path,
+        recent: &[PathBuf],
+    ) -> Self {
         let home = std::env::home_dir().map(|home| ("Home".to_owned(), home));
         let named = recent.iter().map(|folder| {
             let name = folder.file_name().unwrap_or(folder.as_os_str());

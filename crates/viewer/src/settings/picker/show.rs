@@ -11,7 +11,7 @@ use super::super::appearance::modal_frame;
 use super::{FilePicker, PickerResult};
 
 /// The largest number of parent folders shown.
-const MOST_BREADCRUMBS: usize = 6;
+const MAX_BREADCRUMBS: usize = 6;
 
 impl FilePicker {
     /// Shows the picker; returns the result once, after which it must not be shown again.
@@ -76,8 +76,8 @@ impl FilePicker {
     /// Buttons for the parent folders.
     fn breadcrumbs(&mut self, ui: &mut Ui) {
         let mut way: Vec<_> = self.folder.ancestors().map(ToOwned::to_owned).collect();
-        let hidden = way.len() > MOST_BREADCRUMBS;
-        way.truncate(MOST_BREADCRUMBS);
+        let hidden = way.len() > MAX_BREADCRUMBS;
+        way.truncate(MAX_BREADCRUMBS);
         ui.horizontal_wrapped(|ui| {
             ui.spacing_mut().item_spacing.x = 3.0;
             if hidden {

@@ -3,13 +3,13 @@
 use std::fs;
 use std::path::Path;
 
-use eframe::egui::{Key, Theme, vec2};
+use eframe::egui::{Key, vec2};
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable as _;
 use tempfile::TempDir;
 
-use super::super::tests::drawn;
-use super::super::{Appearance, apply};
+use super::super::Appearance;
+use super::super::tests::{builder, drawn};
 use super::*;
 
 struct App {
@@ -22,14 +22,7 @@ fn harness(picker: FilePicker, appearance: Appearance) -> Harness<'static, App> 
         picker,
         picked: None,
     };
-    let builder = Harness::builder().with_size(vec2(800.0, 600.0));
-    let theme = if appearance == Appearance::Light {
-        Theme::Light
-    } else {
-        Theme::Dark
-    };
-    let builder = builder.with_theme(theme).with_step_dt(0.02);
-    let builder = builder.with_context_setup(move |ctx| apply(ctx, appearance, 1.0));
+    let builder = builder(appearance, vec2(800.0, 600.0)).with_step_dt(0.02);
     let show = |ui: &mut eframe::egui::Ui, app: &mut App| {
         if app.picked.is_none() {
             app.picked = app.picker.show(ui.ctx());
@@ -163,7 +156,7 @@ fn a_path_is_completed_step_by_step() {
 }
 
 #[test]
-fn a_double_click_chooses_and_the_crumbs_go_back() {
+fn a_double_click_chooses_and_breadcrumbs_go_to_parent_folders() {
     let folder = folder();
     let mut harness = harness(open(&folder.path().join("imported")), Appearance::Dark);
     let name = folder
@@ -228,7 +221,7 @@ fn a_folder_that_cannot_be_read_says_so() {
 }
 
 #[test]
-fn of_ten_thousand_files_only_those_in_sight_are_laid_out() {
+fn only_visible_rows_of_ten_thousand_files_are_laid_out() {
     let folder = tempfile::tempdir().unwrap();
     for k in 0..10_000 {
         fs::write(folder.path().join(format!("{k:05}.toml")), "").unwrap();
@@ -244,7 +237,7 @@ fn of_ten_thousand_files_only_those_in_sight_are_laid_out() {
 }
 
 #[test]
-#[cfg_attr(not(gpu_tests), ignore = "no adapter: set FOLDMOTION_GPU_TESTS=yes")]
+#[cfg_attr(not(gpu_tests), ignore = "needs a GPU and FOLDMOTION_GPU_TESTS=yes")]
 fn the_picker_is_drawn_dark_and_light() {
     let folder = folder();
     for appearance in [Appearance::Dark, Appearance::Light] {

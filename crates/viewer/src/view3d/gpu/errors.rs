@@ -51,14 +51,6 @@ impl LossMonitor {
     }
 }
 
-impl std::fmt::Debug for LossMonitor {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.debug_struct("LossMonitor")
-            .field("lost", &self.lost)
-            .finish_non_exhaustive()
-    }
-}
-
 /// Runs `work`; returns its result, or the first error that it causes on `device`.
 ///
 /// # Errors

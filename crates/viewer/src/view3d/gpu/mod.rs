@@ -59,14 +59,6 @@ pub(super) struct Gpu {
     pub(super) count: u64,
 }
 
-impl std::fmt::Debug for Gpu {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.debug_struct("Gpu")
-            .field("drawn", &self.drawn)
-            .finish_non_exhaustive()
-    }
-}
-
 impl Gpu {
     /// # Errors
     /// The message of the driver or of wgpu.

@@ -2,10 +2,8 @@
 
 use eframe::egui_wgpu::wgpu;
 
-/// The source text of the shader.
 pub(in super::super) const SOURCE: &str = include_str!("../../../../../shaders/sheet.wgsl");
 
-/// Samples per pixel.
 pub(super) const SAMPLES: u32 = 4;
 
 /// The format of the depth buffer.
@@ -21,7 +19,6 @@ pub(in super::super) const CREASES: [wgpu::VertexAttribute; 4] =
 pub(in super::super) const SEGMENTS: [wgpu::VertexAttribute; 4] =
     wgpu::vertex_attr_array![0 => Float32x3, 1 => Float32x3, 2 => Float32x4, 3 => Float32x2];
 
-/// The pipelines and their bindings.
 #[derive(Debug)]
 pub(super) struct Pipelines {
     pub(super) bindings: wgpu::BindGroupLayout,

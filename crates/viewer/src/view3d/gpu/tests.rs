@@ -249,7 +249,7 @@ fn apart(
             let mut picture = subject.picture(positions, key);
             if line_width == 0.0 {
                 // A line of width 0 is still drawn as a hairline.
-                picture.creases = NO_CREASES;
+                picture.creases = CreaseClasses::NONE;
             }
             let window = drawn(gpu, &picture, &orbit);
             let differ = |p: [u8; 3], q: [u8; 3]| match j {
@@ -266,23 +266,8 @@ fn apart(
     worst
 }
 
-const NO_CREASES: CreaseClasses = CreaseClasses {
-    mountains: false,
-    valleys: false,
-    border: false,
-    free: false,
-    row: true,
-    diagonal: true,
-    vertical: true,
-    pad: true,
-    column: true,
-};
-
 #[test]
-#[cfg_attr(
-    not(gpu_tests),
-    ignore = "no GPU: set FOLDMOTION_GPU_TESTS=yes where there is one"
-)]
+#[cfg_attr(not(gpu_tests), ignore = "needs a GPU and FOLDMOTION_GPU_TESTS=yes")]
 fn the_compact_state_shows_the_layers_that_films_show_from_all_around() {
     let mut gpu = Gpu::new(&device()).unwrap();
     for (key, (case, width)) in (1..).zip(CASES) {
@@ -312,11 +297,8 @@ fn crossing(positions: &[DVec3]) -> Vec<DVec3> {
 }
 
 #[test]
-#[cfg_attr(
-    not(gpu_tests),
-    ignore = "no GPU: set FOLDMOTION_GPU_TESTS=yes where there is one"
-)]
-fn a_dot_is_drawn_where_its_place_is_projected_also_in_perspective() {
+#[cfg_attr(not(gpu_tests), ignore = "needs a GPU and FOLDMOTION_GPU_TESTS=yes")]
+fn a_dot_is_drawn_at_its_projection_also_in_perspective() {
     let mut gpu = Gpu::new(&device()).unwrap();
     let subject = Subject::new(Case::S, 1.6, 3, 2);
     let compact = subject.units.compact();
@@ -325,11 +307,7 @@ fn a_dot_is_drawn_where_its_place_is_projected_also_in_perspective() {
         orbit.perspective = perspective;
         for &place in compact.iter().step_by(9) {
             let places = [place];
-            let dots = [Overlay {
-                shape: Shape::Dots(&places),
-                colour: RED,
-                width: 5.0,
-            }];
+            let dots = red(Shape::Dots(&places), 5.0);
             let mut picture = subject.picture(&compact, 1);
             picture.overlays = &dots;
             let sphere = PreparedSheet::new(&picture).sphere;
@@ -348,10 +326,7 @@ fn at_pixel(at: DVec3) -> usize {
 }
 
 #[test]
-#[cfg_attr(
-    not(gpu_tests),
-    ignore = "no GPU: set FOLDMOTION_GPU_TESTS=yes where there is one"
-)]
+#[cfg_attr(not(gpu_tests), ignore = "needs a GPU and FOLDMOTION_GPU_TESTS=yes")]
 fn without_the_order_of_layers_the_same_comparison_fails() {
     let mut gpu = Gpu::new(&device()).unwrap();
     let mut subject = Subject::new(Case::E, 1.0, 4, 3);
@@ -362,10 +337,7 @@ fn without_the_order_of_layers_the_same_comparison_fails() {
 }
 
 #[test]
-#[cfg_attr(
-    not(gpu_tests),
-    ignore = "no GPU: set FOLDMOTION_GPU_TESTS=yes where there is one"
-)]
+#[cfg_attr(not(gpu_tests), ignore = "needs a GPU and FOLDMOTION_GPU_TESTS=yes")]
 fn paper_has_the_colours_of_films_on_both_sides() {
     let mut gpu = Gpu::new(&device()).unwrap();
     let mut subject = Subject::new(Case::S, 1.6, 2, 2);
@@ -384,7 +356,7 @@ fn paper_has_the_colours_of_films_on_both_sides() {
         let (sheet, style) = (&subject.units.sheet, &subject.style);
         let film = film_picture(sheet, &flat, &subject.order, &camera, style, SIZE).unwrap();
         let mut picture = subject.picture(&flat, key);
-        picture.creases = NO_CREASES;
+        picture.creases = CreaseClasses::NONE;
         let window = drawn(&mut gpu, &picture, &orbit);
         let middle = |image: &Image| image.pixel(SIZE[0] / 2, SIZE[1] / 2);
         let [a, b] = [&film, &window].map(middle);
@@ -395,13 +367,11 @@ fn paper_has_the_colours_of_films_on_both_sides() {
     }
 }
 
-const RED: Color32 = Color32::from_rgb(255, 0, 0);
-
-fn path(points: &[DVec3]) -> [Overlay<'_>; 1] {
+fn red(shape: Shape<'_>, width: f32) -> [Overlay<'_>; 1] {
     [Overlay {
-        shape: Shape::Path(points),
-        colour: RED,
-        width: 5.0,
+        shape,
+        colour: Color32::from_rgb(255, 0, 0),
+        width,
     }]
 }
 
@@ -414,11 +384,8 @@ fn darkness(image: &Image) -> f64 {
 }
 
 #[test]
-#[cfg_attr(
-    not(gpu_tests),
-    ignore = "no GPU: set FOLDMOTION_GPU_TESTS=yes where there is one"
-)]
-fn lines_are_as_wide_however_near_one_looks() {
+#[cfg_attr(not(gpu_tests), ignore = "needs a GPU and FOLDMOTION_GPU_TESTS=yes")]
+fn lines_have_the_same_width_at_any_zoom() {
     let mut gpu = Gpu::new(&device()).unwrap();
     let mut subject = Subject::new(Case::E, 1.0, 1, 1);
     subject.style = Style {
@@ -433,7 +400,7 @@ fn lines_are_as_wide_however_near_one_looks() {
     // Only the border is drawn, its left side in the middle of the view.
     picture.creases = CreaseClasses {
         border: true,
-        ..NO_CREASES
+        ..CreaseClasses::NONE
     };
     let mut orbit = fitted(Direction::Top, &flat);
     let left = flat.iter().map(|p| p.x).fold(f64::INFINITY, f64::min);
@@ -456,25 +423,17 @@ fn lines_are_as_wide_however_near_one_looks() {
 }
 
 #[test]
-#[cfg_attr(
-    not(gpu_tests),
-    ignore = "no GPU: set FOLDMOTION_GPU_TESTS=yes where there is one"
-)]
-fn overlays_are_drawn_before_paper_and_dimmed_behind_it_and_handles_never() {
+#[cfg_attr(not(gpu_tests), ignore = "needs a GPU and FOLDMOTION_GPU_TESTS=yes")]
+fn overlays_are_dimmed_behind_the_sheet_and_dots_and_pulls_are_not() {
     let mut gpu = Gpu::new(&device()).unwrap();
     let subject = Subject::new(Case::E, 1.0, 2, 2);
     let flat = subject.units.sheet.planar();
     let orbit = fitted(Direction::Top, &flat);
     let mut picture = subject.picture(&flat, 1);
-    picture.creases = NO_CREASES;
+    picture.creases = CreaseClasses::NONE;
     let plain = drawn(&mut gpu, &picture, &orbit);
     let middle = orbit.centre;
-    let line = |z: f64| {
-        [
-            middle + DVec3::new(-0.5, 0.0, z),
-            middle + DVec3::new(0.5, 0.0, z),
-        ]
-    };
+    let line = |z: f64| [-0.5, 0.5].map(|x| middle + DVec3::new(x, 0.0, z));
     let colour = |gpu: &mut Gpu, overlays: &[Overlay<'_>], pull| {
         let picture = Picture {
             overlays,
@@ -484,20 +443,16 @@ fn overlays_are_drawn_before_paper_and_dimmed_behind_it_and_handles_never() {
         drawn(gpu, &picture, &orbit).pixel(SIZE[0] / 2, SIZE[1] / 2)
     };
     let [above, below] = [1.0, -1.0].map(line);
-    let before = colour(&mut gpu, &path(&above), None);
+    let before = colour(&mut gpu, &red(Shape::Path(&above), 5.0), None);
     assert_eq!(before, [255, 0, 0]);
-    let behind = colour(&mut gpu, &path(&below), None);
+    let behind = colour(&mut gpu, &red(Shape::Path(&below), 5.0), None);
     let paper = plain.pixel(SIZE[0] / 2, SIZE[1] / 2);
     assert!(
         behind[1] < paper[1] && behind[1] > 100,
         "{behind:?} on {paper:?}"
     );
     let dots = [middle + DVec3::new(0.0, 0.0, -1.0)];
-    let dot = [Overlay {
-        shape: Shape::Dots(&dots),
-        colour: RED,
-        width: 9.0,
-    }];
+    let dot = red(Shape::Dots(&dots), 9.0);
     assert_eq!(colour(&mut gpu, &dot, None), [255, 0, 0]);
     let pull = VertexPull {
         vertex: 0,
@@ -507,18 +462,15 @@ fn overlays_are_drawn_before_paper_and_dimmed_behind_it_and_handles_never() {
 }
 
 #[test]
-#[cfg_attr(
-    not(gpu_tests),
-    ignore = "no GPU: set FOLDMOTION_GPU_TESTS=yes where there is one"
-)]
-fn triangles_that_flash_pulse_from_paper_to_the_colour_of_marks() {
+#[cfg_attr(not(gpu_tests), ignore = "needs a GPU and FOLDMOTION_GPU_TESTS=yes")]
+fn flashing_triangles_go_from_the_colour_of_paper_to_that_of_marks() {
     let mut gpu = Gpu::new(&device()).unwrap();
     let subject = Subject::new(Case::E, 1.0, 2, 2);
     let flat = subject.units.sheet.planar();
     let orbit = fitted(Direction::Top, &flat);
     let flash: Vec<u32> = (0..subject.units.sheet.faces.len() as u32).collect();
     let mut picture = subject.picture(&flat, 1);
-    picture.creases = NO_CREASES;
+    picture.creases = CreaseClasses::NONE;
     picture.flash = &flash;
     let mut at = |pulse| {
         picture.pulse = pulse;
@@ -532,11 +484,8 @@ fn triangles_that_flash_pulse_from_paper_to_the_colour_of_marks() {
 }
 
 #[test]
-#[cfg_attr(
-    not(gpu_tests),
-    ignore = "no GPU: set FOLDMOTION_GPU_TESTS=yes where there is one"
-)]
-fn an_error_of_the_driver_is_told_and_not_thrown() {
+#[cfg_attr(not(gpu_tests), ignore = "needs a GPU and FOLDMOTION_GPU_TESTS=yes")]
+fn an_error_of_the_driver_is_returned() {
     let state = device();
     let catch_errors = catch_errors(&state.device, || {
         state.device.create_buffer(&wgpu::BufferDescriptor {

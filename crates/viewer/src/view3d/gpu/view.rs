@@ -18,7 +18,6 @@ pub(super) const VIEW_FLOATS: usize = 48;
 pub(in super::super) struct FrameView<'a> {
     pub(in super::super) projection: &'a Projection,
     pub(in super::super) prepared: &'a PreparedSheet,
-    /// The size in pixels.
     pub(in super::super) size: [u32; 2],
     pub(in super::super) pixels_per_point: f32,
 }
