@@ -150,7 +150,10 @@ fn rows_that_unfold_in_turn_are_uniform_and_nothing_is_proved_of_them() {
     assert_eq!((auto.method().name(), auto.certified), ("uniform", false));
     assert!(auto.crosses_at.is_some());
     let energy = unfolding("spiral-energy", &[step, "motion.unfold=energy"]);
-    assert_eq!((energy.method().name(), energy.certified), ("energy", false));
+    assert_eq!(
+        (energy.method().name(), energy.certified),
+        ("energy", false)
+    );
     let all = "motion.step=[{stage=\"unfold\", creases=\"rows\", ease=\"smooth\"}]";
     assert!(unfolding("spiral-energy", &[all]).certified);
 }
