@@ -1,7 +1,8 @@
-//! What the user typed.
+//! The arguments of every command.
 
 use std::path::PathBuf;
 
+use crate::threads::parse_threads;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 
 use crate::pattern::PatternArguments;
@@ -19,42 +20,44 @@ pub(crate) struct Arguments {
 /// The commands.
 #[derive(Debug, Subcommand)]
 pub(crate) enum Command {
-    /// Resolve a scene, fold, check, report, record
+    /// Fold the sheet of a scene, check it for collisions, report and record the motion
     ///
-    /// Exit status: 0 done, 1 a penetration was found, 2 bad input, 3 the run failed or stayed undecided.
+    /// Exit status: 0 folded; 1 the sheet passes through itself; 2 bad input; 3 the sheet did not fold to its end, or the
+    /// collision check stayed undecided, or the run failed or was interrupted.
     Run(RunArguments),
-    /// Decide whether any FOLD motion passes through itself, and certify it
+    /// Decide whether the motion in a FOLD file passes through itself, and write a certificate
     ///
     /// Exit status: 0 free or touching, 1 a penetration was found, 2 bad input, 3 undecided or interrupted. With
     /// --verify: 0 verified, free or touching; 1 verified, penetrating; 2 the certificate is false, or about another
     /// motion, or bad input; 3 not verified or interrupted.
     Check(CheckArguments),
-    /// Make films, figures and 3D files of any FOLD motion
+    /// Make films, figures and 3D files of the motion in a FOLD file
     ///
-    /// motion.gif, motion.mp4, frames/0001.png on, figure.svg and figure.pdf (states side by side), motion.glb,
-    /// state-0.5.obj and state-0.5.stl. Facets that penetrate are marked where a certificate.json of the motion lies
-    /// beside it. Other files in the folder stay.
+    /// Writes motion.gif, motion.mp4, frames/0001.png and so on, figure.svg and figure.pdf (states side by side),
+    /// motion.glb, state-0.5.obj and state-0.5.stl. If the folder of the motion holds its certificate.json, the first
+    /// penetration is marked. Other files in the folder are kept.
     ///
     /// Exit status: 0 done, 2 bad input, 3 the files could not be written or interrupted.
     Record(RecordArguments),
-    /// Rebuild every table and figure of the paper, its numbers beside ours
+    /// Reproduce every table and figure of the paper and set its numbers beside ours
     ///
-    /// Writes figures as SVG and PNG, paper.json and index.html. Parts that are finished are reused.
+    /// Writes figures as SVG and PNG, paper.json and index.html. Finished parts are reused by the next run.
     ///
-    /// Exit status: 0 done, 2 bad input, 3 the run failed or was interrupted; finished parts stay.
+    /// Exit status: 0 done; 2 bad input; 3 the run failed or was interrupted (finished parts are kept).
     Paper(PaperArguments),
     /// Write the crease pattern for cutting and folding: SVG, DXF and FOLD in millimetres
     ///
     /// Mountain creases are red (#f00), valley creases blue (#00f), the outline to cut black (#000), each on a layer of
-    /// its own, creases before the outline, seen from the front. In SVG a crease's opacity is its fold angle over 180
-    /// degrees, as Origami Simulator reads it; its dashes are for the eye. DXF is R12, FOLD 1.2. Lengths are those of
+    /// its own, creases before the outline, seen from the front. In SVG the opacity of a crease is its fold angle divided by
+    /// 180 degrees, as Origami Simulator reads it; the dashes only help the reader. DXF is R12, FOLD 1.2. Lengths are those of
     /// the scene in profile.unit (the unit "unit" counts as 1 mm), unless --scale or --width is given.
     ///
     /// Exit status: 0 done, 2 bad input, 3 the files could not be written or interrupted.
     Pattern(PatternArguments),
-    /// Open the window: look at a fold, scrub it, change its scene, run it, record it
+    /// Open the window: view a motion, edit its scene, run it and record it
     ///
-    /// Opens a scene, a crease pattern (.fold, .svg) or a motion (.fold with frames); without one, what was last open.
+    /// Opens a scene, a crease pattern (.fold, .svg) or a motion (.fold with frames); without a file,
+    /// whatever was open last.
     /// Needs a display and a graphics adapter; Mesa's software Vulkan is enough.
     ///
     /// Exit status: 0 closed, 2 bad input, 3 there is no window.
@@ -74,29 +77,29 @@ pub(crate) enum Command {
 pub(crate) struct RunArguments {
     /// The scene file, or a crease pattern: .fold, or .svg in Origami Simulator's colours
     pub(crate) scene: PathBuf,
-    /// The folder of results; out/<the file's name> where left out
+    /// Folder for the results. Default: out/<name of the file>
     #[arg(long)]
     pub(crate) out: Option<PathBuf>,
     /// Override a key of the scene, such as sheet.columns=5
     #[arg(long = "set", value_name = "KEY=VALUE")]
     pub(crate) set: Vec<String>,
-    /// How much work the engine may do, in seconds (60) or its own steps (20000steps): the motion then ends where it is,
-    /// with exit status 3, and what was reached is kept
+    /// How much work the engine may do, in seconds (60) or in its own steps (20000steps). The motion then ends where it
+    /// is, with exit status 3; what was reached is kept
     #[arg(long, value_name = "SECONDS|STEPS")]
     pub(crate) budget: Option<String>,
-    /// Threads to use; all cores where left out
+    /// Number of threads to use. Default: one for each core
     #[arg(long, value_parser = parse_threads)]
     pub(crate) threads: Option<usize>,
-    /// Where the dynamic engine moves the sheet; auto takes a GPU for large sheets where there is a real one
+    /// The device that runs the dynamic engine
     #[arg(long, value_enum, default_value_t = DeviceChoice::Cpu)]
     pub(crate) device: DeviceChoice,
-    /// Replace files in the folder of results that this command did not make
+    /// Also replace files in the folder that this command did not make
     #[arg(long)]
     pub(crate) force: bool,
-    /// No progress and no table
+    /// Print neither progress nor the table
     #[arg(long)]
     pub(crate) quiet: bool,
-    /// Print exactly report.json on stdout
+    /// Print report.json, and nothing else, on stdout
     #[arg(long)]
     pub(crate) json: bool,
 }
@@ -106,10 +109,10 @@ pub(crate) struct RunArguments {
 pub(crate) struct ViewArguments {
     /// A scene, a crease pattern or a motion
     pub(crate) file: Option<PathBuf>,
-    /// Print times of frames and states, and memory, on stderr when the window is closed
+    /// When the window closes, print frame times, state times and memory use on stderr
     #[arg(long)]
     pub(crate) timings: bool,
-    /// Threads to use; all cores where left out
+    /// Number of threads to use. Default: one for each core
     #[arg(long, value_parser = parse_threads)]
     pub(crate) threads: Option<usize>,
 }
@@ -119,40 +122,40 @@ pub(crate) struct ViewArguments {
 pub(crate) enum DeviceChoice {
     /// The processor
     Cpu,
-    /// A GPU, whichever the driver offers
+    /// A GPU: whichever the driver offers
     Gpu,
-    /// A real GPU for large sheets, else the processor
+    /// A hardware GPU for large sheets if there is one, otherwise the processor
     Auto,
 }
 
 /// `foldmotion check`.
 #[derive(Debug, Args)]
 pub(crate) struct CheckArguments {
-    /// The motion, a FOLD file with frames
+    /// The motion: a FOLD file with frames
     pub(crate) motion: PathBuf,
-    /// The folder of certificate.json; out/<file's name> where left out
+    /// Folder for certificate.json. Default: out/<name of the file>
     #[arg(long)]
     pub(crate) out: Option<PathBuf>,
-    /// Prove the statement of this certificate.json about the motion again by other means; nothing is written
+    /// Prove the statement of this certificate.json again by a second method; writes nothing
     #[arg(long, value_name = "CERTIFICATE", conflicts_with_all = ["out", "tolerance", "stop_at", "json", "force"])]
     pub(crate) verify: Option<PathBuf>,
-    /// Overlaps up to this are touching, in the file's foldmotion:unitLength or mean sides of a face; 1e-6 where left
-    /// out
+    /// Facets that overlap by no more than this touch, in units of the file's foldmotion:unitLength or, if it has none, of
+    /// the mean side of its faces. Default: 1e-6
     #[arg(long, value_name = "X", value_parser = parse_tolerance, allow_negative_numbers = true)]
     pub(crate) tolerance: Option<f64>,
-    /// End the check at the next frame once more than N pairs of triangles penetrate; 0: no limit; default: 4096
+    /// Stop the check at the next frame once more than N pairs of triangles penetrate; 0 means no limit. Default: 4096
     #[arg(long, value_name = "N")]
     pub(crate) stop_at: Option<usize>,
-    /// Threads to use; all cores where left out
+    /// Number of threads to use. Default: one for each core
     #[arg(long, value_parser = parse_threads)]
     pub(crate) threads: Option<usize>,
-    /// Replace files in the folder of results that this command did not make
+    /// Also replace files in the folder that this command did not make
     #[arg(long)]
     pub(crate) force: bool,
-    /// No progress and no table
+    /// Print neither progress nor the table
     #[arg(long)]
     pub(crate) quiet: bool,
-    /// Print exactly certificate.json on stdout
+    /// Print certificate.json, and nothing else, on stdout
     #[arg(long)]
     pub(crate) json: bool,
 }
@@ -160,22 +163,22 @@ pub(crate) struct CheckArguments {
 /// `foldmotion paper`.
 #[derive(Debug, Args)]
 pub(crate) struct PaperArguments {
-    /// The folder of results
+    /// Folder for the results
     #[arg(long, default_value = "out/paper")]
     pub(crate) out: PathBuf,
-    /// Only these parts, such as table1,fig6,figA1: table1, table2, fig1 to fig10, unfoldings, cases, certificates, figA1
+    /// Only these parts, for example table1,fig6. All parts: table1, table2, fig1 to fig10, unfoldings, cases, certificates, figA1
     #[arg(long, value_name = "PARTS")]
     pub(crate) only: Option<String>,
-    /// Threads to use; all cores where left out
+    /// Number of threads to use. Default: one for each core
     #[arg(long, value_parser = parse_threads)]
     pub(crate) threads: Option<usize>,
-    /// Replace files in the folder of results that this command did not make
+    /// Also replace files in the folder that this command did not make
     #[arg(long)]
     pub(crate) force: bool,
-    /// No progress and no summary
+    /// Print neither progress nor the summary
     #[arg(long)]
     pub(crate) quiet: bool,
-    /// Print exactly paper.json on stdout
+    /// Print paper.json, and nothing else, on stdout
     #[arg(long)]
     pub(crate) json: bool,
 }
@@ -184,13 +187,6 @@ fn parse_tolerance(text: &str) -> Result<f64, String> {
     match text.parse() {
         Ok(tolerance) if tolerance > 0.0 && tolerance < 0.1 => Ok(tolerance),
         _ => Err("a number above 0 and below 0.1 is needed, such as 1e-6".to_owned()),
-    }
-}
-
-pub(crate) fn parse_threads(text: &str) -> Result<usize, String> {
-    match text.parse() {
-        Ok(threads @ 1..=1024) => Ok(threads),
-        _ => Err("a number between 1 and 1024 is needed".to_owned()),
     }
 }
 

@@ -6,6 +6,7 @@ mod interrupt;
 mod pattern;
 mod progress;
 mod record;
+mod threads;
 
 use std::io::Write as _;
 use std::path::{Path, PathBuf};

@@ -13,7 +13,7 @@ use foldmotion_study::{
 pub(crate) struct PatternArguments {
     /// The scene file
     pub(crate) scene: PathBuf,
-    /// The folder of results; out/<scene's name> where left out
+    /// Folder for the results. Default: out/<name of the scene>
     #[arg(long)]
     pub(crate) out: Option<PathBuf>,
     /// Override a key of the scene, such as sheet.columns=5
@@ -27,7 +27,7 @@ pub(crate) struct PatternArguments {
         default_value = "svg,dxf,fold"
     )]
     formats: Vec<FormatChoice>,
-    /// Make it this many times the size in the scene; 1 is life size
+    /// Scale the pattern by this factor; 1 is the size in the scene
     #[arg(
         long,
         value_name = "X",
@@ -35,33 +35,33 @@ pub(crate) struct PatternArguments {
         conflicts_with = "width"
     )]
     scale: Option<f64>,
-    /// Make the sheet this wide (W): a length with mm, cm, m, in or pt, such as 200mm
+    /// Scale the pattern so that the sheet is this wide (W): a length with mm, cm, m, in or pt, such as 200mm
     #[arg(long, value_name = "LENGTH", value_parser = parse_millimetres, allow_hyphen_values = true)]
     width: Option<f64>,
-    /// Write pages of this paper too, to be glued together: A0 to A6, letter, legal, tabloid, each with -landscape for
-    /// the long side across, or WIDTHxHEIGHT such as 300x600mm
+    /// Also write the pattern as pages of this size, to be glued together: A0 to A6, letter, legal, tabloid (each with
+    /// -landscape if wanted), or WIDTHxHEIGHT such as 300x600mm
     #[arg(long, value_name = "PAPER")]
     sheet: Option<PaperSize>,
     /// White space around the pattern and on every side of a page
     #[arg(long, value_name = "LENGTH", value_parser = parse_millimetres, default_value = "10mm", allow_hyphen_values = true)]
     margin: f64,
-    /// How far neighbouring pages repeat each other, to be glued on each other
+    /// The overlap of neighbouring pages, for glue
     #[arg(long, value_name = "LENGTH", value_parser = parse_millimetres, default_value = "10mm", allow_hyphen_values = true)]
     overlap: f64,
-    /// Dashes of mountain or valley lines, in mm: dash and gap in turn, such as mountain=6,2,2,2; mountain=none for
-    /// solid lines. By the height of a row where left out
+    /// Dashes of mountain or valley lines in mm, dash and gap in turn, such as mountain=6,2,2,2; mountain=none draws solid
+    /// lines. Default: by the height of a row
     #[arg(long, value_name = "CLASS=LIST", value_parser = parse_dashes)]
     dash: Vec<Dashes>,
-    /// The width of the lines; a 2000th of the page's diagonal, at least 0.1 mm, where left out
+    /// The width of the lines. Default: 1/2000 of the diagonal of the page, at least 0.1 mm
     #[arg(long, value_name = "LENGTH", value_parser = parse_millimetres, allow_hyphen_values = true)]
     line_width: Option<f64>,
-    /// Keep every crease between two vertices a line of its own; those in one straight line are joined otherwise
+    /// Write each crease between two vertices as a line of its own, instead of joining those on one straight line
     #[arg(long)]
     segments: bool,
-    /// Draw the lines too that cut facets into triangles (they are no creases)
+    /// Also draw the lines that cut facets into triangles, which are not creases
     #[arg(long)]
     facets: bool,
-    /// Replace files in the folder of results that this command did not make
+    /// Also replace files in the folder that this command did not make
     #[arg(long)]
     pub(crate) force: bool,
     /// Print nothing

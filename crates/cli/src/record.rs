@@ -3,86 +3,81 @@
 use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
+use foldmotion_study::scene::fields::{Field, field};
 use foldmotion_study::scene::{
     CameraChoice, CameraScene, ColourChoice, HoldScene, OutputChoice, OwnCamera, Playback,
     RecordScene, ThickenedScene,
 };
 
-use crate::arguments::parse_threads;
+use crate::threads::parse_threads;
 
 /// `foldmotion record`.
 #[derive(Debug, Args)]
 #[expect(clippy::struct_excessive_bools, reason = "each is a flag of its own")]
 pub(crate) struct RecordArguments {
-    /// The motion, a FOLD file with frames
+    /// The motion: a FOLD file with frames
     #[arg(required_unless_present = "again")]
     pub(crate) motion: Option<PathBuf>,
-    /// The folder of results; out/<file's name> where left out
+    /// Folder for the results. Default: out/<name of the file>
     #[arg(long)]
     pub(crate) out: Option<PathBuf>,
-    /// Make this recorded file again from what it says of its origin: beside it as NAME-again, or into --out; a file made
-    /// from a motion looks for it beside itself, else name it as MOTION
+    /// Record this file again from the scene and motion it names inside itself: beside it as NAME-again, or into --out. If
+    /// it was made from a motion file that has moved, give that as MOTION
     #[arg(long, value_name = "FILE", conflicts_with_all = FLAGS)]
     pub(crate) again: Option<PathBuf>,
-    /// What to write, comma-separated: gif, mp4, png, svg, pdf, glb, obj, stl; gif where left out
+    /// Kinds of files to write, separated by commas: gif, mp4, png, svg, pdf, glb, obj, stl, html. Default: gif
     #[arg(long, value_delimiter = ',', value_parser = parse_output)]
     pub(crate) outputs: Option<Vec<OutputChoice>>,
-    /// Motion times of the states in svg, pdf, obj and stl, such as 0,0.5,1,1.5,2
     #[arg(
         long,
+        help = tip("record.at"),
         value_delimiter = ',',
         value_name = "T,…",
         allow_negative_numbers = true
     )]
     pub(crate) at: Option<Vec<f64>>,
-    /// Pixels of films and pictures; where left out 960x720 with mp4 or png, else 480x360
-    #[arg(long, value_name = "WxH", value_parser = parse_size)]
+    #[arg(long, help = tip("record.size"), value_name = "WxH", value_parser = parse_size)]
     pub(crate) size: Option<[i64; 2]>,
-    /// Film frames a second; where left out 30 with mp4 or png, else 10
-    #[arg(long, allow_negative_numbers = true)]
+    #[arg(long, help = tip("record.fps"), allow_negative_numbers = true)]
     pub(crate) fps: Option<f64>,
-    /// Seconds of the two stages; 3,5 where left out
-    #[arg(long, value_name = "A,B", value_parser = parse_numbers::<2>)]
+    #[arg(long, help = tip("record.seconds"), value_name = "A,B", value_parser = parse_numbers::<2>)]
     pub(crate) seconds: Option<[f64; 2]>,
-    /// Seconds the deployed, planar and compact states stand still, or one number for all; 0.5 where left out
-    #[arg(long, value_name = "S|A,B,C", value_parser = parse_hold, allow_negative_numbers = true)]
+    #[arg(long, help = tip("record.hold"), value_name = "S|A,B,C", value_parser = parse_hold, allow_negative_numbers = true)]
     pub(crate) hold: Option<HoldScene>,
-    /// How films run; forward where left out
-    #[arg(long = "loop", value_name = "HOW", value_enum)]
+    #[arg(long = "loop", help = tip("record.loop"), value_name = "HOW", value_enum)]
     pub(crate) playback: Option<Loop>,
-    /// iso, front, side, top, turntable, or AZIMUTH,ELEVATION in degrees, or those and TURN; iso where left out
+    /// iso, front, side, top, turntable, or AZIMUTH,ELEVATION[,TURN] in degrees. Default: iso
     #[arg(long, value_parser = parse_camera, allow_hyphen_values = true)]
     pub(crate) camera: Option<CameraScene>,
-    /// What colours show; paper where left out
-    #[arg(long, value_enum)]
+    #[arg(long, help = tip("record.colour"), value_enum)]
     pub(crate) colour: Option<Colour>,
-    /// Pictures (png) and figures without background
-    #[arg(long)]
+    #[arg(long, help = tip("record.transparent"))]
     pub(crate) transparent: bool,
-    /// Films tell stage and t
-    #[arg(long)]
+    #[arg(long, help = tip("record.caption"))]
     pub(crate) caption: bool,
-    /// Whether films come nearer where the sheet is small; true where left out
-    #[arg(long, value_name = "true|false")]
+    #[arg(long, help = tip("record.follow"), value_name = "true|false")]
     pub(crate) follow: Option<bool>,
-    /// The size of letters in figures, millimetres; 2.4 where left out
-    #[arg(long, value_name = "MM", allow_negative_numbers = true)]
+    #[arg(long, help = tip("record.letters"), value_name = "MM", allow_negative_numbers = true)]
     pub(crate) letters: Option<f64>,
     /// OBJ and STL as solids of this thickness, in the motion's unit
     #[arg(long, value_name = "THICKNESS", allow_negative_numbers = true)]
     pub(crate) thickened: Option<f64>,
-    /// Whether figures show the box of the compact state; true where left out
-    #[arg(long = "box", value_name = "true|false")]
+    #[arg(long = "box", help = tip("record.box"), value_name = "true|false")]
     pub(crate) bounds: Option<bool>,
-    /// Threads to use; all cores where left out
+    /// Number of threads to use. Default: one for each core
     #[arg(long, value_parser = parse_threads)]
     pub(crate) threads: Option<usize>,
-    /// Replace files in the folder of results that this command did not make
+    /// Also replace files in the folder that this command did not make
     #[arg(long)]
     pub(crate) force: bool,
-    /// No progress and no list of files
+    /// Print neither progress nor the list of files
     #[arg(long)]
     pub(crate) quiet: bool,
+}
+
+/// What the scene reference says of `key`.
+fn tip(key: &str) -> String {
+    field(key).map_or_else(String::new, Field::tip)
 }
 
 /// What --again takes from the file.

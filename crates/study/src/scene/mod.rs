@@ -8,6 +8,7 @@ use serde::{Deserialize, Serialize};
 
 mod choice;
 mod exact_array;
+pub mod fields;
 pub(crate) mod pattern;
 pub(crate) mod record;
 pub(crate) mod source;
@@ -27,29 +28,30 @@ pub use self::record::{
 #[serde(deny_unknown_fields)]
 #[schemars(title = "foldmotion scene")]
 pub struct Scene {
-    /// Title of the study; the file's name where it is left out.
+    /// The title of the study.
+    #[schemars(extend("x-default" = "the name of the file"))]
     pub title: Option<String>,
-    /// A crease pattern of a file, in place of profile, sheet and division.
+    /// A crease pattern from a file, instead of profile, division and sheet.
     pub pattern: Option<PatternScene>,
-    /// The curve Γ in the x–z plane.
+    /// The curve Γ in the x–z plane that the sheet approximates.
     #[serde(default)]
     pub profile: ProfileScene,
-    /// The sheet of units.
+    /// The sheet of units: its width, its columns and their case.
     #[serde(default)]
     pub sheet: SheetScene,
-    /// How Γ is divided into segments.
+    /// How Γ is divided into the segments that become the rows.
     #[serde(default)]
     pub division: DivisionScene,
-    /// Stiffness and damping.
+    /// How stiff the sheet is, and how it is damped.
     #[serde(default)]
     pub material: MaterialScene,
-    /// The engine and its frames.
+    /// The engine, its frames, contact and the schedule.
     #[serde(default)]
     pub motion: MotionScene,
-    /// Tolerances of the verdict.
+    /// How the collision check judges the motion.
     #[serde(default)]
     pub check: CheckScene,
-    /// Results to write.
+    /// Which files are written of the motion, and how films and figures look.
     #[serde(default)]
     pub record: RecordScene,
 }
@@ -58,27 +60,32 @@ pub struct Scene {
 #[derive(Debug, Clone, Default, PartialEq, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct ProfileScene {
-    /// A built-in profile (`foldmotion models` lists them); or give `control_points`, `points` or `file`.
+    /// A built-in profile; `foldmotion models` lists them. Alternatives: `control_points`, `points` or `file`.
     pub model: Option<String>,
-    /// Points [x, z] that the curve runs through, as a cubic spline, at least 2.
+    /// Points [x, z] that the curve passes through, as a cubic spline; at least 2.
     #[serde(deserialize_with = "exact_array::many")]
+    #[schemars(extend("x-unit" = "profile.unit"))]
     pub points: Option<Vec<[f64; 2]>>,
-    /// A file of such points, beside the scene: .csv (x, z a line), .dat (airfoil, Selig's or Lednicer's order) or .dxf (one
-    /// polyline or chain of lines, ASCII).
+    /// A file of such points beside the scene: .csv (x, z on each line), .dat (an airfoil in Selig's or Lednicer's
+    /// order) or .dxf (one polyline or chain of lines, ASCII).
     pub file: Option<String>,
-    /// Control points [x, z] of a cubic NURBS with unit weights, at least 4.
+    /// Control points [x, z] of a cubic NURBS curve with unit weights; at least 4.
     #[serde(deserialize_with = "exact_array::many")]
+    #[schemars(extend("x-unit" = "profile.unit"))]
     pub control_points: Option<Vec<[f64; 2]>>,
-    /// Knots of that curve; clamped and uniform where left out.
+    /// The knots of the NURBS curve of `control_points`.
+    #[schemars(extend("x-default" = "clamped and uniform"))]
     pub knots: Option<Vec<f64>>,
-    /// Whether the curve returns to its start, with a corner there or smoothly; outlines in files that say they are closed,
-    /// with a corner where left out.
+    /// Whether the curve returns to its start, and how it meets it.
     #[serde(deserialize_with = "choice::optional")]
+    #[schemars(extend("x-default" = "open; an outline from a file that says it is closed meets its start with a corner"))]
     pub closed: Option<Closed>,
-    /// Scales Γ so that the divided polygon has this length.
+    /// The curve is scaled so that the divided polygon has this length.
+    #[schemars(extend("x-default" = "the curve as it is given", "x-unit" = "profile.unit", "minimum" = 1e-09, "maximum" = 1000000000.0))]
     pub length: Option<f64>,
-    /// The unit of length; `m` where left out.
+    /// The unit of length of the scene and of its results.
     #[serde(deserialize_with = "choice::optional")]
+    #[schemars(extend("default" = "m"))]
     pub unit: Option<LengthUnit>,
 }
 
@@ -149,28 +156,37 @@ impl LengthUnit {
 #[derive(Debug, Clone, Default, PartialEq, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct SheetScene {
-    /// W; may be left out for case E, where W = Nc·h (section 4.1 of the paper), and for built-in profiles, where W is that
-    /// of case E.
+    /// The width W of the sheet.
+    #[schemars(extend("x-default" = "W = Nc·h in case E (section 4.1 of the paper); for a built-in profile, the width it has in case E", "x-unit" = "profile.unit", "minimum" = 1e-09, "maximum" = 1000000000.0))]
     pub width: Option<f64>,
-    /// Nr; that of the built-in profile where left out.
+    /// The number of rows Nr.
+    #[schemars(extend("x-default" = "that of the built-in profile", "minimum" = 1, "maximum" = 1000000))]
     pub rows: Option<i64>,
-    /// Nc; that of the built-in profile in this case where left out.
+    /// The number of columns Nc.
+    #[schemars(extend("x-default" = "that of the built-in profile in this case", "minimum" = 1, "maximum" = 1000000))]
     pub columns: Option<i64>,
-    /// The case; `auto` where left out.
+    /// The case of the unit: how its width w compares with its height h.
     #[serde(deserialize_with = "choice::optional")]
+    #[schemars(extend("default" = "auto"))]
     pub case: Option<CaseChoice>,
-    /// λ of case SII, in (0, 1), or of a common flap; `auto` leaves it out where w/h makes the case E or T.
+    /// The ratio λ of case SII, in (0, 1), or of a common flap width. With case `auto` it is not used if w/h makes
+    /// the case E or T.
+    #[schemars(extend("minimum" = 0, "maximum" = 1))]
     pub lambda: Option<f64>,
-    /// d of case SII, 0 ≤ d < w1' = w/2 − λh/2; w1'/2 where left out.
+    /// The offset d of case SII, 0 ≤ d < w1' = w/2 − λh/2.
+    #[schemars(extend("x-default" = "w1'/2", "x-unit" = "profile.unit"))]
     pub offset: Option<f64>,
-    /// The side of Γ, seen along it, on which the flaps stand; `left` where left out.
+    /// The side of Γ, seen along it from its start, on which the flaps stand.
     #[serde(deserialize_with = "choice::optional")]
+    #[schemars(extend("default" = "left"))]
     pub facing: Option<Facing>,
-    /// What becomes of rows of unequal height, which a division other than `equal-length` gives; `refuse` where left out.
+    /// How rows of unequal height are treated, which a division other than `equal-length` produces.
     #[serde(deserialize_with = "choice::optional")]
+    #[schemars(extend("default" = "refuse"))]
     pub unequal: Option<UnequalChoice>,
-    /// How the flat sheet folds; `waterbomb` where left out.
+    /// How the flat sheet folds into its compact state.
     #[serde(deserialize_with = "choice::optional")]
+    #[schemars(extend("default" = "waterbomb"))]
     pub folding: Option<Folding>,
 }
 
@@ -223,13 +239,16 @@ impl CaseChoice {
 #[derive(Debug, Clone, Default, PartialEq, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct DivisionScene {
-    /// `equal-length` where left out.
+    /// The method that divides the profile.
     #[serde(deserialize_with = "choice::optional")]
+    #[schemars(extend("default" = "equal-length"))]
     pub method: Option<DivisionMethod>,
-    /// Equal length: the iteration ends once |R_max| is at most this; 1e-14 where left out. Douglas–Peucker: the largest
-    /// distance from the curve, over its length; the rows follow from it.
+    /// Equal length: the iteration ends once |R_max| is at most this. Douglas–Peucker: the largest distance from the
+    /// curve, divided by its length; the number of rows follows from it.
+    #[schemars(extend("default" = 1e-14, "minimum" = 0, "maximum" = 1))]
     pub tolerance: Option<f64>,
-    /// Iterations at most; 200 where left out.
+    /// The largest number of iterations.
+    #[schemars(extend("default" = 200, "minimum" = 1, "maximum" = 1000000))]
     pub max_iterations: Option<i64>,
 }
 
@@ -237,23 +256,30 @@ pub struct DivisionScene {
 #[derive(Debug, Clone, Default, PartialEq, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct MaterialScene {
-    /// The constants to start from; keys beside it replace single ones.
+    /// The constants to start from; keys beside it replace single constants.
     #[serde(deserialize_with = "choice::optional")]
+    #[schemars(extend("x-default" = "the constants given below as defaults"))]
     pub preset: Option<Preset>,
-    /// Thickness of the sheet in profile.unit or the unit of the pattern: layers then come no closer than this. Not with motion.gap.
+    /// The thickness of the sheet: layers come no closer than this. Excludes motion.gap.
+    #[schemars(extend("x-default" = "none: layers keep motion.gap", "x-unit" = "profile.unit, or the unit of the pattern", "minimum" = 1e-09, "maximum" = 1000000000.0))]
     pub thickness: Option<f64>,
-    /// EA of the bars; 20 where left out.
+    /// The axial stiffness EA of the bars.
+    #[schemars(extend("default" = 20.0, "minimum" = 1e-09, "maximum" = 1000000000000.0))]
     pub axial_stiffness: Option<f64>,
-    /// Stiffness of a crease per unit length; 0.7 where left out.
+    /// The stiffness of a crease per unit of its length.
+    #[schemars(extend("default" = 0.7, "minimum" = 1e-09, "maximum" = 1000000000000.0))]
     pub fold_stiffness: Option<f64>,
-    /// Stiffness of a facet hinge per unit length; 0.7 where left out.
+    /// The stiffness of a hinge inside a facet per unit of its length.
+    #[schemars(extend("default" = 0.7, "minimum" = 1e-09, "maximum" = 1000000000000.0))]
     pub facet_stiffness: Option<f64>,
-    /// How quadrilateral facets of the units are cut into triangles; `symmetric` where left out, but `one-diagonal` for maps
-    /// and where one is narrower than a tenth of its length. Not with a pattern of a file.
+    /// How the quadrilateral facets of units are cut into triangles. Does not apply to a pattern from a file.
+    #[schemars(extend("x-default" = "`symmetric`; `one-diagonal` for maps, and if a facet is narrower than a tenth of its length"))]
     pub facet_model: Option<FacetModel>,
-    /// Stiffness of the angles of each triangle; 0 where left out (Origami Simulator sets 0.2).
+    /// The stiffness of the angles of each triangle; Origami Simulator sets 0.2.
+    #[schemars(extend("default" = 0.0, "minimum" = 0, "maximum" = 1000000000000.0))]
     pub face_angle_stiffness: Option<f64>,
-    /// ζ of the bars' dampers; 0.45 where left out.
+    /// The damping ratio ζ of the bars, used by the dynamic engine.
+    #[schemars(extend("default" = 0.45, "minimum" = 0, "maximum" = 1000))]
     pub damping_ratio: Option<f64>,
 }
 
@@ -261,23 +287,28 @@ pub struct MaterialScene {
 #[derive(Debug, Clone, Default, PartialEq, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct MotionScene {
-    /// `quasi-static` where left out.
+    /// The engine that computes the motion.
     #[serde(deserialize_with = "choice::optional")]
+    #[schemars(extend("default" = "quasi-static"))]
     pub engine: Option<EngineChoice>,
-    /// An even number; the states t = 2k/frames are recorded. 240 where left out.
+    /// An even number of intervals: the states at t = 2k/frames are recorded.
+    #[schemars(extend("default" = 240, "minimum" = 2, "maximum" = 100000))]
     pub frames: Option<i64>,
-    /// Whether layers keep apart; quasi-static engine only, where it is on unless set to false.
+    /// Whether layers are kept apart. Only the quasi-static engine has contact.
+    #[schemars(extend("x-default" = "true with the quasi-static engine"))]
     pub contact: Option<bool>,
-    /// Closest approach of layers, in units of h or, of a pattern, its mean edge; 1e-3 where left out, less where a pattern
-    /// has small facets.
+    /// The closest approach of layers. It has to fit beside the thinnest part of the sheet.
+    #[schemars(extend("x-default" = "1e-3, or less if a pattern has small facets", "x-unit" = "h, or the mean edge of a pattern", "minimum" = 1e-06))]
     pub gap: Option<f64>,
-    /// How stage 1 unfolds the profile; `auto` where left out.
+    /// How stage unfold flattens the profile.
     #[serde(deserialize_with = "choice::optional")]
+    #[schemars(extend("default" = "auto"))]
     pub unfold: Option<UnfoldChoice>,
-    /// How much work the engine may do, in seconds (60 or "60 s") or in its own steps ("20000 steps"); the motion then
-    /// ends where it is, with exit status 3. Default: 300 Newton iterations a state, or a million steps of settling a stage.
+    /// How much work the engine may do, in seconds (60 or "60 s") or in its own steps ("20000 steps"). The motion
+    /// then ends where it is, with exit status 3.
+    #[schemars(extend("x-default" = "300 Newton iterations for each state, or a million settling steps for each stage"))]
     pub budget: Option<BudgetScene>,
-    /// The schedule: creases that no step names follow the ramp of their stage.
+    /// The schedule. Creases that no step names follow the ramp of their stage.
     pub step: Vec<StepScene>,
 }
 
@@ -309,22 +340,28 @@ impl UnfoldChoice {
 #[derive(Debug, Clone, PartialEq, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct StepScene {
-    /// `unfold` or `fold`.
+    /// The stage of the step: `unfold` or `fold`.
     #[serde(deserialize_with = "choice::required")]
     pub stage: Stage,
-    /// The creases, by their place in the unit or by the way they fold; `all` where left out.
+    /// The creases that move, by their position in the unit or by the direction in which they fold.
     #[serde(default, deserialize_with = "choice::optional")]
+    #[schemars(extend("default" = "all"))]
     pub creases: Option<CreaseGroup>,
-    /// First and last row, both included, or one; every row where left out.
+    /// The first and the last row that move, both included and counted from 0, or a single one.
+    #[schemars(extend("x-default" = "every row"))]
     pub rows: Option<Vec<i64>>,
-    /// First and last column, both included, or one; every column where left out.
+    /// The first and the last column that move, both included and counted from 0, or a single one.
+    #[schemars(extend("x-default" = "every column"))]
     pub columns: Option<Vec<i64>>,
-    /// The part of the stage, from 0 to 1, at which they begin to move; 0 where left out.
+    /// The part of the stage at which the creases begin to move.
+    #[schemars(extend("default" = 0.0, "minimum" = 0, "maximum" = 1))]
     pub from: Option<f64>,
-    /// The part of the stage at which they arrive; 1 where left out.
+    /// The part of the stage at which the creases arrive.
+    #[schemars(extend("default" = 1.0, "minimum" = 0, "maximum" = 1))]
     pub to: Option<f64>,
-    /// How they move; `linear` where left out.
+    /// How the creases move between `from` and `to`.
     #[serde(default, deserialize_with = "choice::optional")]
+    #[schemars(extend("default" = "linear"))]
     pub ease: Option<Ease>,
 }
 
@@ -352,9 +389,11 @@ impl EngineChoice {
 #[derive(Debug, Clone, Default, PartialEq, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct CheckScene {
-    /// τ in units of h or, of a pattern, its mean edge: facets that overlap by no more touch; 1e-6 where left out.
+    /// The tolerance τ of the verdict: facets that overlap by no more than this touch.
+    #[schemars(extend("default" = 1e-6, "x-unit" = "h, or the mean edge of a pattern", "minimum" = 0, "maximum" = 0.01))]
     pub touch_tolerance: Option<f64>,
-    /// Once more pairs of triangles than this penetrate, no later frame is judged; 0: no limit; default: 4096.
+    /// If more pairs of triangles than this penetrate, later frames are not judged; 0 means no limit.
+    #[schemars(extend("default" = 4096, "minimum" = 0))]
     pub stop_at: Option<i64>,
 }
 

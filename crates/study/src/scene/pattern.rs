@@ -11,26 +11,30 @@ use crate::scene::choice;
 #[derive(Debug, Clone, Default, PartialEq, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct PatternScene {
-    /// The file, beside the scene: .fold, or .svg in Origami Simulator's colours.
+    /// The file beside the scene: .fold, or .svg in Origami Simulator's colours.
     pub file: String,
-    /// What a length of 1 in the file is; what the file says where left out.
+    /// The length of 1 in the file.
     #[serde(default, deserialize_with = "choice::optional")]
+    #[schemars(extend("x-default" = "what the file says"))]
     pub unit: Option<LengthUnit>,
-    /// How far it folds, in percent of its fold angles, from -100 to 100 (inside out); 100 where left out.
+    /// How far the pattern folds, as a percentage of its fold angles; negative values fold it inside out.
+    #[schemars(extend("default" = 100.0, "x-unit" = "%", "minimum" = -100, "maximum" = 100))]
     pub fold_percent: Option<f64>,
-    /// Whether the frames of a FOLD file that have fold angles are the stages of the motion, which then ends with the
-    /// last; true where left out.
+    /// Whether the frames of a FOLD file that have fold angles are stages of the motion, which then ends with the
+    /// last of them.
+    #[schemars(extend("default" = true))]
     pub stages: Option<bool>,
-    /// Ends of lines up to this far apart, in lengths of the file, are one vertex; 1e-4 of the diagonal of an SVG and 1e-9
-    /// of that of a FOLD file where left out.
+    /// Ends of lines that are at most this far apart are the same vertex.
+    #[schemars(extend("x-default" = "1e-4 of the diagonal of an SVG, 1e-9 of that of a FOLD file", "x-unit" = "lengths of the file"))]
     pub vertex_tolerance: Option<f64>,
-    /// What becomes of strokes and elements that mean nothing in a crease pattern; `refuse` where left out.
+    /// How strokes and elements without a meaning in a crease pattern are treated.
     #[serde(default, deserialize_with = "choice::optional")]
+    #[schemars(extend("default" = "refuse"))]
     pub unknown: Option<Unknown>,
-    /// Bézier curves become chords that stray from them by no more than this, in parts of the diagonal; without it they are
-    /// unknown elements.
+    /// Bézier curves are replaced by chords that stray from them by at most this part of the diagonal.
+    #[schemars(extend("x-default" = "curves are unknown elements"))]
     pub curve_tolerance: Option<f64>,
-    /// The index of the facet that stays in place, as a list of one; an empty one for none; what the file says where left
-    /// out.
+    /// The index of the facet that stays in place, as a list with one element; an empty list for none.
+    #[schemars(extend("x-default" = "what the file says"))]
     pub fixed: Option<Vec<i64>>,
 }

@@ -10,48 +10,64 @@ use super::{choice, exact_array};
 #[derive(Debug, Clone, Default, PartialEq, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct RecordScene {
-    /// `fold`, `gif` and `csv` where left out.
+    /// The kinds of files to write beside the report.
     #[serde(deserialize_with = "choice::list")]
+    #[schemars(extend("default" = ["fold", "gif", "csv"]))]
     pub outputs: Option<Vec<OutputChoice>>,
-    /// Pixels across and down; where left out [960, 720] if `mp4` or `png` are written, else [480, 360].
+    /// The size of films and pictures, across and down.
     #[serde(deserialize_with = "exact_array::one")]
+    #[schemars(extend("x-default" = "[960, 720] if `mp4` or `png` is written, otherwise [480, 360]", "x-unit" = "pixels"))]
     pub size: Option<[i64; 2]>,
-    /// Film frames a second; where left out 30 if `mp4` or `png` are written, else 10.
+    /// The number of film frames per second.
+    #[schemars(extend("x-default" = "30 if `mp4` or `png` is written, otherwise 10", "x-unit" = "1/s", "minimum" = 0, "maximum" = 50))]
     pub fps: Option<f64>,
-    /// Seconds a stage; [3, 5] where left out.
+    /// How long films show stage unfold and stage fold.
     #[serde(deserialize_with = "exact_array::one")]
+    #[schemars(extend("default" = [3.0, 5.0], "x-unit" = "s"))]
     pub seconds: Option<[f64; 2]>,
-    /// Seconds the deployed, the planar and the compact state stand still, or one number for all; 0.5 where left out.
+    /// How long the deployed, the planar and the compact state stand still: three numbers, or one for all.
+    #[schemars(extend("default" = 0.5, "x-unit" = "s"))]
     pub hold: Option<HoldScene>,
-    /// How films run; `forward` where left out.
+    /// Whether films run forward only, or back as well.
     #[serde(rename = "loop")]
     #[serde(deserialize_with = "choice::optional")]
+    #[schemars(extend("default" = "forward"))]
     pub playback: Option<Playback>,
-    /// Where the viewer stands: a preset, or angles; `iso` where left out.
+    /// The position of the viewer: a preset, or angles.
+    #[schemars(extend("default" = "iso"))]
     pub camera: Option<CameraScene>,
-    /// Whether films come nearer where the sheet is small, so that it fills a fair part of the picture; true where left out.
-    /// With false all states have one scale. A camera with centre or width stays where it is.
+    /// Whether films come nearer where the sheet is small in the picture. With false all states have the same scale.
+    /// A camera with a centre or a width stays where it is.
+    #[schemars(extend("default" = true))]
     pub follow: Option<bool>,
-    /// What colours show; `paper` where left out.
+    /// What the colours of films and figures show.
     #[serde(deserialize_with = "choice::optional")]
+    #[schemars(extend("default" = "paper"))]
     pub colour: Option<ColourChoice>,
-    /// Whether the pictures of `png` and the figures have no background; false where left out.
+    /// Whether the pictures of `png` and the figures have no background.
+    #[schemars(extend("default" = false))]
     pub transparent: Option<bool>,
-    /// Whether films tell stage and t; false where left out.
+    /// Whether films show the stage and the motion time t.
+    #[schemars(extend("default" = false))]
     pub caption: Option<bool>,
-    /// The motion times of the states in figures, OBJ and STL, rising; [0, 0.5, 1, 1.5, 2] where left out, five even ones
-    /// where the motion does not begin at 0.
+    /// The motion times, in rising order, of the states shown in figures, OBJ and STL.
+    #[schemars(extend("x-default" = "[0, 0.5, 1, 1.5, 2]; five evenly spaced times if the motion does not begin at 0"))]
     pub at: Option<Vec<f64>>,
-    /// OBJ and STL as solids: `true` for material.thickness, or a thickness in profile.unit; surfaces where left out.
+    /// OBJ and STL as solids: `true` takes material.thickness, a number is the thickness.
+    #[schemars(extend("x-default" = "surfaces", "x-unit" = "profile.unit"))]
     pub thickened: Option<ThickenedScene>,
-    /// Whether figures show the profile over the deployed state; false where left out.
+    /// Whether figures show the profile above the deployed state.
+    #[schemars(extend("default" = false))]
     pub profile: Option<bool>,
-    /// Whether figures show the box of the compact state, its sizes and its closed form; true where left out.
+    /// Whether figures show the box of the compact state with its sizes and its closed form.
     #[serde(rename = "box")]
+    #[schemars(extend("default" = true))]
     pub bounds: Option<bool>,
-    /// Whether figures give h, w and the width W of a sheet of equal units at the planar state; true where left out.
+    /// Whether figures show h, w and the width W of a sheet of equal units at the planar state.
+    #[schemars(extend("default" = true))]
     pub dimensions: Option<bool>,
-    /// The size of letters in figures, millimetres; 2.4 where left out.
+    /// The size of the letters in figures.
+    #[schemars(extend("default" = 2.4, "x-unit" = "mm", "minimum" = 0.5, "maximum" = 20.0))]
     pub letters: Option<f64>,
 }
 
@@ -185,18 +201,22 @@ pub enum CameraChoice {
 #[derive(Debug, Clone, Copy, PartialEq, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct OwnCamera {
-    /// Counter-clockwise seen from above, from +x to the viewer: −90 is front, 0 is side.
+    /// The direction of the viewer seen from above, counter-clockwise from +x: −90 is the front, 0 the side.
+    #[schemars(extend("x-unit" = "degrees", "minimum" = -360, "maximum" = 360))]
     pub azimuth: f64,
-    /// Above the plane z = 0: 90 is top.
+    /// The height of the viewer above the plane z = 0, as an angle: 90 is the top.
+    #[schemars(extend("x-unit" = "degrees", "minimum" = -90, "maximum" = 90))]
     pub elevation: f64,
-    /// How far films go round the motion, evenly; 0 where left out.
+    /// How far films go round the motion, at a constant speed.
+    #[schemars(extend("default" = 0.0, "x-unit" = "degrees", "minimum" = -3600, "maximum" = 3600))]
     pub turn: Option<f64>,
-    /// The point [x, y, z] in the middle of films and pictures, in the motion's unit; the middle of the motion where left
-    /// out.
+    /// The point [x, y, z] in the middle of films and pictures.
     #[serde(default, deserialize_with = "exact_array::one")]
+    #[schemars(extend("x-default" = "the middle of the motion", "x-unit" = "profile.unit"))]
     pub centre: Option<[f64; 3]>,
-    /// The length shown across films and pictures, in the motion's unit; as much as all of the motion needs where left out.
-    /// With a centre figures show as much of each state, and more where it is larger.
+    /// The length shown across films and pictures. With a centre, figures show this much of each state, and more if a
+    /// state is larger.
+    #[schemars(extend("x-default" = "what all of the motion needs", "x-unit" = "profile.unit", "minimum" = 1e-09, "maximum" = 1000000000.0))]
     pub width: Option<f64>,
 }
 
