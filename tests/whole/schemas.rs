@@ -2,8 +2,9 @@
 
 use std::path::Path;
 
+use foldmotion_paper::paper_schema;
 use foldmotion_study::scene::fields::{fields, reference};
-use foldmotion_study::{certificate_schema, paper_schema, report_schema, scene_schema};
+use foldmotion_study::{certificate_schema, report_schema, scene_schema};
 use serde_json::Value;
 
 /// The shortest description that says something.

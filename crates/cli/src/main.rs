@@ -16,7 +16,7 @@ use arguments::{
     Arguments, CheckArguments, Command, DeviceChoice, PaperArguments, RunArguments, ViewArguments,
 };
 use clap::Parser as _;
-use foldmotion_study::paper::{PaperPart, paper};
+use foldmotion_paper::{PaperError, PaperPart, paper};
 use foldmotion_study::scene::EngineChoice;
 use foldmotion_study::{
     CheckOptions, Destination, Device, PatternStudy, Phase, Published, SceneSource, Study,
@@ -37,7 +37,7 @@ struct Failure {
     status: u8,
 }
 
-impl<E: Into<foldmotion_study::StudyError>> From<E> for Failure {
+impl<E: Into<PaperError>> From<E> for Failure {
     fn from(error: E) -> Self {
         let error = error.into();
         Self {

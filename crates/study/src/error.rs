@@ -101,14 +101,6 @@ pub enum StudyError {
         /// What is wrong, and with which element.
         error: Box<ImportError>,
     },
-    /// A part of the paper of that name does not exist.
-    #[error("{name:?}: no part of the paper; there is: {known}")]
-    Part {
-        /// What was asked for.
-        name: String,
-        /// Every name.
-        known: String,
-    },
     /// The crease pattern cannot be put on paper as asked.
     #[error("the pattern: {0}")]
     Cut(#[from] CutError),
@@ -180,7 +172,6 @@ impl StudyError {
             | Self::LargeFile { .. }
             | Self::Value { .. }
             | Self::Import { .. }
-            | Self::Part { .. }
             | Self::Cut(_)
             | Self::InTheWay { .. }
             | Self::Undivided { .. } => 2,

@@ -21,7 +21,6 @@ mod draft;
 mod error;
 mod input_file;
 mod opened;
-pub mod paper;
 mod pattern_files;
 mod progress;
 mod recording;
@@ -39,6 +38,7 @@ pub use certificate::verify_file::{VerifiedCertificate, verify_file};
 pub use compute::folded::{Findings, Folded};
 pub use compute::preview::Preview;
 pub use compute::series::FrameFigures;
+pub use digest::sha256;
 pub use draft::{Draft, UnitDraft};
 pub use error::StudyError;
 pub use foldmotion_pattern::{
@@ -60,10 +60,10 @@ pub use resolve::rows::draw_clashes;
 pub use resolve::subject::Subject;
 pub use resolve::unfolding::Unfolding;
 pub use resolve::units::UnitStudy;
-pub use results::{Destination, Published, give_up_results};
+pub use results::{Destination, Published, give_up_results, listed, may_run};
 pub use scene::Scene;
 pub use scene::source::{FIRST_SCENE, SceneSource};
-pub use schema::{certificate_schema, paper_schema, report_schema, scene_schema};
+pub use schema::{certificate_schema, report_schema, scene_schema, schema_text};
 
 /// FOLD's `file_creator` and the report's `version` name this.
-pub(crate) const VERSION: &str = env!("CARGO_PKG_VERSION");
+pub const VERSION: &str = env!("CARGO_PKG_VERSION");

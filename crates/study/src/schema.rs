@@ -2,30 +2,25 @@
 
 use schemars::{JsonSchema, schema_for};
 
-use crate::paper::PaperRecord;
 use crate::{Certificate, Report, Scene};
 
 /// The schema of scene files.
 pub fn scene_schema() -> String {
-    schema::<Scene>()
+    schema_text::<Scene>()
 }
 
 /// The schema of `report.json`.
 pub fn report_schema() -> String {
-    schema::<Report>()
+    schema_text::<Report>()
 }
 
 /// The schema of `certificate.json`.
 pub fn certificate_schema() -> String {
-    schema::<Certificate>()
+    schema_text::<Certificate>()
 }
 
-/// The schema of `paper.json`.
-pub fn paper_schema() -> String {
-    schema::<PaperRecord>()
-}
-
-fn schema<T: JsonSchema>() -> String {
+/// The schema of a type, as the text of a file.
+pub fn schema_text<T: JsonSchema>() -> String {
     // A schema is plain JSON with string keys, which always serialises.
     let mut text = serde_json::to_string_pretty(&schema_for!(T)).unwrap_or_default();
     text.push('\n');

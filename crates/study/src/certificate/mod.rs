@@ -31,35 +31,35 @@ pub const FORMAT: u32 = 2;
 pub struct Certificate {
     /// The format of the certificate: 2. Others are refused.
     pub format: u32,
-    /// Version of foldmotion.
+    /// The version of foldmotion that made the certificate.
     pub version: String,
-    /// Name of the motion file.
+    /// The name of the motion file it speaks of.
     pub file: String,
-    /// SHA-256 of the motion file, hexadecimal.
+    /// The SHA-256 of the motion file, in hexadecimal.
     pub sha256: String,
-    /// Its `file_title`; null where it has none.
+    /// The `file_title` of the motion file; null if it has none.
     pub title: Option<String>,
     /// Whether the sheet passes through itself.
     pub verdict: Verdict,
-    /// τ, in units of `unit_length`.
+    /// The tolerance τ, in units of `unit_length`.
     pub tolerance: f64,
-    /// The length τ and every separation and depth are stated in.
+    /// The length in which τ and every separation and depth are stated.
     pub unit_length: f64,
-    /// Under which assumptions the verdict holds.
+    /// The assumptions under which the verdict holds.
     pub assumptions: Vec<String>,
-    /// Frames of the motion.
+    /// The number of frames of the motion.
     pub frames: usize,
-    /// Motion time of the first and of the last frame.
+    /// The motion times of the first and of the last frame.
     pub times: [f64; 2],
-    /// Vertices of the sheet.
+    /// The number of vertices of the sheet.
     pub vertices: usize,
-    /// Faces of the file.
+    /// The number of faces in the file.
     pub faces: usize,
-    /// Triangles they were cut into.
+    /// The number of triangles into which the faces were cut.
     pub triangles: usize,
-    /// Where the check ended early: all below speaks of the frames up to there; null where it speaks of all.
+    /// Where the check ended early: everything below speaks of the frames up to there. Null if it speaks of all.
     pub stopped: Option<Stopped>,
-    /// Closest approach of facets that share no vertex; null where all do.
+    /// The closest approach of facets that share no vertex; null if all do.
     pub min_separation: Option<SeparationEntry>,
     /// The first penetration of every pair of triangles that has one, in order of time.
     pub penetrations: Vec<PenetrationEntry>,
@@ -74,51 +74,51 @@ pub struct Certificate {
 /// Two triangles by their numbers here and in the file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 pub struct TrianglePair {
-    /// The triangles; those of the file, in its order, where all its faces are triangles.
+    /// The two triangles; they have the numbers of the file if all its faces are triangles.
     pub triangles: [u32; 2],
-    /// The faces of the file they were cut from.
+    /// The faces of the file from which they were cut.
     pub faces: [u32; 2],
-    /// Their `faces_foldmotion:facet`; null where the file names none.
+    /// Their `faces_foldmotion:facet`; null if the file names none.
     pub facets: Option<[u32; 2]>,
 }
 
 /// The closest approach.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct SeparationEntry {
-    /// A lower bound of the smallest distance, in units of `unit_length`; 0 where facets meet.
+    /// A lower bound of the smallest distance, in units of `unit_length`; 0 if facets meet.
     pub distance: f64,
-    /// An upper bound: the distance of `points` at `t`.
+    /// An upper bound: the distance of `points` at `t`, in units of `unit_length`.
     pub attained: f64,
-    /// Whether the bounds differ by at most the larger of τ/100 and a ten thousandth of `attained`, and rounding.
+    /// Whether the bounds differ by at most the larger of τ/100 and a ten-thousandth of `attained`, and rounding.
     pub is_tight: bool,
-    /// Motion time of `attained`.
+    /// The motion time at which `attained` is attained.
     pub t: f64,
-    /// Between which triangles.
+    /// The two triangles that come closest.
     pub pair: TrianglePair,
-    /// The closest points.
+    /// The closest points of the two triangles.
     pub points: [[f64; 3]; 2],
 }
 
 /// The first penetration of a pair.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct PenetrationEntry {
-    /// The frames between which it happens; the same frame twice where the motion begins with it.
+    /// The frames between which it happens; the same frame twice if the motion begins with it.
     pub frames: [usize; 2],
-    /// Their motion times.
+    /// The motion times of these two frames.
     pub interval: [f64; 2],
-    /// Motion time at which the contact begins that leads to it.
+    /// The motion time at which the contact begins that leads to it.
     pub t: f64,
-    /// Motion time at which the overlap passes τ.
+    /// The motion time at which the overlap exceeds τ.
     pub passed_t: f64,
-    /// What went through what.
+    /// Which parts of the two triangles meet, and how.
     pub kind: PenetrationKind,
-    /// Which triangles.
+    /// The two triangles that penetrate each other.
     pub pair: TrianglePair,
     /// The vertices of the features that meet.
     pub vertices: Vec<u32>,
-    /// Where.
+    /// The point at which the two triangles meet.
     pub point: [f64; 3],
-    /// How deep, in units of `unit_length`; 0 for layers out of order.
+    /// How deep they overlap, in units of `unit_length`; 0 for layers out of order.
     pub depth: f64,
     /// The layers whose order contradicts itself or the file's claims; null for other kinds.
     pub layers: Option<LayersEntry>,
@@ -127,24 +127,24 @@ pub struct PenetrationEntry {
 /// Layers out of order.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 pub struct LayersEntry {
-    /// The rule that their order breaks.
+    /// The rule that the order of the layers breaks.
     pub rule: LayerRule,
-    /// All triangles concerned, two to four.
+    /// All triangles concerned, from two to four.
     pub triangles: Vec<u32>,
-    /// The faces of the file they were cut from.
+    /// The faces of the file from which they were cut.
     pub faces: Vec<u32>,
 }
 
 /// A pair that could not be decided.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct UndecidedEntry {
-    /// The frames between which.
+    /// The frames between which the pair is undecided.
     pub frames: [usize; 2],
-    /// Their motion times.
+    /// The motion times of these two frames.
     pub interval: [f64; 2],
     /// The motion time up to which the pair is certified.
     pub t: f64,
-    /// Which triangles.
+    /// The two triangles that could not be decided.
     pub pair: TrianglePair,
 }
 

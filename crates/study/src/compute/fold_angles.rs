@@ -14,13 +14,13 @@ pub(crate) const FOLDED_WITHIN_DEG: f64 = 10.0;
 /// Differences of the fold angles in the last state from the targets of the end of the motion.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct FoldAngleReport {
-    /// The largest, degrees, of all mountain and valley creases; 0 where there is none.
+    /// The largest error of all mountain and valley creases, in degrees; 0 if there are none.
     pub largest_error_deg: f64,
-    /// The mean, degrees.
+    /// The mean error of these creases, in degrees.
     pub mean_error_deg: f64,
-    /// The edge of the motion file with the largest; null where there is no mountain or valley crease.
+    /// The edge of the motion file with the largest error; null if there is no mountain or valley crease.
     pub edge: Option<usize>,
-    /// The sheet counts as folded where no crease is further than this from its target, degrees.
+    /// The sheet counts as folded if no crease is further than this from its target, in degrees.
     pub tolerance_deg: f64,
 }
 

@@ -14,13 +14,13 @@ use crate::resolve::subject::Subject;
 pub struct JamReport {
     /// From this motion time on the creases do not follow their targets.
     pub t: f64,
-    /// Largest difference of a fold angle from its target where the motion ended, degrees.
+    /// The largest difference of a fold angle from its target where the motion ended, in degrees.
     pub fold_angle_error_deg: f64,
-    /// Pairs of facets that push hardest, hardest first; at most ten.
+    /// The pairs of facets that push hardest on each other, hardest first; at most ten.
     pub facets: Vec<[u32; 2]>,
-    /// Their units; none for an imported pattern.
+    /// The units of these facets; empty for an imported pattern.
     pub units: Vec<[UnitName; 2]>,
-    /// Those facets in words.
+    /// These pairs of facets in words: kind, index and unit.
     pub names: Vec<[String; 2]>,
 }
 

@@ -30,12 +30,11 @@ pub enum OutcomeKind {
 /// How a motion ended, with the reason.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Outcome {
-    /// folded, jammed, stopped, not-converged, collides or undecided. Of several that hold, the first of jammed, stopped,
-    /// not-converged, undecided, collides.
+    /// How the motion ended. If several apply, the first of jammed, stopped, not-converged, undecided, collides.
     pub kind: OutcomeKind,
-    /// Motion time: of the last state where it was folded or did not converge, else of what the kind says.
+    /// The motion time of the event; for folded and not-converged, that of the last state.
     pub t: f64,
-    /// Why, in a sentence.
+    /// The reason, in a sentence for people.
     pub reason: String,
 }
 

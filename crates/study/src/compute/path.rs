@@ -6,17 +6,17 @@ use serde::{Deserialize, Serialize};
 /// The recorded path.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct PathReport {
-    /// Frames recorded.
+    /// The number of frames recorded.
     pub frames: usize,
-    /// Motion time of the last one.
+    /// The motion time of the last frame.
     pub end_t: f64,
-    /// How often the engine ran again because the verdict was open between frames.
+    /// How many times the engine ran again because the verdict was open between frames.
     pub refinements: usize,
-    /// Frames asked for between the first ones by these runs.
+    /// The number of frames that these runs added between the first ones.
     pub added_frames: usize,
-    /// How far a straight path between frames strays from the computed motion at most, in units of h: estimated from
-    /// second differences of the frames; null where a stage has too few of them.
+    /// How far a straight path between frames strays from the computed motion at most, in units of h, estimated from
+    /// second differences of the frames; null if a stage has too few of them.
     pub straying: Option<f64>,
-    /// Motion time of the frame after which it strays furthest.
+    /// The motion time of the frame after which the path strays furthest.
     pub straying_t: Option<f64>,
 }

@@ -9,16 +9,15 @@ use super::engine::{StageSummary, StopCause};
 /// The engine stopped before the end of the motion.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct StopReport {
-    /// Motion time of the last state reached; later ones were not computed.
+    /// The motion time of the last state reached; later states were not computed.
     pub t: f64,
-    /// no-equilibrium: none was found further on, however short the load step; out-of-steps: the budget of steps or
-    /// iterations was used up before one was; out-of-time: the budget of time was.
+    /// Why the engine stopped: no equilibrium, or a spent budget.
     pub reason: StopCause,
-    /// The load step that the quasi-static engine tried last, in motion time; null for the dynamic engine.
+    /// The last load step that the quasi-static engine tried, in motion time; null for the dynamic engine.
     pub load_step: Option<f64>,
-    /// Unbalanced force left by the last attempt, as the engine states it.
+    /// The unbalanced force left by the last attempt, as the engine states it.
     pub residual: f64,
-    /// At most this much of it counts as equilibrium.
+    /// At most this much unbalanced force counts as equilibrium.
     pub residual_tolerance: f64,
 }
 

@@ -22,13 +22,14 @@ const BROKEN: f64 = 1e-6;
 /// equilibrium became unstable, and rounding decides which of two mirrored ways it takes.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct SymmetryReport {
-    /// The mirror.
+    /// The mirror: across the width or along the profile.
     pub mirror: Mirror,
-    /// Largest distance of a vertex from its mirror image over all frames, each fitted by a rigid motion, in units of h.
+    /// The largest distance of a vertex from its mirror image over all frames, each fitted by a rigid motion, in
+    /// units of h.
     pub largest: f64,
-    /// Motion time of the largest distance.
+    /// The motion time of the largest distance.
     pub largest_t: f64,
-    /// Motion time of the first frame whose distance exceeds 1e-6 h; null where none does.
+    /// The motion time of the first frame with a distance above 1e-6 h; null if there is none.
     pub broken_t: Option<f64>,
 }
 

@@ -16,69 +16,70 @@ use crate::resolve::names::UnitName;
 pub struct CollisionSection {
     /// Whether the sheet passes through itself.
     pub verdict: Verdict,
-    /// τ, in units of h; of an imported pattern, as all lengths said to be in units of h, of its mean edge.
+    /// The tolerance τ in units of h. For an imported pattern, this and all other lengths in units of h are in units
+    /// of its mean edge.
     pub tolerance: f64,
-    /// The first penetration; null where there is none.
+    /// The first penetration; null if there is none.
     pub first: Option<PenetrationReport>,
-    /// The first penetration between two facets of one unit, which no path of its neighbours avoids; null where there
-    /// is none.
+    /// The first penetration between two facets of the same unit, which no path of its neighbours avoids; null if
+    /// there is none.
     pub first_within_unit: Option<PenetrationReport>,
-    /// Where the check ended early, as `check.stop_at` says: nothing is said of the frames after; null where all were
+    /// Where the check ended early because of `check.stop_at`; later frames were not judged. Null if all frames were
     /// judged.
     pub stopped: Option<Stopped>,
-    /// Pairs of facets (triangles) that penetrate somewhere.
+    /// The number of pairs of triangles that penetrate somewhere.
     pub penetrating_pairs: usize,
-    /// Pairs of facets (triangles) that touch somewhere, or were not shown to keep apart.
+    /// The number of pairs of triangles that touch somewhere, or were not shown to stay apart.
     pub touching_pairs: usize,
-    /// Pairs of facets (triangles) that could not be decided.
+    /// The number of pairs of triangles that could not be decided.
     pub undecided_pairs: usize,
-    /// Smallest distance of facets that share no vertex, in units of h.
+    /// The smallest distance of facets that share no vertex, in units of h.
     pub min_separation: Option<f64>,
-    /// Motion time of the smallest distance.
+    /// The motion time of the smallest distance.
     pub min_separation_t: Option<f64>,
-    /// Pairs of triangles tested over intervals between frames.
+    /// The number of pairs of triangles tested, counted once for each interval between frames.
     pub pairs_tested: u64,
-    /// What decided the pairs, counted once an interval.
+    /// What decided these pairs, counted once for each interval between frames.
     pub decided_by: DecidedBy,
 }
 
 /// What decided the pairs of triangles.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct DecidedBy {
-    /// The swept boxes lie apart.
+    /// Pairs whose swept boxes lie apart.
     pub boxes: u64,
-    /// One axis at rest separates, or the fold angle of a hinge keeps its sign.
+    /// Pairs separated by one fixed axis, and hinges whose fold angle keeps its sign.
     pub axis_at_rest: u64,
-    /// Axes that turn along separate.
+    /// Pairs separated by an axis that turns with them.
     pub turning_axis: u64,
-    /// All axes were tried.
+    /// Pairs for which all axes had to be tried.
     pub search: u64,
-    /// Share of the pairs that boxes, axes at rest and axes that turn along decided, so that not all axes had to be tried.
+    /// The share of pairs that were decided without trying all axes.
     pub share_without_search: f64,
 }
 
 /// A penetration, where it begins.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct PenetrationReport {
-    /// Motion time.
+    /// The motion time at which it begins.
     pub t: f64,
     /// The stage in which it begins: unfold or fold.
     pub stage: Stage,
-    /// What went through what.
+    /// Which parts of the two facets meet, and how.
     pub kind: PenetrationKind,
     /// The two facets of the crease pattern.
     pub facets: [u32; 2],
-    /// The two triangles.
+    /// The two triangles, parts of these facets.
     pub faces: [u32; 2],
     /// The vertices of the features that meet.
     pub vertices: Vec<u32>,
-    /// The names the paper gives those vertices in the units below, where it names them.
+    /// The names that the paper gives these vertices in the units below, where it names them.
     pub vertex_names: Vec<Option<String>>,
     /// The units of the two facets; null for an imported pattern.
     pub units: Option<[UnitName; 2]>,
-    /// Where.
+    /// The point at which the two facets meet.
     pub point: [f64; 3],
-    /// How deep the two overlap there, in units of h.
+    /// How deep the two facets overlap at that point, in units of h.
     pub depth: f64,
 }
 

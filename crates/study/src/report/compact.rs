@@ -19,33 +19,33 @@ const LARGE_ERROR: f64 = 0.01;
 /// A bounding box.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct BoxReport {
-    /// Along the growing direction, the width, the flaps.
+    /// The extents along the growing direction, the width and the flaps.
     pub extents: [f64; 3],
-    /// x·z.
+    /// The area of the box seen along the width, x·z.
     pub area: f64,
-    /// x·y·z.
+    /// The volume x·y·z of the bounding box.
     pub volume: f64,
 }
 
 /// The compact state reached, beside the exact one.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct CompactReport {
-    /// Measured after the rigid motion that best fits the exact compact state; of an imported pattern along its
+    /// Measured after the rigid motion that best fits the exact compact state; for an imported pattern along its
     /// principal axes, from the longest spread to the shortest.
     pub extents: [f64; 3],
-    /// x·z.
+    /// The area of the box seen along the width, x·z.
     pub area: f64,
-    /// x·y·z.
+    /// The volume x·y·z of the bounding box.
     pub volume: f64,
-    /// Root mean square distance of the vertices to the exact compact state, in units of h; null for an
+    /// The root mean square distance of the vertices from the exact compact state, in units of h; null for an
     /// imported pattern.
     pub rms_to_exact: Option<f64>,
-    /// Against the closed form; null where the case has none.
+    /// The differences from the closed form; null if the case has none.
     pub relative_error: Option<ErrorReport>,
-    /// Why the box differs from the closed form, where an extent does by more than a hundredth (of h where the closed form
-    /// is 0).
+    /// Why the box differs from the closed form, if an extent does by more than one hundredth (of h if the closed
+    /// form is 0).
     pub explanation: Option<String>,
-    /// What touches the two skin planes, after the same rigid motion; null where the case has none.
+    /// What touches the two skin planes after the same rigid motion; null if the case has none.
     pub skin: Option<SkinReport>,
 }
 
@@ -53,41 +53,41 @@ pub struct CompactReport {
 /// one, a below it.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct SkinReport {
-    /// A vertex lies on a plane within this distance, in units of the flap width a.
+    /// A vertex lies on a plane if it is within this distance, in units of the flap width a.
     pub tolerance: f64,
-    /// Measured.
+    /// What the computed state has in the upper plane.
     pub upper: SkinPlaneReport,
-    /// Measured.
+    /// What the computed state has in the lower plane.
     pub lower: SkinPlaneReport,
-    /// Of the exact compact state.
+    /// What the exact compact state has in the upper plane.
     pub exact_upper: SkinPlaneReport,
-    /// Of the exact compact state.
+    /// What the exact compact state has in the lower plane.
     pub exact_lower: SkinPlaneReport,
 }
 
 /// What lies on a skin plane.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct SkinPlaneReport {
-    /// Facets in the plane.
+    /// The number of facets that lie in the plane.
     pub facets: usize,
-    /// Edges in the plane beside those facets.
+    /// The number of edges in the plane that do not belong to those facets.
     pub edges: usize,
-    /// Vertices in the plane beside those facets and edges.
+    /// The number of vertices in the plane that do not belong to those facets and edges.
     pub vertices: usize,
-    /// Area of the facets.
+    /// The total area of the facets in the plane.
     pub area: f64,
-    /// That area over x·y of the compact box in closed form; 0 where the box is flat.
+    /// That area divided by x·y of the compact box in closed form; 0 if the box is flat.
     pub share: f64,
 }
 
 /// Differences to the closed form, each divided by it or, where it is 0, by h, h², h³.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct ErrorReport {
-    /// Of the three extents.
+    /// The relative errors of the three extents.
     pub extents: [f64; 3],
-    /// Of the area.
+    /// The relative error of the area x·z.
     pub area: f64,
-    /// Of the volume.
+    /// The relative error of the volume x·y·z.
     pub volume: f64,
 }
 

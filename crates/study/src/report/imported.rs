@@ -9,27 +9,27 @@ use crate::ImportedStudy;
 /// An imported crease pattern.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct ImportReport {
-    /// The file, as the scene names it.
+    /// The file of the pattern, as the scene names it.
     pub file: String,
-    /// By how much of its fold angles it folds, in percent.
+    /// The part of its fold angles to which the pattern folds, in percent.
     pub fold_percent: f64,
-    /// Stages that the frames of the file give; 1 where it has none.
+    /// The number of stages given by the frames of the file; 1 if it has none.
     pub stages: usize,
-    /// The facet that stays in place; null where none does.
+    /// The facet that stays in place; null if none does.
     pub fixed_facet: Option<u32>,
-    /// Mean length of its edges, the unit of tolerances and separations, in `length_unit`.
+    /// The mean length of its edges in `length_unit`: the unit of tolerances and separations.
     pub mean_edge: f64,
-    /// Mountain creases.
+    /// The number of its mountain creases.
     pub mountains: usize,
-    /// Valley creases.
+    /// The number of its valley creases.
     pub valleys: usize,
-    /// Hinges that nothing drives and nothing holds.
+    /// The number of hinges that nothing drives and nothing holds.
     pub free_hinges: usize,
-    /// Border edges, those of cuts and holes among them.
+    /// The number of border edges, including those of cuts and holes.
     pub borders: usize,
     /// V − E + F: 1 for a sheet without holes, one less for each hole or open cut.
     pub euler_characteristic: i64,
-    /// What was changed or left out while it was read.
+    /// What was changed or ignored while the file was read.
     pub warnings: Vec<String>,
 }
 

@@ -38,63 +38,65 @@ pub use crate::resolve::names::UnitName;
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[schemars(title = "foldmotion report")]
 pub struct Report {
-    /// Title of the scene.
+    /// The title of the scene, or of the pattern.
     pub title: String,
-    /// Version of foldmotion.
+    /// The version of foldmotion that made the report.
     pub version: String,
-    /// How the motion ended.
+    /// How the motion ended, with the reason.
     pub outcome: Outcome,
     /// FOLD's name of the unit of length.
     pub length_unit: String,
-    /// E, T, S, SII or plain; where rows of unequal height have several, joined by `+`. Null for an imported pattern, as
-    /// are rows, columns, unit, profile, division, unfold.
+    /// E, T, S, SII or plain; if rows of unequal height have several cases, joined by `+`. Null for an imported
+    /// pattern, as are rows, columns, unit, profile, division and unfold.
     pub case: Option<String>,
-    /// Nr.
+    /// Nr, the number of rows of units.
     pub rows: Option<usize>,
-    /// Nc.
+    /// Nc, the number of columns of units.
     pub columns: Option<usize>,
-    /// The unit.
+    /// The sizes of the unit, in `length_unit`.
     pub unit: Option<UnitReport>,
     /// The imported pattern; null for a sheet of units.
     pub import: Option<ImportReport>,
-    /// The curve Γ.
+    /// The curve Γ that the sheet approximates.
     pub profile: Option<ProfileReport>,
-    /// Height and case of each row where they differ; null where all rows are equal.
+    /// Height and case of each row if they differ; null if all rows are equal.
     pub unequal_rows: Option<Vec<RowReport>>,
-    /// The sheet folded like a map; null where it folds unit by unit.
+    /// The sheet folded like a map; null if it folds unit by unit.
     pub map: Option<MapReport>,
-    /// The division of Γ.
+    /// The division of Γ into the segments of the rows.
     pub division: Option<DivisionReport>,
-    /// The crease pattern.
+    /// The crease pattern: counts, developability, flat-foldability.
     pub pattern: PatternReport,
-    /// Equations 3 to 7; null where the case has no closed form.
+    /// The compact box by equations 3 to 7; null if the case has no closed form.
     pub closed_form: Option<BoxReport>,
-    /// The compact state reached.
+    /// The compact state that the motion reached.
     pub compact: CompactReport,
-    /// How close the creases came to the end of the motion.
+    /// How close the creases came to their targets at the end of the motion.
     pub fold_angles: FoldAngleReport,
-    /// How well the motion keeps the mirror symmetries of the sheet; empty where it has none, and for an imported pattern.
+    /// How well the motion keeps the mirror symmetries of the sheet; empty if it has none, and for an imported
+    /// pattern.
     pub symmetry: Vec<SymmetryReport>,
-    /// How stage unfold moves the row creases.
+    /// How stage unfold flattens the profile.
     pub unfold: Option<UnfoldReport>,
-    /// The stages of the motion.
+    /// The stages of the motion, in order of time.
     pub stages: Vec<StageReport>,
-    /// Where contact stopped the motion; null where it did not.
+    /// Where contact stopped the motion; null if it did not.
     pub jam: Option<JamReport>,
-    /// What ended the motion before its end; null where it was run to its end. A motion that stopped where layers push is
-    /// jammed too.
+    /// What ended the motion before its end; null if it was computed to its end. A motion that stopped where layers
+    /// push on each other has `jam` too.
     pub stop: Option<StopReport>,
-    /// The verdict.
+    /// The verdict of the collision check.
     pub collision: CollisionSection,
-    /// The recorded path, between whose frames the verdict takes straight lines.
+    /// The recorded path: the verdict takes straight lines between its frames.
     pub path: PathReport,
-    /// The engine; its timings and device are all that may differ between two runs of one scene.
+    /// The engine that computed the motion. Its timings and its device are all that may differ between two runs of
+    /// the same scene.
     pub engine: EngineReport,
-    /// Seconds a part of the run took.
+    /// How many seconds each part of the run took.
     pub seconds: SecondsReport,
-    /// The files written beside this report.
+    /// The names of the files written beside this report.
     pub files: Vec<String>,
-    /// What became of other files in the folder; not part of report.json.
+    /// What happened to other files in the folder; not part of report.json.
     #[serde(skip)]
     pub published: Published,
 }

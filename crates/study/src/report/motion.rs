@@ -11,48 +11,48 @@ use crate::scene::EngineChoice;
 /// What happened in a stage.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct StageReport {
-    /// The stage: unfold or fold.
+    /// The stage: unfold or fold, in this order.
     pub name: Stage,
-    /// Largest |l/l0 − 1| of all edges and frames.
+    /// The largest |l/l0 − 1| over all edges and frames.
     pub peak_strain: f64,
-    /// Motion time of the largest strain.
+    /// The motion time of the largest strain.
     pub peak_strain_t: f64,
-    /// Mean |l/l0 − 1| over edges and frames.
+    /// The mean |l/l0 − 1| over all edges and frames.
     pub mean_strain: f64,
-    /// Largest bend of a facet, degrees.
+    /// The largest bend of a facet, in degrees.
     pub peak_facet_bending_deg: f64,
-    /// Motion time of the largest bend.
+    /// The motion time of the largest bend.
     pub peak_facet_bending_t: f64,
-    /// Largest energy of each kind at any frame.
+    /// The largest energy of each kind at any frame.
     pub peak_energy: EnergyReport,
-    /// Pairs of primitives that push on each other, at most at any frame.
+    /// The largest number of pairs of primitives that push on each other at one frame.
     pub most_contacts: usize,
-    /// Whether the stage was run to its end in equilibrium.
+    /// Whether the stage was computed to its end in equilibrium.
     pub converged: bool,
-    /// Motion time of its last state.
+    /// The motion time of the last state of the stage.
     pub reached_t: f64,
-    /// Largest unbalanced force left, over the fold stiffness.
+    /// The largest unbalanced force left, divided by the fold stiffness.
     pub residual: f64,
-    /// Steps of the dynamic engine, Newton iterations of the quasi-static one.
+    /// The number of steps of the dynamic engine, or of Newton iterations of the quasi-static engine.
     pub steps: u64,
-    /// Load steps of the quasi-static engine.
+    /// The number of load steps of the quasi-static engine; null for the dynamic engine.
     pub load_steps: Option<u64>,
-    /// Load steps that found no equilibrium and were tried again shorter.
+    /// The number of load steps that found no equilibrium and were repeated with a shorter step.
     pub shortened_load_steps: Option<u64>,
 }
 
 /// Energy by kind, in units of EA·h at EA = 1.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct EnergyReport {
-    /// Of the bars.
+    /// The energy of the bars, which stretch.
     pub bars: f64,
-    /// Of the creases.
+    /// The energy of the creases, which turn from their targets.
     pub creases: f64,
-    /// Of the facet hinges.
+    /// The energy of the hinges inside facets.
     pub facets: f64,
-    /// Of the angles of the triangles.
+    /// The energy of the angles of the triangles.
     pub face_angles: f64,
-    /// Of the contact barriers.
+    /// The energy of the contact barriers.
     pub contact: f64,
 }
 
@@ -61,28 +61,28 @@ pub struct EnergyReport {
 pub struct EngineReport {
     /// The engine: dynamic or quasi-static.
     pub name: EngineChoice,
-    /// Closest approach of layers, units of h; null without contact.
+    /// The closest approach of layers, in units of h; null without contact.
     pub contact_gap: Option<f64>,
-    /// Steps of all stages.
+    /// The number of steps of all stages together.
     pub steps: u64,
-    /// Wall-clock seconds.
+    /// The wall-clock seconds of all runs of the engine.
     pub seconds: f64,
-    /// Threads it could use.
+    /// The number of threads it could use.
     pub threads: usize,
     /// What it ran on: cpu, or the name of the GPU.
     pub device: String,
-    /// The processor, and the f64 numbers its vectors hold.
+    /// The type of processor, and how many f64 numbers its vectors hold.
     pub instruction_set: String,
 }
 
 /// Wall-clock seconds of the parts of a run.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct SecondsReport {
-    /// Strain, box and collisions.
+    /// Strain, box and collisions, in seconds.
     pub check: f64,
-    /// Films and files.
+    /// Films, figures and files, in seconds.
     pub record: f64,
-    /// Everything.
+    /// The whole run, in seconds of wall-clock time.
     pub total: f64,
 }
 

@@ -15,128 +15,129 @@ use crate::{Study, Unfolding, UnitStudy};
 /// A row of its own height.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct RowReport {
-    /// E, T, S or SII.
+    /// The case of the row: E, T, S or SII.
     pub case: String,
-    /// Its h.
+    /// The height h of the row, in `length_unit`.
     pub height: f64,
 }
 
 /// A sheet folded like a map.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct MapReport {
-    /// Nr·Nc.
+    /// The number of layers of the stack, Nr·Nc.
     pub layers: usize,
-    /// Height of the stack, layers times `material.thickness`; null where the sheet has no thickness.
+    /// The height of the stack, layers times `material.thickness`; null if the sheet has no thickness.
     pub stack_height: Option<f64>,
-    /// The box of the same sheet folded unit by unit; null where it has no closed form.
+    /// The compact box of the same sheet folded unit by unit; null if it has no closed form.
     pub waterbomb: Option<BoxReport>,
 }
 
 /// The unit.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct UnitReport {
-    /// w.
+    /// The width w of the unit, in `length_unit`.
     pub width: f64,
-    /// h; the mean where rows differ.
+    /// The height h of the unit; the mean if rows differ.
     pub height: f64,
-    /// a, the width of a flap.
+    /// The width a of a flap, in `length_unit`.
     pub flap: f64,
-    /// s, the width of a side pad.
+    /// The width s of a side pad, in `length_unit`.
     pub side_pad: f64,
-    /// 2d, the width of the centre pad.
+    /// The width 2d of the centre pad, in `length_unit`.
     pub centre_pad: f64,
 }
 
 /// The curve Γ.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct ProfileReport {
-    /// Where it comes from: the source of a built-in profile, or the key or file of the scene.
+    /// Where the profile comes from: the source of a built-in profile, or the key or file of the scene.
     pub source: String,
-    /// Whether it returns to its start.
+    /// Whether the profile returns to its start.
     pub closed: bool,
 }
 
 /// Distances of Γ from the divided polygon.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct FitReport {
-    /// The largest.
+    /// The largest distance of Γ from the polygon.
     pub largest: f64,
-    /// The mean over the length of Γ.
+    /// The mean distance over the length of Γ.
     pub mean: f64,
 }
 
 /// The division of Γ (equations 1 and 2).
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct DivisionReport {
-    /// How the profile was divided.
+    /// The method that divided the profile.
     pub method: DivisionMethod,
-    /// |R_max|.
+    /// |R_max|: the largest residual of equation 1.
     pub max_residual: f64,
-    /// |R_ave|.
+    /// |R_ave|: the mean residual of equation 1.
     pub mean_residual: f64,
-    /// How far Γ is from the polygon.
+    /// How far Γ is from the divided polygon.
     pub fit: FitReport,
-    /// Iterations made.
+    /// The number of iterations of the division.
     pub iterations: usize,
-    /// Wall-clock seconds.
+    /// Wall-clock seconds that the division took.
     pub seconds: f64,
-    /// The divided polygon, (x, z).
+    /// The vertices (x, z) of the divided polygon.
     pub points: Vec<[f64; 2]>,
 }
 
 /// The pattern check.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct PatternReport {
-    /// Whether the angles around every interior vertex sum to 360°.
+    /// Whether the angles around every interior vertex sum to 360 degrees.
     pub developable: bool,
-    /// Whether every interior vertex has an even number of creases and alternate angles that sum to 180°.
+    /// Whether every interior vertex has an even number of creases and alternate angles that sum to 180 degrees.
     pub flat_foldable: bool,
-    /// Vertices of the sheet.
+    /// The number of vertices of the sheet.
     pub vertex_count: usize,
-    /// Facets of the crease pattern.
+    /// The number of facets of the crease pattern.
     pub facet_count: usize,
-    /// Triangles of the sheet as computed.
+    /// The number of triangles of the sheet as computed.
     pub face_count: usize,
-    /// Interior vertices by type and number of creases.
+    /// The interior vertices, grouped by type and number of creases.
     pub vertices: Vec<VertexReport>,
 }
 
 /// Interior vertices of one type.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct VertexReport {
-    /// I, J, K, split, pad or grid; imported.
+    /// The type of the vertices: I, J, K, split, pad, grid or imported.
     #[serde(rename = "type")]
     pub kind: String,
-    /// Creases that meet there.
+    /// The number of creases that meet at the vertex.
     pub degree: usize,
-    /// How many there are.
+    /// The number of vertices in this group.
     pub count: usize,
-    /// Mountain creases minus valley creases: +2 or −2 where a vertex folds flat (Maekawa).
+    /// Mountain creases minus valley creases: +2 or −2 if a vertex folds flat (Maekawa).
     pub mountains_minus_valleys: i32,
-    /// Sum of the sector angles, degrees.
+    /// The sum of the sector angles, in degrees.
     pub angle_sum_deg: f64,
-    /// Sums of every other sector angle, degrees, the smaller first; null for an odd number of creases.
+    /// The sums of alternate sector angles in degrees, the smaller first; null for an odd number of creases.
     pub alternate_sums_deg: Option<[f64; 2]>,
-    /// Whether all are developable.
+    /// Whether all vertices of the group are developable.
     pub developable: bool,
-    /// Whether all are flat-foldable.
+    /// Whether all vertices of the group are flat-foldable.
     pub flat_foldable: bool,
 }
 
 /// How stage unfold moves the row creases.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct UnfoldReport {
-    /// uniform or energy.
+    /// The path taken: uniform or energy.
     pub method: UnfoldChoice,
-    /// uniform, energy or auto.
+    /// The path the scene asks for: uniform, energy or auto.
     pub asked: UnfoldChoice,
     /// Whether the divided profile was proved not to cross itself on this path.
     pub certified: bool,
-    /// Where uniform scaling makes it cross itself first, as a share of the stage; null where it does not or was not looked at.
+    /// Where uniform scaling makes the profile cross itself first, as a part of the stage; null if it does not, or if
+    /// that was not examined.
     pub crosses_at: Option<f64>,
-    /// Steps of the descent that found the path; null where uniform.
+    /// The steps of the descent that found the path; null if uniform.
     pub steps: Option<usize>,
-    /// Straight pieces the path has been thinned to; null where uniform.
+    /// The straight pieces to which the path was reduced; null if uniform.
     pub pieces: Option<usize>,
 }
 

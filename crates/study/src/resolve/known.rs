@@ -38,6 +38,12 @@ pub(crate) struct UnitSizes {
 }
 
 impl UnitStudy {
+    /// A state at motion time `time`, turned as its stage is shown: upright until it is flat, then as the compact state
+    /// lies. `positions`: one for each vertex of the sheet.
+    pub fn turned(&self, time: f64, positions: &[DVec3]) -> Vec<DVec3> {
+        turned(&self.known(), time, positions)
+    }
+
     pub(crate) fn known(&self) -> Known {
         let point = |k: u32| {
             let p = self.profile.position(f64::from(k) / f64::from(POINTS));

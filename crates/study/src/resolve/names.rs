@@ -9,11 +9,11 @@ use super::subject::Subject;
 /// A unit by row, column and the paper's name.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct UnitName {
-    /// From 0.
+    /// The row of the unit, counted from 0.
     pub row: u32,
-    /// From 0.
+    /// The column of the unit, counted from 0.
     pub column: u32,
-    /// U^O or U^E.
+    /// The paper's name of the unit: U^O or U^E.
     pub name: String,
 }
 

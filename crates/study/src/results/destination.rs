@@ -21,12 +21,12 @@ impl<'a, P: AsRef<Path> + ?Sized> From<&'a P> for Destination<'a> {
 
 impl<'a> Destination<'a> {
     /// The folder.
-    pub(crate) fn folder(self) -> &'a Path {
+    pub fn folder(self) -> &'a Path {
         self.folder
     }
 
     /// Whether files of others are replaced too.
-    pub(crate) fn replaces_all(self) -> bool {
+    pub fn replaces_all(self) -> bool {
         self.replaces_all
     }
 

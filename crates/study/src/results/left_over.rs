@@ -50,7 +50,7 @@ fn is_abandoned(folder: &Path, process: u32) -> bool {
 }
 
 /// Whether there may be a process of this number.
-pub(crate) fn may_run(process: u32) -> bool {
+pub fn may_run(process: u32) -> bool {
     let processes = Path::new("/proc");
     !processes.join("self").exists() || processes.join(process.to_string()).exists()
 }

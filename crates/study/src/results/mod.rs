@@ -8,11 +8,11 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 use crate::StudyError;
 
 pub use self::destination::Destination;
-pub(crate) use self::left_over::may_run;
+pub use self::left_over::may_run;
 pub(crate) use self::made::{MadeFile, Maker};
 pub(crate) use self::names::{CERTIFICATE, FRAMES, MOTION, REPORT, is_of_a_run, is_picture};
 pub use self::published::Published;
-pub(crate) use self::published::listed;
+pub use self::published::listed;
 pub(crate) use self::space::{Space, size_words};
 
 use self::made::{LIST, MadeFiles, are_same};

@@ -33,7 +33,7 @@ impl Published {
 }
 
 /// Names for a message, not too many.
-pub(crate) fn listed(names: &[String]) -> String {
+pub fn listed(names: &[String]) -> String {
     const MOST: usize = 8;
     let mut text = names.iter().take(MOST).cloned().collect::<Vec<_>>();
     if names.len() > MOST {

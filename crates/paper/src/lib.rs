@@ -4,6 +4,7 @@
 //! that an interrupted run goes on where it was and a second one finds everything. After each part [`PaperRecord`]
 //! (`paper.json`) and the page (`index.html`) are written anew from all that is there.
 
+mod error;
 mod figures;
 mod motions;
 mod page;
@@ -24,10 +25,10 @@ use self::figures::Figure;
 use self::motions::{CERTIFIED, Folding, finished, folding};
 use self::store::Store;
 use self::targets::CASES;
-use crate::StudyError;
-use crate::VERSION;
-use crate::results::Destination;
+use foldmotion_study::Destination;
+use foldmotion_study::VERSION;
 
+pub use self::error::PaperError;
 pub use self::part::PaperPart;
 pub use self::record::{
     CaseRow, CountRow, DivisionRow, FigureRow, MotionRow, PaperRecord, PrintedCounts,
@@ -55,12 +56,12 @@ pub struct PaperRun {
 /// record and the page hold all that is finished in the folder, asked for now or before.
 ///
 /// # Errors
-/// [`StudyError`] of the step that failed; finished parts stay.
+/// [`PaperError`] of the step that failed; finished parts stay.
 pub fn paper<'a>(
     destination: impl Into<Destination<'a>>,
     parts: &[PaperPart],
     progress: PaperProgress<'_>,
-) -> Result<PaperRun, StudyError> {
+) -> Result<PaperRun, PaperError> {
     let destination = destination.into();
     let folder = destination.folder();
     if !destination.replaces_all() {
@@ -90,16 +91,16 @@ pub fn paper<'a>(
     })
 }
 
-fn go_on(progress: PaperProgress<'_>, part: PaperPart, done: f64) -> Result<(), StudyError> {
+fn go_on(progress: PaperProgress<'_>, part: PaperPart, done: f64) -> Result<(), PaperError> {
     if progress(part, done) {
         Ok(())
     } else {
-        Err(StudyError::Interrupted)
+        Err(PaperError::INTERRUPTED)
     }
 }
 
 /// Makes what a part needs and has not been made.
-fn make(store: &Store, part: PaperPart, progress: PaperProgress<'_>) -> Result<(), StudyError> {
+fn make(store: &Store, part: PaperPart, progress: PaperProgress<'_>) -> Result<(), PaperError> {
     let all: Vec<&str> = models().iter().map(|model| model.name).collect();
     match part {
         PaperPart::Table1 | PaperPart::Table2 => {}
@@ -139,8 +140,8 @@ fn each<T: Sync>(
     items: &[T],
     part: PaperPart,
     progress: PaperProgress<'_>,
-    make: impl Fn(&T, motions::Done<'_>) -> Result<(), StudyError> + Sync,
-) -> Result<(), StudyError> {
+    make: impl Fn(&T, motions::Done<'_>) -> Result<(), PaperError> + Sync,
+) -> Result<(), PaperError> {
     let finished = AtomicUsize::new(0);
     let whole = || finished.load(Ordering::Relaxed) as f64;
     items.par_iter().try_for_each(|item| {
@@ -151,7 +152,7 @@ fn each<T: Sync>(
 }
 
 /// Writes `paper.json` and `index.html` with all that is finished.
-fn publish(store: &Store, record: &mut PaperRecord) -> Result<(), StudyError> {
+fn publish(store: &Store, record: &mut PaperRecord) -> Result<(), PaperError> {
     for row in &mut record.cases {
         let case = CASES.into_iter().find(|case| case.name() == row.case);
         let found = |contact| finished(store, &row.model, case?, contact).map(|f: Folding| f.row);
@@ -170,4 +171,9 @@ fn publish(store: &Store, record: &mut PaperRecord) -> Result<(), StudyError> {
     record.figures = drawn.iter().map(|figure| figure.row.clone()).collect();
     store.write_file(store::RECORD, record.to_json().as_bytes())?;
     store.write_file(store::PAGE, page::page(record, &drawn).as_bytes())
+}
+
+/// The JSON schema of `paper.json`.
+pub fn paper_schema() -> String {
+    foldmotion_study::schema_text::<PaperRecord>()
 }

@@ -11,7 +11,8 @@ use super::motions::Done;
 use super::record::UnfoldingRow;
 use super::store::Store;
 use super::targets::{inputs, sheet};
-use crate::{StudyError, UnitStudy};
+use crate::PaperError;
+use foldmotion_study::UnitStudy;
 
 /// Frames from deployed to planar: the straight paths between them are what is judged.
 const FRAMES: usize = 960;
@@ -26,7 +27,7 @@ pub(super) fn unfolding(
     store: &Store,
     model: &str,
     done: Done<'_>,
-) -> Result<Vec<UnfoldingRow>, StudyError> {
+) -> Result<Vec<UnfoldingRow>, PaperError> {
     store.part(&name(model), &part_inputs(model), || judge_all(model, done))
 }
 
@@ -38,7 +39,7 @@ fn part_inputs(model: &str) -> String {
     inputs(model, &format!("unfolding, {FRAMES} frames"))
 }
 
-fn judge_all(model: &str, done: Done<'_>) -> Result<Vec<UnfoldingRow>, StudyError> {
+fn judge_all(model: &str, done: Done<'_>) -> Result<Vec<UnfoldingRow>, PaperError> {
     let study = sheet(model, Case::E)?;
     let unfolding = &study.unfolding;
     let turns = turns(&study.division.points);
@@ -66,7 +67,7 @@ fn judge(
     study: &UnitStudy,
     turns_at: impl Fn(f64) -> Vec<f64>,
     done: Done<'_>,
-) -> Result<UnfoldingRow, StudyError> {
+) -> Result<UnfoldingRow, PaperError> {
     let motion = motion(study, turns_at)?;
     let report = collisions(&motion, &CollisionOptions::default(), done)?;
     Ok(UnfoldingRow {
@@ -84,21 +85,18 @@ fn judge(
 }
 
 /// One column of the sheet over the chain with those turns.
-fn motion(study: &UnitStudy, turns_at: impl Fn(f64) -> Vec<f64>) -> Result<Motion, StudyError> {
+fn motion(study: &UnitStudy, turns_at: impl Fn(f64) -> Vec<f64>) -> Result<Motion, PaperError> {
     let height = study.units.unit.height;
-    let fault = |e: foldmotion_pattern::PatternError| StudyError::Parse {
-        place: study.profile_source.clone(),
-        message: e.to_string(),
-    };
-    let unit = Unit::new(Case::E, height, height, None, None).map_err(fault)?;
-    let units = UnitSheet::new(unit, study.units.rows, 1).map_err(fault)?;
+    let failed = |e| PaperError::pattern(&study.profile_source, e);
+    let unit = Unit::new(Case::E, height, height, None, None).map_err(failed)?;
+    let units = UnitSheet::new(unit, study.units.rows, 1).map_err(failed)?;
     let state = |k: usize| {
         let time = k as f64 / FRAMES as f64;
         let polygon = chain(height, &turns_at(time));
-        let positions = units.deployed(&polygon, Facing::Left).map_err(fault)?;
+        let positions = units.deployed(&polygon, Facing::Left).map_err(failed)?;
         Ok(Frame { time, positions })
     };
-    let frames = (0..=FRAMES).map(state).collect::<Result<_, StudyError>>()?;
+    let frames = (0..=FRAMES).map(state).collect::<Result<_, PaperError>>()?;
     Ok(Motion {
         frames,
         sheet: units.sheet,

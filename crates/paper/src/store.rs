@@ -12,10 +12,11 @@ use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 
 use super::record::PaperRecord;
-use crate::StudyError;
-use crate::VERSION;
-use crate::digest::sha256;
-use crate::results::{listed, may_run, output_error};
+use crate::PaperError;
+
+use foldmotion_study::VERSION;
+use foldmotion_study::sha256;
+use foldmotion_study::{StudyError, listed, may_run};
 
 /// The record and the page.
 pub(super) const RECORD: &str = "paper.json";
@@ -44,7 +45,7 @@ pub(super) struct Store {
 
 impl Store {
     /// Opens the folder; makes it where it is missing.
-    pub(super) fn open(folder: &Path) -> Result<Self, StudyError> {
+    pub(super) fn open(folder: &Path) -> Result<Self, PaperError> {
         let parts = folder.join(PARTS);
         fs::create_dir_all(&parts).map_err(|e| output_error(&parts, "cannot be made", e))?;
         remove_left_over(folder);
@@ -68,8 +69,8 @@ impl Store {
         &self,
         name: &str,
         inputs: &str,
-        make: impl FnOnce() -> Result<T, StudyError>,
-    ) -> Result<T, StudyError> {
+        make: impl FnOnce() -> Result<T, PaperError>,
+    ) -> Result<T, PaperError> {
         if let Some(value) = self.find(name, inputs) {
             self.reused.fetch_add(1, Ordering::Relaxed);
             return Ok(value);
@@ -87,7 +88,7 @@ impl Store {
     }
 
     /// Forgets part `name`, so that it is made anew.
-    pub(super) fn forget(&self, name: &str) -> Result<(), StudyError> {
+    pub(super) fn forget(&self, name: &str) -> Result<(), PaperError> {
         let path = self.part_path(name);
         match fs::remove_file(&path) {
             Err(e) if e.kind() != io::ErrorKind::NotFound => {
@@ -98,7 +99,7 @@ impl Store {
     }
 
     /// Writes `name` in the folder, at once or not at all.
-    pub(super) fn write_file(&self, name: &str, bytes: &[u8]) -> Result<(), StudyError> {
+    pub(super) fn write_file(&self, name: &str, bytes: &[u8]) -> Result<(), PaperError> {
         write(&self.folder.join(name), bytes)
     }
 
@@ -118,7 +119,7 @@ impl Store {
 }
 
 /// Refuses a folder with files under the names of the paper's, but without its record: they are of others.
-pub(super) fn require_clear(folder: &Path) -> Result<(), StudyError> {
+pub(super) fn require_clear(folder: &Path) -> Result<(), PaperError> {
     let is_ours = |name: &str| {
         let figure = name
             .strip_prefix("fig")
@@ -144,10 +145,18 @@ pub(super) fn require_clear(folder: &Path) -> Result<(), StudyError> {
         return Ok(());
     }
     names.sort_unstable();
-    Err(StudyError::InTheWay {
+    Err(PaperError::Study(StudyError::InTheWay {
         path: folder.to_owned(),
         names: listed(&names),
         command: "paper",
+    }))
+}
+
+fn output_error(path: &Path, action: &'static str, source: io::Error) -> PaperError {
+    PaperError::Study(StudyError::Output {
+        path: path.to_owned(),
+        action,
+        source,
     })
 }
 
@@ -165,7 +174,7 @@ fn remove_left_over(folder: &Path) {
 }
 
 /// Writes a file beside its place and renames it into it.
-fn write(path: &Path, bytes: &[u8]) -> Result<(), StudyError> {
+fn write(path: &Path, bytes: &[u8]) -> Result<(), PaperError> {
     let ending = format!("{PARTIAL}{}", std::process::id());
     let mut temporary = path.as_os_str().to_owned();
     temporary.push(ending);
@@ -209,7 +218,7 @@ mod tests {
         store.part("a", "x", || Ok(1)).unwrap();
         store.write_file("parts/a.json", b"{\"key\": \"").unwrap();
         assert_eq!(store.part("a", "x", || Ok(2)).unwrap(), 2);
-        let failed = store.part::<i32>("b", "x", || Err(StudyError::Interrupted));
+        let failed = store.part::<i32>("b", "x", || Err(PaperError::INTERRUPTED));
         assert!(failed.is_err());
         let names = fs::read_dir(home.path().join(PARTS)).unwrap();
         assert_eq!(names.count(), 1);

@@ -7,8 +7,9 @@ use glam::DVec2;
 use super::panel::{Cell, Pose, common_scale};
 use super::pattern::{WORDS, draw_unit};
 use super::{Composed, page};
-use crate::paper::targets::{LAMBDA, sheet, unit_study};
-use crate::{StudyError, UnitStudy};
+use crate::PaperError;
+use crate::targets::{LAMBDA, sheet, unit_study};
+use foldmotion_study::UnitStudy;
 
 /// The profile the units are shown on.
 const MODEL: &str = "shelter";
@@ -24,7 +25,7 @@ const LINE: f64 = 290.0;
 const D_ZERO: f64 = 200.0;
 
 /// Figure 3.
-pub(super) fn figure3() -> Result<Composed, StudyError> {
+pub(super) fn figure3() -> Result<Composed, PaperError> {
     let mut drawing = page(PAGE, 2.0 * LINE)?;
     let plain = plain(7)?;
     let tall = sheet(MODEL, Case::T)?;
@@ -38,7 +39,7 @@ pub(super) fn figure3() -> Result<Composed, StudyError> {
 }
 
 /// Figure 4.
-pub(super) fn figure4() -> Result<Composed, StudyError> {
+pub(super) fn figure4() -> Result<Composed, PaperError> {
     let mut drawing = page(PAGE, 2.0 * LINE)?;
     let plain = plain(3)?;
     let short = sheet(MODEL, Case::S)?;
@@ -52,14 +53,11 @@ pub(super) fn figure4() -> Result<Composed, StudyError> {
 }
 
 /// Figure 5.
-pub(super) fn figure5() -> Result<Composed, StudyError> {
+pub(super) fn figure5() -> Result<Composed, PaperError> {
     let mut drawing = page(PAGE, LINE + D_ZERO)?;
     let width = WIDTH / 3.0;
-    let fault = |e: foldmotion_pattern::PatternError| StudyError::Parse {
-        place: "figure 5".to_owned(),
-        message: e.to_string(),
-    };
-    let unit = Unit::new(Case::SII, width, 1.0, Some(LAMBDA), Some(0.0)).map_err(fault)?;
+    let failed = |e| PaperError::pattern("figure 5", e);
+    let unit = Unit::new(Case::SII, width, 1.0, Some(LAMBDA), Some(0.0)).map_err(failed)?;
     two_units(&mut drawing, 0.0, ["a", "b"], "d = 0", &unit, D_ZERO - 20.0)?;
     let study = sheet(MODEL, Case::SII)?;
     line(
@@ -77,7 +75,7 @@ pub(super) fn figure5() -> Result<Composed, StudyError> {
 }
 
 /// The shelter of unmodified rectangles.
-fn plain(columns: usize) -> Result<UnitStudy, StudyError> {
+fn plain(columns: usize) -> Result<UnitStudy, PaperError> {
     unit_study(format!(
         "[profile]\nmodel = \"{MODEL}\"\n[sheet]\ncase = \"plain\"\ncolumns = {columns}\nwidth = {WIDTH}\n"
     ))
@@ -91,7 +89,7 @@ fn two_units(
     name: &str,
     unit: &Unit,
     caption: f64,
-) -> Result<(), StudyError> {
+) -> Result<(), PaperError> {
     let scale = 140.0 / unit.width.max(unit.height);
     for (row, letter) in (0..).zip(letters) {
         let left = 45.0 + 215.0 * f64::from(row);
@@ -116,7 +114,7 @@ fn line(
     letters: [&str; 4],
     name: &str,
     study: &UnitStudy,
-) -> Result<(), StudyError> {
+) -> Result<(), PaperError> {
     two_units(
         drawing,
         top,

@@ -4,7 +4,8 @@ use std::path::Path;
 
 use foldmotion_pattern::{Case, ProfileModel, find_model};
 
-use crate::{SceneSource, Study, StudyError, UnitStudy};
+use crate::PaperError;
+use foldmotion_study::{SceneSource, Study, UnitStudy};
 
 /// The cases of tables and figures.
 pub(super) const CASES: [Case; 4] = [Case::E, Case::T, Case::S, Case::SII];
@@ -29,17 +30,23 @@ pub(super) fn scene(model: &str, case: Case, motion: &str) -> String {
 }
 
 /// The study of such a scene.
-pub(super) fn study(scene: String) -> Result<Study, StudyError> {
-    Study::resolve(&SceneSource::new(Path::new("paper.toml"), scene))
+pub(super) fn study(scene: String) -> Result<Study, PaperError> {
+    Ok(Study::resolve(&SceneSource::new(
+        Path::new("paper.toml"),
+        scene,
+    ))?)
 }
 
 /// The sheet of such a scene.
-pub(super) fn unit_study(scene: String) -> Result<UnitStudy, StudyError> {
-    UnitStudy::resolve(&SceneSource::new(Path::new("paper.toml"), scene))
+pub(super) fn unit_study(scene: String) -> Result<UnitStudy, PaperError> {
+    Ok(UnitStudy::resolve(&SceneSource::new(
+        Path::new("paper.toml"),
+        scene,
+    ))?)
 }
 
 /// The sheet of `model` in `case` with its exact states; nothing is simulated.
-pub(super) fn sheet(model: &str, case: Case) -> Result<UnitStudy, StudyError> {
+pub(super) fn sheet(model: &str, case: Case) -> Result<UnitStudy, PaperError> {
     unit_study(scene(model, case, ""))
 }
 

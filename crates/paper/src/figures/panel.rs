@@ -4,7 +4,8 @@ use foldmotion_pattern::{LayerOrder, Sheet};
 use foldmotion_record::{Camera, Drawing, PIXELS_A_UNIT, Style, View, picture};
 use glam::{DVec2, DVec3};
 
-use crate::{StudyError, UnitStudy};
+use crate::PaperError;
+use foldmotion_study::UnitStudy;
 
 /// The width of lines in pictures, in units of the page, at most.
 const LINE_WIDTH: f64 = 0.9;
@@ -61,7 +62,7 @@ impl<'a> Pose<'a> {
         view: View,
         cell: Cell,
         scale: f64,
-    ) -> Result<(), StudyError> {
+    ) -> Result<(), PaperError> {
         let pixels = f64::from(PIXELS_A_UNIT);
         #[expect(clippy::cast_sign_loss, reason = "cells are positive")]
         let size = (cell.size * pixels).to_array().map(|side| side as u32);

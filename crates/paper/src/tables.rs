@@ -9,25 +9,28 @@ use glam::DVec3;
 use super::printed::{TABLE_1, TABLE_2};
 use super::record::{CaseRow, CountRow, DivisionRow, PrintedCounts, PrintedDivision};
 use super::targets::{CASES, sheet};
-use crate::report::BoxReport;
-use crate::{StudyError, UnitStudy};
+use crate::PaperError;
+use foldmotion_study::UnitStudy;
+use foldmotion_study::report::BoxReport;
 
 /// Timings are the least of this many.
 const TIMED: usize = 5;
 
 /// Table 1, each profile divided anew.
-pub(super) fn table1() -> Result<Vec<DivisionRow>, StudyError> {
+pub(super) fn table1() -> Result<Vec<DivisionRow>, PaperError> {
     let mut rows = Vec::with_capacity(TABLE_1.len());
     for printed in &TABLE_1 {
-        let model = find_model(printed.model).ok_or_else(|| unknown(printed.model))?;
-        let profile = model.profile().map_err(|e| fault(model.name, &e))?;
+        let model = find_model(printed.model).ok_or_else(|| PaperError::model(printed.model))?;
+        let profile = model
+            .profile()
+            .map_err(|e| PaperError::geometry(model.name, e))?;
         let options = DivisionOptions::default();
         let mut seconds = f64::INFINITY;
         let mut divided = None;
         for _ in 0..TIMED {
             let started = Instant::now();
-            let division =
-                divide(&profile, model.rows, &options).map_err(|e| fault(model.name, &e))?;
+            let division = divide(&profile, model.rows, &options)
+                .map_err(|e| PaperError::geometry(model.name, e))?;
             seconds = seconds.min(started.elapsed().as_secs_f64());
             divided = Some(division);
         }
@@ -69,7 +72,7 @@ pub(super) fn table2() -> Vec<CountRow> {
 }
 
 /// Closed form and exact box of nine profiles in four cases.
-pub(super) fn cases() -> Result<Vec<CaseRow>, StudyError> {
+pub(super) fn cases() -> Result<Vec<CaseRow>, PaperError> {
     let mut rows = Vec::with_capacity(models().len() * CASES.len());
     for model in models() {
         for case in CASES {
@@ -107,20 +110,6 @@ fn box_of(positions: &[DVec3]) -> BoxReport {
         extents: extents.into(),
         area: extents.x * extents.z,
         volume: extents.x * extents.y * extents.z,
-    }
-}
-
-fn unknown(model: &str) -> StudyError {
-    StudyError::Parse {
-        place: "table 1".to_owned(),
-        message: format!("{model}: no built-in profile of this name"),
-    }
-}
-
-fn fault(model: &str, error: &foldmotion_geometry::GeometryError) -> StudyError {
-    StudyError::Parse {
-        place: model.to_owned(),
-        message: error.to_string(),
     }
 }
 

@@ -4,7 +4,7 @@ use foldmotion_pattern::{Assignment, Sheet, Unit, UnitSheet};
 use foldmotion_record::{Anchor, Drawing, Stroke, Style};
 use glam::DVec2;
 
-use crate::StudyError;
+use crate::PaperError;
 
 /// Size of words.
 pub(super) const WORDS: f64 = 13.0;
@@ -89,7 +89,7 @@ pub(super) fn draw_unit(
     row: u32,
     at: DVec2,
     scale: f64,
-) -> Result<(), StudyError> {
+) -> Result<(), PaperError> {
     let units = one_column(unit)?;
     let place = Place {
         skip: f64::from(row) * unit.height,
@@ -121,11 +121,8 @@ pub(super) fn draw_unit(
 }
 
 /// Two rows of one unit.
-pub(super) fn one_column(unit: &Unit) -> Result<UnitSheet, StudyError> {
-    UnitSheet::new(*unit, 2, 1).map_err(|e| StudyError::Parse {
-        place: "a unit of a figure".to_owned(),
-        message: e.to_string(),
-    })
+pub(super) fn one_column(unit: &Unit) -> Result<UnitSheet, PaperError> {
+    UnitSheet::new(*unit, 2, 1).map_err(|e| PaperError::pattern("a unit of a figure", e))
 }
 
 /// Writes a vertex's name outside the unit or, inside it, beside the vertex where no crease ends.

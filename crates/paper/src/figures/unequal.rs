@@ -6,7 +6,7 @@ use glam::DVec2;
 
 use super::pattern::{Place, SMALL, WORDS, draw, one_column};
 use super::{Composed, page};
-use crate::StudyError;
+use crate::PaperError;
 
 /// h_1 = w, h_2 > w, h_3 < w, in units of w.
 const HEIGHTS: [f64; 3] = [1.0, 1.45, 0.6];
@@ -16,7 +16,7 @@ const SCALE: f64 = 180.0;
 const MEETING: f64 = 1e-9;
 
 /// Figure 10.
-pub(super) fn figure10() -> Result<Composed, StudyError> {
+pub(super) fn figure10() -> Result<Composed, PaperError> {
     let mut drawing = page(760.0, 640.0)?;
     let plain = HEIGHTS.map(|height| Unit::new(Case::Plain, 1.0, height, None, None));
     let own = HEIGHTS.map(|height| {
@@ -30,10 +30,7 @@ pub(super) fn figure10() -> Result<Composed, StudyError> {
     for (units, x, words) in columns {
         let mut column = Vec::new();
         for unit in units {
-            column.push(unit.map_err(|e| StudyError::Parse {
-                place: "figure 10".to_owned(),
-                message: e.to_string(),
-            })?);
+            column.push(unit.map_err(|e| PaperError::pattern("figure 10", e))?);
         }
         draw_column(&mut drawing, &column, DVec2::new(x, 30.0))?;
         let below = DVec2::new(x + 0.5 * SCALE, 620.0);
@@ -46,7 +43,7 @@ pub(super) fn figure10() -> Result<Composed, StudyError> {
     ))
 }
 
-fn draw_column(drawing: &mut Drawing, units: &[Unit], at: DVec2) -> Result<(), StudyError> {
+fn draw_column(drawing: &mut Drawing, units: &[Unit], at: DVec2) -> Result<(), PaperError> {
     let mut top = at;
     let mut above: Option<Vec<f64>> = None;
     for (index, unit) in units.iter().enumerate() {

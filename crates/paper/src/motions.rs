@@ -9,8 +9,9 @@ use serde::{Deserialize, Serialize};
 use super::record::MotionRow;
 use super::store::Store;
 use super::targets::{CASES, inputs, scene, study};
-use crate::report::{BoxReport, ErrorReport};
-use crate::{Phase, Study, StudyError};
+use crate::PaperError;
+use foldmotion_study::report::{BoxReport, ErrorReport};
+use foldmotion_study::{Phase, Study};
 
 /// Frames of a motion without contact: its equilibrium does not depend on them, and a figure needs few.
 const FREE_FRAMES: usize = 60;
@@ -60,7 +61,7 @@ pub(super) fn folding(
     case: Case,
     contact: bool,
     done: Done<'_>,
-) -> Result<Folding, StudyError> {
+) -> Result<Folding, PaperError> {
     let [name, scene, inputs] = part(model, case, contact);
     store.part(&name, &inputs, || fold(&study(scene)?, contact, done))
 }
@@ -72,14 +73,14 @@ pub(super) fn strip_inputs() -> String {
     parts.collect()
 }
 
-fn fold(study: &Study, contact: bool, done: Done<'_>) -> Result<Folding, StudyError> {
+fn fold(study: &Study, contact: bool, done: Done<'_>) -> Result<Folding, PaperError> {
     // Engine and check take about equally long; refinement repeats both.
     let share = |phase, part: f64| match phase {
         Phase::Check => 0.5 + 0.5 * part,
         _ => 0.5 * part,
     };
     let folded = study.compute(&|phase, part| done(share(phase, part)))?;
-    let (computed, findings) = (&folded.computed, &folded.findings);
+    let findings = &folded.findings;
     let strains = findings.series.iter().map(|figures| figures.peak_strain);
     let reached_t = folded.motion.frames.last().map_or(0.0, |f: &Frame| f.time);
     let row = MotionRow {
@@ -87,9 +88,9 @@ fn fold(study: &Study, contact: bool, done: Done<'_>) -> Result<Folding, StudyEr
         first_penetration_t: findings.collision.first.as_ref().map(|p| p.time),
         min_separation: findings.collision.min_separation.map(|s| s.distance),
         frames: folded.motion.frames.len(),
-        converged: computed.stages.len() == 2 && computed.stages.iter().all(|s| s.converged),
+        converged: folded.is_converged(),
         reached_t,
-        jam_t: computed.jam.as_ref().map(|jam| jam.time),
+        jam_t: folded.jam().map(|jam| jam.time),
         peak_strain: strains.fold(0.0, f64::max),
         compact: BoxReport {
             extents: folded.compact.extents.into(),

@@ -8,17 +8,14 @@ use glam::DVec2;
 
 use super::pattern::{Place, SMALL, WORDS, draw, draw_unit};
 use super::{Composed, page};
-use crate::StudyError;
+use crate::PaperError;
 
 /// Figure 1.
-pub(super) fn figure1() -> Result<Composed, StudyError> {
+pub(super) fn figure1() -> Result<Composed, PaperError> {
     let mut drawing = page(900.0, 600.0)?;
-    let fault = |e: foldmotion_pattern::PatternError| StudyError::Parse {
-        place: "figure 1".to_owned(),
-        message: e.to_string(),
-    };
-    let unit = Unit::new(Case::E, 1.0, 1.0, None, None).map_err(fault)?;
-    let units = UnitSheet::new(unit, 3, 5).map_err(fault)?;
+    let failed = |e| PaperError::pattern("figure 1", e);
+    let unit = Unit::new(Case::E, 1.0, 1.0, None, None).map_err(failed)?;
+    let units = UnitSheet::new(unit, 3, 5).map_err(failed)?;
     let place = Place::new(DVec2::new(30.0, 30.0), 90.0, 5.0);
     draw(&mut drawing, &units.sheet, &place, 1.4, |_| true);
     let below = DVec2::new(255.0, 325.0);

@@ -1,6 +1,6 @@
 //! The parts of the paper that can be asked for.
 
-use crate::StudyError;
+use crate::PaperError;
 
 /// A part of the paper.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -67,12 +67,12 @@ impl PaperPart {
     /// The parts of a list such as `table1,figA1`, in the order in which they are made, each once.
     ///
     /// # Errors
-    /// [`StudyError::Part`] of the first name that is none, upper and lower case apart.
-    pub fn parse_list(list: &str) -> Result<Vec<Self>, StudyError> {
+    /// [`PaperError::Part`] of the first name that is none, upper and lower case apart.
+    pub fn parse_list(list: &str) -> Result<Vec<Self>, PaperError> {
         let find = |name: &str| {
             let mut parts = Self::ALL.into_iter();
             let found = parts.find(|part| part.name().eq_ignore_ascii_case(name.trim()));
-            found.ok_or_else(|| StudyError::Part {
+            found.ok_or_else(|| PaperError::Part {
                 name: name.trim().to_owned(),
                 known: Self::ALL.map(Self::name).join(", "),
             })

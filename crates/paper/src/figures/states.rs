@@ -7,14 +7,15 @@ use glam::{DVec2, DVec3};
 use super::panel::{Cell, Pose, common_scale};
 use super::pattern::WORDS;
 use super::{Composed, page};
-use crate::paper::targets::sheet;
-use crate::{StudyError, UnitStudy};
+use crate::PaperError;
+use crate::targets::sheet;
+use foldmotion_study::UnitStudy;
 
 /// Strips that stand for the smooth surface.
 const STRIPS: u32 = 240;
 
 /// Figure 2.
-pub(super) fn figure2() -> Result<Composed, StudyError> {
+pub(super) fn figure2() -> Result<Composed, PaperError> {
     let study = sheet("shelter", Case::E)?;
     let (smooth, positions) = swept_surface(&study);
     let surface = Pose {

@@ -6,11 +6,11 @@ use glam::{DVec2, DVec3};
 use super::panel::{Cell, Pose, common_scale};
 use super::pattern::{SMALL, WORDS};
 use super::{Composed, page};
-use crate::paper::motions::{CERTIFIED, Folding, STRIP_TIMES, finished};
-use crate::paper::store::Store;
-use crate::paper::targets::{CASES, sheet};
-use crate::resolve::known::turned;
-use crate::{StudyError, UnitStudy};
+use crate::PaperError;
+use crate::motions::{CERTIFIED, Folding, STRIP_TIMES, finished};
+use crate::store::Store;
+use crate::targets::{CASES, sheet};
+use foldmotion_study::UnitStudy;
 
 /// Width and height of a state's cell.
 const CELL: DVec2 = DVec2::new(230.0, 150.0);
@@ -20,7 +20,7 @@ const LEFT: f64 = 90.0;
 const TITLE: f64 = 40.0;
 
 /// Figure A1, from the motions with contact.
-pub(super) fn figure_a1(store: &Store) -> Result<Composed, StudyError> {
+pub(super) fn figure_a1(store: &Store) -> Result<Composed, PaperError> {
     let block = TITLE + CASES.len() as f64 * (CELL.y + 6.0);
     let width = LEFT + STRIP_TIMES.len() as f64 * (CELL.x + 6.0);
     let mut drawing = page(width, block * CERTIFIED.len() as f64)?;
@@ -35,7 +35,7 @@ pub(super) fn figure_a1(store: &Store) -> Result<Composed, StudyError> {
         );
         let mut strips = Vec::new();
         for case in CASES {
-            let folding = finished(store, model, case, true).ok_or(StudyError::Interrupted)?;
+            let folding = finished(store, model, case, true).ok_or(PaperError::INTERRUPTED)?;
             strips.push((sheet(model, case)?, folding));
         }
         let mut poses = Vec::new();
@@ -92,7 +92,7 @@ fn words_of(
 
 /// A state of a motion, turned as its stage is shown: upright until it is nearly flat, then as the compact state lies.
 fn pose<'a>(study: &'a UnitStudy, (time, positions): &(f64, Vec<DVec3>)) -> Pose<'a> {
-    let pose = Pose::new(study, turned(&study.known(), *time, positions));
+    let pose = Pose::new(study, study.turned(*time, positions));
     if *time > 1.0 {
         pose.layered(study)
     } else {

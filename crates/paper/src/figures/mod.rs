@@ -16,8 +16,8 @@ use super::PaperPart;
 use super::motions::{Done, strip_inputs};
 use super::record::FigureRow;
 use super::store::Store;
-use crate::StudyError;
-use crate::digest::sha256;
+use crate::PaperError;
+use foldmotion_study::sha256;
 
 /// A finished figure.
 #[derive(Debug, Clone)]
@@ -67,7 +67,7 @@ fn find(store: &Store, part: PaperPart) -> Option<Figure> {
 }
 
 /// Draws the figure `part` unless it stands in the folder.
-pub(super) fn draw(store: &Store, part: PaperPart, done: Done<'_>) -> Result<(), StudyError> {
+pub(super) fn draw(store: &Store, part: PaperPart, done: Done<'_>) -> Result<(), PaperError> {
     let name = part.name();
     if find(store, part).is_none() {
         store.forget(name)?;
@@ -75,7 +75,7 @@ pub(super) fn draw(store: &Store, part: PaperPart, done: Done<'_>) -> Result<(),
     store.part(name, &inputs(part), || {
         let (drawing, caption) = compose(store, part)?;
         if !done(0.5) {
-            return Err(StudyError::Interrupted);
+            return Err(PaperError::INTERRUPTED);
         }
         let files = [format!("{name}.svg"), format!("{name}.png")];
         let (svg, png) = (drawing.svg()?, drawing.png()?);
@@ -95,7 +95,7 @@ pub(super) fn draw(store: &Store, part: PaperPart, done: Done<'_>) -> Result<(),
 /// A figure and what it shows.
 type Composed = (Drawing, &'static str);
 
-fn compose(store: &Store, part: PaperPart) -> Result<Composed, StudyError> {
+fn compose(store: &Store, part: PaperPart) -> Result<Composed, PaperError> {
     match part {
         PaperPart::Figure(1) => tessellation::figure1(),
         PaperPart::Figure(2) => states::figure2(),

@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 
 use super::figures::Figure;
 use super::record::{CaseRow, MotionRow, PaperRecord};
-use crate::report::BoxReport;
+use foldmotion_study::report::BoxReport;
 
 /// The look of the page.
 const STYLE: &str = include_str!("page.css");

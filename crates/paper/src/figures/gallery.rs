@@ -7,11 +7,12 @@ use glam::DVec2;
 use super::panel::{Cell, Pose, common_scale};
 use super::pattern::{Place, WORDS, draw};
 use super::{Composed, page};
-use crate::paper::targets::{CASES, sheet};
-use crate::{StudyError, UnitStudy};
+use crate::PaperError;
+use crate::targets::{CASES, sheet};
+use foldmotion_study::UnitStudy;
 
 /// Figure 6.
-pub(super) fn figure6() -> Result<Composed, StudyError> {
+pub(super) fn figure6() -> Result<Composed, PaperError> {
     let cell = DVec2::new(310.0, 250.0);
     let mut drawing = page(3.0 * 320.0 + 10.0, 3.0 * 285.0 + 5.0)?;
     for ((k, model), letter) in models().iter().enumerate().zip('a'..) {
@@ -34,7 +35,7 @@ pub(super) fn figure6() -> Result<Composed, StudyError> {
 }
 
 /// Figure 7.
-pub(super) fn figure7() -> Result<Composed, StudyError> {
+pub(super) fn figure7() -> Result<Composed, PaperError> {
     let drawing = four_cases([("chair", "(a) chair"), ("omega", "(b) capital omega")])?;
     Ok((
         drawing,
@@ -43,7 +44,7 @@ pub(super) fn figure7() -> Result<Composed, StudyError> {
 }
 
 /// Figure 8.
-pub(super) fn figure8() -> Result<Composed, StudyError> {
+pub(super) fn figure8() -> Result<Composed, PaperError> {
     let drawing = four_cases([
         ("mushroom", "(a) mushroom"),
         ("bunny", "(b) Stanford bunny"),
@@ -58,7 +59,7 @@ fn counts(study: &UnitStudy) -> String {
     format!("{} × {}", study.units.rows, study.units.columns)
 }
 
-fn four_cases(blocks: [(&str, &str); 2]) -> Result<Drawing, StudyError> {
+fn four_cases(blocks: [(&str, &str); 2]) -> Result<Drawing, PaperError> {
     let cell = DVec2::new(270.0, 240.0);
     let folded = 150.0;
     let block = cell.y + folded + 60.0;
@@ -97,7 +98,7 @@ fn four_cases(blocks: [(&str, &str); 2]) -> Result<Drawing, StudyError> {
 }
 
 /// Figure 9.
-pub(super) fn figure9() -> Result<Composed, StudyError> {
+pub(super) fn figure9() -> Result<Composed, PaperError> {
     let line = 250.0;
     let mut drawing = page(1000.0, 4.0 * line + 30.0)?;
     for (x, words) in [
