@@ -57,7 +57,7 @@ impl Viewer {
         render_state: Option<&RenderState>,
         shown: &ShownMotion,
     ) -> Option<VertexPull> {
-        let looks = &self.settings.view;
+        let view = &self.settings.view;
         let sheet = &shown.motion().sheet;
         let (faces, points) = self.display.state.penetrating.clone();
         let positions = Arc::clone(&self.display.state.positions);
@@ -77,12 +77,12 @@ impl Viewer {
             });
         };
         // The profile is compared with the deployed sheet, the boxes with the compact one.
-        if looks.profile && !shown.profile.is_empty() && self.playback.time <= 1.0 {
+        if view.profile && !shown.profile.is_empty() && self.playback.time <= 1.0 {
             add(Shape::Path(&shown.profile), accent, 2.0);
         }
         for (wanted, bounds, colour) in [
-            (looks.compact_box, shown.boxes[0], weak),
-            (looks.closed_form_box, shown.boxes[1], accent),
+            (view.compact_box, shown.boxes[0], weak),
+            (view.closed_form_box, shown.boxes[1], accent),
         ] {
             if let Some([low, sides]) = bounds.filter(|_| wanted && self.playback.time > 1.0) {
                 let edges = glam::DMat3::from_diagonal(sides);
@@ -94,8 +94,8 @@ impl Viewer {
             add(Shape::Dots(&points), marked, 9.0);
         }
         let pulse = if faces.is_empty() { 0.0 } else { flash(ui) };
-        let values = self.display.state.values(shown, sheet, looks.colour);
-        let colours = match (looks.colour, values) {
+        let values = self.display.state.values(shown, sheet, view.colour);
+        let colours = match (view.colour, values) {
             (_, Some((values, range, _))) => Colours::Values {
                 values,
                 range,
@@ -105,8 +105,8 @@ impl Viewer {
             (Colour::Layer, _) => Colours::Layers,
             _ => Colours::Plain,
         };
-        let creases = if looks.creases {
-            looks.classes
+        let creases = if view.creases {
+            view.classes
         } else {
             CreaseClasses::NONE
         };
@@ -296,10 +296,10 @@ impl Viewer {
     }
 
     fn crease_switches(&mut self, ui: &mut Ui) {
-        let looks = &mut self.settings.view;
-        ui.checkbox(&mut looks.creases, "creases");
+        let view = &mut self.settings.view;
+        ui.checkbox(&mut view.creases, "creases");
         ui.separator();
-        let classes = &mut looks.classes;
+        let classes = &mut view.classes;
         for (value, name) in [
             (&mut classes.mountains, "mountain"),
             (&mut classes.valleys, "valley"),
@@ -311,18 +311,18 @@ impl Viewer {
             (&mut classes.pad, "pads"),
             (&mut classes.column, "columns"),
         ] {
-            ui.add_enabled(looks.creases, Checkbox::new(value, name));
+            ui.add_enabled(view.creases, Checkbox::new(value, name));
         }
     }
 
     fn overlay_switches(&mut self, ui: &mut Ui) {
-        let looks = &mut self.settings.view;
-        ui.checkbox(&mut looks.profile, "profile curve");
-        ui.checkbox(&mut looks.compact_box, "compact box, measured");
-        ui.checkbox(&mut looks.closed_form_box, "compact box, closed form")
+        let view = &mut self.settings.view;
+        ui.checkbox(&mut view.profile, "profile curve");
+        ui.checkbox(&mut view.compact_box, "compact box, measured");
+        ui.checkbox(&mut view.closed_form_box, "compact box, closed form")
             .on_hover_text("Equations 3 to 7 of the paper; shown while the sheet folds");
-        if ui.checkbox(&mut looks.perspective, "perspective").changed() {
-            self.view3d.set_perspective(looks.perspective);
+        if ui.checkbox(&mut view.perspective, "perspective").changed() {
+            self.view3d.set_perspective(view.perspective);
         }
     }
 }
