@@ -400,11 +400,8 @@ impl Viewer {
         );
         let is_free = self.jobs.recording.is_none();
         let button = egui::Button::new("Write results");
-        if ui
-            .add_enabled(is_free, button)
-            .on_hover_text(hint)
-            .clicked()
-        {
+        let button = ui.add_enabled(is_free, button).on_hover_text(hint);
+        if button.clicked() {
             let job = shown.write(folder.clone(), self.repaint.clone());
             self.jobs.recording = job.map(|job| (folder, job));
         }

@@ -12,6 +12,7 @@ use eframe::egui::{
 use eframe::egui_wgpu::RenderState;
 use foldmotion_pattern::{Facet, FacetKind, Sheet};
 use foldmotion_record::{Style, colour_of};
+use glam::{DMat3, DVec3};
 
 use super::Viewer;
 use super::shown_motion::{MotionSource, ShownMotion};
@@ -50,25 +51,17 @@ impl Viewer {
         self.text_over_view(ui, rect, &shown);
     }
 
-    /// Draws the sheet; returns the vertex that is being pulled.
-    fn picture(
-        &mut self,
-        ui: &mut Ui,
-        render_state: Option<&RenderState>,
-        shown: &ShownMotion,
-    ) -> Option<VertexPull> {
+    /// The profile, the boxes and the points of penetration that are drawn over the sheet.
+    fn overlays<'a>(
+        &self,
+        ui: &Ui,
+        shown: &'a ShownMotion,
+        penetrations: &'a [DVec3],
+    ) -> Vec<Overlay<'a>> {
         let view = &self.settings.view;
-        let sheet = &shown.motion().sheet;
-        let (faces, points) = self.display.state.penetrating.clone();
-        let positions = Arc::clone(&self.display.state.positions);
-        let state_key = self.display.state.key;
         let visuals = ui.visuals();
-        let background = visuals.panel_fill;
-        let style = style(visuals.dark_mode);
-        let accent = visuals.hyperlink_color;
-        let weak = visuals.weak_text_color();
-        let marked = visuals.error_fg_color;
-        let mut overlays: Vec<Overlay<'_>> = Vec::new();
+        let (accent, weak) = (visuals.hyperlink_color, visuals.weak_text_color());
+        let mut overlays = Vec::new();
         let mut add = |shape, colour, width| {
             overlays.push(Overlay {
                 shape,
@@ -77,22 +70,41 @@ impl Viewer {
             });
         };
         // The profile is compared with the deployed sheet, the boxes with the compact one.
-        if view.profile && !shown.profile.is_empty() && self.playback.time <= 1.0 {
+        let is_folding = self.playback.time > 1.0;
+        if view.profile && !shown.profile.is_empty() && !is_folding {
             add(Shape::Path(&shown.profile), accent, 2.0);
         }
         for (wanted, bounds, colour) in [
             (view.compact_box, shown.boxes[0], weak),
             (view.closed_form_box, shown.boxes[1], accent),
         ] {
-            if let Some([low, sides]) = bounds.filter(|_| wanted && self.playback.time > 1.0) {
-                let edges = glam::DMat3::from_diagonal(sides);
+            if let Some([low, sides]) = bounds.filter(|_| wanted && is_folding) {
+                let edges = DMat3::from_diagonal(sides);
                 let edges = [edges.x_axis, edges.y_axis, edges.z_axis];
                 add(Shape::Box(low, edges), colour, 1.2);
             }
         }
-        if !points.is_empty() {
-            add(Shape::Dots(&points), marked, 9.0);
+        if !penetrations.is_empty() {
+            add(Shape::Dots(penetrations), visuals.error_fg_color, 9.0);
         }
+        overlays
+    }
+
+    /// Draws the sheet; returns the vertex that is being pulled.
+    fn picture(
+        &mut self,
+        ui: &mut Ui,
+        render_state: Option<&RenderState>,
+        shown: &ShownMotion,
+    ) -> Option<VertexPull> {
+        let (faces, points) = self.display.state.penetrating.clone();
+        let overlays = self.overlays(ui, shown, &points);
+        let view = &self.settings.view;
+        let sheet = &shown.motion().sheet;
+        let positions = Arc::clone(&self.display.state.positions);
+        let state_key = self.display.state.key;
+        let background = ui.visuals().panel_fill;
+        let style = style(ui.visuals().dark_mode);
         let pulse = if faces.is_empty() { 0.0 } else { flash(ui) };
         let values = self.display.state.values(shown, sheet, view.colour);
         let colours = match (view.colour, values) {
