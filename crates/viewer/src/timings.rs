@@ -67,11 +67,11 @@ impl Timings {
     }
 
     /// Records that a frame begins. The time since the last call belongs to the previous frame.
-    pub(crate) fn frame(&mut self, pace: Activity, has_picture: bool) {
+    pub(crate) fn frame(&mut self, activity: Activity, has_picture: bool) {
         if has_picture && self.first_picture.is_none() {
             self.first_picture = Some(self.started.elapsed());
         }
-        let now = (Instant::now(), pace, thread_time());
+        let now = (Instant::now(), activity, thread_time());
         if let Some((began, of, spent_before)) = self.last.replace(now)
             && let (Some(before), Some(after)) = (spent_before, now.2)
         {
@@ -92,8 +92,8 @@ impl Timings {
     }
 
     /// Statistics of the last frames with an activity.
-    pub(crate) fn frame_times(&self, pace: Activity) -> Option<FrameTimes> {
-        let frames = &self.frames[pace as usize];
+    pub(crate) fn frame_times(&self, activity: Activity) -> Option<FrameTimes> {
+        let frames = &self.frames[activity as usize];
         let count = frames.len();
         let mut times: Vec<Duration> = frames.iter().map(|times| times[0]).collect();
         times.sort_unstable();
@@ -115,19 +115,19 @@ impl Timings {
         if let Some(first) = self.first_picture {
             let _ = writeln!(text, "first picture after {:.2} s", first.as_secs_f64());
         }
-        for pace in Activity::ALL {
-            let Some(times) = self.frame_times(pace) else {
+        for activity in Activity::ALL {
+            let Some(times) = self.frame_times(activity) else {
                 continue;
             };
             let _ = write!(
                 text,
                 "window thread, {}: {:.2} ms per frame, 95 % within {:.2} ms, {} frames",
-                pace.name(),
+                activity.name(),
                 times.mean_ms,
                 times.most_ms,
                 times.count
             );
-            let _ = match pace {
+            let _ = match activity {
                 Activity::Idle => writeln!(text),
                 _ => writeln!(text, ", one every {:.1} ms", times.spacing_ms),
             };
@@ -181,7 +181,7 @@ mod tests {
             "{text}"
         );
         if thread_time().is_some() {
-            let count = |pace| timings.frame_times(pace).map(|times| times.count);
+            let count = |activity| timings.frame_times(activity).map(|times| times.count);
             assert_eq!(Activity::ALL.map(count), [Some(5), None, Some(FRAMES)]);
             assert!(
                 text.contains("during background jobs") && text.contains("memory"),

@@ -141,7 +141,7 @@ fn show_unit(draft: &UnitDraft, ui: &mut Ui) {
         brief(unit.height),
         brief(ratio)
     );
-    let tip = "w = W/Nc and h, the mean length of a segment";
+    let tip = "w = W/Nc, and h is the mean length of a segment.";
     value_row(ui, "unit w × h", &text, tip);
     let text = format!(
         "{}: a = {}, s = {}, 2d = {}",

@@ -57,17 +57,17 @@ pub(super) struct Form<'a> {
 impl<'a> Form<'a> {
     pub(super) fn new(
         ui: &Ui,
-        facts: &DesignInput<'a>,
+        input: &DesignInput<'a>,
         gesture: Option<Id>,
         claimed: BTreeSet<String>,
     ) -> Self {
         Self {
-            original: facts.scene,
-            scene: facts.scene.clone(),
-            draft: facts.draft,
-            draft_number: facts.draft_number,
+            original: input.scene,
+            scene: input.scene.clone(),
+            draft: input.draft,
+            draft_number: input.draft_number,
             id: ui.make_persistent_id("design"),
-            errors: facts.errors,
+            errors: input.errors,
             claimed,
             claims: BTreeSet::new(),
             gesture,

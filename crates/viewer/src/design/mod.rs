@@ -86,16 +86,16 @@ pub(crate) struct DesignPanel {
 
 impl DesignPanel {
     /// Shows the panel and returns the user's edit in this frame, if any, for the caller to apply.
-    pub(crate) fn show(&mut self, ui: &mut egui::Ui, facts: &DesignInput<'_>) -> Option<Change> {
+    pub(crate) fn show(&mut self, ui: &mut egui::Ui, input: &DesignInput<'_>) -> Option<Change> {
         if !ui.input(|input| input.pointer.any_down())
             && ui.input(|input| input.keys_down.is_empty())
         {
             self.gesture = None;
         }
-        let mut form = Form::new(ui, facts, self.gesture, std::mem::take(&mut self.claims));
+        let mut form = Form::new(ui, input, self.gesture, std::mem::take(&mut self.claims));
         ui.spacing_mut().item_spacing.y = 4.0;
         form.general_errors(ui);
-        if facts.scene.pattern.is_some() {
+        if input.scene.pattern.is_some() {
             imported::show(&mut self.measurements, &mut form, ui);
         } else {
             self.profile.show(&mut form, ui);

@@ -100,6 +100,7 @@ fn show_creases(form: &mut Form<'_>, ui: &mut Ui, index: usize) {
         return;
     };
     let stage = step.stage;
+    let given = serde_json::to_value(step.creases).unwrap_or_default();
     if !is_imported || stage == Stage::Unfold {
         let field = Field::new(key("stage"), "stage");
         form.row(ui, &field, |form, ui, _| {
@@ -117,7 +118,7 @@ fn show_creases(form: &mut Form<'_>, ui: &mut Ui, index: usize) {
     let field = Field::new(key("creases"), "creases");
     let mut creases = choices(&field.key);
     if is_imported {
-        creases.retain(|(name, _)| IMPORTED_CREASES.contains(name));
+        creases.retain(|(name, _)| IMPORTED_CREASES.contains(name) || given == *name);
     }
     form.menu_of(ui, &field, "all", creases, |scene| {
         &mut scene.motion.step[index].creases
@@ -127,12 +128,8 @@ fn show_creases(form: &mut Form<'_>, ui: &mut Ui, index: usize) {
         ("columns", |step| &mut step.columns),
     ];
     for (name, of) in lists {
-        let is_given = form
-            .scene
-            .motion
-            .step
-            .get_mut(index)
-            .is_some_and(|step| of(step).is_some());
+        let step = form.scene.motion.step.get_mut(index);
+        let is_given = step.is_some_and(|step| of(step).is_some());
         if !is_imported || is_given {
             let field = Field::new(key(name), name);
             show_range(form, ui, &field, index, of);

@@ -96,8 +96,8 @@ impl Viewer {
 
     /// The corners of the boxes that are shown.
     fn shown_boxes(&self) -> Vec<glam::DVec3> {
-        let looks = &self.settings.view;
-        let wanted = [looks.compact_box, looks.closed_form_box];
+        let view = &self.settings.view;
+        let wanted = [view.compact_box, view.closed_form_box];
         let boxes = self.shown_motion().map_or([None; 2], |shown| shown.boxes);
         let is_shown = self.playback.time > 1.0;
         let boxes = boxes.into_iter().zip(wanted);

@@ -131,20 +131,16 @@ impl Viewer {
                 *wanted = Some(Command::Cancel);
             }
             let mut follows = self.display.follows_run;
-            let follow = ui.checkbox(&mut follows, "follow");
-            if follow
-                .on_hover_text("Show the sheet while it is computed")
-                .changed()
-            {
+            let hint = "Show the sheet while it is computed";
+            let follow = ui.checkbox(&mut follows, "follow").on_hover_text(hint);
+            if follow.changed() {
                 self.display.follows_run = follows;
             }
         } else {
             let is_on = self.resolved.study.is_some() && self.display.file.is_none();
             let button = Button::new(RichText::new("Run").strong());
-            let hint = format!(
-                "Fold, check and report ({})",
-                keys_of(ui.ctx(), Command::Run)
-            );
+            let keys = keys_of(ui.ctx(), Command::Run);
+            let hint = format!("Fold, check and report ({keys})");
             if ui.add_enabled(is_on, button).on_hover_text(hint).clicked() {
                 *wanted = Some(Command::Run);
             }

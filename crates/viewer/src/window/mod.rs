@@ -319,13 +319,13 @@ impl Viewer {
             return;
         }
         let draft = self.resolved.draft.as_ref();
-        let facts = DesignInput {
+        let input = DesignInput {
             scene: self.document.scene(),
             draft: draft.map(|(_, _, draft)| &**draft),
             draft_number: draft.map_or(0, |(number, ..)| *number),
             errors: &self.resolved.errors,
         };
-        if let Some(change) = self.design.show(ui, &facts)
+        if let Some(change) = self.design.show(ui, &input)
             && !self
                 .document
                 .change(change.scene, change.label, change.continues)
@@ -400,11 +400,8 @@ impl Viewer {
         );
         let is_free = self.jobs.recording.is_none();
         let button = egui::Button::new("Write results");
-        if ui
-            .add_enabled(is_free, button)
-            .on_hover_text(hint)
-            .clicked()
-        {
+        let button = ui.add_enabled(is_free, button).on_hover_text(hint);
+        if button.clicked() {
             let job = shown.write(folder.clone(), self.repaint.clone());
             self.jobs.recording = job.map(|job| (folder, job));
         }
@@ -435,14 +432,14 @@ fn motion_keys(scene: &Scene) -> Scene {
 
 impl eframe::App for Viewer {
     fn ui(&mut self, ui: &mut Ui, frame: &mut eframe::Frame) {
-        let pace = if self.is_busy() {
+        let activity = if self.is_busy() {
             Activity::Busy
         } else if self.playback.is_playing {
             Activity::Playing
         } else {
             Activity::Idle
         };
-        self.timings.frame(pace, self.view3d.drawn() > 0);
+        self.timings.frame(activity, self.view3d.drawn() > 0);
         let ctx = ui.ctx().clone();
         self.poll(&ctx);
         let canvas = self.view3d.id();

@@ -63,35 +63,10 @@ impl RecordPanel {
     ) -> Option<RecordRequest> {
         let mut request = None;
         let mut folder = self.folder.take().unwrap_or_default();
-        ui.label(
-            "The camera is that of the view. Everything else is as in the scene's [record] table.",
-        );
-        ui.add_space(4.0);
-        Grid::new("outputs").num_columns(2).show(ui, |ui| {
-            for pair in OUTPUTS.chunks(2) {
-                for &(output, name) in pair {
-                    self.switch(ui, output, name);
-                }
-                ui.end_row();
-            }
-        });
-        ui.add_space(4.0);
-        Grid::new("record").num_columns(2).show(ui, |ui| {
-            let label = ui.label("width, pixels");
-            ui.add(DragValue::new(&mut self.size[0]).range(16..=4096))
-                .labelled_by(label.id);
-            ui.end_row();
-            let label = ui.label("height, pixels");
-            ui.add(DragValue::new(&mut self.size[1]).range(16..=4096))
-                .labelled_by(label.id);
-            ui.end_row();
-            let label = ui.label("film, seconds");
-            let field = DragValue::new(&mut self.seconds)
-                .range(0.1..=600.0)
-                .speed(0.1);
-            ui.add(field).labelled_by(label.id);
-            ui.end_row();
-        });
+        let about =
+            "The camera is that of the view. Everything else is as in the scene's [record] table.";
+        ui.label(about);
+        self.files(ui);
         let words = format!("only t = {:.4} in figures and models", current.time);
         ui.checkbox(&mut self.only_now, words);
         ui.add_space(4.0);
@@ -106,15 +81,11 @@ impl RecordPanel {
         ui.separator();
         ui.horizontal(|ui| {
             let is_ready = !self.outputs.is_empty() && !folder.trim().is_empty();
-            if ui
-                .add_enabled(is_ready, Button::new("Record now"))
-                .clicked()
-            {
-                let record = self.record(scene, current);
-                request = Some(RecordRequest::Record(
-                    Box::new(record),
-                    PathBuf::from(folder.trim()),
-                ));
+            let button = Button::new("Record now");
+            if ui.add_enabled(is_ready, button).clicked() {
+                let record = Box::new(self.record(scene, current));
+                let folder = PathBuf::from(folder.trim());
+                request = Some(RecordRequest::Record(record, folder));
             }
             if ui.button("Close").clicked() {
                 request = Some(RecordRequest::Close);
@@ -128,17 +99,42 @@ impl RecordPanel {
         let is_there = output != OutputChoice::Mp4 || cfg!(feature = "mp4");
         let mut is_on = self.outputs.contains(&output);
         let check = ui.add_enabled(is_there, Checkbox::new(&mut is_on, name));
-        if check
-            .on_disabled_hover_text(
-                "This program was built without MP4; build it with --features full",
-            )
-            .changed()
-        {
+        let why_not = "This program was built without MP4; build it with --features full.";
+        if check.on_disabled_hover_text(why_not).changed() {
             self.outputs.retain(|&o| o != output);
             if is_on {
                 self.outputs.push(output);
             }
         }
+    }
+
+    /// The choice of outputs, and their size and duration.
+    fn files(&mut self, ui: &mut Ui) {
+        ui.add_space(4.0);
+        Grid::new("outputs").num_columns(2).show(ui, |ui| {
+            for pair in OUTPUTS.chunks(2) {
+                for &(output, name) in pair {
+                    self.switch(ui, output, name);
+                }
+                ui.end_row();
+            }
+        });
+        ui.add_space(4.0);
+        Grid::new("record").num_columns(2).show(ui, |ui| {
+            let sides = ["width, pixels", "height, pixels"];
+            for (name, pixels) in sides.into_iter().zip(&mut self.size) {
+                let label = ui.label(name);
+                let field = DragValue::new(pixels).range(16..=4096);
+                ui.add(field).labelled_by(label.id);
+                ui.end_row();
+            }
+            let label = ui.label("film, seconds");
+            let field = DragValue::new(&mut self.seconds)
+                .range(0.1..=600.0)
+                .speed(0.1);
+            ui.add(field).labelled_by(label.id);
+            ui.end_row();
+        });
     }
 
     /// The `[record]` table for the outputs and the current view.

@@ -13,6 +13,7 @@ use eframe::egui_wgpu::RenderState;
 use foldmotion_check::Verdict;
 use foldmotion_pattern::{Facet, FacetKind, Sheet};
 use foldmotion_record::{Style, colour_of};
+use glam::{DMat3, DVec3};
 
 use super::Viewer;
 use super::shown_motion::{MotionSource, ShownMotion};
@@ -51,25 +52,17 @@ impl Viewer {
         self.text_over_view(ui, rect, &shown);
     }
 
-    /// Draws the sheet; returns the vertex that is being pulled.
-    fn picture(
-        &mut self,
-        ui: &mut Ui,
-        render_state: Option<&RenderState>,
-        shown: &ShownMotion,
-    ) -> Option<VertexPull> {
-        let looks = &self.settings.view;
-        let sheet = &shown.motion().sheet;
-        let (faces, points) = self.display.state.penetrating.clone();
-        let positions = Arc::clone(&self.display.state.positions);
-        let state_key = self.display.state.key;
+    /// The profile, the boxes and the points of penetration that are drawn over the sheet.
+    fn overlays<'a>(
+        &self,
+        ui: &Ui,
+        shown: &'a ShownMotion,
+        penetrations: &'a [DVec3],
+    ) -> Vec<Overlay<'a>> {
+        let view = &self.settings.view;
         let visuals = ui.visuals();
-        let background = visuals.panel_fill;
-        let style = style(visuals.dark_mode);
-        let accent = visuals.hyperlink_color;
-        let weak = visuals.weak_text_color();
-        let marked = visuals.error_fg_color;
-        let mut overlays: Vec<Overlay<'_>> = Vec::new();
+        let (accent, weak) = (visuals.hyperlink_color, visuals.weak_text_color());
+        let mut overlays = Vec::new();
         let mut add = |shape, colour, width| {
             overlays.push(Overlay {
                 shape,
@@ -78,25 +71,44 @@ impl Viewer {
             });
         };
         // The profile is compared with the deployed sheet, the boxes with the compact one.
-        if looks.profile && !shown.profile.is_empty() && self.playback.time <= 1.0 {
+        let is_folding = self.playback.time > 1.0;
+        if view.profile && !shown.profile.is_empty() && !is_folding {
             add(Shape::Path(&shown.profile), accent, 2.0);
         }
         for (wanted, bounds, colour) in [
-            (looks.compact_box, shown.boxes[0], weak),
-            (looks.closed_form_box, shown.boxes[1], accent),
+            (view.compact_box, shown.boxes[0], weak),
+            (view.closed_form_box, shown.boxes[1], accent),
         ] {
-            if let Some([low, sides]) = bounds.filter(|_| wanted && self.playback.time > 1.0) {
-                let edges = glam::DMat3::from_diagonal(sides);
+            if let Some([low, sides]) = bounds.filter(|_| wanted && is_folding) {
+                let edges = DMat3::from_diagonal(sides);
                 let edges = [edges.x_axis, edges.y_axis, edges.z_axis];
                 add(Shape::Box(low, edges), colour, 1.2);
             }
         }
-        if !points.is_empty() {
-            add(Shape::Dots(&points), marked, 9.0);
+        if !penetrations.is_empty() {
+            add(Shape::Dots(penetrations), visuals.error_fg_color, 9.0);
         }
+        overlays
+    }
+
+    /// Draws the sheet; returns the vertex that is being pulled.
+    fn picture(
+        &mut self,
+        ui: &mut Ui,
+        render_state: Option<&RenderState>,
+        shown: &ShownMotion,
+    ) -> Option<VertexPull> {
+        let (faces, points) = self.display.state.penetrating.clone();
+        let overlays = self.overlays(ui, shown, &points);
+        let view = &self.settings.view;
+        let sheet = &shown.motion().sheet;
+        let positions = Arc::clone(&self.display.state.positions);
+        let state_key = self.display.state.key;
+        let background = ui.visuals().panel_fill;
+        let style = style(ui.visuals().dark_mode);
         let pulse = if faces.is_empty() { 0.0 } else { flash(ui) };
-        let values = self.display.state.values(shown, sheet, looks.colour);
-        let colours = match (looks.colour, values) {
+        let values = self.display.state.values(shown, sheet, view.colour);
+        let colours = match (view.colour, values) {
             (_, Some((values, range, _))) => Colours::Values {
                 values,
                 range,
@@ -106,8 +118,8 @@ impl Viewer {
             (Colour::Layer, _) => Colours::Layers,
             _ => Colours::Plain,
         };
-        let creases = if looks.creases {
-            looks.classes
+        let creases = if view.creases {
+            view.classes
         } else {
             CreaseClasses::NONE
         };
@@ -297,10 +309,10 @@ impl Viewer {
     }
 
     fn crease_switches(&mut self, ui: &mut Ui) {
-        let looks = &mut self.settings.view;
-        ui.checkbox(&mut looks.creases, "creases");
+        let view = &mut self.settings.view;
+        ui.checkbox(&mut view.creases, "creases");
         ui.separator();
-        let classes = &mut looks.classes;
+        let classes = &mut view.classes;
         for (value, name) in [
             (&mut classes.mountains, "mountain"),
             (&mut classes.valleys, "valley"),
@@ -312,18 +324,18 @@ impl Viewer {
             (&mut classes.pad, "pads"),
             (&mut classes.column, "columns"),
         ] {
-            ui.add_enabled(looks.creases, Checkbox::new(value, name));
+            ui.add_enabled(view.creases, Checkbox::new(value, name));
         }
     }
 
     fn overlay_switches(&mut self, ui: &mut Ui) {
-        let looks = &mut self.settings.view;
-        ui.checkbox(&mut looks.profile, "profile curve");
-        ui.checkbox(&mut looks.compact_box, "compact box, measured");
-        ui.checkbox(&mut looks.closed_form_box, "compact box, closed form")
+        let view = &mut self.settings.view;
+        ui.checkbox(&mut view.profile, "profile curve");
+        ui.checkbox(&mut view.compact_box, "compact box, measured");
+        ui.checkbox(&mut view.closed_form_box, "compact box, closed form")
             .on_hover_text("Equations 3 to 7 of the paper; shown while the sheet folds");
-        if ui.checkbox(&mut looks.perspective, "perspective").changed() {
-            self.view3d.set_perspective(looks.perspective);
+        if ui.checkbox(&mut view.perspective, "perspective").changed() {
+            self.view3d.set_perspective(view.perspective);
         }
     }
 }

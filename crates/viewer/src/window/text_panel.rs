@@ -11,7 +11,7 @@ impl Viewer {
             ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
                 if ui
                     .button("Design")
-                    .on_hover_text("back to the design panel (F7)")
+                    .on_hover_text("Back to the design panel (F7)")
                     .clicked()
                 {
                     self.settings.panels.text = false;

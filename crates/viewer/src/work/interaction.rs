@@ -88,10 +88,10 @@ impl Interaction {
             repaint,
         });
         let states = StateFeed::default();
-        let (kept, shown) = (Arc::clone(&shared), states.clone());
-        let thread = start("foldmotion hand", move || {
-            if let Err(error) = in_thread_pool(|| kept.keep(&study, time, &positions, &shown)) {
-                kept.fail(error);
+        let (working, shown) = (Arc::clone(&shared), states.clone());
+        let thread = start("foldmotion interaction", move || {
+            if let Err(error) = in_thread_pool(|| working.run(&study, time, &positions, &shown)) {
+                working.fail(error);
             }
         });
         let thread = thread.map_err(|error| shared.fail(error)).ok();
@@ -104,13 +104,14 @@ impl Interaction {
 
     /// Requests a motion time.
     pub(crate) fn set_target_time(&self, time: f64) {
-        self.shared.request(|request| request.target_time = time);
+        self.shared
+            .change_request(|request| request.target_time = time);
     }
 
     /// Pulls `vertex` towards `point`, in the sheet's unit, or releases it.
     pub(crate) fn pull(&self, pull: Option<(u32, DVec3)>) {
         let pull = pull.map(|(vertex, point)| Pull { vertex, point });
-        self.shared.request(|request| request.pull = pull);
+        self.shared.change_request(|request| request.pull = pull);
     }
 
     pub(crate) fn states(&self) -> &StateFeed {
@@ -129,7 +130,7 @@ impl Interaction {
 
 impl Shared {
     /// Changes the request; a change without effect does not wake a sheet at rest.
-    fn request(&self, change: impl FnOnce(&mut Request)) {
+    fn change_request(&self, change: impl FnOnce(&mut Request)) {
         let mut request = lock(&self.request);
         let before = *request;
         change(&mut request);
@@ -157,7 +158,7 @@ impl Shared {
     }
 
     /// Moves the sheet until the interaction ends.
-    fn keep(
+    fn run(
         &self,
         study: &Study,
         time: f64,
@@ -219,7 +220,8 @@ impl Shared {
 
 impl Drop for Interaction {
     fn drop(&mut self) {
-        self.shared.request(|request| request.is_stopped = true);
+        self.shared
+            .change_request(|request| request.is_stopped = true);
         join_briefly(self.thread.take());
     }
 }

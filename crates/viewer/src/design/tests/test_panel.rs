@@ -43,13 +43,13 @@ pub(super) fn panel_of(
         changes: Vec::new(),
     };
     let show = |ui: &mut egui::Ui, state: &mut TestPanel| {
-        let facts = DesignInput {
+        let input = DesignInput {
             scene: &state.scene,
             draft: state.draft.as_ref(),
             draft_number: state.draft_number,
             errors: &state.errors,
         };
-        if let Some(change) = state.panel.show(ui, &facts) {
+        if let Some(change) = state.panel.show(ui, &input) {
             state.scene = change.scene.clone();
             state.changes.push(change);
         }
