@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
-use foldmotion_study::scene::fields::{Field, field};
+use foldmotion_study::scene::fields::tip;
 use foldmotion_study::scene::{
     CameraChoice, CameraScene, ColourChoice, HoldScene, OutputChoice, OwnCamera, Playback,
     RecordScene, ThickenedScene,
@@ -73,11 +73,6 @@ pub(crate) struct RecordArguments {
     /// Print neither progress nor the list of files
     #[arg(long)]
     pub(crate) quiet: bool,
-}
-
-/// What the scene reference says of `key`.
-fn tip(key: &str) -> String {
-    field(key).map_or_else(String::new, Field::tip)
 }
 
 /// What --again takes from the file.

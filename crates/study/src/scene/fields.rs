@@ -34,6 +34,8 @@ pub struct Field {
     pub choices: Vec<(String, String)>,
     /// Whether it is a table with keys of its own.
     pub is_table: bool,
+    /// Meaning, unit and default on one line of plain text, for tooltips and the help of the command line.
+    pub tip: String,
 }
 
 static FIELDS: LazyLock<Vec<Field>> = LazyLock::new(|| {
@@ -55,6 +57,20 @@ pub fn field(key: &str) -> Option<&'static Field> {
     FIELDS.iter().find(|field| field.key == key)
 }
 
+/// What a tooltip says of the dotted `key`; empty if there is no such key.
+pub fn tip(key: &str) -> &'static str {
+    field(key).map_or("", |field| &field.tip)
+}
+
+/// The names that are possible values of `key`, each with its meaning.
+pub fn choices(key: &str) -> Vec<(&'static str, &'static str)> {
+    let choices = field(key).map(|field| &field.choices);
+    let choices = choices.into_iter().flatten();
+    choices
+        .map(|(name, meaning)| (&**name, &**meaning))
+        .collect()
+}
+
 impl Field {
     /// What holds if the key is omitted.
     pub fn default_text(&self) -> Option<String> {
@@ -62,8 +78,8 @@ impl Field {
         value.or_else(|| self.default_words.clone())
     }
 
-    /// Meaning, unit and default on one line of plain text, for tooltips and the help of the command line.
-    pub fn tip(&self) -> String {
+    /// [`Self::tip`].
+    fn composed_tip(&self) -> String {
         let mut tip = self.help.clone();
         // Writing into a string cannot fail.
         if let Some(unit) = &self.unit {
@@ -157,7 +173,7 @@ impl Walk<'_> {
             self.choices(node, &mut choices);
             let mut inner = Vec::new();
             self.inside(node, &format!("{key}."), &mut inner);
-            fields.push(Field {
+            let mut field = Field {
                 help: text("description").unwrap_or_default(),
                 default: node
                     .get("default")
@@ -170,7 +186,10 @@ impl Walk<'_> {
                 choices,
                 is_table: !inner.is_empty() && key != "record.camera",
                 key,
-            });
+                tip: String::new(),
+            };
+            field.tip = field.composed_tip();
+            fields.push(field);
             fields.append(&mut inner);
         }
     }
@@ -338,6 +357,10 @@ mod tests {
         let cases = &field("sheet.case").unwrap().choices;
         let names: Vec<_> = cases.iter().map(|(name, _)| name.as_str()).collect();
         assert_eq!(names, ["E", "T", "S", "SII", "plain", "auto"]);
+        assert_eq!(choices("record.outputs.0").len(), 11);
+        assert!(choices("sheet.width").is_empty());
+        assert!(tip("motion.frames").ends_with("Default: 240."));
+        assert_eq!(tip("motion.engine.colour"), "");
     }
 
     #[test]

@@ -5,7 +5,7 @@ use foldmotion_study::scene::{CameraChoice, CameraScene, OwnCamera};
 
 use super::form::{Field, Form};
 use super::number::{Number, control_width};
-use super::scene_schema::description;
+use foldmotion_study::scene::fields::tip;
 
 const CAMERAS: [(Option<CameraChoice>, &str); 6] = [
     (Some(CameraChoice::Iso), "iso"),
@@ -63,7 +63,7 @@ fn show_own_camera(form: &mut Form<'_>, ui: &mut Ui, own: OwnCamera) {
         let spoken = format!("camera {name}");
         form.scope(ui, &spoken, |form, ui| {
             ui.horizontal(|ui| {
-                let tip = description(&format!("record.camera.{name}"));
+                let tip = tip(&format!("record.camera.{name}"));
                 super::form::name(ui, name, tip);
                 let width = control_width(ui);
                 let value = match name {

@@ -8,7 +8,7 @@ use serde_json::Value;
 
 use super::form::{Field, Form};
 use super::number::control_width;
-use super::scene_schema::choices;
+use foldmotion_study::scene::fields::choices;
 
 impl Form<'_> {
     /// A row with a menu of the values that the schema allows. `default` names what holds if the key is omitted: one of the

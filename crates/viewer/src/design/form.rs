@@ -6,8 +6,8 @@ use std::collections::BTreeSet;
 use eframe::egui::{self, Align, Id, Layout, RichText, Ui, UiBuilder, vec2};
 use foldmotion_study::{Draft, Scene};
 
-use super::scene_schema::description;
 use super::{Change, DesignInput, SceneError};
+use foldmotion_study::scene::fields::tip;
 
 /// Font size of notes and error messages, points.
 pub(super) const NOTE_SIZE: f32 = 11.0;
@@ -29,12 +29,12 @@ pub(super) struct Field {
 impl Field {
     pub(super) fn new(key: impl Into<Cow<'static, str>>, name: &'static str) -> Self {
         let key = key.into();
-        debug_assert!(!description(&key).is_empty(), "the schema lacks {key}");
+        debug_assert!(!tip(&key).is_empty(), "the schema lacks {key}");
         Self { key, name }
     }
 
     pub(super) fn tip(&self) -> &'static str {
-        description(&self.key)
+        tip(&self.key)
     }
 }
 

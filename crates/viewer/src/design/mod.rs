@@ -20,7 +20,6 @@ mod pattern_preview;
 mod plane;
 mod profile;
 mod record;
-mod scene_schema;
 mod sheet;
 mod step;
 #[cfg(test)]

@@ -5,7 +5,7 @@ use foldmotion_study::scene::{HoldScene, OutputChoice, ThickenedScene};
 
 use super::form::{Field, Form};
 use super::number::{AccessibleName, Number, control_width, short};
-use super::scene_schema::choices;
+use foldmotion_study::scene::fields::choices;
 
 const DEFAULT_OUTPUTS: [OutputChoice; 3] =
     [OutputChoice::Fold, OutputChoice::Gif, OutputChoice::Csv];

@@ -7,8 +7,8 @@ use foldmotion_study::scene::{CaseChoice, DivisionMethod, UnequalChoice};
 use super::curve::{columns_case, model, own_case};
 use super::form::{Field, Form, note};
 use super::number::{Number, short};
-use super::scene_schema::{choices, description};
 use super::unit_size::{USUAL_LAMBDA, UnitSize};
+use foldmotion_study::scene::fields::{choices, tip};
 
 /// State of the section that lasts from frame to frame.
 #[derive(Debug, Default)]
@@ -34,9 +34,9 @@ impl SheetSection {
         form.scope(ui, "sheet.case", |form, ui| {
             ui.horizontal_wrapped(|ui| {
                 ui.spacing_mut().item_spacing.x = 3.0;
-                ui.label("case").on_hover_text(description("sheet.case"));
+                ui.label("case").on_hover_text(tip("sheet.case"));
                 ui.add_space(4.0);
-                for (name, tip) in choices("sheet.case") {
+                for (name, meaning) in choices("sheet.case") {
                     let Ok(case) = serde_json::from_value::<CaseChoice>(name.into()) else {
                         continue;
                     };
@@ -48,7 +48,7 @@ impl SheetSection {
                     });
                     let option = option.inner.accessible_name(format!("case {name}"));
                     let option = option
-                        .on_hover_text(tip)
+                        .on_hover_text(meaning)
                         .on_disabled_hover_text(why_not.unwrap_or_default());
                     if option.clicked() && case != given {
                         chosen = Some((case, option.id));

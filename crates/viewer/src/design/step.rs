@@ -5,7 +5,7 @@ use foldmotion_study::scene::{Stage, StepScene};
 
 use super::form::{Field, Form};
 use super::number::{AccessibleName, Number, control_width};
-use super::scene_schema::choices;
+use foldmotion_study::scene::fields::choices;
 
 /// The groups of creases that an imported pattern has.
 const IMPORTED_CREASES: [&str; 3] = ["all", "mountains", "valleys"];
