@@ -18,6 +18,8 @@ mod imported;
 mod imported_faults;
 #[path = "whole/layers.rs"]
 mod layers;
+#[path = "whole/module_graph.rs"]
+mod module_graph;
 #[path = "whole/profiles.rs"]
 mod profiles;
 #[path = "whole/recording.rs"]

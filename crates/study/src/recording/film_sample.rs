@@ -126,6 +126,7 @@ mod tests {
         of_kind.map(|file| file.metadata().unwrap().len()).sum()
     }
 
+    #[cfg(feature = "mp4")]
     #[test]
     fn what_the_disk_must_hold_is_estimated_to_within_a_factor() {
         let scenes = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes");

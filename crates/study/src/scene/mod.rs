@@ -28,7 +28,7 @@ pub use self::record::{
 #[serde(deny_unknown_fields)]
 #[schemars(title = "foldmotion scene")]
 pub struct Scene {
-    /// The title of the study.
+    /// The title of the study, in reports and files.
     #[schemars(extend("x-default" = "the name of the file"))]
     pub title: Option<String>,
     /// A crease pattern from a file, instead of profile, division and sheet.
@@ -156,13 +156,13 @@ impl LengthUnit {
 #[derive(Debug, Clone, Default, PartialEq, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct SheetScene {
-    /// The width W of the sheet.
+    /// The width W of the sheet, across all columns.
     #[schemars(extend("x-default" = "W = Nc·h in case E (section 4.1 of the paper); for a built-in profile, the width it has in case E", "x-unit" = "profile.unit", "minimum" = 1e-09, "maximum" = 1000000000.0))]
     pub width: Option<f64>,
-    /// The number of rows Nr.
+    /// The number of rows of units, Nr.
     #[schemars(extend("x-default" = "that of the built-in profile", "minimum" = 1, "maximum" = 1000000))]
     pub rows: Option<i64>,
-    /// The number of columns Nc.
+    /// The number of columns of units, Nc.
     #[schemars(extend("x-default" = "that of the built-in profile in this case", "minimum" = 1, "maximum" = 1000000))]
     pub columns: Option<i64>,
     /// The case of the unit: how its width w compares with its height h.

@@ -13,7 +13,7 @@ use crate::scene::choice;
 pub struct PatternScene {
     /// The file beside the scene: .fold, or .svg in Origami Simulator's colours.
     pub file: String,
-    /// The length of 1 in the file.
+    /// The length that 1 stands for in the file.
     #[serde(default, deserialize_with = "choice::optional")]
     #[schemars(extend("x-default" = "what the file says"))]
     pub unit: Option<LengthUnit>,
