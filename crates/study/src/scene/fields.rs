@@ -8,6 +8,7 @@
 use std::fmt::Write as _;
 use std::sync::LazyLock;
 
+use foldmotion_geometry::Number;
 use schemars::schema_for;
 use serde_json::Value;
 
@@ -92,28 +93,24 @@ impl Field {
     }
 
     fn range(&self) -> String {
-        match (self.minimum, self.maximum) {
-            (Some(least), Some(most)) => format!("{least:?} to {most:?}"),
-            (Some(least), None) => format!("at least {least:?}"),
-            (None, Some(most)) => format!("at most {most:?}"),
-            (None, None) => String::new(),
+        match [self.minimum, self.maximum].map(|limit| limit.map(Number)) {
+            [Some(least), Some(most)] => format!("{least} to {most}"),
+            [Some(least), None] => format!("at least {least}"),
+            [None, Some(most)] => format!("at most {most}"),
+            [None, None] => String::new(),
         }
     }
-}
 
-/// The scene reference of the book.
-pub fn reference() -> String {
-    let mut page = "# Scene reference\n\nEvery key of a scene file. A scene is a TOML file; keys may be omitted unless it says \
-                    otherwise, unknown keys are refused. This page is generated from the program. `foldmotion init` writes a \
-                    commented scene to start from.\n"
-        .to_owned();
-    for field in fields().iter().filter(|field| !field.is_table) {
+    /// Its part of the reference.
+    fn describe(&self, page: &mut String) {
+        let heading = if self.is_table { "## `[" } else { "### `" };
+        let end = if self.is_table { "]`" } else { "`" };
         // Writing into a string cannot fail.
-        let _ = write!(page, "\n## `{}`\n\n{}\n", field.key, field.help);
+        let _ = write!(page, "\n{heading}{}{end}\n\n{}\n", self.key, self.help);
         let facts = [
-            ("Default", field.default_text().unwrap_or_default()),
-            ("Unit", field.unit.clone().unwrap_or_default()),
-            ("Range", field.range()),
+            ("Default", self.default_text().unwrap_or_default()),
+            ("Unit", self.unit.clone().unwrap_or_default()),
+            ("Range", self.range()),
         ];
         let facts = facts.iter().filter(|(_, text)| !text.is_empty());
         let facts: Vec<String> = facts
@@ -122,11 +119,33 @@ pub fn reference() -> String {
         if !facts.is_empty() {
             let _ = write!(page, "\n{}\n", facts.join(" "));
         }
-        if !field.choices.is_empty() {
+        if !self.choices.is_empty() {
             page.push('\n');
         }
-        for (name, meaning) in &field.choices {
+        for (name, meaning) in &self.choices {
             let _ = writeln!(page, "- `{name}`: {meaning}");
+        }
+    }
+}
+
+/// The tables of a scene, in the order of the reference.
+const TABLES: [&str; 9] = [
+    "title", "profile", "sheet", "division", "pattern", "material", "motion", "check", "record",
+];
+
+/// The scene reference of the book.
+pub fn reference() -> String {
+    let mut page = "# Scene reference\n\nEvery key of a scene file, generated from the program. A scene is a TOML file. A key may be \
+                    omitted if a default is given; unknown keys are refused. `foldmotion init` writes a commented scene to start \
+                    from.\n"
+        .to_owned();
+    for table in TABLES {
+        let prefix = format!("{table}.");
+        let own = fields()
+            .iter()
+            .filter(|field| field.key == table || field.key.starts_with(&prefix));
+        for field in own {
+            field.describe(&mut page);
         }
     }
     page
