@@ -1,12 +1,11 @@
-//! Tries the collision kernels, the verdict and its second proof on recorded queries and prints what came of it by file.
+//! Tests the collision kernels, the verdict and its second proof on recorded queries and prints the results by file.
 //!
 //! `cargo run --release -p foldmotion-verify --example ccd_queries [FOLDER [COMPLETIONS [OUT]]]`
 //!
-//! FOLDER has files `*vertex-face.csv` and `*edge-edge.csv` in the format of the benchmark of Wang et al. 2021
-//! (Tight-Inclusion); without one the committed share is taken. Each query is tried by the kernels, and as the motion of
-//! two triangles, to which it is completed in COMPLETIONS ways (1 where nothing is said). Motions with a fault are
-//! written into the folder OUT as FOLD files for `foldmotion check`. Exit status 1 where the kernels missed a meeting or a
-//! motion has a fault.
+//! FOLDER contains files `*vertex-face.csv` and `*edge-edge.csv` in the format of the benchmark of Wang et al. 2021
+//! (Tight-Inclusion). Default: the committed share of it. Each query is given to the kernels, and converted to the
+//! motion of two triangles in COMPLETIONS ways (default: 1). Motions with an error are written into the folder OUT as
+//! FOLD files for `foldmotion check`. The exit status is 1 if the kernels missed a meeting or a motion has an error.
 
 #![expect(clippy::print_stdout, reason = "an example that prints its table")]
 #![expect(
@@ -91,7 +90,7 @@ fn main() -> Result<ExitCode, Box<dyn Error>> {
     Ok(ExitCode::from(u8::from(is_wrong)))
 }
 
-/// Queries that were rounded, and queries whose truth in the file is not that of exact arithmetic.
+/// The number of queries that were rounded, and of queries whose truth in the file differs from exact arithmetic.
 fn oddities(file: &QueryFile) -> [usize; 2] {
     let rounded = file.queries.iter().filter(|r| r.is_rounded);
     let untrue = file.queries.iter().filter(|r| r.query.meets() != r.meets);
@@ -118,7 +117,7 @@ fn write_faults(file: &QueryFile, faults: &[Fault], out: &Path) -> Result<(), Bo
     Ok(())
 }
 
-/// The motion as FOLD, its first frame as key frame; numbers read back as the same f64.
+/// The motion as FOLD, with its first frame as key frame; numbers are read back as the same f64.
 fn fold_text(motion: &Motion) -> String {
     let coordinates = |frame: &Frame| {
         let positions = frame.positions.iter().map(DVec3::to_array);

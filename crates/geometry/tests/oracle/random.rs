@@ -18,17 +18,17 @@ impl Random {
         z ^ (z >> 31)
     }
 
-    /// In [−1, 1).
+    /// A number in [−1, 1).
     pub(crate) fn number(&mut self) -> f64 {
         (self.bits() >> 11) as f64 / (1u64 << 52) as f64 - 1.0
     }
 
-    /// In 0 … `count` − 1.
+    /// An integer from 0 to `count` − 1.
     pub(crate) fn index(&mut self, count: usize) -> usize {
         (self.bits() % count as u64) as usize
     }
 
-    /// In the cube [−1, 1)³.
+    /// A vector in the cube [−1, 1)³.
     pub(crate) fn vector(&mut self) -> DVec3 {
         DVec3::new(self.number(), self.number(), self.number())
     }

@@ -1,4 +1,4 @@
-//! What passes through an edge between triangles, proved twice.
+//! Passages through an edge between triangles, proved twice.
 
 use foldmotion_check::{CollisionReport, PenetrationKind, Verdict};
 use foldmotion_pattern::Motion;
@@ -7,7 +7,7 @@ use glam::{DVec2, DVec3};
 use crate::sheets::{motion, sheet};
 use crate::{agreed, judge, verify};
 
-/// A roof of two triangles on the edge from 0 to 1, and a triangle above it, which moves by these.
+/// A roof of two triangles at the edge from 0 to 1, and a triangle above it that is displaced by `moves`.
 fn above_a_roof(slope: f64, part: [DVec3; 3], moves: &[DVec3]) -> Motion {
     let roof = [
         DVec3::ZERO,
@@ -33,7 +33,7 @@ fn above_a_roof(slope: f64, part: [DVec3; 3], moves: &[DVec3]) -> Motion {
     motion(sheet, states)
 }
 
-/// In the plane that holds the edge.
+/// A triangle in the plane that contains the edge.
 fn wall() -> [DVec3; 3] {
     [
         DVec3::new(0.3, 0.0, 0.5),
@@ -76,7 +76,7 @@ fn a_wall_that_sinks_through_an_edge_is_found_where_nothing_is_listed() {
     );
 }
 
-/// What is changed in a report.
+/// A change to a report that makes it false.
 type Lie = fn(&mut CollisionReport);
 
 #[test]
@@ -127,7 +127,7 @@ fn a_wall_that_rests_on_an_edge_and_then_sinks_passes_no_earlier_than_it_sinks()
     assert!(!verify(&motion, &claim).is_verified());
 }
 
-/// A triangle that lands on the one half, slides across the edge to the other and leaves, upwards or downwards.
+/// A triangle that lands on one half, slides across the edge to the other and leaves, upwards or downwards.
 fn sliding(leaves: f64) -> Motion {
     let part = [
         DVec3::new(0.45, 0.2, 0.5),

@@ -35,7 +35,7 @@ fn verify(motion: &Motion, claim: &CollisionReport) -> Verification {
     verifier.finish()
 }
 
-/// Both proofs agree on a motion; the verdict.
+/// Checks that both proofs agree on a motion and returns the verdict.
 fn agreed(motion: &Motion) -> Verdict {
     let report = judge(motion);
     let verification = verify(motion, &report);

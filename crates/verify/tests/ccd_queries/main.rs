@@ -1,7 +1,7 @@
 //! The collision verdict and its second proof on recorded queries, each as the motion of two triangles: a share of the
 //! hand-made scenes of a public benchmark.
 //!
-//! `cargo run --release -p foldmotion-verify --example ccd_queries FOLDER` is the same on a folder of such files.
+//! `cargo run --release -p foldmotion-verify --example ccd_queries FOLDER` does the same for a folder of such files.
 #![expect(clippy::unwrap_used, reason = "a test stops where a value is missing")]
 #![expect(
     clippy::disallowed_methods,
@@ -32,9 +32,9 @@ use foldmotion_pattern::Motion;
 use recorded::file::{QueryFile, read_folder};
 use trial::{FaultKind, Judge, Tally, judge, try_completions, try_motions};
 
-/// Ways in which a query is completed to triangles.
+/// In how many ways each query is completed to triangles.
 const COMPLETIONS: u64 = 8;
-/// Queries on which the two proofs once differed in some of the first 100 completions, by file and first line.
+/// Queries on which the two proofs once disagreed in some of the first 100 completions, by file and first line.
 const DIFFERED: [(&str, &[usize]); 4] = [
     (
         "erleben-spikes_edge-edge.csv",
@@ -56,8 +56,8 @@ fn try_committed(judge: Judge) -> Tally {
     all.fold(Tally::default(), Tally::plus)
 }
 
-/// Nothing may be wrong, and all must be decided; of these motions, grazes of slivers, the second proof may leave one in a
-/// hundred open.
+/// Nothing may be wrong, and everything must be decided. Of these motions, which are grazes of slivers, the second
+/// proof may leave one in a hundred open.
 fn assert_no_fault(tally: &Tally) {
     let all = tally.free + tally.touching + tally.penetrating + tally.undecided;
     let is_open = |kind: FaultKind| kind == FaultKind::Unproved;
@@ -97,7 +97,7 @@ fn both_proofs_agree_where_they_once_differed() {
     assert_eq!(judged as usize, 100 * count);
 }
 
-/// Reports that hide every contact.
+/// A judge whose reports hide every contact.
 fn hide_contact(motion: &Motion) -> Result<CollisionReport, CheckError> {
     Ok(CollisionReport {
         verdict: Verdict::Free,

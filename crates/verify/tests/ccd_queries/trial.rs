@@ -1,4 +1,4 @@
-//! The verdict and its second proof on trial: their answers beside the truth.
+//! Tests of the verdict and its second proof: their answers compared with the truth.
 
 use std::fmt;
 
@@ -17,19 +17,19 @@ use crate::{
     recorded::file::{QueryFile, Recorded},
 };
 
-/// What judges a motion.
+/// A function that judges a motion.
 pub(crate) type Judge = fn(&Motion) -> Result<CollisionReport, CheckError>;
 
-/// The verdict of this crate.
+/// The verdict of the first proof.
 pub(crate) fn judge(motion: &Motion) -> Result<CollisionReport, CheckError> {
     collisions(motion, &CollisionOptions::default(), &|_| true)
 }
 
-/// What is wrong with the answers to a query as a motion.
+/// An error in the answers to a query converted to a motion.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct Fault {
     pub(crate) file: String,
-    /// The first line of the query.
+    /// The first line of the query in its file.
     pub(crate) line: usize,
     pub(crate) completion: u64,
     pub(crate) kind: FaultKind,
@@ -38,11 +38,11 @@ pub(crate) struct Fault {
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum FaultKind {
-    /// The triangles meet and are said to be free.
+    /// The triangles meet, but the verdict is free.
     FreeButMeeting,
-    /// The triangles never meet and are said to penetrate.
+    /// The triangles never meet, but the verdict is penetrating.
     PenetratingButApart,
-    /// The triangles stay farther apart than 1.1 τ and are said to touch.
+    /// The triangles stay farther apart than 1.1 τ, but the verdict is touching.
     TouchingButApart,
     /// The triangles come nearer than the smallest separation stated, by more than a thousandth and 0.02 τ.
     SeparationTooLarge,
@@ -50,14 +50,14 @@ pub(crate) enum FaultKind {
     Refuted,
     /// The second proof leaves a statement open.
     Unproved,
-    /// The motion is not judged.
+    /// The motion was refused.
     Refused,
 }
 
-/// What the queries of a file came to as motions.
+/// The results for the queries of a file, as motions.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Tally {
-    /// Motions whose triangles meet.
+    /// The number of motions whose triangles meet.
     pub(crate) meets: u32,
     pub(crate) free: u32,
     pub(crate) touching: u32,
@@ -67,14 +67,14 @@ pub(crate) struct Tally {
     pub(crate) faults: Vec<Fault>,
 }
 
-/// Tries a judge, and the second proof on what it reports, on the queries of a file, each completed in `completions` ways.
+/// Tests a judge, and the second proof of its reports, on the queries of a file, each completed in `completions` ways.
 pub(crate) fn try_motions(file: &QueryFile, completions: u64, judge: Judge) -> Tally {
     let one = |recorded| try_completions(&file.name, recorded, completions, judge);
     let tallies: Vec<Tally> = file.queries.par_iter().map(one).collect();
     tallies.into_iter().fold(Tally::default(), Tally::plus)
 }
 
-/// Likewise on one query.
+/// Tests a judge on one query.
 pub(crate) fn try_completions(
     file: &str,
     recorded: &Recorded,
@@ -133,7 +133,7 @@ fn verify(motion: &Motion, report: &CollisionReport) -> Verification {
     verifier.finish()
 }
 
-/// What is true of two triangles in motion.
+/// The truth about two moving triangles.
 struct Truth {
     queries: Vec<Query>,
     /// Whether they share a point at some instant.
@@ -153,7 +153,7 @@ impl Truth {
         self.meets || self.queries.iter().any(|query| may_meet(query, distance))
     }
 
-    /// What a report states against the truth.
+    /// The errors of a report, compared with the truth.
     fn faults(&self, motion: &Motion, report: &CollisionReport) -> Vec<(FaultKind, String)> {
         let unit = motion.sheet.unit_length;
         let tolerance = report.tolerance * unit;
@@ -179,7 +179,7 @@ impl Truth {
 }
 
 impl Tally {
-    /// The faults of a kind.
+    /// The number of errors of a kind.
     pub(crate) fn count(&self, kind: FaultKind) -> usize {
         self.faults.iter().filter(|f| f.kind == kind).count()
     }

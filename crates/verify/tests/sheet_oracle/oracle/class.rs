@@ -2,7 +2,7 @@
 
 use super::{folding, random::Random, rigid, scene::Scene};
 
-/// The kinds of scenes, each with a stream of numbers of its own.
+/// The classes of scenes, each with its own stream of random numbers.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum Class {
     Interior,
