@@ -318,10 +318,10 @@ impl<'a> Verifier<'a> {
         if self.undecided.contains(&(pair.faces, interval)) {
             return PairFindings {
                 is_skipped: true,
-                ..PairFindings::apart()
+                ..PairFindings::default()
             };
         }
-        let mut judged = PairFindings::apart();
+        let mut judged = PairFindings::default();
         let mut is_apart = false;
         if pair.shared == 0 {
             is_apart = self.measure(pair, &moving, &mut judged);
@@ -446,11 +446,7 @@ impl<'a> Verifier<'a> {
             self.refute("min_separation.distance", format!("{stated:e}"), found);
         }
         if let Some(what) = judged.unproved {
-            self.outcome.unproved.push(Unproved {
-                faces,
-                frame: self.frames - 1,
-                what: what.to_owned(),
-            });
+            self.leave_open(faces, what);
         }
         if let Some(side) = judged.side {
             self.sides.push((faces, side));

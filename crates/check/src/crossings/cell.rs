@@ -76,7 +76,7 @@ impl Cell {
             let [a, b] = corners.map(|c| c.map(|v| positions[v as usize]));
             PairPose { a, b, shared: 0 }
         });
-        MovingPair { start, end }
+        MovingPair::new(start, end)
     }
 
     /// The passages of the simplices through each other; `None` if rounding hides one. A vertex and an edge have none.

@@ -176,10 +176,7 @@ impl Search<'_> {
 
 /// A lower bound of the distance between two instants; 0 or less if there is none.
 fn least_distance(from: &Instant, to: &Instant, limits: &Limits) -> f64 {
-    let pair = MovingPair {
-        start: from.pose,
-        end: to.pose,
-    };
+    let pair = MovingPair::new(from.pose, to.pose);
     let gap_of = |d| pair.least_gap_at_rest(d, limits);
     let gap = match (from.clearest, to.clearest) {
         (Some(first), Some(last)) => {

@@ -221,10 +221,7 @@ fn stays_farther(from: &Instant, to: &Instant, distance: f64, limits: &Limits) -
     let (Some(d0), Some(d1)) = (from.direction(), to.direction()) else {
         return false;
     };
-    let pair = MovingPair {
-        start: from.pose,
-        end: to.pose,
-    };
+    let pair = MovingPair::new(from.pose, to.pose);
     let farther = distance + limits.margin;
     pair.least_gap_at_rest(d0, limits) > farther
         || pair.least_gap_at_rest(d1, limits) > farther
@@ -309,10 +306,7 @@ mod tests {
                 b: feature(&mut random, n),
                 shared: 0,
             };
-            let pair = MovingPair {
-                start: pose(),
-                end: pose(),
-            };
+            let pair = MovingPair::new(pose(), pose());
             let distance = 0.3;
             let near = contact_times(&pair, distance, &LIMITS).unwrap();
             stretches += near.len();
@@ -339,10 +333,7 @@ mod tests {
             b: plate,
             shared: 0,
         };
-        let pair = MovingPair {
-            start: at(0.25),
-            end: at(3.0),
-        };
+        let pair = MovingPair::new(at(0.25), at(3.0));
         assert_eq!(contact_times(&pair, 1e-6, &LIMITS).unwrap(), [[0.0, 1.0]]);
     }
 

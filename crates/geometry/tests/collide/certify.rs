@@ -179,10 +179,7 @@ fn needle(z0: f64, z1: f64) -> MovingPair {
             ],
         )
     };
-    MovingPair {
-        start: at(z0),
-        end: at(z1),
-    }
+    MovingPair::new(at(z0), at(z1))
 }
 
 /// Judges a motion through several poses, handing the side on.
@@ -254,14 +251,11 @@ fn plates_resting_on_each_other_may_turn_together() {
         pose(plate().map(|p| q * p), upper.map(|p| q * p))
     };
     let above = pose(plate(), plate().map(|p| p * 0.3 + DVec3::Z * 0.2));
-    let mut path = vec![MovingPair {
-        start: above,
-        end: turned(0.0),
-    }];
-    path.extend((0..20).map(|k| MovingPair {
-        start: turned(f64::from(k) * 0.1),
-        end: turned(f64::from(k + 1) * 0.1),
-    }));
+    let mut path = vec![MovingPair::new(above, turned(0.0))];
+    path.extend(
+        (0..20)
+            .map(|k| MovingPair::new(turned(f64::from(k) * 0.1), turned(f64::from(k + 1) * 0.1))),
+    );
     let outcome = judge_path(&path);
     assert!(
         matches!(&outcome, Outcome::Passed(p) if p.in_contact),
@@ -284,10 +278,7 @@ fn folded(angle: f64) -> PairPose {
 fn fold(angles: &[f64]) -> Outcome {
     let pairs: Vec<_> = angles
         .windows(2)
-        .map(|w| MovingPair {
-            start: folded(w[0]),
-            end: folded(w[1]),
-        })
+        .map(|w| MovingPair::new(folded(w[0]), folded(w[1])))
         .collect();
     judge_path(&pairs)
 }
@@ -334,10 +325,7 @@ fn crossing_around_a_shared_corner_is_found() {
         ],
         shared: 1,
     };
-    let go = |z0: f64, z1: f64| MovingPair {
-        start: at(z0),
-        end: at(z1),
-    };
+    let go = |z0: f64, z1: f64| MovingPair::new(at(z0), at(z1));
     assert!(has_passed(&go(0.5, 0.1)));
     assert!(has_passed(&go(0.5, 0.0)), "lying on it touches");
     let back = judge_path(&[go(0.5, 0.0), go(0.0, 0.5)]);

@@ -17,10 +17,7 @@ type Corners = [DVec3; 3];
 
 fn pair(start: [Corners; 2], end: [Corners; 2]) -> MovingPair {
     let pose = |[a, b]: [Corners; 2]| PairPose { a, b, shared: 0 };
-    MovingPair {
-        start: pose(start),
-        end: pose(end),
-    }
+    MovingPair::new(pose(start), pose(end))
 }
 
 /// The greatest speed of a point of A relative to one of B.

@@ -91,12 +91,7 @@ fn motion(random: &mut Random, tips: &[DVec3]) -> Vec<MovingPair> {
     };
     let poses: Vec<_> = tips.iter().map(pose).collect();
     let intervals = poses.windows(2);
-    intervals
-        .map(|p| MovingPair {
-            start: p[0],
-            end: p[1],
-        })
-        .collect()
+    intervals.map(|p| MovingPair::new(p[0], p[1])).collect()
 }
 
 /// A place above the plate, at this height.
@@ -194,10 +189,7 @@ fn graze(random: &mut Random, fast: f64, lift: f64) -> MovingPair {
             shared: 0,
         }
     };
-    MovingPair {
-        start: pose(0.0),
-        end: pose(1.0),
-    }
+    MovingPair::new(pose(0.0), pose(1.0))
 }
 
 #[test]

@@ -136,10 +136,7 @@ pub(crate) fn moving([a, b]: &[[Path; 3]; 2]) -> MovingPair {
         b: b.map(|path| path[end]),
         shared: 0,
     };
-    MovingPair {
-        start: pose(0),
-        end: pose(1),
-    }
+    MovingPair::new(pose(0), pose(1))
 }
 
 impl PairTally {
