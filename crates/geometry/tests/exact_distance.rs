@@ -2,6 +2,7 @@
 #![expect(clippy::unwrap_used, reason = "a test stops where a value is missing")]
 
 use foldmotion_geometry::{segment_segment, triangle_triangle};
+use foldmotion_random::Random;
 use glam::DVec3;
 use num_bigint::BigInt;
 
@@ -127,31 +128,13 @@ fn of_triangles(a: [Point; 3], b: [Point; 3]) -> f64 {
     corners.chain(pairs).fold(f64::INFINITY, f64::min)
 }
 
-/// Seeded whole numbers (`SplitMix64`).
-struct Random(u64);
+/// A point with coordinates up to ± 2^bits.
+fn point(random: &mut Random, bits: [u32; 3]) -> Point {
+    bits.map(|b| random.integer(1 << b))
+}
 
-impl Random {
-    fn bits(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        z ^ (z >> 31)
-    }
-
-    /// Up to ± 2^`bits`.
-    fn number(&mut self, bits: u32) -> i64 {
-        let size = 1i64 << bits;
-        (self.bits() % (2 * size.cast_unsigned() + 1)).cast_signed() - size
-    }
-
-    fn point(&mut self, bits: [u32; 3]) -> Point {
-        bits.map(|b| self.number(b))
-    }
-
-    fn any_bits(&mut self) -> u32 {
-        (self.bits() % 41) as u32
-    }
+fn any_bits(random: &mut Random) -> u32 {
+    random.index(41) as u32
 }
 
 fn real(p: Point) -> DVec3 {
@@ -166,15 +149,15 @@ fn sheared(p: Point, by: [i64; 2]) -> Point {
 
 #[test]
 fn the_distance_of_segments_nearly_parallel_is_exact_to_some_roundings() {
-    let mut random = Random(1);
+    let mut random = Random::new(1);
     for case in 0..20_000 {
-        let (slope, lift) = (random.any_bits(), random.any_bits());
-        let by = [random.number(1), random.number(1)];
+        let (slope, lift) = (any_bits(&mut random), any_bits(&mut random));
+        let by = [random.integer(2), random.integer(2)];
         let long = [40, slope, slope.min(lift)];
-        let a = [(); 2].map(|()| sheared(random.point(long), by));
+        let a = [(); 2].map(|()| sheared(point(&mut random, long), by));
         let up = 1i64 << lift;
         let b = [(); 2].map(|()| {
-            let [x, y, z] = random.point(long);
+            let [x, y, z] = point(&mut random, long);
             sheared([x, y, z + up], by)
         });
         let exact = of_segments(a, b);
@@ -190,15 +173,15 @@ fn the_distance_of_segments_nearly_parallel_is_exact_to_some_roundings() {
 
 #[test]
 fn the_distance_of_slivers_is_exact_to_some_roundings() {
-    let mut random = Random(2);
+    let mut random = Random::new(2);
     let mut kinds = [0; 3];
     for case in 0..20_000 {
-        let by = [random.number(1), random.number(1)];
-        let lift = random.any_bits();
+        let by = [random.integer(2), random.integer(2)];
+        let lift = any_bits(&mut random);
         let mut sliver = |up: i64| {
-            let shape = [40, random.any_bits().max(4), random.any_bits()];
+            let shape = [40, any_bits(&mut random).max(4), any_bits(&mut random)];
             [(); 3].map(|()| {
-                let [x, y, z] = random.point(shape);
+                let [x, y, z] = point(&mut random, shape);
                 sheared([x, y, z + up], by)
             })
         };

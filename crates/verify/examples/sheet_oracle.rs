@@ -20,9 +20,10 @@ use std::{error::Error, fs::File, io::BufWriter, process::ExitCode, time::Instan
 
 use foldmotion_check::{CollisionOptions, collisions};
 use foldmotion_pattern::FoldHeader;
+use foldmotion_verify::verify;
 use oracle::{
     class::Class,
-    trial::{HEADER, Tally, motion_of, try_class, try_scene, verify},
+    trial::{HEADER, Tally, motion_of, try_class, try_scene},
 };
 
 /// The command line.

@@ -130,8 +130,6 @@ mod path;
 mod penetration;
 mod piercing;
 mod plane;
-#[cfg(test)]
-mod random;
 mod separation;
 mod side;
 mod stacked;
@@ -143,4 +141,4 @@ mod unlisted;
 mod verifier;
 
 pub use outcome::{Refutation, Unproved, Verification};
-pub use verifier::Verifier;
+pub use verifier::{Verifier, verify};

@@ -146,7 +146,7 @@ pub(crate) fn holds(triangle: &[DVec2; 3], point: DVec2, beyond: f64) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::random::Random;
+    use foldmotion_random::Random;
 
     fn triangle(random: &mut Random) -> [DVec2; 3] {
         let corners = [(); 3].map(|()| random.vector());

@@ -2,7 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use foldmotion_pattern::{Assignment, Frame, Sheet};
+use foldmotion_pattern::{Assignment, Frame, Motion, Sheet};
 use glam::DVec3;
 use rayon::prelude::*;
 
@@ -78,6 +78,19 @@ pub struct Verifier<'a> {
     pub(crate) is_separation_met: bool,
     pub(crate) layer_state: LayerState,
     pub(crate) outcome: Verification,
+}
+
+/// Proves the statement of a collision report about a motion again; the file claims nothing about the order of layers.
+///
+/// Preconditions: those of [`Verifier::new`]; a motion without frames verifies nothing.
+pub fn verify(motion: &Motion, claim: &CollisionReport) -> Verification {
+    let mut frames = motion.frames.iter().cloned();
+    let Some(first) = frames.next() else {
+        return Verification::default();
+    };
+    let mut verifier = Verifier::new(&motion.sheet, first, claim);
+    frames.for_each(|frame| verifier.advance(frame));
+    verifier.finish()
 }
 
 impl<'a> Verifier<'a> {

@@ -5,9 +5,6 @@
     reason = "the tests compare the two proofs"
 )]
 
-#[path = "../../geometry/tests/oracle/random.rs"]
-#[expect(dead_code, reason = "shared with the oracles, which use more of it")]
-mod random;
 #[path = "../../check/tests/collision/sheets.rs"]
 #[expect(dead_code, reason = "shared with tests that use more of it")]
 mod sheets;
@@ -17,9 +14,9 @@ use std::{fs::File, path::Path};
 use foldmotion_check::{CollisionOptions, CollisionReport, Separation, Verdict, collisions};
 use foldmotion_geometry::triangle_triangle;
 use foldmotion_pattern::{FoldError, FoldFile, LayerOrder, Motion};
-use foldmotion_verify::{Verification, Verifier};
+use foldmotion_random::Random;
+use foldmotion_verify::verify;
 use glam::{DQuat, DVec2, DVec3};
-use random::Random;
 use sheets::{motion, sheet};
 
 /// The tolerance of the options: τ in units of length.
@@ -27,13 +24,6 @@ const TOLERANCE: f64 = 1e-6;
 
 fn judge(motion: &Motion) -> CollisionReport {
     collisions(motion, &CollisionOptions::default(), &|_| true).unwrap()
-}
-
-fn verify(motion: &Motion, claim: &CollisionReport) -> Verification {
-    let mut frames = motion.frames.iter().cloned();
-    let mut verifier = Verifier::new(&motion.sheet, frames.next().unwrap(), claim);
-    frames.for_each(|frame| verifier.advance(frame));
-    verifier.finish()
 }
 
 /// Reads a motion of the test data.

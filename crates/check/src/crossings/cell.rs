@@ -227,7 +227,7 @@ pub(super) fn piercing(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::crossings::random::Random;
+    use foldmotion_random::Random;
 
     /// Two sheets of two triangles each, without a common vertex.
     fn scene() -> Topology {

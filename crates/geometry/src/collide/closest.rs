@@ -208,7 +208,7 @@ fn least_of_greater(p: [f64; 2], q: [f64; 2]) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::collide::random::Random;
+    use foldmotion_random::Random;
 
     #[test]
     fn the_least_of_the_greater_of_two_lines_is_met_by_sampling() {

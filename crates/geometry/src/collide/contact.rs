@@ -282,7 +282,7 @@ fn clamped(shares: [f64; 3]) -> [f64; 3] {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::collide::random::Random;
+    use foldmotion_random::Random;
 
     const LIMITS: Limits = Limits {
         tolerance: 1e-6,

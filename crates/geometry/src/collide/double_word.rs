@@ -119,7 +119,7 @@ mod tests {
     use num_bigint::BigInt;
 
     use super::*;
-    use crate::collide::random::Random;
+    use foldmotion_random::Random;
 
     /// The number times 2^300, exact for numbers that are multiples of 2^-300.
     fn whole(number: f64) -> BigInt {

@@ -168,7 +168,7 @@ impl Hinge {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::collide::random::Random;
+    use foldmotion_random::Random;
 
     const LIMITS: Limits = Limits {
         tolerance: 1e-6,

@@ -93,7 +93,7 @@ fn signed<const N: usize>(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::collide::random::Random;
+    use foldmotion_random::Random;
 
     const PLATE: [DVec3; 3] = [
         DVec3::ZERO,

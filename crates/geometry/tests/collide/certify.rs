@@ -4,7 +4,7 @@ use foldmotion_geometry::collide::{Limits, MovingPair, Outcome, PairPose, Side, 
 use foldmotion_geometry::triangle_triangle;
 use glam::DVec3;
 
-use crate::{random::Random, triangle};
+use foldmotion_random::Random;
 
 const LIMITS: Limits = Limits {
     tolerance: 1e-6,
@@ -133,7 +133,7 @@ fn a_plate_that_passes_through_a_parallel_plate_crosses_though_it_is_never_deep(
     let (mut over, mut beside) = (0, 0);
     for _ in 0..400 {
         let flat = |t: [DVec3; 3], z: f64| t.map(|p| DVec3::new(p.x, p.y, z));
-        let (a, b) = (flat(triangle(&mut random), 0.0), triangle(&mut random));
+        let (a, b) = (flat(random.triangle(1.0), 0.0), random.triangle(1.0));
         let (height, drift) = (
             [1.0, 0.1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-7][random.index(7)],
             random.vector(),

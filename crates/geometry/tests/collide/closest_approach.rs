@@ -5,7 +5,7 @@ use glam::{DQuat, DVec3};
 use foldmotion_geometry::collide::{Limits, MovingPair, PairPose, accuracy, closest_approach};
 use foldmotion_geometry::triangle_triangle;
 
-use crate::{random::Random, triangle};
+use foldmotion_random::Random;
 
 const LIMITS: Limits = Limits {
     tolerance: 1e-6,
@@ -88,8 +88,8 @@ fn the_bounds_of_random_pairs_hold_what_dense_sampling_finds() {
     for case in 0..80 {
         let mut both = || {
             [
-                triangle(&mut random),
-                triangle(&mut random).map(|p| p + DVec3::X * 1.5),
+                random.triangle(1.0),
+                random.triangle(1.0).map(|p| p + DVec3::X * 1.5),
             ]
         };
         hold(&pair(both(), both()), &format!("random {case}"));
@@ -105,7 +105,7 @@ fn the_bounds_of_slivers_hold_what_dense_sampling_finds() {
         let place = turned(&mut random);
         let lift = DVec3::Z * 0.3 * 10f64.powi(-(case % 5));
         let mut both = || {
-            let mut sliver = || triangle(&mut random).map(|p| p * DVec3::new(1.0, thin, 0.1));
+            let mut sliver = || random.triangle(1.0).map(|p| p * DVec3::new(1.0, thin, 0.1));
             [sliver().map(&place), sliver().map(|p| place(p + lift))]
         };
         let distance = hold(&pair(both(), both()), &format!("sliver {case}"));
@@ -185,8 +185,8 @@ fn a_budget_that_ends_leaves_a_bound_that_holds() {
     for _ in 0..60 {
         let mut both = || {
             [
-                triangle(&mut random),
-                triangle(&mut random).map(|p| p + DVec3::X * 1.5),
+                random.triangle(1.0),
+                random.triangle(1.0).map(|p| p + DVec3::X * 1.5),
             ]
         };
         let pair = pair(both(), both());

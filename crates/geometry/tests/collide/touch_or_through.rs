@@ -6,7 +6,7 @@
 use foldmotion_geometry::collide::{Limits, MovingPair, Outcome, PairPose, Side, certify};
 use glam::DVec3;
 
-use crate::random::Random;
+use foldmotion_random::Random;
 
 /// τ, dyadic.
 const TOLERANCE: f64 = 1.0 / (1u64 << 20) as f64;

@@ -3,5 +3,4 @@
 pub(crate) mod contact;
 mod polynomial;
 pub(crate) mod queries;
-pub(crate) mod random;
 pub(crate) mod trial;

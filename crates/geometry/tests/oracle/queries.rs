@@ -1,11 +1,9 @@
 //! Seeded queries and triangle pairs of every kind that makes collision kernels fail.
 
+use foldmotion_random::Random;
 use glam::DVec3;
 
-use super::{
-    contact::{Path, Query},
-    random::Random,
-};
+use super::contact::{Path, Query};
 
 /// How a configuration is generated.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -2,10 +2,11 @@
 
 use foldmotion_check::{CollisionReport, PenetrationKind, Verdict};
 use foldmotion_pattern::Motion;
+use foldmotion_verify::verify;
 use glam::{DVec2, DVec3};
 
 use crate::sheets::{motion, sheet};
-use crate::{agreed, judge, verify};
+use crate::{agreed, judge};
 
 /// A roof of two triangles at the edge from 0 to 1, and a triangle above it that is displaced by `moves`.
 fn above_a_roof(slope: f64, part: [DVec3; 3], moves: &[DVec3]) -> Motion {

@@ -9,8 +9,8 @@ use foldmotion_pattern::{Case, Frame, LayerOrder, Motion, Sheet, Unit, UnitSheet
 use foldmotion_verify::{Verification, Verifier};
 use glam::DVec3;
 
-use crate::random::Random;
 use crate::sheets::{fold, folded, sheet, strip};
+use foldmotion_random::Random;
 
 /// The positions of a state, and the claims made there.
 type State = (Vec<DVec3>, LayerOrder);

@@ -8,9 +8,6 @@
 
 mod edges;
 mod layers;
-#[path = "../../../geometry/tests/oracle/random.rs"]
-#[expect(dead_code, reason = "shared with the oracles, which use more of it")]
-mod random;
 #[path = "../../../check/tests/collision/sheets.rs"]
 mod sheets;
 mod stopping;
@@ -19,20 +16,13 @@ use std::f64::consts::PI;
 
 use foldmotion_check::{CollisionOptions, CollisionReport, Verdict, collisions};
 use foldmotion_pattern::{Case, Motion, Unit, UnitSheet};
-use foldmotion_verify::{Verification, Verifier};
+use foldmotion_random::Random;
+use foldmotion_verify::verify;
 use glam::{DVec2, DVec3};
-use random::Random;
 use sheets::{accordion, fold, motion, sheet};
 
 fn judge(motion: &Motion) -> CollisionReport {
     collisions(motion, &CollisionOptions::default(), &|_| true).unwrap()
-}
-
-fn verify(motion: &Motion, claim: &CollisionReport) -> Verification {
-    let mut frames = motion.frames.iter().cloned();
-    let mut verifier = Verifier::new(&motion.sheet, frames.next().unwrap(), claim);
-    frames.for_each(|frame| verifier.advance(frame));
-    verifier.finish()
 }
 
 /// Checks that both proofs agree on a motion and returns the verdict.

@@ -2,10 +2,11 @@
 
 use foldmotion_check::{CollisionOptions, CollisionReport, Verdict, collisions};
 use foldmotion_pattern::Motion;
+use foldmotion_verify::verify;
 use glam::{DVec2, DVec3};
 
 use crate::sheets::{motion, sheet};
-use crate::{random::Random, verify};
+use foldmotion_random::Random;
 
 /// The number of squares along a side of a cloth.
 const SQUARES: u32 = 10;

@@ -1,13 +1,11 @@
 //! A query converted to the motion of two triangles.
 
 use foldmotion_pattern::Motion;
+use foldmotion_random::Random;
 use glam::{DVec2, DVec3};
 
 use crate::{
-    oracle::{
-        contact::{Path, Query},
-        random::Random,
-    },
+    oracle::contact::{Path, Query},
     sheets::{motion, sheet},
 };
 

@@ -4,7 +4,7 @@ use std::fmt;
 
 use foldmotion_check::{CheckError, CollisionOptions, CollisionReport, Verdict, collisions};
 use foldmotion_pattern::Motion;
-use foldmotion_verify::{Verification, Verifier};
+use foldmotion_verify::verify;
 use rayon::prelude::*;
 
 use super::completion::{as_motion, triangles};
@@ -122,15 +122,6 @@ fn try_motion(file: &str, recorded: &Recorded, completion: u64, judge: Judge) ->
         verified: u32::from(verification.is_verified()),
         faults: all.map(fault).collect(),
     }
-}
-
-fn verify(motion: &Motion, report: &CollisionReport) -> Verification {
-    let (first, rest) = (motion.frames[0].clone(), &motion.frames[1..]);
-    let mut verifier = Verifier::new(&motion.sheet, first, report);
-    for frame in rest {
-        verifier.advance(frame.clone());
-    }
-    verifier.finish()
 }
 
 /// The truth about two moving triangles.

@@ -10,10 +10,11 @@
 mod oracle;
 
 use foldmotion_check::{CollisionOptions, LayerProof, Verdict, collisions};
+use foldmotion_verify::verify;
 use oracle::{
     class::Class,
     scene::Truth,
-    trial::{HEADER, Tally, Verified, is_right, motion_of, try_class, try_scene, verify},
+    trial::{HEADER, Tally, Verified, is_right, motion_of, try_class, try_scene},
     yardstick::shows_crossing,
 };
 

@@ -1,6 +1,8 @@
 //! The kinds of scenes.
 
-use super::{folding, random::Random, rigid, scene::Scene};
+use foldmotion_random::Random;
+
+use super::{folding, rigid, scene::Scene};
 
 /// The classes of scenes, each with its own stream of random numbers.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]

@@ -13,9 +13,9 @@ use super::{
     exact::{Point, UNIT},
     mesh::Mesh,
     part::{Part, below, between, sixteenths},
-    random::Random,
     scene::{Scene, Truth},
 };
+use foldmotion_random::Random;
 
 /// 0.4 τ: heights up to this count as touching.
 const SLIGHT: i64 = 28;

@@ -1,11 +1,11 @@
 //! Random triangulations of a part: the union is the same, the triangles are not.
 
+use foldmotion_random::Random;
 use std::collections::BTreeMap;
 
 use super::{
     exact::{Point, minus},
     part::Part,
-    random::Random,
 };
 
 /// The weights of corners are integers with this sum.

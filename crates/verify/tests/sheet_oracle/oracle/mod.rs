@@ -16,8 +16,6 @@ mod exact;
 mod folding;
 pub(crate) mod mesh;
 mod part;
-#[path = "../../../../geometry/tests/oracle/random.rs"]
-pub(crate) mod random;
 mod rigid;
 pub(crate) mod scene;
 pub(crate) mod trial;

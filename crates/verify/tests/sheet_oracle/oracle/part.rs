@@ -1,9 +1,7 @@
 //! Parts of sheets: polygons that share corners, with dyadic coordinates.
 
-use super::{
-    exact::{Convex, Point, UNIT, minus, plus},
-    random::Random,
-};
+use super::exact::{Convex, Point, UNIT, minus, plus};
+use foldmotion_random::Random;
 
 /// A part: corners and the polygons between them.
 #[derive(Debug, Clone, Default)]

@@ -6,10 +6,10 @@ use super::{
     exact::{Convex, Point, UNIT, minus, plus},
     mesh::{Mesh, WHOLE, place},
     part::{Part, between, sixteenths},
-    random::Random,
     scene::{Scene, Truth},
     undo::{Bodies, displacements},
 };
+use foldmotion_random::Random;
 
 /// τ of the default options with unit length 1.
 pub(crate) const TOLERANCE: f64 = 1e-6;

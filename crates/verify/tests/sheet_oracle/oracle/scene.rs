@@ -1,5 +1,6 @@
 //! A moving sheet with its truth, and the motions that show it, all of which have the same verdict.
 
+use foldmotion_random::Random;
 use std::collections::BTreeMap;
 
 use foldmotion_pattern::{
@@ -11,7 +12,6 @@ use super::{
     exact::{Point, UNIT},
     mesh::{Mesh, WHOLE, Weights, edge},
     part::Part,
-    random::Random,
 };
 
 /// The truth about a scene.

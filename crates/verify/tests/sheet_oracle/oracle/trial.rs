@@ -4,7 +4,7 @@ use std::fmt;
 
 use foldmotion_check::{CollisionOptions, CollisionReport, Verdict, collisions};
 use foldmotion_pattern::Motion;
-use foldmotion_verify::{Verification, Verifier};
+use foldmotion_verify::{Verification, verify};
 use rayon::prelude::*;
 
 use super::{class::Class, scene::Truth, yardstick::shows_crossing};
@@ -45,15 +45,6 @@ pub(crate) fn motion_of(class: Class, number: u64) -> (Motion, Truth, Option<f64
         scene.varied(&mut random)
     };
     (motion, scene.truth, scene.separation)
-}
-
-pub(crate) fn verify(motion: &Motion, claim: &CollisionReport) -> Verification {
-    let (first, rest) = motion.frames.split_first().expect("a motion has frames");
-    let mut verifier = Verifier::new(&motion.sheet, first.clone(), claim);
-    for frame in rest {
-        verifier.advance(frame.clone());
-    }
-    verifier.finish()
 }
 
 /// Whether a verdict is what the truth asks for; undecided is no answer.

@@ -6,7 +6,7 @@
 use foldmotion_pattern::Motion;
 use glam::DVec3;
 
-use super::random::Random;
+use foldmotion_random::Random;
 
 /// Instants an interval.
 const SAMPLES: u32 = 16;
