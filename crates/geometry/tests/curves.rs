@@ -1,4 +1,4 @@
-//! Curves and profiles against closed forms.
+//! Curves and profiles compared with closed forms.
 
 use foldmotion_geometry::{Closure, GeometryError, Nurbs, Profile};
 use glam::{DMat2, DVec2};

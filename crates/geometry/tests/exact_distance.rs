@@ -1,4 +1,5 @@
-//! The distance of triangles against whole numbers without rounding: slivers, nearly parallel edges, small offsets.
+//! The distance of triangles compared with integer arithmetic without rounding: slivers, nearly parallel edges, small
+//! offsets.
 #![expect(clippy::unwrap_used, reason = "a test stops where a value is missing")]
 
 use foldmotion_geometry::{segment_segment, triangle_triangle};
@@ -6,9 +7,9 @@ use foldmotion_random::Random;
 use glam::DVec3;
 use num_bigint::BigInt;
 
-/// Some hundred roundings of lengths up to 4.
+/// About a hundred roundings of lengths up to 4.
 const ROUNDING: f64 = 1e-13;
-/// Coordinates are whole multiples of this.
+/// Coordinates are integer multiples of this.
 const UNIT: f64 = 1.0 / (1u64 << 40) as f64;
 
 type Point = [i64; 3];
@@ -30,7 +31,7 @@ fn is_zero(x: &BigInt) -> bool {
     *x == BigInt::ZERO
 }
 
-/// A number of some 60 bits and an exponent of 2, to within 2⁻⁵⁸.
+/// A number of about 60 bits and an exponent of 2, accurate to 2⁻⁵⁸.
 fn rounded(x: &BigInt) -> (f64, i32) {
     let shift = i64::try_from(x.bits()).unwrap() - 60;
     let top = if shift > 0 { x >> shift } else { x.clone() };
@@ -44,7 +45,7 @@ fn root(x: &BigInt, y: &BigInt) -> f64 {
     (p / q * 2f64.powi(i - j)).sqrt() * UNIT
 }
 
-/// From a point to a segment.
+/// The distance from a point to a segment.
 fn to_segment(p: Point, [from, to]: [Point; 2]) -> f64 {
     let (along, w) = (minus(to, from), minus(p, from));
     let (squared, t) = (dot(&along, &along), dot(&along, &w));
@@ -60,7 +61,7 @@ fn to_segment(p: Point, [from, to]: [Point; 2]) -> f64 {
     root(&dot(&normal, &normal), &squared)
 }
 
-/// From a point to the inside of a triangle, where it is above it.
+/// The distance from a point to the inside of a triangle; `None` if the point is not above it.
 fn to_inside(p: Point, t: [Point; 3]) -> Option<f64> {
     let normal = cross(&minus(t[1], t[0]), &minus(t[2], t[0]));
     let squared = dot(&normal, &normal);
@@ -72,7 +73,7 @@ fn to_inside(p: Point, t: [Point; 3]) -> Option<f64> {
     (is_above && !is_zero(&squared)).then(|| root(&(&height * &height), &squared))
 }
 
-/// Between the lines of two segments, where that is inside both.
+/// The distance between the lines of two segments; `None` if it is not attained inside both.
 fn between_insides(a: [Point; 2], b: [Point; 2]) -> Option<f64> {
     let (u, v, w) = (minus(a[1], a[0]), minus(b[1], b[0]), minus(b[0], a[0]));
     let normal = cross(&u, &v);
@@ -93,7 +94,7 @@ fn of_segments(a: [Point; 2], b: [Point; 2]) -> f64 {
         .fold(f64::INFINITY, f64::min)
 }
 
-/// Whether a segment goes through the inside of a triangle.
+/// Whether a segment passes through the inside of a triangle.
 fn pierces([from, to]: [Point; 2], t: [Point; 3]) -> bool {
     let normal = cross(&minus(t[1], t[0]), &minus(t[2], t[0]));
     let heights = [from, to].map(|p| dot(&normal, &minus(p, t[0])));
@@ -141,7 +142,7 @@ fn real(p: Point) -> DVec3 {
     DVec3::from(p.map(|x| x as f64)) * UNIT
 }
 
-/// A rotation that keeps whole numbers: of the coordinates, and a shear by whole multiples.
+/// A map that keeps integers: a permutation of the coordinates and a shear by integer multiples.
 fn sheared(p: Point, by: [i64; 2]) -> Point {
     let [x, y, z] = p;
     [y + by[0] * x, z + by[1] * x, x]

@@ -1,4 +1,4 @@
-//! Curves through given points: through each, smooth, closed where asked, and what is refused.
+//! Curves through given points: they pass through each, are smooth, and closed if requested; and what is refused.
 
 use foldmotion_geometry::{Closure, GeometryError, Profile};
 use glam::DVec2;

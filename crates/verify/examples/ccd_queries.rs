@@ -45,7 +45,7 @@ use foldmotion_pattern::{Frame, Motion};
 use glam::DVec3;
 use oracle::trial::{Tally as KernelTally, kernel};
 use recorded::file::{QueryFile, read_folder};
-use trial::{Fault, Tally, judge, try_motions};
+use trial::{Failure, Tally, judge, try_motions};
 
 const LEGEND: &str = "\
 FN, FP: false negatives and positives of the kernels. As motions: meet, by exact arithmetic; the verdict; F! free but
@@ -74,7 +74,7 @@ fn main() -> Result<ExitCode, Box<dyn Error>> {
             file.name
         );
         if let Some(out) = &out {
-            write_faults(&file, &as_motions.faults, out)?;
+            write_failures(&file, &as_motions.failures, out)?;
         }
         kernels = kernels.plus(by_kernels);
         motions = motions.plus(as_motions);
@@ -84,9 +84,12 @@ fn main() -> Result<ExitCode, Box<dyn Error>> {
         "{:<40}{kernels} |{motions} | {} {}\n",
         "all", odd[0], odd[1]
     );
-    motions.faults.iter().for_each(|fault| println!("{fault}"));
+    motions
+        .failures
+        .iter()
+        .for_each(|failure| println!("{failure}"));
     println!("{:.1} s", start.elapsed().as_secs_f64());
-    let is_wrong = kernels.false_negatives > 0 || !motions.faults.is_empty();
+    let is_wrong = kernels.false_negatives > 0 || !motions.failures.is_empty();
     Ok(ExitCode::from(u8::from(is_wrong)))
 }
 
@@ -97,19 +100,23 @@ fn oddities(file: &QueryFile) -> [usize; 2] {
     [rounded.count(), untrue.count()]
 }
 
-fn write_faults(file: &QueryFile, faults: &[Fault], out: &Path) -> Result<(), Box<dyn Error>> {
+fn write_failures(
+    file: &QueryFile,
+    failures: &[Failure],
+    out: &Path,
+) -> Result<(), Box<dyn Error>> {
     fs::create_dir_all(out)?;
     let stem = file.name.trim_end_matches(".csv");
-    for fault in faults {
-        let at = file.queries.iter().find(|r| r.line == fault.line);
+    for failure in failures {
+        let at = file.queries.iter().find(|r| r.line == failure.line);
         if let Some(recorded) = at {
-            let motion = completion::as_motion(&recorded.query, fault.completion);
-            let Fault {
+            let motion = completion::as_motion(&recorded.query, failure.completion);
+            let Failure {
                 line,
                 completion,
                 kind,
                 ..
-            } = fault;
+            } = failure;
             let name = format!("{stem}_{line}_{completion}_{kind:?}.fold");
             fs::write(out.join(name), fold_text(&motion))?;
         }

@@ -74,7 +74,7 @@ pub struct Verifier<'a> {
     pub(crate) surely_touching: BTreeSet<[u32; 2]>,
     pub(crate) perhaps_touching: BTreeSet<[u32; 2]>,
     /// Why the stated closest approach is not attained; `None` if it is or has not been examined.
-    pub(crate) separation_fault: Option<String>,
+    pub(crate) separation_error: Option<String>,
     pub(crate) is_separation_met: bool,
     pub(crate) layer_state: LayerState,
     pub(crate) outcome: Verification,
@@ -126,7 +126,7 @@ impl<'a> Verifier<'a> {
             narrowed: BTreeMap::new(),
             surely_touching: BTreeSet::new(),
             perhaps_touching: BTreeSet::new(),
-            separation_fault: None,
+            separation_error: None,
             is_separation_met: claim.min_separation.is_none(),
             layer_state: LayerState::new(line::hinges(sheet)),
             outcome: Verification::default(),
@@ -192,8 +192,9 @@ impl<'a> Verifier<'a> {
             .min_separation
             .filter(|_| !self.is_separation_met)
         {
-            let fault = self.separation_fault.take();
-            let found = fault.unwrap_or_else(|| "the motion does not include this time".to_owned());
+            let mismatch = self.separation_error.take();
+            let found =
+                mismatch.unwrap_or_else(|| "the motion does not include this time".to_owned());
             self.refute(
                 "min_separation",
                 format!("{:e} at t = {}", separation.attained, separation.time),

@@ -61,11 +61,11 @@ fn separation(motion: &Motion, case: &str) -> (Separation, Verdict) {
     let verification = verify(motion, &report);
     let refuted = verification.refuted.iter().map(|r| r.field.as_str());
     let open = verification.unproved.iter().map(|u| u.what.as_str());
-    let mut faults = refuted
+    let mut errors = refuted
         .filter(|field| field.starts_with("min_separation"))
         .chain(open.filter(|what| *what == "the closest approach"));
-    let fault = faults.next();
-    assert_eq!(fault, None, "{case}: {separation:?} {verification:#?}");
+    let error = errors.next();
+    assert_eq!(error, None, "{case}: {separation:?} {verification:#?}");
     (separation, report.verdict)
 }
 

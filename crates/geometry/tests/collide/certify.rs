@@ -145,12 +145,12 @@ fn a_plate_that_passes_through_a_parallel_plate_crosses_though_it_is_never_deep(
         let meeting = pair.at(0.5);
         let distance = triangle_triangle(&meeting.a, &meeting.b).distance;
         if distance > 1e-3 {
-            // Beside each other when the planes meet: going round is no crossing.
+            // Beside each other when the planes meet: going around is not a crossing.
             beside += 1;
             assert!(has_passed(&pair), "{pair:?}");
             continue;
         }
-        // Within τ below the plane a plate may still slide out sideways.
+        // Within τ below the plane, a plate may still slide out sideways.
         let below = pair.at(0.5 + 0.5 * LIMITS.tolerance / height);
         let is_over = |p: &PairPose| triangle_triangle(&p.a, &flat(p.b, 0.0)).distance == 0.0;
         if height > 2.0 * LIMITS.tolerance && is_over(&meeting) && is_over(&below) {
@@ -167,7 +167,7 @@ fn a_plate_that_passes_through_a_parallel_plate_crosses_though_it_is_never_deep(
     assert!(over > 60 && beside > 60, "{over} {beside}");
 }
 
-/// A needle whose tip goes from `z0` to `z1` above the plate.
+/// A needle whose tip moves from `z0` to `z1` above the plate.
 fn needle(z0: f64, z1: f64) -> MovingPair {
     let at = |z: f64| {
         pose(
@@ -182,7 +182,7 @@ fn needle(z0: f64, z1: f64) -> MovingPair {
     MovingPair::new(at(z0), at(z1))
 }
 
-/// Judges a motion through several poses, handing the side on.
+/// Judges a motion through several poses, passing the side on.
 fn judge_path(pairs: &[MovingPair]) -> Outcome {
     let mut side = Side::at_start(&pairs[0].start, &LIMITS).unwrap();
     for pair in &pairs[..pairs.len() - 1] {
@@ -343,7 +343,7 @@ fn a_wall_that_slides_past_a_corner_and_then_sinks_passes_beside_the_plate() {
         DVec3::new(0.75, -0.625, 0.0),
         DVec3::new(-0.75, 0.625, 0.0),
     ];
-    // Past the corner it is 0.8 τ deep, and all along a straight line from one direction to the other 0.57 τ at least.
+    // Past the corner it is 0.8 τ deep, and along a straight line from one direction to the other at least 0.57 τ.
     let wall = |x: f64, y: f64, z: f64| {
         let foot = DVec3::new(x, y, z);
         let far = foot + DVec3::new(-3.0, 1.5625, 0.0);
@@ -365,7 +365,8 @@ fn a_contact_begins_when_the_triangles_meet_whatever_direction_parted_them_befor
         DVec3::new(-0.75, -1.125, -0.75),
         DVec3::new(-0.75, 1.125, 0.75),
     ];
-    // At 0.55 a direction closes along which they were apart from the start; the corner at x is at the wall at 0.625.
+    // At 0.55 a direction vanishes along which they were apart from the start; the corner at x reaches the wall at
+    // 0.625.
     let part = |x: f64, z: f64| {
         let tip = DVec3::new(x, 0.0, z);
         let others = [(0.8125, 0.0), (0.25, 0.5625)];
@@ -398,8 +399,8 @@ fn an_exhausted_budget_is_undecided() {
     ));
 }
 
-/// Mirror images in a folding sheet: corners 1 and 0 meet at a point and pass, the facets behind them are never in each
-/// other. Of the axes before the contact one alone leads to those after it, and only from close by.
+/// Mirror images in a folding sheet: corners 1 and 0 meet in a point and pass, but the facets behind them never
+/// intersect. Only one of the axes before the contact leads to those after it, and only from close by.
 #[test]
 fn corners_that_meet_at_a_point_and_pass_touch() {
     let pair = MovingPair {

@@ -1,4 +1,4 @@
-//! The bounds of the closest approach against dense sampling.
+//! The bounds of the closest approach compared with dense sampling.
 
 use glam::{DQuat, DVec3};
 
@@ -31,7 +31,7 @@ fn speed(pair: &MovingPair) -> f64 {
     speeds.fold(0.0, f64::max)
 }
 
-/// The smallest distance at many instants, and at many about the smallest.
+/// The smallest distance at many instants, and at many near the smallest.
 fn sampled(pair: &MovingPair) -> f64 {
     let distance = |t: f64| {
         let pose = pair.at(t);
@@ -50,7 +50,7 @@ fn sampled(pair: &MovingPair) -> f64 {
     least
 }
 
-/// Holds the bounds to what dense sampling finds; the distance.
+/// Checks the bounds against dense sampling and returns the distance.
 fn hold(pair: &MovingPair, case: &str) -> f64 {
     let found = closest_approach(pair, f64::INFINITY, &LIMITS);
     let least = sampled(pair);

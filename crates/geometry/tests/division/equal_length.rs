@@ -121,7 +121,7 @@ fn needle_sharp_corners_hold_no_division_up() {
     for segments in 2..60 {
         let division = equal(&zigzag, segments);
         check_promises(&zigzag, &division);
-        // Three chords of this point-symmetric curve bifurcate on the way: they are refused.
+        // Three chords of this point-symmetric curve bifurcate during the continuation: they are refused.
         assert_eq!(division.max_residual <= 1e-13, segments != 3, "{segments}");
         assert_eq!(division.converged(), segments != 3);
     }

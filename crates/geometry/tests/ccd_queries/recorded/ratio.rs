@@ -1,4 +1,4 @@
-//! The f64 nearest to a ratio of whole numbers.
+//! The f64 nearest to a ratio of integers.
 
 use num_bigint::{BigInt, BigUint, Sign};
 
@@ -9,14 +9,14 @@ pub(crate) struct Nearest {
     pub(crate) is_exact: bool,
 }
 
-/// Bits of a mantissa beside the implicit one.
+/// The number of bits of a mantissa, without the implicit one.
 const FRACTION: i64 = 52;
-/// The exponent of the least positive f64, and the least of a mantissa that is a whole number.
+/// The exponent of the smallest positive f64, which is the smallest of an integer mantissa.
 const LEAST: i64 = -1074;
-/// The largest exponent of a mantissa that is a whole number.
+/// The largest exponent of an integer mantissa.
 const LARGEST: i64 = 971;
 
-/// `numerator` / `denominator` rounded; none where the denominator is 0 or the ratio too large for an f64.
+/// `numerator` / `denominator` rounded; `None` if the denominator is 0 or the ratio is too large for an f64.
 pub(crate) fn nearest(numerator: &BigInt, denominator: &BigInt) -> Option<Nearest> {
     let zero = BigUint::default();
     let (n, d) = (numerator.magnitude(), denominator.magnitude());
@@ -117,7 +117,7 @@ mod tests {
         for k in 0..2000u64 {
             let bits = k.wrapping_mul(0x9e37_79b9_7f4a_7c15) >> 2;
             let value = f64::from_bits(bits);
-            // value = m 2^e with e ≥ −1074; a third of its last bit more.
+            // value = m 2^e with e ≥ −1074, plus a third of its last bit.
             let biased = (bits >> 52).max(1);
             let fraction = bits & ((1 << 52) - 1);
             let mantissa = if bits >> 52 == 0 {

@@ -44,7 +44,7 @@ pub(crate) struct Scene {
 }
 
 impl Scene {
-    /// The motion as it was made.
+    /// The motion in its original form.
     pub(crate) fn motion(&self) -> Motion {
         let plain = Order::plain(&self.mesh);
         assemble(&self.mesh, &self.frames, &plain)
@@ -115,7 +115,7 @@ impl Order {
     }
 }
 
-/// For every polygon the first one that is joined to it by edges.
+/// For every polygon, the first polygon that is joined to it by edges.
 fn components(part: &Part) -> Vec<usize> {
     let edges = |polygon: &Vec<usize>| -> Vec<[usize; 2]> {
         let next = |i: usize| polygon[(i + 1) % polygon.len()];
@@ -146,7 +146,7 @@ fn position(weights: &Weights, corners: &[Point]) -> DVec3 {
     DVec3::new(along(0), along(1), along(2))
 }
 
-/// Along a direction in which no polygon stands: the crease pattern must have triangles with an area.
+/// A projection in which no polygon is seen edge-on: the triangles of the crease pattern must have an area.
 fn pattern(p: DVec3) -> DVec2 {
     DVec2::new(p.x + 0.371 * p.z, p.y + 0.613 * p.z)
 }
