@@ -108,7 +108,7 @@ fn a_kernel_with_features_too_small_by_a_millionth_of_a_millionth_is_caught() {
 }
 
 #[test]
-fn the_meeting_told_is_no_later_than_the_first() {
+fn the_reported_impact_is_no_later_than_the_first() {
     // The features touch at a dyadic instant at the latest, in an interval that cannot be shortened from above.
     for class in [Class::Touching, Class::Grazing] {
         for number in 0..300 {
@@ -137,7 +137,7 @@ fn the_meeting_told_is_no_later_than_the_first() {
 }
 
 #[test]
-fn features_within_the_separation_at_an_instant_are_never_said_to_stay_apart() {
+fn features_within_the_separation_at_an_instant_are_never_reported_as_apart() {
     // Witnesses: integer weights with sum 4 at eighths of t on integer coordinates, so that points are exact; their
     // squared distance is exact as well, and its root is rounded up.
     let mut told_apart = 0;

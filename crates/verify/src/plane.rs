@@ -191,7 +191,7 @@ mod tests {
     }
 
     #[test]
-    fn an_inset_triangle_lies_farther_inside_by_as_much() {
+    fn an_inset_triangle_lies_inside_by_the_inset() {
         let mut random = Random::new(22);
         for _ in 0..100 {
             let a = triangle(&mut random);

@@ -282,7 +282,7 @@ fn the_bounds_of_a_single_frame_are_those_of_its_triangles() {
 }
 
 #[test]
-fn a_budget_that_ends_is_told() {
+fn an_exhausted_budget_is_reported() {
     let motion = read("sep7_5e-06_3.3e-11.fold");
     let hasty = CollisionOptions {
         budget: 8,

@@ -273,7 +273,7 @@ mod tests {
     }
 
     #[test]
-    fn a_closed_way_of_a_vertex_passes_through_everything_as_often_as_its_turns_around_edges_say() {
+    fn a_closed_path_of_a_vertex_has_the_passages_that_its_turns_around_edges_predict() {
         let topology = scene();
         let mut random = Random::new(5);
         let mut turned = 0;

@@ -152,7 +152,7 @@ fn airfoil(half: usize) -> Headings {
 }
 
 #[test]
-fn a_circle_and_an_airfoil_touch_at_their_seam_only_and_open() {
+fn a_circle_and_an_airfoil_touch_only_at_their_seam_and_open() {
     let circle: Vec<DVec2> = (0..30)
         .map(|k| DVec2::from_angle(TAU * f64::from(k) / 30.0))
         .collect();

@@ -212,7 +212,7 @@ fn an_accordion_folds_free_to_layers_a_thousandth_apart_and_not_through_each_oth
 }
 
 #[test]
-fn verdicts_do_not_depend_on_place_order_or_threads() {
+fn verdicts_do_not_depend_on_position_order_or_threads() {
     let states: [&[f64]; 3] = [&[0.0; 4], &[0.0, 1.9, 3.3, 4.2], &[0.0, 1.9, 4.0, 5.0]];
     let motions = [fold(4, &states, 9), accordion(6, 1, 12, 1e-3, 0.3)];
     let turn = DQuat::from_axis_angle(DVec3::new(2.0, -1.0, 2.0) / 3.0, 1.234);
@@ -314,7 +314,7 @@ fn with_an_exhausted_budget_freedom_is_still_proved_by_distance_and_no_penetrati
 }
 
 #[test]
-fn a_single_frame_is_judged_as_it_stands() {
+fn a_single_frame_is_judged_as_it_is() {
     let plates = |at: DVec3| judge(&two_plates(&[at])).verdict;
     assert_eq!(plates(DVec3::new(0.1, 0.1, 0.2)), Verdict::Free);
     assert_eq!(plates(DVec3::new(0.1, 0.1, 0.0)), Verdict::Touching);
@@ -380,7 +380,7 @@ fn below_a_large_plate(turn: DQuat) -> Motion {
 }
 
 #[test]
-fn a_tolerance_is_right_or_refused_however_small_beside_the_sheet() {
+fn a_tolerance_gives_the_right_verdict_or_is_refused_however_small_it_is() {
     let [mut judged, mut refused] = [0, 0];
     for k in 0..12 {
         let axis = DVec3::new(1.0, f64::from(k), -2.0).normalize();

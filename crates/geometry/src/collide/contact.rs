@@ -296,7 +296,7 @@ mod tests {
     }
 
     #[test]
-    fn features_are_near_exactly_in_the_stretches_told() {
+    fn features_are_near_exactly_in_the_reported_intervals() {
         let mut random = Random::new(81);
         let mut stretches = 0;
         for case in 0..400 {
@@ -326,7 +326,7 @@ mod tests {
     }
 
     #[test]
-    fn a_point_that_slides_far_along_a_plate_in_contact_is_near_in_one_stretch() {
+    fn a_point_that_slides_far_along_a_plate_in_contact_is_near_in_one_interval() {
         let plate = [DVec3::ZERO, DVec3::X * 4.0, DVec3::Y * 4.0];
         let at = |x: f64| PairPose {
             a: [DVec3::new(x, 0.5, 4e-7); 3],

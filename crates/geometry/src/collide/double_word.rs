@@ -141,7 +141,7 @@ mod tests {
     }
 
     #[test]
-    fn sums_and_products_are_as_near_as_promised_to_the_exact_ones() {
+    fn sums_and_products_are_as_accurate_as_promised() {
         let mut random = Random::new(91);
         // 2^106 / 8: the error times this is below the size.
         let bound = BigInt::from(1) << 103;

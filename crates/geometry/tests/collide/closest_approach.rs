@@ -175,7 +175,7 @@ fn a_pair_farther_than_the_bound_is_left_out() {
 }
 
 #[test]
-fn a_budget_that_ends_leaves_a_bound_that_holds() {
+fn an_exhausted_budget_leaves_a_valid_bound() {
     let mut random = Random::new(45);
     let hasty = Limits {
         budget: 3,

@@ -212,7 +212,7 @@ fn scaling_and_turning_the_profile_scales_and_turns_its_division() {
 }
 
 #[test]
-fn a_profile_is_scaled_to_the_polygon_length_asked_for() {
+fn a_profile_is_scaled_to_the_requested_polygon_length() {
     let (scaled, division) =
         divide_to_length(&wave(), 7, 7.0, &DivisionOptions::default()).unwrap();
     check_promises(&scaled, &division);

@@ -309,7 +309,7 @@ mod tests {
     }
 
     #[test]
-    fn a_facet_without_area_is_its_edges() {
+    fn a_facet_without_area_is_treated_as_its_edges() {
         let needle = [
             still(0.0, 0.0, 0.0),
             still(2.0, 2.0, 0.0),
@@ -362,7 +362,7 @@ mod tests {
     }
 
     #[test]
-    fn depth_is_told_to_the_last_bit() {
+    fn depth_is_exact_to_the_last_bit() {
         let plate = [
             still(-9.0, -9.0, 0.0),
             still(9.0, -9.0, 0.0),

@@ -101,7 +101,7 @@ fn what_is_stated_of_a_passage_through_an_edge_is_held_to_what_is_found() {
 }
 
 #[test]
-fn a_passage_that_is_made_up_is_not_verified() {
+fn an_invented_passage_is_not_verified() {
     let down = DVec3::new(0.0, 0.0, -0.5);
     let honest = above_a_roof(0.5, wall(), &[DVec3::ZERO, down, DVec3::ZERO]);
     let mut claim = judge(&honest);

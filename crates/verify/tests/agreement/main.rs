@@ -65,7 +65,7 @@ fn sheets_of_every_kind_get_the_same_verdict_twice() {
 }
 
 #[test]
-fn compact_stacks_touch_twice() {
+fn compact_stacks_touch_in_both_proofs() {
     let compact = |case, width, lambda| {
         let unit = Unit::new(case, width, 1.0, lambda, None).unwrap();
         let units = UnitSheet::new(unit, 3, 2).unwrap();

@@ -54,7 +54,7 @@ fn judge(motion: &Motion, stop_at: usize) -> CollisionReport {
 }
 
 #[test]
-fn a_check_ends_at_the_frame_at_which_more_pairs_penetrate_than_asked_for() {
+fn a_check_ends_at_the_frame_at_which_more_pairs_penetrate_than_allowed() {
     let motion = cloths();
     let (all, some) = (judge(&motion, 0), judge(&motion, LIMIT));
     assert_eq!(all.stopped, None);

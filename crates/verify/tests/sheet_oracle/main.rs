@@ -34,7 +34,7 @@ fn listed(tallies: &[(Class, Tally)], what: &[&str]) -> Vec<String> {
 }
 
 #[test]
-fn both_proofs_say_what_is_true() {
+fn both_proofs_agree_with_the_truth() {
     let tallies = Class::ALL.map(|class| (class, try_class(class, SHARE)));
     println!("{HEADER}");
     for (class, tally) in &tallies {
@@ -120,7 +120,7 @@ const ONCE_NOT_PROVED: [(&str, &[(Class, u64)]); 8] = [
 ];
 
 #[test]
-fn scenes_that_were_not_proved_though_right_are() {
+fn scenes_that_were_once_not_proved_though_right_are_proved() {
     for (what, scenes) in ONCE_NOT_PROVED {
         for &(class, number) in scenes {
             let trial = try_scene(class, number);

@@ -184,7 +184,7 @@ mod tests {
     }
 
     #[test]
-    fn a_coordinate_that_is_no_f64_is_rounded_and_marked() {
+    fn a_coordinate_that_is_not_an_f64_is_rounded_and_marked() {
         let text = rows([0; 8]).replacen("\n3,1,", "\n1,3,", 1);
         let read = parse(&text, Features::EdgeEdge).unwrap();
         assert!(read[0].is_rounded);

@@ -78,7 +78,7 @@ mod tests {
     }
 
     #[test]
-    fn ratios_that_are_f64_values_are_read_to_the_last_bit() {
+    fn ratios_that_are_f64_values_are_read_exactly() {
         assert_is(ratio("-1", "8388608"), -1.0 / 8_388_608.0, true);
         assert_is(ratio("3", "-4"), -0.75, true);
         assert_is(ratio("0", "7"), 0.0, true);
@@ -90,7 +90,7 @@ mod tests {
     }
 
     #[test]
-    fn other_ratios_are_rounded_to_the_nearest_and_say_so() {
+    fn other_ratios_are_rounded_to_the_nearest_and_marked() {
         assert_is(ratio("1", "3"), 1.0 / 3.0, false);
         assert_is(ratio("-2", "3"), -2.0 / 3.0, false);
         assert_is(ratio("1", "10"), 0.1, false);
@@ -104,7 +104,7 @@ mod tests {
     }
 
     #[test]
-    fn what_no_f64_is_near_is_refused() {
+    fn what_is_near_no_f64_is_refused() {
         assert_eq!(ratio("1", "0"), None);
         let too_large = format!("{}", BigInt::from(1) << 1024u32);
         assert_eq!(ratio(&too_large, "1"), None);
