@@ -1,7 +1,7 @@
-//! How often equal division succeeds on random curves with sharp turns, and how long it takes at worst.
+//! Measures how often equal division succeeds on random curves with sharp turns, and its longest time.
 //!
-//! `cargo run --release -p foldmotion-geometry --example division_of_random_curves [CURVES]`: curves of 4 to 9 control points
-//! in a square, open and closed, in 3 to 60 segments; those that cross themselves are left out.
+//! `cargo run --release -p foldmotion-geometry --example division_of_random_curves [CURVES]`: curves of 4 to 9 control
+//! points in a square, open and closed, in 3 to 60 segments; those that cross themselves are skipped.
 
 #![expect(clippy::print_stdout, reason = "it prints its figures")]
 
@@ -48,7 +48,7 @@ fn main() -> Result<(), GeometryError> {
                     stalled.push((curve, closure, segments, division.max_residual));
                 }
             }
-            // Of equal divisions of a simple curve, only those found are seen to cross.
+            // Equal divisions of a simple curve are known to cross only once they are found.
             Err(GeometryError::PolygonCrosses { .. }) => divided += 1,
             Err(_) => {}
         }

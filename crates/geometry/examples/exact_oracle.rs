@@ -1,9 +1,9 @@
-//! Tries the collision kernels and the certificate against exact arithmetic and prints what came of it by class.
+//! Tests the collision kernels and the certificate against exact arithmetic and prints the results by class.
 //!
-//! `cargo run --release -p foldmotion-geometry --example exact_oracle [queries]`
+//! `cargo run --release -p foldmotion-geometry --example exact_oracle [QUERIES]`
 //!
-//! At least as many queries as asked for (a million where nothing is said): two thirds on their own, one third as the
-//! fifteen queries of triangle pairs. Exit status 1 where a meeting was missed.
+//! At least as many queries as requested (default: a million): two thirds on their own, one third as the fifteen
+//! queries of triangle pairs. The exit status is 1 if an impact was missed.
 
 #![expect(clippy::print_stdout, reason = "an example that prints its table")]
 

@@ -1,4 +1,4 @@
-//! Steps and seconds of straightening Fermat spirals, by number of segments.
+//! Measures the steps and seconds needed to straighten Fermat spirals, by number of segments.
 //!
 //! `cargo run --release -p foldmotion-geometry --example unfolding -- 100 200 400`
 
@@ -33,7 +33,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     Ok(())
 }
 
-/// Point k of r = √θ, both arms to θ = 6π at k = ±half, even in arc length but for O(1/θ²).
+/// Point k of r = √θ, both arms to θ = 6π at k = ±half, at equal steps of arc length up to O(1/θ²).
 fn spiral(k: i32, half: i32) -> DVec2 {
     let share = f64::from(k.abs()) / f64::from(half);
     let angle = 6.0 * std::f64::consts::PI * share.powf(2.0 / 3.0);

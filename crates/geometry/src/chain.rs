@@ -15,6 +15,7 @@
 use glam::DVec2;
 
 use crate::Profile;
+use crate::chords::dot;
 use crate::compass::Samples;
 use crate::length_table::LengthTable;
 
@@ -330,8 +331,4 @@ fn rotate(
 
 fn cosine(a: &[f64], b: &[f64]) -> f64 {
     dot(a, b) / (dot(a, a) * dot(b, b)).sqrt()
-}
-
-fn dot(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| a * b).sum()
 }

@@ -327,7 +327,7 @@ pub fn triangle_triangle(a: &[DVec3; 3], b: &[DVec3; 3]) -> Closest {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::collide::random::Random;
+    use foldmotion_random::Random;
 
     fn sampled(a: &[DVec3; 3], b: &[DVec3; 3], n: i32) -> f64 {
         let points = |t: &[DVec3; 3]| {

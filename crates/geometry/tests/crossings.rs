@@ -1,4 +1,4 @@
-//! Crossings of polylines against a brute-force twin and hand-made cases.
+//! Crossings of polylines compared with brute force, and cases built by hand.
 
 use foldmotion_geometry::first_crossing;
 use glam::DVec2;
@@ -111,7 +111,7 @@ proptest! {
 
     #[test]
     fn the_tree_finds_a_crossing_exactly_where_brute_force_does(
-        // Whole numbers make touching and collinear cases common, and plain f64 exact.
+        // Integers make touching and collinear cases common, and plain f64 exact.
         points in prop::collection::vec((0i32..40, 0i32..40), 2..14)
     ) {
         let mut points: Vec<_> = points.into_iter().map(|(x, z)| DVec2::new(f64::from(x), f64::from(z))).collect();
@@ -121,7 +121,7 @@ proptest! {
     }
 }
 
-/// Segment pairs by rational arithmetic in whole numbers: they share a point if the 2 × 2 system has a solution in [0, 1]².
+/// Segment pairs in rational arithmetic on integers: they share a point if the 2 × 2 system has a solution in [0, 1]².
 fn brute_force(points: &[DVec2]) -> bool {
     let segments: Vec<_> = points.windows(2).map(|p| (p[0], p[1])).collect();
     (0..segments.len()).any(|i| {

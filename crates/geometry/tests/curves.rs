@@ -1,4 +1,4 @@
-//! Curves and profiles against closed forms.
+//! Curves and profiles compared with closed forms.
 
 use foldmotion_geometry::{Closure, GeometryError, Nurbs, Profile};
 use glam::{DMat2, DVec2};
@@ -113,7 +113,7 @@ fn the_length_of_a_straight_profile_is_the_distance_of_its_ends() {
 }
 
 #[test]
-fn the_length_of_a_parabola_is_within_the_accuracy_asked_for() {
+fn the_length_of_a_parabola_is_within_the_requested_accuracy() {
     // Degree-elevated quadratic Bézier (0,0) (½,0) (1,1): z = x², length √5/2 + asinh(2)/4.
     let p = points(&[
         [0.0, 0.0],

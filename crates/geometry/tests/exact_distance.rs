@@ -1,13 +1,15 @@
-//! The distance of triangles against whole numbers without rounding: slivers, nearly parallel edges, small offsets.
+//! The distance of triangles compared with integer arithmetic without rounding: slivers, nearly parallel edges, small
+//! offsets.
 #![expect(clippy::unwrap_used, reason = "a test stops where a value is missing")]
 
 use foldmotion_geometry::{segment_segment, triangle_triangle};
+use foldmotion_random::Random;
 use glam::DVec3;
 use num_bigint::BigInt;
 
-/// Some hundred roundings of lengths up to 4.
+/// About a hundred roundings of lengths up to 4.
 const ROUNDING: f64 = 1e-13;
-/// Coordinates are whole multiples of this.
+/// Coordinates are integer multiples of this.
 const UNIT: f64 = 1.0 / (1u64 << 40) as f64;
 
 type Point = [i64; 3];
@@ -29,7 +31,7 @@ fn is_zero(x: &BigInt) -> bool {
     *x == BigInt::ZERO
 }
 
-/// A number of some 60 bits and an exponent of 2, to within 2⁻⁵⁸.
+/// A number of about 60 bits and an exponent of 2, accurate to 2⁻⁵⁸.
 fn rounded(x: &BigInt) -> (f64, i32) {
     let shift = i64::try_from(x.bits()).unwrap() - 60;
     let top = if shift > 0 { x >> shift } else { x.clone() };
@@ -43,7 +45,7 @@ fn root(x: &BigInt, y: &BigInt) -> f64 {
     (p / q * 2f64.powi(i - j)).sqrt() * UNIT
 }
 
-/// From a point to a segment.
+/// The distance from a point to a segment.
 fn to_segment(p: Point, [from, to]: [Point; 2]) -> f64 {
     let (along, w) = (minus(to, from), minus(p, from));
     let (squared, t) = (dot(&along, &along), dot(&along, &w));
@@ -59,7 +61,7 @@ fn to_segment(p: Point, [from, to]: [Point; 2]) -> f64 {
     root(&dot(&normal, &normal), &squared)
 }
 
-/// From a point to the inside of a triangle, where it is above it.
+/// The distance from a point to the inside of a triangle; `None` if the point is not above it.
 fn to_inside(p: Point, t: [Point; 3]) -> Option<f64> {
     let normal = cross(&minus(t[1], t[0]), &minus(t[2], t[0]));
     let squared = dot(&normal, &normal);
@@ -71,7 +73,7 @@ fn to_inside(p: Point, t: [Point; 3]) -> Option<f64> {
     (is_above && !is_zero(&squared)).then(|| root(&(&height * &height), &squared))
 }
 
-/// Between the lines of two segments, where that is inside both.
+/// The distance between the lines of two segments; `None` if it is not attained inside both.
 fn between_insides(a: [Point; 2], b: [Point; 2]) -> Option<f64> {
     let (u, v, w) = (minus(a[1], a[0]), minus(b[1], b[0]), minus(b[0], a[0]));
     let normal = cross(&u, &v);
@@ -92,7 +94,7 @@ fn of_segments(a: [Point; 2], b: [Point; 2]) -> f64 {
         .fold(f64::INFINITY, f64::min)
 }
 
-/// Whether a segment goes through the inside of a triangle.
+/// Whether a segment passes through the inside of a triangle.
 fn pierces([from, to]: [Point; 2], t: [Point; 3]) -> bool {
     let normal = cross(&minus(t[1], t[0]), &minus(t[2], t[0]));
     let heights = [from, to].map(|p| dot(&normal, &minus(p, t[0])));
@@ -127,38 +129,20 @@ fn of_triangles(a: [Point; 3], b: [Point; 3]) -> f64 {
     corners.chain(pairs).fold(f64::INFINITY, f64::min)
 }
 
-/// Seeded whole numbers (`SplitMix64`).
-struct Random(u64);
+/// A point with coordinates up to ± 2^bits.
+fn point(random: &mut Random, bits: [u32; 3]) -> Point {
+    bits.map(|b| random.integer(1 << b))
+}
 
-impl Random {
-    fn bits(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        z ^ (z >> 31)
-    }
-
-    /// Up to ± 2^`bits`.
-    fn number(&mut self, bits: u32) -> i64 {
-        let size = 1i64 << bits;
-        (self.bits() % (2 * size.cast_unsigned() + 1)).cast_signed() - size
-    }
-
-    fn point(&mut self, bits: [u32; 3]) -> Point {
-        bits.map(|b| self.number(b))
-    }
-
-    fn any_bits(&mut self) -> u32 {
-        (self.bits() % 41) as u32
-    }
+fn any_bits(random: &mut Random) -> u32 {
+    random.index(41) as u32
 }
 
 fn real(p: Point) -> DVec3 {
     DVec3::from(p.map(|x| x as f64)) * UNIT
 }
 
-/// A rotation that keeps whole numbers: of the coordinates, and a shear by whole multiples.
+/// A map that keeps integers: a permutation of the coordinates and a shear by integer multiples.
 fn sheared(p: Point, by: [i64; 2]) -> Point {
     let [x, y, z] = p;
     [y + by[0] * x, z + by[1] * x, x]
@@ -166,15 +150,15 @@ fn sheared(p: Point, by: [i64; 2]) -> Point {
 
 #[test]
 fn the_distance_of_segments_nearly_parallel_is_exact_to_some_roundings() {
-    let mut random = Random(1);
+    let mut random = Random::new(1);
     for case in 0..20_000 {
-        let (slope, lift) = (random.any_bits(), random.any_bits());
-        let by = [random.number(1), random.number(1)];
+        let (slope, lift) = (any_bits(&mut random), any_bits(&mut random));
+        let by = [random.integer(2), random.integer(2)];
         let long = [40, slope, slope.min(lift)];
-        let a = [(); 2].map(|()| sheared(random.point(long), by));
+        let a = [(); 2].map(|()| sheared(point(&mut random, long), by));
         let up = 1i64 << lift;
         let b = [(); 2].map(|()| {
-            let [x, y, z] = random.point(long);
+            let [x, y, z] = point(&mut random, long);
             sheared([x, y, z + up], by)
         });
         let exact = of_segments(a, b);
@@ -190,15 +174,15 @@ fn the_distance_of_segments_nearly_parallel_is_exact_to_some_roundings() {
 
 #[test]
 fn the_distance_of_slivers_is_exact_to_some_roundings() {
-    let mut random = Random(2);
+    let mut random = Random::new(2);
     let mut kinds = [0; 3];
     for case in 0..20_000 {
-        let by = [random.number(1), random.number(1)];
-        let lift = random.any_bits();
+        let by = [random.integer(2), random.integer(2)];
+        let lift = any_bits(&mut random);
         let mut sliver = |up: i64| {
-            let shape = [40, random.any_bits().max(4), random.any_bits()];
+            let shape = [40, any_bits(&mut random).max(4), any_bits(&mut random)];
             [(); 3].map(|()| {
-                let [x, y, z] = random.point(shape);
+                let [x, y, z] = point(&mut random, shape);
                 sheared([x, y, z + up], by)
             })
         };

@@ -1,6 +1,6 @@
-//! The collision kernels and the certificate against exact arithmetic.
+//! The collision kernels and the certificate compared with exact arithmetic.
 //!
-//! `cargo run --release -p foldmotion-geometry --example exact_oracle` is the same on a million queries.
+//! `cargo run --release -p foldmotion-geometry --example exact_oracle` does the same for a million queries.
 
 mod oracle;
 
@@ -54,8 +54,8 @@ fn configurations_made_to_touch_do_so_according_to_the_oracle() {
     }
 }
 
-/// A kernel that trusts f64: the plane is met where the volumes at two of 64 neighbouring instants differ in sign, and
-/// the foot of the vertex lies inside.
+/// A kernel that trusts f64: the plane is met if the volumes at two neighbours of 64 instants differ in sign, and the
+/// foot of the vertex lies inside.
 fn trusting_kernel(query: &Query) -> bool {
     let Query::VertexFacet(vertex, facet) = query else {
         return kernel(query);
@@ -88,7 +88,7 @@ fn a_kernel_that_trusts_rounding_is_caught_by_the_touching_classes() {
     }
 }
 
-/// A kernel whose features are shrunk towards their centre by 10⁻¹².
+/// A kernel that shrinks its features towards their centres by 10⁻¹².
 fn shrinking_kernel(query: &Query) -> bool {
     fn shrunk<const N: usize>(paths: [Path; N]) -> [Path; N] {
         let centre = |end: usize| paths.iter().map(|p| p[end]).sum::<DVec3>() / N as f64;
@@ -108,8 +108,8 @@ fn a_kernel_with_features_too_small_by_a_millionth_of_a_millionth_is_caught() {
 }
 
 #[test]
-fn the_meeting_told_is_no_later_than_the_first() {
-    // Made to touch at a dyadic instant at the latest, and in an interval that cannot be shortened from above.
+fn the_reported_impact_is_no_later_than_the_first() {
+    // The features touch at a dyadic instant at the latest, in an interval that cannot be shortened from above.
     for class in [Class::Touching, Class::Grazing] {
         for number in 0..300 {
             let query = query(class, number);
@@ -121,7 +121,7 @@ fn the_meeting_told_is_no_later_than_the_first() {
                 }
             };
             match answer(&query, 0.0) {
-                // The paths up to a dyadic t are exact here: short of `from` nothing meets.
+                // The paths up to a dyadic t are exact here: before `from` nothing meets.
                 Impact::Within { from, to } => {
                     assert!(to - from <= 1.0 / (1u64 << 44) as f64);
                     let before = (from * 64.0).floor() / 64.0;
@@ -137,8 +137,8 @@ fn the_meeting_told_is_no_later_than_the_first() {
 }
 
 #[test]
-fn features_within_the_separation_at_an_instant_are_never_said_to_stay_apart() {
-    // Witnesses: whole weights of sum 4 at eighths of t on coordinates that are whole, so that points are exact; their
+fn features_within_the_separation_at_an_instant_are_never_reported_as_apart() {
+    // Witnesses: integer weights with sum 4 at eighths of t on integer coordinates, so that points are exact; their
     // squared distance is exact as well, and its root is rounded up.
     let mut told_apart = 0;
     for number in 0..1500 {

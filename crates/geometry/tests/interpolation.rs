@@ -1,4 +1,4 @@
-//! Curves through given points: through each, smooth, closed where asked, and what is refused.
+//! Curves through given points: they pass through each, are smooth, and closed if requested; and what is refused.
 
 use foldmotion_geometry::{Closure, GeometryError, Profile};
 use glam::DVec2;
@@ -66,7 +66,7 @@ fn a_repeated_first_point_changes_nothing() {
 }
 
 #[test]
-fn a_circle_is_met_with_the_fourth_power_of_the_spacing() {
+fn a_circle_is_approximated_to_the_fourth_power_of_the_spacing() {
     let error = |count: usize| {
         let circle: Vec<_> = (0..count)
             .map(|k| DVec2::from_angle(std::f64::consts::TAU * k as f64 / count as f64))
@@ -87,7 +87,7 @@ fn two_points_give_the_line_between_them() {
 }
 
 #[test]
-fn thousands_of_points_are_met_too() {
+fn thousands_of_points_are_interpolated_too() {
     let points = ring(5000, 6.0);
     let profile = Profile::through(&points, Closure::Open).unwrap();
     for p in points.iter().step_by(997) {

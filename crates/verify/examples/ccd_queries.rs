@@ -1,12 +1,11 @@
-//! Tries the collision kernels, the verdict and its second proof on recorded queries and prints what came of it by file.
+//! Tests the collision kernels, the verdict and its second proof on recorded queries and prints the results by file.
 //!
 //! `cargo run --release -p foldmotion-verify --example ccd_queries [FOLDER [COMPLETIONS [OUT]]]`
 //!
-//! FOLDER has files `*vertex-face.csv` and `*edge-edge.csv` in the format of the benchmark of Wang et al. 2021
-//! (Tight-Inclusion); without one the committed share is taken. Each query is tried by the kernels, and as the motion of
-//! two triangles, to which it is completed in COMPLETIONS ways (1 where nothing is said). Motions with a fault are
-//! written into the folder OUT as FOLD files for `foldmotion check`. Exit status 1 where the kernels missed a meeting or a
-//! motion has a fault.
+//! FOLDER contains files `*vertex-face.csv` and `*edge-edge.csv` in the format of the benchmark of Wang et al. 2021
+//! (Tight-Inclusion). Default: the committed share of it. Each query is given to the kernels, and converted to the
+//! motion of two triangles in COMPLETIONS ways (default: 1). Motions with an error are written into the folder OUT as
+//! FOLD files for `foldmotion check`. The exit status is 1 if the kernels missed a meeting or a motion has an error.
 
 #![expect(clippy::print_stdout, reason = "an example that prints its table")]
 #![expect(
@@ -46,7 +45,7 @@ use foldmotion_pattern::{Frame, Motion};
 use glam::DVec3;
 use oracle::trial::{Tally as KernelTally, kernel};
 use recorded::file::{QueryFile, read_folder};
-use trial::{Fault, Tally, judge, try_motions};
+use trial::{Failure, Tally, judge, try_motions};
 
 const LEGEND: &str = "\
 FN, FP: false negatives and positives of the kernels. As motions: meet, by exact arithmetic; the verdict; F! free but
@@ -75,7 +74,7 @@ fn main() -> Result<ExitCode, Box<dyn Error>> {
             file.name
         );
         if let Some(out) = &out {
-            write_faults(&file, &as_motions.faults, out)?;
+            write_failures(&file, &as_motions.failures, out)?;
         }
         kernels = kernels.plus(by_kernels);
         motions = motions.plus(as_motions);
@@ -85,32 +84,39 @@ fn main() -> Result<ExitCode, Box<dyn Error>> {
         "{:<40}{kernels} |{motions} | {} {}\n",
         "all", odd[0], odd[1]
     );
-    motions.faults.iter().for_each(|fault| println!("{fault}"));
+    motions
+        .failures
+        .iter()
+        .for_each(|failure| println!("{failure}"));
     println!("{:.1} s", start.elapsed().as_secs_f64());
-    let is_wrong = kernels.false_negatives > 0 || !motions.faults.is_empty();
+    let is_wrong = kernels.false_negatives > 0 || !motions.failures.is_empty();
     Ok(ExitCode::from(u8::from(is_wrong)))
 }
 
-/// Queries that were rounded, and queries whose truth in the file is not that of exact arithmetic.
+/// The number of queries that were rounded, and of queries whose truth in the file differs from exact arithmetic.
 fn oddities(file: &QueryFile) -> [usize; 2] {
     let rounded = file.queries.iter().filter(|r| r.is_rounded);
     let untrue = file.queries.iter().filter(|r| r.query.meets() != r.meets);
     [rounded.count(), untrue.count()]
 }
 
-fn write_faults(file: &QueryFile, faults: &[Fault], out: &Path) -> Result<(), Box<dyn Error>> {
+fn write_failures(
+    file: &QueryFile,
+    failures: &[Failure],
+    out: &Path,
+) -> Result<(), Box<dyn Error>> {
     fs::create_dir_all(out)?;
     let stem = file.name.trim_end_matches(".csv");
-    for fault in faults {
-        let at = file.queries.iter().find(|r| r.line == fault.line);
+    for failure in failures {
+        let at = file.queries.iter().find(|r| r.line == failure.line);
         if let Some(recorded) = at {
-            let motion = completion::as_motion(&recorded.query, fault.completion);
-            let Fault {
+            let motion = completion::as_motion(&recorded.query, failure.completion);
+            let Failure {
                 line,
                 completion,
                 kind,
                 ..
-            } = fault;
+            } = failure;
             let name = format!("{stem}_{line}_{completion}_{kind:?}.fold");
             fs::write(out.join(name), fold_text(&motion))?;
         }
@@ -118,7 +124,7 @@ fn write_faults(file: &QueryFile, faults: &[Fault], out: &Path) -> Result<(), Bo
     Ok(())
 }
 
-/// The motion as FOLD, its first frame as key frame; numbers read back as the same f64.
+/// The motion as FOLD, with its first frame as key frame; numbers are read back as the same f64.
 fn fold_text(motion: &Motion) -> String {
     let coordinates = |frame: &Frame| {
         let positions = frame.positions.iter().map(DVec3::to_array);

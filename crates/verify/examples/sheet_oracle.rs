@@ -1,9 +1,10 @@
-//! Tries both proofs against the oracle for sheets and prints what came of it by class.
+//! Tests both proofs against the oracle for sheets and prints the results by class.
 //!
-//! `cargo run --release -p foldmotion-verify --example sheet_oracle [SHEETS]`: as many sheets as asked for (100 000 where
-//! nothing is said), shared out among the classes. Exit status 1 where a verdict was wrong.
+//! `cargo run --release -p foldmotion-verify --example sheet_oracle [SHEETS]`: the number of sheets (default: 100 000)
+//! is divided among the classes. The exit status is 1 if a verdict was wrong.
 //!
-//! `--class NAME` tries one class only; `--number K` with it one scene, and `--write FILE.fold` writes that as a motion.
+//! `--class NAME` tests one class only; `--number K` with it tests one scene, and `--write FILE.fold` writes that scene
+//! as a motion.
 
 #![expect(clippy::print_stdout, reason = "an example that prints its table")]
 #![expect(
@@ -19,12 +20,13 @@ use std::{error::Error, fs::File, io::BufWriter, process::ExitCode, time::Instan
 
 use foldmotion_check::{CollisionOptions, collisions};
 use foldmotion_pattern::FoldHeader;
+use foldmotion_verify::verify;
 use oracle::{
     class::Class,
-    trial::{HEADER, Tally, motion_of, try_class, try_scene, verify},
+    trial::{HEADER, Tally, motion_of, try_class, try_scene},
 };
 
-/// What is asked for.
+/// The command line.
 #[derive(Default)]
 struct Asked {
     sheets: Option<u64>,

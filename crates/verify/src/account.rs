@@ -234,7 +234,11 @@ impl Verifier<'_> {
                 let known = self.sides.binary_search_by(|(f, _)| f.cmp(&pair.faces));
                 let side = known.ok().map(|index| &self.sides[index].1);
                 let is_skipped = self.lost.contains(&pair.faces);
-                PairFindings::at_rest(side.map(Trail::at_rest), is_skipped)
+                PairFindings {
+                    trail: side.map(Trail::at_rest),
+                    is_skipped,
+                    ..PairFindings::default()
+                }
             })
             .collect();
         let first = self.last.clone();
@@ -277,7 +281,7 @@ impl Verifier<'_> {
         self.meet_claims(&first, &BTreeMap::new());
         for faces in self.near_pairs(&first.positions) {
             let pair = FacePair::new(self.sheet, faces);
-            let mut judged = PairFindings::apart();
+            let mut judged = PairFindings::default();
             if pair.shared == 1 || pair.shared == 2 {
                 let moving = pair.moving(&first.positions, &first.positions);
                 self.measure_parts(&moving, &mut judged);

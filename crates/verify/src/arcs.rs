@@ -146,7 +146,7 @@ pub(crate) fn are_connected(pose: &PairPose, from: &[DVec3], to: &[DVec3], level
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::random::Random;
+    use foldmotion_random::Random;
 
     fn pose(random: &mut Random) -> PairPose {
         let mut triangle = || [(); 3].map(|()| random.vector());

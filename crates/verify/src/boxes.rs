@@ -88,7 +88,7 @@ impl Boxes {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::random::Random;
+    use foldmotion_random::Random;
 
     #[test]
     fn no_overlapping_pair_is_left_out_and_no_other_is_named() {

@@ -38,14 +38,7 @@ impl Verifier<'_> {
                 return;
             }
             for (faces, directions) in changed {
-                let is_apart = false;
-                self.narrowed.insert(
-                    faces,
-                    Side {
-                        is_apart,
-                        directions,
-                    },
-                );
+                self.narrowed.insert(faces, Side::contact(directions));
             }
         }
     }

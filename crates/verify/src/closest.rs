@@ -146,7 +146,7 @@ pub(crate) fn closest(pose: &PairPose) -> Closest {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::random::Random;
+    use foldmotion_random::Random;
 
     fn sampled(pose: &PairPose) -> f64 {
         let mut least = f64::INFINITY;

@@ -131,7 +131,7 @@ pub(crate) fn keeps_distance(moving: &MovingPair, limit: f64, budget: u32) -> Di
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::random::Random;
+    use foldmotion_random::Random;
 
     #[test]
     fn a_distance_that_is_kept_is_kept_at_every_sampled_instant_and_a_nearer_instant_is_found() {

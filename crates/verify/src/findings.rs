@@ -5,6 +5,7 @@ use crate::side::Side;
 use crate::trail::Trail;
 
 /// What was found about a pair in an interval.
+#[derive(Default)]
 pub(crate) struct PairFindings {
     pub(crate) side: Option<Side>,
     pub(crate) lost: Option<LostSide>,
@@ -19,29 +20,4 @@ pub(crate) struct PairFindings {
     pub(crate) is_followed: bool,
     /// Whether nothing is claimed about the pair.
     pub(crate) is_skipped: bool,
-}
-
-impl PairFindings {
-    pub(crate) fn apart() -> Self {
-        Self {
-            side: None,
-            lost: None,
-            narrowed: None,
-            lost_narrowed: None,
-            trail: None,
-            touching: [false; 2],
-            nearer: None,
-            unproved: None,
-            is_followed: false,
-            is_skipped: false,
-        }
-    }
-
-    pub(crate) fn at_rest(trail: Option<Trail>, is_skipped: bool) -> Self {
-        Self {
-            trail,
-            is_skipped,
-            ..Self::apart()
-        }
-    }
 }

@@ -209,10 +209,7 @@ impl<'a> Follower<'a> {
         if self.side.is_apart {
             if let Some(direction) = self.stay_apart(&part, step) {
                 return Some(Step {
-                    side: Side {
-                        is_apart: true,
-                        directions: vec![direction],
-                    },
+                    side: Side::apart(direction),
                     apart: Some(direction),
                     directions: Vec::new(),
                 });
@@ -302,10 +299,7 @@ impl<'a> Follower<'a> {
         let apart = way_out.or_else(|| strictly_apart(&there, &landed));
         Some(Step {
             apart,
-            side: Side {
-                is_apart: way_out.is_some(),
-                directions: way_out.map_or(landed, |d| vec![d]),
-            },
+            side: way_out.map_or_else(|| Side::contact(landed), Side::apart),
             directions,
         })
     }

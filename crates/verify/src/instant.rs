@@ -24,9 +24,8 @@ pub(crate) fn axes(moving: &MovingPair, pose: &PairPose) -> Vec<Axis> {
     let edges = |t: &[DVec3; 3]| [t[1] - t[0], t[2] - t[1], t[0] - t[2]];
     let (a, b) = (edges(&pose.a), edges(&pose.b));
     let (normal_a, normal_b) = (a[0].cross(a[1]), b[0].cross(b[1]));
-    let features = moving.features();
-    let mut axes = Vec::with_capacity(2 * features.len());
-    for &feature in features {
+    let mut axes = Vec::with_capacity(40);
+    for feature in moving.features() {
         let (normal, power) = match feature {
             Feature::NormalA => (normal_a, 2),
             Feature::NormalB => (normal_b, 2),

@@ -106,11 +106,7 @@ impl Verifier<'_> {
                 let is_beyond = apart.is_some_and(|d| d.dot(up) < 0.0);
                 // The gap on the other side is below τ, and so is the overlap on this one.
                 if is_beyond && pose.overlap(up) < self.limits.tolerance {
-                    let side = Side {
-                        is_apart: false,
-                        directions: vec![up],
-                    };
-                    self.sides.insert(index, (faces, side));
+                    self.sides.insert(index, (faces, Side::contact(vec![up])));
                 }
             }
         }

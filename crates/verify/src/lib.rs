@@ -6,15 +6,18 @@
 //! # What the two proofs share
 //!
 //! They share the vector type, the sheet, the reader of FOLD files, the types of the report, and the meaning of τ and
-//! of a contact. They have different definitions: the first counts passages with signs, this one couples directions
-//! across edges. Their code is separate but not alike by chance only: both follow a pair of triangles through an
-//! interval along separating directions, in dyadic steps that are halved where a proof fails and doubled where it
-//! succeeds; both use Bernstein coefficients as bounds; and some constants are equal (the shortest step, the step from
-//! which all axes are tried, 60° as the limit of a side, 10 τ as the width of a shared edge). A mistake in that common
-//! idea could be made twice. Different are the boxes (all pairs instead of a tree), the axes (polynomials in time
-//! instead of straight paths between axes at two instants), the sides (exact connectivity on the sphere instead of
-//! links between axes), the layers (brackets around a line instead of pairs of creases) and everything about the sheet
-//! as a whole.
+//! of a contact. Their definitions differ: the first counts passages with signs, this one couples directions across
+//! edges.
+//!
+//! Their code is separate, but part of it follows the same idea, in which a mistake could be made twice. Both follow a
+//! pair of triangles through an interval along separating directions, in dyadic steps that are halved when a proof
+//! fails and doubled when it succeeds. Both use Bernstein coefficients as bounds. Some constants are equal: the
+//! shortest step, the step below which all axes are tried, 60° as the limit of a side, 10 τ as the width of a shared
+//! edge.
+//!
+//! Different are the boxes (all pairs instead of a tree), the axes (polynomials in time instead of straight paths
+//! between axes at two instants), the sides (exact connectivity on the sphere instead of links between axes), the
+//! layers (brackets around a line instead of pairs of creases), and everything about the sheet as a whole.
 //!
 //! # What is proved
 //!
@@ -130,8 +133,6 @@ mod path;
 mod penetration;
 mod piercing;
 mod plane;
-#[cfg(test)]
-mod random;
 mod separation;
 mod side;
 mod stacked;
@@ -143,4 +144,4 @@ mod unlisted;
 mod verifier;
 
 pub use outcome::{Refutation, Unproved, Verification};
-pub use verifier::Verifier;
+pub use verifier::{Verifier, verify};

@@ -59,9 +59,9 @@ impl<'a> Verifier<'a> {
             return;
         }
         let interval = self.interval(start);
-        let fault = interval.fault(stated, pair);
+        let mismatch = interval.mismatch(stated, pair);
         let is_found = self.is_accounted_around(stated) || interval.is_pierced_around(stated);
-        if let Some((field, stated_value, found)) = fault {
+        if let Some((field, stated_value, found)) = mismatch {
             let field = format!("penetrations[{:?}].{field}", pair.faces);
             self.refute(&field, stated_value, found);
         } else if !is_found {

@@ -53,47 +53,6 @@ pub(crate) enum Feature {
     BesideB,
 }
 
-/// The number of features that triangles with an area need.
-const OF_TRIANGLES: usize = 20;
-
-/// All features: the face normals of A − B, the normals in those planes, and three that never degenerate; then those
-/// needed if a triangle is an edge or a point.
-const FEATURES: [Feature; 28] = {
-    use Feature::{
-        AcrossA, AcrossB, BesideA, BesideB, Coordinate, Edges, NormalA, NormalB, SideA, SideB,
-    };
-    [
-        NormalA,
-        NormalB,
-        Edges(0, 0),
-        Edges(0, 1),
-        Edges(0, 2),
-        Edges(1, 0),
-        Edges(1, 1),
-        Edges(1, 2),
-        Edges(2, 0),
-        Edges(2, 1),
-        Edges(2, 2),
-        SideA(0),
-        SideA(1),
-        SideA(2),
-        SideB(0),
-        SideB(1),
-        SideB(2),
-        Coordinate(0),
-        Coordinate(1),
-        Coordinate(2),
-        AcrossA(0),
-        AcrossA(1),
-        AcrossA(2),
-        AcrossB(0),
-        AcrossB(1),
-        AcrossB(2),
-        BesideA,
-        BesideB,
-    ]
-};
-
 pub(crate) const COORDINATES: [DVec3; 3] = [DVec3::X, DVec3::Y, DVec3::Z];
 
 impl MovingPair {
@@ -113,13 +72,19 @@ impl MovingPair {
         }
     }
 
-    /// The features that can be axes.
-    pub(crate) fn features(&self) -> &'static [Feature] {
-        if self.is_part {
-            &FEATURES
-        } else {
-            &FEATURES[..OF_TRIANGLES]
-        }
+    /// The features that can be axes: the face normals of A − B, the normals in the planes of the triangles, and three
+    /// that never degenerate; for edges and points also those that replace degenerate ones.
+    pub(crate) fn features(&self) -> impl Iterator<Item = Feature> + use<> {
+        use Feature::{
+            AcrossA, AcrossB, BesideA, BesideB, Coordinate, Edges, NormalA, NormalB, SideA, SideB,
+        };
+        let edges = (0..9).map(|k| Edges(k / 3, k % 3));
+        let in_planes = (0..3).map(SideA).chain((0..3).map(SideB));
+        let of_triangles = [NormalA, NormalB].into_iter().chain(edges).chain(in_planes);
+        let across = (0..3).map(AcrossA).chain((0..3).map(AcrossB));
+        let of_parts = across.chain([BesideA, BesideB]);
+        let of_parts = self.is_part.then_some(of_parts).into_iter().flatten();
+        of_triangles.chain((0..3).map(Coordinate)).chain(of_parts)
     }
 
     /// The positions at t in [0, 1].

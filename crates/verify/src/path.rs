@@ -106,7 +106,7 @@ impl Path {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::random::Random;
+    use foldmotion_random::Random;
 
     /// n(t) by its definition (de Casteljau's algorithm).
     fn de_casteljau(path: &Path, t: f64) -> DVec3 {

@@ -203,8 +203,10 @@ pub(crate) fn compare(
     let pose = found.moving.at(passed.unwrap_or(found.crossing.passed));
     let point = stated.point - found.moving.origin;
     let near = POINT_TOLERANCES * limits.tolerance;
-    if let Some(fault) = meeting_fault(stated, pair, &pose, point, (near, found.is_first_frame())) {
-        differ("point", stated.point.to_string(), fault.to_owned());
+    if let Some(mismatch) =
+        meeting_error(stated, pair, &pose, point, (near, found.is_first_frame()))
+    {
+        differ("point", stated.point.to_string(), mismatch.to_owned());
     }
     differences
 }
@@ -227,7 +229,7 @@ pub(crate) fn is_kind_right(stated: &Penetration, pair: &FacePair, tolerance: f6
 ///
 /// `near`: the distance that counts as meeting. At the first frame (`is_far`) the triangles may already be far through
 /// each other: then the point is the vertex itself, or halfway between the edges.
-pub(crate) fn meeting_fault(
+pub(crate) fn meeting_error(
     stated: &Penetration,
     pair: &FacePair,
     pose: &PairPose,

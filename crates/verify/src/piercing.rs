@@ -182,7 +182,7 @@ mod tests {
     const AROUND: [[u32; 3]; 4] = [[4, 0, 1], [2, 4, 1], [4, 2, 3], [4, 0, 3]];
 
     #[test]
-    fn an_edge_pierces_a_triangle_for_sure_only_where_it_stands_off_its_rim_and_beyond_it() {
+    fn an_edge_surely_pierces_a_triangle_only_away_from_its_rim_and_beyond_it() {
         let one = &AROUND[2..3];
         assert!(is_pierced(one, 0.3, 0.3, 1.0));
         assert!(!is_pierced(one, 0.3, 0.3, 0.2));

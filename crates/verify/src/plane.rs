@@ -146,7 +146,7 @@ pub(crate) fn holds(triangle: &[DVec2; 3], point: DVec2, beyond: f64) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::random::Random;
+    use foldmotion_random::Random;
 
     fn triangle(random: &mut Random) -> [DVec2; 3] {
         let corners = [(); 3].map(|()| random.vector());
@@ -191,7 +191,7 @@ mod tests {
     }
 
     #[test]
-    fn an_inset_triangle_lies_farther_inside_by_as_much() {
+    fn an_inset_triangle_lies_inside_by_the_inset() {
         let mut random = Random::new(22);
         for _ in 0..100 {
             let a = triangle(&mut random);

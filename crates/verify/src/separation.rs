@@ -27,13 +27,13 @@ impl Verifier<'_> {
         } else {
             0.0
         };
-        match self.separation_fault(&stated, start, t) {
+        match self.separation_error(&stated, start, t) {
             None => self.is_separation_met = true,
-            Some(fault) => self.separation_fault = Some(fault),
+            Some(mismatch) => self.separation_error = Some(mismatch),
         }
     }
 
-    fn separation_fault(&self, stated: &Separation, start: &Frame, t: f64) -> Option<String> {
+    fn separation_error(&self, stated: &Separation, start: &Frame, t: f64) -> Option<String> {
         let unit = self.sheet.unit_length;
         let count = self.sheet.faces.len();
         if stated.faces[0] >= stated.faces[1] || stated.faces[1] as usize >= count {

@@ -29,15 +29,28 @@ pub(crate) struct Limits {
 }
 
 impl Side {
+    /// Apart, along this direction among others.
+    pub(crate) fn apart(direction: DVec3) -> Self {
+        Self {
+            is_apart: true,
+            directions: vec![direction],
+        }
+    }
+
+    /// In contact, with these directions reached.
+    pub(crate) fn contact(directions: Vec<DVec3>) -> Self {
+        Self {
+            is_apart: false,
+            directions,
+        }
+    }
+
     /// The side at the first instant of a motion: any that D(t) allows; `None` if the triangles are deeper than τ.
     pub(crate) fn at_start(moving: &MovingPair, limits: &Limits) -> Option<Self> {
         let pose = moving.at(0.0);
         let all = axes(moving, &pose);
         if let Some(best) = clear_of(&all, clearance(moving, limits)) {
-            return Some(Self {
-                is_apart: true,
-                directions: vec![best],
-            });
+            return Some(Self::apart(best));
         }
         let within = all.iter().filter(|x| x.overlap <= limits.tolerance);
         let mut directions: Vec<_> = within.map(|x| x.direction).collect();
@@ -48,10 +61,7 @@ impl Side {
                 .collect();
         }
         let has_some = !directions.is_empty();
-        has_some.then_some(Self {
-            is_apart: false,
-            directions,
-        })
+        has_some.then_some(Self::contact(directions))
     }
 }
 

@@ -38,7 +38,7 @@ impl Verifier<'_> {
             let is_it = |f: &&Contradiction| f.rule == conflict.rule && f.faces == conflict.faces;
             let what = match contradictions.iter().find(is_it) {
                 None => Some("these layers do not break this rule"),
-                Some(contradiction) => self.fault_in(stated, conflict, contradiction),
+                Some(contradiction) => self.difference_in(stated, conflict, contradiction),
             };
             if let Some(what) = what {
                 let stated = format!("{:?} of {:?}", conflict.rule, conflict.faces);
@@ -60,7 +60,7 @@ impl Verifier<'_> {
     }
 
     /// The first difference between a stated contradiction and the one found.
-    fn fault_in(
+    fn difference_in(
         &self,
         stated: &Penetration,
         conflict: &LayerConflict,

@@ -20,14 +20,14 @@ pub(crate) struct Findings<'a> {
 /// Everything in which the report contradicts itself or what was found.
 pub(crate) fn consistency(claim: &CollisionReport, facts: &Findings<'_>) -> Vec<Refutation> {
     let mut refuted = Vec::new();
-    if let Some(says) = verdict_fault(claim, facts.touching) {
+    if let Some(says) = verdict_error(claim, facts.touching) {
         refuted.push(Refutation::new(
             "verdict",
             format!("{:?}", claim.verdict),
             says,
         ));
     }
-    refuted.extend(stop_fault(claim, facts.last));
+    refuted.extend(stop_error(claim, facts.last));
     if claim.min_separation.is_none() && has_measured_pair(facts.sheet) {
         refuted.push(Refutation::new(
             "min_separation",
@@ -35,7 +35,7 @@ pub(crate) fn consistency(claim: &CollisionReport, facts: &Findings<'_>) -> Vec<
             "there are facets that share no vertex",
         ));
     }
-    if let Some(says) = separation_fault(claim, facts.rounding) {
+    if let Some(says) = separation_error(claim, facts.rounding) {
         let stated = claim.min_separation.map(|s| (s.distance, s.attained));
         refuted.push(Refutation::new(
             "min_separation",
@@ -48,7 +48,7 @@ pub(crate) fn consistency(claim: &CollisionReport, facts: &Findings<'_>) -> Vec<
 }
 
 /// Why the check would not have ended when it is said to have.
-fn stop_fault(claim: &CollisionReport, (frame, time): (usize, f64)) -> Option<Refutation> {
+fn stop_error(claim: &CollisionReport, (frame, time): (usize, f64)) -> Option<Refutation> {
     let stopped = claim.stopped?;
     // That each pair occurs once is checked elsewhere.
     let of_pairs = claim.penetrations.iter().filter(|p| p.conflict.is_none());
@@ -64,7 +64,7 @@ fn stop_fault(claim: &CollisionReport, (frame, time): (usize, f64)) -> Option<Re
 }
 
 /// What is wrong with the two bounds of the separation.
-fn separation_fault(claim: &CollisionReport, rounding: f64) -> Option<&'static str> {
+fn separation_error(claim: &CollisionReport, rounding: f64) -> Option<&'static str> {
     let stated = claim.min_separation?;
     let open = stated.attained - stated.distance;
     let accuracy = (0.01 * claim.tolerance).max(1e-4 * stated.attained) + rounding;
@@ -107,7 +107,7 @@ fn order_of_penetrations(claim: &CollisionReport, refuted: &mut Vec<Refutation>)
 /// Why the verdict does not follow from the rest of the report, or from what was found.
 ///
 /// Between *free* and *touching*, the pairs that surely or possibly come within τ decide.
-fn verdict_fault(claim: &CollisionReport, [sure, possible]: [usize; 2]) -> Option<&'static str> {
+fn verdict_error(claim: &CollisionReport, [sure, possible]: [usize; 2]) -> Option<&'static str> {
     let is_close = claim
         .min_separation
         .is_some_and(|s| s.distance <= claim.tolerance);

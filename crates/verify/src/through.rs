@@ -8,7 +8,7 @@ use crate::face_pair::FacePair;
 use crate::follow::instants_after;
 use crate::moving_pair::PairPose;
 use crate::neighbourhood::{Neighbourhood, edges};
-use crate::penetration::{POINT_TOLERANCES, is_kind_right, meeting_fault};
+use crate::penetration::{POINT_TOLERANCES, is_kind_right, meeting_error};
 use crate::piercing::Surface;
 use foldmotion_check::{Penetration, PenetrationKind};
 
@@ -23,7 +23,7 @@ const MOST_STEPS: u32 = 1 << 14;
 pub(crate) type Piercing = ([u32; 2], Surface);
 
 /// The field, what is stated, and what was found.
-type Fault = (&'static str, String, &'static str);
+type Mismatch = (&'static str, String, &'static str);
 
 /// The frames at both ends of the interval of a penetration.
 pub(crate) struct Interval<'a> {
@@ -108,7 +108,7 @@ impl Interval<'_> {
     }
 
     /// What is wrong with a stated penetration, independently of what passes through.
-    pub(crate) fn fault(&self, stated: &Penetration, pair: &FacePair) -> Option<Fault> {
+    pub(crate) fn mismatch(&self, stated: &Penetration, pair: &FacePair) -> Option<Mismatch> {
         let [_, end] = self.times();
         if !(stated.time <= stated.passed && stated.passed <= end) {
             let found =
@@ -120,7 +120,7 @@ impl Interval<'_> {
             return Some(("kind", format!("{:?}", stated.kind), found));
         }
         if stated.kind != PenetrationKind::ThroughEdge {
-            return self.meeting_fault(stated, pair);
+            return self.meeting_error(stated, pair);
         }
         let from = self.share(stated.passed);
         let all = Self::features(stated, pair).into_iter();
@@ -146,13 +146,13 @@ impl Interval<'_> {
         None
     }
 
-    fn meeting_fault(&self, stated: &Penetration, pair: &FacePair) -> Option<Fault> {
+    fn meeting_error(&self, stated: &Penetration, pair: &FacePair) -> Option<Mismatch> {
         let [start, end] = self.frames.map(|frame| &frame.positions[..]);
         let moving = pair.moving(start, end);
         let pose = moving.at(self.share(stated.passed));
         let near = POINT_TOLERANCES * self.tolerance;
         let point = stated.point - moving.origin;
-        let found = meeting_fault(stated, pair, &pose, point, (near, false))?;
+        let found = meeting_error(stated, pair, &pose, point, (near, false))?;
         Some(("point", stated.point.to_string(), found))
     }
 

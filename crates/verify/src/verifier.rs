@@ -2,7 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use foldmotion_pattern::{Assignment, Frame, Sheet};
+use foldmotion_pattern::{Assignment, Frame, Motion, Sheet};
 use glam::DVec3;
 use rayon::prelude::*;
 
@@ -74,10 +74,23 @@ pub struct Verifier<'a> {
     pub(crate) surely_touching: BTreeSet<[u32; 2]>,
     pub(crate) perhaps_touching: BTreeSet<[u32; 2]>,
     /// Why the stated closest approach is not attained; `None` if it is or has not been examined.
-    pub(crate) separation_fault: Option<String>,
+    pub(crate) separation_error: Option<String>,
     pub(crate) is_separation_met: bool,
     pub(crate) layer_state: LayerState,
     pub(crate) outcome: Verification,
+}
+
+/// Proves the statement of a collision report about a motion again; the file claims nothing about the order of layers.
+///
+/// Preconditions: those of [`Verifier::new`]; a motion without frames verifies nothing.
+pub fn verify(motion: &Motion, claim: &CollisionReport) -> Verification {
+    let mut frames = motion.frames.iter().cloned();
+    let Some(first) = frames.next() else {
+        return Verification::default();
+    };
+    let mut verifier = Verifier::new(&motion.sheet, first, claim);
+    frames.for_each(|frame| verifier.advance(frame));
+    verifier.finish()
 }
 
 impl<'a> Verifier<'a> {
@@ -113,7 +126,7 @@ impl<'a> Verifier<'a> {
             narrowed: BTreeMap::new(),
             surely_touching: BTreeSet::new(),
             perhaps_touching: BTreeSet::new(),
-            separation_fault: None,
+            separation_error: None,
             is_separation_met: claim.min_separation.is_none(),
             layer_state: LayerState::new(line::hinges(sheet)),
             outcome: Verification::default(),
@@ -179,8 +192,9 @@ impl<'a> Verifier<'a> {
             .min_separation
             .filter(|_| !self.is_separation_met)
         {
-            let fault = self.separation_fault.take();
-            let found = fault.unwrap_or_else(|| "the motion does not include this time".to_owned());
+            let mismatch = self.separation_error.take();
+            let found =
+                mismatch.unwrap_or_else(|| "the motion does not include this time".to_owned());
             self.refute(
                 "min_separation",
                 format!("{:e} at t = {}", separation.attained, separation.time),
@@ -318,10 +332,10 @@ impl<'a> Verifier<'a> {
         if self.undecided.contains(&(pair.faces, interval)) {
             return PairFindings {
                 is_skipped: true,
-                ..PairFindings::apart()
+                ..PairFindings::default()
             };
         }
-        let mut judged = PairFindings::apart();
+        let mut judged = PairFindings::default();
         let mut is_apart = false;
         if pair.shared == 0 {
             is_apart = self.measure(pair, &moving, &mut judged);
@@ -446,11 +460,7 @@ impl<'a> Verifier<'a> {
             self.refute("min_separation.distance", format!("{stated:e}"), found);
         }
         if let Some(what) = judged.unproved {
-            self.outcome.unproved.push(Unproved {
-                faces,
-                frame: self.frames - 1,
-                what: what.to_owned(),
-            });
+            self.leave_open(faces, what);
         }
         if let Some(side) = judged.side {
             self.sides.push((faces, side));

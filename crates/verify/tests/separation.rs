@@ -5,9 +5,6 @@
     reason = "the tests compare the two proofs"
 )]
 
-#[path = "../../geometry/tests/oracle/random.rs"]
-#[expect(dead_code, reason = "shared with the oracles, which use more of it")]
-mod random;
 #[path = "../../check/tests/collision/sheets.rs"]
 #[expect(dead_code, reason = "shared with tests that use more of it")]
 mod sheets;
@@ -17,26 +14,19 @@ use std::{fs::File, path::Path};
 use foldmotion_check::{CollisionOptions, CollisionReport, Separation, Verdict, collisions};
 use foldmotion_geometry::triangle_triangle;
 use foldmotion_pattern::{FoldError, FoldFile, LayerOrder, Motion};
-use foldmotion_verify::{Verification, Verifier};
+use foldmotion_random::Random;
+use foldmotion_verify::verify;
 use glam::{DQuat, DVec2, DVec3};
-use random::Random;
 use sheets::{motion, sheet};
 
-/// Of the options: τ in units of length.
+/// The tolerance of the options: τ in units of length.
 const TOLERANCE: f64 = 1e-6;
 
 fn judge(motion: &Motion) -> CollisionReport {
     collisions(motion, &CollisionOptions::default(), &|_| true).unwrap()
 }
 
-fn verify(motion: &Motion, claim: &CollisionReport) -> Verification {
-    let mut frames = motion.frames.iter().cloned();
-    let mut verifier = Verifier::new(&motion.sheet, frames.next().unwrap(), claim);
-    frames.for_each(|frame| verifier.advance(frame));
-    verifier.finish()
-}
-
-/// A motion of the data.
+/// Reads a motion of the test data.
 fn read(name: &str) -> Motion {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data/verdict-cases");
     let open = || File::open(folder.join(name)).unwrap();
@@ -58,7 +48,7 @@ fn accuracy(separation: &Separation) -> f64 {
     (0.01 * TOLERANCE).max(1e-4 * separation.attained)
 }
 
-/// The separation of a motion, its bounds as near to each other as promised, confirmed by the second proof.
+/// The separation of a motion, with bounds as close to each other as promised, confirmed by the second proof.
 fn separation(motion: &Motion, case: &str) -> (Separation, Verdict) {
     let report = judge(motion);
     let separation = report.min_separation.unwrap();
@@ -71,15 +61,15 @@ fn separation(motion: &Motion, case: &str) -> (Separation, Verdict) {
     let verification = verify(motion, &report);
     let refuted = verification.refuted.iter().map(|r| r.field.as_str());
     let open = verification.unproved.iter().map(|u| u.what.as_str());
-    let mut faults = refuted
+    let mut errors = refuted
         .filter(|field| field.starts_with("min_separation"))
         .chain(open.filter(|what| *what == "the closest approach"));
-    let fault = faults.next();
-    assert_eq!(fault, None, "{case}: {separation:?} {verification:#?}");
+    let error = errors.next();
+    assert_eq!(error, None, "{case}: {separation:?} {verification:#?}");
     (separation, report.verdict)
 }
 
-/// The motion in another place.
+/// The motion rotated and displaced.
 fn placed(motion: &Motion, turn: DQuat, shift: DVec3) -> Motion {
     let mut placed = motion.clone();
     for frame in &mut placed.frames {
@@ -147,7 +137,7 @@ fn a_bound_that_is_too_high_is_refuted() {
             }),
             "{name}"
         );
-        // What is attained at the first frame is an upper bound too, and nothing but the motion refutes the lower one.
+        // What is attained at the first frame is an upper bound too; only the motion refutes the lower one.
         let first = motion.frames[0].positions.as_slice();
         let corners = |f: usize| motion.sheet.faces[f].map(|v| first[v as usize]);
         let at_first = triangle_triangle(&corners(0), &corners(1));
@@ -173,7 +163,7 @@ fn a_bound_that_is_too_high_is_refuted() {
             }),
             "{name}"
         );
-        // Nor is a distance that is not attained let pass, or one attained elsewhere.
+        // A distance that is not attained, or is attained elsewhere, is not accepted either.
         let lower = found.attained - 0.001 * found.attained;
         let (attained, distance) = (lower, 0.9 * lower);
         let is_tight = false;
@@ -208,7 +198,7 @@ fn a_bound_that_is_too_high_is_refuted() {
     }
 }
 
-/// Two triangles that move, thinner by `thin` and nearer by `near` from case to case.
+/// Two moving triangles, thinner by `thin` and nearer by `near`.
 fn two_triangles(random: &mut Random, thin: f64, near: f64) -> Motion {
     let vertices = (0..6).map(|k| DVec2::new(f64::from(k), f64::from(k * k)));
     let sheet = sheet(vertices.collect(), vec![[0, 1, 2], [3, 4, 5]]);
@@ -292,7 +282,7 @@ fn the_bounds_of_a_single_frame_are_those_of_its_triangles() {
 }
 
 #[test]
-fn a_budget_that_ends_is_told() {
+fn an_exhausted_budget_is_reported() {
     let motion = read("sep7_5e-06_3.3e-11.fold");
     let hasty = CollisionOptions {
         budget: 8,

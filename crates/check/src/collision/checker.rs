@@ -342,10 +342,7 @@ impl<'a> Checker<'a> {
     }
 
     fn judge(&self, pair: &FacePair, start: &CentredFrame, limits: &Limits) -> Judgement {
-        let moving = MovingPair {
-            start: pair.pose(&start.positions),
-            end: pair.pose(&self.last.positions),
-        };
+        let moving = MovingPair::new(pair.pose(&start.positions), pair.pose(&self.last.positions));
         let found = self.sides.binary_search_by(|(k, _)| k.cmp(&pair.key()));
         let fresh;
         let side = if let Ok(index) = found {

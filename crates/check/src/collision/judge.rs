@@ -271,10 +271,7 @@ fn part(moving: &MovingPair, a: [usize; 3], b: [usize; 3]) -> MovingPair {
         b: b.map(|j| pose.b[j]),
         shared: 0,
     };
-    MovingPair {
-        start: of(&moving.start),
-        end: of(&moving.end),
-    }
+    MovingPair::new(of(&moving.start), of(&moving.end))
 }
 
 /// The evidence for a pair that is deeper than τ at the start of an interval.

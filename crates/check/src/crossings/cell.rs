@@ -76,7 +76,7 @@ impl Cell {
             let [a, b] = corners.map(|c| c.map(|v| positions[v as usize]));
             PairPose { a, b, shared: 0 }
         });
-        MovingPair { start, end }
+        MovingPair::new(start, end)
     }
 
     /// The passages of the simplices through each other; `None` if rounding hides one. A vertex and an edge have none.
@@ -227,7 +227,7 @@ pub(super) fn piercing(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::crossings::random::Random;
+    use foldmotion_random::Random;
 
     /// Two sheets of two triangles each, without a common vertex.
     fn scene() -> Topology {
@@ -273,7 +273,7 @@ mod tests {
     }
 
     #[test]
-    fn a_closed_way_of_a_vertex_passes_through_everything_as_often_as_its_turns_around_edges_say() {
+    fn a_closed_path_of_a_vertex_has_the_passages_that_its_turns_around_edges_predict() {
         let topology = scene();
         let mut random = Random::new(5);
         let mut turned = 0;

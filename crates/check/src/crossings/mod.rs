@@ -48,8 +48,6 @@ mod counter;
 mod evidence;
 mod interval;
 mod perturbation;
-#[cfg(test)]
-mod random;
 mod system;
 mod topology;
 

@@ -148,19 +148,19 @@ mod tests {
 
     #[test]
     fn equations_with_a_known_solution_are_never_refused() {
-        use crate::crossings::random::Random;
+        use foldmotion_random::Random;
         let mut random = Random::new(3);
         let mut system = EquationSystem::new();
         let solution: Vec<i64> = (0..40)
             .map(|_| {
                 system.new_unknown();
-                random.whole(3)
+                random.integer(3)
             })
             .collect();
         let mut is_solved = false;
         for _ in 0..300 {
             let terms: Vec<(u32, i64)> = (0..4)
-                .map(|_| (random.index(40) as u32, random.whole(1)))
+                .map(|_| (random.index(40) as u32, random.integer(1)))
                 .collect();
             let sum: i64 = terms.iter().map(|&(u, c)| c * solution[u as usize]).sum();
             assert!(system.add(&terms, sum));

@@ -111,7 +111,7 @@ mod tests {
     }
 
     #[test]
-    fn three_layers_in_a_circle_over_one_region_are_found_and_sorted_ones_are_not() {
+    fn three_layers_in_a_cycle_over_one_region_are_found_and_sorted_ones_are_not() {
         let plates = || {
             (0..4)
                 .map(|k| plate(DVec2::splat(0.01 * f64::from(k))))
@@ -127,7 +127,7 @@ mod tests {
     }
 
     #[test]
-    fn a_pinwheel_may_go_round_where_its_blades_share_no_region() {
+    fn a_pinwheel_may_form_a_cycle_if_its_blades_share_no_region() {
         // Three long blades around an empty centre, each over the next.
         let turn = |k: u32| DVec2::from_angle(f64::from(k) * std::f64::consts::TAU / 3.0);
         let blade = [

@@ -94,7 +94,7 @@ mod tests {
     const CORNER: [DVec2; 3] = [DVec2::ZERO, DVec2::X, DVec2::Y];
 
     #[test]
-    fn triangles_overlap_by_the_least_push_that_parts_them() {
+    fn triangles_overlap_by_the_shortest_push_that_separates_them() {
         // Pushed along the diagonal they separate after √½ (1 − 2·0.2).
         let other = CORNER.map(|p| p + DVec2::splat(0.2));
         let exact = 0.6 * std::f64::consts::FRAC_1_SQRT_2;

@@ -1,4 +1,4 @@
-//! The order of coincident layers: exact stacks, swapped layers, claims, rules.
+//! The order of coincident layers: exact stacks, swapped layers, claims and rules.
 
 use std::f64::consts::PI;
 
@@ -30,7 +30,7 @@ fn cases(rows: usize, columns: usize) -> Vec<UnitSheet> {
     ]
 }
 
-/// Judges states, each with what is claimed there.
+/// Judges states, each with the claims made there.
 fn judge(sheet: &Sheet, states: &[(Vec<DVec3>, LayerOrder)]) -> (CollisionReport, LayerOrder) {
     let mut checker: Option<Checker<'_>> = None;
     for (k, (positions, claims)) in states.iter().enumerate() {
@@ -85,7 +85,7 @@ fn the_exact_compact_states_are_proved_in_their_exact_order() {
         );
         let pairs: usize = report.clusters.iter().map(|c| c.pairs).sum();
         assert_eq!(2 * pairs, order.len(), "{:?}", units.unit.case);
-        // Without claims creases folded flat are all that is known.
+        // Without claims, only the orders of creases folded flat are known.
         let report = judge_state(&units, &LayerOrder::default());
         assert_eq!(report.verdict, Verdict::Touching, "{:?}", report.first);
         assert!(
@@ -120,7 +120,7 @@ fn every_kind_of_rule_is_tested_in_the_compact_states() {
     assert!(all.iter().all(|&n| n > 0), "{most:?}");
 }
 
-/// Pairs of layers with nothing between them: no third layer is above the one and below the other.
+/// Pairs of layers with nothing between them: no third layer is above one and below the other.
 fn adjacent_pairs(units: &UnitSheet, order: &LayerOrder) -> Vec<(u32, u32)> {
     let positions = units.compact();
     let normal = |f: u32| {
@@ -193,8 +193,8 @@ fn the_order_follows_from_the_motion_and_outlives_contact() {
         .collect();
     let (report, order) = judge(&motion.sheet, &states);
     assert_eq!(report.verdict, Verdict::Touching);
-    // A valley: each square on the front of the other. All four pairs of halves overlap but the two that share a side
-    // beside the diagonal only touch there.
+    // A valley: each square lies on the front of the other. All four pairs of halves overlap, but the two that share a
+    // side beside the diagonal only touch there.
     assert!(
         order.iter().all(|(_, _, sign)| sign == 1) && order.len() >= 6,
         "{order:?}"
@@ -225,7 +225,7 @@ fn a_claim_against_the_motion_is_a_penetration_that_names_the_pair() {
     );
     assert_eq!(first.conflict.unwrap().rule, LayerRule::Claim);
     assert_eq!((first.time, first.frame, first.depth), (24.0, 24, 0.0));
-    // Before the layers meet the same claim is of no layers, and counted.
+    // Before the layers meet, the same claim is about no layers, and counted as ignored.
     states.truncate(12);
     states[11].1 = claims;
     let (report, _) = judge(&motion.sheet, &states);
@@ -256,7 +256,7 @@ fn a_claim_at_the_first_frame_decides_the_side_from_then_on() {
     let mut above = LayerOrder::default();
     above.insert(1, 0, 1);
     let none = LayerOrder::default();
-    // 5e-7 below is within the tolerance: where it is claimed to be above, it may not leave below.
+    // 5e-7 below is within the tolerance: a square claimed to be above may not leave below.
     for start in [0.0, 5e-7, -5e-7] {
         for (end, verdict) in [(0.2, Verdict::Touching), (-0.2, Verdict::Penetrating)] {
             let claimed = [(at(start), above.clone()), (at(end), none.clone())];
@@ -325,7 +325,7 @@ fn the_order_followed_from_a_motion_does_not_depend_on_threads() {
     }
 }
 
-/// Two unit squares over each other, `gap` apart, the second above the first; its front looks up.
+/// Two unit squares one above the other, `gap` apart; the front of the second faces up.
 fn two_squares(gap: f64) -> (Sheet, Vec<DVec3>) {
     let mut sheet = strip(3, 1);
     // Without the square between them.
@@ -365,7 +365,7 @@ fn claims_about_facets_a_gap_apart_are_compared_with_where_they_are() {
         error.contains("faceOrders has [2, 0, -1] at frame 0"),
         "{error}"
     );
-    // Far apart they are no layers of one stack.
+    // Far apart they are not layers of one stack.
     for sign in [1, -1] {
         let claims = claimed(0.5, sign).unwrap();
         assert_eq!((claims.claimed, claims.ignored), (1, 1));

@@ -1,4 +1,4 @@
-//! Sheets and motions made by hand.
+//! Sheets and motions built by hand.
 
 use std::collections::BTreeMap;
 
@@ -7,7 +7,7 @@ use foldmotion_pattern::{
 };
 use glam::{DVec2, DVec3};
 
-/// A sheet of triangles (counter-clockwise, each its own facet) with the edges between them valley creases.
+/// A sheet of triangles (counter-clockwise, each its own facet); the edges between them are valley creases.
 pub(crate) fn sheet(vertices: Vec<DVec2>, faces: Vec<[u32; 3]>) -> Sheet {
     let mut sides: BTreeMap<(u32, u32), [Option<u32>; 2]> = BTreeMap::new();
     for (face, corners) in faces.iter().enumerate() {
@@ -45,7 +45,7 @@ pub(crate) fn sheet(vertices: Vec<DVec2>, faces: Vec<[u32; 3]>) -> Sheet {
     }
 }
 
-/// A strip of `n` squares along x, `columns` along y, each a facet split into two triangles.
+/// A strip of `n` squares along x and `columns` along y, each a facet split into two triangles.
 pub(crate) fn strip(n: u32, columns: u32) -> Sheet {
     let vertices = (0..=n)
         .flat_map(|i| (0..=columns).map(move |j| DVec2::new(f64::from(i), f64::from(j))))
@@ -61,7 +61,7 @@ pub(crate) fn strip(n: u32, columns: u32) -> Sheet {
     into_squares(sheet(vertices, faces))
 }
 
-/// Takes triangles 2k and 2k + 1 as the halves of one facet.
+/// Makes triangles 2k and 2k + 1 the halves of one facet.
 fn into_squares(mut sheet: Sheet) -> Sheet {
     for edge in &mut sheet.edges {
         if let [Some(f), Some(g)] = edge.faces
@@ -84,7 +84,7 @@ fn into_squares(mut sheet: Sheet) -> Sheet {
     sheet
 }
 
-/// Positions of a strip whose squares have the given directions in the x–z plane (angles from +x towards +z).
+/// The positions of a strip whose squares have the given directions in the x–z plane (angles from +x towards +z).
 pub(crate) fn folded(sheet: &Sheet, directions: &[f64]) -> Vec<DVec3> {
     let mut profile = vec![DVec3::ZERO];
     for angle in directions {
@@ -108,7 +108,7 @@ pub(crate) fn motion(sheet: Sheet, states: impl IntoIterator<Item = Vec<DVec3>>)
     }
 }
 
-/// The strip folded through states of its directions, with `between` frames from one to the next.
+/// The strip folded through states given by directions, with `between` frames from one to the next.
 pub(crate) fn fold(n: u32, states: &[&[f64]], between: u32) -> Motion {
     let sheet = strip(n, 1);
     let mut all = vec![folded(&sheet, states[0])];
@@ -123,7 +123,8 @@ pub(crate) fn fold(n: u32, states: &[&[f64]], between: u32) -> Motion {
     motion(sheet, all)
 }
 
-/// An accordion from flat to layers `gap` apart at their free ends, in `frames` intervals, turning by `turn` in all.
+/// An accordion folded from flat to layers `gap` apart at their free ends, in `frames` intervals, rotated by `turn` in
+/// total.
 pub(crate) fn accordion(n: u32, columns: u32, frames: u32, gap: f64, turn: f64) -> Motion {
     let sheet = strip(n, columns);
     let steepest = std::f64::consts::FRAC_PI_2 - (gap / 2.0).asin();

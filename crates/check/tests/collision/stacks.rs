@@ -23,7 +23,7 @@ fn units() -> Vec<UnitSheet> {
     ]
 }
 
-/// Deterministic noise of at most `size` a coordinate.
+/// Positions with deterministic noise of at most `size` in each coordinate.
 fn shaken(positions: &[DVec3], frame: u32, size: f64) -> Vec<DVec3> {
     let shake = |(i, p): (usize, &DVec3)| {
         let phase = i as f64 * 12.9898 + f64::from(frame) * 78.233;

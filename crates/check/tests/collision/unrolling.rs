@@ -1,4 +1,5 @@
-//! Rolled strips unrolled by scaling all their fold angles together: known answers, against exact tests in the plane.
+//! Rolled strips unrolled by scaling all their fold angles together: known answers, compared with exact tests in the
+//! plane.
 
 use std::f64::consts::{PI, TAU};
 
@@ -9,13 +10,13 @@ use glam::{DVec2, DVec3};
 
 use crate::sheets::{folded, motion, strip};
 
-/// Headings of a chain of unit segments.
+/// The headings of a chain of unit segments, in radians.
 type Headings = Vec<f64>;
 
 /// The headings of r = √θ, both arms to θ = 6π, in 2 · `half` equal segments.
 fn fermat_spiral(half: usize) -> Headings {
     let at = |angle: f64| DVec2::from_angle(angle) * angle.sqrt();
-    // Distances from a point of the arm grow along it at least as far as 1.5.
+    // Distances from a point of the arm increase along it up to at least 1.5.
     let next = |last: f64, length: f64| {
         last_where([last, last + 1.5], |angle| {
             at(angle).distance(at(last)) < length
@@ -28,13 +29,13 @@ fn fermat_spiral(half: usize) -> Headings {
     headings(&inward.chain(arm.iter().copied()).collect::<Vec<_>>())
 }
 
-/// 0 and `count` numbers, each made of the one before.
+/// 0 and `count` further numbers, each computed from the previous one.
 fn marched(count: usize, next: impl Fn(f64) -> f64) -> Vec<f64> {
     let numbers = std::iter::successors(Some(0.0), |&last| Some(next(last)));
     numbers.take(count + 1).collect()
 }
 
-/// Where, between two numbers, what holds at the lower one ends.
+/// The number between the two up to which `holds` is true.
 fn last_where([mut low, mut high]: [f64; 2], holds: impl Fn(f64) -> bool) -> f64 {
     for _ in 0..60 {
         let middle = low.midpoint(high);
@@ -47,7 +48,7 @@ fn last_where([mut low, mut high]: [f64; 2], holds: impl Fn(f64) -> bool) -> f64
     low
 }
 
-/// The headings of a polyline, without jumps of whole turns.
+/// The headings of a polyline, without jumps by full turns.
 fn headings(points: &[DVec2]) -> Headings {
     let segments: Vec<DVec2> = points.windows(2).map(|p| p[1] - p[0]).collect();
     let mut headings = vec![segments[0].to_angle()];
@@ -57,7 +58,7 @@ fn headings(points: &[DVec2]) -> Headings {
     headings
 }
 
-/// All turns scaled to a deployment fraction; the heading in the middle stays.
+/// All turns scaled to a deployment fraction; the heading in the middle is kept.
 fn scaled(headings: &Headings, fraction: f64) -> Headings {
     let middle = headings[headings.len() / 2];
     headings
@@ -74,7 +75,7 @@ fn points(headings: &Headings) -> Vec<DVec2> {
     points
 }
 
-/// The strip at deployment fractions from `first` to `last`, in `intervals` even steps.
+/// The strip at deployment fractions from `first` to `last`, in `intervals` equal steps.
 fn unrolling(headings: &Headings, first: f64, last: f64, intervals: u32) -> Motion {
     let sheet = strip(headings.len() as u32, 1);
     let state = |k: u32| {
@@ -120,19 +121,19 @@ fn a_fermat_spiral_of_100_segments_penetrates_between_the_fractions_sampling_fin
     assert_eq!(end.verdict, Verdict::Penetrating);
 }
 
-/// A closed outline's headings; its first point is not repeated.
+/// The headings of a closed outline, whose first point is not repeated.
 fn closed(outline: &[DVec2]) -> Headings {
     headings(&[outline, &outline[..1]].concat())
 }
 
-/// NACA 0012 with a closed trailing edge, in `half` · 2 segments of one length, marched around it.
+/// NACA 0012 with a closed trailing edge, in 2 · `half` segments of equal length.
 fn airfoil(half: usize) -> Headings {
     let upper = |x: f64| {
         let z = 0.2969 * x.sqrt() - 0.1260 * x - 0.3516 * x * x + 0.2843 * x.powi(3)
             - 0.1036 * x.powi(4);
         DVec2::new(x, 0.6 * z)
     };
-    // From the leading edge along x = u², on which distances grow.
+    // From the leading edge along x = u², on which distances increase.
     let next = |last: f64, length: f64| {
         let start = upper(last * last);
         last_where([last, last + 1.0], |u| {
@@ -151,7 +152,7 @@ fn airfoil(half: usize) -> Headings {
 }
 
 #[test]
-fn a_circle_and_an_airfoil_touch_at_their_seam_only_and_open() {
+fn a_circle_and_an_airfoil_touch_only_at_their_seam_and_open() {
     let circle: Vec<DVec2> = (0..30)
         .map(|k| DVec2::from_angle(TAU * f64::from(k) / 30.0))
         .collect();
@@ -201,7 +202,8 @@ fn the_first_contact_of_a_recorded_motion_is_found_to_a_millionth_of_a_frame_int
     }
 }
 
-/// The first instant at which the profile of the straight paths between frames crosses itself: dense samples, then bisection.
+/// The first instant at which the profile of the straight paths between frames crosses itself: dense samples, then
+/// bisection.
 fn first_contact(motion: &Motion) -> f64 {
     let profile = |frame: usize, share: f64| -> Vec<DVec2> {
         let [from, to] = [frame, frame + 1].map(|k| &motion.frames[k].positions);

@@ -13,7 +13,7 @@ fn judge(motion: &Motion) -> CollisionReport {
     collisions(motion, &CollisionOptions::default(), &|_| true).unwrap()
 }
 
-/// Two separate triangles; the second is placed by the states.
+/// Two separate triangles; the states displace the second.
 fn two_plates(states: &[DVec3]) -> Motion {
     let base = [DVec2::ZERO, DVec2::X, DVec2::Y];
     let vertices = base.into_iter().chain(base.map(|p| p + DVec2::X * 5.0));
@@ -28,7 +28,7 @@ fn two_plates(states: &[DVec3]) -> Motion {
 
 #[test]
 fn a_strip_that_stays_apart_is_free_with_its_closest_approach() {
-    // Three squares to a narrowing channel and back: the free ends of the first and the third come closest.
+    // Three squares folded to a narrowing channel and back: the free ends of the first and the third come closest.
     let channel = [1.8, 0.0, -1.8];
     let expected = 1.0 + 2.0 * f64::cos(1.8);
     let report = judge(&fold(3, &[&[0.0; 3], &channel, &[0.0; 3]], 7));
@@ -47,7 +47,7 @@ fn a_strip_that_stays_apart_is_free_with_its_closest_approach() {
 
 #[test]
 fn the_closest_approach_between_frames_is_found() {
-    // The corner of the upper plate passes the lower one at a height of 0.1 halfway.
+    // The corner of the upper plate passes the lower one at a height of 0.1 halfway through.
     let report = judge(&two_plates(&[
         DVec3::new(-2.0, 0.1, 0.1),
         DVec3::new(2.0, 0.1, 0.1),
@@ -112,7 +112,7 @@ fn plates_that_start_on_each_other_may_part_on_either_side_but_not_come_back_on_
 
 #[test]
 fn a_strip_folded_through_itself_penetrates_at_the_right_time() {
-    // The fourth square swings through the first from its free end.
+    // The fourth square swings through the first, starting at its free end.
     let states: [&[f64]; 3] = [&[0.0; 4], &[0.0, 1.9, 3.3, 4.2], &[0.0, 1.9, 4.0, 5.0]];
     let report = judge(&fold(4, &states, 12));
     assert_eq!(report.verdict, Verdict::Penetrating);
@@ -212,7 +212,7 @@ fn an_accordion_folds_free_to_layers_a_thousandth_apart_and_not_through_each_oth
 }
 
 #[test]
-fn verdicts_do_not_depend_on_place_order_or_threads() {
+fn verdicts_do_not_depend_on_position_order_or_threads() {
     let states: [&[f64]; 3] = [&[0.0; 4], &[0.0, 1.9, 3.3, 4.2], &[0.0, 1.9, 4.0, 5.0]];
     let motions = [fold(4, &states, 9), accordion(6, 1, 12, 1e-3, 0.3)];
     let turn = DQuat::from_axis_angle(DVec3::new(2.0, -1.0, 2.0) / 3.0, 1.234);
@@ -314,7 +314,7 @@ fn with_an_exhausted_budget_freedom_is_still_proved_by_distance_and_no_penetrati
 }
 
 #[test]
-fn a_single_frame_is_judged_as_it_stands() {
+fn a_single_frame_is_judged_as_it_is() {
     let plates = |at: DVec3| judge(&two_plates(&[at])).verdict;
     assert_eq!(plates(DVec3::new(0.1, 0.1, 0.2)), Verdict::Free);
     assert_eq!(plates(DVec3::new(0.1, 0.1, 0.0)), Verdict::Touching);
@@ -328,7 +328,7 @@ fn a_single_frame_is_judged_as_it_stands() {
 
 #[test]
 fn a_penetration_lasts_until_the_plates_are_no_longer_in_each_other() {
-    // The upright plate's corner sinks through the lying one by 0.2 and rises again.
+    // The corner of the upright plate sinks through the lying one by 0.2 and rises again.
     let heights = [0.3, 0.1, -0.1, -0.2, -0.1, 0.1, 0.3];
     let base = [DVec2::ZERO, DVec2::X, DVec2::Y];
     let vertices = base.into_iter().chain(base.map(|p| p + DVec2::X * 5.0));
@@ -346,14 +346,14 @@ fn a_penetration_lasts_until_the_plates_are_no_longer_in_each_other() {
     assert_eq!(spans[0].from, report.first.unwrap().time);
     assert!((spans[0].from - 1.5).abs() < 1e-6, "{spans:?}");
     assert_eq!(spans[0].to, 4.0);
-    // Plates that have changed sides are not in each other: the span is the interval.
+    // Plates that have changed sides are no longer deep in each other: the span is the interval.
     let through = two_plates(&[0.3, -0.1, -0.5].map(|z| DVec3::new(0.1, 0.1, z)));
     let spans = penetration_spans(&through, &judge(&through));
     assert!((spans[0].from - 0.75).abs() < 1e-6, "{spans:?}");
     assert_eq!(spans[0].to, 1.0);
 }
 
-/// A small plate that comes up to one of 2e4 units a side, slides below it and leaves, all of it turned.
+/// A small plate that approaches one with sides of 2e4 units, slides below it and leaves, all of it rotated.
 fn below_a_large_plate(turn: DQuat) -> Motion {
     let small = |i: u32, j: u32| DVec2::new(f64::from(i), f64::from(j)) / 3.0;
     let large = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)];
@@ -380,7 +380,7 @@ fn below_a_large_plate(turn: DQuat) -> Motion {
 }
 
 #[test]
-fn a_tolerance_is_right_or_refused_however_small_beside_the_sheet() {
+fn a_tolerance_gives_the_right_verdict_or_is_refused_however_small_it_is() {
     let [mut judged, mut refused] = [0, 0];
     for k in 0..12 {
         let axis = DVec3::new(1.0, f64::from(k), -2.0).normalize();
@@ -403,8 +403,8 @@ fn a_tolerance_is_right_or_refused_however_small_beside_the_sheet() {
     assert_eq!([judged, refused], [48, 24]);
 }
 
-/// Triangles with a common corner: an edge of one comes to lie on a corner of the other tangentially, so that the two edges
-/// there are within τ of each other long before, √τ from the end.
+/// Triangles with a common corner: an edge of one comes to lie tangentially on a corner of the other, so that two edges
+/// are within τ of each other long before the end, √τ earlier.
 #[test]
 fn edges_that_lie_down_on_each_other_touch_for_every_tolerance() {
     let corners = [[0.0, 0.0], [3.0, 0.0], [0.0, -1.0], [1.0, 0.0], [0.0, 1.0]];

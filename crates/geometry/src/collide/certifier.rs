@@ -172,10 +172,7 @@ impl<'a> Certifier<'a> {
     /// Stays strictly apart during the step to `end`, on an axis that is at rest or turns along with the triangles.
     fn glide(&mut self, direction: DVec3, end: &PairPose) -> Option<DVec3> {
         let (pose, limits) = (self.pose, self.limits);
-        let step = MovingPair {
-            start: pose,
-            end: *end,
-        };
+        let step = MovingPair::new(pose, *end);
         if pose.shared == 2 {
             let is_open = step.hinge_stays_open(limits);
             return is_open.then(|| end.bisector().unwrap_or(direction));
@@ -201,10 +198,7 @@ impl<'a> Certifier<'a> {
     fn switch(&mut self, end: &PairPose) -> Option<DVec3> {
         self.effort = Effort::Search;
         let (pose, limits) = (self.pose, self.limits);
-        let step = MovingPair {
-            start: pose,
-            end: *end,
-        };
+        let step = MovingPair::new(pose, *end);
         let here: Vec<_> = separating(&pose, limits).map(|(d, _)| d).collect();
         let there: Vec<_> = separating(end, limits).map(|(d, _)| d).collect();
         self.best_of(&step, &here, &there)
@@ -238,10 +232,7 @@ impl<'a> Certifier<'a> {
         let carried = seeds.iter().map(|&d| free_axis(end, d));
         axes.extend(carried.filter(|axis| axis.overlap <= within));
         let pose = self.pose;
-        let step = MovingPair {
-            start: pose,
-            end: *end,
-        };
+        let step = MovingPair::new(pose, *end);
         let mut marked = vec![false; axes.len()];
         for i in 0..axes.len() {
             let to = axes[i].direction;

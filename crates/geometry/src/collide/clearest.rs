@@ -99,7 +99,8 @@ fn common_normal(u: DVec3, v: DVec3) -> DVec3 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{collide::random::Random, distance::triangle_triangle};
+    use crate::distance::triangle_triangle;
+    use foldmotion_random::Random;
 
     const LIMITS: Limits = Limits {
         tolerance: 1e-6,

@@ -176,10 +176,7 @@ impl Search<'_> {
 
 /// A lower bound of the distance between two instants; 0 or less if there is none.
 fn least_distance(from: &Instant, to: &Instant, limits: &Limits) -> f64 {
-    let pair = MovingPair {
-        start: from.pose,
-        end: to.pose,
-    };
+    let pair = MovingPair::new(from.pose, to.pose);
     let gap_of = |d| pair.least_gap_at_rest(d, limits);
     let gap = match (from.clearest, to.clearest) {
         (Some(first), Some(last)) => {
@@ -211,7 +208,7 @@ fn least_of_greater(p: [f64; 2], q: [f64; 2]) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::collide::random::Random;
+    use foldmotion_random::Random;
 
     #[test]
     fn the_least_of_the_greater_of_two_lines_is_met_by_sampling() {

@@ -221,10 +221,7 @@ fn stays_farther(from: &Instant, to: &Instant, distance: f64, limits: &Limits) -
     let (Some(d0), Some(d1)) = (from.direction(), to.direction()) else {
         return false;
     };
-    let pair = MovingPair {
-        start: from.pose,
-        end: to.pose,
-    };
+    let pair = MovingPair::new(from.pose, to.pose);
     let farther = distance + limits.margin;
     pair.least_gap_at_rest(d0, limits) > farther
         || pair.least_gap_at_rest(d1, limits) > farther
@@ -285,7 +282,7 @@ fn clamped(shares: [f64; 3]) -> [f64; 3] {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::collide::random::Random;
+    use foldmotion_random::Random;
 
     const LIMITS: Limits = Limits {
         tolerance: 1e-6,
@@ -299,7 +296,7 @@ mod tests {
     }
 
     #[test]
-    fn features_are_near_exactly_in_the_stretches_told() {
+    fn features_are_near_exactly_in_the_reported_intervals() {
         let mut random = Random::new(81);
         let mut stretches = 0;
         for case in 0..400 {
@@ -309,10 +306,7 @@ mod tests {
                 b: feature(&mut random, n),
                 shared: 0,
             };
-            let pair = MovingPair {
-                start: pose(),
-                end: pose(),
-            };
+            let pair = MovingPair::new(pose(), pose());
             let distance = 0.3;
             let near = contact_times(&pair, distance, &LIMITS).unwrap();
             stretches += near.len();
@@ -332,17 +326,14 @@ mod tests {
     }
 
     #[test]
-    fn a_point_that_slides_far_along_a_plate_in_contact_is_near_in_one_stretch() {
+    fn a_point_that_slides_far_along_a_plate_in_contact_is_near_in_one_interval() {
         let plate = [DVec3::ZERO, DVec3::X * 4.0, DVec3::Y * 4.0];
         let at = |x: f64| PairPose {
             a: [DVec3::new(x, 0.5, 4e-7); 3],
             b: plate,
             shared: 0,
         };
-        let pair = MovingPair {
-            start: at(0.25),
-            end: at(3.0),
-        };
+        let pair = MovingPair::new(at(0.25), at(3.0));
         assert_eq!(contact_times(&pair, 1e-6, &LIMITS).unwrap(), [[0.0, 1.0]]);
     }
 

@@ -119,7 +119,7 @@ mod tests {
     use num_bigint::BigInt;
 
     use super::*;
-    use crate::collide::random::Random;
+    use foldmotion_random::Random;
 
     /// The number times 2^300, exact for numbers that are multiples of 2^-300.
     fn whole(number: f64) -> BigInt {
@@ -141,7 +141,7 @@ mod tests {
     }
 
     #[test]
-    fn sums_and_products_are_as_near_as_promised_to_the_exact_ones() {
+    fn sums_and_products_are_as_accurate_as_promised() {
         let mut random = Random::new(91);
         // 2^106 / 8: the error times this is below the size.
         let bound = BigInt::from(1) << 103;

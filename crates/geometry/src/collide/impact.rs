@@ -157,7 +157,7 @@ mod tests {
     }
 
     #[test]
-    fn a_vertex_through_a_facet_meets_it_at_the_instant_told() {
+    fn a_vertex_through_a_facet_meets_it_at_the_reported_instant() {
         let search = ImpactSearch::default();
         for (from, to) in [(1.0, -2.0), (0.3, -1e6), (1e-9, -1e-7), (5.0, 0.0)] {
             let expected = from / (from - to);

@@ -65,8 +65,6 @@ mod outcome;
 mod passage;
 mod patch;
 mod pose;
-#[cfg(test)]
-pub(crate) mod random;
 mod separating;
 mod tree;
 

@@ -20,12 +20,14 @@ pub struct MovingPair {
 }
 
 impl MovingPair {
+    /// A pair that moves from one pose to another.
+    pub fn new(start: PairPose, end: PairPose) -> Self {
+        Self { start, end }
+    }
+
     /// A pair that does not move.
     pub fn at_rest(pose: PairPose) -> Self {
-        Self {
-            start: pose,
-            end: pose,
-        }
+        Self::new(pose, pose)
     }
 
     /// The positions at t in [0, 1].
@@ -166,7 +168,7 @@ impl Hinge {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::collide::random::Random;
+    use foldmotion_random::Random;
 
     const LIMITS: Limits = Limits {
         tolerance: 1e-6,

@@ -93,7 +93,7 @@ fn signed<const N: usize>(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::collide::random::Random;
+    use foldmotion_random::Random;
 
     const PLATE: [DVec3; 3] = [
         DVec3::ZERO,
@@ -184,8 +184,8 @@ mod tests {
 
     fn sum(path: &[DVec3], facet: [DVec3; 3]) -> i32 {
         let steps = path.windows(2);
-        let passings = steps.flat_map(|w| vertex_passages([w[0], w[1]], still(facet)).unwrap());
-        passings.map(|p| i32::from(p.sign)).sum()
+        let passages = steps.flat_map(|w| vertex_passages([w[0], w[1]], still(facet)).unwrap());
+        passages.map(|p| i32::from(p.sign)).sum()
     }
 
     /// The signed number of times an edge passes through the triangle p, m, q, as the linking number of path and rim.

@@ -174,7 +174,7 @@ fn direction_away<const N: usize>(corners: &[DVec3; N]) -> Option<DVec3> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::collide::random::Random;
+    use foldmotion_random::Random;
 
     #[test]
     fn the_direction_away_reaches_the_distance_of_the_nearest_point() {

@@ -266,8 +266,8 @@ pub(super) fn shortest_between(from: DVec3, to: DVec3) -> Option<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::collide::random::Random;
     use crate::distance::triangle_triangle;
+    use foldmotion_random::Random;
 
     #[test]
     fn no_overlap_on_an_arc_is_above_the_bound_from_its_ends() {

@@ -172,7 +172,7 @@ fn split(items: &mut [u32], middle: usize, boxes: &[Aabb]) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::collide::random::Random;
+    use foldmotion_random::Random;
 
     fn boxes(random: &mut Random, count: usize, size: f64) -> Vec<Aabb> {
         (0..count)

@@ -73,8 +73,8 @@ fn for_each_term(points: &[DVec2], mut visit: impl FnMut(usize, usize, Term)) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::collide::random::Random;
     use crate::unfolding::Chain;
+    use foldmotion_random::Random;
 
     #[test]
     fn the_gradient_agrees_with_finite_differences() {

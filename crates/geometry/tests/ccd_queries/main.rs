@@ -1,6 +1,6 @@
 //! The collision kernels on recorded queries: a share of the hand-made scenes of a public benchmark.
 //!
-//! `cargo run --release -p foldmotion-verify --example ccd_queries FOLDER` is the same on a folder of such files.
+//! `cargo run --release -p foldmotion-verify --example ccd_queries FOLDER` does the same for a folder of such files.
 #![expect(clippy::unwrap_used, reason = "a test stops where a value is missing")]
 
 #[expect(

@@ -4,7 +4,7 @@ use foldmotion_geometry::collide::{Limits, MovingPair, Outcome, PairPose, Side, 
 use foldmotion_geometry::triangle_triangle;
 use glam::DVec3;
 
-use crate::{random::Random, triangle};
+use foldmotion_random::Random;
 
 const LIMITS: Limits = Limits {
     tolerance: 1e-6,
@@ -133,7 +133,7 @@ fn a_plate_that_passes_through_a_parallel_plate_crosses_though_it_is_never_deep(
     let (mut over, mut beside) = (0, 0);
     for _ in 0..400 {
         let flat = |t: [DVec3; 3], z: f64| t.map(|p| DVec3::new(p.x, p.y, z));
-        let (a, b) = (flat(triangle(&mut random), 0.0), triangle(&mut random));
+        let (a, b) = (flat(random.triangle(1.0), 0.0), random.triangle(1.0));
         let (height, drift) = (
             [1.0, 0.1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-7][random.index(7)],
             random.vector(),
@@ -145,12 +145,12 @@ fn a_plate_that_passes_through_a_parallel_plate_crosses_though_it_is_never_deep(
         let meeting = pair.at(0.5);
         let distance = triangle_triangle(&meeting.a, &meeting.b).distance;
         if distance > 1e-3 {
-            // Beside each other when the planes meet: going round is no crossing.
+            // Beside each other when the planes meet: going around is not a crossing.
             beside += 1;
             assert!(has_passed(&pair), "{pair:?}");
             continue;
         }
-        // Within τ below the plane a plate may still slide out sideways.
+        // Within τ below the plane, a plate may still slide out sideways.
         let below = pair.at(0.5 + 0.5 * LIMITS.tolerance / height);
         let is_over = |p: &PairPose| triangle_triangle(&p.a, &flat(p.b, 0.0)).distance == 0.0;
         if height > 2.0 * LIMITS.tolerance && is_over(&meeting) && is_over(&below) {
@@ -167,7 +167,7 @@ fn a_plate_that_passes_through_a_parallel_plate_crosses_though_it_is_never_deep(
     assert!(over > 60 && beside > 60, "{over} {beside}");
 }
 
-/// A needle whose tip goes from `z0` to `z1` above the plate.
+/// A needle whose tip moves from `z0` to `z1` above the plate.
 fn needle(z0: f64, z1: f64) -> MovingPair {
     let at = |z: f64| {
         pose(
@@ -179,13 +179,10 @@ fn needle(z0: f64, z1: f64) -> MovingPair {
             ],
         )
     };
-    MovingPair {
-        start: at(z0),
-        end: at(z1),
-    }
+    MovingPair::new(at(z0), at(z1))
 }
 
-/// Judges a motion through several poses, handing the side on.
+/// Judges a motion through several poses, passing the side on.
 fn judge_path(pairs: &[MovingPair]) -> Outcome {
     let mut side = Side::at_start(&pairs[0].start, &LIMITS).unwrap();
     for pair in &pairs[..pairs.len() - 1] {
@@ -254,14 +251,11 @@ fn plates_resting_on_each_other_may_turn_together() {
         pose(plate().map(|p| q * p), upper.map(|p| q * p))
     };
     let above = pose(plate(), plate().map(|p| p * 0.3 + DVec3::Z * 0.2));
-    let mut path = vec![MovingPair {
-        start: above,
-        end: turned(0.0),
-    }];
-    path.extend((0..20).map(|k| MovingPair {
-        start: turned(f64::from(k) * 0.1),
-        end: turned(f64::from(k + 1) * 0.1),
-    }));
+    let mut path = vec![MovingPair::new(above, turned(0.0))];
+    path.extend(
+        (0..20)
+            .map(|k| MovingPair::new(turned(f64::from(k) * 0.1), turned(f64::from(k + 1) * 0.1))),
+    );
     let outcome = judge_path(&path);
     assert!(
         matches!(&outcome, Outcome::Passed(p) if p.in_contact),
@@ -284,10 +278,7 @@ fn folded(angle: f64) -> PairPose {
 fn fold(angles: &[f64]) -> Outcome {
     let pairs: Vec<_> = angles
         .windows(2)
-        .map(|w| MovingPair {
-            start: folded(w[0]),
-            end: folded(w[1]),
-        })
+        .map(|w| MovingPair::new(folded(w[0]), folded(w[1])))
         .collect();
     judge_path(&pairs)
 }
@@ -334,10 +325,7 @@ fn crossing_around_a_shared_corner_is_found() {
         ],
         shared: 1,
     };
-    let go = |z0: f64, z1: f64| MovingPair {
-        start: at(z0),
-        end: at(z1),
-    };
+    let go = |z0: f64, z1: f64| MovingPair::new(at(z0), at(z1));
     assert!(has_passed(&go(0.5, 0.1)));
     assert!(has_passed(&go(0.5, 0.0)), "lying on it touches");
     let back = judge_path(&[go(0.5, 0.0), go(0.0, 0.5)]);
@@ -355,7 +343,7 @@ fn a_wall_that_slides_past_a_corner_and_then_sinks_passes_beside_the_plate() {
         DVec3::new(0.75, -0.625, 0.0),
         DVec3::new(-0.75, 0.625, 0.0),
     ];
-    // Past the corner it is 0.8 τ deep, and all along a straight line from one direction to the other 0.57 τ at least.
+    // Past the corner it is 0.8 τ deep, and along a straight line from one direction to the other at least 0.57 τ.
     let wall = |x: f64, y: f64, z: f64| {
         let foot = DVec3::new(x, y, z);
         let far = foot + DVec3::new(-3.0, 1.5625, 0.0);
@@ -377,7 +365,8 @@ fn a_contact_begins_when_the_triangles_meet_whatever_direction_parted_them_befor
         DVec3::new(-0.75, -1.125, -0.75),
         DVec3::new(-0.75, 1.125, 0.75),
     ];
-    // At 0.55 a direction closes along which they were apart from the start; the corner at x is at the wall at 0.625.
+    // At 0.55 a direction vanishes along which they were apart from the start; the corner at x reaches the wall at
+    // 0.625.
     let part = |x: f64, z: f64| {
         let tip = DVec3::new(x, 0.0, z);
         let others = [(0.8125, 0.0), (0.25, 0.5625)];
@@ -410,8 +399,8 @@ fn an_exhausted_budget_is_undecided() {
     ));
 }
 
-/// Mirror images in a folding sheet: corners 1 and 0 meet at a point and pass, the facets behind them are never in each
-/// other. Of the axes before the contact one alone leads to those after it, and only from close by.
+/// Mirror images in a folding sheet: corners 1 and 0 meet in a point and pass, but the facets behind them never
+/// intersect. Only one of the axes before the contact leads to those after it, and only from close by.
 #[test]
 fn corners_that_meet_at_a_point_and_pass_touch() {
     let pair = MovingPair {

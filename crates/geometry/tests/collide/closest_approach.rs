@@ -1,11 +1,11 @@
-//! The bounds of the closest approach against dense sampling.
+//! The bounds of the closest approach compared with dense sampling.
 
 use glam::{DQuat, DVec3};
 
 use foldmotion_geometry::collide::{Limits, MovingPair, PairPose, accuracy, closest_approach};
 use foldmotion_geometry::triangle_triangle;
 
-use crate::{random::Random, triangle};
+use foldmotion_random::Random;
 
 const LIMITS: Limits = Limits {
     tolerance: 1e-6,
@@ -17,10 +17,7 @@ type Corners = [DVec3; 3];
 
 fn pair(start: [Corners; 2], end: [Corners; 2]) -> MovingPair {
     let pose = |[a, b]: [Corners; 2]| PairPose { a, b, shared: 0 };
-    MovingPair {
-        start: pose(start),
-        end: pose(end),
-    }
+    MovingPair::new(pose(start), pose(end))
 }
 
 /// The greatest speed of a point of A relative to one of B.
@@ -34,7 +31,7 @@ fn speed(pair: &MovingPair) -> f64 {
     speeds.fold(0.0, f64::max)
 }
 
-/// The smallest distance at many instants, and at many about the smallest.
+/// The smallest distance at many instants, and at many near the smallest.
 fn sampled(pair: &MovingPair) -> f64 {
     let distance = |t: f64| {
         let pose = pair.at(t);
@@ -53,7 +50,7 @@ fn sampled(pair: &MovingPair) -> f64 {
     least
 }
 
-/// Holds the bounds to what dense sampling finds; the distance.
+/// Checks the bounds against dense sampling and returns the distance.
 fn hold(pair: &MovingPair, case: &str) -> f64 {
     let found = closest_approach(pair, f64::INFINITY, &LIMITS);
     let least = sampled(pair);
@@ -91,8 +88,8 @@ fn the_bounds_of_random_pairs_hold_what_dense_sampling_finds() {
     for case in 0..80 {
         let mut both = || {
             [
-                triangle(&mut random),
-                triangle(&mut random).map(|p| p + DVec3::X * 1.5),
+                random.triangle(1.0),
+                random.triangle(1.0).map(|p| p + DVec3::X * 1.5),
             ]
         };
         hold(&pair(both(), both()), &format!("random {case}"));
@@ -108,7 +105,7 @@ fn the_bounds_of_slivers_hold_what_dense_sampling_finds() {
         let place = turned(&mut random);
         let lift = DVec3::Z * 0.3 * 10f64.powi(-(case % 5));
         let mut both = || {
-            let mut sliver = || triangle(&mut random).map(|p| p * DVec3::new(1.0, thin, 0.1));
+            let mut sliver = || random.triangle(1.0).map(|p| p * DVec3::new(1.0, thin, 0.1));
             [sliver().map(&place), sliver().map(|p| place(p + lift))]
         };
         let distance = hold(&pair(both(), both()), &format!("sliver {case}"));
@@ -178,7 +175,7 @@ fn a_pair_farther_than_the_bound_is_left_out() {
 }
 
 #[test]
-fn a_budget_that_ends_leaves_a_bound_that_holds() {
+fn an_exhausted_budget_leaves_a_valid_bound() {
     let mut random = Random::new(45);
     let hasty = Limits {
         budget: 3,
@@ -188,8 +185,8 @@ fn a_budget_that_ends_leaves_a_bound_that_holds() {
     for _ in 0..60 {
         let mut both = || {
             [
-                triangle(&mut random),
-                triangle(&mut random).map(|p| p + DVec3::X * 1.5),
+                random.triangle(1.0),
+                random.triangle(1.0).map(|p| p + DVec3::X * 1.5),
             ]
         };
         let pair = pair(both(), both());

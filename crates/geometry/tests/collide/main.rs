@@ -3,12 +3,4 @@
 
 mod certify;
 mod closest_approach;
-#[path = "../oracle/random.rs"]
-mod random;
 mod touch_or_through;
-
-use glam::DVec3;
-
-fn triangle(random: &mut random::Random) -> [DVec3; 3] {
-    [(); 3].map(|()| random.vector())
-}

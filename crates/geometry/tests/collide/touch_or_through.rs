@@ -1,14 +1,14 @@
-//! A vertex that touches a facet and goes back is touching, one that goes through is penetrating, however fast.
+//! A vertex that touches a facet and goes back is touching; one that passes through is penetrating, however fast.
 //!
-//! All coordinates are dyadic, so that touches are exact and happen at the instant meant. Lengths are of order 1,
-//! τ = 2⁻²⁰, speeds run from 10⁻³ to 10⁶ lengths per interval.
+//! All coordinates are dyadic, so that touches are exact and happen at the intended instant. Lengths are of order 1, τ
+//! = 2⁻²⁰, and speeds range from 10⁻³ to 10⁶ lengths per interval.
 
 use foldmotion_geometry::collide::{Limits, MovingPair, Outcome, PairPose, Side, certify};
 use glam::DVec3;
 
-use crate::random::Random;
+use foldmotion_random::Random;
 
-/// τ, dyadic.
+/// The dyadic tolerance τ.
 const TOLERANCE: f64 = 1.0 / (1u64 << 20) as f64;
 
 fn limits(pairs: &[MovingPair]) -> Limits {
@@ -18,12 +18,13 @@ fn limits(pairs: &[MovingPair]) -> Limits {
     Limits {
         tolerance: TOLERANCE,
         margin: Limits::margin_for(extent),
-        // A facet that turns half a turn within 10⁻⁶ of the interval, in contact all the while, takes a step a degree.
+        // A facet that makes half a turn within 10⁻⁶ of the interval, in contact throughout, needs a step for each
+        // degree.
         budget: 40_000,
     }
 }
 
-/// Certifies a motion of several intervals, handing the side on; undecided where it starts deep.
+/// Certifies a motion of several intervals, passing the side on; undecided if it starts deep.
 fn judge(pairs: &[MovingPair]) -> Outcome {
     let limits = limits(pairs);
     let mut outcome = Outcome::Undecided { time: 0.0 };
@@ -50,7 +51,7 @@ fn dyadic(random: &mut Random) -> f64 {
     random.index(65) as f64 / 16.0 - 2.0
 }
 
-/// Permutes the axes and moves the origin; exact.
+/// Permutes the axes and moves the origin, exactly.
 fn placed(random: &mut Random) -> impl Fn(DVec3) -> DVec3 + use<> {
     let turn = random.index(3);
     let shift = DVec3::new(dyadic(random), dyadic(random), dyadic(random));
@@ -78,7 +79,7 @@ fn needle(tip: DVec3) -> [DVec3; 3] {
     up.map(|d| tip + d)
 }
 
-/// A motion of a needle over a plate through tips above the same or different places.
+/// A motion of a needle over a plate through tips above the same or different points.
 fn motion(random: &mut Random, tips: &[DVec3]) -> Vec<MovingPair> {
     let place = placed(random);
     let is_swapped = random.index(2) == 0;
@@ -91,15 +92,10 @@ fn motion(random: &mut Random, tips: &[DVec3]) -> Vec<MovingPair> {
     };
     let poses: Vec<_> = tips.iter().map(pose).collect();
     let intervals = poses.windows(2);
-    intervals
-        .map(|p| MovingPair {
-            start: p[0],
-            end: p[1],
-        })
-        .collect()
+    intervals.map(|p| MovingPair::new(p[0], p[1])).collect()
 }
 
-/// A place above the plate, at this height.
+/// A point above the plate, at this height.
 fn above(random: &mut Random, height: f64) -> DVec3 {
     DVec3::new(dyadic(random), dyadic(random), height)
 }
@@ -164,8 +160,8 @@ fn a_vertex_that_stops_on_a_facet_and_goes_on_through_it_penetrates_at_any_speed
     }
 }
 
-/// A facet that tilts about the y axis, its slope k (t − t*), and a needle below it whose tip has the height
-/// −k s (t − t*)² + `lift` over its plane: it touches at t* and goes back.
+/// A facet that tilts about the y axis with slope k (t − t*), and a needle below it whose tip has the height −k s (t −
+/// t*)² + `lift` above its plane: it touches at t* and goes back.
 fn graze(random: &mut Random, fast: f64, lift: f64) -> MovingPair {
     let at = random.index(65) as f64 / 64.0;
     let drift = 2.0_f64.powi(-i32::from(random.index(4) as u8) - 2);
@@ -194,10 +190,7 @@ fn graze(random: &mut Random, fast: f64, lift: f64) -> MovingPair {
             shared: 0,
         }
     };
-    MovingPair {
-        start: pose(0.0),
-        end: pose(1.0),
-    }
+    MovingPair::new(pose(0.0), pose(1.0))
 }
 
 #[test]

@@ -121,7 +121,7 @@ fn needle_sharp_corners_hold_no_division_up() {
     for segments in 2..60 {
         let division = equal(&zigzag, segments);
         check_promises(&zigzag, &division);
-        // Three chords of this point-symmetric curve bifurcate on the way: they are refused.
+        // Three chords of this point-symmetric curve bifurcate during the continuation: they are refused.
         assert_eq!(division.max_residual <= 1e-13, segments != 3, "{segments}");
         assert_eq!(division.converged(), segments != 3);
     }
@@ -212,7 +212,7 @@ fn scaling_and_turning_the_profile_scales_and_turns_its_division() {
 }
 
 #[test]
-fn a_profile_is_scaled_to_the_polygon_length_asked_for() {
+fn a_profile_is_scaled_to_the_requested_polygon_length() {
     let (scaled, division) =
         divide_to_length(&wave(), 7, 7.0, &DivisionOptions::default()).unwrap();
     check_promises(&scaled, &division);

@@ -1,4 +1,4 @@
-//! Equal division: equal, on the curve, in order, ends fixed; and what is refused.
+//! Division of profiles: equal segments on the curve, in order, with fixed ends; and what is refused.
 
 #![expect(
     clippy::unwrap_used,

@@ -38,7 +38,7 @@ fn the_iteration_limit_and_the_tolerance_are_the_callers() {
 }
 
 #[test]
-fn starts_that_do_not_rise_from_0_to_1_are_refused() {
+fn starts_that_do_not_increase_from_0_to_1_are_refused() {
     let refused = |start: &[f64]| divide_from(&wave(), start, &DivisionOptions::default()).is_err();
     assert!(refused(&[]));
     assert!(refused(&[0.0]));
@@ -86,7 +86,7 @@ fn segments_below_what_f64_resolves_are_refused() {
 }
 
 #[test]
-fn a_profile_that_crosses_itself_is_refused_with_the_place() {
+fn a_profile_that_crosses_itself_is_refused_with_the_point() {
     // Bézier (−1,0) (2,2) (−2,2) (1,0): symmetric in x, so it crosses itself on x = 0.
     let looped = profile(
         &[[-1.0, 0.0], [2.0, 2.0], [-2.0, 2.0], [1.0, 0.0]],
@@ -144,7 +144,7 @@ fn a_profile_that_only_comes_close_to_itself_is_accepted() {
 }
 
 #[test]
-fn an_open_profile_whose_ends_meet_is_refused_and_accepted_once_it_is_called_closed() {
+fn an_open_profile_whose_ends_meet_is_refused_and_accepted_once_it_is_declared_closed() {
     let points = [
         [0.0, 0.0],
         [4.0, -1.0],

@@ -1,10 +1,10 @@
-//! Whether two features in motion ever meet, decided without rounding.
+//! Whether two moving features ever meet, decided without rounding.
 //!
-//! All coordinates are f64, that is whole numbers after multiplication by a power of two, and linear in t. A feature
-//! pair meets at t where the signs of some polynomials at t say so (see [`Query::clauses`]). That set of instants is
-//! closed; where it is not empty its first instant in [0, 1] is 0 or a root of one of the polynomials that are not
-//! identically zero. So it is enough to look at 0, 1 and at those roots; where the features are not coplanar
-//! throughout, the roots of the coplanarity polynomial alone will do.
+//! All coordinates are f64, which are integers after multiplication by a power of two, and linear in t. A feature pair
+//! meets at t if the signs of some polynomials at t say so (see [`Query::clauses`]). That set of instants is closed; if
+//! it is not empty, its first instant in [0, 1] is 0 or a root of one of the polynomials that are not identically zero.
+//! So it is enough to examine 0, 1 and those roots; if the features are not coplanar throughout, the roots of the
+//! coplanarity polynomial suffice.
 
 use std::cmp::Ordering;
 
@@ -13,10 +13,10 @@ use num_bigint::BigInt;
 
 use super::polynomial::{Dyadic, Number, Polynomial};
 
-/// A point on a straight path: where it is at t = 0 and at t = 1.
+/// A point on a straight path: its positions at t = 0 and at t = 1.
 pub(crate) type Path = [DVec3; 2];
 
-/// A pair of features in motion.
+/// A pair of moving features.
 #[derive(Debug, Clone, Copy)]
 pub(crate) enum Query {
     /// A vertex and a facet.
@@ -58,12 +58,12 @@ fn parts(number: f64) -> (i64, i32) {
     (signed >> zeros, exponent + zeros.cast_signed())
 }
 
-/// The least exponent of finite numbers, by which all become whole.
+/// The smallest exponent of finite numbers, by which all become integers.
 fn least_exponent(numbers: impl Iterator<Item = f64>) -> i32 {
     numbers.map(|x| parts(x).1).min().unwrap_or(i32::MAX)
 }
 
-/// `number` / 2^`unit`, whole by choice of `unit`.
+/// `number` / 2^`unit`, an integer by choice of `unit`.
 fn whole(number: f64, unit: i32) -> BigInt {
     let (mantissa, exponent) = parts(number);
     match mantissa {
@@ -85,7 +85,7 @@ fn exact<const N: usize>(paths: [Path; N]) -> [Point; N] {
     })
 }
 
-/// What the sign of a polynomial must be.
+/// The sign that a polynomial must have.
 #[derive(Debug, Clone, Copy)]
 enum Wanted {
     Zero,
@@ -116,7 +116,7 @@ fn holds_origin(x: &Point, y: &Point) -> Clause {
 }
 
 impl Query {
-    /// The coplanarity polynomial and, given that it vanishes, the clauses of which one must hold.
+    /// The coplanarity polynomial, and the clauses one of which must hold if it vanishes.
     fn clauses(&self) -> (Polynomial, Vec<Clause>) {
         match *self {
             Self::VertexFacet(vertex, [a, b, c]) => {
@@ -151,7 +151,7 @@ impl Query {
             .any(|t| holds(&t))
     }
 
-    /// Comparisons of given numbers only: one feature below the other at both ends is so throughout.
+    /// Compares given numbers only: if one feature is below the other at both ends, it is so throughout.
     fn is_apart_along_a_coordinate(&self) -> bool {
         let (a, b): (&[Path], &[Path]) = match self {
             Self::VertexFacet(vertex, facet) => (&[*vertex], facet),
@@ -167,8 +167,8 @@ impl Query {
     }
 }
 
-/// The origin in the triangle x, y, z: with n = x × y + y × z + z × x ≠ 0 it lies in its plane and on the inner side
-/// of each edge; otherwise, and on the rim, it lies on an edge.
+/// The origin in the triangle x, y, z: with n = x × y + y × z + z × x ≠ 0 it lies in its plane and on the inner side of
+/// each edge; otherwise, and on the rim, it lies on an edge.
 fn vertex_in_facet(x: &Point, y: &Point, z: &Point) -> (Polynomial, Vec<Clause>) {
     let sides = [cross(x, y), cross(y, z), cross(z, x)];
     let normal = cross(&minus(y, x), &minus(z, x));
@@ -207,14 +207,14 @@ fn edges_cross([a0, a1, b0, b1]: &[Point; 4]) -> (Polynomial, Vec<Clause>) {
 }
 
 /// Whether two triangles at t = `eighths` / 8 overlap by more than `tolerance` along every normal of a facet or of two
-/// edges: their depth exceeds it.
+/// edges, so that their depth exceeds it.
 ///
-/// Along a normal n that is not normalised the overlap o exceeds it where o > 0 and o² > τ² n². Triangles whose normals
+/// Along a normal n that is not normalised, the overlap o exceeds it if o > 0 and o² > τ² n². Triangles whose normals
 /// all vanish, and coplanar ones, are never deep.
 pub(crate) fn are_deeper_than(tolerance: f64, a: &[Path; 3], b: &[Path; 3], eighths: i32) -> bool {
     let corners = a.iter().chain(b).flatten().flat_map(DVec3::to_array);
     let unit = least_exponent(corners.chain([tolerance]));
-    // Eight times the coordinates, to stay with whole numbers.
+    // Eight times the coordinates, so that they are integers.
     let exact = |[p0, p1]: &Path| {
         [0, 1, 2].map(|i| whole(p0[i], unit) * (8 - eighths) + whole(p1[i], unit) * eighths)
     };
@@ -309,7 +309,7 @@ mod tests {
     }
 
     #[test]
-    fn a_facet_without_area_is_its_edges() {
+    fn a_facet_without_area_is_treated_as_its_edges() {
         let needle = [
             still(0.0, 0.0, 0.0),
             still(2.0, 2.0, 0.0),
@@ -362,7 +362,7 @@ mod tests {
     }
 
     #[test]
-    fn depth_is_told_to_the_last_bit() {
+    fn depth_is_exact_to_the_last_bit() {
         let plate = [
             still(-9.0, -9.0, 0.0),
             still(9.0, -9.0, 0.0),

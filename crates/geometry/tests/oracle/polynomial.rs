@@ -1,10 +1,10 @@
-//! Polynomials in t with whole coefficients, their real roots in (0, 1), and signs at such roots, all exact.
+//! Polynomials in t with integer coefficients, their real roots in (0, 1), and signs at such roots, all exact.
 
 use std::cmp::Ordering;
 
 use num_bigint::{BigInt, Sign};
 
-/// Coefficients, the constant first; the last is not zero.
+/// The coefficients, the constant first; the last is not zero.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct Polynomial(Vec<BigInt>);
 
@@ -15,10 +15,10 @@ pub(crate) struct Dyadic {
     shift: usize,
 }
 
-/// A real number at which signs can be told.
+/// A real number at which signs can be determined.
 #[derive(Debug, Clone)]
 pub(crate) enum Number {
-    /// Rational.
+    /// A dyadic rational number.
     Dyadic(Dyadic),
     /// The only root of a polynomial in an open interval, at whose ends it does not vanish.
     Root(Polynomial, Dyadic, Dyadic),
@@ -101,7 +101,7 @@ impl Polynomial {
         Self::new(terms.map(|(k, c)| c * k).collect())
     }
 
-    /// A positive multiple of the remainder of division by `divisor`, its common power of two taken out.
+    /// A positive multiple of the remainder of division by `divisor`, without its common power of two.
     fn remainder(&self, divisor: &Self) -> Self {
         let mut rest = self.clone();
         let lead = divisor.coefficient(divisor.degree());
@@ -144,7 +144,7 @@ impl Polynomial {
         }
     }
 
-    /// Its roots in (0, 1); none for the zero polynomial.
+    /// The roots in (0, 1); none for the zero polynomial.
     pub(crate) fn roots_inside(&self) -> Vec<Number> {
         let mut rest = self.clone();
         for end in [Dyadic::new(0, 0), Dyadic::new(1, 0)] {
@@ -163,7 +163,7 @@ impl Polynomial {
                 0 => {}
                 1 => roots.push(Number::Root(rest.clone(), low, high)),
                 _ => {
-                    // At most six roots: one of seven points is none.
+                    // There are at most six roots: one of seven points is not a root.
                     let inner = [4, 3, 5, 2, 6, 1, 7].map(|part| low.towards(&high, part));
                     let is_free = |t: &Dyadic| rest.sign_at_dyadic(t) != Ordering::Equal;
                     if let Some(middle) = inner.into_iter().find(is_free) {

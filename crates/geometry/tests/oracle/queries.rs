@@ -1,13 +1,11 @@
-//! Seeded queries and triangle pairs of every kind that makes collision kernels err.
+//! Seeded queries and triangle pairs of every kind that makes collision kernels fail.
 
+use foldmotion_random::Random;
 use glam::DVec3;
 
-use super::{
-    contact::{Path, Query},
-    random::Random,
-};
+use super::contact::{Path, Query};
 
-/// How a configuration is made.
+/// How a configuration is generated.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Class {
     Random,
@@ -79,8 +77,8 @@ pub(crate) fn start_in_contact([a, b]: &[[Path; 3]; 2]) -> bool {
     has_edge_through(a, b) || has_edge_through(b, a)
 }
 
-/// The six vertex–facet and nine edge–edge queries of two triangles: triangles that start apart meet where one of them
-/// does.
+/// The six vertex–facet and nine edge–edge queries of two triangles: triangles that start apart meet exactly if one of
+/// them does.
 pub(crate) fn queries_of([a, b]: &[[Path; 3]; 2]) -> Vec<Query> {
     let edge = |t: &[Path; 3], i: usize| [t[i], t[(i + 1) % 3]];
     let mut queries = Vec::with_capacity(15);
@@ -92,7 +90,7 @@ pub(crate) fn queries_of([a, b]: &[[Path; 3]; 2]) -> Vec<Query> {
     queries
 }
 
-/// N moving points: the first `cut` are one feature, the others the other.
+/// N moving points: the first `cut` form one feature, the others the other.
 fn paths<const N: usize>(class: Class, cut: usize, random: &mut Random) -> [Path; N] {
     match class {
         Class::Random => scattered(random),
@@ -162,7 +160,7 @@ fn scattered<const N: usize>(random: &mut Random) -> [Path; N] {
     [(); N].map(|()| [random.vector(), random.vector()])
 }
 
-/// A point with whole coordinates from −2 to 2.
+/// A point with integer coordinates from −2 to 2.
 fn grid_point(random: &mut Random) -> DVec3 {
     (random.vector() * 2.5).round()
 }
@@ -210,7 +208,7 @@ fn parallel<const N: usize>(cut: usize, random: &mut Random) -> [Path; N] {
     paths
 }
 
-/// A point of one feature is one of the other, at one end or throughout.
+/// A point of one feature equals one of the other, at one end or throughout.
 fn shared<const N: usize>(cut: usize, random: &mut Random) -> [Path; N] {
     let mut paths: [Path; N] = either(random);
     let (i, j) = (random.index(cut), cut + random.index(N - cut));
@@ -223,7 +221,7 @@ fn shared<const N: usize>(cut: usize, random: &mut Random) -> [Path; N] {
     paths
 }
 
-/// The second feature a copy of the first, displaced at the ends by steps that may vanish.
+/// The second feature is a copy of the first, displaced at the ends by steps that may vanish.
 fn identical<const N: usize>(cut: usize, random: &mut Random) -> [Path; N] {
     let mut paths: [Path; N] = either(random);
     let steps = [(); 2].map(|()| grid_point(random) * [0.0, 0.5, 1.0][random.index(3)]);
@@ -234,7 +232,7 @@ fn identical<const N: usize>(cut: usize, random: &mut Random) -> [Path; N] {
     paths
 }
 
-/// Edges of no length, facets of no area, at one end or throughout.
+/// Edges without length and facets without area, at one end or throughout.
 fn without_extent<const N: usize>(cut: usize, random: &mut Random) -> [Path; N] {
     let mut paths: [Path; N] = either(random);
     match random.index(3) {
@@ -258,7 +256,7 @@ fn instant(random: &mut Random) -> f64 {
     random.index((1 << shift) + 1) as f64 / f64::from(1_u32 << shift)
 }
 
-/// Which of the points are vertex and facet or the ends of two edges: (p, a, b, c) or (a0, a1, b0, b1).
+/// The points that are the vertex and the facet, or the ends of two edges: (p, a, b, c) or (a0, a1, b0, b1).
 fn roles(cut: usize, random: &mut Random) -> (bool, [usize; 4]) {
     match (cut, random.index(2)) {
         (1, _) => (true, [0, 1, 2, 3]),
@@ -274,7 +272,7 @@ fn touching<const N: usize>(cut: usize, speed: f64, random: &mut Random) -> [Pat
     let mut points = [(); N].map(|()| grid_point(random) * 4.0);
     let (is_vertex_facet, [p, q, r, s]) = roles(cut, random);
     if is_vertex_facet {
-        // Whole weights of sum 4, so that the point is exact.
+        // Integer weights with sum 4, so that the point is exact.
         let i = random.index(5);
         let j = random.index(5 - i);
         let weights = [i, j, 4 - i - j].map(|w| w as f64 * 0.25);
@@ -291,8 +289,8 @@ fn touching<const N: usize>(cut: usize, speed: f64, random: &mut Random) -> [Pat
     })
 }
 
-/// A vertex that touches a tilting facet at a dyadic instant and goes back (for edges: one that does so on an edge of
-/// the facet's plane): the height over the plane is k s (t − t*)².
+/// A vertex that touches a tilting facet at a dyadic instant and goes back (for edges: one that does so on an edge in
+/// the plane of the facet): the height above the plane is k s (t − t*)².
 fn grazing<const N: usize>(cut: usize, random: &mut Random) -> [Path; N] {
     let at = instant(random);
     let tilt = power(2.0, -2, 2, random);
@@ -326,7 +324,7 @@ fn grazing<const N: usize>(cut: usize, random: &mut Random) -> [Path; N] {
     })
 }
 
-/// Moves a coordinate by one to three ulps; most zeros by those of 1.
+/// Moves a coordinate by one to three ulps; most zeros by ulps of 1.
 fn nudge(point: &mut DVec3, random: &mut Random) {
     let coordinate = &mut point[random.index(3)];
     let is_up = random.index(2) == 0;

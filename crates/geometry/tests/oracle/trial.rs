@@ -1,4 +1,4 @@
-//! Kernels on trial: their answers beside the oracle's, counted by class.
+//! Tests of kernels: their answers compared with those of the oracle, counted by class.
 
 use std::fmt;
 
@@ -16,19 +16,19 @@ use super::{
 /// Whether features may meet, according to a kernel.
 pub(crate) type Kernel = fn(&Query) -> bool;
 
-/// What the queries of a class came to.
+/// The results for the queries of a class.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub(crate) struct Tally {
     pub(crate) queries: u64,
     pub(crate) meets: u64,
     pub(crate) said_to_meet: u64,
-    /// Meeting, and said never to.
+    /// Queries that meet, but are said never to.
     pub(crate) false_negatives: u64,
-    /// Never meeting, and not said so.
+    /// Queries that never meet, but are not said so.
     pub(crate) false_positives: u64,
 }
 
-/// What the triangle pairs of a class came to.
+/// The results for the triangle pairs of a class.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub(crate) struct PairTally {
     pub(crate) pairs: u64,
@@ -37,17 +37,17 @@ pub(crate) struct PairTally {
     pub(crate) touching: u64,
     pub(crate) crossed: u64,
     pub(crate) undecided: u64,
-    /// Meeting, and certified free.
+    /// Pairs that meet, but are certified free.
     pub(crate) free_but_meeting: u64,
-    /// Deeper than τ at some instant, and certified.
+    /// Pairs deeper than τ at some instant, but certified.
     pub(crate) passed_but_deep: u64,
-    /// Never within 2 τ, and not certified free.
+    /// Pairs never within 2 τ, but not certified free.
     pub(crate) clear_but_refused: u64,
-    /// Of those, undecided.
+    /// Pairs among those that are undecided.
     pub(crate) clear_but_undecided: u64,
 }
 
-/// The kernels of this crate, meeting at distance 0.
+/// The kernels of this crate, with impacts at distance 0.
 pub(crate) fn kernel(query: &Query) -> bool {
     may_meet(query, 0.0)
 }
@@ -91,7 +91,7 @@ impl Tally {
     }
 }
 
-/// Tries a kernel on queries `0..count` of a class.
+/// Tests a kernel on queries `0..count` of a class.
 pub(crate) fn try_queries(class: Class, count: u64, kernel: Kernel) -> Tally {
     (0..count)
         .into_par_iter()
@@ -101,7 +101,7 @@ pub(crate) fn try_queries(class: Class, count: u64, kernel: Kernel) -> Tally {
         .reduce(Tally::default, Tally::plus)
 }
 
-/// Tries a kernel and the certificate on triangle pairs `0..count` of a class: fifteen queries each.
+/// Tests a kernel and the certificate on triangle pairs `0..count` of a class: fifteen queries each.
 pub(crate) fn try_pairs(class: Class, count: u64, kernel: Kernel) -> (Tally, PairTally) {
     let none = || (Tally::default(), PairTally::default());
     (0..count)
@@ -129,17 +129,14 @@ pub(crate) fn limits_of(triangles: &[[Path; 3]; 2]) -> Limits {
     }
 }
 
-/// The pair as the certificate takes it.
+/// The pair in the form that the certificate takes.
 pub(crate) fn moving([a, b]: &[[Path; 3]; 2]) -> MovingPair {
     let pose = |end: usize| PairPose {
         a: a.map(|path| path[end]),
         b: b.map(|path| path[end]),
         shared: 0,
     };
-    MovingPair {
-        start: pose(0),
-        end: pose(1),
-    }
+    MovingPair::new(pose(0), pose(1))
 }
 
 impl PairTally {
@@ -147,7 +144,7 @@ impl PairTally {
         let (pair, limits) = (moving(both), limits_of(both));
         self.pairs += 1;
         self.meets += u64::from(meets);
-        // None: deeper than τ at the start, a crossing.
+        // `None`: deeper than τ at the start, which is a crossing.
         let outcome =
             Side::at_start(&pair.start, &limits).map(|side| certify(&pair, &side, &limits));
         let (mut passed, mut free, mut undecided) = (false, false, false);

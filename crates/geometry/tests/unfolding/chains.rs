@@ -9,7 +9,7 @@ use glam::DVec2;
 /// r = √θ, both arms to θ = 6π, in 2 · `half` equal segments from the centre outwards.
 pub(crate) fn fermat_spiral(half: usize) -> Vec<DVec2> {
     let at = |angle: f64| DVec2::from_angle(angle) * angle.sqrt();
-    // Distances from a point of the arm grow along it at least as far as 1.5.
+    // Distances from a point of the arm increase along it up to at least 1.5.
     let next = |last: f64, length: f64| {
         last_where([last, last + 1.5], |angle| {
             at(angle).distance(at(last)) < length
@@ -28,7 +28,7 @@ pub(crate) fn fermat_spiral(half: usize) -> Vec<DVec2> {
     other.chain(points.iter().copied()).collect()
 }
 
-/// Where, between two numbers, what holds at the lower one ends.
+/// The number between the two up to which `holds` is true.
 fn last_where([mut low, mut high]: [f64; 2], holds: impl Fn(f64) -> bool) -> f64 {
     for _ in 0..60 {
         let middle = low.midpoint(high);

@@ -7,8 +7,8 @@ use proptest::prelude::*;
 
 use crate::chains::{airfoil, closed, fermat_spiral, omega, open, star};
 
-/// Straightens and holds the path to all it promises: its ends, its progress, a certificate of every piece, and an
-/// exact test of dense samples.
+/// Straightens a chain and checks everything the path promises: its ends, its progress, a certificate of every piece,
+/// and an exact test of dense samples.
 fn straightened(chain: &Chain) -> TurnPath {
     let path = straighten(chain).unwrap();
     assert_eq!(path.turns[0], chain.turns());
@@ -78,11 +78,11 @@ fn the_path_is_the_same_for_a_chain_moved_and_opposite_for_one_reflected() {
         differences.fold(0.0, f64::max)
     };
     let spiral = fermat_spiral(30);
-    // Exact in f64: nothing differs at all.
+    // Exact in f64: the results are identical.
     assert_eq!(largest_difference(&spiral, &|p| 2.0 * p.perp(), 1.0), 0.0);
     let reflected = |p: DVec2| DVec2::new(p.x, -p.y);
     assert_eq!(largest_difference(&spiral, &reflected, -1.0), 0.0);
-    // Rounded: the descent amplifies what little differs, as long as it lasts.
+    // Rounded: the descent amplifies small differences as long as it lasts.
     let moved = |p: DVec2| 3.0 * DVec2::from_angle(1.0).rotate(p) + DVec2::ONE;
     let difference = largest_difference(&omega(20), &moved, 1.0);
     assert!(difference < 1e-6, "{difference}");
@@ -120,7 +120,7 @@ proptest! {
     fn every_random_chain_that_does_not_cross_itself_is_straightened(
         turns in prop::collection::vec(-2.0..2.0f64, 4..24)
     ) {
-        // As much of it as does not cross, and a little away from it.
+        // As much of it as does not cross, and slightly away from it.
         let mut points = vec![DVec2::ZERO];
         let mut heading = 0.0;
         for turn in turns {

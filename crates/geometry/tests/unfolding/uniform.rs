@@ -29,7 +29,7 @@ fn a_fermat_spiral_scaled_down_crosses_itself_first_where_dense_sampling_finds_i
         let before = 1.0 + (deployed + 1e-7 - 1.0) * f64::from(k) / 399.0;
         assert!(!crosses_at(&chain, before), "{before}");
     }
-    // The last crossing: clear from there on.
+    // The last crossing: the chain is clear from there on.
     let last = (0..1000)
         .map(|k| f64::from(k) / 1000.0)
         .rfind(|&f| (f < 0.8) && !crosses_at(&chain, f) && crosses_at(&chain, f + 1e-3));

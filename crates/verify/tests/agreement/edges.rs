@@ -1,13 +1,14 @@
-//! What passes through an edge between triangles, proved twice.
+//! Passages through an edge between triangles, proved twice.
 
 use foldmotion_check::{CollisionReport, PenetrationKind, Verdict};
 use foldmotion_pattern::Motion;
+use foldmotion_verify::verify;
 use glam::{DVec2, DVec3};
 
 use crate::sheets::{motion, sheet};
-use crate::{agreed, judge, verify};
+use crate::{agreed, judge};
 
-/// A roof of two triangles on the edge from 0 to 1, and a triangle above it, which moves by these.
+/// A roof of two triangles at the edge from 0 to 1, and a triangle above it that is displaced by `moves`.
 fn above_a_roof(slope: f64, part: [DVec3; 3], moves: &[DVec3]) -> Motion {
     let roof = [
         DVec3::ZERO,
@@ -33,7 +34,7 @@ fn above_a_roof(slope: f64, part: [DVec3; 3], moves: &[DVec3]) -> Motion {
     motion(sheet, states)
 }
 
-/// In the plane that holds the edge.
+/// A triangle in the plane that contains the edge.
 fn wall() -> [DVec3; 3] {
     [
         DVec3::new(0.3, 0.0, 0.5),
@@ -76,7 +77,7 @@ fn a_wall_that_sinks_through_an_edge_is_found_where_nothing_is_listed() {
     );
 }
 
-/// What is changed in a report.
+/// A change to a report that makes it false.
 type Lie = fn(&mut CollisionReport);
 
 #[test]
@@ -100,7 +101,7 @@ fn what_is_stated_of_a_passage_through_an_edge_is_held_to_what_is_found() {
 }
 
 #[test]
-fn a_passage_that_is_made_up_is_not_verified() {
+fn an_invented_passage_is_not_verified() {
     let down = DVec3::new(0.0, 0.0, -0.5);
     let honest = above_a_roof(0.5, wall(), &[DVec3::ZERO, down, DVec3::ZERO]);
     let mut claim = judge(&honest);
@@ -127,7 +128,7 @@ fn a_wall_that_rests_on_an_edge_and_then_sinks_passes_no_earlier_than_it_sinks()
     assert!(!verify(&motion, &claim).is_verified());
 }
 
-/// A triangle that lands on the one half, slides across the edge to the other and leaves, upwards or downwards.
+/// A triangle that lands on one half, slides across the edge to the other and leaves, upwards or downwards.
 fn sliding(leaves: f64) -> Motion {
     let part = [
         DVec3::new(0.45, 0.2, 0.5),

@@ -9,10 +9,10 @@ use foldmotion_pattern::{Case, Frame, LayerOrder, Motion, Sheet, Unit, UnitSheet
 use foldmotion_verify::{Verification, Verifier};
 use glam::DVec3;
 
-use crate::random::Random;
 use crate::sheets::{fold, folded, sheet, strip};
+use foldmotion_random::Random;
 
-/// Positions, and what is claimed there.
+/// The positions of a state, and the claims made there.
 type State = (Vec<DVec3>, LayerOrder);
 
 fn frame(k: usize, (positions, _): &State) -> Frame {
@@ -70,7 +70,7 @@ fn units(rows: usize, columns: usize) -> Vec<UnitSheet> {
     cases.into_iter().map(sheet).collect()
 }
 
-/// The claims of the pairs f < g turned round that `turns` names; both directions alike.
+/// The order with the claims about the pairs f < g reversed that `turns` selects; both directions alike.
 fn turned(order: &LayerOrder, turns: &mut dyn FnMut(u32, u32) -> bool) -> LayerOrder {
     let mut changed = order.clone();
     for (f, g, sign) in order.iter().filter(|(f, g, _)| f < g) {
@@ -116,7 +116,7 @@ fn swapped_layers_are_found_by_the_second_proof_alone() {
         for (f, g, _) in &mut pairs {
             let swapped = turned(&order, &mut |a, b| (a, b) == (f, g));
             let states = [(units.compact(), swapped)];
-            // The certificate of the right order is a lie about the swapped one.
+            // The certificate of the right order is false for the swapped one.
             let verification = verify(&units.sheet, &states, &clean);
             let mut fields = verification.refuted.iter().map(|r| r.field.as_str());
             assert!(fields.any(|field| field == "penetrations"), "{f} {g}");

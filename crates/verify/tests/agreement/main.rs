@@ -8,9 +8,6 @@
 
 mod edges;
 mod layers;
-#[path = "../../../geometry/tests/oracle/random.rs"]
-#[expect(dead_code, reason = "shared with the oracles, which use more of it")]
-mod random;
 #[path = "../../../check/tests/collision/sheets.rs"]
 mod sheets;
 mod stopping;
@@ -19,23 +16,16 @@ use std::f64::consts::PI;
 
 use foldmotion_check::{CollisionOptions, CollisionReport, Verdict, collisions};
 use foldmotion_pattern::{Case, Motion, Unit, UnitSheet};
-use foldmotion_verify::{Verification, Verifier};
+use foldmotion_random::Random;
+use foldmotion_verify::verify;
 use glam::{DVec2, DVec3};
-use random::Random;
 use sheets::{accordion, fold, motion, sheet};
 
 fn judge(motion: &Motion) -> CollisionReport {
     collisions(motion, &CollisionOptions::default(), &|_| true).unwrap()
 }
 
-fn verify(motion: &Motion, claim: &CollisionReport) -> Verification {
-    let mut frames = motion.frames.iter().cloned();
-    let mut verifier = Verifier::new(&motion.sheet, frames.next().unwrap(), claim);
-    frames.for_each(|frame| verifier.advance(frame));
-    verifier.finish()
-}
-
-/// Both proofs agree on a motion; the verdict.
+/// Checks that both proofs agree on a motion and returns the verdict.
 fn agreed(motion: &Motion) -> Verdict {
     let report = judge(motion);
     let verification = verify(motion, &report);
@@ -75,7 +65,7 @@ fn sheets_of_every_kind_get_the_same_verdict_twice() {
 }
 
 #[test]
-fn compact_stacks_touch_twice() {
+fn compact_stacks_touch_in_both_proofs() {
     let compact = |case, width, lambda| {
         let unit = Unit::new(case, width, 1.0, lambda, None).unwrap();
         let units = UnitSheet::new(unit, 3, 2).unwrap();

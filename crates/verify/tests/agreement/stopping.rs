@@ -1,18 +1,19 @@
-//! A check that ends early where many pairs penetrate, proved twice up to there.
+//! A check that ends early because many pairs penetrate, proved twice up to there.
 
 use foldmotion_check::{CollisionOptions, CollisionReport, Verdict, collisions};
 use foldmotion_pattern::Motion;
+use foldmotion_verify::verify;
 use glam::{DVec2, DVec3};
 
 use crate::sheets::{motion, sheet};
-use crate::{random::Random, verify};
+use foldmotion_random::Random;
 
-/// Squares along a side of a cloth.
+/// The number of squares along a side of a cloth.
 const SQUARES: u32 = 10;
-/// The limit asked for.
+/// The limit of penetrating pairs.
 const LIMIT: usize = 40;
 
-/// Two crumpled cloths of 200 triangles, of which one sinks slantwise through the other in eight intervals.
+/// Two crumpled cloths of 200 triangles, one of which sinks through the other at an angle in eight intervals.
 fn cloths() -> Motion {
     let n = SQUARES + 1;
     let flat = |k: u32| DVec2::new(f64::from(k / n), f64::from(k % n));
@@ -53,7 +54,7 @@ fn judge(motion: &Motion, stop_at: usize) -> CollisionReport {
 }
 
 #[test]
-fn a_check_ends_at_the_frame_at_which_more_pairs_penetrate_than_asked_for() {
+fn a_check_ends_at_the_frame_at_which_more_pairs_penetrate_than_allowed() {
     let motion = cloths();
     let (all, some) = (judge(&motion, 0), judge(&motion, LIMIT));
     assert_eq!(all.stopped, None);
@@ -66,7 +67,7 @@ fn a_check_ends_at_the_frame_at_which_more_pairs_penetrate_than_asked_for() {
     assert!(is_before(stopped.frame).eq(&some.penetrations));
     assert!(is_before(stopped.frame - 1).count() <= LIMIT);
     assert_eq!(some.separation_series.len(), stopped.frame + 1);
-    // Enough is allowed: nothing stops, and every frame is judged.
+    // If enough pairs are allowed, nothing stops, and every frame is judged.
     assert_eq!(judge(&motion, all.penetrations.len()), all);
 }
 
@@ -99,7 +100,7 @@ fn what_is_stated_of_a_stopped_check_is_proved_up_to_its_last_frame_and_no_more(
     ] {
         assert!(refuted(&lie, "stopped"), "{:?}", lie.stopped);
     }
-    // Said to have stopped elsewhere, or not at all, the penetrations are others.
+    // If the check is said to have stopped elsewhere, or not at all, the penetrations differ.
     for k in [stopped.frame - 1, stopped.frame + 1] {
         let lie = changed(k, motion.frames[k].time, LIMIT);
         assert!(refuted(&lie, "penetrations"), "{k}");

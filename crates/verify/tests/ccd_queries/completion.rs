@@ -1,20 +1,20 @@
-//! A query as the motion of two triangles.
+//! A query converted to the motion of two triangles.
 
 use foldmotion_pattern::Motion;
+use foldmotion_random::Random;
 use glam::{DVec2, DVec3};
 
 use crate::{
-    oracle::{
-        contact::{Path, Query},
-        random::Random,
-    },
+    oracle::contact::{Path, Query},
     sheets::{motion, sheet},
 };
 
-/// The features of a query completed to triangles: A has the vertex or the first edge, B the facet or the second.
+/// The features of a query completed to triangles: A contains the vertex or the first edge, B the facet or the second
+/// edge.
 ///
-/// What is added moves along: two corners with the vertex, an apex with each edge. `completion`: 0 adds them on the side
-/// away from the other feature, so that the features themselves are the first to meet; others anywhere nearby.
+/// The added corners move along: two with the vertex, an apex with each edge. `completion`: 0 adds them on the side
+/// away from the other feature, so that the features themselves are the first to meet; other numbers add them anywhere
+/// nearby.
 pub(crate) fn triangles(query: &Query, completion: u64) -> [[Path; 3]; 2] {
     let added = if completion == 0 {
         behind(query)
@@ -39,7 +39,7 @@ pub(crate) fn triangles(query: &Query, completion: u64) -> [[Path; 3]; 2] {
 /// The two triangles as a motion of one interval; the unit of length is the mean side of the features.
 pub(crate) fn as_motion(query: &Query, completion: u64) -> Motion {
     let corners = triangles(query, completion).concat();
-    // Where the sheet would lie flat is of no consequence to the verdict.
+    // The positions in the flat sheet do not affect the verdict.
     let flat = (0..6).map(|k| DVec2::new(f64::from(k), f64::from(k * k)));
     let mut sheet = sheet(flat.collect(), vec![[0, 1, 2], [3, 4, 5]]);
     sheet.unit_length = mean_side(query);
@@ -47,7 +47,8 @@ pub(crate) fn as_motion(query: &Query, completion: u64) -> Motion {
     motion(sheet, [at(0), at(1)])
 }
 
-/// Where corners are added on the side away from the other feature: from the vertex, or from the middle of each edge.
+/// The offsets of added corners on the side away from the other feature: from the vertex, or from the middle of each
+/// edge.
 fn behind(query: &Query) -> [DVec3; 2] {
     let (away, size) = (away(query), mean_side(query));
     match query {
@@ -59,7 +60,7 @@ fn behind(query: &Query) -> [DVec3; 2] {
     }
 }
 
-/// Where corners are added anywhere nearby; drawn from the query itself and the number.
+/// The offsets of added corners anywhere nearby, drawn from the query itself and the number.
 fn nearby(query: &Query, completion: u64) -> [DVec3; 2] {
     let corners = corners_of(query);
     let numbers = corners.iter().flatten().flat_map(DVec3::to_array);
@@ -105,7 +106,7 @@ fn sides(query: &Query) -> Vec<[Path; 2]> {
     }
 }
 
-/// The mean length of the sides over both ends of the motion; 1 where they have none.
+/// The mean length of the sides over both ends of the motion; 1 if the features have no sides.
 fn mean_side(query: &Query) -> f64 {
     let sides = sides(query);
     let lengths = sides

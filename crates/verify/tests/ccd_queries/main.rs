@@ -1,7 +1,7 @@
 //! The collision verdict and its second proof on recorded queries, each as the motion of two triangles: a share of the
 //! hand-made scenes of a public benchmark.
 //!
-//! `cargo run --release -p foldmotion-verify --example ccd_queries FOLDER` is the same on a folder of such files.
+//! `cargo run --release -p foldmotion-verify --example ccd_queries FOLDER` does the same for a folder of such files.
 #![expect(clippy::unwrap_used, reason = "a test stops where a value is missing")]
 #![expect(
     clippy::disallowed_methods,
@@ -30,11 +30,11 @@ use std::{collections::BTreeSet, path::Path};
 use foldmotion_check::{CheckError, CollisionReport, Verdict};
 use foldmotion_pattern::Motion;
 use recorded::file::{QueryFile, read_folder};
-use trial::{FaultKind, Judge, Tally, judge, try_completions, try_motions};
+use trial::{FailureKind, Judge, Tally, judge, try_completions, try_motions};
 
-/// Ways in which a query is completed to triangles.
+/// In how many ways each query is completed to triangles.
 const COMPLETIONS: u64 = 8;
-/// Queries on which the two proofs once differed in some of the first 100 completions, by file and first line.
+/// Queries on which the two proofs once disagreed in some of the first 100 completions, by file and first line.
 const DIFFERED: [(&str, &[usize]); 4] = [
     (
         "erleben-spikes_edge-edge.csv",
@@ -56,12 +56,12 @@ fn try_committed(judge: Judge) -> Tally {
     all.fold(Tally::default(), Tally::plus)
 }
 
-/// Nothing may be wrong, and all must be decided; of these motions, grazes of slivers, the second proof may leave one in a
-/// hundred open.
-fn assert_no_fault(tally: &Tally) {
+/// Nothing may be wrong, and everything must be decided. Of these motions, which are grazes of slivers, the second
+/// proof may leave one in a hundred open.
+fn assert_no_failure(tally: &Tally) {
     let all = tally.free + tally.touching + tally.penetrating + tally.undecided;
-    let is_open = |kind: FaultKind| kind == FaultKind::Unproved;
-    let (open, wrong): (Vec<_>, Vec<_>) = tally.faults.iter().partition(|f| is_open(f.kind));
+    let is_open = |kind: FailureKind| kind == FailureKind::Unproved;
+    let (open, wrong): (Vec<_>, Vec<_>) = tally.failures.iter().partition(|f| is_open(f.kind));
     let lines: Vec<_> = wrong.iter().map(ToString::to_string).collect();
     let count = lines.len();
     assert!(count == 0, "{count} of {all}:\n{}", lines.join("\n"));
@@ -75,7 +75,7 @@ fn assert_no_fault(tally: &Tally) {
 #[test]
 fn recorded_meetings_are_never_free_and_the_second_proof_agrees() {
     let tally = try_committed(judge);
-    assert_no_fault(&tally);
+    assert_no_failure(&tally);
     assert!(tally.meets > 1000 && tally.free > 1000, "{tally}");
 }
 
@@ -91,13 +91,13 @@ fn both_proofs_agree_where_they_once_differed() {
             tally = tally.plus(try_completions(&file.name, recorded, 100, judge));
         }
     }
-    assert_no_fault(&tally);
+    assert_no_failure(&tally);
     let count: usize = DIFFERED.iter().map(|(_, lines)| lines.len()).sum();
     let judged = tally.free + tally.touching + tally.penetrating;
     assert_eq!(judged as usize, 100 * count);
 }
 
-/// Reports that hide every contact.
+/// A judge whose reports hide every contact.
 fn hide_contact(motion: &Motion) -> Result<CollisionReport, CheckError> {
     Ok(CollisionReport {
         verdict: Verdict::Free,
@@ -114,11 +114,14 @@ fn reports_that_hide_contact_are_counted_and_each_is_refuted() {
     let tally = try_committed(hide_contact);
     println!("{tally}");
     let of = |kind| {
-        let faults = tally.faults.iter().filter(move |fault| fault.kind == kind);
-        faults.map(|fault| (&fault.file, fault.line, fault.completion))
+        let failures = tally
+            .failures
+            .iter()
+            .filter(move |failure| failure.kind == kind);
+        failures.map(|failure| (&failure.file, failure.line, failure.completion))
     };
-    let refuted: BTreeSet<_> = of(FaultKind::Refuted).collect();
-    let hidden: Vec<_> = of(FaultKind::FreeButMeeting).collect();
+    let refuted: BTreeSet<_> = of(FailureKind::Refuted).collect();
+    let hidden: Vec<_> = of(FailureKind::FreeButMeeting).collect();
     assert_eq!(hidden.len(), tally.meets as usize);
     let believed = hidden.iter().find(|motion| !refuted.contains(motion));
     assert_eq!(believed, None);

@@ -1,10 +1,10 @@
-//! The verdict and its second proof on trial: their answers beside the truth.
+//! Tests of the verdict and its second proof: their answers compared with the truth.
 
 use std::fmt;
 
 use foldmotion_check::{CheckError, CollisionOptions, CollisionReport, Verdict, collisions};
 use foldmotion_pattern::Motion;
-use foldmotion_verify::{Verification, Verifier};
+use foldmotion_verify::verify;
 use rayon::prelude::*;
 
 use super::completion::{as_motion, triangles};
@@ -17,32 +17,32 @@ use crate::{
     recorded::file::{QueryFile, Recorded},
 };
 
-/// What judges a motion.
+/// A function that judges a motion.
 pub(crate) type Judge = fn(&Motion) -> Result<CollisionReport, CheckError>;
 
-/// The verdict of this crate.
+/// The verdict of the first proof.
 pub(crate) fn judge(motion: &Motion) -> Result<CollisionReport, CheckError> {
     collisions(motion, &CollisionOptions::default(), &|_| true)
 }
 
-/// What is wrong with the answers to a query as a motion.
+/// An error in the answers to a query converted to a motion.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub(crate) struct Fault {
+pub(crate) struct Failure {
     pub(crate) file: String,
-    /// The first line of the query.
+    /// The first line of the query in its file.
     pub(crate) line: usize,
     pub(crate) completion: u64,
-    pub(crate) kind: FaultKind,
+    pub(crate) kind: FailureKind,
     pub(crate) detail: String,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum FaultKind {
-    /// The triangles meet and are said to be free.
+pub(crate) enum FailureKind {
+    /// The triangles meet, but the verdict is free.
     FreeButMeeting,
-    /// The triangles never meet and are said to penetrate.
+    /// The triangles never meet, but the verdict is penetrating.
     PenetratingButApart,
-    /// The triangles stay farther apart than 1.1 τ and are said to touch.
+    /// The triangles stay farther apart than 1.1 τ, but the verdict is touching.
     TouchingButApart,
     /// The triangles come nearer than the smallest separation stated, by more than a thousandth and 0.02 τ.
     SeparationTooLarge,
@@ -50,31 +50,31 @@ pub(crate) enum FaultKind {
     Refuted,
     /// The second proof leaves a statement open.
     Unproved,
-    /// The motion is not judged.
+    /// The motion was refused.
     Refused,
 }
 
-/// What the queries of a file came to as motions.
+/// The results for the queries of a file, as motions.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Tally {
-    /// Motions whose triangles meet.
+    /// The number of motions whose triangles meet.
     pub(crate) meets: u32,
     pub(crate) free: u32,
     pub(crate) touching: u32,
     pub(crate) penetrating: u32,
     pub(crate) undecided: u32,
     pub(crate) verified: u32,
-    pub(crate) faults: Vec<Fault>,
+    pub(crate) failures: Vec<Failure>,
 }
 
-/// Tries a judge, and the second proof on what it reports, on the queries of a file, each completed in `completions` ways.
+/// Tests a judge, and the second proof of its reports, on the queries of a file, each completed in `completions` ways.
 pub(crate) fn try_motions(file: &QueryFile, completions: u64, judge: Judge) -> Tally {
     let one = |recorded| try_completions(&file.name, recorded, completions, judge);
     let tallies: Vec<Tally> = file.queries.par_iter().map(one).collect();
     tallies.into_iter().fold(Tally::default(), Tally::plus)
 }
 
-/// Likewise on one query.
+/// Tests a judge on one query.
 pub(crate) fn try_completions(
     file: &str,
     recorded: &Recorded,
@@ -86,7 +86,7 @@ pub(crate) fn try_completions(
 }
 
 fn try_motion(file: &str, recorded: &Recorded, completion: u64, judge: Judge) -> Tally {
-    let fault = |(kind, detail)| Fault {
+    let failure = |(kind, detail)| Failure {
         file: file.to_owned(),
         line: recorded.line,
         completion,
@@ -97,9 +97,9 @@ fn try_motion(file: &str, recorded: &Recorded, completion: u64, judge: Judge) ->
     let report = match judge(&motion) {
         Ok(report) => report,
         Err(error) => {
-            let faults = vec![fault((FaultKind::Refused, error.to_string()))];
+            let failures = vec![failure((FailureKind::Refused, error.to_string()))];
             return Tally {
-                faults,
+                failures,
                 ..Tally::default()
             };
         }
@@ -109,9 +109,12 @@ fn try_motion(file: &str, recorded: &Recorded, completion: u64, judge: Judge) ->
     let refuted = verification.refuted.first().map(|r| format!("{r:?}"));
     let unproved = verification.unproved.first().map(|u| format!("{u:?}"));
     let by_second = refuted
-        .map(|detail| (FaultKind::Refuted, detail))
-        .or_else(|| unproved.map(|detail| (FaultKind::Unproved, detail)));
-    let all = truth.faults(&motion, &report).into_iter().chain(by_second);
+        .map(|detail| (FailureKind::Refuted, detail))
+        .or_else(|| unproved.map(|detail| (FailureKind::Unproved, detail)));
+    let all = truth
+        .failures(&motion, &report)
+        .into_iter()
+        .chain(by_second);
     let is = |verdict: Verdict| u32::from(report.verdict == verdict);
     Tally {
         meets: u32::from(truth.meets),
@@ -120,20 +123,11 @@ fn try_motion(file: &str, recorded: &Recorded, completion: u64, judge: Judge) ->
         penetrating: is(Verdict::Penetrating),
         undecided: is(Verdict::Undecided),
         verified: u32::from(verification.is_verified()),
-        faults: all.map(fault).collect(),
+        failures: all.map(failure).collect(),
     }
 }
 
-fn verify(motion: &Motion, report: &CollisionReport) -> Verification {
-    let (first, rest) = (motion.frames[0].clone(), &motion.frames[1..]);
-    let mut verifier = Verifier::new(&motion.sheet, first, report);
-    for frame in rest {
-        verifier.advance(frame.clone());
-    }
-    verifier.finish()
-}
-
-/// What is true of two triangles in motion.
+/// The truth about two moving triangles.
 struct Truth {
     queries: Vec<Query>,
     /// Whether they share a point at some instant.
@@ -153,22 +147,22 @@ impl Truth {
         self.meets || self.queries.iter().any(|query| may_meet(query, distance))
     }
 
-    /// What a report states against the truth.
-    fn faults(&self, motion: &Motion, report: &CollisionReport) -> Vec<(FaultKind, String)> {
+    /// The errors of a report, compared with the truth.
+    fn failures(&self, motion: &Motion, report: &CollisionReport) -> Vec<(FailureKind, String)> {
         let unit = motion.sheet.unit_length;
         let tolerance = report.tolerance * unit;
         let mut kinds = match report.verdict {
-            Verdict::Free if self.meets => vec![FaultKind::FreeButMeeting],
-            Verdict::Penetrating if !self.meets => vec![FaultKind::PenetratingButApart],
+            Verdict::Free if self.meets => vec![FailureKind::FreeButMeeting],
+            Verdict::Penetrating if !self.meets => vec![FailureKind::PenetratingButApart],
             Verdict::Touching if !self.come_within(1.1 * tolerance) => {
-                vec![FaultKind::TouchingButApart]
+                vec![FailureKind::TouchingButApart]
             }
             _ => Vec::new(),
         };
         let separation = report.min_separation.map_or(0.0, |s| s.distance * unit);
         let surely_below = 0.999 * separation - 0.02 * tolerance;
         if surely_below > 0.0 && self.come_within(surely_below) {
-            kinds.push(FaultKind::SeparationTooLarge);
+            kinds.push(FailureKind::SeparationTooLarge);
         }
         let detail = format!("{:?}, {:?}", report.verdict, report.min_separation);
         kinds
@@ -179,13 +173,13 @@ impl Truth {
 }
 
 impl Tally {
-    /// The faults of a kind.
-    pub(crate) fn count(&self, kind: FaultKind) -> usize {
-        self.faults.iter().filter(|f| f.kind == kind).count()
+    /// The number of errors of a kind.
+    pub(crate) fn count(&self, kind: FailureKind) -> usize {
+        self.failures.iter().filter(|f| f.kind == kind).count()
     }
 
     pub(crate) fn plus(mut self, other: Self) -> Self {
-        self.faults.extend(other.faults);
+        self.failures.extend(other.failures);
         Self {
             meets: self.meets + other.meets,
             free: self.free + other.free,
@@ -193,12 +187,12 @@ impl Tally {
             penetrating: self.penetrating + other.penetrating,
             undecided: self.undecided + other.undecided,
             verified: self.verified + other.verified,
-            faults: self.faults,
+            failures: self.failures,
         }
     }
 }
 
-impl fmt::Display for Fault {
+impl fmt::Display for Failure {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self {
             file,
@@ -224,14 +218,14 @@ impl fmt::Display for Tally {
             self.touching,
             self.penetrating,
             self.undecided,
-            self.count(FaultKind::FreeButMeeting),
-            self.count(FaultKind::PenetratingButApart),
-            self.count(FaultKind::TouchingButApart),
-            self.count(FaultKind::SeparationTooLarge),
+            self.count(FailureKind::FreeButMeeting),
+            self.count(FailureKind::PenetratingButApart),
+            self.count(FailureKind::TouchingButApart),
+            self.count(FailureKind::SeparationTooLarge),
             self.verified,
-            self.count(FaultKind::Refuted),
-            self.count(FaultKind::Unproved),
-            self.count(FaultKind::Refused),
+            self.count(FailureKind::Refuted),
+            self.count(FailureKind::Unproved),
+            self.count(FailureKind::Refused),
         )
     }
 }

@@ -1,6 +1,6 @@
-//! The verdict and its second proof against the oracle for sheets.
+//! The verdict and its second proof compared with the oracle for sheets.
 //!
-//! `cargo run --release -p foldmotion-verify --example sheet_oracle` is the same on 100 000 sheets.
+//! `cargo run --release -p foldmotion-verify --example sheet_oracle` does the same for 100 000 sheets.
 #![expect(clippy::expect_used, reason = "a test stops where a value is missing")]
 #![expect(
     clippy::disallowed_methods,
@@ -10,17 +10,18 @@
 mod oracle;
 
 use foldmotion_check::{CollisionOptions, LayerProof, Verdict, collisions};
+use foldmotion_verify::verify;
 use oracle::{
     class::Class,
     scene::Truth,
-    trial::{HEADER, Tally, Verified, is_right, motion_of, try_class, try_scene, verify},
+    trial::{HEADER, Tally, Verified, is_right, motion_of, try_class, try_scene},
     yardstick::shows_crossing,
 };
 
-/// Scenes of each class.
+/// The number of scenes of each class.
 const SHARE: u64 = 34;
 
-/// Scenes by class with what is wrong, as the message of a failing test.
+/// The scenes with errors by class, as the message of a failing test.
 fn listed(tallies: &[(Class, Tally)], what: &[&str]) -> Vec<String> {
     let wrong = tallies.iter().flat_map(|(class, tally)| {
         let lists = tally
@@ -33,7 +34,7 @@ fn listed(tallies: &[(Class, Tally)], what: &[&str]) -> Vec<String> {
 }
 
 #[test]
-fn both_proofs_say_what_is_true() {
+fn both_proofs_agree_with_the_truth() {
     let tallies = Class::ALL.map(|class| (class, try_class(class, SHARE)));
     println!("{HEADER}");
     for (class, tally) in &tallies {
@@ -50,7 +51,7 @@ fn both_proofs_say_what_is_true() {
         Vec::<String>::new(),
         "the verdict"
     );
-    // The second proof couples sides at instants and not around vertices: what it leaves to the first is counted.
+    // The second proof couples sides at instants and not around vertices; what it leaves to the first is counted.
     let sheets = 18 * SHARE as usize;
     for what in [
         "right but refuted",
@@ -74,7 +75,7 @@ fn both_proofs_say_what_is_true() {
     );
 }
 
-/// Scenes that the second proof did not prove though the report was right, by what it stumbled at.
+/// Scenes that the second proof once did not prove although the report was right, by the reason.
 const ONCE_NOT_PROVED: [(&str, &[(Class, u64)]); 8] = [
     (
         "sides that are not possible together along a line",
@@ -119,7 +120,7 @@ const ONCE_NOT_PROVED: [(&str, &[(Class, u64)]); 8] = [
 ];
 
 #[test]
-fn scenes_that_were_not_proved_though_right_are() {
+fn scenes_that_were_once_not_proved_though_right_are_proved() {
     for (what, scenes) in ONCE_NOT_PROVED {
         for &(class, number) in scenes {
             let trial = try_scene(class, number);
@@ -222,7 +223,7 @@ fn the_yardstick_shows_what_lasts_and_nothing_where_all_is_free() {
     }
 }
 
-/// Between panels at a sharp angle: less than τ beyond the crease, where only a push along the fold leads back.
+/// Between panels at a sharp angle, less than τ beyond the crease, where only a push along the fold leads back.
 #[test]
 fn a_tip_that_pokes_through_a_sharp_fold_by_less_than_the_tolerance_touches() {
     for number in [584, 1670, 2357] {
@@ -240,7 +241,7 @@ fn classes_are_found_by_their_names() {
     assert_eq!(Class::named("Sideways"), None);
 }
 
-/// The yardstick as a judge: what sampled instants show.
+/// Tests the yardstick itself: what sampled instants show.
 #[test]
 fn a_judge_that_samples_instants_is_caught_both_ways() {
     let (mut missed, mut alarms) = (0, 0);

@@ -1,7 +1,7 @@
 //! Reads files of queries.
 //!
-//! Eight lines a query: its four vertices at t = 0, then at t = 1. A line is x, y, z, each as numerator and denominator,
-//! and 1 where the features meet, otherwise 0. Vertex–face: v, f0, f1, f2; edge–edge: ea0, ea1, eb0, eb1.
+//! A query has eight lines: its four vertices at t = 0, then at t = 1. A line is x, y, z, each as numerator and
+//! denominator, and 1 if the features meet, otherwise 0. Vertex–face: v, f0, f1, f2; edge–edge: ea0, ea1, eb0, eb1.
 
 use std::{error::Error, fmt, fs, path::Path};
 
@@ -11,10 +11,10 @@ use num_bigint::BigInt;
 use super::ratio::nearest;
 use crate::oracle::contact::Query;
 
-/// Lines of a query.
+/// The number of lines of a query.
 const LINES: usize = 8;
 
-/// What the queries of a file are of.
+/// The features of the queries in a file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Features {
     VertexFace,
@@ -27,7 +27,7 @@ pub(crate) struct Recorded {
     /// The number of its first line, from 1.
     pub(crate) line: usize,
     pub(crate) query: Query,
-    /// Whether the features meet, as the file says.
+    /// Whether the features meet, according to the file.
     pub(crate) meets: bool,
     /// Whether a coordinate is not an f64 and was rounded to the nearest.
     pub(crate) is_rounded: bool,
@@ -43,7 +43,7 @@ pub(crate) struct QueryFile {
 /// Why a file cannot be read.
 #[derive(Debug, PartialEq, Eq)]
 pub(crate) struct Malformed {
-    /// The line, from 1.
+    /// The number of the line, from 1.
     pub(crate) line: usize,
     pub(crate) reason: &'static str,
 }
@@ -57,7 +57,7 @@ impl fmt::Display for Malformed {
 impl Error for Malformed {}
 
 impl Features {
-    /// What the name of a file says; none where it is no file of queries.
+    /// The features according to the name of a file; `None` if it is not a file of queries.
     fn of(name: &str) -> Option<Self> {
         if name.ends_with("vertex-face.csv") {
             Some(Self::VertexFace)
@@ -87,7 +87,7 @@ pub(crate) fn read_folder(folder: &Path) -> Result<Vec<QueryFile>, Box<dyn Error
     Ok(files)
 }
 
-/// The queries of a text.
+/// Parses the queries of a text.
 pub(crate) fn parse(text: &str, features: Features) -> Result<Vec<Recorded>, Malformed> {
     let mut corners = Vec::new();
     for (index, line) in text.lines().enumerate() {
@@ -123,7 +123,7 @@ pub(crate) fn parse(text: &str, features: Features) -> Result<Vec<Recorded>, Mal
     corners.chunks(LINES).enumerate().map(query).collect()
 }
 
-/// A line.
+/// A line of a query.
 struct Corner {
     position: DVec3,
     is_rounded: bool,
@@ -184,7 +184,7 @@ mod tests {
     }
 
     #[test]
-    fn a_coordinate_that_is_no_f64_is_rounded_and_marked() {
+    fn a_coordinate_that_is_not_an_f64_is_rounded_and_marked() {
         let text = rows([0; 8]).replacen("\n3,1,", "\n1,3,", 1);
         let read = parse(&text, Features::EdgeEdge).unwrap();
         assert!(read[0].is_rounded);

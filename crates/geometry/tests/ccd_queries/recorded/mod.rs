@@ -2,7 +2,7 @@
 //! Jiang, Attene and Panozzo 2021 ("A large-scale benchmark and an inclusion-based algorithm for continuous collision
 //! detection").
 //!
-//! Needs the module `oracle` beside it in the crate.
+//! The including crate must also have the module `oracle`.
 
 pub(crate) mod file;
 mod ratio;

@@ -1,4 +1,4 @@
-//! The f64 nearest to a ratio of whole numbers.
+//! The f64 nearest to a ratio of integers.
 
 use num_bigint::{BigInt, BigUint, Sign};
 
@@ -9,14 +9,14 @@ pub(crate) struct Nearest {
     pub(crate) is_exact: bool,
 }
 
-/// Bits of a mantissa beside the implicit one.
+/// The number of bits of a mantissa, without the implicit one.
 const FRACTION: i64 = 52;
-/// The exponent of the least positive f64, and the least of a mantissa that is a whole number.
+/// The exponent of the smallest positive f64, which is the smallest of an integer mantissa.
 const LEAST: i64 = -1074;
-/// The largest exponent of a mantissa that is a whole number.
+/// The largest exponent of an integer mantissa.
 const LARGEST: i64 = 971;
 
-/// `numerator` / `denominator` rounded; none where the denominator is 0 or the ratio too large for an f64.
+/// `numerator` / `denominator` rounded; `None` if the denominator is 0 or the ratio is too large for an f64.
 pub(crate) fn nearest(numerator: &BigInt, denominator: &BigInt) -> Option<Nearest> {
     let zero = BigUint::default();
     let (n, d) = (numerator.magnitude(), denominator.magnitude());
@@ -78,7 +78,7 @@ mod tests {
     }
 
     #[test]
-    fn ratios_that_are_f64_values_are_read_to_the_last_bit() {
+    fn ratios_that_are_f64_values_are_read_exactly() {
         assert_is(ratio("-1", "8388608"), -1.0 / 8_388_608.0, true);
         assert_is(ratio("3", "-4"), -0.75, true);
         assert_is(ratio("0", "7"), 0.0, true);
@@ -90,7 +90,7 @@ mod tests {
     }
 
     #[test]
-    fn other_ratios_are_rounded_to_the_nearest_and_say_so() {
+    fn other_ratios_are_rounded_to_the_nearest_and_marked() {
         assert_is(ratio("1", "3"), 1.0 / 3.0, false);
         assert_is(ratio("-2", "3"), -2.0 / 3.0, false);
         assert_is(ratio("1", "10"), 0.1, false);
@@ -104,7 +104,7 @@ mod tests {
     }
 
     #[test]
-    fn what_no_f64_is_near_is_refused() {
+    fn what_is_near_no_f64_is_refused() {
         assert_eq!(ratio("1", "0"), None);
         let too_large = format!("{}", BigInt::from(1) << 1024u32);
         assert_eq!(ratio(&too_large, "1"), None);
@@ -117,7 +117,7 @@ mod tests {
         for k in 0..2000u64 {
             let bits = k.wrapping_mul(0x9e37_79b9_7f4a_7c15) >> 2;
             let value = f64::from_bits(bits);
-            // value = m 2^e with e ≥ −1074; a third of its last bit more.
+            // value = m 2^e with e ≥ −1074, plus a third of its last bit.
             let biased = (bits >> 52).max(1);
             let fraction = bits & ((1 << 52) - 1);
             let mantissa = if bits >> 52 == 0 {

@@ -1,8 +1,10 @@
 //! The kinds of scenes.
 
-use super::{folding, random::Random, rigid, scene::Scene};
+use foldmotion_random::Random;
 
-/// The kinds of scenes, each with a stream of numbers of its own.
+use super::{folding, rigid, scene::Scene};
+
+/// The classes of scenes, each with its own stream of random numbers.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum Class {
     Interior,

@@ -1,4 +1,4 @@
-//! How near two polygons come while one moves straight, in f64 (Gilbert, Johnson and Keerthi 1988).
+//! The smallest distance of two polygons while one moves straight, in f64 (Gilbert, Johnson and Keerthi 1988).
 
 use glam::DVec3;
 
@@ -61,7 +61,7 @@ fn nearest_to_origin(simplex: &[DVec3]) -> (DVec3, Vec<DVec3>) {
     best
 }
 
-/// The foot of the origin on the hull of affinely independent points; none where it is not strictly inside.
+/// The foot of the origin on the hull of affinely independent points; `None` if it is not strictly inside.
 fn foot(corners: &[DVec3]) -> Option<DVec3> {
     let inside = |weights: &[f64]| weights.iter().all(|&w| w > 0.0);
     let (a, rest) = corners.split_first()?;

@@ -1,9 +1,9 @@
-//! Convex polygons in whole numbers, and whether two of them meet while one moves straight.
+//! Convex polygons in integers, and whether two of them meet while one moves straight.
 //!
-//! Coordinates are multiples of 2⁻²⁶. Below 8 they are whole numbers below 2²⁹, axes of separation below 2⁹², their
-//! products with points below 2¹²⁴: everything stays exact in `i128`.
+//! Coordinates are multiples of 2⁻²⁶. Coordinates below 8 are integers below 2²⁹, separating axes are below 2⁹², and
+//! their products with points below 2¹²⁴: everything stays exact in `i128`.
 
-/// 1 in whole numbers.
+/// The length 1, as an integer.
 pub(crate) const UNIT: i64 = 1 << 26;
 /// The largest coordinate for which nothing overflows.
 const LARGEST: i64 = 1 << 29;
@@ -37,7 +37,7 @@ fn is_zero(a: Wide) -> bool {
     a == [0; 3]
 }
 
-/// A convex polygon with three corners or more, not all on a line.
+/// A convex polygon with at least three corners that are not all on a line.
 #[derive(Debug, Clone)]
 pub(crate) struct Convex {
     pub(crate) corners: Vec<Point>,
@@ -75,10 +75,11 @@ impl Convex {
         })
     }
 
-    /// Whether this polygon meets `other`, displaced from `from` straight to `to`, at any time on the way.
+    /// Whether this polygon meets `other`, displaced from `from` straight to `to`, at any time in between.
     ///
-    /// They do not exactly if a normal of a facet of the convex set { p − q − s } separates 0 from it strictly: the normal
-    /// of a polygon, a product of two edges, of an edge and the path, or, where all lies in one plane, one within it.
+    /// They do not meet exactly if a facet normal of the convex set { p − q − s } separates 0 from it strictly: the
+    /// normal of a polygon, a product of two edges, of an edge and the path, or, if everything lies in one plane, a
+    /// normal within it.
     pub(crate) fn meets(&self, other: &Self, from: Point, to: Point) -> bool {
         let path = wide(minus(to, from));
         let separates = |axis: Wide| {

@@ -1,9 +1,9 @@
-//! Sheets that fold: their truth follows from heights that are linear in time, compared in whole numbers.
+//! Sheets that fold: their truth follows from heights that are linear in time, compared in integers.
 //!
-//! - *ClosingFold*: two panels in a profile drawn out along y. One lies at z = 0, x ≤ 0, the free edge of the other goes
-//!   on a path above it to a height h above or below: past ±180° by −h.
-//! - *Layers*: panels between fixed abscissas whose ends move up and down. Two of them keep their order where the heights
-//!   at the ends of the abscissas they have in common do so at all frames, as these are linear in time.
+//! - *ClosingFold*: two panels, a profile extruded along y. One lies at z = 0, x ≤ 0; the free edge of the other
+//!   follows a path above it to a height h above or below: past ±180° by −h.
+//! - *Layers*: panels between fixed abscissas whose ends move up and down. Two of them keep their order if the heights
+//!   at the ends of their common abscissas do so at all frames, because the heights are linear in time.
 //! - *Flap*: a triangle at the end of a crease, with the other corners above or below the two panels.
 //! - *OwnCrease*: a strip whose last panel reaches down to its own first crease, with its free edge above or below.
 
@@ -13,13 +13,13 @@ use super::{
     exact::{Point, UNIT},
     mesh::Mesh,
     part::{Part, below, between, sixteenths},
-    random::Random,
     scene::{Scene, Truth},
 };
+use foldmotion_random::Random;
 
-/// 0.4 τ, what counts as on it.
+/// 0.4 τ: heights up to this count as touching.
 const SLIGHT: i64 = 28;
-/// 10 τ.
+/// 10 τ: heights beyond this count as clearly off.
 const CLEAR: i64 = 671;
 
 /// A random scene of a sheet that folds.
@@ -48,7 +48,7 @@ pub(crate) fn scene(class: Class, random: &mut Random) -> Scene {
     scene
 }
 
-/// Whether no polygon vanishes on the way.
+/// Whether no polygon vanishes during the motion.
 fn keeps_its_areas(part: &Part, frames: &[Vec<Point>]) -> bool {
     let area = |frames: &[Vec<Point>], polygon: &[usize], share: f64| {
         let at =
@@ -68,7 +68,7 @@ fn keeps_its_areas(part: &Part, frames: &[Vec<Point>]) -> bool {
 
 type Made = (Part, Vec<Vec<Point>>, Truth);
 
-/// Skewed along y and with its axes exchanged: heights stay as they are.
+/// Shears the scene along y and permutes its axes; heights do not change.
 fn transform(scene: &mut Scene, random: &mut Random) {
     let skew = [0, 0, 4, -8][random.index(4)];
     let first = random.index(3);
@@ -83,7 +83,8 @@ fn transform(scene: &mut Scene, random: &mut Random) {
     }
 }
 
-/// What the least height of what should stay above says: below −10 τ through, above −0.4 τ not.
+/// The truth according to the smallest height of what should stay above: below −10 τ it is through, above −0.4 τ it is
+/// not.
 fn by_height(least: i64, nearest: i64) -> Truth {
     if least <= -CLEAR {
         Truth::Penetrating
@@ -98,7 +99,7 @@ fn by_height(least: i64, nearest: i64) -> Truth {
     }
 }
 
-/// A height at the end of a motion: on it, slightly off, clearly off.
+/// A height at the end of a motion: touching, slightly off or clearly off.
 fn end_height(random: &mut Random) -> i64 {
     let choices = [0, 0, 0, 17, -17, -27, 6711, 90_000, -700, -6711, -90_000];
     match random.index(14) {
@@ -108,7 +109,7 @@ fn end_height(random: &mut Random) -> i64 {
     }
 }
 
-/// A profile at one frame drawn out along y.
+/// A profile at one frame, extruded along y.
 fn drawn_out(profile: &[[i64; 2]], widths: &[[i64; 2]]) -> Vec<Point> {
     let both = profile.iter().zip(widths);
     both.flat_map(|(&[x, z], ys)| ys.map(|y| [x, y, z]))
@@ -158,18 +159,18 @@ struct Panel {
     strip: usize,
 }
 
-/// Everything between fixed abscissas, from below.
+/// The panels between fixed abscissas, from below.
 #[derive(Default)]
 struct Layers {
     part: Part,
     panels: Vec<Panel>,
     abscissas: Vec<i64>,
-    /// Of every end at every frame.
+    /// The height of every end at every frame.
     heights: Vec<Vec<i64>>,
 }
 
 impl Layers {
-    /// Adds a strip without heights; its panels are the last.
+    /// Adds a strip without heights; its panels come last.
     fn add_strip(&mut self, abscissas: &[i64], half: i64, strip: usize) {
         let start = self.abscissas.len();
         let profile: Vec<_> = abscissas.iter().map(|&x| [x, x]).collect();
@@ -183,7 +184,7 @@ impl Layers {
         }));
     }
 
-    /// One end is elsewhere at one frame.
+    /// Changes one end at one frame.
     fn violate(&mut self, random: &mut Random) {
         let frame = 1 + random.index(self.heights.len() - 1);
         let vertex = random.index(self.abscissas.len());
@@ -230,7 +231,7 @@ fn layers(random: &mut Random) -> Made {
     layers.made()
 }
 
-/// Accordions above each other that close, some to exactly flat.
+/// Accordions above each other that close, some of them exactly flat.
 fn stacked(random: &mut Random) -> Layers {
     let strips = 1 + random.index(3);
     let frames = 2 + random.index(3);
@@ -297,7 +298,7 @@ fn nested(random: &mut Random) -> Layers {
     layers
 }
 
-/// The least height of a later panel above an earlier one, and the least distance of panels without a common end.
+/// The smallest height of a later panel above an earlier one, and the smallest distance of panels without a common end.
 fn clearance(panels: &[Panel], abscissas: &[i64], heights: &[Vec<i64>]) -> (i64, i64) {
     let (mut least, mut nearest) = (i64::MAX, i64::MAX);
     for (g, upper) in panels.iter().enumerate() {
@@ -390,7 +391,7 @@ fn flap(random: &mut Random) -> Made {
     (part, frames, truth)
 }
 
-/// On one side throughout, or not.
+/// Whether the corners stay on one side throughout.
 fn flap_truth(places: &[[i64; 4]]) -> Truth {
     let heights = || places.iter().flat_map(|p| [p[1], p[3]]);
     let (low, high) = (heights().min().unwrap_or(0), heights().max().unwrap_or(0));
@@ -404,7 +405,7 @@ fn own_crease(random: &mut Random) -> Made {
     let offset = [0, 0, 0, 17, -27, 268, -6711][random.index(7)];
     let end = end_height(random);
     let start = [UNIT / 2 + offset, UNIT / 2];
-    // Above or below the panel that lies there: the first beyond the crease, the second at z = 0.
+    // Above or below the panel at that position: the first beyond the crease, the second at z = 0.
     let down = |h: i64| {
         let x = h + offset;
         [x, if x < 0 { h - x * slope / 16 } else { h }]

@@ -1,20 +1,20 @@
-//! Random triangulations of a part: its union stays, its triangles do not.
+//! Random triangulations of a part: the union is the same, the triangles are not.
 
+use foldmotion_random::Random;
 use std::collections::BTreeMap;
 
 use super::{
     exact::{Point, minus},
     part::Part,
-    random::Random,
 };
 
-/// Weights of corners are whole numbers with this sum.
+/// The weights of corners are integers with this sum.
 pub(crate) const WHOLE: i64 = 4096;
 
-/// A vertex as weights of corners.
+/// A vertex as a weighted mean of corners.
 pub(crate) type Weights = Vec<(usize, i64)>;
 
-/// Triangles and the polygon each lies in; the outlines of the polygons with the vertices on their edges.
+/// Triangles and the polygon that contains each; the outlines of the polygons with the vertices on their edges.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Mesh {
     pub(crate) vertices: Vec<Weights>,
@@ -39,18 +39,18 @@ pub(crate) fn edge(a: usize, b: usize) -> [usize; 2] {
     [a.min(b), a.max(b)]
 }
 
-/// Where a vertex is, times [`WHOLE`]: exact.
+/// The position of a vertex times [`WHOLE`], which is exact.
 fn scaled(weights: &Weights, corners: &[Point]) -> Point {
     [0, 1, 2].map(|i| weights.iter().map(|&(c, w)| w * corners[c][i]).sum())
 }
 
-/// Where a vertex is; exact where the corners are multiples of [`WHOLE`].
+/// The position of a vertex, exact if the corners are multiples of [`WHOLE`].
 pub(crate) fn place(weights: &Weights, corners: &[Point]) -> Point {
     scaled(weights, corners).map(|c| c / WHOLE)
 }
 
 impl Mesh {
-    /// A triangulation without slivers where there is one among some tries. The plainest has no further vertices.
+    /// A triangulation without slivers, if some attempts produce one. The plainest has no additional vertices.
     pub(crate) fn random(part: &Part, random: &mut Random, allows_slivers: bool) -> Self {
         for attempt in 0..12 {
             let mesh = Self::attempt(part, random, attempt);
@@ -115,7 +115,7 @@ impl Mesh {
         self.polygon_of.push(polygon);
     }
 
-    /// All triangles from a vertex inside.
+    /// Connects a vertex inside with all sides.
     fn star(&mut self, polygon: usize, random: &mut Random) {
         let outline = self.outlines[polygon].clone();
         let corners: Vec<usize> = outline
@@ -190,7 +190,7 @@ impl Mesh {
         self.push([c, a, v], polygon);
     }
 
-    /// Flips an edge between two triangles of one polygon where the four corners are strictly convex.
+    /// Flips an edge between two triangles of one polygon if the four corners are strictly convex.
     fn flip(&mut self, corners: &[Point], random: &mut Random) {
         let start = random.index(self.triangles.len());
         for f in (0..self.triangles.len()).map(|k| (start + k) % self.triangles.len()) {
@@ -241,7 +241,7 @@ impl Mesh {
     }
 }
 
-/// The coordinate plane to which a polygon is projected, and its sense there.
+/// The coordinate plane onto which a polygon is projected, and its orientation there.
 struct Plane {
     axes: [usize; 2],
     is_turned: bool,
@@ -271,7 +271,7 @@ impl Plane {
         }
     }
 
-    /// Twice the area of a triangle, positive where it turns as the polygon does.
+    /// Twice the area of a triangle, positive if it has the orientation of the polygon.
     fn side(&self, mesh: &Mesh, corners: &[Point], triangle: [usize; 3]) -> i128 {
         let [a, b, c] = triangle.map(|v| scaled(&mesh.vertices[v], corners));
         let [u, v] = [minus(b, a), minus(c, a)].map(|d| self.axes.map(|i| i128::from(d[i])));

@@ -1,15 +1,13 @@
-//! Parts of sheets: polygons that share corners, made of dyadic numbers.
+//! Parts of sheets: polygons that share corners, with dyadic coordinates.
 
-use super::{
-    exact::{Convex, Point, UNIT, minus, plus},
-    random::Random,
-};
+use super::exact::{Convex, Point, UNIT, minus, plus};
+use foldmotion_random::Random;
 
 /// A part: corners and the polygons between them.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Part {
     pub(crate) corners: Vec<Point>,
-    /// Corners in order; polygons that share an edge go through it in opposite directions.
+    /// The corners of each polygon in order; polygons that share an edge traverse it in opposite directions.
     pub(crate) polygons: Vec<Vec<usize>>,
     /// Convex polygons with the same union.
     pub(crate) convex: Vec<Vec<usize>>,
@@ -20,12 +18,12 @@ pub(crate) fn sixteenths(n: i64) -> i64 {
     n * (UNIT / 16)
 }
 
-/// A random whole number below `count`.
+/// A random integer below `count`.
 pub(crate) fn below(random: &mut Random, count: u16) -> i64 {
     i64::try_from(random.index(usize::from(count))).expect("a small number")
 }
 
-/// A random whole number between two, both possible.
+/// A random integer between two, both included.
 pub(crate) fn between(random: &mut Random, low: i64, high: i64) -> i64 {
     low + below(
         random,
@@ -89,7 +87,7 @@ impl Part {
         }
     }
 
-    /// A profile in the x–z plane (sixteenths) drawn out along y.
+    /// A profile in the x–z plane (in sixteenths), extruded along y.
     pub(crate) fn extruded(profile: &[[i64; 2]], is_closed: bool, [y0, y1]: [i64; 2]) -> Self {
         let count = profile.len();
         let corners = profile
@@ -118,7 +116,7 @@ impl Part {
         Self::extruded(&[[-a, -rise], [0, 0], [b, -other]], false, [-half, half])
     }
 
-    /// Panels in a row with creases between them, flat or bent.
+    /// Panels in a row with flat or bent creases between them.
     pub(crate) fn strip(random: &mut Random) -> Self {
         let bend = [0, 0, 4, 8][random.index(4)];
         let half = between(random, 6, 16);
@@ -160,7 +158,7 @@ impl Part {
         all
     }
 
-    /// A triangle thinner than τ, or a wedge of two with a thin end; points down along z.
+    /// A triangle thinner than τ, or a wedge of two with a thin end, pointing down along z.
     pub(crate) fn needle(random: &mut Random) -> Self {
         let width = [7, 20, 70, 700, 20_000][random.index(5)];
         let long = sixteenths(between(random, 8, 16));
@@ -206,7 +204,7 @@ impl Part {
         self.convex.extend(moved(&other.convex));
     }
 
-    /// The image under a linear map whose columns are given, x ↦ Σ xᵢ cᵢ, displaced.
+    /// The image under a linear map with the given columns, x ↦ Σ xᵢ cᵢ, displaced.
     pub(crate) fn mapped(&self, columns: [Point; 3], to: Point) -> Self {
         let image = |p: &Point| {
             let along = |i: usize| {
@@ -221,7 +219,7 @@ impl Part {
         }
     }
 
-    /// Displaced so that `point` comes to the origin.
+    /// The part displaced so that `point` comes to the origin.
     pub(crate) fn centred_at(&self, point: Point) -> Self {
         Self {
             corners: self.corners.iter().map(|&p| minus(p, point)).collect(),

@@ -6,15 +6,15 @@ use super::{
     exact::{Convex, Point, UNIT, minus, plus},
     mesh::{Mesh, WHOLE, place},
     part::{Part, between, sixteenths},
-    random::Random,
     scene::{Scene, Truth},
     undo::{Bodies, displacements},
 };
+use foldmotion_random::Random;
 
-/// τ of the default options with the unit 1.
+/// τ of the default options with unit length 1.
 pub(crate) const TOLERANCE: f64 = 1e-6;
 
-/// A place on a part with directions: along it, in its surface, and out of it.
+/// A point on a part with three directions: along it, in its surface, and out of it.
 struct Aim {
     at: Point,
     along: Point,
@@ -33,7 +33,7 @@ fn unit(i: usize) -> Point {
     e
 }
 
-/// Doubled or halved to a length near the unit; a multiple of 2¹⁰ stays one of 2⁸.
+/// The vector doubled or halved to a length near the unit; a multiple of 2¹⁰ stays a multiple of 2⁸.
 fn near_unit(mut v: Point) -> Point {
     let largest = |v: Point| v.iter().map(|c| c.abs()).max().unwrap_or(0);
     while v != [0; 3] && largest(v) < UNIT / 2 {
@@ -52,7 +52,7 @@ fn normal(a: Point, b: Point, c: Point) -> Point {
     n.to_array().map(|c| sixteenths((c * 16.0).round() as i64))
 }
 
-/// What a part is aimed at.
+/// The feature that a part is aimed at.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Feature {
     Interior,
@@ -111,7 +111,7 @@ fn aim(part: &Part, mesh: &Mesh, feature: Feature, random: &mut Random) -> Aim {
     }
 }
 
-/// That end of an edge around which all edges have two triangles.
+/// The end of an edge around which all edges have two triangles.
 fn inner_vertex(mesh: &Mesh, ends: [usize; 2]) -> Option<usize> {
     let edges = mesh.edges();
     ends.into_iter().find(|v| {
@@ -121,13 +121,13 @@ fn inner_vertex(mesh: &Mesh, ends: [usize; 2]) -> Option<usize> {
     })
 }
 
-/// A length in multiples of 2⁻²⁶ that is zero, less than half of τ or several times τ.
+/// A length in multiples of 2⁻²⁶ that is zero, less than half of τ, or several times τ.
 fn slight(random: &mut Random) -> i64 {
     let sign = [-1, 1][random.index(2)];
     sign * [0, 0, 0, 17, 27, 268, 6711][random.index(7)]
 }
 
-/// The moving part about the origin, in coordinates along, aside and out: standing on the origin or through it.
+/// The moving part about the origin, in coordinates along, aside and out: standing on the origin or passing through it.
 fn mover(class: Class, random: &mut Random) -> Part {
     let mut part = match class {
         Class::Thin => Part::needle(random),
@@ -135,7 +135,7 @@ fn mover(class: Class, random: &mut Random) -> Part {
         _ if random.index(4) == 0 => Part::any(random),
         _ => Part::plate(random),
     };
-    // Plates lie in x–y; x is along, the second is out for a wall and aside for a plate that lies.
+    // Plates lie in x–y; x is along; the second is out for a wall and aside for a plate that lies.
     let (x, y, z) = (unit(0), unit(1), unit(2));
     let tilt = plus(z, times(y, between(random, -8, 8)));
     let skew = plus(x, times(y, between(random, -8, 8)));
@@ -172,7 +172,7 @@ fn determinant(columns: [Point; 3]) -> f64 {
     a.cross(b).dot(c)
 }
 
-/// Displacements of the moving part from its place at the aim.
+/// The displacements of the moving part from its position at the aim.
 fn path(class: Class, aim: &Aim, random: &mut Random) -> Vec<Point> {
     let high = between(random, 6, 24);
     let low = between(random, 2, 24);
@@ -325,7 +325,7 @@ fn attempt(class: Class, random: &mut Random) -> Option<Scene> {
     }
     let (mut part, feature) = still(class, random);
     if class != Class::Parallel && random.index(3) == 0 {
-        // In quarters, so that what is built on it stays exact.
+        // In quarters, so that what is built from it stays exact.
         let columns = [(); 3].map(|()| [(); 3].map(|()| sixteenths(4 * between(random, -4, 4))));
         if determinant(columns).abs() > 0.2 {
             part = part.mapped(columns, [0; 3]);
@@ -419,7 +419,7 @@ fn compose(
     })
 }
 
-/// Decided by displaced paths; see [`super::undo`].
+/// The truth decided by displaced paths; see [`super::undo`].
 fn truth(bodies: &Bodies, nearest: f64, is_thin: bool) -> Truth {
     if nearest > 1.5 * TOLERANCE {
         return if is_thin {
@@ -442,7 +442,7 @@ fn truth(bodies: &Bodies, nearest: f64, is_thin: bool) -> Truth {
             Truth::NotThrough
         };
     }
-    // In a narrow wedge displacements of 2 τ lead out through its walls, smaller ones of the right length do not.
+    // In a narrow wedge, displacements of 2 τ lead out through its walls, but smaller ones of the right length do not.
     let tenths = (6..20).map(|tenth| 0.1 * f64::from(tenth) * TOLERANCE);
     if bodies.can_be_undone(&displacements(2.0 * TOLERANCE), 4)
         || tenths

@@ -1,5 +1,6 @@
-//! A sheet in motion with its truth, and the motions that show it: all have the same verdict.
+//! A moving sheet with its truth, and the motions that show it, all of which have the same verdict.
 
+use foldmotion_random::Random;
 use std::collections::BTreeMap;
 
 use foldmotion_pattern::{
@@ -11,46 +12,46 @@ use super::{
     exact::{Point, UNIT},
     mesh::{Mesh, WHOLE, Weights, edge},
     part::Part,
-    random::Random,
 };
 
-/// What is true of a scene.
+/// The truth about a scene.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub(crate) enum Truth {
     /// Deeper than several τ, or through.
     Penetrating,
     /// Within τ, and nothing is through.
     Touching,
-    /// Farther than τ.
+    /// Farther apart than τ.
     Free,
-    /// Nothing is through; touching or free.
+    /// Nothing is through: touching or free.
     NotThrough,
-    /// Too near the limit for a demand.
+    /// Too close to a limit to require a verdict.
     Open,
 }
 
-/// A sheet in motion.
+/// A moving sheet.
 #[derive(Debug, Clone)]
 pub(crate) struct Scene {
-    /// Corners and polygons at the first frame.
+    /// The corners and polygons at the first frame.
     pub(crate) part: Part,
-    /// Every corner at every frame.
+    /// The position of every corner at every frame.
     pub(crate) frames: Vec<Vec<Point>>,
     pub(crate) mesh: Mesh,
     pub(crate) truth: Truth,
-    /// The smallest distance of facets without a common vertex, where it is known.
+    /// The smallest distance of facets without a common vertex, if it is known.
     pub(crate) separation: Option<f64>,
     pub(crate) allows_slivers: bool,
 }
 
 impl Scene {
-    /// The motion as it was made.
+    /// The motion in its original form.
     pub(crate) fn motion(&self) -> Motion {
         let plain = Order::plain(&self.mesh);
         assemble(&self.mesh, &self.frames, &plain)
     }
 
-    /// The same sheet and the same straight paths: other triangles, turned, reversed, renumbered, with more frames.
+    /// The same sheet on the same straight paths, with other triangles, turned, reversed, renumbered, and with more
+    /// frames.
     pub(crate) fn varied(&self, random: &mut Random) -> Motion {
         let other;
         let mut mesh = &self.mesh;
@@ -77,7 +78,7 @@ impl Scene {
     }
 }
 
-/// In which order vertices and triangles are numbered, and which triangles are turned over.
+/// The order in which vertices and triangles are numbered, and which triangles are turned over.
 struct Order {
     vertices: Vec<usize>,
     triangles: Vec<usize>,
@@ -114,7 +115,7 @@ impl Order {
     }
 }
 
-/// For every polygon the first one that is joined to it by edges.
+/// For every polygon, the first polygon that is joined to it by edges.
 fn components(part: &Part) -> Vec<usize> {
     let edges = |polygon: &Vec<usize>| -> Vec<[usize; 2]> {
         let next = |i: usize| polygon[(i + 1) % polygon.len()];
@@ -145,7 +146,7 @@ fn position(weights: &Weights, corners: &[Point]) -> DVec3 {
     DVec3::new(along(0), along(1), along(2))
 }
 
-/// Along a direction in which no polygon stands: the crease pattern must have triangles with an area.
+/// A projection in which no polygon is seen edge-on: the triangles of the crease pattern must have an area.
 fn pattern(p: DVec3) -> DVec2 {
     DVec2::new(p.x + 0.371 * p.z, p.y + 0.613 * p.z)
 }

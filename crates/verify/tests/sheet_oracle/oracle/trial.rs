@@ -1,27 +1,27 @@
-//! Both proofs on trial: what they say beside what is true, counted by class.
+//! Tests of both proofs: their answers compared with the truth, counted by class.
 
 use std::fmt;
 
 use foldmotion_check::{CollisionOptions, CollisionReport, Verdict, collisions};
 use foldmotion_pattern::Motion;
-use foldmotion_verify::{Verification, Verifier};
+use foldmotion_verify::{Verification, verify};
 use rayon::prelude::*;
 
 use super::{class::Class, scene::Truth, yardstick::shows_crossing};
 
-/// What came of a scene.
+/// The results for a scene.
 #[derive(Debug, Clone)]
 pub(crate) struct Trial {
     pub(crate) number: u64,
     pub(crate) truth: Truth,
-    /// None where the motion was refused.
+    /// The verdict; `None` if the motion was refused.
     pub(crate) verdict: Option<Verdict>,
     pub(crate) is_right: bool,
     /// Whether the second proof verifies the report, refutes it, or leaves something open.
     pub(crate) verified: Option<Verified>,
     /// Whether the report without its penetrations is refuted by more than counts.
     pub(crate) tampering_found: Option<bool>,
-    /// Smallest separation stated and true.
+    /// The smallest separation, stated and true.
     pub(crate) separation: Option<[f64; 2]>,
     pub(crate) shows_crossing: bool,
     pub(crate) triangles: usize,
@@ -47,16 +47,7 @@ pub(crate) fn motion_of(class: Class, number: u64) -> (Motion, Truth, Option<f64
     (motion, scene.truth, scene.separation)
 }
 
-pub(crate) fn verify(motion: &Motion, claim: &CollisionReport) -> Verification {
-    let (first, rest) = motion.frames.split_first().expect("a motion has frames");
-    let mut verifier = Verifier::new(&motion.sheet, first.clone(), claim);
-    for frame in rest {
-        verifier.advance(frame.clone());
-    }
-    verifier.finish()
-}
-
-/// Whether a verdict is what the truth asks for; undecided is no answer.
+/// Whether a verdict agrees with the truth; undecided never does.
 pub(crate) fn is_right(truth: Truth, verdict: Verdict) -> bool {
     match truth {
         Truth::Penetrating => verdict == Verdict::Penetrating,
@@ -67,7 +58,7 @@ pub(crate) fn is_right(truth: Truth, verdict: Verdict) -> bool {
     }
 }
 
-/// The report as somebody would write it who leaves the penetrations out.
+/// The report with its penetrations removed.
 fn without_penetrations(report: &CollisionReport) -> CollisionReport {
     CollisionReport {
         verdict: Verdict::Touching,
@@ -77,7 +68,7 @@ fn without_penetrations(report: &CollisionReport) -> CollisionReport {
     }
 }
 
-/// Counts refute tampering cheaply; what is asked for is that the penetration is found.
+/// Whether the second proof finds the removed penetration, and not only the wrong counts.
 fn is_found(verification: &Verification) -> bool {
     let is_count = |field: &str| {
         [
@@ -96,7 +87,7 @@ fn is_found(verification: &Verification) -> bool {
         .any(|refutation| !is_count(&refutation.field))
 }
 
-/// Tries both proofs on a scene.
+/// Tests both proofs on a scene.
 pub(crate) fn try_scene(class: Class, number: u64) -> Trial {
     let (motion, truth, separation) = motion_of(class, number);
     let mut random = class.random(!number);
@@ -133,32 +124,32 @@ pub(crate) fn try_scene(class: Class, number: u64) -> Trial {
     trial
 }
 
-/// What the scenes of a class came to.
+/// The results for the scenes of a class.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Tally {
     pub(crate) sheets: u64,
-    /// Penetrating, touching, free, not through, open.
+    /// The number of scenes whose truth is penetrating, touching, free, not through, open.
     pub(crate) truths: [u64; 5],
-    /// Penetrating, touching, free, undecided, refused.
+    /// The number of verdicts: penetrating, touching, free, undecided, refused.
     pub(crate) verdicts: [u64; 5],
-    /// Penetrating, and called something else.
+    /// Scenes that penetrate but have another verdict.
     pub(crate) missed: Vec<u64>,
-    /// Not penetrating, and called so.
+    /// Scenes that do not penetrate but have that verdict.
     pub(crate) false_alarms: Vec<u64>,
-    /// Free called touching or touching called free.
+    /// Scenes that are free but called touching, or the other way round.
     pub(crate) wrong_nearness: Vec<u64>,
     pub(crate) undecided: Vec<u64>,
-    /// Right, and not verified: refuted; unproved.
+    /// Scenes with a right report that the second proof refutes; or leaves unproved.
     pub(crate) refuted: Vec<u64>,
     pub(crate) unproved: Vec<u64>,
-    /// Wrong, and verified.
+    /// Scenes with a wrong report that the second proof verifies.
     pub(crate) wrong_verified: Vec<u64>,
-    /// Penetrations left out, and not found.
+    /// Scenes whose removed penetrations were not found.
     pub(crate) tampering_passed: Vec<u64>,
-    /// Stated above the truth, or below by more than stated.
+    /// Scenes whose stated separation is above the truth; or below it by more than stated.
     pub(crate) separation_high: Vec<u64>,
     pub(crate) separation_low: Vec<u64>,
-    /// The yardstick shows a crossing: of penetrating ones, of others, of free ones.
+    /// The number of crossings that the yardstick shows: of penetrating scenes, of others, of free ones.
     pub(crate) shown: [u64; 3],
     pub(crate) shown_free: Vec<u64>,
     pub(crate) most_triangles: usize,
@@ -252,7 +243,7 @@ impl Tally {
         ]
     }
 
-    /// The numbers of the scenes that are not as they should be, by what is wrong.
+    /// The numbers of the scenes with errors, by kind of error.
     pub(crate) fn lists(&self) -> [(&'static str, &Vec<u64>); 11] {
         [
             ("missed", &self.missed),
@@ -270,7 +261,7 @@ impl Tally {
     }
 }
 
-/// Tries scenes `0..count` of a class.
+/// Tests scenes `0..count` of a class.
 pub(crate) fn try_class(class: Class, count: u64) -> Tally {
     let trials: Vec<Trial> = (0..count)
         .into_par_iter()
@@ -283,7 +274,7 @@ pub(crate) fn try_class(class: Class, count: u64) -> Tally {
     tally
 }
 
-/// What the columns of a [`Tally`] are.
+/// The meaning of the columns of a [`Tally`].
 pub(crate) const HEADER: &str = "\
 class            sheets | truth:  pen touch  free  n.t. open | verdict: pen touch  free undec error \
 | missed alarm near undec | refut unpro w.ver tampr | sep> sep< | shown pen other free";

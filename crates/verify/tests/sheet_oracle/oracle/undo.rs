@@ -1,10 +1,10 @@
-//! Whether every contact of two rigid bodies in relative translation could be undone by a displacement that is small.
+//! Whether every contact of two rigid bodies in relative translation can be undone by a small displacement.
 //!
-//! A contact can be undone where a path near the given one meets nothing. Displaced paths have one of a few displacements
-//! at each waypoint and are straight between them; which waypoints are reached without contact is followed from one to
-//! the next. A path found is a proof, as contact is decided exactly. That no path is found is taken for penetration
-//! where the displacements were many: of 26 directions with lengths up to 2 τ at waypoints four times as dense, and out
-//! of the wedges between polygons at an edge, which may be too narrow for any of the 26.
+//! A contact can be undone if a path near the given one meets nothing. Displaced paths have one of a few displacements
+//! at each waypoint and are straight between them; the waypoints that are reached without contact are followed from one
+//! to the next. A path that is found is a proof, because contact is decided exactly. If no path is found, the scene
+//! counts as penetrating, provided that the displacements were many: 26 directions with lengths up to 2 τ at waypoints
+//! four times as dense, and out of the wedges between polygons at an edge, which may be too narrow for any of the 26.
 
 use glam::DVec3;
 
@@ -14,7 +14,8 @@ use super::{
     rigid::TOLERANCE,
 };
 
-/// In which part of the angle between two polygons a displacement leads: nearer to the one, between, nearer to the other.
+/// The directions of a displacement within the angle between two polygons: nearer to one, in the middle, nearer to the
+/// other.
 const SHARES: [f64; 3] = [0.25, 0.5, 0.75];
 
 /// Two rigid bodies of convex polygons; the second is displaced along straight paths.
@@ -25,13 +26,13 @@ pub(crate) struct Bodies {
     pub(crate) path: Vec<Point>,
 }
 
-/// A displacement in whole numbers.
+/// A displacement in integers.
 fn displacement(direction: DVec3, length: f64) -> Point {
     let along = direction.normalize_or_zero() * (length * UNIT as f64);
     along.to_array().map(|c| c.round() as i64)
 }
 
-/// The displacements of a length, none first.
+/// The displacements of a length, zero first.
 pub(crate) fn displacements(length: f64) -> Vec<Point> {
     let signs = [0.0, -1.0, 1.0];
     let directions = signs
@@ -42,7 +43,7 @@ pub(crate) fn displacements(length: f64) -> Vec<Point> {
         .collect()
 }
 
-/// The directions that lead from the edges two polygons have in common into the angle between them.
+/// The directions that lead from the common edges of two polygons into the angle between them.
 fn into_wedges(polygons: &[Convex]) -> Vec<DVec3> {
     let mut directions = Vec::new();
     for (i, p) in polygons.iter().enumerate() {
@@ -57,7 +58,7 @@ fn into_wedges(polygons: &[Convex]) -> Vec<DVec3> {
     directions
 }
 
-/// The direction from an edge of a polygon into it, at a right angle to the edge.
+/// The direction from an edge of a polygon into it, perpendicular to the edge.
 fn inward(polygon: &Convex, a: Point, b: Point) -> DVec3 {
     let along = to_f64(minus(b, a)).normalize_or_zero();
     let middle: DVec3 = polygon.corners.iter().map(|&c| to_f64(minus(c, a))).sum();
@@ -78,7 +79,7 @@ impl Bodies {
         least
     }
 
-    /// Neighbouring waypoints; a path of one waypoint stays there.
+    /// Consecutive waypoints; a path of one waypoint stays there.
     fn windows(&self) -> Vec<[Point; 2]> {
         if let [only] = *self.path.as_slice() {
             return vec![[only, only]];
@@ -86,7 +87,7 @@ impl Bodies {
         self.path.windows(2).map(|w| [w[0], w[1]]).collect()
     }
 
-    /// None, and displacements of some lengths out of the wedges that each of the bodies has, or back into them.
+    /// Zero, and displacements of some lengths out of the wedges that each of the bodies has, or back into them.
     pub(crate) fn along_wedges(&self, lengths: &[f64]) -> Vec<Point> {
         let all = [&self.still, &self.moving].map(|polygons| into_wedges(polygons));
         let signed = all.into_iter().flatten().flat_map(|d| [d, -d]);
@@ -94,7 +95,8 @@ impl Bodies {
         std::iter::once([0; 3]).chain(long).collect()
     }
 
-    /// Whether a path with one of these displacements at each waypoint, those `density` times as dense, meets nothing.
+    /// Whether a path with one of these displacements at each waypoint, with `density` times as many waypoints, meets
+    /// nothing.
     pub(crate) fn can_be_undone(&self, choices: &[Point], density: i64) -> bool {
         let radius = choices
             .iter()
@@ -146,7 +148,7 @@ mod tests {
     use super::*;
     use crate::oracle::part::sixteenths;
 
-    /// A plate that goes into a fold of 7° until its tip is `beyond` τ behind the crease, and out again.
+    /// A plate that moves into a fold of 7° until its tip is `beyond` τ behind the crease, and out again.
     fn tip_in_a_fold(beyond: f64) -> Bodies {
         let polygon =
             |corners: &[Point]| Convex::new(corners.iter().map(|p| p.map(sixteenths)).collect());

@@ -1,14 +1,14 @@
-//! A cheap look at sampled instants: every coordinate is moved by a random 1e-9, then edges are tested against facets.
+//! A cheap test at sampled instants: every coordinate is moved by a random 1e-9, then edges are tested against facets.
 //!
-//! It shows crossings that last, gives false alarms where facets slide on each other in one plane, and misses what
-//! passes between two instants.
+//! It finds crossings that last, gives false alarms if facets slide on each other in one plane, and misses what passes
+//! between two instants.
 
 use foldmotion_pattern::Motion;
 use glam::DVec3;
 
-use super::random::Random;
+use foldmotion_random::Random;
 
-/// Instants an interval.
+/// The number of instants in each interval.
 const SAMPLES: u32 = 16;
 
 fn volume(a: DVec3, b: DVec3, c: DVec3, d: DVec3) -> f64 {
