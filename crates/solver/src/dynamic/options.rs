@@ -129,7 +129,7 @@ impl StageOutcome {
 /// A computed motion.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Run {
-    /// The states at t = 2k/frames; between them those by which the layers close at the end of `fold`, and the way the
+    /// The states at t = 2k/frames; between them those by which the layers close at the end of `fold`, and the path the
     /// sheet took where settling at the end of a stage moved it visibly. Times increase strictly, positions are in
     /// the sheet's unit.
     pub frames: Vec<Frame>,

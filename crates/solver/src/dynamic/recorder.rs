@@ -11,7 +11,8 @@ use glam::DVec3;
 
 use crate::{Model, Stage};
 
-/// The way of a node between two recorded states of the settling path, in unit lengths; one step more at most.
+/// The largest displacement of a node between two recorded states of the settling path, unit lengths; at most that of
+/// one step more.
 pub(super) const PATH_STEP: f64 = 0.02;
 
 /// The frames recorded so far.

@@ -20,8 +20,9 @@ mod jam;
 mod newton;
 mod options;
 mod outcome;
-mod pace;
+
 mod run;
+mod step_control;
 mod stiffness_matrix;
 
 pub use contact::Contact;

@@ -44,7 +44,7 @@ const ROOM: f64 = 2.0;
 
 /// How a search for equilibrium ended.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Settled {
+pub(super) struct SearchOutcome {
     pub(super) converged: bool,
     /// The largest nodal force left.
     pub(super) residual: f64,
@@ -113,8 +113,8 @@ impl<'a> Newton<'a> {
 
     /// Moves `state` to the equilibrium at `targets`, or as far as it gets within `allowance`.
     ///
-    /// `visit` is told every state on the way and may end it. Between two of them no layer touches another on the straight
-    /// way.
+    /// `visit` is told every state on the path and may end the search. On the straight path between two of them no layer
+    /// touches another.
     ///
     /// # Errors
     /// Those of [`StiffnessMatrix::new`] and of `visit`.
@@ -125,7 +125,7 @@ impl<'a> Newton<'a> {
         tolerance: Tolerance,
         allowance: Allowance,
         visit: &mut dyn FnMut(&Configuration) -> Result<(), SolverError>,
-    ) -> Result<Settled, SolverError> {
+    ) -> Result<SearchOutcome, SolverError> {
         if let Some(contact) = &mut self.contact {
             contact.prepare(&state.positions);
         }
@@ -139,7 +139,7 @@ impl<'a> Newton<'a> {
         loop {
             let residual = largest(&gradient);
             let factorisations = self.factorisations - earlier;
-            let settled = |converged| Settled {
+            let settled = |converged| SearchOutcome {
                 converged,
                 residual,
                 iterations,
@@ -374,8 +374,8 @@ impl<'a> Newton<'a> {
         let Some(contact) = &mut self.contact else {
             return length;
         };
-        let way: Vec<DVec3> = direction.iter().map(|&d| d * length).collect();
-        contact.prepare_way(positions, &way);
+        let displacement: Vec<DVec3> = direction.iter().map(|&d| d * length).collect();
+        contact.prepare_path(positions, &displacement);
         contact.step_limit(positions, direction, length)
     }
 }

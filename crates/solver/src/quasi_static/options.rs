@@ -1,4 +1,4 @@
-//! What a quasi-static run is asked for.
+//! The options of a quasi-static run.
 
 use super::Contact;
 use crate::{Budget, SolverError, Stage};
@@ -30,7 +30,7 @@ pub struct QuasiStaticOptions {
     /// Newton steps taken at one load step before it is shortened.
     pub max_iterations: usize,
     /// Newton steps allowed in a stage, over the number of states it records or 120 if that is more: after as many it is
-    /// [stopped](super::StopReason::OutOfIterations). Most sheets take 5, a near-rigid one that gives way bit by bit 30.
+    /// [stopped](super::StopReason::OutOfIterations). Most sheets take 5, a near-rigid one that yields bit by bit 30.
     pub iterations_a_step: usize,
     /// Iterations or time allowed in the whole run, in the place of [`Self::iterations_a_step`].
     pub budget: Budget,

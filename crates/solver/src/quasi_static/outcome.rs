@@ -2,14 +2,14 @@
 
 use foldmotion_pattern::Frame;
 
-use super::newton::Settled;
+use super::newton::SearchOutcome;
 use crate::{EnergyByKind, Stage};
 
 /// The motion and how it was found.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct QuasiStaticRun {
-    /// In order of time, positions in the sheet's unit: the states at t = 2k/frames and at the requested times, and states between where the
-    /// straight way from one to the next would lead through contact. Those up to the last state reached.
+    /// The frames in order of time, positions in the sheet's unit: the states at t = 2k/frames and at the requested times, and states between where the
+    /// straight path from one to the next would lead through contact. Those up to the last state reached.
     pub frames: Vec<Frame>,
     /// Figures of each frame.
     pub figures: Vec<FrameFigures>,
@@ -120,7 +120,7 @@ impl StageOutcome {
         }
     }
 
-    pub(super) fn add(&mut self, settled: &Settled) {
+    pub(super) fn add(&mut self, settled: &SearchOutcome) {
         self.iterations += settled.iterations;
         if settled.converged {
             self.load_steps += 1;

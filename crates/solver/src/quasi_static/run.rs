@@ -7,9 +7,9 @@ use super::configuration::{Configuration, largest};
 use super::contact::ContactField;
 use super::history::History;
 use super::jam::find_jam;
-use super::newton::{Newton, Settled, Tolerance};
+use super::newton::{Newton, SearchOutcome, Tolerance};
 use super::outcome::{FrameFigures, QuasiStaticRun, StageOutcome, Stop, StopReason};
-use super::pace::Pace;
+use super::step_control::StepControl;
 use super::{QuasiStaticOptions, barrier_force, force_scale, rounding_force};
 use crate::{HingeKind, Model, Moment, Schedule, SolverError, Stage, Watcher};
 
@@ -44,7 +44,7 @@ const MOST_STIFFENING: f64 = 1e4;
 /// equilibrium, however far. `progress` is told after each load step and after each Newton step within it, and ends the run
 /// by returning false.
 ///
-/// With contact, the frames at t = 2k/frames keep the whole gap and the straight ways between frames half of it: where
+/// With contact, the frames at t = 2k/frames keep the whole gap and the straight paths between frames half of it: where
 /// they would not, states of the search are recorded as frames between.
 ///
 /// Every run ends: load steps shrink to no less than a thousandth of the longest, and a stage takes no more Newton
@@ -145,9 +145,9 @@ struct Run<'a> {
 /// An attempted load step.
 struct Trial {
     state: Configuration,
-    settled: Settled,
+    settled: SearchOutcome,
     /// From the last equilibrium to this state, with contact only.
-    way: Vec<Configuration>,
+    path: Vec<Configuration>,
 }
 
 impl Run<'_> {
@@ -166,12 +166,12 @@ impl Run<'_> {
         let in_contact = self.newton.contact.is_some();
         let mut history = History::new(0.0, self.state.clone(), in_contact);
         let goals = recorded_times(self.options, stage);
-        let mut pace = Pace::new(self.options.frames, in_contact);
-        let standard = self.standard_budget(goals.len().max(pace.least_steps()));
+        let mut control = StepControl::new(self.options.frames, in_contact);
+        let standard = self.standard_budget(goals.len().max(control.least_steps()));
         let (mut s, mut recorded) = (0.0, 0);
         while let Some(&goal) = goals.get(recorded) {
-            let (next, reaches) = pace.next(s, goal);
-            let is_short = pace.is_short();
+            let (next, reaches) = control.next(s, goal);
+            let is_short = control.is_short();
             let left = self.left(standard, outcome.iterations);
             let trial = self.load_step(stage, next, &history, is_short, left)?;
             outcome.add(&trial.settled);
@@ -185,10 +185,10 @@ impl Run<'_> {
                     outcome.residual = trial.settled.residual;
                     break;
                 }
-                pace.shorten(next - s);
+                control.shorten(next - s);
                 continue;
             }
-            pace.adapt(&trial.settled);
+            control.adapt(&trial.settled);
             outcome.snaps += usize::from(trial.settled.iterations > self.options.max_iterations);
             let [from, to] = [s, next].map(|s| stage.start_time() + s);
             self.accept(from, to, &trial);
@@ -225,7 +225,7 @@ impl Run<'_> {
     }
 
     /// What ended the stage in a load step of length `step`, the last attempt of which `settled` so.
-    fn stop(&self, reason: StopReason, step: f64, settled: &Settled) -> Stop {
+    fn stop(&self, reason: StopReason, step: f64, settled: &SearchOutcome) -> Stop {
         Stop {
             reason,
             step,
@@ -246,19 +246,19 @@ impl Run<'_> {
     ) -> Result<Trial, SolverError> {
         self.schedule.targets(stage, s, &mut self.targets);
         let keeps_way = self.newton.contact.is_some();
-        let mut way = Vec::new();
+        let mut path = Vec::new();
         let mut state = match history.extrapolate(self.model, s) {
             Some(ahead) if self.may_start_from(&ahead) => ahead,
             _ => self.state.clone(),
         };
         if keeps_way {
-            way.extend([self.state.clone(), state.clone()]);
+            path.extend([self.state.clone(), state.clone()]);
         }
         let (progress, model) = (self.progress, self.model);
         let reached = stage.start_time() + history.last_time();
         let mut visit = |state: &Configuration| {
             if keeps_way {
-                way.push(state.clone());
+                path.push(state.clone());
             }
             report(progress, model, reached, state)
         };
@@ -272,7 +272,7 @@ impl Run<'_> {
         Ok(Trial {
             state,
             settled,
-            way,
+            path,
         })
     }
 
@@ -293,7 +293,7 @@ impl Run<'_> {
     }
 
     /// Whether the extrapolated state `ahead` is a good start: not much higher in energy than the last one at the new
-    /// targets, and contact leaves the straight way to it free.
+    /// targets, and contact leaves the straight path to it free.
     fn may_start_from(&mut self, ahead: &Configuration) -> bool {
         let [stay, go] = [&self.state, ahead].map(|state| {
             let energy = &self
@@ -305,13 +305,13 @@ impl Run<'_> {
             return false;
         }
         let from = &self.state.positions;
-        let way: Vec<DVec3> = ahead
+        let displacement: Vec<DVec3> = ahead
             .positions
             .iter()
             .zip(from)
             .map(|(&b, &a)| b - a)
             .collect();
-        self.newton.limited(from, &way, 1.0) >= 1.0
+        self.newton.limited(from, &displacement, 1.0) >= 1.0
     }
 
     /// Takes note of the contact in a new equilibrium.
@@ -337,32 +337,32 @@ impl Run<'_> {
         is_tight
     }
 
-    /// Where the straight way from the last frame to the new state is not free of contact, records states on the way
+    /// If the straight path from the last frame to the new state is not free of contact, records states on the path
     /// the search took, at times between `from` and `to`.
     fn record_way(&mut self, from: f64, to: f64, trial: &Trial) {
         let Some(contact) = &mut self.newton.contact else {
             return;
         };
-        let (way, end) = (&trial.way, &trial.state.positions);
+        let (path, end) = (&trial.path, &trial.state.positions);
         let mut between: Vec<usize> = Vec::new();
         let mut last = &self.last_recorded;
         let mut next = 0;
-        while next < way.len() && !contact.is_way_free(last, end) {
-            // As far along the way as can be reached straight; the next state always can.
+        while next < path.len() && !contact.is_path_free(last, end) {
+            // As far along the path as can be reached straight; the next state always can.
             let mut furthest = next;
-            while furthest + 1 < way.len()
-                && contact.is_way_free(last, &way[furthest + 1].positions)
+            while furthest + 1 < path.len()
+                && contact.is_path_free(last, &path[furthest + 1].positions)
             {
                 furthest += 1;
             }
             between.push(furthest);
-            last = &way[furthest].positions;
+            last = &path[furthest].positions;
             next = furthest + 1;
         }
         let parts = (between.len() + 1) as f64;
         for (index, at) in between.into_iter().enumerate() {
             let share = (index + 1) as f64 / parts;
-            self.record(from + (to - from) * share, &way[at]);
+            self.record(from + (to - from) * share, &path[at]);
         }
     }
 

@@ -9,7 +9,7 @@ use crate::SolverError;
 /// The shortest step, in stage-local time.
 const MIN_DURATION: f64 = 1e-6;
 
-/// Creases named by their place in the unit, or by the way they fold.
+/// Creases named by their position in the unit, or by whether they are mountains or valleys.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 pub enum CreaseGroup {
     /// Every crease.
@@ -92,7 +92,7 @@ impl ScheduleStep {
         }
     }
 
-    /// The first fault in the numbers of the step, which is the one numbered `step`.
+    /// The first error in the numbers of the step, whose index is `step`.
     pub(super) fn check(&self, step: usize, sheet: &Sheet) -> Result<(), SolverError> {
         for (name, value) in [("from", self.from), ("to", self.to)] {
             if !(0.0..=1.0).contains(&value) {

@@ -21,7 +21,7 @@ pub struct UnfoldPath {
 }
 
 impl UnfoldPath {
-    /// The first fault of its numbers.
+    /// The first error in its numbers.
     fn check(&self) -> Result<(), SolverError> {
         let knots = self.progress.len();
         let count = |what, expected, found| {

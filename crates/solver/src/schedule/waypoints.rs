@@ -1,4 +1,4 @@
-//! Fold angles on the way through stage `fold`.
+//! Fold angles to pass through in stage `fold`.
 
 use foldmotion_pattern::Sheet;
 

@@ -95,9 +95,11 @@ fn settling_that_moves_the_sheet_is_recorded_step_by_step() {
         let path: Vec<_> = run.frames.iter().filter(|f| inside(f.time)).collect();
         assert!(path.len() > 5, "{stage:?}: {} states", path.len());
         for pair in path.windows(2).skip(1) {
-            let way = pair[0].positions.iter().zip(&pair[1].positions);
-            let longest = way.map(|(p, q)| p.distance(*q)).fold(0.0, f64::max);
-            // A state every 0.02, and at most one look's way more.
+            let displacement = pair[0].positions.iter().zip(&pair[1].positions);
+            let longest = displacement
+                .map(|(p, q)| p.distance(*q))
+                .fold(0.0, f64::max);
+            // A state every 0.02, and at most one update's displacement more.
             assert!(longest < 0.06, "{stage:?}: a node went {longest} unseen");
         }
     }

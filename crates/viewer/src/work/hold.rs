@@ -4,7 +4,7 @@ use std::sync::{Arc, Condvar, Mutex, PoisonError};
 use std::thread::{JoinHandle, sleep};
 use std::time::{Duration, Instant};
 
-use foldmotion_solver::dynamic::{Hand, Pull};
+use foldmotion_solver::dynamic::{Interaction, Pull};
 use foldmotion_study::Study;
 use glam::DVec3;
 
@@ -164,7 +164,7 @@ impl Shared {
         live: &Live,
     ) -> Result<(), WorkError> {
         let stages = study.subject.stages();
-        let mut hand = Hand::new(&study.model, &study.schedule, stages, start, time)?;
+        let mut hand = Interaction::new(&study.model, &study.schedule, stages, start, time)?;
         let (mut aim, mut serial, mut is_at_rest) = (hand.time(), 0, false);
         loop {
             let wish = self.next(is_at_rest, serial);
@@ -189,7 +189,7 @@ impl Shared {
     }
 
     /// Moves the sheet for a while.
-    fn tick(&self, hand: &mut Hand<'_>, started: Instant) {
+    fn tick(&self, hand: &mut Interaction<'_>, started: Instant) {
         while started.elapsed() < TICK && !hand.is_at_rest() {
             if hand.advance(STEPS).is_err() {
                 lock(&self.held).mishaps += 1;
@@ -200,7 +200,7 @@ impl Shared {
         }
     }
 
-    fn show(&self, hand: &Hand<'_>, is_at_rest: bool, live: &Live) {
+    fn show(&self, hand: &Interaction<'_>, is_at_rest: bool, live: &Live) {
         let mut held = lock(&self.held);
         held.time = hand.time();
         held.is_at_rest = is_at_rest;

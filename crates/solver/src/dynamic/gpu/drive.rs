@@ -71,14 +71,14 @@ impl<'a> GpuDrive<'a> {
     ) -> Result<(), SolverError> {
         let positions = self.state.positions()?;
         let velocities = self.state.velocities()?;
-        // From or to a place that is no number the way is none either.
-        let ways = positions
+        // The displacement from or to a position that is not a number is not a number either.
+        let displacements = positions
             .iter()
             .zip(&velocities)
             .map(|(p, v)| v.length() * dt + 0.0 * p.length());
-        let runaway = ways
+        let runaway = displacements
             .enumerate()
-            .find(|(_, way)| way.is_nan() || *way > MAX_DISPLACEMENT);
+            .find(|(_, displacement)| displacement.is_nan() || *displacement > MAX_DISPLACEMENT);
         if let Some((node, displacement)) = runaway {
             return Err(SolverError::Diverged {
                 node,
