@@ -6,7 +6,7 @@ use crate::{Assignment, PatternError, Unit, UnitSheet, clashes};
 
 /// Size of the longer side of the drawing, in pixels.
 const SIZE: f64 = 600.0;
-/// White around the drawing, in pixels; the names of the rows stand in it.
+/// White around the drawing, in pixels; which holds the names of the rows.
 const MARGIN: f64 = 60.0;
 
 /// One column as SVG, row 0 on top: each row with its own creases (mountains solid red, valleys dashed blue) and the name

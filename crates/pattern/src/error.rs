@@ -82,7 +82,7 @@ pub enum PatternError {
         /// The number of rows of the sheet.
         rows: usize,
     },
-    /// The creases of two neighbouring rows do not end at the same places.
+    /// The creases of two neighbouring rows do not end at the same positions.
     #[error(
         "row {row} ({upper}) and row {next} ({lower}) clash: {reason}; take one flap width for every row, or equal heights",
         next = row + 1

@@ -39,7 +39,7 @@ impl UnitSheet {
     /// What `positions`, a compact state, touches the planes z = 0 and z = −a with; a feature touches where all its
     /// vertices are within `tolerance`.
     ///
-    /// Preconditions: one position for each vertex, placed as [`Self::compact`] places them, and `tolerance` < a/2. `None` for
+    /// Preconditions: one position for each vertex, in the position of [`Self::compact`], and `tolerance` < a/2. `None` for
     /// the unmodified rectangle and a map, whose compact states have no such planes.
     pub fn skin(&self, positions: &[DVec3], tolerance: f64) -> Option<Skin> {
         if self.folding == Folding::Map {
@@ -171,7 +171,7 @@ mod tests {
         // Three even rows of 2 border pads and 2 double ones; two odd rows with as many ridges.
         assert_eq!((skin.upper.facets, skin.lower.facets), (3 * 4, 0));
         assert_eq!(skin.lower.edges, 2 * 4);
-        // The mid vertices of even rows, one a column, stand on their own.
+        // The mid vertices of even rows, one for each column, are separate.
         assert_eq!(skin.lower.vertices, 3 * 3);
         assert_eq!(skin.lower.area, 0.0);
         assert!(skin.upper.share > 0.0 && skin.lower.share == 0.0);

@@ -8,7 +8,7 @@ use std::f64::consts::{PI, TAU};
 
 use serde::{Deserialize, Serialize};
 
-use crate::unit_sheet::{Place, is_mid};
+use crate::unit_sheet::{VertexLocation, is_mid};
 use crate::{Assignment, Folding, Imported, Sheet, UnitSheet};
 
 /// Angle sums may differ from 2π and π by this much, radians.
@@ -210,19 +210,19 @@ impl UnitSheet {
     }
 
     fn vertex_type(&self, vertex: usize) -> VertexType {
-        let (line, place) = self.places[vertex];
+        let (line, location) = self.locations[vertex];
         let unit = &self.unit;
         let at_pad = if self.lines[line as usize].family == crate::unit_sheet::Family::P {
             unit.side_pad > 0.0
         } else {
             unit.centre_pad > 0.0
         };
-        match place {
+        match location {
             _ if self.folding == Folding::Map => VertexType::Grid,
             _ if at_pad => VertexType::Pad,
-            Place::Mid { both: true, .. } => VertexType::I,
-            Place::Mid { .. } => VertexType::Split,
-            Place::Boundary { boundary } => {
+            VertexLocation::Mid { both: true, .. } => VertexType::I,
+            VertexLocation::Mid { .. } => VertexType::Split,
+            VertexLocation::Boundary { boundary } => {
                 if is_mid(self.lines[line as usize].family, boundary) {
                     VertexType::J
                 } else {

@@ -83,7 +83,7 @@ pub enum CutError {
         limit: usize,
     },
     /// A text that is no length.
-    #[error("\"{text}\" is no length: write a number with mm, cm, m, in or pt, such as 10mm")]
+    #[error("\"{text}\" is not a length: write a number with mm, cm, m, in or pt, such as 10mm")]
     LengthText {
         /// The text that was given.
         text: String,

@@ -21,7 +21,7 @@ pub struct PageNumber {
 #[derive(Debug, Clone, PartialEq)]
 pub struct CutPage<'a> {
     pub(super) pattern: &'a CutPattern,
-    /// Its place among the tiles; `None` for the whole pattern.
+    /// Its number among the tiles; `None` for the whole pattern.
     pub number: Option<PageNumber>,
     /// Width and height of the paper, mm.
     pub size: DVec2,
@@ -65,7 +65,7 @@ impl<'a> CutPage<'a> {
         self.lines.iter().filter(move |line| line.class == class)
     }
 
-    /// The words on a tile: its place among the others.
+    /// The label of a tile: its number among the others.
     pub(super) fn label(&self) -> Option<String> {
         let PageNumber {
             row,
@@ -80,7 +80,7 @@ impl<'a> CutPage<'a> {
         ))
     }
 
-    /// Where the words on a tile stand, lower left, and how high they are, mm: in the margin where it has room.
+    /// The lower left corner of the label of a tile and the height of its letters, mm: in the margin if it has room.
     pub(super) fn label_place(&self) -> (DVec2, f64) {
         let margin = self.margin;
         let height = (self.size.min_element() / 40.0).min(4.0);

@@ -142,7 +142,7 @@ impl<'a> Tiles<'a> {
     }
 
     /// The lines where this page and its neighbours begin, each with two ticks across it. A line that two pages
-    /// share is drawn on both at the same place of the pattern.
+    /// share is drawn on both at the same position in the pattern.
     fn marks(&self, number: PageNumber) -> Vec<[DVec2; 2]> {
         let low = DVec2::splat(self.layout.margin);
         let high = low + self.window;

@@ -53,18 +53,18 @@ pub enum ImportError {
         value: f64,
     },
     /// Not UTF-8.
-    #[error("the bytes from {byte} on are no UTF-8")]
+    #[error("the bytes from {byte} on are not UTF-8")]
     NotUtf8 {
         /// The index of the first byte that is not UTF-8.
         byte: usize,
     },
     /// Not XML, or a document type with entities, which are not read.
-    #[error("this is no XML that is read here (entities are not): {message}")]
+    #[error("this is not XML, or has entities, which are not read: {message}")]
     Xml {
         /// What is wrong, with line and column.
         message: String,
     },
-    /// XML, but no SVG.
+    /// XML, but not SVG.
     #[error("the root element is <{found}>: an SVG starts with <svg>")]
     NotSvg {
         /// The name of the root element.

@@ -23,18 +23,18 @@ pub struct Imported {
     pub unit: LengthUnit,
     /// The fold angle every edge is to take, radians; 0 where it is no crease.
     pub targets: Vec<f64>,
-    /// The fold angles along the way, where the frames of a FOLD file say so; in the order of the frames.
+    /// The fold angles to pass through, if the frames of a FOLD file give any, in the order of the frames.
     pub stages: Vec<PatternStage>,
-    /// The facets held in place, where a FOLD file names them by `faces_foldmotion:fixed` or by fixing all their corners
+    /// The facets held in place, if a FOLD file names them by `faces_foldmotion:fixed` or by fixing all their corners
     /// with `rtori:os:vertices_fixed`; in order.
     pub fixed_facets: Vec<u32>,
     /// What the edges come from.
     pub sources: Vec<Source>,
-    /// The place in `sources` of every edge; `None` for those that cut facets into triangles.
+    /// The index in `sources` of every edge; `None` for those that cut facets into triangles.
     pub edge_sources: Vec<Option<u32>>,
     /// The FOLD vertex every vertex comes from; `None` if lines were drawn or split.
     pub vertex_sources: Vec<Option<u32>>,
-    /// The vertices as a FOLD file places them, where that is not in the plane z = 0 with the fronts up: its
+    /// The vertices as a FOLD file places them, if they are not in the plane z = 0 with the fronts up: its
     /// coordinates, for the vertices of the sheet.
     pub shape: Option<Vec<DVec3>>,
     /// What was changed or left out, one of each kind.

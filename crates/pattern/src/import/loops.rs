@@ -183,7 +183,7 @@ impl<'a> Trace<'a> {
             let [a, b] = [a, b].map(|(_, first)| points[**first as usize]);
             a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y))
         });
-        // What a loop lies in begins farther left, so its own place is known.
+        // A loop around another begins farther left, so what it lies in is already known.
         for (&index, &first) in from_left {
             let beside = Self::left_of(points[first as usize], &segments, &grid);
             face_of_loop[index as usize] =

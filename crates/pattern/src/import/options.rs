@@ -12,7 +12,7 @@ pub const MOST_PIECES: usize = 200_000;
 pub const MOST_VERTICES: usize = 200_000;
 /// The most elements, texts and comments of an SVG.
 pub const MOST_NODES: u32 = 200_000;
-/// The most elements of an SVG that stand in each other.
+/// The deepest nesting of elements of an SVG.
 pub const MOST_NESTED: usize = 256;
 /// The most rules of the style sheets of an SVG.
 pub const MOST_STYLE_RULES: usize = 200;
@@ -52,7 +52,7 @@ impl MergeTolerance {
     }
 }
 
-/// What becomes of what cannot be read.
+/// What happens to elements that cannot be read.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Unknown {
     /// The file is refused; the error names every such element.
@@ -62,7 +62,7 @@ pub enum Unknown {
     Ignore,
 }
 
-/// What becomes of Bézier curves in paths.
+/// What happens to Bézier curves in paths.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub enum Curves {
     /// As every other thing that cannot be read.

@@ -82,12 +82,12 @@ fn sheet_faces(graph: &Graph, faces: &Faces, sources: &[Source]) -> Result<Vec<b
         let [left, right] = sides(line);
         is_border(line) || (left != right && (left == 0 || right == 0))
     });
-    let fault = match (by_edge, by_border) {
+    let wrong = match (by_edge, by_border) {
         (Ok(is_sheet), _) => return Ok(is_sheet),
         (Err(line), Ok(_)) | (Err(_), Err(line)) => line,
     };
     Err(ImportError::BorderInside {
-        element: sources[graph.lines[fault].source as usize].clone(),
+        element: sources[graph.lines[wrong].source as usize].clone(),
     })
 }
 

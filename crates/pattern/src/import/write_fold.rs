@@ -33,14 +33,14 @@ impl Imported {
     /// has none), faces, and a frame for each stage.
     ///
     /// Faces are the facets where each is one polygon without holes or cuts inside; otherwise all are triangles, with F
-    /// edges between those of one facet. Keys that were not read stand where they stood: lists with an entry for each
+    /// edges between those of one facet. Keys that were not read are written as they were: lists with an entry for each
     /// vertex, edge or face (`edges_name:key`) are put in the order of the sheet, null where it has a new element;
-    /// other keys as they are. Lists that say how elements lie to each other are left out.
+    /// other keys as they are. WrittenElements that relate elements to each other are left out.
     pub fn fold(&self, creator: &str) -> String {
-        let lists = Lists::new(self);
-        let mut file = lists.kept();
+        let written = WrittenElements::new(self);
+        let mut file = written.kept();
         let edges = |of: &dyn Fn(usize) -> Value| -> Value {
-            lists.edges.iter().map(|&edge| of(edge)).collect()
+            written.edges.iter().map(|&edge| of(edge)).collect()
         };
         let sheet = &self.sheet;
         file.insert("file_spec".into(), json!(1.2));
@@ -68,7 +68,7 @@ impl Imported {
             "edges_foldAngle".into(),
             edges(&|e| json!(self.target_degrees(e))),
         );
-        file.insert("faces_vertices".into(), lists.faces.clone());
+        file.insert("faces_vertices".into(), written.faces.clone());
         let frames: Vec<Value> = self
             .stages
             .iter()
@@ -89,10 +89,10 @@ impl Imported {
         object_text(file.iter().map(|(key, value)| (key.as_str(), value)))
     }
 
-    /// The keys of the FOLD file that were not read, as they stand in a file whose faces are the triangles of the sheet:
+    /// The keys of the FOLD file that were not read, for a file whose faces are the triangles of the sheet:
     /// as in [`Self::fold`].
     pub fn keys_of_triangles(&self) -> Map<String, Value> {
-        Lists::of_triangles(self).kept()
+        WrittenElements::of_triangles(self).kept()
     }
 
     fn target_degrees(&self, edge: usize) -> Option<f64> {
@@ -106,7 +106,7 @@ impl Imported {
 }
 
 /// Which elements are written, and where they come from.
-struct Lists<'a> {
+struct WrittenElements<'a> {
     imported: &'a Imported,
     /// The indices of the edges that are written.
     edges: Vec<usize>,
@@ -116,7 +116,7 @@ struct Lists<'a> {
     face_facets: Vec<u32>,
 }
 
-impl<'a> Lists<'a> {
+impl<'a> WrittenElements<'a> {
     fn new(imported: &'a Imported) -> Self {
         let sheet = &imported.sheet;
         let are_polygons = are_polygons(sheet);

@@ -37,7 +37,7 @@ pub(super) const AIRFOIL: ProfileModel = ProfileModel {
 pub struct NacaSection {
     /// The largest camber over the chord, the first digit / 100.
     pub camber: f64,
-    /// Where it stands along the chord, the second digit / 10.
+    /// Its position along the chord, the second digit / 10.
     pub camber_at: f64,
     /// The largest thickness over the chord, the last two digits / 100.
     pub thickness: f64,

@@ -29,7 +29,7 @@ pub enum OutlineError {
         limit: u64,
     },
     /// A coordinate is no number.
-    #[error("line {line}: {value:?} is no finite number")]
+    #[error("line {line}: {value:?} is not a finite number")]
     NotANumber {
         /// The number of the line in the file, from 1.
         line: usize,
@@ -41,7 +41,7 @@ pub enum OutlineError {
     NotAPoint {
         /// The number of the line in the file, from 1.
         line: usize,
-        /// How many values stand there.
+        /// The number of values found there.
         count: usize,
     },
     /// The file holds no points.
@@ -68,7 +68,7 @@ pub enum OutlineError {
     #[error("it is a binary DXF; save it as ASCII DXF")]
     BinaryDxf,
     /// A DXF file is not made of pairs of group code and value.
-    #[error("line {line}: {value:?} is no group code; is this an ASCII DXF?")]
+    #[error("line {line}: {value:?} is not a group code; is this an ASCII DXF?")]
     GroupCode {
         /// The number of the line in the file, from 1.
         line: usize,

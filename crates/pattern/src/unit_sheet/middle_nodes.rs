@@ -45,7 +45,7 @@ impl UnitSheet {
 
     /// The number of vertices of the crease pattern; middle nodes follow.
     pub fn pattern_vertices(&self) -> usize {
-        self.places.len()
+        self.locations.len()
     }
 
     /// A state of the whole sheet from that of its crease pattern, every facet of which is flat in it.

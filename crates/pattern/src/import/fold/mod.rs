@@ -63,7 +63,7 @@ struct FoldPattern<'a> {
     coordinates: &'a [DVec3],
     edges: &'a [[u32; 2]],
     /// What each edge is, and the angle it is to take.
-    meanings: Vec<edges::Meaning>,
+    meanings: Vec<edges::EdgeMeaning>,
     faces: &'a [Vec<u32>],
 }
 

@@ -1,11 +1,11 @@
 //! SVG as a crease pattern, by the colours of Origami Simulator (Ghassaei, Demaine, Gershenfeld 2018).
 
+mod elements;
 mod shape;
 mod stroke;
 mod style;
 mod values;
 mod viewport;
-mod walk;
 
 use glam::{DAffine2, DVec2};
 use roxmltree::{Document, Node, ParsingOptions};
@@ -17,8 +17,8 @@ use super::{
     Curves, ImportError, ImportOptions, Imported, MOST_LINES, MOST_NODES, MergeTolerance, Source,
     Unknown, check_size, plan_of,
 };
+use elements::ElementReader;
 use shape::{Piece, Stroke};
-use walk::Walk;
 
 /// Reads a crease pattern from SVG.
 ///
@@ -57,10 +57,10 @@ pub fn import_svg(bytes: &[u8], options: &ImportOptions) -> Result<Imported, Imp
             found: root.tag_name().name().chars().take(40).collect(),
         });
     }
-    let places = Places::new(text);
+    let numbering = LineNumbers::new(text);
     let mut warnings = Warnings::default();
-    let viewport = viewport::outer(root, &places)?;
-    let mut walk = Walk::new(root, &places, options, &mut warnings)?;
+    let viewport = viewport::outer(root, &numbering)?;
+    let mut walk = ElementReader::new(root, &numbering, options, &mut warnings)?;
     walk.element(root, viewport.transform)?;
     let (strokes, unknown) = walk.finish();
     unknown.settle(options.unknown, &mut warnings)?;
@@ -100,13 +100,13 @@ fn is_svg(node: Node<'_, '_>, name: &str) -> bool {
     node.tag_name().name() == name
 }
 
-/// Where elements stand in the text.
-struct Places {
+/// The lines on which elements begin.
+struct LineNumbers {
     /// Where each line begins.
     starts: Vec<usize>,
 }
 
-impl Places {
+impl LineNumbers {
     fn new(text: &str) -> Self {
         let breaks = text.bytes().enumerate().filter(|(_, byte)| *byte == b'\n');
         Self {
@@ -130,12 +130,12 @@ impl Places {
 
 /// Elements that cannot be read.
 #[derive(Default)]
-struct Unread {
+struct UnreadElement {
     elements: Vec<Source>,
     reasons: std::collections::BTreeSet<String>,
 }
 
-impl Unread {
+impl UnreadElement {
     fn add(&mut self, element: Source, reason: String) {
         self.elements.push(element);
         self.reasons.insert(reason);
