@@ -21,7 +21,7 @@ pub(crate) struct Overlay {
 }
 
 impl Overlay {
-    /// The stage and the time, or `ending` in their place, in the lower left corner.
+    /// The stage and the time, or `ending` instead, in the lower left corner.
     #[expect(clippy::cast_sign_loss, reason = "letters have a height")]
     pub(crate) fn caption(
         time: f64,

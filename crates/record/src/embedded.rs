@@ -4,7 +4,7 @@ use std::io::Cursor;
 
 use serde_json::Value;
 
-/// Boxes of an MP4 inside each other, at most: those on the way to the comment.
+/// The deepest nesting of boxes of an MP4 that lead to the comment.
 const MP4_PATH: [&[u8; 4]; 5] = [b"moov", b"udta", b"meta", b"ilst", b"\xA9cmt"];
 
 /// The text of [`crate::FilmOptions::provenance`], [`crate::GlbOptions::provenance`], [`crate::obj`] or

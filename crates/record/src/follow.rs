@@ -2,7 +2,7 @@
 //!
 //! The fixed picture shows all of the motion. Where the sheet is small in it, a part of that picture is shown instead,
 //! so large that the sheet fills [`FAIR`] of it; where the sheet is large, the picture stays whole. So most films have one
-//! scale, and a roll that opens to many times its size is seen all the way.
+//! scale, and a roll that opens to many times its size is seen throughout.
 //!
 //! Frames move smoothly: each side of the frame is first moved out as far as it is anywhere within twice a window, and
 //! then averaged over the window twice. An average of bounds that all hold here holds here too, so the sheet never leaves

@@ -43,7 +43,7 @@ pub struct Palette {
 }
 
 impl Palette {
-    /// The index that stands for "as before".
+    /// The index that means "as before".
     pub const TRANSPARENT: u8 = 255;
 
     /// The palette of `style`, the background first; `has_marks`: with the colour of marked facets.
@@ -151,8 +151,8 @@ impl Palette {
     /// Distances are squared differences of sRGB bytes weighted 2 : 4 : 3, a plain stand-in for what the eye sees.
     pub fn nearest(&self, color: [u8; 3]) -> u8 {
         let low = color.map(|byte| byte & !CELL_MASK);
-        let place = |cell, byte: &u8| cell << CELL_BITS | usize::from(byte >> (8 - CELL_BITS));
-        let cell = &self.cells[low.iter().fold(0, place)];
+        let append = |cell, byte: &u8| cell << CELL_BITS | usize::from(byte >> (8 - CELL_BITS));
+        let cell = &self.cells[low.iter().fold(0, append)];
         let near = cell.get_or_init(|| self.near_cell(low)).iter();
         let nearest = near.min_by_key(|&&index| distance(color, self.colors[usize::from(index)]));
         nearest.copied().unwrap_or(0)

@@ -94,21 +94,21 @@ impl Solid {
             }
         }
         let first = self.vertices.len() as u32;
-        let mut places = BTreeMap::new();
-        for (place, (&vertex, normal)) in (first..).step_by(2).zip(&normals) {
+        let mut indices = BTreeMap::new();
+        for (index, (&vertex, normal)) in (first..).step_by(2).zip(&normals) {
             let offset = normal.normalize_or(DVec3::Z) * half;
             let middle = positions[vertex as usize];
             self.vertices.extend([middle + offset, middle - offset]);
-            places.insert(vertex, place);
+            indices.insert(vertex, index);
         }
         for face in faces {
-            let [a, b, c] = face.map(|v| places[&v]);
+            let [a, b, c] = face.map(|v| indices[&v]);
             self.faces.extend([[a, b, c], [c + 1, b + 1, a + 1]]);
         }
         let edges = |face: &[u32; 3]| [0, 1, 2].map(|i| [face[i], face[(i + 1) % 3]]);
         let all: BTreeSet<[u32; 2]> = faces.iter().flat_map(edges).collect();
         for &[a, b] in all.iter().filter(|[a, b]| !all.contains(&[*b, *a])) {
-            let [a, b] = [places[&a], places[&b]];
+            let [a, b] = [indices[&a], indices[&b]];
             self.faces.extend([[a, a + 1, b + 1], [a, b + 1, b]]);
         }
     }

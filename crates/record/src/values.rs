@@ -52,8 +52,8 @@ impl Values {
         let [low, high] = self.range;
         let colour = |(&a, &b): (&f64, &f64)| {
             let value = if part == 1.0 { b } else { a + (b - a) * part };
-            let place = (value - low) / (high - low);
-            (!place.is_nan()).then(|| linear(colour_of(place)))
+            let part = (value - low) / (high - low);
+            (!part.is_nan()).then(|| linear(colour_of(part)))
         };
         let pairs = self.frames[before].iter().zip(&self.frames[after]);
         pairs.map(colour).collect()

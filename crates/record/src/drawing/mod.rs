@@ -70,7 +70,7 @@ impl Stroke {
     }
 }
 
-/// Which part of a word stands at its place.
+/// Which part of a text is at its position.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Anchor {
     /// Its start.
@@ -164,7 +164,7 @@ impl Drawing {
         Ok(self)
     }
 
-    /// The page in another colour; none lets through what lies behind it.
+    /// The page in another colour; `None` makes it transparent.
     #[must_use]
     pub fn with_background(mut self, background: Option<[u8; 3]>) -> Self {
         self.background = background;
@@ -194,7 +194,7 @@ impl Drawing {
         self.items.push(Item::Area { outline, color });
     }
 
-    /// Fills what closed `rings` wind around, holes running the other way round, and `bleed` around it: where shapes
+    /// Fills what closed `rings` wind around, holes in the opposite direction, and `bleed` around it: where shapes
     /// adjoin, a small one closes the seam that viewers leave between edges that they smooth one by one.
     pub fn shape(&mut self, rings: Vec<Vec<DVec2>>, color: [u8; 3], bleed: f64) {
         self.items.push(Item::Shape {
@@ -222,7 +222,7 @@ impl Drawing {
     }
 
     /// Writes `text` on the base line through `at`, letters `size` high in all. After `^` a character, or several in
-    /// braces, stand raised, after `_` lowered.
+    /// braces, are raised, after `_` lowered.
     pub fn words(&mut self, at: DVec2, text: impl Into<String>, size: f64, anchor: Anchor) {
         let text = text.into();
         self.items.push(Item::Words {
@@ -263,7 +263,7 @@ mod tests {
         assert_eq!(image.pixel(70, 55), [255, 255, 255]);
         let dark = |x: u32| (10..30).any(|y| image.pixel(x, y)[0] < 128);
         assert!((40..80).any(dark), "the word leaves ink");
-        assert!(!(32..40).any(dark), "and only where it stands");
+        assert!(!(32..40).any(dark), "and only where it is");
     }
 
     #[test]

@@ -41,7 +41,7 @@ impl Provenance {
     }
 }
 
-/// `text` inside XML; characters that XML 1.0 has no way to write are left out.
+/// `text` inside XML; characters that XML 1.0 cannot represent are left out.
 pub(super) fn escaped(text: &str) -> String {
     let mut xml = String::with_capacity(text.len());
     for letter in text.chars() {

@@ -1,4 +1,4 @@
-// What the colours stand for.
+// The legend: which values the colours mean.
 
 /** A number with few digits. */
 const short = (x) => Number(x.toPrecision(3)).toString().replace("-", "−");
@@ -11,7 +11,7 @@ function told(part, { range: [low, high] }, levels) {
 }
 
 class Legend {
-    /** `change` is called when other colours are asked for. */
+    /** `change` is called when other colours are chosen. */
     constructor(motion, change) {
         Object.assign(this, { motion, change, index: -1 });
         const names = ["paper", ...motion.header.values.map((values) => values.title)];
@@ -42,7 +42,7 @@ class Legend {
         element("mark-key").hidden = marks.length === 0;
     }
 
-    /** The values shown, none for paper. */
+    /** The values shown; none if the paper is shown. */
     get values() {
         return this.motion.header.values[this.index];
     }

@@ -48,7 +48,7 @@ pub struct Page<'a> {
     pub marks: &'a Marks,
     /// Values that can be shown as colours instead of paper, such as strain and facet bending.
     pub values: &'a [Values],
-    /// The plots, none for no section of plots.
+    /// The plots; without any there is no section of plots.
     pub panels: &'a [Panel],
     /// The text of `report.json`. Times, threads and device are left out of the page.
     pub report: Option<&'a str>,
@@ -65,7 +65,7 @@ pub struct PageOptions {
     pub tolerance: f64,
     /// Seconds for deployed → planar and for planar → compact.
     pub seconds: [f64; 2],
-    /// Where the viewer stands at first.
+    /// The direction from which the sheet is seen at first.
     pub view: View,
     /// Colours and lines; the background is the page's.
     pub style: Style,
@@ -159,7 +159,7 @@ impl<'a> Contents<'a> {
         }
     }
 
-    /// What stands in the place of `name`.
+    /// The text that replaces `name`.
     fn filling(&self, name: &str) -> Result<String, RecordError> {
         let section = |value: &Option<Value>, of: fn(&Value) -> String| {
             value.as_ref().map(of).unwrap_or_default()

@@ -43,7 +43,7 @@ float reflected(vec3 seen) {
     return 0.42 + 0.58 * wrapped * wrapped;
 }
 
-// Creases over colours that stand for values: sRGB 176, 176, 180.
+// Creases over colours that show values: sRGB 176, 176, 180.
 const vec3 NEUTRAL = vec3(0.434, 0.434, 0.456);
 
 vec3 ink(float kind) {

@@ -89,7 +89,7 @@ impl Payload {
         self.directory.insert(name.to_owned(), entry);
     }
 
-    /// Type, place and length of every array by its name.
+    /// Type, offset and length of every array by its name.
     pub(super) fn directory(&mut self) -> Value {
         Value::Object(std::mem::take(&mut self.directory))
     }

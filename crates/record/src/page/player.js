@@ -1,6 +1,6 @@
 // Time: what is shown, whether it runs, and how fast.
 
-/** Seconds for which the first, the planar and the last state stand still. */
+/** Seconds for which the first, the planar and the last state are held. */
 const HOLD = 0.6;
 
 class Player {

@@ -16,7 +16,7 @@ pub(super) fn plotted(panels: &[Panel]) -> Result<String, RecordError> {
         return Ok(String::new());
     }
     let titles: Vec<&str> = panels.iter().map(|panel| panel.title).collect();
-    let [left, right] = time_axis(panels).map(|(place, time)| json!([place, time]));
+    let [left, right] = time_axis(panels).map(|(fraction, time)| json!([fraction, time]));
     Ok(format!(
         "<section>\n<h2>Plots</h2>\n<figure class=\"plots\" id=\"plots\" data-axis=\"[{left},{right}]\">\n\
          <img alt=\"Plots over motion time t: {}\" src=\"data:image/svg+xml;base64,{}\">\n\

@@ -41,7 +41,7 @@ class Stage {
         this.aim(view.map((axis) => new THREE.Vector3(...axis)), this.motion.places);
     }
 
-    /** Looks from where the viewer stands, so that the state shown fills the picture. */
+    /** Sets the view so that the current state fills the picture. */
     fit() {
         const axes = [new THREE.Vector3(), new THREE.Vector3(), new THREE.Vector3()];
         this.camera.matrixWorld.extractBasis(...axes);

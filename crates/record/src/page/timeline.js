@@ -6,7 +6,7 @@ const STOPS = [[0, "deployed"], [1, "planar"], [2, "compact"]];
 const MOST_MARKS = 200;
 
 class Timeline {
-    /** `move` is called with the time that is asked for. */
+    /** `move` is called with the time that is chosen. */
     constructor(motion, move) {
         Object.assign(this, { motion, move });
         const slider = element("time");
@@ -19,7 +19,7 @@ class Timeline {
         if (element("plots")) this.plot(element("plots"));
     }
 
-    /** Where `time` lies on the way from the first to the last. */
+    /** The fraction of the motion that lies before `time`. */
     percent(time) {
         const { first, last } = this.motion;
         return `${last > first ? (100 * (time - first)) / (last - first) : 0}%`;

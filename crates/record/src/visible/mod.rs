@@ -38,7 +38,7 @@ pub struct VisibleArea {
     pub face: u32,
     /// Above the levels of all that the triangle hides: painted in this order, what is in front lies on top.
     pub level: u32,
-    /// Closed rings in pixels; those of holes run the other way round than the ones around them.
+    /// Closed rings in pixels; those of holes run opposite to the ones around them.
     pub rings: Vec<Vec<DVec2>>,
 }
 
@@ -100,7 +100,7 @@ struct Scene<'a> {
 
 /// A triangle that hides a part of another.
 #[derive(Debug, Clone, Copy)]
-struct Hider {
+struct Occluder {
     face: u32,
     /// Whether the layer order says so, not the depth.
     by_order: bool,
@@ -108,15 +108,15 @@ struct Hider {
 
 /// What is seen of a triangle: convex pieces.
 #[derive(Debug, Default)]
-struct Seen {
+struct VisibleParts {
     pieces: Rings,
-    hiders: Vec<Hider>,
+    occluders: Vec<Occluder>,
 }
 
 impl Scene<'_> {
     fn visible(&self) -> Visible {
         let faces = || (0..self.boxes.len() as u32).into_par_iter();
-        let mut seen: Vec<Seen> = faces().map(|face| self.seen_of(face)).collect();
+        let mut seen: Vec<VisibleParts> = faces().map(|face| self.seen_of(face)).collect();
         let depths: Vec<f64> = self
             .surface
             .faces()
@@ -171,17 +171,17 @@ impl Scene<'_> {
     }
 
     /// What is seen of triangle `face`, and which triangles hide a part of it.
-    fn seen_of(&self, face: u32) -> Seen {
-        let (mut near, mut hiders, mut clips) = (Vec::new(), Vec::new(), Vec::new());
+    fn seen_of(&self, face: u32) -> VisibleParts {
+        let (mut near, mut occluders, mut clips) = (Vec::new(), Vec::new(), Vec::new());
         if self.surface.face(face).is_edge_on() {
-            return Seen::default();
+            return VisibleParts::default();
         }
         self.grid.near(&self.boxes[face as usize], &mut near);
         for &other in near.iter().filter(|&&other| other != face) {
             let threshold = self.surface.threshold(other, face);
             if let Some(part) = hidden_part(self.surface, other, face, threshold) {
                 let by_order = threshold < 0.0;
-                hiders.push(Hider {
+                occluders.push(Occluder {
                     face: other,
                     by_order,
                 });
@@ -196,6 +196,6 @@ impl Scene<'_> {
                 outside(piece, clip, LEAST_AREA, &mut pieces);
             }
         }
-        Seen { pieces, hiders }
+        VisibleParts { pieces, occluders }
     }
 }

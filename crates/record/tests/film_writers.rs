@@ -12,8 +12,8 @@ use std::io::{self, Cursor};
 use common::*;
 use foldmotion_pattern::Motion;
 use foldmotion_record::{
-    Camera, FilmOptions, Frames, Gif, Image, Marks, Playback, RecordError, Reel, Scene, Values,
-    View, film, gif, picture, positions_at, timeline,
+    Camera, FilmOptions, FilmWriter, Frames, Gif, Image, Marks, Playback, RecordError, Scene,
+    Values, View, film, gif, picture, positions_at, timeline,
 };
 
 fn options() -> FilmOptions {
@@ -39,7 +39,7 @@ fn scene<'a>(motion: &'a Motion, marks: &'a Marks, values: Option<&'a Values>) -
 /// The PNG files of a film.
 fn frames(motion: &Motion, options: &FilmOptions, values: Option<&Values>) -> Vec<Vec<u8>> {
     let mut files: Vec<Vec<u8>> = Vec::new();
-    let mut reel = Frames::new(|name: &str, bytes: &[u8]| {
+    let mut writer = Frames::new(|name: &str, bytes: &[u8]| {
         assert_eq!(name, format!("{:04}.png", files.len() + 1));
         files.push(bytes.to_vec());
         Ok(())
@@ -48,11 +48,11 @@ fn frames(motion: &Motion, options: &FilmOptions, values: Option<&Values>) -> Ve
     film(
         scene(motion, &marks, values),
         options,
-        &mut [&mut reel],
+        &mut [&mut writer],
         &|_| true,
     )
     .unwrap();
-    drop(reel);
+    drop(writer);
     files
 }
 
@@ -136,10 +136,10 @@ fn films_made_together_are_those_made_alone() {
         count += 1;
         Ok(())
     });
-    let mut reel = Gif::new(&mut together);
-    let reels: &mut [&mut dyn Reel] = &mut [&mut reel, &mut files];
-    film(scene(&motion, &marks, None), &options, reels, &|_| true).unwrap();
-    drop((reel, files));
+    let mut writer = Gif::new(&mut together);
+    let writers: &mut [&mut dyn FilmWriter] = &mut [&mut writer, &mut files];
+    film(scene(&motion, &marks, None), &options, writers, &|_| true).unwrap();
+    drop((writer, files));
     assert!(alone == together && count == 17);
     let comment = options.provenance.as_bytes();
     assert!(alone.windows(comment.len()).any(|part| part == comment));
@@ -258,9 +258,9 @@ fn values_that_do_not_fit_are_refused_and_a_full_disk_is_told() {
         frames: vec![vec![0.0; 2]; 3],
     };
     let refused = |values: &Values| {
-        let mut reel = Frames::new(|_: &str, _: &[u8]| Err(io::ErrorKind::StorageFull.into()));
+        let mut writer = Frames::new(|_: &str, _: &[u8]| Err(io::ErrorKind::StorageFull.into()));
         let scene = scene(&motion, &marks, Some(values));
-        film(scene, &options(), &mut [&mut reel], &|_| true).unwrap_err()
+        film(scene, &options(), &mut [&mut writer], &|_| true).unwrap_err()
     };
     let error = refused(&good);
     assert!(matches!(error, RecordError::Write(_)), "{error}");
