@@ -1,4 +1,4 @@
-//! How many facets coincide in the compact state, told before a sheet is laid out.
+//! How many facets coincide in the compact state, computed before a sheet is laid out.
 //!
 //! In case E all columns lie in one plane, and a map is one stack: the number of pairs is a polynomial of second degree in
 //! the columns and, for rows of one parity, in the rows. Nine small sheets give it.

@@ -38,7 +38,7 @@ pub enum RecordError {
         /// The longest duration.
         limit: f64,
     },
-    /// The camera turns too far or by something that is no number.
+    /// The camera turns too far or by a value that is not a number.
     #[error("turn = {value}° cannot be filmed: it must lie in −{limit}° to {limit}°")]
     Turn {
         /// The value that was requested.

@@ -54,7 +54,7 @@ impl Default for GlbOptions {
     }
 }
 
-/// Writes `motion` as GLB, in metres and with y up as glTF asks, and answers which frames it holds and how well.
+/// Writes `motion` as GLB, in metres and with y up as glTF requires, and returns which frames it holds and how accurately.
 ///
 /// glTF asks viewers for no more than 8 attributes that morph at once. Here at most two targets have weight at a time,
 /// but a viewer must hold them all: those that keep targets in textures do (three.js also needs a uniform each, of which

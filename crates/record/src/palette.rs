@@ -49,15 +49,7 @@ impl Palette {
     /// The palette of `style`, the background first; `has_marks`: with the colour of marked facets.
     pub fn new(style: &Style, has_marks: bool) -> Self {
         let inks = style.inks();
-        let mut palette = Self {
-            colors: Vec::new(),
-            cells: vec![OnceLock::new(); 1 << (3 * CELL_BITS)],
-        };
-        palette.push(inks.background);
-        let lines = [inks.mountain, inks.valley, inks.border];
-        for line in lines {
-            palette.push(line);
-        }
+        let mut palette = Self::of_lines(&inks);
         for side in [inks.front, inks.back] {
             for light in levels(LEVELS) {
                 palette.push(side * light);
@@ -68,22 +60,14 @@ impl Palette {
                 palette.push(inks.mark * light);
             }
         }
-        palette.push_mixtures(&inks, &lines);
+        palette.push_mixtures(&inks);
         palette
     }
 
     /// The palette of a film that shows values as colours: those of the map lead, paper and marks have what is left.
     pub(crate) fn of_values(style: &Style) -> Self {
         let inks = style.inks();
-        let mut palette = Self {
-            colors: Vec::new(),
-            cells: vec![OnceLock::new(); 1 << (3 * CELL_BITS)],
-        };
-        palette.push(inks.background);
-        let lines = [inks.mountain, inks.valley, inks.border];
-        for line in lines {
-            palette.push(line);
-        }
+        let mut palette = Self::of_lines(&inks);
         palette.push_color(ink(style.background));
         for light in MAP_LIGHTS {
             for k in 0..MAP_LEVELS {
@@ -105,9 +89,21 @@ impl Palette {
         palette
     }
 
+    /// The colours of the background and of the lines.
+    fn of_lines(inks: &Inks) -> Self {
+        let mut palette = Self {
+            colors: Vec::new(),
+            cells: vec![OnceLock::new(); 1 << (3 * CELL_BITS)],
+        };
+        for color in [inks.background, inks.mountain, inks.valley, inks.border] {
+            palette.push(color);
+        }
+        palette
+    }
+
     /// Edge pixels: lines over either side of the paper and over the background, paper beside paper and background.
-    fn push_mixtures(&mut self, inks: &Inks, lines: &[Vec3; 3]) {
-        for &line in lines {
+    fn push_mixtures(&mut self, inks: &Inks) {
+        for line in [inks.mountain, inks.valley, inks.border] {
             self.push_between(line, inks.background, 4);
             for side in [inks.front, inks.back] {
                 for light in levels(MIXING_LEVELS) {

@@ -55,7 +55,7 @@ pub fn surface_of(sheet: &Sheet, positions: &[DVec3]) -> Result<Solid, RecordErr
 /// A × thickness.
 ///
 /// Every edge has exactly two triangles, in opposite directions, and the outside is outward: each plate is watertight.
-/// Honest limits: neighbouring plates are not joined. In the flat state they touch along their walls; at a folded
+/// Limits: neighbouring plates are not joined. In the flat state they touch along their walls; at a folded
 /// crease they overlap on the inner side and leave a wedge open on the outer side, both about thickness / 2 ×
 /// tan(fold angle / 2) wide; layers closer than the thickness overlap. Slicers for printing unite overlapping plates;
 /// the plates of a folded sheet hold together only where they overlap.

@@ -425,7 +425,7 @@ impl<'a> Surface<'a> {
     }
 
     /// Drops from `list`, from index `start` on, the triangles hidden in all of `square` behind one that covers it;
-    /// answers whether one covers it.
+    /// returns whether one covers it.
     ///
     /// Only what lies so deep that no order with any third triangle between them can lift it is dropped.
     pub(crate) fn drop_hidden(&self, list: &mut Vec<u32>, start: usize, square: &Square) -> bool {

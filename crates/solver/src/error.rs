@@ -227,7 +227,7 @@ pub enum SolverError {
         node: usize,
         /// Motion time.
         time: f64,
-        /// Its displacement in that step over the unit length; NaN where it is no number.
+        /// Its displacement in that step over the unit length; NaN if it is not a number.
         displacement: f64,
     },
     /// There is no GPU that can be used.

@@ -1,4 +1,4 @@
-//! A run as it goes: the sheet's present state, for whoever watches.
+//! The state of a run in progress, for callers that show it.
 
 use std::fmt;
 
@@ -6,7 +6,7 @@ use glam::DVec3;
 
 /// The present state of a run.
 ///
-/// The positions are worked out when they are asked for: a run that nobody watches pays nothing for them.
+/// The positions are computed on request, so that a run that nobody watches does not compute them.
 pub struct Moment<'a> {
     /// The motion time reached.
     pub time: f64,
@@ -32,5 +32,5 @@ impl fmt::Debug for Moment<'_> {
     }
 }
 
-/// Told how a run goes; answers whether to go on.
+/// Called with the state of a run; returns whether to continue.
 pub type Watcher<'a> = &'a (dyn Fn(&Moment<'_>) -> bool + Sync);

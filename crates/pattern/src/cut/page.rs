@@ -1,4 +1,4 @@
-//! What goes on one piece of paper.
+//! One piece of paper: its lines and marks.
 
 use glam::DVec2;
 

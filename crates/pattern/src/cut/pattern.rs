@@ -31,7 +31,7 @@ pub struct CutPattern {
 impl CutPattern {
     /// Puts a sheet on paper.
     ///
-    /// `target_angles`: the fold angle every edge is to take, radians, one for each edge; 0 where it is no crease. A crease
+    /// `target_angles`: the fold angle every edge is to take, radians, one for each edge; 0 if it is not a crease. A crease
     /// with the target 0 would be drawn invisible.
     ///
     /// # Errors

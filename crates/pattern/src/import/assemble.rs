@@ -16,7 +16,7 @@ use crate::{Assignment, CreaseKind, Edge, Facet, FacetKind, Sheet};
 #[derive(Debug)]
 pub(super) struct Assembled {
     pub(super) sheet: Sheet,
-    /// The fold angle every edge is to take, radians; 0 where it is no crease.
+    /// The fold angle every edge is to take, radians; 0 if it is not a crease.
     pub(super) targets: Vec<f64>,
     /// The line of the plan each edge comes from; `None` for those that cut facets into triangles.
     pub(super) edge_lines: Vec<Option<u32>>,

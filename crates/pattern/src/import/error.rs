@@ -105,7 +105,7 @@ pub enum ImportError {
         /// The largest coordinate by absolute value.
         farthest: f64,
     },
-    /// No lines at all.
+    /// The file has no lines.
     #[error("there are no lines of a crease pattern")]
     Empty,
     /// Lines that bound nothing.

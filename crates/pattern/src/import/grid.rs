@@ -134,13 +134,9 @@ mod tests {
 
     #[test]
     fn every_square_with_a_point_of_a_segment_has_the_segment() {
-        let mut seed = 1u32;
-        let mut random = || {
-            seed = seed.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
-            f64::from(seed) / f64::from(u32::MAX)
-        };
+        let mut random = fastrand::Rng::with_seed(1);
         let mut segments: Vec<[DVec2; 2]> = (0..300)
-            .map(|_| [0; 2].map(|_| DVec2::new(random(), 3.0 * random())))
+            .map(|_| [0; 2].map(|_| DVec2::new(random.f64(), 3.0 * random.f64())))
             .collect();
         segments.push([DVec2::new(0.5, 0.0), DVec2::new(0.5, 3.0)]);
         segments.push([DVec2::new(0.0, 1.0), DVec2::new(1.0, 1.0)]);

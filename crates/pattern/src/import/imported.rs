@@ -17,11 +17,11 @@ pub struct Imported {
     /// columns are 0; cuts are open; free hinges are [`Assignment::Free`]. [`Sheet::unit_length`] is the mean length of
     /// the edges of its facets, or what `foldmotion:unitLength` says.
     ///
-    /// An SVG lies as it is seen, front towards who looks: x to the right, y upwards.
+    /// The sheet of an SVG lies as it is seen, its front towards the viewer: x to the right, y upwards.
     pub sheet: Sheet,
     /// The unit of length of the coordinates.
     pub unit: LengthUnit,
-    /// The fold angle every edge is to take, radians; 0 where it is no crease.
+    /// The fold angle every edge is to take, radians; 0 if it is not a crease.
     pub targets: Vec<f64>,
     /// The fold angles to pass through, if the frames of a FOLD file give any, in the order of the frames.
     pub stages: Vec<PatternStage>,

@@ -212,7 +212,7 @@ impl<'a> Trace<'a> {
         }
         let (line, upward) = nearest?;
         let runs_up = segments[line as usize][0] == upward[0];
-        // Downwards, the right side as seen by who looks up is the left.
+        // Downwards, left and right are exchanged.
         Some(2 * line + u32::from(runs_up))
     }
 }

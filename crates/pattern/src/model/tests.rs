@@ -93,17 +93,9 @@ fn every_division_is_equal_to_1e_minus_13_and_never_worse_than_table_1() {
     }
 }
 
-/// A linear congruential generator (Knuth 1997, volume 2, section 3.3.4).
-fn random(state: &mut u64) -> f64 {
-    *state = state
-        .wrapping_mul(6_364_136_223_846_793_005)
-        .wrapping_add(1_442_695_040_888_963_407);
-    (*state >> 11) as f64 / (1_u64 << 53) as f64
-}
-
 #[test]
 fn a_thousand_random_rising_starts_and_even_parameters_reach_the_division_of_even_arc_length() {
-    let mut state = 1;
+    let mut random = fastrand::Rng::with_seed(1);
     for model in models() {
         let profile = model.profile().unwrap();
         let options = DivisionOptions::default();
@@ -112,7 +104,7 @@ fn a_thousand_random_rising_starts_and_even_parameters_reach_the_division_of_eve
             .map(|k| k as f64 / model.rows as f64)
             .collect();
         let random_starts = (0..112).map(|_| {
-            let mut start: Vec<_> = (1..model.rows).map(|_| random(&mut state)).collect();
+            let mut start: Vec<_> = (1..model.rows).map(|_| random.f64()).collect();
             start.extend([0.0, 1.0]);
             start.sort_by(f64::total_cmp);
             start

@@ -28,7 +28,7 @@ pub enum OutlineError {
         /// The largest number allowed.
         limit: u64,
     },
-    /// A coordinate is no number.
+    /// A coordinate is not a number.
     #[error("line {line}: {value:?} is not a finite number")]
     NotANumber {
         /// The number of the line in the file, from 1.

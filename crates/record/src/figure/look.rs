@@ -12,7 +12,7 @@ const GAP: f64 = 2.5;
 /// By what dashes and gaps of short lines are made shorter.
 const SHRINK: [f64; 3] = [1.0, 0.75, 0.55];
 
-/// How mountains and valleys are told apart.
+/// How mountains and valleys are distinguished.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum LineStyle {
     /// By their colours.

@@ -56,7 +56,7 @@ pub struct StripOptions {
     pub frame: Option<[DVec2; 2]>,
     /// Colours; [`Style::grey`] for print without them. Its width of lines and its background do not count here.
     pub style: Style,
-    /// How mountains and valleys are told apart.
+    /// How mountains and valleys are distinguished.
     pub lines: LineStyle,
     /// The width of all lines.
     pub line_width: f64,

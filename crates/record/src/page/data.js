@@ -35,7 +35,7 @@ function between(times, time) {
     return { before, after, part: span > 0 ? Math.min(Math.max((time - times[before]) / span, 0), 1) : 0 };
 }
 
-/** The sheet and its motion: what is where, and what it is worth, at any time. `places`: the coordinates of every key. */
+/** The sheet and its motion: positions and values at any time. `places`: the coordinates of every key. */
 class Motion {
     constructor(header, data) {
         Object.assign(this, data);

@@ -85,7 +85,7 @@ impl Default for PageOptions {
     }
 }
 
-/// Writes `page` as one HTML file and answers which frames of the motion it holds, and how well.
+/// Writes `page` as one HTML file and returns which frames of the motion it holds, and how accurately.
 ///
 /// Every vertex is drawn within the tolerance of the motion at all times; values run straight between all frames of the
 /// motion, in 254 steps of their range. Where layers coincide the order of the compact state decides, in steps of

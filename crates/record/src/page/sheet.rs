@@ -55,7 +55,7 @@ pub(super) fn scene(page: &Page<'_>, options: &PageOptions, keys: &KeyFrames) ->
     (header, payload.bytes)
 }
 
-/// Adds what stays the same in every state; answers the names of the kinds of facets.
+/// Adds the data that are the same in every state and returns the names of the kinds of facets.
 fn add_sheet(motion: &Motion, payload: &mut Payload) -> Vec<Value> {
     let sheet = &motion.sheet;
     payload.indices("faces", sheet.faces.iter().flatten().copied());

@@ -22,13 +22,13 @@ use crate::{Model, Moment, Schedule, SolverError, Stage, Watcher};
 /// Moves the sheet of `model` along `schedule` from `start` (one position for each vertex, in the sheet's unit) through the stages
 /// asked for.
 ///
-/// `progress` is called before every increment and at every look at the residual (every ten steps); answering false ends
+/// `progress` is called before every increment and whenever the residual is examined (every ten steps); returning false ends
 /// the run. The result does not depend on it or on the number of threads, bit for bit.
 ///
 /// # Errors
 /// [`SolverError::Count`], [`SolverError::NotFinite`], [`SolverError::Frames`], [`SolverError::Option`] for input that
 /// does not fit; [`SolverError::Diverged`] where a node runs away; [`SolverError::Cancelled`]. A stage that does not
-/// settle within its step budget is no error but a [`StageStatus::OutOfSteps`]: the run ends there, with what it reached.
+/// settle within its step budget is not an error but a [`StageStatus::OutOfSteps`]: the run ends there, with what it reached.
 pub fn run(
     model: &Model,
     schedule: &Schedule,

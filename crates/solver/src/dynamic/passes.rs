@@ -322,7 +322,7 @@ pub(super) fn load(block: &Block, nodes: &[Quad], local: &mut Vec<Quad>) {
     local.extend(block.halo.iter().map(|&node| nodes[node as usize]));
 }
 
-/// The largest |v|² of `vectors`; those that are no number are passed over.
+/// The largest |v|² of `vectors`; those that are not numbers are ignored.
 #[inline(always)]
 fn largest_square<S: Simd>(simd: S, vectors: &[Quad]) -> f64 {
     let (groups, rest) = vectors.as_chunks::<WIDTH>();

@@ -17,7 +17,7 @@ use super::State;
 use super::recorder::PATH_STEP;
 use super::stability::SAFETY;
 
-/// Steps between two looks at the residual.
+/// Steps between two checks of the residual.
 const STEPS_A_LOOK: u64 = 10;
 
 /// Steps between two evaluations of the time step.
@@ -26,7 +26,7 @@ const STEPS_A_BOUND: u64 = 100;
 /// With every mass the row sum of its node the bound on the time step is 2.
 pub(super) const DT: f64 = 2.0 * SAFETY;
 
-/// How a relaxation stands after a look.
+/// The state of a relaxation after a check of the residual.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Progress {
     /// Residual and speed lie below the tolerance.
@@ -95,7 +95,7 @@ impl<'a, 'm> Relaxation<'a, 'm> {
         self.state
     }
 
-    /// Moves on to the next look at the residual, or until a node may have gone [`PATH_STEP`].
+    /// Steps to the next check of the residual, or until a node may have gone [`PATH_STEP`].
     ///
     /// # Errors
     /// The node that ran away, with its displacement in one step.

@@ -113,7 +113,7 @@ impl<'a> Newton<'a> {
 
     /// Moves `state` to the equilibrium at `targets`, or as far as it gets within `allowance`.
     ///
-    /// `visit` is told every state on the path and may end the search. On the straight path between two of them no layer
+    /// `visit` is called with every state on the path and may end the search. On the straight path between two of them no layer
     /// touches another.
     ///
     /// # Errors

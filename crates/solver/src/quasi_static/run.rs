@@ -41,7 +41,7 @@ const MOST_STIFFENING: f64 = 1e4;
 /// At every load step the sheet is brought to the nearest minimum of its energy downhill from the last state, itself
 /// extrapolated. Load steps hit every t = 2k/frames and every requested time; between them they shorten where Newton's method fails and grow
 /// again where it is easy. Where short ones fail too, the sheet snaps: the search is given time to descend to the next
-/// equilibrium, however far. `progress` is told after each load step and after each Newton step within it, and ends the run
+/// equilibrium, however far. `progress` is called after each load step and after each Newton step within it, and ends the run
 /// by returning false.
 ///
 /// With contact, the frames at t = 2k/frames keep the whole gap and the straight paths between frames half of it: where
@@ -211,12 +211,12 @@ impl Run<'_> {
         Ok(converged)
     }
 
-    /// The iterations that the engine by itself allows in a stage of at least `load_steps`.
+    /// The default number of iterations in a stage of at least `load_steps`.
     fn standard_budget(&self, load_steps: usize) -> usize {
         self.options.iterations_a_step.saturating_mul(load_steps)
     }
 
-    /// The iterations left to a stage that has taken `taken`, of which the engine by itself allows `standard`.
+    /// The iterations left to a stage that has taken `taken`, if the default is `standard`.
     fn left(&self, standard: usize, taken: usize) -> usize {
         let earlier: usize = self.outcome.stages.iter().map(|s| s.iterations).sum();
         let standard = standard.saturating_sub(taken) as u64;

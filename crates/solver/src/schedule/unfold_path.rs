@@ -85,7 +85,7 @@ impl UnfoldPath {
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct FollowedPath {
     path: UnfoldPath,
-    /// The place of each hinge's boundary in the path; `None` for hinges that are no row creases.
+    /// The index of each hinge's boundary in the path; `None` for hinges that are not row creases.
     boundaries: Vec<Option<u32>>,
 }
 

@@ -13,7 +13,7 @@ pub(super) struct Waypoints {
 }
 
 impl Waypoints {
-    /// `angles`: at each waypoint one angle for each edge of `sheet`, radians; those of edges that are no creases are
+    /// `angles`: at each waypoint one angle for each edge of `sheet`, radians; those of edges that are not creases are
     /// taken as 0.
     pub(super) fn new(sheet: &Sheet, angles: &[Vec<f64>]) -> Result<Self, SolverError> {
         let of_hinges = |angles: &Vec<f64>| {

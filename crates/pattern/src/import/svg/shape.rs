@@ -81,7 +81,7 @@ pub(super) enum Outline {
     Pieces(Vec<Piece>),
     /// It cannot be read, for this reason.
     UnreadElement(String),
-    /// It is no shape.
+    /// The element is not a shape.
     None,
 }
 

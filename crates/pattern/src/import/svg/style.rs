@@ -44,7 +44,7 @@ pub(super) struct Styles<'a> {
 }
 
 impl<'a> Styles<'a> {
-    /// Reads every `<style>`. Rules that look at other elements are left out with a warning.
+    /// Reads every `<style>`. Rules that depend on other elements are left out with a warning.
     pub(super) fn read(
         root: Node<'a, 'a>,
         numbering: &LineNumbers,

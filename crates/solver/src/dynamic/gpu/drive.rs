@@ -10,7 +10,7 @@ use crate::dynamic::relaxation::DT;
 use crate::dynamic::state::MAX_DISPLACEMENT;
 use crate::{Model, SolverError};
 
-/// Steps between two looks at the residual; where the path is recorded, as many as the CPU's.
+/// Steps between two readings of the residual; if the path is recorded, as many as on the CPU.
 const STEPS_A_LOOK: usize = 100;
 const STEPS_A_RECORDED_LOOK: usize = 10;
 /// Units in the last place of an f32 position by which forces may be off: sums of some ten terms.

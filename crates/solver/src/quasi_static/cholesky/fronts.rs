@@ -6,7 +6,7 @@
 
 /// The most nodes eliminated in one front: wider ones are cut, so that kernels need no blocking of their own.
 const WIDEST: usize = 24;
-/// What a front costs by itself, for each of its columns, and for each entry that it hands to its parent, in multiply-adds.
+/// What a front costs by itself, for each of its columns, and for each entry that it passes to its parent, in multiply-adds.
 const PER_FRONT: f64 = 2_000.0;
 const PER_COLUMN: f64 = 100.0;
 const PER_ENTRY: f64 = 6.0;

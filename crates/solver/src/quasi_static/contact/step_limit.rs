@@ -52,12 +52,10 @@ mod tests {
     use super::super::pair::PairKind;
     use super::*;
 
-    /// Numbers in [−1, 1) from a linear congruential generator.
-    fn numbers(mut seed: u64) -> impl FnMut() -> f64 {
-        move || {
-            seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
-            (seed >> 11) as f64 / (1u64 << 52) as f64 - 1.0
-        }
+    /// Random numbers in [−1, 1).
+    fn numbers(seed: u64) -> impl FnMut() -> f64 {
+        let mut random = fastrand::Rng::with_seed(seed);
+        move || 2.0 * random.f64() - 1.0
     }
 
     #[test]

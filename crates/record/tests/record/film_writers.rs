@@ -1,15 +1,8 @@
 //! Films of several kinds at once, read back.
 
-#![expect(
-    clippy::unwrap_used,
-    reason = "files that cannot be read must fail their test"
-)]
-
-mod common;
-
 use std::io::{self, Cursor};
 
-use common::*;
+use crate::common::*;
 use foldmotion_pattern::Motion;
 use foldmotion_record::{
     Camera, FilmOptions, FilmWriter, Frames, Gif, Image, Marks, Playback, RecordError, Scene,

@@ -1,10 +1,6 @@
 //! Strips of states and the files they are written to.
 
-#![expect(clippy::unwrap_used, reason = "what cannot be made must fail its test")]
-
-mod common;
-
-use common::*;
+use crate::common::*;
 use foldmotion_pattern::{Case, LayerOrder, Unit, UnitSheet};
 use foldmotion_record::{
     Bounds, Drawing, FigureState, Legend, LineStyle, Marks, Provenance, RecordError, StripOptions,

@@ -1,14 +1,6 @@
 //! MP4 films decoded.
 
-#![cfg(feature = "h264")]
-#![expect(
-    clippy::unwrap_used,
-    reason = "files that cannot be read must fail their test"
-)]
-
-mod common;
-
-use common::*;
+use crate::common::*;
 use foldmotion_pattern::Motion;
 use foldmotion_record::{FilmOptions, FilmWriter, Frames, Marks, Mp4, RecordError, Scene, film};
 use openh264::decoder::Decoder;
