@@ -94,7 +94,7 @@ pub enum PatternError {
         upper: String,
         /// Case and ratio w/h of the lower row.
         lower: String,
-        /// Which creases end where.
+        /// The creases and the positions where they end.
         reason: String,
     },
     /// Unit parts too thin for the arithmetic.

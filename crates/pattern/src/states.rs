@@ -168,8 +168,9 @@ fn turn(from: DVec2, to: DVec2) -> f64 {
     from.perp_dot(to).atan2(from.dot(to))
 }
 
-/// Folds the sheet by the given fold angles (radians, one for each edge), facet by facet from the first flap outwards, each
-/// turned about the edge over which it is reached. Returns the positions and the triangle that stayed in the plane.
+/// Folds the sheet by the given fold angles (radians, one for each edge), facet by facet from the first flap outwards,
+/// each turned about the edge over which it is reached. Returns the positions and the triangle that stayed in the
+/// plane.
 ///
 /// The result is a state of the sheet only where the angles close around every vertex; the caller checks that.
 fn fold(sheet: &Sheet, angles: &[f64]) -> (Vec<DVec3>, u32) {

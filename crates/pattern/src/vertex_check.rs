@@ -101,7 +101,7 @@ pub struct VertexGroup {
     pub kind: VertexType,
     /// Creases that meet at each.
     pub degree: usize,
-    /// How many there are.
+    /// The number of vertices of the group.
     pub count: usize,
     /// Whether all are developable.
     pub developable: bool,

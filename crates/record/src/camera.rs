@@ -5,7 +5,8 @@ use glam::{DQuat, DVec2, DVec3};
 use crate::RecordError;
 use crate::image::check_size;
 
-/// The direction from which the sheet is seen, in the frame of the motion: growing direction along x, width along y, z up.
+/// The direction from which the sheet is seen, in the frame of the motion: growing direction along x, width along y, z
+/// up.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub enum View {
     /// From above, the front and the right, turned a little so that diagonals of square units stay apart.

@@ -1,8 +1,8 @@
 //! One film pass for every kind of film.
 //!
 //! Each state is drawn once and passed to every film writer. States are drawn in parallel, a batch at a time; while one
-//! batch is drawn, the writers take the previous one, in order. So the memory is bounded by two batches and the bytes do
-//! not depend on the number of threads.
+//! batch is drawn, the writers take the previous one, in order. So the memory is bounded by two batches and the bytes
+//! do not depend on the number of threads.
 
 use foldmotion_pattern::Motion;
 use glam::{DVec2, DVec3};
@@ -30,7 +30,7 @@ const BATCH_PIXELS: usize = 1 << 25;
 /// The motion and what is marked in it.
 #[derive(Debug, Clone, Copy)]
 pub struct Scene<'a> {
-    /// What moves.
+    /// The motion that is filmed.
     pub motion: &'a Motion,
     /// Facets painted in the colour of marks; a mark shows in at least one picture.
     pub marks: &'a Marks,
@@ -58,34 +58,34 @@ pub struct Picture {
     pub alpha: Option<Vec<u8>>,
 }
 
-/// What a film is written to.
+/// Writes a film in one format.
 pub trait FilmWriter: Send {
     /// Called once, before the first picture.
     ///
     /// # Errors
-    /// Where the film cannot be written.
+    /// The film cannot be written.
     fn begin(&mut self, title: Title<'_>) -> Result<(), RecordError>;
 
     /// Called for the pictures in order, several at a time.
     ///
     /// # Errors
-    /// Where the film cannot be written.
+    /// The film cannot be written.
     fn take(&mut self, pictures: &[Picture]) -> Result<(), RecordError>;
 
     /// Called once, after the last picture.
     ///
     /// # Errors
-    /// Where the film cannot be written.
+    /// The film cannot be written.
     fn finish(&mut self) -> Result<(), RecordError>;
 }
 
 /// Films `scene` into all `writers` at once.
 ///
 /// The camera sees all of the motion, also while it turns, unless it is aimed by `centre` and `width`; with
-/// [`FilmOptions::is_following`] it comes nearer where the sheet is small. Lines are narrower than the style says where facets
-/// are small in the picture. `progress` gets the part done, from 0 to 1, and answers
-/// whether to go on. The order of the compact state also decides between layers at other times, wherever they come
-/// within [`crate::TIE_TOLERANCE`] of each other. The bytes do not depend on the number of threads.
+/// [`FilmOptions::is_following`] it comes nearer where the sheet is small. Lines are narrower than the style says where
+/// facets are small in the picture. `progress` gets the part done, from 0 to 1, and answers whether to go on. The order
+/// of the compact state also decides between layers at other times, wherever they come within [`crate::TIE_TOLERANCE`]
+/// of each other. The bytes do not depend on the number of threads.
 ///
 /// # Errors
 /// Those of [`timeline`] and [`Camera::fit`], [`RecordError::VertexCount`], [`RecordError::NotFinite`],

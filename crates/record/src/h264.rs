@@ -25,9 +25,9 @@ const SECONDS_BETWEEN_KEYS: f64 = 2.0;
 
 /// Takes a film as MP4.
 ///
-/// A side of odd length is made longer by one pixel that repeats the last, because colours are stored for squares of
-/// 2 × 2 pixels. At most 3840 × 2160 pixels, upright or across, and at least 16 in each direction. The compressed film is kept in
-/// memory until its end. Needs the cargo feature `h264`.
+/// A side of odd length is made longer by one pixel that repeats the last, because colours are stored for squares of 2
+/// × 2 pixels. At most 3840 × 2160 pixels, upright or across, and at least 16 in each direction. The compressed film is
+/// kept in memory until its end. Needs the cargo feature `h264`.
 pub struct Mp4<W> {
     writer: W,
     track: Track,

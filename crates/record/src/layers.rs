@@ -5,7 +5,7 @@ use std::collections::VecDeque;
 use foldmotion_pattern::{LayerOrder, Sheet};
 use glam::DVec3;
 
-/// Where each triangle lies in its stack, and which lie on each other.
+/// The height of each triangle in its stack, and the pairs that lie on each other.
 ///
 /// A depth buffer cannot tell layers that coincide, nor such as cross each other by what a motion without contact
 /// leaves ([`crate::TIE_TOLERANCE`]). A triangle shifted towards the viewer in proportion to its lift, reversed where
@@ -26,7 +26,8 @@ pub struct Layers {
 }
 
 impl Layers {
-    /// The heights that keep `order` in a state at `folded`, one position for each vertex, where its triangles coincide.
+    /// The heights that keep `order` in a state at `folded`, one position for each vertex, where its triangles
+    /// coincide.
     ///
     /// A stack is all that known orders join. One of its triangles tells which way is up; a triangle's height is the
     /// longest chain of triangles below it. Orders that run in a circle have no heights: what they reach is left

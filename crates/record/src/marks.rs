@@ -12,13 +12,13 @@ pub struct Spot {
     pub from: f64,
     /// The triangle it lies on.
     pub face: u32,
-    /// Where it lies there: the weights of the corners, 0 or more, of sum 1.
+    /// Its barycentric coordinates: the weights of the corners, 0 or more, of sum 1.
     pub weights: [f64; 3],
 }
 
 impl Spot {
-    /// The point of triangle `face` that is the nearest to `point` at motion time `time`, from `from` on; `None` if the sheet
-    /// has no such triangle.
+    /// The point of triangle `face` that is the nearest to `point` at motion time `time`, from `from` on; `None` if the
+    /// sheet has no such triangle.
     ///
     /// Precondition: the times of the motion increase.
     pub fn on(motion: &Motion, face: u32, point: DVec3, time: f64, from: f64) -> Option<Self> {
@@ -41,7 +41,7 @@ impl Spot {
         })
     }
 
-    /// Where it is while the vertices are at `positions`.
+    /// Its position while the vertices are at `positions`.
     fn position(&self, sheet: &Sheet, positions: &[DVec3]) -> Option<DVec3> {
         let corners = sheet.faces.get(self.face as usize)?;
         let [a, b, c] = corners.map(|v| positions.get(v as usize).copied());
@@ -52,8 +52,8 @@ impl Spot {
 
 /// Triangles whose facets are painted in the colour of [`crate::Style::mark`], each in a span of motion time.
 ///
-/// What is marked is the caller's to say; foldmotion marks the two facets that are the first to penetrate each other, while
-/// they do, and where they begin to.
+/// What is marked is the caller's to say; foldmotion marks the two facets that are the first to penetrate each other,
+/// while they do, and where they begin to.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Marks {
     spans: Vec<([f64; 2], u32)>,

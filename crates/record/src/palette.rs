@@ -183,7 +183,7 @@ impl Palette {
     }
 }
 
-/// How different two colours look, see [`Palette::nearest`].
+/// The difference of two colours, see [`Palette::nearest`].
 fn distance(a: [u8; 3], b: [u8; 3]) -> i32 {
     let difference = |i: usize| i32::from(a[i]) - i32::from(b[i]);
     let (r, g, b) = (difference(0), difference(1), difference(2));

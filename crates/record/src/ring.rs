@@ -4,7 +4,8 @@ use glam::DVec2;
 
 use crate::Image;
 
-/// Its radius as a part of the picture's shorter side, and the least one and the least half width of its line in pixels.
+/// Its radius as a part of the picture's shorter side, and the least one and the least half width of its line in
+/// pixels.
 const RADIUS: f64 = 0.035;
 const LEAST_RADIUS: f64 = 5.0;
 const LEAST_HALF: f64 = 0.75;

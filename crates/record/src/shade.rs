@@ -95,7 +95,7 @@ impl Style {
     }
 }
 
-/// What a triangle is painted with.
+/// The paint of a triangle.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Paint {
     /// Its sides of the paper.

@@ -42,7 +42,7 @@ pub struct Candidate {
     pub covers: bool,
 }
 
-/// How two triangles compare.
+/// The comparison of two triangles.
 struct Comparison {
     /// The depth difference below which they count as coincident.
     window: f64,

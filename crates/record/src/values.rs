@@ -10,11 +10,12 @@ use crate::shade::linear;
 /// One number a triangle and frame of a motion, such as a strain, and how it is shown.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Values {
-    /// What they are, with the unit, for the legend.
+    /// The quantity with its unit, for the legend.
     pub title: String,
     /// The values of the first and the last colour; others are clamped.
     pub range: [f64; 2],
-    /// One list a frame of the motion, one value for each triangle. A triangle whose value is not a number shows its paper.
+    /// One list a frame of the motion, one value for each triangle. A triangle whose value is not a number shows its
+    /// paper.
     pub frames: Vec<Vec<f64>>,
 }
 

@@ -2,7 +2,7 @@
 
 use std::time::Instant;
 
-/// How much work a run may do before it ends in the state it has reached.
+/// The amount of work that a run may do before it ends in the state it has reached.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Budget {
     /// The default of the engine: some hundred Newton iterations a load step, or a million steps of settling a
@@ -21,7 +21,7 @@ impl Budget {
         matches!(self, Self::Until(end) if Instant::now() >= end)
     }
 
-    /// How a search that has `left` steps by [`Self::left`] is to end.
+    /// How a search with `left` steps, from [`Self::left`], has to end.
     pub(crate) fn allowance(self, left: u64) -> Allowance {
         Allowance {
             steps: left,

@@ -56,17 +56,17 @@ pub enum SolverError {
     /// A list does not have one entry for each element.
     #[error("{found} {what} were given; {expected} are needed")]
     Count {
-        /// What was counted.
+        /// The elements that were counted.
         what: &'static str,
-        /// How many the model needs.
+        /// The number that the model needs.
         expected: usize,
-        /// How many were given.
+        /// The number that was given.
         found: usize,
     },
     /// A number of the input is NaN or infinite.
     #[error("{what} {index} is not finite; every one must be a finite number")]
     NotFinite {
-        /// What the number belongs to.
+        /// The kind of value that is not finite.
         what: &'static str,
         /// The index of the element.
         index: usize,
@@ -74,7 +74,7 @@ pub enum SolverError {
     /// A target fold angle lies beyond what a hinge can turn.
     #[error("{what} {index} is {value} rad; it must lie within ±{limit} rad")]
     AngleOutOfRange {
-        /// What the angle belongs to.
+        /// The kind of angle that is out of range.
         what: &'static str,
         /// The index of the element.
         index: usize,
@@ -236,7 +236,7 @@ pub enum SolverError {
          mesa-vulkan-drivers), or run on the CPU"
     )]
     NoGpu {
-        /// What the adapters or the driver said.
+        /// The message of the adapters or the driver.
         reason: String,
     },
     /// The sheet does not fit the GPU.
@@ -256,7 +256,7 @@ pub enum SolverError {
     GpuLost {
         /// The name of the GPU.
         gpu: String,
-        /// What the driver said.
+        /// The message of the driver.
         reason: String,
     },
     /// The caller asked to stop.

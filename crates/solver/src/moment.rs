@@ -18,8 +18,8 @@ impl<'a> Moment<'a> {
         Self { time, positions }
     }
 
-    /// One position a vertex, in the sheet's unit. In a search for equilibrium the state it has come to, from which it may
-    /// yet turn back.
+    /// One position a vertex, in the sheet's unit. In a search for equilibrium the state it has come to, from which it
+    /// may yet turn back.
     pub fn positions(&self) -> Vec<DVec3> {
         (self.positions)()
     }

@@ -4,7 +4,7 @@ use glam::DVec2;
 
 use super::{CutLine, CutPattern, LineClass};
 
-/// Which of the tiles of a pattern a page is, counted from 0.
+/// The number of a page among the tiles of a pattern, counted from 0.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct PageNumber {
     /// Row of the page, counted from the top.
@@ -25,7 +25,7 @@ pub struct CutPage<'a> {
     pub number: Option<PageNumber>,
     /// Width and height of the paper, mm.
     pub size: DVec2,
-    /// Where the origin of the pattern lies on the page, mm.
+    /// The position of the origin of the pattern on the page, mm.
     pub origin: DVec2,
     /// White space on every side, mm.
     pub(super) margin: f64,

@@ -73,7 +73,7 @@ impl CutPattern {
         })
     }
 
-    /// How many lines a class has.
+    /// The number of lines of a class.
     pub fn count(&self, class: LineClass) -> usize {
         self.of(class).count()
     }
@@ -83,7 +83,7 @@ impl CutPattern {
         self.of(class).map(CutLine::length).sum()
     }
 
-    /// How far the pen moves between lines, mm, starting at the upper left corner.
+    /// The distance that the pen moves between lines, mm, starting at the upper left corner.
     pub fn travel(&self) -> f64 {
         travel(&self.lines)
     }

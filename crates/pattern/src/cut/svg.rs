@@ -2,7 +2,8 @@
 //!
 //! One user unit is one millimetre. Every line is a `<line>` with its own attributes, in a group for each class that
 //! Inkscape shows as a layer; no style sheets, no transforms. Colours and opacity are those that Origami Simulator
-//! reads: #000 border, #f00 mountain, #00f valley, #ff0 facet, #f0f free hinge, and a crease's opacity is its fold angle over 180°.
+//! reads: #000 border, #f00 mountain, #00f valley, #ff0 facet, #f0f free hinge, and a crease's opacity is its fold
+//! angle over 180°.
 
 use std::f64::consts::PI;
 use std::fmt::Write as _;

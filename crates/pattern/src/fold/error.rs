@@ -107,7 +107,7 @@ pub enum FoldError {
         entry: usize,
         /// The entry: two faces and a sign.
         order: (u32, u32, i8),
-        /// How many faces there are.
+        /// The number of faces of the file.
         faces: usize,
     },
     /// `faceOrders` put a face above another and below it.

@@ -17,7 +17,8 @@ pub(super) struct Topology {
     pub(super) faces: Vec<u32>,
 }
 
-/// Builds the sheet of the key frame; `rest`: one position for each vertex, in which polygons are cut and edges measured.
+/// Builds the sheet of the key frame; `rest`: one position for each vertex, in which polygons are cut and edges
+/// measured.
 pub(super) fn build(
     key: &FrameFields,
     polygons: &[Vec<u32>],
@@ -126,7 +127,8 @@ fn facets(
     Ok((face_facets, facets))
 }
 
-/// The corners of the union of `triangles`: those of its border, along it, where that is one loop, otherwise all by index.
+/// The corners of the union of `triangles`: those of its border, along it, where that is one loop, otherwise all by
+/// index.
 fn outline(triangles: &[[u32; 3]]) -> Vec<u32> {
     let sides = |t: &[u32; 3]| [[t[0], t[1]], [t[1], t[2]], [t[2], t[0]]];
     let all: BTreeSet<[u32; 2]> = triangles.iter().flat_map(sides).collect();

@@ -23,7 +23,7 @@ pub enum ImportError {
     TooMany {
         /// The name of the elements that are too many.
         what: &'static str,
-        /// How many were found when reading ended.
+        /// The number found when reading ended.
         found: usize,
         /// The largest number allowed.
         limit: usize,

@@ -14,9 +14,9 @@ pub(super) struct Grid {
     /// Size of a square.
     size: DVec2,
     side: usize,
-    /// How far beside a line a square still counts.
+    /// The distance from a line within which a square belongs to it.
     margin: f64,
-    /// Where the lines of each square begin.
+    /// The index of the first line of each square.
     starts: Vec<u32>,
     lines: Vec<u32>,
 }

@@ -28,7 +28,7 @@ pub struct Imported {
     /// The facets held in place, if a FOLD file names them by `faces_foldmotion:fixed` or by fixing all their corners
     /// with `rtori:os:vertices_fixed`; in order.
     pub fixed_facets: Vec<u32>,
-    /// What the edges come from.
+    /// The elements of the file that the edges come from.
     pub sources: Vec<Source>,
     /// The index in `sources` of every edge; `None` for those that cut facets into triangles.
     pub edge_sources: Vec<Option<u32>>,
@@ -37,11 +37,11 @@ pub struct Imported {
     /// The vertices as a FOLD file places them, if they are not in the plane z = 0 with the fronts up: its
     /// coordinates, for the vertices of the sheet.
     pub shape: Option<Vec<DVec3>>,
-    /// What was changed or left out, one of each kind.
+    /// What was changed or left out, one warning for each kind.
     pub warnings: Vec<Warning>,
     /// The keys of a FOLD file's key frame that are not read; see [`Self::fold`].
     pub keys: Map<String, Value>,
-    /// How many vertices, edges and faces the FOLD file lists.
+    /// The numbers of vertices, edges and faces that the FOLD file lists.
     pub(super) listed: [usize; 3],
 }
 
@@ -81,7 +81,7 @@ impl Imported {
             .map(|(_, index)| index)
     }
 
-    /// What edge `edge` comes from; `None` for one that cuts a facet into triangles.
+    /// The element that edge `edge` comes from; `None` for one that cuts a facet into triangles.
     pub fn edge_source(&self, edge: u32) -> Option<&Source> {
         let source = (*self.edge_sources.get(edge as usize)?)?;
         self.sources.get(source as usize)

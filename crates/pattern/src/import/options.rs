@@ -72,14 +72,14 @@ pub enum Curves {
     Flatten(f64),
 }
 
-/// How a crease pattern is read.
+/// The options of reading a crease pattern.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct ImportOptions {
     /// How far apart two points may lie to be one vertex; [`MergeTolerance::DRAWING`] in SVG and
     /// [`MergeTolerance::LISTED`] in FOLD if omitted.
     pub merge: Option<MergeTolerance>,
-    /// What becomes of strokes and elements that have no meaning here.
+    /// What happens to strokes and elements that have no meaning here.
     pub unknown: Unknown,
-    /// What becomes of Bézier curves.
+    /// What happens to Bézier curves.
     pub curves: Curves,
 }

@@ -16,8 +16,8 @@ pub(super) struct Plan {
     pub(super) origins: Vec<Option<u32>>,
     /// Each pair of ends once.
     pub(super) lines: Vec<Line>,
-    /// For each facet its loops of vertices, the facet on their left: the outer border first, then those around what lies
-    /// inside; a vertex may be passed more than once.
+    /// For each facet its loops of vertices, the facet on their left: the outer border first, then those around what
+    /// lies inside; a vertex may be passed more than once.
     pub(super) facets: Vec<Vec<Vec<u32>>>,
     pub(super) sources: Vec<Source>,
 }
@@ -91,7 +91,8 @@ fn sheet_faces(graph: &Graph, faces: &Faces, sources: &[Source]) -> Result<Vec<b
     })
 }
 
-/// Which faces an odd number of lines that part parts from face 0; otherwise the first line that contradicts the others.
+/// Which faces an odd number of lines that part parts from face 0; otherwise the first line that contradicts the
+/// others.
 fn colour(graph: &Graph, faces: &Faces, parts: impl Fn(usize) -> bool) -> Result<Vec<bool>, usize> {
     let lines = 0..graph.lines.len();
     let sides = |line: usize| [0, 1].map(|side| faces.face_of[2 * line + side] as usize);

@@ -105,7 +105,7 @@ impl Imported {
     }
 }
 
-/// Which elements are written, and where they come from.
+/// The elements that are written, and where they come from.
 struct WrittenElements<'a> {
     imported: &'a Imported,
     /// The indices of the edges that are written.

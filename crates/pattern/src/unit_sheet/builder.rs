@@ -7,7 +7,7 @@ use glam::DVec2;
 use super::lines::{Line, Strip, is_mid};
 use crate::{Facet, FacetKind, Unit};
 
-/// Where a vertex lies in the layout.
+/// The position of a vertex in the rows of units.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum VertexLocation {
     /// On the boundary above row `boundary`.

@@ -28,7 +28,8 @@ impl UnitSheet {
         )
     }
 
-    /// The shorter side of the narrowest quadrilateral over its longer one, means of opposite sides; 1 if there is none.
+    /// The shorter side of the narrowest quadrilateral over its longer one, means of opposite sides; 1 if there is
+    /// none.
     pub fn narrowest_facet(&self) -> f64 {
         let ratio = |facet: &Facet| {
             let &[a, b, c, d] = &facet.polygon[..] else {

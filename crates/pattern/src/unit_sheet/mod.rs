@@ -26,7 +26,7 @@ const MOST_UNITS: usize = 50_000_000;
 pub struct UnitSheet {
     /// The unit; where rows have their own heights, one with the parts all rows share and their mean height.
     pub unit: Unit,
-    /// How it folds.
+    /// How the sheet folds: unit by unit or like a map.
     pub folding: Folding,
     /// Nr.
     pub rows: usize,
@@ -39,7 +39,7 @@ pub struct UnitSheet {
     /// x of each boundary between rows, both ends included.
     pub(crate) boundaries: Vec<f64>,
     pub(crate) lines: Vec<Line>,
-    /// How its quadrilaterals are cut.
+    /// How its quadrilaterals are cut into triangles.
     pub(crate) facet_model: FacetModel,
     /// The line and the location of each vertex of the crease pattern.
     pub(crate) locations: Vec<(u32, VertexLocation)>,
@@ -60,8 +60,8 @@ impl UnitSheet {
         Self::with_rows(&vec![unit; rows], columns)
     }
 
-    /// Lays out one row for each of `units`, in `columns` columns: rows of their own heights that share the widths w, a,
-    /// s and 2d ([`common_flap`](crate::common_flap), or [`own_cases`](crate::own_cases) where those meet).
+    /// Lays out one row for each of `units`, in `columns` columns: rows of their own heights that share the widths w,
+    /// a, s and 2d ([`common_flap`](crate::common_flap), or [`own_cases`](crate::own_cases) where those meet).
     ///
     /// Equal units give the sheet of [`Self::new`], bit for bit.
     ///

@@ -11,7 +11,7 @@ pub(super) struct Run {
     pub(super) text: String,
     /// Part of the words' size.
     pub(super) scale: f64,
-    /// How far above the base line, as a part of the words' size.
+    /// The height above the base line, as a part of the size.
     pub(super) rise: f64,
 }
 

@@ -1,7 +1,8 @@
 //! A drawing: areas, lines, words and pictures on a page, written as SVG, PDF and PNG.
 //!
-//! Lengths are units of the page, x to the right, y down; colours are sRGB. SVG and PDF keep lines and words as such and
-//! carry pictures inside; the PNG has [`PIXELS_A_UNIT`] pixels a unit. All come from the same items in the same order.
+//! Lengths are units of the page, x to the right, y down; colours are sRGB. SVG and PDF keep lines and words as such
+//! and carry pictures inside; the PNG has [`PIXELS_A_UNIT`] pixels a unit. All come from the same items in the same
+//! order.
 
 mod deflate;
 mod label;
@@ -82,7 +83,7 @@ pub enum Anchor {
     End,
 }
 
-/// What a drawing consists of.
+/// An item of a drawing.
 #[derive(Debug, Clone, PartialEq)]
 enum Item {
     Area {
@@ -171,7 +172,7 @@ impl Drawing {
         self
     }
 
-    /// What every file of the drawing says of its origin.
+    /// Sets the origin that every file of the drawing states.
     #[must_use]
     pub fn with_provenance(mut self, provenance: Provenance) -> Self {
         self.provenance = Some(provenance);

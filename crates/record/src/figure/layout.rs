@@ -46,7 +46,7 @@ pub(super) struct Layout {
     pub(super) foot: (DVec2, f64),
 }
 
-/// What a state needs.
+/// The space that a state needs.
 #[derive(Debug)]
 struct SpaceNeeded {
     extent: [DVec2; 2],

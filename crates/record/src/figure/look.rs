@@ -4,8 +4,8 @@ use foldmotion_pattern::Assignment;
 
 use crate::{Stroke, Style};
 
-/// Dashes of mountains and valleys and the gaps after them, in widths of the line. All ends are round: a gap looks a width
-/// narrower.
+/// Dashes of mountains and valleys and the gaps after them, in widths of the line. All ends are round: a gap looks a
+/// width narrower.
 const DASHES: [f64; 2] = [5.0, 2.5];
 const GAP: f64 = 2.5;
 

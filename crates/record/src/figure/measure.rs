@@ -7,11 +7,11 @@ use super::bounds::{INK, outer_edges};
 use crate::drawing::words_width;
 use crate::{Anchor, Camera, Drawing, RecordError, Stroke};
 
-/// What is shorter than this on the page has no dimension line.
+/// A length shorter than this on the page has no dimension line.
 const SHORTEST: f64 = 2.0;
 
-/// In sizes of letters: the distance of lines from what is measured, where the lines to their ends begin, how far these go on, and how far
-/// words are from the line.
+/// In sizes of letters: the distance of lines from what is measured, where the lines to their ends begin, how far these
+/// go on, and how far words are from the line.
 const OFF: f64 = 0.6;
 const CLEAR: f64 = 0.15;
 const BEYOND: f64 = 0.25;

@@ -1,9 +1,9 @@
 //! A figure of chosen states of a motion, side by side at one scale, as lines and areas.
 //!
 //! Each state is what [`Surface::visible`] sees of it, so a figure hides what pictures of pixels hide. Areas take the
-//! light of pictures; lines are drawn over them, those in front last. States are arranged in rows with a label below each; keys
-//! of scale, lines and colours are at the foot. Creases of facets seen so nearly edge-on that their lines would run
-//! together are left out.
+//! light of pictures; lines are drawn over them, those in front last. States are arranged in rows with a label below
+//! each; keys of scale, lines and colours are at the foot. Creases of facets seen so nearly edge-on that their lines
+//! would run together are left out.
 
 mod bounds;
 mod foot;
@@ -41,7 +41,7 @@ pub struct Legend {
     pub range: [f64; 2],
 }
 
-/// How a strip of states is drawn. Lengths on the page are millimetres.
+/// The options of a strip of states. Lengths on the page are millimetres.
 #[derive(Debug, Clone, PartialEq)]
 pub struct StripOptions {
     /// The width of the page.
@@ -66,7 +66,7 @@ pub struct StripOptions {
     pub unit: String,
     /// Whether samples of the lines are shown at the foot.
     pub has_key: bool,
-    /// What the values of [`FigureState::values`] and [`FigureState::bars`] are; without it they are not shown.
+    /// The meaning of the values of [`FigureState::values`] and [`FigureState::bars`]; without it they are not shown.
     pub legend: Option<Legend>,
     /// The colour behind everything; `None` leaves the figure transparent.
     pub background: Option<[u8; 3]>,

@@ -16,7 +16,8 @@ use crate::{
     Camera, Drawing, Paper, RecordError, Stroke, Style, Surface, Visible, VisibleLine, colour_of,
 };
 
-/// Areas are painted this much wider, half of it on each side, so that no seam opens between neighbours; lines cover it.
+/// Areas are painted this much wider, half of it on each side, so that no seam opens between neighbours; lines cover
+/// it.
 const BLEED: f64 = 0.3;
 
 /// Parts narrower than this would be all bleed, in units of the page.

@@ -25,8 +25,8 @@ pub(super) fn data(value: &Value) -> String {
     value.to_string().replace('<', "\\u003c")
 }
 
-/// A table of texts; the first column holds the names of the rows. Each cell knows the name of its column: a narrow page
-/// shows cells as lines.
+/// A table of texts; the first column holds the names of the rows. Each cell knows the name of its column: a narrow
+/// page shows cells as lines.
 pub(super) fn table(caption: &str, head: &[&str], rows: &[Vec<String>]) -> String {
     let mut html = format!(
         "<div class=\"wide\"><table>\n<caption>{}</caption>\n<thead><tr>",

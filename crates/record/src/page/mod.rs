@@ -39,10 +39,10 @@ const SCRIPT: &str = concat!(
 /// The part of the tolerance that rounding positions to steps may take, see [`sheet`].
 const ROUNDING: f64 = 1.0 / 16.0;
 
-/// What a page shows.
+/// The content of a page.
 #[derive(Debug, Clone, Copy)]
 pub struct Page<'a> {
-    /// What moves.
+    /// The motion that is shown.
     pub motion: &'a Motion,
     /// Facets painted in the colour of marks, each in its span; foldmotion marks facets that penetrate each other.
     pub marks: &'a Marks,
@@ -58,7 +58,7 @@ pub struct Page<'a> {
     pub fold: Option<&'a [u8]>,
 }
 
-/// How a page is made.
+/// The options of a page.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PageOptions {
     /// How far a vertex may be drawn from the motion, in the sheet's `unit_length`.
@@ -114,7 +114,7 @@ pub fn page(
     Ok(keys)
 }
 
-/// What fills the template.
+/// The texts that fill the template.
 struct Contents<'a> {
     page: &'a Page<'a>,
     origin: &'a Provenance,

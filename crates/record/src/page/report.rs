@@ -135,7 +135,8 @@ fn stop(report: &Value) -> String {
     )
 }
 
-/// How the motion ended and why, with a sign, so that no one needs to tell colours apart; nothing for a report without it.
+/// How the motion ended and why, with a sign, so that no one needs to tell colours apart; nothing for a report without
+/// it.
 pub(super) fn outcome(report: &Value) -> String {
     let (Some(kind), Some(time)) = (
         text(report, "/outcome/kind"),

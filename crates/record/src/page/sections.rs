@@ -28,7 +28,7 @@ pub(super) fn plotted(panels: &[Panel]) -> Result<String, RecordError> {
     ))
 }
 
-/// What can be saved.
+/// The files that can be saved from the page.
 pub(super) fn files(page: &Page<'_>) -> String {
     let row = |id: &str, name: &str, what: &str| {
         format!(
@@ -71,7 +71,7 @@ pub(super) fn origin(origin: &Provenance) -> String {
     text
 }
 
-/// What the page can be made again from.
+/// The provenance from which the page can be made again.
 pub(super) fn provenance(origin: &Provenance) -> Value {
     json!({
         "title": origin.title,

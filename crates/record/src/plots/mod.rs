@@ -50,7 +50,7 @@ pub struct Curve {
 /// One panel.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Panel {
-    /// What it shows, with the unit.
+    /// The quantity that it shows, with the unit.
     pub title: &'static str,
     /// Whether the vertical axis is logarithmic; curves are then interrupted where a value is not positive.
     pub is_logarithmic: bool,

@@ -3,8 +3,8 @@
 //! Two triangles are compared by [`Surface`], as in pictures of pixels: g hides f where its depth exceeds that of f by
 //! more than a threshold that depends on their layer order alone (0 without an order, ± the window of coincidence with
 //! one). Both depths are linear on the screen, so the part of f that g hides is a convex polygon, the overlap of both
-//! cut by one line more. What is seen of f is f without these polygons; what is seen of a line is what no triangle hides
-//! on at least one side of it. So facets that penetrate each other are cut where their planes meet.
+//! cut by one line more. What is seen of f is f without these polygons; what is seen of a line is what no triangle
+//! hides on at least one side of it. So facets that penetrate each other are cut where their planes meet.
 
 mod gaps;
 mod grid;
@@ -53,11 +53,11 @@ pub struct VisibleLine {
     pub seen: [bool; 2],
     /// The level of the triangle.
     pub level: u32,
-    /// Where it begins and ends, pixels, from the edge's first vertex towards its second.
+    /// Its start and end, pixels, from the edge's first vertex towards its second.
     pub ends: [DVec2; 2],
 }
 
-/// What is seen of a sheet.
+/// The visible areas and lines of a sheet.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Visible {
     /// Areas that do not overlap, by level.
@@ -106,7 +106,7 @@ struct Occluder {
     by_order: bool,
 }
 
-/// What is seen of a triangle: convex pieces.
+/// The visible part of a triangle: convex pieces.
 #[derive(Debug, Default)]
 struct VisibleParts {
     pieces: Rings,
@@ -170,7 +170,7 @@ impl Scene<'_> {
         edge.assignment != Assignment::Facet || turns_over
     }
 
-    /// What is seen of triangle `face`, and which triangles hide a part of it.
+    /// The visible part of triangle `face`, and the triangles that hide a part of it.
     fn seen_of(&self, face: u32) -> VisibleParts {
         let (mut near, mut occluders, mut clips) = (Vec::new(), Vec::new(), Vec::new());
         if self.surface.face(face).is_edge_on() {

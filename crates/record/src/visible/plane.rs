@@ -35,7 +35,7 @@ impl Plane {
         Some(Self { grid })
     }
 
-    /// What any of `parts`, which all run in the same direction, covers.
+    /// The union of `parts`, which all run in the same direction.
     pub(crate) fn union(&self, parts: &[Vec<DVec2>]) -> Rings {
         let corners = parts.iter().map(Vec::len).sum();
         let mut overlay = FloatOverlay::with_adapter(self.grid.clone(), corners);
@@ -104,8 +104,8 @@ pub(super) fn tidy(ring: &mut Vec<DVec2>) {
     }
 }
 
-/// The parts of the convex polygon `piece` outside the convex polygon `hole`, both along growing angles, the hole tidy: convex, and
-/// without those that are not larger than `least` in doubled area.
+/// The parts of the convex polygon `piece` outside the convex polygon `hole`, both along growing angles, the hole tidy:
+/// convex, and without those that are not larger than `least` in doubled area.
 pub(super) fn outside(piece: Vec<DVec2>, hole: &[DVec2], least: f64, parts: &mut Rings) {
     let side = |k: usize| {
         let (a, b) = (hole[k], hole[(k + 1) % hole.len()]);

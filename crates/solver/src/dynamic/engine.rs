@@ -19,8 +19,8 @@ use super::state::State;
 use crate::budget::Allowance;
 use crate::{Model, Moment, Schedule, SolverError, Stage, Watcher};
 
-/// Moves the sheet of `model` along `schedule` from `start` (one position for each vertex, in the sheet's unit) through the stages
-/// asked for.
+/// Moves the sheet of `model` along `schedule` from `start` (one position for each vertex, in the sheet's unit) through
+/// the stages asked for.
 ///
 /// `progress` is called before every increment and whenever the residual is examined (every ten steps); returning false ends
 /// the run. The result does not depend on it or on the number of threads, bit for bit.
@@ -270,7 +270,7 @@ impl Engine<'_, '_> {
         })
     }
 
-    /// How a search ended whose allowance was spent before the sheet settled.
+    /// The status of a search whose allowance was spent before the sheet settled.
     fn unsettled(&self) -> StageStatus {
         if self.options.budget.is_late() {
             StageStatus::OutOfTime
@@ -279,7 +279,7 @@ impl Engine<'_, '_> {
         }
     }
 
-    /// How the budget of the run ended, where it has.
+    /// The status if the budget of the run is spent.
     fn spent(&self) -> Option<StageStatus> {
         let budget = self.options.budget;
         let is_spent = budget.is_late() || budget.left(u64::MAX, self.taken) == 0;

@@ -1,8 +1,8 @@
 //! A sheet moved interactively: it follows a motion time that may change at any moment, and can be pulled at a vertex.
 //!
-//! It moves by dynamic relaxation (`relaxation`), in which it settles in few steps. The time of the schedule follows the
-//! requested one, the more slowly the further the creases lag behind their targets. The pulling force grows with the
-//! distance up to [`REACH`] and stays constant beyond; it is balanced by forces −(a + ω × r) on all nodes (inertia
+//! It moves by dynamic relaxation (`relaxation`), in which it settles in few steps. The time of the schedule follows
+//! the requested one, the more slowly the further the creases lag behind their targets. The pulling force grows with
+//! the distance up to [`REACH`] and stays constant beyond; it is balanced by forces −(a + ω × r) on all nodes (inertia
 //! relief), so that the sheet as a whole stays where it is however it is pulled.
 
 use glam::{DMat3, DVec3};
@@ -62,7 +62,8 @@ struct SafeState {
 }
 
 impl<'a> Interaction<'a> {
-    /// The sheet of `model` at rest at `start` (one position for each vertex, in the sheet's unit), a state of the motion along
+    /// The sheet of `model` at rest at `start` (one position for each vertex, in the sheet's unit), a state of the
+    /// motion along
     /// `schedule` at motion time `time`. `stages`: those of the motion, in order.
     ///
     /// # Errors
@@ -281,8 +282,8 @@ struct PullForce {
 }
 
 impl State<'_> {
-    /// The force on the node at `index` of the layout towards `point`, at most `largest_force`. It is balanced for nodes of
-    /// equal mass, so that the balance does not depend on the masses of the relaxation.
+    /// The force on the node at `index` of the layout towards `point`, at most `largest_force`. It is balanced for
+    /// nodes of equal mass, so that the balance does not depend on the masses of the relaxation.
     fn pull_force(&self, index: usize, point: DVec3, largest_force: f64) -> PullForce {
         let body = self.body(|_| 1.0);
         let from = xyz(self.now.positions[index]);

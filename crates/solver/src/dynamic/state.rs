@@ -86,8 +86,8 @@ impl<'a> State<'a> {
         state
     }
 
-    /// One step of length `dt` with the dampers of the bars; returns a bound on the displacement of any node, the root of the sum
-    /// of their squares.
+    /// One step of length `dt` with the dampers of the bars; returns a bound on the displacement of any node, the root
+    /// of the sum of their squares.
     ///
     /// # Errors
     /// The first node that moved further than half a unit length, or to no number, and how far.

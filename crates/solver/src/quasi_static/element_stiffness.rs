@@ -12,7 +12,7 @@ use super::stiffness_matrix::{ElementBlocks, StiffnessMatrix};
 use crate::face_angle::face_angle_gradient;
 use crate::{Bar, FaceAngles, Model};
 
-/// Which Hessian is assembled.
+/// The Hessian that is assembled.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Curvature {
     /// The exact one: quadratic convergence, positive definite near stable equilibrium only.
@@ -21,7 +21,7 @@ pub(super) enum Curvature {
     Convex,
 }
 
-/// Where the elements of a model lie in a matrix, in their order.
+/// The positions of the elements of a model in a matrix, in their order.
 pub(super) struct ElementMap {
     bars: Vec<ElementBlocks<2>>,
     hinges: Vec<ElementBlocks<4>>,

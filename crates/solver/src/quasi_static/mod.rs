@@ -5,9 +5,9 @@
 //! [`Contact`] the layers push on each other and cannot pass through one another.
 //!
 //! Limits. The path is that of a sheet folded slowly: where equilibrium is lost it snaps to the next, and which one
-//! that is depends on the step of the search. Layers have the thickness of the gap in contact, which soft bars make room
-//! for by straining: compact extents then exceed the closed form by a length of the order of the gap. Bars too stiff to
-//! strain that far leave the creases open by an angle of the order of the root of the gap instead.
+//! that is depends on the step of the search. Layers have the thickness of the gap in contact, which soft bars make
+//! room for by straining: compact extents then exceed the closed form by a length of the order of the gap. Bars too
+//! stiff to strain that far leave the creases open by an angle of the order of the root of the gap instead.
 
 mod cholesky;
 mod configuration;

@@ -36,21 +36,23 @@ const TIGHT: f64 = 0.1;
 const STIFFENING: f64 = 4.0;
 const MOST_STIFFENING: f64 = 1e4;
 
-/// Folds the sheet of `model` slowly along `schedule`, from `start` (one position for each vertex, in the sheet's unit).
+/// Folds the sheet of `model` slowly along `schedule`, from `start` (one position for each vertex, in the sheet's
+/// unit).
 ///
 /// At every load step the sheet is brought to the nearest minimum of its energy downhill from the last state, itself
-/// extrapolated. Load steps hit every t = 2k/frames and every requested time; between them they shorten where Newton's method fails and grow
-/// again where it is easy. Where short ones fail too, the sheet snaps: the search is given time to descend to the next
-/// equilibrium, however far. `progress` is called after each load step and after each Newton step within it, and ends the run
-/// by returning false.
+/// extrapolated. Load steps hit every t = 2k/frames and every requested time; between them they shorten where Newton's
+/// method fails and grow again where it is easy. Where short ones fail too, the sheet snaps: the search is given time
+/// to descend to the next equilibrium, however far. `progress` is called after each load step and after each Newton
+/// step within it, and ends the run by returning false.
 ///
 /// With contact, the frames at t = 2k/frames keep the whole gap and the straight paths between frames half of it: where
 /// they would not, states of the search are recorded as frames between.
 ///
 /// Every run ends: load steps shrink to no less than a thousandth of the longest, and a stage takes no more Newton
-/// iterations than [`QuasiStaticOptions::iterations_a_step`] or [`QuasiStaticOptions::budget`] allows. A stage that finds no equilibrium in them ends the
-/// run: what was reached is returned, with [`StageOutcome::converged`] false and the evidence in [`StageOutcome::stop`].
-/// Where contact keeps creases from their targets, [`QuasiStaticRun::jam`] says so.
+/// iterations than [`QuasiStaticOptions::iterations_a_step`] or [`QuasiStaticOptions::budget`] allows. A stage that
+/// finds no equilibrium in them ends the run: what was reached is returned, with [`StageOutcome::converged`] false and
+/// the evidence in [`StageOutcome::stop`]. Where contact keeps creases from their targets, [`QuasiStaticRun::jam`] says
+/// so.
 ///
 /// # Errors
 /// Options out of range, counts that do not fit the model, positions that are not finite, a matrix too large, a gap
@@ -224,7 +226,7 @@ impl Run<'_> {
         usize::try_from(left).unwrap_or(usize::MAX)
     }
 
-    /// What ended the stage in a load step of length `step`, the last attempt of which `settled` so.
+    /// The reason for the end of the stage in a load step of length `step`; `settled`: the outcome of its last attempt.
     fn stop(&self, reason: StopReason, step: f64, settled: &SearchOutcome) -> Stop {
         Stop {
             reason,
@@ -234,7 +236,8 @@ impl Run<'_> {
         }
     }
 
-    /// The equilibrium at `s`, sought from the state extrapolated to it where contact allows, else from the last one, in
+    /// The equilibrium at `s`, sought from the state extrapolated to it where contact allows, else from the last one,
+    /// in
     /// `most_iterations` at most.
     fn load_step(
         &mut self,

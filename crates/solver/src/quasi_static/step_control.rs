@@ -1,10 +1,11 @@
-//! How long load steps are.
+//! The control of the length of load steps.
 
 use super::newton::SearchOutcome;
 
 /// A load step that settled within this many iterations is followed by a longer one.
 const EASY_ITERATIONS: usize = 10;
-/// After one that took more factorisations than this, shorter ones lead on faster: what they are extrapolated to is nearer.
+/// After one that took more factorisations than this, shorter ones lead on faster: what they are extrapolated to is
+/// nearer.
 const COSTLY_FACTORISATIONS: usize = 8;
 const MOST_SHORTENED: f64 = 8.0;
 /// A stage has at least as many load steps as with 240 frames, so that the path does not depend on how few frames are
@@ -41,12 +42,12 @@ impl StepControl {
         }
     }
 
-    /// How many load steps the stage has if all are of the longest.
+    /// The number of load steps of the stage if all have the largest length.
     pub(super) fn least_steps(&self) -> usize {
         self.least_steps
     }
 
-    /// Where the load step from `s` ends, and whether that is `goal`.
+    /// The end of the load step from `s`, and whether that is `goal`.
     pub(super) fn next(&self, s: f64, goal: f64) -> (f64, bool) {
         // A step that would leave less than half of itself before the frame is stretched to it.
         let reaches = goal - s <= 1.5 * self.length;

@@ -11,7 +11,8 @@ use crate::SolverError;
 
 /// A symmetric matrix over nodes and its factor.
 pub(super) struct StiffnessMatrix {
-    /// The blocks of the node column of rank j are `starts[j]..starts[j + 1]`: their rows by rank, rising from j itself.
+    /// The blocks of the node column of rank j are `starts[j]..starts[j + 1]`: their rows by rank, rising from j
+    /// itself.
     starts: Vec<u32>,
     rows: Vec<u32>,
     /// Each block by columns.
@@ -21,7 +22,7 @@ pub(super) struct StiffnessMatrix {
     right_side: Vec<f64>,
 }
 
-/// Where the blocks of an element of N nodes lie in a matrix.
+/// The positions of the blocks of an element of N nodes in a matrix.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct ElementBlocks<const N: usize> {
     /// The nodes of the element in the order of elimination.
@@ -65,7 +66,7 @@ impl StiffnessMatrix {
         self.values.fill([0.0; 9]);
     }
 
-    /// Where the blocks of an element lie; `None` if the pattern has no room for one.
+    /// The positions of the blocks of an element; `None` if the pattern has no room for one.
     pub(super) fn element<const N: usize>(&self, nodes: &[u32; N]) -> Option<ElementBlocks<N>> {
         let ranks = self.ranks(*nodes);
         let mut order: [u8; N] = std::array::from_fn(|i| i as u8);

@@ -67,7 +67,7 @@ pub struct ScheduleStep {
     pub from: f64,
     /// The stage-local time, in [0, 1], at which they arrive; at least 1e-6 after `from`.
     pub to: f64,
-    /// How they move in between.
+    /// The course of the fold angles between start and end.
     pub ease: Ease,
 }
 

@@ -1,6 +1,6 @@
 //! When a hinge turns within its stage, and how.
 
-/// How a crease moves between the start and the end of its step.
+/// The course of a fold angle between the start and the end of its step.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 pub enum Ease {
     /// At constant speed: the share u of the time has made the share u of the turn.

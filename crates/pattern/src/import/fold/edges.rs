@@ -9,7 +9,7 @@ use super::FoldPattern;
 use super::frames::Frames;
 use super::sides::Sides;
 
-/// What an edge is.
+/// The role of an edge and its target angle.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct EdgeMeaning {
     pub(super) role: Role,

@@ -62,7 +62,7 @@ struct FoldPattern<'a> {
     frame: usize,
     coordinates: &'a [DVec3],
     edges: &'a [[u32; 2]],
-    /// What each edge is, and the angle it is to take.
+    /// The meaning of each edge.
     meanings: Vec<edges::EdgeMeaning>,
     faces: &'a [Vec<u32>],
 }

@@ -14,7 +14,7 @@ use super::style::{Properties, Styles};
 use super::values::wrong;
 use super::{LineNumbers, UnreadElement, viewport};
 
-/// What an element takes from those around it.
+/// The properties that an element inherits from those around it.
 #[derive(Debug, Clone, Copy)]
 struct Inherited<'a> {
     transform: DAffine2,
@@ -52,7 +52,7 @@ impl<'a, 'b> ElementReader<'a, 'b> {
         })
     }
 
-    /// What is drawn, and what cannot be read.
+    /// The lines drawn so far, and the elements that cannot be read.
     pub(super) fn finish(self) -> (Vec<Stroke>, UnreadElement) {
         (self.strokes, self.unread)
     }

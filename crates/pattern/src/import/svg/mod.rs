@@ -26,11 +26,11 @@ use shape::{Piece, Stroke};
 /// times the opacity · #0f0 cut, opened · #ff0 facet line · #f0f free hinge. `opacity` (of groups too),
 /// `stroke-opacity` and the alpha of the colour multiply; 0 is an angle of 0. Widths, dashes and fills mean nothing.
 ///
-/// Read are `path`, `line`, `rect`, `polyline` and `polygon` in groups, links and nested `svg` with transforms; styles by
-/// attribute, `style` and rules of `<style>` for elements, classes and ids. The last segment of a closed path is a line
-/// as the others. Bézier curves are flattened if the options say so. Elliptical arcs, circles, ellipses, rounded
-/// rectangles and `use` are not read, nor are other colours: [`ImportOptions::unknown`] says what becomes of them. Text,
-/// pictures and what has no stroke are left out with a warning.
+/// Read are `path`, `line`, `rect`, `polyline` and `polygon` in groups, links and nested `svg` with transforms; styles
+/// by attribute, `style` and rules of `<style>` for elements, classes and ids. The last segment of a closed path is a
+/// line as the others. Bézier curves are flattened if the options say so. Elliptical arcs, circles, ellipses, rounded
+/// rectangles and `use` are not read, nor are other colours: [`ImportOptions::unknown`] says what becomes of them.
+/// Text, pictures and what has no stroke are left out with a warning.
 ///
 /// Where `width` or `height` are in mm, cm, in, pt or pc, the sheet is in mm and has that size; otherwise it is in user
 /// units without a physical length.
@@ -102,7 +102,7 @@ fn is_svg(node: Node<'_, '_>, name: &str) -> bool {
 
 /// The lines on which elements begin.
 struct LineNumbers {
-    /// Where each line begins.
+    /// The byte at which each line begins.
     starts: Vec<usize>,
 }
 

@@ -47,8 +47,8 @@ impl Piece {
 
     /// Points in order on the piece, such that it strays from the chords between them by no more than `tolerance`.
     ///
-    /// The second derivative of a cubic is at most 6 M, M the longer of its second differences, so that n chords stray by
-    /// at most 6 M / (8 n²).
+    /// The second derivative of a cubic is at most 6 M, M the longer of its second differences, so that n chords stray
+    /// by at most 6 M / (8 n²).
     pub(super) fn chords(&self, tolerance: f64) -> Vec<DVec2> {
         let [a, b, c, d] = match *self {
             Self::Line(ends) => return ends.to_vec(),
@@ -76,7 +76,7 @@ impl Piece {
     }
 }
 
-/// What an element draws.
+/// The outline that an element draws.
 pub(super) enum Outline {
     Pieces(Vec<Piece>),
     /// It cannot be read, for this reason.

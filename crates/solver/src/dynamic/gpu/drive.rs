@@ -23,7 +23,7 @@ pub(in crate::dynamic) struct GpuDrive<'a> {
     model: &'a Model,
 }
 
-/// How a rough settling ended.
+/// The outcome of settling in f32.
 #[derive(Debug, Clone, Copy)]
 pub(in crate::dynamic) struct Rough {
     pub(in crate::dynamic) steps: u64,
@@ -92,7 +92,8 @@ impl<'a> GpuDrive<'a> {
         Ok(())
     }
 
-    /// The residual that f32 leaves at `positions`: what rounding of the largest displacement pulls at the stiffest bar.
+    /// The residual that f32 leaves at `positions`: what rounding of the largest displacement pulls at the stiffest
+    /// bar.
     fn floor(&self, positions: &[DVec3]) -> f64 {
         let pattern = self.model.pattern.iter();
         let moves = positions
@@ -110,8 +111,8 @@ impl<'a> GpuDrive<'a> {
             / self.model.material.fold_stiffness
     }
 
-    /// Relaxes at motion time `time` to `tolerance`, or to what f32 leaves; `look` sees the positions now and then and may
-    /// end it with an error.
+    /// Relaxes at motion time `time` to `tolerance`, or to what f32 leaves; `look` sees the positions now and then and
+    /// may end it with an error.
     pub(in crate::dynamic) fn settle(
         &mut self,
         cpu: &mut State<'_>,

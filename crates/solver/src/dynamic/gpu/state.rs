@@ -155,8 +155,8 @@ impl<'a> GpuState<'a> {
         self.run(count)
     }
 
-    /// Begins a dynamic relaxation with `count` steps: no dampers, the viscosity critical for the mode that moves, no node
-    /// further than `longest_way` in a step of at most `dt`.
+    /// Begins a dynamic relaxation with `count` steps: no dampers, the viscosity critical for the mode that moves, no
+    /// node further than `longest_way` in a step of at most `dt`.
     ///
     /// # Errors
     /// [`SolverError::GpuLost`].

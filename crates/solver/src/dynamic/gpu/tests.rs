@@ -16,8 +16,8 @@ use super::{Gpu, GpuDrive, GpuState};
 use crate::dynamic::{Device, DynamicOptions, Run, StageOutcome, State, run};
 use crate::{Material, Model, Schedule, SolverError, Stage};
 
-/// What f32 may leave of forces from bars of stiffness 40 a unit length: 20 units in the last place of it. Some 1e-5 was
-/// seen.
+/// What f32 may leave of forces from bars of stiffness 40 a unit length: 20 units in the last place of it. Some 1e-5
+/// was seen.
 const FORCE_TOLERANCE: f64 = 1e-4;
 
 fn module() -> naga::Module {

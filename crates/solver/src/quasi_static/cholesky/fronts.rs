@@ -6,7 +6,8 @@
 
 /// The most nodes eliminated in one front: wider ones are cut, so that kernels need no blocking of their own.
 const WIDEST: usize = 24;
-/// What a front costs by itself, for each of its columns, and for each entry that it passes to its parent, in multiply-adds.
+/// The cost of a front itself, of each of its columns, and of each entry that it passes to its parent, in
+/// multiply-adds.
 const PER_FRONT: f64 = 2_000.0;
 const PER_COLUMN: f64 = 100.0;
 const PER_ENTRY: f64 = 6.0;
@@ -214,7 +215,7 @@ fn is_cheaper_merged(group: &Group, child: &Group) -> bool {
         && cost(own + other, group.rows) <= cost(own, group.rows) + cost(other, child.rows)
 }
 
-/// What it costs to eliminate `columns` nodes with `rows` below, in multiply-adds.
+/// The cost of eliminating `columns` nodes with `rows` below, in multiply-adds.
 fn cost(columns: usize, rows: usize) -> f64 {
     let [k, u] = [columns, rows].map(|nodes| 3.0 * nodes as f64);
     0.5 * k * u * (u + k) + k * k * k / 6.0 + PER_ENTRY * u * u + PER_COLUMN * k + PER_FRONT

@@ -318,7 +318,8 @@ impl ContactField {
         sorted
     }
 
-    /// Every pair that may come nearer than `within` on the straight path from `positions` to `positions` + `displacement`.
+    /// Every pair that may come nearer than `within` on the straight path from `positions` to `positions` +
+    /// `displacement`.
     fn search(
         &mut self,
         positions: &[DVec3],

@@ -1,8 +1,8 @@
 //! A pair of primitives in contact: its barrier and the derivatives of it.
 //!
 //! With the separation δ = D − g, D the distance and g the gap of the pair, the barrier of Li et al. 2020 ("Incremental
-//! potential contact"), offset by the gap as in Li, Kaufman, Jiang 2021 ("Codimensional incremental potential contact"),
-//! is
+//! potential contact"), offset by the gap as in Li, Kaufman, Jiang 2021 ("Codimensional incremental potential
+//! contact"), is
 //!
 //! B = F d̂ β(δ/d̂),  β(y) = −(y − 1)² ln y for 0 < y < 1, 0 above,
 //!

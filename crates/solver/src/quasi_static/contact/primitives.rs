@@ -51,8 +51,8 @@ impl Primitives {
         }
     }
 
-    /// The box of every triangle on the straight path from `positions` to `positions` + `displacement` (empty: at rest), every
-    /// face moved out by `radius`.
+    /// The box of every triangle on the straight path from `positions` to `positions` + `displacement` (empty: at
+    /// rest), every face moved out by `radius`.
     pub(super) fn boxes(
         &self,
         positions: &[DVec3],
