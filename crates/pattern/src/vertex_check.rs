@@ -9,7 +9,7 @@ use std::f64::consts::{PI, TAU};
 use serde::{Deserialize, Serialize};
 
 use crate::unit_sheet::{VertexLocation, is_mid};
-use crate::{Assignment, Folding, Imported, Sheet, UnitSheet};
+use crate::{Assignment, Folding, ImportedPattern, Sheet, UnitSheet};
 
 /// Angle sums may differ from 2π and π by this much, radians.
 pub const ANGLE_TOLERANCE: f64 = 1e-9;
@@ -196,7 +196,7 @@ impl Sheet {
     }
 }
 
-impl Imported {
+impl ImportedPattern {
     /// Checks every interior vertex at which mountain and valley creases meet; free hinges do not count.
     pub fn check(&self) -> PatternCheck {
         self.sheet.check_vertices(|_| VertexType::Imported)

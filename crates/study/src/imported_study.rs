@@ -3,8 +3,8 @@
 use std::path::Path;
 
 use foldmotion_pattern::{
-    Curves, ImportError, ImportOptions, Imported, LARGEST_IMPORT_FILE, MergeTolerance,
-    PatternCheck, Unknown, import_fold, import_svg,
+    Curves, ImportError, ImportOptions, ImportedPattern, LARGEST_IMPORT_FILE, MergeTolerance,
+    PatternCheck, UnknownElements, import_fold, import_svg,
 };
 use foldmotion_solver::{Schedule, ScheduleStep, Stage};
 
@@ -19,7 +19,7 @@ pub struct ImportedStudy {
     /// The file, as the scene names it.
     pub file: String,
     /// What it holds.
-    pub imported: Imported,
+    pub imported: ImportedPattern,
     /// FOLD's name of its unit of length.
     pub unit_name: &'static str,
     /// By how much of its fold angles it folds, in percent.
@@ -131,7 +131,7 @@ impl Resolver<'_> {
         Ok(())
     }
 
-    fn read_pattern(&self, scene: &PatternScene) -> Result<Imported, StudyError> {
+    fn read_pattern(&self, scene: &PatternScene) -> Result<ImportedPattern, StudyError> {
         let path = self.source.beside(&scene.file);
         let Some(format) = PatternFileFormat::of(&path) else {
             let message = "must end in .fold or .svg, the formats of crease patterns that are read";
@@ -140,8 +140,8 @@ impl Resolver<'_> {
         let options = ImportOptions {
             merge: scene.vertex_tolerance.map(MergeTolerance::Absolute),
             unknown: match scene.unknown {
-                Some(UnknownChoice::Ignore) => Unknown::Ignore,
-                Some(UnknownChoice::Refuse) | None => Unknown::Refuse,
+                Some(UnknownChoice::Ignore) => UnknownElements::Ignore,
+                Some(UnknownChoice::Refuse) | None => UnknownElements::Refuse,
             },
             curves: scene
                 .curve_tolerance
@@ -170,7 +170,7 @@ impl Resolver<'_> {
     fn fixed_facet(
         &self,
         scene: &PatternScene,
-        imported: &Imported,
+        imported: &ImportedPattern,
     ) -> Result<Option<u32>, StudyError> {
         let count = imported.sheet.facets.len();
         let asked = match &scene.fixed {
@@ -227,7 +227,7 @@ impl Resolver<'_> {
 }
 
 /// The fold angles along the way, times `fraction`. What a stage says nothing about stays as it was.
-fn waypoints(imported: &Imported, with_stages: bool, fraction: f64) -> Vec<Vec<f64>> {
+fn waypoints(imported: &ImportedPattern, with_stages: bool, fraction: f64) -> Vec<Vec<f64>> {
     if !with_stages || imported.stages.is_empty() {
         return vec![imported.targets.iter().map(|t| t * fraction).collect()];
     }

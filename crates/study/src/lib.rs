@@ -62,7 +62,7 @@ pub use folded::{Findings, Folded};
 pub use foldmotion_pattern::{
     CutError, CutOptions, PaperSize, ProfileModel, models, parse_millimetres,
 };
-pub use foldmotion_solver::Moment;
+pub use foldmotion_solver::Snapshot;
 pub use foldmotion_solver::dynamic::Device;
 pub use imported_study::ImportedStudy;
 pub use input_file::require_file;

@@ -5,7 +5,7 @@ use std::time::Instant;
 
 use foldmotion_check::{CheckError, Checker, CollisionReport};
 use foldmotion_pattern::{LayerOrder, Motion};
-use foldmotion_solver::Moment;
+use foldmotion_solver::Snapshot;
 
 use crate::engine::Computed;
 use crate::folded::{Findings, Folded};
@@ -54,7 +54,7 @@ pub trait Watch: Sync {
     /// Told that the engine has come to a state, some hundred times a second for a small sheet. Its positions are worked
     /// out where they are asked for. They lie where the engine has them: [`Subject::show`](crate::Subject::show) moves
     /// them to where they are shown.
-    fn state(&self, moment: &Moment<'_>) {
+    fn state(&self, moment: &Snapshot<'_>) {
         let _ = moment;
     }
 }

@@ -10,7 +10,7 @@ use crate::{Assignment, Sheet};
 
 /// A crease pattern read from a file: the sheet, and what it is to fold to.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Imported {
+pub struct ImportedPattern {
     /// `file_title` of FOLD, `<title>` of SVG.
     pub title: Option<String>,
     /// The flat pattern. Creases have [`crate::CreaseKind::Imported`], facets [`crate::FacetKind::Plain`], rows and
@@ -56,7 +56,7 @@ pub struct PatternStage {
     pub angles: Vec<Option<f64>>,
 }
 
-impl Imported {
+impl ImportedPattern {
     /// The fold angle of every edge, radians, at a fold percentage as in Origami Simulator: the targets times
     /// `fraction`, −1 to 1.
     ///

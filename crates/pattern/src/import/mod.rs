@@ -5,7 +5,7 @@
 //! ends nowhere is left out. The faces of the planar graph that lie inside the border are the facets; they are cut into
 //! triangles, and cuts are opened. FOLD files that list their faces skip the drawing.
 //!
-//! What is changed or left out is said in [`Imported::warnings`], by element.
+//! What is changed or left out is said in [`ImportedPattern::warnings`], by element.
 //!
 //! **Flat only.** The solver takes its rest lengths and its flat facets from [`Sheet`]'s positions in the plane, so the
 //! pattern must be flat. A FOLD file whose key frame is not in the plane z = 0 is turned into it if its vertices lie in
@@ -39,10 +39,10 @@ mod write_fold;
 
 pub use error::ImportError;
 pub use fold::import_fold;
-pub use imported::{Imported, PatternStage};
+pub use imported::{ImportedPattern, PatternStage};
 pub use options::{
     Curves, ImportOptions, LARGEST_IMPORT_FILE, MOST_LINES, MOST_NESTED, MOST_NODES, MOST_PIECES,
-    MOST_STAGE_ANGLES, MOST_STYLE_RULES, MOST_VERTICES, MergeTolerance, Unknown,
+    MOST_STAGE_ANGLES, MOST_STYLE_RULES, MOST_VERTICES, MergeTolerance, UnknownElements,
 };
 pub use source::Source;
 pub use svg::import_svg;

@@ -54,7 +54,7 @@ impl MergeTolerance {
 
 /// What happens to elements that cannot be read.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum Unknown {
+pub enum UnknownElements {
     /// The file is refused; the error names every such element.
     #[default]
     Refuse,
@@ -79,7 +79,7 @@ pub struct ImportOptions {
     /// [`MergeTolerance::LISTED`] in FOLD if omitted.
     pub merge: Option<MergeTolerance>,
     /// What happens to strokes and elements that have no meaning here.
-    pub unknown: Unknown,
+    pub unknown: UnknownElements,
     /// What happens to Bézier curves.
     pub curves: Curves,
 }

@@ -2,7 +2,7 @@
 
 use serde_json::{Map, Value, json};
 
-use super::Imported;
+use super::ImportedPattern;
 use crate::fold::object_text;
 use crate::{Assignment, Sheet};
 
@@ -28,7 +28,7 @@ const OWN: [&str; 18] = [
     "faces_vertices",
 ];
 
-impl Imported {
+impl ImportedPattern {
     /// The pattern as FOLD 1.2: its vertices, edges with assignment and target fold angle (degrees; null where an edge
     /// has none), faces, and a frame for each stage.
     ///
@@ -107,7 +107,7 @@ impl Imported {
 
 /// The elements that are written, and where they come from.
 struct WrittenElements<'a> {
-    imported: &'a Imported,
+    imported: &'a ImportedPattern,
     /// The indices of the edges that are written.
     edges: Vec<usize>,
     /// `faces_vertices`.
@@ -117,7 +117,7 @@ struct WrittenElements<'a> {
 }
 
 impl<'a> WrittenElements<'a> {
-    fn new(imported: &'a Imported) -> Self {
+    fn new(imported: &'a ImportedPattern) -> Self {
         let sheet = &imported.sheet;
         let are_polygons = are_polygons(sheet);
         let is_written = |edge: &usize| !are_polygons || imported.edge_sources[*edge].is_some();
@@ -135,7 +135,7 @@ impl<'a> WrittenElements<'a> {
         }
     }
 
-    fn of_triangles(imported: &'a Imported) -> Self {
+    fn of_triangles(imported: &'a ImportedPattern) -> Self {
         let sheet = &imported.sheet;
         Self {
             imported,

@@ -3,14 +3,15 @@
 use std::fmt::Write as _;
 
 use foldmotion_pattern::{
-    ImportError, ImportOptions, LARGEST_IMPORT_FILE, MOST_LINES, MOST_NESTED, Unknown, import_svg,
+    ImportError, ImportOptions, LARGEST_IMPORT_FILE, MOST_LINES, MOST_NESTED, UnknownElements,
+    import_svg,
 };
 
 use crate::svg::document;
 
 fn error(text: &str) -> ImportError {
     let options = ImportOptions {
-        unknown: Unknown::Ignore,
+        unknown: UnknownElements::Ignore,
         ..ImportOptions::default()
     };
     import_svg(text.as_bytes(), &options).unwrap_err()

@@ -3,24 +3,24 @@
 use std::fmt::Write as _;
 
 use foldmotion_pattern::{
-    ImportError, ImportOptions, Imported, MergeTolerance, WarningKind, import_svg,
+    ImportError, ImportOptions, ImportedPattern, MergeTolerance, WarningKind, import_svg,
 };
 
 use crate::draw::{Pattern, bird_base, frame, miura, pop_up, square_twist};
 use crate::patterns::{check_sheet, counts};
 use crate::svg::document;
 
-fn import_with(options: ImportOptions, body: &str) -> Result<Imported, ImportError> {
+fn import_with(options: ImportOptions, body: &str) -> Result<ImportedPattern, ImportError> {
     let imported = import_svg(document("", body).as_bytes(), &options)?;
     check_sheet(&imported);
     Ok(imported)
 }
 
-fn import(body: &str) -> Imported {
+fn import(body: &str) -> ImportedPattern {
     import_with(ImportOptions::default(), body).unwrap()
 }
 
-fn warned(imported: &Imported, kind: WarningKind) -> usize {
+fn warned(imported: &ImportedPattern, kind: WarningKind) -> usize {
     let found = imported.warnings.iter().find(|w| w.kind == kind);
     found.map_or(0, |w| w.count)
 }

@@ -17,7 +17,7 @@ use super::relaxation::{Progress, Relaxation};
 use super::stability::SAFETY;
 use super::state::State;
 use crate::budget::Allowance;
-use crate::{Model, Moment, Schedule, SolverError, Stage, Watcher};
+use crate::{Model, Schedule, Snapshot, SolverError, Stage, Watcher};
 
 /// Moves the sheet of `model` along `schedule` from `start` (one position for each vertex, in the sheet's unit) through
 /// the stages asked for.
@@ -313,7 +313,7 @@ impl Engine<'_, '_> {
             if is_recorded {
                 recorder.settling(stage, positions);
             }
-            if progress(&Moment::new(time, &|| model.to_sheet(positions))) {
+            if progress(&Snapshot::new(time, &|| model.to_sheet(positions))) {
                 Ok(())
             } else {
                 Err(SolverError::Cancelled { time })
@@ -349,7 +349,7 @@ fn report(
 ) -> Result<(), SolverError> {
     let time = stage.start_time() + s;
     let positions = || state.model.to_sheet(&state.positions());
-    if progress(&Moment::new(time, &positions)) {
+    if progress(&Snapshot::new(time, &positions)) {
         Ok(())
     } else {
         Err(SolverError::Cancelled { time })

@@ -11,7 +11,7 @@ use super::newton::{Newton, SearchOutcome, Tolerance};
 use super::outcome::{FrameFigures, QuasiStaticRun, StageOutcome, Stop, StopReason};
 use super::step_control::StepControl;
 use super::{QuasiStaticOptions, barrier_force, force_scale, rounding_force};
-use crate::{HingeKind, Model, Moment, Schedule, SolverError, Stage, Watcher};
+use crate::{HingeKind, Model, Schedule, Snapshot, SolverError, Stage, Watcher};
 
 /// The last Newton step of an equilibrium moves no node further, in unit lengths: without contact, and with it.
 const STEP_TOLERANCE: f64 = 1e-9;
@@ -109,7 +109,7 @@ fn report(
     time: f64,
     state: &Configuration,
 ) -> Result<(), SolverError> {
-    if progress(&Moment::new(time, &|| model.to_sheet(&state.positions))) {
+    if progress(&Snapshot::new(time, &|| model.to_sheet(&state.positions))) {
         Ok(())
     } else {
         Err(SolverError::Cancelled { time })

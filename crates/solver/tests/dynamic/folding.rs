@@ -6,7 +6,7 @@ use crate::sheets::{deployed, hinge, scaled_units, units};
 use foldmotion_geometry::RigidMotion;
 use foldmotion_pattern::{Assignment, Case, UnitSheet};
 use foldmotion_solver::dynamic::{DynamicOptions, Run, StageOutcome, StageStatus, State, run};
-use foldmotion_solver::{Material, Model, Moment, Schedule, SolverError, Stage};
+use foldmotion_solver::{Material, Model, Schedule, Snapshot, SolverError, Stage};
 use glam::DVec3;
 
 fn fold(units: &UnitSheet, options: &DynamicOptions) -> Run {
@@ -201,7 +201,7 @@ fn a_run_can_be_cancelled_and_says_where() {
     let model = Model::new(&units.sheet, &Material::default()).unwrap();
     let (start, schedule) = deployed(&units);
     let calls = AtomicUsize::new(0);
-    let until = |moment: &Moment<'_>| {
+    let until = |moment: &Snapshot<'_>| {
         calls.fetch_add(1, Ordering::Relaxed);
         moment.time < 1.25
     };

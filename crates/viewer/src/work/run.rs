@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use foldmotion_check::FittedBox;
-use foldmotion_study::{Folded, Moment, Phase, Report, Study, Watch};
+use foldmotion_study::{Folded, Snapshot, Phase, Report, Study, Watch};
 
 use super::job::Ticket;
 use super::{Job, Live, Stand, Wake, WorkError};
@@ -89,7 +89,7 @@ impl Watch for Watcher<'_> {
         self.ticket.progress(phase, done)
     }
 
-    fn state(&self, moment: &Moment<'_>) {
+    fn state(&self, moment: &Snapshot<'_>) {
         let positions = || self.study.subject.show(moment.positions());
         if self.live.show(moment.time, positions) {
             self.wake.soon();

@@ -17,8 +17,8 @@ use super::drawing::Drawing;
 use super::plan::Plan;
 use super::warning::{WarningKind, Warnings};
 use super::{
-    ImportError, ImportOptions, Imported, LengthUnit, MOST_PIECES, MOST_VERTICES, MergeTolerance,
-    Source, check_size, plan_of,
+    ImportError, ImportOptions, ImportedPattern, LengthUnit, MOST_PIECES, MOST_VERTICES,
+    MergeTolerance, Source, check_size, plan_of,
 };
 use crate::fold::check_vertices;
 use frames::Frames;
@@ -36,13 +36,13 @@ use frames::Frames;
 ///
 /// Faces that are listed are kept, with their vertices, as facets; otherwise they are traced as in a drawing. Edges
 /// of no face and unused vertices are left out; edges that only faces name are facet lines, or free hinges where the
-/// file lists no edges. Keys that are not read are kept in [`Imported::keys`].
+/// file lists no edges. Keys that are not read are kept in [`ImportedPattern::keys`].
 ///
 /// Not found: listed faces that overlap without sharing an edge.
 ///
 /// # Errors
 /// [`ImportError`]; texts name edges, faces and vertices by index.
-pub fn import_fold(bytes: &[u8], options: &ImportOptions) -> Result<Imported, ImportError> {
+pub fn import_fold(bytes: &[u8], options: &ImportOptions) -> Result<ImportedPattern, ImportError> {
     check_size(bytes)?;
     let mut frames = Frames::read(bytes)?;
     let mut warnings = Warnings::default();
@@ -130,7 +130,7 @@ impl<'a> FoldPattern<'a> {
         assembled: Assembled,
         plan: Plan,
         frames: &Frames,
-    ) -> Result<Imported, ImportError> {
+    ) -> Result<ImportedPattern, ImportError> {
         let Assembled {
             mut sheet,
             targets,
@@ -161,7 +161,7 @@ impl<'a> FoldPattern<'a> {
         let shape = shape.filter(|shape| *shape != sheet.planar());
         let keys = frames.keys();
         let fixed_facets = fixed_facets(keys, &sheet, &vertex_sources, self.faces.len());
-        Ok(Imported {
+        Ok(ImportedPattern {
             title: None,
             sheet,
             unit,

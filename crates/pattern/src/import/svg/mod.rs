@@ -14,8 +14,8 @@ use super::assemble::{Assembled, assemble};
 use super::drawing::{Drawing, Line};
 use super::warning::{WarningKind, Warnings};
 use super::{
-    Curves, ImportError, ImportOptions, Imported, MOST_LINES, MOST_NODES, MergeTolerance, Source,
-    Unknown, check_size, plan_of,
+    Curves, ImportError, ImportOptions, ImportedPattern, MOST_LINES, MOST_NODES, MergeTolerance,
+    Source, UnknownElements, check_size, plan_of,
 };
 use elements::ElementReader;
 use shape::{Piece, Stroke};
@@ -37,7 +37,7 @@ use shape::{Piece, Stroke};
 ///
 /// # Errors
 /// [`ImportError`]; texts name elements by id and line.
-pub fn import_svg(bytes: &[u8], options: &ImportOptions) -> Result<Imported, ImportError> {
+pub fn import_svg(bytes: &[u8], options: &ImportOptions) -> Result<ImportedPattern, ImportError> {
     check_size(bytes)?;
     let text = std::str::from_utf8(bytes).map_err(|e| ImportError::NotUtf8 {
         byte: e.valid_up_to(),
@@ -77,7 +77,7 @@ pub fn import_svg(bytes: &[u8], options: &ImportOptions) -> Result<Imported, Imp
     let title = root
         .children()
         .find(|c| c.has_tag_name("title") || is_svg(*c, "title"));
-    Ok(Imported {
+    Ok(ImportedPattern {
         title: title.and_then(|t| t.text()).map(str::to_owned),
         sheet,
         unit: viewport.unit,
@@ -141,16 +141,16 @@ impl UnreadElement {
         self.reasons.insert(reason);
     }
 
-    fn settle(self, unknown: Unknown, warnings: &mut Warnings) -> Result<(), ImportError> {
+    fn settle(self, unknown: UnknownElements, warnings: &mut Warnings) -> Result<(), ImportError> {
         if self.elements.is_empty() {
             return Ok(());
         }
         match unknown {
-            Unknown::Refuse => Err(ImportError::Unknown {
+            UnknownElements::Refuse => Err(ImportError::Unknown {
                 elements: self.elements,
                 reasons: self.reasons.into_iter().take(20).collect(),
             }),
-            Unknown::Ignore => {
+            UnknownElements::Ignore => {
                 for element in &self.elements {
                     warnings.add(WarningKind::Ignored, element);
                 }

@@ -7,13 +7,13 @@ use glam::DVec3;
 /// The present state of a run.
 ///
 /// The positions are computed on request, so that a run that nobody watches does not compute them.
-pub struct Moment<'a> {
+pub struct Snapshot<'a> {
     /// The motion time reached.
     pub time: f64,
     positions: &'a dyn Fn() -> Vec<DVec3>,
 }
 
-impl<'a> Moment<'a> {
+impl<'a> Snapshot<'a> {
     pub(crate) fn new(time: f64, positions: &'a dyn Fn() -> Vec<DVec3>) -> Self {
         Self { time, positions }
     }
@@ -25,12 +25,12 @@ impl<'a> Moment<'a> {
     }
 }
 
-impl fmt::Debug for Moment<'_> {
+impl fmt::Debug for Snapshot<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let mut debug = f.debug_struct("Moment");
+        let mut debug = f.debug_struct("Snapshot");
         debug.field("time", &self.time).finish_non_exhaustive()
     }
 }
 
 /// Called with the state of a run; returns whether to continue.
-pub type Watcher<'a> = &'a (dyn Fn(&Moment<'_>) -> bool + Sync);
+pub type Watcher<'a> = &'a (dyn Fn(&Snapshot<'_>) -> bool + Sync);
