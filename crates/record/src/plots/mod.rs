@@ -28,8 +28,8 @@ const LEGEND_GAP: f64 = 18.0;
 /// Room for a name in a legend as a multiple of its width in our font: viewers may have only a wider one.
 const NAME_WIDTH: f64 = 1.15;
 /// The most ticks on a vertical axis and on the time axis.
-const VALUE_TICKS: f64 = 5.0;
-const TIME_TICKS: f64 = 9.0;
+const VALUE_TICKS: usize = 5;
+const TIME_TICKS: usize = 9;
 /// Length of a tick, pixels.
 const TICK: f64 = 4.0;
 

@@ -138,8 +138,8 @@ fn compare_areas(state: &State<'_>, visible: &Visible, points: usize) -> Count {
         let point = if k % 4 == 0 {
             DVec2::new(random.f64() * 640.0, random.f64() * 480.0)
         } else {
-            let faces = state.sheet.faces.len() as f64;
-            let [a, b, c] = state.corners((random.f64() * faces) as u32);
+            let faces = state.sheet.faces.len() as u32;
+            let [a, b, c] = state.corners(random.u32(..faces));
             let (s, t) = (random.f64(), random.f64());
             let inside = a + (b - a) * (s * (1.0 - t)) + (c - a) * (s * t);
             state.camera.project(inside).truncate()
@@ -180,7 +180,7 @@ fn compare_lines(state: &State<'_>, visible: &Visible, points: usize) -> Count {
     let drawn = |index: &u32| state.sheet.edges[*index as usize].assignment != Assignment::Facet;
     let edges: Vec<u32> = (0..state.sheet.edges.len() as u32).filter(drawn).collect();
     for _ in 0..points {
-        let index = edges[(random.f64() * edges.len() as f64) as usize];
+        let index = edges[random.usize(..edges.len())];
         let edge = &state.sheet.edges[index as usize];
         let ends = edge.vertices.map(|v| state.positions[v as usize]);
         let place = ends[0].lerp(ends[1], random.f64());

@@ -1,7 +1,7 @@
 //! Newton's method for the equilibrium of the sheet at given targets.
 //!
-//! Each step solves (K + S + μ I) d = −∇U. K is the exact Hessian where that is positive definite, the exact one with μ
-//! > 0 or the convex one elsewhere. S removes the six rigid motions: stiff springs that support one triangle of the
+//! Each step solves (K + S + μ I) d = −∇U. K is the exact Hessian where that is positive definite, elsewhere the exact
+//! one with μ > 0 or the convex one. S removes the six rigid motions: stiff springs that support one triangle of the
 //! sheet statically determinately. They enter the matrix alone, never the forces; as ∇U is in balance, the step they
 //! give is an exact Newton step, with that triangle's support unmoved; of a floating sheet the rigid part of the step
 //! is then taken away, and where μ > 0 makes the matrix regular, S is left out. μ acts as inertia relative to the last
