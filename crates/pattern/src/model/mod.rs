@@ -123,6 +123,3 @@ pub fn models() -> &'static [ProfileModel] {
 pub fn find(name: &str) -> Option<&'static ProfileModel> {
     models().iter().find(|model| model.name == name)
 }
-
-#[cfg(test)]
-mod tests;

@@ -1,8 +1,10 @@
+//! FOLD read as a motion: what is read, and what is refused by name and index.
+
+use foldmotion_pattern::{
+    Assignment, Case, FoldError, FoldFile, FoldHeader, Frame, Motion, Unit, UnitSheet,
+};
 use glam::DVec3;
 use serde_json::{Value, json};
-
-use super::{FoldError, FoldFile};
-use crate::{Assignment, Case, FoldHeader, Frame, Motion, Unit, UnitSheet};
 
 fn frames(text: &str) -> Result<(FoldFile, Vec<Frame>), FoldError> {
     let file = FoldFile::read(text.as_bytes())?;

@@ -1,14 +1,15 @@
 //! The built-in profiles: their tables, their sources, their division.
 
+#![expect(clippy::unwrap_used, reason = "a test stops where a value is missing")]
+
 use foldmotion_geometry::{
     Division, DivisionOptions, Profile, divide, divide_from, divide_to_length,
 };
+use foldmotion_pattern::{CaseColumns, ProfileModel, Shape, find_model, models};
 use glam::DVec2;
 
-use super::*;
-
 fn model(name: &str) -> &'static ProfileModel {
-    find(name).unwrap()
+    find_model(name).unwrap()
 }
 
 fn divided(model: &ProfileModel) -> (Profile, Division) {
@@ -72,9 +73,9 @@ fn rows_and_columns_are_those_of_tables_1_and_2() {
             "{}: T narrows the units, S widens them",
             model.name
         );
-        assert_eq!(find(model.name), Some(model));
+        assert_eq!(find_model(model.name), Some(model));
     }
-    assert_eq!(find("Shelter"), None);
+    assert_eq!(find_model("Shelter"), None);
 }
 
 #[test]
