@@ -165,7 +165,7 @@ impl PatternCheck {
 }
 
 impl Sheet {
-    /// Checks every interior vertex at which creases meet; `kind` says of which type one is.
+    /// Checks every interior vertex at which creases meet; `kind`: the type of each.
     fn check_vertices(&self, kind: impl Fn(usize) -> VertexType) -> PatternCheck {
         let vertex_check = |(vertex, creases): (usize, Option<Vec<(u32, Assignment)>>)| {
             let creases = creases.filter(|creases| !creases.is_empty())?;

@@ -218,7 +218,7 @@ pub enum RecordError {
         height: f64,
     },
     /// A report or certificate cannot be read.
-    #[error("the {name} cannot be shown: it is no JSON: {message}")]
+    #[error("the {name} cannot be shown: it is not JSON: {message}")]
     Json {
         /// The name of the data that were to be shown.
         name: &'static str,

@@ -47,9 +47,9 @@ pub struct FilmOptions {
     pub view: View,
     /// The part of the picture's sides kept free on each side.
     pub margin: f64,
-    /// The point in the middle of the picture, in the motion's unit; where none, the middle of all that is seen.
+    /// The point in the middle of the picture, in the motion's unit; `None`: the middle of all that is seen.
     pub centre: Option<DVec3>,
-    /// The length across the picture; where none, all of the motion is seen from its own middle.
+    /// The length across the picture; `None`: all of the motion is seen from its own middle.
     pub width: Option<f64>,
     /// Degrees by which the camera turns about the vertical through `centre`, or the middle of the motion, evenly over
     /// the film.

@@ -260,7 +260,7 @@ impl<'a> Set<'a> {
     }
 }
 
-/// `cameras`, each of which sees all of `motion`, brought nearer where the sheet is small in its shot.
+/// The `cameras`, which all see the whole of `motion`, brought nearer where the sheet is small in its shot.
 fn following(
     motion: &Motion,
     shots: &[Shot],

@@ -8,7 +8,7 @@ use crate::Camera;
 /// The widest line as a part of the height of facets: much more of it would be ink than paper.
 const PART: f64 = 0.12;
 
-/// The narrowest line as a part of the widest one asked for: narrower ones are not seen.
+/// The narrowest line as a part of the widest one requested: narrower ones are not seen.
 const LEAST: f64 = 0.25;
 
 /// The width of lines over `sheet` with its vertices at `positions`, seen by `camera`, in pixels: `widest`, or less

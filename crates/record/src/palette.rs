@@ -38,7 +38,7 @@ const CELL_MASK: u8 = u8::MAX >> CELL_BITS;
 #[derive(Debug, Clone)]
 pub struct Palette {
     colors: Vec<[u8; 3]>,
-    /// For each cell of the colour cube the colours that may be the nearest to one in it, found when first asked for.
+    /// For each cell of the colour cube the colours that may be the nearest to one in it, found on first use.
     cells: Vec<OnceLock<Vec<u8>>>,
 }
 

@@ -88,7 +88,7 @@ pub(crate) fn raster(
     }
 }
 
-/// A square of pixels, of which `left` and `top` is the first.
+/// A square of pixels; `left` and `top` are those of its first pixel.
 #[derive(Clone, Copy)]
 struct Region {
     left: usize,

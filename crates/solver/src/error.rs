@@ -172,7 +172,7 @@ pub enum SolverError {
         deployed: f64,
     },
     /// The number of frames cannot be recorded.
-    #[error("{frames} frames were asked for; an even number from 2 to {maximum} is needed")]
+    #[error("{frames} frames were requested; an even number from 2 to {maximum} is needed")]
     Frames {
         /// The number of frames that was requested.
         frames: usize,

@@ -6,7 +6,7 @@
 //! U = Σ ½ (EA / l₀) (l − l₀)² + Σ ½ κ l₀ (θ − θ*)² + Σ ½ φ (α − α₀)²
 //!
 //! over the bars (length l, rest length l₀), the hinges (fold angle θ, target θ*, κ the fold or the facet stiffness)
-//! and the corners of the triangles (angle α, rest angle α₀, φ the face-angle stiffness, 0 unless asked for). Source:
+//! and the corners of the triangles (angle α, rest angle α₀, φ the face-angle stiffness, 0 by default). Source:
 //! Ghassaei, Demaine, Gershenfeld 2018, "Fast, interactive origami simulation using GPU computation"; Schenk and Guest
 //! 2011 for the bar-and-hinge idea.
 //!

@@ -90,7 +90,7 @@ pub enum CutError {
     },
     /// A text that names no paper.
     #[error(
-        "\"{text}\" is no paper: write A0 to A6, letter, legal or tabloid (with -landscape for the long side across), or \
+        "\"{text}\" is not a paper size: write A0 to A6, letter, legal or tabloid (with -landscape for the long side across), or \
          WIDTHxHEIGHT such as 300x600mm"
     )]
     PaperText {

@@ -1,11 +1,11 @@
 //! Crease patterns of others: SVG as Origami Simulator draws them, and FOLD 1.0 to 1.2.
 //!
 //! A file becomes a drawing: lines that are border, cut, mountain, valley, free hinge or facet line, each with its
-//! target fold angle. Ends that nearly meet become one vertex, lines are split where they cross and touch, and what
-//! ends nowhere is left out. The faces of the planar graph that lie inside the border are the facets; they are cut into
+//! target fold angle. Ends that nearly meet become one vertex, lines are split where they cross and touch, and lines that
+//! end nowhere are left out. The faces of the planar graph that lie inside the border are the facets; they are cut into
 //! triangles, and cuts are opened. FOLD files that list their faces skip the drawing.
 //!
-//! What is changed or left out is said in [`ImportedPattern::warnings`], by element.
+//! [`ImportedPattern::warnings`] name the elements that are changed or left out.
 //!
 //! **Flat only.** The solver takes its rest lengths and its flat facets from [`Sheet`]'s positions in the plane, so the
 //! pattern must be flat. A FOLD file whose key frame is not in the plane z = 0 is turned into it if its vertices lie in

@@ -1,4 +1,4 @@
-//! What an import changed or left out.
+//! Warnings: what an import changed or left out.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt;

@@ -35,7 +35,7 @@ impl ImportedPattern {
     /// Faces are the facets where each is one polygon without holes or cuts inside; otherwise all are triangles, with F
     /// edges between those of one facet. Keys that were not read are written as they were: lists with an entry for each
     /// vertex, edge or face (`edges_name:key`) are put in the order of the sheet, null where it has a new element;
-    /// other keys as they are. WrittenElements that relate elements to each other are left out.
+    /// other keys as they are. Lists that relate elements to each other are left out.
     pub fn fold(&self, creator: &str) -> String {
         let written = WrittenElements::new(self);
         let mut file = written.kept();

@@ -49,7 +49,7 @@ impl UnitSheet {
         self.locations.len()
     }
 
-    /// A state of the whole sheet from that of its crease pattern, every facet of which is flat in it.
+    /// The state of the whole sheet from that of its crease pattern, in which every facet is flat.
     pub(crate) fn with_middle_nodes(&self, mut positions: Vec<DVec3>) -> Vec<DVec3> {
         let middles = self.middle_nodes.iter().map(|node| {
             let [p, r] = node.diagonal.map(|v| positions[v as usize]);

@@ -10,7 +10,7 @@ use super::pdf_font::PdfFont;
 use super::{Anchor, Drawing, Item, PIXELS_A_UNIT, Stroke, WORDS};
 use crate::{Image, RecordError};
 
-/// Points, of which PDF counts lengths, in a millimetre.
+/// The number of points, the unit of PDF, in a millimetre.
 const POINTS_A_MILLIMETRE: f64 = 72.0 / 25.4;
 
 const FONT: Name<'static> = Name(b"F");

@@ -8,7 +8,7 @@ use glam::DVec2;
 use super::{Scene, VisibleLine};
 use crate::screen_face::ScreenFace;
 
-/// Points nearer to a line than this lie on it, in pixels; the same of depths.
+/// Points nearer to a line than this lie on it, in pixels; the same holds for depths.
 const ON_LINE: f64 = 1e-7;
 
 /// Visible and hidden parts shorter than this are rounding, in pixels.

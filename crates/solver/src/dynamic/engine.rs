@@ -20,7 +20,7 @@ use crate::budget::Allowance;
 use crate::{Model, Schedule, Snapshot, SolverError, Stage, Watcher};
 
 /// Moves the sheet of `model` along `schedule` from `start` (one position for each vertex, in the sheet's unit) through
-/// the stages asked for.
+/// the given stages.
 ///
 /// `progress` is called before every increment and whenever the residual is examined (every ten steps); returning false ends
 /// the run. The result does not depend on it or on the number of threads, bit for bit.
@@ -225,7 +225,7 @@ impl Engine<'_, '_> {
         Ok(steps as u64)
     }
 
-    /// Relaxes to `tolerance` as far as the budget of the stage allows, of which `spent` is gone.
+    /// Relaxes to `tolerance` as far as the budget of the stage allows, if `spent` steps of it are used.
     fn settle(
         &mut self,
         stage: Stage,

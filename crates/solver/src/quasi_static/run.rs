@@ -56,7 +56,7 @@ const MOST_STIFFENING: f64 = 1e4;
 ///
 /// # Errors
 /// Options out of range, counts that do not fit the model, positions that are not finite, a matrix too large, a gap
-/// too large, a start that crosses itself where contact is asked for, and [`SolverError::Cancelled`].
+/// too large, a start that crosses itself if there is contact, and [`SolverError::Cancelled`].
 pub fn run_quasi_static(
     model: &Model,
     schedule: &Schedule,

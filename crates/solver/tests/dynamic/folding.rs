@@ -232,7 +232,7 @@ fn input_that_does_not_fit_is_refused() {
         };
         let message = refused(&start, &options);
         assert!(
-            message.starts_with(&format!("{frames} frames were asked for")),
+            message.starts_with(&format!("{frames} frames were requested")),
             "{message}"
         );
     }

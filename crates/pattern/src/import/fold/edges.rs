@@ -47,7 +47,7 @@ pub(super) fn meanings(
         .collect()
 }
 
-/// The sign of the first angle that a stage gives each edge; 0 where none drives it.
+/// The sign of the first angle that a stage gives each edge; 0 if none drives it.
 fn staged_signs(frames: &Frames, pattern: usize, edges: usize) -> Vec<f64> {
     let mut signs = vec![0.0; edges];
     for (_, frame) in frames.with_angles(pattern) {

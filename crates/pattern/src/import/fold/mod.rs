@@ -30,7 +30,7 @@ use frames::Frames;
 ///
 /// - B border; C cut, opened; F and J inside a facet; U a free hinge.
 /// - M and V fold by their `edges_foldAngle`, which counts also where its sign is the other one; by −180° and 180° where
-///   there is no such list; a null angle is a free hinge.
+///   that list is missing; a null angle is a free hinge.
 /// - An angle makes a crease of U, F, J and of edges without assignment; without either an edge is a free hinge.
 /// - Every frame of `file_frames` with angles of its own is a stage; a crease that a stage drives is not free.
 ///

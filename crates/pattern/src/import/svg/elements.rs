@@ -20,7 +20,7 @@ struct Inherited<'a> {
     transform: DAffine2,
     stroke: Option<&'a str>,
     stroke_opacity: f64,
-    /// Of the element and of all around it.
+    /// The product of the opacities of the element and of all around it.
     opacity: f64,
     is_visible: bool,
 }

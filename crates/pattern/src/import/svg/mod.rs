@@ -30,7 +30,7 @@ use shape::{Piece, Stroke};
 /// by attribute, `style` and rules of `<style>` for elements, classes and ids. The last segment of a closed path is a
 /// line as the others. Bézier curves are flattened if the options say so. Elliptical arcs, circles, ellipses, rounded
 /// rectangles and `use` are not read, nor are other colours: [`ImportOptions::unknown`] says what becomes of them.
-/// Text, pictures and what has no stroke are left out with a warning.
+/// Text, pictures and elements without a stroke are left out with a warning.
 ///
 /// Where `width` or `height` are in mm, cm, in, pt or pc, the sheet is in mm and has that size; otherwise it is in user
 /// units without a physical length.

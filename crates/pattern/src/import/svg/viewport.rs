@@ -95,7 +95,7 @@ pub(super) fn nested(node: Node<'_, '_>, numbering: &LineNumbers) -> Result<DAff
     Ok(place * shift * DAffine2::from_scale(scale) * origin)
 }
 
-/// A side of the viewport and whether it is in mm; `None` if it is left out or depends on what is around.
+/// A side of the viewport and whether it is in mm; `None` if it is omitted or depends on the surroundings.
 fn side(
     node: Node<'_, '_>,
     numbering: &LineNumbers,

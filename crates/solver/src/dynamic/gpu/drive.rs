@@ -27,7 +27,7 @@ pub(in crate::dynamic) struct GpuDrive<'a> {
 #[derive(Debug, Clone, Copy)]
 pub(in crate::dynamic) struct Rough {
     pub(in crate::dynamic) steps: u64,
-    /// The residual it was asked for.
+    /// The tolerance of the residual.
     pub(in crate::dynamic) tolerance: f64,
     pub(in crate::dynamic) is_settled: bool,
 }

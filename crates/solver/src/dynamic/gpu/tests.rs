@@ -245,7 +245,7 @@ fn two_runs_give_the_same_bits() {
     assert_eq!(run(), run());
 }
 
-/// Flat to compact, both stages being asked for on `device`.
+/// Flat to compact, both stages, on `device`.
 fn fold(device: Device) -> (Run, Vec<DVec3>) {
     let units = UnitSheet::new(Unit::new(Case::E, 1.0, 1.0, None, None).unwrap(), 3, 2).unwrap();
     let model = Model::new(&units.sheet, &Material::default()).unwrap();

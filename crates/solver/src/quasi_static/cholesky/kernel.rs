@@ -79,7 +79,7 @@ pub(super) fn factorise_panel<S: Simd>(simd: S, panel: &mut [f64], shape: Shape)
     true
 }
 
-/// Columns, each `height` long, of which the rows from `from` on count.
+/// Columns, each `height` long; only the rows from `from` on count.
 #[derive(Clone, Copy)]
 struct Columns<'a> {
     scalars: &'a [f64],

@@ -30,7 +30,7 @@ pub(super) struct Cholesky {
     /// The panel of front f is `panels[panel_starts[f]..panel_starts[f + 1]]`.
     panel_starts: Vec<u32>,
     panels: Vec<f64>,
-    /// For each row of each front, as in `fronts.rows`: the row of the parent's panel it is handed to.
+    /// For each row of each front, as in `fronts.rows`: the row of the parent's panel that it is added to.
     handed_to: Vec<u32>,
     /// The updates not yet taken up.
     pending: Vec<f64>,
@@ -129,7 +129,7 @@ impl Cholesky {
     }
 }
 
-/// The rows of the parents' panels that the rows of each front are handed to.
+/// The rows of the parents' panels that the rows of each front are added to.
 fn handed_to(fronts: &Fronts, shapes: &[Shape]) -> Vec<u32> {
     let mut all = Vec::with_capacity(fronts.rows.len());
     for f in 0..fronts.count() {
