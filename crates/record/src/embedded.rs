@@ -7,7 +7,7 @@ use serde_json::Value;
 /// The deepest nesting of boxes of an MP4 that lead to the comment.
 const MP4_PATH: [&[u8; 4]; 5] = [b"moov", b"udta", b"meta", b"ilst", b"\xA9cmt"];
 
-/// The text of [`crate::FilmOptions::provenance`], [`crate::GlbOptions::provenance`], [`crate::obj`] or
+/// The text of [`crate::FilmOptions::provenance`], [`crate::GlbOptions::provenance`], [`crate::obj()`] or
 /// [`crate::Provenance::scene`] inside a GIF, MP4, PNG, GLB, OBJ, HTML, SVG or PDF that was written here; `None` if
 /// there is none. The first bytes tell the format.
 pub fn embedded(bytes: &[u8]) -> Option<String> {

@@ -12,10 +12,10 @@ use rayon::prelude::*;
 
 use crate::{FilmOptions, FilmWriter, Marks, Palette, Picture, RecordError, Scene, Title, film};
 
-/// Films `motion` as a GIF alone, see [`film`].
+/// Films `motion` as a GIF alone, see [`film()`].
 ///
 /// # Errors
-/// Those of [`film`]; [`RecordError::Write`] and [`RecordError::Encode`] leave an incomplete film behind in `writer`.
+/// Those of [`film()`]; [`RecordError::Write`] and [`RecordError::Encode`] leave an incomplete film behind in `writer`.
 pub fn gif(
     motion: &Motion,
     marks: &Marks,

@@ -4,7 +4,7 @@
 //! Every triangle has corners of its own, so that facets look flat. The front and the back are two primitives of
 //! opposite winding, each seen from its own side; creases and border are lines in a mesh of their own. The motion is
 //! one morph target a key frame after the first, whose weights run straight from key to key: so positions are exactly
-//! the straight paths between key frames, see [`crate::key_frames`].
+//! the straight paths between key frames, see [`crate::key_frames()`].
 
 use std::io::Write;
 
@@ -64,7 +64,7 @@ impl Default for GlbOptions {
 /// tolerance. Viewers know no order of layers: those that coincide flicker.
 ///
 /// # Errors
-/// Those of [`key_frames`], [`RecordError::NotPositive`], [`RecordError::Targets`], [`RecordError::FileSize`] before
+/// Those of [`key_frames()`], [`RecordError::NotPositive`], [`RecordError::Targets`], [`RecordError::FileSize`] before
 /// anything is written, then [`RecordError::Write`].
 pub fn glb(
     motion: &Motion,

@@ -3,7 +3,7 @@
 //! A [`Camera`] projects the sheet in parallel, so that papers get equal scales. A [`Surface`] is the projected sheet
 //! and answers which triangle is in front at a point of the screen; the layer order decides between triangles that
 //! coincide. [`picture`] draws one state from it, [`film()`] a whole motion into every [`FilmWriter`] given: [`Gif`],
-//! [`Mp4`], [`Frames`]. [`glb`], [`obj`] and [`stl`] carry the sheet into 3D programs, [`page()`] into browsers. A
+//! [`Mp4`], [`Frames`]. [`glb()`], [`obj()`] and [`stl()`] carry the sheet into 3D programs, [`page()`] into browsers. A
 //! [`Drawing`] puts pictures beside crease patterns and words, as SVG and PNG.
 //!
 //! Screen coordinates are pixels, x to the right, y down, depth towards the viewer in pixels too. Colours are sRGB

@@ -7,7 +7,7 @@
 //!
 //! [`ImportedPattern::warnings`] name the elements that are changed or left out.
 //!
-//! **Flat only.** The solver takes its rest lengths and its flat facets from [`Sheet`]'s positions in the plane, so the
+//! **Flat only.** The solver takes its rest lengths and its flat facets from [`Sheet`](crate::Sheet)'s positions in the plane, so the
 //! pattern must be flat. A FOLD file whose key frame is not in the plane z = 0 is turned into it if its vertices lie in
 //! some plane, and refused otherwise ([`ImportError::NotFlat`]), unless one of its frames has the class
 //! `creasePattern`: that frame is read then.

@@ -1,6 +1,6 @@
 //! A figure of chosen states of a motion, side by side at one scale, as lines and areas.
 //!
-//! Each state is what [`Surface::visible`] sees of it, so a figure hides what pictures of pixels hide. Areas take the
+//! Each state is what [`Surface::visible`](crate::Surface::visible) sees of it, so a figure hides what pictures of pixels hide. Areas take the
 //! light of pictures; lines are drawn over them, those in front last. States are arranged in rows with a label below
 //! each; keys of scale, lines and colours are at the foot. Creases of facets seen so nearly edge-on that their lines
 //! would run together are left out.

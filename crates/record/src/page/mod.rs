@@ -95,7 +95,7 @@ impl Default for PageOptions {
 /// Browsers: those with WebGL 2 and `DecompressionStream` (since 2023); others show all but the sheet.
 ///
 /// # Errors
-/// Those of [`key_frames`]; [`RecordError::NotPositive`], [`RecordError::LineWidth`], [`RecordError::Range`],
+/// Those of [`key_frames()`]; [`RecordError::NotPositive`], [`RecordError::LineWidth`], [`RecordError::Range`],
 /// [`RecordError::ValueCount`], [`RecordError::Json`], [`RecordError::FileSize`] before anything is written, then
 /// [`RecordError::Write`].
 pub fn page(
