@@ -81,7 +81,7 @@ impl<'a> CutPage<'a> {
     }
 
     /// The lower left corner of the label of a tile and the height of its letters, mm: in the margin if it has room.
-    pub(super) fn label_place(&self) -> (DVec2, f64) {
+    pub(super) fn label_position(&self) -> (DVec2, f64) {
         let margin = self.margin;
         let height = (self.size.min_element() / 40.0).min(4.0);
         let below = (margin - height).max(0.0) / 2.0;

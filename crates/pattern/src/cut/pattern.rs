@@ -101,8 +101,8 @@ fn on_paper(sheet: &Sheet, scale: f64) -> (Vec<DVec2>, DVec2) {
         .vertices
         .iter()
         .fold((far, -far), |(low, high), &v| (low.min(v), high.max(v)));
-    let place = |v: &DVec2| DVec2::new(high.x - v.x, v.y - low.y) * scale;
-    let vertices = sheet.vertices.iter().map(place).collect();
+    let position = |v: &DVec2| DVec2::new(high.x - v.x, v.y - low.y) * scale;
+    let vertices = sheet.vertices.iter().map(position).collect();
     (vertices, (high - low) * scale)
 }
 

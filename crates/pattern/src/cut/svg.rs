@@ -75,8 +75,8 @@ impl CutPage<'_> {
             );
         }
         if let Some(label) = self.label() {
-            let (place, height) = self.label_place();
-            let [x, y, height] = [place.x, place.y, height].map(number);
+            let (corner, height) = self.label_position();
+            let [x, y, height] = [corner.x, corner.y, height].map(number);
             let _ = writeln!(
                 svg,
                 "<text x=\"{x}\" y=\"{y}\" font-size=\"{height}\" font-family=\"sans-serif\" fill=\"{MARK}\">{}</text>",

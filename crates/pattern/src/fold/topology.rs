@@ -140,19 +140,19 @@ fn outline(triangles: &[[u32; 3]]) -> Vec<u32> {
     let corners: BTreeSet<u32> = triangles.iter().flatten().copied().collect();
     let on_border = |v: &u32| next.contains_key(v);
     let start = triangles.iter().flatten().copied().find(on_border);
-    let mut walked: Vec<u32> = std::iter::successors(start, |at| next.get(at).copied())
+    let mut border: Vec<u32> = std::iter::successors(start, |at| next.get(at).copied())
         .take(next.len() + 1)
         .collect();
-    let is_closed = walked.len() > 1 && walked.pop() == start;
+    let is_closed = border.len() > 1 && border.pop() == start;
     if is_closed
-        && walked
+        && border
             .iter()
             .copied()
             .collect::<BTreeSet<_>>()
             .iter()
             .eq(next.keys())
     {
-        walked
+        border
     } else {
         corners.into_iter().collect()
     }

@@ -65,15 +65,15 @@ impl Grid {
     }
 
     #[expect(clippy::cast_sign_loss, reason = "raised to 0 before")]
-    fn place(&self, along: f64, low: f64, size: f64) -> usize {
+    fn square_along(&self, along: f64, low: f64, size: f64) -> usize {
         (((along - low) / size).floor().max(0.0) as usize).min(self.side - 1)
     }
 
     /// Hands over every square the segment passes through, column by column.
     fn passed(&self, [a, b]: &[DVec2; 2], mut each: impl FnMut(usize)) {
         let (a, b) = if a.x <= b.x { (*a, *b) } else { (*b, *a) };
-        let column = |x| self.place(x, self.low.x, self.size.x);
-        let row = |y| self.place(y, self.low.y, self.size.y);
+        let column = |x| self.square_along(x, self.low.x, self.size.x);
+        let row = |y| self.square_along(y, self.low.y, self.size.y);
         let slope = (b.y - a.y) / (b.x - a.x);
         // Wider than the margin by what rounding can move.
         let pad = self.margin + 1e-9 * self.size.max_element();
@@ -112,8 +112,8 @@ impl Grid {
 
     /// The square a point lies in, the nearest one for a point beside the grid.
     pub(super) fn square(&self, point: DVec2) -> usize {
-        let column = self.place(point.x, self.low.x, self.size.x);
-        self.place(point.y, self.low.y, self.size.y) * self.side + column
+        let column = self.square_along(point.x, self.low.x, self.size.x);
+        self.square_along(point.y, self.low.y, self.size.y) * self.side + column
     }
 
     /// The column of a square, from the left.

@@ -80,8 +80,8 @@ impl<'a> Trace<'a> {
                 around(at, g, h)
             });
             // Coming in along the twin of one, the face on the left goes on along the one before it.
-            for (place, &half_edge) in half_edges.iter().enumerate() {
-                let before = half_edges[(place + half_edges.len() - 1) % half_edges.len()];
+            for (index, &half_edge) in half_edges.iter().enumerate() {
+                let before = half_edges[(index + half_edges.len() - 1) % half_edges.len()];
                 trace.next[(half_edge ^ 1) as usize] = before;
             }
         }

@@ -196,8 +196,8 @@ impl Splitting<'_> {
                     limit: MOST_PAIRS as usize,
                 });
             }
-            for (place, &s) in through.iter().enumerate() {
-                for &t in &through[place + 1..] {
+            for (index, &s) in through.iter().enumerate() {
+                for &t in &through[index + 1..] {
                     let [s, t] = [s as usize, t as usize];
                     let share_end = lines[s].ends.iter().any(|v| lines[t].ends.contains(v));
                     if share_end || !cross(segments[s], segments[t]) {

@@ -63,7 +63,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_first_of_near_points_stands_for_all_and_chains_do_not_drift() {
+    fn the_first_of_near_points_represents_all_and_chains_do_not_drift() {
         let mut vertices = Vertices::new(1.0);
         let added: Vec<u32> = [0.0, 0.9, 1.8, 2.7, -0.9]
             .map(|x| vertices.add(DVec2::new(x, -x)))

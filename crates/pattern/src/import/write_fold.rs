@@ -51,10 +51,10 @@ impl ImportedPattern {
         file.insert("frame_classes".into(), json!(["creasePattern"]));
         file.insert("frame_unit".into(), json!(self.unit.name()));
         file.insert("foldmotion:unitLength".into(), json!(sheet.unit_length));
-        let place = |v: &glam::DVec2| json!(v.to_array());
+        let position = |v: &glam::DVec2| json!(v.to_array());
         file.insert(
             "vertices_coords".into(),
-            sheet.vertices.iter().map(place).collect(),
+            sheet.vertices.iter().map(position).collect(),
         );
         file.insert(
             "edges_vertices".into(),

@@ -117,7 +117,7 @@ fn the_frames_named_alone_carry_the_order_of_their_layers() {
 }
 
 #[test]
-fn further_keys_stand_in_the_key_frame_but_replace_none() {
+fn further_keys_are_in_the_key_frame_but_replace_none() {
     let (_, value, _) = written();
     assert_eq!(value["file_author"], "somebody");
     assert_ne!(value["file_title"], "another");

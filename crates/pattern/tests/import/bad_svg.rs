@@ -60,7 +60,7 @@ fn a_document_type_without_entities_is_no_harm() {
 }
 
 #[test]
-fn nothing_drawn_and_nothing_bounded_are_told_apart() {
+fn nothing_drawn_and_nothing_bounded_are_distinguished() {
     assert_eq!(error(&document("", "")), ImportError::Empty);
     assert_eq!(
         error(&document("", "<rect width=\"4\" height=\"4\"/>")),

@@ -206,7 +206,7 @@ fn creases_that_leave_the_sheet_and_return_end_at_its_border() {
 }
 
 #[test]
-fn nested_holes_and_islands_are_told_apart() {
+fn nested_holes_and_islands_are_distinguished() {
     let ring = |low: f64, colour: &str| {
         let side = 100.0 - 2.0 * low;
         format!(

@@ -261,7 +261,7 @@ mod tests {
     }
 
     #[test]
-    fn zero_has_no_place_on_a_logarithmic_axis() {
+    fn a_curve_on_a_logarithmic_axis_is_interrupted_at_zero() {
         let points = vec![(0.0, 1e-3), (1.0, 0.0), (2.0, 1e-6)];
         assert_eq!(
             drawn_parts(&panel(true, points.clone()).curves[0], true).len(),

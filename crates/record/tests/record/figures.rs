@@ -158,7 +158,7 @@ fn a_page_without_background_lets_through_what_lies_behind() {
 }
 
 #[test]
-fn values_marks_targets_and_boxes_add_what_they_stand_for() {
+fn values_marks_targets_and_boxes_are_drawn() {
     let units = units();
     let order = units.compact_order();
     let bare = states(&units, &order);

@@ -181,7 +181,7 @@ fn captions_and_legends_change_the_picture_and_values_colour_the_facets() {
 }
 
 #[test]
-fn a_film_follows_a_sheet_that_grows_unless_it_is_told_not_to_or_aimed() {
+fn a_film_follows_a_sheet_that_grows_unless_that_is_off_or_the_camera_is_aimed() {
     let mut motion = folding_square(&[0.0, 1.0]);
     let large = motion.frames[0].positions.clone();
     motion.frames[0].positions = large.iter().map(|&p| 0.1 * p).collect();
@@ -242,7 +242,7 @@ fn a_turning_camera_shows_another_side_at_the_end() {
 }
 
 #[test]
-fn values_that_do_not_fit_are_refused_and_a_full_disk_is_told() {
+fn values_that_do_not_fit_are_refused_and_a_full_disk_is_reported() {
     let motion = folding_square(&[0.0, 1.0, 2.0]);
     let marks = Marks::default();
     let good = Values {

@@ -319,7 +319,7 @@ impl Run<'_> {
 
     /// Takes note of the contact in a new equilibrium.
     fn accept(&mut self, from: f64, to: f64, trial: &Trial) {
-        self.record_way(from, to, trial);
+        self.record_path(from, to, trial);
         if let Some(contact) = &mut self.newton.contact {
             contact.accept(&trial.state.positions);
         }
@@ -342,7 +342,7 @@ impl Run<'_> {
 
     /// If the straight path from the last frame to the new state is not free of contact, records states on the path
     /// the search took, at times between `from` and `to`.
-    fn record_way(&mut self, from: f64, to: f64, trial: &Trial) {
+    fn record_path(&mut self, from: f64, to: f64, trial: &Trial) {
         let Some(contact) = &mut self.newton.contact else {
             return;
         };

@@ -39,10 +39,10 @@ impl Waypoints {
     /// The angle of `hinge` at `progress`, exact at both ends of the stage.
     #[expect(clippy::cast_sign_loss, reason = "progress is not negative")]
     pub(super) fn angle(&self, hinge: usize, progress: f64) -> f64 {
-        let place = progress * self.angles.len() as f64;
-        let leg = (place.floor() as usize).min(self.angles.len() - 1);
+        let position = progress * self.angles.len() as f64;
+        let leg = (position.floor() as usize).min(self.angles.len() - 1);
         let [a, b] = self.leg(hinge, leg);
-        let share = place - leg as f64;
+        let share = position - leg as f64;
         a * (1.0 - share) + b * share
     }
 

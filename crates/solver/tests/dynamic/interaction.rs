@@ -153,7 +153,7 @@ fn violence_never_gives_a_position_that_is_no_number() {
 }
 
 #[test]
-fn what_no_hand_can_do_is_refused_or_lets_go() {
+fn what_does_not_fit_is_refused_or_ends_the_pull() {
     let sheet = sheet(1, 1);
     let new = |stages: &[Stage], start: &[DVec3], time: f64| {
         Interaction::new(&sheet.model, &sheet.schedule, stages, start, time).err()

@@ -80,7 +80,7 @@ fn row_creases_follow_the_path_through_its_knots_and_exactly_to_its_ends() {
 }
 
 #[test]
-fn a_step_times_the_way_along_the_path() {
+fn a_step_times_the_progress_along_the_path() {
     let shelter = shelter();
     let schedule = following(&shelter, to_and_fro()).unwrap();
     let late = ScheduleStep {

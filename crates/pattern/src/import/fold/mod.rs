@@ -156,8 +156,8 @@ impl<'a> FoldPattern<'a> {
             .iter()
             .map(|&p| plan.origins[p as usize])
             .collect();
-        let place = |v: &Option<u32>| v.map(|v| self.coordinates[v as usize]);
-        let shape: Option<Vec<DVec3>> = vertex_sources.iter().map(place).collect();
+        let position = |v: &Option<u32>| v.map(|v| self.coordinates[v as usize]);
+        let shape: Option<Vec<DVec3>> = vertex_sources.iter().map(position).collect();
         let shape = shape.filter(|shape| *shape != sheet.planar());
         let keys = frames.keys();
         let fixed_facets = fixed_facets(keys, &sheet, &vertex_sources, self.faces.len());

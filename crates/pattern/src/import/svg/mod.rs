@@ -60,9 +60,9 @@ pub fn import_svg(bytes: &[u8], options: &ImportOptions) -> Result<ImportedPatte
     let numbering = LineNumbers::new(text);
     let mut warnings = Warnings::default();
     let viewport = viewport::outer(root, &numbering)?;
-    let mut walk = ElementReader::new(root, &numbering, options, &mut warnings)?;
-    walk.element(root, viewport.transform)?;
-    let (strokes, unknown) = walk.finish();
+    let mut reader = ElementReader::new(root, &numbering, options, &mut warnings)?;
+    reader.element(root, viewport.transform)?;
+    let (strokes, unknown) = reader.finish();
     unknown.settle(options.unknown, &mut warnings)?;
     let drawing = drawing(&strokes, options.curves)?;
     let merge = options.merge.unwrap_or(MergeTolerance::DRAWING);

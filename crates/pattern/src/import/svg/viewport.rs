@@ -56,7 +56,7 @@ pub(super) fn outer(root: Node<'_, '_>, numbering: &LineNumbers) -> Result<Viewp
 /// From the user units in a nested `svg` to those around it.
 pub(super) fn nested(node: Node<'_, '_>, numbering: &LineNumbers) -> Result<DAffine2, ImportError> {
     let at = DVec2::new(length(node, numbering, "x")?, length(node, numbering, "y")?);
-    let place = DAffine2::from_translation(at);
+    let shift_to_corner = DAffine2::from_translation(at);
     let size = [
         side(node, numbering, "width")?,
         side(node, numbering, "height")?,
@@ -66,7 +66,7 @@ pub(super) fn nested(node: Node<'_, '_>, numbering: &LineNumbers) -> Result<DAff
         Some(if physical { length / MM_A_UNIT } else { length })
     });
     let Some(view) = view_box(node, numbering)? else {
-        return Ok(place);
+        return Ok(shift_to_corner);
     };
     let ([Some(width), Some(height)], Some(scale)) =
         (lengths, fit(node, numbering, lengths, &view)?)
@@ -92,7 +92,7 @@ pub(super) fn nested(node: Node<'_, '_>, numbering: &LineNumbers) -> Result<DAff
     };
     let origin = DAffine2::from_translation(-DVec2::new(view.x, view.y));
     let shift = DAffine2::from_translation(free * share);
-    Ok(place * shift * DAffine2::from_scale(scale) * origin)
+    Ok(shift_to_corner * shift * DAffine2::from_scale(scale) * origin)
 }
 
 /// A side of the viewport and whether it is in mm; `None` if it is omitted or depends on the surroundings.

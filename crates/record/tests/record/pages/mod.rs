@@ -185,7 +185,7 @@ fn lifted_layers_keep_every_order_of_the_compact_state() {
 }
 
 #[test]
-fn orders_in_a_circle_and_of_triangles_that_are_not_there_are_borne() {
+fn orders_in_a_circle_and_of_missing_triangles_are_accepted() {
     let mut motion = folding_square(&[0.0, 1.0]);
     motion.compact_order.insert(0, 1, 1);
     motion.compact_order.insert(1, 0, 1);

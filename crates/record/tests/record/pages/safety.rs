@@ -148,7 +148,7 @@ fn the_same_page_has_the_same_bytes_and_shows_no_time_and_no_device() {
 }
 
 #[test]
-fn marks_are_told_by_triangle_and_span_within_the_motion() {
+fn marks_are_listed_by_triangle_and_span_within_the_motion() {
     let motion = folding_square(&[0.0, 1.0]);
     let mut marks = Marks::default();
     marks.insert(1, 0.25, 0.5);
