@@ -2,10 +2,10 @@
 
 use std::collections::BTreeMap;
 
-use foldmotion_pattern::{Assignment, Imported};
+use foldmotion_pattern::{Assignment, ImportedPattern};
 
 /// Stops where an import is no sheet.
-pub fn check(imported: &Imported) {
+pub fn check(imported: &ImportedPattern) {
     let sheet = &imported.sheet;
     let mut sides = BTreeMap::new();
     for (face, &[a, b, c]) in (0..).zip(&sheet.faces) {

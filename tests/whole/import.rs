@@ -1,14 +1,14 @@
-//! Imported patterns, folded.
+//! ImportedPattern patterns, folded.
 
 use std::f64::consts::FRAC_PI_2;
 
-use foldmotion_pattern::{Assignment, ImportOptions, Imported, import_fold, import_svg};
+use foldmotion_pattern::{Assignment, ImportOptions, ImportedPattern, import_fold, import_svg};
 use foldmotion_solver::quasi_static::{QuasiStaticOptions, run_quasi_static};
 use foldmotion_solver::{HingeKind, Material, Model, Schedule, Stage};
 use glam::DVec3;
 
 /// Folds an import from flat to its targets; the fold angles it ends with.
-fn folded(imported: &Imported, material: &Material) -> Vec<Option<f64>> {
+fn folded(imported: &ImportedPattern, material: &Material) -> Vec<Option<f64>> {
     let sheet = &imported.sheet;
     let flat = vec![0.0; sheet.edges.len()];
     let schedule = Schedule::uniform(sheet, &flat, &imported.angles_at(1.0).unwrap()).unwrap();
@@ -40,7 +40,7 @@ fn a_drawn_crease_folds_to_its_opacity() {
 }
 
 /// A square in four triangles around its middle: three creases and one `letter` hinge.
-fn four_triangles(letter: &str) -> Imported {
+fn four_triangles(letter: &str) -> ImportedPattern {
     let file = serde_json::json!({
         "vertices_coords": [[0, 0], [2, 0], [2, 2], [0, 2], [1, 1]],
         "edges_vertices": [[0, 1], [1, 2], [2, 3], [3, 0], [0, 4], [1, 4], [2, 4], [3, 4]],
@@ -52,7 +52,7 @@ fn four_triangles(letter: &str) -> Imported {
 }
 
 /// A square whose diagonal from the first corner to the third is `letter`.
-fn two_triangles(letter: &str) -> Imported {
+fn two_triangles(letter: &str) -> ImportedPattern {
     let file = serde_json::json!({
         "vertices_coords": [[0, 0], [1, 0], [1, 1], [0, 1]],
         "edges_vertices": [[0, 1], [1, 2], [2, 3], [3, 0], [0, 2]],

@@ -6,7 +6,7 @@ use std::sync::Mutex;
 
 use foldmotion_study::scene::{CameraScene, OutputChoice, OwnCamera, RecordScene};
 use foldmotion_study::{
-    CheckOptions, Moment, Opened, Phase, SceneSource, Study, StudyError, Watch, check_file,
+    CheckOptions, Opened, Phase, SceneSource, Snapshot, Study, StudyError, Watch, check_file,
     record_again,
 };
 
@@ -168,7 +168,7 @@ impl Watch for Seen {
                 .is_none_or(|most| self.states.lock().unwrap().len() < most)
     }
 
-    fn state(&self, moment: &Moment<'_>) {
+    fn state(&self, moment: &Snapshot<'_>) {
         let positions = moment.positions();
         assert!(positions.iter().all(|p| p.is_finite()));
         self.states

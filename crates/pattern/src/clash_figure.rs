@@ -6,12 +6,12 @@ use crate::{Assignment, PatternError, Unit, UnitSheet, clashes};
 
 /// Size of the longer side of the drawing, in pixels.
 const SIZE: f64 = 600.0;
-/// White around the drawing, in pixels; the names of the rows stand in it.
+/// White around the drawing, in pixels; which holds the names of the rows.
 const MARGIN: f64 = 60.0;
 
-/// One column as SVG, row 0 on top: each row with its own creases (mountains solid red, valleys dashed blue) and the name
-/// of its case; boundaries on which two rows clash are thick, with a dot at every crease that ends without a partner,
-/// above the boundary for the upper row, below it for the lower one.
+/// One column as SVG, row 0 on top: each row with its own creases (mountains solid red, valleys dashed blue) and the
+/// name of its case; boundaries on which two rows clash are thick, with a dot at every crease that ends without a
+/// partner, above the boundary for the upper row, below it for the lower one.
 ///
 /// # Errors
 /// As [`UnitSheet::new`] for each row.

@@ -82,7 +82,7 @@ pub enum PatternError {
         /// The number of rows of the sheet.
         rows: usize,
     },
-    /// The creases of two neighbouring rows do not end at the same places.
+    /// The creases of two neighbouring rows do not end at the same positions.
     #[error(
         "row {row} ({upper}) and row {next} ({lower}) clash: {reason}; take one flap width for every row, or equal heights",
         next = row + 1
@@ -94,7 +94,7 @@ pub enum PatternError {
         upper: String,
         /// Case and ratio w/h of the lower row.
         lower: String,
-        /// Which creases end where.
+        /// The creases and the positions where they end.
         reason: String,
     },
     /// Unit parts too thin for the arithmetic.

@@ -1,9 +1,9 @@
 //! How a quadrilateral facet is cut into triangles.
 //!
-//! One diagonal lets a quadrilateral bend along itself alone, so that a symmetric sheet moves unsymmetrically. With a node
-//! where the two diagonals cross, four triangles meet in it, and the quadrilateral bends along either diagonal alike.
-//! Sources: Filipov, Liu, Tachi, Schenk, Paulino 2017, "Bar and hinge models for scalable analysis of origami" (its
-//! model N5B8); Liu and Paulino 2018 (MERLIN2).
+//! One diagonal lets a quadrilateral bend along itself alone, so that a symmetric sheet moves unsymmetrically. With a
+//! node where the two diagonals cross, four triangles meet in it, and the quadrilateral bends along either diagonal
+//! alike. Sources: Filipov, Liu, Tachi, Schenk, Paulino 2017, "Bar and hinge models for scalable analysis of origami"
+//! (its model N5B8); Liu and Paulino 2018 (MERLIN2).
 
 use glam::DVec2;
 use schemars::JsonSchema;
@@ -83,7 +83,8 @@ impl CutFacets {
     }
 }
 
-/// Triangles of a facet, counter-clockwise: a quadrilateral is split by the shorter diagonal (ties by the lowest vertex).
+/// Triangles of a facet, counter-clockwise: a quadrilateral is split by the shorter diagonal (ties by the lowest
+/// vertex).
 pub(crate) fn split(vertices: &[DVec2], polygon: &[u32]) -> Vec<[u32; 3]> {
     let &[a, b, c, d] = polygon else {
         return vec![[polygon[0], polygon[1], polygon[2]]];

@@ -1,7 +1,7 @@
-//! How many facets coincide in the compact state, told before a sheet is laid out.
+//! How many facets coincide in the compact state, computed before a sheet is laid out.
 //!
-//! In case E all columns lie in one plane, and a map is one stack: the number of pairs is a polynomial of second degree in
-//! the columns and, for rows of one parity, in the rows. Nine small sheets give it.
+//! In case E all columns lie in one plane, and a map is one stack: the number of pairs is a polynomial of second degree
+//! in the columns and, for rows of one parity, in the rows. Nine small sheets give it.
 
 use crate::{Case, Folding, Unit, UnitSheet};
 
@@ -44,7 +44,8 @@ impl UnitSheet {
     }
 }
 
-/// The value at `k` of the polynomial of second degree that has these values at 0, 1 and 2 (Newton's forward differences).
+/// The value at `k` of the polynomial of second degree that has these values at 0, 1 and 2 (Newton's forward
+/// differences).
 fn continued([a, b, c]: [f64; 3], k: usize) -> f64 {
     let k = k as f64;
     a + k * (b - a) + k * (k - 1.0) / 2.0 * (c - 2.0 * b + a)

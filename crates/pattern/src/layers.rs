@@ -16,8 +16,8 @@ impl UnitSheet {
     /// The order of every two triangles of different facets that overlap in the compact state, both directions.
     ///
     /// Empty for an unmodified rectangle with w > h, whose flat state no order of layers admits (geometry of figure
-    /// 4d); in one with w < h, rows that reach each other round the curved outline carry no order. A map has one pair for every two layers that overlap,
-    /// which grows with the square of their number.
+    /// 4d); in one with w < h, rows that reach each other round the curved outline carry no order. A map has one pair
+    /// for every two layers that overlap, which grows with the square of their number.
     pub fn compact_order(&self) -> LayerOrder {
         self.compact_order_within(usize::MAX).unwrap_or_default()
     }

@@ -4,14 +4,14 @@
 //! The creases inside the units are held flat and the lines between units become the creases. Of the many orders in
 //! which a map folds, this is the plainest: the columns fold like an accordion, then the stack of them folds like an
 //! accordion row by row. Unit (i, j) then lies at rank i·Nc + j in even rows and i·Nc + (Nc − 1 − j) in odd ones,
-//! counted from unit (0, 0), whose front faces up; the fronts of neighbours face opposite ways.
+//! counted from unit (0, 0), whose front faces up; the fronts of neighbours face opposite directions.
 
 use std::collections::BTreeMap;
 use std::f64::consts::PI;
 
 use glam::DVec3;
 
-use crate::unit_sheet::Place;
+use crate::unit_sheet::VertexLocation;
 use crate::{
     Assignment, CompactBox, CreaseKind, Facet, FacetKind, Folding, PatternError, Unit, UnitSheet,
 };
@@ -26,7 +26,7 @@ impl UnitSheet {
         Self::laid_out(units, columns, Folding::Map)
     }
 
-    /// Of a sheet of waterbomb units makes a map.
+    /// Turns a sheet of waterbomb units into a map.
     pub(crate) fn fold_between_units(&mut self) {
         self.unite_facets();
         self.crease_between_units();
@@ -37,7 +37,7 @@ impl UnitSheet {
         (self.folding == Folding::Map).then_some(self.rows * self.columns)
     }
 
-    /// The place of unit (i, j) in the stack of a folded map, counted upwards from unit (0, 0).
+    /// The rank of unit (i, j) in the stack of a folded map, counted upwards from unit (0, 0).
     pub fn map_rank(&self, row: u32, column: u32) -> u64 {
         let columns = self.columns as u64;
         let (row, column) = (u64::from(row), u64::from(column));
@@ -121,7 +121,7 @@ impl UnitSheet {
     pub(crate) fn compact_map(&self) -> Vec<DVec3> {
         let starts = self.map_boundaries();
         let width = self.unit.width;
-        let place = |&(line, place): &(u32, Place)| {
+        let position = |&(line, location): &(u32, VertexLocation)| {
             let line = &self.lines[line as usize];
             let from_start = line.y - f64::from(line.column) * width;
             let y = if line.column.is_multiple_of(2) {
@@ -129,9 +129,9 @@ impl UnitSheet {
             } else {
                 width - from_start
             };
-            let x = match place {
-                Place::Boundary { boundary } => starts[boundary as usize],
-                Place::Mid { row, lower, .. } => {
+            let x = match location {
+                VertexLocation::Boundary { boundary } => starts[boundary as usize],
+                VertexLocation::Mid { row, lower, .. } => {
                     let unit = &self.row_units[row as usize];
                     let fraction = unit.mid_distance() / unit.height;
                     let fraction = if lower { 1.0 - fraction } else { fraction };
@@ -141,7 +141,7 @@ impl UnitSheet {
             };
             DVec3::new(x, y, 0.0)
         };
-        self.with_middle_nodes(self.places.iter().map(place).collect())
+        self.with_middle_nodes(self.locations.iter().map(position).collect())
     }
 
     /// The box of a folded map: x spans the zigzag of the rows (h where they are equal), y one column.

@@ -37,7 +37,7 @@ impl Assignment {
     }
 }
 
-/// The place of an edge in the unit, by which a schedule names it.
+/// The position of an edge in the unit, by which a schedule names it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum CreaseKind {
     /// On the boundary between two rows: the only creases bent in the deployed state.

@@ -1,7 +1,7 @@
 //! What a compact sheet touches its two skin planes with.
 //!
-//! In the compact state the boundary vertices lie on the upper plane z = 0 and the mid vertices on the lower plane
-//! z = −a. Case S meets the upper plane with whole facets and the lower one with edges and vertices only; case SII meets
+//! In the compact state the boundary vertices lie on the upper plane z = 0 and the mid vertices on the lower plane z =
+//! −a. Case S meets the upper plane with whole facets and the lower one with edges and vertices only; case SII meets
 //! both with facets, to which a skin can be bonded (section 3 of the paper, figures 4h and 5f).
 
 use std::collections::BTreeSet;
@@ -11,7 +11,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::{Case, CreaseKind, Folding, UnitSheet};
 
-/// What lies on one skin plane.
+/// The features that lie on one skin plane.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct SkinPlane {
     /// Facets that lie in the plane.
@@ -39,8 +39,8 @@ impl UnitSheet {
     /// What `positions`, a compact state, touches the planes z = 0 and z = −a with; a feature touches where all its
     /// vertices are within `tolerance`.
     ///
-    /// Preconditions: one position for each vertex, placed as [`Self::compact`] places them, and `tolerance` < a/2. `None` for
-    /// the unmodified rectangle and a map, whose compact states have no such planes.
+    /// Preconditions: one position for each vertex, in the position of [`Self::compact`], and `tolerance` < a/2. `None`
+    /// for the unmodified rectangle and a map, whose compact states have no such planes.
     pub fn skin(&self, positions: &[DVec3], tolerance: f64) -> Option<Skin> {
         if self.folding == Folding::Map {
             return None;
@@ -171,7 +171,7 @@ mod tests {
         // Three even rows of 2 border pads and 2 double ones; two odd rows with as many ridges.
         assert_eq!((skin.upper.facets, skin.lower.facets), (3 * 4, 0));
         assert_eq!(skin.lower.edges, 2 * 4);
-        // The mid vertices of even rows, one a column, stand on their own.
+        // The mid vertices of even rows, one for each column, are separate.
         assert_eq!(skin.lower.vertices, 3 * 3);
         assert_eq!(skin.lower.area, 0.0);
         assert!(skin.upper.share > 0.0 && skin.lower.share == 0.0);

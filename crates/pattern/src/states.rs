@@ -8,10 +8,10 @@ use std::collections::VecDeque;
 use foldmotion_geometry::RigidMotion;
 use glam::{DMat3, DQuat, DVec2, DVec3};
 
-use crate::unit_sheet::{Family, Place};
+use crate::unit_sheet::{Family, VertexLocation};
 use crate::{Case, CreaseKind, Folding, PatternError, Sheet, UnitSheet};
 
-/// The side of the profile, seen along it from its start, on which the flaps stand.
+/// The side of the profile, seen along it from its start, on which the flaps are.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum Facing {
@@ -33,10 +33,10 @@ impl UnitSheet {
     pub fn deployed(&self, polygon: &[DVec2], facing: Facing) -> Result<Vec<DVec3>, PatternError> {
         self.require_polygon(polygon)?;
         let width = self.unit.width * self.columns as f64;
-        let place = |&(line, place): &(u32, Place)| {
-            let at = match place {
-                Place::Boundary { boundary } => polygon[boundary as usize],
-                Place::Mid { row, lower, .. } => {
+        let position = |&(line, location): &(u32, VertexLocation)| {
+            let at = match location {
+                VertexLocation::Boundary { boundary } => polygon[boundary as usize],
+                VertexLocation::Mid { row, lower, .. } => {
                     let unit = &self.row_units[row as usize];
                     let fraction = unit.mid_distance() / unit.height;
                     let (from, to) = (polygon[row as usize], polygon[row as usize + 1]);
@@ -50,7 +50,7 @@ impl UnitSheet {
             };
             DVec3::new(at.x, y, at.y)
         };
-        Ok(self.with_middle_nodes(self.places.iter().map(place).collect()))
+        Ok(self.with_middle_nodes(self.locations.iter().map(position).collect()))
     }
 
     /// The fold angle of every edge in the deployed state, radians: the turn of the polygon at the hinges between
@@ -64,7 +64,7 @@ impl UnitSheet {
         facing: Facing,
     ) -> Result<Vec<f64>, PatternError> {
         self.require_polygon(polygon)?;
-        // The front lies on the right of the profile where the flaps stand on its left.
+        // The front lies on the right of the profile if the flaps are on its left.
         let sign = match facing {
             Facing::Left => -1.0,
             Facing::Right => 1.0,
@@ -114,32 +114,32 @@ impl UnitSheet {
             corner.push(corner[row] - self.row_height(row));
             mid.push(corner[row + 1] + a);
         }
-        let place = |&(line, place): &(u32, Place)| {
+        let position = |&(line, location): &(u32, VertexLocation)| {
             let line = &self.lines[line as usize];
             let (own, other) = if line.family == Family::P {
                 (&p, &q)
             } else {
                 (&q, &p)
             };
-            let (x, z) = match place {
-                Place::Boundary { boundary } => (own[boundary as usize], 0.0),
+            let (x, z) = match location {
+                VertexLocation::Boundary { boundary } => (own[boundary as usize], 0.0),
                 // A mid line's corner line is the other family.
-                Place::Mid {
+                VertexLocation::Mid {
                     row, both: true, ..
                 } => (
                     f64::midpoint(other[row as usize], other[row as usize + 1]),
                     -a,
                 ),
-                Place::Mid {
+                VertexLocation::Mid {
                     row, lower: false, ..
                 } => (other[row as usize] - a, -a),
-                Place::Mid {
+                VertexLocation::Mid {
                     row, lower: true, ..
                 } => (other[row as usize + 1] + a, -a),
             };
             DVec3::new(x, line.compact_y, z)
         };
-        self.with_middle_nodes(self.places.iter().map(place).collect())
+        self.with_middle_nodes(self.locations.iter().map(position).collect())
     }
 
     fn compact_plain(&self) -> Vec<DVec3> {
@@ -149,7 +149,8 @@ impl UnitSheet {
         let corners: Vec<usize> = {
             let mut corners = vec![a, b, c];
             // Of the first half unit's flap, the mid vertex is the only one off the boundary.
-            corners.sort_by_key(|&v| (matches!(self.places[v].1, Place::Mid { .. }), v));
+            corners
+                .sort_by_key(|&v| (matches!(self.locations[v].1, VertexLocation::Mid { .. }), v));
             corners
         };
         let source: Vec<DVec3> = corners.iter().map(|&v| positions[v]).collect();
@@ -171,8 +172,9 @@ fn turn(from: DVec2, to: DVec2) -> f64 {
     from.perp_dot(to).atan2(from.dot(to))
 }
 
-/// Folds the sheet by the given fold angles (radians, one for each edge), facet by facet from the first flap outwards, each
-/// turned about the edge over which it is reached. Returns the positions and the triangle that stayed in the plane.
+/// Folds the sheet by the given fold angles (radians, one for each edge), facet by facet from the first flap outwards,
+/// each turned about the edge over which it is reached. Returns the positions and the triangle that stayed in the
+/// plane.
 ///
 /// The result is a state of the sheet only where the angles close around every vertex; the caller checks that.
 fn fold(sheet: &Sheet, angles: &[f64]) -> (Vec<DVec3>, u32) {
@@ -207,7 +209,7 @@ fn fold(sheet: &Sheet, angles: &[f64]) -> (Vec<DVec3>, u32) {
             let edge = &sheet.edges[index];
             let [e0, e1] = edge.vertices.map(|v| positions[v as usize]);
             // Seen from a fixed right facet a positive angle turns the left one about e0 → e1; seen from the left
-            // facet it turns the right one the other way.
+            // facet it turns the right one in the opposite direction.
             let turn = if edge.faces[0] == Some(next) {
                 angles[index]
             } else {

@@ -38,7 +38,7 @@ impl Case {
         }
     }
 
-    /// The case `auto` stands for: E where w = h within 1e-9 h, T below, above it S, or SII if λ is given.
+    /// The case that `auto` chooses: E if w = h within 1e-9 h, T below, above it S, or SII if λ is given.
     pub fn auto(width: f64, height: f64, lambda: Option<f64>) -> Self {
         if (width - height).abs() <= EQUAL_WIDTH_TOLERANCE * height {
             Self::E
@@ -241,7 +241,7 @@ fn sii_widths(
     Ok((flap, limit - offset, offset))
 }
 
-/// d below its limit w1', of which it is half where it is left open.
+/// d below its limit w1', half of it if omitted.
 pub(crate) fn sii_offset(limit: f64, offset: Option<f64>) -> Result<f64, PatternError> {
     let value = offset.unwrap_or(limit / 2.0);
     if value >= 0.0 && value < limit {

@@ -8,8 +8,8 @@ use std::f64::consts::{PI, TAU};
 
 use serde::{Deserialize, Serialize};
 
-use crate::unit_sheet::{Place, is_mid};
-use crate::{Assignment, Folding, Imported, Sheet, UnitSheet};
+use crate::unit_sheet::{VertexLocation, is_mid};
+use crate::{Assignment, Folding, ImportedPattern, Sheet, UnitSheet};
 
 /// Angle sums may differ from 2π and π by this much, radians.
 pub const ANGLE_TOLERANCE: f64 = 1e-9;
@@ -101,7 +101,7 @@ pub struct VertexGroup {
     pub kind: VertexType,
     /// Creases that meet at each.
     pub degree: usize,
-    /// How many there are.
+    /// The number of vertices of the group.
     pub count: usize,
     /// Whether all are developable.
     pub developable: bool,
@@ -165,7 +165,7 @@ impl PatternCheck {
 }
 
 impl Sheet {
-    /// Checks every interior vertex at which creases meet; `kind` says of which type one is.
+    /// Checks every interior vertex at which creases meet; `kind`: the type of each.
     fn check_vertices(&self, kind: impl Fn(usize) -> VertexType) -> PatternCheck {
         let vertex_check = |(vertex, creases): (usize, Option<Vec<(u32, Assignment)>>)| {
             let creases = creases.filter(|creases| !creases.is_empty())?;
@@ -196,7 +196,7 @@ impl Sheet {
     }
 }
 
-impl Imported {
+impl ImportedPattern {
     /// Checks every interior vertex at which mountain and valley creases meet; free hinges do not count.
     pub fn check(&self) -> PatternCheck {
         self.sheet.check_vertices(|_| VertexType::Imported)
@@ -210,19 +210,19 @@ impl UnitSheet {
     }
 
     fn vertex_type(&self, vertex: usize) -> VertexType {
-        let (line, place) = self.places[vertex];
+        let (line, location) = self.locations[vertex];
         let unit = &self.unit;
         let at_pad = if self.lines[line as usize].family == crate::unit_sheet::Family::P {
             unit.side_pad > 0.0
         } else {
             unit.centre_pad > 0.0
         };
-        match place {
+        match location {
             _ if self.folding == Folding::Map => VertexType::Grid,
             _ if at_pad => VertexType::Pad,
-            Place::Mid { both: true, .. } => VertexType::I,
-            Place::Mid { .. } => VertexType::Split,
-            Place::Boundary { boundary } => {
+            VertexLocation::Mid { both: true, .. } => VertexType::I,
+            VertexLocation::Mid { .. } => VertexType::Split,
+            VertexLocation::Boundary { boundary } => {
                 if is_mid(self.lines[line as usize].family, boundary) {
                     VertexType::J
                 } else {

@@ -1,7 +1,7 @@
 //! The names the paper gives the vertices of a unit (figures 3, 4 and 5a–b).
 
 use crate::UnitSheet;
-use crate::unit_sheet::{Family, Place};
+use crate::unit_sheet::{Family, VertexLocation};
 
 impl UnitSheet {
     /// The paper's name of a vertex as part of the unit at (`row`, `column`): C1 … C7 in a unit U^O, D1 … D8 in a
@@ -10,25 +10,25 @@ impl UnitSheet {
     /// `None` for vertices of other units, the outer corners of pads, and units with a centre pad, whose two mid lines
     /// share the names.
     pub fn vertex_name(&self, vertex: u32, row: u32, column: u32) -> Option<String> {
-        let &(line, place) = self.places.get(vertex as usize)?;
+        let &(line, location) = self.locations.get(vertex as usize)?;
         let line = self.lines[line as usize];
         if self.unit.centre_pad > 0.0 {
             return None;
         }
         let side = self.side_of(line.family, line.y, column)?;
         let even = row.is_multiple_of(2);
-        let number = match (place, side) {
-            (Place::Boundary { boundary }, side) if boundary == row => 1 + side,
-            (Place::Boundary { boundary }, side) if boundary == row + 1 => {
+        let number = match (location, side) {
+            (VertexLocation::Boundary { boundary }, side) if boundary == row => 1 + side,
+            (VertexLocation::Boundary { boundary }, side) if boundary == row + 1 => {
                 5 + side + u32::from(!even)
             }
-            (Place::Mid { row: of, .. }, 1) if of == row && even => 4,
-            (Place::Mid { row: of, .. }, side) if of == row && !even => 4 + side / 2,
+            (VertexLocation::Mid { row: of, .. }, 1) if of == row && even => 4,
+            (VertexLocation::Mid { row: of, .. }, side) if of == row && !even => 4 + side / 2,
             _ => return None,
         };
         let letter = if even { 'C' } else { 'D' };
-        let half = match place {
-            Place::Mid {
+        let half = match location {
+            VertexLocation::Mid {
                 both: false, lower, ..
             } => {
                 if lower {
@@ -45,7 +45,7 @@ impl UnitSheet {
     /// 0, 1, 2 for the first corner line, the middle and the last corner line of a column.
     fn side_of(&self, family: Family, y: f64, column: u32) -> Option<u32> {
         let start = f64::from(column) * self.unit.width;
-        let places = match family {
+        let sides = match family {
             Family::P => vec![
                 (0, self.unit.side_pad),
                 (2, self.unit.width - self.unit.side_pad),
@@ -53,7 +53,7 @@ impl UnitSheet {
             Family::Q => vec![(1, self.unit.width / 2.0)],
         };
         let near = |&(_, at): &(u32, f64)| (y - start - at).abs() < 1e-9 * self.unit.width;
-        places.into_iter().find(near).map(|(side, _)| side)
+        sides.into_iter().find(near).map(|(side, _)| side)
     }
 }
 

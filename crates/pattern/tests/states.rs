@@ -300,7 +300,7 @@ fn the_deployed_state_lies_on_the_polygon_and_bends_only_the_hinges_between_rows
 
 /// The flaps fold to the back of the sheet, so the front must lie on the other side of the profile.
 #[test]
-fn the_flaps_stand_on_the_side_of_the_profile_that_is_asked_for() {
+fn the_flaps_are_on_the_requested_side_of_the_profile() {
     let s = sheet(CASES[0], 3, 2);
     let polygon: Vec<DVec2> = (0..4)
         .map(|k| DVec2::new(f64::from(k) * 1.3, 0.0))

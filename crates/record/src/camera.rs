@@ -5,7 +5,8 @@ use glam::{DQuat, DVec2, DVec3};
 use crate::RecordError;
 use crate::image::check_size;
 
-/// Where the viewer stands, in the frame of the motion: growing direction along x, width along y, z up.
+/// The direction from which the sheet is seen, in the frame of the motion: growing direction along x, width along y, z
+/// up.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub enum View {
     /// From above, the front and the right, turned a little so that diagonals of square units stay apart.
@@ -55,7 +56,7 @@ impl View {
         [right, toward.cross(right), toward]
     }
 
-    /// The least and the largest place of `points` across the view, to the right and up, in their unit.
+    /// The least and the largest position of `points` across the view, to the right and up, in their unit.
     ///
     /// No points give an infinite, a point that is not finite a NaN extent.
     pub fn extent(self, points: impl IntoIterator<Item = DVec3>) -> [DVec2; 2] {
@@ -301,11 +302,11 @@ mod tests {
         };
         let fitted = Camera::fit(view, points, size, 0.1).unwrap();
         let camera = fitted.aimed(Some(centre), Some(8.0), size).unwrap();
-        let place = |point: DVec3| camera.project(point).truncate();
-        assert!((place(centre) - DVec2::new(200.0, 50.0)).length() < 1e-9);
+        let project = |point: DVec3| camera.project(point).truncate();
+        assert!((project(centre) - DVec2::new(200.0, 50.0)).length() < 1e-9);
         let [right, up, _] = view.axes();
-        assert!((place(centre + 4.0 * right) - DVec2::new(400.0, 50.0)).length() < 1e-9);
-        assert!((place(centre + up) - DVec2::ZERO - DVec2::new(200.0, 0.0)).length() < 1e-9);
+        assert!((project(centre + 4.0 * right) - DVec2::new(400.0, 50.0)).length() < 1e-9);
+        assert!((project(centre + up) - DVec2::ZERO - DVec2::new(200.0, 0.0)).length() < 1e-9);
         // What is not asked for stays.
         let same = fitted.aimed(None, None, size).unwrap();
         assert!((same.project(points[1]) - fitted.project(points[1])).length() < 1e-9);
@@ -330,9 +331,9 @@ mod tests {
                 let apart = turned.project(middle) - camera.project(middle);
                 assert!(apart.truncate().length() < 1e-9, "{view:?} {degrees}");
                 for point in points {
-                    let place = turned.project(point).truncate();
+                    let point = turned.project(point).truncate();
                     let room = DVec2::new(200.0, 150.0) + 1e-9;
-                    assert!(place.cmpge(DVec2::splat(-1e-9)).all() && place.cmple(room).all());
+                    assert!(point.cmpge(DVec2::splat(-1e-9)).all() && point.cmple(room).all());
                 }
             }
             let plain = Camera::fit(view, points, size, 0.0).unwrap();

@@ -11,7 +11,7 @@ const LETTERS: f64 = 0.034;
 /// The least height of letters in pixels.
 const LEAST_LETTERS: f64 = 9.0;
 
-/// What is laid over a picture: how much ink each pixel takes, and which.
+/// The overlay of a picture: how much of which ink each pixel takes.
 #[derive(Debug, Clone)]
 pub(crate) struct Overlay {
     at: [u32; 2],
@@ -21,7 +21,7 @@ pub(crate) struct Overlay {
 }
 
 impl Overlay {
-    /// The stage and the time, or `ending` in their place, in the lower left corner.
+    /// The stage and the time, or `ending` instead, in the lower left corner.
     #[expect(clippy::cast_sign_loss, reason = "letters have a height")]
     pub(crate) fn caption(
         time: f64,
@@ -146,7 +146,7 @@ fn short(value: f64) -> String {
     }
 }
 
-/// What a motion time lies between.
+/// The stage that a motion time belongs to.
 pub(crate) fn stage(time: f64) -> &'static str {
     match time {
         t if t <= 0.0 => "deployed",

@@ -1,4 +1,4 @@
-//! The colours that stand for values.
+//! The colours that show values.
 //!
 //! Cividis (Nuñez, Anderton and Renslow 2018, Optimizing colormaps with consideration for color vision deficiency,
 //! PLoS ONE 13(7)): it looks nearly the same to people with red–green colour blindness, and its lightness rises evenly.
@@ -42,9 +42,9 @@ const SAMPLES: [[u8; 3]; 32] = [
 /// The sRGB colour of `part`, 0 to 1; less and more get the first and the last colour, what is not a number the first.
 #[expect(clippy::cast_sign_loss, reason = "clamped to 0 to 1 before")]
 pub fn colour_of(part: f64) -> [u8; 3] {
-    let place = part.clamp(0.0, 1.0) * (SAMPLES.len() - 1) as f64;
-    let index = (place as usize).min(SAMPLES.len() - 2);
-    let rest = (place - index as f64).max(0.0);
+    let position = part.clamp(0.0, 1.0) * (SAMPLES.len() - 1) as f64;
+    let index = (position as usize).min(SAMPLES.len() - 2);
+    let rest = (position - index as f64).max(0.0);
     let [low, high] = [SAMPLES[index], SAMPLES[index + 1]];
     std::array::from_fn(|c| {
         let (low, high) = (f64::from(low[c]), f64::from(high[c]));

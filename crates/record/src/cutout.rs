@@ -1,6 +1,6 @@
 //! The sheet without its background.
 //!
-//! A pixel is the mean of 16 samples in linear light, of which some see the sheet: C = F + (1 − a) B with the light F
+//! A pixel is the mean of 16 samples in linear light; some of them see the sheet: C = F + (1 − a) B with the light F
 //! of those and the background B. Drawn before two backgrounds the differences tell 1 − a, and since a is a multiple of
 //! 1/16 they tell it exactly in spite of rounded bytes.
 
@@ -33,7 +33,7 @@ pub(crate) fn uncovered(image: &Image, style: &Style, draw: impl Fn(&Style) -> I
     image.pixels.iter().zip(&drawn.pixels).map(alpha).collect()
 }
 
-/// The colour of the sheet alone in a pixel of which it covers `alpha` before `background`.
+/// The colour of the sheet alone in a pixel, of which it covers the part `alpha` before `background`.
 pub(crate) fn lifted(pixel: [u8; 3], alpha: u8, background: Vec3) -> [u8; 4] {
     let [r, g, b] = match alpha {
         0 => [0; 3],

@@ -4,12 +4,12 @@ use std::io::Cursor;
 
 use serde_json::Value;
 
-/// Boxes of an MP4 inside each other, at most: those on the way to the comment.
+/// The deepest nesting of boxes of an MP4 that lead to the comment.
 const MP4_PATH: [&[u8; 4]; 5] = [b"moov", b"udta", b"meta", b"ilst", b"\xA9cmt"];
 
-/// The text of [`crate::FilmOptions::provenance`], [`crate::GlbOptions::provenance`], [`crate::obj`] or
-/// [`crate::Provenance::scene`] inside a GIF, MP4, PNG, GLB, OBJ, HTML, SVG or PDF that was written here; `None` if there is
-/// none. The kind is told by the first bytes.
+/// The text of [`crate::FilmOptions::provenance`], [`crate::GlbOptions::provenance`], [`crate::obj()`] or
+/// [`crate::Provenance::scene`] inside a GIF, MP4, PNG, GLB, OBJ, HTML, SVG or PDF that was written here; `None` if
+/// there is none. The first bytes tell the format.
 pub fn embedded(bytes: &[u8]) -> Option<String> {
     let text = match bytes {
         [b'G', b'I', b'F', b'8', ..] => gif(bytes),
@@ -80,7 +80,7 @@ fn mp4(bytes: &[u8]) -> Option<String> {
     String::from_utf8(data.to_vec()).ok()
 }
 
-/// What the first box of `kind` among `boxes` holds.
+/// The content of the first box of `kind` among `boxes`.
 fn child(mut boxes: &[u8], kind: [u8; 4]) -> Option<&[u8]> {
     loop {
         let length = u32::from_be_bytes(boxes.get(..4)?.try_into().ok()?) as usize;

@@ -38,7 +38,7 @@ pub enum RecordError {
         /// The longest duration.
         limit: f64,
     },
-    /// The camera turns too far or by something that is no number.
+    /// The camera turns too far or by a value that is not a number.
     #[error("turn = {value}° cannot be filmed: it must lie in −{limit}° to {limit}°")]
     Turn {
         /// The value that was requested.
@@ -71,7 +71,7 @@ pub enum RecordError {
         "{what} cannot be written: this build lacks the feature \"{feature}\"; build with --features {feature}"
     )]
     Feature {
-        /// What was asked for.
+        /// The output that was requested.
         what: &'static str,
         /// The cargo feature.
         feature: &'static str,
@@ -87,11 +87,11 @@ pub enum RecordError {
     FileSize {
         /// The name of the file format.
         format: &'static str,
-        /// What the file would take.
+        /// The size that the file would have, bytes.
         bytes: u64,
         /// The largest size.
         limit: u64,
-        /// What makes it smaller.
+        /// How to make the file smaller.
         remedy: &'static str,
     },
     /// A motion needs more morph targets than viewers take.
@@ -125,7 +125,7 @@ pub enum RecordError {
     /// A margin leaves no room for the sheet.
     #[error("margin = {value} leaves no room: it must lie in 0 to below 0.5")]
     Margin {
-        /// What was asked for, as a part of the picture's sides.
+        /// The margin that was requested, as a part of the picture's sides.
         value: f64,
     },
     /// A PNG could not be encoded.
@@ -163,7 +163,7 @@ pub enum RecordError {
         width: f64,
         /// The largest height of the page, millimetres.
         height: f64,
-        /// How many there are.
+        /// The number of states.
         states: usize,
     },
     /// The built-in font cannot be read.
@@ -194,7 +194,7 @@ pub enum RecordError {
         frame: usize,
         /// The index of the vertex.
         vertex: usize,
-        /// Where it lies.
+        /// The position of the vertex.
         position: [f64; 3],
     },
     /// The times of a motion's frames do not increase.
@@ -218,9 +218,9 @@ pub enum RecordError {
         height: f64,
     },
     /// A report or certificate cannot be read.
-    #[error("the {name} cannot be shown: it is no JSON: {message}")]
+    #[error("the {name} cannot be shown: it is not JSON: {message}")]
     Json {
-        /// What was to be shown.
+        /// The name of the data that were to be shown.
         name: &'static str,
         /// The parser's words.
         message: String,

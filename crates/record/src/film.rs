@@ -34,7 +34,7 @@ pub enum Playback {
     BackAndForth,
 }
 
-/// How a motion is filmed.
+/// The options of a film.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FilmOptions {
     /// Pixels across and down.
@@ -43,31 +43,33 @@ pub struct FilmOptions {
     pub fps: f64,
     /// Seconds for deployed → planar and for planar → compact; 0 jumps.
     pub seconds: [f64; 2],
-    /// Seconds the first state, the planar state and the last state stand still: deployed, planar and compact of a
+    /// Seconds the first state, the planar state and the last state are held: deployed, planar and compact of a
     /// whole motion.
     pub hold: [f64; 3],
     /// Whether the film runs once or also back.
     pub playback: Playback,
-    /// Where the viewer stands.
+    /// The direction from which the sheet is seen.
     pub view: View,
     /// The part of the picture's sides kept free on each side.
     pub margin: f64,
-    /// The point in the middle of the picture, in the motion's unit; where none, the middle of all that is seen.
+    /// The point in the middle of the picture, in the motion's unit; `None`: the middle of all that is seen.
     pub centre: Option<DVec3>,
-    /// The length across the picture; where none, all of the motion is seen from its own middle.
+    /// The length across the picture; `None`: all of the motion is seen from its own middle.
     pub width: Option<f64>,
-    /// Degrees by which the camera turns about the vertical through `centre`, or the middle of the motion, evenly over the
-    /// film.
+    /// Degrees by which the camera turns about the vertical through `centre`, or the middle of the motion, evenly over
+    /// the film.
     pub turn: f64,
-    /// Whether the camera comes nearer where the sheet is small in the picture; a camera aimed by `centre` or `width` does not.
+    /// Whether the camera comes nearer where the sheet is small in the picture; a camera aimed by `centre` or `width`
+    /// does not.
     pub is_following: bool,
     /// Whether the stage and the time are written into the picture.
     pub has_caption: bool,
-    /// What the caption of the last state says in the place of its stage, such as how the motion ended.
+    /// What the caption of the last state says instead of its stage, such as how the motion ended.
     pub ending: Option<String>,
-    /// Whether pictures are also made without background, for those reels that can show through. Takes twice the time.
+    /// Whether pictures are also made without background, for those formats that can be transparent. Takes twice the
+    /// time.
     pub is_transparent: bool,
-    /// What the film was made from and by what; written into every file where not empty.
+    /// The scene and the program that made the film; written into every file if not empty.
     pub provenance: String,
     /// Colours and lines.
     pub style: Style,
@@ -147,19 +149,19 @@ impl FilmOptions {
 pub struct Shot {
     /// The motion time it shows.
     pub time: f64,
-    /// How long it is shown, in hundredths of a second.
+    /// The time for which it is shown, in hundredths of a second.
     pub centiseconds: u16,
-    /// How many frames show it in a film of constant rate, at least one.
+    /// The number of frames that show it in a film of constant rate, at least one.
     pub repeats: u32,
 }
 
 /// The film frames of `motion`.
 ///
-/// Movement is shown at `fps`, evenly in t within a stage; the frames at the first time, at t = 1 and at the last
-/// time stand for `hold` longer. t = 1 and t = 2 are hit exactly where the motion reaches them. Settling after t = 2
-/// runs on at the rate of the second stage, within one second. A film back and forth
-/// shows every state but the last a second time, in the opposite order. Durations are rounded so that the sum stays right:
-/// 30 frames a second last 3, 3, 4, 3, 3, 4, … hundredths.
+/// Movement is shown at `fps`, evenly in t within a stage; the frames at the first time, at t = 1 and at the last time
+/// are held for `hold` longer. t = 1 and t = 2 are hit exactly if the motion reaches them. Settling after t = 2 runs on
+/// at the rate of the second stage, within one second. A film back and forth shows every state but the last a second
+/// time, in the opposite order. Durations are rounded so that the sum stays right: 30 frames a second last 3, 3, 4, 3,
+/// 3, 4, … hundredths.
 ///
 /// # Errors
 /// [`RecordError::Size`], [`RecordError::FramesPerSecond`], [`RecordError::Seconds`], [`RecordError::LineWidth`],
@@ -245,7 +247,7 @@ pub(crate) fn check_frames(motion: &Motion) -> Result<(), RecordError> {
     frames.try_for_each(|(index, frame)| check_positions(&motion.sheet, index, &frame.positions))
 }
 
-/// The positions at motion time `time`: vertices move straight from frame to frame, and stand still before the first
+/// The positions at motion time `time`: vertices move straight from frame to frame, and are at rest before the first
 /// and after the last.
 ///
 /// Preconditions: times increase and all frames have equally many positions. No frames give no positions.

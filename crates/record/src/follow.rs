@@ -1,12 +1,12 @@
 //! The frame of a film that follows a sheet whose size changes.
 //!
 //! The fixed picture shows all of the motion. Where the sheet is small in it, a part of that picture is shown instead,
-//! so large that the sheet fills [`FAIR`] of it; where the sheet is large, the picture stays whole. So most films have one
-//! scale, and a roll that opens to many times its size is seen all the way.
+//! so large that the sheet fills [`FAIR`] of it; where the sheet is large, the picture stays whole. So most films have
+//! one scale, and a roll that opens to many times its size is seen throughout.
 //!
 //! Frames move smoothly: each side of the frame is first moved out as far as it is anywhere within twice a window, and
-//! then averaged over the window twice. An average of bounds that all hold here holds here too, so the sheet never leaves
-//! the frame.
+//! then averaged over the window twice. An average of bounds that all hold here holds here too, so the sheet never
+//! leaves the frame.
 
 use glam::DVec2;
 
@@ -42,8 +42,8 @@ impl Frame {
     }
 }
 
-/// The frame of each shot of a film, which shows the sheet within `boxes`: the least and the largest pixel from the middle
-/// of the fixed picture.
+/// The frame of each shot of a film, which shows the sheet within `boxes`: the least and the largest pixel from the
+/// middle of the fixed picture.
 ///
 /// `room`: half of the fixed picture's sides without its margin, in which all boxes lie; above 0.
 pub(crate) fn frames(boxes: &[[DVec2; 2]], room: DVec2, fps: f64) -> Vec<Frame> {

@@ -8,11 +8,11 @@ use rayon::prelude::*;
 
 use crate::cutout::lifted;
 use crate::shade::linear;
-use crate::{Picture, RecordError, Reel, Title};
+use crate::{FilmWriter, Picture, RecordError, Title};
 
 /// Takes a film as PNG files of constant rate, `0001.png` on.
 ///
-/// A state that stands still is written again for each of its frames, so that programs that cut films can take the
+/// A state that is held is written again for each of its frames, so that programs that cut films can take the
 /// files as they are. Pictures with alpha are written without background.
 pub struct Frames<F> {
     write: F,
@@ -42,7 +42,7 @@ impl<F> std::fmt::Debug for Frames<F> {
     }
 }
 
-impl<F: FnMut(&str, &[u8]) -> std::io::Result<()> + Send> Reel for Frames<F> {
+impl<F: FnMut(&str, &[u8]) -> std::io::Result<()> + Send> FilmWriter for Frames<F> {
     fn begin(&mut self, title: Title<'_>) -> Result<(), RecordError> {
         self.provenance.clone_from(&title.options.provenance);
         self.background = title.options.style.background;

@@ -10,12 +10,12 @@ use ::gif::{AnyExtension, DisposalMethod, Encoder, Extension, Frame, Repeat};
 use foldmotion_pattern::Motion;
 use rayon::prelude::*;
 
-use crate::{FilmOptions, Marks, Palette, Picture, RecordError, Reel, Scene, Title, film};
+use crate::{FilmOptions, FilmWriter, Marks, Palette, Picture, RecordError, Scene, Title, film};
 
-/// Films `motion` as a GIF alone, see [`film`].
+/// Films `motion` as a GIF alone, see [`film()`].
 ///
 /// # Errors
-/// Those of [`film`]; [`RecordError::Write`] and [`RecordError::Encode`] leave an incomplete film behind in `writer`.
+/// Those of [`film()`]; [`RecordError::Write`] and [`RecordError::Encode`] leave an incomplete film behind in `writer`.
 pub fn gif(
     motion: &Motion,
     marks: &Marks,
@@ -57,7 +57,7 @@ impl<W: Write> std::fmt::Debug for Gif<W> {
     }
 }
 
-impl<W: Write + Send> Reel for Gif<W> {
+impl<W: Write + Send> FilmWriter for Gif<W> {
     fn begin(&mut self, title: Title<'_>) -> Result<(), RecordError> {
         let [width, height] = title.options.size.map(|side| side as u16);
         let colors = title.palette.colors().concat();

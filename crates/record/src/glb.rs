@@ -4,7 +4,7 @@
 //! Every triangle has corners of its own, so that facets look flat. The front and the back are two primitives of
 //! opposite winding, each seen from its own side; creases and border are lines in a mesh of their own. The motion is
 //! one morph target a key frame after the first, whose weights run straight from key to key: so positions are exactly
-//! the straight paths between key frames, see [`crate::key_frames`].
+//! the straight paths between key frames, see [`crate::key_frames()`].
 
 use std::io::Write;
 
@@ -23,7 +23,7 @@ pub const MAX_TARGETS: usize = 255;
 /// The largest file.
 const MAX_BYTES: u64 = 1 << 30;
 
-/// How a motion is written as GLB.
+/// The options of a GLB file.
 #[derive(Debug, Clone, PartialEq)]
 pub struct GlbOptions {
     /// How far a vertex may be from the motion, in the sheet's `unit_length`.
@@ -37,7 +37,7 @@ pub struct GlbOptions {
     pub style: Style,
     /// The name shown.
     pub title: String,
-    /// What the motion was made from and by what.
+    /// The scene and the program that made the motion.
     pub provenance: String,
 }
 
@@ -54,16 +54,17 @@ impl Default for GlbOptions {
     }
 }
 
-/// Writes `motion` as GLB, in metres and with y up as glTF asks, and answers which frames it holds and how well.
+/// Writes `motion` as GLB, in metres and with y up as glTF requires, and returns which frames it holds and how
+/// accurately.
 ///
 /// glTF asks viewers for no more than 8 attributes that morph at once. Here at most two targets have weight at a time,
-/// but a viewer must hold them all: those that keep targets in textures do (three.js also needs a uniform each, of which
-/// graphics cards have a thousand and WebGL 2 grants 256); engines of 8 or 60 targets show such a file wrongly or not at
-/// all, and need a larger tolerance. The error of f32 (about 1e-7 of the
-/// sheet's size) comes on top of the tolerance. Viewers know no order of layers: those that coincide flicker.
+/// but a viewer must hold them all: those that keep targets in textures do (three.js also needs a uniform each, of
+/// which graphics cards have a thousand and WebGL 2 grants 256); engines of 8 or 60 targets show such a file wrongly or
+/// not at all, and need a larger tolerance. The error of f32 (about 1e-7 of the sheet's size) comes on top of the
+/// tolerance. Viewers know no order of layers: those that coincide flicker.
 ///
 /// # Errors
-/// Those of [`key_frames`], [`RecordError::NotPositive`], [`RecordError::Targets`], [`RecordError::FileSize`] before
+/// Those of [`key_frames()`], [`RecordError::NotPositive`], [`RecordError::Targets`], [`RecordError::FileSize`] before
 /// anything is written, then [`RecordError::Write`].
 pub fn glb(
     motion: &Motion,

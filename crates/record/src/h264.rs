@@ -13,21 +13,21 @@ use rayon::prelude::*;
 #[cfg(feature = "mp4")]
 use crate::Image;
 use crate::mp4::Track;
-use crate::{Picture, RecordError, Reel, Title};
+use crate::{FilmWriter, Picture, RecordError, Title};
 
 /// The quantiser of H.264: the step doubles with every 6; flat colours and thin lines show no blocks at this one.
 #[cfg(feature = "mp4")]
 const QUANTISER: u8 = 22;
 
-/// Seconds between pictures that stand alone, to which players can jump.
+/// Seconds between pictures that do not depend on others, to which players can jump.
 #[cfg(feature = "mp4")]
 const SECONDS_BETWEEN_KEYS: f64 = 2.0;
 
 /// Takes a film as MP4.
 ///
-/// A side of odd length is made longer by one pixel that repeats the last, because colours are stored for squares of
-/// 2 × 2 pixels. At most 3840 × 2160 pixels, either way up, and at least 16 each way. The compressed film is kept in
-/// memory until its end. Needs the cargo feature `mp4`.
+/// A side of odd length is made longer by one pixel that repeats the last, because colours are stored for squares of 2
+/// × 2 pixels. At most 3840 × 2160 pixels, upright or across, and at least 16 in each direction. The compressed film is
+/// kept in memory until its end. Needs the cargo feature `mp4`.
 pub struct Mp4<W> {
     writer: W,
     track: Track,
@@ -58,7 +58,7 @@ impl<W: Write + Send> Mp4<W> {
         }
         Err(RecordError::H264 {
             message: format!(
-                "{width} × {height} pixels: at least 16 each way and at most 3840 × 2160 fit; change the size"
+                "{width} × {height} pixels: at least 16 in each direction and at most 3840 × 2160 fit; change the size"
             ),
         })
     }
@@ -84,7 +84,7 @@ impl<W: Write + Send> Mp4<W> {
 }
 
 #[cfg(not(feature = "mp4"))]
-impl<W: Write + Send> Reel for Mp4<W> {
+impl<W: Write + Send> FilmWriter for Mp4<W> {
     fn begin(&mut self, _: Title<'_>) -> Result<(), RecordError> {
         Ok(())
     }
@@ -99,7 +99,7 @@ impl<W: Write + Send> Reel for Mp4<W> {
 }
 
 #[cfg(feature = "mp4")]
-impl<W: Write + Send> Reel for Mp4<W> {
+impl<W: Write + Send> FilmWriter for Mp4<W> {
     fn begin(&mut self, title: Title<'_>) -> Result<(), RecordError> {
         let options = title.options;
         Self::check_size(options.size)?;

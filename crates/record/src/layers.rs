@@ -5,7 +5,7 @@ use std::collections::VecDeque;
 use foldmotion_pattern::{LayerOrder, Sheet};
 use glam::DVec3;
 
-/// Where each triangle lies in its stack, and which lie on each other.
+/// The height of each triangle in its stack, and the pairs that lie on each other.
 ///
 /// A depth buffer cannot tell layers that coincide, nor such as cross each other by what a motion without contact
 /// leaves ([`crate::TIE_TOLERANCE`]). A triangle shifted towards the viewer in proportion to its lift, reversed where
@@ -26,12 +26,13 @@ pub struct Layers {
 }
 
 impl Layers {
-    /// The heights that keep `order` in a state at `folded`, one place a vertex, where its triangles coincide.
+    /// The heights that keep `order` in a state at `folded`, one position for each vertex, where its triangles
+    /// coincide.
     ///
     /// A stack is all that known orders join. One of its triangles tells which way is up; a triangle's height is the
     /// longest chain of triangles below it. Orders that run in a circle have no heights: what they reach is left
     /// as high as its lower neighbours were found to be. Orders of triangles that `sheet` has not are passed over;
-    /// a place that is missing counts as the origin.
+    /// a missing position counts as the origin.
     pub fn new(sheet: &Sheet, order: &LayerOrder, folded: &[DVec3]) -> Self {
         let count = sheet.faces.len();
         let orders: Vec<(u32, u32, i8)> = (order.iter())
@@ -84,7 +85,7 @@ impl Layers {
     }
 }
 
-/// For each triangle the first one of its stack, and 1 or −1: whether it faces the same way when folded.
+/// For each triangle the first one of its stack, and 1 or −1: whether it has the same orientation when folded.
 fn stacks(sheet: &Sheet, folded: &[DVec3], around: &[Vec<usize>]) -> (Vec<usize>, Vec<f64>) {
     let normals = normals(sheet, folded);
     let mut stacks: Vec<usize> = (0..around.len()).collect();

@@ -2,9 +2,9 @@
 //!
 //! A [`Camera`] projects the sheet in parallel, so that papers get equal scales. A [`Surface`] is the projected sheet
 //! and answers which triangle is in front at a point of the screen; the layer order decides between triangles that
-//! coincide. [`picture`] draws one state from it, [`film()`] a whole motion into
-//! every [`Reel`] asked for: [`Gif`], [`Mp4`], [`Frames`]. [`glb`], [`obj`] and [`stl`] carry the sheet into 3D programs, [`page()`] into browsers. A [`Drawing`] puts pictures beside crease
-//! patterns and words, as SVG and PNG.
+//! coincide. [`picture`] draws one state from it, [`film()`] a whole motion into every [`FilmWriter`] given: [`Gif`],
+//! [`Mp4`], [`Frames`]. [`glb()`], [`obj()`] and [`stl()`] carry the sheet into 3D programs, [`page()`] into browsers. A
+//! [`Drawing`] puts pictures beside crease patterns and words, as SVG and PNG.
 //!
 //! Screen coordinates are pixels, x to the right, y down, depth towards the viewer in pixels too. Colours are sRGB
 //! bytes outside and linear light inside; pixels average linear light. The same input gives the same bytes for any
@@ -48,6 +48,7 @@ mod embedded;
 mod error;
 mod figure;
 mod film;
+mod film_writer;
 mod follow;
 mod frames;
 mod gif;
@@ -67,7 +68,6 @@ mod paper;
 mod pixel;
 mod plots;
 mod raster;
-mod reel;
 mod ring;
 mod screen_face;
 mod segment;
@@ -84,8 +84,9 @@ pub use self::colour_map::colour_of;
 pub use self::drawing::{Anchor, Drawing, PIXELS_A_UNIT, Provenance, Stroke, png};
 pub use self::embedded::embedded;
 pub use self::error::RecordError;
-pub use self::figure::{Bounds, Dimension, Legend, LineStyle, Pose, StripOptions, strip};
+pub use self::figure::{Bounds, Dimension, FigureState, Legend, LineStyle, StripOptions, strip};
 pub use self::film::{FilmOptions, Playback, Shot, positions_at, timeline};
+pub use self::film_writer::{FilmWriter, Picture, Scene, Title, film};
 pub use self::frames::Frames;
 pub use self::gif::{Gif, gif};
 pub use self::glb::{GlbOptions, MAX_TARGETS, glb};
@@ -101,7 +102,6 @@ pub use self::palette::Palette;
 pub use self::paper::Paper;
 pub use self::plots::{Curve, Panel, plots};
 pub use self::raster::picture;
-pub use self::reel::{Picture, Reel, Scene, Title, film};
 pub use self::shade::Style;
 pub use self::solid::{Solid, solid, surface_of};
 pub use self::stl::stl;

@@ -8,11 +8,11 @@ use crate::Camera;
 /// The widest line as a part of the height of facets: much more of it would be ink than paper.
 const PART: f64 = 0.12;
 
-/// The narrowest line as a part of the widest one asked for: narrower ones are not seen.
+/// The narrowest line as a part of the widest one requested: narrower ones are not seen.
 const LEAST: f64 = 0.25;
 
-/// The width of lines over `sheet` with its vertices at `positions`, seen by `camera`, in pixels: `widest`, or less where facets are so
-/// small or so slanted that lines would cover them.
+/// The width of lines over `sheet` with its vertices at `positions`, seen by `camera`, in pixels: `widest`, or less
+/// where facets are so small or so slanted that lines would cover them.
 ///
 /// The height of facets is the mean height of the projected triangles over their longest edges, weighted by their
 /// areas, because that is what is seen of them. It changes as smoothly as the sheet moves.

@@ -12,13 +12,13 @@ pub struct Spot {
     pub from: f64,
     /// The triangle it lies on.
     pub face: u32,
-    /// Where it lies there: the weights of the corners, 0 or more, of sum 1.
+    /// Its barycentric coordinates: the weights of the corners, 0 or more, of sum 1.
     pub weights: [f64; 3],
 }
 
 impl Spot {
-    /// The point of triangle `face` that is the nearest to `point` at motion time `time`, from `from` on; `None` if the sheet
-    /// has no such triangle.
+    /// The point of triangle `face` that is the nearest to `point` at motion time `time`, from `from` on; `None` if the
+    /// sheet has no such triangle.
     ///
     /// Precondition: the times of the motion increase.
     pub fn on(motion: &Motion, face: u32, point: DVec3, time: f64, from: f64) -> Option<Self> {
@@ -41,8 +41,8 @@ impl Spot {
         })
     }
 
-    /// Where it is while the vertices are at `positions`.
-    fn place(&self, sheet: &Sheet, positions: &[DVec3]) -> Option<DVec3> {
+    /// Its position while the vertices are at `positions`.
+    fn position(&self, sheet: &Sheet, positions: &[DVec3]) -> Option<DVec3> {
         let corners = sheet.faces.get(self.face as usize)?;
         let [a, b, c] = corners.map(|v| positions.get(v as usize).copied());
         let [u, v, w] = self.weights;
@@ -52,8 +52,8 @@ impl Spot {
 
 /// Triangles whose facets are painted in the colour of [`crate::Style::mark`], each in a span of motion time.
 ///
-/// What is marked is the caller's to say; foldmotion marks the two facets that are the first to penetrate each other, while
-/// they do, and where they begin to.
+/// What is marked is the caller's to say; foldmotion marks the two facets that are the first to penetrate each other,
+/// while they do, and where they begin to.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Marks {
     spans: Vec<([f64; 2], u32)>,
@@ -66,7 +66,7 @@ impl Marks {
         self.spans.push(([from, to], face));
     }
 
-    /// Marks a point by a ring, in the place of an earlier one.
+    /// Marks a point by a ring, replacing an earlier one.
     pub fn point_out(&mut self, spot: Spot) {
         self.spot = Some(spot);
     }
@@ -76,10 +76,10 @@ impl Marks {
         self.spans.is_empty() && self.spot.is_none()
     }
 
-    /// The place of the ring at motion time `time`, with the vertices at `positions`.
+    /// The centre of the ring at motion time `time`, with the vertices at `positions`.
     pub fn spot_at(&self, sheet: &Sheet, positions: &[DVec3], time: f64) -> Option<DVec3> {
         let spot = self.spot.filter(|spot| spot.from <= time)?;
-        spot.place(sheet, positions)
+        spot.position(sheet, positions)
     }
 
     /// Every span of motion time, with its triangle.
@@ -87,7 +87,7 @@ impl Marks {
         self.spans.iter().copied()
     }
 
-    /// For each triangle of `sheet` whether it is marked in the shot that shows motion time `time` and stands for
+    /// For each triangle of `sheet` whether it is marked in the shot that shows motion time `time` and represents
     /// the times after `previous`: so a mark shorter than the time between two shots is seen in one.
     pub(crate) fn at(&self, sheet: &Sheet, previous: f64, time: f64) -> Vec<bool> {
         let mut facets = vec![false; sheet.facets.len()];
@@ -132,8 +132,8 @@ mod tests {
         let mut marks = Marks::default();
         marks.point_out(spot);
         assert!(!marks.is_empty());
-        let place = marks.spot_at(sheet, end, 2.0).unwrap();
-        assert!((place - inside(end)).length() < 1e-8, "{place}");
+        let found = marks.spot_at(sheet, end, 2.0).unwrap();
+        assert!((found - inside(end)).length() < 1e-8, "{found}");
         assert!(marks.spot_at(sheet, &at, 1.1).is_none(), "before its time");
         // A point beyond the triangle is brought onto it; a triangle that is not there has none.
         let beyond = Spot::on(&motion, 4, inside(&at) + 9.0, 1.25, 1.2).unwrap();

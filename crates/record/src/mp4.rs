@@ -1,6 +1,6 @@
 //! The MP4 container of one H.264 track at constant rate (ISO/IEC 14496-12, -14 and -15).
 //!
-//! The index (moov) stands before the pictures (mdat), so that a film starts while it is still loaded. No box carries a
+//! The index (moov) precedes the pictures (mdat), so that a film starts while it is still loading. No box carries a
 //! time of day, so that the bytes depend on the film alone.
 
 use std::io::Write;
@@ -22,7 +22,7 @@ pub(crate) struct Track {
     pub(crate) data: Vec<u8>,
     /// The length of each picture.
     pub(crate) lengths: Vec<u32>,
-    /// The pictures that stand alone, counted from 1.
+    /// The pictures that do not depend on others, counted from 1.
     pub(crate) keys: Vec<u32>,
     pub(crate) provenance: String,
 }
@@ -102,13 +102,13 @@ impl Track {
             *b"hdlr",
             &[&words(&[0, 0]), b"vide", &words(&[0, 0, 0]), b"video\0"],
         );
-        let place = boxed(*b"url ", &[&words(&[1])]);
-        let places = boxed(*b"dref", &[&words(&[0, 1]), &place]);
+        let location = boxed(*b"url ", &[&words(&[1])]);
+        let references = boxed(*b"dref", &[&words(&[0, 1]), &location]);
         let info = boxed(
             *b"minf",
             &[
                 &boxed(*b"vmhd", &[&words(&[1, 0, 0])]),
-                &boxed(*b"dinf", &[&places]),
+                &boxed(*b"dinf", &[&references]),
                 &self.samples(offset),
             ],
         );
@@ -185,7 +185,7 @@ impl Track {
     }
 }
 
-/// Pictures stand upright.
+/// Pictures are upright.
 const MATRIX: [u32; 9] = [0x1_0000, 0, 0, 0, 0x1_0000, 0, 0, 0, 0x4000_0000];
 
 fn words(values: &[u32]) -> Vec<u8> {

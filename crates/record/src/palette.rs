@@ -38,26 +38,18 @@ const CELL_MASK: u8 = u8::MAX >> CELL_BITS;
 #[derive(Debug, Clone)]
 pub struct Palette {
     colors: Vec<[u8; 3]>,
-    /// For each cell of the colour cube the colours that may be the nearest to one in it, found when first asked for.
+    /// For each cell of the colour cube the colours that may be the nearest to one in it, found on first use.
     cells: Vec<OnceLock<Vec<u8>>>,
 }
 
 impl Palette {
-    /// The index that stands for "as before".
+    /// The index that means "as before".
     pub const TRANSPARENT: u8 = 255;
 
     /// The palette of `style`, the background first; `has_marks`: with the colour of marked facets.
     pub fn new(style: &Style, has_marks: bool) -> Self {
         let inks = style.inks();
-        let mut palette = Self {
-            colors: Vec::new(),
-            cells: vec![OnceLock::new(); 1 << (3 * CELL_BITS)],
-        };
-        palette.push(inks.background);
-        let lines = [inks.mountain, inks.valley, inks.border];
-        for line in lines {
-            palette.push(line);
-        }
+        let mut palette = Self::of_lines(&inks);
         for side in [inks.front, inks.back] {
             for light in levels(LEVELS) {
                 palette.push(side * light);
@@ -68,22 +60,14 @@ impl Palette {
                 palette.push(inks.mark * light);
             }
         }
-        palette.push_mixtures(&inks, &lines);
+        palette.push_mixtures(&inks);
         palette
     }
 
     /// The palette of a film that shows values as colours: those of the map lead, paper and marks have what is left.
     pub(crate) fn of_values(style: &Style) -> Self {
         let inks = style.inks();
-        let mut palette = Self {
-            colors: Vec::new(),
-            cells: vec![OnceLock::new(); 1 << (3 * CELL_BITS)],
-        };
-        palette.push(inks.background);
-        let lines = [inks.mountain, inks.valley, inks.border];
-        for line in lines {
-            palette.push(line);
-        }
+        let mut palette = Self::of_lines(&inks);
         palette.push_color(ink(style.background));
         for light in MAP_LIGHTS {
             for k in 0..MAP_LEVELS {
@@ -105,9 +89,21 @@ impl Palette {
         palette
     }
 
+    /// The colours of the background and of the lines.
+    fn of_lines(inks: &Inks) -> Self {
+        let mut palette = Self {
+            colors: Vec::new(),
+            cells: vec![OnceLock::new(); 1 << (3 * CELL_BITS)],
+        };
+        for color in [inks.background, inks.mountain, inks.valley, inks.border] {
+            palette.push(color);
+        }
+        palette
+    }
+
     /// Edge pixels: lines over either side of the paper and over the background, paper beside paper and background.
-    fn push_mixtures(&mut self, inks: &Inks, lines: &[Vec3; 3]) {
-        for &line in lines {
+    fn push_mixtures(&mut self, inks: &Inks) {
+        for line in [inks.mountain, inks.valley, inks.border] {
             self.push_between(line, inks.background, 4);
             for side in [inks.front, inks.back] {
                 for light in levels(MIXING_LEVELS) {
@@ -151,8 +147,8 @@ impl Palette {
     /// Distances are squared differences of sRGB bytes weighted 2 : 4 : 3, a plain stand-in for what the eye sees.
     pub fn nearest(&self, color: [u8; 3]) -> u8 {
         let low = color.map(|byte| byte & !CELL_MASK);
-        let place = |cell, byte: &u8| cell << CELL_BITS | usize::from(byte >> (8 - CELL_BITS));
-        let cell = &self.cells[low.iter().fold(0, place)];
+        let append = |cell, byte: &u8| cell << CELL_BITS | usize::from(byte >> (8 - CELL_BITS));
+        let cell = &self.cells[low.iter().fold(0, append)];
         let near = cell.get_or_init(|| self.near_cell(low)).iter();
         let nearest = near.min_by_key(|&&index| distance(color, self.colors[usize::from(index)]));
         nearest.copied().unwrap_or(0)
@@ -187,7 +183,7 @@ impl Palette {
     }
 }
 
-/// How different two colours look, see [`Palette::nearest`].
+/// The difference of two colours, see [`Palette::nearest`].
 fn distance(a: [u8; 3], b: [u8; 3]) -> i32 {
     let difference = |i: usize| i32::from(a[i]) - i32::from(b[i]);
     let (r, g, b) = (difference(0), difference(1), difference(2));

@@ -58,7 +58,7 @@ impl<'a> Paper<'a> {
     /// The recorded sign of (f, g): on which side of g's front normal f lies.
     pub(crate) fn layer_sign(&self, f: u32, g: u32) -> Option<i8> {
         let row = &self.layers[f as usize];
-        let place = row.binary_search_by_key(&g, |&(h, _)| h).ok()?;
-        Some(row[place].1)
+        let index = row.binary_search_by_key(&g, |&(h, _)| h).ok()?;
+        Some(row[index].1)
     }
 }

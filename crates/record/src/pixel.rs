@@ -10,7 +10,7 @@ use crate::square::{Mask, SAMPLES};
 use crate::surface::{Candidate, Layer};
 use crate::{Style, Surface};
 
-/// What colours a sample: the surface with the colour of each triangle.
+/// The colours of samples: the surface with the colour of each triangle.
 pub(crate) struct Canvas<'a> {
     pub(crate) surface: &'a Surface<'a>,
     pub(crate) inks: Inks,

@@ -88,7 +88,7 @@ pub(crate) fn raster(
     }
 }
 
-/// A square of pixels, of which `left` and `top` is the first.
+/// A square of pixels; `left` and `top` are those of its first pixel.
 #[derive(Clone, Copy)]
 struct Region {
     left: usize,
@@ -162,8 +162,8 @@ impl<'a> Strip<'a> {
             return;
         }
         let (surface, square, own) = (self.canvas.surface, region.square(), self.faces.len());
-        for place in start..own {
-            let face = self.faces[place];
+        for index in start..own {
+            let face = self.faces[index];
             if surface.face(face).may_touch(&square) {
                 self.faces.push(face);
             }
@@ -206,8 +206,8 @@ impl<'a> Strip<'a> {
             return;
         }
         let (square, own) = (region.square(), self.edges.len());
-        for place in start..own {
-            let edge = self.edges[place];
+        for index in start..own {
+            let edge = self.edges[index];
             if self.canvas.surface.may_have_line(edge, &square) {
                 self.edges.push(edge);
             }
@@ -269,8 +269,8 @@ mod tests {
                 let surface = Surface::new(&paper, &state, &camera, &style);
                 let canvas = Canvas::new(&surface, &style, &[]);
                 for (index, &pixel) in (0..).zip(&image.pixels) {
-                    let place = [index % size[0], index / size[0]].map(f64::from);
-                    let centre = DVec2::from(place) + 0.5;
+                    let corner = [index % size[0], index / size[0]].map(f64::from);
+                    let centre = DVec2::from(corner) + 0.5;
                     let light = |point| match surface.front_at(point) {
                         Some(front) => match surface.line_at(front.face, point) {
                             Some(edge) => canvas.line(edge),
@@ -283,7 +283,7 @@ mod tests {
                     let error = (0..3).map(|c| pixel[c].abs_diff(expected[c])).max();
                     assert!(
                         error <= Some(1),
-                        "{case:?} {part} {place:?}: {pixel:?} {expected:?}"
+                        "{case:?} {part} {corner:?}: {pixel:?} {expected:?}"
                     );
                 }
             }

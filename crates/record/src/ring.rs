@@ -4,7 +4,8 @@ use glam::DVec2;
 
 use crate::Image;
 
-/// Its radius as a part of the picture's shorter side, and the least one and the least half width of its line in pixels.
+/// Its radius as a part of the picture's shorter side, and the least one and the least half width of its line in
+/// pixels.
 const RADIUS: f64 = 0.035;
 const LEAST_RADIUS: f64 = 5.0;
 const LEAST_HALF: f64 = 0.75;
@@ -21,7 +22,7 @@ pub(crate) fn ring(image: &mut Image, mut alpha: Option<&mut [u8]>, centre: DVec
     let [half, halo] = [(0.5 * WIDTH * radius).max(LEAST_HALF), HALO * radius];
     let reach = radius + half + halo + 1.0;
     let range = |middle: f64, side: f64| {
-        let end = |place: f64| place.clamp(0.0, side) as u32;
+        let end = |x: f64| x.clamp(0.0, side) as u32;
         end(middle - reach)..end((middle + reach).ceil())
     };
     for y in range(centre.y, height) {
@@ -65,9 +66,9 @@ mod tests {
         assert_eq!(image.pixel(120, 50), ground);
         assert_eq!(image.pixel(125, 50), [233, 30, 160]);
         for (index, (pixel, alpha)) in image.pixels.iter().zip(&alpha).enumerate() {
-            let place = DVec2::new((index % 200) as f64, (index / 200) as f64) + 0.5;
-            let is_far = place.distance(centre) > 7.5;
-            assert!(!is_far || (*pixel == ground && *alpha == 0), "{place}");
+            let point = DVec2::new((index % 200) as f64, (index / 200) as f64) + 0.5;
+            let is_far = point.distance(centre) > 7.5;
+            assert!(!is_far || (*pixel == ground && *alpha == 0), "{point}");
         }
         for outside in [DVec2::splat(-500.0), DVec2::splat(1e9)] {
             assert!(drawn(outside).0.pixels.iter().all(|&p| p == ground));

@@ -8,7 +8,7 @@
 //! of its colour: Lambert's cosine wrapped around the whole sphere, so that no facet turns black and neighbours that
 //! face away from the light still differ. Both sides of the paper are lit alike.
 //!
-//! A colour that stands for a value takes a part of that light only, and none where the facet is seen square on: there it
+//! A colour that shows a value takes a part of that light only, and none where the facet is seen square on: there it
 //! is the legend's.
 
 use std::sync::LazyLock;
@@ -95,14 +95,14 @@ impl Style {
     }
 }
 
-/// What a triangle is painted with.
+/// The paint of a triangle.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Paint {
     /// Its sides of the paper.
     Paper,
     /// The colour of marks.
     Mark,
-    /// A colour in linear light that stands for a value.
+    /// A colour in linear light that shows a value.
     Value(Vec3),
 }
 

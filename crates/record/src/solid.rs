@@ -55,7 +55,7 @@ pub fn surface_of(sheet: &Sheet, positions: &[DVec3]) -> Result<Solid, RecordErr
 /// A × thickness.
 ///
 /// Every edge has exactly two triangles, in opposite directions, and the outside is outward: each plate is watertight.
-/// Honest limits: neighbouring plates are not joined. In the flat state they touch along their walls; at a folded
+/// Limits: neighbouring plates are not joined. In the flat state they touch along their walls; at a folded
 /// crease they overlap on the inner side and leave a wedge open on the outer side, both about thickness / 2 ×
 /// tan(fold angle / 2) wide; layers closer than the thickness overlap. Slicers for printing unite overlapping plates;
 /// the plates of a folded sheet hold together only where they overlap.
@@ -94,21 +94,21 @@ impl Solid {
             }
         }
         let first = self.vertices.len() as u32;
-        let mut places = BTreeMap::new();
-        for (place, (&vertex, normal)) in (first..).step_by(2).zip(&normals) {
+        let mut indices = BTreeMap::new();
+        for (index, (&vertex, normal)) in (first..).step_by(2).zip(&normals) {
             let offset = normal.normalize_or(DVec3::Z) * half;
             let middle = positions[vertex as usize];
             self.vertices.extend([middle + offset, middle - offset]);
-            places.insert(vertex, place);
+            indices.insert(vertex, index);
         }
         for face in faces {
-            let [a, b, c] = face.map(|v| places[&v]);
+            let [a, b, c] = face.map(|v| indices[&v]);
             self.faces.extend([[a, b, c], [c + 1, b + 1, a + 1]]);
         }
         let edges = |face: &[u32; 3]| [0, 1, 2].map(|i| [face[i], face[(i + 1) % 3]]);
         let all: BTreeSet<[u32; 2]> = faces.iter().flat_map(edges).collect();
         for &[a, b] in all.iter().filter(|[a, b]| !all.contains(&[*b, *a])) {
-            let [a, b] = [places[&a], places[&b]];
+            let [a, b] = [indices[&a], indices[&b]];
             self.faces.extend([[a, a + 1, b + 1], [a, b + 1, b]]);
         }
     }

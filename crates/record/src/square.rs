@@ -11,8 +11,8 @@ pub(crate) type Mask = u16;
 /// How far the corners of a pixel are from its centre.
 pub(crate) const CORNER: f64 = 0.5 * std::f64::consts::SQRT_2;
 
-/// Where the samples of a pixel lie from its centre, x and y: a Hammersley set, which has one in each of the 4 × 4 cells
-/// and in each of 16 rows and columns, so that steep and flat edges get 16 steps where a regular grid has 4.
+/// The offsets of the samples of a pixel from its centre, x and y: a Hammersley set, which has one in each of the 4 × 4
+/// cells and in each of 16 rows and columns, so that steep and flat edges get 16 steps where a regular grid has 4.
 const OFFSETS: [[f64; SAMPLES]; 2] = {
     let mut offsets = [[0.0; SAMPLES]; 2];
     let mut k = 0;

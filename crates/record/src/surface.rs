@@ -42,8 +42,8 @@ pub struct Candidate {
     pub covers: bool,
 }
 
-/// How two triangles compare.
-struct Pair {
+/// The comparison of two triangles.
+struct Comparison {
     /// The depth difference below which they count as coincident.
     window: f64,
     /// Whether the first is in front there, if that is known.
@@ -56,7 +56,7 @@ struct Pair {
     is_first: bool,
 }
 
-impl Pair {
+impl Comparison {
     /// Whether the first is in front where it is nearer by `gap`. `covers`: whether they cover the point themselves.
     fn is_front(&self, gap: f64, covers: [bool; 2]) -> bool {
         let distance = gap.abs();
@@ -166,7 +166,7 @@ impl<'a> Surface<'a> {
     /// Exactly one of `in_front(a, b)` and `in_front(b, a)` holds for two triangles. The distance compared with the
     /// tolerance is the one across the layers, depth difference times the smaller cosine of the two normals to the
     /// view, so that it does not grow where layers are seen at a slant. The order counts where the triangles are
-    /// nearly parallel and the viewer stands on the same side of both. Where it is unknown, a triangle goes before
+    /// nearly parallel and the viewer is on the same side of both. Where it is unknown, a triangle goes before
     /// the outline of another that lies within the tolerance of its plane; else the nearer one is in front, ties by
     /// the lower index.
     pub fn in_front(&self, a: &Candidate, b: &Candidate) -> bool {
@@ -199,7 +199,7 @@ impl<'a> Surface<'a> {
     }
 
     /// How triangles `f` and `g` compare where their depths differ by at least `closest`.
-    fn pair(&self, f: u32, g: u32, closest: f64) -> Pair {
+    fn pair(&self, f: u32, g: u32, closest: f64) -> Comparison {
         let cosines = [f, g].map(|face| self.face(face).cosine());
         let reach = self.tie / cosines[0].min(cosines[1]);
         let window = self.tie_window(f, g);
@@ -208,7 +208,7 @@ impl<'a> Surface<'a> {
         } else {
             None
         };
-        Pair {
+        Comparison {
             window,
             order,
             touch: cosines.map(|cosine| self.tie / cosine),
@@ -274,7 +274,7 @@ impl<'a> Surface<'a> {
 
     /// The one in front of those `found` at a point.
     ///
-    /// From the farthest to the nearest each candidate takes the place of the one before unless that one is in
+    /// From the farthest to the nearest each candidate replaces the one before unless that one is in
     /// front of it. One that is in front of all others is found in any sequence, mostly the nearest, which is tried
     /// first; this one makes the answer the same for every order of the triangles even where noise and layer order
     /// contradict each other in a circle.
@@ -424,8 +424,8 @@ impl<'a> Surface<'a> {
         }
     }
 
-    /// Drops from `list`, from place `start` on, the triangles hidden in all of `square` behind one that covers it;
-    /// answers whether one covers it.
+    /// Drops from `list`, from index `start` on, the triangles hidden in all of `square` behind one that covers it;
+    /// returns whether one covers it.
     ///
     /// Only what lies so deep that no order with any third triangle between them can lift it is dropped.
     pub(crate) fn drop_hidden(&self, list: &mut Vec<u32>, start: usize, square: &Square) -> bool {
@@ -441,10 +441,10 @@ impl<'a> Surface<'a> {
         }
         let limit = horizon - 2.0 * self.tie / LEAST_COSINE;
         let mut end = start;
-        for place in start..list.len() {
-            let screen = self.face(list[place]);
+        for index in start..list.len() {
+            let screen = self.face(list[index]);
             if screen.depths(square, screen.reach)[1] >= limit {
-                list[end] = list[place];
+                list[end] = list[index];
                 end += 1;
             }
         }

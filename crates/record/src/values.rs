@@ -10,11 +10,12 @@ use crate::shade::linear;
 /// One number a triangle and frame of a motion, such as a strain, and how it is shown.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Values {
-    /// What they are, with the unit, for the legend.
+    /// The quantity with its unit, for the legend.
     pub title: String,
     /// The values of the first and the last colour; others are clamped.
     pub range: [f64; 2],
-    /// One list a frame of the motion, one value for each triangle. A triangle whose value is not a number shows its paper.
+    /// One list a frame of the motion, one value for each triangle. A triangle whose value is not a number shows its
+    /// paper.
     pub frames: Vec<Vec<f64>>,
 }
 
@@ -52,8 +53,8 @@ impl Values {
         let [low, high] = self.range;
         let colour = |(&a, &b): (&f64, &f64)| {
             let value = if part == 1.0 { b } else { a + (b - a) * part };
-            let place = (value - low) / (high - low);
-            (!place.is_nan()).then(|| linear(colour_of(place)))
+            let part = (value - low) / (high - low);
+            (!part.is_nan()).then(|| linear(colour_of(part)))
         };
         let pairs = self.frames[before].iter().zip(&self.frames[after]);
         pairs.map(colour).collect()

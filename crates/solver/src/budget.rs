@@ -2,10 +2,10 @@
 
 use std::time::Instant;
 
-/// How much work a run may do before it ends in the state it has reached.
+/// The amount of work that a run may do before it ends in the state it has reached.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Budget {
-    /// What the engine allows by itself: some hundred Newton iterations a load step, or a million steps of settling a
+    /// The default of the engine: some hundred Newton iterations a load step, or a million steps of settling a
     /// stage.
     #[default]
     Standard,
@@ -21,7 +21,7 @@ impl Budget {
         matches!(self, Self::Until(end) if Instant::now() >= end)
     }
 
-    /// How a search that has `left` steps by [`Self::left`] is to end.
+    /// How a search with `left` steps, from [`Self::left`], has to end.
     pub(crate) fn allowance(self, left: u64) -> Allowance {
         Allowance {
             steps: left,
@@ -29,7 +29,7 @@ impl Budget {
         }
     }
 
-    /// What is left of it after `taken` steps of the run, where the engine by itself allows `standard` more.
+    /// The steps left after `taken` steps of the run, if the default of the engine is `standard` more.
     pub(crate) fn left(self, standard: u64, taken: u64) -> u64 {
         match self {
             Self::Standard | Self::Until(_) => standard,

@@ -56,17 +56,17 @@ pub enum SolverError {
     /// A list does not have one entry for each element.
     #[error("{found} {what} were given; {expected} are needed")]
     Count {
-        /// What was counted.
+        /// The elements that were counted.
         what: &'static str,
-        /// How many the model needs.
+        /// The number that the model needs.
         expected: usize,
-        /// How many were given.
+        /// The number that was given.
         found: usize,
     },
     /// A number of the input is NaN or infinite.
     #[error("{what} {index} is not finite; every one must be a finite number")]
     NotFinite {
-        /// What the number belongs to.
+        /// The kind of value that is not finite.
         what: &'static str,
         /// The index of the element.
         index: usize,
@@ -74,7 +74,7 @@ pub enum SolverError {
     /// A target fold angle lies beyond what a hinge can turn.
     #[error("{what} {index} is {value} rad; it must lie within ±{limit} rad")]
     AngleOutOfRange {
-        /// What the angle belongs to.
+        /// The kind of angle that is out of range.
         what: &'static str,
         /// The index of the element.
         index: usize,
@@ -172,7 +172,7 @@ pub enum SolverError {
         deployed: f64,
     },
     /// The number of frames cannot be recorded.
-    #[error("{frames} frames were asked for; an even number from 2 to {maximum} is needed")]
+    #[error("{frames} frames were requested; an even number from 2 to {maximum} is needed")]
     Frames {
         /// The number of frames that was requested.
         frames: usize,
@@ -227,7 +227,7 @@ pub enum SolverError {
         node: usize,
         /// Motion time.
         time: f64,
-        /// Its displacement in that step over the unit length; NaN where it is no number.
+        /// Its displacement in that step over the unit length; NaN if it is not a number.
         displacement: f64,
     },
     /// There is no GPU that can be used.
@@ -236,7 +236,7 @@ pub enum SolverError {
          mesa-vulkan-drivers), or run on the CPU"
     )]
     NoGpu {
-        /// What the adapters or the driver said.
+        /// The message of the adapters or the driver.
         reason: String,
     },
     /// The sheet does not fit the GPU.
@@ -256,7 +256,7 @@ pub enum SolverError {
     GpuLost {
         /// The name of the GPU.
         gpu: String,
-        /// What the driver said.
+        /// The message of the driver.
         reason: String,
     },
     /// The caller asked to stop.

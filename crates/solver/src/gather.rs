@@ -28,9 +28,9 @@ impl Gather {
         let mut next = starts.clone();
         let mut slots = vec![0u32; starts[node_count] as usize];
         for (slot, node) in elements.flatten().enumerate() {
-            let place = &mut next[*node as usize];
-            slots[*place as usize] = slot as u32;
-            *place += 1;
+            let slot_index = &mut next[*node as usize];
+            slots[*slot_index as usize] = slot as u32;
+            *slot_index += 1;
         }
         Self { starts, slots }
     }

@@ -14,13 +14,14 @@ mod gather;
 mod locality;
 mod material;
 mod model;
-mod moment;
+
 pub mod quasi_static;
 mod schedule;
+mod snapshot;
 
 pub use budget::Budget;
 pub use error::SolverError;
 pub use material::{Material, Preset};
 pub use model::{Bar, EnergyByKind, FaceAngles, Hinge, HingeKind, Model};
-pub use moment::{Moment, Watcher};
 pub use schedule::{CreaseGroup, Ease, Schedule, ScheduleStep, Stage, UnfoldPath};
+pub use snapshot::{Snapshot, Watcher};

@@ -80,7 +80,7 @@ mod tests {
     }
 
     #[test]
-    fn points_in_one_place_keep_their_order() {
+    fn points_at_one_position_keep_their_order() {
         assert_eq!(hilbert_order(&[DVec2::ONE; 3]), [0, 1, 2]);
     }
 }

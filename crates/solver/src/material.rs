@@ -66,8 +66,8 @@ pub struct Material {
 }
 
 impl Material {
-    /// Origami Simulator's own numbers, face-angle springs included: as an elastic sheet about h/3 thick, so bars strain by
-    /// several per cent on the way.
+    /// Origami Simulator's own numbers, face-angle springs included: as an elastic sheet about h/3 thick, so bars
+    /// strain by several per cent in between.
     pub const ORIGAMI_SIMULATOR: Self = Self {
         face_angle_stiffness: 0.2,
         ..Self::SOFT

@@ -6,8 +6,9 @@
 //! U = Σ ½ (EA / l₀) (l − l₀)² + Σ ½ κ l₀ (θ − θ*)² + Σ ½ φ (α − α₀)²
 //!
 //! over the bars (length l, rest length l₀), the hinges (fold angle θ, target θ*, κ the fold or the facet stiffness)
-//! and the corners of the triangles (angle α, rest angle α₀, φ the face-angle stiffness, 0 unless asked for). Source: Ghassaei, Demaine, Gershenfeld 2018, "Fast,
-//! interactive origami simulation using GPU computation"; Schenk and Guest 2011 for the bar-and-hinge idea.
+//! and the corners of the triangles (angle α, rest angle α₀, φ the face-angle stiffness, 0 by default). Source:
+//! Ghassaei, Demaine, Gershenfeld 2018, "Fast, interactive origami simulation using GPU computation"; Schenk and Guest
+//! 2011 for the bar-and-hinge idea.
 //!
 //! **Units.** Inside the model every length is divided by the sheet's unit length h, so that a sheet drawn in
 //! millimetres or in metres is the same model. Positions given to and returned by [`Model`]'s methods are in these
@@ -40,7 +41,7 @@ pub struct Bar {
     pub stiffness: f64,
 }
 
-/// What a hinge is.
+/// The kind of a hinge.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum HingeKind {
     /// Mountain or valley: driven by the schedule.

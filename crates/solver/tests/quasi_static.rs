@@ -7,7 +7,7 @@ use foldmotion_solver::quasi_static::{
     QuasiStaticOptions, QuasiStaticRun, StopReason, force_scale, run_quasi_static,
 };
 use foldmotion_solver::{
-    HingeKind, Material, Model, Moment, Schedule, SolverError, Stage, dynamic,
+    HingeKind, Material, Model, Schedule, Snapshot, SolverError, Stage, dynamic,
 };
 use glam::{DVec2, DVec3};
 
@@ -337,7 +337,7 @@ fn input_that_does_not_fit_is_refused_with_its_evidence() {
 #[test]
 fn the_caller_can_end_the_run() {
     let scene = scene(Case::E, 1, 1, &Material::default(), 1.0);
-    let stop = |moment: &Moment<'_>| moment.time < 0.5;
+    let stop = |moment: &Snapshot<'_>| moment.time < 0.5;
     let error = run_quasi_static(
         &scene.model,
         &scene.schedule,

@@ -44,7 +44,7 @@ pub use error::StudyError;
 pub use foldmotion_pattern::{
     CutError, CutOptions, PaperSize, ProfileModel, models, parse_millimetres,
 };
-pub use foldmotion_solver::Moment;
+pub use foldmotion_solver::Snapshot;
 pub use foldmotion_solver::dynamic::Device;
 pub use input_file::require_file;
 pub use opened::{Opened, OpenedMotion};

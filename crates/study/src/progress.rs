@@ -1,6 +1,6 @@
 //! What a run tells while it is under way.
 
-use foldmotion_solver::Moment;
+use foldmotion_solver::Snapshot;
 
 /// A part of a run, as progress names it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -41,7 +41,7 @@ pub trait Watch: Sync {
     /// Told that the engine has come to a state, some hundred times a second for a small sheet. Its positions are worked
     /// out where they are asked for. They lie where the engine has them: [`Subject::show`](crate::Subject::show) moves
     /// them to where they are shown.
-    fn state(&self, moment: &Moment<'_>) {
+    fn state(&self, moment: &Snapshot<'_>) {
         let _ = moment;
     }
 }

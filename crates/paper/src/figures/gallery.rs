@@ -4,7 +4,7 @@ use foldmotion_pattern::{Case, models};
 use foldmotion_record::{Anchor, Drawing, View};
 use glam::DVec2;
 
-use super::panel::{Cell, Pose, common_scale};
+use super::panel::{Cell, FigureState, common_scale};
 use super::pattern::{Place, WORDS, draw};
 use super::{Composed, page};
 use crate::PaperError;
@@ -17,7 +17,7 @@ pub(super) fn figure6() -> Result<Composed, PaperError> {
     let mut drawing = page(3.0 * 320.0 + 10.0, 3.0 * 285.0 + 5.0)?;
     for ((k, model), letter) in models().iter().enumerate().zip('a'..) {
         let study = sheet(model.name, Case::E)?;
-        let pose = Pose::deployed(&study);
+        let pose = FigureState::deployed(&study);
         let (x, y) = (10.0 + 320.0 * (k % 3) as f64, 5.0 + 285.0 * (k / 3) as f64);
         let scale = common_scale(std::slice::from_ref(&pose), View::Iso, cell);
         let place = Cell::new(x, y, cell.x, cell.y);
@@ -76,8 +76,8 @@ fn four_cases(blocks: [(&str, &str); 2]) -> Result<Drawing, PaperError> {
             .iter()
             .map(|&case| sheet(model, case))
             .collect::<Result<_, _>>()?;
-        let deployed: Vec<Pose<'_>> = studies.iter().map(Pose::deployed).collect();
-        let compact: Vec<Pose<'_>> = studies.iter().map(Pose::compact).collect();
+        let deployed: Vec<FigureState<'_>> = studies.iter().map(FigureState::deployed).collect();
+        let compact: Vec<FigureState<'_>> = studies.iter().map(FigureState::compact).collect();
         let scale = common_scale(&deployed, View::Iso, cell).min(common_scale(
             &compact,
             View::Iso,
@@ -111,7 +111,7 @@ pub(super) fn figure9() -> Result<Composed, PaperError> {
     for ((k, case), letter) in CASES.into_iter().enumerate().zip('a'..) {
         let study = sheet("shelter", case)?;
         let top = 30.0 + line * k as f64;
-        let poses = [Pose::deployed(&study), Pose::compact(&study)];
+        let poses = [FigureState::deployed(&study), FigureState::compact(&study)];
         for (pose, x) in poses.iter().zip([10.0, 325.0]) {
             let cell = Cell::new(x, top, 310.0, line);
             pose.show(&mut drawing, View::Iso, cell, 31.0)?;

@@ -16,13 +16,13 @@ const MARGIN: f64 = 4.0;
 
 /// A state of a sheet, to be shown.
 #[derive(Debug)]
-pub(super) struct Pose<'a> {
+pub(super) struct FigureState<'a> {
     pub(super) sheet: &'a Sheet,
     pub(super) positions: Vec<DVec3>,
     pub(super) order: LayerOrder,
 }
 
-impl<'a> Pose<'a> {
+impl<'a> FigureState<'a> {
     /// A state without coincident facets.
     pub(super) fn new(study: &'a UnitStudy, positions: Vec<DVec3>) -> Self {
         Self {
@@ -103,8 +103,8 @@ impl Cell {
 }
 
 /// The largest scale at which every pose fits into a cell of `size`.
-pub(super) fn common_scale(poses: &[Pose<'_>], view: View, size: DVec2) -> f64 {
+pub(super) fn common_scale(poses: &[FigureState<'_>], view: View, size: DVec2) -> f64 {
     let room = size - 2.0 * MARGIN;
-    let fit = |pose: &Pose<'_>| (room / pose.size(view)).min_element();
+    let fit = |pose: &FigureState<'_>| (room / pose.size(view)).min_element();
     poses.iter().map(fit).fold(f64::INFINITY, f64::min)
 }

@@ -4,7 +4,7 @@ use foldmotion_pattern::{Assignment, Case, CreaseKind, Edge, Facet, FacetKind, L
 use foldmotion_record::{Anchor, Stroke, View};
 use glam::{DVec2, DVec3};
 
-use super::panel::{Cell, Pose, common_scale};
+use super::panel::{Cell, FigureState, common_scale};
 use super::pattern::WORDS;
 use super::{Composed, page};
 use crate::PaperError;
@@ -18,13 +18,13 @@ const STRIPS: u32 = 240;
 pub(super) fn figure2() -> Result<Composed, PaperError> {
     let study = sheet("shelter", Case::E)?;
     let (smooth, positions) = swept_surface(&study);
-    let surface = Pose {
+    let surface = FigureState {
         sheet: &smooth,
         positions,
         order: LayerOrder::default(),
     };
     let cell = DVec2::new(300.0, 300.0);
-    let poses = [surface, Pose::deployed(&study)];
+    let poses = [surface, FigureState::deployed(&study)];
     let scale = common_scale(&poses, View::Iso, cell);
     let mut drawing = page(960.0, 350.0)?;
     let words = [
@@ -39,7 +39,7 @@ pub(super) fn figure2() -> Result<Composed, PaperError> {
         drawing.words(below, words, WORDS, Anchor::Middle);
     }
     let cell = Cell::new(630.0, 100.0, 320.0, 110.0);
-    Pose::compact(&study).show(&mut drawing, View::Front, cell, scale)?;
+    FigureState::compact(&study).show(&mut drawing, View::Front, cell, scale)?;
     let ink = Stroke::new([110, 110, 115], 1.0);
     let half = 0.5 * scale * study.closed_form.map_or(0.0, |form| form.extents[0]);
     let (left, right) = (

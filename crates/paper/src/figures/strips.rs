@@ -3,7 +3,7 @@
 use foldmotion_record::{Anchor, View};
 use glam::{DVec2, DVec3};
 
-use super::panel::{Cell, Pose, common_scale};
+use super::panel::{Cell, FigureState, common_scale};
 use super::pattern::{SMALL, WORDS};
 use super::{Composed, page};
 use crate::PaperError;
@@ -91,8 +91,8 @@ fn words_of(
 }
 
 /// A state of a motion, turned as its stage is shown: upright until it is nearly flat, then as the compact state lies.
-fn pose<'a>(study: &'a UnitStudy, (time, positions): &(f64, Vec<DVec3>)) -> Pose<'a> {
-    let pose = Pose::new(study, study.turned(*time, positions));
+fn pose<'a>(study: &'a UnitStudy, (time, positions): &(f64, Vec<DVec3>)) -> FigureState<'a> {
+    let pose = FigureState::new(study, study.turned(*time, positions));
     if *time > 1.0 {
         pose.layered(study)
     } else {

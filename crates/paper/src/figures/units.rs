@@ -4,7 +4,7 @@ use foldmotion_pattern::{Case, Unit};
 use foldmotion_record::{Anchor, Drawing, View};
 use glam::DVec2;
 
-use super::panel::{Cell, Pose, common_scale};
+use super::panel::{Cell, FigureState, common_scale};
 use super::pattern::{WORDS, draw_unit};
 use super::{Composed, page};
 use crate::PaperError;
@@ -124,7 +124,7 @@ fn line(
         LINE - 22.0,
     )?;
     let is_flat = study.units.unit.side_pad == 0.0;
-    let poses = [Pose::deployed(study), Pose::compact(study)];
+    let poses = [FigureState::deployed(study), FigureState::compact(study)];
     let view = if is_flat { View::Front } else { View::Iso };
     let cell = DVec2::new(250.0, LINE - 50.0);
     let scale =

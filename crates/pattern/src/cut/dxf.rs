@@ -28,10 +28,10 @@ impl CutPage<'_> {
             self.line(ends.map(|p| p.to_array()), "MARKS", &mut dxf);
         }
         if let Some(label) = self.label() {
-            let (place, height) = self.label_place();
+            let (corner, height) = self.label_position();
             dxf.pair(0, "TEXT");
             dxf.pair(8, "MARKS");
-            dxf.point(0, [place.x, self.size.y - place.y]);
+            dxf.point(0, [corner.x, self.size.y - corner.y]);
             dxf.pair(40, number(height));
             dxf.pair(1, ascii(&label));
         }

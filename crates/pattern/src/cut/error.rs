@@ -83,14 +83,14 @@ pub enum CutError {
         limit: usize,
     },
     /// A text that is no length.
-    #[error("\"{text}\" is no length: write a number with mm, cm, m, in or pt, such as 10mm")]
+    #[error("\"{text}\" is not a length: write a number with mm, cm, m, in or pt, such as 10mm")]
     LengthText {
         /// The text that was given.
         text: String,
     },
     /// A text that names no paper.
     #[error(
-        "\"{text}\" is no paper: write A0 to A6, letter, legal or tabloid (with -landscape for the long side across), or \
+        "\"{text}\" is not a paper size: write A0 to A6, letter, legal or tabloid (with -landscape for the long side across), or \
          WIDTHxHEIGHT such as 300x600mm"
     )]
     PaperText {

@@ -11,7 +11,7 @@ pub enum LineClass {
     Mountain,
     /// Folded towards the front.
     Valley,
-    /// Creased, but folded neither way: a free hinge.
+    /// Creased, but folded in neither direction: a free hinge.
     Free,
     /// Where a quadrilateral facet is cut into triangles: not a crease.
     Facet,

@@ -27,7 +27,7 @@ pub(super) fn join(vertices: &[DVec2], segments: &[Segment]) -> Vec<Segment> {
             continue;
         }
         is_used[index] = true;
-        let ends = [0, 1].map(|side| walk(segments, &links, &mut is_used, index, side));
+        let ends = [0, 1].map(|side| follow(segments, &links, &mut is_used, index, side));
         lines.push(Segment { ends, ..segment });
     }
     lines
@@ -64,7 +64,7 @@ fn links(vertices: &[DVec2], segments: &[Segment]) -> Vec<[Option<usize>; 2]> {
 }
 
 /// The last vertex reached from `side` of segment `start`.
-fn walk(
+fn follow(
     segments: &[Segment],
     links: &[[Option<usize>; 2]],
     is_used: &mut [bool],

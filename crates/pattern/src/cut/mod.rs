@@ -2,11 +2,11 @@
 //! Origami Simulator (section 4.3 of the paper, whose figure 9 was cut from such lines).
 //!
 //! A [`CutPattern`] is every line once, in an order that a plotter follows without needless travel, creases before
-//! the outline. A [`CutPage`] is what goes on one piece of paper: the whole pattern ([`CutPattern::whole`]) or a tile
+//! the outline. A [`CutPage`] is one piece of paper: the whole pattern ([`CutPattern::whole`]) or a tile
 //! of it ([`CutPattern::tiles`]). Pages are written as SVG or DXF; [`crease_pattern_fold`] is the same pattern as FOLD.
 //!
 //! The drawing is the sheet seen from its front: row 0 at the left, column 0 at the top. Mountain creases fold away
-//! from who looks at it, valley creases towards.
+//! from the viewer, valley creases towards the viewer.
 
 mod dxf;
 mod error;

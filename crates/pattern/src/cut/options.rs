@@ -13,12 +13,12 @@ const STROKES_A_DIAGONAL: f64 = 2000.0;
 /// The thinnest line, mm, unless a width is given.
 const THINNEST_STROKE: f64 = 0.1;
 
-/// How a crease pattern is put on paper. Lengths in mm.
+/// The options of a crease pattern on paper. Lengths in mm.
 #[derive(Debug, Clone, PartialEq)]
 pub struct CutOptions {
     /// `<title>` in SVG, a comment in DXF, `file_title` in FOLD.
     pub title: String,
-    /// What the reader must know of the size, such as "1 m of the scene is 50 mm".
+    /// A note on the size for the reader, such as "1 m of the scene is 50 mm".
     pub note: String,
     /// Millimetres on paper for one unit of length of the sheet.
     pub scale: f64,

@@ -1,10 +1,10 @@
-//! What goes on one piece of paper.
+//! One piece of paper: its lines and marks.
 
 use glam::DVec2;
 
 use super::{CutLine, CutPattern, LineClass};
 
-/// Which of the tiles of a pattern a page is, counted from 0.
+/// The number of a page among the tiles of a pattern, counted from 0.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct PageNumber {
     /// Row of the page, counted from the top.
@@ -21,11 +21,11 @@ pub struct PageNumber {
 #[derive(Debug, Clone, PartialEq)]
 pub struct CutPage<'a> {
     pub(super) pattern: &'a CutPattern,
-    /// Its place among the tiles; `None` for the whole pattern.
+    /// Its number among the tiles; `None` for the whole pattern.
     pub number: Option<PageNumber>,
     /// Width and height of the paper, mm.
     pub size: DVec2,
-    /// Where the origin of the pattern lies on the page, mm.
+    /// The position of the origin of the pattern on the page, mm.
     pub origin: DVec2,
     /// White space on every side, mm.
     pub(super) margin: f64,
@@ -65,7 +65,7 @@ impl<'a> CutPage<'a> {
         self.lines.iter().filter(move |line| line.class == class)
     }
 
-    /// The words on a tile: its place among the others.
+    /// The label of a tile: its number among the others.
     pub(super) fn label(&self) -> Option<String> {
         let PageNumber {
             row,
@@ -80,8 +80,8 @@ impl<'a> CutPage<'a> {
         ))
     }
 
-    /// Where the words on a tile stand, lower left, and how high they are, mm: in the margin where it has room.
-    pub(super) fn label_place(&self) -> (DVec2, f64) {
+    /// The lower left corner of the label of a tile and the height of its letters, mm: in the margin if it has room.
+    pub(super) fn label_position(&self) -> (DVec2, f64) {
         let margin = self.margin;
         let height = (self.size.min_element() / 40.0).min(4.0);
         let below = (margin - height).max(0.0) / 2.0;

@@ -31,7 +31,7 @@ pub struct CutPattern {
 impl CutPattern {
     /// Puts a sheet on paper.
     ///
-    /// `target_angles`: the fold angle every edge is to take, radians, one for each edge; 0 where it is no crease. A crease
+    /// `target_angles`: the fold angle every edge is to take, radians, one for each edge; 0 if it is not a crease. A crease
     /// with the target 0 would be drawn invisible.
     ///
     /// # Errors
@@ -73,7 +73,7 @@ impl CutPattern {
         })
     }
 
-    /// How many lines a class has.
+    /// The number of lines of a class.
     pub fn count(&self, class: LineClass) -> usize {
         self.of(class).count()
     }
@@ -83,7 +83,7 @@ impl CutPattern {
         self.of(class).map(CutLine::length).sum()
     }
 
-    /// How far the pen moves between lines, mm, starting at the upper left corner.
+    /// The distance that the pen moves between lines, mm, starting at the upper left corner.
     pub fn travel(&self) -> f64 {
         travel(&self.lines)
     }
@@ -101,8 +101,8 @@ fn on_paper(sheet: &Sheet, scale: f64) -> (Vec<DVec2>, DVec2) {
         .vertices
         .iter()
         .fold((far, -far), |(low, high), &v| (low.min(v), high.max(v)));
-    let place = |v: &DVec2| DVec2::new(high.x - v.x, v.y - low.y) * scale;
-    let vertices = sheet.vertices.iter().map(place).collect();
+    let position = |v: &DVec2| DVec2::new(high.x - v.x, v.y - low.y) * scale;
+    let vertices = sheet.vertices.iter().map(position).collect();
     (vertices, (high - low) * scale)
 }
 

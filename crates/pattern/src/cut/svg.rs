@@ -2,7 +2,8 @@
 //!
 //! One user unit is one millimetre. Every line is a `<line>` with its own attributes, in a group for each class that
 //! Inkscape shows as a layer; no style sheets, no transforms. Colours and opacity are those that Origami Simulator
-//! reads: #000 border, #f00 mountain, #00f valley, #ff0 facet, #f0f free hinge, and a crease's opacity is its fold angle over 180°.
+//! reads: #000 border, #f00 mountain, #00f valley, #ff0 facet, #f0f free hinge, and a crease's opacity is its fold
+//! angle over 180°.
 
 use std::f64::consts::PI;
 use std::fmt::Write as _;
@@ -74,8 +75,8 @@ impl CutPage<'_> {
             );
         }
         if let Some(label) = self.label() {
-            let (place, height) = self.label_place();
-            let [x, y, height] = [place.x, place.y, height].map(number);
+            let (corner, height) = self.label_position();
+            let [x, y, height] = [corner.x, corner.y, height].map(number);
             let _ = writeln!(
                 svg,
                 "<text x=\"{x}\" y=\"{y}\" font-size=\"{height}\" font-family=\"sans-serif\" fill=\"{MARK}\">{}</text>",

@@ -52,7 +52,7 @@ mod tests {
     }
 
     #[test]
-    fn words_cannot_break_out_of_their_place() {
+    fn text_cannot_break_out_of_its_element() {
         assert_eq!(xml("a<b>&\"c\"\n\u{0}"), "a&lt;b&gt;&amp;&quot;c&quot;  ");
         assert_eq!(ascii("a\n0\nEOF é"), "a 0 EOF ?");
     }

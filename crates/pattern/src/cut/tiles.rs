@@ -142,7 +142,7 @@ impl<'a> Tiles<'a> {
     }
 
     /// The lines where this page and its neighbours begin, each with two ticks across it. A line that two pages
-    /// share is drawn on both at the same place of the pattern.
+    /// share is drawn on both at the same position in the pattern.
     fn marks(&self, number: PageNumber) -> Vec<[DVec2; 2]> {
         let low = DVec2::splat(self.layout.margin);
         let high = low + self.window;
@@ -176,8 +176,9 @@ impl<'a> Tiles<'a> {
 
 /// The part of a line inside a box, in the same direction; `None` if it has no length there.
 ///
-/// A line along a side of the box and within [`SEAM`] of it is inside. Ends that lie inside are kept bit for bit; new ends lie exactly on the side of the box that cuts the line.
-/// Source: Liang & Barsky 1984, "A new concept and method for line clipping".
+/// A line along a side of the box and within [`SEAM`] of it is inside. Ends that lie inside are kept bit for bit; new
+/// ends lie exactly on the side of the box that cuts the line. Source: Liang & Barsky 1984, "A new concept and method
+/// for line clipping".
 fn clip([from, to]: [DVec2; 2], low: DVec2, high: DVec2) -> Option<[DVec2; 2]> {
     let along = to - from;
     let (mut enter, mut leave) = (0.0_f64, 1.0_f64);

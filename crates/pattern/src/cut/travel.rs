@@ -72,7 +72,7 @@ pub(super) fn outline(border: &[Segment]) -> Vec<Segment> {
     sorted
 }
 
-/// How far the pen moves between lines, mm, starting at the origin.
+/// The distance that the pen moves between lines, mm, starting at the origin.
 pub(super) fn travel(lines: &[CutLine]) -> f64 {
     let starts = lines.iter().map(|line| line.ends[0]);
     let ends = lines.iter().map(|line| line.ends[1]);

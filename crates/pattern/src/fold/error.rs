@@ -94,7 +94,7 @@ pub enum FoldError {
         /// The number of vertices of the file.
         vertices: usize,
     },
-    /// An entry of `faceOrders` that orders no two faces.
+    /// An entry of `faceOrders` that does not order two faces.
     #[error(
         "{frame}: faceOrders[{entry}] is [{}, {}, {}]: it must name two faces below {faces} and one of the signs \
          -1, 0, 1",
@@ -107,7 +107,7 @@ pub enum FoldError {
         entry: usize,
         /// The entry: two faces and a sign.
         order: (u32, u32, i8),
-        /// How many faces there are.
+        /// The number of faces of the file.
         faces: usize,
     },
     /// `faceOrders` put a face above another and below it.
@@ -134,7 +134,7 @@ pub enum FoldError {
         /// The most a face may have.
         limit: usize,
     },
-    /// A vertex stands twice in a face or an edge.
+    /// A face or an edge names a vertex twice.
     #[error("{key}[{element}] names vertex {vertex} twice")]
     RepeatedVertex {
         /// The FOLD key of the list.

@@ -111,7 +111,7 @@ impl FoldFile {
         })
     }
 
-    /// How many frames the motion has; at least one.
+    /// The number of frames of the motion; at least one.
     pub fn frame_count(&self) -> usize {
         self.frames.len()
     }
@@ -125,8 +125,8 @@ impl FoldFile {
     /// faces of the file (not of the triangles) that its `faceOrders` claim; empty where it has none.
     ///
     /// Entries of sign 0, which say that an order is unknown, are left out. A frame's time is its `foldmotion:time`; if
-    /// any frame has none, all times are indices. Only the frame being read and those that later frames inherit from are
-    /// held in memory.
+    /// any frame has none, all times are indices. Only the frame being read and those that later frames inherit from
+    /// are held in memory.
     ///
     /// # Errors
     /// [`FoldError`] if a frame cannot be read or its vertices or faces differ from those of the sheet; any error of `each`.

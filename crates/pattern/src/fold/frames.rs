@@ -298,7 +298,7 @@ impl FrameFields {
             "faces_vertices" => self.faces = Some(map.next_value_seed(List::new(location))?),
             "edges_vertices" => self.edges = Some(map.next_value_seed(List::new(location))?),
             "edges_assignment" => {
-                self.assignments = Some(map.next_value_seed(List::new(location))?)
+                self.assignments = Some(map.next_value_seed(List::new(location))?);
             }
             _ => self.facets = Some(map.next_value_seed(List::new(location))?),
         }

@@ -19,7 +19,7 @@ pub(super) struct FrameSource {
     pub(super) order_source: Option<FrameNumber>,
 }
 
-/// What the first reading of a file keeps of each frame.
+/// The data of each frame that the first reading of a file keeps.
 pub(super) struct FrameSummary {
     parent: Result<Option<usize>, FoldError>,
     time: Option<f64>,

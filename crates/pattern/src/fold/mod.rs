@@ -19,8 +19,6 @@ mod file;
 mod frames;
 mod inheritance;
 mod motion;
-#[cfg(test)]
-mod tests;
 mod topology;
 mod triangulate;
 mod utf8;

@@ -17,7 +17,8 @@ pub(super) struct Topology {
     pub(super) faces: Vec<u32>,
 }
 
-/// Builds the sheet of the key frame; `rest`: one position for each vertex, in which polygons are cut and edges measured.
+/// Builds the sheet of the key frame; `rest`: one position for each vertex, in which polygons are cut and edges
+/// measured.
 pub(super) fn build(
     key: &FrameFields,
     polygons: &[Vec<u32>],
@@ -126,7 +127,8 @@ fn facets(
     Ok((face_facets, facets))
 }
 
-/// The corners of the union of `triangles`: those of its border, along it, where that is one loop, otherwise all by index.
+/// The corners of the union of `triangles`: those of its border, along it, where that is one loop, otherwise all by
+/// index.
 fn outline(triangles: &[[u32; 3]]) -> Vec<u32> {
     let sides = |t: &[u32; 3]| [[t[0], t[1]], [t[1], t[2]], [t[2], t[0]]];
     let all: BTreeSet<[u32; 2]> = triangles.iter().flat_map(sides).collect();
@@ -138,19 +140,19 @@ fn outline(triangles: &[[u32; 3]]) -> Vec<u32> {
     let corners: BTreeSet<u32> = triangles.iter().flatten().copied().collect();
     let on_border = |v: &u32| next.contains_key(v);
     let start = triangles.iter().flatten().copied().find(on_border);
-    let mut walked: Vec<u32> = std::iter::successors(start, |at| next.get(at).copied())
+    let mut border: Vec<u32> = std::iter::successors(start, |at| next.get(at).copied())
         .take(next.len() + 1)
         .collect();
-    let is_closed = walked.len() > 1 && walked.pop() == start;
+    let is_closed = border.len() > 1 && border.pop() == start;
     if is_closed
-        && walked
+        && border
             .iter()
             .copied()
             .collect::<BTreeSet<_>>()
             .iter()
             .eq(next.keys())
     {
-        walked
+        border
     } else {
         corners.into_iter().collect()
     }
@@ -186,35 +188,40 @@ fn edges(
             });
         }
         // Edges of no face do not move anything; one listed twice is one edge.
-        if let Some(met) = sides.remove(&[a.min(b), a.max(b)]) {
+        if let Some(around) = sides.remove(&[a.min(b), a.max(b)]) {
             let letter = letters.get(element).map_or("F", String::as_str);
-            edges.push(edge([a, b], &met, letter, faces)?);
+            edges.push(edge([a, b], &around, letter, faces)?);
         }
     }
-    for (ends, met) in &sides {
-        edges.push(edge(*ends, met, "F", faces)?);
+    for (ends, around) in &sides {
+        edges.push(edge(*ends, around, "F", faces)?);
     }
     Ok(edges)
 }
 
 /// A triangle at an edge, and whether it lies on the left of the edge from the smaller to the larger end.
-type Met = (u32, bool);
+type EdgeTriangle = (u32, bool);
 
 /// The triangles at every edge, by its ends in order.
-fn sides(triangles: &[[u32; 3]]) -> BTreeMap<[u32; 2], Vec<Met>> {
+fn sides(triangles: &[[u32; 3]]) -> BTreeMap<[u32; 2], Vec<EdgeTriangle>> {
     let mut sides: BTreeMap<_, Vec<_>> = BTreeMap::new();
     for (triangle, &[p, q, r]) in triangles.iter().enumerate() {
         for [a, b] in [[p, q], [q, r], [r, p]] {
-            let met = (triangle as u32, a < b);
-            sides.entry([a.min(b), a.max(b)]).or_default().push(met);
+            let around = (triangle as u32, a < b);
+            sides.entry([a.min(b), a.max(b)]).or_default().push(around);
         }
     }
     sides
 }
 
-fn edge(ends: [u32; 2], met: &[Met], letter: &str, faces: &[u32]) -> Result<Edge, FoldError> {
+fn edge(
+    ends: [u32; 2],
+    around: &[EdgeTriangle],
+    letter: &str,
+    faces: &[u32],
+) -> Result<Edge, FoldError> {
     let forward = ends[0] < ends[1];
-    let (joined, assignment) = match *met {
+    let (joined, assignment) = match *around {
         [(f, left)] if left == forward => ([Some(f), None], Assignment::Border),
         [(f, _)] => ([None, Some(f)], Assignment::Border),
         // Faces that turn against each other have no common front, so that M and V say nothing.

@@ -13,8 +13,8 @@ const AREA_LIMIT: f64 = 1e-12;
 
 /// The triangles of face `face` with `polygon` as corners, each oriented as the polygon is.
 ///
-/// The polygon is seen in the plane normal to its area vector (Newell). A strictly convex outline becomes a fan from its
-/// first corner, any other its constrained Delaunay triangulation. A triangle stays as it is.
+/// The polygon is seen in the plane normal to its area vector (Newell). A strictly convex outline becomes a fan from
+/// its first corner, any other its constrained Delaunay triangulation. A triangle stays as it is.
 ///
 /// # Errors
 /// [`FoldError::ZeroArea`], or [`FoldError::NotSimple`] if the outline crosses or touches itself.

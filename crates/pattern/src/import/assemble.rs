@@ -16,7 +16,7 @@ use crate::{Assignment, CreaseKind, Edge, Facet, FacetKind, Sheet};
 #[derive(Debug)]
 pub(super) struct Assembled {
     pub(super) sheet: Sheet,
-    /// The fold angle every edge is to take, radians; 0 where it is no crease.
+    /// The fold angle every edge is to take, radians; 0 if it is not a crease.
     pub(super) targets: Vec<f64>,
     /// The line of the plan each edge comes from; `None` for those that cut facets into triangles.
     pub(super) edge_lines: Vec<Option<u32>>,
@@ -284,14 +284,14 @@ fn outline(triangles: &[[u32; 3]]) -> Vec<u32> {
     let mut next: BTreeMap<u32, u32> = starts.into_iter().collect();
     let mut longest: Vec<u32> = Vec::new();
     while let Some((start, mut at)) = next.pop_first() {
-        let mut walked = vec![start];
+        let mut found = vec![start];
         while at != start {
-            walked.push(at);
+            found.push(at);
             let Some(to) = next.remove(&at) else { break };
             at = to;
         }
-        if walked.len() > longest.len() {
-            longest = walked;
+        if found.len() > longest.len() {
+            longest = found;
         }
     }
     longest

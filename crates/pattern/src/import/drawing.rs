@@ -36,7 +36,7 @@ pub(super) struct Line {
     pub(super) role: Role,
     /// The fold angle it is to take, radians; 0 unless it is a crease.
     pub(super) target: f64,
-    /// Where it comes from, by the place in the list of sources.
+    /// Where it comes from: an index into the list of sources.
     pub(super) source: u32,
 }
 

@@ -23,7 +23,7 @@ pub enum ImportError {
     TooMany {
         /// The name of the elements that are too many.
         what: &'static str,
-        /// How many were found when reading ended.
+        /// The number found when reading ended.
         found: usize,
         /// The largest number allowed.
         limit: usize,
@@ -53,18 +53,18 @@ pub enum ImportError {
         value: f64,
     },
     /// Not UTF-8.
-    #[error("the bytes from {byte} on are no UTF-8")]
+    #[error("the bytes from {byte} on are not UTF-8")]
     NotUtf8 {
         /// The index of the first byte that is not UTF-8.
         byte: usize,
     },
     /// Not XML, or a document type with entities, which are not read.
-    #[error("this is no XML that is read here (entities are not): {message}")]
+    #[error("this is not XML, or has entities, which are not read: {message}")]
     Xml {
         /// What is wrong, with line and column.
         message: String,
     },
-    /// XML, but no SVG.
+    /// XML, but not SVG.
     #[error("the root element is <{found}>: an SVG starts with <svg>")]
     NotSvg {
         /// The name of the root element.
@@ -105,7 +105,7 @@ pub enum ImportError {
         /// The largest coordinate by absolute value.
         farthest: f64,
     },
-    /// No lines at all.
+    /// The file has no lines.
     #[error("there are no lines of a crease pattern")]
     Empty,
     /// Lines that bound nothing.

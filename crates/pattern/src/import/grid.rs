@@ -14,9 +14,9 @@ pub(super) struct Grid {
     /// Size of a square.
     size: DVec2,
     side: usize,
-    /// How far beside a line a square still counts.
+    /// The distance from a line within which a square belongs to it.
     margin: f64,
-    /// Where the lines of each square begin.
+    /// The index of the first line of each square.
     starts: Vec<u32>,
     lines: Vec<u32>,
 }
@@ -65,15 +65,15 @@ impl Grid {
     }
 
     #[expect(clippy::cast_sign_loss, reason = "raised to 0 before")]
-    fn place(&self, along: f64, low: f64, size: f64) -> usize {
+    fn square_along(&self, along: f64, low: f64, size: f64) -> usize {
         (((along - low) / size).floor().max(0.0) as usize).min(self.side - 1)
     }
 
     /// Hands over every square the segment passes through, column by column.
     fn passed(&self, [a, b]: &[DVec2; 2], mut each: impl FnMut(usize)) {
         let (a, b) = if a.x <= b.x { (*a, *b) } else { (*b, *a) };
-        let column = |x| self.place(x, self.low.x, self.size.x);
-        let row = |y| self.place(y, self.low.y, self.size.y);
+        let column = |x| self.square_along(x, self.low.x, self.size.x);
+        let row = |y| self.square_along(y, self.low.y, self.size.y);
         let slope = (b.y - a.y) / (b.x - a.x);
         // Wider than the margin by what rounding can move.
         let pad = self.margin + 1e-9 * self.size.max_element();
@@ -112,8 +112,8 @@ impl Grid {
 
     /// The square a point lies in, the nearest one for a point beside the grid.
     pub(super) fn square(&self, point: DVec2) -> usize {
-        let column = self.place(point.x, self.low.x, self.size.x);
-        self.place(point.y, self.low.y, self.size.y) * self.side + column
+        let column = self.square_along(point.x, self.low.x, self.size.x);
+        self.square_along(point.y, self.low.y, self.size.y) * self.side + column
     }
 
     /// The column of a square, from the left.
@@ -134,13 +134,9 @@ mod tests {
 
     #[test]
     fn every_square_with_a_point_of_a_segment_has_the_segment() {
-        let mut seed = 1u32;
-        let mut random = || {
-            seed = seed.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
-            f64::from(seed) / f64::from(u32::MAX)
-        };
+        let mut random = fastrand::Rng::with_seed(1);
         let mut segments: Vec<[DVec2; 2]> = (0..300)
-            .map(|_| [0; 2].map(|_| DVec2::new(random(), 3.0 * random())))
+            .map(|_| [0; 2].map(|_| DVec2::new(random.f64(), 3.0 * random.f64())))
             .collect();
         segments.push([DVec2::new(0.5, 0.0), DVec2::new(0.5, 3.0)]);
         segments.push([DVec2::new(0.0, 1.0), DVec2::new(1.0, 1.0)]);

@@ -10,38 +10,38 @@ use crate::{Assignment, Sheet};
 
 /// A crease pattern read from a file: the sheet, and what it is to fold to.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Imported {
+pub struct ImportedPattern {
     /// `file_title` of FOLD, `<title>` of SVG.
     pub title: Option<String>,
     /// The flat pattern. Creases have [`crate::CreaseKind::Imported`], facets [`crate::FacetKind::Plain`], rows and
     /// columns are 0; cuts are open; free hinges are [`Assignment::Free`]. [`Sheet::unit_length`] is the mean length of
     /// the edges of its facets, or what `foldmotion:unitLength` says.
     ///
-    /// An SVG lies as it is seen, front towards who looks: x to the right, y upwards.
+    /// The sheet of an SVG lies as it is seen, its front towards the viewer: x to the right, y upwards.
     pub sheet: Sheet,
     /// The unit of length of the coordinates.
     pub unit: LengthUnit,
-    /// The fold angle every edge is to take, radians; 0 where it is no crease.
+    /// The fold angle every edge is to take, radians; 0 if it is not a crease.
     pub targets: Vec<f64>,
-    /// The fold angles along the way, where the frames of a FOLD file say so; in the order of the frames.
+    /// The fold angles to pass through, if the frames of a FOLD file give any, in the order of the frames.
     pub stages: Vec<PatternStage>,
-    /// The facets held in place, where a FOLD file names them by `faces_foldmotion:fixed` or by fixing all their corners
+    /// The facets held in place, if a FOLD file names them by `faces_foldmotion:fixed` or by fixing all their corners
     /// with `rtori:os:vertices_fixed`; in order.
     pub fixed_facets: Vec<u32>,
-    /// What the edges come from.
+    /// The elements of the file that the edges come from.
     pub sources: Vec<Source>,
-    /// The place in `sources` of every edge; `None` for those that cut facets into triangles.
+    /// The index in `sources` of every edge; `None` for those that cut facets into triangles.
     pub edge_sources: Vec<Option<u32>>,
     /// The FOLD vertex every vertex comes from; `None` if lines were drawn or split.
     pub vertex_sources: Vec<Option<u32>>,
-    /// The vertices as a FOLD file places them, where that is not in the plane z = 0 with the fronts up: its
+    /// The vertices as a FOLD file places them, if they are not in the plane z = 0 with the fronts up: its
     /// coordinates, for the vertices of the sheet.
     pub shape: Option<Vec<DVec3>>,
-    /// What was changed or left out, one of each kind.
+    /// What was changed or left out, one warning for each kind.
     pub warnings: Vec<Warning>,
     /// The keys of a FOLD file's key frame that are not read; see [`Self::fold`].
     pub keys: Map<String, Value>,
-    /// How many vertices, edges and faces the FOLD file lists.
+    /// The numbers of vertices, edges and faces that the FOLD file lists.
     pub(super) listed: [usize; 3],
 }
 
@@ -56,7 +56,7 @@ pub struct PatternStage {
     pub angles: Vec<Option<f64>>,
 }
 
-impl Imported {
+impl ImportedPattern {
     /// The fold angle of every edge, radians, at a fold percentage as in Origami Simulator: the targets times
     /// `fraction`, −1 to 1.
     ///
@@ -81,7 +81,7 @@ impl Imported {
             .map(|(_, index)| index)
     }
 
-    /// What edge `edge` comes from; `None` for one that cuts a facet into triangles.
+    /// The element that edge `edge` comes from; `None` for one that cuts a facet into triangles.
     pub fn edge_source(&self, edge: u32) -> Option<&Source> {
         let source = (*self.edge_sources.get(edge as usize)?)?;
         self.sources.get(source as usize)

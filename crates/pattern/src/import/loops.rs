@@ -80,8 +80,8 @@ impl<'a> Trace<'a> {
                 around(at, g, h)
             });
             // Coming in along the twin of one, the face on the left goes on along the one before it.
-            for (place, &half_edge) in half_edges.iter().enumerate() {
-                let before = half_edges[(place + half_edges.len() - 1) % half_edges.len()];
+            for (index, &half_edge) in half_edges.iter().enumerate() {
+                let before = half_edges[(index + half_edges.len() - 1) % half_edges.len()];
                 trace.next[(half_edge ^ 1) as usize] = before;
             }
         }
@@ -183,7 +183,7 @@ impl<'a> Trace<'a> {
             let [a, b] = [a, b].map(|(_, first)| points[**first as usize]);
             a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y))
         });
-        // What a loop lies in begins farther left, so its own place is known.
+        // A loop around another begins farther left, so what it lies in is already known.
         for (&index, &first) in from_left {
             let beside = Self::left_of(points[first as usize], &segments, &grid);
             face_of_loop[index as usize] =
@@ -212,7 +212,7 @@ impl<'a> Trace<'a> {
         }
         let (line, upward) = nearest?;
         let runs_up = segments[line as usize][0] == upward[0];
-        // Downwards, the right side as seen by who looks up is the left.
+        // Downwards, left and right are exchanged.
         Some(2 * line + u32::from(runs_up))
     }
 }

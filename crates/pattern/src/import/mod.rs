@@ -1,13 +1,13 @@
 //! Crease patterns of others: SVG as Origami Simulator draws them, and FOLD 1.0 to 1.2.
 //!
 //! A file becomes a drawing: lines that are border, cut, mountain, valley, free hinge or facet line, each with its
-//! target fold angle. Ends that nearly meet become one vertex, lines are split where they cross and touch, and what ends
-//! nowhere is left out. The faces of the planar graph that lie inside the border are the facets; they are cut into
+//! target fold angle. Ends that nearly meet become one vertex, lines are split where they cross and touch, and lines that
+//! end nowhere are left out. The faces of the planar graph that lie inside the border are the facets; they are cut into
 //! triangles, and cuts are opened. FOLD files that list their faces skip the drawing.
 //!
-//! What is changed or left out is said in [`Imported::warnings`], by element.
+//! [`ImportedPattern::warnings`] name the elements that are changed or left out.
 //!
-//! **Flat only.** The solver takes its rest lengths and its flat facets from [`Sheet`]'s positions in the plane, so the
+//! **Flat only.** The solver takes its rest lengths and its flat facets from [`Sheet`](crate::Sheet)'s positions in the plane, so the
 //! pattern must be flat. A FOLD file whose key frame is not in the plane z = 0 is turned into it if its vertices lie in
 //! some plane, and refused otherwise ([`ImportError::NotFlat`]), unless one of its frames has the class
 //! `creasePattern`: that frame is read then.
@@ -39,10 +39,10 @@ mod write_fold;
 
 pub use error::ImportError;
 pub use fold::import_fold;
-pub use imported::{Imported, PatternStage};
+pub use imported::{ImportedPattern, PatternStage};
 pub use options::{
     Curves, ImportOptions, LARGEST_IMPORT_FILE, MOST_LINES, MOST_NESTED, MOST_NODES, MOST_PIECES,
-    MOST_STAGE_ANGLES, MOST_STYLE_RULES, MOST_VERTICES, MergeTolerance, Unknown,
+    MOST_STAGE_ANGLES, MOST_STYLE_RULES, MOST_VERTICES, MergeTolerance, UnknownElements,
 };
 pub use source::Source;
 pub use svg::import_svg;

@@ -27,7 +27,7 @@ pub(super) fn end_of(start: u32) -> u32 {
 
 /// Numbers the vertices anew where cuts part them; `role`: of the line between two ends.
 ///
-/// Corners at one vertex stay together where a way from triangle to triangle around the vertex joins them without
+/// Corners at one vertex stay together if a path from triangle to triangle around the vertex joins them without
 /// crossing a cut or the border. Returns for each new vertex the one it comes from; the first part of a vertex keeps
 /// its number. Only vertices at which a cut ends are parted. `vertices`: how many there are.
 pub(super) fn open_cuts(

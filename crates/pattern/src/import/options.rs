@@ -15,7 +15,7 @@ pub const MOST_PIECES: usize = 200_000;
 pub const MOST_VERTICES: usize = 200_000;
 /// The most elements, texts and comments of an SVG.
 pub const MOST_NODES: u32 = 200_000;
-/// The most elements of an SVG that stand in each other.
+/// The deepest nesting of elements of an SVG.
 pub const MOST_NESTED: usize = 256;
 /// The most rules of the style sheets of an SVG.
 pub const MOST_STYLE_RULES: usize = 200;
@@ -55,10 +55,10 @@ impl MergeTolerance {
     }
 }
 
-/// What becomes of what cannot be read.
+/// What happens to elements that cannot be read.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
-pub enum Unknown {
+pub enum UnknownElements {
     /// The file is refused; the error names every such element.
     #[default]
     Refuse,
@@ -66,7 +66,7 @@ pub enum Unknown {
     Ignore,
 }
 
-/// What becomes of Bézier curves in paths.
+/// What happens to Bézier curves in paths.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub enum Curves {
     /// As every other thing that cannot be read.
@@ -76,14 +76,14 @@ pub enum Curves {
     Flatten(f64),
 }
 
-/// How a crease pattern is read.
+/// The options of reading a crease pattern.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct ImportOptions {
     /// How far apart two points may lie to be one vertex; [`MergeTolerance::DRAWING`] in SVG and
     /// [`MergeTolerance::LISTED`] in FOLD if omitted.
     pub merge: Option<MergeTolerance>,
-    /// What becomes of strokes and elements that have no meaning here.
-    pub unknown: Unknown,
-    /// What becomes of Bézier curves.
+    /// What happens to strokes and elements that have no meaning here.
+    pub unknown: UnknownElements,
+    /// What happens to Bézier curves.
     pub curves: Curves,
 }

@@ -16,8 +16,8 @@ pub(super) struct Plan {
     pub(super) origins: Vec<Option<u32>>,
     /// Each pair of ends once.
     pub(super) lines: Vec<Line>,
-    /// For each facet its loops of vertices, the facet on their left: the outer border first, then those around what lies
-    /// inside; a vertex may be passed more than once.
+    /// For each facet its loops of vertices, the facet on their left: the outer border first, then those around what
+    /// lies inside; a vertex may be passed more than once.
     pub(super) facets: Vec<Vec<Vec<u32>>>,
     pub(super) sources: Vec<Source>,
 }
@@ -82,16 +82,17 @@ fn sheet_faces(graph: &Graph, faces: &Faces, sources: &[Source]) -> Result<Vec<b
         let [left, right] = sides(line);
         is_border(line) || (left != right && (left == 0 || right == 0))
     });
-    let fault = match (by_edge, by_border) {
+    let wrong = match (by_edge, by_border) {
         (Ok(is_sheet), _) => return Ok(is_sheet),
         (Err(line), Ok(_)) | (Err(_), Err(line)) => line,
     };
     Err(ImportError::BorderInside {
-        element: sources[graph.lines[fault].source as usize].clone(),
+        element: sources[graph.lines[wrong].source as usize].clone(),
     })
 }
 
-/// Which faces an odd number of lines that part parts from face 0; otherwise the first line that contradicts the others.
+/// Which faces an odd number of lines that part parts from face 0; otherwise the first line that contradicts the
+/// others.
 fn colour(graph: &Graph, faces: &Faces, parts: impl Fn(usize) -> bool) -> Result<Vec<bool>, usize> {
     let lines = 0..graph.lines.len();
     let sides = |line: usize| [0, 1].map(|side| faces.face_of[2 * line + side] as usize);

@@ -13,7 +13,7 @@ pub(super) fn side(a: DVec2, b: DVec2, c: DVec2) -> f64 {
 
 /// Whether two segments cross at a point inside both.
 pub(super) fn cross([a, b]: [DVec2; 2], [c, d]: [DVec2; 2]) -> bool {
-    // Boxes that lie apart are told apart by four comparisons.
+    // Four comparisons settle the case of boxes that lie apart.
     let apart = a.max(b).cmplt(c.min(d)).any() || c.max(d).cmplt(a.min(b)).any();
     let opposite = |s: f64, t: f64| (s > 0.0 && t < 0.0) || (s < 0.0 && t > 0.0);
     !apart && opposite(side(a, b, c), side(a, b, d)) && opposite(side(c, d, a), side(c, d, b))

@@ -5,7 +5,7 @@ use std::fmt;
 /// The most bytes of an id that are kept.
 const LONGEST_ID: usize = 60;
 
-/// What in the file an edge or a warning comes from.
+/// The element of the file that an edge or a warning comes from.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Source {
     /// An entry of `edges_vertices`.

@@ -13,8 +13,8 @@ use super::{ImportError, Source};
 /// The most times everything is split again: a vertex made for a crossing moves the lines through it by up to the
 /// tolerance, which can make them meet others.
 const MOST_PASSES: usize = 16;
-/// How near a line a vertex lies on it in later passes, in parts of the tolerance: no more than half, so that the pieces
-/// of a line split at a vertex beside it are shorter than the line, and splitting ends.
+/// How near a line a vertex lies on it in later passes, in parts of the tolerance: no more than half, so that the
+/// pieces of a line split at a vertex beside it are shorter than the line, and splitting ends.
 const ON_LINE: f64 = 0.5;
 /// The most pairs of lines held against each other.
 const MOST_PAIRS: u64 = 1_000_000_000;
@@ -28,7 +28,7 @@ pub(super) struct Graph {
     pub(super) lines: Vec<Line>,
 }
 
-/// What is split, and what is said of it.
+/// The lines being split, and the warnings about them.
 struct Splitting<'a> {
     vertices: Vertices,
     /// The point of the drawing each vertex comes from.
@@ -42,8 +42,9 @@ struct Splitting<'a> {
 /// The planar graph of a drawing: ends within `tolerance` of each other are one vertex, ends within it of a line lie on
 /// the line, and lines are split where they cross.
 ///
-/// Guarantee: no two lines of the graph cross (exactly), no vertex lies within half of `tolerance` of a line it does not end,
-/// no two lines have the same ends. Of lines on each other the one whose role comes first counts, then the first.
+/// Guarantee: no two lines of the graph cross (exactly), no vertex lies within half of `tolerance` of a line it does
+/// not end, no two lines have the same ends. Of lines on each other the one whose role comes first counts, then the
+/// first.
 ///
 /// # Errors
 /// [`ImportError::TooMany`], [`ImportError::Tangled`].
@@ -195,8 +196,8 @@ impl Splitting<'_> {
                     limit: MOST_PAIRS as usize,
                 });
             }
-            for (place, &s) in through.iter().enumerate() {
-                for &t in &through[place + 1..] {
+            for (index, &s) in through.iter().enumerate() {
+                for &t in &through[index + 1..] {
                     let [s, t] = [s as usize, t as usize];
                     let share_end = lines[s].ends.iter().any(|v| lines[t].ends.contains(v));
                     if share_end || !cross(segments[s], segments[t]) {

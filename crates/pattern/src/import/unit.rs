@@ -1,6 +1,6 @@
 //! Units of length, as FOLD names them.
 
-/// What a length of 1 in a pattern is (`frame_unit` of FOLD 1.2).
+/// The unit of length of a pattern (`frame_unit` of FOLD 1.2).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 pub enum LengthUnit {
     /// No physical length.

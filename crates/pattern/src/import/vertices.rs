@@ -1,10 +1,10 @@
-//! Vertices of which no two are nearer than a tolerance.
+//! Vertices that are all farther than a tolerance from each other.
 
 use std::collections::HashMap;
 
 use glam::DVec2;
 
-/// Points that stand for every point within the tolerance of them: the first one given stands for those after it, so
+/// Points that represent every point within the tolerance of them: the first one given represents those after it, so
 /// that no point moves farther than the tolerance.
 #[derive(Debug)]
 pub(super) struct Vertices {
@@ -44,7 +44,7 @@ impl Vertices {
             .map(|(_, v)| v)
     }
 
-    /// The vertex that stands for `point`: one near by, otherwise a new one.
+    /// The vertex that represents `point`: one within the tolerance, otherwise a new one.
     pub(super) fn add(&mut self, point: DVec2) -> u32 {
         self.near(point).unwrap_or_else(|| {
             let vertex = self.points.len() as u32;
@@ -63,7 +63,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_first_of_near_points_stands_for_all_and_chains_do_not_drift() {
+    fn the_first_of_near_points_represents_all_and_chains_do_not_drift() {
         let mut vertices = Vertices::new(1.0);
         let added: Vec<u32> = [0.0, 0.9, 1.8, 2.7, -0.9]
             .map(|x| vertices.add(DVec2::new(x, -x)))

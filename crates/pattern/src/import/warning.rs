@@ -1,4 +1,4 @@
-//! What an import changed or left out.
+//! Warnings: what an import changed or left out.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt;
@@ -80,14 +80,14 @@ impl WarningKind {
     }
 }
 
-/// What an import changed or left out, of one kind.
+/// A warning: changes or omissions of one kind.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Warning {
     /// What was changed or left out.
     pub kind: WarningKind,
     /// Which, in order, each once: the first thousand.
     pub sources: Vec<Source>,
-    /// How many there are in all.
+    /// The number of elements concerned in all.
     pub count: usize,
 }
 

@@ -2,7 +2,7 @@
 
 use serde_json::{Map, Value, json};
 
-use super::Imported;
+use super::ImportedPattern;
 use crate::fold::object_text;
 use crate::{Assignment, Sheet};
 
@@ -28,19 +28,19 @@ const OWN: [&str; 18] = [
     "faces_vertices",
 ];
 
-impl Imported {
+impl ImportedPattern {
     /// The pattern as FOLD 1.2: its vertices, edges with assignment and target fold angle (degrees; null where an edge
     /// has none), faces, and a frame for each stage.
     ///
     /// Faces are the facets where each is one polygon without holes or cuts inside; otherwise all are triangles, with F
-    /// edges between those of one facet. Keys that were not read stand where they stood: lists with an entry for each
+    /// edges between those of one facet. Keys that were not read are written as they were: lists with an entry for each
     /// vertex, edge or face (`edges_name:key`) are put in the order of the sheet, null where it has a new element;
-    /// other keys as they are. Lists that say how elements lie to each other are left out.
+    /// other keys as they are. Lists that relate elements to each other are left out.
     pub fn fold(&self, creator: &str) -> String {
-        let lists = Lists::new(self);
-        let mut file = lists.kept();
+        let written = WrittenElements::new(self);
+        let mut file = written.kept();
         let edges = |of: &dyn Fn(usize) -> Value| -> Value {
-            lists.edges.iter().map(|&edge| of(edge)).collect()
+            written.edges.iter().map(|&edge| of(edge)).collect()
         };
         let sheet = &self.sheet;
         file.insert("file_spec".into(), json!(1.2));
@@ -51,10 +51,10 @@ impl Imported {
         file.insert("frame_classes".into(), json!(["creasePattern"]));
         file.insert("frame_unit".into(), json!(self.unit.name()));
         file.insert("foldmotion:unitLength".into(), json!(sheet.unit_length));
-        let place = |v: &glam::DVec2| json!(v.to_array());
+        let position = |v: &glam::DVec2| json!(v.to_array());
         file.insert(
             "vertices_coords".into(),
-            sheet.vertices.iter().map(place).collect(),
+            sheet.vertices.iter().map(position).collect(),
         );
         file.insert(
             "edges_vertices".into(),
@@ -68,7 +68,7 @@ impl Imported {
             "edges_foldAngle".into(),
             edges(&|e| json!(self.target_degrees(e))),
         );
-        file.insert("faces_vertices".into(), lists.faces.clone());
+        file.insert("faces_vertices".into(), written.faces.clone());
         let frames: Vec<Value> = self
             .stages
             .iter()
@@ -89,10 +89,10 @@ impl Imported {
         object_text(file.iter().map(|(key, value)| (key.as_str(), value)))
     }
 
-    /// The keys of the FOLD file that were not read, as they stand in a file whose faces are the triangles of the sheet:
+    /// The keys of the FOLD file that were not read, for a file whose faces are the triangles of the sheet:
     /// as in [`Self::fold`].
     pub fn keys_of_triangles(&self) -> Map<String, Value> {
-        Lists::of_triangles(self).kept()
+        WrittenElements::of_triangles(self).kept()
     }
 
     fn target_degrees(&self, edge: usize) -> Option<f64> {
@@ -105,9 +105,9 @@ impl Imported {
     }
 }
 
-/// Which elements are written, and where they come from.
-struct Lists<'a> {
-    imported: &'a Imported,
+/// The elements that are written, and where they come from.
+struct WrittenElements<'a> {
+    imported: &'a ImportedPattern,
     /// The indices of the edges that are written.
     edges: Vec<usize>,
     /// `faces_vertices`.
@@ -116,8 +116,8 @@ struct Lists<'a> {
     face_facets: Vec<u32>,
 }
 
-impl<'a> Lists<'a> {
-    fn new(imported: &'a Imported) -> Self {
+impl<'a> WrittenElements<'a> {
+    fn new(imported: &'a ImportedPattern) -> Self {
         let sheet = &imported.sheet;
         let are_polygons = are_polygons(sheet);
         let is_written = |edge: &usize| !are_polygons || imported.edge_sources[*edge].is_some();
@@ -135,7 +135,7 @@ impl<'a> Lists<'a> {
         }
     }
 
-    fn of_triangles(imported: &'a Imported) -> Self {
+    fn of_triangles(imported: &'a ImportedPattern) -> Self {
         let sheet = &imported.sheet;
         Self {
             imported,

@@ -11,8 +11,8 @@ use super::{CaseColumns, ProfileModel, Shape};
 /// Points around the section at which the curve is held to the formula.
 const POINTS: usize = 60;
 
-/// NACA 4415: from the trailing edge over the upper side to the nose and back along the lower one; a corner at the trailing
-/// edge.
+/// NACA 4415: from the trailing edge over the upper side to the nose and back along the lower one; a corner at the
+/// trailing edge.
 pub(super) const AIRFOIL: ProfileModel = ProfileModel {
     name: "airfoil",
     title: "airfoil, section NACA 4415",
@@ -37,15 +37,15 @@ pub(super) const AIRFOIL: ProfileModel = ProfileModel {
 pub struct NacaSection {
     /// The largest camber over the chord, the first digit / 100.
     pub camber: f64,
-    /// Where it stands along the chord, the second digit / 10.
+    /// Its position along the chord, the second digit / 10.
     pub camber_at: f64,
     /// The largest thickness over the chord, the last two digits / 100.
     pub thickness: f64,
 }
 
 impl NacaSection {
-    /// The point at angle β ∈ [0, 2π]: x_c = (1 + cos β) / 2 along the chord, on the upper side up to β = π, then on the
-    /// lower side.
+    /// The point at angle β ∈ [0, 2π]: x_c = (1 + cos β) / 2 along the chord, on the upper side up to β = π, then on
+    /// the lower side.
     pub fn point(&self, beta: f64) -> DVec2 {
         let x = 0.5 * (1.0 + beta.cos());
         // |sin β| / 2 = √(x − x²), so the root of x is smooth around the nose: √x = |cos β/2|.

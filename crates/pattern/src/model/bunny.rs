@@ -1,7 +1,7 @@
 //! The Stanford bunny from the side: a smooth closed curve through every point of its silhouette.
 //!
-//! Source: Stanford 3D Scanning Repository; `data/bunny-outline.json` holds the silhouette of the mesh and says how it was
-//! made. The table here is that file, and a test holds it to it.
+//! Source: Stanford 3D Scanning Repository; `data/bunny-outline.json` holds the silhouette of the mesh and says how it
+//! was made. The table here is that file, and a test holds it to it.
 
 use foldmotion_geometry::Closure;
 

@@ -4,8 +4,8 @@ use foldmotion_geometry::Closure;
 
 use super::{CaseColumns, ProfileModel, Shape};
 
-/// A mushroom from the side: from the right corner of the foot up the stem and over the cap, mirror symmetric about x = 0;
-/// the seam is a corner of the foot, whose flat underside is one segment.
+/// A mushroom from the side: from the right corner of the foot up the stem and over the cap, mirror symmetric about x =
+/// 0; the seam is a corner of the foot, whose flat underside is one segment.
 pub(super) const MUSHROOM: ProfileModel = ProfileModel {
     name: "mushroom",
     title: "mushroom: stem and cap",
@@ -49,8 +49,8 @@ pub(super) const MUSHROOM: ProfileModel = ProfileModel {
     source: "drawn for foldmotion after figure 6f and table 1 (f) of the paper, which prints no control points",
 };
 
-/// A whale swimming to the left, its fluke raised: from the notch of the fluke over the back and the head to the belly. The seam
-/// is the notch.
+/// A whale swimming to the left, its fluke raised: from the notch of the fluke over the back and the head to the belly.
+/// The seam is the notch.
 pub(super) const WHALE: ProfileModel = ProfileModel {
     name: "whale",
     title: "whale with its fluke raised",

@@ -13,7 +13,7 @@ use crate::Case;
 
 pub use airfoil::NacaSection;
 
-/// What a built-in profile is made of; each becomes a cubic NURBS with unit weights.
+/// The definition of a built-in profile; each becomes a cubic NURBS with unit weights.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub enum Shape {
@@ -59,7 +59,7 @@ impl CaseColumns {
 pub struct ProfileModel {
     /// The name a scene asks for.
     pub name: &'static str,
-    /// What it is, in a few words.
+    /// A short description for people.
     pub title: &'static str,
     /// The curve of the profile.
     pub shape: Shape,
@@ -69,7 +69,7 @@ pub struct ProfileModel {
     pub rows: usize,
     /// Columns Nc of each case (tables 1 and 2).
     pub columns: CaseColumns,
-    /// Where its shape comes from.
+    /// The source of its shape.
     pub source: &'static str,
 }
 
@@ -123,6 +123,3 @@ pub fn models() -> &'static [ProfileModel] {
 pub fn find(name: &str) -> Option<&'static ProfileModel> {
     models().iter().find(|model| model.name == name)
 }
-
-#[cfg(test)]
-mod tests;

@@ -5,8 +5,8 @@ use foldmotion_geometry::Closure;
 use super::{CaseColumns, ProfileModel, Shape};
 
 /// A foot lying on the ground, a steep wall, a roof of three segments, wall and foot: from the right foot over the roof
-/// to the left one, mirror symmetric about x = 0. Doubled control points turn the curve sharply at the foot and at the eaves; the
-/// feet are straight because four control points lie on the ground.
+/// to the left one, mirror symmetric about x = 0. Doubled control points turn the curve sharply at the foot and at the
+/// eaves; the feet are straight because four control points lie on the ground.
 pub(super) const SHELTER: ProfileModel = ProfileModel {
     name: "shelter",
     title: "shelter: foot, wall, roof, wall, foot",
@@ -109,8 +109,8 @@ pub(super) const ROLLING_PAPER: ProfileModel = ProfileModel {
     source: "drawn for foldmotion after figure 6c and table 1 (c) of the paper, which prints no control points",
 };
 
-/// The letter Ω: from the right foot around the bowl to the left one, mirror symmetric about x = 0; the neck is narrower than
-/// the bowl.
+/// The letter Ω: from the right foot around the bowl to the left one, mirror symmetric about x = 0; the neck is
+/// narrower than the bowl.
 pub(super) const OMEGA: ProfileModel = ProfileModel {
     name: "omega",
     title: "capital omega",

@@ -15,8 +15,8 @@ pub(super) struct Segment {
     pub(super) ends: [DVec2; 2],
 }
 
-/// The points of the one chain that all segments make: closed where they make a ring, else from the loose end that comes
-/// first in the file.
+/// The points of the one chain that all segments make: closed where they make a ring, else from the loose end that
+/// comes first in the file.
 pub(super) fn chain(segments: &[Segment]) -> Result<Vec<DVec2>, OutlineError> {
     let all = || segments.iter().flat_map(|segment| segment.ends);
     let low = all().fold(DVec2::INFINITY, DVec2::min);

@@ -36,7 +36,7 @@ pub(super) fn parse(text: &str) -> Result<Outline, OutlineError> {
     Ok(Outline::of(points))
 }
 
-/// The values of a line: separated by semicolons if it has any, else by commas, else by blanks; each may stand in double
+/// The values of a line: separated by semicolons if it has any, else by commas, else by blanks; each may be in double
 /// quotes (RFC 4180).
 fn values(line: &str) -> Vec<&str> {
     for separator in [';', ','] {

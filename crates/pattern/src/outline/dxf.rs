@@ -1,8 +1,10 @@
-//! The one polyline of an ASCII DXF drawing: an `LWPOLYLINE`, a `POLYLINE` with its `VERTEX` entities, or a chain of `LINE`s.
+//! The one polyline of an ASCII DXF drawing: an `LWPOLYLINE`, a `POLYLINE` with its `VERTEX` entities, or a chain of
+//! `LINE`s.
 //!
-//! A DXF file is pairs of lines, a group code and a value (Autodesk, *DXF Reference*, section "Group codes"), up to the pair
-//! 0, EOF. Read are the codes 10, 20, 11 and 21 (x and y, the profile's x and z), 70 (flags: 1 closed), 90 (the number of
-//! vertices of an `LWPOLYLINE`) and 42 (bulge, which must be 0). Beside a polyline other entities are left out.
+//! A DXF file is pairs of lines, a group code and a value (Autodesk, *DXF Reference*, section "Group codes"), up to the
+//! pair 0, EOF. Read are the codes 10, 20, 11 and 21 (x and y, the profile's x and z), 70 (flags: 1 closed), 90 (the
+//! number of vertices of an `LWPOLYLINE`) and 42 (bulge, which must be 0). Beside a polyline other entities are left
+//! out.
 
 use glam::DVec2;
 
@@ -21,11 +23,11 @@ struct Polyline {
     line: usize,
     points: Vec<DVec2>,
     closed: bool,
-    /// How many points it says it has.
+    /// The number of points that it announces.
     count: Option<usize>,
 }
 
-/// What the codes that come next belong to.
+/// The entity that the next group codes belong to.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Entity {
     Light,
@@ -35,7 +37,7 @@ enum Entity {
     Other,
 }
 
-/// What was found in a drawing.
+/// The entities found in a drawing.
 #[derive(Default)]
 struct Drawing {
     polylines: Vec<Polyline>,

@@ -2,7 +2,7 @@
 
 use thiserror::Error;
 
-/// What can be wrong with an outline file; lines count from 1.
+/// Errors of reading an outline file; lines count from 1.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
 pub enum OutlineError {
@@ -11,7 +11,7 @@ pub enum OutlineError {
         "the ending {ending:?} names no outline format; use .csv (x, z a line), .dat (airfoil) or .dxf (polyline)"
     )]
     UnknownEnding {
-        /// What the file's name ends with.
+        /// The ending of the file name.
         ending: String,
     },
     /// The file cannot be read.
@@ -28,8 +28,8 @@ pub enum OutlineError {
         /// The largest number allowed.
         limit: u64,
     },
-    /// A coordinate is no number.
-    #[error("line {line}: {value:?} is no finite number")]
+    /// A coordinate is not a number.
+    #[error("line {line}: {value:?} is not a finite number")]
     NotANumber {
         /// The number of the line in the file, from 1.
         line: usize,
@@ -41,7 +41,7 @@ pub enum OutlineError {
     NotAPoint {
         /// The number of the line in the file, from 1.
         line: usize,
-        /// How many values stand there.
+        /// The number of values found there.
         count: usize,
     },
     /// The file holds no points.
@@ -68,7 +68,7 @@ pub enum OutlineError {
     #[error("it is a binary DXF; save it as ASCII DXF")]
     BinaryDxf,
     /// A DXF file is not made of pairs of group code and value.
-    #[error("line {line}: {value:?} is no group code; is this an ASCII DXF?")]
+    #[error("line {line}: {value:?} is not a group code; is this an ASCII DXF?")]
     GroupCode {
         /// The number of the line in the file, from 1.
         line: usize,
@@ -109,7 +109,7 @@ pub enum OutlineError {
         "line {line}: more than two LINEs meet at an end of this one; leave the one chain that is the profile"
     )]
     Branch {
-        /// Where one of them begins.
+        /// The number of the line where one of them begins.
         line: usize,
     },
     /// Segments that do not meet the others.
@@ -127,7 +127,7 @@ pub enum OutlineError {
     SeveralPolylines {
         /// The number of separate curves.
         count: usize,
-        /// Where the second one starts.
+        /// The number of the line where the second one starts.
         line: usize,
     },
     /// A polyline has arcs.

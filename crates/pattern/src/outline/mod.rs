@@ -1,7 +1,7 @@
 //! Outlines in files: the points of a user's own profile.
 //!
-//! Read are tables of coordinates (`.csv`), airfoil sections (`.dat`, in Selig's and Lednicer's order) and polylines and
-//! chains of lines of drawings (`.dxf`, ASCII).
+//! Read are tables of coordinates (`.csv`), airfoil sections (`.dat`, in Selig's and Lednicer's order) and polylines
+//! and chains of lines of drawings (`.dxf`, ASCII).
 
 mod airfoil_file;
 mod chain;

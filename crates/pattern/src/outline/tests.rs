@@ -32,7 +32,7 @@ fn tables_are_read_with_any_separator_names_and_comments() {
 }
 
 #[test]
-fn tables_with_faults_are_refused_with_their_line() {
+fn tables_with_errors_are_refused_with_their_line() {
     let cases = [
         ("", "no points"),
         ("# nothing\n", "no points"),
@@ -85,7 +85,7 @@ fn a_wide_trailing_edge_is_left_as_it_is() {
 }
 
 #[test]
-fn airfoils_with_faults_are_refused_with_their_line() {
+fn airfoils_with_errors_are_refused_with_their_line() {
     let counts = refused(&LEDNICER.replace("3. 3.", "3. 4."), Format::Airfoil);
     assert_eq!(
         counts,
@@ -127,7 +127,7 @@ fn both_kinds_of_polyline_are_read_and_other_entities_left_out() {
 }
 
 #[test]
-fn drawings_with_faults_are_refused_by_name() {
+fn drawings_with_errors_are_refused_by_name() {
     let cases = [
         (HEAVY.replace("42\n0.0", "42\n0.5"), "arc (bulge 0.5)"),
         (HEAVY.replace("70\n0", "70\n4"), "curve-fitted"),

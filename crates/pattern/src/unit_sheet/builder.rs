@@ -7,9 +7,9 @@ use glam::DVec2;
 use super::lines::{Line, Strip, is_mid};
 use crate::{Facet, FacetKind, Unit};
 
-/// Where a vertex lies in the layout.
+/// The position of a vertex in the rows of units.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Place {
+pub(crate) enum VertexLocation {
     /// On the boundary above row `boundary`.
     Boundary { boundary: u32 },
     /// A mid vertex of `row`: the upper (M1) or the lower one (M2), or both in one.
@@ -22,7 +22,7 @@ pub(super) struct Builder<'a> {
     boundaries: &'a [f64],
     lines: &'a [Line],
     pub(super) vertices: Vec<DVec2>,
-    pub(super) places: Vec<(u32, Place)>,
+    pub(super) locations: Vec<(u32, VertexLocation)>,
     index: BTreeMap<(u32, u32, u8), u32>,
     pub(super) facets: Vec<Facet>,
 }
@@ -36,13 +36,13 @@ impl<'a> Builder<'a> {
             boundaries,
             lines,
             vertices: Vec::new(),
-            places: Vec::new(),
+            locations: Vec::new(),
             index: BTreeMap::new(),
             facets: Vec::new(),
         };
         for row in 0..=rows as u32 {
             for line in 0..lines.len() as u32 {
-                builder.add_vertex(line, Place::Boundary { boundary: row }, row, 0);
+                builder.add_vertex(line, VertexLocation::Boundary { boundary: row }, row, 0);
             }
             if row == rows as u32 {
                 break;
@@ -52,7 +52,7 @@ impl<'a> Builder<'a> {
                 let both = !units[row as usize].split;
                 builder.add_vertex(
                     line,
-                    Place::Mid {
+                    VertexLocation::Mid {
                         row,
                         lower: false,
                         both,
@@ -63,7 +63,7 @@ impl<'a> Builder<'a> {
                 if !both {
                     builder.add_vertex(
                         line,
-                        Place::Mid {
+                        VertexLocation::Mid {
                             row,
                             lower: true,
                             both,
@@ -77,15 +77,15 @@ impl<'a> Builder<'a> {
         builder
     }
 
-    fn add_vertex(&mut self, line: u32, place: Place, row: u32, part: u8) {
+    fn add_vertex(&mut self, line: u32, location: VertexLocation, row: u32, part: u8) {
         let at = |boundary: u32| self.boundaries[boundary as usize];
         let mid_distance = |row: u32| self.units[row as usize].mid_distance();
-        let x = match place {
-            Place::Boundary { boundary } => at(boundary),
-            Place::Mid {
+        let x = match location {
+            VertexLocation::Boundary { boundary } => at(boundary),
+            VertexLocation::Mid {
                 row, lower: false, ..
             } => at(row) - mid_distance(row),
-            Place::Mid {
+            VertexLocation::Mid {
                 row, lower: true, ..
             } => at(row + 1) + mid_distance(row),
         };
@@ -93,7 +93,7 @@ impl<'a> Builder<'a> {
             .insert((row, line, part), self.vertices.len() as u32);
         self.vertices
             .push(DVec2::new(x, self.lines[line as usize].y));
-        self.places.push((line, place));
+        self.locations.push((line, location));
     }
 
     fn top(&self, row: u32, line: u32) -> u32 {

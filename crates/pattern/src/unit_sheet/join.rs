@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use glam::DVec2;
 
-use super::builder::Place;
+use super::builder::VertexLocation;
 use super::lines::{Line, is_mid};
 use crate::{Assignment, CreaseKind, Edge, Facet, FacetKind, Sheet, Unit};
 
@@ -12,7 +12,7 @@ use crate::{Assignment, CreaseKind, Edge, Facet, FacetKind, Sheet, Unit};
 pub(super) fn join(
     unit: &Unit,
     lines: &[Line],
-    places: &[(u32, Place)],
+    locations: &[(u32, VertexLocation)],
     vertices: Vec<DVec2>,
     facets: Vec<Facet>,
     triangles: &[Vec<[u32; 3]>],
@@ -35,7 +35,7 @@ pub(super) fn join(
             (Some(a), Some(b)) if a == b => (CreaseKind::Facet, 0.0),
             (Some(a), Some(b)) => {
                 let (a, b) = (&facets[a as usize], &facets[b as usize]);
-                crease(a, b, lines, places, ends)
+                crease(a, b, lines, locations, ends)
             }
             _ => (CreaseKind::Border, 0.0),
         };
@@ -77,7 +77,7 @@ fn crease(
     a: &Facet,
     b: &Facet,
     lines: &[Line],
-    places: &[(u32, Place)],
+    locations: &[(u32, VertexLocation)],
     ends: [u32; 2],
 ) -> (CreaseKind, f64) {
     use FacetKind::{BottomPad, Flap, Tuck, Wall};
@@ -91,7 +91,7 @@ fn crease(
     if both(Tuck) {
         (CreaseKind::Vertical, -PI)
     } else if both(Flap) {
-        let family = lines[places[ends[0] as usize].0 as usize].family;
+        let family = lines[locations[ends[0] as usize].0 as usize].family;
         (
             CreaseKind::Vertical,
             if is_mid(family, a.row) { PI } else { -PI },

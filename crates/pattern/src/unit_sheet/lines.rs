@@ -21,7 +21,7 @@ pub(crate) struct Line {
     pub(crate) column: u32,
 }
 
-/// What lies between two neighbouring lines.
+/// The part of a unit between two neighbouring lines.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Strip {
     /// Half a unit; one of its lines is a corner line, the other a mid line.

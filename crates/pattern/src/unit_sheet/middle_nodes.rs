@@ -28,7 +28,8 @@ impl UnitSheet {
         )
     }
 
-    /// The shorter side of the narrowest quadrilateral over its longer one, means of opposite sides; 1 if there is none.
+    /// The shorter side of the narrowest quadrilateral over its longer one, means of opposite sides; 1 if there is
+    /// none.
     pub fn narrowest_facet(&self) -> f64 {
         let ratio = |facet: &Facet| {
             let &[a, b, c, d] = &facet.polygon[..] else {
@@ -45,10 +46,10 @@ impl UnitSheet {
 
     /// The number of vertices of the crease pattern; middle nodes follow.
     pub fn pattern_vertices(&self) -> usize {
-        self.places.len()
+        self.locations.len()
     }
 
-    /// A state of the whole sheet from that of its crease pattern, every facet of which is flat in it.
+    /// The state of the whole sheet from that of its crease pattern, in which every facet is flat.
     pub(crate) fn with_middle_nodes(&self, mut positions: Vec<DVec3>) -> Vec<DVec3> {
         let middles = self.middle_nodes.iter().map(|node| {
             let [p, r] = node.diagonal.map(|v| positions[v as usize]);

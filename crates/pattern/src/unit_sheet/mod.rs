@@ -15,18 +15,18 @@ use self::lines::lines;
 use crate::facet_model::{CutFacets, MiddleNode};
 use crate::{Case, FacetModel, Folding, PatternError, Sheet, Unit, clashes};
 
-pub(crate) use self::builder::Place;
+pub(crate) use self::builder::VertexLocation;
 pub(crate) use self::lines::{Family, Line, is_mid};
 
 /// Counts are limited so that every index fits into 32 bits with room to spare.
 const MOST_UNITS: usize = 50_000_000;
 
-/// A sheet of units with what its states and its report need to know of every vertex.
+/// A sheet of units with what its states and its report need to know about every vertex.
 #[derive(Debug, Clone, PartialEq)]
 pub struct UnitSheet {
     /// The unit; where rows have their own heights, one with the parts all rows share and their mean height.
     pub unit: Unit,
-    /// How it folds.
+    /// How the sheet folds: unit by unit or like a map.
     pub folding: Folding,
     /// Nr.
     pub rows: usize,
@@ -39,10 +39,10 @@ pub struct UnitSheet {
     /// x of each boundary between rows, both ends included.
     pub(crate) boundaries: Vec<f64>,
     pub(crate) lines: Vec<Line>,
-    /// How its quadrilaterals are cut.
+    /// How its quadrilaterals are cut into triangles.
     pub(crate) facet_model: FacetModel,
-    /// The line and the place of each vertex of the crease pattern.
-    pub(crate) places: Vec<(u32, Place)>,
+    /// The line and the location of each vertex of the crease pattern.
+    pub(crate) locations: Vec<(u32, VertexLocation)>,
     /// The vertices after those.
     pub(crate) middle_nodes: Vec<MiddleNode>,
     /// The fold angle of every edge in the compact state, radians; 0 for edges that are not creases.
@@ -60,8 +60,8 @@ impl UnitSheet {
         Self::with_rows(&vec![unit; rows], columns)
     }
 
-    /// Lays out one row for each of `units`, in `columns` columns: rows of their own heights that share the widths w, a,
-    /// s and 2d ([`common_flap`](crate::common_flap), or [`own_cases`](crate::own_cases) where those meet).
+    /// Lays out one row for each of `units`, in `columns` columns: rows of their own heights that share the widths w,
+    /// a, s and 2d ([`common_flap`](crate::common_flap), or [`own_cases`](crate::own_cases) where those meet).
     ///
     /// Equal units give the sheet of [`Self::new`], bit for bit.
     ///
@@ -132,7 +132,7 @@ impl UnitSheet {
         }
         let Builder {
             mut vertices,
-            places,
+            locations,
             facets,
             ..
         } = builder;
@@ -140,7 +140,7 @@ impl UnitSheet {
             triangles,
             middle_nodes,
         } = CutFacets::new(facet_model, &mut vertices, &facets);
-        let (sheet, compact_angles) = join(&unit, &lines, &places, vertices, facets, &triangles);
+        let (sheet, compact_angles) = join(&unit, &lines, &locations, vertices, facets, &triangles);
         let mut units = Self {
             unit,
             folding,
@@ -151,7 +151,7 @@ impl UnitSheet {
             boundaries,
             lines,
             facet_model,
-            places,
+            locations,
             middle_nodes,
             compact_angles,
         };

@@ -16,7 +16,7 @@ fn changed(change: impl FnOnce(&mut Value)) -> ImportError {
 }
 
 #[test]
-fn text_that_is_no_fold_is_refused_with_its_place() {
+fn text_that_is_not_fold_is_refused_with_its_location() {
     let options = ImportOptions::default();
     for text in [
         &b""[..],

@@ -3,14 +3,15 @@
 use std::fmt::Write as _;
 
 use foldmotion_pattern::{
-    ImportError, ImportOptions, LARGEST_IMPORT_FILE, MOST_LINES, MOST_NESTED, Unknown, import_svg,
+    ImportError, ImportOptions, LARGEST_IMPORT_FILE, MOST_LINES, MOST_NESTED, UnknownElements,
+    import_svg,
 };
 
 use crate::svg::document;
 
 fn error(text: &str) -> ImportError {
     let options = ImportOptions {
-        unknown: Unknown::Ignore,
+        unknown: UnknownElements::Ignore,
         ..ImportOptions::default()
     };
     import_svg(text.as_bytes(), &options).unwrap_err()
@@ -59,7 +60,7 @@ fn a_document_type_without_entities_is_no_harm() {
 }
 
 #[test]
-fn nothing_drawn_and_nothing_bounded_are_told_apart() {
+fn nothing_drawn_and_nothing_bounded_are_distinguished() {
     assert_eq!(error(&document("", "")), ImportError::Empty);
     assert_eq!(
         error(&document("", "<rect width=\"4\" height=\"4\"/>")),

@@ -1,8 +1,8 @@
 //! The traditional crane: a bird base whose legs are narrowed and folded up inside, one with a head.
 //!
-//! Drawn in quarters, each from a leg's corner (1, 1) to a wing's corner (1, −1) of the square of side 2. Five rays 11.25°
-//! apart leave the leg's corner: its diagonal, the edges of the narrow leg, of the kite, of the narrow leg again, and
-//! the border. The front of the sheet is the outside of the crane, its wings point up.
+//! Drawn in quarters, each from a leg's corner (1, 1) to a wing's corner (1, −1) of the square of side 2. Five rays
+//! 11.25° apart leave the leg's corner: its diagonal, the edges of the narrow leg, of the kite, of the narrow leg
+//! again, and the border. The front of the sheet is the outside of the crane, its wings point up.
 
 use std::f64::consts::FRAC_1_SQRT_2;
 
@@ -38,8 +38,8 @@ pub(crate) fn on_ray(ray: usize, distance: f64) -> Point {
     ]
 }
 
-/// Where an inside reverse fold crosses the rays: at `distance` on the diagonal, at `steps` times 11.25° to it, reflected
-/// at each ray.
+/// Where an inside reverse fold crosses the rays: at `distance` on the diagonal, at `steps` times 11.25° to it,
+/// reflected at each ray.
 fn reverse_fold(distance: f64, steps: usize) -> [Point; 5] {
     let odd = distance * sine(steps) / sine(steps + 1);
     [0, 1, 2, 3, 4].map(|ray| on_ray(ray, if ray.is_multiple_of(2) { distance } else { odd }))

@@ -109,7 +109,8 @@ pub(crate) fn miura(m: usize, n: usize) -> Pattern {
             let letter = match j {
                 0 => 'B',
                 _ if j == n => 'B',
-                // Of the two between the sharp sectors and the blunt ones, the former folds the other way than the zigzag.
+                // Of the two between the sharp sectors and the blunt ones, the former folds the other way than the
+                // zigzag.
                 _ if (i + j) % 2 == 1 => 'M',
                 _ => 'V',
             };

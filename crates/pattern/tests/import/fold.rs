@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use foldmotion_pattern::{
-    Assignment, Edge, ImportError, ImportOptions, Imported, LengthUnit, Source, WarningKind,
+    Assignment, Edge, ImportError, ImportOptions, ImportedPattern, LengthUnit, Source, WarningKind,
     import_fold,
 };
 use glam::{DVec2, DVec3};
@@ -11,13 +11,13 @@ use serde_json::{Value, json};
 
 use crate::patterns::{check_sheet, counts};
 
-fn import(file: &Value) -> Imported {
+fn import(file: &Value) -> ImportedPattern {
     let imported = try_import(file).unwrap();
     check_sheet(&imported);
     imported
 }
 
-fn try_import(file: &Value) -> Result<Imported, ImportError> {
+fn try_import(file: &Value) -> Result<ImportedPattern, ImportError> {
     import_fold(file.to_string().as_bytes(), &ImportOptions::default())
 }
 
@@ -31,7 +31,7 @@ pub(crate) fn two_triangles() -> Value {
     })
 }
 
-fn warned(imported: &Imported, kind: WarningKind) -> usize {
+fn warned(imported: &ImportedPattern, kind: WarningKind) -> usize {
     let found = imported.warnings.iter().find(|w| w.kind == kind);
     found.map_or(0, |w| w.count)
 }
@@ -217,7 +217,7 @@ fn planes_other_than_z_0_are_turned_into_it_fronts_up() {
         }
         let imported = import(&file);
         assert!(warned(&imported, WarningKind::Turned) == 0);
-        let lengths = |i: &Imported| -> Vec<f64> {
+        let lengths = |i: &ImportedPattern| -> Vec<f64> {
             let v = &i.sheet.vertices;
             i.sheet
                 .edges

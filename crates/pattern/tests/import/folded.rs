@@ -1,6 +1,6 @@
 //! A pattern folded flat by reflection at every crease, and whether a stack of its layers crosses itself.
 
-use foldmotion_pattern::{Assignment, Edge, Imported};
+use foldmotion_pattern::{Assignment, Edge, ImportedPattern};
 use glam::{DAffine2, DMat2, DVec2};
 
 /// The reflection in the line through two points.
@@ -12,14 +12,14 @@ fn reflection(a: DVec2, b: DVec2) -> DAffine2 {
 
 /// The flat state.
 pub(crate) struct Folded<'a> {
-    pub(crate) imported: &'a Imported,
+    pub(crate) imported: &'a ImportedPattern,
     /// Where each triangle comes to lie.
     places: Vec<DAffine2>,
 }
 
 impl<'a> Folded<'a> {
     /// Seen from the front of the triangle at a point, which stays where it is; the others by a walk from it.
-    pub(crate) fn new(imported: &'a Imported, fixed: [f64; 2]) -> Self {
+    pub(crate) fn new(imported: &'a ImportedPattern, fixed: [f64; 2]) -> Self {
         let places = vec![DAffine2::NAN; imported.sheet.faces.len()];
         let mut folded = Self { imported, places };
         let root = folded.face_at(fixed);

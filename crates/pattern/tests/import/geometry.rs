@@ -3,24 +3,24 @@
 use std::fmt::Write as _;
 
 use foldmotion_pattern::{
-    ImportError, ImportOptions, Imported, MergeTolerance, WarningKind, import_svg,
+    ImportError, ImportOptions, ImportedPattern, MergeTolerance, WarningKind, import_svg,
 };
 
 use crate::draw::{Pattern, bird_base, frame, miura, pop_up, square_twist};
 use crate::patterns::{check_sheet, counts};
 use crate::svg::document;
 
-fn import_with(options: ImportOptions, body: &str) -> Result<Imported, ImportError> {
+fn import_with(options: ImportOptions, body: &str) -> Result<ImportedPattern, ImportError> {
     let imported = import_svg(document("", body).as_bytes(), &options)?;
     check_sheet(&imported);
     Ok(imported)
 }
 
-fn import(body: &str) -> Imported {
+fn import(body: &str) -> ImportedPattern {
     import_with(ImportOptions::default(), body).unwrap()
 }
 
-fn warned(imported: &Imported, kind: WarningKind) -> usize {
+fn warned(imported: &ImportedPattern, kind: WarningKind) -> usize {
     let found = imported.warnings.iter().find(|w| w.kind == kind);
     found.map_or(0, |w| w.count)
 }
@@ -54,14 +54,10 @@ fn a_grid_of_long_lines_has_the_facets_of_its_closed_form() {
 #[test]
 fn random_lines_across_have_as_many_facets_as_crossings_say() {
     // Chords of a square: facets = 1 + chords + crossings (Euler), if no three meet.
-    let mut seed = 7u64;
-    let mut random = || {
-        seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
-        (seed >> 11) as f64 / (1u64 << 53) as f64 * 100.0
-    };
+    let mut random = fastrand::Rng::with_seed(7);
     for count in [3, 20, 80] {
         let chords: Vec<[f64; 4]> = (0..count)
-            .map(|_| [0.0, random(), 100.0, random()])
+            .map(|_| [0.0, 100.0 * random.f64(), 100.0, 100.0 * random.f64()])
             .collect();
         let mut body = square("");
         for chord in &chords {
@@ -210,7 +206,7 @@ fn creases_that_leave_the_sheet_and_return_end_at_its_border() {
 }
 
 #[test]
-fn nested_holes_and_islands_are_told_apart() {
+fn nested_holes_and_islands_are_distinguished() {
     let ring = |low: f64, colour: &str| {
         let side = 100.0 - 2.0 * low;
         format!(
@@ -273,17 +269,12 @@ fn a_slit_opens_where_a_crease_meets_it() {
 }
 
 /// The pattern with every line as it was drawn, one upon another and in any direction.
-fn redrawn(pattern: &Pattern, seed: &mut u64) -> Pattern {
-    let mut random = || {
-        *seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
-        (*seed >> 33) as usize
-    };
+fn redrawn(pattern: &Pattern, random: &mut fastrand::Rng) -> Pattern {
     let mut creases = pattern.creases.clone();
-    for k in (1..creases.len()).rev() {
-        creases.swap(k, random() % (k + 1));
-        if random() % 2 == 0 {
-            let (a, b, letter) = creases[k];
-            creases[k] = (b, a, letter);
+    random.shuffle(&mut creases);
+    for (a, b, _) in &mut creases {
+        if random.bool() {
+            std::mem::swap(a, b);
         }
     }
     Pattern { creases }
@@ -291,11 +282,11 @@ fn redrawn(pattern: &Pattern, seed: &mut u64) -> Pattern {
 
 #[test]
 fn the_order_and_direction_of_lines_do_not_matter() {
-    let mut seed = 1;
+    let mut random = fastrand::Rng::with_seed(1);
     for pattern in [miura(6, 5), bird_base(), square_twist(), pop_up(), frame()] {
         let known = import_svg(pattern.svg().as_bytes(), &ImportOptions::default()).unwrap();
         for _ in 0..5 {
-            let text = redrawn(&pattern, &mut seed).svg();
+            let text = redrawn(&pattern, &mut random).svg();
             let imported = import_svg(text.as_bytes(), &ImportOptions::default()).unwrap();
             check_sheet(&imported);
             assert_eq!(counts(&imported), counts(&known));

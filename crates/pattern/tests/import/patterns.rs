@@ -5,13 +5,13 @@ use std::f64::consts::{PI, TAU};
 use std::path::Path;
 
 use foldmotion_pattern::{
-    Assignment, CreaseKind, Edge, ImportOptions, Imported, import_fold, import_svg,
+    Assignment, CreaseKind, Edge, ImportOptions, ImportedPattern, import_fold, import_svg,
 };
 
 use crate::crane::crane;
 use crate::draw::{Pattern, bird_base, frame, miura, pop_up, square_twist};
 
-pub(crate) fn both(pattern: &Pattern) -> [Imported; 2] {
+pub(crate) fn both(pattern: &Pattern) -> [ImportedPattern; 2] {
     let options = ImportOptions::default();
     [
         import_svg(pattern.svg().as_bytes(), &options).unwrap(),
@@ -20,7 +20,7 @@ pub(crate) fn both(pattern: &Pattern) -> [Imported; 2] {
 }
 
 /// How many edges have a letter, without those that cut facets into triangles.
-pub(crate) fn counts(imported: &Imported) -> BTreeMap<char, usize> {
+pub(crate) fn counts(imported: &ImportedPattern) -> BTreeMap<char, usize> {
     let mut counts = BTreeMap::new();
     let edges = imported.sheet.edges.iter().zip(&imported.edge_sources);
     for (edge, _) in edges.filter(|(_, source)| source.is_some()) {
@@ -30,7 +30,7 @@ pub(crate) fn counts(imported: &Imported) -> BTreeMap<char, usize> {
 }
 
 /// The guarantees that a sheet gives.
-pub(crate) fn check_sheet(imported: &Imported) {
+pub(crate) fn check_sheet(imported: &ImportedPattern) {
     let sheet = &imported.sheet;
     assert_eq!(sheet.edges.len(), imported.targets.len());
     assert_eq!(sheet.edges.len(), imported.edge_sources.len());
@@ -68,7 +68,7 @@ pub(crate) fn check_sheet(imported: &Imported) {
 
 /// Around every vertex inside, alternate sectors between creases sum to π (Kawasaki), and mountains and valleys differ
 /// by two (Maekawa). Returns how many vertices lie inside.
-fn check_flat_foldable(imported: &Imported) -> usize {
+fn check_flat_foldable(imported: &ImportedPattern) -> usize {
     let sheet = &imported.sheet;
     let mut around = vec![Some(Vec::new()); sheet.vertices.len()];
     for edge in &sheet.edges {
@@ -199,7 +199,7 @@ fn both_formats_say_the_same() {
     ] {
         let [svg, fold] = both(&pattern);
         assert_eq!(counts(&svg), counts(&fold));
-        let lines = |i: &Imported| -> BTreeSet<([[i64; 2]; 2], char)> {
+        let lines = |i: &ImportedPattern| -> BTreeSet<([[i64; 2]; 2], char)> {
             let key = |v: u32| (i.sheet.vertices[v as usize] * 1e9).round().as_i64vec2();
             let drawn = i.sheet.edges.iter().zip(&i.edge_sources);
             let drawn = drawn.filter(|(_, source)| source.is_some());
@@ -211,7 +211,7 @@ fn both_formats_say_the_same() {
             drawn.map(|(edge, _)| line(edge)).collect()
         };
         assert_eq!(lines(&svg), lines(&fold));
-        let sum = |i: &Imported| i.targets.iter().sum::<f64>();
+        let sum = |i: &ImportedPattern| i.targets.iter().sum::<f64>();
         assert!((sum(&svg) - sum(&fold)).abs() < 1e-9);
         assert!((svg.sheet.unit_length - fold.sheet.unit_length).abs() < 1e-12);
     }

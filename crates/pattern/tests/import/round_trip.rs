@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use foldmotion_pattern::{
-    Case, CutOptions, ImportOptions, Imported, LengthUnit, Sheet, Unit, UnitSheet,
+    Case, CutOptions, ImportOptions, ImportedPattern, LengthUnit, Sheet, Unit, UnitSheet,
     crease_pattern_fold, import_fold, import_svg, pattern_svg,
 };
 use glam::DVec2;
@@ -157,7 +157,7 @@ fn imported_patterns_written_as_fold_come_back_as_they_are() {
         let second = import_fold(written.as_bytes(), &options).unwrap();
         check_sheet(&second);
         let all = |_: usize| true;
-        let found = |i: &Imported| edges(&i.sheet, &i.targets, all, |v| v);
+        let found = |i: &ImportedPattern| edges(&i.sheet, &i.targets, all, |v| v);
         assert_eq!(found(&first), found(&second));
         assert_eq!(first.sheet.vertices, second.sheet.vertices);
         assert_eq!(first.sheet.unit_length, second.sheet.unit_length);

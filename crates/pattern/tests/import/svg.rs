@@ -3,8 +3,8 @@
 use std::f64::consts::PI;
 
 use foldmotion_pattern::{
-    Assignment, Curves, ImportError, ImportOptions, Imported, LengthUnit, Source, Unknown,
-    WarningKind, import_svg,
+    Assignment, Curves, ImportError, ImportOptions, ImportedPattern, LengthUnit, Source,
+    UnknownElements, WarningKind, import_svg,
 };
 use glam::DVec2;
 
@@ -14,7 +14,7 @@ pub(crate) fn document(attributes: &str, body: &str) -> String {
     format!("<svg xmlns=\"http://www.w3.org/2000/svg\" {attributes}>\n{body}\n</svg>")
 }
 
-fn import(attributes: &str, body: &str) -> Imported {
+fn import(attributes: &str, body: &str) -> ImportedPattern {
     let imported = import_svg(
         document(attributes, body).as_bytes(),
         &ImportOptions::default(),
@@ -25,7 +25,7 @@ fn import(attributes: &str, body: &str) -> Imported {
 }
 
 /// A square of side 10 with one crease across, drawn by `crease`.
-fn square(crease: &str) -> Imported {
+fn square(crease: &str) -> ImportedPattern {
     import(
         "",
         &format!("<rect width=\"10\" height=\"10\" stroke=\"#000\"/>{crease}"),
@@ -33,7 +33,7 @@ fn square(crease: &str) -> Imported {
 }
 
 /// The one crease of a sheet: its assignment and target in degrees.
-fn the_crease(imported: &Imported) -> (Assignment, f64) {
+fn the_crease(imported: &ImportedPattern) -> (Assignment, f64) {
     let edges = imported.sheet.edges.iter().zip(&imported.targets);
     let mut creases = edges
         .zip(&imported.edge_sources)
@@ -173,7 +173,7 @@ fn shapes_and_transforms_place_the_same_sheet() {
         "<a><switch><rect width=\"10\" height=\"10\" stroke=\"black\"/></switch></a>",
     ] {
         let imported = import("", &format!("{border}{crease}"));
-        let sorted = |i: &Imported| {
+        let sorted = |i: &ImportedPattern| {
             let mut points = i.sheet.vertices.clone();
             let key = |p: &DVec2| [p.x, p.y].map(|c| (c * 1e6).round() as i64);
             points.sort_by_key(key);
@@ -308,7 +308,7 @@ fn unknown_strokes_are_refused_by_element_or_left_out() {
     ] {
         assert!(message.contains(part), "{message}");
     }
-    options.unknown = Unknown::Ignore;
+    options.unknown = UnknownElements::Ignore;
     let imported = import_svg(text.as_bytes(), &options).unwrap();
     assert_eq!(imported.sheet.facets.len(), 1);
     let ignored = imported

@@ -2,7 +2,7 @@
 
 use miniz_oxide::deflate::compress_to_vec_zlib;
 
-/// How hard streams are compressed, of 10.
+/// The compression level of streams, 0 to 10.
 const EFFORT: u8 = 8;
 
 /// `bytes` as a zlib stream (filter `FlateDecode`).

@@ -2,7 +2,7 @@
 
 /// Raised and lowered letters are this part as large as the others.
 const SMALL: f64 = 0.7;
-/// They stand this part of the size above or below the base line.
+/// Their distance above or below the base line as a part of the size.
 const SHIFT: f64 = 0.32;
 
 /// Letters of one size and height.
@@ -11,7 +11,7 @@ pub(super) struct Run {
     pub(super) text: String,
     /// Part of the words' size.
     pub(super) scale: f64,
-    /// How far above the base line, as a part of the words' size.
+    /// The height above the base line, as a part of the size.
     pub(super) rise: f64,
 }
 

@@ -1,7 +1,8 @@
 //! A drawing: areas, lines, words and pictures on a page, written as SVG, PDF and PNG.
 //!
-//! Lengths are units of the page, x to the right, y down; colours are sRGB. SVG and PDF keep lines and words as such and
-//! carry pictures inside; the PNG has [`PIXELS_A_UNIT`] pixels a unit. All come from the same items in the same order.
+//! Lengths are units of the page, x to the right, y down; colours are sRGB. SVG and PDF keep lines and words as such
+//! and carry pictures inside; the PNG has [`PIXELS_A_UNIT`] pixels a unit. All come from the same items in the same
+//! order.
 
 mod deflate;
 mod label;
@@ -70,7 +71,7 @@ impl Stroke {
     }
 }
 
-/// Which part of a word stands at its place.
+/// Which part of a text is at its position.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Anchor {
     /// Its start.
@@ -82,7 +83,7 @@ pub enum Anchor {
     End,
 }
 
-/// What a drawing consists of.
+/// An item of a drawing.
 #[derive(Debug, Clone, PartialEq)]
 enum Item {
     Area {
@@ -164,14 +165,14 @@ impl Drawing {
         Ok(self)
     }
 
-    /// The page in another colour; none lets through what lies behind it.
+    /// The page in another colour; `None` makes it transparent.
     #[must_use]
     pub fn with_background(mut self, background: Option<[u8; 3]>) -> Self {
         self.background = background;
         self
     }
 
-    /// What every file of the drawing says of its origin.
+    /// Sets the origin that every file of the drawing states.
     #[must_use]
     pub fn with_provenance(mut self, provenance: Provenance) -> Self {
         self.provenance = Some(provenance);
@@ -194,7 +195,7 @@ impl Drawing {
         self.items.push(Item::Area { outline, color });
     }
 
-    /// Fills what closed `rings` wind around, holes running the other way round, and `bleed` around it: where shapes
+    /// Fills what closed `rings` wind around, holes in the opposite direction, and `bleed` around it: where shapes
     /// adjoin, a small one closes the seam that viewers leave between edges that they smooth one by one.
     pub fn shape(&mut self, rings: Vec<Vec<DVec2>>, color: [u8; 3], bleed: f64) {
         self.items.push(Item::Shape {
@@ -222,7 +223,7 @@ impl Drawing {
     }
 
     /// Writes `text` on the base line through `at`, letters `size` high in all. After `^` a character, or several in
-    /// braces, stand raised, after `_` lowered.
+    /// braces, are raised, after `_` lowered.
     pub fn words(&mut self, at: DVec2, text: impl Into<String>, size: f64, anchor: Anchor) {
         let text = text.into();
         self.items.push(Item::Words {
@@ -263,7 +264,7 @@ mod tests {
         assert_eq!(image.pixel(70, 55), [255, 255, 255]);
         let dark = |x: u32| (10..30).any(|y| image.pixel(x, y)[0] < 128);
         assert!((40..80).any(dark), "the word leaves ink");
-        assert!(!(32..40).any(dark), "and only where it stands");
+        assert!(!(32..40).any(dark), "and only where it is");
     }
 
     #[test]

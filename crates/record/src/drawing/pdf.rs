@@ -10,7 +10,7 @@ use super::pdf_font::PdfFont;
 use super::{Anchor, Drawing, Item, PIXELS_A_UNIT, Stroke, WORDS};
 use crate::{Image, RecordError};
 
-/// Points, of which PDF counts lengths, in a millimetre.
+/// The number of points, the unit of PDF, in a millimetre.
 const POINTS_A_MILLIMETRE: f64 = 72.0 / 25.4;
 
 const FONT: Name<'static> = Name(b"F");
@@ -125,7 +125,7 @@ impl Drawing {
                     anchor,
                 } => write(&mut content, font, *at, text, *size, *anchor),
                 Item::Picture { at, image } => {
-                    place(&mut content, *at, image, &picture_name(images.len()));
+                    draw_picture(&mut content, *at, image, &picture_name(images.len()));
                     images.push(image);
                 }
             }
@@ -219,7 +219,7 @@ fn write(content: &mut Content, font: &PdfFont, at: DVec2, text: &str, size: f64
     content.end_text();
 }
 
-fn place(content: &mut Content, at: DVec2, image: &Image, name: &str) {
+fn draw_picture(content: &mut Content, at: DVec2, image: &Image, name: &str) {
     let [width, height] =
         [image.width, image.height].map(|side| f64::from(side) / f64::from(PIXELS_A_UNIT));
     let [x, y, w, h] = [at.x, at.y + height, width, height].map(short);

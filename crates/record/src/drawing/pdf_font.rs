@@ -1,7 +1,7 @@
 //! The font of a PDF: the letters it uses, out of the built-in one.
 //!
 //! A composite font with two bytes a glyph (ISO 32000-1, 9.7), embedded, with a table that tells viewers which
-//! characters its glyphs stand for, so that text can be searched and copied.
+//! characters its glyphs represent, so that text can be searched and copied.
 
 use std::collections::BTreeMap;
 
@@ -27,7 +27,7 @@ const SYSTEM: SystemInfo<'static> = SystemInfo {
 pub(super) struct PdfFont {
     face: Face<'static>,
     glyphs: GlyphRemapper,
-    /// Of each letter the glyph in the font and in the subset.
+    /// For each letter the glyph in the font and in the subset.
     letters: BTreeMap<char, (GlyphId, u16)>,
 }
 

@@ -205,7 +205,7 @@ fn letters(face: &Face<'_>, at: DVec2, text: &str, size: f64, anchor: Anchor) ->
         .transform(Transform::from_translate(shift.x, shift.y))
 }
 
-/// Takes the outline of a letter, y up, to its place on the page.
+/// Transforms the outline of a letter, y up, to its position on the page.
 struct Pen {
     builder: PathBuilder,
     at: DVec2,
@@ -213,7 +213,7 @@ struct Pen {
 }
 
 impl Pen {
-    fn place(&self, x: f32, y: f32) -> [f32; 2] {
+    fn transform(&self, x: f32, y: f32) -> [f32; 2] {
         let point = DVec2::new(f64::from(x), -f64::from(y));
         (self.at + self.scale * point).as_vec2().to_array()
     }
@@ -221,23 +221,23 @@ impl Pen {
 
 impl OutlineBuilder for Pen {
     fn move_to(&mut self, x: f32, y: f32) {
-        let [x, y] = self.place(x, y);
+        let [x, y] = self.transform(x, y);
         self.builder.move_to(x, y);
     }
 
     fn line_to(&mut self, x: f32, y: f32) {
-        let [x, y] = self.place(x, y);
+        let [x, y] = self.transform(x, y);
         self.builder.line_to(x, y);
     }
 
     fn quad_to(&mut self, x1: f32, y1: f32, x: f32, y: f32) {
-        let ([x1, y1], [x, y]) = (self.place(x1, y1), self.place(x, y));
+        let ([x1, y1], [x, y]) = (self.transform(x1, y1), self.transform(x, y));
         self.builder.quad_to(x1, y1, x, y);
     }
 
     fn curve_to(&mut self, x1: f32, y1: f32, x2: f32, y2: f32, x: f32, y: f32) {
-        let ([x1, y1], [x2, y2]) = (self.place(x1, y1), self.place(x2, y2));
-        let [x, y] = self.place(x, y);
+        let ([x1, y1], [x2, y2]) = (self.transform(x1, y1), self.transform(x2, y2));
+        let [x, y] = self.transform(x, y);
         self.builder.cubic_to(x1, y1, x2, y2, x, y);
     }
 

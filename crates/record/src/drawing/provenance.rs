@@ -1,16 +1,16 @@
 //! What a drawing says of its origin.
 
-/// Where a drawing comes from, carried by each of its files: RDF in the `<metadata>` of an SVG, document information and
-/// XMP (ISO 16684-1) in a PDF. It holds no time, so that the same drawing has the same bytes.
+/// Where a drawing comes from, carried by each of its files: RDF in the `<metadata>` of an SVG, document information
+/// and XMP (ISO 16684-1) in a PDF. It holds no time, so that the same drawing has the same bytes.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct Provenance {
-    /// What the drawing shows.
+    /// The title of what the drawing shows.
     pub title: String,
     /// The program and its version.
     pub producer: String,
     /// The text of the scene it was made from.
     pub scene: String,
-    /// What tells the motion apart from others, such as its SHA-256.
+    /// The identity of the motion, such as its SHA-256.
     pub hash: String,
 }
 
@@ -41,7 +41,7 @@ impl Provenance {
     }
 }
 
-/// `text` inside XML; characters that XML 1.0 has no way to write are left out.
+/// `text` inside XML; characters that XML 1.0 cannot represent are left out.
 pub(super) fn escaped(text: &str) -> String {
     let mut xml = String::with_capacity(text.len());
     for letter in text.chars() {

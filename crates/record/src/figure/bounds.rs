@@ -2,7 +2,7 @@
 
 use glam::DVec2;
 
-use super::pose::Bounds;
+use super::state::Bounds;
 use crate::{Camera, Drawing, Stroke};
 
 /// The colour of boxes and dimension lines.
@@ -39,13 +39,19 @@ impl Shown {
     fn outer(&self, axis: usize) -> [DVec2; 2] {
         let centre = self.centre();
         let edge = |k: usize| [k, k | 1 << axis].map(|k| self.corners[k]);
-        let place = |[a, b]: [DVec2; 2]| {
+        let outwardness = |[a, b]: [DVec2; 2]| {
             let from_centre = 0.5 * (a + b) - centre;
             let out = from_centre.reject_from((b - a).normalize_or(DVec2::X));
             out.length() + 0.01 * out.y
         };
         let edges = (0..8_usize).filter(|k| k >> axis & 1 == 0).map(edge);
-        let outermost = edges.reduce(|a, b| if place(b) >= place(a) { b } else { a });
+        let outermost = edges.reduce(|a, b| {
+            if outwardness(b) >= outwardness(a) {
+                b
+            } else {
+                a
+            }
+        });
         outermost.unwrap_or([centre; 2])
     }
 

@@ -2,10 +2,10 @@
 
 use glam::DVec2;
 
-use super::keys::{BAR, Key, keys, places, row};
+use super::keys::{BAR, Key, keys, positions, row};
 use super::layout::Layout;
 use super::spot::ring;
-use super::{Legend, Pose, StripOptions};
+use super::{FigureState, Legend, StripOptions};
 use crate::{Anchor, Drawing, RecordError, Stroke, colour_of};
 
 /// The colour of bars and ticks.
@@ -17,15 +17,15 @@ const STEPS: u32 = 64;
 /// Draws the foot.
 pub(super) fn draw(
     drawing: &mut Drawing,
-    poses: &[Pose<'_>],
+    states: &[FigureState<'_>],
     options: &StripOptions,
     layout: &Layout,
 ) -> Result<(), RecordError> {
     let (corner, inner) = layout.foot;
-    let keys = keys(poses, options);
-    let places = places(&keys, options, layout.letters, inner)?;
+    let keys = keys(states, options);
+    let positions = positions(&keys, options, layout.letters, inner)?;
     let high = row(options, layout.letters);
-    let mut ats = places.into_iter().map(|(row, x)| {
+    let mut ats = positions.into_iter().map(|(row, x)| {
         let y = high * (row as f64 + 0.5);
         corner + DVec2::new(x, y)
     });
@@ -89,7 +89,7 @@ fn values(drawing: &mut Drawing, legend: &Legend, [start, end]: [DVec2; 2], lett
     let half = DVec2::new(0.0, 0.3 * letters);
     for k in 0..STEPS {
         let (left, right) = (f64::from(k), f64::from(k + 1));
-        let [a, b] = [left, right].map(|place| start + step * place);
+        let [a, b] = [left, right].map(|k| start + step * k);
         let ring = vec![a - half, b - half, b + half, a + half];
         let part = f64::from(k) / f64::from(STEPS - 1);
         drawing.shape(vec![ring], colour_of(part), 0.1);

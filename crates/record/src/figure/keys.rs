@@ -1,6 +1,6 @@
-//! The keys at the foot of a strip and where each stands: a scale bar, samples of the lines, what colours stand for.
+//! The keys at the foot of a strip and their positions: a scale bar, samples of the lines, the meaning of colours.
 
-use super::{Legend, Pose, StripOptions};
+use super::{FigureState, Legend, StripOptions};
 use crate::RecordError;
 use crate::drawing::words_width;
 use foldmotion_pattern::Assignment;
@@ -34,7 +34,7 @@ impl Key<'_> {
             Self::Line(_, words) => words,
             Self::Mark => "penetrating",
             Self::Spot => "penetrates first here",
-            // The title stands above.
+            // The title is above.
             Self::Values(_) => "",
         }
     }
@@ -52,16 +52,16 @@ impl Key<'_> {
 }
 
 /// The keys of the states in their order.
-pub(super) fn keys<'a>(poses: &[Pose<'_>], options: &'a StripOptions) -> Vec<Key<'a>> {
+pub(super) fn keys<'a>(states: &[FigureState<'_>], options: &'a StripOptions) -> Vec<Key<'a>> {
     let mut keys = Vec::new();
     if options.has_key {
         keys.push(Key::Line(Assignment::Mountain, "mountain"));
         keys.push(Key::Line(Assignment::Valley, "valley"));
     }
-    if poses.iter().any(|pose| pose.marked.contains(&true)) {
+    if states.iter().any(|state| state.marked.contains(&true)) {
         keys.push(Key::Mark);
     }
-    if poses.iter().any(|pose| pose.spot.is_some()) {
+    if states.iter().any(|state| state.spot.is_some()) {
         keys.push(Key::Spot);
     }
     keys.extend(options.legend.as_ref().map(Key::Values));
@@ -69,7 +69,7 @@ pub(super) fn keys<'a>(poses: &[Pose<'_>], options: &'a StripOptions) -> Vec<Key
 }
 
 /// For each key, and the bar of scale before them, its row and its distance from the left.
-pub(super) fn places(
+pub(super) fn positions(
     keys: &[Key<'_>],
     options: &StripOptions,
     letters: f64,
@@ -81,16 +81,16 @@ pub(super) fn places(
         BAR * inner + 2.0 * letters
     };
     let (mut row, mut x) = (0, bar);
-    let mut places = vec![(0, 0.0)];
+    let mut positions = vec![(0, 0.0)];
     for key in keys {
         let width = key.width(letters)?;
         if x > 0.0 && x + width > inner {
             (row, x) = (row + 1, 0.0);
         }
-        places.push((row, x));
+        positions.push((row, x));
         x += width;
     }
-    Ok(places)
+    Ok(positions)
 }
 
 /// The height of a row.
@@ -100,16 +100,16 @@ pub(super) fn row(options: &StripOptions, letters: f64) -> f64 {
 
 /// The height of the foot.
 pub(super) fn height(
-    poses: &[Pose<'_>],
+    states: &[FigureState<'_>],
     options: &StripOptions,
     letters: f64,
     inner: f64,
 ) -> Result<f64, RecordError> {
-    let keys = keys(poses, options);
+    let keys = keys(states, options);
     if keys.is_empty() && options.unit.is_empty() {
         return Ok(0.0);
     }
-    let places = places(&keys, options, letters, inner)?;
-    let rows = places.last().map_or(0, |place| place.0) + 1;
+    let positions = positions(&keys, options, letters, inner)?;
+    let rows = positions.last().map_or(0, |position| position.0) + 1;
     Ok(row(options, letters) * rows as f64)
 }

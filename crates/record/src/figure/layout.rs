@@ -1,9 +1,9 @@
-//! Where the states stand on the page.
+//! The positions of the states on the page.
 
 use glam::DVec2;
 
 use super::measure::measures;
-use super::{Pose, StripOptions, UNIT, keys};
+use super::{FigureState, StripOptions, UNIT, keys};
 use crate::drawing::words_width;
 use crate::{Camera, RecordError};
 
@@ -19,13 +19,13 @@ const BETWEEN: f64 = 1.6;
 /// Halvings in the search for the scale: beyond the digits of an f64.
 const HALVINGS: usize = 60;
 
-/// Where a state stands, without its label.
+/// The area of a state, without its label.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Cell {
     /// The left upper corner.
     pub(super) at: DVec2,
     pub(super) size: DVec2,
-    /// Where the middle of the extent stands.
+    /// The position of the middle of the extent.
     pub(super) middle: DVec2,
     /// Across the view, to the right and up: the middle of what is shown there, in the sheet's unit of length.
     pub(super) extent: [DVec2; 2],
@@ -46,11 +46,11 @@ pub(super) struct Layout {
     pub(super) foot: (DVec2, f64),
 }
 
-/// What a state needs.
+/// The space that a state needs.
 #[derive(Debug)]
-struct Need {
+struct SpaceNeeded {
     extent: [DVec2; 2],
-    /// What is written beside the state: where it stands from the middle of the extent at one unit a length, and its box
+    /// The text beside the state: its position from the middle of the extent at one unit a length, and its box
     /// there.
     beside: Vec<(DVec2, [DVec2; 2])>,
     /// The width of the text below.
@@ -58,23 +58,27 @@ struct Need {
     lines: usize,
 }
 
-impl Need {
-    fn new(pose: &Pose<'_>, options: &StripOptions, letters: f64) -> Result<Self, RecordError> {
-        let mut extent = options.view.extent(pose.points());
+impl SpaceNeeded {
+    fn new(
+        state: &FigureState<'_>,
+        options: &StripOptions,
+        letters: f64,
+    ) -> Result<Self, RecordError> {
+        let mut extent = options.view.extent(state.points());
         if let Some([low, high]) = options.frame {
             extent = [extent[0].min(low), extent[1].max(high)];
         }
         let (mut text, mut lines) = (0.0, 0);
-        for line in pose.captions() {
+        for line in state.captions() {
             text = f64::max(text, words_width(line, letters)?);
             lines += 1;
         }
         let mut beside = Vec::new();
-        if pose.bounds.is_some() || !pose.dimensions.is_empty() {
+        if state.bounds.is_some() || !state.dimensions.is_empty() {
             let camera = Camera::centred(options.view, extent, [1, 1], 1.0)?;
-            for measure in measures(pose, &camera) {
+            for measure in measures(state, &camera) {
                 let boxes = measure.boxes(letters)?;
-                let from_middle = |(place, around)| (place - DVec2::splat(0.5), around);
+                let from_middle = |(point, around)| (point - DVec2::splat(0.5), around);
                 beside.extend(boxes.map(from_middle));
             }
         }
@@ -91,10 +95,10 @@ impl Need {
         let half = 0.5 * scale * (self.extent[1] - self.extent[0]);
         let text = DVec2::new(0.5 * self.text, 0.0);
         let mut around = [-half.max(text), half.max(text)];
-        for (place, [low, high]) in &self.beside {
-            // What stands on the far side would let a larger scale need less room.
-            around[0] = around[0].min(scale * place.min(DVec2::ZERO) + *low);
-            around[1] = around[1].max(scale * place.max(DVec2::ZERO) + *high);
+        for (point, [low, high]) in &self.beside {
+            // Text on the far side would let a larger scale need less room.
+            around[0] = around[0].min(scale * point.min(DVec2::ZERO) + *low);
+            around[1] = around[1].max(scale * point.max(DVec2::ZERO) + *high);
         }
         around
     }
@@ -106,26 +110,31 @@ impl Need {
 }
 
 impl Layout {
-    pub(super) fn new(poses: &[Pose<'_>], options: &StripOptions) -> Result<Self, RecordError> {
+    pub(super) fn new(
+        states: &[FigureState<'_>],
+        options: &StripOptions,
+    ) -> Result<Self, RecordError> {
         #[expect(clippy::cast_sign_loss, reason = "widths are positive")]
         let across = (options.width / UNIT).round().max(1.0) as u32;
         let width = f64::from(across);
         let millimetres = options.width / width;
         let letters = options.letters / millimetres;
-        let needs = poses.iter().map(|pose| Need::new(pose, options, letters));
-        let needs: Vec<Need> = needs.collect::<Result<_, _>>()?;
-        let rows: Vec<&[Need]> = needs.chunks(options.columns.max(1)).collect();
+        let needs = states
+            .iter()
+            .map(|state| SpaceNeeded::new(state, options, letters));
+        let needs: Vec<SpaceNeeded> = needs.collect::<Result<_, _>>()?;
+        let rows: Vec<&[SpaceNeeded]> = needs.chunks(options.columns.max(1)).collect();
         let gap = GAP * letters;
         let inner = width - 2.0 * gap;
-        let foot = keys::height(poses, options, letters, inner)?;
+        let foot = keys::height(states, options, letters, inner)?;
         let room = options.height / millimetres - foot - gap;
         let scale = fitting_scale(&rows, [inner, room], letters);
         let scale = scale.ok_or(RecordError::NoRoom {
             width: options.width,
             height: options.height,
-            states: poses.len(),
+            states: states.len(),
         })?;
-        let mut cells = Vec::with_capacity(poses.len());
+        let mut cells = Vec::with_capacity(states.len());
         let mut top = gap;
         for row in &rows {
             place_row(row, [inner, top, gap], scale, &mut cells);
@@ -146,7 +155,7 @@ impl Layout {
 }
 
 /// The widest scale at which every row and all rows together fit into `room`, `None` if the text alone does not.
-fn fitting_scale(rows: &[&[Need]], room: [f64; 2], letters: f64) -> Option<f64> {
+fn fitting_scale(rows: &[&[SpaceNeeded]], room: [f64; 2], letters: f64) -> Option<f64> {
     let fits = |scale: f64| {
         let widest = rows.iter().map(|row| row_width(row, scale, letters));
         let high: f64 = rows.iter().map(|row| row_height(row, scale, letters)).sum();
@@ -179,19 +188,19 @@ fn fitting_scale(rows: &[&[Need]], room: [f64; 2], letters: f64) -> Option<f64> 
     (fitting > 0.0).then_some(fitting)
 }
 
-fn row_width(row: &[Need], scale: f64, letters: f64) -> f64 {
+fn row_width(row: &[SpaceNeeded], scale: f64, letters: f64) -> f64 {
     let gaps = BETWEEN * letters * (row.len() - 1) as f64;
     gaps + row.iter().map(|need| need.size(scale).x).sum::<f64>()
 }
 
-fn row_height(row: &[Need], scale: f64, letters: f64) -> f64 {
+fn row_height(row: &[SpaceNeeded], scale: f64, letters: f64) -> f64 {
     let high = row.iter().map(|need| need.size(scale).y);
     let lines = row.iter().map(|need| need.lines).max().unwrap_or(0);
     high.fold(0.0, f64::max) + letters * (LINE * lines as f64 + GAP)
 }
 
-/// Spreads a row over the width; the states stand on a common ground.
-fn place_row(row: &[Need], [inner, top, gap]: [f64; 3], scale: f64, cells: &mut Vec<Cell>) {
+/// Spreads a row over the width; the lower edges of the states are level.
+fn place_row(row: &[SpaceNeeded], [inner, top, gap]: [f64; 3], scale: f64, cells: &mut Vec<Cell>) {
     let high = row.iter().map(|need| need.size(scale).y);
     let high = high.fold(0.0, f64::max);
     let used: f64 = row.iter().map(|need| need.size(scale).x).sum();

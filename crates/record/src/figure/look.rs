@@ -4,15 +4,15 @@ use foldmotion_pattern::Assignment;
 
 use crate::{Stroke, Style};
 
-/// Dashes of mountains and valleys and the gaps after them, in widths of the line. All ends are round: a gap looks a width
-/// narrower.
+/// Dashes of mountains and valleys and the gaps after them, in widths of the line. All ends are round: a gap looks a
+/// width narrower.
 const DASHES: [f64; 2] = [5.0, 2.5];
 const GAP: f64 = 2.5;
 
 /// By what dashes and gaps of short lines are made shorter.
 const SHRINK: [f64; 3] = [1.0, 0.75, 0.55];
 
-/// How mountains and valleys are told apart.
+/// How mountains and valleys are distinguished.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum LineStyle {
     /// By their colours.

@@ -2,16 +2,16 @@
 
 use glam::{DVec2, DVec3};
 
-use super::Pose;
+use super::FigureState;
 use super::bounds::{INK, outer_edges};
 use crate::drawing::words_width;
 use crate::{Anchor, Camera, Drawing, RecordError, Stroke};
 
-/// What is shorter than this on the page has no dimension line.
+/// A length shorter than this on the page has no dimension line.
 const SHORTEST: f64 = 2.0;
 
-/// In sizes of letters: how far lines stand off, where the lines to their ends begin, how far these go on, and how far
-/// words are from the line.
+/// In sizes of letters: the distance of lines from what is measured, where the lines to their ends begin, how far these
+/// go on, and how far words are from the line.
 const OFF: f64 = 0.6;
 const CLEAR: f64 = 0.15;
 const BEYOND: f64 = 0.25;
@@ -31,19 +31,19 @@ const HALF: f64 = 0.5;
 pub(super) struct Measure<'a> {
     /// On the screen, y down.
     ends: [DVec2; 2],
-    /// The direction in which it stands off.
+    /// The direction from what is measured to the line.
     out: DVec2,
     words: &'a str,
 }
 
-/// The dimension lines of `pose`, seen by `camera`.
-pub(super) fn measures<'a>(pose: &'a Pose<'_>, camera: &Camera) -> Vec<Measure<'a>> {
-    let place = |point: DVec3| camera.project(point).truncate();
-    let own = pose.dimensions.iter().map(|dimension| {
-        let ends = dimension.ends.map(place);
-        (ends, place(dimension.inside), &dimension.words)
+/// The dimension lines of `state`, seen by `camera`.
+pub(super) fn measures<'a>(state: &'a FigureState<'_>, camera: &Camera) -> Vec<Measure<'a>> {
+    let project = |point: DVec3| camera.project(point).truncate();
+    let own = state.dimensions.iter().map(|dimension| {
+        let ends = dimension.ends.map(project);
+        (ends, project(dimension.inside), &dimension.words)
     });
-    let bounds = pose.bounds.iter().flat_map(|bounds| {
+    let bounds = state.bounds.iter().flat_map(|bounds| {
         let edges = outer_edges(bounds, camera).into_iter();
         edges
             .zip(&bounds.sizes)
@@ -63,7 +63,7 @@ pub(super) fn measures<'a>(pose: &'a Pose<'_>, camera: &Camera) -> Vec<Measure<'
 }
 
 impl Measure<'_> {
-    /// What it needs room for: places on the state, and the boxes around them of what is drawn there.
+    /// The points of the state at which something is drawn, each with the box around it that needs room.
     pub(super) fn boxes(&self, letters: f64) -> Result<[(DVec2, [DVec2; 2]); 3], RecordError> {
         let [a, b] = self.ends;
         let end = self.out * (OFF * letters);

@@ -1,9 +1,9 @@
 //! A figure of chosen states of a motion, side by side at one scale, as lines and areas.
 //!
-//! Each state is what [`Surface::visible`] sees of it, so a figure hides what pictures of pixels hide. Areas take the
-//! light of pictures; lines are drawn over them, those in front last. States stand in rows with a label below each; keys
-//! of scale, lines and colours stand at the foot. Creases of facets seen so nearly edge-on that their lines would run
-//! together are left out.
+//! Each state is what [`Surface::visible`](crate::Surface::visible) sees of it, so a figure hides what pictures of pixels hide. Areas take the
+//! light of pictures; lines are drawn over them, those in front last. States are arranged in rows with a label below
+//! each; keys of scale, lines and colours are at the foot. Creases of facets seen so nearly edge-on that their lines
+//! would run together are left out.
 
 mod bounds;
 mod foot;
@@ -12,13 +12,13 @@ mod layout;
 mod look;
 mod measure;
 mod paint;
-mod pose;
 mod spot;
+mod state;
 
 use glam::DVec2;
 
 pub use self::look::LineStyle;
-pub use self::pose::{Bounds, Dimension, Pose};
+pub use self::state::{Bounds, Dimension, FigureState};
 
 use self::layout::Layout;
 use self::paint::Painter;
@@ -32,7 +32,7 @@ const UNIT: f64 = 25.4 / 96.0;
 /// The widest page and the highest, millimetres.
 const MAX_SIDE: f64 = 5000.0;
 
-/// What colours stand for.
+/// The meaning of colours.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Legend {
     /// The quantity with its unit.
@@ -41,7 +41,7 @@ pub struct Legend {
     pub range: [f64; 2],
 }
 
-/// How a strip of states is drawn. Lengths on the page are millimetres.
+/// The options of a strip of states. Lengths on the page are millimetres.
 #[derive(Debug, Clone, PartialEq)]
 pub struct StripOptions {
     /// The width of the page.
@@ -50,13 +50,13 @@ pub struct StripOptions {
     pub height: f64,
     /// States in a row, at most; at least one.
     pub columns: usize,
-    /// Where the viewer stands.
+    /// The direction from which the states are seen.
     pub view: View,
-    /// Across the view, see [`View::extent`]: what each state shows at least; where none, the state as large as it is.
+    /// Across the view, see [`View::extent`]: the extent that each state shows at least; if `None`, its own extent.
     pub frame: Option<[DVec2; 2]>,
     /// Colours; [`Style::grey`] for print without them. Its width of lines and its background do not count here.
     pub style: Style,
-    /// How mountains and valleys are told apart.
+    /// How mountains and valleys are distinguished.
     pub lines: LineStyle,
     /// The width of all lines.
     pub line_width: f64,
@@ -64,11 +64,11 @@ pub struct StripOptions {
     pub letters: f64,
     /// The name of the sheet's unit of length, for a bar of scale; empty: no bar.
     pub unit: String,
-    /// Whether samples of the lines stand at the foot.
+    /// Whether samples of the lines are shown at the foot.
     pub has_key: bool,
-    /// What the values of [`Pose::values`] and [`Pose::bars`] are; without it they are not shown.
+    /// The meaning of the values of [`FigureState::values`] and [`FigureState::bars`]; without it they are not shown.
     pub legend: Option<Legend>,
-    /// Behind all; none lets through what lies behind the figure.
+    /// The colour behind everything; `None` leaves the figure transparent.
     pub background: Option<[u8; 3]>,
 }
 
@@ -120,43 +120,43 @@ impl StripOptions {
     }
 }
 
-/// The states `poses` of `sheet` in rows, as large as they fit, all at one scale and from one direction.
+/// The states `states` of `sheet` in rows, as large as they fit, all at one scale and from one direction.
 ///
 /// # Errors
 /// [`RecordError::NoFrames`] without states; [`RecordError::VertexCount`], [`RecordError::NotFinite`],
-/// [`RecordError::ValueCount`] with the place of the state as frame; [`RecordError::Length`], [`RecordError::Range`];
+/// [`RecordError::ValueCount`] with the index of the state as frame; [`RecordError::Length`], [`RecordError::Range`];
 /// [`RecordError::NoRoom`] where labels and keys leave no room for the states; [`RecordError::Size`].
 pub fn strip(
     sheet: &Sheet,
-    poses: &[Pose<'_>],
+    states: &[FigureState<'_>],
     options: &StripOptions,
 ) -> Result<Drawing, RecordError> {
     options.check()?;
-    if poses.is_empty() {
+    if states.is_empty() {
         return Err(RecordError::NoFrames);
     }
-    for (index, pose) in poses.iter().enumerate() {
-        check_positions(sheet, index, &pose.positions)?;
-        pose.check(sheet, index)?;
+    for (index, state) in states.iter().enumerate() {
+        check_positions(sheet, index, &state.positions)?;
+        state.check(sheet, index)?;
     }
-    let layout = Layout::new(poses, options)?;
+    let layout = Layout::new(states, options)?;
     let mut drawing = Drawing::new(layout.page)?
         .with_unit(layout.millimetres)?
         .with_background(options.background);
-    for (pose, cell) in poses.iter().zip(&layout.cells) {
-        let paper = Paper::new(sheet, pose.order);
+    for (state, cell) in states.iter().zip(&layout.cells) {
+        let paper = Paper::new(sheet, state.order);
         let painter = Painter {
             paper: &paper,
             options,
             layout: &layout,
         };
-        painter.paint(&mut drawing, pose, cell)?;
-        for (line, text) in pose.captions().enumerate() {
+        painter.paint(&mut drawing, state, cell)?;
+        for (line, text) in state.captions().enumerate() {
             let y = cell.at.y + cell.size.y + layout.letters * (1.2 + layout::LINE * line as f64);
             let at = DVec2::new(cell.middle.x, y);
             drawing.words(at, text, layout.letters, Anchor::Middle);
         }
     }
-    foot::draw(&mut drawing, poses, options, &layout)?;
+    foot::draw(&mut drawing, states, options, &layout)?;
     Ok(drawing)
 }

@@ -8,7 +8,7 @@ use glam::{DVec2, DVec3};
 use super::layout::{Cell, Layout};
 use super::measure::measures;
 use super::spot::ring;
-use super::{Pose, StripOptions, bounds};
+use super::{FigureState, StripOptions, bounds};
 use crate::line_width::line_width;
 use crate::shade::{Inks, encoded, linear};
 use crate::visible::{doubled_area, perimeter};
@@ -16,7 +16,8 @@ use crate::{
     Camera, Drawing, Paper, RecordError, Stroke, Style, Surface, Visible, VisibleLine, colour_of,
 };
 
-/// Areas are painted this much wider, half of it on each side, so that no seam opens between neighbours; lines cover it.
+/// Areas are painted this much wider, half of it on each side, so that no seam opens between neighbours; lines cover
+/// it.
 const BLEED: f64 = 0.3;
 
 /// Parts narrower than this would be all bleed, in units of the page.
@@ -29,7 +30,7 @@ const ROOM: f64 = 1.5;
 const TARGET: [u8; 3] = [0, 158, 115];
 
 /// Lines of one look.
-type Look = (Stroke, Vec<[DVec2; 2]>);
+type StyledLines = (Stroke, Vec<[DVec2; 2]>);
 
 /// Draws states of a sheet.
 pub(super) struct Painter<'a> {
@@ -39,67 +40,67 @@ pub(super) struct Painter<'a> {
 }
 
 impl Painter<'_> {
-    /// Draws `pose` into `cell`.
+    /// Draws `state` into `cell`.
     pub(super) fn paint(
         &self,
         drawing: &mut Drawing,
-        pose: &Pose<'_>,
+        state: &FigureState<'_>,
         cell: &Cell,
     ) -> Result<(), RecordError> {
         let (options, scale) = (self.options, self.layout.scale);
         let camera = Camera::centred(options.view, cell.extent, [1, 1], scale)?;
         let shift = cell.middle - DVec2::splat(0.5);
-        let place = |point: DVec3| camera.project(point).truncate() + shift;
+        let project = |point: DVec3| camera.project(point).truncate() + shift;
         let style = Style {
             line_width: 0.0,
             ..options.style.clone()
         };
-        let surface = Surface::new(self.paper, &pose.positions, &camera, &style);
+        let surface = Surface::new(self.paper, &state.positions, &camera, &style);
         let visible = surface.visible();
         let widest = self.layout.line_width;
-        if let Some(bounds) = &pose.bounds {
+        if let Some(bounds) = &state.bounds {
             bounds::draw_back(drawing, bounds, &camera, shift, widest);
         }
-        let width = line_width(self.paper.sheet, &pose.positions, &camera, widest);
-        let seen = Seen {
+        let width = line_width(self.paper.sheet, &state.positions, &camera, widest);
+        let seen = ShownState {
             surface: &surface,
             visible: &visible,
             shift,
             width,
         };
-        self.areas(drawing, pose, &seen);
-        self.lines(drawing, pose, &seen);
-        if let Some(bounds) = &pose.bounds {
+        self.areas(drawing, state, &seen);
+        self.lines(drawing, state, &seen);
+        if let Some(bounds) = &state.bounds {
             bounds::draw_front(drawing, bounds, &camera, shift, widest);
         }
-        for measure in measures(pose, &camera) {
+        for measure in measures(state, &camera) {
             measure.draw(drawing, shift, self.layout.letters, self.layout.line_width);
         }
-        if let Some(spot) = pose.spot {
+        if let Some(spot) = state.spot {
             ring(
                 drawing,
-                place(spot),
+                project(spot),
                 options.style.mark,
                 self.layout.letters,
             );
         }
-        if pose.target.len() > 1 {
+        if state.target.len() > 1 {
             let width = 2.0 * self.layout.line_width;
             let stroke = Stroke::new(TARGET, width).dashed(4.0 * width, 3.0 * width);
-            drawing.line(pose.target.iter().map(|&p| place(p)), stroke);
+            drawing.line(state.target.iter().map(|&p| project(p)), stroke);
         }
         Ok(())
     }
 
-    fn areas(&self, drawing: &mut Drawing, pose: &Pose<'_>, seen: &Seen<'_>) {
+    fn areas(&self, drawing: &mut Drawing, state: &FigureState<'_>, seen: &ShownState<'_>) {
         let (surface, visible, shift) = (seen.surface, seen.visible, seen.shift);
         let inks = self.options.style.inks();
         let color = |face: usize| {
             let normal = surface.face(face as u32).normal;
-            if pose.marked.get(face) == Some(&true) {
+            if state.marked.get(face) == Some(&true) {
                 return encoded(inks.marked(normal));
             }
-            let value = pose
+            let value = state
                 .values
                 .get(face)
                 .and_then(|&value| self.color_of(value));
@@ -127,15 +128,15 @@ impl Painter<'_> {
         }
     }
 
-    fn lines(&self, drawing: &mut Drawing, pose: &Pose<'_>, seen: &Seen<'_>) {
+    fn lines(&self, drawing: &mut Drawing, state: &FigureState<'_>, seen: &ShownState<'_>) {
         let (options, width) = (self.options, seen.width);
         for level in seen.visible.lines.chunk_by(|a, b| a.level == b.level) {
             // The border comes last, where it goes over the ends of creases.
-            let mut looks: BTreeMap<(u8, [u8; 3], usize), Look> = BTreeMap::new();
+            let mut looks: BTreeMap<(u8, [u8; 3], usize), StyledLines> = BTreeMap::new();
             for line in level.iter().filter(|line| self.has_room(line, seen)) {
                 let edge = &self.paper.sheet.edges[line.edge as usize];
                 let assignment = edge.assignment;
-                let value = pose.bars.get(line.edge as usize);
+                let value = state.bars.get(line.edge as usize);
                 let value = value.and_then(|&value| self.color_of(value));
                 let (rank, step, stroke) = if let Some(color) = value {
                     (4, 0, Stroke::new(color, 3.0 * width))
@@ -158,7 +159,7 @@ impl Painter<'_> {
 
     /// Whether `line` has room beside it on the screen: creases of facets seen nearly edge-on would run together to a
     /// blot. What bounds the shape always has.
-    fn has_room(&self, line: &VisibleLine, shown: &Seen<'_>) -> bool {
+    fn has_room(&self, line: &VisibleLine, shown: &ShownState<'_>) -> bool {
         let surface = shown.surface;
         let edge = &self.paper.sheet.edges[line.edge as usize];
         let [Some(left), Some(right)] = edge.faces else {
@@ -186,7 +187,7 @@ impl Painter<'_> {
 }
 
 /// A state on the page.
-struct Seen<'a> {
+struct ShownState<'a> {
     surface: &'a Surface<'a>,
     visible: &'a Visible,
     /// From the screen to the page.
@@ -195,7 +196,7 @@ struct Seen<'a> {
     width: f64,
 }
 
-impl Seen<'_> {
+impl ShownState<'_> {
     /// The ends of `edge` on the screen.
     fn ends(&self, edge: &Edge) -> [DVec2; 2] {
         let points = self.surface.points();
@@ -203,7 +204,7 @@ impl Seen<'_> {
     }
 }
 
-/// Where a line stands in the sequence of painting within a level.
+/// The rank of a line in the order of painting within a level.
 fn rank(assignment: Assignment) -> u8 {
     match assignment {
         Assignment::Facet | Assignment::Free => 0,

@@ -52,18 +52,18 @@ pub(super) fn section(certificate: &Value) -> String {
     html
 }
 
-fn list<'a>(value: &'a Value, place: &str) -> &'a [Value] {
-    let list = value.pointer(place).and_then(Value::as_array);
+fn list<'a>(value: &'a Value, pointer: &str) -> &'a [Value] {
+    let list = value.pointer(pointer).and_then(Value::as_array);
     list.map_or(&[], Vec::as_slice)
 }
 
 fn statement(certificate: &Value) -> String {
-    let text = |place: &str| match certificate.pointer(place)? {
+    let text = |pointer: &str| match certificate.pointer(pointer)? {
         Value::String(text) => Some(text.clone()),
         value => number(value),
     };
-    let digits_at = |place: &str, count| {
-        let x = certificate.pointer(place)?.as_f64()?;
+    let digits_at = |pointer: &str, count| {
+        let x = certificate.pointer(pointer)?.as_f64()?;
         Some(digits(x, count))
     };
     let frames = || {
@@ -139,11 +139,11 @@ fn undecided(certificate: &Value) -> String {
 fn rows(
     caption: &str,
     certificate: &Value,
-    place: &str,
+    pointer: &str,
     head: &[&str],
     row: &dyn Fn(&Value) -> Vec<String>,
 ) -> String {
-    let entries = list(certificate, place);
+    let entries = list(certificate, pointer);
     if entries.is_empty() {
         return String::new();
     }

@@ -26,7 +26,7 @@ function summed(changes, width) {
     return sums;
 }
 
-/** Which of rising `times` come before and after `time`, and how far it is from the first to the second. */
+/** The indices of the rising `times` before and after `time`, and the fraction of the interval up to it. */
 function between(times, time) {
     const next = times.findIndex((t) => t >= time);
     const after = next < 0 ? times.length - 1 : next;
@@ -35,7 +35,7 @@ function between(times, time) {
     return { before, after, part: span > 0 ? Math.min(Math.max((time - times[before]) / span, 0), 1) : 0 };
 }
 
-/** The sheet and its motion: what is where, and what it is worth, at any time. `places`: the coordinates of every key. */
+/** The sheet and its motion: positions and values at any time. `coordinates`: the coordinates of every key. */
 class Motion {
     constructor(header, data) {
         Object.assign(this, data);
@@ -43,8 +43,8 @@ class Motion {
         this.times = header.times;
         this.keyTimes = header.keys.map((key) => header.times[key]);
         this.width = data.positions.length / header.keys.length;
-        const place = (steps, i) => header.origin[i % 3] + header.step * steps;
-        this.places = Float32Array.from(summed(data.positions, this.width), place);
+        const coordinate = (steps, i) => header.origin[i % 3] + header.step * steps;
+        this.coordinates = Float32Array.from(summed(data.positions, this.width), coordinate);
         this.triangles = data.faces.length / 3;
         this.levels = header.values.map((_, index) => summed(data[`values${index}`], this.triangles));
     }
@@ -63,13 +63,13 @@ class Motion {
         const [from, to] = [before * this.width, after * this.width];
         const positions = new Float32Array(this.width);
         for (let i = 0; i < this.width; i += 1) {
-            const [a, b] = [this.places[from + i], this.places[to + i]];
+            const [a, b] = [this.coordinates[from + i], this.coordinates[to + i]];
             positions[i] = a + (b - a) * part;
         }
         return positions;
     }
 
-    /** The values of the triangles as parts of their range, NaN where there is none. */
+    /** The values of the triangles as parts of their range, NaN if there is none. */
     values(index, time) {
         const { before, after, part } = between(this.times, time);
         const [all, most] = [this.levels[index], this.header.levels];

@@ -25,8 +25,8 @@ pub(super) fn data(value: &Value) -> String {
     value.to_string().replace('<', "\\u003c")
 }
 
-/// A table of texts; the first column holds the names of the rows. Each cell knows the name of its column: a narrow page
-/// shows cells as lines.
+/// A table of texts; the first column holds the names of the rows. Each cell knows the name of its column: a narrow
+/// page shows cells as lines.
 pub(super) fn table(caption: &str, head: &[&str], rows: &[Vec<String>]) -> String {
     let mut html = format!(
         "<div class=\"wide\"><table>\n<caption>{}</caption>\n<thead><tr>",
@@ -72,7 +72,7 @@ pub(super) fn facts(rows: &[(&str, Option<String>)]) -> String {
     html
 }
 
-/// A number as papers print it: six digits, powers of ten beyond 1e-3 and 1e6; `None` if `value` is no number.
+/// A number as papers print it: six digits, powers of ten beyond 1e-3 and 1e6; `None` if `value` is not a number.
 pub(super) fn number(value: &Value) -> Option<String> {
     if value.is_u64() || value.is_i64() {
         return Some(value.to_string().replace('-', "−"));
@@ -87,8 +87,8 @@ pub(super) fn digits(x: f64, count: u16) -> String {
     let (mantissa, exponent) = scientific.split_once('e').unwrap_or((&scientific, "0"));
     let power: i32 = exponent.parse().unwrap_or(0);
     let text = if x == 0.0 || (-3..6).contains(&power) {
-        let places = (i32::from(after_first) - power).max(0);
-        trimmed(&format!("{x:.*}", places.cast_unsigned() as usize)).to_owned()
+        let decimals = (i32::from(after_first) - power).max(0);
+        trimmed(&format!("{x:.*}", decimals.cast_unsigned() as usize)).to_owned()
     } else {
         let exponent: String = exponent.chars().map(raised).collect();
         match trimmed(mantissa) {

@@ -1,21 +1,21 @@
-// What the colours stand for.
+// The legend: which values the colours mean.
 
 /** A number with few digits. */
 const short = (x) => Number(x.toPrecision(3)).toString().replace("-", "−");
 
-/** A value found from a part of its range, with as many digits as the steps of the range tell. */
+/** A value found from a part of its range, with as many digits as the steps of the range resolve. */
 function told(part, { range: [low, high] }, levels) {
-    const places = Math.max(Math.ceil(-Math.log10((high - low) / levels)), 0);
-    const text = Number((low + part * (high - low)).toFixed(Math.min(places, 100))).toString().replace("-", "−");
+    const decimals = Math.max(Math.ceil(-Math.log10((high - low) / levels)), 0);
+    const text = Number((low + part * (high - low)).toFixed(Math.min(decimals, 100))).toString().replace("-", "−");
     return part >= 1 ? `≥ ${text}` : text;
 }
 
 class Legend {
-    /** `change` is called when other colours are asked for. */
+    /** `change` is called when other colours are chosen. */
     constructor(motion, change) {
         Object.assign(this, { motion, change, index: -1 });
         const names = ["paper", ...motion.header.values.map((values) => values.title)];
-        this.choices = names.map((name, place) => this.choice(name, place - 1));
+        this.choices = names.map((name, index) => this.choice(name, index - 1));
         element("colours").hidden = names.length < 2;
         const ramp = motion.header.colours.map(([r, g, b]) => `rgb(${r} ${g} ${b})`);
         element("legend-map").style.background = `linear-gradient(to right, ${ramp.join(", ")})`;
@@ -42,7 +42,7 @@ class Legend {
         element("mark-key").hidden = marks.length === 0;
     }
 
-    /** The values shown, none for paper. */
+    /** The values shown; none if the paper is shown. */
     get values() {
         return this.motion.header.values[this.index];
     }
@@ -68,7 +68,7 @@ class Legend {
         element("legend-now").textContent = `largest now ${told(most, this.values, this.motion.header.levels)}`;
     }
 
-    /** What a triangle is, and its value. */
+    /** The kind of a triangle and its value. */
     words(face, time) {
         const { faceFacets, facets, header } = this.motion;
         const facet = faceFacets[face];

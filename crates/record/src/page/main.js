@@ -1,4 +1,4 @@
-// The page: its parts together, its keys, and the hook for programs.
+// The page: it joins its parts, handles keys, and offers an interface to other programs.
 
 class Controls {
     constructor(motion, paper, stage) {
@@ -34,7 +34,7 @@ class Controls {
         this.player.set(time);
     }
 
-    /** Space plays, arrows move in time; what has a use for a key of its own keeps it. */
+    /** Space plays, arrows move in time; elements that use a key themselves keep it. */
     press(event) {
         if (event.ctrlKey || event.metaKey || event.altKey) return;
         const { player, motion } = this;
@@ -52,7 +52,7 @@ class Controls {
         event.preventDefault();
     }
 
-    /** Says what the pointer is on. */
+    /** Describes what the pointer is on. */
     point(event) {
         const face = event.buttons ? -1 : this.stage.pointed(event);
         element("pointed").textContent = face < 0 ? "" : this.legend.words(face, this.player.time);
@@ -66,7 +66,7 @@ class Controls {
         this.legend.show(time);
     }
 
-    /** What a link may ask for: motion.html#t=1.5&view=top&colour=1 */
+    /** The settings a link may contain: motion.html#t=1.5&view=top&colour=1 */
     follow() {
         const wishes = new URLSearchParams(location.hash.slice(1));
         const view = this.views.get(wishes.get("view"));
@@ -88,7 +88,7 @@ function addFile(id) {
     });
 }
 
-/** What programs may ask of the page. */
+/** The interface for other programs. */
 function hook(motion, controls) {
     const { player } = controls;
     return {

@@ -39,16 +39,16 @@ const SCRIPT: &str = concat!(
 /// The part of the tolerance that rounding positions to steps may take, see [`sheet`].
 const ROUNDING: f64 = 1.0 / 16.0;
 
-/// What a page shows.
+/// The content of a page.
 #[derive(Debug, Clone, Copy)]
 pub struct Page<'a> {
-    /// What moves.
+    /// The motion that is shown.
     pub motion: &'a Motion,
     /// Facets painted in the colour of marks, each in its span; foldmotion marks facets that penetrate each other.
     pub marks: &'a Marks,
     /// Values that can be shown as colours instead of paper, such as strain and facet bending.
     pub values: &'a [Values],
-    /// The plots, none for no section of plots.
+    /// The plots; without any there is no section of plots.
     pub panels: &'a [Panel],
     /// The text of `report.json`. Times, threads and device are left out of the page.
     pub report: Option<&'a str>,
@@ -58,14 +58,14 @@ pub struct Page<'a> {
     pub fold: Option<&'a [u8]>,
 }
 
-/// How a page is made.
+/// The options of a page.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PageOptions {
     /// How far a vertex may be drawn from the motion, in the sheet's `unit_length`.
     pub tolerance: f64,
     /// Seconds for deployed → planar and for planar → compact.
     pub seconds: [f64; 2],
-    /// Where the viewer stands at first.
+    /// The direction from which the sheet is seen at first.
     pub view: View,
     /// Colours and lines; the background is the page's.
     pub style: Style,
@@ -85,7 +85,7 @@ impl Default for PageOptions {
     }
 }
 
-/// Writes `page` as one HTML file and answers which frames of the motion it holds, and how well.
+/// Writes `page` as one HTML file and returns which frames of the motion it holds, and how accurately.
 ///
 /// Every vertex is drawn within the tolerance of the motion at all times; values run straight between all frames of the
 /// motion, in 254 steps of their range. Where layers coincide the order of the compact state decides, in steps of
@@ -95,7 +95,7 @@ impl Default for PageOptions {
 /// Browsers: those with WebGL 2 and `DecompressionStream` (since 2023); others show all but the sheet.
 ///
 /// # Errors
-/// Those of [`key_frames`]; [`RecordError::NotPositive`], [`RecordError::LineWidth`], [`RecordError::Range`],
+/// Those of [`key_frames()`]; [`RecordError::NotPositive`], [`RecordError::LineWidth`], [`RecordError::Range`],
 /// [`RecordError::ValueCount`], [`RecordError::Json`], [`RecordError::FileSize`] before anything is written, then
 /// [`RecordError::Write`].
 pub fn page(
@@ -114,7 +114,7 @@ pub fn page(
     Ok(keys)
 }
 
-/// What fills the template.
+/// The texts that fill the template.
 struct Contents<'a> {
     page: &'a Page<'a>,
     origin: &'a Provenance,
@@ -159,7 +159,7 @@ impl<'a> Contents<'a> {
         }
     }
 
-    /// What stands in the place of `name`.
+    /// The text that replaces `name`.
     fn filling(&self, name: &str) -> Result<String, RecordError> {
         let section = |value: &Option<Value>, of: fn(&Value) -> String| {
             value.as_ref().map(of).unwrap_or_default()

@@ -19,10 +19,10 @@ void main() {
     vec3 seen = normalMatrix * normal;
     vSide = seen.z < 0.0 ? -1.0 : 1.0;
     vSeen = vSide * seen;
-    vec4 place = modelViewMatrix * vec4(position, 1.0);
+    vec4 viewPosition = modelViewMatrix * vec4(position, 1.0);
     // The view is parallel: this moves nothing across the screen, but decides which layer is in front.
-    place.z += vSide * lift;
-    gl_Position = projectionMatrix * place;
+    viewPosition.z += vSide * lift;
+    gl_Position = projectionMatrix * viewPosition;
 }`;
 
 // The light of the films: Lambert's cosine wrapped around the sphere, fixed to the viewer.
@@ -43,7 +43,7 @@ float reflected(vec3 seen) {
     return 0.42 + 0.58 * wrapped * wrapped;
 }
 
-// Creases over colours that stand for values: sRGB 176, 176, 180.
+// Creases over colours that show values: sRGB 176, 176, 180.
 const vec3 NEUTRAL = vec3(0.434, 0.434, 0.456);
 
 vec3 ink(float kind) {
@@ -118,16 +118,16 @@ class Paper {
         this.material.uniforms.halfWidth.value = 0.5 * this.motion.header.style.lineWidth * part * ratio;
     }
 
-    /** Shows the state at `time`, painted with values of number `index`, or as paper where that is below 0. */
+    /** Shows the state at `time`, painted with values of number `index`, or as paper if that is below 0. */
     show(time, index) {
-        this.place(this.motion.at(time));
+        this.setPositions(this.motion.at(time));
         this.order();
         this.paint(time, index);
         this.geometry.boundingSphere = null;
         this.geometry.boundingBox = null;
     }
 
-    place(positions) {
+    setPositions(positions) {
         const { position, normal } = this.geometry.attributes;
         const { faces } = this.motion;
         const [a, b, c] = [new THREE.Vector3(), new THREE.Vector3(), new THREE.Vector3()];
@@ -179,10 +179,10 @@ class Paper {
 
     /** The colour of a part of the range; the map's samples are mixed as bytes, as in the films. */
     colour(part) {
-        const place = part * (this.colours.length - 1);
-        const index = Math.min(Math.floor(place), this.colours.length - 2);
+        const position = part * (this.colours.length - 1);
+        const index = Math.min(Math.floor(position), this.colours.length - 2);
         const [low, high] = [index, index + 1].map((k) => this.motion.header.colours[k]);
-        return light(low.map((byte, c) => Math.round(byte + (high[c] - byte) * (place - index))));
+        return light(low.map((byte, c) => Math.round(byte + (high[c] - byte) * (position - index))));
     }
 }
 

@@ -8,7 +8,7 @@ use serde_json::{Map, Value, json};
 use super::Page;
 use crate::RecordError;
 
-/// How hard zlib tries, of 10.
+/// The compression level of zlib, 0 to 10.
 const EFFORT: u8 = 8;
 
 /// The most bytes before they are deflated: browsers hold strings of half a gigabyte.
@@ -89,7 +89,7 @@ impl Payload {
         self.directory.insert(name.to_owned(), entry);
     }
 
-    /// Type, place and length of every array by its name.
+    /// Type, offset and length of every array by its name.
     pub(super) fn directory(&mut self) -> Value {
         Value::Object(std::mem::take(&mut self.directory))
     }

@@ -1,6 +1,6 @@
-// Time: what is shown, whether it runs, and how fast.
+// Playback: the time shown, whether it runs, and how fast.
 
-/** Seconds for which the first, the planar and the last state stand still. */
+/** Seconds for which the first, the planar and the last state are held. */
 const HOLD = 0.6;
 
 class Player {
@@ -12,7 +12,7 @@ class Player {
         this.wait = 0;
     }
 
-    /** Shows the state at `time`, or at the end of the motion that is nearer. */
+    /** Shows the state at `time`, or at the nearer end of the motion. */
     set(time) {
         this.time = Math.min(Math.max(Number(time) || 0, this.motion.first), this.motion.last);
         this.wait = 0;

@@ -8,8 +8,8 @@ use serde_json::Value;
 use super::html::{digits, escaped, facts, number, table};
 
 /// One value of the report in words.
-fn text(report: &Value, place: &str) -> Option<String> {
-    let value = report.pointer(place)?;
+fn text(report: &Value, pointer: &str) -> Option<String> {
+    let value = report.pointer(pointer)?;
     match value {
         Value::String(text) => Some(text.clone()),
         Value::Bool(is) => Some(if *is { "yes" } else { "no" }.to_owned()),
@@ -17,18 +17,18 @@ fn text(report: &Value, place: &str) -> Option<String> {
     }
 }
 
-fn cell(report: &Value, place: &str) -> String {
-    text(report, place).unwrap_or_else(|| "–".to_owned())
+fn cell(report: &Value, pointer: &str) -> String {
+    text(report, pointer).unwrap_or_else(|| "–".to_owned())
 }
 
 /// A number scaled and with few digits, such as a share as per cent.
-fn scaled(report: &Value, place: &str, factor: f64) -> String {
-    let value = report.pointer(place).and_then(Value::as_f64);
+fn scaled(report: &Value, pointer: &str, factor: f64) -> String {
+    let value = report.pointer(pointer).and_then(Value::as_f64);
     value.map_or_else(|| "–".to_owned(), |x| digits(factor * x, 3))
 }
 
-fn list<'a>(report: &'a Value, place: &str) -> &'a [Value] {
-    let list = report.pointer(place).and_then(Value::as_array);
+fn list<'a>(report: &'a Value, pointer: &str) -> &'a [Value] {
+    let list = report.pointer(pointer).and_then(Value::as_array);
     list.map_or(&[], Vec::as_slice)
 }
 
@@ -65,16 +65,16 @@ pub(super) fn section(report: &Value) -> String {
 }
 
 fn compact_box(report: &Value) -> String {
-    let row = |name: &str, place: &str, show: &dyn Fn(&str) -> String| {
-        report.pointer(place).filter(|v| v.is_object())?;
+    let row = |name: &str, pointer: &str, show: &dyn Fn(&str) -> String| {
+        report.pointer(pointer).filter(|v| v.is_object())?;
         let mut cells = vec![name.to_owned()];
         for key in ["extents/0", "extents/1", "extents/2", "area", "volume"] {
-            cells.push(show(&format!("{place}/{key}")));
+            cells.push(show(&format!("{pointer}/{key}")));
         }
         Some(cells)
     };
-    let exact = |place: &str| cell(report, place);
-    let percent = |place: &str| format!("{} %", scaled(report, place, 100.0));
+    let exact = |pointer: &str| cell(report, pointer);
+    let percent = |pointer: &str| format!("{} %", scaled(report, pointer, 100.0));
     let rows: Vec<Vec<String>> = [
         row("closed form", "/closed_form", &exact),
         row("measured", "/compact", &exact),
@@ -135,7 +135,8 @@ fn stop(report: &Value) -> String {
     )
 }
 
-/// How the motion ended and why, with a sign, so that no one needs to tell colours apart; nothing for a report without it.
+/// How the motion ended and why, with a sign, so that no one needs to tell colours apart; nothing for a report without
+/// it.
 pub(super) fn outcome(report: &Value) -> String {
     let (Some(kind), Some(time)) = (
         text(report, "/outcome/kind"),
@@ -162,7 +163,7 @@ pub(super) fn outcome(report: &Value) -> String {
 
 fn sizes(report: &Value) -> String {
     let unit = text(report, "/length_unit").unwrap_or_default();
-    let length = |place: &str| text(report, place).map(|x| format!("{x} {unit}"));
+    let length = |pointer: &str| text(report, pointer).map(|x| format!("{x} {unit}"));
     let residual = || {
         let largest = report.pointer("/division/max_residual")?.as_f64()?;
         let method = text(report, "/division/method")?;

@@ -16,7 +16,7 @@ pub(super) fn plotted(panels: &[Panel]) -> Result<String, RecordError> {
         return Ok(String::new());
     }
     let titles: Vec<&str> = panels.iter().map(|panel| panel.title).collect();
-    let [left, right] = time_axis(panels).map(|(place, time)| json!([place, time]));
+    let [left, right] = time_axis(panels).map(|(fraction, time)| json!([fraction, time]));
     Ok(format!(
         "<section>\n<h2>Plots</h2>\n<figure class=\"plots\" id=\"plots\" data-axis=\"[{left},{right}]\">\n\
          <img alt=\"Plots over motion time t: {}\" src=\"data:image/svg+xml;base64,{}\">\n\
@@ -28,7 +28,7 @@ pub(super) fn plotted(panels: &[Panel]) -> Result<String, RecordError> {
     ))
 }
 
-/// What can be saved.
+/// The files that can be saved from the page.
 pub(super) fn files(page: &Page<'_>) -> String {
     let row = |id: &str, name: &str, what: &str| {
         format!(
@@ -71,7 +71,7 @@ pub(super) fn origin(origin: &Provenance) -> String {
     text
 }
 
-/// What the page can be made again from.
+/// The provenance from which the page can be made again.
 pub(super) fn provenance(origin: &Provenance) -> Value {
     json!({
         "title": origin.title,

@@ -12,7 +12,7 @@ use super::{Page, PageOptions, ROUNDING};
 use crate::colour_map::colour_of;
 use crate::{KeyFrames, Layers, Values, View};
 
-/// Steps of the range of values; one more stands for no number.
+/// Steps of the range of values; one more means no number.
 const LEVELS: u8 = 254;
 
 /// Samples of the colour map.
@@ -55,7 +55,7 @@ pub(super) fn scene(page: &Page<'_>, options: &PageOptions, keys: &KeyFrames) ->
     (header, payload.bytes)
 }
 
-/// Adds what stays the same in every state; answers the names of the kinds of facets.
+/// Adds the data that are the same in every state and returns the names of the kinds of facets.
 fn add_sheet(motion: &Motion, payload: &mut Payload) -> Vec<Value> {
     let sheet = &motion.sheet;
     payload.indices("faces", sheet.faces.iter().flatten().copied());
@@ -169,8 +169,8 @@ impl Grid {
         let mut changes = Vec::with_capacity(3 * before.len() * keys.frames.len());
         for &key in &keys.frames {
             for (&position, last) in motion.frames[key].positions.iter().zip(&mut before) {
-                let place = ((position - self.origin) / self.step).round();
-                let now = place.to_array().map(|x| x as i32);
+                let rounded = ((position - self.origin) / self.step).round();
+                let now = rounded.to_array().map(|x| x as i32);
                 changes.extend((0..3).map(|i| now[i] - last[i]));
                 *last = now;
             }

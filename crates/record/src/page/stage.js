@@ -1,4 +1,4 @@
-// Where the sheet is seen: canvas, camera and what the pointer does.
+// The view of the sheet: canvas, camera and pointer.
 
 const MARGIN = 1.1;
 
@@ -30,18 +30,18 @@ class Stage {
         canvas.addEventListener("blur", () => { this.controls.enableZoom = false; });
         this.caster = new THREE.Raycaster();
         this.isWaiting = false;
-        this.reach = reach(motion.places);
+        this.reach = reach(motion.coordinates);
         this.look(motion.header.start);
         new ResizeObserver(() => this.resize()).observe(canvas.parentElement);
         this.resize();
     }
 
-    /** Looks along axes of the header (right, up, towards the viewer), so that all of the motion fits. */
+    /** Sets the view along axes of the header (right, up, towards the viewer), so that all of the motion fits. */
     look(view) {
-        this.aim(view.map((axis) => new THREE.Vector3(...axis)), this.motion.places);
+        this.aim(view.map((axis) => new THREE.Vector3(...axis)), this.motion.coordinates);
     }
 
-    /** Looks from where the viewer stands, so that the state shown fills the picture. */
+    /** Sets the view so that the current state fills the picture. */
     fit() {
         const axes = [new THREE.Vector3(), new THREE.Vector3(), new THREE.Vector3()];
         this.camera.matrixWorld.extractBasis(...axes);
@@ -55,9 +55,9 @@ class Stage {
         for (let i = 0; i < points.length; i += 3) {
             point.fromArray(points, i);
             axes.forEach((axis, k) => {
-                const place = axis.dot(point);
-                low[k] = Math.min(low[k], place);
-                high[k] = Math.max(high[k], place);
+                const distance = axis.dot(point);
+                low[k] = Math.min(low[k], distance);
+                high[k] = Math.max(high[k], distance);
             });
         }
         const target = new THREE.Vector3();
@@ -108,7 +108,7 @@ class Stage {
         this.renderer.render(this.scene, this.camera);
     }
 
-    /** The triangle under the pointer, −1 where there is none. */
+    /** The triangle under the pointer, −1 if there is none. */
     pointed(event) {
         const box = this.canvas.getBoundingClientRect();
         const x = (2 * (event.clientX - box.left)) / box.width - 1;

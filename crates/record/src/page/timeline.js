@@ -2,11 +2,11 @@
 
 const STOPS = [[0, "deployed"], [1, "planar"], [2, "compact"]];
 
-/** Spans on the slider at most; more would hide each other. */
+/** The most spans on the slider; more would hide each other. */
 const MOST_MARKS = 200;
 
 class Timeline {
-    /** `move` is called with the time that is asked for. */
+    /** `move` is called with the time that is chosen. */
     constructor(motion, move) {
         Object.assign(this, { motion, move });
         const slider = element("time");
@@ -19,7 +19,7 @@ class Timeline {
         if (element("plots")) this.plot(element("plots"));
     }
 
-    /** Where `time` lies on the way from the first to the last. */
+    /** The fraction of the motion that lies before `time`. */
     percent(time) {
         const { first, last } = this.motion;
         return `${last > first ? (100 * (time - first)) / (last - first) : 0}%`;
@@ -44,7 +44,7 @@ class Timeline {
         element("time-marks").append(tick);
     }
 
-    /** Ties the plots to the time: a press on them moves it. */
+    /** Makes a press on the plots set the time. */
     plot(plots) {
         const picture = plots.querySelector("img");
         const [[left, first], [right, last]] = JSON.parse(plots.dataset.axis);
@@ -67,7 +67,7 @@ class Timeline {
     }
 
     show(time, isPlaying) {
-        const stop = this.stops.find(([place]) => Math.abs(time - place) < 5e-4);
+        const stop = this.stops.find(([at]) => Math.abs(time - at) < 5e-4);
         for (const [, button] of this.stops) {
             if (button === stop?.[1]) button.setAttribute("aria-current", "true");
             else button.removeAttribute("aria-current");

@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 /// The most ticks on an axis.
-const MOST_TICKS: f64 = 9.0;
+const MOST_TICKS: usize = 9;
 
 /// A range of values, shown linearly or by their logarithms.
 #[derive(Debug, Clone, PartialEq)]
@@ -21,7 +21,7 @@ impl Axis {
     }
 
     /// The values to mark, rising, with their labels. At most `most` of them.
-    pub(super) fn ticks(&self, most: f64) -> Vec<(f64, String)> {
+    pub(super) fn ticks(&self, most: usize) -> Vec<(f64, String)> {
         let most = most.min(MOST_TICKS);
         if self.is_logarithmic {
             self.logarithmic_ticks(most)
@@ -31,9 +31,9 @@ impl Axis {
     }
 
     /// Multiples of 1, 2 or 5 times a power of ten.
-    fn linear_ticks(&self, most: f64) -> Vec<(f64, String)> {
+    fn linear_ticks(&self, most: usize) -> Vec<(f64, String)> {
         let Range { start, end } = self.range;
-        let least = (end - start) / most;
+        let least = (end - start) / most as f64;
         let decade = 10.0_f64.powf(least.log10().floor());
         let step = [1.0, 2.0, 5.0, 10.0].into_iter().map(|m| m * decade);
         let step = step.into_iter().find(|&s| s >= least).unwrap_or(least);
@@ -43,7 +43,7 @@ impl Axis {
     }
 
     /// Powers of ten; between neighbouring ones also their multiples where the range is too short for two powers.
-    fn logarithmic_ticks(&self, most: f64) -> Vec<(f64, String)> {
+    fn logarithmic_ticks(&self, most: usize) -> Vec<(f64, String)> {
         let exponents = self.range.start.log10().floor() as i32..=self.range.end.log10() as i32 + 1;
         let multiples: [&[u8]; 3] = [&[1], &[1, 2, 5], &[1, 2, 3, 4, 5, 6, 7, 8, 9]];
         let mut ticks = Vec::new();
@@ -63,7 +63,7 @@ impl Axis {
                 break;
             }
         }
-        let stride = (ticks.len() as f64 / most).ceil().max(1.0) as usize;
+        let stride = ticks.len().div_ceil(most).max(1);
         ticks.into_iter().step_by(stride).collect()
     }
 }
@@ -89,7 +89,7 @@ mod tests {
             range,
             is_logarithmic,
         };
-        let ticks = axis.ticks(5.0).into_iter();
+        let ticks = axis.ticks(5).into_iter();
         ticks.map(|(_, label)| label).collect()
     }
 

@@ -28,8 +28,8 @@ const LEGEND_GAP: f64 = 18.0;
 /// Room for a name in a legend as a multiple of its width in our font: viewers may have only a wider one.
 const NAME_WIDTH: f64 = 1.15;
 /// The most ticks on a vertical axis and on the time axis.
-const VALUE_TICKS: f64 = 5.0;
-const TIME_TICKS: f64 = 9.0;
+const VALUE_TICKS: usize = 5;
+const TIME_TICKS: usize = 9;
 /// Length of a tick, pixels.
 const TICK: f64 = 4.0;
 
@@ -50,7 +50,7 @@ pub struct Curve {
 /// One panel.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Panel {
-    /// What it shows, with the unit.
+    /// The quantity that it shows, with the unit.
     pub title: &'static str,
     /// Whether the vertical axis is logarithmic; curves are then interrupted where a value is not positive.
     pub is_logarithmic: bool,
@@ -261,7 +261,7 @@ mod tests {
     }
 
     #[test]
-    fn zero_has_no_place_on_a_logarithmic_axis() {
+    fn a_curve_on_a_logarithmic_axis_is_interrupted_at_zero() {
         let points = vec![(0.0, 1e-3), (1.0, 0.0), (2.0, 1e-6)];
         assert_eq!(
             drawn_parts(&panel(true, points.clone()).curves[0], true).len(),

@@ -1,7 +1,7 @@
 //! What triangles and lines show at the samples of a pixel, in the vectors of the machine.
 //!
-//! The loops over samples have no branches; each is compiled for several instruction sets and the machine's is taken at run
-//! time. Products and sums are never fused, so the picture is the same with all of them.
+//! The loops over samples have no branches; each is compiled for several instruction sets and the machine's is taken at
+//! run time. Products and sums are never fused, so the picture is the same with all of them.
 
 #![expect(
     clippy::inline_always,
@@ -115,8 +115,8 @@ fn covered(face: &ScreenFace, centre: DVec2) -> Mask {
     covered
 }
 
-/// The depth of the nearest outline of `face` that covers each of the samples `asked` of the pixel around `centre`; answers
-/// where there is one.
+/// The depth of the nearest outline of `face` that covers each of the samples `asked` of the pixel around `centre`;
+/// answers where there is one.
 #[inline(always)]
 fn find_outlines(
     surface: &Surface<'_>,

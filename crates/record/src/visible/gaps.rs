@@ -7,12 +7,12 @@ use glam::DVec2;
 
 use super::hiding::{hidden_part, triangle};
 use super::plane::{outside, tidy};
-use super::{LEAST_AREA, Scene, Seen};
+use super::{LEAST_AREA, Scene, VisibleParts};
 
 /// The gaps over triangle `face`, where it is the nearest: convex, each with the triangle that is seen in its middle.
-pub(super) fn over(scene: &Scene<'_>, face: u32, all: &[Seen]) -> Vec<(u32, Vec<DVec2>)> {
+pub(super) fn over(scene: &Scene<'_>, face: u32, all: &[VisibleParts]) -> Vec<(u32, Vec<DVec2>)> {
     let seen = &all[face as usize];
-    if !seen.hiders.iter().any(|hider| hider.by_order) {
+    if !seen.occluders.iter().any(|occluder| occluder.by_order) {
         return Vec::new();
     }
     let mut near = Vec::new();
@@ -22,8 +22,8 @@ pub(super) fn over(scene: &Scene<'_>, face: u32, all: &[Seen]) -> Vec<(u32, Vec<
         .filter_map(|&other| hidden_part(scene.surface, other, face, 0.0))
         .collect();
     clips.extend(seen.pieces.iter().cloned());
-    for hider in seen.hiders.iter().filter(|hider| hider.by_order) {
-        clips.extend(all[hider.face as usize].pieces.iter().cloned());
+    for occluder in seen.occluders.iter().filter(|occluder| occluder.by_order) {
+        clips.extend(all[occluder.face as usize].pieces.iter().cloned());
     }
     clips.iter_mut().for_each(tidy);
     let mut left = vec![triangle(scene.surface, face).to_vec()];

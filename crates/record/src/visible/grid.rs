@@ -56,14 +56,14 @@ impl Grid {
     fn cells(&self, [low, high]: &[DVec2; 2]) -> impl Iterator<Item = usize> + use<> {
         let [across, down] = self.sides;
         #[expect(clippy::cast_sign_loss, reason = "clamped to 0 and above")]
-        let place = |p: DVec2| {
+        let cell = |p: DVec2| {
             let cell = ((p - self.low) * self.density).max(DVec2::ZERO);
             [
                 (cell.x as usize).min(across - 1),
                 (cell.y as usize).min(down - 1),
             ]
         };
-        let (first, last) = (place(*low), place(*high));
+        let (first, last) = (cell(*low), cell(*high));
         (first[1]..=last[1]).flat_map(move |y| (first[0]..=last[0]).map(move |x| y * across + x))
     }
 

@@ -6,7 +6,7 @@ use super::LEAST_AREA;
 use super::plane::{cut, doubled_area, tidy};
 use crate::Surface;
 
-/// Depths closer than this are equal, in pixels: triangles of one plane and no order, of which the first is in front.
+/// Depths closer than this are equal, in pixels: of triangles in one plane without an order the first is in front.
 const EQUAL_DEPTH: f64 = 1e-7;
 
 /// The corners of triangle `face` on the screen, so that it runs along growing angles from x to y.

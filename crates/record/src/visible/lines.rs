@@ -8,7 +8,7 @@ use glam::DVec2;
 use super::{Scene, VisibleLine};
 use crate::screen_face::ScreenFace;
 
-/// Points nearer to a line than this lie on it, in pixels; the same of depths.
+/// Points nearer to a line than this lie on it, in pixels; the same holds for depths.
 const ON_LINE: f64 = 1e-7;
 
 /// Visible and hidden parts shorter than this are rounding, in pixels.
@@ -148,7 +148,7 @@ fn keep(interval: &mut Interval, from: f64, to: f64) -> Option<()> {
     (interval[0] < interval[1]).then_some(())
 }
 
-/// What `hidden` leaves of 0 to 1, without parts shorter than `least`.
+/// The rest of 0 to 1 without `hidden`, without parts shorter than `least`.
 fn gaps(mut hidden: Vec<Interval>, least: f64) -> Vec<Interval> {
     hidden.sort_by(|a, b| a[0].total_cmp(&b[0]));
     let mut seen = Vec::new();

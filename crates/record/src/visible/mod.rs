@@ -3,8 +3,8 @@
 //! Two triangles are compared by [`Surface`], as in pictures of pixels: g hides f where its depth exceeds that of f by
 //! more than a threshold that depends on their layer order alone (0 without an order, ± the window of coincidence with
 //! one). Both depths are linear on the screen, so the part of f that g hides is a convex polygon, the overlap of both
-//! cut by one line more. What is seen of f is f without these polygons; what is seen of a line is what no triangle hides
-//! on at least one side of it. So facets that penetrate each other are cut where their planes meet.
+//! cut by one line more. What is seen of f is f without these polygons; what is seen of a line is what no triangle
+//! hides on at least one side of it. So facets that penetrate each other are cut where their planes meet.
 
 mod gaps;
 mod grid;
@@ -38,7 +38,7 @@ pub struct VisibleArea {
     pub face: u32,
     /// Above the levels of all that the triangle hides: painted in this order, what is in front lies on top.
     pub level: u32,
-    /// Closed rings in pixels; those of holes run the other way round than the ones around them.
+    /// Closed rings in pixels; those of holes run opposite to the ones around them.
     pub rings: Vec<Vec<DVec2>>,
 }
 
@@ -53,11 +53,11 @@ pub struct VisibleLine {
     pub seen: [bool; 2],
     /// The level of the triangle.
     pub level: u32,
-    /// Where it begins and ends, pixels, from the edge's first vertex towards its second.
+    /// Its start and end, pixels, from the edge's first vertex towards its second.
     pub ends: [DVec2; 2],
 }
 
-/// What is seen of a sheet.
+/// The visible areas and lines of a sheet.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Visible {
     /// Areas that do not overlap, by level.
@@ -100,23 +100,23 @@ struct Scene<'a> {
 
 /// A triangle that hides a part of another.
 #[derive(Debug, Clone, Copy)]
-struct Hider {
+struct Occluder {
     face: u32,
     /// Whether the layer order says so, not the depth.
     by_order: bool,
 }
 
-/// What is seen of a triangle: convex pieces.
+/// The visible part of a triangle: convex pieces.
 #[derive(Debug, Default)]
-struct Seen {
+struct VisibleParts {
     pieces: Rings,
-    hiders: Vec<Hider>,
+    occluders: Vec<Occluder>,
 }
 
 impl Scene<'_> {
     fn visible(&self) -> Visible {
         let faces = || (0..self.boxes.len() as u32).into_par_iter();
-        let mut seen: Vec<Seen> = faces().map(|face| self.seen_of(face)).collect();
+        let mut seen: Vec<VisibleParts> = faces().map(|face| self.seen_of(face)).collect();
         let depths: Vec<f64> = self
             .surface
             .faces()
@@ -170,18 +170,18 @@ impl Scene<'_> {
         edge.assignment != Assignment::Facet || turns_over
     }
 
-    /// What is seen of triangle `face`, and which triangles hide a part of it.
-    fn seen_of(&self, face: u32) -> Seen {
-        let (mut near, mut hiders, mut clips) = (Vec::new(), Vec::new(), Vec::new());
+    /// The visible part of triangle `face`, and the triangles that hide a part of it.
+    fn seen_of(&self, face: u32) -> VisibleParts {
+        let (mut near, mut occluders, mut clips) = (Vec::new(), Vec::new(), Vec::new());
         if self.surface.face(face).is_edge_on() {
-            return Seen::default();
+            return VisibleParts::default();
         }
         self.grid.near(&self.boxes[face as usize], &mut near);
         for &other in near.iter().filter(|&&other| other != face) {
             let threshold = self.surface.threshold(other, face);
             if let Some(part) = hidden_part(self.surface, other, face, threshold) {
                 let by_order = threshold < 0.0;
-                hiders.push(Hider {
+                occluders.push(Occluder {
                     face: other,
                     by_order,
                 });
@@ -196,6 +196,6 @@ impl Scene<'_> {
                 outside(piece, clip, LEAST_AREA, &mut pieces);
             }
         }
-        Seen { pieces, hiders }
+        VisibleParts { pieces, occluders }
     }
 }

@@ -3,24 +3,24 @@
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
 
-use super::Seen;
+use super::VisibleParts;
 
 /// A triangle that waits to be painted; the farthest is the greatest.
 #[derive(Debug, PartialEq)]
-struct Waiting {
+struct Unpainted {
     depth: f64,
     face: u32,
 }
 
-impl Eq for Waiting {}
+impl Eq for Unpainted {}
 
-impl PartialOrd for Waiting {
+impl PartialOrd for Unpainted {
     fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
         Some(self.cmp(other))
     }
 }
 
-impl Ord for Waiting {
+impl Ord for Unpainted {
     fn cmp(&self, other: &Self) -> Ordering {
         let by_depth = other.depth.total_cmp(&self.depth);
         by_depth.then(other.face.cmp(&self.face))
@@ -31,34 +31,34 @@ impl Ord for Waiting {
 /// circles are broken at the farthest.
 ///
 /// `depths`: one for each triangle, larger is nearer.
-pub(super) fn levels(seen: &[Seen], depths: &[f64]) -> Vec<u32> {
+pub(super) fn levels(seen: &[VisibleParts], depths: &[f64]) -> Vec<u32> {
     let mut open = vec![0_u32; depths.len()];
-    for hider in seen.iter().flat_map(|seen| &seen.hiders) {
-        open[hider.face as usize] += 1;
+    for occluder in seen.iter().flat_map(|seen| &seen.occluders) {
+        open[occluder.face as usize] += 1;
     }
-    let waiting = |face: u32| Waiting {
+    let waiting = |face: u32| Unpainted {
         depth: depths[face as usize],
         face,
     };
-    let mut all: Vec<Waiting> = (0..depths.len() as u32).map(waiting).collect();
-    let free = |face: &&Waiting| open[face.face as usize] == 0;
+    let mut all: Vec<Unpainted> = (0..depths.len() as u32).map(waiting).collect();
+    let free = |face: &&Unpainted| open[face.face as usize] == 0;
     let free = all.iter().filter(free).map(|face| waiting(face.face));
-    let mut heap: BinaryHeap<Waiting> = free.collect();
+    let mut heap: BinaryHeap<Unpainted> = free.collect();
     all.sort_unstable();
     let (mut levels, mut is_done) = (vec![0; depths.len()], vec![false; depths.len()]);
     // In a circle the farthest goes first.
-    while let Some(Waiting { face, .. }) = heap.pop().or_else(|| all.pop()) {
+    while let Some(Unpainted { face, .. }) = heap.pop().or_else(|| all.pop()) {
         if std::mem::replace(&mut is_done[face as usize], true) {
             continue;
         }
-        for hider in &seen[face as usize].hiders {
-            let front = hider.face as usize;
+        for occluder in &seen[face as usize].occluders {
+            let front = occluder.face as usize;
             if !is_done[front] {
                 levels[front] = levels[front].max(levels[face as usize] + 1);
             }
             open[front] -= 1;
             if open[front] == 0 {
-                heap.push(waiting(hider.face));
+                heap.push(waiting(occluder.face));
             }
         }
     }
@@ -67,17 +67,17 @@ pub(super) fn levels(seen: &[Seen], depths: &[f64]) -> Vec<u32> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::Hider;
+    use super::super::Occluder;
     use super::*;
 
-    fn seen(hidden_by: &[&[u32]]) -> Vec<Seen> {
-        let hider = |&face: &u32| Hider {
+    fn seen(hidden_by: &[&[u32]]) -> Vec<VisibleParts> {
+        let occluder = |&face: &u32| Occluder {
             face,
             by_order: false,
         };
-        let seen = |fronts: &&[u32]| Seen {
+        let seen = |fronts: &&[u32]| VisibleParts {
             pieces: Vec::new(),
-            hiders: fronts.iter().map(hider).collect(),
+            occluders: fronts.iter().map(occluder).collect(),
         };
         hidden_by.iter().map(seen).collect()
     }

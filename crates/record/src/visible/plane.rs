@@ -14,7 +14,7 @@ use i_overlay::i_float::float::rect::FloatRect;
 /// Points closer than this are one, in pixels.
 const SAME_POINT: f64 = 1e-7;
 
-/// Closed rings; nothing is filled twice and rings of holes run the other way round.
+/// Closed rings; nothing is filled twice and rings of holes run in the opposite direction.
 pub(crate) type Rings = Vec<Vec<DVec2>>;
 
 /// The part of the screen in which polygons are added and subtracted.
@@ -35,7 +35,7 @@ impl Plane {
         Some(Self { grid })
     }
 
-    /// What any of `parts`, which all run the same way round, covers.
+    /// The union of `parts`, which all run in the same direction.
     pub(crate) fn union(&self, parts: &[Vec<DVec2>]) -> Rings {
         let corners = parts.iter().map(Vec::len).sum();
         let mut overlay = FloatOverlay::with_adapter(self.grid.clone(), corners);
@@ -85,7 +85,7 @@ pub(super) fn cut(ring: &mut Vec<DVec2>, value: impl Fn(DVec2) -> f64) {
             kept.push(p);
         }
         if (v >= 0.0) != (w >= 0.0) {
-            // From the same end either way, so that neighbours get the same point.
+            // From the same end in either direction, so that neighbours get the same point.
             kept.push(if v >= 0.0 {
                 p + (ring[j] - p) * (v / (v - w))
             } else {
@@ -104,8 +104,8 @@ pub(super) fn tidy(ring: &mut Vec<DVec2>) {
     }
 }
 
-/// The parts of the convex polygon `piece` outside the convex polygon `hole`, both along growing angles, the hole tidy: convex, and
-/// without those that are not larger than `least` in doubled area.
+/// The parts of the convex polygon `piece` outside the convex polygon `hole`, both along growing angles, the hole tidy:
+/// convex, and without those that are not larger than `least` in doubled area.
 pub(super) fn outside(piece: Vec<DVec2>, hole: &[DVec2], least: f64, parts: &mut Rings) {
     let side = |k: usize| {
         let (a, b) = (hole[k], hole[(k + 1) % hole.len()]);

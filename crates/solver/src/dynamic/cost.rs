@@ -6,8 +6,8 @@ use super::layout::{EdgeGroup, FaceGroup};
 use super::passes::Mass;
 
 /// Additions, multiplications, divisions and roots of an edge without its damper, counted in `edge_loads`: 9 for the
-/// three differences, 5 + 3 for the length, 2 for the pull, 18 for the normals, 12 for sine and cosine, 34 for the angle,
-/// 10 for the turn and the moment.
+/// three differences, 5 + 3 for the length, 2 for the pull, 18 for the normals, 12 for sine and cosine, 34 for the
+/// angle, 10 for the turn and the moment.
 const EDGE_OPERATIONS: f64 = 93.0;
 /// The operations of a triangle without its angle springs, counted in `face_loads`.
 const FACE_OPERATIONS: f64 = 91.0;
@@ -15,7 +15,7 @@ const FACE_OPERATIONS: f64 = 91.0;
 const NODE_OPERATIONS: f64 = 36.0;
 const CORNER_OPERATIONS: f64 = 3.0;
 
-/// What one step takes.
+/// The operations and bytes of one step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct StepCost {
     /// Nodes moved.
@@ -30,7 +30,7 @@ pub struct StepCost {
 }
 
 impl State<'_> {
-    /// What one undamped step of this state costs.
+    /// The cost of one undamped step of this state.
     pub fn step_cost(&self) -> StepCost {
         let nodes = self.masses.len();
         let quad = size_of::<Quad>();

@@ -17,18 +17,18 @@ use super::relaxation::{Progress, Relaxation};
 use super::stability::SAFETY;
 use super::state::State;
 use crate::budget::Allowance;
-use crate::{Model, Moment, Schedule, SolverError, Stage, Watcher};
+use crate::{Model, Schedule, Snapshot, SolverError, Stage, Watcher};
 
-/// Moves the sheet of `model` along `schedule` from `start` (one position for each vertex, in the sheet's unit) through the stages
-/// asked for.
+/// Moves the sheet of `model` along `schedule` from `start` (one position for each vertex, in the sheet's unit) through
+/// the given stages.
 ///
-/// `progress` is called before every increment and at every look at the residual (every ten steps); answering false ends
+/// `progress` is called before every increment and whenever the residual is examined (every ten steps); returning false ends
 /// the run. The result does not depend on it or on the number of threads, bit for bit.
 ///
 /// # Errors
 /// [`SolverError::Count`], [`SolverError::NotFinite`], [`SolverError::Frames`], [`SolverError::Option`] for input that
 /// does not fit; [`SolverError::Diverged`] where a node runs away; [`SolverError::Cancelled`]. A stage that does not
-/// settle within its step budget is no error but a [`StageStatus::OutOfSteps`]: the run ends there, with what it reached.
+/// settle within its step budget is not an error but a [`StageStatus::OutOfSteps`]: the run ends there, with what it reached.
 pub fn run(
     model: &Model,
     schedule: &Schedule,
@@ -225,7 +225,7 @@ impl Engine<'_, '_> {
         Ok(steps as u64)
     }
 
-    /// Relaxes to `tolerance` as far as the budget of the stage allows, of which `spent` is gone.
+    /// Relaxes to `tolerance` as far as the budget of the stage allows, if `spent` steps of it are used.
     fn settle(
         &mut self,
         stage: Stage,
@@ -270,7 +270,7 @@ impl Engine<'_, '_> {
         })
     }
 
-    /// How a search ended whose allowance was spent before the sheet settled.
+    /// The status of a search whose allowance was spent before the sheet settled.
     fn unsettled(&self) -> StageStatus {
         if self.options.budget.is_late() {
             StageStatus::OutOfTime
@@ -279,7 +279,7 @@ impl Engine<'_, '_> {
         }
     }
 
-    /// How the budget of the run ended, where it has.
+    /// The status if the budget of the run is spent.
     fn spent(&self) -> Option<StageStatus> {
         let budget = self.options.budget;
         let is_spent = budget.is_late() || budget.left(u64::MAX, self.taken) == 0;
@@ -313,7 +313,7 @@ impl Engine<'_, '_> {
             if is_recorded {
                 recorder.settling(stage, positions);
             }
-            if progress(&Moment::new(time, &|| model.to_sheet(positions))) {
+            if progress(&Snapshot::new(time, &|| model.to_sheet(positions))) {
                 Ok(())
             } else {
                 Err(SolverError::Cancelled { time })
@@ -349,7 +349,7 @@ fn report(
 ) -> Result<(), SolverError> {
     let time = stage.start_time() + s;
     let positions = || state.model.to_sheet(&state.positions());
-    if progress(&Moment::new(time, &positions)) {
+    if progress(&Snapshot::new(time, &positions)) {
         Ok(())
     } else {
         Err(SolverError::Cancelled { time })

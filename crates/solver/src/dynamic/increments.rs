@@ -1,12 +1,12 @@
 //! The increments of a stage's ramp.
 //!
-//! The stage is cut at the frames, at the requested times, and where a step of the schedule begins or ends. Each piece is divided into equal
-//! increments so that none turns a target by more than [`LARGEST_TURN`]. In `fold`, towards the end of every turn, there
-//! is also a geometric series, each closing increment leaving [`CLOSING_RATIO`] of the turn that was left. There the
-//! layers that the turn closes come together: with ε left to turn, neighbouring layers lie of the order of ε² apart, so
-//! the sag of a straight path between two states and the lag behind the schedule must shrink like ε² too. Hence the
-//! tolerance falls with the square of what is left, and each closing increment is recorded as a frame. Layers that
-//! an earlier step has closed are not followed more closely than the creases that still move.
+//! The stage is cut at the frames, at the requested times, and where a step of the schedule begins or ends. Each piece
+//! is divided into equal increments so that none turns a target by more than [`LARGEST_TURN`]. In `fold`, towards the
+//! end of every turn, there is also a geometric series, each closing increment leaving [`CLOSING_RATIO`] of the turn
+//! that was left. There the layers that the turn closes come together: with ε left to turn, neighbouring layers lie of
+//! the order of ε² apart, so the sag of a straight path between two states and the lag behind the schedule must shrink
+//! like ε² too. Hence the tolerance falls with the square of what is left, and each closing increment is recorded as a
+//! frame. Layers that an earlier step has closed are not followed more closely than the creases that still move.
 //!
 //! Times are counted from the end of the stage, where precision is needed.
 
@@ -18,7 +18,7 @@ use crate::{Schedule, Stage};
 /// on how few frames are recorded.
 const LARGEST_TURN: f64 = std::f64::consts::PI / 120.0 * (1.0 + 1e-9);
 
-/// What a closing increment leaves of the turn that was left.
+/// The part of the remaining turn that a closing increment leaves.
 const CLOSING_RATIO: f64 = 0.7;
 
 /// The turn left at which closing begins, radians: there its increments are as large as the equal ones.

@@ -24,8 +24,8 @@ pub(super) const NO_HINGE: u32 = u32::MAX;
 /// Bars with their hinges; every edge of the sheet is a bar, and a hinge where two triangles meet.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub(super) struct EdgeGroup {
-    /// The ends and the apexes on the left and on the right, numbered within the block; an edge of the border has its one
-    /// apex twice.
+    /// The ends and the apexes on the left and on the right, numbered within the block; an edge of the border has its
+    /// one apex twice.
     pub(super) vertices: [[u16; WIDTH]; 4],
     /// k of the bar over the number of triangles at the edge.
     pub(super) stiffness: [f64; WIDTH],
@@ -51,7 +51,7 @@ pub(super) struct FaceGroup {
 pub(super) struct Block {
     /// The first node it owns, in the order of the layout.
     pub(super) first: usize,
-    /// How many it owns: the first ones of its own numbering.
+    /// The number of nodes it owns: the first ones of its own numbering.
     pub(super) owned: usize,
     /// The others its elements touch, in the order of the layout.
     pub(super) halo: Vec<u32>,
@@ -63,11 +63,11 @@ pub(super) struct Block {
     pub(super) hinges: Vec<u32>,
     /// The number of triangles at each edge.
     pub(super) triangles: Vec<[f64; WIDTH]>,
-    /// Where the ends of each owned node start, and where the last ones end.
+    /// The index of the first end of each owned node, and the number of ends.
     pub(super) end_starts: Vec<u16>,
     /// The ends of bars at each owned node: twice the edge, and one more at its second end.
     pub(super) ends: Vec<u16>,
-    /// Where the corners of each owned node start, and where the last ones end.
+    /// The index of the first corner of each owned node, and the number of corners.
     pub(super) corner_starts: Vec<u16>,
     /// The corners of triangles at each owned node: (3 group + corner) WIDTH + lane.
     pub(super) corners: Vec<u16>,

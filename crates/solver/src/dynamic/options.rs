@@ -4,7 +4,7 @@ use foldmotion_pattern::Frame;
 
 use crate::{Budget, SolverError, Stage};
 
-/// Where a run moves the sheet.
+/// The device on which a run computes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Device {
     /// The processor, in f64.
@@ -17,8 +17,8 @@ pub enum Device {
 }
 
 impl Device {
-    /// Sheets of fewer nodes are left to the processor by [`Self::Auto`]: a step of theirs takes it less than the handing
-    /// over of a submission and its result.
+    /// Sheets of fewer nodes are left to the processor by [`Self::Auto`]: a step of theirs takes it less than the
+    /// handing over of a submission and its result.
     pub const AUTO_NODES: usize = 50_000;
 }
 
@@ -27,7 +27,7 @@ impl Device {
 pub struct DynamicOptions {
     /// The stages to run, in the order of the motion.
     pub stages: Vec<Stage>,
-    /// Where the sheet is moved.
+    /// The device on which the sheet is moved.
     pub device: Device,
     /// The motion is recorded at t = 2k/frames, k = 0 … frames; even, at least 2.
     pub frames: usize,
@@ -40,7 +40,8 @@ pub struct DynamicOptions {
     pub ramp_tolerance: f64,
     /// Damped steps over which each increment of the ramp is spread; at least 1.
     pub ramp_steps: usize,
-    /// Settling steps allowed in each stage; ramp steps are not counted. A stage that needs more ends the run where it is.
+    /// Settling steps allowed in each stage; ramp steps are not counted. A stage that needs more ends the run where it
+    /// is.
     pub step_budget: u64,
     /// Steps of every kind or time allowed in the whole run, in the place of [`Self::step_budget`].
     pub budget: Budget,
@@ -87,7 +88,7 @@ impl Default for DynamicOptions {
     }
 }
 
-/// How a stage ended.
+/// The status with which a stage ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum StageStatus {
     /// The residual fell to the tolerance.
@@ -98,7 +99,7 @@ pub enum StageStatus {
     OutOfTime,
 }
 
-/// How a stage went.
+/// The outcome of a stage.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct StageOutcome {
     /// The stage of the motion.
@@ -112,8 +113,8 @@ pub struct StageOutcome {
     /// The largest unbalanced force on a node in that state over the fold stiffness: how many radians out of balance a
     /// crease of unit length on an arm of unit length would have to be to make it.
     pub residual: f64,
-    /// The largest |θ − θ*| of any hinge in that state, radians. A settled sheet whose targets fit together has none; one
-    /// caught in another equilibrium, or driven to angles that contradict each other, has.
+    /// The largest |θ − θ*| of any hinge in that state, radians. A settled sheet whose targets fit together has none;
+    /// one caught in another equilibrium, or driven to angles that contradict each other, has.
     pub fold_angle_error: f64,
     /// Steps taken, ramp and settling.
     pub steps: u64,
@@ -129,7 +130,7 @@ impl StageOutcome {
 /// A computed motion.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Run {
-    /// The states at t = 2k/frames; between them those by which the layers close at the end of `fold`, and the way the
+    /// The states at t = 2k/frames; between them those by which the layers close at the end of `fold`, and the path the
     /// sheet took where settling at the end of a stage moved it visibly. Times increase strictly, positions are in
     /// the sheet's unit.
     pub frames: Vec<Frame>,
@@ -137,6 +138,6 @@ pub struct Run {
     pub stages: Vec<StageOutcome>,
     /// The number of steps of the whole run.
     pub steps: u64,
-    /// What moved the sheet: "cpu", or the name of the GPU.
+    /// The device that moved the sheet: "cpu", or the name of the GPU.
     pub device: String,
 }

@@ -34,9 +34,9 @@ use super::part::{Edge, Face, LEAST_SQUARE, Part};
 /// A whole turn: fold angles are followed modulo it.
 const TURN: f64 = std::f64::consts::TAU;
 
-/// How a step moves the nodes.
+/// The parameters of a step.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Pace {
+pub(super) struct StepSettings {
     /// The time step Δt.
     pub(super) dt: f64,
     /// c of a viscous force −c m v, centred in the step.
@@ -48,9 +48,9 @@ pub(super) struct Pace {
 /// Sums over the nodes of a block in a step, from the state it started in.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub(super) struct Totals {
-    /// Σ v·(F before − F now): the work of the change of the forces on the last way, over Δt.
+    /// Σ v·(F before − F now): the work of the change of the forces along the last displacement, divided by Δt.
     pub(super) work: f64,
-    /// Σ m |v|², of the last way.
+    /// Σ m |v|² of the last displacement.
     pub(super) path: f64,
     /// The largest |F|².
     pub(super) squared_force: f64,
@@ -60,9 +60,9 @@ pub(super) struct Totals {
     pub(super) largest_squared_speed: f64,
 }
 
-/// The state in which a step starts, in the order of the layout.
+/// The state before a step, in the order of the layout.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Before<'a> {
+pub(super) struct StateBefore<'a> {
     pub(super) positions: &'a [Quad],
     pub(super) velocities: &'a [Quad],
 }
@@ -85,9 +85,9 @@ impl Mass {
     }
 }
 
-/// What a step writes of the nodes of one block.
+/// The values that a step writes for the nodes of one block.
 #[derive(Debug)]
-pub(super) struct After<'a> {
+pub(super) struct StateAfter<'a> {
     pub(super) positions: &'a mut [Quad],
     pub(super) velocities: &'a mut [Quad],
     /// Forces of the last evaluation, overwritten by those of this one.
@@ -118,10 +118,10 @@ pub(super) struct Scratch {
 pub(super) struct BlockStep<'a> {
     pub(super) block: &'a Block,
     pub(super) hinges: &'a mut Hinges,
-    pub(super) before: Before<'a>,
-    pub(super) after: After<'a>,
+    pub(super) before: StateBefore<'a>,
+    pub(super) after: StateAfter<'a>,
     pub(super) scratch: &'a mut Scratch,
-    pub(super) pace: Pace,
+    pub(super) settings: StepSettings,
     pub(super) face_angle_stiffness: f64,
 }
 
@@ -132,7 +132,10 @@ impl WithSimd for BlockStep<'_> {
     fn with_simd<S: Simd>(mut self, simd: S) -> Totals {
         self.load_nodes();
         self.edge_loads(simd);
-        match (self.pace.damping == 0.0, self.block.rest_angles.is_empty()) {
+        match (
+            self.settings.damping == 0.0,
+            self.block.rest_angles.is_empty(),
+        ) {
             (true, true) => self.face_loads::<S, false, false>(simd),
             (true, false) => self.face_loads::<S, false, true>(simd),
             (false, true) => self.face_loads::<S, true, false>(simd),
@@ -152,7 +155,7 @@ impl BlockStep<'_> {
             ..
         } = self;
         load(block, before.positions, &mut scratch.positions);
-        if self.pace.damping != 0.0 {
+        if self.settings.damping != 0.0 {
             load(block, before.velocities, &mut scratch.velocities);
         }
     }
@@ -163,7 +166,7 @@ impl BlockStep<'_> {
         scratch
             .loads
             .resize(self.block.edges.len(), [[0.0; 4]; WIDTH]);
-        let damping = Lanes::splat(simd, self.pace.damping);
+        let damping = Lanes::splat(simd, self.settings.damping);
         let hinges = self.hinges.angles.iter_mut().zip(&self.hinges.targets);
         let records = self.block.edges.iter().zip(hinges);
         for ((record, (angle, target)), load) in records.zip(&mut scratch.loads) {
@@ -255,7 +258,7 @@ impl BlockStep<'_> {
     /// Sums the forces at each node and moves it.
     #[inline(always)]
     fn node_step<S: Simd>(&mut self, simd: S) -> Totals {
-        let Pace { dt, viscosity, .. } = self.pace;
+        let StepSettings { dt, viscosity, .. } = self.settings;
         let keep = (1.0 - 0.5 * viscosity * dt) / (1.0 + 0.5 * viscosity * dt);
         let gain = dt / (1.0 + 0.5 * viscosity * dt);
         let Self {
@@ -319,7 +322,7 @@ pub(super) fn load(block: &Block, nodes: &[Quad], local: &mut Vec<Quad>) {
     local.extend(block.halo.iter().map(|&node| nodes[node as usize]));
 }
 
-/// The largest |v|² of `vectors`; those that are no number are passed over.
+/// The largest |v|² of `vectors`; those that are not numbers are ignored.
 #[inline(always)]
 fn largest_square<S: Simd>(simd: S, vectors: &[Quad]) -> f64 {
     let (groups, rest) = vectors.as_chunks::<WIDTH>();

@@ -2,7 +2,7 @@
 //!
 //! Frame k lies at t = 2k/frames. The ramp of a stage reaches its last target at the stage's last frame, which is
 //! taken after settling. Where settling moves a node further than [`PATH_STEP`], the state at the end of the ramp and
-//! states along the settling path are recorded too, so that whoever checks the frames sees the whole path: in the
+//! states along the settling path are recorded too, so that the check sees the whole path: in the
 //! last interval of the stage, [s₀, 1] in stage-local time, the ramp then ends at the middle and the j-th state of
 //! the path after it lies at 1 − (1 − s₀) / (2 (1 + j)), a monotone map of the settling onto the second half.
 
@@ -11,7 +11,8 @@ use glam::DVec3;
 
 use crate::{Model, Stage};
 
-/// The way of a node between two recorded states of the settling path, in unit lengths; one step more at most.
+/// The largest displacement of a node between two recorded states of the settling path, unit lengths; at most that of
+/// one step more.
 pub(super) const PATH_STEP: f64 = 0.02;
 
 /// The frames recorded so far.

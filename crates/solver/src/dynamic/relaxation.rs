@@ -17,7 +17,7 @@ use super::State;
 use super::recorder::PATH_STEP;
 use super::stability::SAFETY;
 
-/// Steps between two looks at the residual.
+/// Steps between two checks of the residual.
 const STEPS_A_LOOK: u64 = 10;
 
 /// Steps between two evaluations of the time step.
@@ -26,7 +26,7 @@ const STEPS_A_BOUND: u64 = 100;
 /// With every mass the row sum of its node the bound on the time step is 2.
 pub(super) const DT: f64 = 2.0 * SAFETY;
 
-/// How a relaxation stands after a look.
+/// The state of a relaxation after a check of the residual.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Progress {
     /// Residual and speed lie below the tolerance.
@@ -40,13 +40,13 @@ pub(super) enum Progress {
 pub(super) struct Relaxation<'a, 'm> {
     state: &'a mut State<'m>,
     tolerance: f64,
-    past: Past,
+    history: StepHistory,
     was_below: bool,
 }
 
-/// What a relaxation remembers of its steps.
+/// The damping, the time step and the number of the steps so far.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Past {
+pub(super) struct StepHistory {
     /// c and Δt of the last one.
     pub(super) damping: f64,
     pub(super) dt: f64,
@@ -54,7 +54,7 @@ pub(super) struct Past {
     steps: u64,
 }
 
-impl Past {
+impl StepHistory {
     /// The state before the first step.
     pub(super) const NONE: Self = Self {
         damping: 0.0,
@@ -66,28 +66,28 @@ impl Past {
 impl<'a, 'm> Relaxation<'a, 'm> {
     /// Starts to settle `state` to `tolerance`, without the dampers of its bars.
     pub(super) fn new(state: &'a mut State<'m>, tolerance: f64) -> Self {
-        Self::resumed(state, tolerance, Past::NONE)
+        Self::resumed(state, tolerance, StepHistory::NONE)
     }
 
-    /// Goes on after the steps of `past`.
-    pub(super) fn resumed(state: &'a mut State<'m>, tolerance: f64, past: Past) -> Self {
+    /// Goes on after the steps of `history`.
+    pub(super) fn resumed(state: &'a mut State<'m>, tolerance: f64, history: StepHistory) -> Self {
         state.damping = 0.0;
         Self {
             state,
             tolerance,
-            past,
+            history,
             was_below: false,
         }
     }
 
     /// The history that the relaxation adapts to.
-    pub(super) fn past(&self) -> Past {
-        self.past
+    pub(super) fn history(&self) -> StepHistory {
+        self.history
     }
 
     /// Steps taken so far.
     pub(super) fn steps(&self) -> u64 {
-        self.past.steps
+        self.history.steps
     }
 
     /// The state as it moves.
@@ -95,15 +95,15 @@ impl<'a, 'm> Relaxation<'a, 'm> {
         self.state
     }
 
-    /// Moves on to the next look at the residual, or until a node may have gone [`PATH_STEP`].
+    /// Steps to the next check of the residual, or until a node may have gone [`PATH_STEP`].
     ///
     /// # Errors
     /// The node that ran away, with its displacement in one step.
     pub(super) fn advance(&mut self) -> Result<Progress, (usize, f64)> {
-        let mut way = 0.0;
+        let mut displacement = 0.0;
         for _ in 0..STEPS_A_LOOK {
-            way += self.step()?;
-            if way > PATH_STEP {
+            displacement += self.step()?;
+            if displacement > PATH_STEP {
                 self.was_below = false;
                 return Ok(Progress::Moving);
             }
@@ -125,21 +125,21 @@ impl<'a, 'm> Relaxation<'a, 'm> {
         self.state
     }
 
-    /// One step, and a bound on the way of any node.
+    /// One step, and a bound on the displacement of any node.
     ///
     /// # Errors
     /// As [`Self::advance`].
     pub(super) fn step(&mut self) -> Result<f64, (usize, f64)> {
-        if self.past.steps.is_multiple_of(STEPS_A_BOUND) {
+        if self.history.steps.is_multiple_of(STEPS_A_BOUND) {
             self.state.scale_masses();
         }
-        if self.past.steps > 1 {
-            self.past.damping = self.critical_damping();
+        if self.history.steps > 1 {
+            self.history.damping = self.critical_damping();
         }
-        self.past.steps += 1;
+        self.history.steps += 1;
         // No node goes far in a step, so that its path is seen.
-        self.past.dt = DT.min(PATH_STEP / self.state.largest_speed());
-        self.state.step_with(self.past.dt, self.past.damping)
+        self.history.dt = DT.min(PATH_STEP / self.state.largest_speed());
+        self.state.step_with(self.history.dt, self.history.damping)
     }
 
     /// 2 √λ of the last step; the damping as it was where nothing moved.
@@ -147,9 +147,9 @@ impl<'a, 'm> Relaxation<'a, 'm> {
         let work = self.state.sum(|totals| totals.work);
         let path = self.state.sum(|totals| totals.path);
         if path > 0.0 {
-            2.0 * (work / (path * self.past.dt)).max(0.0).sqrt()
+            2.0 * (work / (path * self.history.dt)).max(0.0).sqrt()
         } else {
-            self.past.damping
+            self.history.damping
         }
     }
 }

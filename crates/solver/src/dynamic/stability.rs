@@ -11,10 +11,10 @@
 //!
 //! Δt ≤ min over i of (√(r_C² + 4 r_K) − r_C) / r_K.
 //!
-//! A bar's blocks are bounded by k (its axial stiffness, and the transverse one of a bar stretched or pressed to no less than
-//! half its length), a hinge's by κ l₀ (1 + |θ − θ*|) |∂θ/∂x_a| |∂θ/∂x_b|: Gauss–Newton, and its torque times the second
-//! derivative of θ, whose size is that of the product of the first ones. The last is an estimate, not a bound; the
-//! safety factor of the engine covers it.
+//! A bar's blocks are bounded by k (its axial stiffness, and the transverse one of a bar stretched or pressed to no
+//! less than half its length), a hinge's by κ l₀ (1 + |θ − θ*|) |∂θ/∂x_a| |∂θ/∂x_b|: Gauss–Newton, and its torque times
+//! the second derivative of θ, whose size is that of the product of the first ones. The last is an estimate, not a
+//! bound; the safety factor of the engine covers it.
 
 use pulp::{Simd, WithSimd};
 

@@ -13,7 +13,9 @@ use pulp::Arch;
 
 use super::lanes::{Quad, WIDTH};
 use super::layout::{Layout, NO_HINGE};
-use super::passes::{After, Before, BlockStep, Hinges, Mass, Pace, Scratch, Totals};
+use super::passes::{
+    BlockStep, Hinges, Mass, Scratch, StateAfter, StateBefore, StepSettings, Totals,
+};
 use super::row_sums::RowSums;
 use crate::Model;
 
@@ -44,7 +46,7 @@ pub(super) struct Nodes {
     pub(super) velocities: Vec<Quad>,
 }
 
-/// The longest way a node may go in one step, in unit lengths: beyond it the motion has run away.
+/// The largest displacement of a node in one step, in unit lengths: beyond it the motion has diverged.
 pub(super) const MAX_DISPLACEMENT: f64 = 0.5;
 
 impl<'a> State<'a> {
@@ -84,8 +86,8 @@ impl<'a> State<'a> {
         state
     }
 
-    /// One step of length `dt` with the dampers of the bars; returns a bound on the way of any node, the root of the sum
-    /// of their squares.
+    /// One step of length `dt` with the dampers of the bars; returns a bound on the displacement of any node, the root
+    /// of the sum of their squares.
     ///
     /// # Errors
     /// The first node that moved further than half a unit length, or to no number, and how far.
@@ -98,16 +100,16 @@ impl<'a> State<'a> {
     /// # Errors
     /// As [`Self::step`].
     pub(super) fn step_with(&mut self, dt: f64, viscosity: f64) -> Result<f64, (usize, f64)> {
-        self.evaluate(Pace {
+        self.evaluate(StepSettings {
             dt,
             viscosity,
             damping: self.damping,
         });
         std::mem::swap(&mut self.now, &mut self.next);
         // The sum carries a NaN where a maximum would lose it.
-        let way = self.sum(|totals| totals.squared_speed).sqrt() * dt;
-        if way <= MAX_DISPLACEMENT {
-            return Ok(way);
+        let displacement = self.sum(|totals| totals.squared_speed).sqrt() * dt;
+        if displacement <= MAX_DISPLACEMENT {
+            return Ok(displacement);
         }
         let runaway = self
             .layout
@@ -116,12 +118,12 @@ impl<'a> State<'a> {
             .zip(&self.now.velocities)
             .map(|(&node, v)| (node as usize, vector(v).length() * dt))
             .find(|(_, d)| d.is_nan() || *d > MAX_DISPLACEMENT);
-        runaway.map_or(Ok(way), Err)
+        runaway.map_or(Ok(displacement), Err)
     }
 
     /// Evaluates the force on every node, dampers included, and follows the fold angles; nothing moves.
     pub fn evaluate_forces(&mut self) {
-        self.evaluate(Pace {
+        self.evaluate(StepSettings {
             dt: 0.0,
             viscosity: 0.0,
             damping: self.damping,
@@ -129,23 +131,23 @@ impl<'a> State<'a> {
     }
 
     /// The passes over every block, from `now` to `next`.
-    fn evaluate(&mut self, pace: Pace) {
+    fn evaluate(&mut self, settings: StepSettings) {
         let len = self.layout.block_len;
-        let work = Work {
+        let work = SharedStep {
             arch: self.arch,
-            before: Before {
+            before: StateBefore {
                 positions: &self.now.positions,
                 velocities: &self.now.velocities,
             },
-            pace,
+            settings,
             face_angle_stiffness: self.model.material.face_angle_stiffness,
             block_len: len,
         };
-        let share = Share {
+        let share = BlockRun {
             blocks: &self.layout.blocks,
             hinges: &mut self.hinges,
             totals: &mut self.totals,
-            after: After {
+            after: StateAfter {
                 positions: &mut self.next.positions,
                 velocities: &mut self.next.velocities,
                 forces: &mut self.forces,
@@ -308,28 +310,28 @@ impl<'a> State<'a> {
     }
 }
 
-/// What is the same for every block of a step.
+/// The values that all blocks share in a step.
 #[derive(Debug)]
-struct Work<'a> {
+struct SharedStep<'a> {
     arch: Arch,
-    before: Before<'a>,
-    pace: Pace,
+    before: StateBefore<'a>,
+    settings: StepSettings,
     face_angle_stiffness: f64,
     block_len: usize,
 }
 
-/// A run of blocks with what they write.
+/// A run of neighbouring blocks and the values that they write.
 #[derive(Debug)]
-struct Share<'a> {
+struct BlockRun<'a> {
     blocks: &'a [super::layout::Block],
     hinges: &'a mut [Hinges],
     totals: &'a mut [Totals],
-    after: After<'a>,
+    after: StateAfter<'a>,
 }
 
-impl Share<'_> {
-    /// Steps the blocks, shared out to as many workers as there are scratches.
-    fn run(self, work: &Work<'_>, scratches: &mut [Scratch]) {
+impl BlockRun<'_> {
+    /// Steps the blocks on as many workers as there are scratches.
+    fn run(self, work: &SharedStep<'_>, scratches: &mut [Scratch]) {
         if scratches.len() < 2 {
             if let [scratch] = scratches {
                 self.run_here(work, scratch);
@@ -352,22 +354,22 @@ impl Share<'_> {
         let (velocities_0, velocities_1) = self.after.velocities.split_at_mut(nodes);
         let (forces_0, forces_1) = self.after.forces.split_at_mut(nodes);
         let (masses_0, masses_1) = self.after.masses.split_at(nodes);
-        let first = Share {
+        let first = BlockRun {
             blocks: blocks_0,
             hinges: hinges_0,
             totals: totals_0,
-            after: After {
+            after: StateAfter {
                 positions: positions_0,
                 velocities: velocities_0,
                 forces: forces_0,
                 masses: masses_0,
             },
         };
-        let second = Share {
+        let second = BlockRun {
             blocks: blocks_1,
             hinges: hinges_1,
             totals: totals_1,
-            after: After {
+            after: StateAfter {
                 positions: positions_1,
                 velocities: velocities_1,
                 forces: forces_1,
@@ -377,8 +379,8 @@ impl Share<'_> {
         (first, second)
     }
 
-    fn run_here(self, work: &Work<'_>, scratch: &mut Scratch) {
-        let After {
+    fn run_here(self, work: &SharedStep<'_>, scratch: &mut Scratch) {
+        let StateAfter {
             positions,
             velocities,
             forces,
@@ -398,14 +400,14 @@ impl Share<'_> {
                 block,
                 hinges,
                 before: work.before,
-                after: After {
+                after: StateAfter {
                     positions,
                     velocities,
                     forces,
                     masses,
                 },
                 scratch,
-                pace: work.pace,
+                settings: work.settings,
                 face_angle_stiffness: work.face_angle_stiffness,
             });
         }

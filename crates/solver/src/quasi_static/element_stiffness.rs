@@ -8,11 +8,11 @@ use glam::DMat3;
 use super::Configuration;
 use super::face_angle_hessian::face_angle_hessian;
 use super::hinge_hessian::{hinge_blocks, outer};
-use super::stiffness_matrix::{ElementPlaces, StiffnessMatrix};
+use super::stiffness_matrix::{ElementBlocks, StiffnessMatrix};
 use crate::face_angle::face_angle_gradient;
 use crate::{Bar, FaceAngles, Model};
 
-/// Which Hessian is assembled.
+/// The Hessian that is assembled.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Curvature {
     /// The exact one: quadratic convergence, positive definite near stable equilibrium only.
@@ -21,15 +21,15 @@ pub(super) enum Curvature {
     Convex,
 }
 
-/// Where the elements of a model lie in a matrix, in their order.
+/// The positions of the elements of a model in a matrix, in their order.
 pub(super) struct ElementMap {
-    bars: Vec<ElementPlaces<2>>,
-    hinges: Vec<ElementPlaces<4>>,
-    faces: Vec<ElementPlaces<3>>,
+    bars: Vec<ElementBlocks<2>>,
+    hinges: Vec<ElementBlocks<4>>,
+    faces: Vec<ElementBlocks<3>>,
 }
 
 impl ElementMap {
-    /// The places of the elements of `model`. Precondition: `matrix` has room for [`coupled_nodes`].
+    /// The blocks of the elements of `model`. Precondition: `matrix` has room for [`coupled_nodes`].
     pub(super) fn new(model: &Model, matrix: &StiffnessMatrix) -> Self {
         let bars = model.bars.iter().map(|bar| &bar.vertices);
         let hinges = model.hinges.iter().map(|hinge| &hinge.vertices);
@@ -51,27 +51,27 @@ pub(super) fn add_stiffness(
     map: &ElementMap,
     matrix: &mut StiffnessMatrix,
 ) {
-    for (bar, places) in model.bars.iter().zip(&map.bars) {
+    for (bar, element) in model.bars.iter().zip(&map.bars) {
         if let Some(blocks) = bar_blocks(bar, state, curvature) {
-            matrix.add(places, &blocks);
+            matrix.add(element, &blocks);
         }
     }
     let angles = state.angles.iter().zip(targets);
-    for ((hinge, places), (angle, target)) in model.hinges.iter().zip(&map.hinges).zip(angles) {
+    for ((hinge, element), (angle, target)) in model.hinges.iter().zip(&map.hinges).zip(angles) {
         let bend = match curvature {
             Curvature::Exact => hinge.stiffness * (angle - target),
             Curvature::Convex => 0.0,
         };
         let corners = hinge.vertices.map(|v| state.positions[v as usize]);
-        matrix.add(places, &hinge_blocks(corners, hinge.stiffness, bend));
+        matrix.add(element, &hinge_blocks(corners, hinge.stiffness, bend));
     }
     let stiffness = model.material.face_angle_stiffness;
-    for (face, places) in model.face_angles.iter().zip(&map.faces) {
+    for (face, element) in model.face_angles.iter().zip(&map.faces) {
         let deviations = match curvature {
             Curvature::Exact => face.deviations(&state.positions),
             Curvature::Convex => [0.0; 3],
         };
-        matrix.add(places, &face_blocks(face, deviations, stiffness, state));
+        matrix.add(element, &face_blocks(face, deviations, stiffness, state));
     }
 }
 

@@ -7,8 +7,8 @@
 //! ∂²α/∂v² = (cot α n nᵀ − v̂ qᵀ − q v̂ᵀ) / |v|²,
 //! ∂²α/∂u∂v = −n nᵀ / |u × v|.
 //!
-//! In the plane α is the difference of the directions of v and of u, so nothing mixes them; out of it, raising both ends
-//! in proportion turns the triangle and leaves α as it is.
+//! In the plane α is the difference of the directions of v and of u, so nothing mixes them; out of it, raising both
+//! ends in proportion turns the triangle and leaves α as it is.
 
 use glam::{DMat3, DVec3};
 

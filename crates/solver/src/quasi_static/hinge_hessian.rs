@@ -1,15 +1,15 @@
 //! The second derivative of the fold angle of a hinge.
 //!
 //! The angle depends on its four points through e = e1 − e0, a = left − e0 and b = right − e0 alone, and but for the
-//! orientation through each wing by itself. With n = e × a (for the right wing b × e), σ = a·e/|e|², the arm
+//! orientation through each side by itself. With n = e × a (for the right side b × e), σ = a·e/|e|², the arm
 //! t = a − σ e of the apex and its height |t|, the first derivative is g = ∂θ/∂a = |e| n/|n|², ∂θ/∂e = −σ g (Bridson et
 //! al. 2003), and moving the apex or the edge turns and shrinks g:
 //!
 //! ∂g/∂a = −T/|t|²,  ∂g/∂e = σ T/|t|² − e gᵀ/|e|²,  T = t gᵀ + g tᵀ,
 //! ∂²θ/∂e² = Σ σ (e gᵀ + g eᵀ)/|e|² − (σ²/|t|² + 1/(2|e|²)) T
 //!
-//! with the sum over both wings (compare Tamstorf and Grinspun 2013, "Discrete bending forces and their Jacobians"; the
-//! parts of T/(2|e|²) that are not symmetric by themselves cancel between the wings). ∂²θ/∂a∂b = 0.
+//! with the sum over both sides (compare Tamstorf and Grinspun 2013, "Discrete bending forces and their Jacobians"; the
+//! parts of T/(2|e|²) that are not symmetric by themselves cancel between the sides). ∂²θ/∂a∂b = 0.
 
 use glam::{DMat3, DVec3};
 
@@ -32,11 +32,11 @@ pub(super) fn hinge_blocks(
     let e = e1 - e0;
     let per_edge = 1.0 / e.length_squared();
     let (to_left, to_right) = (left - e0, right - e0);
-    let l = Wing::new(e, per_edge, to_left, e.cross(to_left));
-    let r = Wing::new(e, per_edge, to_right, to_right.cross(e));
+    let l = HingeSide::new(e, per_edge, to_left, e.cross(to_left));
+    let r = HingeSide::new(e, per_edge, to_right, to_right.cross(e));
     let across = outer(l.slope, r.slope) * square;
-    let [ll, rr] = [l, r].map(|wing| wing.own(square, bend));
-    let [l_edge, r_edge] = [l, r].map(|wing| outer(e * (-bend * per_edge), wing.slope));
+    let [ll, rr] = [l, r].map(|side| side.own(square, bend));
+    let [l_edge, r_edge] = [l, r].map(|side| outer(e * (-bend * per_edge), side.slope));
     // The apexes against e1; e0 follows, as translations change nothing.
     let l1 = l_edge - ll * l.share - across * r.share;
     let r1 = r_edge - rr * r.share - across.transpose() * l.share;
@@ -56,7 +56,7 @@ pub(super) fn hinge_blocks(
 
 /// One triangle of the hinge.
 #[derive(Clone, Copy)]
-struct Wing {
+struct HingeSide {
     /// g = ∂θ/∂apex.
     slope: DVec3,
     /// σ.
@@ -67,7 +67,7 @@ struct Wing {
     turn: DMat3,
 }
 
-impl Wing {
+impl HingeSide {
     #[inline]
     fn new(e: DVec3, per_edge: f64, apex: DVec3, normal: DVec3) -> Self {
         let share = apex.dot(e) * per_edge;

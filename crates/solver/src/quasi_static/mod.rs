@@ -4,10 +4,10 @@
 //! by Newton's method with line search and sparse Cholesky factorisation, warm-started from the last equilibria. With
 //! [`Contact`] the layers push on each other and cannot pass through one another.
 //!
-//! Honest limits. The path is that of a sheet folded slowly: where equilibrium is lost it snaps to the next, and which one
-//! that is depends on the step of the search. Layers have the thickness of the gap in contact, which soft bars make room
-//! for by straining: compact extents then exceed the closed form by a length of the order of the gap. Bars too stiff to
-//! strain that far leave the creases open by an angle of the order of the root of the gap instead.
+//! Limits. The path is that of a sheet folded slowly: where equilibrium is lost it snaps to the next, and which one
+//! that is depends on the step of the search. Layers have the thickness of the gap in contact, which soft bars make
+//! room for by straining: compact extents then exceed the closed form by a length of the order of the gap. Bars too
+//! stiff to strain that far leave the creases open by an angle of the order of the root of the gap instead.
 
 mod cholesky;
 mod configuration;
@@ -20,8 +20,9 @@ mod jam;
 mod newton;
 mod options;
 mod outcome;
-mod pace;
+
 mod run;
+mod step_control;
 mod stiffness_matrix;
 
 pub use contact::Contact;
@@ -49,7 +50,7 @@ fn barrier_force(model: &Model) -> f64 {
     10.0 * force_scale(model).max(1e-3 * model.material.axial_stiffness)
 }
 
-/// What rounding alone may leave as nodal force: positions are known to ε |x|, bars answer with their stiffness.
+/// The nodal force that rounding alone may leave: positions are known to ε |x|, which bars multiply by their stiffness.
 fn rounding_force(model: &Model, positions: &[DVec3]) -> f64 {
     let bar = |bar: &crate::Bar| {
         let [a, b] = bar.vertices.map(|v| positions[v as usize].length());

@@ -1,13 +1,13 @@
 //! Newton's method for the equilibrium of the sheet at given targets.
 //!
-//! Each step solves (K + S + μ I) d = −∇U. K is the exact Hessian where that is positive definite, the exact one with
-//! μ > 0 or the convex one elsewhere. S removes the six rigid motions: stiff springs that support one triangle of the
+//! Each step solves (K + S + μ I) d = −∇U. K is the exact Hessian where that is positive definite, elsewhere the exact
+//! one with μ > 0 or the convex one. S removes the six rigid motions: stiff springs that support one triangle of the
 //! sheet statically determinately. They enter the matrix alone, never the forces; as ∇U is in balance, the step they
-//! give is an exact Newton step, with that triangle's support unmoved; of a floating sheet the rigid part of the step is then
-//! taken away, and where μ > 0 makes the matrix regular, S is left out. μ acts as inertia relative to the last iterate
-//! and vanishes as the search converges. Once K is the exact one and the steps shrink fast, its factor serves for the
-//! following steps too (the chord method): near the equilibrium they cost a fraction and lead to the same point. With
-//! contact every step is cut where two layers would come too close.
+//! give is an exact Newton step, with that triangle's support unmoved; of a floating sheet the rigid part of the step
+//! is then taken away, and where μ > 0 makes the matrix regular, S is left out. μ acts as inertia relative to the last
+//! iterate and vanishes as the search converges. Once K is the exact one and the steps shrink fast, its factor serves
+//! for the following steps too (the chord method): near the equilibrium they cost a fraction and lead to the same
+//! point. With contact every step is cut where two layers would come too close.
 
 use glam::{DMat3, DVec3};
 
@@ -42,9 +42,9 @@ const CHORD_DECREASE: f64 = 0.1;
 /// Barriers this far out of reach, in reaches, are given room in the matrix.
 const ROOM: f64 = 2.0;
 
-/// How a search for equilibrium ended.
+/// The outcome of a search for equilibrium.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Settled {
+pub(super) struct SearchOutcome {
     pub(super) converged: bool,
     /// The largest nodal force left.
     pub(super) residual: f64,
@@ -74,8 +74,8 @@ pub(super) struct Newton<'a> {
     /// Σ k l₀² over the bars.
     bar_stiffness: f64,
     inertia: f64,
-    /// The Hessian in the matrix, whether it is supported, and the mean of its diagonal, while the state is the one it was
-    /// assembled at.
+    /// The Hessian in the matrix, whether it is supported, and the mean of its diagonal, while the state is the one it
+    /// was assembled at.
     assembled: Option<(Curvature, bool, f64)>,
     /// The largest move of the last step, if the current factor is exact and was used for it.
     chord: Option<f64>,
@@ -113,8 +113,8 @@ impl<'a> Newton<'a> {
 
     /// Moves `state` to the equilibrium at `targets`, or as far as it gets within `allowance`.
     ///
-    /// `visit` is told every state on the way and may end it. Between two of them no layer touches another on the straight
-    /// way.
+    /// `visit` is called with every state on the path and may end the search. On the straight path between two of them no layer
+    /// touches another.
     ///
     /// # Errors
     /// Those of [`StiffnessMatrix::new`] and of `visit`.
@@ -125,7 +125,7 @@ impl<'a> Newton<'a> {
         tolerance: Tolerance,
         allowance: Allowance,
         visit: &mut dyn FnMut(&Configuration) -> Result<(), SolverError>,
-    ) -> Result<Settled, SolverError> {
+    ) -> Result<SearchOutcome, SolverError> {
         if let Some(contact) = &mut self.contact {
             contact.prepare(&state.positions);
         }
@@ -139,7 +139,7 @@ impl<'a> Newton<'a> {
         loop {
             let residual = largest(&gradient);
             let factorisations = self.factorisations - earlier;
-            let settled = |converged| Settled {
+            let settled = |converged| SearchOutcome {
                 converged,
                 residual,
                 iterations,
@@ -262,7 +262,8 @@ impl<'a> Newton<'a> {
         Ok(())
     }
 
-    /// Factorises K + S + μ I at `state`, μ = `inertia` over the mean diagonal; false where that is not positive definite.
+    /// Factorises K + S + μ I at `state`, μ = `inertia` over the mean diagonal; false where that is not positive
+    /// definite.
     fn factorise(
         &mut self,
         state: &Configuration,
@@ -362,20 +363,20 @@ impl<'a> Newton<'a> {
         None
     }
 
-    /// What rounding may change of `energy`: a share of it, and the work of the bars' forces F on what positions are known
-    /// to, of which Σ |F| l₀ ≤ √(2 U Σ k l₀²). The second counts in a sheet that is nearly at rest.
+    /// What rounding may change of `energy`: a share of it, and the work of the bars' forces F on what positions are
+    /// known to, of which Σ |F| l₀ ≤ √(2 U Σ k l₀²). The second counts in a sheet that is nearly at rest.
     fn energy_rounding(&self, energy: f64) -> f64 {
         let forces = (2.0 * energy.abs() * self.bar_stiffness).sqrt();
         ENERGY_ROUNDING * energy.abs() + LENGTH_ROUNDING * forces
     }
 
-    /// How much of `length` × `direction` contact allows.
+    /// The largest part of `length` × `direction` that contact allows.
     pub(super) fn limited(&mut self, positions: &[DVec3], direction: &[DVec3], length: f64) -> f64 {
         let Some(contact) = &mut self.contact else {
             return length;
         };
-        let way: Vec<DVec3> = direction.iter().map(|&d| d * length).collect();
-        contact.prepare_way(positions, &way);
+        let displacement: Vec<DVec3> = direction.iter().map(|&d| d * length).collect();
+        contact.prepare_path(positions, &displacement);
         contact.step_limit(positions, direction, length)
     }
 }
@@ -401,8 +402,8 @@ impl Step {
     }
 }
 
-/// Takes from the velocities `direction` of points at `positions` their mean and the rotation that fits them best, so that no
-/// point of support shows in them.
+/// Takes from the velocities `direction` of points at `positions` their mean and the rotation that fits them best, so
+/// that no point of support shows in them.
 fn remove_rigid_motion(positions: &[DVec3], direction: &mut [DVec3]) {
     let inverse_count = 1.0 / positions.len().max(1) as f64;
     let centre = positions.iter().sum::<DVec3>() * inverse_count;

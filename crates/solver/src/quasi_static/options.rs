@@ -1,9 +1,9 @@
-//! What a quasi-static run is asked for.
+//! The options of a quasi-static run.
 
 use super::Contact;
 use crate::{Budget, SolverError, Stage};
 
-/// Where the sheet as a whole goes in a Newton step: its energy does not say.
+/// How the rigid motion of the sheet is determined in a Newton step, on which its energy does not depend.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Support {
     /// A triangle amid the sheet stays where it is, so that the steps of a symmetric sheet are not symmetric.
@@ -29,14 +29,15 @@ pub struct QuasiStaticOptions {
     pub tolerance: f64,
     /// Newton steps taken at one load step before it is shortened.
     pub max_iterations: usize,
-    /// Newton steps allowed in a stage, over the number of states it records or 120 if that is more: after as many it is
-    /// [stopped](super::StopReason::OutOfIterations). Most sheets take 5, a near-rigid one that gives way bit by bit 30.
+    /// Newton steps allowed in a stage, over the number of states it records or 120 if that is more: after as many it
+    /// is [stopped](super::StopReason::OutOfIterations). Most sheets take 5, a near-rigid one that yields bit by bit
+    /// 30.
     pub iterations_a_step: usize,
     /// Iterations or time allowed in the whole run, in the place of [`Self::iterations_a_step`].
     pub budget: Budget,
     /// Contact of the layers; none lets them pass through each other.
     pub contact: Option<Contact>,
-    /// Where the sheet as a whole goes in a Newton step.
+    /// How the rigid motion of the sheet is determined in a Newton step.
     pub support: Support,
 }
 

@@ -2,20 +2,21 @@
 
 use foldmotion_pattern::Frame;
 
-use super::newton::Settled;
+use super::newton::SearchOutcome;
 use crate::{EnergyByKind, Stage};
 
 /// The motion and how it was found.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct QuasiStaticRun {
-    /// In order of time, positions in the sheet's unit: the states at t = 2k/frames and at the requested times, and states between where the
-    /// straight way from one to the next would lead through contact. Those up to the last state reached.
+    /// The frames in order of time, positions in the sheet's unit: the states at t = 2k/frames and at the requested
+    /// times, and states between where the straight path from one to the next would lead through contact. Those up to
+    /// the last state reached.
     pub frames: Vec<Frame>,
     /// Figures of each frame.
     pub figures: Vec<FrameFigures>,
     /// One for each stage begun.
     pub stages: Vec<StageOutcome>,
-    /// Where contact stopped the motion, if it did.
+    /// The state in which contact stopped the motion, if it did.
     pub jam: Option<Jam>,
     /// Numeric factorisations in all.
     pub factorisations: usize,
@@ -45,7 +46,7 @@ pub struct FrameFigures {
     pub fold_angle_error: f64,
 }
 
-/// How a stage went.
+/// The outcome of a stage.
 #[derive(Debug, Clone, PartialEq)]
 pub struct StageOutcome {
     /// The stage of the motion.
@@ -65,7 +66,7 @@ pub struct StageOutcome {
     pub snaps: usize,
     /// Newton iterations, those of failed load steps included.
     pub iterations: usize,
-    /// What ended the stage before its end; `None` if it converged.
+    /// The reason why the stage stopped before its end; `None` if it converged.
     pub stop: Option<Stop>,
 }
 
@@ -120,7 +121,7 @@ impl StageOutcome {
         }
     }
 
-    pub(super) fn add(&mut self, settled: &Settled) {
+    pub(super) fn add(&mut self, settled: &SearchOutcome) {
         self.iterations += settled.iterations;
         if settled.converged {
             self.load_steps += 1;

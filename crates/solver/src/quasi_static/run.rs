@@ -7,11 +7,11 @@ use super::configuration::{Configuration, largest};
 use super::contact::ContactField;
 use super::history::History;
 use super::jam::find_jam;
-use super::newton::{Newton, Settled, Tolerance};
+use super::newton::{Newton, SearchOutcome, Tolerance};
 use super::outcome::{FrameFigures, QuasiStaticRun, StageOutcome, Stop, StopReason};
-use super::pace::Pace;
+use super::step_control::StepControl;
 use super::{QuasiStaticOptions, barrier_force, force_scale, rounding_force};
-use crate::{HingeKind, Model, Moment, Schedule, SolverError, Stage, Watcher};
+use crate::{HingeKind, Model, Schedule, Snapshot, SolverError, Stage, Watcher};
 
 /// The last Newton step of an equilibrium moves no node further, in unit lengths: without contact, and with it.
 const STEP_TOLERANCE: f64 = 1e-9;
@@ -36,25 +36,27 @@ const TIGHT: f64 = 0.1;
 const STIFFENING: f64 = 4.0;
 const MOST_STIFFENING: f64 = 1e4;
 
-/// Folds the sheet of `model` slowly along `schedule`, from `start` (one position for each vertex, in the sheet's unit).
+/// Folds the sheet of `model` slowly along `schedule`, from `start` (one position for each vertex, in the sheet's
+/// unit).
 ///
 /// At every load step the sheet is brought to the nearest minimum of its energy downhill from the last state, itself
-/// extrapolated. Load steps hit every t = 2k/frames and every requested time; between them they shorten where Newton's method fails and grow
-/// again where it is easy. Where short ones fail too, the sheet snaps: the search is given time to descend to the next
-/// equilibrium, however far. `progress` is told after each load step and after each Newton step within it, and ends the run
-/// by returning false.
+/// extrapolated. Load steps hit every t = 2k/frames and every requested time; between them they shorten where Newton's
+/// method fails and grow again where it is easy. Where short ones fail too, the sheet snaps: the search is given time
+/// to descend to the next equilibrium, however far. `progress` is called after each load step and after each Newton
+/// step within it, and ends the run by returning false.
 ///
-/// With contact, the frames at t = 2k/frames keep the whole gap and the straight ways between frames half of it: where
+/// With contact, the frames at t = 2k/frames keep the whole gap and the straight paths between frames half of it: where
 /// they would not, states of the search are recorded as frames between.
 ///
 /// Every run ends: load steps shrink to no less than a thousandth of the longest, and a stage takes no more Newton
-/// iterations than [`QuasiStaticOptions::iterations_a_step`] or [`QuasiStaticOptions::budget`] allows. A stage that finds no equilibrium in them ends the
-/// run: what was reached is returned, with [`StageOutcome::converged`] false and the evidence in [`StageOutcome::stop`].
-/// Where contact keeps creases from their targets, [`QuasiStaticRun::jam`] says so.
+/// iterations than [`QuasiStaticOptions::iterations_a_step`] or [`QuasiStaticOptions::budget`] allows. A stage that
+/// finds no equilibrium in them ends the run: what was reached is returned, with [`StageOutcome::converged`] false and
+/// the evidence in [`StageOutcome::stop`]. Where contact keeps creases from their targets, [`QuasiStaticRun::jam`] says
+/// so.
 ///
 /// # Errors
 /// Options out of range, counts that do not fit the model, positions that are not finite, a matrix too large, a gap
-/// too large, a start that crosses itself where contact is asked for, and [`SolverError::Cancelled`].
+/// too large, a start that crosses itself if there is contact, and [`SolverError::Cancelled`].
 pub fn run_quasi_static(
     model: &Model,
     schedule: &Schedule,
@@ -107,7 +109,7 @@ fn report(
     time: f64,
     state: &Configuration,
 ) -> Result<(), SolverError> {
-    if progress(&Moment::new(time, &|| model.to_sheet(&state.positions))) {
+    if progress(&Snapshot::new(time, &|| model.to_sheet(&state.positions))) {
         Ok(())
     } else {
         Err(SolverError::Cancelled { time })
@@ -145,9 +147,9 @@ struct Run<'a> {
 /// An attempted load step.
 struct Trial {
     state: Configuration,
-    settled: Settled,
+    settled: SearchOutcome,
     /// From the last equilibrium to this state, with contact only.
-    way: Vec<Configuration>,
+    path: Vec<Configuration>,
 }
 
 impl Run<'_> {
@@ -166,12 +168,12 @@ impl Run<'_> {
         let in_contact = self.newton.contact.is_some();
         let mut history = History::new(0.0, self.state.clone(), in_contact);
         let goals = recorded_times(self.options, stage);
-        let mut pace = Pace::new(self.options.frames, in_contact);
-        let standard = self.standard_budget(goals.len().max(pace.least_steps()));
+        let mut control = StepControl::new(self.options.frames, in_contact);
+        let standard = self.standard_budget(goals.len().max(control.least_steps()));
         let (mut s, mut recorded) = (0.0, 0);
         while let Some(&goal) = goals.get(recorded) {
-            let (next, reaches) = pace.next(s, goal);
-            let is_short = pace.is_short();
+            let (next, reaches) = control.next(s, goal);
+            let is_short = control.is_short();
             let left = self.left(standard, outcome.iterations);
             let trial = self.load_step(stage, next, &history, is_short, left)?;
             outcome.add(&trial.settled);
@@ -185,10 +187,10 @@ impl Run<'_> {
                     outcome.residual = trial.settled.residual;
                     break;
                 }
-                pace.shorten(next - s);
+                control.shorten(next - s);
                 continue;
             }
-            pace.adapt(&trial.settled);
+            control.adapt(&trial.settled);
             outcome.snaps += usize::from(trial.settled.iterations > self.options.max_iterations);
             let [from, to] = [s, next].map(|s| stage.start_time() + s);
             self.accept(from, to, &trial);
@@ -211,12 +213,12 @@ impl Run<'_> {
         Ok(converged)
     }
 
-    /// The iterations that the engine by itself allows in a stage of at least `load_steps`.
+    /// The default number of iterations in a stage of at least `load_steps`.
     fn standard_budget(&self, load_steps: usize) -> usize {
         self.options.iterations_a_step.saturating_mul(load_steps)
     }
 
-    /// The iterations left to a stage that has taken `taken`, of which the engine by itself allows `standard`.
+    /// The iterations left to a stage that has taken `taken`, if the default is `standard`.
     fn left(&self, standard: usize, taken: usize) -> usize {
         let earlier: usize = self.outcome.stages.iter().map(|s| s.iterations).sum();
         let standard = standard.saturating_sub(taken) as u64;
@@ -224,8 +226,8 @@ impl Run<'_> {
         usize::try_from(left).unwrap_or(usize::MAX)
     }
 
-    /// What ended the stage in a load step of length `step`, the last attempt of which `settled` so.
-    fn stop(&self, reason: StopReason, step: f64, settled: &Settled) -> Stop {
+    /// The reason for the end of the stage in a load step of length `step`; `settled`: the outcome of its last attempt.
+    fn stop(&self, reason: StopReason, step: f64, settled: &SearchOutcome) -> Stop {
         Stop {
             reason,
             step,
@@ -234,7 +236,8 @@ impl Run<'_> {
         }
     }
 
-    /// The equilibrium at `s`, sought from the state extrapolated to it where contact allows, else from the last one, in
+    /// The equilibrium at `s`, sought from the state extrapolated to it where contact allows, else from the last one,
+    /// in
     /// `most_iterations` at most.
     fn load_step(
         &mut self,
@@ -246,19 +249,19 @@ impl Run<'_> {
     ) -> Result<Trial, SolverError> {
         self.schedule.targets(stage, s, &mut self.targets);
         let keeps_way = self.newton.contact.is_some();
-        let mut way = Vec::new();
+        let mut path = Vec::new();
         let mut state = match history.extrapolate(self.model, s) {
             Some(ahead) if self.may_start_from(&ahead) => ahead,
             _ => self.state.clone(),
         };
         if keeps_way {
-            way.extend([self.state.clone(), state.clone()]);
+            path.extend([self.state.clone(), state.clone()]);
         }
         let (progress, model) = (self.progress, self.model);
         let reached = stage.start_time() + history.last_time();
         let mut visit = |state: &Configuration| {
             if keeps_way {
-                way.push(state.clone());
+                path.push(state.clone());
             }
             report(progress, model, reached, state)
         };
@@ -272,7 +275,7 @@ impl Run<'_> {
         Ok(Trial {
             state,
             settled,
-            way,
+            path,
         })
     }
 
@@ -293,7 +296,7 @@ impl Run<'_> {
     }
 
     /// Whether the extrapolated state `ahead` is a good start: not much higher in energy than the last one at the new
-    /// targets, and contact leaves the straight way to it free.
+    /// targets, and contact leaves the straight path to it free.
     fn may_start_from(&mut self, ahead: &Configuration) -> bool {
         let [stay, go] = [&self.state, ahead].map(|state| {
             let energy = &self
@@ -305,18 +308,18 @@ impl Run<'_> {
             return false;
         }
         let from = &self.state.positions;
-        let way: Vec<DVec3> = ahead
+        let displacement: Vec<DVec3> = ahead
             .positions
             .iter()
             .zip(from)
             .map(|(&b, &a)| b - a)
             .collect();
-        self.newton.limited(from, &way, 1.0) >= 1.0
+        self.newton.limited(from, &displacement, 1.0) >= 1.0
     }
 
     /// Takes note of the contact in a new equilibrium.
     fn accept(&mut self, from: f64, to: f64, trial: &Trial) {
-        self.record_way(from, to, trial);
+        self.record_path(from, to, trial);
         if let Some(contact) = &mut self.newton.contact {
             contact.accept(&trial.state.positions);
         }
@@ -337,32 +340,32 @@ impl Run<'_> {
         is_tight
     }
 
-    /// Where the straight way from the last frame to the new state is not free of contact, records states on the way
+    /// If the straight path from the last frame to the new state is not free of contact, records states on the path
     /// the search took, at times between `from` and `to`.
-    fn record_way(&mut self, from: f64, to: f64, trial: &Trial) {
+    fn record_path(&mut self, from: f64, to: f64, trial: &Trial) {
         let Some(contact) = &mut self.newton.contact else {
             return;
         };
-        let (way, end) = (&trial.way, &trial.state.positions);
+        let (path, end) = (&trial.path, &trial.state.positions);
         let mut between: Vec<usize> = Vec::new();
         let mut last = &self.last_recorded;
         let mut next = 0;
-        while next < way.len() && !contact.is_way_free(last, end) {
-            // As far along the way as can be reached straight; the next state always can.
+        while next < path.len() && !contact.is_path_free(last, end) {
+            // As far along the path as can be reached straight; the next state always can.
             let mut furthest = next;
-            while furthest + 1 < way.len()
-                && contact.is_way_free(last, &way[furthest + 1].positions)
+            while furthest + 1 < path.len()
+                && contact.is_path_free(last, &path[furthest + 1].positions)
             {
                 furthest += 1;
             }
             between.push(furthest);
-            last = &way[furthest].positions;
+            last = &path[furthest].positions;
             next = furthest + 1;
         }
         let parts = (between.len() + 1) as f64;
         for (index, at) in between.into_iter().enumerate() {
             let share = (index + 1) as f64 / parts;
-            self.record(from + (to - from) * share, &way[at]);
+            self.record(from + (to - from) * share, &path[at]);
         }
     }
 

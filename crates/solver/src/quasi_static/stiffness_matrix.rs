@@ -6,24 +6,25 @@
 
 use glam::{DMat3, DVec3};
 
-use super::cholesky::{Cholesky, Place};
+use super::cholesky::{BlockOffset, Cholesky};
 use crate::SolverError;
 
 /// A symmetric matrix over nodes and its factor.
 pub(super) struct StiffnessMatrix {
-    /// The blocks of the node column of rank j are `starts[j]..starts[j + 1]`: their rows by rank, rising from j itself.
+    /// The blocks of the node column of rank j are `starts[j]..starts[j + 1]`: their rows by rank, rising from j
+    /// itself.
     starts: Vec<u32>,
     rows: Vec<u32>,
     /// Each block by columns.
     values: Vec<[f64; 9]>,
-    places: Vec<Place>,
+    offsets: Vec<BlockOffset>,
     cholesky: Cholesky,
     right_side: Vec<f64>,
 }
 
-/// Where the blocks of an element of N nodes lie in a matrix.
+/// The positions of the blocks of an element of N nodes in a matrix.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct ElementPlaces<const N: usize> {
+pub(super) struct ElementBlocks<const N: usize> {
     /// The nodes of the element in the order of elimination.
     order: [u8; N],
     /// The block of the i-th and the j-th of them, i ≥ j.
@@ -48,15 +49,15 @@ impl StiffnessMatrix {
             let own = &rows[starts[column] as usize..starts[column + 1] as usize];
             own.iter().map(move |&row| (row, column as u32))
         });
-        let places: Vec<Place> = columns
-            .filter_map(|(row, column)| cholesky.place(row, column))
+        let offsets: Vec<BlockOffset> = columns
+            .filter_map(|(row, column)| cholesky.offset(row, column))
             .collect();
         Ok(Self {
             values: vec![[0.0; 9]; rows.len()],
             right_side: vec![0.0; 3 * nodes],
             starts,
             rows,
-            places,
+            offsets,
             cholesky,
         })
     }
@@ -65,8 +66,8 @@ impl StiffnessMatrix {
         self.values.fill([0.0; 9]);
     }
 
-    /// Where the blocks of an element lie; `None` if the pattern has no room for one.
-    pub(super) fn element<const N: usize>(&self, nodes: &[u32; N]) -> Option<ElementPlaces<N>> {
+    /// The positions of the blocks of an element; `None` if the pattern has no room for one.
+    pub(super) fn element<const N: usize>(&self, nodes: &[u32; N]) -> Option<ElementBlocks<N>> {
         let ranks = self.ranks(*nodes);
         let mut order: [u8; N] = std::array::from_fn(|i| i as u8);
         order.sort_unstable_by_key(|&i| ranks[i as usize]);
@@ -77,19 +78,19 @@ impl StiffnessMatrix {
                 *block = self.block(row, column)?;
             }
         }
-        Some(ElementPlaces { order, blocks })
+        Some(ElementBlocks { order, blocks })
     }
 
     /// Adds the symmetric matrix of an element, by blocks of its nodes.
     pub(super) fn add<const N: usize>(
         &mut self,
-        places: &ElementPlaces<N>,
+        element: &ElementBlocks<N>,
         blocks: &[[DMat3; N]; N],
     ) {
-        for (i, row) in places.blocks.iter().enumerate() {
-            for (j, &place) in row.iter().enumerate().take(i + 1) {
-                let block = &blocks[places.order[i] as usize][places.order[j] as usize];
-                for (sum, scalar) in self.values[place as usize]
+        for (i, row) in element.blocks.iter().enumerate() {
+            for (j, &index) in row.iter().enumerate().take(i + 1) {
+                let block = &blocks[element.order[i] as usize][element.order[j] as usize];
+                for (sum, scalar) in self.values[index as usize]
                     .iter_mut()
                     .zip(block.to_cols_array())
                 {
@@ -113,7 +114,7 @@ impl StiffnessMatrix {
     /// Factorises the matrix with `shift` added to every diagonal scalar; false where it is not positive definite.
     pub(super) fn factorise(&mut self, shift: f64) -> bool {
         self.cholesky
-            .factorise(&self.starts, &self.places, &self.values, shift)
+            .factorise(&self.starts, &self.offsets, &self.values, shift)
     }
 
     /// Overwrites `vectors` by the solution with them as the right side, from the last factorisation.
@@ -164,9 +165,9 @@ mod tests {
 
     /// Adds a block of two nodes and its mirror image.
     fn add(matrix: &mut StiffnessMatrix, nodes: [u32; 2], block: DMat3) {
-        let places = matrix.element(&nodes).unwrap();
+        let element = matrix.element(&nodes).unwrap();
         let zero = DMat3::ZERO;
-        matrix.add(&places, &[[zero, block], [block.transpose(), zero]]);
+        matrix.add(&element, &[[zero, block], [block.transpose(), zero]]);
     }
 
     #[test]

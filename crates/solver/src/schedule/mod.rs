@@ -67,9 +67,10 @@ impl Stage {
 ///
 /// In `unfold` every crease goes from its deployed angle to 0, in `fold` from 0 to its compact angle: θ* = θ_deployed
 /// (1 − p(s)), then θ* = θ_compact p(s), where p(s) = s unless a [`ScheduleStep`] names the crease; then it is 0 before
-/// the step, 1 after it and follows its [`Ease`] in between. Given an [`UnfoldPath`], the row creases follow it in `unfold`
-/// instead, at the progress p(s). Given waypoints, every crease passes through them in `fold`, at the progress p(s). Facet hinges are held at 0 throughout. Hinges are numbered
-/// as in [`crate::Model`]: the edges of the sheet that join two triangles, in the order of the sheet.
+/// the step, 1 after it and follows its [`Ease`] in between. Given an [`UnfoldPath`], the row creases follow it in
+/// `unfold` instead, at the progress p(s). Given waypoints, every crease passes through them in `fold`, at the progress
+/// p(s). Facet hinges are held at 0 throughout. Hinges are numbered as in [`crate::Model`]: the edges of the sheet that
+/// join two triangles, in the order of the sheet.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Schedule {
     hinges: Vec<[Turn; 2]>,
@@ -156,8 +157,8 @@ impl Schedule {
         Ok(self)
     }
 
-    /// The same schedule, with the creases passing through `angles` in `fold`: lists of one angle for each edge, radians,
-    /// evenly spaced in the progress of the stage, which ends at the last. Steps go on timing them.
+    /// The same schedule, with the creases passing through `angles` in `fold`: lists of one angle for each edge,
+    /// radians, evenly spaced in the progress of the stage, which ends at the last. Steps go on timing them.
     ///
     /// `sheet` is the one the schedule was made for. No waypoints change nothing.
     ///
@@ -292,8 +293,8 @@ impl Schedule {
         }
     }
 
-    /// The turns of `stage` that differ in their timing, each with the largest angle, in radians, made with it or, along a
-    /// path, the greatest rate for the unit of progress; `None` if nothing turns.
+    /// The turns of `stage` that differ in their timing, each with the largest angle, in radians, made with it or,
+    /// along a path, the greatest rate for the unit of progress; `None` if nothing turns.
     pub(crate) fn turns(&self, stage: Stage) -> Vec<Turn> {
         let mut turns: Vec<Turn> = Vec::new();
         for (hinge, ends) in self.hinges.iter().enumerate() {

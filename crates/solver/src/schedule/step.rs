@@ -12,7 +12,7 @@ use crate::SolverError;
 /// The shortest step, in stage-local time.
 const MIN_DURATION: f64 = 1e-6;
 
-/// Creases named by their place in the unit, or by the way they fold.
+/// Creases named by their position in the unit, or by whether they are mountains or valleys.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum CreaseGroup {
@@ -71,7 +71,7 @@ pub struct ScheduleStep {
     pub from: f64,
     /// The stage-local time, in [0, 1], at which they arrive; at least 1e-6 after `from`.
     pub to: f64,
-    /// How they move in between.
+    /// The course of the fold angles between start and end.
     pub ease: Ease,
 }
 
@@ -96,7 +96,7 @@ impl ScheduleStep {
         }
     }
 
-    /// The first fault in the numbers of the step, which is the one numbered `step`.
+    /// The first error in the numbers of the step, whose index is `step`.
     pub(super) fn check(&self, step: usize, sheet: &Sheet) -> Result<(), SolverError> {
         for (name, value) in [("from", self.from), ("to", self.to)] {
             if !(0.0..=1.0).contains(&value) {

@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// How a crease moves between the start and the end of its step.
+/// The course of a fold angle between the start and the end of its step.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum Ease {
@@ -133,8 +133,8 @@ mod tests {
             for (start, end) in [(0.0, 0.2), (0.2, 0.3), (0.4, 0.5), (0.6, 0.7), (0.7, 1.0)] {
                 let rate = |index: i32| {
                     let at = |i| start + (end - start) * f64::from(i) / 1000.0;
-                    let way = timing.progress(at(index + 1)) - timing.progress(at(index));
-                    way / (at(index + 1) - at(index))
+                    let change = timing.progress(at(index + 1)) - timing.progress(at(index));
+                    change / (at(index + 1) - at(index))
                 };
                 let sampled = (0..1000).map(rate).fold(0.0, f64::max);
                 let steepest = timing.steepest(start, end);

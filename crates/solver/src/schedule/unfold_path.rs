@@ -21,7 +21,7 @@ pub struct UnfoldPath {
 }
 
 impl UnfoldPath {
-    /// The first fault of its numbers.
+    /// The first error in its numbers.
     fn check(&self) -> Result<(), SolverError> {
         let knots = self.progress.len();
         let count = |what, expected, found| {
@@ -85,7 +85,7 @@ impl UnfoldPath {
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct FollowedPath {
     path: UnfoldPath,
-    /// The place of each hinge's boundary in the path; `None` for hinges that are no row creases.
+    /// The index of each hinge's boundary in the path; `None` for hinges that are not row creases.
     boundaries: Vec<Option<u32>>,
 }
 

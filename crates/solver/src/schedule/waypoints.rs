@@ -1,4 +1,4 @@
-//! Fold angles on the way through stage `fold`.
+//! Fold angles to pass through in stage `fold`.
 
 use foldmotion_pattern::Sheet;
 
@@ -13,7 +13,7 @@ pub(super) struct Waypoints {
 }
 
 impl Waypoints {
-    /// `angles`: at each waypoint one angle for each edge of `sheet`, radians; those of edges that are no creases are
+    /// `angles`: at each waypoint one angle for each edge of `sheet`, radians; those of edges that are not creases are
     /// taken as 0.
     pub(super) fn new(sheet: &Sheet, angles: &[Vec<f64>]) -> Result<Self, SolverError> {
         let of_hinges = |angles: &Vec<f64>| {
@@ -39,10 +39,10 @@ impl Waypoints {
     /// The angle of `hinge` at `progress`, exact at both ends of the stage.
     #[expect(clippy::cast_sign_loss, reason = "progress is not negative")]
     pub(super) fn angle(&self, hinge: usize, progress: f64) -> f64 {
-        let place = progress * self.angles.len() as f64;
-        let leg = (place.floor() as usize).min(self.angles.len() - 1);
+        let position = progress * self.angles.len() as f64;
+        let leg = (position.floor() as usize).min(self.angles.len() - 1);
         let [a, b] = self.leg(hinge, leg);
-        let share = place - leg as f64;
+        let share = position - leg as f64;
         a * (1.0 - share) + b * share
     }
 

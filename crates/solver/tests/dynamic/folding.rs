@@ -6,7 +6,7 @@ use crate::sheets::{deployed, hinge, scaled_units, units};
 use foldmotion_geometry::RigidMotion;
 use foldmotion_pattern::{Assignment, Case, UnitSheet};
 use foldmotion_solver::dynamic::{DynamicOptions, Run, StageOutcome, StageStatus, State, run};
-use foldmotion_solver::{Material, Model, Moment, Schedule, SolverError, Stage};
+use foldmotion_solver::{Material, Model, Schedule, Snapshot, SolverError, Stage};
 use glam::DVec3;
 
 fn fold(units: &UnitSheet, options: &DynamicOptions) -> Run {
@@ -95,9 +95,11 @@ fn settling_that_moves_the_sheet_is_recorded_step_by_step() {
         let path: Vec<_> = run.frames.iter().filter(|f| inside(f.time)).collect();
         assert!(path.len() > 5, "{stage:?}: {} states", path.len());
         for pair in path.windows(2).skip(1) {
-            let way = pair[0].positions.iter().zip(&pair[1].positions);
-            let longest = way.map(|(p, q)| p.distance(*q)).fold(0.0, f64::max);
-            // A state every 0.02, and at most one look's way more.
+            let displacement = pair[0].positions.iter().zip(&pair[1].positions);
+            let longest = displacement
+                .map(|(p, q)| p.distance(*q))
+                .fold(0.0, f64::max);
+            // A state every 0.02, and at most one update's displacement more.
             assert!(longest < 0.06, "{stage:?}: a node went {longest} unseen");
         }
     }
@@ -199,7 +201,7 @@ fn a_run_can_be_cancelled_and_says_where() {
     let model = Model::new(&units.sheet, &Material::default()).unwrap();
     let (start, schedule) = deployed(&units);
     let calls = AtomicUsize::new(0);
-    let until = |moment: &Moment<'_>| {
+    let until = |moment: &Snapshot<'_>| {
         calls.fetch_add(1, Ordering::Relaxed);
         moment.time < 1.25
     };
@@ -230,7 +232,7 @@ fn input_that_does_not_fit_is_refused() {
         };
         let message = refused(&start, &options);
         assert!(
-            message.starts_with(&format!("{frames} frames were asked for")),
+            message.starts_with(&format!("{frames} frames were requested")),
             "{message}"
         );
     }

@@ -4,6 +4,6 @@
 
 mod energy;
 mod folding;
-mod hand;
+mod interaction;
 mod motion;
 mod sheets;

@@ -1,8 +1,8 @@
-//! The schedule: its targets against closed forms, its faults, and stepped schedules in the dynamic engine.
+//! The schedule: its targets against closed forms, its errors, and stepped schedules in the dynamic engine.
 
 #![expect(clippy::unwrap_used, reason = "a test stops where a value is missing")]
 
-mod faults;
+mod errors;
 mod motion;
 mod targets;
 mod unfold_path;

@@ -1,4 +1,4 @@
-//! A path of the row creases: its targets, its faults, and both engines on it.
+//! A path of the row creases: its targets, its errors, and both engines on it.
 
 use foldmotion_pattern::{CreaseKind, Frame};
 use foldmotion_solver::dynamic::{DynamicOptions, run};
@@ -80,7 +80,7 @@ fn row_creases_follow_the_path_through_its_knots_and_exactly_to_its_ends() {
 }
 
 #[test]
-fn a_step_times_the_way_along_the_path() {
+fn a_step_times_the_progress_along_the_path() {
     let shelter = shelter();
     let schedule = following(&shelter, to_and_fro()).unwrap();
     let late = ScheduleStep {
@@ -141,7 +141,7 @@ fn both_engines_hold_the_sheet_on_the_path_and_unfold_it() {
 #[test]
 fn a_path_with_bad_numbers_is_refused_with_what_is_wrong() {
     let shelter = shelter();
-    let fault = |path| following(&shelter, path).unwrap_err();
+    let error_of = |path| following(&shelter, path).unwrap_err();
     for progress in [
         [0.1, 0.5, 1.0],
         [0.0, 0.0, 1.0],
@@ -149,7 +149,7 @@ fn a_path_with_bad_numbers_is_refused_with_what_is_wrong() {
         [0.0, 0.5, 0.9],
         [0.0, f64::NAN, 1.0],
     ] {
-        let error = fault(path(&progress, &[[1.0; 2]]));
+        let error = error_of(path(&progress, &[[1.0; 2]]));
         assert!(
             matches!(error, SolverError::PathProgress { .. }),
             "{progress:?}: {error}"
@@ -157,22 +157,22 @@ fn a_path_with_bad_numbers_is_refused_with_what_is_wrong() {
     }
     for progress in [&[][..], &[0.0], &[0.0, 0.5, 1.0]] {
         assert!(
-            matches!(fault(path(progress, &[])), SolverError::Count { .. }),
+            matches!(error_of(path(progress, &[])), SolverError::Count { .. }),
             "{progress:?}"
         );
     }
     let between = |angle| path(&[0.0, 0.5, 1.0], &[[angle, 0.0]]);
     assert!(matches!(
-        fault(between(f64::NAN)),
+        error_of(between(f64::NAN)),
         SolverError::NotFinite { index: 1, .. }
     ));
     assert!(matches!(
-        fault(between(6.5)),
+        error_of(between(6.5)),
         SolverError::AngleOutOfRange { index: 1, .. }
     ));
     let mut astray = path(&[0.0, 1.0], &[]);
     astray.angles[0][1] = 1.0;
-    let error = fault(astray.clone());
+    let error = error_of(astray.clone());
     assert!(
         matches!(
             error,
@@ -186,17 +186,17 @@ fn a_path_with_bad_numbers_is_refused_with_what_is_wrong() {
     astray.angles[0] = vec![1.1; 2];
     astray.angles[1][0] = 0.1;
     assert!(matches!(
-        fault(astray.clone()),
+        error_of(astray.clone()),
         SolverError::PathEnds { .. }
     ));
     astray.angles[1].pop();
-    assert!(matches!(fault(astray), SolverError::Count { .. }));
+    assert!(matches!(error_of(astray), SolverError::Count { .. }));
     let short = UnfoldPath {
         progress: vec![0.0, 1.0],
         angles: vec![vec![1.1], vec![0.0]],
     };
     assert!(matches!(
-        fault(short),
+        error_of(short),
         SolverError::Count {
             expected: 2,
             found: 1,

@@ -3,7 +3,7 @@
 use std::io::Write as _;
 
 use foldmotion_record::{
-    Bounds, Dimension, Drawing, FilmOptions, LineStyle, Pose, Provenance, RecordError,
+    Bounds, Dimension, Drawing, FigureState, FilmOptions, LineStyle, Provenance, RecordError,
     StripOptions, strip,
 };
 use glam::{DVec2, DVec3};
@@ -48,7 +48,7 @@ impl Recorder<'_> {
 
     fn figure(&self, values: Shown<'_>) -> Result<Drawing, StudyError> {
         let times = self.times();
-        let poses: Vec<Pose<'_>> = times.into_iter().map(|time| self.pose(time)).collect();
+        let poses: Vec<FigureState<'_>> = times.into_iter().map(|time| self.pose(time)).collect();
         let recording = self.recording;
         let mut options = StripOptions {
             columns: COLUMNS,
@@ -83,8 +83,8 @@ impl Recorder<'_> {
         }))
     }
 
-    fn pose(&self, time: f64) -> Pose<'_> {
-        let mut pose = Pose::at(self.motion, &self.marks, time);
+    fn pose(&self, time: f64) -> FigureState<'_> {
+        let mut pose = FigureState::at(self.motion, &self.marks, time);
         if ![0.0, 1.0, 2.0].contains(&time) {
             // Names of stages would leave less room for the states.
             pose.label = format!("t = {time}");

@@ -2,7 +2,7 @@
 
 use foldmotion_pattern::{Frame, Motion};
 use foldmotion_record::{
-    FilmOptions, Frames, Gif, Marks, Mp4, Playback, Reel, Scene, film, timeline,
+    FilmOptions, FilmWriter, Frames, Gif, Marks, Mp4, Playback, Scene, film, timeline,
 };
 
 use super::Recording;
@@ -46,15 +46,15 @@ impl Recording {
             ..self.film.clone()
         };
         let (mut gif, mut mp4, mut png) = (Vec::new(), Vec::new(), 0);
-        let mut reels: Vec<Box<dyn Reel + '_>> = Vec::new();
+        let mut writers: Vec<Box<dyn FilmWriter + '_>> = Vec::new();
         if self.has(OutputChoice::Gif) {
-            reels.push(Box::new(Gif::new(&mut gif)));
+            writers.push(Box::new(Gif::new(&mut gif)));
         }
         if self.has(OutputChoice::Mp4) {
-            reels.push(Box::new(Mp4::new(&mut mp4)?));
+            writers.push(Box::new(Mp4::new(&mut mp4)?));
         }
         if self.has(OutputChoice::Png) {
-            reels.push(Box::new(Frames::new(|_: &str, bytes: &[u8]| {
+            writers.push(Box::new(Frames::new(|_: &str, bytes: &[u8]| {
                 png += bytes.len();
                 Ok(())
             })));
@@ -64,14 +64,14 @@ impl Recording {
             marks: &Marks::default(),
             values: None,
         };
-        let mut borrowed: Vec<&mut dyn Reel> = Vec::new();
-        for reel in &mut reels {
-            borrowed.push(reel.as_mut());
+        let mut borrowed: Vec<&mut dyn FilmWriter> = Vec::new();
+        for writer in &mut writers {
+            borrowed.push(writer.as_mut());
         }
         let may_go_on = |_| progress(Phase::Read, 0.5);
         film(scene, &options, &mut borrowed, &may_go_on)?;
         drop(borrowed);
-        drop(reels);
+        drop(writers);
         let shots = timeline(motion, &options)?.len();
         Ok(self.sizes([gif.len(), mp4.len(), png], shots))
     }

@@ -2,7 +2,7 @@
 
 use std::fs;
 
-use foldmotion_record::{FilmOptions, Frames, Gif, Mp4, Reel, Scene, Style, film};
+use foldmotion_record::{FilmOptions, FilmWriter, Frames, Gif, Mp4, Scene, Style, film};
 
 use super::{Recorder, Shown};
 use crate::StudyError;
@@ -39,11 +39,11 @@ impl Recorder<'_> {
                 fs::write(folder.join(name), bytes)
             }));
         }
-        let mut reels: Vec<&mut dyn Reel> = Vec::new();
-        reels.extend(gif.as_mut().map(|reel| reel as &mut dyn Reel));
-        reels.extend(mp4.as_mut().map(|reel| reel as &mut dyn Reel));
-        reels.extend(frames.as_mut().map(|reel| reel as &mut dyn Reel));
-        if reels.is_empty() {
+        let mut writers: Vec<&mut dyn FilmWriter> = Vec::new();
+        writers.extend(gif.as_mut().map(|writer| writer as &mut dyn FilmWriter));
+        writers.extend(mp4.as_mut().map(|writer| writer as &mut dyn FilmWriter));
+        writers.extend(frames.as_mut().map(|writer| writer as &mut dyn FilmWriter));
+        if writers.is_empty() {
             return Ok(());
         }
         let scene = Scene {
@@ -63,7 +63,7 @@ impl Recorder<'_> {
             is_transparent: film_options.is_transparent && has(OutputChoice::Png),
             ..film_options.clone()
         };
-        film(scene, &options, &mut reels, &|done| {
+        film(scene, &options, &mut writers, &|done| {
             progress(Phase::Record, done)
         })?;
         drop(frames);

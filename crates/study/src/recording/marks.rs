@@ -34,7 +34,7 @@ pub(super) fn marks(
 mod tests {
     use std::path::Path;
 
-    use foldmotion_record::Pose;
+    use foldmotion_record::FigureState;
 
     use super::*;
     use crate::{SceneSource, Study};
@@ -56,7 +56,7 @@ mod tests {
         );
         let marks = marks(motion, collision, |time| time);
         let facets = |time: f64| {
-            let marked = Pose::at(motion, &marks, time).marked;
+            let marked = FigureState::at(motion, &marks, time).marked;
             let faces = (0..marked.len()).filter(|&face| marked[face]);
             let mut facets: Vec<u32> = faces.map(|f| motion.sheet.face_facets[f]).collect();
             facets.sort_unstable();
@@ -69,7 +69,7 @@ mod tests {
         for frame in &motion.frames {
             assert!(facets(frame.time).iter().all(|facet| pair.contains(facet)));
         }
-        let spot = |time| Pose::at(motion, &marks, time).spot;
+        let spot = |time| FigureState::at(motion, &marks, time).spot;
         let place = spot(first.passed).unwrap();
         let apart = place.distance(first.point) / motion.sheet.unit_length;
         assert!(apart < 10.0 * collision.tolerance, "{apart} h");

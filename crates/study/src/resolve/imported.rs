@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use foldmotion_pattern::{
-    Curves, ImportError, ImportOptions, Imported, LARGEST_IMPORT_FILE, MergeTolerance,
+    Curves, ImportError, ImportOptions, ImportedPattern, LARGEST_IMPORT_FILE, MergeTolerance,
     PatternCheck, import_fold, import_svg,
 };
 use foldmotion_solver::{Schedule, ScheduleStep, Stage};
@@ -20,7 +20,7 @@ pub struct ImportedStudy {
     /// The file, as the scene names it.
     pub file: String,
     /// What it holds.
-    pub imported: Imported,
+    pub imported: ImportedPattern,
     /// FOLD's name of its unit of length.
     pub unit_name: &'static str,
     /// By how much of its fold angles it folds, in percent.
@@ -138,7 +138,7 @@ fn refuse_keys_of_units(input: &Input<'_>) -> Result<(), StudyError> {
     Ok(())
 }
 
-fn read_pattern(input: &Input<'_>, scene: &PatternScene) -> Result<Imported, StudyError> {
+fn read_pattern(input: &Input<'_>, scene: &PatternScene) -> Result<ImportedPattern, StudyError> {
     let path = input.source.beside(&scene.file);
     let Some(format) = PatternFileFormat::of(&path) else {
         let message = "must end in .fold or .svg, the formats of crease patterns that are read";
@@ -174,7 +174,7 @@ fn read_pattern(input: &Input<'_>, scene: &PatternScene) -> Result<Imported, Stu
 fn fixed_facet(
     input: &Input<'_>,
     scene: &PatternScene,
-    imported: &Imported,
+    imported: &ImportedPattern,
 ) -> Result<Option<u32>, StudyError> {
     let count = imported.sheet.facets.len();
     let asked = match &scene.fixed {
@@ -230,7 +230,7 @@ fn imported_steps(input: &Input<'_>) -> Result<Vec<ScheduleStep>, StudyError> {
 }
 
 /// The fold angles along the way, times `fraction`. What a stage says nothing about stays as it was.
-fn waypoints(imported: &Imported, with_stages: bool, fraction: f64) -> Vec<Vec<f64>> {
+fn waypoints(imported: &ImportedPattern, with_stages: bool, fraction: f64) -> Vec<Vec<f64>> {
     if !with_stages || imported.stages.is_empty() {
         return vec![imported.targets.iter().map(|t| t * fraction).collect()];
     }

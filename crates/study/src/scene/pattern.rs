@@ -1,6 +1,6 @@
 //! `[pattern]`: a crease pattern of a file.
 
-use foldmotion_pattern::Unknown;
+use foldmotion_pattern::UnknownElements;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -30,7 +30,7 @@ pub struct PatternScene {
     /// How strokes and elements without a meaning in a crease pattern are treated.
     #[serde(default, deserialize_with = "choice::optional")]
     #[schemars(extend("default" = "refuse"))]
-    pub unknown: Option<Unknown>,
+    pub unknown: Option<UnknownElements>,
     /// Bézier curves are replaced by chords that stray from them by at most this part of the diagonal.
     #[schemars(extend("x-default" = "curves are unknown elements"))]
     pub curve_tolerance: Option<f64>,

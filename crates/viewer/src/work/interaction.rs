@@ -1,10 +1,10 @@
-//! Moving the sheet by hand: a thread in which it follows the user.
+//! Moving the sheet by sheet: a thread in which it follows the user.
 
 use std::sync::{Arc, Condvar, Mutex, PoisonError};
 use std::thread::{JoinHandle, sleep};
 use std::time::{Duration, Instant};
 
-use foldmotion_solver::dynamic::{Hand, Pull};
+use foldmotion_solver::dynamic::{InteractiveSheet, Pull};
 use foldmotion_study::Study;
 use glam::DVec3;
 
@@ -166,8 +166,8 @@ impl Shared {
         states: &StateFeed,
     ) -> Result<(), WorkError> {
         let stages = study.subject.stages();
-        let mut hand = Hand::new(&study.model, &study.schedule, stages, start, time)?;
-        let (mut target_time, mut serial, mut is_at_rest) = (hand.time(), 0, false);
+        let mut sheet = InteractiveSheet::new(&study.model, &study.schedule, stages, start, time)?;
+        let (mut target_time, mut serial, mut is_at_rest) = (sheet.time(), 0, false);
         loop {
             let request = self.next(is_at_rest, serial);
             if request.is_stopped {
@@ -175,26 +175,26 @@ impl Shared {
             }
             if request.serial != serial {
                 serial = request.serial;
-                hand.pull(request.pull);
+                sheet.pull(request.pull);
             }
             let started = Instant::now();
             if request.target_time.is_finite() && target_time != request.target_time {
                 let most = SPEED * TICK.as_secs_f64();
                 target_time += (request.target_time - target_time).clamp(-most, most);
-                hand.aim(target_time);
+                sheet.aim(target_time);
             }
-            self.tick(&mut hand, started);
-            is_at_rest = hand.is_at_rest()
+            self.tick(&mut sheet, started);
+            is_at_rest = sheet.is_at_rest()
                 && (target_time == request.target_time || !request.target_time.is_finite());
-            self.show(&hand, is_at_rest, states);
+            self.show(&sheet, is_at_rest, states);
             sleep(TICK.saturating_sub(started.elapsed()));
         }
     }
 
     /// Advances the engine for one interval.
-    fn tick(&self, hand: &mut Hand<'_>, started: Instant) {
-        while started.elapsed() < TICK && !hand.is_at_rest() {
-            if hand.advance(STEPS).is_err() {
+    fn tick(&self, sheet: &mut InteractiveSheet<'_>, started: Instant) {
+        while started.elapsed() < TICK && !sheet.is_at_rest() {
+            if sheet.advance(STEPS).is_err() {
                 lock(&self.status).resets += 1;
                 // The engine has released the vertex; the old request must not grab it again.
                 lock(&self.request).pull = None;
@@ -203,16 +203,16 @@ impl Shared {
         }
     }
 
-    fn show(&self, hand: &Hand<'_>, is_at_rest: bool, states: &StateFeed) {
+    fn show(&self, sheet: &InteractiveSheet<'_>, is_at_rest: bool, states: &StateFeed) {
         let mut status = lock(&self.status);
-        status.time = hand.time();
+        status.time = sheet.time();
         status.is_at_rest = is_at_rest;
-        status.fold_angle_error = hand.fold_angle_error();
+        status.fold_angle_error = sheet.fold_angle_error();
         drop(status);
         if is_at_rest {
-            states.publish(hand.time(), hand.positions());
+            states.publish(sheet.time(), sheet.positions());
             self.repaint.send();
-        } else if states.publish_limited(hand.time(), || hand.positions()) {
+        } else if states.publish_limited(sheet.time(), || sheet.positions()) {
             self.repaint.send_limited();
         }
     }

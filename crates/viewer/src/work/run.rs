@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use foldmotion_check::FittedBox;
-use foldmotion_study::{Folded, Moment, Phase, Report, Study, Watch};
+use foldmotion_study::{Folded, Phase, Report, Snapshot, Study, Watch};
 
 use super::job::Report as ProgressReport;
 use super::{Job, RepaintSignal, StateFeed};
@@ -51,7 +51,7 @@ impl Watch for Watcher<'_> {
         (self.report)(phase, done)
     }
 
-    fn state(&self, moment: &Moment<'_>) {
+    fn state(&self, moment: &Snapshot<'_>) {
         let positions = || self.study.subject.show(moment.positions());
         if self.states.publish_limited(moment.time, positions) {
             self.repaint.send_limited();

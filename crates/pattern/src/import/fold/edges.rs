@@ -9,9 +9,9 @@ use super::FoldPattern;
 use super::frames::Frames;
 use super::sides::Sides;
 
-/// What an edge is.
+/// The role of an edge and its target angle.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Meaning {
+pub(super) struct EdgeMeaning {
     pub(super) role: Role,
     /// Radians; 0 unless it is a crease.
     pub(super) target: f64,
@@ -23,7 +23,7 @@ pub(super) fn meanings(
     frames: &Frames,
     frame: usize,
     edges: usize,
-) -> Result<Vec<Meaning>, ImportError> {
+) -> Result<Vec<EdgeMeaning>, ImportError> {
     let letters = frames.assignments(frame);
     let angles = frames.angles(frame);
     check_count("edges_assignment", letters.map(<[_]>::len), edges)?;
@@ -47,7 +47,7 @@ pub(super) fn meanings(
         .collect()
 }
 
-/// The sign of the first angle that a stage gives each edge; 0 where none drives it.
+/// The sign of the first angle that a stage gives each edge; 0 if none drives it.
 fn staged_signs(frames: &Frames, pattern: usize, edges: usize) -> Vec<f64> {
     let mut signs = vec![0.0; edges];
     for (_, frame) in frames.with_angles(pattern) {
@@ -62,13 +62,13 @@ fn staged_signs(frames: &Frames, pattern: usize, edges: usize) -> Vec<f64> {
 }
 
 /// The meaning of a letter and an angle in degrees; `None` for a letter that FOLD does not have.
-fn meaning(letter: Option<&str>, angle: Option<f64>, staged: f64) -> Option<Meaning> {
-    let plain = |role, warning| Meaning {
+fn meaning(letter: Option<&str>, angle: Option<f64>, staged: f64) -> Option<EdgeMeaning> {
+    let plain = |role, warning| EdgeMeaning {
         role,
         target: 0.0,
         warning,
     };
-    let crease = |sign: f64, degrees: f64, warning| Meaning {
+    let crease = |sign: f64, degrees: f64, warning| EdgeMeaning {
         role: if sign < 0.0 {
             Role::Mountain
         } else {
@@ -109,7 +109,7 @@ pub(super) fn lines(
     warnings: &mut Warnings,
 ) -> Vec<Line> {
     let edges = pattern.edges.iter().zip(&pattern.meanings);
-    let line = |((&ends, meaning), source): ((&[u32; 2], &Meaning), u32)| {
+    let line = |((&ends, meaning), source): ((&[u32; 2], &EdgeMeaning), u32)| {
         let mut line = Line {
             ends,
             role: meaning.role,
@@ -118,7 +118,7 @@ pub(super) fn lines(
         };
         let is_outer = sides.get(&line.key()).is_some_and(|faces| faces.len() == 1);
         match meaning.warning {
-            // Nothing says what it is but its place.
+            // Only its position says what it is.
             Some(WarningKind::Unassigned) if is_outer => line.role = Role::Border,
             Some(kind) => warnings.add(kind, &Source::FoldEdge(source)),
             None => {}

@@ -69,7 +69,7 @@ impl Frames {
         })
     }
 
-    /// What a frame has itself or inherits.
+    /// A value that a frame has itself or inherits.
     fn inherited<'a, T>(
         &'a self,
         mut frame: usize,

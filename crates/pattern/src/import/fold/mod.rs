@@ -17,8 +17,8 @@ use super::drawing::Drawing;
 use super::plan::Plan;
 use super::warning::{WarningKind, Warnings};
 use super::{
-    ImportError, ImportOptions, Imported, LengthUnit, MOST_PIECES, MOST_VERTICES, MergeTolerance,
-    Source, check_size, plan_of,
+    ImportError, ImportOptions, ImportedPattern, LengthUnit, MOST_PIECES, MOST_VERTICES,
+    MergeTolerance, Source, check_size, plan_of,
 };
 use crate::fold::check_vertices;
 use frames::Frames;
@@ -30,19 +30,19 @@ use frames::Frames;
 ///
 /// - B border; C cut, opened; F and J inside a facet; U a free hinge.
 /// - M and V fold by their `edges_foldAngle`, which counts also where its sign is the other one; by −180° and 180° where
-///   there is no such list; a null angle is a free hinge.
+///   that list is missing; a null angle is a free hinge.
 /// - An angle makes a crease of U, F, J and of edges without assignment; without either an edge is a free hinge.
 /// - Every frame of `file_frames` with angles of its own is a stage; a crease that a stage drives is not free.
 ///
 /// Faces that are listed are kept, with their vertices, as facets; otherwise they are traced as in a drawing. Edges
 /// of no face and unused vertices are left out; edges that only faces name are facet lines, or free hinges where the
-/// file lists no edges. Keys that are not read are kept in [`Imported::keys`].
+/// file lists no edges. Keys that are not read are kept in [`ImportedPattern::keys`].
 ///
 /// Not found: listed faces that overlap without sharing an edge.
 ///
 /// # Errors
 /// [`ImportError`]; texts name edges, faces and vertices by index.
-pub fn import_fold(bytes: &[u8], options: &ImportOptions) -> Result<Imported, ImportError> {
+pub fn import_fold(bytes: &[u8], options: &ImportOptions) -> Result<ImportedPattern, ImportError> {
     check_size(bytes)?;
     let mut frames = Frames::read(bytes)?;
     let mut warnings = Warnings::default();
@@ -62,8 +62,8 @@ struct FoldPattern<'a> {
     frame: usize,
     coordinates: &'a [DVec3],
     edges: &'a [[u32; 2]],
-    /// What each edge is, and the angle it is to take.
-    meanings: Vec<edges::Meaning>,
+    /// The meaning of each edge.
+    meanings: Vec<edges::EdgeMeaning>,
     faces: &'a [Vec<u32>],
 }
 
@@ -130,7 +130,7 @@ impl<'a> FoldPattern<'a> {
         assembled: Assembled,
         plan: Plan,
         frames: &Frames,
-    ) -> Result<Imported, ImportError> {
+    ) -> Result<ImportedPattern, ImportError> {
         let Assembled {
             mut sheet,
             targets,
@@ -156,12 +156,12 @@ impl<'a> FoldPattern<'a> {
             .iter()
             .map(|&p| plan.origins[p as usize])
             .collect();
-        let place = |v: &Option<u32>| v.map(|v| self.coordinates[v as usize]);
-        let shape: Option<Vec<DVec3>> = vertex_sources.iter().map(place).collect();
+        let position = |v: &Option<u32>| v.map(|v| self.coordinates[v as usize]);
+        let shape: Option<Vec<DVec3>> = vertex_sources.iter().map(position).collect();
         let shape = shape.filter(|shape| *shape != sheet.planar());
         let keys = frames.keys();
         let fixed_facets = fixed_facets(keys, &sheet, &vertex_sources, self.faces.len());
-        Ok(Imported {
+        Ok(ImportedPattern {
             title: None,
             sheet,
             unit,

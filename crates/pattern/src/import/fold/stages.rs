@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use super::super::warning::{WarningKind, Warnings};
-use super::super::{ImportError, Imported, MOST_STAGE_ANGLES, PatternStage, Source};
+use super::super::{ImportError, ImportedPattern, MOST_STAGE_ANGLES, PatternStage, Source};
 use super::FoldPattern;
 use super::edges::{check_angles, check_count};
 use super::frames::Frames;
@@ -12,7 +12,7 @@ use super::frames::Frames;
 pub(super) fn stages(
     frames: &Frames,
     pattern: &FoldPattern<'_>,
-    imported: &Imported,
+    imported: &ImportedPattern,
     warnings: &mut Warnings,
 ) -> Result<Vec<PatternStage>, ImportError> {
     let edges = &imported.sheet.edges;

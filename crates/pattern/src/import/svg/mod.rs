@@ -1,11 +1,11 @@
 //! SVG as a crease pattern, by the colours of Origami Simulator (Ghassaei, Demaine, Gershenfeld 2018).
 
+mod elements;
 mod shape;
 mod stroke;
 mod style;
 mod values;
 mod viewport;
-mod walk;
 
 use glam::{DAffine2, DVec2};
 use roxmltree::{Document, Node, ParsingOptions};
@@ -14,11 +14,11 @@ use super::assemble::{Assembled, assemble};
 use super::drawing::{Drawing, Line};
 use super::warning::{WarningKind, Warnings};
 use super::{
-    Curves, ImportError, ImportOptions, Imported, MOST_LINES, MOST_NODES, MergeTolerance, Source,
-    Unknown, check_size, plan_of,
+    Curves, ImportError, ImportOptions, ImportedPattern, MOST_LINES, MOST_NODES, MergeTolerance,
+    Source, UnknownElements, check_size, plan_of,
 };
+use elements::ElementReader;
 use shape::{Piece, Stroke};
-use walk::Walk;
 
 /// Reads a crease pattern from SVG.
 ///
@@ -26,18 +26,18 @@ use walk::Walk;
 /// times the opacity · #0f0 cut, opened · #ff0 facet line · #f0f free hinge. `opacity` (of groups too),
 /// `stroke-opacity` and the alpha of the colour multiply; 0 is an angle of 0. Widths, dashes and fills mean nothing.
 ///
-/// Read are `path`, `line`, `rect`, `polyline` and `polygon` in groups, links and nested `svg` with transforms; styles by
-/// attribute, `style` and rules of `<style>` for elements, classes and ids. The last segment of a closed path is a line
-/// as the others. Bézier curves are flattened if the options say so. Elliptical arcs, circles, ellipses, rounded
-/// rectangles and `use` are not read, nor are other colours: [`ImportOptions::unknown`] says what becomes of them. Text,
-/// pictures and what has no stroke are left out with a warning.
+/// Read are `path`, `line`, `rect`, `polyline` and `polygon` in groups, links and nested `svg` with transforms; styles
+/// by attribute, `style` and rules of `<style>` for elements, classes and ids. The last segment of a closed path is a
+/// line as the others. Bézier curves are flattened if the options say so. Elliptical arcs, circles, ellipses, rounded
+/// rectangles and `use` are not read, nor are other colours: [`ImportOptions::unknown`] says what becomes of them.
+/// Text, pictures and elements without a stroke are left out with a warning.
 ///
 /// Where `width` or `height` are in mm, cm, in, pt or pc, the sheet is in mm and has that size; otherwise it is in user
 /// units without a physical length.
 ///
 /// # Errors
 /// [`ImportError`]; texts name elements by id and line.
-pub fn import_svg(bytes: &[u8], options: &ImportOptions) -> Result<Imported, ImportError> {
+pub fn import_svg(bytes: &[u8], options: &ImportOptions) -> Result<ImportedPattern, ImportError> {
     check_size(bytes)?;
     let text = std::str::from_utf8(bytes).map_err(|e| ImportError::NotUtf8 {
         byte: e.valid_up_to(),
@@ -57,12 +57,12 @@ pub fn import_svg(bytes: &[u8], options: &ImportOptions) -> Result<Imported, Imp
             found: root.tag_name().name().chars().take(40).collect(),
         });
     }
-    let places = Places::new(text);
+    let numbering = LineNumbers::new(text);
     let mut warnings = Warnings::default();
-    let viewport = viewport::outer(root, &places)?;
-    let mut walk = Walk::new(root, &places, options, &mut warnings)?;
-    walk.element(root, viewport.transform)?;
-    let (strokes, unknown) = walk.finish();
+    let viewport = viewport::outer(root, &numbering)?;
+    let mut reader = ElementReader::new(root, &numbering, options, &mut warnings)?;
+    reader.element(root, viewport.transform)?;
+    let (strokes, unknown) = reader.finish();
     unknown.settle(options.unknown, &mut warnings)?;
     let drawing = drawing(&strokes, options.curves)?;
     let merge = options.merge.unwrap_or(MergeTolerance::DRAWING);
@@ -77,7 +77,7 @@ pub fn import_svg(bytes: &[u8], options: &ImportOptions) -> Result<Imported, Imp
     let title = root
         .children()
         .find(|c| c.has_tag_name("title") || is_svg(*c, "title"));
-    Ok(Imported {
+    Ok(ImportedPattern {
         title: title.and_then(|t| t.text()).map(str::to_owned),
         sheet,
         unit: viewport.unit,
@@ -100,13 +100,13 @@ fn is_svg(node: Node<'_, '_>, name: &str) -> bool {
     node.tag_name().name() == name
 }
 
-/// Where elements stand in the text.
-struct Places {
-    /// Where each line begins.
+/// The lines on which elements begin.
+struct LineNumbers {
+    /// The byte at which each line begins.
     starts: Vec<usize>,
 }
 
-impl Places {
+impl LineNumbers {
     fn new(text: &str) -> Self {
         let breaks = text.bytes().enumerate().filter(|(_, byte)| *byte == b'\n');
         Self {
@@ -130,27 +130,27 @@ impl Places {
 
 /// Elements that cannot be read.
 #[derive(Default)]
-struct Unread {
+struct UnreadElement {
     elements: Vec<Source>,
     reasons: std::collections::BTreeSet<String>,
 }
 
-impl Unread {
+impl UnreadElement {
     fn add(&mut self, element: Source, reason: String) {
         self.elements.push(element);
         self.reasons.insert(reason);
     }
 
-    fn settle(self, unknown: Unknown, warnings: &mut Warnings) -> Result<(), ImportError> {
+    fn settle(self, unknown: UnknownElements, warnings: &mut Warnings) -> Result<(), ImportError> {
         if self.elements.is_empty() {
             return Ok(());
         }
         match unknown {
-            Unknown::Refuse => Err(ImportError::Unknown {
+            UnknownElements::Refuse => Err(ImportError::Unknown {
                 elements: self.elements,
                 reasons: self.reasons.into_iter().take(20).collect(),
             }),
-            Unknown::Ignore => {
+            UnknownElements::Ignore => {
                 for element in &self.elements {
                     warnings.add(WarningKind::Ignored, element);
                 }

@@ -6,7 +6,7 @@ use svgtypes::{PathParser, PathSegment, SimplePathSegment, SimplifyingPathParser
 
 use super::super::drawing::Role;
 use super::super::{ImportError, Source};
-use super::Places;
+use super::LineNumbers;
 use super::values::{length, numbers, size, wrong};
 
 /// The most chords of a curve.
@@ -47,8 +47,8 @@ impl Piece {
 
     /// Points in order on the piece, such that it strays from the chords between them by no more than `tolerance`.
     ///
-    /// The second derivative of a cubic is at most 6 M, M the longer of its second differences, so that n chords stray by
-    /// at most 6 M / (8 n²).
+    /// The second derivative of a cubic is at most 6 M, M the longer of its second differences, so that n chords stray
+    /// by at most 6 M / (8 n²).
     pub(super) fn chords(&self, tolerance: f64) -> Vec<DVec2> {
         let [a, b, c, d] = match *self {
             Self::Line(ends) => return ends.to_vec(),
@@ -76,33 +76,33 @@ impl Piece {
     }
 }
 
-/// What an element draws.
+/// The outline that an element draws.
 pub(super) enum Outline {
     Pieces(Vec<Piece>),
     /// It cannot be read, for this reason.
-    Unread(String),
-    /// It is no shape.
+    UnreadElement(String),
+    /// The element is not a shape.
     None,
 }
 
 /// The outline of an element, in its own coordinates.
-pub(super) fn outline(node: Node<'_, '_>, places: &Places) -> Result<Outline, ImportError> {
+pub(super) fn outline(node: Node<'_, '_>, numbering: &LineNumbers) -> Result<Outline, ImportError> {
     let pieces = match node.tag_name().name() {
-        "path" => return path(node, places),
+        "path" => return path(node, numbering),
         "line" => {
             let [x1, y1, x2, y2] = [
-                length(node, places, "x1")?,
-                length(node, places, "y1")?,
-                length(node, places, "x2")?,
-                length(node, places, "y2")?,
+                length(node, numbering, "x1")?,
+                length(node, numbering, "y1")?,
+                length(node, numbering, "x2")?,
+                length(node, numbering, "y2")?,
             ];
             chain(&[DVec2::new(x1, y1), DVec2::new(x2, y2)], false)
         }
-        "rect" => return rect(node, places),
-        "polyline" => chain(&points(node, places)?, false),
-        "polygon" => chain(&points(node, places)?, true),
+        "rect" => return rect(node, numbering),
+        "polyline" => chain(&points(node, numbering)?, false),
+        "polygon" => chain(&points(node, numbering)?, true),
         name @ ("circle" | "ellipse" | "use") => {
-            return Ok(Outline::Unread(format!("<{name}> is not read")));
+            return Ok(Outline::UnreadElement(format!("<{name}> is not read")));
         }
         _ => return Ok(Outline::None),
     };
@@ -120,22 +120,25 @@ fn chain(points: &[DVec2], closed: bool) -> Vec<Piece> {
     pieces
 }
 
-fn points(node: Node<'_, '_>, places: &Places) -> Result<Vec<DVec2>, ImportError> {
+fn points(node: Node<'_, '_>, numbering: &LineNumbers) -> Result<Vec<DVec2>, ImportError> {
     let text = node.attribute("points").unwrap_or_default();
     let numbers = numbers(text).filter(|n| n.len().is_multiple_of(2));
     let need = "an even count of finite numbers is needed";
-    let numbers = numbers.ok_or_else(|| wrong(node, places, "points", text, need))?;
+    let numbers = numbers.ok_or_else(|| wrong(node, numbering, "points", text, need))?;
     Ok(numbers.chunks(2).map(|p| DVec2::new(p[0], p[1])).collect())
 }
 
-fn rect(node: Node<'_, '_>, places: &Places) -> Result<Outline, ImportError> {
-    if size(node, places, "rx")? > 0.0 || size(node, places, "ry")? > 0.0 {
-        return Ok(Outline::Unread(
+fn rect(node: Node<'_, '_>, numbering: &LineNumbers) -> Result<Outline, ImportError> {
+    if size(node, numbering, "rx")? > 0.0 || size(node, numbering, "ry")? > 0.0 {
+        return Ok(Outline::UnreadElement(
             "rounded rectangles are not read".to_owned(),
         ));
     }
-    let low = DVec2::new(length(node, places, "x")?, length(node, places, "y")?);
-    let sides = DVec2::new(size(node, places, "width")?, size(node, places, "height")?);
+    let low = DVec2::new(length(node, numbering, "x")?, length(node, numbering, "y")?);
+    let sides = DVec2::new(
+        size(node, numbering, "width")?,
+        size(node, numbering, "height")?,
+    );
     let high = low + sides;
     let corners = [
         low,
@@ -150,7 +153,7 @@ fn rect(node: Node<'_, '_>, places: &Places) -> Result<Outline, ImportError> {
     }))
 }
 
-fn path(node: Node<'_, '_>, places: &Places) -> Result<Outline, ImportError> {
+fn path(node: Node<'_, '_>, numbering: &LineNumbers) -> Result<Outline, ImportError> {
     let text = node.attribute("d").unwrap_or_default().trim();
     if text == "none" {
         return Ok(Outline::Pieces(Vec::new()));
@@ -158,7 +161,7 @@ fn path(node: Node<'_, '_>, places: &Places) -> Result<Outline, ImportError> {
     let is_arc =
         |segment: &Result<PathSegment, _>| matches!(segment, Ok(PathSegment::EllipticalArc { .. }));
     if PathParser::from(text).any(|segment| is_arc(&segment)) {
-        return Ok(Outline::Unread(
+        return Ok(Outline::UnreadElement(
             "elliptical arcs (A) of paths are not read".to_owned(),
         ));
     }
@@ -166,7 +169,7 @@ fn path(node: Node<'_, '_>, places: &Places) -> Result<Outline, ImportError> {
     let mut pieces = Vec::new();
     let (mut start, mut at) = (DVec2::ZERO, DVec2::ZERO);
     for segment in SimplifyingPathParser::from(text) {
-        let segment = segment.map_err(|_| wrong(node, places, "d", text, need))?;
+        let segment = segment.map_err(|_| wrong(node, numbering, "d", text, need))?;
         match segment {
             SimplePathSegment::MoveTo { x, y } => {
                 (start, at) = (DVec2::new(x, y), DVec2::new(x, y));

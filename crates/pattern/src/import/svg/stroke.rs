@@ -7,7 +7,7 @@ use svgtypes::Color;
 
 use super::super::drawing::Role;
 
-/// What a stroke means: its role, and the alpha of its colour; an error for what means nothing.
+/// What a stroke means: its role, and the alpha of its colour; an error if it has no meaning.
 pub(super) fn meaning(stroke: &str) -> Result<(Role, f64), ()> {
     // The parser takes any letter for a digit of 0.
     let digits = stroke.strip_prefix('#').unwrap_or_default();

@@ -5,7 +5,7 @@ use simplecss::{AttributeOperator, DeclarationTokenizer, Element, PseudoClass, S
 
 use super::super::warning::{WarningKind, Warnings};
 use super::super::{ImportError, MOST_STYLE_RULES};
-use super::Places;
+use super::LineNumbers;
 
 /// The most bytes of all style sheets.
 const MOST_STYLE_BYTES: usize = 1 << 18;
@@ -44,10 +44,10 @@ pub(super) struct Styles<'a> {
 }
 
 impl<'a> Styles<'a> {
-    /// Reads every `<style>`. Rules that look at other elements are left out with a warning.
+    /// Reads every `<style>`. Rules that depend on other elements are left out with a warning.
     pub(super) fn read(
         root: Node<'a, 'a>,
-        places: &Places,
+        numbering: &LineNumbers,
         warnings: &mut Warnings,
     ) -> Result<Self, ImportError> {
         let mut sheet = StyleSheet::new();
@@ -73,11 +73,11 @@ impl<'a> Styles<'a> {
                     rule.selector.to_string().contains([' ', '>', '+', ':'])
                 };
                 if sheet.rules.iter().any(looks_around) {
-                    warnings.add(WarningKind::Ignored, &places.source(element));
+                    warnings.add(WarningKind::Ignored, &numbering.source(element));
                 }
                 sheet.rules.retain(|rule| !looks_around(rule));
                 if sheet.rules.len() == before && !text.trim().is_empty() {
-                    warnings.add(WarningKind::Ignored, &places.source(element));
+                    warnings.add(WarningKind::Ignored, &numbering.source(element));
                 }
             }
         }
@@ -91,7 +91,7 @@ impl<'a> Styles<'a> {
         for attribute in node.attributes().filter(|a| a.namespace().is_none()) {
             properties.set(attribute.name(), attribute.value());
         }
-        let element = Alone(node);
+        let element = SingleElement(node);
         let rules = self.sheet.rules.iter();
         let matching = rules.filter(|rule| rule.selector.matches(&element));
         let ruled: Vec<_> = matching.flat_map(|rule| &rule.declarations).collect();
@@ -115,9 +115,9 @@ fn check(what: &'static str, found: usize, limit: usize) -> Result<(), ImportErr
 }
 
 /// An element as selectors see it: without the elements around it, which would make matching slow without bound.
-struct Alone<'a>(Node<'a, 'a>);
+struct SingleElement<'a>(Node<'a, 'a>);
 
-impl Element for Alone<'_> {
+impl Element for SingleElement<'_> {
     fn parent_element(&self) -> Option<Self> {
         None
     }

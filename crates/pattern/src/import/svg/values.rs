@@ -6,7 +6,7 @@ use roxmltree::Node;
 use svgtypes::{Length, LengthUnit, NumberListParser};
 
 use super::super::ImportError;
-use super::Places;
+use super::LineNumbers;
 
 /// Millimetres of a user unit, where nothing else is said (CSS: 96 to the inch).
 pub(super) const MM_A_UNIT: f64 = 25.4 / 96.0;
@@ -17,13 +17,13 @@ const SHOWN: usize = 60;
 /// An error about an attribute.
 pub(super) fn wrong(
     node: Node<'_, '_>,
-    places: &Places,
+    numbering: &LineNumbers,
     name: &'static str,
     value: &str,
     need: &'static str,
 ) -> ImportError {
     ImportError::Attribute {
-        element: places.source(node),
+        element: numbering.source(node),
         name,
         value: value.chars().take(SHOWN).collect(),
         need,
@@ -53,7 +53,7 @@ pub(super) fn parsed(text: &str) -> Option<Result<(f64, bool), ()>> {
 /// An attribute that is a length, in user units; 0 if omitted.
 pub(super) fn length(
     node: Node<'_, '_>,
-    places: &Places,
+    numbering: &LineNumbers,
     name: &'static str,
 ) -> Result<f64, ImportError> {
     let Some(text) = node.attribute(name) else {
@@ -64,7 +64,7 @@ pub(super) fn length(
         Some(Ok((mm, true))) => Ok(mm / MM_A_UNIT),
         _ => Err(wrong(
             node,
-            places,
+            numbering,
             name,
             text,
             "a finite number is needed, in user units or px, mm, cm, in, pt, pc",
@@ -75,15 +75,21 @@ pub(super) fn length(
 /// A length that must not be negative.
 pub(super) fn size(
     node: Node<'_, '_>,
-    places: &Places,
+    numbering: &LineNumbers,
     name: &'static str,
 ) -> Result<f64, ImportError> {
-    let value = length(node, places, name)?;
+    let value = length(node, numbering, name)?;
     if value >= 0.0 {
         return Ok(value);
     }
     let text = node.attribute(name).unwrap_or_default();
-    Err(wrong(node, places, name, text, "it must not be negative"))
+    Err(wrong(
+        node,
+        numbering,
+        name,
+        text,
+        "it must not be negative",
+    ))
 }
 
 /// All numbers of a list.

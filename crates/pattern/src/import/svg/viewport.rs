@@ -7,7 +7,7 @@ use roxmltree::Node;
 use svgtypes::{Align, AspectRatio, ViewBox};
 
 use super::super::{ImportError, LengthUnit};
-use super::Places;
+use super::LineNumbers;
 use super::values::{MM_A_UNIT, length, parsed, wrong};
 
 /// From user units to the sheet's.
@@ -19,8 +19,11 @@ pub(super) struct Viewport {
 }
 
 /// The viewport of the outermost `svg`.
-pub(super) fn outer(root: Node<'_, '_>, places: &Places) -> Result<Viewport, ImportError> {
-    let size = [side(root, places, "width")?, side(root, places, "height")?];
+pub(super) fn outer(root: Node<'_, '_>, numbering: &LineNumbers) -> Result<Viewport, ImportError> {
+    let size = [
+        side(root, numbering, "width")?,
+        side(root, numbering, "height")?,
+    ];
     let is_physical = size.iter().flatten().any(|(_, physical)| *physical);
     let unit = if is_physical {
         LengthUnit::Millimetre
@@ -34,8 +37,8 @@ pub(super) fn outer(root: Node<'_, '_>, places: &Places) -> Result<Viewport, Imp
             _ => length,
         })
     });
-    let mut scale = match view_box(root, places)? {
-        Some(view) => fit(root, places, lengths, &view)?.unwrap_or(DVec2::ONE),
+    let mut scale = match view_box(root, numbering)? {
+        Some(view) => fit(root, numbering, lengths, &view)?.unwrap_or(DVec2::ONE),
         None if is_physical => DVec2::splat(MM_A_UNIT),
         None => DVec2::ONE,
     };
@@ -51,26 +54,30 @@ pub(super) fn outer(root: Node<'_, '_>, places: &Places) -> Result<Viewport, Imp
 }
 
 /// From the user units in a nested `svg` to those around it.
-pub(super) fn nested(node: Node<'_, '_>, places: &Places) -> Result<DAffine2, ImportError> {
-    let at = DVec2::new(length(node, places, "x")?, length(node, places, "y")?);
-    let place = DAffine2::from_translation(at);
-    let size = [side(node, places, "width")?, side(node, places, "height")?];
+pub(super) fn nested(node: Node<'_, '_>, numbering: &LineNumbers) -> Result<DAffine2, ImportError> {
+    let at = DVec2::new(length(node, numbering, "x")?, length(node, numbering, "y")?);
+    let shift_to_corner = DAffine2::from_translation(at);
+    let size = [
+        side(node, numbering, "width")?,
+        side(node, numbering, "height")?,
+    ];
     let lengths = size.map(|side| {
         let (length, physical) = side?;
         Some(if physical { length / MM_A_UNIT } else { length })
     });
-    let Some(view) = view_box(node, places)? else {
-        return Ok(place);
+    let Some(view) = view_box(node, numbering)? else {
+        return Ok(shift_to_corner);
     };
-    let ([Some(width), Some(height)], Some(scale)) = (lengths, fit(node, places, lengths, &view)?)
+    let ([Some(width), Some(height)], Some(scale)) =
+        (lengths, fit(node, numbering, lengths, &view)?)
     else {
         let text = node.attribute("viewBox").unwrap_or_default();
         let need = "a nested svg with a viewBox needs width and height in numbers";
-        return Err(wrong(node, places, "viewBox", text, need));
+        return Err(wrong(node, numbering, "viewBox", text, need));
     };
     let (free, align) = (
         DVec2::new(width, height) - scale * DVec2::new(view.w, view.h),
-        aspect_ratio(node, places)?.align,
+        aspect_ratio(node, numbering)?.align,
     );
     let share = match align {
         Align::None | Align::XMinYMin => DVec2::ZERO,
@@ -85,13 +92,13 @@ pub(super) fn nested(node: Node<'_, '_>, places: &Places) -> Result<DAffine2, Im
     };
     let origin = DAffine2::from_translation(-DVec2::new(view.x, view.y));
     let shift = DAffine2::from_translation(free * share);
-    Ok(place * shift * DAffine2::from_scale(scale) * origin)
+    Ok(shift_to_corner * shift * DAffine2::from_scale(scale) * origin)
 }
 
-/// A side of the viewport and whether it is in mm; `None` if it is left out or depends on what is around.
+/// A side of the viewport and whether it is in mm; `None` if it is omitted or depends on the surroundings.
 fn side(
     node: Node<'_, '_>,
-    places: &Places,
+    numbering: &LineNumbers,
     name: &'static str,
 ) -> Result<Option<(f64, bool)>, ImportError> {
     let text = node.attribute(name).filter(|text| text.trim() != "auto");
@@ -102,7 +109,7 @@ fn side(
         Ok((length, physical)) if length > 0.0 => Ok(Some((length, physical))),
         _ => Err(wrong(
             node,
-            places,
+            numbering,
             name,
             text,
             "a positive length is needed",
@@ -110,7 +117,7 @@ fn side(
     }
 }
 
-fn view_box(node: Node<'_, '_>, places: &Places) -> Result<Option<ViewBox>, ImportError> {
+fn view_box(node: Node<'_, '_>, numbering: &LineNumbers) -> Result<Option<ViewBox>, ImportError> {
     let Some(text) = node.attribute("viewBox") else {
         return Ok(None);
     };
@@ -119,18 +126,18 @@ fn view_box(node: Node<'_, '_>, places: &Places) -> Result<Option<ViewBox>, Impo
     let need = "four finite numbers are needed, the last two positive";
     match view.filter(is_finite) {
         Some(view) => Ok(Some(view)),
-        None => Err(wrong(node, places, "viewBox", text, need)),
+        None => Err(wrong(node, numbering, "viewBox", text, need)),
     }
 }
 
-fn aspect_ratio(node: Node<'_, '_>, places: &Places) -> Result<AspectRatio, ImportError> {
+fn aspect_ratio(node: Node<'_, '_>, numbering: &LineNumbers) -> Result<AspectRatio, ImportError> {
     let name = "preserveAspectRatio";
     match node.attribute(name) {
         None => Ok(AspectRatio::default()),
         Some(text) => AspectRatio::from_str(text).map_err(|_| {
             wrong(
                 node,
-                places,
+                numbering,
                 name,
                 text,
                 "an alignment of SVG 1.1 is needed",
@@ -142,11 +149,11 @@ fn aspect_ratio(node: Node<'_, '_>, places: &Places) -> Result<AspectRatio, Impo
 /// The factors by which a view box fits a viewport; `None` if the viewport has no size.
 fn fit(
     node: Node<'_, '_>,
-    places: &Places,
+    numbering: &LineNumbers,
     lengths: [Option<f64>; 2],
     view: &ViewBox,
 ) -> Result<Option<DVec2>, ImportError> {
-    let ratio = aspect_ratio(node, places)?;
+    let ratio = aspect_ratio(node, numbering)?;
     let [x, y] = [
         lengths[0].map(|w| w / view.w),
         lengths[1].map(|h| h / view.h),

@@ -32,7 +32,7 @@ impl Gpu {
         }))
     }
 
-    /// What a buffer holds, after all work handed in.
+    /// The content of a buffer after all submitted work.
     pub(super) fn read<T: Pod>(&self, buffer: &wgpu::Buffer) -> Result<Vec<T>, SolverError> {
         let staging = self.device.create_buffer(&wgpu::BufferDescriptor {
             label: Some("staging"),

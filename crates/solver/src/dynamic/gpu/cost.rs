@@ -13,8 +13,8 @@ const WORD: u64 = 4;
 const COPIES: u64 = 8;
 
 impl GpuState<'_> {
-    /// Bytes a step reads and writes, each record once a pass that uses it: nodes gathered by several elements are taken to
-    /// come out of a cache. Partial sums are left out.
+    /// Bytes a step reads and writes, each record once a pass that uses it: nodes gathered by several elements are
+    /// taken to come out of a cache. Partial sums are left out.
     pub fn step_bytes(&self) -> u64 {
         let [nodes, edges, faces] = self.counts();
         let held = u64::from(self.has_face_angles()) * QUAD * faces;

@@ -15,7 +15,7 @@ pub struct Gpu {
     pub(super) pipelines: [wgpu::ComputePipeline; 4],
     name: String,
     is_software: bool,
-    fault: Arc<Mutex<Option<String>>>,
+    device_error: Arc<Mutex<Option<String>>>,
 }
 
 /// The passes in their order.
@@ -49,8 +49,8 @@ impl Gpu {
             })
             .await
             .map_err(|e| e.to_string())?;
-        let fault = Arc::new(Mutex::new(None));
-        let seen = Arc::clone(&fault);
+        let device_error = Arc::new(Mutex::new(None));
+        let seen = Arc::clone(&device_error);
         device.on_uncaptured_error(Arc::new(move |error: wgpu::Error| {
             let mut first = seen.lock().unwrap_or_else(PoisonError::into_inner);
             first.get_or_insert_with(|| error.to_string());
@@ -75,9 +75,9 @@ impl Gpu {
             pipelines,
             name: format!("{} ({})", info.name, info.backend),
             is_software: info.device_type == wgpu::DeviceType::Cpu,
-            fault,
+            device_error,
         };
-        match gpu.fault() {
+        match gpu.device_error() {
             Some(reason) => Err(reason),
             None => Ok(gpu),
         }
@@ -94,15 +94,18 @@ impl Gpu {
     }
 
     /// The first error the driver reported.
-    fn fault(&self) -> Option<String> {
-        let fault = self.fault.lock().unwrap_or_else(PoisonError::into_inner);
-        fault.clone()
+    fn device_error(&self) -> Option<String> {
+        let device_error = self
+            .device_error
+            .lock()
+            .unwrap_or_else(PoisonError::into_inner);
+        device_error.clone()
     }
 
     /// # Errors
     /// [`SolverError::GpuLost`] where the driver has reported an error.
     pub(super) fn check(&self) -> Result<(), SolverError> {
-        match self.fault() {
+        match self.device_error() {
             Some(reason) => Err(self.lost(reason)),
             None => Ok(()),
         }

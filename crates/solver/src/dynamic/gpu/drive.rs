@@ -10,7 +10,7 @@ use crate::dynamic::relaxation::DT;
 use crate::dynamic::state::MAX_DISPLACEMENT;
 use crate::{Model, SolverError};
 
-/// Steps between two looks at the residual; where the path is recorded, as many as the CPU's.
+/// Steps between two readings of the residual; if the path is recorded, as many as on the CPU.
 const STEPS_A_LOOK: usize = 100;
 const STEPS_A_RECORDED_LOOK: usize = 10;
 /// Units in the last place of an f32 position by which forces may be off: sums of some ten terms.
@@ -23,11 +23,11 @@ pub(in crate::dynamic) struct GpuDrive<'a> {
     model: &'a Model,
 }
 
-/// How a rough settling ended.
+/// The outcome of settling in f32.
 #[derive(Debug, Clone, Copy)]
 pub(in crate::dynamic) struct Rough {
     pub(in crate::dynamic) steps: u64,
-    /// The residual it was asked for.
+    /// The tolerance of the residual.
     pub(in crate::dynamic) tolerance: f64,
     pub(in crate::dynamic) is_settled: bool,
 }
@@ -71,14 +71,14 @@ impl<'a> GpuDrive<'a> {
     ) -> Result<(), SolverError> {
         let positions = self.state.positions()?;
         let velocities = self.state.velocities()?;
-        // From or to a place that is no number the way is none either.
-        let ways = positions
+        // The displacement from or to a position that is not a number is not a number either.
+        let displacements = positions
             .iter()
             .zip(&velocities)
             .map(|(p, v)| v.length() * dt + 0.0 * p.length());
-        let runaway = ways
+        let runaway = displacements
             .enumerate()
-            .find(|(_, way)| way.is_nan() || *way > MAX_DISPLACEMENT);
+            .find(|(_, displacement)| displacement.is_nan() || *displacement > MAX_DISPLACEMENT);
         if let Some((node, displacement)) = runaway {
             return Err(SolverError::Diverged {
                 node,
@@ -92,7 +92,8 @@ impl<'a> GpuDrive<'a> {
         Ok(())
     }
 
-    /// The residual that f32 leaves at `positions`: what rounding of the largest displacement pulls at the stiffest bar.
+    /// The residual that f32 leaves at `positions`: what rounding of the largest displacement pulls at the stiffest
+    /// bar.
     fn floor(&self, positions: &[DVec3]) -> f64 {
         let pattern = self.model.pattern.iter();
         let moves = positions
@@ -110,8 +111,8 @@ impl<'a> GpuDrive<'a> {
             / self.model.material.fold_stiffness
     }
 
-    /// Relaxes at motion time `time` to `tolerance`, or to what f32 leaves; `look` sees the positions now and then and may
-    /// end it with an error.
+    /// Relaxes at motion time `time` to `tolerance`, or to what f32 leaves; `look` sees the positions now and then and
+    /// may end it with an error.
     pub(in crate::dynamic) fn settle(
         &mut self,
         cpu: &mut State<'_>,

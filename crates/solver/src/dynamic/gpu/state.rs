@@ -18,7 +18,7 @@ pub(super) const BINDINGS: [&[u32]; 4] = [
     &[15, 16],
 ];
 
-/// The most steps handed in at once, so that a driver's watchdog sees progress.
+/// The most steps submitted at once, so that a driver's watchdog sees progress.
 const STEPS_A_SUBMISSION: usize = 64;
 
 /// Sums over the nodes at the last step, as the CPU's.
@@ -155,8 +155,8 @@ impl<'a> GpuState<'a> {
         self.run(count)
     }
 
-    /// Begins a dynamic relaxation with `count` steps: no dampers, the viscosity critical for the mode that moves, no node
-    /// further than `longest_way` in a step of at most `dt`.
+    /// Begins a dynamic relaxation with `count` steps: no dampers, the viscosity critical for the mode that moves, no
+    /// node further than `longest_way` in a step of at most `dt`.
     ///
     /// # Errors
     /// [`SolverError::GpuLost`].

@@ -16,8 +16,8 @@ use super::{Gpu, GpuDrive, GpuState};
 use crate::dynamic::{Device, DynamicOptions, Run, StageOutcome, State, run};
 use crate::{Material, Model, Schedule, SolverError, Stage};
 
-/// What f32 may leave of forces from bars of stiffness 40 a unit length: 20 units in the last place of it. Some 1e-5 was
-/// seen.
+/// What f32 may leave of forces from bars of stiffness 40 a unit length: 20 units in the last place of it. Some 1e-5
+/// was seen.
 const FORCE_TOLERANCE: f64 = 1e-4;
 
 fn module() -> naga::Module {
@@ -245,7 +245,7 @@ fn two_runs_give_the_same_bits() {
     assert_eq!(run(), run());
 }
 
-/// Flat to compact, both stages being asked for on `device`.
+/// Flat to compact, both stages, on `device`.
 fn fold(device: Device) -> (Run, Vec<DVec3>) {
     let units = UnitSheet::new(Unit::new(Case::E, 1.0, 1.0, None, None).unwrap(), 3, 2).unwrap();
     let model = Model::new(&units.sheet, &Material::default()).unwrap();

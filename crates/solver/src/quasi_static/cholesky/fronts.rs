@@ -6,17 +6,18 @@
 
 /// The most nodes eliminated in one front: wider ones are cut, so that kernels need no blocking of their own.
 const WIDEST: usize = 24;
-/// What a front costs by itself, for each of its columns, and for each entry that it hands to its parent, in multiply-adds.
+/// The cost of a front itself, of each of its columns, and of each entry that it passes to its parent, in
+/// multiply-adds.
 const PER_FRONT: f64 = 2_000.0;
 const PER_COLUMN: f64 = 100.0;
 const PER_ENTRY: f64 = 6.0;
 /// No parent.
 const ROOT: u32 = u32::MAX;
 
-/// Which nodes are eliminated together, in the order of elimination: every front after those below it in the tree, the
+/// The nodes eliminated together, in the order of elimination: every front after those below it in the tree, the
 /// fronts below one directly before it.
 pub(super) struct Fronts {
-    /// The place of each node in the order of elimination.
+    /// The rank of each node: its position in the order of elimination.
     pub(super) ranks: Vec<u32>,
     /// Front f eliminates the ranks `first[f]..first[f + 1]`.
     pub(super) first: Vec<u32>,
@@ -90,8 +91,8 @@ impl Fronts {
             starts.push(rows.len() as u32);
         }
         let mut of_nodes = vec![0u32; nodes];
-        for (place, &node) in order.iter().enumerate() {
-            of_nodes[node as usize] = ranks[place];
+        for (rank, &node) in order.iter().enumerate() {
+            of_nodes[node as usize] = ranks[rank];
         }
         Self {
             ranks: of_nodes,
@@ -111,16 +112,16 @@ fn minimum_degree(nodes: usize, starts: &[u32], blocks: &[u32]) -> Result<Vec<u3
     Ok(order)
 }
 
-/// The neighbours of every place in the order.
+/// The neighbours of every rank.
 fn permuted_neighbours(order: &[u32], starts: &[u32], blocks: &[u32]) -> Vec<Vec<u32>> {
-    let mut places = vec![0u32; order.len()];
-    for (place, &node) in order.iter().enumerate() {
-        places[node as usize] = place as u32;
+    let mut rank_of = vec![0u32; order.len()];
+    for (rank, &node) in order.iter().enumerate() {
+        rank_of[node as usize] = rank as u32;
     }
     let mut neighbours = vec![Vec::new(); order.len()];
     for (column, ends) in starts.windows(2).enumerate() {
         for &row in &blocks[ends[0] as usize..ends[1] as usize] {
-            let (a, b) = (places[column], places[row as usize]);
+            let (a, b) = (rank_of[column], rank_of[row as usize]);
             if a != b {
                 neighbours[a as usize].push(b);
                 neighbours[b as usize].push(a);
@@ -178,7 +179,7 @@ fn fill(neighbours: &[Vec<u32>], parents: &[u32]) -> Vec<Vec<u32>> {
     columns
 }
 
-/// The nodes merged into groups, each at the place of its last node.
+/// The nodes merged into groups, each at the index of its last node.
 fn merge(parents: &[u32], columns: &[Vec<u32>]) -> Vec<Option<Group>> {
     let mut groups: Vec<Option<Group>> = Vec::with_capacity(parents.len());
     let mut below: Vec<Vec<u32>> = vec![Vec::new(); parents.len()];
@@ -214,7 +215,7 @@ fn is_cheaper_merged(group: &Group, child: &Group) -> bool {
         && cost(own + other, group.rows) <= cost(own, group.rows) + cost(other, child.rows)
 }
 
-/// What it costs to eliminate `columns` nodes with `rows` below, in multiply-adds.
+/// The cost of eliminating `columns` nodes with `rows` below, in multiply-adds.
 fn cost(columns: usize, rows: usize) -> f64 {
     let [k, u] = [columns, rows].map(|nodes| 3.0 * nodes as f64);
     0.5 * k * u * (u + k) + k * k * k / 6.0 + PER_ENTRY * u * u + PER_COLUMN * k + PER_FRONT

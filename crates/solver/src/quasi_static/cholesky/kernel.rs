@@ -2,7 +2,8 @@
 //!
 //! Matrices are stored by columns. The panel of a front has the columns eliminated in it: first, up to a multiple of
 //! [`PADDING`], empty rows and the rows of the columns themselves, then the rows below, padded by zeros in turn. The
-//! diagonal of a factorised panel holds the inverse of that of the factor. Above the diagonal lie numbers of no meaning.
+//! diagonal of a factorised panel holds the inverse of that of the factor. Above the diagonal lie numbers of no
+//! meaning.
 
 use pulp::Simd;
 
@@ -78,7 +79,7 @@ pub(super) fn factorise_panel<S: Simd>(simd: S, panel: &mut [f64], shape: Shape)
     true
 }
 
-/// Columns, each `height` long, of which the rows from `from` on count.
+/// Columns, each `height` long; only the rows from `from` on count.
 #[derive(Clone, Copy)]
 struct Columns<'a> {
     scalars: &'a [f64],
@@ -87,7 +88,8 @@ struct Columns<'a> {
 }
 
 impl Columns<'_> {
-    /// Subtracts from V vectors, at `at`, of N columns of `target` those of the product of the columns with the rows from
+    /// Subtracts from V vectors, at `at`, of N columns of `target` those of the product of the columns with the rows
+    /// from
     /// `row` on. The columns of `target` lie `distance` apart.
     #[inline(always)]
     fn subtract_product<S: Simd, const V: usize, const N: usize>(

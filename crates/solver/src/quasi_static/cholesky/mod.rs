@@ -17,10 +17,10 @@ use pulp::{Arch, Simd, WithSimd};
 use self::fronts::Fronts;
 use self::kernel::{Shape, factorise_panel, solve_backward, solve_forward, subtract_product};
 
-/// Where a block of the matrix goes: the place of its first scalar in the panel of its column.
+/// The position of a block of the matrix: the index of its first scalar in the panel of its columns.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) struct Place {
-    at: u32,
+pub(super) struct BlockOffset {
+    scalars: u32,
 }
 
 /// The factor of a matrix of one pattern, and the workspace to compute it.
@@ -30,7 +30,7 @@ pub(super) struct Cholesky {
     /// The panel of front f is `panels[panel_starts[f]..panel_starts[f + 1]]`.
     panel_starts: Vec<u32>,
     panels: Vec<f64>,
-    /// For each row of each front, as in `fronts.rows`: the row of the parent's panel it is handed to.
+    /// For each row of each front, as in `fronts.rows`: the row of the parent's panel that it is added to.
     handed_to: Vec<u32>,
     /// The updates not yet taken up.
     pending: Vec<f64>,
@@ -43,7 +43,7 @@ impl Cholesky {
     /// Analyses the pattern: node column j has the rows `blocks[starts[j]..starts[j + 1]]`, j itself and greater ones.
     ///
     /// # Errors
-    /// A sentence where the factor is too large.
+    /// The reason, as a sentence, if the matrix is too large.
     pub(super) fn new(nodes: usize, starts: &[u32], blocks: &[u32]) -> Result<Self, &'static str> {
         let fronts = Fronts::new(nodes, starts, blocks)?;
         let shape = |f: usize| Shape {
@@ -72,13 +72,13 @@ impl Cholesky {
         })
     }
 
-    /// Where in the order of elimination each node stands.
+    /// The rank of each node: its position in the order of elimination.
     pub(super) fn ranks(&self) -> &[u32] {
         &self.fronts.ranks
     }
 
-    /// Where the block of a node column and row goes, both by ranks. Precondition: row ≥ column, in the pattern.
-    pub(super) fn place(&self, row: u32, column: u32) -> Option<Place> {
+    /// The offset of the block of a node column and row, both by ranks. Precondition: row ≥ column, in the pattern.
+    pub(super) fn offset(&self, row: u32, column: u32) -> Option<BlockOffset> {
         let f = self.fronts.first.partition_point(|&first| first <= column) - 1;
         let shape = self.shapes[f];
         let inside = 3 * (column - self.fronts.first[f]) as usize;
@@ -87,24 +87,24 @@ impl Cholesky {
         } else {
             shape.head() + 3 * self.fronts.rows(f).binary_search(&row).ok()?
         };
-        Some(Place {
-            at: (inside * shape.height() + panel_row) as u32,
+        Some(BlockOffset {
+            scalars: (inside * shape.height() + panel_row) as u32,
         })
     }
 
     /// Factorises the matrix with `shift` added to its diagonal; false where it is not positive definite.
     ///
-    /// The blocks of the node column of rank j are `values[starts[j]..starts[j + 1]]`, at the `places` of theirs.
+    /// The blocks of the node column of rank j are `values[starts[j]..starts[j + 1]]`, at these `offsets`.
     pub(super) fn factorise(
         &mut self,
         starts: &[u32],
-        places: &[Place],
+        offsets: &[BlockOffset],
         values: &[[f64; 9]],
         shift: f64,
     ) -> bool {
         self.arch.dispatch(Elimination {
             starts,
-            places,
+            offsets,
             values,
             shift,
             fronts: &self.fronts,
@@ -129,7 +129,7 @@ impl Cholesky {
     }
 }
 
-/// The rows of the parents' panels that the rows of each front are handed to.
+/// The rows of the parents' panels that the rows of each front are added to.
 fn handed_to(fronts: &Fronts, shapes: &[Shape]) -> Vec<u32> {
     let mut all = Vec::with_capacity(fronts.rows.len());
     for f in 0..fronts.count() {
@@ -172,7 +172,7 @@ fn most_pending(fronts: &Fronts, shapes: &[Shape]) -> usize {
 /// One numeric factorisation.
 struct Elimination<'a> {
     starts: &'a [u32],
-    places: &'a [Place],
+    offsets: &'a [BlockOffset],
     values: &'a [[f64; 9]],
     shift: f64,
     fronts: &'a Fronts,
@@ -197,9 +197,12 @@ impl WithSimd for Elimination<'_> {
             let [first, last] = [f, f + 1].map(|f| self.fronts.first[f] as usize);
             let blocks = self.starts[first] as usize..self.starts[last] as usize;
             panel.fill(0.0);
-            for (place, block) in self.places[blocks.clone()].iter().zip(&self.values[blocks]) {
+            for (offset, block) in self.offsets[blocks.clone()]
+                .iter()
+                .zip(&self.values[blocks])
+            {
                 for (column, scalars) in block.as_chunks::<3>().0.iter().enumerate() {
-                    let at = place.at as usize + column * shape.height();
+                    let at = offset.scalars as usize + column * shape.height();
                     panel[at..at + 3].copy_from_slice(scalars);
                 }
             }
@@ -262,10 +265,10 @@ fn take_up(panel: &mut [f64], update: &mut [f64], shape: Shape, handed: &[f64], 
             };
             for (&row, scalars) in to[j..].iter().zip(from[3 * j..].as_chunks::<3>().0) {
                 let at = row as usize - above;
-                let place = &mut column[at..at + 3];
-                place[0] += scalars[0];
-                place[1] += scalars[1];
-                place[2] += scalars[2];
+                let target = &mut column[at..at + 3];
+                target[0] += scalars[0];
+                target[1] += scalars[1];
+                target[2] += scalars[2];
             }
         }
     }
@@ -300,9 +303,9 @@ impl WithSimd for Solution<'_> {
                 .iter()
                 .zip(own[shape.head()..].as_chunks::<3>().0)
             {
-                let place = &mut self.right[3 * row as usize..][..3];
+                let target = &mut self.right[3 * row as usize..][..3];
                 for axis in 0..3 {
-                    place[axis] += less[axis];
+                    target[axis] += less[axis];
                 }
             }
         }
@@ -312,13 +315,13 @@ impl WithSimd for Solution<'_> {
             own[shape.offset()..shape.head()]
                 .copy_from_slice(&self.right[columns..columns + shape.width]);
             own[shape.head()..].fill(0.0);
-            for (&row, place) in self
+            for (&row, target) in self
                 .fronts
                 .rows(f)
                 .iter()
                 .zip(own[shape.head()..].as_chunks_mut::<3>().0)
             {
-                place.copy_from_slice(&self.right[3 * row as usize..][..3]);
+                target.copy_from_slice(&self.right[3 * row as usize..][..3]);
             }
             solve_backward(simd, panel(self.panels, self.panel_starts, f), own, shape);
             self.right[columns..columns + shape.width]

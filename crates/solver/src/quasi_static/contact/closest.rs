@@ -5,8 +5,8 @@
 //!
 //! ∇_i ½D² = w_i r,  ∇_i∇_j ½D² = w_i w_j I − Σ_kl C_ik (K⁻¹)_kl C_jlᵀ
 //!
-//! with the tangents u_k = Σ (∂w_i/∂t_k) x_i, K_kl = u_k·u_l and C_ik = w_i u_k + (∂w_i/∂t_k) r: one formula for a point
-//! nearest to a corner (no parameter), to an edge (one), to the inside of a facet and for crossing edges (two).
+//! with the tangents u_k = Σ (∂w_i/∂t_k) x_i, K_kl = u_k·u_l and C_ik = w_i u_k + (∂w_i/∂t_k) r: one formula for a
+//! point nearest to a corner (no parameter), to an edge (one), to the inside of a facet and for crossing edges (two).
 
 use glam::{DMat2, DMat3, DVec2, DVec3};
 

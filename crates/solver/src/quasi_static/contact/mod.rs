@@ -20,8 +20,8 @@ use std::collections::BTreeMap;
 use foldmotion_geometry::collide::Tree;
 use glam::{DMat3, DVec3};
 
-use self::near::Near;
-use self::pair::{Pair, PairKind};
+use self::near::NearPairs;
+use self::pair::{ContactPair, PairKind};
 use self::primitives::Primitives;
 use self::step_limit::step_limit;
 use super::configuration::dot;
@@ -66,28 +66,28 @@ pub(super) struct ContactField {
     pub(super) force: f64,
     /// ρ of the pairs that do not keep the whole gap yet.
     admitted: BTreeMap<(PairKind, [u32; 4]), f64>,
-    pairs: Vec<Pair>,
-    near: Near,
-    searched: Searched,
+    pairs: Vec<ContactPair>,
+    near: NearPairs,
+    searched_path: SearchedPath,
     smallest_height: f64,
 }
 
-/// The straight way along which candidates were looked for.
+/// The straight path along which candidates were searched.
 #[derive(Default)]
-struct Searched {
+struct SearchedPath {
     from: Vec<DVec3>,
-    way: Vec<DVec3>,
+    displacement: Vec<DVec3>,
 }
 
-impl Searched {
-    /// Whether no node of `positions` is further than half the margin from where it is at one instant of the way.
+impl SearchedPath {
+    /// Whether no node of `positions` is further than half the margin from where it is at one instant of the path.
     fn holds(&self, positions: &[DVec3]) -> bool {
         if self.from.len() != positions.len() {
             return false;
         }
         let off = || positions.iter().zip(&self.from).map(|(&x, &a)| x - a);
-        let square = dot(&self.way, &self.way);
-        let along: f64 = off().zip(&self.way).map(|(d, &w)| d.dot(w)).sum();
+        let square = dot(&self.displacement, &self.displacement);
+        let along: f64 = off().zip(&self.displacement).map(|(d, &w)| d.dot(w)).sum();
         let time = if square > 0.0 {
             (along / square).clamp(0.0, 1.0)
         } else {
@@ -95,7 +95,7 @@ impl Searched {
         };
         let limit = 0.25 * MARGIN * MARGIN;
         off()
-            .zip(&self.way)
+            .zip(&self.displacement)
             .all(|(d, &w)| (d - w * time).length_squared() <= limit)
     }
 }
@@ -128,8 +128,8 @@ impl ContactField {
             force,
             admitted: BTreeMap::new(),
             pairs: Vec::new(),
-            near: Near::default(),
-            searched: Searched::default(),
+            near: NearPairs::default(),
+            searched_path: SearchedPath::default(),
             smallest_height,
             primitives,
         };
@@ -154,22 +154,26 @@ impl ContactField {
     /// Makes the candidates good for `positions`.
     pub(super) fn prepare(&mut self, positions: &[DVec3]) {
         let still = vec![DVec3::ZERO; positions.len()];
-        self.prepare_way(positions, &still);
+        self.prepare_path(positions, &still);
     }
 
-    /// Makes the candidates good for every state on the straight way from `positions` to `positions` + `way`.
-    pub(super) fn prepare_way(&mut self, positions: &[DVec3], way: &[DVec3]) {
-        let end: Vec<DVec3> = positions.iter().zip(way).map(|(&x, &d)| x + d).collect();
-        // The states near the way searched are a convex set: with the ends of a way it holds all of it.
-        if self.searched.holds(positions) && self.searched.holds(&end) {
+    /// Makes the candidates good for every state on the straight path from `positions` to `positions` + `displacement`.
+    pub(super) fn prepare_path(&mut self, positions: &[DVec3], displacement: &[DVec3]) {
+        let end: Vec<DVec3> = positions
+            .iter()
+            .zip(displacement)
+            .map(|(&x, &d)| x + d)
+            .collect();
+        // The states near the searched path are a convex set: if they hold the ends of a path they hold all of it.
+        if self.searched_path.holds(positions) && self.searched_path.holds(&end) {
             return;
         }
-        self.searched = Searched {
+        self.searched_path = SearchedPath {
             from: positions.to_vec(),
-            way: way.to_vec(),
+            displacement: displacement.to_vec(),
         };
-        self.pairs = self.search(positions, way, self.gap + self.reach + MARGIN);
-        self.near = Near::default();
+        self.pairs = self.search(positions, displacement, self.gap + self.reach + MARGIN);
+        self.near = NearPairs::default();
     }
 
     /// Σ B; infinite where a gap is not kept.
@@ -229,8 +233,8 @@ impl ContactField {
         coupled
     }
 
-    /// The largest t ≤ `limit` for which every pair keeps a tenth of its separation on the way from `positions` along
-    /// t × `direction`. Precondition: candidates prepared for that way.
+    /// The largest t ≤ `limit` for which every pair keeps a tenth of its separation on the path from `positions` along
+    /// t × `direction`. Precondition: candidates prepared for that path.
     pub(super) fn step_limit(
         &mut self,
         positions: &[DVec3],
@@ -248,12 +252,12 @@ impl ContactField {
         })
     }
 
-    /// Whether no layer touches another on the straight way between two states: half of the gap stays.
-    pub(super) fn is_way_free(&mut self, from: &[DVec3], to: &[DVec3]) -> bool {
-        let way: Vec<DVec3> = to.iter().zip(from).map(|(&b, &a)| b - a).collect();
-        self.prepare_way(from, &way);
+    /// Whether no layer touches another on the straight path between two states: half of the gap stays.
+    pub(super) fn is_path_free(&mut self, from: &[DVec3], to: &[DVec3]) -> bool {
+        let displacement: Vec<DVec3> = to.iter().zip(from).map(|(&b, &a)| b - a).collect();
+        self.prepare_path(from, &displacement);
         self.pairs.iter().all(|pair| {
-            let (x, d) = (pair.corners(from), pair.corners(&way));
+            let (x, d) = (pair.corners(from), pair.corners(&displacement));
             step_limit(pair, 0.5 * pair.gap, &x, &d, 1.0) >= 1.0
         })
     }
@@ -277,7 +281,7 @@ impl ContactField {
         }
         self.admitted.retain(|_, most| *most < whole);
         if grown || self.admitted.len() != before {
-            self.searched = Searched::default();
+            self.searched_path = SearchedPath::default();
         }
     }
 
@@ -314,14 +318,20 @@ impl ContactField {
         sorted
     }
 
-    /// Every pair that may come nearer than `within` on the straight way from `positions` to `positions` + `way`.
-    fn search(&mut self, positions: &[DVec3], way: &[DVec3], within: f64) -> Vec<Pair> {
-        let boxes = self.primitives.boxes(positions, way, 0.5 * within);
+    /// Every pair that may come nearer than `within` on the straight path from `positions` to `positions` +
+    /// `displacement`.
+    fn search(
+        &mut self,
+        positions: &[DVec3],
+        displacement: &[DVec3],
+        within: f64,
+    ) -> Vec<ContactPair> {
+        let boxes = self.primitives.boxes(positions, displacement, 0.5 * within);
         self.tree.refit(&boxes);
         let mut pairs = Vec::new();
         for (a, b) in self.tree.overlapping_pairs(&boxes) {
             self.primitives.visit_pairs(a, b, |kind, nodes, mollifier| {
-                let mut pair = Pair {
+                let mut pair = ContactPair {
                     kind,
                     nodes,
                     faces: [a, b],
@@ -330,7 +340,7 @@ impl ContactField {
                     mollifier,
                 };
                 let distance = pair.closest(&pair.corners(positions)).distance;
-                let nearest = distance - pair.speed(&pair.corners(way));
+                let nearest = distance - pair.speed(&pair.corners(displacement));
                 if nearest < within && self.keeps_gap(&mut pair) {
                     pairs.push(pair);
                 }
@@ -340,7 +350,7 @@ impl ContactField {
     }
 
     /// Sets the gap and the reach of an admitted pair; false where it is left alone.
-    fn keeps_gap(&self, pair: &mut Pair) -> bool {
+    fn keeps_gap(&self, pair: &mut ContactPair) -> bool {
         let Some(&most) = self.admitted.get(&(pair.kind, pair.nodes)) else {
             return true;
         };

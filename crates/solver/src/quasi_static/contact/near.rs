@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use super::super::configuration::largest;
-use super::pair::Pair;
+use super::pair::ContactPair;
 
 /// By how much of the moves the bounds are lowered further, so that rounding never leaves one too high.
 const ROUNDING: f64 = 1e-9;
@@ -13,26 +13,26 @@ const ROUNDING: f64 = 1e-9;
 /// A distance falls by at most twice the largest move of a node: far pairs are measured again only when the moves add
 /// up to what keeps them out of reach.
 #[derive(Default)]
-pub(super) struct Near {
+pub(super) struct NearPairs {
     positions: Vec<DVec3>,
     /// No candidate is closer than this.
     pub(super) least: Vec<f64>,
     active: Vec<u32>,
 }
 
-impl Near {
+impl NearPairs {
     /// The pairs within reach at `positions`, in order. Precondition: the same pairs since this was made.
     pub(super) fn active<'a>(
         &'a mut self,
-        pairs: &'a [Pair],
+        pairs: &'a [ContactPair],
         positions: &[DVec3],
-    ) -> impl Iterator<Item = &'a Pair> {
+    ) -> impl Iterator<Item = &'a ContactPair> {
         self.move_to(pairs, positions);
         self.active.iter().map(|&index| &pairs[index as usize])
     }
 
     /// Makes the bounds hold at `positions`.
-    pub(super) fn move_to(&mut self, pairs: &[Pair], positions: &[DVec3]) {
+    pub(super) fn move_to(&mut self, pairs: &[ContactPair], positions: &[DVec3]) {
         if self.positions == positions && self.least.len() == pairs.len() {
             return;
         }

@@ -1,8 +1,8 @@
 //! A pair of primitives in contact: its barrier and the derivatives of it.
 //!
 //! With the separation δ = D − g, D the distance and g the gap of the pair, the barrier of Li et al. 2020 ("Incremental
-//! potential contact"), offset by the gap as in Li, Kaufman, Jiang 2021 ("Codimensional incremental potential contact"),
-//! is
+//! potential contact"), offset by the gap as in Li, Kaufman, Jiang 2021 ("Codimensional incremental potential
+//! contact"), is
 //!
 //! B = F d̂ β(δ/d̂),  β(y) = −(y − 1)² ln y for 0 < y < 1, 0 above,
 //!
@@ -30,7 +30,7 @@ pub(super) enum PairKind {
 
 /// Two primitives that share no vertex.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Pair {
+pub(super) struct ContactPair {
     pub(super) kind: PairKind,
     pub(super) nodes: [u32; 4],
     /// The triangles it was found from.
@@ -43,7 +43,7 @@ pub(super) struct Pair {
     pub(super) mollifier: f64,
 }
 
-impl Pair {
+impl ContactPair {
     /// ε for edges of these rest lengths.
     pub(super) fn mollifier(lengths: [f64; 2]) -> f64 {
         MOLLIFIED * (lengths[0] * lengths[1]).powi(2)
@@ -232,9 +232,9 @@ mod tests {
     use super::*;
 
     /// Pairs at about half of their reach: a vertex over a facet, crossing edges, nearly parallel edges.
-    fn cases() -> [(Pair, [DVec3; 4]); 3] {
+    fn cases() -> [(ContactPair, [DVec3; 4]); 3] {
         let v = DVec3::new;
-        let pair = |kind, mollifier| Pair {
+        let pair = |kind, mollifier| ContactPair {
             kind,
             nodes: [0, 1, 2, 3],
             faces: [0, 1],
@@ -242,7 +242,7 @@ mod tests {
             reach: 2e-2,
             mollifier,
         };
-        let edges = pair(PairKind::EdgeEdge, Pair::mollifier([1.0, 1.0]));
+        let edges = pair(PairKind::EdgeEdge, ContactPair::mollifier([1.0, 1.0]));
         let z = 0.018;
         [
             (

@@ -7,7 +7,7 @@
 use foldmotion_geometry::Aabb;
 use glam::DVec3;
 
-use super::pair::{Pair, PairKind};
+use super::pair::{ContactPair, PairKind};
 use crate::Model;
 
 /// Crossings shallower than this, in unit lengths, are rounding.
@@ -51,13 +51,19 @@ impl Primitives {
         }
     }
 
-    /// The box of every triangle on the straight way from `positions` to `positions` + `way` (empty: at rest), every
-    /// face moved out by `radius`.
-    pub(super) fn boxes(&self, positions: &[DVec3], way: &[DVec3], radius: f64) -> Vec<Aabb> {
+    /// The box of every triangle on the straight path from `positions` to `positions` + `displacement` (empty: at
+    /// rest), every face moved out by `radius`.
+    pub(super) fn boxes(
+        &self,
+        positions: &[DVec3],
+        displacement: &[DVec3],
+        radius: f64,
+    ) -> Vec<Aabb> {
         let around = |face: &[u32; 3]| {
             let start = face.map(|v| positions[v as usize]);
-            let end = face
-                .map(|v| positions[v as usize] + way.get(v as usize).copied().unwrap_or_default());
+            let end = face.map(|v| {
+                positions[v as usize] + displacement.get(v as usize).copied().unwrap_or_default()
+            });
             Aabb::around(start.into_iter().chain(end)).inflated(radius)
         };
         self.faces.iter().map(around).collect()
@@ -93,7 +99,7 @@ impl Primitives {
             for &(second, other_length) in &self.edges[b as usize] {
                 if first.iter().all(|v| !second.contains(v)) {
                     let nodes = [first[0], first[1], second[0], second[1]];
-                    let mollifier = Pair::mollifier([length, other_length]);
+                    let mollifier = ContactPair::mollifier([length, other_length]);
                     visit(PairKind::EdgeEdge, nodes, mollifier);
                 }
             }

@@ -6,7 +6,7 @@
 
 use glam::DVec3;
 
-use super::pair::Pair;
+use super::pair::ContactPair;
 
 /// The share of the separation that a step leaves.
 const KEPT: f64 = 0.1;
@@ -15,7 +15,13 @@ const MAX_ADVANCES: usize = 500;
 
 /// The largest t ≤ `limit` for which the pair keeps a tenth of its separation over `gap` while its corners `x` move
 /// to x + t d. Conservative: the true limit is never passed, but for rounding.
-pub(super) fn step_limit(pair: &Pair, gap: f64, x: &[DVec3; 4], d: &[DVec3; 4], limit: f64) -> f64 {
+pub(super) fn step_limit(
+    pair: &ContactPair,
+    gap: f64,
+    x: &[DVec3; 4],
+    d: &[DVec3; 4],
+    limit: f64,
+) -> f64 {
     let speed = pair.speed(d);
     let start = pair.closest(x).distance - gap;
     if start > speed * limit {
@@ -46,12 +52,10 @@ mod tests {
     use super::super::pair::PairKind;
     use super::*;
 
-    /// Numbers in [−1, 1) from a linear congruential generator.
-    fn numbers(mut seed: u64) -> impl FnMut() -> f64 {
-        move || {
-            seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
-            (seed >> 11) as f64 / (1u64 << 52) as f64 - 1.0
-        }
+    /// Random numbers in [−1, 1).
+    fn numbers(seed: u64) -> impl FnMut() -> f64 {
+        let mut random = fastrand::Rng::with_seed(seed);
+        move || 2.0 * random.f64() - 1.0
     }
 
     #[test]
@@ -66,7 +70,7 @@ mod tests {
             } else {
                 PairKind::EdgeEdge
             };
-            let pair = Pair {
+            let pair = ContactPair {
                 kind,
                 nodes: [0, 1, 2, 3],
                 faces: [0, 1],

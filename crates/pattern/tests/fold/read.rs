@@ -1,8 +1,10 @@
+//! FOLD read as a motion: what is read, and what is refused by name and index.
+
+use foldmotion_pattern::{
+    Assignment, Case, FoldError, FoldFile, FoldHeader, Frame, Motion, Unit, UnitSheet,
+};
 use glam::DVec3;
 use serde_json::{Value, json};
-
-use super::{FoldError, FoldFile};
-use crate::{Assignment, Case, FoldHeader, Frame, Motion, Unit, UnitSheet};
 
 fn frames(text: &str) -> Result<(FoldFile, Vec<Frame>), FoldError> {
     let file = FoldFile::read(text.as_bytes())?;
@@ -94,7 +96,7 @@ fn our_own_motion_reads_back_bitwise() {
 }
 
 #[test]
-fn a_pattern_is_no_frame_of_the_motion_and_times_default_to_the_index() {
+fn a_pattern_is_not_a_frame_of_the_motion_and_times_default_to_the_index() {
     let (file, read) = frames(&square().to_string()).unwrap();
     assert_eq!(read.iter().map(|f| f.time).collect::<Vec<_>>(), [0.0, 1.0]);
     assert_eq!(
@@ -294,7 +296,7 @@ fn text_that_is_no_whole_json_is_refused_wherever_it_ends() {
 }
 
 #[test]
-fn a_caller_that_ends_the_walk_gets_its_own_error() {
+fn a_caller_that_ends_the_reading_gets_its_own_error() {
     #[derive(Debug, PartialEq)]
     struct Enough(usize);
     impl From<FoldError> for Enough {

@@ -1,9 +1,9 @@
-//! The sheet in the hand.
+//! A sheet moved interactively: it follows the time, gives way to a pull, and recovers.
 
 use crate::sheets::{deployed, units};
 use foldmotion_geometry::RigidMotion;
 use foldmotion_pattern::{Case, UnitSheet};
-use foldmotion_solver::dynamic::{Hand, Pull};
+use foldmotion_solver::dynamic::{InteractiveSheet, Pull};
 use foldmotion_solver::{Material, Model, Schedule, SolverError, Stage};
 use glam::DVec3;
 
@@ -26,15 +26,15 @@ fn sheet(rows: usize, columns: usize) -> Sheet {
 }
 
 impl Sheet {
-    fn held(&self) -> Hand<'_> {
-        Hand::new(&self.model, &self.schedule, &Stage::ALL, &self.start, 0.0).unwrap()
+    fn interaction(&self) -> InteractiveSheet<'_> {
+        InteractiveSheet::new(&self.model, &self.schedule, &Stage::ALL, &self.start, 0.0).unwrap()
     }
 }
 
-fn settle(hand: &mut Hand<'_>) {
+fn settle(interaction: &mut InteractiveSheet<'_>) {
     for _ in 0..400 {
-        hand.advance(500).unwrap();
-        if hand.is_at_rest() {
+        interaction.advance(500).unwrap();
+        if interaction.is_at_rest() {
             return;
         }
     }
@@ -53,53 +53,55 @@ fn apart(from: &[DVec3], to: &[DVec3]) -> f64 {
 #[test]
 fn a_sheet_aimed_at_the_end_reaches_the_exact_compact_state_and_comes_back() {
     let sheet = sheet(3, 2);
-    let mut hand = sheet.held();
-    hand.aim(2.0);
-    settle(&mut hand);
-    assert_eq!(hand.time(), 2.0);
+    let mut interaction = sheet.interaction();
+    interaction.aim(2.0);
+    settle(&mut interaction);
+    assert_eq!(interaction.time(), 2.0);
     assert!(
-        hand.fold_angle_error() < 1e-3,
+        interaction.fold_angle_error() < 1e-3,
         "{}",
-        hand.fold_angle_error()
+        interaction.fold_angle_error()
     );
     let compact = sheet.units.compact();
-    assert!(apart(&hand.positions(), &compact) < 1e-2);
-    hand.aim(0.0);
-    settle(&mut hand);
-    assert!(apart(&hand.positions(), &sheet.start) < 1e-2);
+    assert!(apart(&interaction.positions(), &compact) < 1e-2);
+    interaction.aim(0.0);
+    settle(&mut interaction);
+    assert!(apart(&interaction.positions(), &sheet.start) < 1e-2);
 }
 
 #[test]
 fn a_sheet_can_be_taken_up_in_any_state_of_its_motion() {
     let sheet = sheet(2, 2);
-    let mut first = sheet.held();
+    let mut first = sheet.interaction();
     first.aim(1.6);
     settle(&mut first);
     let middle = first.positions();
-    let mut hand = Hand::new(&sheet.model, &sheet.schedule, &Stage::ALL, &middle, 1.6).unwrap();
-    settle(&mut hand);
-    assert!(apart(&hand.positions(), &middle) < 1e-4);
+    let mut interaction =
+        InteractiveSheet::new(&sheet.model, &sheet.schedule, &Stage::ALL, &middle, 1.6).unwrap();
+    settle(&mut interaction);
+    assert!(apart(&interaction.positions(), &middle) < 1e-4);
     let compact = sheet.units.compact();
-    let mut hand = Hand::new(&sheet.model, &sheet.schedule, &Stage::ALL, &compact, 2.0).unwrap();
-    settle(&mut hand);
-    assert!(apart(&hand.positions(), &compact) < 1e-3);
+    let mut interaction =
+        InteractiveSheet::new(&sheet.model, &sheet.schedule, &Stage::ALL, &compact, 2.0).unwrap();
+    settle(&mut interaction);
+    assert!(apart(&interaction.positions(), &compact) < 1e-3);
 }
 
 #[test]
 fn a_pulled_vertex_moves_towards_the_point_and_back_when_let_go() {
     let sheet = sheet(3, 2);
-    let mut hand = sheet.held();
-    hand.aim(1.5);
-    settle(&mut hand);
-    let before = hand.positions();
+    let mut interaction = sheet.interaction();
+    interaction.aim(1.5);
+    settle(&mut interaction);
+    let before = interaction.positions();
     for vertex in [0, before.len() / 2, before.len() - 1] {
         let point = before[vertex] + DVec3::new(0.4, -0.3, 1.0);
-        hand.pull(Some(Pull {
+        interaction.pull(Some(Pull {
             vertex: vertex as u32,
             point,
         }));
-        settle(&mut hand);
-        let pulled = hand.positions();
+        settle(&mut interaction);
+        let pulled = interaction.positions();
         let [was, is] = [before[vertex], pulled[vertex]].map(|p| p.distance(point));
         assert!(is < 0.9 * was, "vertex {vertex}: {is} of {was}");
         let middle = |p: &[DVec3]| p.iter().sum::<DVec3>() / p.len() as f64;
@@ -107,11 +109,14 @@ fn a_pulled_vertex_moves_towards_the_point_and_back_when_let_go() {
             middle(&pulled).distance(middle(&before)) < 0.5 * was,
             "it stays in place"
         );
-        hand.pull(None);
-        settle(&mut hand);
-        assert!(apart(&hand.positions(), &before) < 1e-3, "vertex {vertex}");
+        interaction.pull(None);
+        settle(&mut interaction);
         assert!(
-            hand.positions()[vertex].distance(before[vertex]) < 0.3,
+            apart(&interaction.positions(), &before) < 1e-3,
+            "vertex {vertex}"
+        );
+        assert!(
+            interaction.positions()[vertex].distance(before[vertex]) < 0.3,
             "it is where it was"
         );
     }
@@ -120,38 +125,38 @@ fn a_pulled_vertex_moves_towards_the_point_and_back_when_let_go() {
 #[test]
 fn violence_never_gives_a_position_that_is_no_number() {
     let sheet = sheet(3, 2);
-    let mut hand = sheet.held();
+    let mut interaction = sheet.interaction();
     let far = 100.0 * sheet.units.sheet.unit_length * 6.0;
     let count = sheet.start.len() as u32;
     for round in 0..2_000_u32 {
-        hand.aim(if round % 2 == 0 { 2.0 } else { 0.0 });
+        interaction.aim(if round % 2 == 0 { 2.0 } else { 0.0 });
         if round % 7 == 0 {
             let turn = f64::from(round);
-            hand.pull(Some(Pull {
+            interaction.pull(Some(Pull {
                 vertex: round * 13 % count,
                 point: far * DVec3::new(turn.cos(), turn.sin(), (2.0 * turn).cos()),
             }));
         }
-        if let Err(error) = hand.advance(10) {
+        if let Err(error) = interaction.advance(10) {
             assert!(matches!(error, SolverError::Diverged { .. }), "{error}");
         }
         assert!(
-            hand.positions().iter().all(|p| p.is_finite()),
+            interaction.positions().iter().all(|p| p.is_finite()),
             "round {round}"
         );
-        assert!((0.0..=2.0).contains(&hand.time()));
+        assert!((0.0..=2.0).contains(&interaction.time()));
     }
-    hand.pull(None);
-    hand.aim(0.0);
-    settle(&mut hand);
-    assert!(hand.positions().iter().all(|p| p.is_finite()));
+    interaction.pull(None);
+    interaction.aim(0.0);
+    settle(&mut interaction);
+    assert!(interaction.positions().iter().all(|p| p.is_finite()));
 }
 
 #[test]
-fn what_no_hand_can_do_is_refused_or_lets_go() {
+fn what_does_not_fit_is_refused_or_ends_the_pull() {
     let sheet = sheet(1, 1);
     let new = |stages: &[Stage], start: &[DVec3], time: f64| {
-        Hand::new(&sheet.model, &sheet.schedule, stages, start, time).err()
+        InteractiveSheet::new(&sheet.model, &sheet.schedule, stages, start, time).err()
     };
     let start = &sheet.start;
     assert!(matches!(
@@ -165,18 +170,18 @@ fn what_no_hand_can_do_is_refused_or_lets_go() {
     ));
     let lost = new(&Stage::ALL, start, f64::NAN);
     assert!(matches!(lost, Some(SolverError::NotFinite { .. })));
-    let mut hand = sheet.held();
-    hand.aim(f64::NAN);
+    let mut interaction = sheet.interaction();
+    interaction.aim(f64::NAN);
     let point = DVec3::splat(f64::NAN);
-    hand.pull(Some(Pull { vertex: 0, point }));
-    hand.pull(Some(Pull {
+    interaction.pull(Some(Pull { vertex: 0, point }));
+    interaction.pull(Some(Pull {
         vertex: u32::MAX,
         point: DVec3::ZERO,
     }));
-    settle(&mut hand);
-    assert_eq!(hand.time(), 0.0);
-    assert!(apart(&hand.positions(), start) < 1e-6);
-    hand.aim(7.0);
-    settle(&mut hand);
-    assert_eq!(hand.time(), 2.0);
+    settle(&mut interaction);
+    assert_eq!(interaction.time(), 0.0);
+    assert!(apart(&interaction.positions(), start) < 1e-6);
+    interaction.aim(7.0);
+    settle(&mut interaction);
+    assert_eq!(interaction.time(), 2.0);
 }

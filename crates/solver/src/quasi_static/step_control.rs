@@ -1,10 +1,11 @@
-//! How long load steps are.
+//! The control of the length of load steps.
 
-use super::newton::Settled;
+use super::newton::SearchOutcome;
 
 /// A load step that settled within this many iterations is followed by a longer one.
 const EASY_ITERATIONS: usize = 10;
-/// After one that took more factorisations than this, shorter ones lead on faster: what they are extrapolated to is nearer.
+/// After one that took more factorisations than this, shorter ones lead on faster: what they are extrapolated to is
+/// nearer.
 const COSTLY_FACTORISATIONS: usize = 8;
 const MOST_SHORTENED: f64 = 8.0;
 /// A stage has at least as many load steps as with 240 frames, so that the path does not depend on how few frames are
@@ -15,20 +16,20 @@ const STEP_FACTOR: f64 = 2.0;
 /// Load steps shortened to this share of the longest are given the budget of a snap.
 const SNAP_STEP: f64 = 0.1;
 /// No load step is shortened below this share of the longest. Where equilibria follow each other so closely that each
-/// takes many factorisations however short the way to it, as in a near-rigid sheet that gives way bit by bit, steps would
+/// takes many factorisations however near it is, as in a near-rigid sheet that yields bit by bit, steps would
 /// otherwise shrink until time stands still.
 const LEAST_STEP: f64 = 1e-3;
 
 /// The length of the load steps of one stage, in stage-local time.
 #[derive(Debug, Clone)]
-pub(super) struct Pace {
+pub(super) struct StepControl {
     least_steps: usize,
     longest: f64,
     length: f64,
     in_contact: bool,
 }
 
-impl Pace {
+impl StepControl {
     /// The step control of a stage with `frames` / 2 recorded states.
     pub(super) fn new(frames: usize, in_contact: bool) -> Self {
         let least_steps = LEAST_STEPS.max(frames / 2);
@@ -41,12 +42,12 @@ impl Pace {
         }
     }
 
-    /// How many load steps the stage has if all are of the longest.
+    /// The number of load steps of the stage if all have the largest length.
     pub(super) fn least_steps(&self) -> usize {
         self.least_steps
     }
 
-    /// Where the load step from `s` ends, and whether that is `goal`.
+    /// The end of the load step from `s`, and whether that is `goal`.
     pub(super) fn next(&self, s: f64, goal: f64) -> (f64, bool) {
         // A step that would leave less than half of itself before the frame is stretched to it.
         let reaches = goal - s <= 1.5 * self.length;
@@ -64,7 +65,7 @@ impl Pace {
     }
 
     /// Lengthens or shortens the steps by what the last one, which found one, took.
-    pub(super) fn adapt(&mut self, settled: &Settled) {
+    pub(super) fn adapt(&mut self, settled: &SearchOutcome) {
         self.set(self.length * self.growth(settled));
     }
 
@@ -73,7 +74,7 @@ impl Pace {
     }
 
     /// By how much longer the next load step may be.
-    fn growth(&self, settled: &Settled) -> f64 {
+    fn growth(&self, settled: &SearchOutcome) -> f64 {
         let excess = settled.factorisations as f64 / COSTLY_FACTORISATIONS as f64;
         if excess > 1.0 && !self.in_contact {
             1.0 / excess.min(MOST_SHORTENED)
@@ -89,8 +90,8 @@ impl Pace {
 mod tests {
     use super::*;
 
-    fn settled(iterations: usize) -> Settled {
-        Settled {
+    fn settled(iterations: usize) -> SearchOutcome {
+        SearchOutcome {
             converged: true,
             residual: 0.0,
             iterations,
@@ -101,12 +102,12 @@ mod tests {
     #[test]
     fn steps_that_stay_costly_however_short_end_the_stage_all_the_same() {
         for frames in [2, 180, 240, 100_000] {
-            let mut pace = Pace::new(frames, false);
-            let most = 1_000 * pace.least_steps() + 1;
+            let mut load_steps = StepControl::new(frames, false);
+            let most = 1_000 * load_steps.least_steps() + 1;
             let (mut s, mut steps) = (0.0, 0);
             while s < 1.0 && steps <= most {
-                s = pace.next(s, 1.0).0;
-                pace.adapt(&settled(1_000));
+                s = load_steps.next(s, 1.0).0;
+                load_steps.adapt(&settled(1_000));
                 steps += 1;
             }
             assert!(s == 1.0 && steps > most / 2, "{frames}: {s} {steps}");
@@ -115,27 +116,27 @@ mod tests {
 
     #[test]
     fn steps_that_fail_become_short_and_shrink_no_further_than_the_floor() {
-        let mut pace = Pace::new(240, true);
+        let mut load_steps = StepControl::new(240, true);
         let mut failures = 0;
-        while !pace.is_short() {
-            pace.shorten(pace.next(0.0, 1.0).0);
+        while !load_steps.is_short() {
+            load_steps.shorten(load_steps.next(0.0, 1.0).0);
             failures += 1;
         }
         assert_eq!(failures, 4);
         for _ in 0..100 {
-            pace.shorten(pace.next(0.0, 1.0).0);
+            load_steps.shorten(load_steps.next(0.0, 1.0).0);
         }
-        let least = pace.next(0.0, 1.0).0;
+        let least = load_steps.next(0.0, 1.0).0;
         assert!((least - LEAST_STEP / 120.0).abs() < 1e-15, "{least}");
     }
 
     #[test]
     fn easy_steps_grow_to_the_spacing_of_frames_and_no_further() {
-        let mut pace = Pace::new(480, false);
-        pace.shorten(1e-9);
+        let mut load_steps = StepControl::new(480, false);
+        load_steps.shorten(1e-9);
         for _ in 0..100 {
-            pace.adapt(&settled(2));
+            load_steps.adapt(&settled(2));
         }
-        assert_eq!(pace.next(0.0, 1.0), (1.0 / 240.0, false));
+        assert_eq!(load_steps.next(0.0, 1.0), (1.0 / 240.0, false));
     }
 }

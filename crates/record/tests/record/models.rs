@@ -1,15 +1,8 @@
 //! 3D files read back.
 
-#![expect(
-    clippy::unwrap_used,
-    reason = "files that cannot be read must fail their test"
-)]
-
-mod common;
-
 use std::collections::BTreeMap;
 
-use common::*;
+use crate::common::*;
 use foldmotion_pattern::{Assignment, Case, Frame, LayerOrder, Motion, Unit, UnitSheet};
 use foldmotion_record::{
     GlbOptions, RecordError, Solid, glb, obj, positions_at, solid, stl, surface_of,

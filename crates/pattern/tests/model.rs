@@ -1,14 +1,15 @@
 //! The built-in profiles: their tables, their sources, their division.
 
+#![expect(clippy::unwrap_used, reason = "a test stops where a value is missing")]
+
 use foldmotion_geometry::{
     Division, DivisionOptions, Profile, divide, divide_from, divide_to_length,
 };
+use foldmotion_pattern::{CaseColumns, ProfileModel, Shape, find_model, models};
 use glam::DVec2;
 
-use super::*;
-
 fn model(name: &str) -> &'static ProfileModel {
-    find(name).unwrap()
+    find_model(name).unwrap()
 }
 
 fn divided(model: &ProfileModel) -> (Profile, Division) {
@@ -72,9 +73,9 @@ fn rows_and_columns_are_those_of_tables_1_and_2() {
             "{}: T narrows the units, S widens them",
             model.name
         );
-        assert_eq!(find(model.name), Some(model));
+        assert_eq!(find_model(model.name), Some(model));
     }
-    assert_eq!(find("Shelter"), None);
+    assert_eq!(find_model("Shelter"), None);
 }
 
 #[test]
@@ -93,17 +94,9 @@ fn every_division_is_equal_to_1e_minus_13_and_never_worse_than_table_1() {
     }
 }
 
-/// A linear congruential generator (Knuth 1997, volume 2, section 3.3.4).
-fn random(state: &mut u64) -> f64 {
-    *state = state
-        .wrapping_mul(6_364_136_223_846_793_005)
-        .wrapping_add(1_442_695_040_888_963_407);
-    (*state >> 11) as f64 / (1_u64 << 53) as f64
-}
-
 #[test]
 fn a_thousand_random_rising_starts_and_even_parameters_reach_the_division_of_even_arc_length() {
-    let mut state = 1;
+    let mut random = fastrand::Rng::with_seed(1);
     for model in models() {
         let profile = model.profile().unwrap();
         let options = DivisionOptions::default();
@@ -112,7 +105,7 @@ fn a_thousand_random_rising_starts_and_even_parameters_reach_the_division_of_eve
             .map(|k| k as f64 / model.rows as f64)
             .collect();
         let random_starts = (0..112).map(|_| {
-            let mut start: Vec<_> = (1..model.rows).map(|_| random(&mut state)).collect();
+            let mut start: Vec<_> = (1..model.rows).map(|_| random.f64()).collect();
             start.extend([0.0, 1.0]);
             start.sort_by(f64::total_cmp);
             start

@@ -13,26 +13,26 @@ pub struct Bounds {
     pub low: DVec3,
     /// The corner with the largest.
     pub high: DVec3,
-    /// What stands at an edge along x, y and z; empty: nothing.
+    /// The text at an edge along x, y and z; empty: none.
     pub sizes: [String; 3],
-    /// What stands below the label, such as a closed form.
+    /// The text below the label, such as a closed form.
     pub words: String,
 }
 
 /// A length of a state, written beside it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Dimension {
-    /// What is measured.
+    /// The two points whose distance is measured.
     pub ends: [DVec3; 2],
     /// A point on the other side than the words, such as the middle of the state.
     pub inside: DVec3,
-    /// What stands at the line, such as "h = 1 m".
+    /// The text at the line, such as "h = 1 m".
     pub words: String,
 }
 
 /// One state of a strip.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Pose<'a> {
+pub struct FigureState<'a> {
     /// One position for each vertex.
     pub positions: Vec<DVec3>,
     /// The order of the triangles that coincide.
@@ -55,7 +55,7 @@ pub struct Pose<'a> {
     pub spot: Option<DVec3>,
 }
 
-impl<'a> Pose<'a> {
+impl<'a> FigureState<'a> {
     /// The state at `positions` with `label` and nothing else.
     pub fn new(positions: Vec<DVec3>, order: &'a LayerOrder, label: impl Into<String>) -> Self {
         Self {

@@ -1,45 +1,45 @@
-//! The sheet in the hand: it follows a motion time that may be moved at will, and can be pulled at a vertex.
+//! A sheet moved interactively: it follows a motion time that may change at any moment, and can be pulled at a vertex.
 //!
-//! It moves by dynamic relaxation (`relaxation`), in which it settles in few steps. The time of the schedule follows the
-//! one aimed at, ever slower the further the creases lag behind their targets. The hand that pulls is a spring that
-//! grows no stronger with the distance; it is balanced by forces −(a + ω × r) on all nodes (inertia relief), so that
-//! the sheet stays where it is however it is pulled.
+//! It moves by dynamic relaxation (`relaxation`), in which it settles in few steps. The time of the schedule follows
+//! the requested one, the more slowly the further the creases lag behind their targets. The pulling force grows with
+//! the distance up to [`REACH`] and stays constant beyond; it is balanced by forces −(a + ω × r) on all nodes (inertia
+//! relief), so that the sheet as a whole stays where it is however it is pulled.
 
 use glam::{DMat3, DVec3};
 
 use super::State;
 use super::lanes::Quad;
 use super::passes::{Hinges, Mass};
-use super::relaxation::{DT, Past, Relaxation};
+use super::relaxation::{DT, Relaxation, StepHistory};
 use crate::{Model, Schedule, SolverError, Stage};
 
-/// Steps between two looks: the time moves on, and the sheet is held in place.
-const STEPS_A_LOOK: usize = 10;
-/// The furthest the motion time moves in a step.
-const PACE: f64 = 1e-3;
-/// The lag of a crease, radians, at which the time moves at half its pace.
-const LAG: f64 = 0.3;
-/// The largest force of the hand, over the axial stiffness: the strain of a bar that it would hold by itself.
-const GRIP: f64 = 0.25;
-/// The distance in unit lengths at which the hand pulls its hardest.
+/// Steps between two updates, at which the time advances and rigid motion is removed.
+const STEPS_PER_UPDATE: usize = 10;
+/// The largest change of motion time in a step.
+const LARGEST_TIME_STEP: f64 = 1e-3;
+/// The lag of a crease, radians, at which the time moves at half its largest speed.
+const HALF_SPEED_LAG: f64 = 0.3;
+/// The largest pulling force over the axial stiffness: the strain of a single bar that carries it.
+const LARGEST_FORCE: f64 = 0.25;
+/// The distance in unit lengths at which the pulling force reaches its largest value.
 const REACH: f64 = 1.0;
-/// A node slower than this, unit lengths a step, is at rest.
+/// A node slower than this, unit lengths per step, is at rest.
 const REST: f64 = 1e-8;
-/// A state may be gone back to where no node is faster, in unit lengths a step.
-const SOUND: f64 = 0.05;
+/// A state is kept as the one to return to if no node is faster, unit lengths per step.
+const SAFE_SPEED: f64 = 0.05;
 
-/// Where a hand pulls.
+/// A vertex and the point to which it is pulled.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Pull {
     /// The vertex that is pulled.
     pub vertex: u32,
-    /// The point it pulls towards, in the sheet's unit.
+    /// The point towards which it is pulled, in the sheet's unit.
     pub point: DVec3,
 }
 
-/// A sheet that is moved by hand.
+/// A sheet that follows a motion time and can be pulled.
 #[derive(Debug)]
-pub struct Hand<'a> {
+pub struct InteractiveSheet<'a> {
     schedule: &'a Schedule,
     stages: Vec<Stage>,
     state: State<'a>,
@@ -47,22 +47,23 @@ pub struct Hand<'a> {
     time: f64,
     aim: f64,
     pull: Option<Pull>,
-    past: Past,
-    /// Looks in a row at which nothing moved.
-    still: u32,
-    sound: Sound,
+    history: StepHistory,
+    /// The number of consecutive updates at which nothing moved.
+    updates_at_rest: u32,
+    safe: SafeState,
 }
 
-/// A state to go back to.
+/// The last state in which the sheet moved slowly; it is restored if the sheet diverges.
 #[derive(Debug, Clone)]
-struct Sound {
+struct SafeState {
     positions: Vec<Quad>,
     hinges: Vec<Hinges>,
     time: f64,
 }
 
-impl<'a> Hand<'a> {
-    /// The sheet of `model` at rest at `start` (one position for each vertex, in the sheet's unit), a state of the motion along
+impl<'a> InteractiveSheet<'a> {
+    /// The sheet of `model` at rest at `start` (one position for each vertex, in the sheet's unit), a state of the
+    /// motion along
     /// `schedule` at motion time `time`. `stages`: those of the motion, in order.
     ///
     /// # Errors
@@ -89,8 +90,8 @@ impl<'a> Hand<'a> {
             return Err(SolverError::NotFinite { what, index: 0 });
         }
         let state = State::at_rest(model, &model.to_model(start));
-        let mut hand = Self {
-            sound: Sound::of(&state, time),
+        let mut interaction = Self {
+            safe: SafeState::of(&state, time),
             schedule,
             stages: stages.to_vec(),
             state,
@@ -98,48 +99,47 @@ impl<'a> Hand<'a> {
             time,
             aim: time,
             pull: None,
-            past: Past::NONE,
-            still: 0,
+            history: StepHistory::NONE,
+            updates_at_rest: 0,
         };
-        hand.time = hand.within(time);
-        hand.aim(time);
-        hand.follow();
+        interaction.time = interaction.within(time);
+        interaction.aim(time);
+        interaction.follow();
         // The targets tell which turn a hinge near ±π is in.
-        hand.state.set_angles(&hand.targets);
-        hand.state.evaluate_forces();
-        hand.sound = Sound::of(&hand.state, hand.time);
-        Ok(hand)
+        interaction.state.set_angles(&interaction.targets);
+        interaction.state.evaluate_forces();
+        interaction.safe = SafeState::of(&interaction.state, interaction.time);
+        Ok(interaction)
     }
 
-    /// Asks for the motion time `time`, taken within the stages; one that is no number changes nothing.
+    /// Sets the motion time to move to, clamped to the stages. A time that is not finite changes nothing.
     pub fn aim(&mut self, time: f64) {
         if time.is_finite() {
             self.aim = self.within(time);
-            self.still = 0;
+            self.updates_at_rest = 0;
         }
     }
 
-    /// Pulls, or lets go. A vertex that the sheet does not have or a point that is not finite lets go.
+    /// Starts or ends a pull. A vertex that the sheet does not have or a point that is not finite ends it.
     pub fn pull(&mut self, pull: Option<Pull>) {
         let count = self.state.model.node_count();
         self.pull = pull.filter(|p| (p.vertex as usize) < count && p.point.is_finite());
-        self.still = 0;
+        self.updates_at_rest = 0;
     }
 
-    /// Moves the sheet on by about `steps` steps, and answers the motion time reached. Needs no more than a look where it
-    /// is at rest.
+    /// Moves the sheet by about `steps` steps and returns the motion time reached. Returns at once if it is at rest.
     ///
     /// # Errors
-    /// [`SolverError::Diverged`] where a node ran away. The hand has then let go, the sheet is back at rest in its last
-    /// sound state, and can be moved on.
+    /// [`SolverError::Diverged`] if a node moved too far. The pull has then ended and the sheet is at rest in its last
+    /// safe state, from which it can be moved again.
     pub fn advance(&mut self, steps: usize) -> Result<f64, SolverError> {
-        for _ in 0..steps.div_ceil(STEPS_A_LOOK) {
+        for _ in 0..steps.div_ceil(STEPS_PER_UPDATE) {
             if self.is_at_rest() {
                 break;
             }
-            if let Err((node, displacement)) = self.look() {
+            if let Err((node, displacement)) = self.update() {
                 let time = self.time;
-                self.go_back();
+                self.restore();
                 return Err(SolverError::Diverged {
                     node,
                     time,
@@ -155,9 +155,9 @@ impl<'a> Hand<'a> {
         self.time
     }
 
-    /// Whether it moves no more.
+    /// Whether the sheet has reached the requested time and no longer moves.
     pub fn is_at_rest(&self) -> bool {
-        self.time == self.aim && self.still > 1
+        self.time == self.aim && self.updates_at_rest > 1
     }
 
     /// One position a vertex, in the sheet's unit.
@@ -189,53 +189,58 @@ impl<'a> Hand<'a> {
         self.state.set_targets(&self.targets);
     }
 
-    fn look(&mut self) -> Result<(), (usize, f64)> {
+    fn update(&mut self) -> Result<(), (usize, f64)> {
         if self.time != self.aim {
-            let lag = self.state.fold_angle_error() / LAG;
-            let most = PACE * STEPS_A_LOOK as f64 / (1.0 + lag * lag);
+            let lag = self.state.fold_angle_error() / HALF_SPEED_LAG;
+            let most = LARGEST_TIME_STEP * STEPS_PER_UPDATE as f64 / (1.0 + lag * lag);
             self.time += (self.aim - self.time).clamp(-most, most);
             self.follow();
         }
         let pull = self.pull.map(|pull| {
             let mut order = self.state.layout.order.iter();
-            let place = order.position(|&node| node == pull.vertex).unwrap_or(0);
-            (place, pull.point / self.state.model.unit_length)
+            let index = order.position(|&node| node == pull.vertex).unwrap_or(0);
+            (index, pull.point / self.state.model.unit_length)
         });
-        let grip = GRIP * self.state.model.material.axial_stiffness;
-        let mut relaxation = Relaxation::resumed(&mut self.state, 0.0, self.past);
-        for _ in 0..STEPS_A_LOOK {
-            let tug = pull.map(|(place, point)| relaxation.state().tug(place, point, grip));
+        let largest_force = LARGEST_FORCE * self.state.model.material.axial_stiffness;
+        let mut relaxation = Relaxation::resumed(&mut self.state, 0.0, self.history);
+        for _ in 0..STEPS_PER_UPDATE {
+            let pull_force = pull
+                .map(|(index, point)| relaxation.state().pull_force(index, point, largest_force));
             relaxation.step()?;
-            if let Some(tug) = tug {
-                let past = relaxation.past();
-                relaxation.state_mut().add(&tug, past);
+            if let Some(pull_force) = pull_force {
+                let history = relaxation.history();
+                relaxation.state_mut().add(&pull_force, history);
             }
         }
-        self.past = relaxation.past();
-        let fastest = self.state.stay() * DT;
-        if fastest <= SOUND {
-            self.sound.take(&self.state, self.time);
+        self.history = relaxation.history();
+        let fastest = self.state.remove_rigid_motion() * DT;
+        if fastest <= SAFE_SPEED {
+            self.safe.take(&self.state, self.time);
         }
-        self.still = if fastest <= REST { self.still + 1 } else { 0 };
+        self.updates_at_rest = if fastest <= REST {
+            self.updates_at_rest + 1
+        } else {
+            0
+        };
         Ok(())
     }
 
-    fn go_back(&mut self) {
+    fn restore(&mut self) {
         self.pull = None;
-        self.past = Past::NONE;
-        self.still = 0;
-        self.time = self.sound.time;
+        self.history = StepHistory::NONE;
+        self.updates_at_rest = 0;
+        self.time = self.safe.time;
         self.state
             .now
             .positions
-            .clone_from_slice(&self.sound.positions);
-        self.state.hinges.clone_from(&self.sound.hinges);
+            .clone_from_slice(&self.safe.positions);
+        self.state.hinges.clone_from(&self.safe.hinges);
         self.state.stop();
         self.follow();
     }
 }
 
-impl Sound {
+impl SafeState {
     fn of(state: &State<'_>, time: f64) -> Self {
         Self {
             positions: state.now.positions.clone(),
@@ -251,7 +256,7 @@ impl Sound {
     }
 }
 
-/// A rigid body of the nodes.
+/// The nodes as a rigid body.
 #[derive(Debug, Clone, Copy)]
 struct Body {
     mass: f64,
@@ -260,16 +265,16 @@ struct Body {
 }
 
 impl Body {
-    /// The velocities of its middle and about it, of a momentum and an angular momentum.
+    /// The velocity of its centre and its angular velocity, for a momentum and an angular momentum.
     fn moved_by(&self, momentum: DVec3, spin: DVec3) -> [DVec3; 2] {
         [momentum / self.mass, self.inverse_inertia * spin]
     }
 }
 
-/// The force of the hand, and what balances it.
+/// A pulling force and the motion that balances it.
 #[derive(Debug, Clone, Copy)]
-struct Tug {
-    place: usize,
+struct PullForce {
+    index: usize,
     force: DVec3,
     middle: DVec3,
     drift: DVec3,
@@ -277,16 +282,16 @@ struct Tug {
 }
 
 impl State<'_> {
-    /// The hand at the node at `place` of the layout, pulling towards `point` with at most the force `grip`. A body of
-    /// nodes of equal mass would not move, so that the balance does not depend on the masses of the relaxation.
-    fn tug(&self, place: usize, point: DVec3, grip: f64) -> Tug {
+    /// The force on the node at `index` of the layout towards `point`, at most `largest_force`. It is balanced for
+    /// nodes of equal mass, so that the balance does not depend on the masses of the relaxation.
+    fn pull_force(&self, index: usize, point: DVec3, largest_force: f64) -> PullForce {
         let body = self.body(|_| 1.0);
-        let from = xyz(self.now.positions[place]);
-        let way = point - from;
-        let force = way * (grip / way.length().max(REACH));
+        let from = xyz(self.now.positions[index]);
+        let displacement = point - from;
+        let force = displacement * (largest_force / displacement.length().max(REACH));
         let [drift, turn] = body.moved_by(force, (from - body.middle).cross(force));
-        Tug {
-            place,
+        PullForce {
+            index,
             force,
             middle: body.middle,
             drift,
@@ -294,16 +299,16 @@ impl State<'_> {
         }
     }
 
-    /// What `tug`, made of the state before it, adds to the step that was just made.
-    fn add(&mut self, tug: &Tug, step: Past) {
-        let Past { damping, dt, .. } = step;
+    /// Adds the effect of `pull_force`, computed from the state before it, to the step that was just made.
+    fn add(&mut self, pull_force: &PullForce, step: StepHistory) {
+        let StepHistory { damping, dt, .. } = step;
         let share = dt / (1.0 + 0.5 * damping * dt);
         let nodes = self.now.positions.iter_mut().zip(&mut self.now.velocities);
         for (index, ((x, v), mass)) in nodes.zip(&self.masses).enumerate() {
             let before = xyz(*x) - dt * xyz(*v);
-            let mut force = -tug.drift - tug.turn.cross(before - tug.middle);
-            if index == tug.place {
-                force += tug.force;
+            let mut force = -pull_force.drift - pull_force.turn.cross(before - pull_force.middle);
+            if index == pull_force.index {
+                force += pull_force.force;
             }
             let added = force * (share * mass.inverse);
             *v = quad(xyz(*v) + added);
@@ -311,8 +316,8 @@ impl State<'_> {
         }
     }
 
-    /// Takes the motion of the sheet as a whole, v + ω × r, out of the velocities; answers the largest speed left.
-    fn stay(&mut self) -> f64 {
+    /// Removes the rigid motion v + ω × r from the velocities and returns the largest speed left.
+    fn remove_rigid_motion(&mut self) -> f64 {
         let body = self.body(|mass| mass.mass);
         let (mut momentum, mut spin) = (DVec3::ZERO, DVec3::ZERO);
         let nodes = self.now.positions.iter().zip(&self.now.velocities);

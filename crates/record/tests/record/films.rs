@@ -1,12 +1,10 @@
 //! Films read back.
 
-mod common;
-
 use std::io;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
+use crate::common::*;
 use ::gif::{ColorOutput, DecodeOptions, Repeat};
-use common::*;
 use foldmotion_pattern::{Case, Frame, Motion, Unit, UnitSheet};
 use foldmotion_record::{
     Camera, FilmOptions, Marks, Palette, RecordError, gif, picture, positions_at, timeline,

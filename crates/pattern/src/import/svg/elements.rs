@@ -1,4 +1,4 @@
-//! The walk over the elements of an SVG.
+//! The elements of an SVG, read from the outermost inwards.
 
 use std::str::FromStr as _;
 
@@ -12,48 +12,48 @@ use super::shape::{Outline, Piece, Stroke, outline};
 use super::stroke::{meaning, opacity, target};
 use super::style::{Properties, Styles};
 use super::values::wrong;
-use super::{Places, Unread, viewport};
+use super::{LineNumbers, UnreadElement, viewport};
 
-/// What an element takes from those around it.
+/// The properties that an element inherits from those around it.
 #[derive(Debug, Clone, Copy)]
 struct Inherited<'a> {
     transform: DAffine2,
     stroke: Option<&'a str>,
     stroke_opacity: f64,
-    /// Of the element and of all around it.
+    /// The product of the opacities of the element and of all around it.
     opacity: f64,
     is_visible: bool,
 }
 
-/// The walk in progress.
-pub(super) struct Walk<'a, 'b> {
-    places: &'b Places,
+/// Reads elements and collects their lines.
+pub(super) struct ElementReader<'a, 'b> {
+    numbering: &'b LineNumbers,
     styles: Styles<'a>,
     flattens: bool,
     warnings: &'b mut Warnings,
     strokes: Vec<Stroke>,
-    unread: Unread,
+    unread: UnreadElement,
 }
 
-impl<'a, 'b> Walk<'a, 'b> {
+impl<'a, 'b> ElementReader<'a, 'b> {
     pub(super) fn new(
         root: Node<'a, 'a>,
-        places: &'b Places,
+        numbering: &'b LineNumbers,
         options: &ImportOptions,
         warnings: &'b mut Warnings,
     ) -> Result<Self, ImportError> {
         Ok(Self {
-            places,
-            styles: Styles::read(root, places, warnings)?,
+            numbering,
+            styles: Styles::read(root, numbering, warnings)?,
             flattens: matches!(options.curves, Curves::Flatten(_)),
             warnings,
             strokes: Vec::new(),
-            unread: Unread::default(),
+            unread: UnreadElement::default(),
         })
     }
 
-    /// What is drawn, and what cannot be read.
-    pub(super) fn finish(self) -> (Vec<Stroke>, Unread) {
+    /// The lines drawn so far, and the elements that cannot be read.
+    pub(super) fn finish(self) -> (Vec<Stroke>, UnreadElement) {
         (self.strokes, self.unread)
     }
 
@@ -90,7 +90,7 @@ impl<'a, 'b> Walk<'a, 'b> {
         if !is_drawn_container(name) && !is_shape(name) {
             if matches!(name, "text" | "image" | "foreignObject") {
                 self.warnings
-                    .add(WarningKind::Ignored, &self.places.source(node));
+                    .add(WarningKind::Ignored, &self.numbering.source(node));
             }
             return Ok(());
         }
@@ -100,7 +100,7 @@ impl<'a, 'b> Walk<'a, 'b> {
             own.is_visible = false;
             if is_drawn_container(name) {
                 self.warnings
-                    .add(WarningKind::NotDrawn, &self.places.source(node));
+                    .add(WarningKind::NotDrawn, &self.numbering.source(node));
                 return Ok(());
             }
         }
@@ -108,7 +108,7 @@ impl<'a, 'b> Walk<'a, 'b> {
             return self.shape(node, own);
         }
         if name == "svg" && depth > 0 {
-            own.transform *= viewport::nested(node, self.places)?;
+            own.transform *= viewport::nested(node, self.numbering)?;
         }
         for child in node.children().filter(Node::is_element) {
             self.visit(child, own, depth + 1)?;
@@ -125,9 +125,15 @@ impl<'a, 'b> Walk<'a, 'b> {
         let mut own = around;
         let parsed = |name, text: Option<&str>| match text.filter(|t| *t != "inherit") {
             None => Ok(None),
-            Some(text) => opacity(text)
-                .map(Some)
-                .ok_or_else(|| wrong(node, self.places, name, text, "a finite number is needed")),
+            Some(text) => opacity(text).map(Some).ok_or_else(|| {
+                wrong(
+                    node,
+                    self.numbering,
+                    name,
+                    text,
+                    "a finite number is needed",
+                )
+            }),
         };
         if let Some(stroke) = properties.stroke.filter(|s| *s != "inherit") {
             own.stroke = Some(stroke);
@@ -149,22 +155,23 @@ impl<'a, 'b> Walk<'a, 'b> {
             let parsed = Transform::from_str(text).ok();
             let finite = parsed.map(|t| [t.a, t.b, t.c, t.d, t.e, t.f]);
             let finite = finite.filter(|t| t.iter().all(|n| n.is_finite()));
-            let list = finite.ok_or_else(|| wrong(node, self.places, "transform", text, need))?;
+            let list =
+                finite.ok_or_else(|| wrong(node, self.numbering, "transform", text, need))?;
             own.transform *= DAffine2::from_cols_array(&list);
         }
         Ok(own)
     }
 
     fn shape(&mut self, node: Node<'a, 'a>, own: Inherited<'a>) -> Result<(), ImportError> {
-        let source = self.places.source(node);
+        let source = self.numbering.source(node);
         let stroke = own.stroke.filter(|s| *s != "none" && *s != "transparent");
         let Some(stroke) = stroke.filter(|_| own.is_visible) else {
             self.warnings.add(WarningKind::NotDrawn, &source);
             return Ok(());
         };
-        let pieces = match outline(node, self.places)? {
+        let pieces = match outline(node, self.numbering)? {
             Outline::Pieces(pieces) => pieces,
-            Outline::Unread(reason) => {
+            Outline::UnreadElement(reason) => {
                 self.unread.add(source, reason);
                 return Ok(());
             }
@@ -195,7 +202,7 @@ impl<'a, 'b> Walk<'a, 'b> {
             let need = "the element must stay within the numbers there are";
             return Err(wrong(
                 node,
-                self.places,
+                self.numbering,
                 "transform",
                 text.unwrap_or_default(),
                 need,

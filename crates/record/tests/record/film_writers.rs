@@ -1,19 +1,12 @@
 //! Films of several kinds at once, read back.
 
-#![expect(
-    clippy::unwrap_used,
-    reason = "files that cannot be read must fail their test"
-)]
-
-mod common;
-
 use std::io::{self, Cursor};
 
-use common::*;
+use crate::common::*;
 use foldmotion_pattern::Motion;
 use foldmotion_record::{
-    Camera, FilmOptions, Frames, Gif, Image, Marks, Playback, RecordError, Reel, Scene, Values,
-    View, film, gif, picture, positions_at, timeline,
+    Camera, FilmOptions, FilmWriter, Frames, Gif, Image, Marks, Playback, RecordError, Scene,
+    Values, View, film, gif, picture, positions_at, timeline,
 };
 
 fn options() -> FilmOptions {
@@ -39,7 +32,7 @@ fn scene<'a>(motion: &'a Motion, marks: &'a Marks, values: Option<&'a Values>) -
 /// The PNG files of a film.
 fn frames(motion: &Motion, options: &FilmOptions, values: Option<&Values>) -> Vec<Vec<u8>> {
     let mut files: Vec<Vec<u8>> = Vec::new();
-    let mut reel = Frames::new(|name: &str, bytes: &[u8]| {
+    let mut writer = Frames::new(|name: &str, bytes: &[u8]| {
         assert_eq!(name, format!("{:04}.png", files.len() + 1));
         files.push(bytes.to_vec());
         Ok(())
@@ -48,11 +41,11 @@ fn frames(motion: &Motion, options: &FilmOptions, values: Option<&Values>) -> Ve
     film(
         scene(motion, &marks, values),
         options,
-        &mut [&mut reel],
+        &mut [&mut writer],
         &|_| true,
     )
     .unwrap();
-    drop(reel);
+    drop(writer);
     files
 }
 
@@ -136,10 +129,10 @@ fn films_made_together_are_those_made_alone() {
         count += 1;
         Ok(())
     });
-    let mut reel = Gif::new(&mut together);
-    let reels: &mut [&mut dyn Reel] = &mut [&mut reel, &mut files];
-    film(scene(&motion, &marks, None), &options, reels, &|_| true).unwrap();
-    drop((reel, files));
+    let mut writer = Gif::new(&mut together);
+    let writers: &mut [&mut dyn FilmWriter] = &mut [&mut writer, &mut files];
+    film(scene(&motion, &marks, None), &options, writers, &|_| true).unwrap();
+    drop((writer, files));
     assert!(alone == together && count == 17);
     let comment = options.provenance.as_bytes();
     assert!(alone.windows(comment.len()).any(|part| part == comment));
@@ -188,7 +181,7 @@ fn captions_and_legends_change_the_picture_and_values_colour_the_facets() {
 }
 
 #[test]
-fn a_film_follows_a_sheet_that_grows_unless_it_is_told_not_to_or_aimed() {
+fn a_film_follows_a_sheet_that_grows_unless_that_is_off_or_the_camera_is_aimed() {
     let mut motion = folding_square(&[0.0, 1.0]);
     let large = motion.frames[0].positions.clone();
     motion.frames[0].positions = large.iter().map(|&p| 0.1 * p).collect();
@@ -249,7 +242,7 @@ fn a_turning_camera_shows_another_side_at_the_end() {
 }
 
 #[test]
-fn values_that_do_not_fit_are_refused_and_a_full_disk_is_told() {
+fn values_that_do_not_fit_are_refused_and_a_full_disk_is_reported() {
     let motion = folding_square(&[0.0, 1.0, 2.0]);
     let marks = Marks::default();
     let good = Values {
@@ -258,9 +251,9 @@ fn values_that_do_not_fit_are_refused_and_a_full_disk_is_told() {
         frames: vec![vec![0.0; 2]; 3],
     };
     let refused = |values: &Values| {
-        let mut reel = Frames::new(|_: &str, _: &[u8]| Err(io::ErrorKind::StorageFull.into()));
+        let mut writer = Frames::new(|_: &str, _: &[u8]| Err(io::ErrorKind::StorageFull.into()));
         let scene = scene(&motion, &marks, Some(values));
-        film(scene, &options(), &mut [&mut reel], &|_| true).unwrap_err()
+        film(scene, &options(), &mut [&mut writer], &|_| true).unwrap_err()
     };
     let error = refused(&good);
     assert!(matches!(error, RecordError::Write(_)), "{error}");

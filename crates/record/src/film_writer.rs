@@ -1,8 +1,8 @@
 //! One film pass for every kind of film.
 //!
-//! Each state is drawn once and handed to every reel asked for. States are drawn in parallel, a batch at a time; while
-//! one batch is drawn the reels take the one before, in order. So the memory is bounded by two batches and the bytes do
-//! not depend on the number of threads.
+//! Each state is drawn once and passed to every film writer. States are drawn in parallel, a batch at a time; while one
+//! batch is drawn, the writers take the previous one, in order. So the memory is bounded by two batches and the bytes
+//! do not depend on the number of threads.
 
 use foldmotion_pattern::Motion;
 use glam::{DVec2, DVec3};
@@ -27,10 +27,10 @@ const BATCH: usize = 16;
 /// Pixels worked on at a time.
 const BATCH_PIXELS: usize = 1 << 25;
 
-/// What is filmed.
+/// The motion and what is marked in it.
 #[derive(Debug, Clone, Copy)]
 pub struct Scene<'a> {
-    /// What moves.
+    /// The motion that is filmed.
     pub motion: &'a Motion,
     /// Facets painted in the colour of marks; a mark shows in at least one picture.
     pub marks: &'a Marks,
@@ -38,16 +38,16 @@ pub struct Scene<'a> {
     pub values: Option<&'a Values>,
 }
 
-/// What a film needs to know before its first picture.
+/// What a film writer gets before the first picture.
 #[derive(Debug, Clone, Copy)]
 pub struct Title<'a> {
     /// The options of the film.
     pub options: &'a FilmOptions,
-    /// The colours of its areas, for reels of few colours.
+    /// The colours of its areas, for formats with few colours.
     pub palette: &'a Palette,
 }
 
-/// A picture on its way into the reels.
+/// A picture as it is passed to the writers.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Picture {
     /// The state and how long it is shown.
@@ -58,43 +58,43 @@ pub struct Picture {
     pub alpha: Option<Vec<u8>>,
 }
 
-/// What a film is written to.
-pub trait Reel: Send {
+/// Writes a film in one format.
+pub trait FilmWriter: Send {
     /// Called once, before the first picture.
     ///
     /// # Errors
-    /// Where the film cannot be written.
+    /// The film cannot be written.
     fn begin(&mut self, title: Title<'_>) -> Result<(), RecordError>;
 
     /// Called for the pictures in order, several at a time.
     ///
     /// # Errors
-    /// Where the film cannot be written.
+    /// The film cannot be written.
     fn take(&mut self, pictures: &[Picture]) -> Result<(), RecordError>;
 
     /// Called once, after the last picture.
     ///
     /// # Errors
-    /// Where the film cannot be written.
+    /// The film cannot be written.
     fn finish(&mut self) -> Result<(), RecordError>;
 }
 
-/// Films `scene` into all `reels` at once.
+/// Films `scene` into all `writers` at once.
 ///
 /// The camera sees all of the motion, also while it turns, unless it is aimed by `centre` and `width`; with
-/// [`FilmOptions::is_following`] it comes nearer where the sheet is small. Lines are narrower than the style says where facets
-/// are small in the picture. `progress` gets the part done, from 0 to 1, and answers
-/// whether to go on. The order of the compact state also decides between layers at other times, wherever they come
-/// within [`crate::TIE_TOLERANCE`] of each other. The bytes do not depend on the number of threads.
+/// [`FilmOptions::is_following`] it comes nearer where the sheet is small. Lines are narrower than the style says where
+/// facets are small in the picture. `progress` gets the part done, from 0 to 1, and answers whether to go on. The order
+/// of the compact state also decides between layers at other times, wherever they come within [`crate::TIE_TOLERANCE`]
+/// of each other. The bytes do not depend on the number of threads.
 ///
 /// # Errors
 /// Those of [`timeline`] and [`Camera::fit`], [`RecordError::VertexCount`], [`RecordError::NotFinite`],
 /// [`RecordError::Range`] and [`RecordError::ValueCount`] before anything is written; then
-/// [`RecordError::Interrupted`] and those of the reels, which leave incomplete films behind.
+/// [`RecordError::Interrupted`] and those of the writers, which leave incomplete films behind.
 pub fn film(
     scene: Scene<'_>,
     options: &FilmOptions,
-    reels: &mut [&mut dyn Reel],
+    writers: &mut [&mut dyn FilmWriter],
     progress: &(dyn Fn(f64) -> bool + Sync),
 ) -> Result<(), RecordError> {
     let set = Set::new(scene, options)?;
@@ -102,9 +102,9 @@ pub fn film(
         Some(_) => Palette::of_values(&options.style),
         None => Palette::new(&options.style, !scene.marks.is_empty()),
     };
-    for reel in reels.iter_mut() {
+    for writer in writers.iter_mut() {
         let palette = &palette;
-        reel.begin(Title { options, palette })?;
+        writer.begin(Title { options, palette })?;
     }
     let [width, height] = options.size.map(|side| side as usize);
     let length = (BATCH_PIXELS / (width * height)).clamp(1, BATCH);
@@ -122,7 +122,11 @@ pub fn film(
                     .map(|i| set.picture(i))
                     .collect()
             },
-            || reels.iter_mut().try_for_each(|reel| reel.take(&drawn)),
+            || {
+                writers
+                    .iter_mut()
+                    .try_for_each(|writer| writer.take(&drawn))
+            },
         );
         taken?;
         let pictures: Result<Vec<Picture>, RecordError> = pictures;
@@ -132,8 +136,8 @@ pub fn film(
             break;
         }
     }
-    for reel in reels.iter_mut() {
-        reel.finish()?;
+    for writer in writers.iter_mut() {
+        writer.finish()?;
     }
     progress(1.0);
     Ok(())
@@ -256,7 +260,7 @@ impl<'a> Set<'a> {
     }
 }
 
-/// `cameras`, each of which sees all of `motion`, brought nearer where the sheet is small in its shot.
+/// The `cameras`, which all see the whole of `motion`, brought nearer where the sheet is small in its shot.
 fn following(
     motion: &Motion,
     shots: &[Shot],

@@ -1,8 +1,5 @@
 //! Small sheets built by hand.
 
-#![expect(clippy::unwrap_used, reason = "broken scenes must fail their test")]
-#![expect(dead_code, reason = "each test binary uses its own part")]
-
 use foldmotion_pattern::{
     Assignment, CreaseKind, Edge, Facet, FacetKind, Frame, LayerOrder, Motion, Sheet,
 };

@@ -1,14 +1,10 @@
 //! Strips of states and the files they are written to.
 
-#![expect(clippy::unwrap_used, reason = "what cannot be made must fail its test")]
-
-mod common;
-
-use common::*;
+use crate::common::*;
 use foldmotion_pattern::{Case, LayerOrder, Unit, UnitSheet};
 use foldmotion_record::{
-    Bounds, Drawing, Legend, LineStyle, Marks, Pose, Provenance, RecordError, StripOptions, Style,
-    View, strip,
+    Bounds, Drawing, FigureState, Legend, LineStyle, Marks, Provenance, RecordError, StripOptions,
+    Style, View, strip,
 };
 use glam::DVec3;
 
@@ -18,17 +14,17 @@ fn units() -> UnitSheet {
 }
 
 /// The planar and the compact state.
-fn poses<'a>(units: &UnitSheet, order: &'a LayerOrder) -> Vec<Pose<'a>> {
+fn states<'a>(units: &UnitSheet, order: &'a LayerOrder) -> Vec<FigureState<'a>> {
     vec![
-        Pose::new(units.sheet.planar(), order, "planar"),
-        Pose::new(units.compact(), order, "compact"),
+        FigureState::new(units.sheet.planar(), order, "planar"),
+        FigureState::new(units.compact(), order, "compact"),
     ]
 }
 
 fn figure(options: &StripOptions) -> Result<Drawing, RecordError> {
     let units = units();
     let order = units.compact_order();
-    strip(&units.sheet, &poses(&units, &order), options)
+    strip(&units.sheet, &states(&units, &order), options)
 }
 
 /// The lines of `svg` that begin so.
@@ -66,17 +62,17 @@ fn a_strip_has_its_width_on_paper_and_no_more_than_its_height() {
 fn what_cannot_be_drawn_is_refused_with_its_value() {
     let units = units();
     let order = LayerOrder::default();
-    let wrong = |change: &dyn Fn(&mut Vec<Pose<'_>>, &mut StripOptions)| {
-        let (mut poses, mut options) = (poses(&units, &order), StripOptions::default());
-        change(&mut poses, &mut options);
-        strip(&units.sheet, &poses, &options).unwrap_err()
+    let wrong = |change: &dyn Fn(&mut Vec<FigureState<'_>>, &mut StripOptions)| {
+        let (mut states, mut options) = (states(&units, &order), StripOptions::default());
+        change(&mut states, &mut options);
+        strip(&units.sheet, &states, &options).unwrap_err()
     };
     assert!(matches!(
-        wrong(&|poses, _| poses.clear()),
+        wrong(&|states, _| states.clear()),
         RecordError::NoFrames
     ));
     assert!(matches!(
-        wrong(&|poses, _| poses[1].positions[3].y = f64::NAN),
+        wrong(&|states, _| states[1].positions[3].y = f64::NAN),
         RecordError::NotFinite {
             frame: 1,
             vertex: 3,
@@ -84,7 +80,7 @@ fn what_cannot_be_drawn_is_refused_with_its_value() {
         }
     ));
     assert!(matches!(
-        wrong(&|poses, _| poses[1].values = vec![1.0; 5]),
+        wrong(&|states, _| states[1].values = vec![1.0; 5]),
         RecordError::ValueCount {
             frame: 1,
             found: 5,
@@ -92,7 +88,7 @@ fn what_cannot_be_drawn_is_refused_with_its_value() {
         }
     ));
     assert!(matches!(
-        wrong(&|poses, _| poses[0].target = vec![DVec3::ZERO, DVec3::INFINITY]),
+        wrong(&|states, _| states[0].target = vec![DVec3::ZERO, DVec3::INFINITY]),
         RecordError::NotFinite { vertex: 1, .. }
     ));
     assert!(matches!(
@@ -111,9 +107,9 @@ fn what_cannot_be_drawn_is_refused_with_its_value() {
         RecordError::Range { .. }
     ));
     assert!(matches!(
-        wrong(&|poses, _| {
-            poses[0].positions[0].x = 1.7e308;
-            poses[0].positions[1].x = -1.7e308;
+        wrong(&|states, _| {
+            states[0].positions[0].x = 1.7e308;
+            states[0].positions[1].x = -1.7e308;
         }),
         RecordError::NoRoom { .. }
     ));
@@ -162,10 +158,10 @@ fn a_page_without_background_lets_through_what_lies_behind() {
 }
 
 #[test]
-fn values_marks_targets_and_boxes_add_what_they_stand_for() {
+fn values_marks_targets_and_boxes_are_drawn() {
     let units = units();
     let order = units.compact_order();
-    let bare = poses(&units, &order);
+    let bare = states(&units, &order);
     let options = StripOptions::default();
     let words = |drawing: Drawing| count(&drawing.svg().unwrap(), "<text");
     let base = words(strip(&units.sheet, &bare, &options).unwrap());
@@ -206,10 +202,13 @@ fn marks_of_a_motion_show_in_the_state_at_their_time() {
     let motion = folding_square(&[0.0, 1.0, 2.0]);
     let mut marks = Marks::default();
     marks.insert(1, 0.5, 1.5);
-    let marked = |time| Pose::at(&motion, &marks, time).marked;
+    let marked = |time| FigureState::at(&motion, &marks, time).marked;
     assert_eq!(marked(1.0), [false, true]);
     assert_eq!(marked(2.0), [false, false]);
-    assert_eq!(Pose::at(&motion, &marks, 2.0).label, "t = 2, compact");
+    assert_eq!(
+        FigureState::at(&motion, &marks, 2.0).label,
+        "t = 2, compact"
+    );
 }
 
 #[test]
@@ -217,16 +216,16 @@ fn one_scale_serves_all_states() {
     let square = square(foldmotion_pattern::Assignment::Facet);
     let order = LayerOrder::default();
     let half: Vec<DVec3> = square.planar().iter().map(|&p| 0.5 * p).collect();
-    let poses = [
-        Pose::new(square.planar(), &order, ""),
-        Pose::new(half, &order, ""),
+    let states = [
+        FigureState::new(square.planar(), &order, ""),
+        FigureState::new(half, &order, ""),
     ];
     let options = StripOptions {
         view: View::Top,
         has_key: false,
         ..StripOptions::default()
     };
-    let svg = strip(&square, &poses, &options).unwrap().svg().unwrap();
+    let svg = strip(&square, &states, &options).unwrap().svg().unwrap();
     let shapes = svg
         .lines()
         .filter(|l| l.contains("fill=\"#") && l.contains("<path"));

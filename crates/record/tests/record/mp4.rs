@@ -1,16 +1,8 @@
 //! MP4 films decoded.
 
-#![cfg(feature = "mp4")]
-#![expect(
-    clippy::unwrap_used,
-    reason = "files that cannot be read must fail their test"
-)]
-
-mod common;
-
-use common::*;
+use crate::common::*;
 use foldmotion_pattern::Motion;
-use foldmotion_record::{FilmOptions, Frames, Marks, Mp4, RecordError, Reel, Scene, film};
+use foldmotion_record::{FilmOptions, FilmWriter, Frames, Marks, Mp4, RecordError, Scene, film};
 use openh264::decoder::Decoder;
 use openh264::formats::YUVSource;
 use rayon::ThreadPoolBuilder;
@@ -40,8 +32,8 @@ fn filmed(motion: &Motion, options: &FilmOptions) -> (Vec<u8>, Vec<Vec<u8>>) {
         Ok(())
     });
     let mut mp4 = Mp4::new(&mut bytes).unwrap();
-    let reels: &mut [&mut dyn Reel] = &mut [&mut mp4, &mut frames];
-    film(scene, options, reels, &|_| true).unwrap();
+    let writers: &mut [&mut dyn FilmWriter] = &mut [&mut mp4, &mut frames];
+    film(scene, options, writers, &|_| true).unwrap();
     drop((mp4, frames));
     (bytes, files)
 }
@@ -148,10 +140,10 @@ fn sizes_that_the_encoder_does_not_take_are_refused_before_anything_is_drawn() {
             marks: &marks,
             values: None,
         };
-        let mut reel = Mp4::new(&mut bytes).unwrap();
-        let error = film(scene, &options, &mut [&mut reel], &|_| true).unwrap_err();
+        let mut writer = Mp4::new(&mut bytes).unwrap();
+        let error = film(scene, &options, &mut [&mut writer], &|_| true).unwrap_err();
         assert!(matches!(error, RecordError::H264 { .. }), "{error}");
-        drop(reel);
+        drop(writer);
         assert!(bytes.is_empty());
     }
 }

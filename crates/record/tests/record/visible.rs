@@ -1,33 +1,12 @@
 //! Visible areas and lines against rays.
 
-#![expect(
-    clippy::unwrap_used,
-    clippy::cast_sign_loss,
-    reason = "what cannot be made must fail its test; random numbers are not negative"
-)]
-
-mod common;
-
-use common::*;
+use crate::common::*;
 use foldmotion_pattern::{Assignment, Case, LayerOrder, Sheet, Unit, UnitSheet};
 use foldmotion_record::{Camera, Paper, Surface, TIE_TOLERANCE, View, Visible, VisibleArea};
 use glam::{DVec2, DVec3};
 
 /// The camera's picture in pixels.
 const PAGE: [u32; 2] = [640, 480];
-
-/// Numbers from 0 to 1 that look random (Knuth, MMIX).
-struct Random(u64);
-
-impl Random {
-    fn next(&mut self) -> f64 {
-        self.0 = self
-            .0
-            .wrapping_mul(6_364_136_223_846_793_005)
-            .wrapping_add(1_442_695_040_888_963_407);
-        (self.0 >> 11) as f64 / (1_u64 << 53) as f64
-    }
-}
 
 /// A state of a sheet and who looks at it.
 struct State<'a> {
@@ -153,15 +132,15 @@ struct Count {
 
 /// The areas at random points of the triangles, and of the page.
 fn compare_areas(state: &State<'_>, visible: &Visible, points: usize) -> Count {
-    let mut random = Random(11);
+    let mut random = fastrand::Rng::with_seed(11);
     let mut count = Count::default();
     for k in 0..points {
         let point = if k % 4 == 0 {
-            DVec2::new(random.next() * 640.0, random.next() * 480.0)
+            DVec2::new(random.f64() * 640.0, random.f64() * 480.0)
         } else {
-            let faces = state.sheet.faces.len() as f64;
-            let [a, b, c] = state.corners((random.next() * faces) as u32);
-            let (s, t) = (random.next(), random.next());
+            let faces = state.sheet.faces.len() as u32;
+            let [a, b, c] = state.corners(random.u32(..faces));
+            let (s, t) = (random.f64(), random.f64());
             let inside = a + (b - a) * (s * (1.0 - t)) + (c - a) * (s * t);
             state.camera.project(inside).truncate()
         };
@@ -196,15 +175,15 @@ fn compare_areas(state: &State<'_>, visible: &Visible, points: usize) -> Count {
 /// The lines at random points: seen where the triangle on one side is in front just beside it.
 fn compare_lines(state: &State<'_>, visible: &Visible, points: usize) -> Count {
     const BESIDE: f64 = 1e-3;
-    let mut random = Random(5);
+    let mut random = fastrand::Rng::with_seed(5);
     let mut count = Count::default();
     let drawn = |index: &u32| state.sheet.edges[*index as usize].assignment != Assignment::Facet;
     let edges: Vec<u32> = (0..state.sheet.edges.len() as u32).filter(drawn).collect();
     for _ in 0..points {
-        let index = edges[(random.next() * edges.len() as f64) as usize];
+        let index = edges[random.usize(..edges.len())];
         let edge = &state.sheet.edges[index as usize];
         let ends = edge.vertices.map(|v| state.positions[v as usize]);
-        let place = ends[0].lerp(ends[1], random.next());
+        let place = ends[0].lerp(ends[1], random.f64());
         let point = state.camera.project(place).truncate();
         let [start, end] = ends.map(|p| state.camera.project(p).truncate());
         let parts = visible.lines.iter().filter(|line| line.edge == index);

@@ -1,8 +1,6 @@
 //! Pictures of known scenes.
 
-mod common;
-
-use common::*;
+use crate::common::*;
 use foldmotion_pattern::{Assignment, Case, LayerOrder, Sheet, Unit, UnitSheet};
 use foldmotion_record::{Camera, Paper, RecordError, Style, Surface, View, picture};
 use glam::{DMat3, DQuat, DVec2, DVec3};
@@ -119,7 +117,7 @@ fn a_triangle_behind_another_is_hidden_whatever_the_sequence_of_the_triangles() 
 
     let vertices = sheet.vertices.clone();
     let faces = [[4, 6, 7], [0, 2, 3], [4, 5, 6], [0, 1, 2]];
-    let shuffled = common::sheet(&vertices, &faces, &[]);
+    let shuffled = crate::common::sheet(&vertices, &faces, &[]);
     let styled = Style::default();
     assert_eq!(
         from_above(&sheet, &positions, &none, &styled),
@@ -306,11 +304,8 @@ fn the_triangle_in_front_is_the_one_that_a_ray_meets_first() {
     let paper = Paper::new(sheet, &order);
     let (flat, compact) = (sheet.planar(), units.compact());
     let mut compared = 0;
-    let mut seed = 7_u64;
-    let mut random = || {
-        seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
-        (seed >> 11) as f64 / (1_u64 << 53) as f64
-    };
+    let mut random = fastrand::Rng::with_seed(7);
+    let mut random = || random.f64();
     for part in [0.3, 0.6, 0.9, 1.0] {
         let pairs = flat.iter().zip(&compact);
         let state: Vec<_> = pairs.map(|(&p, &q)| p.lerp(q, part)).collect();
