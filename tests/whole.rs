@@ -14,8 +14,8 @@ mod corpus;
 mod import;
 #[path = "whole/imported.rs"]
 mod imported;
-#[path = "whole/imported_faults.rs"]
-mod imported_faults;
+#[path = "whole/imported_errors.rs"]
+mod imported_errors;
 #[path = "whole/layers.rs"]
 mod layers;
 #[path = "whole/module_graph.rs"]

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use foldmotion_study::scene::{
     CameraChoice, CameraScene, ColourChoice, HoldScene, OutputChoice, RecordScene, ThickenedScene,
 };
-use foldmotion_study::{Again, Report, SceneSource, Study, record_again, record_file};
+use foldmotion_study::{Report, Reproduction, SceneSource, Study, record_file, reproduce_file};
 use tempfile::TempDir;
 
 const SMALL: [&str; 5] = [
@@ -39,9 +39,9 @@ fn everything() -> (TempDir, PathBuf, Report) {
     (home, folder, report)
 }
 
-fn again(file: &Path, motion: Option<&Path>, out: &Path) -> Again {
+fn again(file: &Path, motion: Option<&Path>, out: &Path) -> Reproduction {
     fs::create_dir_all(out).unwrap();
-    record_again(file, motion, Some(out), false, &|_, _| true).unwrap()
+    reproduce_file(file, motion, Some(out), false, &|_, _| true).unwrap()
 }
 
 /// The pictures of a GIF, and the hundredths of a second they last together.
@@ -139,7 +139,8 @@ fn every_file_of_a_run_is_made_again_with_the_same_bytes() {
         let bytes = [&made.path, &folder.join(name)].map(|p| fs::read(p).unwrap());
         assert!(bytes[0] == bytes[1], "{name}");
     }
-    let beside = record_again(&folder.join("figure.svg"), None, None, false, &|_, _| true).unwrap();
+    let beside =
+        reproduce_file(&folder.join("figure.svg"), None, None, false, &|_, _| true).unwrap();
     assert_eq!(beside.path, folder.join("figure-again.svg"));
     assert_eq!(
         fs::read_dir(home.path()).unwrap().count(),
@@ -152,7 +153,7 @@ fn every_file_of_a_run_is_made_again_with_the_same_bytes() {
 fn files_that_do_not_say_where_they_come_from_are_refused() {
     let (home, folder, _) = everything();
     let refusal = |file: &Path| {
-        let error = record_again(file, None, Some(home.path()), false, &|_, _| true).unwrap_err();
+        let error = reproduce_file(file, None, Some(home.path()), false, &|_, _| true).unwrap_err();
         assert_eq!(error.status(), 2, "{error}");
         error.to_string()
     };
@@ -279,7 +280,7 @@ fn any_fold_motion_is_recorded_in_metres_and_made_again() {
     };
     let folder = home.path().join("out");
     let recorded = record_file(&motion, &record, &folder, &|_, _| true).unwrap();
-    assert!(!recorded.is_judged);
+    assert!(!recorded.is_checked);
     // One stage of 5 s, from planar to compact.
     assert_eq!(gif_pictures(&folder.join("motion.gif")).0, 26);
     let obj = fs::read_to_string(folder.join("state-1.obj")).unwrap();
@@ -317,7 +318,7 @@ fn files_beside_those_of_a_motion_stay() {
     let motion = folder.join("motion.fold");
     let recorded = record_file(&motion, &record, &folder, &|_, _| true).unwrap();
     assert_eq!(recorded.files, ["figure.svg"]);
-    assert!(recorded.is_judged, "its certificate lies beside it");
+    assert!(recorded.is_checked, "its certificate lies beside it");
     for name in [
         "report.json",
         "motion.fold",

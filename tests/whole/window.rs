@@ -6,8 +6,8 @@ use std::sync::Mutex;
 
 use foldmotion_study::scene::{CameraScene, OutputChoice, OwnCamera, RecordScene};
 use foldmotion_study::{
-    CheckOptions, Moment, Opened, Phase, SceneSource, Study, StudyError, Watch, check_file,
-    record_again,
+    CheckOptions, Moment, OpenedFile, Phase, SceneSource, Study, StudyError, Watch, check_file,
+    reproduce_file,
 };
 
 fn source(set: &[&str]) -> SceneSource {
@@ -119,7 +119,7 @@ fn a_run_recorded_as_the_window_shows_it_is_a_run_of_that_scene() {
     }
     fs::create_dir_all(home.path().join("again")).unwrap();
     let again = Some(home.path().join("again"));
-    let made = record_again(
+    let made = reproduce_file(
         &window.join("motion.gif"),
         None,
         again.as_deref(),
@@ -212,9 +212,9 @@ fn a_file_is_opened_as_what_it_is() {
     study(&["record.outputs=[\"fold\"]"])
         .run(&folder, &|_, _| true)
         .unwrap();
-    let open = |path: &Path| Opened::read(path, &|_, _| true);
+    let open = |path: &Path| OpenedFile::read(path, &|_, _| true);
     let path = folder.join("motion.fold");
-    let Opened::Motion(motion) = open(&path).unwrap() else {
+    let OpenedFile::Motion(motion) = open(&path).unwrap() else {
         panic!("a run writes a motion")
     };
     let (findings, certificate) = motion
@@ -241,7 +241,7 @@ fn a_file_is_opened_as_what_it_is() {
         let path = entry.unwrap().path();
         if path.is_file() {
             assert!(
-                matches!(open(&path), Ok(Opened::Scene(_))),
+                matches!(open(&path), Ok(OpenedFile::Scene(_))),
                 "{}",
                 path.display()
             );
@@ -252,7 +252,7 @@ fn a_file_is_opened_as_what_it_is() {
     // What is no motion is left to the import, which says what is wrong.
     let broken = home.path().join("broken.fold");
     fs::write(&broken, "{").unwrap();
-    let Opened::Scene(source) = open(&broken).unwrap() else {
+    let OpenedFile::Scene(source) = open(&broken).unwrap() else {
         panic!("it is no motion")
     };
     assert!(Study::resolve(&source).is_err());
@@ -261,7 +261,7 @@ fn a_file_is_opened_as_what_it_is() {
         Err(StudyError::Read { .. })
     ));
     assert!(matches!(
-        Opened::read(&path, &|_, _| false),
+        OpenedFile::read(&path, &|_, _| false),
         Err(StudyError::Interrupted)
     ));
 }
@@ -288,7 +288,7 @@ fn a_motion_without_times_is_one_stage_and_so_is_its_verdict() {
         frames.join(", ")
     );
     fs::write(&path, text).unwrap();
-    let Opened::Motion(motion) = Opened::read(&path, &|_, _| true).unwrap() else {
+    let OpenedFile::Motion(motion) = OpenedFile::read(&path, &|_, _| true).unwrap() else {
         panic!("it moves")
     };
     let (findings, certificate) = motion
@@ -312,7 +312,7 @@ fn a_motion_without_times_is_one_stage_and_so_is_its_verdict() {
         &folder,
         &|_, _| true,
     );
-    assert!(made.unwrap().is_judged);
+    assert!(made.unwrap().is_checked);
 }
 
 fn findings_of(motion: &foldmotion_study::OpenedMotion) -> foldmotion_study::Findings {

@@ -5,7 +5,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread;
 use std::time::Duration;
 
-use foldmotion_study::{StudyError, give_up_results};
+use foldmotion_study::{StudyError, discard_unfinished_results};
 
 use crate::{FAILED, Failure};
 
@@ -42,7 +42,7 @@ pub(crate) fn watch() -> Result<(), Failure> {
 
 /// Ends the process between two files at most: results that are being moved into place get there.
 fn end() -> ! {
-    give_up_results();
+    discard_unfinished_results();
     // Nothing is left to do where even stderr is closed.
     let _ = writeln!(std::io::stderr(), "foldmotion: {}", StudyError::Interrupted);
     std::process::exit(FAILED.into());

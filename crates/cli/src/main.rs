@@ -20,7 +20,7 @@ use foldmotion_paper::{PaperError, PaperPart, paper};
 use foldmotion_study::scene::EngineChoice;
 use foldmotion_study::{
     CheckOptions, Destination, Device, PatternStudy, Phase, Published, SceneSource, Study,
-    check_file, models, record_again, record_file, verify_file,
+    check_file, models, record_file, reproduce_file, verify_file,
 };
 use pattern::PatternArguments;
 use progress::Reporter;
@@ -206,7 +206,7 @@ fn record_motion(arguments: &RecordArguments) -> Result<u8, Failure> {
     };
     let (out, motion) = (arguments.out.as_deref(), arguments.motion.as_deref());
     if let Some(file) = &arguments.again {
-        let again = record_again(file, motion, out, arguments.force, &progress)?;
+        let again = reproduce_file(file, motion, out, arguments.force, &progress)?;
         reporter.finish();
         for warning in &again.warnings {
             let _ = writeln!(std::io::stderr(), "foldmotion: warning: {}", plain(warning));
@@ -225,7 +225,7 @@ fn record_motion(arguments: &RecordArguments) -> Result<u8, Failure> {
     reporter.finish();
     tell(&record.published, arguments.quiet);
     if !arguments.quiet {
-        let marks = match (record.is_judged, record.penetrates) {
+        let marks = match (record.is_checked, record.penetrates) {
             (true, true) => "penetrations are marked",
             (true, false) => "its certificate tells no penetration to mark",
             _ => "penetrations are not marked: no certificate.json of this motion lies beside it",

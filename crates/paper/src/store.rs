@@ -16,7 +16,7 @@ use crate::PaperError;
 
 use foldmotion_study::VERSION;
 use foldmotion_study::sha256;
-use foldmotion_study::{StudyError, listed, may_run};
+use foldmotion_study::{StudyError, list_names, process_may_exist};
 
 /// The record and the page.
 pub(super) const RECORD: &str = "paper.json";
@@ -145,9 +145,9 @@ pub(super) fn require_clear(folder: &Path) -> Result<(), PaperError> {
         return Ok(());
     }
     names.sort_unstable();
-    Err(PaperError::Study(StudyError::InTheWay {
+    Err(PaperError::Study(StudyError::Conflict {
         path: folder.to_owned(),
-        names: listed(&names),
+        names: list_names(&names),
         command: "paper",
     }))
 }
@@ -166,7 +166,7 @@ fn remove_left_over(folder: &Path) {
         let name = entry.file_name();
         let parts = name.to_str().and_then(|name| name.rsplit_once(PARTIAL));
         let process = parts.and_then(|(_, number)| number.parse().ok());
-        if process.is_some_and(|process| !may_run(process)) {
+        if process.is_some_and(|process| !process_may_exist(process)) {
             // What cannot be removed says by its name what it is.
             let _ = fs::remove_file(entry.path());
         }

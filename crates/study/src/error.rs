@@ -77,7 +77,7 @@ pub enum StudyError {
     },
     /// A recorded file cannot be made again.
     #[error("{}: {message}", path.display())]
-    Origin {
+    SourceInfo {
         /// The file.
         path: PathBuf,
         /// What is wrong, and what would help.
@@ -120,7 +120,7 @@ pub enum StudyError {
          move them, choose another folder with --out, or replace them with --force",
         path.display()
     )]
-    InTheWay {
+    Conflict {
         /// The output folder.
         path: PathBuf,
         /// The files.
@@ -168,12 +168,12 @@ impl StudyError {
             | Self::Parse { .. }
             | Self::Motion { .. }
             | Self::Certificate { .. }
-            | Self::Origin { .. }
+            | Self::SourceInfo { .. }
             | Self::LargeFile { .. }
             | Self::Value { .. }
             | Self::Import { .. }
             | Self::Cut(_)
-            | Self::InTheWay { .. }
+            | Self::Conflict { .. }
             | Self::Undivided { .. } => 2,
             _ => 3,
         }

@@ -47,20 +47,22 @@ pub use foldmotion_pattern::{
 pub use foldmotion_solver::Moment;
 pub use foldmotion_solver::dynamic::Device;
 pub use input_file::require_file;
-pub use opened::{Opened, OpenedMotion};
+pub use opened::{OpenedFile, OpenedMotion};
 pub use pattern_files::{PatternFormat, PatternOptions, PatternScale, PatternStudy};
 pub use progress::{Phase, Progress, Watch};
-pub use recording::{Again, MotionRecord, Quantity, record_again, record_file};
+pub use recording::{MotionRecord, Quantity, Reproduction, record_file, reproduce_file};
 pub use report::Report;
 pub use resolve::Study;
 pub use resolve::budget::MotionBudget;
 pub use resolve::imported::ImportedStudy;
 pub use resolve::recording::Recording;
-pub use resolve::rows::draw_clashes;
+pub use resolve::rows::clash_drawing;
 pub use resolve::subject::Subject;
 pub use resolve::unfolding::Unfolding;
 pub use resolve::units::UnitStudy;
-pub use results::{Destination, Published, give_up_results, listed, may_run};
+pub use results::{
+    Destination, Published, discard_unfinished_results, list_names, process_may_exist,
+};
 pub use scene::Scene;
 pub use scene::source::{FIRST_SCENE, SceneSource};
 pub use schema::{certificate_schema, report_schema, scene_schema, schema_text};

@@ -4,26 +4,26 @@ use std::path::Path;
 use std::sync::Arc;
 
 use foldmotion_check::{CollisionReport, bar_strain, facet_bending};
-use foldmotion_pattern::{FoldFile, Frame, Motion};
+use foldmotion_pattern::{Frame, Motion};
 use foldmotion_solver::{EnergyByKind, Stage};
 
-use crate::certificate::check_file::{CheckOptions, MotionReader, judge_file, motion_error};
+use crate::certificate::check_file::{CheckOptions, check_motion_file, motion_error, read_header};
 use crate::compute::folded::Findings;
 use crate::compute::series::FrameFigures;
-use crate::recording::{ReadMotion, stage_time};
+use crate::recording::{LoadedMotion, stage_time};
 use crate::scene::RecordScene;
 use crate::{Certificate, Destination, MotionRecord, Phase, Progress, SceneSource, StudyError};
 
 /// What a file turned out to be.
 #[derive(Debug)]
-pub enum Opened {
+pub enum OpenedFile {
     /// A scene, or a crease pattern as a scene of its own.
     Scene(SceneSource),
     /// A motion.
     Motion(Arc<OpenedMotion>),
 }
 
-impl Opened {
+impl OpenedFile {
     /// Reads the file at `path`: a FOLD file with frames in which a vertex moves is a motion; other FOLD files and SVG
     /// files are crease patterns, all else is a scene.
     ///
@@ -44,27 +44,21 @@ impl Opened {
 /// A motion of a file.
 #[derive(Debug)]
 pub struct OpenedMotion {
-    read: ReadMotion,
+    read: LoadedMotion,
 }
 
 impl OpenedMotion {
     /// The motion in the file; none where it is a crease pattern.
     fn read(path: &Path, progress: Progress<'_>) -> Result<Option<Self>, StudyError> {
-        let (file, described) = {
-            let mut input = MotionReader::open(path, Phase::Read, progress)?;
-            let file = FoldFile::read(&mut input);
-            if input.is_stopped {
-                return Err(StudyError::Interrupted);
-            }
-            let Ok(file) = file else {
-                return Ok(None);
-            };
-            (file, input.digest())
+        let (file, sha256) = match read_header(path, progress) {
+            Ok(header) => header,
+            Err(StudyError::Motion { .. }) => return Ok(None),
+            Err(error) => return Err(error),
         };
         if file.frame_count() < 2 {
             return Ok(None);
         }
-        let read = ReadMotion::read_frames(path, file, &described, progress)?;
+        let read = LoadedMotion::read_frames(path, file, sha256, progress)?;
         let mut pairs = read.motion.frames.windows(2);
         let moves = pairs.any(|pair| pair[0].positions != pair[1].positions);
         Ok(moves.then_some(Self { read }))
@@ -101,7 +95,7 @@ impl OpenedMotion {
         progress: Progress<'_>,
     ) -> Result<(Findings, Certificate), StudyError> {
         let path = &self.read.path;
-        let judged = judge_file(path, *options, progress)?;
+        let judged = check_motion_file(path, *options, progress)?;
         if judged.sha256 != self.read.sha256 {
             return Err(motion_error(path, &"it has changed since it was opened"));
         }

@@ -1,7 +1,6 @@
 //! The crease pattern of a scene as files for cutting, printing and Origami Simulator.
 
 use std::fmt::Write as _;
-use std::io::Write as _;
 use std::path::PathBuf;
 
 use foldmotion_pattern::{
@@ -12,9 +11,9 @@ use foldmotion_pattern::{
 use crate::VERSION;
 use crate::digest::sha256;
 use crate::resolve::input::Input;
-use crate::resolve::rows::draw_clashes;
+use crate::resolve::rows::clash_drawing;
 use crate::resolve::units::sheet;
-use crate::results::{Destination, MadeFile, Maker, Results, write_error};
+use crate::results::{Command, Destination, ManifestEntry, Results};
 use crate::scene::LengthUnit;
 use crate::{Phase, Progress, SceneSource, StudyError};
 
@@ -106,16 +105,13 @@ impl PatternStudy {
         source: &SceneSource,
         destination: impl Into<Destination<'a>>,
     ) -> Result<Option<PathBuf>, StudyError> {
-        let Ok(Some(figure)) = draw_clashes(source) else {
+        let Ok(Some(figure)) = clash_drawing(source) else {
             return Ok(None);
         };
-        let mut results = Results::open(destination.into(), Maker::Pattern, Some(CLASHES_SVG))?;
+        let mut results = Results::open(destination.into(), Command::Pattern, Some(CLASHES_SVG))?;
         results.require_clear(&|name| name == CLASHES_SVG)?;
         let folder = results.folder().to_owned();
-        results.write(CLASHES_SVG, |out| {
-            out.write_all(figure.as_bytes())
-                .map_err(|e| write_error(&folder, CLASHES_SVG, e))
-        })?;
+        results.write_bytes(CLASHES_SVG, figure.as_bytes())?;
         results.publish(None, &|_| false)?;
         Ok(Some(folder.join(CLASHES_SVG)))
     }
@@ -150,17 +146,11 @@ impl PatternStudy {
             &format!("foldmotion {VERSION}"),
         )?;
         let has = |format| options.formats.contains(&format);
-        let mut results = Results::open(destination.into(), Maker::Pattern, Some(PATTERN_SVG))?;
+        let mut results = Results::open(destination.into(), Command::Pattern, Some(PATTERN_SVG))?;
         results.require_clear(&|name| {
             format_of(name).is_some_and(has) && (tiles.is_some() || !is_page(name))
         })?;
-        let folder = results.folder().to_owned();
-        let mut save = |name: &str, text: &str| {
-            results.write(name, |out| {
-                out.write_all(text.as_bytes())
-                    .map_err(|e| write_error(&folder, name, e))
-            })
-        };
+        let mut save = |name: &str, text: &str| results.write_bytes(name, text.as_bytes());
         if has(PatternFormat::Fold) {
             save("pattern.fold", &fold)?;
         }
@@ -184,7 +174,8 @@ impl PatternStudy {
         }
         let paper = format!("{:?} {} {lines:?}", options.paper, options.overlap);
         let of = sha256(format!("{fold}{paper}").as_bytes());
-        let is_stale = |file: &MadeFile| file.name != CLASHES_SVG && file.of.as_ref() != Some(&of);
+        let is_stale =
+            |file: &ManifestEntry| file.name != CLASHES_SVG && file.of.as_ref() != Some(&of);
         let published = results.publish(Some(&of), &is_stale)?;
         let pages = tiles.map(|tiles| tiles.counts());
         let mut summary = self.summary(&pattern, pages, &lines.note);

@@ -26,7 +26,7 @@ pub(crate) struct MotionFile<'a> {
 }
 
 /// A motion file and what was found of its motion.
-pub(crate) struct CheckedMotion<'a> {
+pub(crate) struct CertificateSource<'a> {
     /// The name of the file.
     pub(crate) name: &'a str,
     pub(crate) sha256: String,
@@ -102,7 +102,7 @@ impl MotionFile<'_> {
     }
 }
 
-impl CheckedMotion<'_> {
+impl CertificateSource<'_> {
     pub(crate) fn certificate(self) -> Certificate {
         let report = self.collision;
         let ends = [self.times.first(), self.times.last()];

@@ -2,7 +2,7 @@
 
 use std::cell::RefCell;
 use std::fs::File;
-use std::io::{self, Read, Write as _};
+use std::io::{self, Read};
 use std::path::Path;
 
 use foldmotion_check::{CheckError, Checker, CollisionOptions, CollisionReport};
@@ -11,10 +11,10 @@ use foldmotion_pattern::{FoldError, FoldFile, Frame, LayerOrder};
 use sha2::{Digest as _, Sha256};
 
 use crate::certificate::Certificate;
-use crate::certificate::certify::{CheckedMotion, MotionFile};
+use crate::certificate::certify::{CertificateSource, MotionFile};
 use crate::certificate::checked::CheckedFile;
 use crate::digest::hexadecimal;
-use crate::results::{CERTIFICATE, Destination, Maker, Results, listed, write_error};
+use crate::results::{CERTIFICATE, Command, Destination, Results, list_names};
 use crate::{Phase, Progress, StudyError, input_file};
 
 /// The largest motion file, bytes: 16 GiB.
@@ -52,7 +52,7 @@ pub fn check_file(
     options: &CheckOptions,
     progress: Progress<'_>,
 ) -> Result<CheckedFile, StudyError> {
-    let judged = judge_file(path, *options, progress)?;
+    let judged = check_motion_file(path, *options, progress)?;
     progress(Phase::Check, 1.0);
     let collision = &judged.collision;
     Ok(CheckedFile {
@@ -64,18 +64,18 @@ pub fn check_file(
 }
 
 /// A motion file with what was found of it.
-pub(crate) struct JudgedFile {
+pub(crate) struct FileCheck {
     file: FoldFile,
     pub(crate) sha256: String,
     pub(crate) times: Vec<f64>,
     pub(crate) collision: CollisionReport,
 }
 
-impl JudgedFile {
+impl FileCheck {
     /// The certificate of the file, which stands at `path`.
     pub(crate) fn certificate(&self, path: &Path) -> Certificate {
         let name = path.file_name().unwrap_or_default().to_string_lossy();
-        let motion = CheckedMotion {
+        let motion = CertificateSource {
             name: &name,
             sha256: self.sha256.clone(),
             file: MotionFile::from(&self.file),
@@ -87,18 +87,14 @@ impl JudgedFile {
 }
 
 /// Reads the file at `path` twice and judges its motion.
-pub(crate) fn judge_file(
+pub(crate) fn check_motion_file(
     path: &Path,
     options: CheckOptions,
     progress: Progress<'_>,
-) -> Result<JudgedFile, StudyError> {
-    let (file, described) = {
-        let mut input = MotionReader::open(path, Phase::Read, progress)?;
-        let file = FoldFile::read(&mut input);
-        (input.unless_stopped(file)?, input.digest())
-    };
+) -> Result<FileCheck, StudyError> {
+    let (file, sha256) = read_header(path, progress)?;
     let mut input = MotionReader::open(path, Phase::Check, progress)?;
-    let judge = RefCell::new(Judge::new(&file, options));
+    let judge = RefCell::new(FrameChecker::new(&file, options));
     let read = file.frames(&mut input, &mut |frame, order| {
         judge.borrow_mut().take(&frame, order)
     });
@@ -107,15 +103,12 @@ pub(crate) fn judge_file(
         return Err(StudyError::Interrupted);
     }
     read.map_err(|e| judge.explain(path, &e))?;
-    let sha256 = input.digest();
-    if sha256 != described {
-        return Err(input.failure(&"it changed while it was read"));
-    }
+    input.require_unchanged(&sha256)?;
     if judge.times.len() < 2 {
-        return Err(input.failure(&NoMotion(judge.times.len())));
+        return Err(input.failure(&TooFewStates(judge.times.len())));
     }
     let (collision, times) = judge.finish().map_err(|e| motion_error(path, &e))?;
-    Ok(JudgedFile {
+    Ok(FileCheck {
         file,
         sha256,
         times,
@@ -127,21 +120,18 @@ impl Certificate {
     /// Writes `certificate.json` into a folder; other files there stay.
     ///
     /// # Errors
-    /// [`StudyError::Output`], and [`StudyError::InTheWay`] where a certificate stands there that says something else and
+    /// [`StudyError::Output`], and [`StudyError::Conflict`] where a certificate stands there that says something else and
     /// that foldmotion did not write; it is then as it was.
     pub fn write<'a>(&self, destination: impl Into<Destination<'a>>) -> Result<(), StudyError> {
-        let mut results = Results::open(destination.into(), Maker::Check, Some(CERTIFICATE))?;
+        let mut results = Results::open(destination.into(), Command::Check, Some(CERTIFICATE))?;
         let folder = results.folder().to_owned();
-        results.write(CERTIFICATE, |out| {
-            out.write_all(self.to_json().as_bytes())
-                .map_err(|e| write_error(&folder, CERTIFICATE, e))
-        })?;
-        match results.publish(Some(&self.sha256), &|_| false)?.aside {
-            aside if aside.is_empty() => Ok(()),
-            aside => Err(StudyError::InTheWay {
+        results.write_bytes(CERTIFICATE, self.to_json().as_bytes())?;
+        match results.publish(Some(&self.sha256), &|_| false)?.skipped {
+            skipped if skipped.is_empty() => Ok(()),
+            skipped => Err(StudyError::Conflict {
                 path: folder,
-                names: listed(&aside),
-                command: Maker::Check.name(),
+                names: list_names(&skipped),
+                command: Command::Check.name(),
             }),
         }
     }
@@ -156,7 +146,7 @@ pub(crate) struct MotionReader<'a> {
     hash: Sha256,
     phase: Phase,
     progress: Progress<'a>,
-    pub(crate) is_stopped: bool,
+    is_stopped: bool,
 }
 
 impl<'a> MotionReader<'a> {
@@ -189,9 +179,27 @@ impl<'a> MotionReader<'a> {
         motion_error(self.path, message)
     }
 
-    pub(crate) fn digest(&self) -> String {
+    /// Refuses a file that did not have the SHA-256 `sha256` now that all of it was read.
+    pub(crate) fn require_unchanged(&self, sha256: &str) -> Result<(), StudyError> {
+        if self.digest() == sha256 {
+            return Ok(());
+        }
+        Err(self.failure(&"it changed while it was read"))
+    }
+
+    fn digest(&self) -> String {
         hexadecimal(&self.hash.clone().finalize())
     }
+}
+
+/// Reads everything but the frames of the motion file at `path`; returns it with the SHA-256 of the file.
+pub(crate) fn read_header(
+    path: &Path,
+    progress: Progress<'_>,
+) -> Result<(FoldFile, String), StudyError> {
+    let mut input = MotionReader::open(path, Phase::Read, progress)?;
+    let file = FoldFile::read(&mut input);
+    Ok((input.unless_stopped(file)?, input.digest()))
 }
 
 impl Read for MotionReader<'_> {
@@ -224,11 +232,11 @@ pub(crate) fn motion_error(path: &Path, message: &dyn std::fmt::Display) -> Stud
     "it has {0} state(s), in file_frames or the key frame: a motion needs two or more; to fold a crease pattern use \
      `foldmotion run`"
 )]
-pub(crate) struct NoMotion(pub(crate) usize);
+pub(crate) struct TooFewStates(pub(crate) usize);
 
 /// Why the second reading ended.
 #[derive(Debug, thiserror::Error)]
-enum Ended {
+enum FrameError {
     #[error("{0}")]
     Fold(#[from] FoldError),
     #[error("{0}")]
@@ -236,14 +244,14 @@ enum Ended {
 }
 
 /// The check under way.
-struct Judge<'a> {
+struct FrameChecker<'a> {
     file: &'a FoldFile,
     options: CollisionOptions,
     checker: Option<Checker<'a>>,
     times: Vec<f64>,
 }
 
-impl<'a> Judge<'a> {
+impl<'a> FrameChecker<'a> {
     fn new(file: &'a FoldFile, options: CheckOptions) -> Self {
         Self {
             file,
@@ -257,11 +265,11 @@ impl<'a> Judge<'a> {
         }
     }
 
-    fn take(&mut self, frame: &Frame, order: &LayerOrder) -> Result<(), Ended> {
+    fn take(&mut self, frame: &Frame, order: &LayerOrder) -> Result<(), FrameError> {
         let before = self.times.last().copied();
         if let Some(before) = before.filter(|&before| before >= frame.time) {
             // A check that has stopped looks at no frame any more.
-            return Err(Ended::Check(CheckError::TimeOrder {
+            return Err(FrameError::Check(CheckError::TimeOrder {
                 frame: self.times.len(),
                 time: frame.time,
                 before,
@@ -281,11 +289,11 @@ impl<'a> Judge<'a> {
     }
 
     /// The error in the numbers of the file.
-    fn explain(&self, path: &Path, error: &Ended) -> StudyError {
+    fn explain(&self, path: &Path, error: &FrameError) -> StudyError {
         let at = self.file.frame_number(self.times.len());
         match (error, at) {
             (
-                Ended::Check(CheckError::DegenerateFace {
+                FrameError::Check(CheckError::DegenerateFace {
                     face,
                     height,
                     limit,
@@ -302,12 +310,12 @@ impl<'a> Judge<'a> {
                 );
                 motion_error(path, &message)
             }
-            (Ended::Check(CheckError::DuplicateFace { f, g }), _) => {
+            (FrameError::Check(CheckError::DuplicateFace { f, g }), _) => {
                 let [f, g] = [f, g].map(|&t| self.file.triangle_faces[t as usize]);
                 let message = format!("faces_vertices[{f}] and [{g}] have the same corners");
                 motion_error(path, &message)
             }
-            (Ended::Check(error), Some(at)) => motion_error(path, &format!("{at}: {error}")),
+            (FrameError::Check(error), Some(at)) => motion_error(path, &format!("{at}: {error}")),
             (error, _) => motion_error(path, error),
         }
     }

@@ -9,7 +9,7 @@ use foldmotion_pattern::{FoldError, FoldFile, Frame};
 use foldmotion_verify::{Refutation, Verification, Verifier};
 use serde_json::Value;
 
-use crate::certificate::check_file::{MotionReader, NoMotion};
+use crate::certificate::check_file::{MotionReader, TooFewStates, read_header};
 use crate::certificate::statement::{against_file, against_times, claim};
 use crate::certificate::{Certificate, FORMAT};
 use crate::{Phase, Progress, StudyError, input_file};
@@ -45,11 +45,7 @@ pub fn verify_file(
     progress: Progress<'_>,
 ) -> Result<VerifiedCertificate, StudyError> {
     let certificate = read_certificate(certificate)?;
-    let (file, sha256) = {
-        let mut input = MotionReader::open(motion, Phase::Read, progress)?;
-        let file = FoldFile::read(&mut input);
-        (input.unless_stopped(file)?, input.digest())
-    };
+    let (file, sha256) = read_header(motion, progress)?;
     let name = motion.file_name().unwrap_or_default().to_string_lossy();
     let other_name = (name != certificate.file).then(|| name.into_owned());
     let done = |verification| VerifiedCertificate {
@@ -72,9 +68,7 @@ pub fn verify_file(
     let claim = claim(&certificate);
     let mut input = MotionReader::open(motion, Phase::Verify, progress)?;
     let (mut verification, times) = prove(&file, &mut input, &claim)?;
-    if input.digest() != sha256 {
-        return Err(input.failure(&"it changed while it was read"));
-    }
+    input.require_unchanged(&sha256)?;
     verification
         .refuted
         .extend(against_times(&certificate, &times));
@@ -115,7 +109,7 @@ fn prove(
         return Err(input.failure(&format!("frame {frame} is not later than the one before")));
     }
     let verifier = verifier.filter(|_| times.len() > 1);
-    let verifier = verifier.ok_or_else(|| input.failure(&NoMotion(times.len())))?;
+    let verifier = verifier.ok_or_else(|| input.failure(&TooFewStates(times.len())))?;
     Ok((verifier.finish(), times))
 }
 

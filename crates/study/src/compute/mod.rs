@@ -4,11 +4,11 @@
 //! overlap on it, or could not be decided, the motion itself may be clear: the engine then runs again and records
 //! more frames there.
 
+mod check;
 pub(crate) mod engine;
 pub(crate) mod fold_angles;
 pub(crate) mod folded;
 pub(crate) mod jam;
-mod judge;
 pub(crate) mod outcome;
 pub(crate) mod path;
 pub(crate) mod preview;
@@ -28,7 +28,7 @@ use self::engine::{Computed, StageSummary, StopCause};
 use self::fold_angles::FoldAngleReport;
 use self::folded::{Findings, Folded};
 use self::jam::JamReport;
-use self::outcome::{Outcome, Parts};
+use self::outcome::{Outcome, OutcomeInput};
 use self::path::PathReport;
 use self::stop::StopReport;
 use crate::resolve::budget::MotionBudget;
@@ -38,7 +38,7 @@ use crate::{Phase, Study, StudyError, Watch};
 const MOST_ROUNDS: usize = 4;
 /// Frames added in all rounds together, at most: where motions are open all along, each round would quadruple them.
 const MOST_ADDED: usize = 20_000;
-/// Parts an interval is divided into.
+/// OutcomeInput an interval is divided into.
 const PARTS: usize = 4;
 /// Straight paths may stray this many times as far as is estimated of them: the estimate was seen to be half of what it
 /// should be.
@@ -47,7 +47,7 @@ const LARGEST_STRAY: f64 = 2.0;
 const SHORTEST: f64 = 1e-9;
 
 /// A run of the engine, judged.
-struct Attempt {
+struct CheckedRun {
     computed: Computed,
     motion: Motion,
     findings: Findings,
@@ -55,10 +55,10 @@ struct Attempt {
     strays: Vec<f64>,
 }
 
-impl Attempt {
+impl CheckedRun {
     /// Whether the budget ended it before `earlier` ended.
     fn is_cut_short(&self, earlier: &Self) -> bool {
-        let end = |attempt: &Self| attempt.motion.frames.last().map_or(0.0, |f| f.time);
+        let end = |checked_run: &Self| checked_run.motion.frames.last().map_or(0.0, |f| f.time);
         let is_spent = |stage: &StageSummary| {
             stage
                 .stop
@@ -88,35 +88,35 @@ impl Study {
         let asked = extra_times.len();
         let mut seconds = Seconds::default();
         let mut rounds = 0;
-        let mut attempt = self.attempt(&extra_times, budget, watch, &mut seconds)?;
+        let mut checked_run = self.checked_run(&extra_times, budget, watch, &mut seconds)?;
         loop {
-            let more = self.times_between(&attempt);
+            let more = self.times_between(&checked_run);
             let added = extra_times.len() - asked;
             let is_spent = rounds == MOST_ROUNDS || added + more.len() > MOST_ADDED;
             if more.is_empty() || is_spent {
-                return Ok(self.folded(attempt, rounds, added, seconds));
+                return Ok(self.folded(checked_run, rounds, added, seconds));
             }
             let before = extra_times.len();
             extra_times.extend(more);
-            let refined = self.attempt(&extra_times, budget, watch, &mut seconds)?;
-            if refined.is_cut_short(&attempt) {
+            let refined = self.checked_run(&extra_times, budget, watch, &mut seconds)?;
+            if refined.is_cut_short(&checked_run) {
                 // The budget ended the further run early: what was reached before it stays.
                 let added = before - asked;
-                return Ok(self.folded(attempt, rounds, added, seconds));
+                return Ok(self.folded(checked_run, rounds, added, seconds));
             }
-            attempt = refined;
+            checked_run = refined;
             rounds += 1;
         }
     }
 
     /// Folds and checks once, with frames at `extra_times` too.
-    fn attempt(
+    fn checked_run(
         &self,
         extra_times: &[f64],
         budget: Budget,
         watch: &dyn Watch,
         spent: &mut Seconds,
-    ) -> Result<Attempt, StudyError> {
+    ) -> Result<CheckedRun, StudyError> {
         let start = self.subject.start_time();
         let (mut computed, seconds) = timed(|| {
             self.fold(extra_times, budget, &|moment| {
@@ -129,7 +129,7 @@ impl Study {
         let progress = |phase, done| watch.progress(phase, done);
         let (findings, seconds) = timed(|| self.check(&motion, &computed, &progress))?;
         spent.check += seconds;
-        Ok(Attempt {
+        Ok(CheckedRun {
             strays: straying(&motion.frames),
             computed,
             motion,
@@ -137,20 +137,26 @@ impl Study {
         })
     }
 
-    fn folded(&self, attempt: Attempt, rounds: usize, added: usize, seconds: Seconds) -> Folded {
-        let frames = &attempt.motion.frames;
+    fn folded(
+        &self,
+        checked_run: CheckedRun,
+        rounds: usize,
+        added: usize,
+        seconds: Seconds,
+    ) -> Folded {
+        let frames = &checked_run.motion.frames;
         let last = frames.last().map_or(&[][..], |f| &f.positions);
         let sheet = self.subject.sheet();
-        let jam = attempt.computed.jam.as_ref();
+        let jam = checked_run.computed.jam.as_ref();
         let jam = jam.map(|jam| JamReport::new(jam, &self.subject));
-        let stop = attempt.computed.stages.iter().find_map(StopReport::of);
+        let stop = checked_run.computed.stages.iter().find_map(StopReport::of);
         let fold_angles = FoldAngleReport::new(sheet, last, self.subject.end_angles());
-        let outcome = Outcome::of(&Parts {
+        let outcome = Outcome::of(&OutcomeInput {
             end: frames.last().map_or(0.0, |frame| frame.time),
             jam: jam.as_ref(),
             stop: stop.as_ref(),
             fold_angles: &fold_angles,
-            collision: &attempt.findings.collision,
+            collision: &checked_run.findings.collision,
             sheet,
         });
         Folded {
@@ -159,10 +165,10 @@ impl Study {
             jam,
             stop,
             fold_angles,
-            path: self.path_report(frames, &attempt.strays, rounds, added),
-            computed: attempt.computed,
-            motion: attempt.motion,
-            findings: attempt.findings,
+            path: self.path_report(frames, &checked_run.strays, rounds, added),
+            computed: checked_run.computed,
+            motion: checked_run.motion,
+            findings: checked_run.findings,
             engine_seconds: seconds.engine,
             check_seconds: seconds.check,
         }
@@ -170,9 +176,9 @@ impl Study {
 
     /// Times at which frames are missing: within intervals that could not be decided, or, where every penetration is
     /// shallower than the straight paths may stray there, within theirs.
-    fn times_between(&self, attempt: &Attempt) -> Vec<f64> {
-        let collision = &attempt.findings.collision;
-        let (frames, strays) = (&attempt.motion.frames, &attempt.strays);
+    fn times_between(&self, checked_run: &CheckedRun) -> Vec<f64> {
+        let collision = &checked_run.findings.collision;
+        let (frames, strays) = (&checked_run.motion.frames, &checked_run.strays);
         if !matches!(collision.verdict, Verdict::Undecided | Verdict::Penetrating) {
             return Vec::new();
         }

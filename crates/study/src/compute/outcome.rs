@@ -75,14 +75,14 @@ impl Outcome {
     }
 
     /// Of what the rest of the report says.
-    pub(crate) fn of(parts: &Parts<'_>) -> Self {
+    pub(crate) fn of(parts: &OutcomeInput<'_>) -> Self {
         let (kind, t, reason) = parts.judge();
         Self { kind, t, reason }
     }
 }
 
 /// What an outcome is made of.
-pub(crate) struct Parts<'a> {
+pub(crate) struct OutcomeInput<'a> {
     /// Motion time of the last state.
     pub(crate) end: f64,
     pub(crate) jam: Option<&'a JamReport>,
@@ -92,7 +92,7 @@ pub(crate) struct Parts<'a> {
     pub(crate) sheet: &'a Sheet,
 }
 
-impl Parts<'_> {
+impl OutcomeInput<'_> {
     fn judge(&self) -> (OutcomeKind, f64, String) {
         let so_far = self.verdict_so_far();
         if let Some(jam) = self.jam {

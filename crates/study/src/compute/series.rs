@@ -1,7 +1,7 @@
 //! Figures of every frame: strain, bending, energy, separation. They become the report's stages, `motion.csv` and
 //! `plots.svg`.
 
-use std::io::{self, Write};
+use std::fmt::Write as _;
 
 use foldmotion_check::{bar_strain, facet_bending};
 use foldmotion_pattern::{Frame, Motion};
@@ -81,20 +81,18 @@ fn stage_at(time: f64, stages: &[Stage]) -> (Stage, f64) {
 }
 
 /// `motion.csv`: one line a frame.
-pub(crate) fn write_csv(series: &[FrameFigures], out: &mut impl Write) -> io::Result<()> {
-    writeln!(
-        out,
-        "t,stage,peak_strain,mean_strain,peak_facet_bending_deg,energy_bars,energy_creases,energy_facets,\
-         energy_face_angles,energy_contact,contacts,separation"
-    )?;
+pub(crate) fn csv(series: &[FrameFigures]) -> String {
+    let mut out = "t,stage,peak_strain,mean_strain,peak_facet_bending_deg,energy_bars,energy_creases,energy_facets,\
+                   energy_face_angles,energy_contact,contacts,separation\n"
+        .to_owned();
     for f in series {
         let separation = if f.separation.is_finite() {
             format!("{:?}", f.separation)
         } else {
             String::new()
         };
-        // Shortest digits that read back as the same number, with an exponent where it is short.
-        writeln!(
+        // The shortest digits that read back as the same number. Writing into a string cannot fail.
+        let _ = writeln!(
             out,
             "{:?},{},{:?},{:?},{:?},{:?},{:?},{:?},{:?},{:?},{},{separation}",
             f.time,
@@ -108,9 +106,9 @@ pub(crate) fn write_csv(series: &[FrameFigures], out: &mut impl Write) -> io::Re
             f.energy.face_angles,
             f.contact_energy,
             f.contacts,
-        )?;
+        );
     }
-    Ok(())
+    out
 }
 
 /// The panels of `plots.svg`: strain, bending, energy and smallest separation over t.

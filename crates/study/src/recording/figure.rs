@@ -1,7 +1,5 @@
 //! `figure.svg` and `figure.pdf`: states side by side at one scale.
 
-use std::io::Write as _;
-
 use foldmotion_record::{
     Bounds, Dimension, Drawing, FilmOptions, LineStyle, Pose, Provenance, RecordError,
     StripOptions, strip,
@@ -9,11 +7,11 @@ use foldmotion_record::{
 use glam::{DVec2, DVec3};
 
 use super::colours::legend;
-use super::{Quantity, Recorder, Shown};
+use super::{ColourValues, Quantity, Recorder};
 use crate::StudyError;
 use crate::VERSION;
 use crate::resolve::known::{UnitSizes, turned};
-use crate::results::{Results, write_error};
+use crate::results::Results;
 use crate::scene::{ColourChoice, OutputChoice};
 
 /// States in a row, at most.
@@ -22,7 +20,7 @@ const COLUMNS: usize = 5;
 impl Recorder<'_> {
     pub(super) fn figures(
         &self,
-        values: Shown<'_>,
+        values: ColourValues<'_>,
         results: &mut Results,
     ) -> Result<(), StudyError> {
         let (svg, pdf) = (OutputChoice::Svg, OutputChoice::Pdf);
@@ -30,23 +28,16 @@ impl Recorder<'_> {
             return Ok(());
         }
         let drawing = self.figure(values)?;
-        let folder = results.folder().to_owned();
-        let mut write = |name: &'static str, bytes: &[u8]| {
-            results.write(name, |out| {
-                out.write_all(bytes)
-                    .map_err(|e| write_error(&folder, name, e))
-            })
-        };
         if self.recording.has(svg) {
-            write("figure.svg", drawing.svg()?.as_bytes())?;
+            results.write_bytes("figure.svg", drawing.svg()?.as_bytes())?;
         }
         if self.recording.has(pdf) {
-            write("figure.pdf", &drawing.pdf()?)?;
+            results.write_bytes("figure.pdf", &drawing.pdf()?)?;
         }
         Ok(())
     }
 
-    fn figure(&self, values: Shown<'_>) -> Result<Drawing, StudyError> {
+    fn figure(&self, values: ColourValues<'_>) -> Result<Drawing, StudyError> {
         let times = self.times();
         let poses: Vec<Pose<'_>> = times.into_iter().map(|time| self.pose(time)).collect();
         let recording = self.recording;
@@ -78,8 +69,8 @@ impl Recorder<'_> {
         Ok(drawing.with_provenance(Provenance {
             title: self.title.to_owned(),
             producer: format!("foldmotion {VERSION}"),
-            scene: self.origin.text(),
-            hash: self.origin.sha256.clone(),
+            scene: self.source_info.text(),
+            hash: self.source_info.sha256.clone(),
         }))
     }
 

@@ -93,7 +93,7 @@ impl Recording {
 
 impl Subject {
     /// A motion through the states that are known before it is computed.
-    pub(crate) fn known_states(&self) -> Motion {
+    pub(crate) fn exact_motion(&self) -> Motion {
         let sheet = self.sheet().clone();
         let planar = sheet.planar();
         let states = match self.units() {
@@ -112,7 +112,7 @@ impl Subject {
     }
 }
 
-#[cfg(test)]
+#[cfg(all(test, feature = "mp4"))]
 mod tests {
     use std::fs;
     use std::path::Path;
@@ -126,7 +126,6 @@ mod tests {
         of_kind.map(|file| file.metadata().unwrap().len()).sum()
     }
 
-    #[cfg(feature = "mp4")]
     #[test]
     fn what_the_disk_must_hold_is_estimated_to_within_a_factor() {
         let scenes = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes");
@@ -142,7 +141,7 @@ mod tests {
         let study = Study::resolve(&source).unwrap();
         let home = tempfile::tempdir().unwrap();
         let report = study.run(home.path(), &|_, _| true).unwrap();
-        let motion = study.subject.known_states();
+        let motion = study.subject.exact_motion();
         let films = study.recording.sample_films(&motion, &|_, _| true).unwrap();
         let about = study.space(&study.recording, report.path.frames, Some(films));
         let most = study.space(&study.recording, report.path.frames, None);

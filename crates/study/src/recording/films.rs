@@ -4,7 +4,7 @@ use std::fs;
 
 use foldmotion_record::{FilmOptions, Frames, Gif, Mp4, Reel, Scene, Style, film};
 
-use super::{Recorder, Shown};
+use super::{ColourValues, Recorder};
 use crate::StudyError;
 use crate::results::{FRAMES, Results};
 use crate::scene::OutputChoice;
@@ -19,7 +19,7 @@ const NARROWEST: f64 = 0.5;
 impl Recorder<'_> {
     pub(super) fn films(
         &self,
-        values: Shown<'_>,
+        values: ColourValues<'_>,
         results: &mut Results,
         progress: Progress<'_>,
     ) -> Result<(), StudyError> {
@@ -57,7 +57,7 @@ impl Recorder<'_> {
                 line_width: line_width(film_options),
                 ..film_options.style.clone()
             },
-            provenance: self.origin.text(),
+            provenance: self.source_info.text(),
             ending: self.ending.clone(),
             // Only pictures can show through.
             is_transparent: film_options.is_transparent && has(OutputChoice::Png),

@@ -1,6 +1,5 @@
 //! Films, figures and models of a motion: of a run, and of any motion file.
 
-mod again;
 mod colours;
 mod figure;
 mod film_sample;
@@ -8,10 +7,11 @@ mod films;
 mod marks;
 mod models;
 mod motion_file;
-mod origin;
 mod page;
 mod planned;
+mod reproduce;
 mod run_files;
+mod source_info;
 mod space;
 
 use foldmotion_pattern::Motion;
@@ -23,14 +23,14 @@ use crate::results::Results;
 use crate::scene::LengthUnit;
 use crate::{Phase, Progress, Recording, StudyError};
 
-pub use self::again::{Again, record_again};
+pub(crate) use self::motion_file::{LoadedMotion, stage_time};
 pub use self::motion_file::{MotionRecord, record_file};
-pub(crate) use self::motion_file::{ReadMotion, stage_time};
+pub use self::reproduce::{Reproduction, reproduce_file};
 
 pub use self::colours::Quantity;
 pub(crate) use self::film_sample::FilmSizes;
-use self::origin::Origin;
-use self::page::Beside;
+use self::page::PageContent;
+use self::source_info::SourceInfo;
 
 /// Records one motion.
 pub(crate) struct Recorder<'a> {
@@ -43,11 +43,11 @@ pub(crate) struct Recorder<'a> {
     pub(crate) unit: &'a str,
     /// What the study says beside the motion, if there is one.
     pub(crate) known: Option<Known>,
-    pub(crate) origin: Origin,
+    pub(crate) source_info: SourceInfo,
     /// Whether the lengths of the sheet at rest are known.
     pub(crate) has_rest_lengths: bool,
     /// What a page shows beside the motion.
-    pub(crate) beside: Beside,
+    pub(crate) beside: PageContent,
     /// How the motion ended, where it did not fold.
     pub(crate) ending: Option<String>,
 }
@@ -97,7 +97,7 @@ impl Recorder<'_> {
 }
 
 /// What a film and a figure show as colours.
-type Shown<'a> = Option<&'a Values>;
+type ColourValues<'a> = Option<&'a Values>;
 
 fn proceed(progress: Progress<'_>) -> Result<(), StudyError> {
     if progress(Phase::Record, 0.0) {

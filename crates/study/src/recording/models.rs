@@ -1,7 +1,5 @@
 //! `motion.glb`, and an OBJ and STL file of each state.
 
-use std::io::BufWriter;
-
 use foldmotion_pattern::Motion;
 use foldmotion_record::{
     GlbOptions, RecordError, Solid, Style, glb, obj, positions_at, solid, stl, surface_of,
@@ -28,14 +26,14 @@ impl Recorder<'_> {
         for time in self.times() {
             let solid = self.solid(time)?;
             if outputs[0] {
-                let text = self.origin.text_at(time);
+                let text = self.source_info.text_at(time);
                 results.write(&state_name(time, OutputChoice::Obj), |out| {
                     obj(&solid, &text, out).map_err(StudyError::from)
                 })?;
             }
             if outputs[1] {
                 // The 80 bytes of the header hold no scene.
-                let label = format!("foldmotion {VERSION} t={time} {}", self.origin.sha256);
+                let label = format!("foldmotion {VERSION} t={time} {}", self.source_info.sha256);
                 results.write(&state_name(time, OutputChoice::Stl), |out| {
                     stl(&solid, &label, out).map_err(StudyError::from)
                 })?;
@@ -53,7 +51,7 @@ impl Recorder<'_> {
                 _ => Style::default(),
             },
             title: self.title.to_owned(),
-            provenance: self.origin.text(),
+            provenance: self.source_info.text(),
             ..GlbOptions::default()
         };
         let motion = self.motion_in_metres();
@@ -65,10 +63,7 @@ impl Recorder<'_> {
                 written => break written.map(drop)?,
             }
         }
-        results.write("motion.glb", |out: &mut BufWriter<_>| {
-            std::io::Write::write_all(out, &bytes)
-                .map_err(|e| StudyError::Record(RecordError::Write(e)))
-        })
+        results.write_bytes("motion.glb", &bytes)
     }
 
     /// The motion in metres, where its unit is another.

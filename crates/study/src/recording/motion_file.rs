@@ -8,13 +8,13 @@ use foldmotion_record::Marks;
 
 use super::marks::marks;
 use super::page::LARGEST_FOLD;
-use super::{Beside, Origin, Recorder, Recording};
-use crate::certificate::check_file::{LARGEST, MotionReader, NoMotion};
+use super::{PageContent, Recorder, Recording, SourceInfo};
+use crate::certificate::check_file::{LARGEST, MotionReader, TooFewStates, read_header};
 use crate::certificate::statement::claim;
 use crate::certificate::verify_file::read_certificate;
 use crate::resolve::input::{Input, printable};
 use crate::resolve::recording::recording as resolved;
-use crate::results::{CERTIFICATE, Destination, Maker, Published, Results, is_picture};
+use crate::results::{CERTIFICATE, Command, Destination, Published, Results, is_picture};
 use crate::scene::{ColourChoice, OutputChoice, RecordScene};
 use crate::{Phase, Progress};
 use crate::{Scene, SceneSource, StudyError, input_file};
@@ -28,7 +28,7 @@ pub struct MotionRecord {
     /// The names of the files in the folder.
     pub files: Vec<String>,
     /// Whether penetrations are marked: a certificate of this very file lies beside it.
-    pub is_judged: bool,
+    pub is_checked: bool,
     /// Whether there are some to mark.
     pub penetrates: bool,
     /// What became of other files in the folder.
@@ -50,7 +50,7 @@ pub fn record_file<'a>(
 ) -> Result<MotionRecord, StudyError> {
     // What cannot be recorded is refused before a long file is read.
     recording(record)?;
-    ReadMotion::read(path, progress)?.record_into(destination.into(), record, None, progress)
+    LoadedMotion::read(path, progress)?.record_into(destination.into(), record, None, progress)
 }
 
 /// The folder of what is recorded, where nothing stands in its way.
@@ -58,7 +58,7 @@ pub(super) fn open_record(
     recording: &Recording,
     destination: Destination<'_>,
 ) -> Result<Results, StudyError> {
-    let results = Results::open(destination, Maker::Record, None)?;
+    let results = Results::open(destination, Command::Record, None)?;
     results.require_clear(&|name| recording.plans(name))?;
     Ok(results)
 }
@@ -71,12 +71,12 @@ pub(super) fn publish_record(
     sha256: &str,
 ) -> Result<(Vec<String>, Published), StudyError> {
     let has_pictures = recording.has(OutputChoice::Png);
-    let aside = results.set_aside();
+    let skipped = results.skip_conflicts();
     let files = results.written().to_vec();
     let published =
         results.publish(Some(sha256), &|file| has_pictures && is_picture(&file.name))?;
     let published = Published {
-        aside,
+        skipped,
         others: Vec::new(),
         ..published
     };
@@ -91,7 +91,7 @@ pub(super) fn recording(record: &RecordScene) -> Result<Recording, StudyError> {
         .get_or_insert_with(|| vec![OutputChoice::Gif]);
     let needs_scene = [OutputChoice::Fold, OutputChoice::Csv];
     let refused = outputs.iter().find(|o| needs_scene.contains(o)).copied();
-    let source = SceneSource::of_flags(&record);
+    let source = SceneSource::from_flags(&record);
     if let Some(output) = refused {
         let message = format!(
             "{} comes from running a scene (foldmotion run); of a motion there is gif, mp4, png, svg, pdf, glb, obj, stl and html",
@@ -116,7 +116,7 @@ pub(super) fn recording(record: &RecordScene) -> Result<Recording, StudyError> {
 
 /// A motion read from a file.
 #[derive(Debug)]
-pub(crate) struct ReadMotion {
+pub(crate) struct LoadedMotion {
     pub(crate) motion: Motion,
     pub(crate) sha256: String,
     pub(crate) path: PathBuf,
@@ -127,28 +127,24 @@ pub(crate) struct ReadMotion {
     /// How the run ended that made it, where it did not fold.
     ending: Option<String>,
     pub(super) marks: Marks,
-    is_judged: bool,
+    is_checked: bool,
     /// Whether the crease pattern is known: lengths at rest.
     pub(crate) is_flat: bool,
     /// Whether the file gives the times of its frames.
     pub(crate) has_times: bool,
 }
 
-impl ReadMotion {
+impl LoadedMotion {
     pub(crate) fn read(path: &Path, progress: Progress<'_>) -> Result<Self, StudyError> {
-        let (file, described) = {
-            let mut input = MotionReader::open(path, Phase::Read, progress)?;
-            let file = FoldFile::read(&mut input);
-            (input.unless_stopped(file)?, input.digest())
-        };
-        Self::read_frames(path, file, &described, progress)
+        let (file, sha256) = read_header(path, progress)?;
+        Self::read_frames(path, file, sha256, progress)
     }
 
-    /// Reads the frames of `file`, read from `path` when it had the SHA-256 `described`.
+    /// Reads the frames of `file`, which was read from `path` when that had the SHA-256 `sha256`.
     pub(crate) fn read_frames(
         path: &Path,
         file: FoldFile,
-        described: &str,
+        sha256: String,
         progress: Progress<'_>,
     ) -> Result<Self, StudyError> {
         let mut input = MotionReader::open(path, Phase::Read, progress)?;
@@ -168,12 +164,9 @@ impl ReadMotion {
             Ok(())
         });
         input.unless_stopped(read)?;
-        let sha256 = input.digest();
-        if sha256 != described {
-            return Err(input.failure(&"it changed while it was read"));
-        }
+        input.require_unchanged(&sha256)?;
         if frames.len() < 2 {
-            return Err(input.failure(&NoMotion(frames.len())));
+            return Err(input.failure(&TooFewStates(frames.len())));
         }
         if let Some(k) = (1..frames.len()).find(|&k| frames[k].time <= frames[k - 1].time) {
             let message = format!("frame {k} of the motion is not later than the one before");
@@ -197,7 +190,7 @@ impl ReadMotion {
             title: file.title.as_deref().map(printable),
             unit: file.unit,
             ending: file.outcome.filter(|outcome| outcome != "folded"),
-            is_judged: judged.is_some(),
+            is_checked: judged.is_some(),
             marks: judged.unwrap_or_default(),
             is_flat: file.rest.iter().all(|p| p.z == file.rest[0].z),
             has_times: file.has_times,
@@ -225,14 +218,14 @@ impl ReadMotion {
             results.require(&space(None))?;
         }
         let marks = judged.map(|collision| marks(&self.motion, collision, |time| time));
-        let is_judged = self.is_judged || marks.is_some();
+        let is_checked = self.is_checked || marks.is_some();
         let marks = marks.unwrap_or_else(|| self.marks.clone());
         let penetrates = !marks.is_empty();
         self.record(&recording, marks, &mut results, progress)?;
         let (files, published) = publish_record(results, &recording, &self.sha256)?;
         Ok(MotionRecord {
             files,
-            is_judged,
+            is_checked,
             penetrates,
             published,
         })
@@ -254,7 +247,7 @@ impl ReadMotion {
             title: self.title.as_deref().unwrap_or(&self.name),
             unit: self.unit.as_deref().unwrap_or("unit"),
             known: None,
-            origin: Origin::of_motion(self.name.clone(), record, self.sha256.clone()),
+            source_info: SourceInfo::of_motion(self.name.clone(), record, self.sha256.clone()),
             has_rest_lengths: self.is_flat,
             beside: self.beside(recording)?,
             ending: self.ending.clone(),
@@ -263,27 +256,27 @@ impl ReadMotion {
     }
 
     /// What a page shows beside the motion; nothing where none is asked for.
-    fn beside(&self, recording: &Recording) -> Result<Beside, StudyError> {
+    fn beside(&self, recording: &Recording) -> Result<PageContent, StudyError> {
         if !recording.has(OutputChoice::Html) {
-            return Ok(Beside::default());
+            return Ok(PageContent::default());
         }
         let read = |path: &Path| input_file::read(path, LARGEST);
         let bytes = read(&self.path)?;
-        let certificate = if self.is_judged {
+        let certificate = if self.is_checked {
             String::from_utf8(read(&self.path.with_file_name(CERTIFICATE))?).ok()
         } else {
             None
         };
-        Ok(Beside {
+        Ok(PageContent {
             fold: (bytes.len() as u64 <= LARGEST_FOLD).then_some(bytes),
             certificate,
-            ..Beside::default()
+            ..PageContent::default()
         })
     }
 
     /// Refuses what this motion cannot show.
     fn require_states(&self, recording: &Recording) -> Result<(), StudyError> {
-        let source = SceneSource::of_flags(&recording.scene.record);
+        let source = SceneSource::from_flags(&recording.scene.record);
         let ends = [self.motion.frames.first(), self.motion.frames.last()];
         let [first, last] = ends.map(|frame| frame.map_or(0.0, |f| f.time));
         let outside = |t: &&f64| !(first..=last).contains(*t);

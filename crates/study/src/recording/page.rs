@@ -17,7 +17,7 @@ const SHORTEST_STAGE: f64 = 0.01;
 
 /// What a page shows beside the motion.
 #[derive(Debug, Default)]
-pub(crate) struct Beside {
+pub(crate) struct PageContent {
     /// The text of the report; a page leaves out its times, threads and device.
     pub(crate) report: Option<String>,
     /// The text of the certificate.
@@ -41,8 +41,8 @@ impl Recorder<'_> {
             provenance: Provenance {
                 title: self.title.to_owned(),
                 producer: format!("foldmotion {VERSION}"),
-                scene: self.origin.text(),
-                hash: self.origin.sha256.clone(),
+                scene: self.source_info.text(),
+                hash: self.source_info.sha256.clone(),
             },
             ..PageOptions::default()
         };

@@ -9,10 +9,10 @@ use foldmotion_record::plots;
 use super::marks::marks;
 use super::motion_file::{open_record, publish_record};
 use super::page::LARGEST_FOLD;
-use super::{Beside, Origin, Recorder, Recording};
-use crate::certificate::certify::{CheckedMotion, MotionFile};
+use super::{PageContent, Recorder, Recording, SourceInfo};
+use crate::certificate::certify::{CertificateSource, MotionFile};
 use crate::compute::folded::{Findings, Folded};
-use crate::compute::series::{panels, write_csv};
+use crate::compute::series::{csv, panels};
 use crate::digest::HashedWriter;
 use crate::report::{OutcomeKind, SecondsReport};
 use crate::resolve::input::Input;
@@ -46,7 +46,7 @@ impl Study {
 
     /// `record` in the place of `[record]` of the scene.
     fn recording_as(&self, record: &RecordScene) -> Result<Recording, StudyError> {
-        let source = SceneSource::of_flags(record);
+        let source = SceneSource::from_flags(record);
         let scene = Scene {
             record: record.clone(),
             ..self.recording.scene.clone()
@@ -79,7 +79,7 @@ impl Study {
             title: &self.title,
             unit: self.unit_name,
             known: self.subject.units().map(UnitStudy::known),
-            origin: Origin::of_scene(&recording.scene, sha256.clone()),
+            source_info: SourceInfo::of_scene(&recording.scene, sha256.clone()),
             has_rest_lengths: true,
             beside,
             ending: (outcome.kind != OutcomeKind::Folded).then(|| outcome.headline()),
@@ -89,7 +89,7 @@ impl Study {
     }
 
     fn write_fold(&self, folded: &Folded, out: impl Write) -> io::Result<String> {
-        let mut keys = self.subject.kept_keys();
+        let mut keys = self.subject.preserved_keys();
         let outcome = folded.outcome.headline().into();
         keys.insert("foldmotion:outcome".to_owned(), outcome);
         let header = FoldHeader {
@@ -118,7 +118,7 @@ impl Study {
         recording: &Recording,
         folded: &Folded,
         results: &mut Results,
-    ) -> Result<(String, Beside), StudyError> {
+    ) -> Result<(String, PageContent), StudyError> {
         let folder = results.folder().to_owned();
         let failed = |e| write_error(&folder, MOTION, e);
         let [has_file, has_page] =
@@ -131,7 +131,7 @@ impl Study {
             let mut bytes = Vec::new();
             sha256 = self.write_fold(folded, &mut bytes).map_err(failed)?;
             if has_file {
-                results.write(MOTION, |out| out.write_all(&bytes).map_err(failed))?;
+                results.write_bytes(MOTION, &bytes)?;
             }
             fold = Some(bytes);
         } else if has_file {
@@ -143,17 +143,14 @@ impl Study {
             sha256 = self.digest(folded)?;
         }
         if !has_file && !has_page {
-            return Ok((sha256, Beside::default()));
+            return Ok((sha256, PageContent::default()));
         }
         let certificate = self.certificate(folded, sha256.clone()).to_json();
         if has_file {
-            results.write(CERTIFICATE, |out| {
-                out.write_all(certificate.as_bytes())
-                    .map_err(|e| write_error(&folder, CERTIFICATE, e))
-            })?;
+            results.write_bytes(CERTIFICATE, certificate.as_bytes())?;
         }
         if !has_page {
-            return Ok((sha256, Beside::default()));
+            return Ok((sha256, PageContent::default()));
         }
         let beside = self.beside(folded, certificate, fold);
         Ok((sha256, beside))
@@ -170,7 +167,7 @@ impl Study {
     pub(crate) fn certificate(&self, folded: &Folded, sha256: String) -> Certificate {
         let motion = &folded.motion;
         let times: Vec<f64> = motion.frames.iter().map(|f| f.time).collect();
-        let checked = CheckedMotion {
+        let checked = CertificateSource {
             name: MOTION,
             sha256,
             file: MotionFile {
@@ -189,12 +186,12 @@ impl Study {
     }
 
     /// What a page shows beside the motion.
-    fn beside(&self, folded: &Folded, certificate: String, fold: Option<Vec<u8>>) -> Beside {
+    fn beside(&self, folded: &Folded, certificate: String, fold: Option<Vec<u8>>) -> PageContent {
         let findings = &folded.findings;
         let first = findings.collision.first.as_ref().map(|p| p.time);
         // A page leaves out seconds and files.
         let report = self.report(folded, SecondsReport::NONE, &[]);
-        Beside {
+        PageContent {
             report: Some(report.to_json()),
             certificate: Some(certificate),
             fold,
@@ -206,13 +203,7 @@ impl Study {
 /// `motion.csv` and `plots.svg`.
 fn record_series(findings: &Findings, results: &mut Results) -> Result<(), StudyError> {
     let first = findings.collision.first.as_ref().map(|p| p.time);
-    let folder = results.folder().to_owned();
-    results.write("motion.csv", |out| {
-        write_csv(&findings.series, out).map_err(|e| write_error(&folder, "motion.csv", e))
-    })?;
+    results.write_bytes("motion.csv", csv(&findings.series).as_bytes())?;
     let svg = plots(&panels(&findings.series, first))?;
-    results.write("plots.svg", |out| {
-        out.write_all(svg.as_bytes())
-            .map_err(|e| write_error(&folder, "plots.svg", e))
-    })
+    results.write_bytes("plots.svg", svg.as_bytes())
 }

@@ -10,7 +10,7 @@ use crate::resolve::recording::STATES;
 use crate::results::Space;
 use crate::scene::OutputChoice;
 
-/// Bytes of a figure beside its facets: letters, keys and what it says of its origin.
+/// Bytes of a figure beside its facets: letters, keys and what it says of its source_info.
 const PAGE: u64 = 200_000;
 
 /// Bytes a facet takes in a figure at most on average.

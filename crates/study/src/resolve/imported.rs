@@ -122,7 +122,7 @@ fn refuse_keys_of_units(input: &Input<'_>) -> Result<(), StudyError> {
             "[{table}] describes a sheet of units, and [pattern] brings one of its own; leave one of the two out"
         );
         return Err(StudyError::Parse {
-            place: input.source.place_of(table),
+            place: input.source.location_of(table),
             message,
         });
     }
@@ -247,7 +247,7 @@ fn waypoints(imported: &Imported, with_stages: bool, fraction: f64) -> Vec<Vec<f
 impl SceneSource {
     /// The scene of a crease pattern that is run by itself: `[pattern]` with this file, and all else left out; none where
     /// the name of the file ends in no format of crease patterns.
-    pub(crate) fn of_pattern(path: &Path) -> Option<Self> {
+    pub(crate) fn for_pattern(path: &Path) -> Option<Self> {
         PatternFileFormat::of(path)?;
         let name = path.file_name()?.to_str()?;
         let mut source = Self::new(path, String::new());
@@ -257,6 +257,6 @@ impl SceneSource {
 
     /// Whether [`Self::read`] takes a file for a crease pattern.
     pub fn is_pattern(path: &Path) -> bool {
-        Self::of_pattern(path).is_some()
+        Self::for_pattern(path).is_some()
     }
 }

@@ -18,8 +18,8 @@ pub(crate) struct Input<'a> {
 
 impl Input<'_> {
     /// The title; that of the pattern or the file's name where the scene has none.
-    pub(crate) fn title(&self, of_pattern: Option<&String>) -> String {
-        let own = self.scene.title.as_ref().or(of_pattern);
+    pub(crate) fn title(&self, for_pattern: Option<&String>) -> String {
+        let own = self.scene.title.as_ref().or(for_pattern);
         own.map_or_else(|| self.source.stem(), |title| printable(title))
     }
 

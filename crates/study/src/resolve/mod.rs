@@ -134,7 +134,7 @@ fn notes(input: &Input<'_>, subject: &Subject) -> Vec<String> {
         .filter_map(|(key, value)| Some((key, value?)));
     let note = |(key, value)| {
         let (case, ratio) = (units.unit.case.name(), units.unit.width / units.unit.height);
-        let place = input.source.place_of(key);
+        let place = input.source.location_of(key);
         format!(
             "{place}: {key} = {} is not used: with w/h = {:.6} the case is {case}",
             Number(value),

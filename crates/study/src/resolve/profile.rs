@@ -212,7 +212,7 @@ fn check_equal(input: &Input<'_>, divided: &DividedProfile) -> Result<(), StudyE
         return Err(input.error("division.method", message));
     }
     Err(StudyError::Undivided {
-        place: input.source.place_of("profile"),
+        place: input.source.location_of("profile"),
         segments,
         residual: division.max_residual,
         iterations: division.iterations,

@@ -144,7 +144,7 @@ pub(crate) fn steps_of(
 ///
 /// # Errors
 /// As [`Study::resolve`](crate::Study::resolve), but for rows that clash.
-pub fn draw_clashes(source: &SceneSource) -> Result<Option<String>, StudyError> {
+pub fn clash_drawing(source: &SceneSource) -> Result<Option<String>, StudyError> {
     let scene = source.scene()?;
     let input = Input {
         source,

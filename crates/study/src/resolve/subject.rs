@@ -103,7 +103,7 @@ impl Subject {
     }
 
     /// Keys of the file it comes from that its motion file keeps.
-    pub(crate) fn kept_keys(&self) -> Map<String, Value> {
+    pub(crate) fn preserved_keys(&self) -> Map<String, Value> {
         match self {
             Self::Units(_) => Map::new(),
             Self::Imported(study) => study.imported.keys_of_triangles(),

@@ -56,7 +56,7 @@ pub(crate) fn require_moderate(
 }
 
 /// The case whose columns a built-in profile brings.
-pub(crate) fn case_asked_for(input: &Input<'_>) -> Case {
+pub(crate) fn requested_case(input: &Input<'_>) -> Case {
     match input.scene.sheet.case {
         Some(CaseChoice::T) => Case::T,
         Some(CaseChoice::S) => Case::S,

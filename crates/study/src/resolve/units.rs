@@ -12,7 +12,7 @@ use super::motion::schedule_error;
 use super::profile::{DividedProfile, curve, division};
 use super::rows::{steps_of, units};
 use super::unfolding::Unfolding;
-use super::unit::{MOST_ORDERED, Purpose, case_asked_for, pattern_error, too_many_layers};
+use super::unit::{MOST_ORDERED, Purpose, pattern_error, requested_case, too_many_layers};
 use crate::scene::DivisionMethod;
 use crate::{SceneSource, StudyError};
 
@@ -75,7 +75,7 @@ pub(crate) fn unit_study(input: &Input<'_>) -> Result<(UnitStudy, Schedule), Stu
         divided,
         division_seconds,
         units,
-    } = laid_out(input, Purpose::Fold)?;
+    } = lay_out(input, Purpose::Fold)?;
     let (profile, division) = (divided.profile, divided.division);
     let facing = input.scene.sheet.facing.unwrap_or_default();
     let deployed = units
@@ -118,10 +118,10 @@ fn compact_order(input: &Input<'_>, units: &UnitSheet) -> Result<LayerOrder, Stu
 
 /// Divides the profile and lays out the sheet.
 pub(crate) fn sheet(input: &Input<'_>) -> Result<ResolvedSheet, StudyError> {
-    laid_out(input, Purpose::Show)
+    lay_out(input, Purpose::Show)
 }
 
-fn laid_out(input: &Input<'_>, purpose: Purpose) -> Result<ResolvedSheet, StudyError> {
+fn lay_out(input: &Input<'_>, purpose: Purpose) -> Result<ResolvedSheet, StudyError> {
     let curve = curve(input)?;
     let started = Instant::now();
     let divided = division(input, &curve)?;
@@ -129,7 +129,7 @@ fn laid_out(input: &Input<'_>, purpose: Purpose) -> Result<ResolvedSheet, StudyE
     let columns = input.count(
         "sheet.columns",
         input.scene.sheet.columns,
-        curve.model.map(|m| m.columns.of(case_asked_for(input))),
+        curve.model.map(|m| m.columns.of(requested_case(input))),
     )?;
     let units = units(input, curve.model, &divided.division, columns, purpose)?;
     Ok(ResolvedSheet {

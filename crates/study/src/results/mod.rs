@@ -7,35 +7,35 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use crate::StudyError;
 
+pub use self::abandoned::process_may_exist;
 pub use self::destination::Destination;
-pub use self::left_over::may_run;
-pub(crate) use self::made::{MadeFile, Maker};
+pub(crate) use self::manifest::{Command, ManifestEntry};
 pub(crate) use self::names::{CERTIFICATE, FRAMES, MOTION, REPORT, is_of_a_run, is_picture};
 pub use self::published::Published;
-pub use self::published::listed;
+pub use self::published::list_names;
 pub(crate) use self::space::{Space, size_words};
 
-use self::made::{LIST, MadeFiles, are_same};
+use self::manifest::{LIST, Manifest, are_same};
 
+mod abandoned;
 mod destination;
-mod left_over;
-mod made;
+mod manifest;
 mod names;
 mod published;
 mod space;
 
 /// The temporary folders of this process. Held while files are moved into place.
-static UNDER_WAY: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
+static UNFINISHED: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
 
-fn under_way() -> MutexGuard<'static, Vec<PathBuf>> {
+fn unfinished() -> MutexGuard<'static, Vec<PathBuf>> {
     // A poisoned lock only means that another thread panicked; the list is whole.
-    UNDER_WAY.lock().unwrap_or_else(PoisonError::into_inner)
+    UNFINISHED.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
 /// Gives up all results under way, for a process that ends now: those being moved into place get there, all others are
 /// removed. Whatever would be published later waits for ever.
-pub fn give_up_results() {
-    let folders = under_way();
+pub fn discard_unfinished_results() {
+    let folders = unfinished();
     for folder in folders.iter() {
         // What cannot be removed is a hidden folder that says what it is.
         let _ = fs::remove_dir_all(folder);
@@ -50,11 +50,11 @@ pub(crate) struct Results {
     temporary: PathBuf,
     /// Says that this process works in the temporary folder.
     lock: Option<File>,
-    maker: Maker,
+    command: Command,
     /// Whether files of others are replaced.
     replaces_all: bool,
     /// What was made in the folder before.
-    made: MadeFiles,
+    manifest: Manifest,
     /// The one that speaks of the others, if there is one, moved into place last.
     last: Option<&'static str>,
     written: Vec<String>,
@@ -63,11 +63,11 @@ pub(crate) struct Results {
 }
 
 impl Results {
-    /// Opens the temporary folder of results of `maker`, of which `last` speaks of the others. What killed processes left
+    /// Opens the temporary folder of results of `command`, of which `last` speaks of the others. What killed processes left
     /// beside it is removed.
     pub(crate) fn open(
         destination: Destination<'_>,
-        maker: Maker,
+        command: Command,
         last: Option<&'static str>,
     ) -> Result<Self, StudyError> {
         let folder = destination.folder();
@@ -88,18 +88,18 @@ impl Results {
             .file_name()
             .unwrap_or_else(|| "out".as_ref())
             .to_string_lossy();
-        left_over::remove(parent, &name);
-        let temporary = left_over::folder_of(parent, &name);
+        abandoned::remove(parent, &name);
+        let temporary = abandoned::folder_of(parent, &name);
         fs::create_dir_all(&temporary)
             .map_err(|e| output_error(&temporary, "cannot be made", e))?;
-        under_way().push(temporary.clone());
+        unfinished().push(temporary.clone());
         Ok(Self {
             folder: folder.to_owned(),
-            lock: left_over::lock(&temporary),
+            lock: abandoned::lock(&temporary),
             temporary,
-            maker,
+            command,
             replaces_all: destination.replaces_all(),
-            made: MadeFiles::read(folder),
+            manifest: Manifest::read(folder),
             last,
             written: Vec::new(),
             cleared: 0,
@@ -138,19 +138,19 @@ impl Results {
         if names.is_empty() {
             return Ok(());
         }
-        Err(StudyError::InTheWay {
+        Err(StudyError::Conflict {
             path: self.folder.clone(),
-            names: listed(&names),
-            command: self.maker.name(),
+            names: list_names(&names),
+            command: self.command.name(),
         })
     }
 
     fn may_replace(&self, name: &str) -> bool {
-        self.replaces_all || self.made.may_replace(self.maker, &self.folder, name)
+        self.replaces_all || self.manifest.may_replace(self.command, &self.folder, name)
     }
 
     /// Gives up what was written under the names of files that are not to be replaced; answers their names.
-    pub(crate) fn set_aside(&mut self) -> Vec<String> {
+    pub(crate) fn skip_conflicts(&mut self) -> Vec<String> {
         let (folder, temporary) = (&self.folder, &self.temporary);
         let is_in_the_way = |name: &String| {
             let standing = folder.join(name);
@@ -159,10 +159,10 @@ impl Results {
                 && !self.may_replace(name)
         };
         let new = self.written[self.cleared..].iter();
-        let aside: Vec<String> = new.filter(|name| is_in_the_way(name)).cloned().collect();
-        self.written.retain(|name| !aside.contains(name));
+        let skipped: Vec<String> = new.filter(|name| is_in_the_way(name)).cloned().collect();
+        self.written.retain(|name| !skipped.contains(name));
         self.cleared = self.written.len();
-        aside
+        skipped
     }
 
     /// Opens one file of the results.
@@ -201,6 +201,13 @@ impl Results {
         out.flush().map_err(|e| write_error(&self.folder, name, e))
     }
 
+    /// Writes `bytes` as one file.
+    pub(crate) fn write_bytes(&mut self, name: &str, bytes: &[u8]) -> Result<(), StudyError> {
+        let mut out = self.create_file(name)?;
+        let written = out.write_all(bytes).and_then(|()| out.flush());
+        written.map_err(|e| write_error(&self.folder, name, e))
+    }
+
     /// The output folder.
     pub(crate) fn folder(&self) -> &Path {
         &self.folder
@@ -212,19 +219,19 @@ impl Results {
     }
 
     /// Renames every file, which shows what has the SHA-256 `of`, into the output folder, the one that speaks of the others
-    /// last. Of what this maker made before, `is_stale` picks what is removed; all else stays. The names of files of
+    /// last. Of what this command made before, `is_stale` picks what is removed; all else stays. The names of files of
     /// others that stayed under the name of one of these come back.
     pub(crate) fn publish(
         mut self,
         of: Option<&str>,
-        is_stale: &dyn Fn(&MadeFile) -> bool,
+        is_stale: &dyn Fn(&ManifestEntry) -> bool,
     ) -> Result<Published, StudyError> {
-        let aside = self.set_aside();
+        let skipped = self.skip_conflicts();
         let folder = self.folder.clone();
         let stale = self.stale(is_stale);
         let (before, after) = self.lists(of, &stale);
         // Whoever gives up waits until all files are in place.
-        let _moving = under_way();
+        let _moving = unfinished();
         fs::create_dir_all(&folder).map_err(|e| output_error(&folder, "cannot be made", e))?;
         self.write_list(&before)?;
         // From here on a report in the folder would speak of other files than those beside it.
@@ -255,10 +262,10 @@ impl Results {
         }
         self.write_list(&after)?;
         let mut others = names_of(&folder)?;
-        others.retain(|name| is_of_a_run(name) && !after.has(self.maker, name));
-        others.retain(|name| !aside.contains(name));
+        others.retain(|name| is_of_a_run(name) && !after.has(self.command, name));
+        others.retain(|name| !skipped.contains(name));
         Ok(Published {
-            aside,
+            skipped,
             removed: stale,
             others,
         })
@@ -268,15 +275,15 @@ impl Results {
         self.written.iter().any(|written| written == name)
     }
 
-    /// Files that this maker made before, that `is_stale` picks, that these do not replace and nobody has changed.
-    fn stale(&self, is_stale: &dyn Fn(&MadeFile) -> bool) -> Vec<String> {
-        let stale = self.made.stale(self.maker, is_stale);
+    /// Files that this command made before, that `is_stale` picks, that these do not replace and nobody has changed.
+    fn stale(&self, is_stale: &dyn Fn(&ManifestEntry) -> bool) -> Vec<String> {
+        let stale = self.manifest.stale(self.command, is_stale);
         let mut names: Vec<String> = stale.map(|file| file.name.clone()).collect();
         let is_removed = |name: &String| {
             is_inside(name)
                 && !self.has(name)
                 && self.folder.join(name).exists()
-                && self.made.may_replace(self.maker, &self.folder, name)
+                && self.manifest.may_replace(self.command, &self.folder, name)
         };
         names.retain(is_removed);
         names.sort_unstable();
@@ -286,16 +293,16 @@ impl Results {
 
     /// A list of the files about to be moved beside those in their places, so that whatever ends this process, the next
     /// one knows both; and one of what will be there.
-    fn lists(&self, of: Option<&str>, stale: &[String]) -> (MadeFiles, MadeFiles) {
-        let new: Vec<MadeFile> = self
+    fn lists(&self, of: Option<&str>, stale: &[String]) -> (Manifest, Manifest) {
+        let new: Vec<ManifestEntry> = self
             .written
             .iter()
-            .map(|name| MadeFile::new(self.maker, &self.temporary, name, of))
+            .map(|name| ManifestEntry::new(self.command, &self.temporary, name, of))
             .collect();
-        let (mut before, mut after) = (self.made.clone(), self.made.clone());
+        let (mut before, mut after) = (self.manifest.clone(), self.manifest.clone());
         before.extend(&new);
         let (folder, written) = (&self.folder, &self.written);
-        let is_kept = |file: &MadeFile| {
+        let is_kept = |file: &ManifestEntry| {
             let is_written = written.contains(&file.name);
             // Made again by another command with the same bytes, a file is of both.
             let is_same = new.iter().any(|made| made.is_same_by_other(file));
@@ -308,7 +315,7 @@ impl Results {
         (before, after)
     }
 
-    fn write_list(&self, list: &MadeFiles) -> Result<(), StudyError> {
+    fn write_list(&self, list: &Manifest) -> Result<(), StudyError> {
         list.write(&self.folder, &self.temporary)
             .map_err(|e| write_error(&self.folder, LIST, e))
     }
@@ -349,7 +356,7 @@ fn names_in(folder: &Path, prefix: &str) -> Result<Vec<String>, StudyError> {
 impl Drop for Results {
     fn drop(&mut self) {
         self.lock = None;
-        under_way().retain(|folder| *folder != self.temporary);
+        unfinished().retain(|folder| *folder != self.temporary);
         // What cannot be removed is a hidden folder that says what it is; nothing is lost.
         let _ = fs::remove_dir_all(&self.temporary);
     }

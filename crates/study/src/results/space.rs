@@ -22,7 +22,7 @@ impl Space {
     }
 
     /// The outputs with their bytes.
-    #[cfg(test)]
+    #[cfg(all(test, feature = "mp4"))]
     pub(crate) fn each(&self) -> impl Iterator<Item = (OutputChoice, u64)> {
         self.0.iter().copied()
     }

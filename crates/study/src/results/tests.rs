@@ -12,12 +12,12 @@ fn write(results: &mut Results, name: &str, text: &str) {
 }
 
 fn open(folder: &Path) -> Results {
-    Results::open(folder.into(), Maker::Run, Some(REPORT)).unwrap()
+    Results::open(folder.into(), Command::Run, Some(REPORT)).unwrap()
 }
 
 /// Publishes as a run of the motion `of` does.
 fn publish(results: Results, of: &str) -> Published {
-    let is_stale = |file: &MadeFile| file.of.as_deref() != Some(of);
+    let is_stale = |file: &ManifestEntry| file.of.as_deref() != Some(of);
     results.publish(Some(of), &is_stale).unwrap()
 }
 
@@ -86,7 +86,7 @@ fn files_that_no_earlier_run_made_are_named_and_stay_unless_forced() {
     // One of its own is changed, one is new, one is of another command.
     fs::write(folder.join("motion.gif"), "an edited film").unwrap();
     fs::write(folder.join("figure.pdf"), "mine").unwrap();
-    let mut record = Results::open((&folder).into(), Maker::Record, None).unwrap();
+    let mut record = Results::open((&folder).into(), Command::Record, None).unwrap();
     write(&mut record, "motion.mp4", "another film");
     record.publish(Some("motion"), &|_| false).unwrap();
     let names = ["figure.pdf", "motion.gif", "motion.mp4"];
@@ -102,12 +102,12 @@ fn files_that_no_earlier_run_made_are_named_and_stay_unless_forced() {
         write(&mut late, name, "new");
     }
     let published = publish(late, "motion");
-    assert_eq!(published.aside, names);
+    assert_eq!(published.skipped, names);
     assert_eq!(text(&folder, "figure.pdf"), "mine");
     assert_eq!(text(&folder, "motion.gif"), "an edited film");
     assert_eq!(text(&folder, "motion.mp4"), "another film");
     let forced = Destination::from(&folder).replacing(true);
-    let mut forced = Results::open(forced, Maker::Run, Some(REPORT)).unwrap();
+    let mut forced = Results::open(forced, Command::Run, Some(REPORT)).unwrap();
     forced.require_clear(&|_| true).unwrap();
     for name in names {
         write(&mut forced, name, "new");
@@ -125,7 +125,7 @@ fn what_is_written_with_the_same_bytes_is_in_nobodys_way() {
     let mut run = open(&folder);
     write(&mut run, CERTIFICATE, "a certificate");
     publish(run, "motion");
-    let mut check = Results::open((&folder).into(), Maker::Check, None).unwrap();
+    let mut check = Results::open((&folder).into(), Command::Check, None).unwrap();
     write(&mut check, CERTIFICATE, "a certificate");
     check.publish(Some("motion"), &|_| false).unwrap();
     open(&folder).require_clear(&|_| true).unwrap();
@@ -173,7 +173,7 @@ fn what_killed_runs_left_is_removed_and_folders_of_living_ones_stay() {
         fs::create_dir(folder).unwrap();
         fs::write(folder.join(MOTION), "half a motion").unwrap();
     }
-    let lock = left_over::lock(&locked);
+    let lock = abandoned::lock(&locked);
     drop(open(&home.path().join("scene")));
     assert!(!dead.exists());
     assert!(other.exists() && living.exists() && locked.exists());
@@ -201,7 +201,7 @@ fn a_file_in_the_way_of_the_folder_is_refused() {
     let home = tempfile::tempdir().unwrap();
     let folder = home.path().join("scene");
     fs::write(&folder, "a file").unwrap();
-    let error = Results::open((&folder).into(), Maker::Run, None).unwrap_err();
+    let error = Results::open((&folder).into(), Command::Run, None).unwrap_err();
     assert!(error.to_string().contains("it is a file"), "{error}");
     assert_eq!(fs::read_to_string(&folder).unwrap(), "a file");
 }

@@ -2,13 +2,12 @@
 
 mod space;
 
-use std::io::Write as _;
 use std::time::Instant;
 
 use crate::compute::folded::Folded;
 use crate::compute::timed;
 use crate::report::SecondsReport;
-use crate::results::{Destination, Maker, REPORT, Results, is_picture, write_error};
+use crate::results::{Command, Destination, REPORT, Results, is_picture};
 use crate::scene::OutputChoice;
 use crate::{Progress, Report, Study, StudyError};
 
@@ -52,7 +51,7 @@ impl Study {
         destination: Destination<'_>,
         progress: Progress<'_>,
     ) -> Result<Results, StudyError> {
-        let results = Results::open(destination, Maker::Run, Some(REPORT))?;
+        let results = Results::open(destination, Command::Run, Some(REPORT))?;
         results.require_clear(&|name| name == REPORT || self.recording.plans(name))?;
         self.require_space(&results, progress)?;
         Ok(results)
@@ -66,7 +65,6 @@ impl Study {
         started: Instant,
         progress: Progress<'_>,
     ) -> Result<Report, StudyError> {
-        let folder = results.folder().to_owned();
         let (sha256, record_seconds) =
             timed(|| self.record(&self.recording, folded, &mut results, progress))?;
         let seconds = SecondsReport {
@@ -74,17 +72,14 @@ impl Study {
             record: record_seconds,
             total: started.elapsed().as_secs_f64(),
         };
-        let aside = results.set_aside();
+        let skipped = results.skip_conflicts();
         let mut report = self.report(folded, seconds, results.written());
-        results.write(REPORT, |out| {
-            out.write_all(report.to_json().as_bytes())
-                .map_err(|e| write_error(&folder, REPORT, e))
-        })?;
+        results.write_bytes(REPORT, report.to_json().as_bytes())?;
         let has_pictures = self.recording.has(OutputChoice::Png);
         report.published = results.publish(Some(&sha256), &|file| {
             file.of.as_deref() != Some(&sha256) || has_pictures && is_picture(&file.name)
         })?;
-        report.published.aside = aside;
+        report.published.skipped = skipped;
         Ok(report)
     }
 }

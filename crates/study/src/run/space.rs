@@ -41,7 +41,7 @@ impl Study {
         if bound.total() <= results.available()? || !recording.has_films() {
             return Ok(bound);
         }
-        let films = recording.sample_films(&self.subject.known_states(), progress)?;
+        let films = recording.sample_films(&self.subject.exact_motion(), progress)?;
         Ok(self.space(recording, frames, Some(films)))
     }
 

@@ -37,7 +37,7 @@ impl SceneSource {
     /// # Errors
     /// [`StudyError::Read`], and [`StudyError::LargeFile`] above 16 MiB.
     pub fn read(path: &Path) -> Result<Self, StudyError> {
-        if let Some(pattern) = Self::of_pattern(path) {
+        if let Some(pattern) = Self::for_pattern(path) {
             return Ok(pattern);
         }
         let text = input_file::read_text(path, LARGEST_SCENE)?;
@@ -96,7 +96,7 @@ impl SceneSource {
     }
 
     /// No file, but `[record]` from the command line: each key is named as a flag in errors.
-    pub(crate) fn of_flags(record: &RecordScene) -> Self {
+    pub(crate) fn from_flags(record: &RecordScene) -> Self {
         let mut source = Self::new(Path::new("record"), String::new());
         // A struct of plain values with string keys always serialises.
         let table = Table::try_from(record).unwrap_or_default();
@@ -223,7 +223,7 @@ impl SceneSource {
     }
 
     /// The `--set` that gave a key, else its `file:line`, or the file where the key is absent.
-    pub fn place_of(&self, key: &str) -> String {
+    pub fn location_of(&self, key: &str) -> String {
         if let Some(over) = self.overrides.iter().rev().find(|over| over.key == key) {
             return over.flag.clone();
         }

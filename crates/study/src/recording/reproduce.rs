@@ -1,18 +1,18 @@
-//! Makes a recorded file again, from what it says of its origin.
+//! Makes a recorded file again, from what it says of its source_info.
 
 use std::path::{Path, PathBuf};
 
 use super::models::state_name;
-use super::motion_file::{ReadMotion, recording};
-use super::origin::{LARGEST, Origin};
-use crate::results::{FRAMES, Maker, Results, output_error};
+use super::motion_file::{LoadedMotion, recording};
+use super::source_info::{LARGEST, SourceInfo};
+use crate::results::{Command, FRAMES, Results, output_error};
 use crate::scene::OutputChoice;
 use crate::{Progress, VERSION};
 use crate::{Scene, SceneSource, Study, StudyError, input_file};
 
 /// A file made again.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Again {
+pub struct Reproduction {
     /// Where it stands.
     pub path: PathBuf,
     /// Whether it has the same bytes as the file it was made after.
@@ -25,46 +25,46 @@ pub struct Again {
 ///
 /// A file of a run runs its scene again; paths in it are taken beside the file. A file of a motion needs that motion:
 /// `motion`, or the file of that name beside `file`, in the folder above it, or in the working folder. Another version,
-/// another motion or another kind of processor may give other bytes; [`Again`] says so.
+/// another motion or another kind of processor may give other bytes; [`Reproduction`] says so.
 ///
 /// # Errors
-/// [`StudyError::Origin`] where the file does not say where it comes from or the motion is not found; those of a run
+/// [`StudyError::SourceInfo`] where the file does not say where it comes from or the motion is not found; those of a run
 /// and of `record_file`.
-pub fn record_again(
+pub fn reproduce_file(
     file: &Path,
     motion: Option<&Path>,
     out: Option<&Path>,
     replaces_all: bool,
     progress: Progress<'_>,
-) -> Result<Again, StudyError> {
-    let origin = Origin::read(file)?;
-    let asked = Asked::new(file, &origin)?;
+) -> Result<Reproduction, StudyError> {
+    let source_info = SourceInfo::read(file)?;
+    let asked = Original::new(file, &source_info)?;
     let target = asked.target(out);
     let folder = target.parent().unwrap_or(Path::new(""));
     let earlier = input_file::read(file, LARGEST)?;
     require_clear(&target, &earlier, replaces_all)?;
-    let mut results = Results::open((&folder.join("again")).into(), Maker::Record, None)?;
+    let mut results = Results::open((&folder.join("again")).into(), Command::Record, None)?;
     let mut warnings = Vec::new();
-    if origin.version != VERSION {
+    if source_info.version != VERSION {
         warnings.push(format!(
             "the file was made by foldmotion {}, this is {VERSION}: the bytes may differ",
-            origin.version
+            source_info.version
         ));
     }
-    if let (Some(_), Some(motion)) = (&origin.scene, motion) {
+    if let (Some(_), Some(motion)) = (&source_info.scene, motion) {
         return Err(asked.fault(format!(
             "it was made by running a scene, which it holds; no motion is needed: leave out {}",
             motion.display()
         )));
     }
-    let found = match &origin.scene {
+    let found = match &source_info.scene {
         Some(scene) => asked.run(scene, &mut results, progress)?,
-        None => asked.record(&origin, motion, &mut results, progress)?,
+        None => asked.record(&source_info, motion, &mut results, progress)?,
     };
-    if found != origin.sha256 {
+    if found != source_info.sha256 {
         warnings.push(format!(
             "the motion has the SHA-256 {found}, that of the file had {}: the bytes may differ",
-            origin.sha256
+            source_info.sha256
         ));
     }
     let name = asked.name()?;
@@ -74,7 +74,7 @@ pub fn record_again(
         )));
     }
     let made = results.take(&name, &target, replaces_all)?;
-    Ok(Again {
+    Ok(Reproduction {
         path: target,
         is_same: made == earlier,
         warnings,
@@ -82,31 +82,31 @@ pub fn record_again(
 }
 
 /// A file to be made again.
-struct Asked<'a> {
+struct Original<'a> {
     file: &'a Path,
     output: OutputChoice,
     state: Option<f64>,
 }
 
-impl<'a> Asked<'a> {
-    fn new(file: &'a Path, origin: &Origin) -> Result<Self, StudyError> {
+impl<'a> Original<'a> {
+    fn new(file: &'a Path, source_info: &SourceInfo) -> Result<Self, StudyError> {
         let ending = file.extension().unwrap_or_default().to_string_lossy();
         let output = OutputChoice::ALL
             .into_iter()
             .find(|output| output.name() == ending.to_ascii_lowercase());
-        let output = output.ok_or_else(|| StudyError::Origin {
+        let output = output.ok_or_else(|| StudyError::SourceInfo {
             path: file.to_owned(),
             message: "its ending tells no kind of file; call it as it was: gif, mp4, png, svg, pdf, glb, obj or html".to_owned(),
         })?;
         Ok(Self {
             file,
             output,
-            state: origin.state,
+            state: source_info.state,
         })
     }
 
     fn fault(&self, message: String) -> StudyError {
-        StudyError::Origin {
+        StudyError::SourceInfo {
             path: self.file.to_owned(),
             message,
         }
@@ -164,19 +164,19 @@ impl<'a> Asked<'a> {
     /// Records the motion it was made from into `results`; answers its SHA-256.
     fn record(
         &self,
-        origin: &Origin,
+        source_info: &SourceInfo,
         motion: Option<&Path>,
         results: &mut Results,
         progress: Progress<'_>,
     ) -> Result<String, StudyError> {
-        let name = origin.motion.as_deref().unwrap_or_default();
+        let name = source_info.motion.as_deref().unwrap_or_default();
         let path = match motion {
             Some(motion) => motion.to_owned(),
             None => self.find(name)?,
         };
-        let mut recording = recording(&origin.record.clone().unwrap_or_default())?;
+        let mut recording = recording(&source_info.record.clone().unwrap_or_default())?;
         recording.outputs = vec![self.output];
-        let mut read = ReadMotion::read(&path, progress)?;
+        let mut read = LoadedMotion::read(&path, progress)?;
         // It may have been renamed since.
         name.clone_into(&mut read.name);
         read.record(&recording, read.marks.clone(), results, progress)?;
@@ -219,9 +219,9 @@ fn require_clear(target: &Path, bytes: &[u8], replaces: bool) -> Result<(), Stud
         return Ok(());
     }
     let name = target.file_name().unwrap_or_default().to_string_lossy();
-    Err(StudyError::InTheWay {
+    Err(StudyError::Conflict {
         path: target.parent().unwrap_or(Path::new("")).to_owned(),
         names: name.into_owned(),
-        command: Maker::Record.name(),
+        command: Command::Record.name(),
     })
 }

@@ -19,14 +19,14 @@ const LARGEST: u64 = 64 << 20;
 /// The command that makes files.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
-pub(crate) enum Maker {
+pub(crate) enum Command {
     Run,
     Record,
     Check,
     Pattern,
 }
 
-impl Maker {
+impl Command {
     /// The command.
     pub(crate) fn name(self) -> &'static str {
         match self {
@@ -45,23 +45,23 @@ impl Maker {
 
 /// A file that was made.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
-pub(crate) struct MadeFile {
+pub(crate) struct ManifestEntry {
     /// Its name in the folder.
     pub(crate) name: String,
-    pub(crate) by: Maker,
+    pub(crate) by: Command,
     /// Its SHA-256; none of a report, whose seconds differ from run to run, and of files that only a report lists.
     sha256: Option<String>,
     /// The SHA-256 of what it shows: of the motion, or of all that makes a pattern.
     pub(crate) of: Option<String>,
 }
 
-impl MadeFile {
-    /// The file `name` of `maker`, which stands in `folder` and shows what has the SHA-256 `of`.
-    pub(crate) fn new(maker: Maker, folder: &Path, name: &str, of: Option<&str>) -> Self {
+impl ManifestEntry {
+    /// The file `name` of `command`, which stands in `folder` and shows what has the SHA-256 `of`.
+    pub(crate) fn new(command: Command, folder: &Path, name: &str, of: Option<&str>) -> Self {
         let sha256 = (name != REPORT).then(|| digest(&folder.join(name)));
         Self {
             name: name.to_owned(),
-            by: maker,
+            by: command,
             sha256: sha256.flatten(),
             of: of.map(ToOwned::to_owned),
         }
@@ -78,11 +78,11 @@ impl MadeFile {
 
 /// The list.
 #[derive(Debug, Clone, Default, PartialEq, Eq, Serialize, Deserialize)]
-pub(crate) struct MadeFiles {
-    files: Vec<MadeFile>,
+pub(crate) struct Manifest {
+    files: Vec<ManifestEntry>,
 }
 
-impl MadeFiles {
+impl Manifest {
     /// The list in `folder`. Where there is none, a report lists the files of its run; else nothing is known.
     pub(crate) fn read(folder: &Path) -> Self {
         let listed = read_bounded(&folder.join(LIST));
@@ -90,9 +90,9 @@ impl MadeFiles {
             return list;
         }
         let files = files_of_report(&folder.join(REPORT)).unwrap_or_default();
-        let made = |name| MadeFile {
+        let made = |name| ManifestEntry {
             name,
-            by: Maker::Run,
+            by: Command::Run,
             sha256: None,
             of: None,
         };
@@ -110,18 +110,18 @@ impl MadeFiles {
         fs::rename(path, folder.join(LIST))
     }
 
-    /// Whether `maker` may write over the file `name` of `folder`: it made it, and nobody has changed it since.
-    pub(crate) fn may_replace(&self, maker: Maker, folder: &Path, name: &str) -> bool {
+    /// Whether `command` may write over the file `name` of `folder`: it made it, and nobody has changed it since.
+    pub(crate) fn may_replace(&self, command: Command, folder: &Path, name: &str) -> bool {
         let path = folder.join(name);
         let mut candidates = self.files.iter().filter(|file| file.name == name);
         if name == REPORT {
-            return candidates.any(|file| maker.may_replace(file.by))
+            return candidates.any(|file| command.may_replace(file.by))
                 && files_of_report(&path).is_some();
         }
         // The file is hashed once for all entries of its name.
         let mut sha256 = None;
         candidates.any(|file| {
-            maker.may_replace(file.by)
+            command.may_replace(file.by)
                 && file.sha256.as_ref().is_none_or(|made| {
                     let found = sha256.get_or_insert_with(|| digest(&path));
                     found.as_ref() == Some(made)
@@ -129,29 +129,29 @@ impl MadeFiles {
         })
     }
 
-    /// Whether `maker` made the file `name`.
-    pub(crate) fn has(&self, maker: Maker, name: &str) -> bool {
+    /// Whether `command` made the file `name`.
+    pub(crate) fn has(&self, command: Command, name: &str) -> bool {
         let mut files = self.files.iter();
-        files.any(|file| file.by == maker && file.name == name)
+        files.any(|file| file.by == command && file.name == name)
     }
 
-    /// Files of `maker` that `is_stale` picks.
+    /// Files of `command` that `is_stale` picks.
     pub(crate) fn stale(
         &self,
-        maker: Maker,
-        is_stale: &dyn Fn(&MadeFile) -> bool,
-    ) -> impl Iterator<Item = &MadeFile> {
-        let of_maker = self.files.iter().filter(move |file| file.by == maker);
-        of_maker.filter(move |file| is_stale(file))
+        command: Command,
+        is_stale: &dyn Fn(&ManifestEntry) -> bool,
+    ) -> impl Iterator<Item = &ManifestEntry> {
+        let of_command = self.files.iter().filter(move |file| file.by == command);
+        of_command.filter(move |file| is_stale(file))
     }
 
     /// Adds files.
-    pub(crate) fn extend(&mut self, files: &[MadeFile]) {
+    pub(crate) fn extend(&mut self, files: &[ManifestEntry]) {
         self.files.extend_from_slice(files);
     }
 
     /// Keeps the files that `is_kept` picks.
-    pub(crate) fn retain(&mut self, is_kept: impl Fn(&MadeFile) -> bool) {
+    pub(crate) fn retain(&mut self, is_kept: impl Fn(&ManifestEntry) -> bool) {
         self.files.retain(is_kept);
     }
 }

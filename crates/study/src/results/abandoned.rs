@@ -45,12 +45,12 @@ fn is_abandoned(folder: &Path, process: u32) -> bool {
     match File::open(folder.join(LOCK)).map(|lock| lock.try_lock()) {
         Ok(Ok(())) => true,
         Ok(Err(TryLockError::WouldBlock)) => false,
-        Ok(Err(TryLockError::Error(_))) | Err(_) => !may_run(process),
+        Ok(Err(TryLockError::Error(_))) | Err(_) => !process_may_exist(process),
     }
 }
 
 /// Whether there may be a process of this number.
-pub fn may_run(process: u32) -> bool {
+pub fn process_may_exist(process: u32) -> bool {
     let processes = Path::new("/proc");
     !processes.join("self").exists() || processes.join(process.to_string()).exists()
 }

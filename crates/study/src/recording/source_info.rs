@@ -1,4 +1,4 @@
-//! What every recorded file says of its origin, and reading it back.
+//! What every recorded file says of its source_info, and reading it back.
 
 use std::path::Path;
 
@@ -13,13 +13,13 @@ use crate::{Scene, StudyError, input_file};
 const GREETING: &str =
     "# made by foldmotion; `foldmotion record --again FILE` makes this file again\n";
 
-/// The largest file whose origin is read, bytes: 2 GiB.
+/// The largest file whose source_info is read, bytes: 2 GiB.
 pub(super) const LARGEST: u64 = 2 << 30;
 
 /// Where a recorded file comes from: TOML text inside it.
 #[derive(Debug, Clone, PartialEq, Deserialize, Serialize)]
 #[serde(deny_unknown_fields)]
-pub(crate) struct Origin {
+pub(crate) struct SourceInfo {
     /// Version of foldmotion.
     pub(crate) version: String,
     /// SHA-256 of the motion as `motion.fold`; of the motion file where one was recorded.
@@ -38,7 +38,7 @@ pub(crate) struct Origin {
     pub(crate) record: Option<RecordScene>,
 }
 
-impl Origin {
+impl SourceInfo {
     /// Of a run of `scene`.
     pub(crate) fn of_scene(scene: &Scene, sha256: String) -> Self {
         Self {
@@ -78,28 +78,28 @@ impl Origin {
         state.text()
     }
 
-    /// What the file at `path` says of its origin.
+    /// What the file at `path` says of its source_info.
     pub(crate) fn read(path: &Path) -> Result<Self, StudyError> {
-        let fault = |message: String| StudyError::Origin {
+        let fault = |message: String| StudyError::SourceInfo {
             path: path.to_owned(),
             message,
         };
         let bytes = input_file::read(path, LARGEST)?;
         let text = embedded(&bytes).ok_or_else(|| {
             fault(
-                "it says nothing of its origin: gif, mp4, png, svg, pdf, glb, obj and html files of foldmotion do; of a stl use \
+                "it says nothing of its source_info: gif, mp4, png, svg, pdf, glb, obj and html files of foldmotion do; of a stl use \
                  the obj or another file beside it"
                     .to_owned(),
             )
         })?;
-        let origin: Self = toml::from_str(&text).map_err(|e| {
+        let source_info: Self = toml::from_str(&text).map_err(|e| {
             fault(format!(
-                "what it says of its origin cannot be read: {}",
+                "what it says of its source_info cannot be read: {}",
                 e.message()
             ))
         })?;
-        match (&origin.scene, &origin.record, &origin.motion) {
-            (Some(_), None, None) | (None, Some(_), Some(_)) => Ok(origin),
+        match (&source_info.scene, &source_info.record, &source_info.motion) {
+            (Some(_), None, None) | (None, Some(_), Some(_)) => Ok(source_info),
             _ => Err(fault("it names neither a scene nor a motion".to_owned())),
         }
     }
