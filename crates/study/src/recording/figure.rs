@@ -1,5 +1,7 @@
 //! `figure.svg` and `figure.pdf`: states side by side at one scale.
 
+use foldmotion_geometry::Profile;
+use foldmotion_pattern::{Unit, UnitSheet};
 use foldmotion_record::{
     Bounds, Dimension, Drawing, FilmOptions, LineStyle, Pose, Provenance, RecordError,
     StripOptions, strip,
@@ -10,12 +12,14 @@ use super::colours::legend;
 use super::{ColourValues, Quantity, Recorder};
 use crate::StudyError;
 use crate::VERSION;
-use crate::resolve::known::{UnitSizes, turned};
 use crate::results::Results;
 use crate::scene::{ColourChoice, OutputChoice};
 
 /// States in a row, at most.
 const COLUMNS: usize = 5;
+
+/// Segments of the line that shows the profile.
+const PROFILE_POINTS: u32 = 240;
 
 impl Recorder<'_> {
     pub(super) fn figures(
@@ -83,21 +87,19 @@ impl Recorder<'_> {
         if let Some(quantity) = Quantity::of(self.recording.colour) {
             pose.values = quantity.values(&self.motion.sheet, &pose.positions);
         }
-        if let Some(known) = &self.known
+        if let Some(study) = self.units
             && self.recording.film.centre.is_none()
         {
-            pose.positions = turned(known, time, &pose.positions);
+            pose.positions = study.turned(time, &pose.positions);
             pose.spot = self
                 .marks
                 .spot_at(&self.motion.sheet, &pose.positions, time);
             if self.recording.has_profile && time == 0.0 {
-                pose.target.clone_from(&known.profile);
+                pose.target = profile_points(&study.profile);
             }
-            if let Some(units) = known
-                .units
-                .filter(|_| self.recording.has_dimensions && time == 1.0)
-            {
-                pose.dimensions = self.dimensions(units, &pose.positions);
+            let has_equal_units = study.units.has_equal_rows();
+            if self.recording.has_dimensions && time == 1.0 && has_equal_units {
+                pose.dimensions = self.dimensions(&study.units, &pose.positions);
             }
         }
         if self.recording.has_box && time >= 2.0 {
@@ -107,13 +109,9 @@ impl Recorder<'_> {
     }
 
     /// h and W with w at the edges of the planar state, which lies along the axes with its rows along x.
-    fn dimensions(&self, units: UnitSizes, positions: &[DVec3]) -> Vec<Dimension> {
+    fn dimensions(&self, units: &UnitSheet, positions: &[DVec3]) -> Vec<Dimension> {
         let [low, high] = ends(positions);
-        let UnitSizes {
-            width,
-            height,
-            columns,
-        } = units;
+        let (Unit { width, height, .. }, columns) = (units.unit, units.columns);
         let name = self.unit;
         let of_units = if columns > 1 {
             format!("W = {columns} w = {} {name}", short(width * columns as f64))
@@ -137,7 +135,7 @@ impl Recorder<'_> {
     fn bounds(&self, positions: &[DVec3]) -> Bounds {
         let [low, high] = ends(positions);
         let unit = self.unit;
-        let closed_form = self.known.as_ref().and_then(|known| known.closed_form);
+        let closed_form = self.units.and_then(|study| study.closed_form);
         let words = closed_form.map(|form| {
             let [x, y, z] = form.extents.map(short);
             format!("closed form {x} × {y} × {z} {unit}")
@@ -151,6 +149,15 @@ impl Recorder<'_> {
             words: words.unwrap_or_default(),
         }
     }
+}
+
+/// Points of Γ at the edge y = 0 of the deployed state.
+fn profile_points(profile: &Profile) -> Vec<DVec3> {
+    let point = |k: u32| {
+        let p = profile.position(f64::from(k) / f64::from(PROFILE_POINTS));
+        DVec3::new(p.x, 0.0, p.y)
+    };
+    (0..=PROFILE_POINTS).map(point).collect()
 }
 
 /// The corners of the box around `positions`.

@@ -17,11 +17,10 @@ mod space;
 use foldmotion_pattern::Motion;
 use foldmotion_record::{Marks, Values};
 
-use crate::resolve::known::Known;
 use crate::resolve::recording::STATES;
 use crate::results::Results;
 use crate::scene::LengthUnit;
-use crate::{Phase, Progress, Recording, StudyError};
+use crate::{Phase, Progress, Recording, StudyError, UnitStudy};
 
 pub(crate) use self::motion_file::{LoadedMotion, stage_time};
 pub use self::motion_file::{MotionRecord, record_file};
@@ -41,8 +40,8 @@ pub(crate) struct Recorder<'a> {
     pub(crate) title: &'a str,
     /// FOLD's name of the unit of length.
     pub(crate) unit: &'a str,
-    /// What the study says beside the motion, if there is one.
-    pub(crate) known: Option<Known>,
+    /// The sheet of units with its exact states; `None` for an imported pattern and for a motion file.
+    pub(crate) units: Option<&'a UnitStudy>,
     pub(crate) source_info: SourceInfo,
     /// Whether the lengths of the sheet at rest are known.
     pub(crate) has_rest_lengths: bool,

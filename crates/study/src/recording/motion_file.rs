@@ -246,7 +246,7 @@ impl LoadedMotion {
             marks,
             title: self.title.as_deref().unwrap_or(&self.name),
             unit: self.unit.as_deref().unwrap_or("unit"),
-            known: None,
+            units: None,
             source_info: SourceInfo::of_motion(self.name.clone(), record, self.sha256.clone()),
             has_rest_lengths: self.is_flat,
             beside: self.beside(recording)?,

@@ -19,7 +19,7 @@ use crate::resolve::input::Input;
 use crate::resolve::recording::recording as resolved;
 use crate::results::{CERTIFICATE, MOTION, Results, write_error};
 use crate::scene::{OutputChoice, RecordScene};
-use crate::{Certificate, Destination, Scene, SceneSource, Study, StudyError, UnitStudy};
+use crate::{Certificate, Destination, Scene, SceneSource, Study, StudyError};
 use crate::{Progress, VERSION};
 
 impl Study {
@@ -78,7 +78,7 @@ impl Study {
             marks: marks(motion, &findings.collision, |time| time),
             title: &self.title,
             unit: self.unit_name,
-            known: self.subject.units().map(UnitStudy::known),
+            units: self.subject.units(),
             source_info: SourceInfo::of_scene(&recording.scene, sha256.clone()),
             has_rest_lengths: true,
             beside,

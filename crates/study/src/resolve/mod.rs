@@ -8,7 +8,6 @@ mod check;
 mod gap;
 pub(crate) mod imported;
 pub(crate) mod input;
-pub(crate) mod known;
 mod material;
 mod motion;
 pub(crate) mod names;

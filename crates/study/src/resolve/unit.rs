@@ -57,13 +57,8 @@ pub(crate) fn require_moderate(
 
 /// The case whose columns a built-in profile brings.
 pub(crate) fn requested_case(input: &Input<'_>) -> Case {
-    match input.scene.sheet.case {
-        Some(CaseChoice::T) => Case::T,
-        Some(CaseChoice::S) => Case::S,
-        Some(CaseChoice::SII) => Case::SII,
-        Some(CaseChoice::Plain) => Case::Plain,
-        None | Some(CaseChoice::E | CaseChoice::Auto) => Case::E,
-    }
+    let choice = input.scene.sheet.case.and_then(CaseChoice::case);
+    choice.unwrap_or(Case::E)
 }
 
 /// w and the case, from W, Nc and h. A built-in profile is as wide in every case as in case E.
@@ -74,11 +69,11 @@ pub(crate) fn unit(
     columns: usize,
 ) -> Result<Unit, StudyError> {
     let scene = &input.scene.sheet;
-    let choice = scene.case.unwrap_or(CaseChoice::Auto);
+    let choice = scene.case.and_then(CaseChoice::case);
     let width = unit_width(input, built_in, height, columns)?;
-    let case = choice.resolve(width, height, scene.lambda);
+    let case = choice.unwrap_or_else(|| Case::auto(width, height, scene.lambda));
     // Where the case is open, these belong to the one that λ asks for.
-    let is_unused = choice == CaseChoice::Auto && matches!(case, Case::E | Case::T);
+    let is_unused = choice.is_none() && matches!(case, Case::E | Case::T);
     let [lambda, offset] = [scene.lambda, scene.offset].map(|value| value.filter(|_| !is_unused));
     Unit::new(case, width, height, lambda, offset).map_err(|e| pattern_error(input, &e))
 }

@@ -2,7 +2,7 @@
 
 use std::time::Instant;
 
-use foldmotion_geometry::{Division, Fit, Profile};
+use foldmotion_geometry::{Division, Fit, Profile, RigidMotion};
 use foldmotion_pattern::{CompactBox, LayerOrder, PatternCheck, UnitSheet};
 use foldmotion_solver::{Schedule, ScheduleStep, Stage};
 use glam::DVec3;
@@ -57,6 +57,17 @@ impl UnitStudy {
             scene: &scene,
         };
         Ok(unit_study(&input)?.0)
+    }
+
+    /// A state at motion time `time`, turned as figures show its stage: upright before the sheet is flat, then as the compact
+    /// state lies. `positions` has one position for each vertex of the sheet.
+    pub fn turned(&self, time: f64, positions: &[DVec3]) -> Vec<DVec3> {
+        let fit = match time {
+            t if t < 1.0 => RigidMotion::best_fit(positions, &self.deployed),
+            1.0 => RigidMotion::best_fit(positions, &self.units.sheet.planar()),
+            _ => RigidMotion::best_fit(positions, &self.units.compact()),
+        };
+        positions.iter().map(|&p| fit.apply(p)).collect()
     }
 }
 

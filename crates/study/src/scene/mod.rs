@@ -222,15 +222,15 @@ pub enum CaseChoice {
 }
 
 impl CaseChoice {
-    /// The case, by w and h where the scene leaves it open.
-    pub fn resolve(self, width: f64, height: f64, lambda: Option<f64>) -> Case {
+    /// The case; `None` if w/h decides.
+    pub fn case(self) -> Option<Case> {
         match self {
-            Self::E => Case::E,
-            Self::T => Case::T,
-            Self::S => Case::S,
-            Self::SII => Case::SII,
-            Self::Plain => Case::Plain,
-            Self::Auto => Case::auto(width, height, lambda),
+            Self::E => Some(Case::E),
+            Self::T => Some(Case::T),
+            Self::S => Some(Case::S),
+            Self::SII => Some(Case::SII),
+            Self::Plain => Some(Case::Plain),
+            Self::Auto => None,
         }
     }
 }
