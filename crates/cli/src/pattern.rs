@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use clap::{Args, ValueEnum};
+use clap::Args;
 use foldmotion_study::{
     CutError, CutOptions, PaperSize, PatternFormat, PatternOptions, PatternScale, parse_millimetres,
 };
@@ -24,9 +24,10 @@ pub(crate) struct PatternArguments {
         long,
         value_name = "LIST",
         value_delimiter = ',',
-        default_value = "svg,dxf,fold"
+        default_value = "svg,dxf,fold",
+        value_parser = parse_format
     )]
-    formats: Vec<FormatChoice>,
+    formats: Vec<PatternFormat>,
     /// Scale the pattern by this factor; 1 is the size in the scene
     #[arg(
         long,
@@ -81,7 +82,7 @@ impl PatternArguments {
             given.map(|d| d.lengths.clone())
         };
         PatternOptions {
-            formats: self.formats.iter().map(|f| f.format()).collect(),
+            formats: self.formats.clone(),
             scale,
             paper: self.sheet,
             overlap: self.overlap,
@@ -94,24 +95,6 @@ impl PatternArguments {
                 stroke_width: self.line_width,
                 ..CutOptions::new(1.0)
             },
-        }
-    }
-}
-
-/// A file format by name.
-#[derive(Debug, Clone, Copy, ValueEnum)]
-enum FormatChoice {
-    Svg,
-    Dxf,
-    Fold,
-}
-
-impl FormatChoice {
-    fn format(self) -> PatternFormat {
-        match self {
-            Self::Svg => PatternFormat::Svg,
-            Self::Dxf => PatternFormat::Dxf,
-            Self::Fold => PatternFormat::Fold,
         }
     }
 }
@@ -129,6 +112,10 @@ struct Dashes {
     class: DashedClass,
     /// mm; empty for solid lines.
     lengths: Vec<f64>,
+}
+
+fn parse_format(name: &str) -> Result<PatternFormat, &'static str> {
+    PatternFormat::find(name).ok_or("expected svg, dxf or fold")
 }
 
 fn parse_dashes(text: &str) -> Result<Dashes, String> {

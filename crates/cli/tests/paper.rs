@@ -65,18 +65,18 @@ fn table_1_stands_beside_the_papers_numbers_in_record_and_page() {
 fn finished_parts_are_reused_and_damaged_ones_made_anew_with_the_same_bytes() {
     let home = tempfile::tempdir().unwrap();
     let file = |name: &str| fs::read(home.path().join("paper").join(name)).unwrap();
-    let told = |only: &str| text(&paper(home.path(), only).stdout);
-    assert!(told("fig10,fig1").contains("2 pieces made, 0 reused"));
+    let printed = |only: &str| text(&paper(home.path(), only).stdout);
+    assert!(printed("fig10,fig1").contains("2 parts computed, 0 reused"));
     let (svg, png) = (file("fig10.svg"), file("fig10.png"));
     assert!(text(&svg).starts_with("<svg ") && png.starts_with(b"\x89PNG"));
-    assert!(told("fig1,fig10,fig10").contains("0 pieces made, 2 reused"));
+    assert!(printed("fig1,fig10,fig10").contains("0 parts computed, 2 reused"));
     fs::remove_file(home.path().join("paper/fig10.svg")).unwrap();
     fs::write(home.path().join("paper/fig1.png"), "torn").unwrap();
-    assert!(told("table2,fig1,fig10").contains("2 pieces made, 0 reused"));
+    assert!(printed("table2,fig1,fig10").contains("2 parts computed, 0 reused"));
     assert_eq!((file("fig10.svg"), file("fig10.png")), (svg, png));
     let page = text(&file("index.html"));
     assert!(page.contains("id=\"fig1\"") && page.contains("id=\"fig10\""));
-    assert!(told("table1").contains("0 pieces made, 0 reused"));
+    assert!(printed("table1").contains("0 parts computed, 0 reused"));
     let figures = record(home.path())["figures"].as_array().unwrap().len();
     assert_eq!(figures, 2, "finished figures stay in the record");
 }

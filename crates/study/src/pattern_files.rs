@@ -35,6 +35,25 @@ pub enum PatternFormat {
     Fold,
 }
 
+impl PatternFormat {
+    /// Every format.
+    pub const ALL: [Self; 3] = [Self::Svg, Self::Dxf, Self::Fold];
+
+    /// The name of the format, with which its files end.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Svg => "svg",
+            Self::Dxf => "dxf",
+            Self::Fold => "fold",
+        }
+    }
+
+    /// The format called `name`.
+    pub fn find(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|format| format.name() == name)
+    }
+}
+
 /// How large the pattern is made.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum PatternScale {
@@ -245,12 +264,7 @@ impl PatternStudy {
 /// The format of a file by its name, where [`PatternStudy::write`] may write one of this name.
 fn format_of(name: &str) -> Option<PatternFormat> {
     let (stem, ending) = name.rsplit_once('.')?;
-    let format = match ending {
-        "svg" => PatternFormat::Svg,
-        "dxf" => PatternFormat::Dxf,
-        "fold" => PatternFormat::Fold,
-        _ => return None,
-    };
+    let format = PatternFormat::find(ending)?;
     let may_be = stem == "pattern" || is_page(name) && format != PatternFormat::Fold;
     may_be.then_some(format)
 }

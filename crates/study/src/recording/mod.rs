@@ -19,7 +19,7 @@ use foldmotion_record::{Marks, Values};
 
 use crate::resolve::recording::STATES;
 use crate::results::Results;
-use crate::scene::LengthUnit;
+use crate::scene::{LengthUnit, parse_choice};
 use crate::{Phase, Progress, Recording, StudyError, UnitStudy};
 
 pub(crate) use self::motion_file::{LoadedMotion, stage_time};
@@ -88,8 +88,7 @@ impl Recorder<'_> {
 
     /// Metres in the motion's unit of length.
     fn metres(&self) -> f64 {
-        let name = toml::Value::String(self.unit.to_owned());
-        let unit: Option<LengthUnit> = name.try_into().ok();
+        let unit: Option<LengthUnit> = parse_choice(self.unit).ok();
         let millimetres = unit.and_then(LengthUnit::millimetres);
         millimetres.map_or(1.0, |length| length / 1000.0)
     }

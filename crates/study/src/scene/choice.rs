@@ -60,6 +60,14 @@ impl<T: for<'a> Deserialize<'a>> Visitor<'_> for WordVisitor<T> {
     }
 }
 
+/// The choice that `name` stands for in a scene file.
+///
+/// # Errors
+/// A message with the names there are.
+pub fn parse_choice<T: for<'a> Deserialize<'a>>(name: &str) -> Result<T, String> {
+    WordVisitor::look_up(name).map_err(|e: serde::de::value::Error| e.to_string())
+}
+
 /// A choice that may be left out.
 pub(crate) fn optional<'de, D, T>(deserializer: D) -> Result<Option<T>, D::Error>
 where

@@ -17,6 +17,7 @@ pub use foldmotion_geometry::DivisionMethod;
 pub use foldmotion_pattern::{FacetModel, Facing, Folding};
 pub use foldmotion_solver::{CreaseGroup, Ease, Preset, Stage};
 
+pub use self::choice::parse_choice;
 pub use self::pattern::PatternScene;
 pub use self::record::{
     CameraChoice, CameraScene, ColourChoice, HoldScene, OutputChoice, OwnCamera, Playback,
