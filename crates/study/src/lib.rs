@@ -1,18 +1,18 @@
 //! Scene file → study → run → results: the only place that knows the order of the steps.
 //!
-//! | room | holds |
+//! | module | contains |
 //! |---|---|
-//! | [`scene`] | exactly what the user wrote |
-//! | `resolve` | the [`Study`]: everything a run needs, or the line that is wrong |
-//! | `compute` | fold, check and refine: a study becomes a [`Folded`] motion |
-//! | [`report`] | what is said of it: `report.json` and the table |
-//! | [`certificate`] | what is proved of a motion file, and proved again |
-//! | `recording` | films, figures and models of a motion |
-//! | `results` | the folder they are written into |
-//! | `run` | the whole way, from a study to a folder of results |
+//! | [`scene`] | the scene file as data, exactly as the user wrote it |
+//! | `resolve` | from a scene to a [`Study`], or to an error that names the line |
+//! | `compute` | fold, check and refine: from a study to a [`Folded`] motion |
+//! | [`report`] | `report.json` and the table on the terminal |
+//! | [`certificate`] | checks a motion file, writes its certificate and verifies it |
+//! | `recording` | films, figures, 3D models and pages of a motion |
+//! | `results` | the output folder |
+//! | `run` | all steps, from a study to a folder of results |
 //!
-//! Each room uses those above it only. [`Study::run`] folds, checks, reports and records; [`Study::compute`] folds and checks,
-//! for whoever shows the motion.
+//! Each module uses only those above it. [`Study::run`] folds, checks, reports and records; [`Study::compute`] folds and checks
+//! without writing files.
 
 pub mod certificate;
 mod compute;
@@ -67,5 +67,5 @@ pub use scene::Scene;
 pub use scene::source::{FIRST_SCENE, SceneSource};
 pub use schema::{certificate_schema, report_schema, scene_schema, schema_text};
 
-/// FOLD's `file_creator` and the report's `version` name this.
+/// The version of foldmotion, in FOLD's `file_creator` and in reports.
 pub const VERSION: &str = env!("CARGO_PKG_VERSION");

@@ -1,4 +1,4 @@
-//! Checks a motion file: reads it twice as a stream, judges it, writes the certificate.
+//! Checks a motion file, which is read twice as a stream, and writes its certificate.
 
 use std::cell::RefCell;
 use std::fs::File;
@@ -23,9 +23,9 @@ pub(crate) const LARGEST: u64 = 16 << 30;
 /// How a motion file is checked.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct CheckOptions {
-    /// τ, in units of the sheet's unit of length.
+    /// The tolerance τ, in units of the sheet's unit of length.
     pub tolerance: f64,
-    /// Once more pairs of triangles than this penetrate, the check ends at the next frame; 0: no limit.
+    /// The check ends at the next frame once more pairs of triangles than this penetrate; 0 means no limit.
     pub stop_at: usize,
 }
 
@@ -39,31 +39,31 @@ impl Default for CheckOptions {
     }
 }
 
-/// Judges the motion in the FOLD file at `path`, whoever made it, and returns what is proved of it and the work done.
+/// Checks the motion in the FOLD file at `path`, of any origin, and returns its certificate with counts of the work done.
 ///
 /// The file is read twice: first everything but the frames, then one frame at a time. Memory is that of the sheet and
-/// a few frames, however many there are.
+/// a few frames, whatever their number.
 ///
 /// # Errors
-/// [`StudyError::Read`], [`StudyError::Motion`] and [`StudyError::LargeFile`] where the file is no motion that can
-/// be judged; [`StudyError::Interrupted`] where `progress` returned false.
+/// [`StudyError::Read`], [`StudyError::Motion`] and [`StudyError::LargeFile`] if the file is not a motion that can be
+/// checked; [`StudyError::Interrupted`] if `progress` returned false.
 pub fn check_file(
     path: &Path,
     options: &CheckOptions,
     progress: Progress<'_>,
 ) -> Result<CheckedFile, StudyError> {
-    let judged = check_motion_file(path, *options, progress)?;
+    let check = check_motion_file(path, *options, progress)?;
     progress(Phase::Check, 1.0);
-    let collision = &judged.collision;
+    let collision = &check.collision;
     Ok(CheckedFile {
-        certificate: judged.certificate(path),
+        certificate: check.certificate(path),
         pairs_tested: collision.pairs_tested,
         decided_by: collision.decided_by,
         touching_pairs: collision.touching_pairs,
     })
 }
 
-/// A motion file with what was found of it.
+/// A motion file with its collision report.
 pub(crate) struct FileCheck {
     file: FoldFile,
     pub(crate) sha256: String,
@@ -72,7 +72,7 @@ pub(crate) struct FileCheck {
 }
 
 impl FileCheck {
-    /// The certificate of the file, which stands at `path`.
+    /// The certificate of the file at `path`.
     pub(crate) fn certificate(&self, path: &Path) -> Certificate {
         let name = path.file_name().unwrap_or_default().to_string_lossy();
         let motion = CertificateSource {
@@ -86,7 +86,7 @@ impl FileCheck {
     }
 }
 
-/// Reads the file at `path` twice and judges its motion.
+/// Reads the file at `path` twice and checks its motion.
 pub(crate) fn check_motion_file(
     path: &Path,
     options: CheckOptions,
@@ -94,20 +94,20 @@ pub(crate) fn check_motion_file(
 ) -> Result<FileCheck, StudyError> {
     let (file, sha256) = read_header(path, progress)?;
     let mut input = MotionReader::open(path, Phase::Check, progress)?;
-    let judge = RefCell::new(FrameChecker::new(&file, options));
+    let checker = RefCell::new(FrameChecker::new(&file, options));
     let read = file.frames(&mut input, &mut |frame, order| {
-        judge.borrow_mut().take(&frame, order)
+        checker.borrow_mut().check(&frame, order)
     });
-    let judge = judge.into_inner();
+    let checker = checker.into_inner();
     if input.is_stopped {
         return Err(StudyError::Interrupted);
     }
-    read.map_err(|e| judge.explain(path, &e))?;
+    read.map_err(|e| checker.explain(path, &e))?;
     input.require_unchanged(&sha256)?;
-    if judge.times.len() < 2 {
-        return Err(input.failure(&TooFewStates(judge.times.len())));
+    if checker.times.len() < 2 {
+        return Err(input.failure(&TooFewStates(checker.times.len())));
     }
-    let (collision, times) = judge.finish().map_err(|e| motion_error(path, &e))?;
+    let (collision, times) = checker.finish().map_err(|e| motion_error(path, &e))?;
     Ok(FileCheck {
         file,
         sha256,
@@ -117,11 +117,11 @@ pub(crate) fn check_motion_file(
 }
 
 impl Certificate {
-    /// Writes `certificate.json` into a folder; other files there stay.
+    /// Writes `certificate.json` into a folder, whose other files are kept.
     ///
     /// # Errors
-    /// [`StudyError::Output`], and [`StudyError::Conflict`] where a certificate stands there that says something else and
-    /// that foldmotion did not write; it is then as it was.
+    /// [`StudyError::Output`], and [`StudyError::Conflict`] if the folder has another certificate that foldmotion did not
+    /// write, which is then left unchanged.
     pub fn write<'a>(&self, destination: impl Into<Destination<'a>>) -> Result<(), StudyError> {
         let mut results = Results::open(destination.into(), Command::Check, Some(CERTIFICATE))?;
         let folder = results.folder().to_owned();
@@ -137,7 +137,7 @@ impl Certificate {
     }
 }
 
-/// A motion file under way: hashed, measured, and ended where the user wants.
+/// A motion file that is hashed while it is read; reading stops if the user wants.
 pub(crate) struct MotionReader<'a> {
     path: &'a Path,
     file: File,
@@ -168,6 +168,7 @@ impl<'a> MotionReader<'a> {
         })
     }
 
+    /// `outcome`, or [`StudyError::Interrupted`] if the user stopped the reading.
     pub(crate) fn unless_stopped<T>(&self, outcome: Result<T, FoldError>) -> Result<T, StudyError> {
         if self.is_stopped {
             return Err(StudyError::Interrupted);
@@ -184,7 +185,7 @@ impl<'a> MotionReader<'a> {
         if self.digest() == sha256 {
             return Ok(());
         }
-        Err(self.failure(&"it changed while it was read"))
+        Err(self.failure(&"the file changed while it was read"))
     }
 
     fn digest(&self) -> String {
@@ -213,7 +214,7 @@ impl Read for MotionReader<'_> {
         self.hash.update(&buffer[..count]);
         self.read += count as u64;
         if self.read > LARGEST {
-            return Err(io::Error::other("it grew beyond 16 GiB"));
+            return Err(io::Error::other("the file grew beyond 16 GiB"));
         }
         Ok(count)
     }
@@ -226,15 +227,15 @@ pub(crate) fn motion_error(path: &Path, message: &dyn std::fmt::Display) -> Stud
     }
 }
 
-/// A file with fewer states than a motion has: how many.
+/// The error of a file with fewer states than a motion needs, and their number.
 #[derive(Debug, Clone, Copy, thiserror::Error)]
 #[error(
-    "it has {0} state(s), in file_frames or the key frame: a motion needs two or more; to fold a crease pattern use \
+    "the file has {0} state(s) in file_frames and the key frame, and a motion needs two or more; to fold a crease pattern use \
      `foldmotion run`"
 )]
 pub(crate) struct TooFewStates(pub(crate) usize);
 
-/// Why the second reading ended.
+/// Why the second pass over the file ended.
 #[derive(Debug, thiserror::Error)]
 enum FrameError {
     #[error("{0}")]
@@ -243,7 +244,7 @@ enum FrameError {
     Check(#[from] CheckError),
 }
 
-/// The check under way.
+/// Checks the frames of a motion file one by one.
 struct FrameChecker<'a> {
     file: &'a FoldFile,
     options: CollisionOptions,
@@ -265,10 +266,10 @@ impl<'a> FrameChecker<'a> {
         }
     }
 
-    fn take(&mut self, frame: &Frame, order: &LayerOrder) -> Result<(), FrameError> {
+    fn check(&mut self, frame: &Frame, order: &LayerOrder) -> Result<(), FrameError> {
         let before = self.times.last().copied();
         if let Some(before) = before.filter(|&before| before >= frame.time) {
-            // A check that has stopped looks at no frame any more.
+            // A check that has stopped ignores later frames, so the order is checked here.
             return Err(FrameError::Check(CheckError::TimeOrder {
                 frame: self.times.len(),
                 time: frame.time,
@@ -288,7 +289,7 @@ impl<'a> FrameChecker<'a> {
         Ok(())
     }
 
-    /// The error in the numbers of the file.
+    /// The error with the indices of the file.
     fn explain(&self, path: &Path, error: &FrameError) -> StudyError {
         let at = self.file.frame_number(self.times.len());
         match (error, at) {
@@ -303,7 +304,7 @@ impl<'a> FrameChecker<'a> {
             ) => {
                 let face = self.file.triangle_faces[*face];
                 let message = format!(
-                    "{at}: faces_vertices[{face}] has no area: the height of a triangle is {:.3}, more than {:.3} is \
+                    "{at}: faces_vertices[{face}] has no area: the height of a triangle is {:.3}, and more than {:.3} is \
                      needed to tell its sides",
                     Number(*height),
                     Number(*limit)

@@ -1,4 +1,4 @@
-//! The engines behind one face: what a run needs to know of a computed motion, whichever engine computed it.
+//! One interface to both engines.
 
 use foldmotion_pattern::{FacetModel, Frame};
 use foldmotion_solver::dynamic::{self, DynamicOptions, StageStatus};
@@ -13,37 +13,37 @@ use serde::{Deserialize, Serialize};
 use crate::scene::EngineChoice;
 use crate::{Study, StudyError};
 
-/// A motion as an engine left it, with how it went.
+/// A motion as an engine computed it, with a summary of its stages.
 #[derive(Debug)]
 pub(crate) struct Computed {
-    /// In order of time; positions in the scene's unit.
+    /// The frames in order of time, with positions in the scene's unit.
     pub(crate) frames: Vec<Frame>,
-    /// One for each stage begun.
+    /// A summary of each stage that was begun.
     pub(crate) stages: Vec<StageSummary>,
-    /// Energy of the contact barriers and the number of contacts at each frame; empty without contact.
+    /// The contact at each frame; empty without contact.
     pub(crate) contacts: Vec<ContactFigures>,
-    /// Where contact stopped the motion.
+    /// Where contact stopped the motion; `None` if it did not.
     pub(crate) jam: Option<Jam>,
-    /// Steps of the dynamic engine, Newton iterations of the quasi-static one.
+    /// The number of steps of the dynamic engine, or of Newton iterations of the quasi-static one.
     pub(crate) steps: u64,
-    /// What it ran on.
+    /// The device: cpu, or the name of the GPU.
     pub(crate) device: String,
 }
 
-/// How a stage went.
+/// A summary of a stage.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct StageSummary {
     pub(crate) stage: Stage,
     pub(crate) converged: bool,
-    /// Motion time of its last state.
+    /// The motion time of the last state.
     pub(crate) reached: f64,
-    /// The largest unbalanced force left, as the engine states it.
+    /// The largest unbalanced force left, in the units of the engine.
     pub(crate) residual: f64,
-    /// Steps, or Newton iterations.
+    /// The number of steps, or of Newton iterations.
     pub(crate) steps: u64,
-    /// Load steps of the quasi-static engine, and those that had to be shortened.
+    /// The number of load steps of the quasi-static engine, and of those that had to be shortened.
     pub(crate) load_steps: Option<[u64; 2]>,
-    /// What ended it where it did not converge.
+    /// What ended the stage; `None` if it converged.
     pub(crate) stop: Option<StopSummary>,
 }
 
@@ -51,9 +51,9 @@ pub(crate) struct StageSummary {
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct StopSummary {
     pub(crate) reason: StopCause,
-    /// The load step that the quasi-static engine tried last, in motion time.
+    /// The last load step that the quasi-static engine tried, in motion time.
     pub(crate) step: Option<f64>,
-    /// The unbalanced force left, and how much of it counts as equilibrium.
+    /// The unbalanced force left, and the largest one that counts as equilibrium.
     pub(crate) residual: f64,
     pub(crate) tolerance: f64,
 }
@@ -80,7 +80,7 @@ impl From<StopReason> for StopCause {
     }
 }
 
-/// Contact at one frame.
+/// The contact at one frame: energy of the barriers and number of pairs.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct ContactFigures {
     pub(crate) energy: f64,
@@ -88,7 +88,7 @@ pub(crate) struct ContactFigures {
 }
 
 impl Study {
-    /// Moves the sheet through its stages and records it at `extra_times` too. `watcher` is told its states.
+    /// Moves the sheet through its stages and records frames at `extra_times` too. `watcher` is called with each state.
     pub(crate) fn fold(
         &self,
         extra_times: &[f64],
@@ -150,7 +150,7 @@ impl Study {
         })
     }
 
-    /// A sheet that is to move symmetrically is not held at one place.
+    /// A symmetric sheet floats: holding one triangle would break the symmetry.
     fn support(&self) -> Support {
         match self.subject.units() {
             Some(study) if study.units.facet_model() == FacetModel::Symmetric => Support::Floating,

@@ -1,4 +1,4 @@
-//! A quick look at a motion: folded in equilibrium without contact, and not checked.
+//! A preview of a motion: folded in equilibrium without contact, and not checked.
 
 use foldmotion_check::FittedBox;
 use foldmotion_pattern::Motion;
@@ -7,27 +7,27 @@ use foldmotion_solver::Budget;
 use crate::scene::EngineChoice;
 use crate::{FrameFigures, Phase, Study, StudyError, Watch};
 
-/// Frames of a preview: enough that straight paths between them do not show.
+/// The number of frames of a preview, enough for a smooth display.
 const FRAMES: usize = 120;
 
-/// A motion for the eye.
+/// A motion for display only.
 #[derive(Debug, Clone)]
 pub struct Preview {
-    /// The motion where it is shown.
+    /// The motion, placed as it is displayed.
     pub motion: Motion,
-    /// Strain, bending and energy, one a frame; separations are not known.
+    /// Strain, bending and energy of each frame; separations are unknown.
     pub series: Vec<FrameFigures>,
-    /// The box of every frame.
+    /// The bounding box of each frame.
     pub boxes: Vec<FittedBox>,
 }
 
 impl Study {
-    /// Folds the sheet as quickly as it can be: quasi-static, layers free to pass through each other, few frames.
+    /// Folds the sheet as quickly as possible: quasi-static, without contact, with few frames.
     ///
-    /// What comes of it is the motion of this study with `motion.contact = false`, for the eye: nothing is proved of it.
+    /// The result is the motion of this study with `motion.contact = false`. It is for display only: nothing is proved about it.
     ///
     /// # Errors
-    /// [`StudyError`] of the engine; [`StudyError::Interrupted`] where `watch` ends it.
+    /// [`StudyError`] of the engine; [`StudyError::Interrupted`] if `watch` stopped it.
     pub fn preview(&self, watch: &dyn Watch) -> Result<Preview, StudyError> {
         let quick = Self {
             engine: EngineChoice::QuasiStatic,

@@ -1,4 +1,4 @@
-//! A motion that ended before its end, in `report.json` and on the terminal.
+//! The report of a motion that stopped before its end.
 
 use foldmotion_geometry::Number;
 use schemars::JsonSchema;
@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use super::engine::{StageSummary, StopCause};
 
-/// The engine stopped before the end of the motion.
+/// A motion whose engine stopped before its end.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct StopReport {
     /// The motion time of the last state reached; later states were not computed.
@@ -22,7 +22,7 @@ pub struct StopReport {
 }
 
 impl StopReport {
-    /// What ended `stage` before its end, if anything did.
+    /// The report of `stage`; `None` if it reached its end.
     pub(crate) fn of(stage: &StageSummary) -> Option<Self> {
         let stop = stage.stop?;
         Some(Self {
@@ -34,7 +34,7 @@ impl StopReport {
         })
     }
 
-    /// Why, in a few words.
+    /// The reason, as part of a sentence.
     pub fn words(&self) -> String {
         match self.reason {
             StopCause::OutOfSteps => {
@@ -48,7 +48,7 @@ impl StopReport {
         .to_owned()
     }
 
-    /// The evidence, a line for the terminal.
+    /// The evidence, as a line for the terminal.
     pub(crate) fn line(&self) -> String {
         let step = self.load_step.map_or_else(String::new, |step| {
             format!(" in the last attempt, a load step of {:.2}", Number(step))
@@ -86,7 +86,7 @@ mod tests {
     }
 
     #[test]
-    fn a_stop_is_told_with_its_reason_and_its_evidence() {
+    fn a_stop_is_reported_with_its_reason_and_its_evidence() {
         let none = report(StopCause::NoEquilibrium, Some(1e-5)).unwrap();
         assert_eq!((none.t, none.reason), (1.25, StopCause::NoEquilibrium));
         assert_eq!(

@@ -15,7 +15,7 @@ use crate::VERSION;
 use crate::results::Results;
 use crate::scene::{ColourChoice, OutputChoice};
 
-/// States in a row, at most.
+/// The largest number of states in a row.
 const COLUMNS: usize = 5;
 
 /// Segments of the line that shows the profile.
@@ -52,7 +52,7 @@ impl Recorder<'_> {
             style: recording.film.style.clone(),
             unit: self.unit.to_owned(),
             legend: values.map(legend),
-            // All creases look alike over colours that stand for values.
+            // Over colours that show values, all creases look the same.
             has_key: values.is_none(),
             letters: recording.letters,
             ..StripOptions::default()
@@ -63,7 +63,7 @@ impl Recorder<'_> {
         if recording.film.is_transparent {
             options.background = None;
         }
-        // Long labels leave room for fewer states in a row.
+        // If long labels leave no room, fewer states are put in a row.
         let drawing = loop {
             match strip(&self.motion.sheet, &poses, &options) {
                 Err(RecordError::NoRoom { .. }) if options.columns > 1 => options.columns -= 1,
@@ -81,7 +81,7 @@ impl Recorder<'_> {
     fn pose(&self, time: f64) -> Pose<'_> {
         let mut pose = Pose::at(self.motion, &self.marks, time);
         if ![0.0, 1.0, 2.0].contains(&time) {
-            // Names of stages would leave less room for the states.
+            // The name of the stage would leave less room for the states.
             pose.label = format!("t = {time}");
         }
         if let Some(quantity) = Quantity::of(self.recording.colour) {
@@ -108,7 +108,7 @@ impl Recorder<'_> {
         pose
     }
 
-    /// h and W with w at the edges of the planar state, which lies along the axes with its rows along x.
+    /// The dimensions h and W at the edges of the planar state, which lies along the axes with its rows along x.
     fn dimensions(&self, units: &UnitSheet, positions: &[DVec3]) -> Vec<Dimension> {
         let [low, high] = ends(positions);
         let (Unit { width, height, .. }, columns) = (units.unit, units.columns);
@@ -131,7 +131,7 @@ impl Recorder<'_> {
         ]
     }
 
-    /// The box around the compact state, which lies along the axes.
+    /// The box of the compact state, which lies along the axes.
     fn bounds(&self, positions: &[DVec3]) -> Bounds {
         let [low, high] = ends(positions);
         let unit = self.unit;
@@ -167,7 +167,7 @@ fn ends(positions: &[DVec3]) -> [DVec3; 2] {
     [low, points().fold(DVec3::NEG_INFINITY, DVec3::max)]
 }
 
-/// What an aimed camera shows, across the view.
+/// The part of the view that a camera with a centre and a width shows.
 fn frame(film: &FilmOptions) -> Option<[DVec2; 2]> {
     let [middle, _] = film.view.extent([film.centre?]);
     let [across, down] = film.size.map(f64::from);
@@ -175,7 +175,7 @@ fn frame(film: &FilmOptions) -> Option<[DVec2; 2]> {
     Some([middle - half, middle + half])
 }
 
-/// Four digits.
+/// A length with four significant digits.
 fn short(value: f64) -> String {
     let size = value.abs();
     if size < 1e-9 {

@@ -11,7 +11,7 @@ use crate::VERSION;
 use crate::results::Results;
 use crate::scene::{ColourChoice, OutputChoice};
 
-/// Seconds of a stage that a film jumps over: a GLB has no jumps.
+/// The shortest stage of a GLB in seconds; a film may skip a stage.
 const SHORTEST_STAGE: f64 = 0.01;
 
 impl Recorder<'_> {
@@ -32,7 +32,7 @@ impl Recorder<'_> {
                 })?;
             }
             if outputs[1] {
-                // The 80 bytes of the header hold no scene.
+                // The header has 80 bytes, too few for a scene.
                 let label = format!("foldmotion {VERSION} t={time} {}", self.source_info.sha256);
                 results.write(&state_name(time, OutputChoice::Stl), |out| {
                     stl(&solid, &label, out).map_err(StudyError::from)
@@ -42,7 +42,8 @@ impl Recorder<'_> {
         Ok(())
     }
 
-    /// As few morph targets as hold 1e-3 h; fewer where viewers would not take as many.
+    /// Writes the motion with the fewest morph targets that keep the tolerance. If they are too many for viewers, the tolerance
+    /// is doubled.
     fn glb(&self, results: &mut Results) -> Result<(), StudyError> {
         let mut options = GlbOptions {
             seconds: self.recording.film.seconds.map(|s| s.max(SHORTEST_STAGE)),
@@ -66,7 +67,7 @@ impl Recorder<'_> {
         results.write_bytes("motion.glb", &bytes)
     }
 
-    /// The motion in metres, where its unit is another.
+    /// The motion in metres; `None` if its unit is the metre.
     fn motion_in_metres(&self) -> Option<Motion> {
         let metres = self.metres();
         if metres == 1.0 {

@@ -1,4 +1,4 @@
-//! Makes a recorded file again, from what it says of its source_info.
+//! Reproduces a recorded file from the source information inside it.
 
 use std::path::{Path, PathBuf};
 
@@ -10,26 +10,27 @@ use crate::scene::OutputChoice;
 use crate::{Progress, VERSION};
 use crate::{Scene, SceneSource, Study, StudyError, input_file};
 
-/// A file made again.
+/// A reproduced file.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Reproduction {
-    /// Where it stands.
+    /// The path of the reproduced file.
     pub path: PathBuf,
-    /// Whether it has the same bytes as the file it was made after.
+    /// Whether it has the same bytes as the original.
     pub is_same: bool,
-    /// Why the bytes may differ, for the user.
+    /// Reasons why the bytes may differ, for the user.
     pub warnings: Vec<String>,
 }
 
-/// Makes `file` again: into the folder `out` under its own name, or beside it as `NAME-again`.
+/// Reproduces `file` in the folder `out` under its own name, or next to it as `NAME-again`.
 ///
-/// A file of a run runs its scene again; paths in it are taken beside the file. A file of a motion needs that motion:
-/// `motion`, or the file of that name beside `file`, in the folder above it, or in the working folder. Another version,
-/// another motion or another kind of processor may give other bytes; [`Reproduction`] says so.
+/// If the file was recorded by a run, its scene is run again; relative paths in the scene are resolved from the folder of
+/// `file`. If it was recorded from a motion file, that is `motion` or the file of the recorded name in the folder of `file`,
+/// in its parent folder, or in the working folder. The bytes may differ with another version, motion or kind of processor;
+/// [`Reproduction::warnings`] then gives the reasons.
 ///
 /// # Errors
-/// [`StudyError::SourceInfo`] where the file does not say where it comes from or the motion is not found; those of a run
-/// and of `record_file`.
+/// [`StudyError::SourceInfo`] if the file has no source information or the motion is not found; those of a run and of
+/// `record_file`.
 pub fn reproduce_file(
     file: &Path,
     motion: Option<&Path>,
@@ -38,8 +39,8 @@ pub fn reproduce_file(
     progress: Progress<'_>,
 ) -> Result<Reproduction, StudyError> {
     let source_info = SourceInfo::read(file)?;
-    let asked = Original::new(file, &source_info)?;
-    let target = asked.target(out);
+    let original = Original::new(file, &source_info)?;
+    let target = original.target(out);
     let folder = target.parent().unwrap_or(Path::new(""));
     let earlier = input_file::read(file, LARGEST)?;
     require_clear(&target, &earlier, replaces_all)?;
@@ -47,30 +48,30 @@ pub fn reproduce_file(
     let mut warnings = Vec::new();
     if source_info.version != VERSION {
         warnings.push(format!(
-            "the file was made by foldmotion {}, this is {VERSION}: the bytes may differ",
+            "the file was recorded by foldmotion {}, and this is {VERSION}: the bytes may differ",
             source_info.version
         ));
     }
     if let (Some(_), Some(motion)) = (&source_info.scene, motion) {
-        return Err(asked.fault(format!(
-            "it was made by running a scene, which it holds; no motion is needed: leave out {}",
+        return Err(original.error(format!(
+            "the file was recorded by running a scene, which it contains, so no motion is needed: omit {}",
             motion.display()
         )));
     }
     let found = match &source_info.scene {
-        Some(scene) => asked.run(scene, &mut results, progress)?,
-        None => asked.record(&source_info, motion, &mut results, progress)?,
+        Some(scene) => original.run(scene, &mut results, progress)?,
+        None => original.record(&source_info, motion, &mut results, progress)?,
     };
     if found != source_info.sha256 {
         warnings.push(format!(
-            "the motion has the SHA-256 {found}, that of the file had {}: the bytes may differ",
+            "the SHA-256 of the motion is {found}, but the file was recorded from {}: the bytes may differ",
             source_info.sha256
         ));
     }
-    let name = asked.name()?;
+    let name = original.name()?;
     if !results.written().contains(&name) {
-        return Err(asked.fault(format!(
-            "the recording has no {name}: give the file its first name back"
+        return Err(original.error(format!(
+            "the recording has no {name}: rename the file to its original name"
         )));
     }
     let made = results.take(&name, &target, replaces_all)?;
@@ -81,7 +82,7 @@ pub fn reproduce_file(
     })
 }
 
-/// A file to be made again.
+/// The file to reproduce.
 struct Original<'a> {
     file: &'a Path,
     output: OutputChoice,
@@ -90,13 +91,13 @@ struct Original<'a> {
 
 impl<'a> Original<'a> {
     fn new(file: &'a Path, source_info: &SourceInfo) -> Result<Self, StudyError> {
-        let ending = file.extension().unwrap_or_default().to_string_lossy();
+        let extension = file.extension().unwrap_or_default().to_string_lossy();
         let output = OutputChoice::ALL
             .into_iter()
-            .find(|output| output.name() == ending.to_ascii_lowercase());
+            .find(|output| output.name() == extension.to_ascii_lowercase());
         let output = output.ok_or_else(|| StudyError::SourceInfo {
             path: file.to_owned(),
-            message: "its ending tells no kind of file; call it as it was: gif, mp4, png, svg, pdf, glb, obj or html".to_owned(),
+            message: "its extension is not gif, mp4, png, svg, pdf, glb, obj or html: rename the file to its original name".to_owned(),
         })?;
         Ok(Self {
             file,
@@ -105,7 +106,7 @@ impl<'a> Original<'a> {
         })
     }
 
-    fn fault(&self, message: String) -> StudyError {
+    fn error(&self, message: String) -> StudyError {
         StudyError::SourceInfo {
             path: self.file.to_owned(),
             message,
@@ -117,11 +118,11 @@ impl<'a> Original<'a> {
         name.to_string_lossy().into_owned()
     }
 
-    fn beside(&self) -> &Path {
+    fn folder(&self) -> &Path {
         self.file.parent().unwrap_or(Path::new(""))
     }
 
-    /// Its name among the results.
+    /// The name of the file in a folder of results.
     fn name(&self) -> Result<String, StudyError> {
         Ok(match (self.output, self.state) {
             (OutputChoice::Png, _) => format!("{FRAMES}/{}", self.file_name()),
@@ -132,28 +133,28 @@ impl<'a> Original<'a> {
             (OutputChoice::Gif | OutputChoice::Mp4 | OutputChoice::Glb | OutputChoice::Html, _) => {
                 format!("motion.{}", self.output.name())
             }
-            _ => return Err(self.fault("files of this kind are not made again".to_owned())),
+            _ => return Err(self.error("files of this kind cannot be reproduced".to_owned())),
         })
     }
 
-    /// Where it is made again.
+    /// The path of the reproduced file.
     fn target(&self, out: Option<&Path>) -> PathBuf {
         let Some(out) = out else {
             let stem = self.file.file_stem().unwrap_or_default().to_string_lossy();
             let name = format!("{stem}-again.{}", self.output.name());
-            return self.beside().join(name);
+            return self.folder().join(name);
         };
         out.join(self.file.file_name().unwrap_or_default())
     }
 
-    /// Runs `scene` and records into `results`; answers the SHA-256 of the motion.
+    /// Runs `scene` and records into `results`; returns the SHA-256 of the motion.
     fn run(
         &self,
         scene: &Scene,
         results: &mut Results,
         progress: Progress<'_>,
     ) -> Result<String, StudyError> {
-        let text = toml::to_string(scene).map_err(|e| self.fault(e.to_string()))?;
+        let text = toml::to_string(scene).map_err(|e| self.error(e.to_string()))?;
         let source = SceneSource::new(self.file, text);
         let mut study = Study::resolve(&source)?;
         study.recording.outputs = vec![self.output];
@@ -161,7 +162,7 @@ impl<'a> Original<'a> {
         study.record(&study.recording, &folded, results, progress)
     }
 
-    /// Records the motion it was made from into `results`; answers its SHA-256.
+    /// Records the motion of the original into `results`; returns its SHA-256.
     fn record(
         &self,
         source_info: &SourceInfo,
@@ -177,32 +178,32 @@ impl<'a> Original<'a> {
         let mut recording = recording(&source_info.record.clone().unwrap_or_default())?;
         recording.outputs = vec![self.output];
         let mut read = LoadedMotion::read(&path, progress)?;
-        // It may have been renamed since.
+        // The motion file may have been renamed since.
         name.clone_into(&mut read.name);
         read.record(&recording, read.marks.clone(), results, progress)?;
         Ok(read.sha256)
     }
 
-    /// The motion called `name`. It is a name, not a path: what a file says must not reach elsewhere.
+    /// The motion file called `name`. Only the name counts: a recorded file must not lead to other folders.
     fn find(&self, name: &str) -> Result<PathBuf, StudyError> {
         let only_name = Path::new(name).file_name().unwrap_or_default();
-        let places = [
-            self.beside().to_owned(),
-            self.beside().join(".."),
+        let folders = [
+            self.folder().to_owned(),
+            self.folder().join(".."),
             PathBuf::new(),
         ];
-        let mut places = places.into_iter().map(|place| place.join(only_name));
-        places.find(|path| path.is_file()).ok_or_else(|| {
-            self.fault(format!(
-                "it was recorded from {name}, which is not beside it: name the motion after --again FILE"
+        let mut paths = folders.into_iter().map(|folder| folder.join(only_name));
+        paths.find(|path| path.is_file()).ok_or_else(|| {
+            self.error(format!(
+                "the file was recorded from {name}, which is not next to it: specify the motion after --again FILE"
             ))
         })
     }
 }
 
 impl Results {
-    /// Moves one of the files to `target` and gives up the others; answers its bytes. Another file there stays, unless
-    /// it `replaces` it.
+    /// Moves one of the files to `target`, discards the others, and returns its bytes. Refuses to replace another file
+    /// unless `replaces` is set.
     fn take(self, name: &str, target: &Path, replaces: bool) -> Result<Vec<u8>, StudyError> {
         let path = self.temporary().join(name);
         let bytes = std::fs::read(&path).map_err(|e| output_error(&path, "cannot be read", e))?;
@@ -213,7 +214,7 @@ impl Results {
     }
 }
 
-/// Refuses to replace a file that does not hold `bytes` already, unless asked to.
+/// Refuses to replace a file that has other bytes than `bytes`, unless `replaces` is set.
 fn require_clear(target: &Path, bytes: &[u8], replaces: bool) -> Result<(), StudyError> {
     if replaces || !target.exists() || std::fs::read(target).is_ok_and(|found| found == bytes) {
         return Ok(());

@@ -1,4 +1,4 @@
-//! The files of a run beside its report.
+//! The files of a run, except its report.
 
 use std::io::{self, Write};
 use std::path::Path;
@@ -23,12 +23,12 @@ use crate::{Certificate, Destination, Scene, SceneSource, Study, StudyError};
 use crate::{Progress, VERSION};
 
 impl Study {
-    /// Records `folded` as `record` says, in the place of `[record]` of the scene, into `folder`; answers the names of the
-    /// files. Other files there stay, but for pictures of an earlier film where there are new ones.
+    /// Records `folded` into `destination` with the settings `record` instead of the scene's `[record]`; returns the names of
+    /// the files. Other files in the folder are kept, except for the pictures of an earlier film if there are new ones.
     ///
     /// # Errors
-    /// [`StudyError`]: values that cannot be used, each named as a flag, and files that cannot be written; the folder is
-    /// then as it was.
+    /// [`StudyError`] of values that cannot be used, with the key as a flag, and of files that cannot be written; the folder is
+    /// then unchanged.
     pub fn record_as<'a>(
         &self,
         folded: &Folded,
@@ -44,7 +44,7 @@ impl Study {
         publish_record(results, &recording, &sha256).map(|(files, _)| files)
     }
 
-    /// `record` in the place of `[record]` of the scene.
+    /// The recording with `record` instead of the scene's `[record]`.
     fn recording_as(&self, record: &RecordScene) -> Result<Recording, StudyError> {
         let source = SceneSource::from_flags(record);
         let scene = Scene {
@@ -58,7 +58,7 @@ impl Study {
         resolved(&input, self.title.clone())
     }
 
-    /// Writes everything that `recording` asks for and answers the SHA-256 of the motion.
+    /// Writes all outputs of `recording`; returns the SHA-256 of the motion.
     pub(crate) fn record(
         &self,
         recording: &Recording,
@@ -68,7 +68,7 @@ impl Study {
     ) -> Result<String, StudyError> {
         let (motion, findings) = (&folded.motion, &folded.findings);
         let outcome = &folded.outcome;
-        let (sha256, beside) = self.record_fold(recording, folded, results)?;
+        let (sha256, page_content) = self.record_fold(recording, folded, results)?;
         if recording.has(OutputChoice::Csv) {
             record_series(findings, results)?;
         }
@@ -81,7 +81,7 @@ impl Study {
             units: self.subject.units(),
             source_info: SourceInfo::of_scene(&recording.scene, sha256.clone()),
             has_rest_lengths: true,
-            beside,
+            page_content,
             ending: (outcome.kind != OutcomeKind::Folded).then(|| outcome.headline()),
         };
         recorder.write(results, progress)?;
@@ -111,8 +111,8 @@ impl Study {
         self.write_fold(folded, io::sink()).map_err(failed)
     }
 
-    /// Writes the motion and its certificate where they are asked for; answers the SHA-256 of the motion and what a page
-    /// shows beside it.
+    /// Writes the motion file and its certificate if the recording has them; returns the SHA-256 of the motion and what a page
+    /// shows next to the motion.
     fn record_fold(
         &self,
         recording: &Recording,
@@ -152,14 +152,14 @@ impl Study {
         if !has_page {
             return Ok((sha256, PageContent::default()));
         }
-        let beside = self.beside(folded, certificate, fold);
-        Ok((sha256, beside))
+        let content = self.page_content(folded, certificate, fold);
+        Ok((sha256, content))
     }
 
-    /// The certificate of `folded`, as it is written beside its motion file.
+    /// The certificate of `folded`, as it is written next to its motion file.
     ///
     /// # Errors
-    /// [`StudyError::Output`] where the motion has a position that is no number.
+    /// [`StudyError::Output`] if the motion has a position that is not finite.
     pub fn certificate_of(&self, folded: &Folded) -> Result<Certificate, StudyError> {
         Ok(self.certificate(folded, self.digest(folded)?))
     }
@@ -185,11 +185,16 @@ impl Study {
         checked.certificate()
     }
 
-    /// What a page shows beside the motion.
-    fn beside(&self, folded: &Folded, certificate: String, fold: Option<Vec<u8>>) -> PageContent {
+    /// What a page shows next to the motion.
+    fn page_content(
+        &self,
+        folded: &Folded,
+        certificate: String,
+        fold: Option<Vec<u8>>,
+    ) -> PageContent {
         let findings = &folded.findings;
         let first = findings.collision.first.as_ref().map(|p| p.time);
-        // A page leaves out seconds and files.
+        // A page omits seconds and files.
         let report = self.report(folded, SecondsReport::NONE, &[]);
         PageContent {
             report: Some(report.to_json()),
