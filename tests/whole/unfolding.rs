@@ -91,7 +91,7 @@ fn a_shelter_unfolds_uniformly_unless_energy_is_asked_for() {
     ] {
         let unfolding = unfolding("shelter-e", &[&format!("motion.unfold={asked}")]);
         assert_eq!(
-            (unfolding.method().name(), unfolding.asked.name()),
+            (unfolding.method().name(), unfolding.requested.name()),
             (method, asked)
         );
         assert!(

@@ -23,18 +23,18 @@ pub enum StudyError {
         source: io::Error,
     },
     /// The scene is not valid TOML, or a key is unknown, missing or of the wrong type.
-    #[error("{place}: {message}")]
+    #[error("{location}: {message}")]
     Parse {
         /// File, line and column, or the `--set` that is wrong.
-        place: String,
+        location: String,
         /// What is wrong.
         message: String,
     },
     /// A value cannot be used.
-    #[error("{place}: {key}{value}: {message}")]
+    #[error("{location}: {key}{value}: {message}")]
     Value {
         /// The file and the line.
-        place: String,
+        location: String,
         /// The dotted key, such as `sheet.columns`.
         key: String,
         /// ` = value`, or empty if the key is absent.
@@ -44,12 +44,12 @@ pub enum StudyError {
     },
     /// The profile cannot be divided into equal segments.
     #[error(
-        "{place}: the profile cannot be divided into {segments} equal segments: |R_max| = {:.2} after {iterations} iterations; {remedy}",
+        "{location}: the profile cannot be divided into {segments} equal segments: |R_max| = {:.2} after {iterations} iterations; {remedy}",
         Number(*residual)
     )]
     Undivided {
         /// The file and the line.
-        place: String,
+        location: String,
         /// Nr, the number of segments.
         segments: usize,
         /// The |R_max| that was reached.

@@ -84,7 +84,7 @@ pub struct PenetrationReport {
 }
 
 impl PenetrationReport {
-    /// A line for the terminal; `h`: the unit of the depth.
+    /// A line for the terminal; `h` is the unit of the depth.
     pub(super) fn line(&self, h: &str) -> String {
         let unit = |side: usize| {
             let unit = self.units.as_ref().map(|pair| &pair[side]);

@@ -1,4 +1,4 @@
-//! The compact state in the report, beside its closed form.
+//! The compact state in the report, compared with its closed form.
 
 use foldmotion_check::{FittedBox, relative_error};
 use foldmotion_geometry::RigidMotion;
@@ -10,10 +10,10 @@ use serde::{Deserialize, Serialize};
 use super::{FoldAngleReport, Outcome};
 use crate::Study;
 
-/// A vertex this close to a skin plane, in units of a, lies on it: wide enough for layers that keep a gap.
+/// A vertex lies on a skin plane if it is within this distance, in units of a; the contact gap requires some.
 const SKIN_TOLERANCE: f64 = 0.05;
 
-/// An extent further than this from its closed form is explained: relative, or in h where the closed form is 0.
+/// A larger error of an extent is explained: relative to its closed form, or in h if that is 0.
 const LARGE_ERROR: f64 = 0.01;
 
 /// A bounding box.

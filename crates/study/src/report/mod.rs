@@ -117,7 +117,7 @@ impl Report {
 }
 
 impl Study {
-    /// The report of `folded` where nothing is written: without files and the seconds they take.
+    /// The report of `folded` before any files are written.
     pub fn report_of(&self, folded: &Folded) -> Report {
         let seconds = SecondsReport {
             check: folded.check_seconds,

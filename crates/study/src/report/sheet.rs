@@ -1,4 +1,4 @@
-//! What is folded, in the report.
+//! Sheet, profile, division and pattern in the report.
 
 use std::fmt::Write as _;
 
@@ -142,7 +142,7 @@ pub struct UnfoldReport {
 }
 
 impl MapReport {
-    /// Its line in the table.
+    /// The line of the table.
     pub(super) fn line(&self, unit: &str) -> String {
         let mut line = format!("map          {} layers", self.layers);
         // Writing into a string cannot fail.
@@ -258,7 +258,7 @@ pub(super) fn unfold_report(unfolding: &Unfolding) -> UnfoldReport {
     let path = unfolding.path.as_ref();
     UnfoldReport {
         method: unfolding.method(),
-        asked: unfolding.asked,
+        asked: unfolding.requested,
         certified: unfolding.certified,
         crosses_at: unfolding.crosses_at,
         steps: path.map(|path| path.steps),

@@ -19,29 +19,29 @@ use crate::{SceneSource, StudyError};
 /// A sheet of units on a divided profile.
 #[derive(Debug, Clone)]
 pub struct UnitStudy {
-    /// Γ.
+    /// The curve Γ that the sheet approximates.
     pub profile: Profile,
-    /// Where Γ comes from.
+    /// The origin of Γ: a built-in profile, or a key or file of the scene.
     pub profile_source: String,
-    /// Γ divided.
+    /// The division of Γ into segments.
     pub division: Division,
-    /// How.
+    /// The method of the division.
     pub division_method: DivisionMethod,
-    /// How far Γ is from its segments.
+    /// The distances of Γ from its segments.
     pub fit: Fit,
-    /// Seconds the division took.
+    /// The wall-clock seconds of the division.
     pub division_seconds: f64,
     /// The sheet of units.
     pub units: UnitSheet,
     /// The pattern check.
     pub pattern: PatternCheck,
-    /// The closed form of the compact box, where the case has one.
+    /// The closed form of the compact box; `None` if the case has none.
     pub closed_form: Option<CompactBox>,
     /// The exact order of the layers in the compact state.
     pub compact_order: LayerOrder,
-    /// The deployed state, at which the motion starts.
+    /// The positions of the deployed state, at which the motion starts.
     pub deployed: Vec<DVec3>,
-    /// How stage 1 moves the row creases.
+    /// The motion of the row creases in stage `unfold`.
     pub unfolding: Unfolding,
 }
 
@@ -49,7 +49,7 @@ impl UnitStudy {
     /// Resolves profile, division, sheet and unfolding of a scene.
     ///
     /// # Errors
-    /// Every unusable value, with file, line, key, value and remedy.
+    /// The first unusable value, with file, line, key, value and remedy.
     pub fn resolve(source: &SceneSource) -> Result<Self, StudyError> {
         let scene = source.scene()?;
         let input = Input {
@@ -71,7 +71,7 @@ impl UnitStudy {
     }
 }
 
-/// Γ divided and the sheet of units: what is folded, before anything says how.
+/// The divided profile and the sheet of units, without a motion.
 pub(crate) struct ResolvedSheet {
     pub(crate) profile_source: String,
     pub(crate) divided: DividedProfile,
@@ -79,7 +79,7 @@ pub(crate) struct ResolvedSheet {
     pub(crate) units: UnitSheet,
 }
 
-/// The sheet of units, and its schedule.
+/// The sheet of units with its schedule.
 pub(crate) fn unit_study(input: &Input<'_>) -> Result<(UnitStudy, Schedule), StudyError> {
     let ResolvedSheet {
         profile_source,
@@ -120,7 +120,7 @@ pub(crate) fn unit_study(input: &Input<'_>) -> Result<(UnitStudy, Schedule), Stu
     Ok((study, schedule))
 }
 
-/// The order of the layers in the compact state, which check and films hold in memory.
+/// The layer order of the compact state, which check and films keep in memory.
 fn compact_order(input: &Input<'_>, units: &UnitSheet) -> Result<LayerOrder, StudyError> {
     units
         .compact_order_within(MOST_ORDERED)
@@ -160,7 +160,7 @@ fn unfolding(
     let in_turn = steps
         .iter()
         .any(|step| step.stage == Stage::Unfold && (step.rows.is_some() || step.columns.is_some()));
-    let asked = input.scene.motion.unfold.unwrap_or_default();
-    Unfolding::new(asked, profile, division, in_turn)
+    let requested = input.scene.motion.unfold.unwrap_or_default();
+    Unfolding::new(requested, profile, division, in_turn)
         .map_err(|e| input.error("motion.unfold", e.to_string()))
 }

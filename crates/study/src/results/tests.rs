@@ -1,4 +1,4 @@
-//! What a folder of results keeps, replaces and removes.
+//! Which files of an output folder are kept, replaced and removed.
 
 use super::*;
 
@@ -28,7 +28,7 @@ fn text(folder: &Path, name: &str) -> String {
 const OLD_REPORT: &str = r#"{"version": "0.1.0", "engine": {}, "files": ["motion.gif"]}"#;
 
 #[test]
-fn published_results_replace_earlier_ones_and_leave_foreign_files() {
+fn published_results_replace_earlier_ones_and_keep_files_of_the_user() {
     let home = tempfile::tempdir().unwrap();
     let folder = home.path().join("out/scene");
     let mut first = open(&folder);
@@ -76,7 +76,7 @@ fn earlier_results_of_the_same_motion_stay_and_may_be_replaced_later() {
 }
 
 #[test]
-fn files_that_no_earlier_run_made_are_named_and_stay_unless_forced() {
+fn files_that_no_earlier_run_made_are_named_and_kept_unless_forced() {
     let home = tempfile::tempdir().unwrap();
     let folder = home.path().join("scene");
     let mut first = open(&folder);
@@ -119,7 +119,7 @@ fn files_that_no_earlier_run_made_are_named_and_stay_unless_forced() {
 }
 
 #[test]
-fn what_is_written_with_the_same_bytes_is_in_nobodys_way() {
+fn a_file_with_the_same_bytes_is_no_conflict() {
     let home = tempfile::tempdir().unwrap();
     let folder = home.path().join("scene");
     let mut run = open(&folder);
@@ -132,7 +132,7 @@ fn what_is_written_with_the_same_bytes_is_in_nobodys_way() {
 }
 
 #[test]
-fn without_a_list_a_report_of_a_run_says_what_it_made_and_any_other_report_stays() {
+fn without_a_manifest_the_report_of_a_run_lists_its_files_and_other_reports_are_kept() {
     let home = tempfile::tempdir().unwrap();
     for name in ["motion.gif", "plots.svg"] {
         fs::write(home.path().join(name), "old").unwrap();
@@ -150,19 +150,19 @@ fn without_a_list_a_report_of_a_run_says_what_it_made_and_any_other_report_stays
 }
 
 #[test]
-fn a_list_that_names_files_elsewhere_removes_none() {
+fn a_manifest_that_names_files_of_other_folders_removes_none() {
     let home = tempfile::tempdir().unwrap();
     let folder = home.path().join("scene");
     fs::create_dir(&folder).unwrap();
     fs::write(home.path().join("mine.txt"), "mine").unwrap();
     let list = r#"{"files": [{"name": "../mine.txt", "by": "run", "sha256": null, "of": null}]}"#;
-    fs::write(folder.join(LIST), list).unwrap();
+    fs::write(folder.join(MANIFEST), list).unwrap();
     assert_eq!(publish(open(&folder), "motion"), Published::default());
     assert_eq!(text(home.path(), "mine.txt"), "mine");
 }
 
 #[test]
-fn what_killed_runs_left_is_removed_and_folders_of_living_ones_stay() {
+fn folders_of_killed_runs_are_removed_and_those_of_running_ones_are_kept() {
     let home = tempfile::tempdir().unwrap();
     // No system gives a process this number.
     let dead = home.path().join(".scene.partial-4294967295");
@@ -183,7 +183,7 @@ fn what_killed_runs_left_is_removed_and_folders_of_living_ones_stay() {
 }
 
 #[test]
-fn results_that_are_dropped_leave_earlier_ones_as_they_were() {
+fn dropped_results_leave_earlier_ones_unchanged() {
     let home = tempfile::tempdir().unwrap();
     let folder = home.path().join("scene");
     let mut first = open(&folder);
@@ -197,7 +197,7 @@ fn results_that_are_dropped_leave_earlier_ones_as_they_were() {
 }
 
 #[test]
-fn a_file_in_the_way_of_the_folder_is_refused() {
+fn a_file_with_the_name_of_the_output_folder_is_refused() {
     let home = tempfile::tempdir().unwrap();
     let folder = home.path().join("scene");
     fs::write(&folder, "a file").unwrap();

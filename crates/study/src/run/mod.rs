@@ -12,12 +12,12 @@ use crate::scene::OutputChoice;
 use crate::{Progress, Report, Study, StudyError};
 
 impl Study {
-    /// Folds, checks, reports and records; writes the results into `folder` and returns the report.
+    /// Folds, checks, reports and records; writes the results into `destination` and returns the report.
     ///
-    /// A motion that did not converge or jammed is kept and reported as far as it came.
+    /// A motion that did not converge or jammed is reported as far as it came.
     ///
     /// # Errors
-    /// [`StudyError`] of the step that failed; the folder is then as it was.
+    /// [`StudyError`] of the step that failed; the folder is then unchanged.
     pub fn run<'a>(
         &self,
         destination: impl Into<Destination<'a>>,
@@ -29,10 +29,10 @@ impl Study {
         self.finish(&folded, results, started, progress)
     }
 
-    /// Writes the results of `folded`, computed by [`Self::compute`], into `folder`, as [`Self::run`] does.
+    /// Writes the results of `folded`, computed by [`Self::compute`], into `destination`, as [`Self::run`] does.
     ///
     /// # Errors
-    /// [`StudyError`] of the file that failed; the folder is then as it was.
+    /// [`StudyError`] of the file that failed; the folder is then unchanged.
     pub fn write<'a>(
         &self,
         folded: &Folded,
@@ -45,7 +45,7 @@ impl Study {
         self.finish(folded, results, started, progress)
     }
 
-    /// The folder of results, where nothing stands in their way and the disk can hold them.
+    /// Opens the output folder, after checks for conflicting files and for space.
     fn open_results(
         &self,
         destination: Destination<'_>,
@@ -57,7 +57,7 @@ impl Study {
         Ok(results)
     }
 
-    /// The rest of a run that began at `started`.
+    /// Records and reports the results of a run that began at `started`.
     fn finish(
         &self,
         folded: &Folded,

@@ -1,6 +1,5 @@
-//! The scene: exactly what the user wrote.
-//!
-//! A TOML file; unknown keys are refused. [`crate::Study`] is what becomes of it.
+//! The scene: a TOML file as data, exactly as the user wrote it. Unknown keys are refused. It is resolved into a
+//! [`crate::Study`].
 
 use foldmotion_pattern::Case;
 use schemars::JsonSchema;
@@ -138,7 +137,7 @@ impl LengthUnit {
         }
     }
 
-    /// Its length in millimetres; none for the unit that has no physical length.
+    /// The length of the unit in millimetres; `None` for the unit without a physical length.
     pub fn millimetres(self) -> Option<f64> {
         match self {
             Self::Unit => None,
@@ -191,15 +190,15 @@ pub struct SheetScene {
     pub folding: Option<Folding>,
 }
 
-/// What becomes of rows of unequal height.
+/// How rows of unequal height are treated.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum UnequalChoice {
     /// They are refused.
     Refuse,
-    /// Each takes E, T or S by its own w/h; refused, with the reason, where the creases of neighbours do not meet.
+    /// Each has the case E, T or S by its own w/h. They are refused, with the reason, if the creases of neighbours do not meet.
     OwnCase,
-    /// All have one flap width, a = λ·min(h, w)/2 of the lowest row, with `lambda` in (0, 1], 0.9 where left out.
+    /// All have one flap width, a = λ·min(h, w)/2 of the lowest row, with `lambda` in (0, 1]. Default of `lambda`: 0.9.
     CommonFlap,
 }
 
@@ -217,7 +216,7 @@ pub enum CaseChoice {
     /// Unmodified rectangles.
     #[serde(rename = "plain")]
     Plain,
-    /// E where w = h within 1e-9, T below, S above, or SII if λ is given.
+    /// E if w = h within 1e-9, T if w is smaller, S if it is larger, or SII if λ is given.
     #[serde(rename = "auto")]
     Auto,
 }
@@ -321,13 +320,13 @@ pub enum UnfoldChoice {
     Uniform,
     /// A path on which the profile does not cross itself (Cantarella, Demaine, Iben, O'Brien 2004).
     Energy,
-    /// Uniform where that is proved not to cross, else energy.
+    /// Uniform if that is proved not to cross, otherwise energy.
     #[default]
     Auto,
 }
 
 impl UnfoldChoice {
-    /// Its name in scene files.
+    /// The name in scene files.
     pub fn name(self) -> &'static str {
         match self {
             Self::Uniform => "uniform",
@@ -337,7 +336,7 @@ impl UnfoldChoice {
     }
 }
 
-/// `[[motion.step]]`: some creases, and when in their stage they move.
+/// `[[motion.step]]`: some creases, and the part of their stage in which they move.
 #[derive(Debug, Clone, PartialEq, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct StepScene {
@@ -377,7 +376,7 @@ pub enum EngineChoice {
 }
 
 impl EngineChoice {
-    /// Its name in scenes and reports.
+    /// The name in scenes and reports.
     pub fn name(self) -> &'static str {
         match self {
             Self::QuasiStatic => "quasi-static",

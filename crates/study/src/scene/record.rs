@@ -71,14 +71,14 @@ pub struct RecordScene {
     pub letters: Option<f64>,
 }
 
-/// Pixels and frames a second of a GIF alone: drawing and packing it costs less than folding a sheet with contact.
+/// The default size and frame rate of films if only a GIF is written, which then costs less time than folding a sheet.
 const GIF_FILM: ([u32; 2], f64) = ([480, 360], 10.0);
 
-/// The same of films that are also written as MP4 or pictures.
+/// The default size and frame rate of films that are also written as MP4 or pictures.
 const FULL_FILM: ([u32; 2], f64) = ([960, 720], 30.0);
 
 impl RecordScene {
-    /// Pixels across and down, and frames a second, of films where the scene leaves them out.
+    /// The default size in pixels and the default frame rate of films.
     pub fn standard_film(&self) -> ([u32; 2], f64) {
         let is_full = |output| matches!(output, &OutputChoice::Mp4 | &OutputChoice::Png);
         if self.outputs.iter().flatten().any(is_full) {
@@ -103,17 +103,17 @@ pub enum OutputChoice {
     Csv,
     /// `motion.mp4`: H.264.
     Mp4,
-    /// `frames/0001.png` on, at a constant rate.
+    /// `frames/0001.png` and so on: pictures at a constant frame rate.
     Png,
     /// `figure.svg`: states side by side, as lines and areas.
     Svg,
-    /// `figure.pdf`: the same.
+    /// `figure.pdf`: the same figure as PDF.
     Pdf,
     /// `motion.glb`: glTF with the motion as morph targets.
     Glb,
     /// `state-0.5.obj`: a file for each of the states `at`.
     Obj,
-    /// `state-0.5.stl`: likewise.
+    /// `state-0.5.stl`: a file for each of the states `at`, as STL.
     Stl,
     /// `motion.html`: the motion, its plots, report and certificate as one page for browsers.
     Html,
@@ -135,7 +135,7 @@ impl OutputChoice {
         Self::Html,
     ];
 
-    /// Its name in scene files, which is also how its files end.
+    /// The name in scene files, which is also the extension of its files.
     pub fn name(self) -> &'static str {
         match self {
             Self::Fold => "fold",
