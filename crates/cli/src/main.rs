@@ -252,11 +252,11 @@ fn rebuild_paper(arguments: &PaperArguments) -> Result<u8, Failure> {
     if arguments.json {
         print(&run.record.to_json())?;
     } else if !arguments.quiet {
-        let (made, reused) = (run.made, run.reused);
+        let (computed, reused) = (run.computed, run.reused);
         let page = arguments.out.join("index.html");
         let page = page.display();
         print(&format!(
-            "{made} parts computed, {reused} reused\nresults in {page}\n"
+            "{computed} parts computed, {reused} reused\nresults in {page}\n"
         ))?;
     }
     Ok(0)

@@ -1,4 +1,4 @@
-//! `index.html`: the paper's numbers, ours and the difference, with every figure inside.
+//! `index.html`: the paper's numbers, ours and the differences, with all figures.
 
 use foldmotion_check::Verdict;
 use std::fmt::Write as _;
@@ -7,21 +7,21 @@ use super::figures::Figure;
 use super::record::{CaseRow, MotionRow, PaperRecord};
 use foldmotion_study::report::BoxReport;
 
-/// The look of the page.
+/// The style sheet of the page.
 const STYLE: &str = include_str!("page.css");
 
-/// What a row without a value shows.
+/// The text of a missing value.
 const NONE: &str = "–";
 
-/// The page.
+/// The text of the page.
 pub(super) fn page(record: &PaperRecord, figures: &[Figure]) -> String {
     let mut page = format!(
         "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
          <meta name=\"viewport\" content=\"width=device-width\">\n\
          <title>Foldable cylindrical surfaces: the paper beside foldmotion</title>\n<style>\n{STYLE}</style>\n</head>\n<body>\n\
          <h1>Constructing foldable cylindrical surfaces via unfolded waterbomb origami units</h1>\n\
-         <p>The tables and figures of the paper as foldmotion {} rebuilds them: the paper's number, ours, and the \
-         difference. Lengths are in units of the rows' height h. The same numbers stand in <code>paper.json</code>.</p>\n",
+         <p>The tables and figures of the paper as foldmotion {} reproduces them: the paper's number, ours, and the \
+         difference. Lengths are in units of the rows' height h. The same numbers are in <code>paper.json</code>.</p>\n",
         record.version
     );
     page.push_str(&table1(record));
@@ -29,7 +29,7 @@ pub(super) fn page(record: &PaperRecord, figures: &[Figure]) -> String {
     page.push_str(&boxes(record));
     page.push_str(&certificates(record));
     page.push_str(&unfoldings(record));
-    page.push_str(&faults(record));
+    page.push_str(&problems(record));
     for figure in figures {
         let (row, svg) = (&figure.row, &figure.svg);
         let caption = marked(&row.caption);
@@ -152,7 +152,7 @@ fn boxes(record: &PaperRecord) -> String {
     });
     let words = "Area A (x–z plane) and volume V of the compact state's box: the paper's closed forms (equations 3 to 7), the \
                  exact state, and the state that the simulation without contact reaches; its error is divided by the \
-                 closed form or, where that is 0, by h² or h³. N_c marked * are ours.";
+                 closed form or, if that is 0, by h² or h³. N_c marked * are ours.";
     section("Areas and volumes of every case", words, &head, rows)
 }
 
@@ -184,7 +184,7 @@ fn certificates(record: &PaperRecord) -> String {
         }
     }
     let words = "Motions of the default material (Origami Simulator's stiffness), in equilibrium along the schedule. The \
-                 verdict speaks of the recorded frames and straight paths between them, within 1e-6 h. With contact, layers \
+                 verdict is about the recorded frames and straight paths between them, within 1e-6 h. With contact, layers \
                  keep a gap, so that the compact box is larger than the closed form of a sheet without thickness.";
     section("Certificates", words, &head, rows.into_iter())
 }
@@ -219,9 +219,9 @@ fn unfoldings(record: &PaperRecord) -> String {
     let head = [
         "profile",
         "N_r",
-        "way",
+        "path",
         "verdict",
-        "crosses at this part of the way to go",
+        "crosses at this part of the remaining path",
         "proved clear at every instant",
         "frames",
     ];
@@ -243,15 +243,15 @@ fn unfoldings(record: &PaperRecord) -> String {
 }
 
 /// The motions that penetrate, jam or stay undecided, in words.
-fn faults(record: &PaperRecord) -> String {
+fn problems(record: &PaperRecord) -> String {
     let mut list = String::new();
-    let mut tell = |words: String| {
+    let mut add = |words: String| {
         let _ = writeln!(list, "<li>{words}</li>");
     };
     for row in &record.unfoldings {
         if let Some(part) = row.crosses_at {
-            tell(format!(
-                "{}, unfolded by the way “{}”: passes through itself from {part:.3} of the way to go on.",
+            add(format!(
+                "{}, unfolded on the path “{}”: passes through itself once {part:.3} of the path remains.",
                 row.model, row.method
             ));
         }
@@ -261,13 +261,13 @@ fn faults(record: &PaperRecord) -> String {
             let Some(motion) = motion else { continue };
             let name = format!("{}, case {}, {contact} contact", row.model, row.case);
             if let Some(t) = motion.first_penetration_t {
-                tell(format!("{name}: penetrates, first at t = {t:.4}."));
+                add(format!("{name}: penetrates, first at t = {t:.4}."));
             }
             if let Some(t) = motion.jam_t {
-                tell(format!("{name}: jams at t = {t:.4}."));
+                add(format!("{name}: jams at t = {t:.4}."));
             }
             if motion.verdict == Verdict::Undecided || !motion.converged {
-                tell(format!(
+                add(format!(
                     "{name}: {}, reached t = {}.",
                     motion.verdict, motion.reached_t
                 ));
@@ -325,7 +325,7 @@ fn escaped(text: &str) -> String {
         .replace('>', "&gt;")
 }
 
-/// Words with `_x` lowered.
+/// A text in which `_x` becomes a subscript.
 fn marked(text: &str) -> String {
     let text = escaped(text);
     let mut parts = text.split('_');
@@ -345,7 +345,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn marks_become_lowered_letters_and_signs_are_escaped() {
+    fn subscripts_are_marked_and_signs_are_escaped() {
         assert_eq!(
             marked("|R_max| < N_r × N_c"),
             "|R<sub>max</sub>| &lt; N<sub>r</sub> × N<sub>c</sub>"
