@@ -157,8 +157,8 @@ fn files_that_do_not_say_where_they_come_from_are_refused() {
         assert_eq!(error.status(), 2, "{error}");
         error.to_string()
     };
-    assert!(refusal(&folder.join("state-1.stl")).contains("of a stl use the obj"));
-    assert!(refusal(&folder.join("report.json")).contains("nothing of its origin"));
+    assert!(refusal(&folder.join("state-1.stl")).contains("for an stl file, use the obj"));
+    assert!(refusal(&folder.join("report.json")).contains("no source information"));
     assert!(refusal(&folder.join("missing.gif")).contains("missing.gif"));
     let renamed = folder.join("first.png");
     fs::copy(folder.join("frames/0001.png"), &renamed).unwrap();
@@ -355,7 +355,7 @@ fn what_a_motion_cannot_show_is_refused_by_flag_and_value() {
     };
     refusal(at(&[0.5, 1.0]), &["--at", "0.5", "t = 1 to 2"]);
     refusal(at(&[2.5]), &["--at", "2.5"]);
-    refusal(at(&[2.0, 1.0]), &["--at", "rise"]);
+    refusal(at(&[2.0, 1.0]), &["--at", "rising"]);
     let wide = RecordScene {
         size: Some([5000, 48]),
         ..small(&[OutputChoice::Mp4])

@@ -2,7 +2,7 @@
 
 #![expect(
     clippy::unwrap_used,
-    reason = "a test stops where something is missing"
+    reason = "a test fails where something is missing"
 )]
 
 mod common;

@@ -2,7 +2,7 @@
 
 #![expect(
     clippy::unwrap_used,
-    reason = "a test stops where something is missing"
+    reason = "a test fails where something is missing"
 )]
 
 mod common;
@@ -395,7 +395,7 @@ fn flags_and_files_that_do_not_go_together_are_refused_by_name() {
     let cases: [(&[&str], &[&str], &str); 3] = [
         (
             &["record", motion, "--again", "here/state-1.obj"],
-            &["state-1.obj", motion, "leave out"],
+            &["state-1.obj", motion, "omit"],
             "nothing",
         ),
         (

@@ -2,25 +2,21 @@
 
 #![expect(
     clippy::unwrap_used,
-    reason = "a test stops where something is missing"
+    reason = "a test fails where something is missing"
 )]
+
+mod common;
 
 use std::fs;
 use std::path::Path;
-use std::process::{Command, Output};
+use std::process::Output;
 
 use serde_json::Value;
 
-fn paper(folder: &Path, only: &str) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_foldmotion"))
-        .args(["paper", "--out", "paper", "--only", only])
-        .current_dir(folder)
-        .output()
-        .unwrap()
-}
+use common::{foldmotion, text};
 
-fn text(bytes: &[u8]) -> String {
-    String::from_utf8(bytes.to_vec()).unwrap()
+fn paper(folder: &Path, only: &str) -> Output {
+    foldmotion(folder, &["paper", "--out", "paper", "--only", only])
 }
 
 fn record(folder: &Path) -> Value {

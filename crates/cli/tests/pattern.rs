@@ -2,27 +2,22 @@
 
 #![expect(
     clippy::unwrap_used,
-    reason = "a test stops where something is missing"
+    reason = "a test fails where something is missing"
 )]
 
+mod common;
+
 use std::path::Path;
-use std::process::{Command, Output};
+use std::process::Output;
+
+use common::{foldmotion, text};
 
 fn pattern(folder: &Path, arguments: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_foldmotion"))
-        .arg("pattern")
-        .args(arguments)
-        .current_dir(folder)
-        .output()
-        .unwrap()
+    foldmotion(folder, &[&["pattern"], arguments].concat())
 }
 
 fn scene(name: &str) -> String {
     format!("{}/../../scenes/{name}.toml", env!("CARGO_MANIFEST_DIR"))
-}
-
-fn text(bytes: &[u8]) -> String {
-    String::from_utf8(bytes.to_vec()).unwrap()
 }
 
 fn names(folder: &Path) -> Vec<String> {

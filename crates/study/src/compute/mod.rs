@@ -15,8 +15,6 @@ pub(crate) mod preview;
 pub(crate) mod series;
 pub(crate) mod stop;
 pub(crate) mod symmetry;
-#[cfg(test)]
-mod symmetry_tests;
 
 use std::time::Instant;
 

@@ -157,3 +157,6 @@ fn asymmetry(positions: &[DVec3], images: &[usize]) -> f64 {
         .map(|(&image, &p)| fit.apply(image).distance(p))
         .fold(0.0, f64::max)
 }
+
+#[cfg(test)]
+mod tests;
