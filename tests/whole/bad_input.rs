@@ -28,7 +28,7 @@ pub(crate) fn refusal(text: &str) -> String {
 }
 
 #[test]
-fn the_scene_the_cases_start_from_is_good() {
+fn the_scene_that_the_cases_change_is_valid() {
     let source = SceneSource::new(Path::new("scene.toml"), GOOD.to_owned());
     assert!(Study::resolve(&source).is_ok());
 }
@@ -288,7 +288,7 @@ fn lengths_and_tolerances_beyond_what_can_be_computed_are_refused_with_their_bou
 }
 
 #[test]
-fn a_value_that_is_none_of_the_words_is_told_the_words() {
+fn an_unknown_choice_is_refused_with_the_list_of_names() {
     for closed in ["true", "1", "[1]", "\"yes\""] {
         let text = GOOD.replace("length = 3.0", &format!("length = 3.0\nclosed = {closed}"));
         let message = refusal(&text);
@@ -303,7 +303,7 @@ fn a_value_that_is_none_of_the_words_is_told_the_words() {
 }
 
 #[test]
-fn a_key_that_stands_twice_is_named() {
+fn a_duplicate_key_is_named() {
     let message = refusal(&GOOD.replace("rows = 3", "rows = 3\nrows = 4"));
     assert!(
         message.contains("scene.toml:7") && message.contains("`rows`"),
@@ -312,7 +312,7 @@ fn a_key_that_stands_twice_is_named() {
 }
 
 #[test]
-fn a_title_is_one_line_without_control_characters() {
+fn a_title_is_a_single_line_without_control_characters() {
     for title in ["a\\u001b[31m", "a\\nb", "a\\u0007"] {
         let message = refusal(&format!("title = \"{title}\"\n{GOOD}"));
         assert!(
@@ -324,7 +324,7 @@ fn a_title_is_one_line_without_control_characters() {
 }
 
 #[test]
-fn lambda_beside_an_open_case_is_left_out_where_the_columns_make_it_e_or_t_and_that_is_said() {
+fn with_case_auto_lambda_is_ignored_with_a_note_if_the_case_is_e_or_t() {
     let open = GOOD.replace(
         "case = \"E\"",
         "case = \"auto\"\nlambda = 0.5\noffset = 0.01",
@@ -369,7 +369,7 @@ fn lambda_and_offset_out_of_range_are_refused() {
 
 /// All columns of case E lie in one plane when compact: every two layers there are a pair.
 #[test]
-fn a_sheet_whose_layers_no_check_can_hold_is_refused_before_it_is_folded() {
+fn a_sheet_with_too_many_layers_to_check_is_refused_before_it_is_folded() {
     let many = GOOD
         .replace("rows = 3", "rows = 200")
         .replace("columns = 2", "columns = 200")
@@ -417,7 +417,7 @@ fn a_missing_file_is_refused_by_name() {
 }
 
 #[test]
-fn energy_is_refused_for_profiles_of_more_segments_than_it_takes() {
+fn energy_is_refused_for_profiles_with_too_many_segments() {
     let long = GOOD
         .replace("rows = 3", "rows = 2001")
         .replace("width = 2.0\n", "");

@@ -69,7 +69,7 @@ fn values_of_record_are_refused_by_key_line_and_value() {
 }
 
 #[test]
-fn lists_of_a_fixed_number_of_values_take_neither_fewer_nor_more() {
+fn lists_of_a_fixed_length_accept_neither_fewer_nor_more_values() {
     let points = ["[0.0, 0.0, 5.0, 1.0]", "[0.0, 0.0, \"x\"]", "[0.0]"];
     for point in points {
         for key in ["control_points", "points"] {
@@ -81,7 +81,10 @@ fn lists_of_a_fixed_number_of_values_take_neither_fewer_nor_more() {
         }
     }
     let extra = refusal(&GOOD.replace("[0.0, 0.0]", points[0]));
-    assert!(extra.contains("a list of 4 values, but exactly 2"), "{extra}");
+    assert!(
+        extra.contains("a list of 4 values, but exactly 2"),
+        "{extra}"
+    );
     refuses_all(&[
         (
             "[record]\nsize = [96, 72, 7]",

@@ -157,7 +157,7 @@ fn the_report_of_an_import_has_no_unit_and_starts_at_the_flat_sheet() {
 }
 
 #[test]
-fn a_square_twist_strains_or_bends_its_facets_for_it_is_not_rigid() {
+fn a_square_twist_strains_or_bends_its_facets_because_it_is_not_rigid_foldable() {
     let (soft, _) = run(&example("square-twist.svg"), &[]);
     assert_eq!((soft.status(), soft.collision.verdict.name()), (0, "free"));
     assert!(soft.stages[0].peak_strain > 0.02);
@@ -232,7 +232,7 @@ fn a_frame_with_a_hole_folds_in_steps_and_one_facet_stays_in_place() {
 }
 
 #[test]
-fn a_crane_and_a_bird_base_that_do_not_come_to_their_end_are_said_to() {
+fn a_crane_and_a_bird_base_are_reported_not_to_reach_their_end() {
     for name in ["bird-base.fold", "crane.svg"] {
         let (report, _) = run(&example(name), &[]);
         assert_eq!(report.status(), 3, "{name}");
@@ -298,7 +298,7 @@ fn a_negative_percentage_folds_inside_out() {
 }
 
 #[test]
-fn unknown_keys_and_the_unit_survive_into_the_motion_file() {
+fn unknown_keys_and_the_unit_are_preserved_in_the_motion_file() {
     let (report, motion) = run_fold(&strip(), &[]);
     assert_eq!(report.length_unit, "mm");
     assert_eq!(motion["frame_unit"], "mm");

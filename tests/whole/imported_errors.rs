@@ -112,7 +112,7 @@ fn files_are_refused_by_name_and_element() {
 }
 
 #[test]
-fn what_is_refused_is_left_out_where_asked() {
+fn unknown_elements_are_ignored_on_request() {
     let folder = tempfile::tempdir().unwrap();
     let text = SQUARE.replace("</svg>", "<circle r=\"1\" stroke=\"#000\"/></svg>");
     std::fs::write(folder.path().join("c.svg"), text).unwrap();

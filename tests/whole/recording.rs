@@ -121,7 +121,7 @@ fn one_run_writes_every_output_and_other_readers_open_them() {
 }
 
 #[test]
-fn every_file_of_a_run_is_made_again_with_the_same_bytes() {
+fn every_file_of_a_run_is_reproduced_with_the_same_bytes() {
     let (home, folder, _) = everything();
     let out = home.path().join("again");
     for name in [
@@ -150,7 +150,7 @@ fn every_file_of_a_run_is_made_again_with_the_same_bytes() {
 }
 
 #[test]
-fn files_that_do_not_say_where_they_come_from_are_refused() {
+fn files_without_source_information_are_refused() {
     let (home, folder, _) = everything();
     let refusal = |file: &Path| {
         let error = reproduce_file(file, None, Some(home.path()), false, &|_, _| true).unwrap_err();
@@ -174,7 +174,7 @@ fn files_that_do_not_say_where_they_come_from_are_refused() {
 }
 
 #[test]
-fn another_version_or_motion_is_told() {
+fn another_version_or_motion_is_reported() {
     let (home, folder, _) = everything();
     let obj = fs::read_to_string(folder.join("state-1.obj")).unwrap();
     let version = format!("version = \"{}\"", env!("CARGO_PKG_VERSION"));
@@ -189,7 +189,7 @@ fn another_version_or_motion_is_told() {
 }
 
 #[test]
-fn pictures_of_a_longer_film_go_and_other_files_stay() {
+fn pictures_of_a_longer_film_are_removed_and_other_files_are_kept() {
     let home = tempfile::tempdir().unwrap();
     let folder = home.path().join("unit");
     run(&folder, &["record.outputs=[\"png\", \"obj\"]"]);
@@ -257,7 +257,7 @@ fn small(outputs: &[OutputChoice]) -> RecordScene {
 }
 
 #[test]
-fn any_fold_motion_is_recorded_in_metres_and_made_again() {
+fn any_fold_motion_is_recorded_in_metres_and_reproduced() {
     let home = tempfile::tempdir().unwrap();
     let motion = square(home.path());
     let record = RecordScene {
@@ -311,7 +311,7 @@ fn any_fold_motion_is_recorded_in_metres_and_made_again() {
 }
 
 #[test]
-fn files_beside_those_of_a_motion_stay() {
+fn other_files_in_the_folder_of_a_motion_are_kept() {
     let (_home, folder, _) = everything();
     let before = fs::read(folder.join("motion.gif")).unwrap();
     let record = small(&[OutputChoice::Svg]);
@@ -331,7 +331,7 @@ fn files_beside_those_of_a_motion_stay() {
 }
 
 #[test]
-fn what_a_motion_cannot_show_is_refused_by_flag_and_value() {
+fn outputs_that_a_motion_cannot_have_are_refused_with_flag_and_value() {
     let home = tempfile::tempdir().unwrap();
     let motion = square(home.path());
     let folder = home.path().join("out");

@@ -105,7 +105,7 @@ fn rows_in_cases_that_clash_are_refused_by_name_and_drawn() {
 }
 
 #[test]
-fn unequal_rows_are_refused_unless_the_scene_says_how_to_meet() {
+fn unequal_rows_are_refused_unless_the_scene_allows_them() {
     let error = Study::resolve(&source("shelter-unequal", &["sheet.unequal=refuse"])).unwrap_err();
     assert!(error.to_string().contains("common-flap"), "{error}");
     let error = Study::resolve(&source("shelter-unequal", &["sheet.case=S"])).unwrap_err();

@@ -96,7 +96,7 @@ fn worst_box_error(report: &Report) -> Option<f64> {
 }
 
 #[test]
-fn every_scene_comes_to_its_verdict_and_writes_its_files() {
+fn every_scene_has_its_verdict_and_writes_its_files() {
     let home = tempfile::tempdir().unwrap();
     for Expected {
         scene,
@@ -372,7 +372,7 @@ fn results_are_the_same_bytes_for_one_thread_and_for_two() {
 
 /// The growing direction lies along x, the width along y, the flaps along −z in the last frame.
 #[test]
-fn the_compact_frame_of_the_file_is_the_right_way_up() {
+fn the_compact_frame_of_the_file_has_the_right_orientation() {
     let home = tempfile::tempdir().unwrap();
     run(
         "shelter-s",

@@ -88,7 +88,7 @@ fn every_key_of_the_schemas_is_described_in_thirty_characters_or_more() {
 }
 
 #[test]
-fn every_key_of_a_scene_says_what_holds_if_it_is_omitted() {
+fn every_key_of_a_scene_has_a_default_unless_it_is_required() {
     // What a scene must say, what has no value by default, and lists.
     let without = [
         "profile.model",

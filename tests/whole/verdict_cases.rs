@@ -32,7 +32,7 @@ fn read(name: &str) -> Value {
 }
 
 /// What came of a motion.
-struct Judged {
+struct Checked {
     verdict: Verdict,
     /// In units of the unit of length.
     separation: Option<f64>,
@@ -40,7 +40,7 @@ struct Judged {
 }
 
 /// Judges a motion and proves its certificate again.
-fn judge(motion: &Value) -> Judged {
+fn check(motion: &Value) -> Checked {
     let home = tempfile::tempdir().unwrap();
     let [path, certificate] = ["motion.fold", "certificate.json"].map(|n| home.path().join(n));
     fs::write(&path, motion.to_string()).unwrap();
@@ -48,7 +48,7 @@ fn judge(motion: &Value) -> Judged {
     let stated = &checked.certificate;
     fs::write(&certificate, stated.to_json()).unwrap();
     let verified = verify_file(&path, &certificate, &|_, _| true).unwrap();
-    Judged {
+    Checked {
         verdict: stated.verdict,
         separation: stated.min_separation.as_ref().map(|s| s.distance),
         verification: verified.verification,
@@ -162,15 +162,15 @@ fn swapped(motion: &Value) -> Value {
 
 /// Checks verdict and separation, and that the second proof says the same.
 fn is_true(name: &str, what: &str, motion: &Value, truth: (Verdict, Option<f64>)) {
-    let judged = judge(motion);
-    assert_eq!(judged.verdict, truth.0, "{name}, {what}");
-    let verification = judged.verification;
+    let checked = check(motion);
+    assert_eq!(checked.verdict, truth.0, "{name}, {what}");
+    let verification = checked.verification;
     assert!(
         verification.is_verified(),
         "{name}, {what}: {verification:?}"
     );
     if let Some(expected) = truth.1 {
-        let found = judged.separation.unwrap();
+        let found = checked.separation.unwrap();
         // The truth is told in three digits; the stated bound may be smaller by τ/100.
         assert!(found <= 1.005 * expected, "{name}, {what}: {found}");
         assert!(found >= 0.99 * expected - 2e-8, "{name}, {what}: {found}");
@@ -179,9 +179,9 @@ fn is_true(name: &str, what: &str, motion: &Value, truth: (Verdict, Option<f64>)
 
 /// Checks the verdict, and that the second proof does not refute it; cut into more triangles it may leave some pairs open.
 fn is_not_refuted(name: &str, what: &str, motion: &Value, truth: Verdict) {
-    let judged = judge(motion);
-    assert_eq!(judged.verdict, truth, "{name}, {what}");
-    let refuted = judged.verification.refuted;
+    let checked = check(motion);
+    assert_eq!(checked.verdict, truth, "{name}, {what}");
+    let refuted = checked.verification.refuted;
     assert!(refuted.is_empty(), "{name}, {what}: {refuted:?}");
 }
 

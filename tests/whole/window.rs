@@ -65,7 +65,7 @@ fn seen(outputs: &[OutputChoice]) -> RecordScene {
 }
 
 #[test]
-fn what_is_computed_and_then_written_is_what_a_run_writes() {
+fn computing_and_then_writing_gives_the_files_of_a_run() {
     let study = study(&["record.outputs=[\"fold\", \"csv\", \"gif\", \"svg\", \"html\"]"]);
     let home = tempfile::tempdir().unwrap();
     let [once, twice] = ["run", "written"].map(|name| home.path().join(name));
@@ -89,7 +89,7 @@ fn what_is_computed_and_then_written_is_what_a_run_writes() {
 }
 
 #[test]
-fn a_run_recorded_as_the_window_shows_it_is_a_run_of_that_scene() {
+fn a_recording_with_the_camera_of_the_window_equals_a_run_with_that_camera() {
     let outputs = [OutputChoice::Gif, OutputChoice::Png, OutputChoice::Svg];
     let plain = study(&[]);
     let folded = plain.compute(&|_, _| true).unwrap();
@@ -130,7 +130,7 @@ fn a_run_recorded_as_the_window_shows_it_is_a_run_of_that_scene() {
 }
 
 #[test]
-fn a_recording_that_cannot_be_made_is_refused_by_its_flag() {
+fn an_invalid_recording_is_refused_with_its_flag() {
     let study = study(&[]);
     let folded = study.compute(&|_, _| true).unwrap();
     let home = tempfile::tempdir().unwrap();
@@ -179,7 +179,7 @@ impl Watch for Seen {
 }
 
 #[test]
-fn a_watched_run_shows_its_states_and_comes_to_the_same_end() {
+fn an_observed_run_reports_its_states_and_has_the_same_result() {
     for engine in ["motion.engine=dynamic", "motion.engine=quasi-static"] {
         let study = study(&[engine]);
         let seen = Seen::default();
@@ -206,7 +206,7 @@ fn a_watched_run_shows_its_states_and_comes_to_the_same_end() {
 }
 
 #[test]
-fn a_file_is_opened_as_what_it_is() {
+fn a_file_is_opened_by_its_content() {
     let home = tempfile::tempdir().unwrap();
     let folder = home.path().join("unit");
     study(&["record.outputs=[\"fold\"]"])
@@ -307,7 +307,7 @@ fn a_motion_without_times_is_one_stage_and_so_is_its_verdict() {
     assert!((first.time - 1.0 - by_index / (count - 1.0)).abs() < 1e-12);
     let folder = home.path().join("film");
     let made = motion.record_as(
-        Some(&findings_of(&motion)),
+        Some(&check_findings(&motion)),
         &seen(&[OutputChoice::Png]),
         &folder,
         &|_, _| true,
@@ -315,7 +315,7 @@ fn a_motion_without_times_is_one_stage_and_so_is_its_verdict() {
     assert!(made.unwrap().is_checked);
 }
 
-fn findings_of(motion: &foldmotion_study::OpenedMotion) -> foldmotion_study::Findings {
+fn check_findings(motion: &foldmotion_study::OpenedMotion) -> foldmotion_study::Findings {
     let checked = motion.check(&CheckOptions::default(), &|_, _| true);
     checked.unwrap().0
 }

@@ -1,4 +1,10 @@
 //! The command line: arguments in, exit status and messages out.
+//!
+//! ```text
+//! foldmotion init scene.toml
+//! foldmotion run scene.toml
+//! foldmotion check out/scene/motion.fold --verify out/scene/certificate.json
+//! ```
 
 mod arguments;
 mod init;

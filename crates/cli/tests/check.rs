@@ -60,10 +60,10 @@ fn agrees(report: &Value, certificate: &Value) {
 }
 
 /// A change that spoils a motion, and words of the refusal.
-type Fault<'a> = (&'a dyn Fn(&mut Value), &'a str);
+type Change<'a> = (&'a dyn Fn(&mut Value), &'a str);
 
 #[test]
-fn our_own_motions_get_the_verdict_of_their_run() {
+fn motions_of_runs_get_the_verdict_of_their_run() {
     let short = ["sheet.rows=2", "profile.length=2.0"];
     for (scene, set, status) in [
         ("one-unit", &[][..], 0),
@@ -87,7 +87,7 @@ fn our_own_motions_get_the_verdict_of_their_run() {
 }
 
 #[test]
-fn a_frame_moved_through_the_sheet_is_a_penetration() {
+fn a_vertex_moved_through_the_sheet_is_a_penetration() {
     let home = tempfile::tempdir().unwrap();
     run(home.path(), "one-unit", &[]);
     let path = home.path().join("run/motion.fold");
@@ -150,7 +150,7 @@ fn folding(angle: f64) -> Value {
 }
 
 #[test]
-fn polygons_of_others_are_judged_and_the_certificate_says_they_were_cut() {
+fn polygons_are_checked_and_the_certificate_says_that_they_were_cut() {
     let home = tempfile::tempdir().unwrap();
     for (angle, verdict, status) in [(120.0, "free", 0), (240.0, "penetrating", 1)] {
         fs::write(home.path().join("book.fold"), folding(angle).to_string()).unwrap();
@@ -176,7 +176,7 @@ fn polygons_of_others_are_judged_and_the_certificate_says_they_were_cut() {
 }
 
 #[test]
-fn the_tolerance_asked_for_is_the_one_certified() {
+fn the_given_tolerance_is_certified() {
     let home = tempfile::tempdir().unwrap();
     fs::write(home.path().join("book.fold"), folding(90.0).to_string()).unwrap();
     let arguments = [
@@ -193,7 +193,7 @@ fn the_tolerance_asked_for_is_the_one_certified() {
 }
 
 #[test]
-fn bad_motions_are_status_2_and_write_nothing() {
+fn bad_motions_are_status_2_and_write_no_files() {
     let home = tempfile::tempdir().unwrap();
     let flat = |v: &mut Value| v["file_frames"][4]["vertices_coords"][4] = json!([0, 0, 0]);
     let backwards = |v: &mut Value| {
@@ -206,7 +206,7 @@ fn bad_motions_are_status_2_and_write_nothing() {
             frame["foldmotion:time"] = json!(-(k as f64));
         }
     };
-    let changes: [Fault<'_>; 3] = [
+    let changes: [Change<'_>; 3] = [
         (&flat, "file_frames[4]: faces_vertices[1] has no area"),
         (&backwards, "file_frames[1]: "),
         (&|v| v["faces_vertices"] = json!([]), "faces_vertices"),
@@ -253,7 +253,7 @@ fn bad_motions_are_status_2_and_write_nothing() {
 }
 
 #[test]
-fn a_certificate_is_verified_by_its_status_and_stays_as_it_was() {
+fn verification_has_an_exit_status_and_leaves_the_certificate_unchanged() {
     let home = tempfile::tempdir().unwrap();
     fs::write(home.path().join("book.fold"), folding(240.0).to_string()).unwrap();
     foldmotion(
@@ -324,7 +324,7 @@ fn a_certificate_of_another_format_is_refused_with_the_reason_and_the_remedy() {
 }
 
 #[test]
-fn a_check_that_stops_says_so_and_is_verified_up_to_there() {
+fn a_check_that_stops_early_says_so_and_is_verified_up_to_there() {
     let home = tempfile::tempdir().unwrap();
     let set = ["sheet.rows=2", "profile.length=2.0", "check.stop_at=1"];
     let report = run(home.path(), "shelter-short-plain", &set);
@@ -385,7 +385,7 @@ fn the_certificate_of_a_run_is_byte_for_byte_that_of_its_motion_file() {
 }
 
 #[test]
-fn layers_swapped_in_face_orders_are_refused_by_name() {
+fn swapped_layers_in_face_orders_are_named() {
     let home = tempfile::tempdir().unwrap();
     let motion = flat_unit(home.path());
     let (status, certificate) = check(home.path(), &motion);
@@ -450,7 +450,7 @@ fn a_motion_whose_last_frames_have_their_layers_exchanged_is_refused() {
 }
 
 #[test]
-fn face_orders_of_a_motion_with_contact_are_checked_and_refused_where_they_are_false() {
+fn false_face_orders_of_a_motion_with_contact_are_refused() {
     let home = tempfile::tempdir().unwrap();
     run(home.path(), "one-unit", &[]);
     let check = ["check", "run/motion.fold", "--out", "run", "--quiet"];

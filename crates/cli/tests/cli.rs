@@ -19,7 +19,7 @@ fn scene(name: &str) -> String {
 const SMALL: [&str; 4] = ["--set", "record.size=[64, 48]", "--set", "motion.frames=20"];
 
 #[test]
-fn json_prints_exactly_the_report_and_quiet_nothing() {
+fn json_prints_exactly_the_report_and_quiet_prints_nothing() {
     let home = tempfile::tempdir().unwrap();
     let unit = scene("one-unit");
     let mut arguments = vec!["run", unit.as_str(), "--json", "--quiet"];
@@ -73,7 +73,7 @@ fn a_penetration_is_status_1() {
 }
 
 #[test]
-fn bad_input_is_status_2_and_writes_nothing() {
+fn bad_input_is_status_2_and_writes_no_files() {
     let home = tempfile::tempdir().unwrap();
     let unit = scene("one-unit");
     for arguments in [
@@ -119,7 +119,7 @@ fn an_output_folder_that_cannot_be_written_is_status_3() {
 }
 
 #[test]
-fn the_scene_of_init_is_good_and_an_existing_file_is_kept() {
+fn the_scene_of_init_can_be_run_and_an_existing_file_is_kept() {
     let home = tempfile::tempdir().unwrap();
     let first = foldmotion(home.path(), &["init", "mine.toml"]);
     assert_eq!(first.status.code(), Some(0), "{}", text(&first.stderr));
@@ -179,7 +179,7 @@ fn models_lists_all_nine_with_rows_columns_and_source() {
 }
 
 #[test]
-fn a_device_is_named_in_the_report_and_refused_where_the_engine_has_no_use_for_it() {
+fn the_device_is_in_the_report_and_a_gpu_is_refused_for_the_quasi_static_engine() {
     let home = tempfile::tempdir().unwrap();
     let unit = scene("one-unit");
     let mut arguments = vec!["run", unit.as_str(), "--device", "gpu", "--quiet"];
@@ -197,7 +197,7 @@ fn a_device_is_named_in_the_report_and_refused_where_the_engine_has_no_use_for_i
 }
 
 #[test]
-fn a_crease_pattern_is_run_by_itself_whatever_the_case_of_its_ending() {
+fn a_crease_pattern_is_run_without_a_scene_whatever_the_case_of_its_extension() {
     let home = tempfile::tempdir().unwrap();
     let stored = format!(
         "{}/../../scenes/imported/pop-up",
@@ -253,7 +253,7 @@ fn without_a_display_the_window_says_what_to_install_and_what_works_without() {
 
 #[cfg(feature = "window")]
 #[test]
-fn a_file_that_is_not_there_is_bad_input_before_a_window_opens() {
+fn a_missing_file_is_bad_input_before_a_window_opens() {
     let home = tempfile::tempdir().unwrap();
     let output = foldmotion(home.path(), &["view", "nothing.toml"]);
     let err = text(&output.stderr);
@@ -262,7 +262,7 @@ fn a_file_that_is_not_there_is_bad_input_before_a_window_opens() {
 }
 
 #[test]
-fn a_second_run_leaves_the_films_of_the_first_and_files_of_the_users_own() {
+fn a_second_run_keeps_the_films_of_the_first_and_files_of_the_user() {
     let home = tempfile::tempdir().unwrap();
     let unit = scene("one-unit");
     let run = |outputs: &str, more: &[&str]| {
@@ -291,7 +291,7 @@ fn a_second_run_leaves_the_films_of_the_first_and_files_of_the_users_own() {
 }
 
 #[test]
-fn what_is_no_regular_file_is_bad_input_at_once() {
+fn only_regular_files_are_read() {
     let home = tempfile::tempdir().unwrap();
     let pipe = home.path().join("pipe.toml");
     let made = Command::new("mkfifo").arg(&pipe).status().unwrap();
@@ -319,7 +319,7 @@ fn what_is_no_regular_file_is_bad_input_at_once() {
 }
 
 #[test]
-fn a_scene_larger_than_any_is_told_its_size() {
+fn a_scene_above_the_limit_is_refused_with_its_size() {
     let home = tempfile::tempdir().unwrap();
     let size = (16 << 20) + 5;
     std::fs::write(home.path().join("a.toml"), vec![b'#'; size]).unwrap();
@@ -352,7 +352,7 @@ fn crossing_lines() -> String {
 }
 
 #[test]
-fn an_interrupt_ends_a_run_wherever_it_is_and_leaves_nothing() {
+fn an_interrupt_ends_a_run_at_any_point_and_leaves_no_files() {
     let home = tempfile::tempdir().unwrap();
     std::fs::write(home.path().join("lines.svg"), crossing_lines()).unwrap();
     for signal in ["-INT", "-TERM"] {
@@ -375,7 +375,7 @@ fn an_interrupt_ends_a_run_wherever_it_is_and_leaves_nothing() {
 }
 
 #[test]
-fn flags_and_files_that_do_not_go_together_are_refused_by_name() {
+fn flags_and_files_that_exclude_each_other_are_named() {
     let home = tempfile::tempdir().unwrap();
     let unit = scene("one-unit");
     let outputs = "record.outputs=[\"fold\", \"obj\"]";

@@ -53,7 +53,13 @@ fn four_valleys(home: &Path) -> String {
 
 /// The outcome stands in the first and the last line, in the report, in the motion file, and on stderr unless it is
 /// `folded`.
-fn is_told_everywhere(home: &Path, output: &Output, report: &Value, kind: &str, headline: &str) {
+fn assert_is_reported_everywhere(
+    home: &Path,
+    output: &Output,
+    report: &Value,
+    kind: &str,
+    headline: &str,
+) {
     let (out, err) = (text(&output.stdout), text(&output.stderr));
     assert_eq!(report["outcome"]["kind"], kind, "{out}");
     assert!(out.starts_with(headline), "{out}");
@@ -64,25 +70,25 @@ fn is_told_everywhere(home: &Path, output: &Output, report: &Value, kind: &str, 
         last
     );
     let reason = report["outcome"]["reason"].as_str().unwrap();
-    let told = err
+    let reported = err
         .lines()
         .any(|line| line == format!("foldmotion: {last}: {reason}"));
-    assert_eq!(told, kind != "folded", "{err}");
+    assert_eq!(reported, kind != "folded", "{err}");
     let kept = ["motion.fold", "report.json"].map(|name| home.join("out").join(name).exists());
     assert_eq!(kept, [true; 2]);
 }
 
 #[test]
-fn a_sheet_that_folds_is_said_to_be_folded() {
+fn a_sheet_that_folds_is_reported_as_folded() {
     let home = tempfile::tempdir().unwrap();
     let (output, report) = run(home.path(), &scene("one-unit"), &[]);
     assert_eq!(output.status.code(), Some(0));
-    is_told_everywhere(home.path(), &output, &report, "folded", "folded");
+    assert_is_reported_everywhere(home.path(), &output, &report, "folded", "folded");
     assert!(report["fold_angles"]["largest_error_deg"].as_f64().unwrap() < 5.0);
 }
 
 #[test]
-fn a_jam_is_headed_by_no_good_word_and_names_units_that_block() {
+fn a_jam_is_reported_with_the_units_that_block_and_without_a_good_verdict() {
     let home = tempfile::tempdir().unwrap();
     let (output, report) = run(
         home.path(),
@@ -90,7 +96,7 @@ fn a_jam_is_headed_by_no_good_word_and_names_units_that_block() {
         &["--set", "motion.contact=true"],
     );
     assert_eq!(output.status.code(), Some(3));
-    is_told_everywhere(home.path(), &output, &report, "jammed", "jammed at t = 1.");
+    assert_is_reported_everywhere(home.path(), &output, &report, "jammed", "jammed at t = 1.");
     let reason = report["outcome"]["reason"].as_str().unwrap();
     assert!(reason.contains("of unit U^"), "{reason}");
     let out = text(&output.stdout);
@@ -102,12 +108,12 @@ fn a_jam_is_headed_by_no_good_word_and_names_units_that_block() {
 }
 
 #[test]
-fn an_equilibrium_far_from_the_targets_is_not_called_folded() {
+fn an_equilibrium_far_from_the_targets_is_not_reported_as_folded() {
     let home = tempfile::tempdir().unwrap();
     let file = four_valleys(home.path());
     let (output, report) = run(home.path(), &file, &["--set", "motion.contact=false"]);
     assert_eq!(output.status.code(), Some(3));
-    is_told_everywhere(
+    assert_is_reported_everywhere(
         home.path(),
         &output,
         &report,
@@ -128,7 +134,7 @@ fn a_sheet_that_passes_through_itself_collides() {
     let set = ["--set", "sheet.rows=2", "--set", "profile.length=2.0"];
     let (output, report) = run(home.path(), &scene("shelter-short-plain"), &set);
     assert_eq!(output.status.code(), Some(1));
-    is_told_everywhere(
+    assert_is_reported_everywhere(
         home.path(),
         &output,
         &report,
@@ -139,14 +145,14 @@ fn a_sheet_that_passes_through_itself_collides() {
 }
 
 #[test]
-fn a_budget_of_steps_ends_a_run_where_it_is_and_always_at_the_same_state() {
+fn a_budget_of_steps_ends_a_run_always_at_the_same_state() {
     let home = tempfile::tempdir().unwrap();
     for engine in ["quasi-static", "dynamic"] {
         let set = format!("motion.engine={engine}");
         let budget = ["--set", &set, "--budget", "150 steps"];
         let (output, report) = run(home.path(), &scene("one-unit"), &budget);
         assert_eq!(output.status.code(), Some(3), "{engine}");
-        is_told_everywhere(home.path(), &output, &report, "stopped", "stopped at t = ");
+        assert_is_reported_everywhere(home.path(), &output, &report, "stopped", "stopped at t = ");
         assert_eq!(report["stop"]["reason"], "out-of-steps");
         let steps = report["engine"]["steps"].as_u64().unwrap();
         assert!((100..=160).contains(&steps), "{engine}: {steps}");
@@ -160,7 +166,7 @@ fn a_budget_of_steps_ends_a_run_where_it_is_and_always_at_the_same_state() {
 }
 
 #[test]
-fn a_budget_of_time_ends_a_run_where_it_is() {
+fn a_budget_of_time_ends_a_run() {
     let home = tempfile::tempdir().unwrap();
     for engine in ["quasi-static", "dynamic"] {
         let set = format!("motion.engine={engine}");
@@ -173,7 +179,7 @@ fn a_budget_of_time_ends_a_run_where_it_is() {
 }
 
 #[test]
-fn a_budget_that_is_none_is_refused_by_name() {
+fn an_invalid_budget_is_refused_with_its_flag_or_key() {
     let home = tempfile::tempdir().unwrap();
     for budget in ["0", "-1", "0 steps", "tomorrow", "1e300"] {
         let budget = format!("--budget={budget}");
@@ -228,7 +234,7 @@ fn a_status_that_is_not_0_is_explained_even_when_quiet() {
 }
 
 #[test]
-fn a_file_with_one_state_is_no_motion() {
+fn a_file_with_one_state_is_not_a_motion() {
     let home = tempfile::tempdir().unwrap();
     let file = four_valleys(home.path());
     for command in ["check", "record"] {

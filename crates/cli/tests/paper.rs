@@ -24,7 +24,7 @@ fn record(folder: &Path) -> Value {
 }
 
 #[test]
-fn table_1_stands_beside_the_papers_numbers_in_record_and_page() {
+fn table_1_is_compared_with_the_papers_numbers_in_record_and_page() {
     let home = tempfile::tempdir().unwrap();
     let output = paper(home.path(), "table1");
     assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
@@ -58,7 +58,7 @@ fn table_1_stands_beside_the_papers_numbers_in_record_and_page() {
 }
 
 #[test]
-fn finished_parts_are_reused_and_damaged_ones_made_anew_with_the_same_bytes() {
+fn finished_parts_are_reused_and_damaged_ones_recomputed_with_the_same_bytes() {
     let home = tempfile::tempdir().unwrap();
     let file = |name: &str| fs::read(home.path().join("paper").join(name)).unwrap();
     let printed = |only: &str| text(&paper(home.path(), only).stdout);
@@ -78,7 +78,7 @@ fn finished_parts_are_reused_and_damaged_ones_made_anew_with_the_same_bytes() {
 }
 
 #[test]
-fn an_unknown_part_is_refused_with_the_list_and_leaves_nothing() {
+fn an_unknown_part_is_refused_with_the_list_of_parts_and_writes_no_files() {
     let home = tempfile::tempdir().unwrap();
     let output = paper(home.path(), "table1,fig11");
     assert_eq!(output.status.code(), Some(2));

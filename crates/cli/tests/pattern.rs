@@ -103,7 +103,7 @@ fn every_unit_of_length_becomes_millimetres() {
 }
 
 #[test]
-fn pages_come_if_asked_and_go_when_the_next_pattern_has_none() {
+fn pages_are_written_on_request_and_removed_by_the_next_pattern_without_pages() {
     let home = tempfile::tempdir().unwrap();
     let shelter = scene("shelter-sii");
     let folder = home.path().join("here");
@@ -150,7 +150,7 @@ fn the_same_scene_gives_the_same_bytes() {
 }
 
 #[test]
-fn bad_input_is_status_2_and_writes_nothing() {
+fn bad_input_is_status_2_and_writes_no_files() {
     let home = tempfile::tempdir().unwrap();
     let shelter = scene("shelter-e");
     let cases: &[&[&str]] = &[

@@ -16,7 +16,7 @@ const MOTION: &str = r#"{"frame_classes": ["creasePattern"], "vertices_coords": 
 {"frame_parent": 0, "frame_inherit": true, "vertices_coords": [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0.5, 0.5, 0.7]]}]}"#;
 
 #[test]
-fn a_motion_becomes_files_and_a_file_is_made_again() {
+fn a_motion_is_recorded_and_a_file_is_reproduced() {
     let home = tempfile::tempdir().unwrap();
     std::fs::write(home.path().join("pair.fold"), MOTION).unwrap();
     let flags = [
@@ -62,7 +62,7 @@ fn a_motion_becomes_files_and_a_file_is_made_again() {
 }
 
 #[test]
-fn wrong_flags_are_status_2_by_name_and_write_nothing() {
+fn wrong_flags_are_named_with_status_2_and_write_no_files() {
     let home = tempfile::tempdir().unwrap();
     std::fs::write(home.path().join("pair.fold"), MOTION).unwrap();
     for (arguments, word) in [

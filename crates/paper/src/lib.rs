@@ -3,6 +3,16 @@
 //! [`paper`] computes the requested [`PaperPart`]s in order and stores each when it is finished, so that an interrupted run can
 //! be continued and a second run reuses everything. After each part, [`PaperRecord`] (`paper.json`) and the page (`index.html`)
 //! are written from all finished parts.
+//!
+//! ```
+//! use foldmotion_paper::{PaperPart, paper};
+//!
+//! let folder = std::env::temp_dir().join(format!("foldmotion-paper-{}", std::process::id()));
+//! let run = paper(&folder, &[PaperPart::Table2], &|_, _| true)?;
+//! assert_eq!(run.record.table2.len(), 9);
+//! std::fs::remove_dir_all(&folder).ok();
+//! # Ok::<(), foldmotion_paper::PaperError>(())
+//! ```
 
 mod error;
 mod figures;

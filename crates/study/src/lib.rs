@@ -13,6 +13,20 @@
 //!
 //! Each module uses only those above it. [`Study::run`] folds, checks, reports and records; [`Study::compute`] folds and checks
 //! without writing files.
+//!
+//! ```
+//! use std::path::Path;
+//!
+//! use foldmotion_study::{SceneSource, Study};
+//!
+//! let text = "[profile]\nmodel = \"shelter\"\n[sheet]\nrows = 2\ncolumns = 1\n[motion]\ncontact = false\nframes = 8\n";
+//! let source = SceneSource::new(Path::new("scene.toml"), text.to_owned());
+//! let study = Study::resolve(&source)?;
+//! let folded = study.compute(&|_, _| true)?;
+//! assert_eq!(folded.findings.collision.verdict.name(), "touching");
+//! assert_eq!(folded.outcome.headline(), "folded");
+//! # Ok::<(), foldmotion_study::StudyError>(())
+//! ```
 
 pub mod certificate;
 mod compute;

@@ -15,41 +15,41 @@
     reason = "an example that prints its tables"
 )]
 
-mod judged;
+mod checked;
 mod matrix;
 mod number;
 mod shelter;
 
 use std::{error::Error, process::ExitCode};
 
-use judged::{Judged, Motion};
+use checked::{Checked, Motion};
 
 /// What is asked for.
 #[derive(Default)]
-struct Asked {
+struct Options {
     matrix: bool,
     only: Vec<String>,
 }
 
-fn asked() -> Result<Asked, Box<dyn Error>> {
-    let mut asked = Asked::default();
+fn arguments() -> Result<Options, Box<dyn Error>> {
+    let mut options = Options::default();
     let mut arguments = std::env::args().skip(1);
     while let Some(argument) = arguments.next() {
         match argument.as_str() {
-            "--matrix" => asked.matrix = true,
+            "--matrix" => options.matrix = true,
             "--only" => {
                 let words = arguments.next().ok_or("--only needs words")?;
-                asked.only = words.split_whitespace().map(str::to_owned).collect();
+                options.only = words.split_whitespace().map(str::to_owned).collect();
             }
             other => return Err(format!("{other} is not known").into()),
         }
     }
-    Ok(asked)
+    Ok(options)
 }
 
 fn main() -> Result<ExitCode, Box<dyn Error>> {
-    let asked = asked()?;
-    let mut tables = if asked.matrix {
+    let options = arguments()?;
+    let mut tables = if options.matrix {
         vec![matrix::table()?]
     } else {
         shelter::tables()
@@ -57,10 +57,10 @@ fn main() -> Result<ExitCode, Box<dyn Error>> {
     for table in &mut tables {
         table
             .rows
-            .retain(|row| asked.only.iter().all(|word| row.has(word)));
+            .retain(|row| options.only.iter().all(|word| row.has(word)));
     }
     if tables.iter().all(|table| table.rows.is_empty()) {
-        return Err(format!("no row has all of {:?}", asked.only).into());
+        return Err(format!("no row has all of {:?}", options.only).into());
     }
     let mut total = Total::default();
     for table in tables.iter().filter(|table| !table.rows.is_empty()) {
@@ -77,10 +77,10 @@ struct Table {
     columns: [&'static [&'static str]; 2],
     rows: Vec<Row>,
     /// What came out, one cell a column.
-    cells: fn(&Judged) -> Vec<String>,
+    cells: fn(&Checked) -> Vec<String>,
 }
 
-/// A motion to be judged, and the cells that name it.
+/// A motion to be checked, and the cells that name it.
 struct Row {
     names: Vec<String>,
     motion: Motion,
@@ -104,15 +104,15 @@ impl Table {
         println!("| {} |", columns.join(" | "));
         println!("|{}", "---|".repeat(columns.len()));
         for row in &self.rows {
-            let cells = match row.motion.judge() {
-                Ok(judged) => {
-                    total.add(&judged);
-                    (self.cells)(&judged)
+            let cells = match row.motion.check() {
+                Ok(checked) => {
+                    total.add(&checked);
+                    (self.cells)(&checked)
                 }
                 Err(error) => {
                     total.motions += 1;
                     let mut cells = vec!["-".to_owned(); self.columns[1].len()];
-                    cells[0] = format!("not judged: {error}").replace(['|', '\n'], " ");
+                    cells[0] = format!("not checked: {error}").replace(['|', '\n'], " ");
                     cells
                 }
             };
@@ -132,16 +132,16 @@ struct Total {
 }
 
 impl Total {
-    fn add(&mut self, judged: &Judged) {
+    fn add(&mut self, checked: &Checked) {
         self.motions += 1;
-        self.check_seconds += judged.report.seconds.check;
-        self.verify_seconds += judged.verify_seconds;
-        if judged.verified.verification.is_verified() {
+        self.check_seconds += checked.report.seconds.check;
+        self.verify_seconds += checked.verify_seconds;
+        if checked.verified.verification.is_verified() {
             self.verified += 1;
         } else {
-            eprintln!("{}: {}", judged.report.title, judged.verified.table());
+            eprintln!("{}: {}", checked.report.title, checked.verified.table());
         }
-        let (report, engine) = (&judged.report, &judged.report.engine);
+        let (report, engine) = (&checked.report, &checked.report.engine);
         self.computed_with = Some(format!(
             "foldmotion {} on {}",
             report.version, engine.instruction_set

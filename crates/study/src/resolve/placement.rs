@@ -229,7 +229,7 @@ mod tests {
     }
 
     #[test]
-    fn a_stage_that_did_not_reach_its_end_is_not_turned_towards_it() {
+    fn a_stage_that_did_not_reach_its_end_is_not_rotated() {
         let far = BAR.map(|p| DMat3::from_rotation_z(2.0) * p);
         let exact = ExactStates {
             deployed: &BAR,

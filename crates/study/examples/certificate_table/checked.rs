@@ -1,4 +1,4 @@
-//! A scene folded, its motion judged, and the certificate proved again.
+//! A scene folded, its motion checked, and the certificate proved again.
 
 use std::error::Error;
 use std::path::{Path, PathBuf};
@@ -17,7 +17,7 @@ pub(crate) struct Motion {
 }
 
 /// What came of a motion.
-pub(crate) struct Judged {
+pub(crate) struct Checked {
     pub(crate) report: Report,
     /// The certificate, and what the second proof says of it.
     pub(crate) verified: VerifiedCertificate,
@@ -31,7 +31,7 @@ pub(crate) fn scenes() -> PathBuf {
 
 impl Motion {
     /// Folds, checks and verifies, by the files that `foldmotion run` writes.
-    pub(crate) fn judge(&self) -> Result<Judged, Box<dyn Error>> {
+    pub(crate) fn check(&self) -> Result<Checked, Box<dyn Error>> {
         let mut source = SceneSource::read(&scenes().join(&self.scene).with_extension("toml"))?;
         source.set("record.outputs=[\"fold\"]")?;
         source.set(&format!("motion.contact={}", self.has_contact))?;
@@ -46,7 +46,7 @@ impl Motion {
             &folder.path().join("certificate.json"),
             &|_, _| true,
         )?;
-        Ok(Judged {
+        Ok(Checked {
             report,
             verified,
             verify_seconds: started.elapsed().as_secs_f64(),
@@ -54,14 +54,14 @@ impl Motion {
     }
 }
 
-impl Judged {
+impl Checked {
     /// The verdict, and up to when where the check ended early.
     pub(crate) fn verdict(&self) -> String {
         let certificate = &self.verified.certificate;
         match &certificate.stopped {
             None => certificate.verdict.to_string(),
             Some(stopped) => format!(
-                "{}, judged up to t = {:.3}",
+                "{}, checked up to t = {:.3}",
                 certificate.verdict, stopped.time
             ),
         }
