@@ -3,13 +3,11 @@
 use foldmotion_pattern::{FacetModel, Frame};
 use foldmotion_solver::dynamic::{self, DynamicOptions, StageStatus};
 use foldmotion_solver::quasi_static::{
-    Contact, Jam, QuasiStaticOptions, StopReason, Support, run_quasi_static,
+    Contact, Jam, QuasiStaticOptions, Support, run_quasi_static,
 };
 use foldmotion_solver::{Budget, Stage, Watcher};
 
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
-
+use super::stop::{StopCause, StopReport};
 use crate::scene::EngineChoice;
 use crate::{Study, StudyError};
 
@@ -44,40 +42,7 @@ pub(crate) struct StageSummary {
     /// The number of load steps of the quasi-static engine, and of those that had to be shortened.
     pub(crate) load_steps: Option<[u64; 2]>,
     /// What ended the stage; `None` if it converged.
-    pub(crate) stop: Option<StopSummary>,
-}
-
-/// What ended a stage before its end.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct StopSummary {
-    pub(crate) reason: StopCause,
-    /// The last load step that the quasi-static engine tried, in motion time.
-    pub(crate) step: Option<f64>,
-    /// The unbalanced force left, and the largest one that counts as equilibrium.
-    pub(crate) residual: f64,
-    pub(crate) tolerance: f64,
-}
-
-/// Why a stage ended before its end.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
-pub enum StopCause {
-    /// No equilibrium was found further on.
-    NoEquilibrium,
-    /// The budget of steps or iterations was used up.
-    OutOfSteps,
-    /// The budget of time was used up.
-    OutOfTime,
-}
-
-impl From<StopReason> for StopCause {
-    fn from(reason: StopReason) -> Self {
-        match reason {
-            StopReason::NoEquilibrium => Self::NoEquilibrium,
-            StopReason::OutOfIterations => Self::OutOfSteps,
-            StopReason::OutOfTime => Self::OutOfTime,
-        }
-    }
+    pub(crate) stop: Option<StopReport>,
 }
 
 /// The contact at one frame: energy of the barriers and number of pairs.
@@ -129,15 +94,16 @@ impl Study {
             residual: s.residual,
             steps: s.steps,
             load_steps: None,
-            stop: (!s.is_converged()).then_some(StopSummary {
+            stop: (!s.is_converged()).then_some(StopReport {
+                t: s.reached,
                 reason: if s.status == StageStatus::OutOfTime {
                     StopCause::OutOfTime
                 } else {
                     StopCause::OutOfSteps
                 },
-                step: None,
+                load_step: None,
                 residual: s.residual,
-                tolerance: s.tolerance,
+                residual_tolerance: s.tolerance,
             }),
         });
         Ok(Computed {
@@ -188,11 +154,12 @@ impl Study {
             residual: s.residual,
             steps: s.iterations as u64,
             load_steps: Some([s.load_steps as u64, s.shortened_steps as u64]),
-            stop: s.stop.map(|stop| StopSummary {
+            stop: s.stop.map(|stop| StopReport {
+                t: s.reached,
                 reason: stop.reason.into(),
-                step: Some(stop.step),
+                load_step: Some(stop.step),
                 residual: stop.residual,
-                tolerance: stop.tolerance,
+                residual_tolerance: stop.tolerance,
             }),
         });
         let contacts = run.figures.iter().map(|f| ContactFigures {

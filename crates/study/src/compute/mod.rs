@@ -22,13 +22,13 @@ use foldmotion_check::{Verdict, straying};
 use foldmotion_pattern::{Frame, Motion};
 use foldmotion_solver::Budget;
 
-use self::engine::{Computed, StageSummary, StopCause};
+use self::engine::{Computed, StageSummary};
 use self::fold_angles::FoldAngleReport;
 use self::folded::{Findings, Folded};
 use self::jam::JamReport;
 use self::outcome::{Outcome, OutcomeInput};
 use self::path::PathReport;
-use self::stop::StopReport;
+use self::stop::StopCause;
 use crate::resolve::budget::MotionBudget;
 use crate::{Phase, Study, StudyError, Watch};
 
@@ -146,7 +146,11 @@ impl Study {
         let sheet = self.subject.sheet();
         let jam = checked_run.computed.jam.as_ref();
         let jam = jam.map(|jam| JamReport::new(jam, &self.subject));
-        let stop = checked_run.computed.stages.iter().find_map(StopReport::of);
+        let stop = checked_run
+            .computed
+            .stages
+            .iter()
+            .find_map(|stage| stage.stop);
         let fold_angles = FoldAngleReport::new(sheet, last, self.subject.end_angles());
         let outcome = Outcome::of(&OutcomeInput {
             end: frames.last().map_or(0.0, |frame| frame.time),

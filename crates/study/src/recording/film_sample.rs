@@ -113,7 +113,8 @@ impl Subject {
     }
 }
 
-#[cfg(all(test, feature = "mp4"))]
+#[cfg(feature = "mp4")]
+#[cfg(test)]
 mod tests {
     use std::fs;
     use std::path::Path;

@@ -24,13 +24,12 @@ pub use self::sheet::{
     UnitReport, VertexReport,
 };
 use self::sheet::{division_report, profile_report, row_reports, unfold_report};
-pub use crate::compute::engine::StopCause;
 pub use crate::compute::fold_angles::FoldAngleReport;
 use crate::compute::folded::Folded;
 pub use crate::compute::jam::JamReport;
 pub use crate::compute::outcome::{Outcome, OutcomeKind};
 pub use crate::compute::path::PathReport;
-pub use crate::compute::stop::StopReport;
+pub use crate::compute::stop::{StopCause, StopReport};
 pub use crate::compute::symmetry::{Mirror, SymmetryReport};
 pub use crate::resolve::names::UnitName;
 
@@ -167,7 +166,7 @@ impl Study {
             fold_angles,
             symmetry: units.map_or_else(Vec::new, |_| SymmetryReport::all(&folded.motion)),
             jam: folded.jam.clone(),
-            stop: folded.stop.clone(),
+            stop: folded.stop,
             collision: self.collision_section(&findings.collision),
             path: folded.path,
             engine: EngineReport {

@@ -13,7 +13,8 @@ pub(crate) use self::manifest::{Command, ManifestEntry};
 pub(crate) use self::names::{CERTIFICATE, FRAMES, MOTION, REPORT, is_of_a_run, is_picture};
 pub use self::published::Published;
 pub use self::published::list_names;
-pub(crate) use self::space::{Space, size_words};
+pub(crate) use self::space::Space;
+use self::space::size_words;
 
 use self::manifest::{MANIFEST, Manifest, are_same};
 
@@ -119,13 +120,18 @@ impl Results {
         if space.total() <= available {
             return Ok(());
         }
-        Err(StudyError::DiskTooSmall {
+        Err(self.too_small(space, available, space.remedy()))
+    }
+
+    /// The error of a disk with `available` free bytes, too few for `space`.
+    pub(crate) fn too_small(&self, space: &Space, available: u64, remedy: String) -> StudyError {
+        StudyError::DiskTooSmall {
             path: self.folder.clone(),
             needed: size_words(space.total()),
             parts: space.words(),
             available: size_words(available),
-            remedy: space.remedy(),
-        })
+            remedy,
+        }
     }
 
     /// Refuses, before anything is computed, an output folder with files that `is_planned` selects and that may not be replaced.

@@ -3,7 +3,7 @@
 use foldmotion_pattern::{LayerOrder, Motion};
 
 use crate::recording::FilmSizes;
-use crate::results::{Results, Space, size_words};
+use crate::results::{Results, Space};
 use crate::scene::OutputChoice;
 use crate::{Progress, Recording, Study, StudyError};
 
@@ -67,12 +67,6 @@ impl Study {
         } else {
             needed.remedy()
         };
-        Err(StudyError::DiskTooSmall {
-            path: results.folder().to_owned(),
-            needed: size_words(needed.total()),
-            parts: needed.words(),
-            available: size_words(available),
-            remedy,
-        })
+        Err(results.too_small(&needed, available, remedy))
     }
 }

@@ -81,7 +81,7 @@ pub struct ProfileScene {
     #[schemars(extend("x-default" = "open; an outline from a file that says it is closed meets its start with a corner"))]
     pub closed: Option<Closed>,
     /// The curve is scaled so that the divided polygon has this length.
-    #[schemars(extend("x-default" = "the curve as it is given", "x-unit" = "profile.unit", "minimum" = 1e-09, "maximum" = 1000000000.0))]
+    #[schemars(extend("x-default" = "the curve as it is given", "x-unit" = "profile.unit", "minimum" = 1e-09, "maximum" = 1_000_000_000.0))]
     pub length: Option<f64>,
     /// The unit of length of the scene and of its results.
     #[serde(deserialize_with = "choice::optional")]
@@ -157,13 +157,13 @@ impl LengthUnit {
 #[serde(deny_unknown_fields, default)]
 pub struct SheetScene {
     /// The width W of the sheet, across all columns.
-    #[schemars(extend("x-default" = "W = Nc·h in case E (section 4.1 of the paper); for a built-in profile, the width it has in case E", "x-unit" = "profile.unit", "minimum" = 1e-09, "maximum" = 1000000000.0))]
+    #[schemars(extend("x-default" = "W = Nc·h in case E (section 4.1 of the paper); for a built-in profile, the width it has in case E", "x-unit" = "profile.unit", "minimum" = 1e-09, "maximum" = 1_000_000_000.0))]
     pub width: Option<f64>,
     /// The number of rows of units, Nr.
-    #[schemars(extend("x-default" = "that of the built-in profile", "minimum" = 1, "maximum" = 1000000))]
+    #[schemars(extend("x-default" = "that of the built-in profile", "minimum" = 1, "maximum" = 1_000_000))]
     pub rows: Option<i64>,
     /// The number of columns of units, Nc.
-    #[schemars(extend("x-default" = "that of the built-in profile in this case", "minimum" = 1, "maximum" = 1000000))]
+    #[schemars(extend("x-default" = "that of the built-in profile in this case", "minimum" = 1, "maximum" = 1_000_000))]
     pub columns: Option<i64>,
     /// The case of the unit: how its width w compares with its height h.
     #[serde(deserialize_with = "choice::optional")]
@@ -248,7 +248,7 @@ pub struct DivisionScene {
     #[schemars(extend("default" = 1e-14, "minimum" = 0, "maximum" = 1))]
     pub tolerance: Option<f64>,
     /// The largest number of iterations.
-    #[schemars(extend("default" = 200, "minimum" = 1, "maximum" = 1000000))]
+    #[schemars(extend("default" = 200, "minimum" = 1, "maximum" = 1_000_000))]
     pub max_iterations: Option<i64>,
 }
 
@@ -261,22 +261,22 @@ pub struct MaterialScene {
     #[schemars(extend("x-default" = "the constants given below as defaults"))]
     pub preset: Option<Preset>,
     /// The thickness of the sheet: layers come no closer than this. Excludes motion.gap.
-    #[schemars(extend("x-default" = "none: layers keep motion.gap", "x-unit" = "profile.unit, or the unit of the pattern", "minimum" = 1e-09, "maximum" = 1000000000.0))]
+    #[schemars(extend("x-default" = "none: layers keep motion.gap", "x-unit" = "profile.unit, or the unit of the pattern", "minimum" = 1e-09, "maximum" = 1_000_000_000.0))]
     pub thickness: Option<f64>,
     /// The axial stiffness EA of the bars.
-    #[schemars(extend("default" = 20.0, "minimum" = 1e-09, "maximum" = 1000000000000.0))]
+    #[schemars(extend("default" = 20.0, "minimum" = 1e-09, "maximum" = 1_000_000_000_000.0))]
     pub axial_stiffness: Option<f64>,
     /// The stiffness of a crease per unit of its length.
-    #[schemars(extend("default" = 0.7, "minimum" = 1e-09, "maximum" = 1000000000000.0))]
+    #[schemars(extend("default" = 0.7, "minimum" = 1e-09, "maximum" = 1_000_000_000_000.0))]
     pub fold_stiffness: Option<f64>,
     /// The stiffness of a hinge inside a facet per unit of its length.
-    #[schemars(extend("default" = 0.7, "minimum" = 1e-09, "maximum" = 1000000000000.0))]
+    #[schemars(extend("default" = 0.7, "minimum" = 1e-09, "maximum" = 1_000_000_000_000.0))]
     pub facet_stiffness: Option<f64>,
     /// How the quadrilateral facets of units are cut into triangles. Does not apply to a pattern from a file.
     #[schemars(extend("x-default" = "`symmetric`; `one-diagonal` for maps, and if a facet is narrower than a tenth of its length"))]
     pub facet_model: Option<FacetModel>,
     /// The stiffness of the angles of each triangle; Origami Simulator sets 0.2.
-    #[schemars(extend("default" = 0.0, "minimum" = 0, "maximum" = 1000000000000.0))]
+    #[schemars(extend("default" = 0.0, "minimum" = 0, "maximum" = 1_000_000_000_000.0))]
     pub face_angle_stiffness: Option<f64>,
     /// The damping ratio ζ of the bars, used by the dynamic engine.
     #[schemars(extend("default" = 0.45, "minimum" = 0, "maximum" = 1000))]
@@ -292,7 +292,7 @@ pub struct MotionScene {
     #[schemars(extend("default" = "quasi-static"))]
     pub engine: Option<EngineChoice>,
     /// An even number of intervals: the states at t = 2k/frames are recorded.
-    #[schemars(extend("default" = 240, "minimum" = 2, "maximum" = 100000))]
+    #[schemars(extend("default" = 240, "minimum" = 2, "maximum" = 100_000))]
     pub frames: Option<i64>,
     /// Whether layers are kept apart. Only the quasi-static engine has contact.
     #[schemars(extend("x-default" = "true with the quasi-static engine"))]

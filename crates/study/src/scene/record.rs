@@ -216,7 +216,7 @@ pub struct OwnCamera {
     pub centre: Option<[f64; 3]>,
     /// The length shown across films and pictures. With a centre, figures show this much of each state, and more if a
     /// state is larger.
-    #[schemars(extend("x-default" = "what all of the motion needs", "x-unit" = "profile.unit", "minimum" = 1e-09, "maximum" = 1000000000.0))]
+    #[schemars(extend("x-default" = "what all of the motion needs", "x-unit" = "profile.unit", "minimum" = 1e-09, "maximum" = 1_000_000_000.0))]
     pub width: Option<f64>,
 }
 
