@@ -39,7 +39,7 @@ pub(crate) enum Command {
     ///
     /// Exit status: 0 done, 2 bad input, 3 the files could not be written or interrupted.
     Record(RecordArguments),
-    /// Reproduce every table and figure of the paper and set its numbers beside ours
+    /// Reproduce every table and figure of the paper and compare its numbers with ours
     ///
     /// Writes figures as SVG and PNG, paper.json and index.html. Finished parts are reused by the next run.
     ///

@@ -61,7 +61,7 @@ fn main() -> ExitCode {
         Command::Record(record) => record_motion(&record),
         Command::Paper(paper) => rebuild_paper(&paper),
         Command::Pattern(pattern) => write_pattern(&pattern),
-        Command::View(view) => open_window(view),
+        Command::View(view) => open_window(&view),
         Command::Models => list_models(),
         Command::Init { file } => init::write_scene(&file).map(|()| 0),
     };
@@ -291,7 +291,7 @@ fn write_pattern(arguments: &PatternArguments) -> Result<u8, Failure> {
 }
 
 #[cfg(feature = "window")]
-fn open_window(arguments: ViewArguments) -> Result<u8, Failure> {
+fn open_window(arguments: &ViewArguments) -> Result<u8, Failure> {
     use foldmotion_viewer::{ViewOptions, view};
     use_threads(arguments.threads)?;
     // A missing file is reported here, not in a window that may not open.
@@ -299,7 +299,7 @@ fn open_window(arguments: ViewArguments) -> Result<u8, Failure> {
         foldmotion_study::require_file(file)?;
     }
     let options = ViewOptions {
-        file: arguments.file,
+        file: arguments.file.clone(),
         timings: arguments.timings,
         ..ViewOptions::default()
     };
@@ -310,7 +310,7 @@ fn open_window(arguments: ViewArguments) -> Result<u8, Failure> {
 }
 
 #[cfg(not(feature = "window"))]
-fn open_window(arguments: ViewArguments) -> Result<u8, Failure> {
+fn open_window(arguments: &ViewArguments) -> Result<u8, Failure> {
     if let Some(file) = &arguments.file {
         foldmotion_study::require_file(file)?;
     }

@@ -12,7 +12,7 @@ use std::path::Path;
 
 use serde_json::{Value, json};
 
-use common::{foldmotion, text};
+use common::{assert_status, foldmotion, text};
 
 fn json_of(path: &Path) -> Value {
     serde_json::from_slice(&fs::read(path).unwrap()).unwrap()
@@ -73,7 +73,7 @@ fn motions_of_runs_get_the_verdict_of_their_run() {
         let report = run(home.path(), scene, set);
         let output = foldmotion(home.path(), &["check", "run/motion.fold"]);
         let (out, err) = (text(&output.stdout), text(&output.stderr));
-        assert_eq!(output.status.code(), Some(status), "{err}");
+        assert_status(&output, status);
         assert!(
             out.contains("verdict: ") && out.contains("sha256 "),
             "{out}"
@@ -110,7 +110,7 @@ fn a_vertex_moved_through_the_sheet_is_a_penetration() {
         "--quiet",
     ];
     let output = foldmotion(home.path(), &arguments);
-    assert_eq!(output.status.code(), Some(1), "{}", text(&output.stderr));
+    assert_status(&output, 1);
     let written = fs::read(home.path().join("run/certificate.json")).unwrap();
     assert_eq!(text(&output.stdout), text(&written));
     let err = text(&output.stderr);
@@ -155,12 +155,7 @@ fn polygons_are_checked_and_the_certificate_says_that_they_were_cut() {
     for (angle, verdict, status) in [(120.0, "free", 0), (240.0, "penetrating", 1)] {
         fs::write(home.path().join("book.fold"), folding(angle).to_string()).unwrap();
         let output = foldmotion(home.path(), &["check", "book.fold", "--quiet", "--json"]);
-        assert_eq!(
-            output.status.code(),
-            Some(status),
-            "{}",
-            text(&output.stderr)
-        );
+        assert_status(&output, status);
         let certificate: Value = serde_json::from_slice(&output.stdout).unwrap();
         assert_eq!(certificate["verdict"], verdict);
         assert_eq!(
@@ -226,7 +221,7 @@ fn bad_motions_are_status_2_and_write_no_files() {
         fs::write(home.path().join("bad.fold"), content).unwrap();
         let output = foldmotion(home.path(), &["check", "bad.fold", "--quiet"]);
         let error = text(&output.stderr);
-        assert_eq!(output.status.code(), Some(2), "{error}");
+        assert_status(&output, 2);
         assert!(
             error.contains(named) && error.contains("bad.fold"),
             "{error}"
@@ -242,12 +237,7 @@ fn bad_motions_are_status_2_and_write_no_files() {
         &["check"],
     ] {
         let output = foldmotion(home.path(), arguments);
-        assert_eq!(
-            output.status.code(),
-            Some(2),
-            "{arguments:?}: {}",
-            text(&output.stderr)
-        );
+        assert_status(&output, 2);
     }
     assert!(!home.path().join("out").exists());
 }
@@ -265,7 +255,7 @@ fn verification_has_an_exit_status_and_leaves_the_certificate_unchanged() {
     let verify = ["check", "book.fold", "--verify", "certificate.json"];
     let output = foldmotion(home.path(), &verify);
     let (out, err) = (text(&output.stdout), text(&output.stderr));
-    assert_eq!(output.status.code(), Some(1), "{err}");
+    assert_status(&output, 1);
     assert!(out.contains("\nVERIFIED\n"), "{out}");
     assert!(err.contains("verify "), "{err}");
     assert_eq!(fs::read(&path).unwrap(), written);
@@ -274,13 +264,13 @@ fn verification_has_an_exit_status_and_leaves_the_certificate_unchanged() {
     fs::write(&path, lie.to_string()).unwrap();
     let output = foldmotion(home.path(), &verify);
     let out = text(&output.stdout);
-    assert_eq!(output.status.code(), Some(2));
+    assert_status(&output, 2);
     assert!(out.contains("REFUTED") && out.contains("verdict"), "{out}");
     for bad in ["{}", "", "[1, 2"] {
         fs::write(&path, bad).unwrap();
         let output = foldmotion(home.path(), &verify);
         let error = text(&output.stderr);
-        assert_eq!(output.status.code(), Some(2), "{error}");
+        assert_status(&output, 2);
         assert!(error.contains("certificate.json: "), "{error}");
     }
 }
@@ -313,7 +303,7 @@ fn a_certificate_of_another_format_is_refused_with_the_reason_and_the_remedy() {
         fs::write(&path, certificate.to_string()).unwrap();
         let output = foldmotion(home.path(), &verify);
         let error = text(&output.stderr);
-        assert_eq!(output.status.code(), Some(2), "{error}");
+        assert_status(&output, 2);
         let said = reason
             .iter()
             .chain(&["certificate.json: ", "run `foldmotion check`"]);
@@ -332,7 +322,7 @@ fn a_check_that_stops_early_says_so_and_is_verified_up_to_there() {
     let arguments = ["check", "run/motion.fold", "--out", ".", "--stop-at", "1"];
     let output = foldmotion(home.path(), &arguments);
     let (out, err) = (text(&output.stdout), text(&output.stderr));
-    assert_eq!(output.status.code(), Some(1), "{err}");
+    assert_status(&output, 1);
     assert!(out.contains("the check stopped at frame "), "{out}");
     let path = home.path().join("certificate.json");
     assert_eq!(text(&fs::read(&path).unwrap()), text(&of_run));
@@ -342,7 +332,7 @@ fn a_check_that_stops_early_says_so_and_is_verified_up_to_there() {
     assert!(frame < certificate["frames"].as_u64().unwrap() - 1);
     let verify = ["check", "run/motion.fold", "--verify", "certificate.json"];
     let output = foldmotion(home.path(), &verify);
-    assert_eq!(output.status.code(), Some(1), "{}", text(&output.stdout));
+    assert_status(&output, 1);
     certificate["stopped"]["stop_at"] = json!(1000);
     fs::write(&path, certificate.to_string()).unwrap();
     let output = foldmotion(home.path(), &verify);
@@ -468,7 +458,7 @@ fn false_face_orders_of_a_motion_with_contact_are_refused() {
         "run/certificate.json",
     ];
     let output = foldmotion(home.path(), &verify);
-    assert_eq!(output.status.code(), Some(0), "{}", text(&output.stdout));
+    assert_status(&output, 0);
     let path = home.path().join("run/motion.fold");
     let mut motion = json_of(&path);
     for frame in motion["file_frames"].as_array_mut().unwrap() {
@@ -480,7 +470,7 @@ fn false_face_orders_of_a_motion_with_contact_are_refused() {
     fs::write(&path, motion.to_string()).unwrap();
     let output = foldmotion(home.path(), &check);
     let err = text(&output.stderr);
-    assert_eq!(output.status.code(), Some(2), "{err}");
+    assert_status(&output, 2);
     assert!(
         err.contains("faceOrders has [") && err.contains("turn the sign"),
         "{err}"

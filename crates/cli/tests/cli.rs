@@ -10,7 +10,7 @@ mod common;
 use std::io::{BufRead as _, BufReader};
 use std::process::{Command, Stdio};
 
-use common::{command, foldmotion, text};
+use common::{assert_status, command, foldmotion, text};
 
 fn scene(name: &str) -> String {
     format!("{}/../../scenes/{name}.toml", env!("CARGO_MANIFEST_DIR"))
@@ -25,7 +25,7 @@ fn json_prints_exactly_the_report_and_quiet_prints_nothing() {
     let mut arguments = vec!["run", unit.as_str(), "--json", "--quiet"];
     arguments.extend(SMALL);
     let output = foldmotion(home.path(), &arguments);
-    assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
+    assert_status(&output, 0);
     let report = std::fs::read(home.path().join("out/one-unit/report.json")).unwrap();
     assert_eq!(text(&output.stdout), text(&report));
     assert_eq!(text(&output.stderr), "");
@@ -69,7 +69,7 @@ fn a_penetration_is_status_1() {
     let mut arguments = vec!["run", short.as_str()];
     arguments.extend(set);
     let output = foldmotion(home.path(), &arguments);
-    assert_eq!(output.status.code(), Some(1), "{}", text(&output.stderr));
+    assert_status(&output, 1);
 }
 
 #[test]
@@ -85,12 +85,7 @@ fn bad_input_is_status_2_and_writes_no_files() {
         vec!["fly"],
     ] {
         let output = foldmotion(home.path(), &arguments);
-        assert_eq!(
-            output.status.code(),
-            Some(2),
-            "{arguments:?}: {}",
-            text(&output.stderr)
-        );
+        assert_status(&output, 2);
         assert!(!text(&output.stderr).contains("panicked"), "{arguments:?}");
         assert_eq!(
             std::fs::read_dir(home.path()).unwrap().count(),
@@ -109,7 +104,7 @@ fn an_output_folder_that_cannot_be_written_is_status_3() {
         home.path(),
         &["run", unit.as_str(), "--out", "file", "--quiet"],
     );
-    assert_eq!(output.status.code(), Some(3));
+    assert_status(&output, 3);
     let error = text(&output.stderr);
     assert!(error.contains("file") && error.contains("--out"), "{error}");
     assert_eq!(
@@ -185,7 +180,7 @@ fn the_device_is_in_the_report_and_a_gpu_is_refused_for_the_quasi_static_engine(
     let mut arguments = vec!["run", unit.as_str(), "--device", "gpu", "--quiet"];
     arguments.extend(SMALL);
     let output = foldmotion(home.path(), &arguments);
-    assert_eq!(output.status.code(), Some(2));
+    assert_status(&output, 2);
     assert!(text(&output.stderr).contains("--set motion.engine=dynamic"));
     assert!(!home.path().join("out").exists());
     // A small sheet stays on the processor.
@@ -208,7 +203,7 @@ fn a_crease_pattern_is_run_without_a_scene_whatever_the_case_of_its_extension() 
         let mut arguments = vec!["run", name, "--set", "pattern.fold_percent=50"];
         arguments.extend(SMALL);
         let output = foldmotion(home.path(), &arguments);
-        assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
+        assert_status(&output, 0);
         let out = text(&output.stdout);
         assert!(
             out.contains("folded by 50 %") && out.contains("mean edge"),
@@ -243,7 +238,7 @@ fn without_a_display_the_window_says_what_to_install_and_what_works_without() {
         .output()
         .unwrap();
     let err = text(&output.stderr);
-    assert_eq!(output.status.code(), Some(3), "{err}");
+    assert_status(&output, 3);
     assert!(
         err.contains("xvfb") && err.contains("foldmotion run"),
         "{err}"
@@ -257,7 +252,7 @@ fn a_missing_file_is_bad_input_before_a_window_opens() {
     let home = tempfile::tempdir().unwrap();
     let output = foldmotion(home.path(), &["view", "nothing.toml"]);
     let err = text(&output.stderr);
-    assert_eq!(output.status.code(), Some(2), "{err}");
+    assert_status(&output, 2);
     assert!(err.contains("nothing.toml"), "{err}");
 }
 
@@ -310,7 +305,7 @@ fn only_regular_files_are_read() {
     ] {
         let output = foldmotion(home.path(), arguments);
         let said = text(&output.stderr);
-        assert_eq!(output.status.code(), Some(2), "{arguments:?}: {said}");
+        assert_status(&output, 2);
         assert!(
             said.contains("device or a pipe") || said.contains("folder"),
             "{arguments:?}: {said}"
@@ -327,7 +322,7 @@ fn a_scene_above_the_limit_is_refused_with_its_size() {
     for name in ["a.toml", "a.svg"] {
         let output = foldmotion(home.path(), &["run", name]);
         let said = text(&output.stderr);
-        assert_eq!(output.status.code(), Some(2), "{said}");
+        assert_status(&output, 2);
         assert!(said.contains(&format!("{size} bytes")), "{said}");
     }
 }
@@ -408,7 +403,7 @@ fn flags_and_files_that_exclude_each_other_are_named() {
     for (arguments, words, other) in cases {
         let output = foldmotion(home.path(), arguments);
         let said = text(&output.stderr);
-        assert_eq!(output.status.code(), Some(2), "{said}");
+        assert_status(&output, 2);
         assert!(words.iter().all(|word| said.contains(word)), "{said}");
         assert!(!said.contains(other), "{said}");
     }
@@ -424,7 +419,7 @@ fn no_control_characters_of_a_file_reach_the_terminal() {
     std::fs::write(home.path().join("a.fold"), motion).unwrap();
     let output = foldmotion(home.path(), &["check", "a.fold"]);
     let said = text(&output.stdout);
-    assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
+    assert_status(&output, 0);
     let is_command = |letter: char| letter.is_control() && letter != '\n';
     assert!(
         said.contains("red") && !said.contains(is_command),

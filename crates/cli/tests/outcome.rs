@@ -13,7 +13,7 @@ use std::process::Output;
 
 use serde_json::{Value, json};
 
-use common::{foldmotion, text};
+use common::{assert_status, foldmotion, text};
 
 fn scene(name: &str) -> String {
     format!("{}/../../scenes/{name}.toml", env!("CARGO_MANIFEST_DIR"))
@@ -82,7 +82,7 @@ fn assert_is_reported_everywhere(
 fn a_sheet_that_folds_is_reported_as_folded() {
     let home = tempfile::tempdir().unwrap();
     let (output, report) = run(home.path(), &scene("one-unit"), &[]);
-    assert_eq!(output.status.code(), Some(0));
+    assert_status(&output, 0);
     assert_is_reported_everywhere(home.path(), &output, &report, "folded", "folded");
     assert!(report["fold_angles"]["largest_error_deg"].as_f64().unwrap() < 5.0);
 }
@@ -95,7 +95,7 @@ fn a_jam_is_reported_with_the_units_that_block_and_without_a_good_verdict() {
         &scene("shelter-short-plain"),
         &["--set", "motion.contact=true"],
     );
-    assert_eq!(output.status.code(), Some(3));
+    assert_status(&output, 3);
     assert_is_reported_everywhere(home.path(), &output, &report, "jammed", "jammed at t = 1.");
     let reason = report["outcome"]["reason"].as_str().unwrap();
     assert!(reason.contains("of unit U^"), "{reason}");
@@ -112,7 +112,7 @@ fn an_equilibrium_far_from_the_targets_is_not_reported_as_folded() {
     let home = tempfile::tempdir().unwrap();
     let file = four_valleys(home.path());
     let (output, report) = run(home.path(), &file, &["--set", "motion.contact=false"]);
-    assert_eq!(output.status.code(), Some(3));
+    assert_status(&output, 3);
     assert_is_reported_everywhere(
         home.path(),
         &output,
@@ -133,7 +133,7 @@ fn a_sheet_that_passes_through_itself_collides() {
     let home = tempfile::tempdir().unwrap();
     let set = ["--set", "sheet.rows=2", "--set", "profile.length=2.0"];
     let (output, report) = run(home.path(), &scene("shelter-short-plain"), &set);
-    assert_eq!(output.status.code(), Some(1));
+    assert_status(&output, 1);
     assert_is_reported_everywhere(
         home.path(),
         &output,
@@ -185,7 +185,7 @@ fn an_invalid_budget_is_refused_with_its_flag_or_key() {
         let budget = format!("--budget={budget}");
         let output = foldmotion(home.path(), &["run", &scene("one-unit"), &budget]);
         let err = text(&output.stderr);
-        assert_eq!(output.status.code(), Some(2), "{budget}: {err}");
+        assert_status(&output, 2);
         assert!(err.contains("--budget"), "{err}");
     }
     let set = ["run", &scene("one-unit"), "--set", "motion.budget=-3"];
@@ -198,7 +198,7 @@ fn a_status_that_is_not_0_is_explained_even_when_quiet() {
     let home = tempfile::tempdir().unwrap();
     let one_line = |output: &Output, status: i32, word: &str| {
         let err = text(&output.stderr);
-        assert_eq!(output.status.code(), Some(status), "{err}");
+        assert_status(&output, status);
         assert_eq!(text(&output.stdout), "");
         assert_eq!(err.lines().count(), 1, "{err}");
         assert!(
@@ -240,7 +240,7 @@ fn a_file_with_one_state_is_not_a_motion() {
     for command in ["check", "record"] {
         let output = foldmotion(home.path(), &[command, &file]);
         let err = text(&output.stderr);
-        assert_eq!(output.status.code(), Some(2), "{command}: {err}");
+        assert_status(&output, 2);
         assert!(
             err.contains("a motion needs two or more") && err.contains("foldmotion run"),
             "{err}"

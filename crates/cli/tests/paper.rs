@@ -13,7 +13,7 @@ use std::process::Output;
 
 use serde_json::Value;
 
-use common::{foldmotion, text};
+use common::{assert_status, foldmotion, text};
 
 fn paper(folder: &Path, only: &str) -> Output {
     foldmotion(folder, &["paper", "--out", "paper", "--only", only])
@@ -27,7 +27,7 @@ fn record(folder: &Path) -> Value {
 fn table_1_is_compared_with_the_papers_numbers_in_record_and_page() {
     let home = tempfile::tempdir().unwrap();
     let output = paper(home.path(), "table1");
-    assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
+    assert_status(&output, 0);
     let record = record(home.path());
     let rows = record["table1"].as_array().unwrap();
     let number = |value: &Value| value.as_f64().unwrap();
@@ -81,7 +81,7 @@ fn finished_parts_are_reused_and_damaged_ones_recomputed_with_the_same_bytes() {
 fn an_unknown_part_is_refused_with_the_list_of_parts_and_writes_no_files() {
     let home = tempfile::tempdir().unwrap();
     let output = paper(home.path(), "table1,fig11");
-    assert_eq!(output.status.code(), Some(2));
+    assert_status(&output, 2);
     let message = text(&output.stderr);
     assert!(
         message.contains("\"fig11\"") && message.contains("fig10, unfoldings"),
@@ -95,7 +95,7 @@ fn a_folder_that_cannot_be_written_is_refused() {
     let home = tempfile::tempdir().unwrap();
     fs::write(home.path().join("paper"), "a file").unwrap();
     let output = paper(home.path(), "table1");
-    assert_eq!(output.status.code(), Some(3));
+    assert_status(&output, 3);
     assert!(text(&output.stderr).contains("choose another folder with --out"));
     assert_eq!(
         fs::read_to_string(home.path().join("paper")).unwrap(),

@@ -7,7 +7,7 @@
 
 mod common;
 
-use common::{foldmotion, text};
+use common::{assert_status, foldmotion, text};
 
 /// A triangle pair that folds, as FOLD.
 const MOTION: &str = r#"{"frame_classes": ["creasePattern"], "vertices_coords": [[0, 0], [1, 0], [1, 1], [0, 1]],
@@ -40,7 +40,7 @@ fn a_motion_is_recorded_and_a_file_is_reproduced() {
         "false",
     ];
     let output = foldmotion(home.path(), &flags);
-    assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
+    assert_status(&output, 0);
     let said = text(&output.stdout);
     assert!(
         said.contains("4 files in out/pair") && said.contains("not marked"),
@@ -82,7 +82,7 @@ fn wrong_flags_are_named_with_status_2_and_write_no_files() {
         let arguments: Vec<&str> = std::iter::once("record").chain(arguments).collect();
         let output = foldmotion(home.path(), &arguments);
         let said = text(&output.stderr);
-        assert_eq!(output.status.code(), Some(2), "{arguments:?}: {said}");
+        assert_status(&output, 2);
         assert!(said.contains(word), "{arguments:?}: {said}");
         assert!(!home.path().join("out").exists(), "{arguments:?}");
     }

@@ -44,19 +44,8 @@ pub(super) fn page(record: &PaperRecord, figures: &[Figure]) -> String {
 }
 
 fn table1(record: &PaperRecord) -> String {
-    let head = [
-        "profile",
-        "N_r × N_c",
-        "|R_max| paper",
-        "ours",
-        "difference",
-        "|R_ave| paper",
-        "ours",
-        "difference",
-        "T (s) paper",
-        "ours",
-        "difference",
-    ];
+    let head = "profile; N_r × N_c; |R_max| paper; ours; difference; |R_ave| paper; ours; difference; \
+                T (s) paper; ours; difference";
     let rows = record.table1.iter().map(|row| {
         let printed = &row.paper;
         let mut cells = vec![row.model.clone(), format!("{} × {}", row.rows, row.columns)];
@@ -76,13 +65,11 @@ fn table1(record: &PaperRecord) -> String {
     });
     let words = "Residuals of the division into equal segments (equation 1). The paper's times were measured on another \
                  machine (Intel i5-9300H) with its own starting values; ours are the least of five divisions.";
-    section("Table 1", words, &head, rows)
+    section("Table 1", words, head, rows)
 }
 
 fn table2(record: &PaperRecord) -> String {
-    let head = [
-        "profile", "figure", "paper: E", "T", "S, SII", "ours: E", "T", "S, SII", "",
-    ];
+    let head = "profile; figure; paper: E; T; S, SII; ours: E; T; S, SII; ";
     let rows = record.table2.iter().map(|row| {
         let counts = |rows: usize, columns: [usize; 3]| columns.map(|c| format!("{rows} × {c}"));
         let mut cells = vec![row.model.clone()];
@@ -109,28 +96,14 @@ fn table2(record: &PaperRecord) -> String {
     section(
         "Table 2",
         "Units N_r × N_c of one target (Γ, W) in each case.",
-        &head,
+        head,
         rows,
     )
 }
 
 fn boxes(record: &PaperRecord) -> String {
-    let head = [
-        "profile",
-        "case",
-        "N_r × N_c",
-        "w/h",
-        "A paper",
-        "exact state",
-        "difference",
-        "simulated",
-        "relative error",
-        "V paper",
-        "exact state",
-        "difference",
-        "simulated",
-        "relative error",
-    ];
+    let head = "profile; case; N_r × N_c; w/h; A paper; exact state; difference; simulated; relative error; \
+                V paper; exact state; difference; simulated; relative error";
     let rows = record.cases.iter().map(|row| {
         let mut cells = name_of(row);
         cells.push(format!("{:.4}", row.unit_width));
@@ -153,25 +126,12 @@ fn boxes(record: &PaperRecord) -> String {
     let words = "Area A (x–z plane) and volume V of the compact state's box: the paper's closed forms (equations 3 to 7), the \
                  exact state, and the state that the simulation without contact reaches; its error is divided by the \
                  closed form or, if that is 0, by h² or h³. N_c marked * are ours.";
-    section("Areas and volumes of every case", words, &head, rows)
+    section("Areas and volumes of every case", words, head, rows)
 }
 
 fn certificates(record: &PaperRecord) -> String {
-    let head = [
-        "profile",
-        "case",
-        "N_r × N_c",
-        "contact",
-        "verdict",
-        "first penetration t",
-        "least separation / h",
-        "reached t",
-        "jam t",
-        "peak strain",
-        "frames",
-        "largest error of an extent",
-        "rms to exact / h",
-    ];
+    let head = "profile; case; N_r × N_c; contact; verdict; first penetration t; least separation / h; \
+                reached t; jam t; peak strain; frames; largest error of an extent; rms to exact / h";
     let mut rows = Vec::new();
     for row in &record.cases {
         for (words, motion) in [("on", &row.certificate), ("off", &row.motion)] {
@@ -186,7 +146,7 @@ fn certificates(record: &PaperRecord) -> String {
     let words = "Motions of the default material (Origami Simulator's stiffness), in equilibrium along the schedule. The \
                  verdict is about the recorded frames and straight paths between them, within 1e-6 h. With contact, layers \
                  keep a gap, so that the compact box is larger than the closed form of a sheet without thickness.";
-    section("Certificates", words, &head, rows.into_iter())
+    section("Certificates", words, head, rows.into_iter())
 }
 
 fn motion_cells(motion: &MotionRow) -> Vec<String> {
@@ -216,15 +176,8 @@ fn motion_cells(motion: &MotionRow) -> Vec<String> {
 }
 
 fn unfoldings(record: &PaperRecord) -> String {
-    let head = [
-        "profile",
-        "N_r",
-        "path",
-        "verdict",
-        "crosses at this part of the remaining path",
-        "proved clear at every instant",
-        "frames",
-    ];
+    let head = "profile; N_r; path; verdict; crosses at this part of the remaining path; \
+                proved clear at every instant; frames";
     let rows = record.unfoldings.iter().map(|row| {
         vec![
             row.model.clone(),
@@ -239,7 +192,7 @@ fn unfoldings(record: &PaperRecord) -> String {
     });
     let words = "From the deployed state into the plane, rows rigid: uniform scales all hinge angles alike; energy follows the \
                  descent of Cantarella, Demaine, Iben and O'Brien (2004). Closed profiles touch at their seam when deployed.";
-    section("Unfolding", words, &head, rows)
+    section("Unfolding", words, head, rows)
 }
 
 /// The motions that penetrate, jam or stay undecided, in words.
@@ -289,10 +242,11 @@ fn name_of(row: &CaseRow) -> Vec<String> {
     ]
 }
 
+/// A table with a title and an introduction; `head` has the names of its columns, separated by `; `.
 fn section(
     title: &str,
     words: &str,
-    head: &[&str],
+    head: &str,
     rows: impl Iterator<Item = Vec<String>>,
 ) -> String {
     let mut body = String::new();
@@ -311,8 +265,7 @@ fn section(
     if body.is_empty() {
         return String::new();
     }
-    let head: Vec<String> = head.iter().map(|h| marked(h)).collect();
-    let head = head.join("</th><th>");
+    let head = marked(head).replace("; ", "</th><th>");
     let words = marked(words);
     format!(
         "<h2>{title}</h2>\n<p>{words}</p>\n<div><table>\n<thead><tr><th>{head}</th></tr></thead>\n<tbody>\n{body}</tbody>\n</table></div>\n"

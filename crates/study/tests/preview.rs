@@ -1,10 +1,5 @@
 //! A preview has the motion of a run without contact.
 
-#![expect(
-    clippy::unwrap_used,
-    reason = "a test fails where something is missing"
-)]
-
 use std::path::Path;
 
 use foldmotion_check::fitted_box;

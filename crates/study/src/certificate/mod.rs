@@ -65,7 +65,7 @@ pub struct Certificate {
     pub penetrations: Vec<PenetrationEntry>,
     /// Pairs of triangles that could not be decided in an interval.
     pub undecided: Vec<UndecidedEntry>,
-    /// Triangles that lie on each other, and whether their order is proved.
+    /// The clusters of triangles that are stacked, and whether their order is proved.
     pub clusters: Vec<Cluster>,
     /// What the file's `faceOrders` claim.
     pub layer_orders: Claims,

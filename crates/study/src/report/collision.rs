@@ -11,7 +11,7 @@ use serde::{Deserialize, Serialize};
 use crate::Study;
 use crate::resolve::names::UnitName;
 
-/// The verdict.
+/// The verdict of the collision check.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct CollisionSection {
     /// Whether the sheet passes through itself.
@@ -58,7 +58,7 @@ pub struct DecidedBy {
     pub share_without_search: f64,
 }
 
-/// A penetration, where it begins.
+/// A penetration, at the time at which it begins.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct PenetrationReport {
     /// The motion time at which it begins.
@@ -73,7 +73,7 @@ pub struct PenetrationReport {
     pub faces: [u32; 2],
     /// The vertices of the features that meet.
     pub vertices: Vec<u32>,
-    /// The names that the paper gives these vertices in the units below, where it names them.
+    /// The names that the paper gives these vertices in the units below; null for vertices without a name.
     pub vertex_names: Vec<Option<String>>,
     /// The units of the two facets; null for an imported pattern.
     pub units: Option<[UnitName; 2]>,

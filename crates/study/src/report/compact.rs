@@ -27,7 +27,7 @@ pub struct BoxReport {
     pub volume: f64,
 }
 
-/// The compact state reached, beside the exact one.
+/// The compact state that was reached, compared with the exact one.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct CompactReport {
     /// Measured after the rigid motion that best fits the exact compact state; for an imported pattern along its
@@ -49,8 +49,8 @@ pub struct CompactReport {
     pub skin: Option<SkinReport>,
 }
 
-/// What a compact sheet touches its skin planes with: the upper one, where the boundary vertices lie, and the lower
-/// one, a below it.
+/// What a compact sheet has in its two skin planes: the upper one with the boundary vertices, and the lower one at the
+/// distance a below it.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct SkinReport {
     /// A vertex lies on a plane if it is within this distance, in units of the flap width a.
@@ -65,7 +65,7 @@ pub struct SkinReport {
     pub exact_lower: SkinPlaneReport,
 }
 
-/// What lies on a skin plane.
+/// The parts of the sheet in a skin plane.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct SkinPlaneReport {
     /// The number of facets that lie in the plane.
@@ -80,7 +80,7 @@ pub struct SkinPlaneReport {
     pub share: f64,
 }
 
-/// Differences to the closed form, each divided by it or, where it is 0, by h, h², h³.
+/// Differences from the closed form, each divided by it or, if it is 0, by h, h² or h³.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct ErrorReport {
     /// The relative errors of the three extents.

@@ -93,7 +93,7 @@ pub struct Report {
     pub engine: EngineReport,
     /// How many seconds each part of the run took.
     pub seconds: SecondsReport,
-    /// The names of the files written beside this report.
+    /// The names of the files written in addition to this report.
     pub files: Vec<String>,
     /// What happened to other files in the folder; not part of report.json.
     #[serde(skip)]

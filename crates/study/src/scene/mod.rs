@@ -66,7 +66,7 @@ pub struct ProfileScene {
     #[serde(deserialize_with = "exact_array::many")]
     #[schemars(extend("x-unit" = "profile.unit"))]
     pub points: Option<Vec<[f64; 2]>>,
-    /// A file of such points beside the scene: .csv (x, z on each line), .dat (an airfoil in Selig's or Lednicer's
+    /// A file of such points, next to the scene: .csv (x, z on each line), .dat (an airfoil in Selig's or Lednicer's
     /// order) or .dxf (one polyline or chain of lines, ASCII).
     pub file: Option<String>,
     /// Control points [x, z] of a cubic NURBS curve with unit weights; at least 4.
@@ -93,9 +93,9 @@ pub struct ProfileScene {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Closed {
-    /// With a corner.
+    /// The curve meets its start with a corner.
     Corner,
-    /// Smoothly.
+    /// The curve meets its start smoothly.
     Smooth,
 }
 
@@ -194,7 +194,7 @@ pub struct SheetScene {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum UnequalChoice {
-    /// They are refused.
+    /// Rows of unequal height are refused.
     Refuse,
     /// Each has the case E, T or S by its own w/h. They are refused, with the reason, if the creases of neighbours do not meet.
     OwnCase,
@@ -202,7 +202,7 @@ pub enum UnequalChoice {
     CommonFlap,
 }
 
-/// A case by name, or the one that w/h allows.
+/// A case by name, or the case that follows from w/h.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
 pub enum CaseChoice {
     /// Square units.
@@ -256,7 +256,7 @@ pub struct DivisionScene {
 #[derive(Debug, Clone, Default, PartialEq, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct MaterialScene {
-    /// The constants to start from; keys beside it replace single constants.
+    /// The constants to start from; the keys below replace single constants.
     #[serde(deserialize_with = "choice::optional")]
     #[schemars(extend("x-default" = "the constants given below as defaults"))]
     pub preset: Option<Preset>,
@@ -297,7 +297,7 @@ pub struct MotionScene {
     /// Whether layers are kept apart. Only the quasi-static engine has contact.
     #[schemars(extend("x-default" = "true with the quasi-static engine"))]
     pub contact: Option<bool>,
-    /// The closest approach of layers. It has to fit beside the thinnest part of the sheet.
+    /// The closest approach of layers. It has to fit next to the thinnest part of the sheet.
     #[schemars(extend("x-default" = "1e-3, or less if a pattern has small facets", "x-unit" = "h, or the mean edge of a pattern", "minimum" = 1e-06))]
     pub gap: Option<f64>,
     /// How stage unfold flattens the profile.
@@ -305,7 +305,7 @@ pub struct MotionScene {
     #[schemars(extend("default" = "auto"))]
     pub unfold: Option<UnfoldChoice>,
     /// How much work the engine may do, in seconds (60 or "60 s") or in its own steps ("20000 steps"). The motion
-    /// then ends where it is, with exit status 3.
+    /// then ends at the state reached, with exit status 3.
     #[schemars(extend("x-default" = "300 Newton iterations for each state, or a million settling steps for each stage"))]
     pub budget: Option<BudgetScene>,
     /// The schedule. Creases that no step names follow the ramp of their stage.
@@ -316,7 +316,7 @@ pub struct MotionScene {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize, Serialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum UnfoldChoice {
-    /// All fold angles scaled together.
+    /// All fold angles are scaled together.
     Uniform,
     /// A path on which the profile does not cross itself (Cantarella, Demaine, Iben, O'Brien 2004).
     Energy,
@@ -365,13 +365,13 @@ pub struct StepScene {
     pub ease: Option<Ease>,
 }
 
-/// The engines.
+/// The engine that computes a motion.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum EngineChoice {
-    /// Equilibrium along the schedule.
+    /// The sheet is in equilibrium at each step of the schedule.
     QuasiStatic,
-    /// Mass, spring, damper, explicit steps.
+    /// Masses, springs and dampers move in explicit time steps.
     Dynamic,
 }
 
@@ -397,12 +397,12 @@ pub struct CheckScene {
     pub stop_at: Option<i64>,
 }
 
-/// Seconds, or words with a unit.
+/// A budget: seconds, or a text with a unit.
 #[derive(Debug, Clone, PartialEq, Deserialize, Serialize, JsonSchema)]
 #[serde(untagged)]
 pub enum BudgetScene {
-    /// Seconds.
+    /// A number of seconds.
     Seconds(f64),
-    /// `60 s` or `20000 steps`.
+    /// A text such as `60 s` or `20000 steps`.
     Words(String),
 }

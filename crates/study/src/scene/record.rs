@@ -1,4 +1,4 @@
-//! `[record]`: what is written of a motion, and how it looks.
+//! `[record]`: the outputs of a motion and their settings.
 
 pub use foldmotion_record::Playback;
 use schemars::JsonSchema;
@@ -10,7 +10,7 @@ use super::{choice, exact_array};
 #[derive(Debug, Clone, Default, PartialEq, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct RecordScene {
-    /// The kinds of files to write beside the report.
+    /// The kinds of files to write in addition to the report.
     #[serde(deserialize_with = "choice::list")]
     #[schemars(extend("default" = ["fold", "gif", "csv"]))]
     pub outputs: Option<Vec<OutputChoice>>,
@@ -89,7 +89,7 @@ impl RecordScene {
     }
 }
 
-/// The files a run writes beside its report.
+/// The files that a run writes in addition to its report.
 #[derive(
     Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Deserialize, Serialize, JsonSchema,
 )]
@@ -153,20 +153,20 @@ impl OutputChoice {
     }
 }
 
-/// Seconds a state stands still.
+/// How long films show a state without motion, in seconds.
 #[derive(Debug, Clone, Copy, PartialEq, Deserialize, Serialize, JsonSchema)]
 #[serde(
     untagged,
     expecting = "hold must be a number of seconds, or three: [deployed, planar, compact]"
 )]
 pub enum HoldScene {
-    /// All three alike.
+    /// The same time for all three states.
     Each(f64),
-    /// The deployed, the planar and the compact state.
+    /// The times of the deployed, the planar and the compact state.
     States([f64; 3]),
 }
 
-/// Where the viewer stands.
+/// The position of the viewer.
 #[derive(Debug, Clone, Copy, PartialEq, Deserialize, Serialize, JsonSchema)]
 #[serde(
     untagged,
@@ -175,17 +175,17 @@ pub enum HoldScene {
                  a picture of your own"
 )]
 pub enum CameraScene {
-    /// By name.
+    /// A preset by name.
     Preset(CameraChoice),
-    /// By angles.
+    /// A camera by angles.
     Own(OwnCamera),
 }
 
-/// Camera presets.
+/// The camera presets.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum CameraChoice {
-    /// From above, in front and the side.
+    /// From above, the front and the side.
     Iso,
     /// Along the width.
     Front,
@@ -193,7 +193,7 @@ pub enum CameraChoice {
     Side,
     /// From above.
     Top,
-    /// As iso, once round over the film.
+    /// As iso, with one turn around the motion over the film.
     Turntable,
 }
 
@@ -220,7 +220,7 @@ pub struct OwnCamera {
     pub width: Option<f64>,
 }
 
-/// What colours show.
+/// What the colours of films and figures show.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum ColourChoice {
@@ -234,15 +234,15 @@ pub enum ColourChoice {
     Bending,
 }
 
-/// How thick solids are.
+/// The thickness of solids.
 #[derive(Debug, Clone, Copy, PartialEq, Deserialize, Serialize, JsonSchema)]
 #[serde(
     untagged,
     expecting = "thickened must be true, false, or a thickness in profile.unit"
 )]
 pub enum ThickenedScene {
-    /// As the material says, or not at all.
+    /// The thickness of the material, or surfaces.
     ByMaterial(bool),
-    /// In profile.unit.
+    /// A thickness in profile.unit.
     By(f64),
 }
