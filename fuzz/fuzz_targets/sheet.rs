@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use foldmotion_pattern::{Assignment, Imported};
 
-/// Stops where an import is no sheet.
+/// Panics if an import is not a valid sheet.
 pub fn check(imported: &Imported) {
     let sheet = &imported.sheet;
     let mut sides = BTreeMap::new();

@@ -71,7 +71,7 @@ pub(crate) struct PatternArguments {
 }
 
 impl PatternArguments {
-    /// What the study is asked to write.
+    /// The options of the study.
     pub(crate) fn options(&self) -> PatternOptions {
         let scale = match self.width {
             Some(width) => PatternScale::Width(width),
@@ -99,18 +99,18 @@ impl PatternArguments {
     }
 }
 
-/// The lines that have dashes.
+/// The classes of lines that can have dashes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum DashedClass {
     Mountain,
     Valley,
 }
 
-/// `--dash`.
+/// A value of `--dash`.
 #[derive(Debug, Clone)]
 struct Dashes {
     class: DashedClass,
-    /// mm; empty for solid lines.
+    /// The lengths of dashes and gaps in mm; empty for solid lines.
     lengths: Vec<f64>,
 }
 
@@ -119,7 +119,7 @@ fn parse_format(name: &str) -> Result<PatternFormat, &'static str> {
 }
 
 fn parse_dashes(text: &str) -> Result<Dashes, String> {
-    let need = "write mountain=LIST or valley=LIST, such as mountain=6,2,2,2 or valley=none";
+    let need = "expected mountain=LIST or valley=LIST, such as mountain=6,2,2,2 or valley=none";
     let (class, list) = text.split_once('=').ok_or(need)?;
     let class = match class {
         "mountain" => DashedClass::Mountain,
@@ -140,7 +140,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn dashes_are_read_class_by_class() {
+    fn dashes_are_parsed_for_each_class() {
         let dashes = parse_dashes("mountain=6,2,0.5cm,2").unwrap();
         assert_eq!(dashes.class, DashedClass::Mountain);
         assert_eq!(dashes.lengths, [6.0, 2.0, 5.0, 2.0]);

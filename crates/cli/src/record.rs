@@ -22,8 +22,8 @@ pub(crate) struct RecordArguments {
     /// Folder for the results. Default: out/<name of the file>
     #[arg(long)]
     pub(crate) out: Option<PathBuf>,
-    /// Record this file again from the scene and motion it names inside itself: beside it as NAME-again, or into --out. If
-    /// it was made from a motion file that has moved, give that as MOTION
+    /// Reproduce this recorded file from the scene or motion named inside it: next to it as NAME-again, or in --out. If the
+    /// motion file has moved, specify it as MOTION
     #[arg(long, value_name = "FILE", conflicts_with_all = FLAGS)]
     pub(crate) again: Option<PathBuf>,
     /// Kinds of files to write, separated by commas: gif, mp4, png, svg, pdf, glb, obj, stl, html. Default: gif
@@ -76,7 +76,7 @@ pub(crate) struct RecordArguments {
     pub(crate) quiet: bool,
 }
 
-/// What --again takes from the file.
+/// The flags that `--again` excludes, because the file has their values.
 const FLAGS: [&str; 15] = [
     "outputs",
     "at",
@@ -96,7 +96,7 @@ const FLAGS: [&str; 15] = [
 ];
 
 impl RecordArguments {
-    /// The same as a scene's `[record]`.
+    /// The flags as a scene's `[record]`.
     pub(crate) fn scene(&self) -> RecordScene {
         RecordScene {
             outputs: self.outputs.clone(),
@@ -119,7 +119,7 @@ impl RecordArguments {
         }
     }
 
-    /// The folder of results.
+    /// The output folder.
     pub(crate) fn folder(&self, motion: &Path) -> PathBuf {
         let stem = motion.file_stem().unwrap_or_default();
         let folder = self.out.clone();
@@ -146,7 +146,7 @@ fn parse_output(text: &str) -> Result<OutputChoice, String> {
 fn parse_size(text: &str) -> Result<[i64; 2], String> {
     let sides = text.split_once(['x', 'X', '×']);
     let sides = sides.and_then(|(w, h)| Some([w.trim().parse().ok()?, h.trim().parse().ok()?]));
-    sides.ok_or_else(|| "two whole numbers are needed, such as 960x720".to_owned())
+    sides.ok_or_else(|| "expected two whole numbers, such as 960x720".to_owned())
 }
 
 fn numbers(text: &str) -> Option<Vec<f64>> {
@@ -157,14 +157,14 @@ fn numbers(text: &str) -> Option<Vec<f64>> {
 
 fn parse_numbers<const N: usize>(text: &str) -> Result<[f64; N], String> {
     let found = numbers(text).and_then(|numbers| numbers.try_into().ok());
-    found.ok_or_else(|| format!("{N} numbers with commas between are needed"))
+    found.ok_or_else(|| format!("expected {N} numbers separated by commas"))
 }
 
 fn parse_hold(text: &str) -> Result<HoldScene, String> {
     match numbers(text).as_deref() {
         Some(&[seconds]) => Ok(HoldScene::Each(seconds)),
         Some(&[deployed, planar, compact]) => Ok(HoldScene::States([deployed, planar, compact])),
-        _ => Err("one number of seconds or three with commas between are needed".to_owned()),
+        _ => Err("expected one number of seconds, or three separated by commas".to_owned()),
     }
 }
 

@@ -1,4 +1,4 @@
-//! How a motion ended is said first and last, and why the exit status is not 0 even where nothing else is printed.
+//! The outcome is the first and last line of the output, and an exit status that is not 0 is explained even with `--quiet`.
 
 #![expect(
     clippy::unwrap_used,

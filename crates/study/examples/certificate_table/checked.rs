@@ -6,20 +6,20 @@ use std::time::Instant;
 
 use foldmotion_study::{Report, SceneSource, Study, VerifiedCertificate, verify_file};
 
-/// A scene and what is set otherwise.
+/// A scene with changed settings.
 pub(crate) struct Motion {
-    /// Its name in `scenes/`, without the ending.
+    /// The name in `scenes/`, without the extension.
     pub(crate) scene: String,
-    /// Whether layers keep apart.
+    /// Whether contact keeps layers apart.
     pub(crate) has_contact: bool,
     /// Other settings, as after `--set`.
     pub(crate) settings: Vec<String>,
 }
 
-/// What came of a motion.
+/// The result of a motion.
 pub(crate) struct Checked {
     pub(crate) report: Report,
-    /// The certificate, and what the second proof says of it.
+    /// The certificate with the result of the second proof.
     pub(crate) verified: VerifiedCertificate,
     pub(crate) verify_seconds: f64,
 }
@@ -55,7 +55,7 @@ impl Motion {
 }
 
 impl Checked {
-    /// The verdict, and up to when where the check ended early.
+    /// The verdict, with the last time checked if the check ended early.
     pub(crate) fn verdict(&self) -> String {
         let certificate = &self.verified.certificate;
         match &certificate.stopped {
@@ -67,17 +67,17 @@ impl Checked {
         }
     }
 
-    /// Whether the motion came to its end.
+    /// Whether the motion reached its end.
     pub(crate) fn is_finished(&self) -> bool {
         self.report.outcome.is_at_end()
     }
 
-    /// Whether the motion came to its end, or where it stopped.
+    /// The outcome of the motion.
     pub(crate) fn outcome(&self) -> String {
         self.report.outcome.headline()
     }
 
-    /// What the second proof says.
+    /// The result of the second proof.
     pub(crate) fn second_proof(&self) -> String {
         let verification = &self.verified.verification;
         match self.verified.status() {

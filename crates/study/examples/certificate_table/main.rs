@@ -1,13 +1,13 @@
-//! Computes the tables of docs/src/certificates.md: folds the shelter in many ways, judges each motion, and proves each
-//! certificate again.
+//! Computes the tables of docs/src/certificates.md: folds the shelter in many variants, checks each motion and verifies
+//! each certificate.
 //!
 //! `cargo run --release -p foldmotion-study --no-default-features --example certificate_table` prints them as Markdown.
 //! `--only WORDS` computes the rows that have all of WORDS, of their first columns and `contact` or `no-contact`, such as
 //! `--only "S near-rigid no-contact"`.
 //!
 //! `--matrix` prints another table instead: every file of `scenes/` with contact, without, and moved by the dynamic
-//! engine; `--only` then names scenes and columns. Exit status 1 where a motion got no certificate, or the second proof
-//! did not confirm it; what it found then goes to stderr.
+//! engine; `--only` then names scenes and columns. The exit status is 1 if a motion got no certificate, or
+//! if the second proof did not confirm it; details are then on stderr.
 
 #![expect(
     clippy::print_stdout,
@@ -24,7 +24,7 @@ use std::{error::Error, process::ExitCode};
 
 use checked::{Checked, Motion};
 
-/// What is asked for.
+/// The options of the command line.
 #[derive(Default)]
 struct Options {
     matrix: bool,
@@ -41,7 +41,7 @@ fn arguments() -> Result<Options, Box<dyn Error>> {
                 let words = arguments.next().ok_or("--only needs words")?;
                 options.only = words.split_whitespace().map(str::to_owned).collect();
             }
-            other => return Err(format!("{other} is not known").into()),
+            other => return Err(format!("{other} is unknown").into()),
         }
     }
     Ok(options)
@@ -73,10 +73,10 @@ fn main() -> Result<ExitCode, Box<dyn Error>> {
 /// A table of motions.
 struct Table {
     title: String,
-    /// The columns that name a motion, then those of what came out.
+    /// The columns that name a motion, and those of its results.
     columns: [&'static [&'static str]; 2],
     rows: Vec<Row>,
-    /// What came out, one cell a column.
+    /// The cells of the results, one for each column.
     cells: fn(&Checked) -> Vec<String>,
 }
 
@@ -121,7 +121,7 @@ impl Table {
     }
 }
 
-/// What came out of all motions.
+/// The results of all motions.
 #[derive(Default)]
 struct Total {
     motions: usize,

@@ -1,11 +1,11 @@
-//! Every scene with contact, without, and moved by the dynamic engine.
+//! Every scene with contact, without contact, and with the dynamic engine.
 
 use std::error::Error;
 
 use crate::checked::{Motion, scenes};
 use crate::{Row, Table};
 
-/// Engine and contact; the dynamic engine has none.
+/// Engine and contact; the dynamic engine has no contact.
 const MOVED: [(&str, bool); 3] = [
     ("quasi-static", true),
     ("quasi-static", false),

@@ -6,10 +6,10 @@ use crate::{Row, Table};
 
 const CASES: [&str; 4] = ["E", "T", "S", "SII"];
 const ROWS: usize = 7;
-/// Shallower first penetrations have no digit that holds on every machine: that of E near-rigid is 2.8e-4 h with vectors of 8
+/// Shallower first penetrations have no digit that is the same on every machine: that of E near-rigid is 2.8e-4 h with vectors of 8
 /// numbers and 2e-5 h with others.
 const STEADY_DEPTH: f64 = 1e-3;
-/// A row begins and ends so much of the stage after the one before.
+/// Each row begins and ends this part of the stage after the row before.
 const DELAY: f64 = 0.02;
 
 /// Both tables.
@@ -140,7 +140,7 @@ fn staggered() -> String {
 
 /// The smallest separation and its motion time.
 ///
-/// A motion that jams ends in whatever state rounding leads to: only a bound holds on every machine.
+/// The last state of a motion that jams depends on rounding: only a bound is the same on every machine.
 fn separation(checked: &Checked) -> [String; 2] {
     let none = || "-".to_owned();
     match checked.verified.certificate.min_separation {
