@@ -4,7 +4,7 @@ use std::path::Path;
 
 use foldmotion_study::{SceneSource, Study};
 
-/// A scene that resolves, to spoil.
+/// A valid scene, which the tests make invalid.
 pub(crate) const GOOD: &str = "\
 [profile]
 control_points = [[7.0, 0.0], [5.0, 2.0], [2.0, 2.0], [0.0, 0.0]]
@@ -33,7 +33,7 @@ fn the_scene_that_the_cases_change_is_valid() {
     assert!(Study::resolve(&source).is_ok());
 }
 
-/// (what stands in the scene, what it is replaced by, key and line and words the message must have).
+/// Each case: a text of the scene, its replacement, and texts that the message must contain.
 #[test]
 fn every_bad_value_is_refused_by_key_line_and_value() {
     let cases: &[(&str, &str, &[&str])] = &[
@@ -219,7 +219,7 @@ fn values_of_the_later_tables_are_refused_too() {
     refuses_all(cases);
 }
 
-/// (what is added to the good scene, words the message must have).
+/// Each case: a text that is added to the valid scene, and texts that the message must contain.
 pub(crate) fn refuses_all(cases: &[(&str, &[&str])]) {
     for (text, words) in cases {
         let message = refusal(&format!("{GOOD}{text}\n"));
@@ -367,7 +367,7 @@ fn lambda_and_offset_out_of_range_are_refused() {
     }
 }
 
-/// All columns of case E lie in one plane when compact: every two layers there are a pair.
+/// In the compact state of case E, all columns are in one plane, so that all layers of a row are pairs.
 #[test]
 fn a_sheet_with_too_many_layers_to_check_is_refused_before_it_is_folded() {
     let many = GOOD
@@ -378,7 +378,7 @@ fn a_sheet_with_too_many_layers_to_check_is_refused_before_it_is_folded() {
     for word in ["sheet.columns = 200", "coincide", "S, SII"] {
         assert!(text.contains(word), "{word:?} is missing in: {text}");
     }
-    // It would not fit into memory, so it is told before it is laid out.
+    // This sheet would not fit into memory, so it has to be refused before it is laid out.
     let more = many.replace("columns = 200", "columns = 4000");
     assert!(refusal(&more).contains("coincide"));
     let short = many

@@ -35,7 +35,7 @@ fn run(path: &Path, set: &[&str]) -> (Report, Value) {
     let study = study(path, &[&few, set].concat());
     let report = study.run(folder.path(), &|_, _| true).unwrap();
     let text = std::fs::read_to_string(folder.path().join("motion.fold")).unwrap();
-    // Whoever reads the file comes to the same verdict.
+    // A check of the file gives the same verdict.
     let path = folder.path().join("motion.fold");
     let checked = check_file(&path, &CheckOptions::default(), &|_, _| true).unwrap();
     assert_eq!(checked.certificate.verdict, report.collision.verdict);
@@ -130,7 +130,7 @@ fn a_miura_sheet_folds_along_the_closed_form_of_its_rigid_motion() {
         }
     }
     assert!(compared >= 100);
-    // All layers lie on one parallelogram, but for the gaps between them.
+    // All layers are on one parallelogram, except for the gaps between them.
     let [_, _, height] = report.compact.extents;
     assert!(height < 0.02, "{:?}", report.compact);
 }
@@ -190,7 +190,7 @@ fn a_card_with_cuts_pops_up_without_strain() {
 #[test]
 fn a_frame_with_a_hole_folds_in_steps_and_one_facet_stays_in_place() {
     let (report, motion) = run(&example("frame.toml"), &[]);
-    // Its mitres do not allow 108 degrees at all four corners: it comes to rest before, and says so.
+    // Its mitres do not allow 108 degrees at all four corners: it comes to rest before, and the outcome says so.
     assert_eq!(report.outcome.kind, OutcomeKind::NotConverged);
     assert!(report.fold_angles.largest_error_deg > 20.0);
     assert_eq!((report.status(), report.length_unit.as_str()), (3, "cm"));
@@ -284,7 +284,7 @@ fn frames_with_angles_are_stages_and_the_last_is_the_end() {
     assert_near(strip_angles(&motion, 2.0), [120.0, -60.0]);
     let dynamic = ["motion.engine=dynamic", "pattern.fold_percent=50"];
     let (_, motion) = run_fold(&strip(), &dynamic);
-    // On its way the dynamic engine lags behind a little.
+    // The dynamic engine lags behind a little during the motion.
     let [valley, mountain] = strip_angles(&motion, 1.5);
     assert!((valley - 45.0).abs() < 0.1 && mountain.abs() < 0.1);
     assert_near(strip_angles(&motion, 2.0), [15.0, -40.0]);

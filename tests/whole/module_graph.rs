@@ -112,7 +112,7 @@ impl Crate {
         }
     }
 
-    /// Every cycle: the children of a parent that use each other in a circle.
+    /// All cycles, as the children of a parent that use each other.
     fn cycles(&self) -> Vec<String> {
         let parents: BTreeSet<Module> = self
             .texts
@@ -183,7 +183,7 @@ fn stripped(text: &str) -> String {
     }
 }
 
-/// The modules that lie in files of their own.
+/// The modules that have their own files.
 fn declared_modules(text: &str) -> Vec<String> {
     let declarations = text
         .lines()

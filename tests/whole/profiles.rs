@@ -1,4 +1,4 @@
-//! Profiles: every built-in one becomes a sheet in every case.
+//! Built-in profiles and outline files become sheets.
 
 use std::path::Path;
 
@@ -55,7 +55,7 @@ fn built_in_profiles_resolve_with_fewer_rows() {
     }
 }
 
-/// A folder with an outline file and the scene beside it that names it.
+/// A folder with an outline file and a scene that names it.
 fn beside(name: &str, outline: &str, more: &str) -> (tempfile::TempDir, SceneSource) {
     let folder = tempfile::tempdir().unwrap();
     std::fs::write(folder.path().join(name), outline).unwrap();

@@ -1,4 +1,4 @@
-//! Every output of a run and of a motion file, read back by readers that are not ours, and made again.
+//! Every output of a run and of a motion file is read back by independent readers, and reproduced.
 
 use std::fs::{self, File};
 use std::path::{Path, PathBuf};
@@ -163,7 +163,7 @@ fn files_without_source_information_are_refused() {
     let renamed = folder.join("first.png");
     fs::copy(folder.join("frames/0001.png"), &renamed).unwrap();
     assert!(refusal(&renamed).contains("frames/first.png"));
-    // A file cut anywhere in what it says is refused, never taken for another.
+    // A file whose source information is truncated anywhere is refused.
     let obj = fs::read_to_string(folder.join("state-1.obj")).unwrap();
     let cut = folder.join("cut.obj");
     for lines in 0..6 {
@@ -230,7 +230,7 @@ fn outputs_do_not_depend_on_the_threads_nor_on_each_other() {
     }
 }
 
-/// A FOLD file that is not ours: a square that folds along its diagonal in three frames, without times.
+/// A FOLD file of another program: a square that folds along its diagonal in three frames without times.
 const SQUARE: &str = r#"{"file_spec": 1.1, "file_title": "a square", "frame_classes": ["creasePattern"], "frame_unit": "mm",
 "vertices_coords": [[0, 0], [10, 0], [10, 10], [0, 10]],
 "edges_vertices": [[0, 1], [1, 2], [2, 3], [3, 0], [0, 2]], "edges_assignment": ["B", "B", "B", "B", "V"],
@@ -303,7 +303,7 @@ fn any_fold_motion_is_recorded_in_metres_and_reproduced() {
         "state-1.obj",
         "frames/0002.png",
     ] {
-        // The motion lies in the folder above; of pictures it is named.
+        // The motion is in the parent folder; for pictures it is specified.
         let named = name.contains('/').then_some(motion.as_path());
         let made = again(&folder.join(name), named, &home.path().join("again"));
         assert!(made.is_same && made.warnings.is_empty(), "{name}: {made:?}");

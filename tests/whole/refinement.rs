@@ -1,4 +1,4 @@
-//! Where the recorded frames leave the verdict open, the engine records more.
+//! If the recorded frames leave the verdict open, the engine records more.
 
 use std::path::Path;
 

@@ -7,7 +7,7 @@ use foldmotion_study::scene::fields::{fields, reference};
 use foldmotion_study::{certificate_schema, report_schema, scene_schema};
 use serde_json::Value;
 
-/// The shortest description that says something.
+/// The smallest length of a description.
 const SHORTEST: usize = 30;
 
 /// Compares a file of the repository with what the program makes of it, or writes it if `UPDATE_SCHEMAS` is set.

@@ -1,4 +1,4 @@
-//! Stage 1: uniform where that is proved clear, by energy where it would cross.
+//! Stage `unfold`: uniform if that is proved clear, by energy if the profile would cross itself.
 
 use std::path::Path;
 

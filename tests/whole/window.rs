@@ -1,4 +1,4 @@
-//! What a window does with a study: computes it, watches it, records it as it is seen, opens files again.
+//! The functions of the study that the window uses: compute, observe, record with its own camera, open files.
 
 use std::fs;
 use std::path::Path;
@@ -29,8 +29,7 @@ fn study(set: &[&str]) -> Study {
     Study::resolve(&source(set)).unwrap()
 }
 
-/// The bytes of the files in `folder`, by name; of the report, which tells times, and of the list of what which command
-/// made, none.
+/// The bytes of the files in `folder`, by name, except for the report, which has timings, and the manifest.
 fn files(folder: &Path) -> Vec<(String, Vec<u8>)> {
     let mut found = Vec::new();
     for entry in fs::read_dir(folder).unwrap() {
@@ -46,7 +45,7 @@ fn files(folder: &Path) -> Vec<(String, Vec<u8>)> {
     found
 }
 
-/// What the window shows: 3 lengths across, about a point beside the unit.
+/// The view of a window: 3 lengths across, around a point next to the unit.
 fn seen(outputs: &[OutputChoice]) -> RecordScene {
     RecordScene {
         outputs: Some(outputs.to_vec()),
@@ -82,7 +81,7 @@ fn computing_and_then_writing_gives_the_files_of_a_run() {
     );
     assert!(folded.is_converged() && folded.jam().is_none());
     let boxes = study.boxes(&folded.motion);
-    // One is measured as the sheet lies, the other after another best fit: the same but for rounding.
+    // The two boxes are measured after different rigid fits, so they differ by rounding.
     let extents = boxes.last().unwrap().extents;
     assert!(extents.abs_diff_eq(folded.compact.extents, 1e-14));
     assert_eq!(boxes.len(), folded.findings.series.len());
@@ -153,7 +152,7 @@ fn an_invalid_recording_is_refused_with_its_flag() {
     assert_eq!(fs::read_dir(home.path()).unwrap().count(), 0);
 }
 
-/// Keeps the states it is shown, and may end the run after some.
+/// An observer that keeps the states, and may end the run after some of them.
 #[derive(Default)]
 struct Seen {
     states: Mutex<Vec<(f64, usize)>>,
@@ -249,7 +248,7 @@ fn a_file_is_opened_by_its_content() {
         }
     }
     assert!(found > 3);
-    // What is no motion is left to the import, which says what is wrong.
+    // A file that is not a motion is opened as a crease pattern, whose import reports the error.
     let broken = home.path().join("broken.fold");
     fs::write(&broken, "{").unwrap();
     let OpenedFile::Scene(source) = open(&broken).unwrap() else {

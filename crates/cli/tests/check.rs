@@ -1,4 +1,4 @@
-//! `foldmotion check` as a user meets it.
+//! `foldmotion check` as a user sees it.
 
 #![expect(
     clippy::unwrap_used,
@@ -18,7 +18,7 @@ fn json_of(path: &Path) -> Value {
     serde_json::from_slice(&fs::read(path).unwrap()).unwrap()
 }
 
-/// Runs a scene for its motion alone; returns the report.
+/// Runs a scene with only the motion file as output; returns the report.
 fn run(home: &Path, scene: &str, set: &[&str]) -> Value {
     let scene = format!("{}/../../scenes/{scene}.toml", env!("CARGO_MANIFEST_DIR"));
     let mut arguments = vec!["run", &scene, "--quiet", "--out", "run"];
@@ -59,7 +59,7 @@ fn agrees(report: &Value, certificate: &Value) {
     }
 }
 
-/// A change that spoils a motion, and words of the refusal.
+/// A change that makes a motion invalid, and a text of the message.
 type Change<'a> = (&'a dyn Fn(&mut Value), &'a str);
 
 #[test]
@@ -92,7 +92,7 @@ fn a_vertex_moved_through_the_sheet_is_a_penetration() {
     run(home.path(), "one-unit", &[]);
     let path = home.path().join("run/motion.fold");
     let mut motion = json_of(&path);
-    // A vertex goes to where another facet is, and beyond.
+    // A vertex is moved through another facet.
     let frame = &mut motion["file_frames"][14]["vertices_coords"];
     let points: Vec<[f64; 3]> = serde_json::from_value(frame.clone()).unwrap();
     let far = points.len() - 1;
@@ -287,7 +287,7 @@ fn a_certificate_of_another_format_is_refused_with_the_reason_and_the_remedy() {
     let written = json_of(&path);
     assert_eq!(written["format"], json!(2));
     let verify = ["check", "book.fold", "--verify", "certificate.json"];
-    // As version 0.1.0 wrote it, without a format and with counts of work.
+    // A certificate as version 0.1.0 wrote it, without a format and with counts of work.
     let mut first = written.clone();
     first.as_object_mut().unwrap().remove("format");
     first["touching_pairs"] = json!(0);
@@ -422,7 +422,7 @@ fn a_motion_whose_last_frames_have_their_layers_exchanged_is_refused() {
     let mut motion = flat_unit(home.path());
     let frames = motion["file_frames"].as_array_mut().unwrap();
     let from = frames.len() - 2;
-    // Mirrored in the plane that the layers close to: each goes to where its counterpart was.
+    // The frames are mirrored in the middle plane of the stack, which exchanges its layers.
     for frame in &mut frames[from..] {
         let mut points: Vec<[f64; 3]> =
             serde_json::from_value(frame["vertices_coords"].clone()).unwrap();

@@ -1,4 +1,4 @@
-//! The binary as a user meets it: exit status, stdout, stderr, files.
+//! The binary as a user sees it: exit status, stdout, stderr, files.
 
 #![expect(
     clippy::unwrap_used,
@@ -125,7 +125,7 @@ fn the_scene_of_init_can_be_run_and_an_existing_file_is_kept() {
         std::fs::read_to_string(home.path().join("mine.toml")).unwrap(),
         written
     );
-    // A penetration is an answer too.
+    // A penetration is a valid result as well.
     let set = [
         "run",
         "mine.toml",
@@ -354,7 +354,7 @@ fn an_interrupt_ends_a_run_at_any_point_and_leaves_no_files() {
         let mut run = command(home.path(), &["run", "lines.svg", "--out", "here/lines"]);
         let mut run = run.stderr(Stdio::piped()).spawn().unwrap();
         let lines = BufReader::new(run.stderr.take().unwrap()).lines();
-        // It folds when it says so.
+        // The interrupt is sent once the engine works.
         let mut lines = lines.map(Result::unwrap);
         assert!(lines.any(|line| line.starts_with("fold")));
         let killed = Command::new("kill")

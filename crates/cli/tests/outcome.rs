@@ -23,7 +23,7 @@ fn json_of(path: &Path) -> Value {
     serde_json::from_slice(&fs::read(path).unwrap()).unwrap()
 }
 
-/// Runs `file` for its motion alone, and returns the output and the report in `out`.
+/// Runs `file` with only the motion file as output; returns the output and the report.
 fn run(home: &Path, file: &str, more: &[&str]) -> (Output, Value) {
     let mut arguments = vec!["run", file, "--out", "out"];
     arguments.extend([
@@ -38,7 +38,7 @@ fn run(home: &Path, file: &str, more: &[&str]) -> (Output, Value) {
     (output, report)
 }
 
-/// A square with a valley from each corner to its middle: its angles fit together in no folded state.
+/// A square with a valley from each corner to its middle, which cannot fold flat.
 fn four_valleys(home: &Path) -> String {
     let pattern = json!({
         "vertices_coords": [[0, 0], [4, 0], [4, 4], [0, 4], [2, 2]],
@@ -51,8 +51,7 @@ fn four_valleys(home: &Path) -> String {
     path.to_string_lossy().into_owned()
 }
 
-/// The outcome stands in the first and the last line, in the report, in the motion file, and on stderr unless it is
-/// `folded`.
+/// The outcome is in the first and the last line, in the report, in the motion file and, unless it is `folded`, on stderr.
 fn assert_is_reported_everywhere(
     home: &Path,
     output: &Output,
@@ -122,7 +121,7 @@ fn an_equilibrium_far_from_the_targets_is_not_reported_as_folded() {
     );
     let angles = &report["fold_angles"];
     assert!(angles["largest_error_deg"].as_f64() > angles["tolerance_deg"].as_f64());
-    // The edge named is one of the four creases.
+    // The named edge is one of the four creases.
     let motion = json_of(&home.path().join("out/motion.fold"));
     let edge = angles["edge"].as_u64().unwrap() as usize;
     assert_eq!(motion["edges_assignment"][edge], "V");
@@ -217,7 +216,7 @@ fn a_status_that_is_not_0_is_explained_even_when_quiet() {
     one_line(&output, 1, "collides at t = ");
     let check = ["check", "out/motion.fold", "--out", "out", "--quiet"];
     one_line(&foldmotion(home.path(), &check), 1, "penetrating");
-    // The claim is made false.
+    // The certificate is made false.
     let path = home.path().join("out/certificate.json");
     let mut certificate = json_of(&path);
     certificate["verdict"] = "free".into();

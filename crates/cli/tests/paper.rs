@@ -1,4 +1,4 @@
-//! `foldmotion paper` as a user meets it: parts, files, reuse, refusals.
+//! `foldmotion paper` as a user sees it: parts, files, reuse, refusals.
 
 #![expect(
     clippy::unwrap_used,

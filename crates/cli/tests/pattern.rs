@@ -1,4 +1,4 @@
-//! `foldmotion pattern` as a user meets it.
+//! `foldmotion pattern` as a user sees it.
 
 #![expect(
     clippy::unwrap_used,
@@ -208,7 +208,7 @@ fn rows_that_clash_are_named_and_drawn() {
     assert!(text(&output.stdout).contains("clashes.svg"));
     let figure = std::fs::read_to_string(folder.join("clashes.svg")).unwrap();
     assert!(figure.contains("</svg>"));
-    // Another fault draws nothing.
+    // Other errors draw nothing.
     let output = pattern(
         home.path(),
         &[&scene("shelter-s"), "--set", "sheet.width=-1.0"],

@@ -1,4 +1,4 @@
-//! `foldmotion record` as a user meets it.
+//! `foldmotion record` as a user sees it.
 
 #![expect(
     clippy::unwrap_used,
