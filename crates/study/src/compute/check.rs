@@ -3,7 +3,7 @@
 use foldmotion_check::{CheckError, Checker, CollisionReport};
 use foldmotion_pattern::{Frame, LayerOrder, Motion};
 
-use super::engine::Computed;
+use super::engine::EngineRun;
 use super::folded::Findings;
 use crate::{Phase, Progress, Study, StudyError};
 
@@ -21,7 +21,7 @@ impl Study {
     pub(crate) fn check(
         &self,
         motion: &Motion,
-        computed: &Computed,
+        computed: &EngineRun,
         progress: Progress<'_>,
     ) -> Result<Findings, StudyError> {
         let (collision, layer_orders) = self.check_frames(motion, progress)?;

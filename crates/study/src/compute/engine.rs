@@ -13,7 +13,7 @@ use crate::{Study, StudyError};
 
 /// A motion as an engine computed it, with a summary of its stages.
 #[derive(Debug)]
-pub(crate) struct Computed {
+pub(crate) struct EngineRun {
     /// The frames in order of time, with positions in the scene's unit.
     pub(crate) frames: Vec<Frame>,
     /// A summary of each stage that was begun.
@@ -59,7 +59,7 @@ impl Study {
         extra_times: &[f64],
         budget: Budget,
         watcher: Watcher<'_>,
-    ) -> Result<Computed, StudyError> {
+    ) -> Result<EngineRun, StudyError> {
         match self.engine {
             EngineChoice::Dynamic => self.fold_dynamically(extra_times, budget, watcher),
             EngineChoice::QuasiStatic => self.fold_in_equilibrium(extra_times, budget, watcher),
@@ -71,7 +71,7 @@ impl Study {
         extra_times: &[f64],
         budget: Budget,
         watcher: Watcher<'_>,
-    ) -> Result<Computed, StudyError> {
+    ) -> Result<EngineRun, StudyError> {
         let options = DynamicOptions {
             stages: self.subject.stages().to_vec(),
             device: self.device,
@@ -106,7 +106,7 @@ impl Study {
                 residual_tolerance: s.tolerance,
             }),
         });
-        Ok(Computed {
+        Ok(EngineRun {
             stages: stages.collect(),
             contacts: Vec::new(),
             jam: None,
@@ -129,7 +129,7 @@ impl Study {
         extra_times: &[f64],
         budget: Budget,
         watcher: Watcher<'_>,
-    ) -> Result<Computed, StudyError> {
+    ) -> Result<EngineRun, StudyError> {
         let contact = self.contact_gap.map(|gap| Contact { gap });
         let options = QuasiStaticOptions {
             stages: self.subject.stages().to_vec(),
@@ -166,7 +166,7 @@ impl Study {
             energy: f.contact_energy,
             count: f.contacts,
         });
-        Ok(Computed {
+        Ok(EngineRun {
             stages: stages.collect(),
             contacts: if self.contact_gap.is_some() {
                 contacts.collect()

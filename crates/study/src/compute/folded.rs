@@ -6,7 +6,7 @@ use foldmotion_check::{CollisionReport, FittedBox, upright_box};
 use foldmotion_pattern::{Frame, LayerOrder, Motion};
 use foldmotion_solver::quasi_static::Jam;
 
-use super::engine::Computed;
+use super::engine::EngineRun;
 use super::fold_angles::FoldAngleReport;
 use super::jam::JamReport;
 use super::outcome::Outcome;
@@ -42,7 +42,7 @@ pub struct Folded {
     pub(crate) stop: Option<StopReport>,
     /// How close the creases came to their targets.
     pub(crate) fold_angles: FoldAngleReport,
-    pub(crate) computed: Computed,
+    pub(crate) computed: EngineRun,
     pub(crate) path: PathReport,
     /// Seconds of all runs of the engine.
     pub(crate) engine_seconds: f64,

@@ -22,7 +22,7 @@ use foldmotion_check::{Verdict, straying};
 use foldmotion_pattern::{Frame, Motion};
 use foldmotion_solver::Budget;
 
-use self::engine::{Computed, StageSummary};
+use self::engine::{EngineRun, StageSummary};
 use self::fold_angles::FoldAngleReport;
 use self::folded::{Findings, Folded};
 use self::jam::JamReport;
@@ -45,7 +45,7 @@ const SHORTEST: f64 = 1e-9;
 
 /// A run of the engine with its check.
 struct CheckedRun {
-    computed: Computed,
+    computed: EngineRun,
     motion: Motion,
     findings: Findings,
     /// The deviation of the straight path after each frame from the computed motion.

@@ -8,7 +8,7 @@ use foldmotion_record::{Curve, Panel};
 use foldmotion_solver::{EnergyByKind, Stage};
 
 use crate::Study;
-use crate::compute::engine::Computed;
+use crate::compute::engine::EngineRun;
 
 /// The figures of one frame.
 #[derive(Debug, Clone, Copy)]
@@ -40,7 +40,7 @@ impl Study {
     pub(crate) fn series(
         &self,
         motion: &Motion,
-        computed: &Computed,
+        computed: &EngineRun,
         separations: &[f64],
     ) -> Vec<FrameFigures> {
         let mut angles = vec![0.0; self.model.hinges.len()];

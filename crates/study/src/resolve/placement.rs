@@ -112,14 +112,14 @@ mod tests {
     use foldmotion_solver::Budget;
 
     use super::*;
-    use crate::compute::engine::Computed;
+    use crate::compute::engine::EngineRun;
     use crate::{SceneSource, Study};
 
     /// Frames of the test motions.
     const FRAMES: usize = 120;
 
     /// The motion of a shelter without contact as the engine leaves it: facets with one diagonal let it turn.
-    fn folded(sheet: &str) -> (Study, Computed) {
+    fn folded(sheet: &str) -> (Study, EngineRun) {
         let scene = format!(
             "[profile]\nmodel = \"shelter\"\n[sheet]\n{sheet}\n[material]\nfacet_model = \"one-diagonal\"\n\
              [motion]\ncontact = false\nframes = {FRAMES}\n"
