@@ -24,8 +24,8 @@ pub struct CollisionSection {
     /// The first penetration between two facets of the same unit, which no path of its neighbours avoids; null if
     /// there is none.
     pub first_within_unit: Option<PenetrationReport>,
-    /// Where the check ended early because of `check.stop_at`; later frames were not judged. Null if all frames were
-    /// judged.
+    /// Where the check ended early because of `check.stop_at`; later frames were not checked. Null if all frames were
+    /// checked.
     pub stopped: Option<Stopped>,
     /// The number of pairs of triangles that penetrate somewhere.
     pub penetrating_pairs: usize,

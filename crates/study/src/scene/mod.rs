@@ -48,7 +48,7 @@ pub struct Scene {
     /// The engine, its frames, contact and the schedule.
     #[serde(default)]
     pub motion: MotionScene,
-    /// How the collision check judges the motion.
+    /// The options of the collision check.
     #[serde(default)]
     pub check: CheckScene,
     /// Which files are written of the motion, and how films and figures look.
@@ -392,7 +392,7 @@ pub struct CheckScene {
     /// The tolerance τ of the verdict: facets that overlap by no more than this touch.
     #[schemars(extend("default" = 1e-6, "x-unit" = "h, or the mean edge of a pattern", "minimum" = 0, "maximum" = 0.01))]
     pub touch_tolerance: Option<f64>,
-    /// If more pairs of triangles than this penetrate, later frames are not judged; 0 means no limit.
+    /// If more pairs of triangles than this penetrate, later frames are not checked; 0 means no limit.
     #[schemars(extend("default" = 4096, "minimum" = 0))]
     pub stop_at: Option<i64>,
 }
