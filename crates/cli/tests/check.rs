@@ -321,7 +321,7 @@ fn a_check_that_stops_early_says_so_and_is_verified_up_to_there() {
     let of_run = fs::read(home.path().join("run/certificate.json")).unwrap();
     let arguments = ["check", "run/motion.fold", "--out", ".", "--stop-at", "1"];
     let output = foldmotion(home.path(), &arguments);
-    let (out, err) = (text(&output.stdout), text(&output.stderr));
+    let out = text(&output.stdout);
     assert_status(&output, 1);
     assert!(out.contains("the check stopped at frame "), "{out}");
     let path = home.path().join("certificate.json");

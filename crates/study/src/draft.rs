@@ -50,10 +50,7 @@ impl Draft {
     /// Every unusable value, with file, line, key, value and remedy.
     pub fn resolve(source: &SceneSource) -> Result<Self, StudyError> {
         let scene = source.scene()?;
-        let input = Input {
-            source,
-            scene: &scene,
-        };
+        let input = Input::new(source, &scene);
         if let Some(pattern) = &scene.pattern {
             return Ok(Self::Imported(Box::new(imported(&input, pattern)?)));
         }

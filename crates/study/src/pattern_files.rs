@@ -96,10 +96,7 @@ impl PatternStudy {
     /// Every unusable value, with file, line, key, value and remedy.
     pub fn resolve(source: &SceneSource) -> Result<Self, StudyError> {
         let scene = source.scene()?;
-        let input = Input {
-            source,
-            scene: &scene,
-        };
+        let input = Input::new(source, &scene);
         if scene.pattern.is_some() {
             let message = "is already a crease pattern; only the sheet of a profile can be written for cutting";
             return Err(input.error("pattern.file", message));

@@ -107,10 +107,7 @@ pub(super) fn recording(record: &RecordScene) -> Result<Recording, StudyError> {
         record,
         ..Scene::default()
     };
-    let input = Input {
-        source: &source,
-        scene: &scene,
-    };
+    let input = Input::new(&source, &scene);
     resolved(&input, input.title(None))
 }
 

@@ -51,10 +51,7 @@ impl Study {
             record: record.clone(),
             ..self.recording.scene.clone()
         };
-        let input = Input {
-            source: &source,
-            scene: &scene,
-        };
+        let input = Input::new(&source, &scene);
         resolved(&input, self.title.clone())
     }
 

@@ -16,7 +16,11 @@ pub(crate) struct Input<'a> {
     pub(crate) scene: &'a Scene,
 }
 
-impl Input<'_> {
+impl<'a> Input<'a> {
+    pub(crate) fn new(source: &'a SceneSource, scene: &'a Scene) -> Self {
+        Self { source, scene }
+    }
+
     /// The title of the scene. Default: the title of the pattern or the name of the file.
     pub(crate) fn title(&self, for_pattern: Option<&String>) -> String {
         let own = self.scene.title.as_ref().or(for_pattern);

@@ -72,10 +72,7 @@ impl Study {
     /// The first unusable value, with file, line, key, value and remedy; for an imported pattern with the element.
     pub fn resolve(source: &SceneSource) -> Result<Self, StudyError> {
         let scene = source.scene()?;
-        let input = Input {
-            source,
-            scene: &scene,
-        };
+        let input = Input::new(source, &scene);
         let (subject, schedule) = if let Some(pattern) = &scene.pattern {
             let imported = imported::imported(&input, pattern)?;
             let schedule = imported::imported_schedule(&input, &imported)?;

@@ -143,10 +143,7 @@ pub(crate) fn steps_of(
 /// Those of [`Study::resolve`](crate::Study::resolve), except for rows that clash.
 pub fn clash_drawing(source: &SceneSource) -> Result<Option<String>, StudyError> {
     let scene = source.scene()?;
-    let input = Input {
-        source,
-        scene: &scene,
-    };
+    let input = Input::new(source, &scene);
     let curve = curve(&input)?;
     let division = division(&input, &curve)?.division;
     if division.max_residual <= EQUAL_ROWS {

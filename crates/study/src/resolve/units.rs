@@ -52,10 +52,7 @@ impl UnitStudy {
     /// The first unusable value, with file, line, key, value and remedy.
     pub fn resolve(source: &SceneSource) -> Result<Self, StudyError> {
         let scene = source.scene()?;
-        let input = Input {
-            source,
-            scene: &scene,
-        };
+        let input = Input::new(source, &scene);
         Ok(unit_study(&input)?.0)
     }
 
