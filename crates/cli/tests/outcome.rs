@@ -197,7 +197,7 @@ fn a_status_that_is_not_0_is_explained_even_when_quiet() {
     let home = tempfile::tempdir().unwrap();
     let one_line = |output: &Output, status: i32, word: &str| {
         let err = text(&output.stderr);
-        assert_status(&output, status);
+        assert_status(output, status);
         assert_eq!(text(&output.stdout), "");
         assert_eq!(err.lines().count(), 1, "{err}");
         assert!(
