@@ -1,6 +1,5 @@
 //! The motions of the paper: without contact for the compact boxes, with contact for certificates and figure A1.
 
-use foldmotion_check::relative_error;
 use foldmotion_pattern::{Case, Frame};
 use foldmotion_record::positions_at;
 use glam::DVec3;
@@ -97,11 +96,7 @@ fn fold(study: &Study, contact: bool, done: PartProgress<'_>) -> Result<StoredMo
         reached_t,
         jam_t: folded.jam().map(|jam| jam.time),
         peak_strain: strains.fold(0.0, f64::max),
-        compact: BoxReport {
-            extents: folded.compact.extents.into(),
-            area: folded.compact.area,
-            volume: folded.compact.volume,
-        },
+        compact: BoxReport::from(&folded.compact),
         rms_to_exact: folded
             .compact
             .rms_to_exact
@@ -117,14 +112,7 @@ fn fold(study: &Study, contact: bool, done: PartProgress<'_>) -> Result<StoredMo
 }
 
 fn error_of(study: &Study, measured: &foldmotion_check::FittedBox) -> ErrorReport {
-    let closed = study
-        .subject
-        .closed_form()
-        .map_or([0.0; 3], |form| form.extents);
-    let error = relative_error(measured, closed.into(), study.subject.sheet().unit_length);
-    ErrorReport {
-        extents: error.extents.into(),
-        area: error.area,
-        volume: error.volume,
-    }
+    let closed_form = study.subject.closed_form();
+    let extents = closed_form.map_or([0.0; 3], |form| form.extents);
+    ErrorReport::new(measured, extents, study.subject.sheet().unit_length)
 }

@@ -101,6 +101,28 @@ impl From<CompactBox> for BoxReport {
     }
 }
 
+impl From<&FittedBox> for BoxReport {
+    fn from(b: &FittedBox) -> Self {
+        Self {
+            extents: b.extents.into(),
+            area: b.area,
+            volume: b.volume,
+        }
+    }
+}
+
+impl ErrorReport {
+    /// The errors of a box against the extents of its closed form, for units of the height `h`.
+    pub fn new(measured: &FittedBox, closed_form: [f64; 3], h: f64) -> Self {
+        let error = relative_error(measured, closed_form.into(), h);
+        Self {
+            extents: error.extents.into(),
+            area: error.area,
+            volume: error.volume,
+        }
+    }
+}
+
 impl From<SkinPlane> for SkinPlaneReport {
     fn from(plane: SkinPlane) -> Self {
         let SkinPlane {
@@ -127,14 +149,8 @@ impl Study {
         last: Option<&Frame>,
     ) -> CompactReport {
         let h = self.subject.sheet().unit_length;
-        let error = self.subject.closed_form().map(|closed| {
-            let error = relative_error(measured, closed.extents.into(), h);
-            ErrorReport {
-                extents: error.extents.into(),
-                area: error.area,
-                volume: error.volume,
-            }
-        });
+        let closed_form = self.subject.closed_form();
+        let error = closed_form.map(|form| ErrorReport::new(measured, form.extents, h));
         CompactReport {
             extents: measured.extents.into(),
             area: measured.area,
