@@ -1,1 +1,1 @@
-//! Home of the whole-program tests in `whole.rs`.
+//! The package of the whole-program tests, which are in `whole/`.

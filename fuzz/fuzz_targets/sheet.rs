@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use foldmotion_pattern::{Assignment, ImportedPattern};
 
-/// Stops where an import is no sheet.
+/// Panics if an import is not a valid sheet.
 pub fn check(imported: &ImportedPattern) {
     let sheet = &imported.sheet;
     let mut sides = BTreeMap::new();

@@ -1,4 +1,4 @@
-//! The seeds of the fuzz targets, replayed: each is read or refused, and so is what becomes of it when bytes change.
+//! Replays the seeds of the fuzz targets: each seed, and each seed with changed bytes, is read or refused.
 
 use std::path::{Path, PathBuf};
 

@@ -35,7 +35,7 @@ fn run(path: &Path, set: &[&str]) -> (Report, Value) {
     let study = study(path, &[&few, set].concat());
     let report = study.run(folder.path(), &|_, _| true).unwrap();
     let text = std::fs::read_to_string(folder.path().join("motion.fold")).unwrap();
-    // Whoever reads the file comes to the same verdict.
+    // A check of the file gives the same verdict.
     let path = folder.path().join("motion.fold");
     let checked = check_file(&path, &CheckOptions::default(), &|_, _| true).unwrap();
     assert_eq!(checked.certificate.verdict, report.collision.verdict);
@@ -130,7 +130,7 @@ fn a_miura_sheet_folds_along_the_closed_form_of_its_rigid_motion() {
         }
     }
     assert!(compared >= 100);
-    // All layers lie on one parallelogram, but for the gaps between them.
+    // All layers are on one parallelogram, except for the gaps between them.
     let [_, _, height] = report.compact.extents;
     assert!(height < 0.02, "{:?}", report.compact);
 }
@@ -157,7 +157,7 @@ fn the_report_of_an_import_has_no_unit_and_starts_at_the_flat_sheet() {
 }
 
 #[test]
-fn a_square_twist_strains_or_bends_its_facets_for_it_is_not_rigid() {
+fn a_square_twist_strains_or_bends_its_facets_because_it_is_not_rigid_foldable() {
     let (soft, _) = run(&example("square-twist.svg"), &[]);
     assert_eq!((soft.status(), soft.collision.verdict.name()), (0, "free"));
     assert!(soft.stages[0].peak_strain > 0.02);
@@ -190,7 +190,7 @@ fn a_card_with_cuts_pops_up_without_strain() {
 #[test]
 fn a_frame_with_a_hole_folds_in_steps_and_one_facet_stays_in_place() {
     let (report, motion) = run(&example("frame.toml"), &[]);
-    // Its mitres do not allow 108 degrees at all four corners: it comes to rest before, and says so.
+    // Its mitres do not allow 108 degrees at all four corners: it comes to rest before, and the outcome says so.
     assert_eq!(report.outcome.kind, OutcomeKind::NotConverged);
     assert!(report.fold_angles.largest_error_deg > 20.0);
     assert_eq!((report.status(), report.length_unit.as_str()), (3, "cm"));
@@ -232,7 +232,7 @@ fn a_frame_with_a_hole_folds_in_steps_and_one_facet_stays_in_place() {
 }
 
 #[test]
-fn a_crane_and_a_bird_base_that_do_not_come_to_their_end_are_said_to() {
+fn a_crane_and_a_bird_base_are_reported_not_to_reach_their_end() {
     for name in ["bird-base.fold", "crane.svg"] {
         let (report, _) = run(&example(name), &[]);
         assert_eq!(report.status(), 3, "{name}");
@@ -284,7 +284,7 @@ fn frames_with_angles_are_stages_and_the_last_is_the_end() {
     assert_near(strip_angles(&motion, 2.0), [120.0, -60.0]);
     let dynamic = ["motion.engine=dynamic", "pattern.fold_percent=50"];
     let (_, motion) = run_fold(&strip(), &dynamic);
-    // On its way the dynamic engine lags behind a little.
+    // The dynamic engine lags behind a little during the motion.
     let [valley, mountain] = strip_angles(&motion, 1.5);
     assert!((valley - 45.0).abs() < 0.1 && mountain.abs() < 0.1);
     assert_near(strip_angles(&motion, 2.0), [15.0, -40.0]);
@@ -298,7 +298,7 @@ fn a_negative_percentage_folds_inside_out() {
 }
 
 #[test]
-fn unknown_keys_and_the_unit_survive_into_the_motion_file() {
+fn unknown_keys_and_the_unit_are_preserved_in_the_motion_file() {
     let (report, motion) = run_fold(&strip(), &[]);
     assert_eq!(report.length_unit, "mm");
     assert_eq!(motion["frame_unit"], "mm");

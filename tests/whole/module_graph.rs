@@ -49,7 +49,7 @@ impl Crate {
                 folder.join(&name).join("mod.rs"),
             ];
             if let Some(file) = files.iter().find(|file| file.exists()) {
-                let child = [module, &[name.clone()]].concat();
+                let child = [module, std::slice::from_ref(&name)].concat();
                 self.add_module(file, &child, &folder.join(name));
             }
         }
@@ -112,7 +112,7 @@ impl Crate {
         }
     }
 
-    /// Every cycle: the children of a parent that use each other in a circle.
+    /// All cycles, as the children of a parent that use each other.
     fn cycles(&self) -> Vec<String> {
         let parents: BTreeSet<Module> = self
             .texts
@@ -183,7 +183,7 @@ fn stripped(text: &str) -> String {
     }
 }
 
-/// The modules that lie in files of their own.
+/// The modules that have their own files.
 fn declared_modules(text: &str) -> Vec<String> {
     let declarations = text
         .lines()
@@ -205,7 +205,7 @@ fn use_trees(text: &str) -> (Vec<String>, String) {
         let is_word = text[..start]
             .chars()
             .next_back()
-            .is_none_or(|c| c.is_whitespace());
+            .is_none_or(char::is_whitespace);
         let Some(end) = text[start..].find(';').filter(|_| is_word) else {
             rest.push_str(&text[..start + 4]);
             text = &text[start + 4..];

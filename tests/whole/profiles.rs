@@ -1,4 +1,4 @@
-//! Profiles: every built-in one becomes a sheet in every case.
+//! Built-in profiles and outline files become sheets.
 
 use std::path::Path;
 
@@ -55,7 +55,7 @@ fn built_in_profiles_resolve_with_fewer_rows() {
     }
 }
 
-/// A folder with an outline file and the scene beside it that names it.
+/// A folder with an outline file and a scene that names it.
 fn beside(name: &str, outline: &str, more: &str) -> (tempfile::TempDir, SceneSource) {
     let folder = tempfile::tempdir().unwrap();
     std::fs::write(folder.path().join(name), outline).unwrap();
@@ -113,7 +113,7 @@ fn a_drawing_may_close_its_polyline_by_a_long_side_and_be_a_chain_of_lines() {
 }
 
 #[test]
-fn outlines_with_faults_are_refused_with_file_line_value_and_remedy() {
+fn bad_outlines_are_refused_with_file_line_value_and_remedy() {
     let repeated = "0,0\n1,1\n1,1\n2,0\n";
     let crossing = "0,0\n4,4\n4,0\n0,4\n";
     let many = (0..20_001)
@@ -194,7 +194,7 @@ fn unequal_divisions_are_refused_with_their_fit_unless_their_segments_are_equal(
 }
 
 #[test]
-fn a_douglas_peucker_tolerance_stands_for_the_rows_and_must_leave_two_segments() {
+fn a_douglas_peucker_tolerance_replaces_the_rows_and_must_leave_two_segments() {
     let scene = |tolerance: &str, more: &str| {
         format!(
             "[profile]\nmodel = \"omega\"\n[division]\nmethod = \"douglas-peucker\"\ntolerance = {tolerance}\n{more}"

@@ -1,4 +1,4 @@
-//! Every output of a run and of a motion file, read back by readers that are not ours, and made again.
+//! Every output of a run and of a motion file is read back by independent readers, and reproduced.
 
 use std::fs::{self, File};
 use std::path::{Path, PathBuf};
@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use foldmotion_study::scene::{
     CameraChoice, CameraScene, ColourChoice, HoldScene, OutputChoice, RecordScene, ThickenedScene,
 };
-use foldmotion_study::{Again, Report, SceneSource, Study, record_again, record_file};
+use foldmotion_study::{Report, Reproduction, SceneSource, Study, record_file, reproduce_file};
 use tempfile::TempDir;
 
 const SMALL: [&str; 5] = [
@@ -39,9 +39,9 @@ fn everything() -> (TempDir, PathBuf, Report) {
     (home, folder, report)
 }
 
-fn again(file: &Path, motion: Option<&Path>, out: &Path) -> Again {
+fn again(file: &Path, motion: Option<&Path>, out: &Path) -> Reproduction {
     fs::create_dir_all(out).unwrap();
-    record_again(file, motion, Some(out), false, &|_, _| true).unwrap()
+    reproduce_file(file, motion, Some(out), false, &|_, _| true).unwrap()
 }
 
 /// The pictures of a GIF, and the hundredths of a second they last together.
@@ -121,7 +121,7 @@ fn one_run_writes_every_output_and_other_readers_open_them() {
 }
 
 #[test]
-fn every_file_of_a_run_is_made_again_with_the_same_bytes() {
+fn every_file_of_a_run_is_reproduced_with_the_same_bytes() {
     let (home, folder, _) = everything();
     let out = home.path().join("again");
     for name in [
@@ -139,7 +139,8 @@ fn every_file_of_a_run_is_made_again_with_the_same_bytes() {
         let bytes = [&made.path, &folder.join(name)].map(|p| fs::read(p).unwrap());
         assert!(bytes[0] == bytes[1], "{name}");
     }
-    let beside = record_again(&folder.join("figure.svg"), None, None, false, &|_, _| true).unwrap();
+    let beside =
+        reproduce_file(&folder.join("figure.svg"), None, None, false, &|_, _| true).unwrap();
     assert_eq!(beside.path, folder.join("figure-again.svg"));
     assert_eq!(
         fs::read_dir(home.path()).unwrap().count(),
@@ -149,20 +150,20 @@ fn every_file_of_a_run_is_made_again_with_the_same_bytes() {
 }
 
 #[test]
-fn files_that_do_not_say_where_they_come_from_are_refused() {
+fn files_without_source_information_are_refused() {
     let (home, folder, _) = everything();
     let refusal = |file: &Path| {
-        let error = record_again(file, None, Some(home.path()), false, &|_, _| true).unwrap_err();
+        let error = reproduce_file(file, None, Some(home.path()), false, &|_, _| true).unwrap_err();
         assert_eq!(error.status(), 2, "{error}");
         error.to_string()
     };
-    assert!(refusal(&folder.join("state-1.stl")).contains("of a stl use the obj"));
-    assert!(refusal(&folder.join("report.json")).contains("nothing of its origin"));
+    assert!(refusal(&folder.join("state-1.stl")).contains("for an stl file, use the obj"));
+    assert!(refusal(&folder.join("report.json")).contains("no source information"));
     assert!(refusal(&folder.join("missing.gif")).contains("missing.gif"));
     let renamed = folder.join("first.png");
     fs::copy(folder.join("frames/0001.png"), &renamed).unwrap();
     assert!(refusal(&renamed).contains("frames/first.png"));
-    // A file cut anywhere in what it says is refused, never taken for another.
+    // A file whose source information is truncated anywhere is refused.
     let obj = fs::read_to_string(folder.join("state-1.obj")).unwrap();
     let cut = folder.join("cut.obj");
     for lines in 0..6 {
@@ -173,7 +174,7 @@ fn files_that_do_not_say_where_they_come_from_are_refused() {
 }
 
 #[test]
-fn another_version_or_motion_is_told() {
+fn another_version_or_motion_is_reported() {
     let (home, folder, _) = everything();
     let obj = fs::read_to_string(folder.join("state-1.obj")).unwrap();
     let version = format!("version = \"{}\"", env!("CARGO_PKG_VERSION"));
@@ -188,7 +189,7 @@ fn another_version_or_motion_is_told() {
 }
 
 #[test]
-fn pictures_of_a_longer_film_go_and_other_files_stay() {
+fn pictures_of_a_longer_film_are_removed_and_other_files_are_kept() {
     let home = tempfile::tempdir().unwrap();
     let folder = home.path().join("unit");
     run(&folder, &["record.outputs=[\"png\", \"obj\"]"]);
@@ -229,7 +230,7 @@ fn outputs_do_not_depend_on_the_threads_nor_on_each_other() {
     }
 }
 
-/// A FOLD file that is not ours: a square that folds along its diagonal in three frames, without times.
+/// A FOLD file of another program: a square that folds along its diagonal in three frames without times.
 const SQUARE: &str = r#"{"file_spec": 1.1, "file_title": "a square", "frame_classes": ["creasePattern"], "frame_unit": "mm",
 "vertices_coords": [[0, 0], [10, 0], [10, 10], [0, 10]],
 "edges_vertices": [[0, 1], [1, 2], [2, 3], [3, 0], [0, 2]], "edges_assignment": ["B", "B", "B", "B", "V"],
@@ -256,7 +257,7 @@ fn small(outputs: &[OutputChoice]) -> RecordScene {
 }
 
 #[test]
-fn any_fold_motion_is_recorded_in_metres_and_made_again() {
+fn any_fold_motion_is_recorded_in_metres_and_reproduced() {
     let home = tempfile::tempdir().unwrap();
     let motion = square(home.path());
     let record = RecordScene {
@@ -279,7 +280,7 @@ fn any_fold_motion_is_recorded_in_metres_and_made_again() {
     };
     let folder = home.path().join("out");
     let recorded = record_file(&motion, &record, &folder, &|_, _| true).unwrap();
-    assert!(!recorded.is_judged);
+    assert!(!recorded.is_checked);
     // One stage of 5 s, from planar to compact.
     assert_eq!(gif_pictures(&folder.join("motion.gif")).0, 26);
     let obj = fs::read_to_string(folder.join("state-1.obj")).unwrap();
@@ -302,7 +303,7 @@ fn any_fold_motion_is_recorded_in_metres_and_made_again() {
         "state-1.obj",
         "frames/0002.png",
     ] {
-        // The motion lies in the folder above; of pictures it is named.
+        // The motion is in the parent folder; for pictures it is specified.
         let named = name.contains('/').then_some(motion.as_path());
         let made = again(&folder.join(name), named, &home.path().join("again"));
         assert!(made.is_same && made.warnings.is_empty(), "{name}: {made:?}");
@@ -310,14 +311,14 @@ fn any_fold_motion_is_recorded_in_metres_and_made_again() {
 }
 
 #[test]
-fn files_beside_those_of_a_motion_stay() {
+fn other_files_in_the_folder_of_a_motion_are_kept() {
     let (_home, folder, _) = everything();
     let before = fs::read(folder.join("motion.gif")).unwrap();
     let record = small(&[OutputChoice::Svg]);
     let motion = folder.join("motion.fold");
     let recorded = record_file(&motion, &record, &folder, &|_, _| true).unwrap();
     assert_eq!(recorded.files, ["figure.svg"]);
-    assert!(recorded.is_judged, "its certificate lies beside it");
+    assert!(recorded.is_checked, "its certificate lies beside it");
     for name in [
         "report.json",
         "motion.fold",
@@ -330,7 +331,7 @@ fn files_beside_those_of_a_motion_stay() {
 }
 
 #[test]
-fn what_a_motion_cannot_show_is_refused_by_flag_and_value() {
+fn outputs_that_a_motion_cannot_have_are_refused_with_flag_and_value() {
     let home = tempfile::tempdir().unwrap();
     let motion = square(home.path());
     let folder = home.path().join("out");
@@ -354,7 +355,7 @@ fn what_a_motion_cannot_show_is_refused_by_flag_and_value() {
     };
     refusal(at(&[0.5, 1.0]), &["--at", "0.5", "t = 1 to 2"]);
     refusal(at(&[2.5]), &["--at", "2.5"]);
-    refusal(at(&[2.0, 1.0]), &["--at", "rise"]);
+    refusal(at(&[2.0, 1.0]), &["--at", "rising"]);
     let wide = RecordScene {
         size: Some([5000, 48]),
         ..small(&[OutputChoice::Mp4])

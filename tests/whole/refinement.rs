@@ -1,4 +1,4 @@
-//! Where the recorded frames leave the verdict open, the engine records more.
+//! If the recorded frames leave the verdict open, the engine records more.
 
 use std::path::Path;
 
@@ -41,7 +41,7 @@ fn a_coarse_recording_is_refined_until_its_verdict_is_that_of_the_motion() {
 }
 
 #[test]
-fn a_motion_that_does_cross_is_refined_no_further_than_shows_it() {
+fn a_motion_that_crosses_itself_is_refined_no_further_than_necessary() {
     let folder = tempfile::tempdir().unwrap();
     let none = "record.outputs=[]";
     let coarse = run(
@@ -78,7 +78,7 @@ fn frames(folder: &Path) -> Vec<Frame> {
 /// Every other frame of a motion, against the chords of the rest. The sheet is free in space and drifts a little
 /// unevenly, so an estimate from second differences misses here and there.
 #[test]
-fn the_straying_reported_is_that_of_the_frames_between() {
+fn the_reported_straying_is_that_of_intermediate_frames() {
     let folder = tempfile::tempdir().unwrap();
     let set = ["motion.frames=48", "record.outputs=[\"fold\"]"];
     let report = run("shelter-s", &set, folder.path());

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use foldmotion_study::{Report, SceneSource, Study, draw_clashes};
+use foldmotion_study::{Report, SceneSource, Study, clash_drawing};
 
 fn source(scene: &str, set: &[&str]) -> SceneSource {
     let scenes = Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenes");
@@ -99,13 +99,13 @@ fn rows_in_cases_that_clash_are_refused_by_name_and_drawn() {
         message.contains("sheet.unequal") && message.contains("clash"),
         "{message}"
     );
-    let svg = draw_clashes(&own).unwrap().unwrap();
+    let svg = clash_drawing(&own).unwrap().unwrap();
     assert!(svg.contains("class=\"clash\""));
-    assert_eq!(draw_clashes(&source("shelter-s", &[])).unwrap(), None);
+    assert_eq!(clash_drawing(&source("shelter-s", &[])).unwrap(), None);
 }
 
 #[test]
-fn unequal_rows_are_refused_unless_the_scene_says_how_to_meet() {
+fn unequal_rows_are_refused_unless_the_scene_allows_them() {
     let error = Study::resolve(&source("shelter-unequal", &["sheet.unequal=refuse"])).unwrap_err();
     assert!(error.to_string().contains("common-flap"), "{error}");
     let error = Study::resolve(&source("shelter-unequal", &["sheet.case=S"])).unwrap_err();

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use foldmotion_study::report::OutcomeKind;
 use foldmotion_study::{CheckOptions, Report, SceneSource, Study, check_file};
 
-/// What a scene must come to.
+/// The expected result of a scene.
 struct Expected {
     scene: &'static str,
     verdict: &'static str,
@@ -96,7 +96,7 @@ fn worst_box_error(report: &Report) -> Option<f64> {
 }
 
 #[test]
-fn every_scene_comes_to_its_verdict_and_writes_its_files() {
+fn every_scene_has_its_verdict_and_writes_its_files() {
     let home = tempfile::tempdir().unwrap();
     for Expected {
         scene,
@@ -214,7 +214,7 @@ fn without_contact_the_quasi_static_engine_ends_on_the_exact_compact_state_at_an
     }
 }
 
-/// Its bars are so stiff that it gives way bit by bit: with these numbers of frames load steps shrank without end.
+/// The stiff sheet snaps many times: with these numbers of frames, load steps once shrank without limit.
 #[test]
 fn a_near_rigid_sheet_without_contact_folds_up_whatever_the_number_of_frames() {
     for frames in [180, 200, 240] {
@@ -258,7 +258,7 @@ fn contact_stops_short_plain_rectangles_and_names_what_blocks() {
     );
 }
 
-/// It jams at t = 2 with layers stacked otherwise than in the compact state.
+/// The sheet jams at t = 2 with another stack of layers than in the compact state.
 #[test]
 fn a_jammed_sheet_claims_no_order_of_layers_that_it_does_not_have() {
     let home = tempfile::tempdir().unwrap();
@@ -372,7 +372,7 @@ fn results_are_the_same_bytes_for_one_thread_and_for_two() {
 
 /// The growing direction lies along x, the width along y, the flaps along −z in the last frame.
 #[test]
-fn the_compact_frame_of_the_file_is_the_right_way_up() {
+fn the_compact_frame_of_the_file_has_the_right_orientation() {
     let home = tempfile::tempdir().unwrap();
     run(
         "shelter-s",

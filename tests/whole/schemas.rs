@@ -7,7 +7,7 @@ use foldmotion_study::scene::fields::{fields, reference};
 use foldmotion_study::{certificate_schema, report_schema, scene_schema};
 use serde_json::Value;
 
-/// The shortest description that says something.
+/// The smallest length of a description.
 const SHORTEST: usize = 30;
 
 /// Compares a file of the repository with what the program makes of it, or writes it if `UPDATE_SCHEMAS` is set.
@@ -88,7 +88,7 @@ fn every_key_of_the_schemas_is_described_in_thirty_characters_or_more() {
 }
 
 #[test]
-fn every_key_of_a_scene_says_what_holds_if_it_is_omitted() {
+fn every_key_of_a_scene_has_a_default_unless_it_is_required() {
     // What a scene must say, what has no value by default, and lists.
     let without = [
         "profile.model",

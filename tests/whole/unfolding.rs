@@ -1,4 +1,4 @@
-//! Stage 1: uniform where that is proved clear, by energy where it would cross.
+//! Stage `unfold`: uniform if that is proved clear, by energy if the profile would cross itself.
 
 use std::path::Path;
 
@@ -83,7 +83,7 @@ fn a_fermat_spiral_unfolded_uniformly_penetrates_and_by_energy_does_not() {
 }
 
 #[test]
-fn a_shelter_unfolds_uniformly_unless_energy_is_asked_for() {
+fn a_shelter_unfolds_uniformly_unless_energy_is_requested() {
     for (asked, method) in [
         ("auto", "uniform"),
         ("uniform", "uniform"),
@@ -91,7 +91,7 @@ fn a_shelter_unfolds_uniformly_unless_energy_is_asked_for() {
     ] {
         let unfolding = unfolding("shelter-e", &[&format!("motion.unfold={asked}")]);
         assert_eq!(
-            (unfolding.method().name(), unfolding.asked.name()),
+            (unfolding.method().name(), unfolding.requested.name()),
             (method, asked)
         );
         assert!(
@@ -121,7 +121,7 @@ fn a_shelter_unfolds_uniformly_unless_energy_is_asked_for() {
 }
 
 #[test]
-fn every_built_in_profile_unfolds_on_a_way_proved_clear() {
+fn every_built_in_profile_unfolds_on_a_path_proved_clear() {
     for model in models() {
         let name = format!("profile.model={}", model.name);
         let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenes/spiral-energy.toml");

@@ -1,4 +1,4 @@
-//! Motions with a known truth, and the same motions turned, cut otherwise and reversed: the verdict is that of the sheet.
+//! Motions with a known verdict, which stays the same if they are rotated, triangulated differently or reversed.
 
 use std::fs;
 use std::path::Path;
@@ -8,7 +8,7 @@ use foldmotion_study::{CheckOptions, check_file, verify_file};
 use foldmotion_verify::Verification;
 use serde_json::{Value, json};
 
-/// File, verdict, and the smallest separation where it is told.
+/// The name of the file, the verdict, and the smallest separation if it is known.
 const CASES: [(&str, Verdict, Option<f64>); 13] = [
     ("diag_square_through_square", Verdict::Penetrating, None),
     ("diag_other_diagonal", Verdict::Penetrating, None),
@@ -31,16 +31,16 @@ fn read(name: &str) -> Value {
     serde_json::from_str(&text).unwrap()
 }
 
-/// What came of a motion.
-struct Judged {
+/// The results of both proofs.
+struct Checked {
     verdict: Verdict,
     /// In units of the unit of length.
     separation: Option<f64>,
     verification: Verification,
 }
 
-/// Judges a motion and proves its certificate again.
-fn judge(motion: &Value) -> Judged {
+/// Checks a motion and verifies its certificate.
+fn check(motion: &Value) -> Checked {
     let home = tempfile::tempdir().unwrap();
     let [path, certificate] = ["motion.fold", "certificate.json"].map(|n| home.path().join(n));
     fs::write(&path, motion.to_string()).unwrap();
@@ -48,7 +48,7 @@ fn judge(motion: &Value) -> Judged {
     let stated = &checked.certificate;
     fs::write(&certificate, stated.to_json()).unwrap();
     let verified = verify_file(&path, &certificate, &|_, _| true).unwrap();
-    Judged {
+    Checked {
         verdict: stated.verdict,
         separation: stated.min_separation.as_ref().map(|s| s.distance),
         verification: verified.verification,
@@ -101,7 +101,7 @@ fn rotated(motion: &Value, (order, sign): ([usize; 3], [f64; 3])) -> Value {
     motion
 }
 
-/// Quads cut along the one diagonal or the other.
+/// The motion with quadrilaterals cut along one diagonal or the other.
 fn cut(motion: &Value, shift: usize) -> Value {
     let mut motion = motion.clone();
     let faces = motion["faces_vertices"].as_array().unwrap().clone();
@@ -162,16 +162,16 @@ fn swapped(motion: &Value) -> Value {
 
 /// Checks verdict and separation, and that the second proof says the same.
 fn is_true(name: &str, what: &str, motion: &Value, truth: (Verdict, Option<f64>)) {
-    let judged = judge(motion);
-    assert_eq!(judged.verdict, truth.0, "{name}, {what}");
-    let verification = judged.verification;
+    let checked = check(motion);
+    assert_eq!(checked.verdict, truth.0, "{name}, {what}");
+    let verification = checked.verification;
     assert!(
         verification.is_verified(),
         "{name}, {what}: {verification:?}"
     );
     if let Some(expected) = truth.1 {
-        let found = judged.separation.unwrap();
-        // The truth is told in three digits; the stated bound may be smaller by τ/100.
+        let found = checked.separation.unwrap();
+        // The expected value has three digits; the stated bound may be smaller by τ/100.
         assert!(found <= 1.005 * expected, "{name}, {what}: {found}");
         assert!(found >= 0.99 * expected - 2e-8, "{name}, {what}: {found}");
     }
@@ -179,9 +179,9 @@ fn is_true(name: &str, what: &str, motion: &Value, truth: (Verdict, Option<f64>)
 
 /// Checks the verdict, and that the second proof does not refute it; cut into more triangles it may leave some pairs open.
 fn is_not_refuted(name: &str, what: &str, motion: &Value, truth: Verdict) {
-    let judged = judge(motion);
-    assert_eq!(judged.verdict, truth, "{name}, {what}");
-    let refuted = judged.verification.refuted;
+    let checked = check(motion);
+    assert_eq!(checked.verdict, truth, "{name}, {what}");
+    let refuted = checked.verification.refuted;
     assert!(refuted.is_empty(), "{name}, {what}: {refuted:?}");
 }
 

@@ -66,7 +66,7 @@ impl Certified {
         }
     }
 
-    /// The certificate with the hash of another motion: what someone would write who wants to deceive.
+    /// A forged certificate: this one with the hash of another motion.
     fn forged_for(&self, motion: &Value) -> Value {
         let path = self.write("motion.fold", motion);
         let sha256 = check_file(&path, &CheckOptions::default(), &|_, _| true)
@@ -147,7 +147,7 @@ fn change_leaf(certificate: &mut Value, pointer: &str) {
             })
         }
         Value::String(text) => json!(format!("{text}.")),
-        // A little wider it would be another statement, and as true.
+        // A slightly larger tolerance would be another true statement.
         Value::Number(_) if pointer == "/tolerance" => json!(0.2),
         // Of triangles with a vertex in common any depth up to their largest overlap is as true.
         Value::Number(n) if pointer.ends_with("/depth") => json!(1.0 + n.as_f64().unwrap() * 1e3),
@@ -405,7 +405,7 @@ fn every_seeded_change_of_a_motion_or_a_certificate_is_refused() {
 #[test]
 fn a_penetrating_motion_with_a_clean_certificate_is_refuted_and_so_is_the_reverse() {
     let [_, clean, penetrating, swapped] = certified();
-    // All that can be taken from the file is right; the verdict, and what belongs to it, is the lie.
+    // Everything that the file itself confirms is correct; only the verdict and its evidence are false.
     let mut lie = penetrating.certificate.clone();
     lie["verdict"] = json!("touching");
     lie["penetrations"] = json!([]);

@@ -1,4 +1,4 @@
-//! What a window does with a study: computes it, watches it, records it as it is seen, opens files again.
+//! The functions of the study that the window uses: compute, observe, record with its own camera, open files.
 
 use std::fs;
 use std::path::Path;
@@ -6,8 +6,8 @@ use std::sync::Mutex;
 
 use foldmotion_study::scene::{CameraScene, OutputChoice, OwnCamera, RecordScene};
 use foldmotion_study::{
-    CheckOptions, Opened, Phase, SceneSource, Snapshot, Study, StudyError, Watch, check_file,
-    record_again,
+    CheckOptions, OpenedFile, Phase, SceneSource, Snapshot, Study, StudyError, Watch, check_file,
+    reproduce_file,
 };
 
 fn source(set: &[&str]) -> SceneSource {
@@ -29,8 +29,7 @@ fn study(set: &[&str]) -> Study {
     Study::resolve(&source(set)).unwrap()
 }
 
-/// The bytes of the files in `folder`, by name; of the report, which tells times, and of the list of what which command
-/// made, none.
+/// The bytes of the files in `folder`, by name, except for the report, which has timings, and the manifest.
 fn files(folder: &Path) -> Vec<(String, Vec<u8>)> {
     let mut found = Vec::new();
     for entry in fs::read_dir(folder).unwrap() {
@@ -46,7 +45,7 @@ fn files(folder: &Path) -> Vec<(String, Vec<u8>)> {
     found
 }
 
-/// What the window shows: 3 lengths across, about a point beside the unit.
+/// The view of a window: 3 lengths across, around a point next to the unit.
 fn seen(outputs: &[OutputChoice]) -> RecordScene {
     RecordScene {
         outputs: Some(outputs.to_vec()),
@@ -65,7 +64,7 @@ fn seen(outputs: &[OutputChoice]) -> RecordScene {
 }
 
 #[test]
-fn what_is_computed_and_then_written_is_what_a_run_writes() {
+fn computing_and_then_writing_gives_the_files_of_a_run() {
     let study = study(&["record.outputs=[\"fold\", \"csv\", \"gif\", \"svg\", \"html\"]"]);
     let home = tempfile::tempdir().unwrap();
     let [once, twice] = ["run", "written"].map(|name| home.path().join(name));
@@ -82,14 +81,14 @@ fn what_is_computed_and_then_written_is_what_a_run_writes() {
     );
     assert!(folded.is_converged() && folded.jam().is_none());
     let boxes = study.boxes(&folded.motion);
-    // One is measured as the sheet lies, the other after another best fit: the same but for rounding.
+    // The two boxes are measured after different rigid fits, so they differ by rounding.
     let extents = boxes.last().unwrap().extents;
     assert!(extents.abs_diff_eq(folded.compact.extents, 1e-14));
     assert_eq!(boxes.len(), folded.findings.series.len());
 }
 
 #[test]
-fn a_run_recorded_as_the_window_shows_it_is_a_run_of_that_scene() {
+fn a_recording_with_the_camera_of_the_window_equals_a_run_with_that_camera() {
     let outputs = [OutputChoice::Gif, OutputChoice::Png, OutputChoice::Svg];
     let plain = study(&[]);
     let folded = plain.compute(&|_, _| true).unwrap();
@@ -119,7 +118,7 @@ fn a_run_recorded_as_the_window_shows_it_is_a_run_of_that_scene() {
     }
     fs::create_dir_all(home.path().join("again")).unwrap();
     let again = Some(home.path().join("again"));
-    let made = record_again(
+    let made = reproduce_file(
         &window.join("motion.gif"),
         None,
         again.as_deref(),
@@ -130,7 +129,7 @@ fn a_run_recorded_as_the_window_shows_it_is_a_run_of_that_scene() {
 }
 
 #[test]
-fn a_recording_that_cannot_be_made_is_refused_by_its_flag() {
+fn an_invalid_recording_is_refused_with_its_flag() {
     let study = study(&[]);
     let folded = study.compute(&|_, _| true).unwrap();
     let home = tempfile::tempdir().unwrap();
@@ -153,7 +152,7 @@ fn a_recording_that_cannot_be_made_is_refused_by_its_flag() {
     assert_eq!(fs::read_dir(home.path()).unwrap().count(), 0);
 }
 
-/// Keeps the states it is shown, and may end the run after some.
+/// An observer that keeps the states, and may end the run after some of them.
 #[derive(Default)]
 struct Seen {
     states: Mutex<Vec<(f64, usize)>>,
@@ -179,7 +178,7 @@ impl Watch for Seen {
 }
 
 #[test]
-fn a_watched_run_shows_its_states_and_comes_to_the_same_end() {
+fn an_observed_run_reports_its_states_and_has_the_same_result() {
     for engine in ["motion.engine=dynamic", "motion.engine=quasi-static"] {
         let study = study(&[engine]);
         let seen = Seen::default();
@@ -206,15 +205,15 @@ fn a_watched_run_shows_its_states_and_comes_to_the_same_end() {
 }
 
 #[test]
-fn a_file_is_opened_as_what_it_is() {
+fn a_file_is_opened_by_its_content() {
     let home = tempfile::tempdir().unwrap();
     let folder = home.path().join("unit");
     study(&["record.outputs=[\"fold\"]"])
         .run(&folder, &|_, _| true)
         .unwrap();
-    let open = |path: &Path| Opened::read(path, &|_, _| true);
+    let open = |path: &Path| OpenedFile::read(path, &|_, _| true);
     let path = folder.join("motion.fold");
-    let Opened::Motion(motion) = open(&path).unwrap() else {
+    let OpenedFile::Motion(motion) = open(&path).unwrap() else {
         panic!("a run writes a motion")
     };
     let (findings, certificate) = motion
@@ -241,7 +240,7 @@ fn a_file_is_opened_as_what_it_is() {
         let path = entry.unwrap().path();
         if path.is_file() {
             assert!(
-                matches!(open(&path), Ok(Opened::Scene(_))),
+                matches!(open(&path), Ok(OpenedFile::Scene(_))),
                 "{}",
                 path.display()
             );
@@ -249,10 +248,10 @@ fn a_file_is_opened_as_what_it_is() {
         }
     }
     assert!(found > 3);
-    // What is no motion is left to the import, which says what is wrong.
+    // A file that is not a motion is opened as a crease pattern, whose import reports the error.
     let broken = home.path().join("broken.fold");
     fs::write(&broken, "{").unwrap();
-    let Opened::Scene(source) = open(&broken).unwrap() else {
+    let OpenedFile::Scene(source) = open(&broken).unwrap() else {
         panic!("it is no motion")
     };
     assert!(Study::resolve(&source).is_err());
@@ -261,7 +260,7 @@ fn a_file_is_opened_as_what_it_is() {
         Err(StudyError::Read { .. })
     ));
     assert!(matches!(
-        Opened::read(&path, &|_, _| false),
+        OpenedFile::read(&path, &|_, _| false),
         Err(StudyError::Interrupted)
     ));
 }
@@ -288,7 +287,7 @@ fn a_motion_without_times_is_one_stage_and_so_is_its_verdict() {
         frames.join(", ")
     );
     fs::write(&path, text).unwrap();
-    let Opened::Motion(motion) = Opened::read(&path, &|_, _| true).unwrap() else {
+    let OpenedFile::Motion(motion) = OpenedFile::read(&path, &|_, _| true).unwrap() else {
         panic!("it moves")
     };
     let (findings, certificate) = motion
@@ -307,15 +306,15 @@ fn a_motion_without_times_is_one_stage_and_so_is_its_verdict() {
     assert!((first.time - 1.0 - by_index / (count - 1.0)).abs() < 1e-12);
     let folder = home.path().join("film");
     let made = motion.record_as(
-        Some(&findings_of(&motion)),
+        Some(&check_findings(&motion)),
         &seen(&[OutputChoice::Png]),
         &folder,
         &|_, _| true,
     );
-    assert!(made.unwrap().is_judged);
+    assert!(made.unwrap().is_checked);
 }
 
-fn findings_of(motion: &foldmotion_study::OpenedMotion) -> foldmotion_study::Findings {
+fn check_findings(motion: &foldmotion_study::OpenedMotion) -> foldmotion_study::Findings {
     let checked = motion.check(&CheckOptions::default(), &|_, _| true);
     checked.unwrap().0
 }

@@ -1,4 +1,4 @@
-//! The arguments of every command.
+//! The arguments of all commands.
 
 use std::path::PathBuf;
 
@@ -39,7 +39,7 @@ pub(crate) enum Command {
     ///
     /// Exit status: 0 done, 2 bad input, 3 the files could not be written or interrupted.
     Record(RecordArguments),
-    /// Reproduce every table and figure of the paper and set its numbers beside ours
+    /// Reproduce every table and figure of the paper and compare its numbers with ours
     ///
     /// Writes figures as SVG and PNG, paper.json and index.html. Finished parts are reused by the next run.
     ///
@@ -83,8 +83,8 @@ pub(crate) struct RunArguments {
     /// Override a key of the scene, such as sheet.columns=5
     #[arg(long = "set", value_name = "KEY=VALUE")]
     pub(crate) set: Vec<String>,
-    /// How much work the engine may do, in seconds (60) or in its own steps (20000steps). The motion then ends where it
-    /// is, with exit status 3; what was reached is kept
+    /// How much work the engine may do, in seconds (60) or in its own steps (20000steps). The motion then ends at the state
+    /// reached, with exit status 3
     #[arg(long, value_name = "SECONDS|STEPS")]
     pub(crate) budget: Option<String>,
     /// Number of threads to use. Default: one for each core
@@ -186,7 +186,7 @@ pub(crate) struct PaperArguments {
 fn parse_tolerance(text: &str) -> Result<f64, String> {
     match text.parse() {
         Ok(tolerance) if tolerance > 0.0 && tolerance < 0.1 => Ok(tolerance),
-        _ => Err("a number above 0 and below 0.1 is needed, such as 1e-6".to_owned()),
+        _ => Err("expected a number above 0 and below 0.1, such as 1e-6".to_owned()),
     }
 }
 

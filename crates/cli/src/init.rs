@@ -17,7 +17,7 @@ pub(crate) fn write_scene(path: &Path) -> Result<(), Failure> {
         .open(path)
         .map_err(|e| match e.kind() {
             ErrorKind::AlreadyExists => failure(
-                format!("{}: exists already; name another file", path.display()),
+                format!("{}: already exists; choose another file", path.display()),
                 BAD_INPUT,
             ),
             _ => failure(

@@ -1,35 +1,35 @@
-//! Ctrl-C and other requests to end: work stops at its next report of progress, and after a second wherever it is.
+//! Ctrl-C and other requests to end: work stops at its next report of progress, and after half a second in any case.
 
 use std::io::Write as _;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread;
 use std::time::Duration;
 
-use foldmotion_study::{StudyError, give_up_results};
+use foldmotion_study::{StudyError, discard_unfinished_results};
 
 use crate::{FAILED, Failure};
 
-/// How long work may take to stop by itself.
-const PATIENCE: Duration = Duration::from_millis(500);
+/// The time in which work may stop by itself.
+const GRACE_PERIOD: Duration = Duration::from_millis(500);
 
-/// Set by Ctrl-C.
+/// Whether a request to end has come.
 static INTERRUPTED: AtomicBool = AtomicBool::new(false);
 
-/// Whether to go on.
-pub(crate) fn may_go_on() -> bool {
+/// Whether work should continue.
+pub(crate) fn should_continue() -> bool {
     !INTERRUPTED.load(Ordering::Relaxed)
 }
 
-/// Watches for requests to end.
+/// Starts to watch for requests to end.
 ///
 /// # Errors
-/// Where the system does not let it.
+/// The system does not allow it.
 pub(crate) fn watch() -> Result<(), Failure> {
     ctrlc::set_handler(|| {
         let is_first = !INTERRUPTED.swap(true, Ordering::Relaxed);
         if is_first {
             thread::spawn(|| {
-                thread::sleep(PATIENCE);
+                thread::sleep(GRACE_PERIOD);
                 end();
             });
         }
@@ -40,10 +40,10 @@ pub(crate) fn watch() -> Result<(), Failure> {
     })
 }
 
-/// Ends the process between two files at most: results that are being moved into place get there.
+/// Ends the process, but not while results are moved into place.
 fn end() -> ! {
-    give_up_results();
-    // Nothing is left to do where even stderr is closed.
+    discard_unfinished_results();
+    // If even stderr is closed, nothing can be reported.
     let _ = writeln!(std::io::stderr(), "foldmotion: {}", StudyError::Interrupted);
     std::process::exit(FAILED.into());
 }

@@ -1,4 +1,10 @@
-//! The command line: says what the user asked for to the study, and what came of it to the user.
+//! The command line: arguments in, exit status and messages out.
+//!
+//! ```text
+//! foldmotion init scene.toml
+//! foldmotion run scene.toml
+//! foldmotion check out/scene/motion.fold --verify out/scene/certificate.json
+//! ```
 
 mod arguments;
 mod init;
@@ -20,18 +26,18 @@ use foldmotion_paper::{PaperError, PaperPart, paper};
 use foldmotion_study::scene::EngineChoice;
 use foldmotion_study::{
     CheckOptions, Destination, Device, PatternStudy, Phase, Published, SceneSource, Study,
-    check_file, models, record_again, record_file, verify_file,
+    check_file, models, record_file, reproduce_file, verify_file,
 };
 use pattern::PatternArguments;
 use progress::Reporter;
 use record::RecordArguments;
 
-/// Bad input or usage.
+/// The exit status for bad input or usage.
 const BAD_INPUT: u8 = 2;
-/// The run failed.
+/// The exit status of a run that failed.
 const FAILED: u8 = 3;
 
-/// What stops a command: a message for the user and the exit status.
+/// Why a command ends: a message for the user and the exit status.
 struct Failure {
     message: String,
     status: u8,
@@ -55,15 +61,14 @@ fn main() -> ExitCode {
         Command::Record(record) => record_motion(&record),
         Command::Paper(paper) => rebuild_paper(&paper),
         Command::Pattern(pattern) => write_pattern(&pattern),
-        Command::View(view) => open_window(view),
+        Command::View(view) => open_window(&view),
         Command::Models => list_models(),
         Command::Init { file } => init::write_scene(&file).map(|()| 0),
     };
     match outcome {
         Ok(status) => ExitCode::from(status),
         Err(failure) => {
-            // Nothing is left to do where even stderr is closed.
-            let _ = writeln!(std::io::stderr(), "foldmotion: {}", plain(&failure.message));
+            warn(&failure.message);
             ExitCode::from(failure.status)
         }
     }
@@ -83,16 +88,13 @@ fn run_scene(arguments: &RunArguments) -> Result<u8, Failure> {
     study.device = device(arguments.device, &study)?;
     if !arguments.quiet {
         for note in &study.notes {
-            let _ = writeln!(std::io::stderr(), "foldmotion: {}", plain(note));
+            warn(note);
         }
     }
     let destination = Destination::from(&folder).replacing(arguments.force);
-    let report = study.run(destination, &|phase, done| {
-        reporter.report(phase.name(), done);
-        interrupt::may_go_on()
-    })?;
+    let report = study.run(destination, &reporter.progress())?;
     reporter.finish();
-    tell(&report.published, arguments.quiet);
+    print_published(&report.published, arguments.quiet);
     if arguments.json {
         print(&report.to_json())?;
     } else if !arguments.quiet {
@@ -100,35 +102,35 @@ fn run_scene(arguments: &RunArguments) -> Result<u8, Failure> {
         let headline = report.outcome.headline();
         print(&format!("results in {}\n{headline}\n", folder.display()))?;
     }
-    Ok(ended(report.status(), &report.outcome.line()))
+    Ok(explained(report.status(), &report.outcome.line()))
 }
 
-/// Says on stderr why the exit status is not 0, whatever else is or is not printed.
-fn ended(status: u8, line: &str) -> u8 {
+/// Explains on stderr an exit status that is not 0, also with `--quiet`; returns the status.
+fn explained(status: u8, line: &str) -> u8 {
     if status != 0 {
-        // Nothing is left to do where even stderr is closed.
-        let _ = writeln!(std::io::stderr(), "foldmotion: {line}");
+        warn(line);
     }
     status
 }
 
+/// The device of `--device`.
+///
 /// # Errors
-/// A GPU is asked for, and the engine has no use for one.
+/// The engine of the study does not use a GPU.
 fn device(choice: DeviceChoice, study: &Study) -> Result<Device, Failure> {
     match choice {
         DeviceChoice::Cpu => Ok(Device::Cpu),
         DeviceChoice::Auto => Ok(Device::Auto),
         DeviceChoice::Gpu if study.engine == EngineChoice::Dynamic => Ok(Device::Gpu),
         DeviceChoice::Gpu => Err(Failure {
-            message: "--device gpu: the quasi-static engine runs on the processor; add --set motion.engine=dynamic, or leave \
-                      --device out"
+            message: "--device gpu: the quasi-static engine runs on the processor; add --set motion.engine=dynamic, or omit --device"
                 .to_owned(),
             status: 2,
         }),
     }
 }
 
-/// The scene with its `--set`, and the folder of its results.
+/// The scene with the values of `--set`, and the folder of its results.
 fn scene_and_folder(
     scene: &Path,
     set: &[String],
@@ -163,13 +165,10 @@ fn check_motion(arguments: &CheckArguments) -> Result<u8, Failure> {
         options.stop_at = stop_at;
     }
     let reporter = Reporter::new(arguments.quiet);
-    let checked = check_file(&arguments.motion, &options, &|phase, done| {
-        reporter.report(phase.name(), done);
-        interrupt::may_go_on()
-    })?;
+    let checked = check_file(&arguments.motion, &options, &reporter.progress())?;
     let certificate = &checked.certificate;
     reporter.finish();
-    // What was found is said even where it cannot be written.
+    // The verdict is printed even if the certificate cannot be written.
     if arguments.json {
         print(&certificate.to_json())?;
     } else if !arguments.quiet {
@@ -180,55 +179,58 @@ fn check_motion(arguments: &CheckArguments) -> Result<u8, Failure> {
         let verdict = &certificate.verdict;
         print(&format!("certificate in {}\n{verdict}\n", folder.display()))?;
     }
-    Ok(ended(certificate.status(), &certificate.line()))
+    Ok(explained(certificate.status(), &certificate.line()))
 }
 
 fn verify_certificate(arguments: &CheckArguments, certificate: &Path) -> Result<u8, Failure> {
     let reporter = Reporter::new(arguments.quiet);
-    let verified = verify_file(&arguments.motion, certificate, &|phase, done| {
-        reporter.report(phase.name(), done);
-        interrupt::may_go_on()
-    })?;
+    let verified = verify_file(&arguments.motion, certificate, &reporter.progress())?;
     reporter.finish();
     if !arguments.quiet {
         print(&verified.table())?;
     }
-    Ok(ended(verified.status(), &verified.line()))
+    Ok(explained(verified.status(), &verified.line()))
 }
 
 fn record_motion(arguments: &RecordArguments) -> Result<u8, Failure> {
     use_threads(arguments.threads)?;
     interrupt::watch()?;
     let reporter = Reporter::new(arguments.quiet);
-    let progress = |phase: Phase, done| {
-        reporter.report(phase.name(), done);
-        interrupt::may_go_on()
-    };
+    let progress = reporter.progress();
     let (out, motion) = (arguments.out.as_deref(), arguments.motion.as_deref());
     if let Some(file) = &arguments.again {
-        let again = record_again(file, motion, out, arguments.force, &progress)?;
+        let copy = reproduce_file(file, motion, out, arguments.force, &progress)?;
         reporter.finish();
-        for warning in &again.warnings {
-            let _ = writeln!(std::io::stderr(), "foldmotion: warning: {}", plain(warning));
+        for warning in &copy.warnings {
+            warn(&format!("warning: {warning}"));
         }
         if !arguments.quiet {
-            let same = if again.is_same { "the same" } else { "other" };
-            print(&format!("{}: {same} bytes\n", again.path.display()))?;
+            let same = if copy.is_same {
+                "identical to"
+            } else {
+                "different from"
+            };
+            print(&format!(
+                "{}: {same} the file it reproduces\n",
+                copy.path.display()
+            ))?;
         }
         return Ok(0);
     }
-    // The command line has a motion where it has no --again.
+    // Without --again the argument is required.
     let motion = motion.unwrap_or(Path::new(""));
     let folder = arguments.folder(motion);
     let destination = Destination::from(&folder).replacing(arguments.force);
     let record = record_file(motion, &arguments.scene(), destination, &progress)?;
     reporter.finish();
-    tell(&record.published, arguments.quiet);
+    print_published(&record.published, arguments.quiet);
     if !arguments.quiet {
-        let marks = match (record.is_judged, record.penetrates) {
+        let marks = match (record.is_checked, record.penetrates) {
             (true, true) => "penetrations are marked",
-            (true, false) => "its certificate tells no penetration to mark",
-            _ => "penetrations are not marked: no certificate.json of this motion lies beside it",
+            (true, false) => "its certificate has no penetration to mark",
+            _ => {
+                "penetrations are not marked: there is no certificate.json of this motion next to it"
+            }
         };
         let files = match record.files.len() {
             1 => "1 file".to_owned(),
@@ -250,17 +252,17 @@ fn rebuild_paper(arguments: &PaperArguments) -> Result<u8, Failure> {
     let destination = Destination::from(&arguments.out).replacing(arguments.force);
     let run = paper(destination, &parts, &|part, done| {
         reporter.report(part.name(), done);
-        interrupt::may_go_on()
+        interrupt::should_continue()
     })?;
     reporter.finish();
     if arguments.json {
         print(&run.record.to_json())?;
     } else if !arguments.quiet {
-        let (made, reused) = (run.made, run.reused);
+        let (computed, reused) = (run.computed, run.reused);
         let page = arguments.out.join("index.html");
         let page = page.display();
         print(&format!(
-            "{made} pieces made, {reused} reused\nresults in {page}\n"
+            "{computed} parts computed, {reused} reused\nresults in {page}\n"
         ))?;
     }
     Ok(0)
@@ -279,7 +281,7 @@ fn write_pattern(arguments: &PatternArguments) -> Result<u8, Failure> {
         print(&format!("the rows are drawn in {}\n", figure.display()))?;
     }
     let summary = study?.write(destination, &arguments.options(), &|_, _| {
-        interrupt::may_go_on()
+        interrupt::should_continue()
     })?;
     if !arguments.quiet {
         print(&summary)?;
@@ -289,15 +291,15 @@ fn write_pattern(arguments: &PatternArguments) -> Result<u8, Failure> {
 }
 
 #[cfg(feature = "window")]
-fn open_window(arguments: ViewArguments) -> Result<u8, Failure> {
+fn open_window(arguments: &ViewArguments) -> Result<u8, Failure> {
     use foldmotion_viewer::{ViewOptions, view};
     use_threads(arguments.threads)?;
-    // A file that is not there is said here, not in a window that may not open.
+    // A missing file is reported here, not in a window that may not open.
     if let Some(file) = &arguments.file {
         foldmotion_study::require_file(file)?;
     }
     let options = ViewOptions {
-        file: arguments.file,
+        file: arguments.file.clone(),
         timings: arguments.timings,
         ..ViewOptions::default()
     };
@@ -308,12 +310,12 @@ fn open_window(arguments: ViewArguments) -> Result<u8, Failure> {
 }
 
 #[cfg(not(feature = "window"))]
-fn open_window(arguments: ViewArguments) -> Result<u8, Failure> {
+fn open_window(arguments: &ViewArguments) -> Result<u8, Failure> {
     if let Some(file) = &arguments.file {
         foldmotion_study::require_file(file)?;
     }
     Err(Failure {
-        message: "this program was built without the window; build it with --features window, or use foldmotion run"
+        message: "this program was built without the window; build it with --features window, or use `foldmotion run`"
             .to_owned(),
         status: FAILED,
     })
@@ -356,25 +358,28 @@ fn use_threads(threads: Option<usize>) -> Result<(), Failure> {
         })
 }
 
-/// Says what became of other files in the folder of results.
-fn tell(published: &Published, quiet: bool) {
-    if quiet {
-        return;
-    }
-    for line in published.words() {
-        let _ = writeln!(std::io::stderr(), "foldmotion: {}", plain(&line));
+/// Prints what happened to other files in the folder of results.
+fn print_published(published: &Published, quiet: bool) {
+    if !quiet {
+        published.words().iter().for_each(|line| warn(line));
     }
 }
 
-/// A text without what a terminal would take for a command: names and titles come from files.
-fn plain(text: &str) -> String {
-    let is_command = |letter: char| letter.is_control() && letter != '\n' && letter != '\t';
-    text.replace(is_command, "\u{fffd}")
+/// Prints a line on stderr.
+fn warn(line: &str) {
+    // If even stderr is closed, nothing can be reported.
+    let _ = writeln!(std::io::stderr(), "foldmotion: {}", sanitized(line));
 }
 
-/// Prints to stdout; a reader that has gone (`| head`) is no failure.
+/// A text without control characters, which a terminal would obey: names and titles come from files.
+fn sanitized(text: &str) -> String {
+    let is_control = |letter: char| letter.is_control() && letter != '\n' && letter != '\t';
+    text.replace(is_control, "\u{fffd}")
+}
+
+/// Prints to stdout. A reader that has closed the pipe (`| head`) is not an error.
 fn print(text: &str) -> Result<(), Failure> {
-    match std::io::stdout().write_all(plain(text).as_bytes()) {
+    match std::io::stdout().write_all(sanitized(text).as_bytes()) {
         Err(e) if e.kind() != std::io::ErrorKind::BrokenPipe => Err(Failure {
             message: format!("stdout: {e}"),
             status: FAILED,

@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use clap::{Args, ValueEnum};
+use clap::Args;
 use foldmotion_study::{
     CutError, CutOptions, PaperSize, PatternFormat, PatternOptions, PatternScale, parse_millimetres,
 };
@@ -24,9 +24,10 @@ pub(crate) struct PatternArguments {
         long,
         value_name = "LIST",
         value_delimiter = ',',
-        default_value = "svg,dxf,fold"
+        default_value = "svg,dxf,fold",
+        value_parser = parse_format
     )]
-    formats: Vec<FormatChoice>,
+    formats: Vec<PatternFormat>,
     /// Scale the pattern by this factor; 1 is the size in the scene
     #[arg(
         long,
@@ -70,7 +71,7 @@ pub(crate) struct PatternArguments {
 }
 
 impl PatternArguments {
-    /// What the study is asked to write.
+    /// The options of the study.
     pub(crate) fn options(&self) -> PatternOptions {
         let scale = match self.width {
             Some(width) => PatternScale::Width(width),
@@ -81,7 +82,7 @@ impl PatternArguments {
             given.map(|d| d.lengths.clone())
         };
         PatternOptions {
-            formats: self.formats.iter().map(|f| f.format()).collect(),
+            formats: self.formats.clone(),
             scale,
             paper: self.sheet,
             overlap: self.overlap,
@@ -98,41 +99,27 @@ impl PatternArguments {
     }
 }
 
-/// A file format by name.
-#[derive(Debug, Clone, Copy, ValueEnum)]
-enum FormatChoice {
-    Svg,
-    Dxf,
-    Fold,
-}
-
-impl FormatChoice {
-    fn format(self) -> PatternFormat {
-        match self {
-            Self::Svg => PatternFormat::Svg,
-            Self::Dxf => PatternFormat::Dxf,
-            Self::Fold => PatternFormat::Fold,
-        }
-    }
-}
-
-/// The lines that have dashes.
+/// The classes of lines that can have dashes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum DashedClass {
     Mountain,
     Valley,
 }
 
-/// `--dash`.
+/// A value of `--dash`.
 #[derive(Debug, Clone)]
 struct Dashes {
     class: DashedClass,
-    /// mm; empty for solid lines.
+    /// The lengths of dashes and gaps in mm; empty for solid lines.
     lengths: Vec<f64>,
 }
 
+fn parse_format(name: &str) -> Result<PatternFormat, &'static str> {
+    PatternFormat::find(name).ok_or("expected svg, dxf or fold")
+}
+
 fn parse_dashes(text: &str) -> Result<Dashes, String> {
-    let need = "write mountain=LIST or valley=LIST, such as mountain=6,2,2,2 or valley=none";
+    let need = "expected mountain=LIST or valley=LIST, such as mountain=6,2,2,2 or valley=none";
     let (class, list) = text.split_once('=').ok_or(need)?;
     let class = match class {
         "mountain" => DashedClass::Mountain,
@@ -153,7 +140,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn dashes_are_read_class_by_class() {
+    fn dashes_are_parsed_for_each_class() {
         let dashes = parse_dashes("mountain=6,2,0.5cm,2").unwrap();
         assert_eq!(dashes.class, DashedClass::Mountain);
         assert_eq!(dashes.lengths, [6.0, 2.0, 5.0, 2.0]);

@@ -5,69 +5,72 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError, Weak};
 use std::thread;
 use std::time::{Duration, Instant};
 
+use foldmotion_study::Phase;
 use indicatif::{ProgressBar, ProgressStyle};
 
-/// Plain lines come at these steps of a phase.
+use crate::interrupt::should_continue;
+
+/// A phase is reported in this many lines.
 const PLAIN_STEPS: u32 = 4;
 
-/// A plain line comes after this time too, that long work is seen to go on.
+/// A line is printed after this time in any case, to show that work continues.
 const HEARTBEAT: Duration = Duration::from_secs(10);
 
 /// How often the bar shows the time.
 const TICK: Duration = Duration::from_millis(200);
 
-/// Reports how much of which phase is done.
+/// Reports on stderr which share of a phase is done.
 #[derive(Debug)]
 pub(crate) struct Reporter {
     bar: Option<ProgressBar>,
-    /// What was told in plain lines; none where none are.
-    told: Option<Arc<Mutex<Told>>>,
+    /// What the last line said; `None` if no lines are printed.
+    last: Option<Arc<Mutex<LastLine>>>,
 }
 
-/// What was told last.
+/// What the last line said, and what has been done since.
 #[derive(Debug)]
-struct Told {
+struct LastLine {
     started: Instant,
     phase: Option<&'static str>,
-    /// The plain step of the phase.
+    /// The number of the line within its phase, from 0 to [`PLAIN_STEPS`].
     step: u32,
-    /// How much of the phase is done, from 0 to 1.
+    /// The share of the phase that is done, from 0 to 1.
     done: f64,
     at: Instant,
 }
 
 impl Reporter {
-    /// Silent where `quiet`.
+    /// A reporter that prints nothing if `quiet`.
     pub(crate) fn new(quiet: bool) -> Self {
         if quiet {
             return Self {
                 bar: None,
-                told: None,
+                last: None,
             };
         }
         if std::io::stderr().is_terminal() {
             return Self {
                 bar: Some(bar()),
-                told: None,
+                last: None,
             };
         }
         let now = Instant::now();
-        let told = Arc::new(Mutex::new(Told {
+        let last = Arc::new(Mutex::new(LastLine {
             started: now,
             phase: None,
             step: 0,
             done: 0.0,
             at: now,
         }));
-        let watched = Arc::downgrade(&told);
-        thread::spawn(move || beat(&watched));
+        let watched = Arc::downgrade(&last);
+        thread::spawn(move || repeat(&watched));
         Self {
             bar: None,
-            told: Some(told),
+            last: Some(last),
         }
     }
 
-    /// Tells the user that `done` (0 to 1) of the phase or part `name` is done.
+    /// Reports that the share `done` (0 to 1) of the phase or part `name` is done.
     #[expect(clippy::cast_sign_loss, reason = "clamped to [0, 1]")]
     pub(crate) fn report(&self, name: &'static str, done: f64) {
         let done = done.clamp(0.0, 1.0);
@@ -75,23 +78,31 @@ impl Reporter {
             bar.set_message(name);
             bar.set_position((done * 1000.0).round() as u64);
         }
-        let Some(told) = &self.told else { return };
-        let mut told = lock(told);
+        let Some(last) = &self.last else { return };
+        let mut last = lock(last);
         let step = (done * f64::from(PLAIN_STEPS)).floor() as u32;
-        told.done = done;
-        if told.phase != Some(name) || told.step < step {
-            (told.phase, told.step, told.at) = (Some(name), step, Instant::now());
+        last.done = done;
+        if last.phase != Some(name) || last.step < step {
+            (last.phase, last.step, last.at) = (Some(name), step, Instant::now());
             let _ = writeln!(std::io::stderr(), "{} {} %", name, 100 * step / PLAIN_STEPS);
         }
     }
 
-    /// Clears the bar, and tells nothing more.
+    /// Reports the phases of a study; returns whether to continue.
+    pub(crate) fn progress(&self) -> impl Fn(Phase, f64) -> bool + Sync + '_ {
+        |phase, done| {
+            self.report(phase.name(), done);
+            should_continue()
+        }
+    }
+
+    /// Clears the bar; nothing is printed from then on.
     pub(crate) fn finish(&self) {
         if let Some(bar) = &self.bar {
             bar.finish_and_clear();
         }
-        if let Some(told) = &self.told {
-            lock(told).phase = None;
+        if let Some(last) = &self.last {
+            lock(last).phase = None;
         }
     }
 }
@@ -106,24 +117,24 @@ fn bar() -> ProgressBar {
     bar
 }
 
-/// Tells where the work is whenever nothing was told for a while, as long as it goes on.
-fn beat(told: &Weak<Mutex<Told>>) {
+/// Prints a line whenever none was printed for [`HEARTBEAT`], until the reporter is dropped.
+fn repeat(last: &Weak<Mutex<LastLine>>) {
     loop {
         thread::sleep(HEARTBEAT / 10);
-        let Some(told) = told.upgrade() else { return };
-        let mut told = lock(&told);
-        if let Some(phase) = told.phase.filter(|_| told.at.elapsed() >= HEARTBEAT) {
-            told.at = Instant::now();
-            let (percent, seconds) = (100.0 * told.done, told.started.elapsed().as_secs());
+        let Some(last) = last.upgrade() else { return };
+        let mut last = lock(&last);
+        if let Some(phase) = last.phase.filter(|_| last.at.elapsed() >= HEARTBEAT) {
+            last.at = Instant::now();
+            let (percent, seconds) = (100.0 * last.done, last.started.elapsed().as_secs());
             let _ = writeln!(
                 std::io::stderr(),
-                "{phase} {percent:.0} %, {seconds} s so far"
+                "{phase} {percent:.0} %, {seconds} s elapsed"
             );
         }
     }
 }
 
-fn lock(told: &Mutex<Told>) -> MutexGuard<'_, Told> {
+fn lock(last: &Mutex<LastLine>) -> MutexGuard<'_, LastLine> {
     // A poisoned lock only means that another report panicked; there is nothing to protect.
-    told.lock().unwrap_or_else(PoisonError::into_inner)
+    last.lock().unwrap_or_else(PoisonError::into_inner)
 }

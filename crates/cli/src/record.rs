@@ -2,11 +2,12 @@
 
 use std::path::{Path, PathBuf};
 
-use clap::{Args, ValueEnum};
-use foldmotion_study::scene::fields::tip;
+use clap::Args;
+use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
+use foldmotion_study::scene::fields::{choices, tip};
 use foldmotion_study::scene::{
-    CameraChoice, CameraScene, ColourChoice, HoldScene, OutputChoice, OwnCamera, Playback,
-    RecordScene, ThickenedScene,
+    CameraScene, ColourChoice, HoldScene, OutputChoice, OwnCamera, Playback, RecordScene,
+    ThickenedScene, parse_choice,
 };
 
 use crate::threads::parse_threads;
@@ -21,12 +22,12 @@ pub(crate) struct RecordArguments {
     /// Folder for the results. Default: out/<name of the file>
     #[arg(long)]
     pub(crate) out: Option<PathBuf>,
-    /// Record this file again from the scene and motion it names inside itself: beside it as NAME-again, or into --out. If
-    /// it was made from a motion file that has moved, give that as MOTION
+    /// Reproduce this recorded file from the scene or motion named inside it: next to it as NAME-again, or in --out. If the
+    /// motion file has moved, specify it as MOTION
     #[arg(long, value_name = "FILE", conflicts_with_all = FLAGS)]
     pub(crate) again: Option<PathBuf>,
     /// Kinds of files to write, separated by commas: gif, mp4, png, svg, pdf, glb, obj, stl, html. Default: gif
-    #[arg(long, value_delimiter = ',', value_parser = parse_output)]
+    #[arg(long, value_delimiter = ',', value_name = "LIST", value_parser = parse_output)]
     pub(crate) outputs: Option<Vec<OutputChoice>>,
     #[arg(
         long,
@@ -44,13 +45,13 @@ pub(crate) struct RecordArguments {
     pub(crate) seconds: Option<[f64; 2]>,
     #[arg(long, help = tip("record.hold"), value_name = "S|A,B,C", value_parser = parse_hold, allow_negative_numbers = true)]
     pub(crate) hold: Option<HoldScene>,
-    #[arg(long = "loop", help = tip("record.loop"), value_name = "HOW", value_enum)]
-    pub(crate) playback: Option<Loop>,
+    #[arg(long = "loop", help = tip("record.loop"), value_name = "HOW", value_parser = choice::<Playback>("record.loop", parse_choice))]
+    pub(crate) playback: Option<Playback>,
     /// iso, front, side, top, turntable, or AZIMUTH,ELEVATION[,TURN] in degrees. Default: iso
     #[arg(long, value_parser = parse_camera, allow_hyphen_values = true)]
     pub(crate) camera: Option<CameraScene>,
-    #[arg(long, help = tip("record.colour"), value_enum)]
-    pub(crate) colour: Option<Colour>,
+    #[arg(long, help = tip("record.colour"), value_parser = choice::<ColourChoice>("record.colour", parse_choice))]
+    pub(crate) colour: Option<ColourChoice>,
     #[arg(long, help = tip("record.transparent"))]
     pub(crate) transparent: bool,
     #[arg(long, help = tip("record.caption"))]
@@ -75,7 +76,7 @@ pub(crate) struct RecordArguments {
     pub(crate) quiet: bool,
 }
 
-/// What --again takes from the file.
+/// The flags that `--again` excludes, because the file has their values.
 const FLAGS: [&str; 15] = [
     "outputs",
     "at",
@@ -94,30 +95,8 @@ const FLAGS: [&str; 15] = [
     "bounds",
 ];
 
-/// How films run.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub(crate) enum Loop {
-    /// From the first state to the last
-    Forward,
-    /// To the last and back, so that a film that repeats has no jump
-    BackAndForth,
-}
-
-/// What colours show.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub(crate) enum Colour {
-    /// The two sides of the paper
-    Paper,
-    /// Greys, for print
-    Grey,
-    /// The largest strain of a triangle's edges against the crease pattern
-    Strain,
-    /// The largest bend of a facet
-    Bending,
-}
-
 impl RecordArguments {
-    /// The same as a scene's `[record]`.
+    /// The flags as a scene's `[record]`.
     pub(crate) fn scene(&self) -> RecordScene {
         RecordScene {
             outputs: self.outputs.clone(),
@@ -125,17 +104,9 @@ impl RecordArguments {
             fps: self.fps,
             seconds: self.seconds,
             hold: self.hold,
-            playback: self.playback.map(|playback| match playback {
-                Loop::Forward => Playback::Once,
-                Loop::BackAndForth => Playback::BackAndForth,
-            }),
+            playback: self.playback,
             camera: self.camera,
-            colour: self.colour.map(|colour| match colour {
-                Colour::Paper => ColourChoice::Paper,
-                Colour::Grey => ColourChoice::Grey,
-                Colour::Strain => ColourChoice::Strain,
-                Colour::Bending => ColourChoice::Bending,
-            }),
+            colour: self.colour,
             transparent: self.transparent.then_some(true),
             caption: self.caption.then_some(true),
             at: self.at.clone(),
@@ -148,7 +119,7 @@ impl RecordArguments {
         }
     }
 
-    /// The folder of results.
+    /// The output folder.
     pub(crate) fn folder(&self, motion: &Path) -> PathBuf {
         let stem = motion.file_stem().unwrap_or_default();
         let folder = self.out.clone();
@@ -156,16 +127,26 @@ impl RecordArguments {
     }
 }
 
+/// Parses a choice of the scene key `key`; the help lists the names with their meanings.
+fn choice<T: Clone + Send + Sync + 'static>(
+    key: &str,
+    parse: fn(&str) -> Result<T, String>,
+) -> impl TypedValueParser<Value = T> {
+    let names = choices(key).into_iter();
+    let names = names.map(|(name, meaning)| PossibleValue::new(name).help(meaning));
+    PossibleValuesParser::new(names).try_map(move |name| parse(&name))
+}
+
 fn parse_output(text: &str) -> Result<OutputChoice, String> {
     let mut all = OutputChoice::ALL.into_iter();
     all.find(|output| output.name() == text)
-        .ok_or_else(|| "there is gif, mp4, png, svg, pdf, glb, obj, stl and html".to_owned())
+        .ok_or_else(|| "expected gif, mp4, png, svg, pdf, glb, obj, stl or html".to_owned())
 }
 
 fn parse_size(text: &str) -> Result<[i64; 2], String> {
     let sides = text.split_once(['x', 'X', '×']);
     let sides = sides.and_then(|(w, h)| Some([w.trim().parse().ok()?, h.trim().parse().ok()?]));
-    sides.ok_or_else(|| "two whole numbers are needed, such as 960x720".to_owned())
+    sides.ok_or_else(|| "expected two whole numbers, such as 960x720".to_owned())
 }
 
 fn numbers(text: &str) -> Option<Vec<f64>> {
@@ -176,14 +157,14 @@ fn numbers(text: &str) -> Option<Vec<f64>> {
 
 fn parse_numbers<const N: usize>(text: &str) -> Result<[f64; N], String> {
     let found = numbers(text).and_then(|numbers| numbers.try_into().ok());
-    found.ok_or_else(|| format!("{N} numbers with commas between are needed"))
+    found.ok_or_else(|| format!("expected {N} numbers separated by commas"))
 }
 
 fn parse_hold(text: &str) -> Result<HoldScene, String> {
     match numbers(text).as_deref() {
         Some(&[seconds]) => Ok(HoldScene::Each(seconds)),
         Some(&[deployed, planar, compact]) => Ok(HoldScene::States([deployed, planar, compact])),
-        _ => Err("one number of seconds or three with commas between are needed".to_owned()),
+        _ => Err("expected one number of seconds, or three separated by commas".to_owned()),
     }
 }
 
@@ -197,24 +178,16 @@ fn parse_camera(text: &str) -> Result<CameraScene, String> {
             width: None,
         })
     };
-    let preset = match text {
-        "iso" => CameraChoice::Iso,
-        "front" => CameraChoice::Front,
-        "side" => CameraChoice::Side,
-        "top" => CameraChoice::Top,
-        "turntable" => CameraChoice::Turntable,
-        _ => {
-            return match numbers(text).as_deref() {
-                Some(&[azimuth, elevation]) => Ok(own(azimuth, elevation, None)),
-                Some(&[azimuth, elevation, turn]) => Ok(own(azimuth, elevation, Some(turn))),
-                _ => Err(
-                    "there is iso, front, side, top, turntable, or AZIMUTH,ELEVATION in degrees"
-                        .to_owned(),
-                ),
-            };
-        }
-    };
-    Ok(CameraScene::Preset(preset))
+    if let Ok(preset) = parse_choice(text) {
+        return Ok(CameraScene::Preset(preset));
+    }
+    match numbers(text).as_deref() {
+        Some(&[azimuth, elevation]) => Ok(own(azimuth, elevation, None)),
+        Some(&[azimuth, elevation, turn]) => Ok(own(azimuth, elevation, Some(turn))),
+        _ => Err(
+            "expected iso, front, side, top, turntable, or AZIMUTH,ELEVATION in degrees".to_owned(),
+        ),
+    }
 }
 
 #[cfg(test)]
@@ -229,7 +202,7 @@ mod tests {
         assert_eq!(parse_hold("0,1,2"), Ok(HoldScene::States([0.0, 1.0, 2.0])));
         assert!(parse_hold("0,1").is_err());
         assert_eq!(parse_numbers::<2>("3,5"), Ok([3.0, 5.0]));
-        let camera = parse_camera("-60, 30").unwrap_or(CameraScene::Preset(CameraChoice::Iso));
+        let camera = parse_camera("-60, 30").unwrap();
         assert!(matches!(camera, CameraScene::Own(own) if own.azimuth == -60.0));
         assert!(parse_camera("below").is_err() && parse_output("film").is_err());
     }

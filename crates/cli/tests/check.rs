@@ -1,8 +1,8 @@
-//! `foldmotion check` as a user meets it.
+//! `foldmotion check` as a user sees it.
 
 #![expect(
     clippy::unwrap_used,
-    reason = "a test stops where something is missing"
+    reason = "a test fails where something is missing"
 )]
 
 mod common;
@@ -12,13 +12,13 @@ use std::path::Path;
 
 use serde_json::{Value, json};
 
-use common::{foldmotion, text};
+use common::{assert_status, foldmotion, text};
 
 fn json_of(path: &Path) -> Value {
     serde_json::from_slice(&fs::read(path).unwrap()).unwrap()
 }
 
-/// Runs a scene for its motion alone; returns the report.
+/// Runs a scene with only the motion file as output; returns the report.
 fn run(home: &Path, scene: &str, set: &[&str]) -> Value {
     let scene = format!("{}/../../scenes/{scene}.toml", env!("CARGO_MANIFEST_DIR"));
     let mut arguments = vec!["run", &scene, "--quiet", "--out", "run"];
@@ -59,11 +59,11 @@ fn agrees(report: &Value, certificate: &Value) {
     }
 }
 
-/// A change that spoils a motion, and words of the refusal.
-type Fault<'a> = (&'a dyn Fn(&mut Value), &'a str);
+/// A change that makes a motion invalid, and a text of the message.
+type Change<'a> = (&'a dyn Fn(&mut Value), &'a str);
 
 #[test]
-fn our_own_motions_get_the_verdict_of_their_run() {
+fn motions_of_runs_get_the_verdict_of_their_run() {
     let short = ["sheet.rows=2", "profile.length=2.0"];
     for (scene, set, status) in [
         ("one-unit", &[][..], 0),
@@ -73,7 +73,7 @@ fn our_own_motions_get_the_verdict_of_their_run() {
         let report = run(home.path(), scene, set);
         let output = foldmotion(home.path(), &["check", "run/motion.fold"]);
         let (out, err) = (text(&output.stdout), text(&output.stderr));
-        assert_eq!(output.status.code(), Some(status), "{err}");
+        assert_status(&output, status);
         assert!(
             out.contains("verdict: ") && out.contains("sha256 "),
             "{out}"
@@ -87,12 +87,12 @@ fn our_own_motions_get_the_verdict_of_their_run() {
 }
 
 #[test]
-fn a_frame_moved_through_the_sheet_is_a_penetration() {
+fn a_vertex_moved_through_the_sheet_is_a_penetration() {
     let home = tempfile::tempdir().unwrap();
     run(home.path(), "one-unit", &[]);
     let path = home.path().join("run/motion.fold");
     let mut motion = json_of(&path);
-    // A vertex goes to where another facet is, and beyond.
+    // A vertex is moved through another facet.
     let frame = &mut motion["file_frames"][14]["vertices_coords"];
     let points: Vec<[f64; 3]> = serde_json::from_value(frame.clone()).unwrap();
     let far = points.len() - 1;
@@ -110,7 +110,7 @@ fn a_frame_moved_through_the_sheet_is_a_penetration() {
         "--quiet",
     ];
     let output = foldmotion(home.path(), &arguments);
-    assert_eq!(output.status.code(), Some(1), "{}", text(&output.stderr));
+    assert_status(&output, 1);
     let written = fs::read(home.path().join("run/certificate.json")).unwrap();
     assert_eq!(text(&output.stdout), text(&written));
     let err = text(&output.stderr);
@@ -150,17 +150,12 @@ fn folding(angle: f64) -> Value {
 }
 
 #[test]
-fn polygons_of_others_are_judged_and_the_certificate_says_they_were_cut() {
+fn polygons_are_checked_and_the_certificate_says_that_they_were_cut() {
     let home = tempfile::tempdir().unwrap();
     for (angle, verdict, status) in [(120.0, "free", 0), (240.0, "penetrating", 1)] {
         fs::write(home.path().join("book.fold"), folding(angle).to_string()).unwrap();
         let output = foldmotion(home.path(), &["check", "book.fold", "--quiet", "--json"]);
-        assert_eq!(
-            output.status.code(),
-            Some(status),
-            "{}",
-            text(&output.stderr)
-        );
+        assert_status(&output, status);
         let certificate: Value = serde_json::from_slice(&output.stdout).unwrap();
         assert_eq!(certificate["verdict"], verdict);
         assert_eq!(
@@ -176,7 +171,7 @@ fn polygons_of_others_are_judged_and_the_certificate_says_they_were_cut() {
 }
 
 #[test]
-fn the_tolerance_asked_for_is_the_one_certified() {
+fn the_given_tolerance_is_certified() {
     let home = tempfile::tempdir().unwrap();
     fs::write(home.path().join("book.fold"), folding(90.0).to_string()).unwrap();
     let arguments = [
@@ -193,7 +188,7 @@ fn the_tolerance_asked_for_is_the_one_certified() {
 }
 
 #[test]
-fn bad_motions_are_status_2_and_write_nothing() {
+fn bad_motions_are_status_2_and_write_no_files() {
     let home = tempfile::tempdir().unwrap();
     let flat = |v: &mut Value| v["file_frames"][4]["vertices_coords"][4] = json!([0, 0, 0]);
     let backwards = |v: &mut Value| {
@@ -206,7 +201,7 @@ fn bad_motions_are_status_2_and_write_nothing() {
             frame["foldmotion:time"] = json!(-(k as f64));
         }
     };
-    let changes: [Fault<'_>; 3] = [
+    let changes: [Change<'_>; 3] = [
         (&flat, "file_frames[4]: faces_vertices[1] has no area"),
         (&backwards, "file_frames[1]: "),
         (&|v| v["faces_vertices"] = json!([]), "faces_vertices"),
@@ -226,7 +221,7 @@ fn bad_motions_are_status_2_and_write_nothing() {
         fs::write(home.path().join("bad.fold"), content).unwrap();
         let output = foldmotion(home.path(), &["check", "bad.fold", "--quiet"]);
         let error = text(&output.stderr);
-        assert_eq!(output.status.code(), Some(2), "{error}");
+        assert_status(&output, 2);
         assert!(
             error.contains(named) && error.contains("bad.fold"),
             "{error}"
@@ -242,18 +237,13 @@ fn bad_motions_are_status_2_and_write_nothing() {
         &["check"],
     ] {
         let output = foldmotion(home.path(), arguments);
-        assert_eq!(
-            output.status.code(),
-            Some(2),
-            "{arguments:?}: {}",
-            text(&output.stderr)
-        );
+        assert_status(&output, 2);
     }
     assert!(!home.path().join("out").exists());
 }
 
 #[test]
-fn a_certificate_is_verified_by_its_status_and_stays_as_it_was() {
+fn verification_has_an_exit_status_and_leaves_the_certificate_unchanged() {
     let home = tempfile::tempdir().unwrap();
     fs::write(home.path().join("book.fold"), folding(240.0).to_string()).unwrap();
     foldmotion(
@@ -265,7 +255,7 @@ fn a_certificate_is_verified_by_its_status_and_stays_as_it_was() {
     let verify = ["check", "book.fold", "--verify", "certificate.json"];
     let output = foldmotion(home.path(), &verify);
     let (out, err) = (text(&output.stdout), text(&output.stderr));
-    assert_eq!(output.status.code(), Some(1), "{err}");
+    assert_status(&output, 1);
     assert!(out.contains("\nVERIFIED\n"), "{out}");
     assert!(err.contains("verify "), "{err}");
     assert_eq!(fs::read(&path).unwrap(), written);
@@ -274,13 +264,13 @@ fn a_certificate_is_verified_by_its_status_and_stays_as_it_was() {
     fs::write(&path, lie.to_string()).unwrap();
     let output = foldmotion(home.path(), &verify);
     let out = text(&output.stdout);
-    assert_eq!(output.status.code(), Some(2));
+    assert_status(&output, 2);
     assert!(out.contains("REFUTED") && out.contains("verdict"), "{out}");
     for bad in ["{}", "", "[1, 2"] {
         fs::write(&path, bad).unwrap();
         let output = foldmotion(home.path(), &verify);
         let error = text(&output.stderr);
-        assert_eq!(output.status.code(), Some(2), "{error}");
+        assert_status(&output, 2);
         assert!(error.contains("certificate.json: "), "{error}");
     }
 }
@@ -297,7 +287,7 @@ fn a_certificate_of_another_format_is_refused_with_the_reason_and_the_remedy() {
     let written = json_of(&path);
     assert_eq!(written["format"], json!(2));
     let verify = ["check", "book.fold", "--verify", "certificate.json"];
-    // As version 0.1.0 wrote it, without a format and with counts of work.
+    // A certificate as version 0.1.0 wrote it, without a format and with counts of work.
     let mut first = written.clone();
     first.as_object_mut().unwrap().remove("format");
     first["touching_pairs"] = json!(0);
@@ -313,7 +303,7 @@ fn a_certificate_of_another_format_is_refused_with_the_reason_and_the_remedy() {
         fs::write(&path, certificate.to_string()).unwrap();
         let output = foldmotion(home.path(), &verify);
         let error = text(&output.stderr);
-        assert_eq!(output.status.code(), Some(2), "{error}");
+        assert_status(&output, 2);
         let said = reason
             .iter()
             .chain(&["certificate.json: ", "run `foldmotion check`"]);
@@ -324,15 +314,15 @@ fn a_certificate_of_another_format_is_refused_with_the_reason_and_the_remedy() {
 }
 
 #[test]
-fn a_check_that_stops_says_so_and_is_verified_up_to_there() {
+fn a_check_that_stops_early_says_so_and_is_verified_up_to_there() {
     let home = tempfile::tempdir().unwrap();
     let set = ["sheet.rows=2", "profile.length=2.0", "check.stop_at=1"];
     let report = run(home.path(), "shelter-short-plain", &set);
     let of_run = fs::read(home.path().join("run/certificate.json")).unwrap();
     let arguments = ["check", "run/motion.fold", "--out", ".", "--stop-at", "1"];
     let output = foldmotion(home.path(), &arguments);
-    let (out, err) = (text(&output.stdout), text(&output.stderr));
-    assert_eq!(output.status.code(), Some(1), "{err}");
+    let out = text(&output.stdout);
+    assert_status(&output, 1);
     assert!(out.contains("the check stopped at frame "), "{out}");
     let path = home.path().join("certificate.json");
     assert_eq!(text(&fs::read(&path).unwrap()), text(&of_run));
@@ -342,7 +332,7 @@ fn a_check_that_stops_says_so_and_is_verified_up_to_there() {
     assert!(frame < certificate["frames"].as_u64().unwrap() - 1);
     let verify = ["check", "run/motion.fold", "--verify", "certificate.json"];
     let output = foldmotion(home.path(), &verify);
-    assert_eq!(output.status.code(), Some(1), "{}", text(&output.stdout));
+    assert_status(&output, 1);
     certificate["stopped"]["stop_at"] = json!(1000);
     fs::write(&path, certificate.to_string()).unwrap();
     let output = foldmotion(home.path(), &verify);
@@ -385,7 +375,7 @@ fn the_certificate_of_a_run_is_byte_for_byte_that_of_its_motion_file() {
 }
 
 #[test]
-fn layers_swapped_in_face_orders_are_refused_by_name() {
+fn swapped_layers_in_face_orders_are_named() {
     let home = tempfile::tempdir().unwrap();
     let motion = flat_unit(home.path());
     let (status, certificate) = check(home.path(), &motion);
@@ -432,7 +422,7 @@ fn a_motion_whose_last_frames_have_their_layers_exchanged_is_refused() {
     let mut motion = flat_unit(home.path());
     let frames = motion["file_frames"].as_array_mut().unwrap();
     let from = frames.len() - 2;
-    // Mirrored in the plane that the layers close to: each goes to where its counterpart was.
+    // The frames are mirrored in the middle plane of the stack, which exchanges its layers.
     for frame in &mut frames[from..] {
         let mut points: Vec<[f64; 3]> =
             serde_json::from_value(frame["vertices_coords"].clone()).unwrap();
@@ -450,7 +440,7 @@ fn a_motion_whose_last_frames_have_their_layers_exchanged_is_refused() {
 }
 
 #[test]
-fn face_orders_of_a_motion_with_contact_are_checked_and_refused_where_they_are_false() {
+fn false_face_orders_of_a_motion_with_contact_are_refused() {
     let home = tempfile::tempdir().unwrap();
     run(home.path(), "one-unit", &[]);
     let check = ["check", "run/motion.fold", "--out", "run", "--quiet"];
@@ -468,7 +458,7 @@ fn face_orders_of_a_motion_with_contact_are_checked_and_refused_where_they_are_f
         "run/certificate.json",
     ];
     let output = foldmotion(home.path(), &verify);
-    assert_eq!(output.status.code(), Some(0), "{}", text(&output.stdout));
+    assert_status(&output, 0);
     let path = home.path().join("run/motion.fold");
     let mut motion = json_of(&path);
     for frame in motion["file_frames"].as_array_mut().unwrap() {
@@ -480,7 +470,7 @@ fn face_orders_of_a_motion_with_contact_are_checked_and_refused_where_they_are_f
     fs::write(&path, motion.to_string()).unwrap();
     let output = foldmotion(home.path(), &check);
     let err = text(&output.stderr);
-    assert_eq!(output.status.code(), Some(2), "{err}");
+    assert_status(&output, 2);
     assert!(
         err.contains("faceOrders has [") && err.contains("turn the sign"),
         "{err}"

@@ -1,8 +1,8 @@
-//! The binary as a user meets it: exit status, stdout, stderr, files.
+//! The binary as a user sees it: exit status, stdout, stderr, files.
 
 #![expect(
     clippy::unwrap_used,
-    reason = "a test stops where something is missing"
+    reason = "a test fails where something is missing"
 )]
 
 mod common;
@@ -10,7 +10,7 @@ mod common;
 use std::io::{BufRead as _, BufReader};
 use std::process::{Command, Stdio};
 
-use common::{command, foldmotion, text};
+use common::{assert_status, command, foldmotion, text};
 
 fn scene(name: &str) -> String {
     format!("{}/../../scenes/{name}.toml", env!("CARGO_MANIFEST_DIR"))
@@ -19,13 +19,13 @@ fn scene(name: &str) -> String {
 const SMALL: [&str; 4] = ["--set", "record.size=[64, 48]", "--set", "motion.frames=20"];
 
 #[test]
-fn json_prints_exactly_the_report_and_quiet_nothing() {
+fn json_prints_exactly_the_report_and_quiet_prints_nothing() {
     let home = tempfile::tempdir().unwrap();
     let unit = scene("one-unit");
     let mut arguments = vec!["run", unit.as_str(), "--json", "--quiet"];
     arguments.extend(SMALL);
     let output = foldmotion(home.path(), &arguments);
-    assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
+    assert_status(&output, 0);
     let report = std::fs::read(home.path().join("out/one-unit/report.json")).unwrap();
     assert_eq!(text(&output.stdout), text(&report));
     assert_eq!(text(&output.stderr), "");
@@ -69,11 +69,11 @@ fn a_penetration_is_status_1() {
     let mut arguments = vec!["run", short.as_str()];
     arguments.extend(set);
     let output = foldmotion(home.path(), &arguments);
-    assert_eq!(output.status.code(), Some(1), "{}", text(&output.stderr));
+    assert_status(&output, 1);
 }
 
 #[test]
-fn bad_input_is_status_2_and_writes_nothing() {
+fn bad_input_is_status_2_and_writes_no_files() {
     let home = tempfile::tempdir().unwrap();
     let unit = scene("one-unit");
     for arguments in [
@@ -85,12 +85,7 @@ fn bad_input_is_status_2_and_writes_nothing() {
         vec!["fly"],
     ] {
         let output = foldmotion(home.path(), &arguments);
-        assert_eq!(
-            output.status.code(),
-            Some(2),
-            "{arguments:?}: {}",
-            text(&output.stderr)
-        );
+        assert_status(&output, 2);
         assert!(!text(&output.stderr).contains("panicked"), "{arguments:?}");
         assert_eq!(
             std::fs::read_dir(home.path()).unwrap().count(),
@@ -109,7 +104,7 @@ fn an_output_folder_that_cannot_be_written_is_status_3() {
         home.path(),
         &["run", unit.as_str(), "--out", "file", "--quiet"],
     );
-    assert_eq!(output.status.code(), Some(3));
+    assert_status(&output, 3);
     let error = text(&output.stderr);
     assert!(error.contains("file") && error.contains("--out"), "{error}");
     assert_eq!(
@@ -119,7 +114,7 @@ fn an_output_folder_that_cannot_be_written_is_status_3() {
 }
 
 #[test]
-fn the_scene_of_init_is_good_and_an_existing_file_is_kept() {
+fn the_scene_of_init_can_be_run_and_an_existing_file_is_kept() {
     let home = tempfile::tempdir().unwrap();
     let first = foldmotion(home.path(), &["init", "mine.toml"]);
     assert_eq!(first.status.code(), Some(0), "{}", text(&first.stderr));
@@ -130,7 +125,7 @@ fn the_scene_of_init_is_good_and_an_existing_file_is_kept() {
         std::fs::read_to_string(home.path().join("mine.toml")).unwrap(),
         written
     );
-    // A penetration is an answer too.
+    // A penetration is a valid result as well.
     let set = [
         "run",
         "mine.toml",
@@ -179,13 +174,13 @@ fn models_lists_all_nine_with_rows_columns_and_source() {
 }
 
 #[test]
-fn a_device_is_named_in_the_report_and_refused_where_the_engine_has_no_use_for_it() {
+fn the_device_is_in_the_report_and_a_gpu_is_refused_for_the_quasi_static_engine() {
     let home = tempfile::tempdir().unwrap();
     let unit = scene("one-unit");
     let mut arguments = vec!["run", unit.as_str(), "--device", "gpu", "--quiet"];
     arguments.extend(SMALL);
     let output = foldmotion(home.path(), &arguments);
-    assert_eq!(output.status.code(), Some(2));
+    assert_status(&output, 2);
     assert!(text(&output.stderr).contains("--set motion.engine=dynamic"));
     assert!(!home.path().join("out").exists());
     // A small sheet stays on the processor.
@@ -197,7 +192,7 @@ fn a_device_is_named_in_the_report_and_refused_where_the_engine_has_no_use_for_i
 }
 
 #[test]
-fn a_crease_pattern_is_run_by_itself_whatever_the_case_of_its_ending() {
+fn a_crease_pattern_is_run_without_a_scene_whatever_the_case_of_its_extension() {
     let home = tempfile::tempdir().unwrap();
     let stored = format!(
         "{}/../../scenes/imported/pop-up",
@@ -208,7 +203,7 @@ fn a_crease_pattern_is_run_by_itself_whatever_the_case_of_its_ending() {
         let mut arguments = vec!["run", name, "--set", "pattern.fold_percent=50"];
         arguments.extend(SMALL);
         let output = foldmotion(home.path(), &arguments);
-        assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
+        assert_status(&output, 0);
         let out = text(&output.stdout);
         assert!(
             out.contains("folded by 50 %") && out.contains("mean edge"),
@@ -243,7 +238,7 @@ fn without_a_display_the_window_says_what_to_install_and_what_works_without() {
         .output()
         .unwrap();
     let err = text(&output.stderr);
-    assert_eq!(output.status.code(), Some(3), "{err}");
+    assert_status(&output, 3);
     assert!(
         err.contains("xvfb") && err.contains("foldmotion run"),
         "{err}"
@@ -253,16 +248,16 @@ fn without_a_display_the_window_says_what_to_install_and_what_works_without() {
 
 #[cfg(feature = "window")]
 #[test]
-fn a_file_that_is_not_there_is_bad_input_before_a_window_opens() {
+fn a_missing_file_is_bad_input_before_a_window_opens() {
     let home = tempfile::tempdir().unwrap();
     let output = foldmotion(home.path(), &["view", "nothing.toml"]);
     let err = text(&output.stderr);
-    assert_eq!(output.status.code(), Some(2), "{err}");
+    assert_status(&output, 2);
     assert!(err.contains("nothing.toml"), "{err}");
 }
 
 #[test]
-fn a_second_run_leaves_the_films_of_the_first_and_files_of_the_users_own() {
+fn a_second_run_keeps_the_films_of_the_first_and_files_of_the_user() {
     let home = tempfile::tempdir().unwrap();
     let unit = scene("one-unit");
     let run = |outputs: &str, more: &[&str]| {
@@ -291,7 +286,7 @@ fn a_second_run_leaves_the_films_of_the_first_and_files_of_the_users_own() {
 }
 
 #[test]
-fn what_is_no_regular_file_is_bad_input_at_once() {
+fn only_regular_files_are_read() {
     let home = tempfile::tempdir().unwrap();
     let pipe = home.path().join("pipe.toml");
     let made = Command::new("mkfifo").arg(&pipe).status().unwrap();
@@ -310,7 +305,7 @@ fn what_is_no_regular_file_is_bad_input_at_once() {
     ] {
         let output = foldmotion(home.path(), arguments);
         let said = text(&output.stderr);
-        assert_eq!(output.status.code(), Some(2), "{arguments:?}: {said}");
+        assert_status(&output, 2);
         assert!(
             said.contains("device or a pipe") || said.contains("folder"),
             "{arguments:?}: {said}"
@@ -319,7 +314,7 @@ fn what_is_no_regular_file_is_bad_input_at_once() {
 }
 
 #[test]
-fn a_scene_larger_than_any_is_told_its_size() {
+fn a_scene_above_the_limit_is_refused_with_its_size() {
     let home = tempfile::tempdir().unwrap();
     let size = (16 << 20) + 5;
     std::fs::write(home.path().join("a.toml"), vec![b'#'; size]).unwrap();
@@ -327,7 +322,7 @@ fn a_scene_larger_than_any_is_told_its_size() {
     for name in ["a.toml", "a.svg"] {
         let output = foldmotion(home.path(), &["run", name]);
         let said = text(&output.stderr);
-        assert_eq!(output.status.code(), Some(2), "{said}");
+        assert_status(&output, 2);
         assert!(said.contains(&format!("{size} bytes")), "{said}");
     }
 }
@@ -352,14 +347,14 @@ fn crossing_lines() -> String {
 }
 
 #[test]
-fn an_interrupt_ends_a_run_wherever_it_is_and_leaves_nothing() {
+fn an_interrupt_ends_a_run_at_any_point_and_leaves_no_files() {
     let home = tempfile::tempdir().unwrap();
     std::fs::write(home.path().join("lines.svg"), crossing_lines()).unwrap();
     for signal in ["-INT", "-TERM"] {
         let mut run = command(home.path(), &["run", "lines.svg", "--out", "here/lines"]);
         let mut run = run.stderr(Stdio::piped()).spawn().unwrap();
         let lines = BufReader::new(run.stderr.take().unwrap()).lines();
-        // It folds when it says so.
+        // The interrupt is sent once the engine works.
         let mut lines = lines.map(Result::unwrap);
         assert!(lines.any(|line| line.starts_with("fold")));
         let killed = Command::new("kill")
@@ -375,7 +370,7 @@ fn an_interrupt_ends_a_run_wherever_it_is_and_leaves_nothing() {
 }
 
 #[test]
-fn flags_and_files_that_do_not_go_together_are_refused_by_name() {
+fn flags_and_files_that_exclude_each_other_are_named() {
     let home = tempfile::tempdir().unwrap();
     let unit = scene("one-unit");
     let outputs = "record.outputs=[\"fold\", \"obj\"]";
@@ -395,7 +390,7 @@ fn flags_and_files_that_do_not_go_together_are_refused_by_name() {
     let cases: [(&[&str], &[&str], &str); 3] = [
         (
             &["record", motion, "--again", "here/state-1.obj"],
-            &["state-1.obj", motion, "leave out"],
+            &["state-1.obj", motion, "omit"],
             "nothing",
         ),
         (
@@ -408,7 +403,7 @@ fn flags_and_files_that_do_not_go_together_are_refused_by_name() {
     for (arguments, words, other) in cases {
         let output = foldmotion(home.path(), arguments);
         let said = text(&output.stderr);
-        assert_eq!(output.status.code(), Some(2), "{said}");
+        assert_status(&output, 2);
         assert!(words.iter().all(|word| said.contains(word)), "{said}");
         assert!(!said.contains(other), "{said}");
     }
@@ -424,7 +419,7 @@ fn no_control_characters_of_a_file_reach_the_terminal() {
     std::fs::write(home.path().join("a.fold"), motion).unwrap();
     let output = foldmotion(home.path(), &["check", "a.fold"]);
     let said = text(&output.stdout);
-    assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
+    assert_status(&output, 0);
     let is_command = |letter: char| letter.is_control() && letter != '\n';
     assert!(
         said.contains("red") && !said.contains(is_command),

@@ -1,8 +1,8 @@
-//! How a motion ended is said first and last, and why the exit status is not 0 even where nothing else is printed.
+//! The outcome is the first and last line of the output, and an exit status that is not 0 is explained even with `--quiet`.
 
 #![expect(
     clippy::unwrap_used,
-    reason = "a test stops where something is missing"
+    reason = "a test fails where something is missing"
 )]
 
 mod common;
@@ -13,7 +13,7 @@ use std::process::Output;
 
 use serde_json::{Value, json};
 
-use common::{foldmotion, text};
+use common::{assert_status, foldmotion, text};
 
 fn scene(name: &str) -> String {
     format!("{}/../../scenes/{name}.toml", env!("CARGO_MANIFEST_DIR"))
@@ -23,7 +23,7 @@ fn json_of(path: &Path) -> Value {
     serde_json::from_slice(&fs::read(path).unwrap()).unwrap()
 }
 
-/// Runs `file` for its motion alone, and returns the output and the report in `out`.
+/// Runs `file` with only the motion file as output; returns the output and the report.
 fn run(home: &Path, file: &str, more: &[&str]) -> (Output, Value) {
     let mut arguments = vec!["run", file, "--out", "out"];
     arguments.extend([
@@ -38,7 +38,7 @@ fn run(home: &Path, file: &str, more: &[&str]) -> (Output, Value) {
     (output, report)
 }
 
-/// A square with a valley from each corner to its middle: its angles fit together in no folded state.
+/// A square with a valley from each corner to its middle, which cannot fold flat.
 fn four_valleys(home: &Path) -> String {
     let pattern = json!({
         "vertices_coords": [[0, 0], [4, 0], [4, 4], [0, 4], [2, 2]],
@@ -51,9 +51,14 @@ fn four_valleys(home: &Path) -> String {
     path.to_string_lossy().into_owned()
 }
 
-/// The outcome stands in the first and the last line, in the report, in the motion file, and on stderr unless it is
-/// `folded`.
-fn is_told_everywhere(home: &Path, output: &Output, report: &Value, kind: &str, headline: &str) {
+/// The outcome is in the first and the last line, in the report, in the motion file and, unless it is `folded`, on stderr.
+fn assert_is_reported_everywhere(
+    home: &Path,
+    output: &Output,
+    report: &Value,
+    kind: &str,
+    headline: &str,
+) {
     let (out, err) = (text(&output.stdout), text(&output.stderr));
     assert_eq!(report["outcome"]["kind"], kind, "{out}");
     assert!(out.starts_with(headline), "{out}");
@@ -64,33 +69,33 @@ fn is_told_everywhere(home: &Path, output: &Output, report: &Value, kind: &str, 
         last
     );
     let reason = report["outcome"]["reason"].as_str().unwrap();
-    let told = err
+    let reported = err
         .lines()
         .any(|line| line == format!("foldmotion: {last}: {reason}"));
-    assert_eq!(told, kind != "folded", "{err}");
+    assert_eq!(reported, kind != "folded", "{err}");
     let kept = ["motion.fold", "report.json"].map(|name| home.join("out").join(name).exists());
     assert_eq!(kept, [true; 2]);
 }
 
 #[test]
-fn a_sheet_that_folds_is_said_to_be_folded() {
+fn a_sheet_that_folds_is_reported_as_folded() {
     let home = tempfile::tempdir().unwrap();
     let (output, report) = run(home.path(), &scene("one-unit"), &[]);
-    assert_eq!(output.status.code(), Some(0));
-    is_told_everywhere(home.path(), &output, &report, "folded", "folded");
+    assert_status(&output, 0);
+    assert_is_reported_everywhere(home.path(), &output, &report, "folded", "folded");
     assert!(report["fold_angles"]["largest_error_deg"].as_f64().unwrap() < 5.0);
 }
 
 #[test]
-fn a_jam_is_headed_by_no_good_word_and_names_units_that_block() {
+fn a_jam_is_reported_with_the_units_that_block_and_without_a_good_verdict() {
     let home = tempfile::tempdir().unwrap();
     let (output, report) = run(
         home.path(),
         &scene("shelter-short-plain"),
         &["--set", "motion.contact=true"],
     );
-    assert_eq!(output.status.code(), Some(3));
-    is_told_everywhere(home.path(), &output, &report, "jammed", "jammed at t = 1.");
+    assert_status(&output, 3);
+    assert_is_reported_everywhere(home.path(), &output, &report, "jammed", "jammed at t = 1.");
     let reason = report["outcome"]["reason"].as_str().unwrap();
     assert!(reason.contains("of unit U^"), "{reason}");
     let out = text(&output.stdout);
@@ -102,12 +107,12 @@ fn a_jam_is_headed_by_no_good_word_and_names_units_that_block() {
 }
 
 #[test]
-fn an_equilibrium_far_from_the_targets_is_not_called_folded() {
+fn an_equilibrium_far_from_the_targets_is_not_reported_as_folded() {
     let home = tempfile::tempdir().unwrap();
     let file = four_valleys(home.path());
     let (output, report) = run(home.path(), &file, &["--set", "motion.contact=false"]);
-    assert_eq!(output.status.code(), Some(3));
-    is_told_everywhere(
+    assert_status(&output, 3);
+    assert_is_reported_everywhere(
         home.path(),
         &output,
         &report,
@@ -116,7 +121,7 @@ fn an_equilibrium_far_from_the_targets_is_not_called_folded() {
     );
     let angles = &report["fold_angles"];
     assert!(angles["largest_error_deg"].as_f64() > angles["tolerance_deg"].as_f64());
-    // The edge named is one of the four creases.
+    // The named edge is one of the four creases.
     let motion = json_of(&home.path().join("out/motion.fold"));
     let edge = angles["edge"].as_u64().unwrap() as usize;
     assert_eq!(motion["edges_assignment"][edge], "V");
@@ -127,8 +132,8 @@ fn a_sheet_that_passes_through_itself_collides() {
     let home = tempfile::tempdir().unwrap();
     let set = ["--set", "sheet.rows=2", "--set", "profile.length=2.0"];
     let (output, report) = run(home.path(), &scene("shelter-short-plain"), &set);
-    assert_eq!(output.status.code(), Some(1));
-    is_told_everywhere(
+    assert_status(&output, 1);
+    assert_is_reported_everywhere(
         home.path(),
         &output,
         &report,
@@ -139,14 +144,14 @@ fn a_sheet_that_passes_through_itself_collides() {
 }
 
 #[test]
-fn a_budget_of_steps_ends_a_run_where_it_is_and_always_at_the_same_state() {
+fn a_budget_of_steps_ends_a_run_always_at_the_same_state() {
     let home = tempfile::tempdir().unwrap();
     for engine in ["quasi-static", "dynamic"] {
         let set = format!("motion.engine={engine}");
         let budget = ["--set", &set, "--budget", "150 steps"];
         let (output, report) = run(home.path(), &scene("one-unit"), &budget);
         assert_eq!(output.status.code(), Some(3), "{engine}");
-        is_told_everywhere(home.path(), &output, &report, "stopped", "stopped at t = ");
+        assert_is_reported_everywhere(home.path(), &output, &report, "stopped", "stopped at t = ");
         assert_eq!(report["stop"]["reason"], "out-of-steps");
         let steps = report["engine"]["steps"].as_u64().unwrap();
         assert!((100..=160).contains(&steps), "{engine}: {steps}");
@@ -160,7 +165,7 @@ fn a_budget_of_steps_ends_a_run_where_it_is_and_always_at_the_same_state() {
 }
 
 #[test]
-fn a_budget_of_time_ends_a_run_where_it_is() {
+fn a_budget_of_time_ends_a_run() {
     let home = tempfile::tempdir().unwrap();
     for engine in ["quasi-static", "dynamic"] {
         let set = format!("motion.engine={engine}");
@@ -173,13 +178,13 @@ fn a_budget_of_time_ends_a_run_where_it_is() {
 }
 
 #[test]
-fn a_budget_that_is_none_is_refused_by_name() {
+fn an_invalid_budget_is_refused_with_its_flag_or_key() {
     let home = tempfile::tempdir().unwrap();
     for budget in ["0", "-1", "0 steps", "tomorrow", "1e300"] {
         let budget = format!("--budget={budget}");
         let output = foldmotion(home.path(), &["run", &scene("one-unit"), &budget]);
         let err = text(&output.stderr);
-        assert_eq!(output.status.code(), Some(2), "{budget}: {err}");
+        assert_status(&output, 2);
         assert!(err.contains("--budget"), "{err}");
     }
     let set = ["run", &scene("one-unit"), "--set", "motion.budget=-3"];
@@ -192,7 +197,7 @@ fn a_status_that_is_not_0_is_explained_even_when_quiet() {
     let home = tempfile::tempdir().unwrap();
     let one_line = |output: &Output, status: i32, word: &str| {
         let err = text(&output.stderr);
-        assert_eq!(output.status.code(), Some(status), "{err}");
+        assert_status(output, status);
         assert_eq!(text(&output.stdout), "");
         assert_eq!(err.lines().count(), 1, "{err}");
         assert!(
@@ -211,7 +216,7 @@ fn a_status_that_is_not_0_is_explained_even_when_quiet() {
     one_line(&output, 1, "collides at t = ");
     let check = ["check", "out/motion.fold", "--out", "out", "--quiet"];
     one_line(&foldmotion(home.path(), &check), 1, "penetrating");
-    // The claim is made false.
+    // The certificate is made false.
     let path = home.path().join("out/certificate.json");
     let mut certificate = json_of(&path);
     certificate["verdict"] = "free".into();
@@ -228,13 +233,13 @@ fn a_status_that_is_not_0_is_explained_even_when_quiet() {
 }
 
 #[test]
-fn a_file_with_one_state_is_no_motion() {
+fn a_file_with_one_state_is_not_a_motion() {
     let home = tempfile::tempdir().unwrap();
     let file = four_valleys(home.path());
     for command in ["check", "record"] {
         let output = foldmotion(home.path(), &[command, &file]);
         let err = text(&output.stderr);
-        assert_eq!(output.status.code(), Some(2), "{command}: {err}");
+        assert_status(&output, 2);
         assert!(
             err.contains("a motion needs two or more") && err.contains("foldmotion run"),
             "{err}"

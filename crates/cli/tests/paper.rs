@@ -1,26 +1,22 @@
-//! `foldmotion paper` as a user meets it: parts, files, reuse, refusals.
+//! `foldmotion paper` as a user sees it: parts, files, reuse, refusals.
 
 #![expect(
     clippy::unwrap_used,
-    reason = "a test stops where something is missing"
+    reason = "a test fails where something is missing"
 )]
+
+mod common;
 
 use std::fs;
 use std::path::Path;
-use std::process::{Command, Output};
+use std::process::Output;
 
 use serde_json::Value;
 
-fn paper(folder: &Path, only: &str) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_foldmotion"))
-        .args(["paper", "--out", "paper", "--only", only])
-        .current_dir(folder)
-        .output()
-        .unwrap()
-}
+use common::{assert_status, foldmotion, text};
 
-fn text(bytes: &[u8]) -> String {
-    String::from_utf8(bytes.to_vec()).unwrap()
+fn paper(folder: &Path, only: &str) -> Output {
+    foldmotion(folder, &["paper", "--out", "paper", "--only", only])
 }
 
 fn record(folder: &Path) -> Value {
@@ -28,10 +24,10 @@ fn record(folder: &Path) -> Value {
 }
 
 #[test]
-fn table_1_stands_beside_the_papers_numbers_in_record_and_page() {
+fn table_1_is_compared_with_the_papers_numbers_in_record_and_page() {
     let home = tempfile::tempdir().unwrap();
     let output = paper(home.path(), "table1");
-    assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
+    assert_status(&output, 0);
     let record = record(home.path());
     let rows = record["table1"].as_array().unwrap();
     let number = |value: &Value| value.as_f64().unwrap();
@@ -62,30 +58,30 @@ fn table_1_stands_beside_the_papers_numbers_in_record_and_page() {
 }
 
 #[test]
-fn finished_parts_are_reused_and_damaged_ones_made_anew_with_the_same_bytes() {
+fn finished_parts_are_reused_and_damaged_ones_recomputed_with_the_same_bytes() {
     let home = tempfile::tempdir().unwrap();
     let file = |name: &str| fs::read(home.path().join("paper").join(name)).unwrap();
-    let told = |only: &str| text(&paper(home.path(), only).stdout);
-    assert!(told("fig10,fig1").contains("2 pieces made, 0 reused"));
+    let printed = |only: &str| text(&paper(home.path(), only).stdout);
+    assert!(printed("fig10,fig1").contains("2 parts computed, 0 reused"));
     let (svg, png) = (file("fig10.svg"), file("fig10.png"));
     assert!(text(&svg).starts_with("<svg ") && png.starts_with(b"\x89PNG"));
-    assert!(told("fig1,fig10,fig10").contains("0 pieces made, 2 reused"));
+    assert!(printed("fig1,fig10,fig10").contains("0 parts computed, 2 reused"));
     fs::remove_file(home.path().join("paper/fig10.svg")).unwrap();
     fs::write(home.path().join("paper/fig1.png"), "torn").unwrap();
-    assert!(told("table2,fig1,fig10").contains("2 pieces made, 0 reused"));
+    assert!(printed("table2,fig1,fig10").contains("2 parts computed, 0 reused"));
     assert_eq!((file("fig10.svg"), file("fig10.png")), (svg, png));
     let page = text(&file("index.html"));
     assert!(page.contains("id=\"fig1\"") && page.contains("id=\"fig10\""));
-    assert!(told("table1").contains("0 pieces made, 0 reused"));
+    assert!(printed("table1").contains("0 parts computed, 0 reused"));
     let figures = record(home.path())["figures"].as_array().unwrap().len();
     assert_eq!(figures, 2, "finished figures stay in the record");
 }
 
 #[test]
-fn an_unknown_part_is_refused_with_the_list_and_leaves_nothing() {
+fn an_unknown_part_is_refused_with_the_list_of_parts_and_writes_no_files() {
     let home = tempfile::tempdir().unwrap();
     let output = paper(home.path(), "table1,fig11");
-    assert_eq!(output.status.code(), Some(2));
+    assert_status(&output, 2);
     let message = text(&output.stderr);
     assert!(
         message.contains("\"fig11\"") && message.contains("fig10, unfoldings"),
@@ -99,7 +95,7 @@ fn a_folder_that_cannot_be_written_is_refused() {
     let home = tempfile::tempdir().unwrap();
     fs::write(home.path().join("paper"), "a file").unwrap();
     let output = paper(home.path(), "table1");
-    assert_eq!(output.status.code(), Some(3));
+    assert_status(&output, 3);
     assert!(text(&output.stderr).contains("choose another folder with --out"));
     assert_eq!(
         fs::read_to_string(home.path().join("paper")).unwrap(),

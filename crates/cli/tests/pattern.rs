@@ -1,28 +1,23 @@
-//! `foldmotion pattern` as a user meets it.
+//! `foldmotion pattern` as a user sees it.
 
 #![expect(
     clippy::unwrap_used,
-    reason = "a test stops where something is missing"
+    reason = "a test fails where something is missing"
 )]
 
+mod common;
+
 use std::path::Path;
-use std::process::{Command, Output};
+use std::process::Output;
+
+use common::{assert_status, foldmotion, text};
 
 fn pattern(folder: &Path, arguments: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_foldmotion"))
-        .arg("pattern")
-        .args(arguments)
-        .current_dir(folder)
-        .output()
-        .unwrap()
+    foldmotion(folder, &[&["pattern"], arguments].concat())
 }
 
 fn scene(name: &str) -> String {
     format!("{}/../../scenes/{name}.toml", env!("CARGO_MANIFEST_DIR"))
-}
-
-fn text(bytes: &[u8]) -> String {
-    String::from_utf8(bytes.to_vec()).unwrap()
 }
 
 fn names(folder: &Path) -> Vec<String> {
@@ -46,7 +41,7 @@ fn the_pattern_of_every_case_is_written_in_the_size_of_its_scene() {
         "shelter-tall-plain",
     ] {
         let output = pattern(home.path(), &[&scene(name), "--margin", "0"]);
-        assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
+        assert_status(&output, 0);
         let folder = home.path().join("out").join(name);
         assert_eq!(
             names(&folder),
@@ -93,7 +88,7 @@ fn every_unit_of_length_becomes_millimetres() {
             "--formats=svg",
         ];
         let output = pattern(home.path(), &arguments);
-        assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
+        assert_status(&output, 0);
         let svg = std::fs::read_to_string(home.path().join("here/pattern.svg")).unwrap();
         assert!(
             svg.contains(&format!("width=\"{width}\"")),
@@ -108,14 +103,14 @@ fn every_unit_of_length_becomes_millimetres() {
 }
 
 #[test]
-fn pages_come_if_asked_and_go_when_the_next_pattern_has_none() {
+fn pages_are_written_on_request_and_removed_by_the_next_pattern_without_pages() {
     let home = tempfile::tempdir().unwrap();
     let shelter = scene("shelter-sii");
     let folder = home.path().join("here");
     let common = [shelter.as_str(), "--out", "here", "--width", "300mm"];
     let with = |more: &[&str]| {
         let output = pattern(home.path(), &[&common, more].concat());
-        assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
+        assert_status(&output, 0);
         text(&output.stdout)
     };
     let summary = with(&["--sheet", "A4", "--formats", "svg,dxf"]);
@@ -142,7 +137,7 @@ fn the_same_scene_gives_the_same_bytes() {
             home.path(),
             &[&shelter, "--out", out, "--scale", "0.05", "--sheet", "a3"],
         );
-        assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
+        assert_status(&output, 0);
     }
     let (a, b) = (home.path().join("a"), home.path().join("b"));
     assert_eq!(names(&a), names(&b));
@@ -155,7 +150,7 @@ fn the_same_scene_gives_the_same_bytes() {
 }
 
 #[test]
-fn bad_input_is_status_2_and_writes_nothing() {
+fn bad_input_is_status_2_and_writes_no_files() {
     let home = tempfile::tempdir().unwrap();
     let shelter = scene("shelter-e");
     let cases: &[&[&str]] = &[
@@ -183,7 +178,7 @@ fn bad_input_is_status_2_and_writes_nothing() {
     for &case in cases {
         let output = pattern(home.path(), &[&[shelter.as_str()], case].concat());
         let error = text(&output.stderr);
-        assert_eq!(output.status.code(), Some(2), "{case:?}: {error}");
+        assert_status(&output, 2);
         assert!(!error.contains("panicked") && !error.is_empty(), "{case:?}");
         assert!(names(home.path()).is_empty(), "{case:?}");
     }
@@ -202,7 +197,7 @@ fn rows_that_clash_are_named_and_drawn() {
         .replace("lambda = 0.8\n", "");
     std::fs::write(home.path().join("own.toml"), own).unwrap();
     let output = pattern(home.path(), &["own.toml"]);
-    assert_eq!(output.status.code(), Some(2));
+    assert_status(&output, 2);
     let error = text(&output.stderr);
     assert!(
         error.contains("clash") && error.contains("row 0"),
@@ -213,11 +208,11 @@ fn rows_that_clash_are_named_and_drawn() {
     assert!(text(&output.stdout).contains("clashes.svg"));
     let figure = std::fs::read_to_string(folder.join("clashes.svg")).unwrap();
     assert!(figure.contains("</svg>"));
-    // Another fault draws nothing.
+    // Other errors draw nothing.
     let output = pattern(
         home.path(),
         &[&scene("shelter-s"), "--set", "sheet.width=-1.0"],
     );
-    assert_eq!(output.status.code(), Some(2));
+    assert_status(&output, 2);
     assert_eq!(names(&home.path().join("out")), ["own"]);
 }

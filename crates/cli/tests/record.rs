@@ -1,13 +1,13 @@
-//! `foldmotion record` as a user meets it.
+//! `foldmotion record` as a user sees it.
 
 #![expect(
     clippy::unwrap_used,
-    reason = "a test stops where something is missing"
+    reason = "a test fails where something is missing"
 )]
 
 mod common;
 
-use common::{foldmotion, text};
+use common::{assert_status, foldmotion, text};
 
 /// A triangle pair that folds, as FOLD.
 const MOTION: &str = r#"{"frame_classes": ["creasePattern"], "vertices_coords": [[0, 0], [1, 0], [1, 1], [0, 1]],
@@ -16,7 +16,7 @@ const MOTION: &str = r#"{"frame_classes": ["creasePattern"], "vertices_coords": 
 {"frame_parent": 0, "frame_inherit": true, "vertices_coords": [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0.5, 0.5, 0.7]]}]}"#;
 
 #[test]
-fn a_motion_becomes_files_and_a_file_is_made_again() {
+fn a_motion_is_recorded_and_a_file_is_reproduced() {
     let home = tempfile::tempdir().unwrap();
     std::fs::write(home.path().join("pair.fold"), MOTION).unwrap();
     let flags = [
@@ -40,7 +40,7 @@ fn a_motion_becomes_files_and_a_file_is_made_again() {
         "false",
     ];
     let output = foldmotion(home.path(), &flags);
-    assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
+    assert_status(&output, 0);
     let said = text(&output.stdout);
     assert!(
         said.contains("4 files in out/pair") && said.contains("not marked"),
@@ -62,7 +62,7 @@ fn a_motion_becomes_files_and_a_file_is_made_again() {
 }
 
 #[test]
-fn wrong_flags_are_status_2_by_name_and_write_nothing() {
+fn wrong_flags_are_named_with_status_2_and_write_no_files() {
     let home = tempfile::tempdir().unwrap();
     std::fs::write(home.path().join("pair.fold"), MOTION).unwrap();
     for (arguments, word) in [
@@ -82,7 +82,7 @@ fn wrong_flags_are_status_2_by_name_and_write_nothing() {
         let arguments: Vec<&str> = std::iter::once("record").chain(arguments).collect();
         let output = foldmotion(home.path(), &arguments);
         let said = text(&output.stderr);
-        assert_eq!(output.status.code(), Some(2), "{arguments:?}: {said}");
+        assert_status(&output, 2);
         assert!(said.contains(word), "{arguments:?}: {said}");
         assert!(!home.path().join("out").exists(), "{arguments:?}");
     }

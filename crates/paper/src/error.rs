@@ -1,4 +1,4 @@
-//! What can go wrong while the paper is reproduced, and the exit status it means.
+//! Errors of the paper, and the exit status of each.
 
 use foldmotion_check::CheckError;
 use foldmotion_geometry::GeometryError;
@@ -14,23 +14,23 @@ pub enum PaperError {
     /// A study failed, or the folder cannot be written.
     #[error(transparent)]
     Study(#[from] StudyError),
-    /// There is no part of that name.
-    #[error("{name:?}: no part of the paper; there is: {known}")]
+    /// A name is not that of a part of the paper.
+    #[error("{name:?} is not a part of the paper; the parts are: {known}")]
     Part {
         /// The name that was given.
         name: String,
-        /// Every name.
+        /// The names of all parts.
         known: String,
     },
-    /// There is no built-in profile of that name.
-    #[error("{0}: no built-in profile of this name")]
+    /// A name is not that of a built-in profile.
+    #[error("{0:?} is not a built-in profile")]
     Model(String),
     /// A profile cannot be divided.
     #[error("{model}: {source}")]
     Geometry {
         /// The built-in profile.
         model: String,
-        /// Why not.
+        /// The error of the division or the sheet.
         source: GeometryError,
     },
     /// A sheet of units cannot be laid out.
@@ -38,13 +38,13 @@ pub enum PaperError {
     Pattern {
         /// The profile or figure it is for.
         what: String,
-        /// Why not.
+        /// The error of the division or the sheet.
         source: PatternError,
     },
 }
 
 impl PaperError {
-    /// The run was interrupted.
+    /// The error of an interrupted run.
     pub(crate) const INTERRUPTED: Self = Self::Study(StudyError::Interrupted);
 
     pub(crate) fn model(name: &str) -> Self {

@@ -1,8 +1,18 @@
-//! The whole paper: its tables and figures rebuilt, its numbers beside ours.
+//! Reproduces the tables and figures of the paper, and compares its numbers with those of foldmotion.
 //!
-//! A [`PaperPart`] is what can be asked for; [`paper`] makes the parts in order and keeps each as soon as it is finished, so
-//! that an interrupted run goes on where it was and a second one finds everything. After each part [`PaperRecord`]
-//! (`paper.json`) and the page (`index.html`) are written anew from all that is there.
+//! [`paper`] computes the requested [`PaperPart`]s in order and stores each when it is finished, so that an interrupted run can
+//! be continued and a second run reuses everything. After each part, [`PaperRecord`] (`paper.json`) and the page (`index.html`)
+//! are written from all finished parts.
+//!
+//! ```
+//! use foldmotion_paper::{PaperPart, paper};
+//!
+//! let folder = std::env::temp_dir().join(format!("foldmotion-paper-{}", std::process::id()));
+//! let run = paper(&folder, &[PaperPart::Table2], &|_, _| true)?;
+//! assert_eq!(run.record.table2.len(), 9);
+//! std::fs::remove_dir_all(&folder).ok();
+//! # Ok::<(), foldmotion_paper::PaperError>(())
+//! ```
 
 mod error;
 mod figures;
@@ -22,7 +32,7 @@ use foldmotion_pattern::{Case, models};
 use rayon::prelude::*;
 
 use self::figures::Figure;
-use self::motions::{CERTIFIED, Folding, finished, folding};
+use self::motions::{CERTIFIED, StoredMotion, finished, folding};
 use self::store::Store;
 use self::targets::CASES;
 use foldmotion_study::Destination;
@@ -35,28 +45,28 @@ pub use self::record::{
     PrintedDivision, UnfoldingRow,
 };
 
-/// Told which part is at work and how much of it is done, from 0 to 1; answers whether to go on.
+/// A function that is called with a part and the share of it that is done, from 0 to 1; returns whether to continue.
 pub type PaperProgress<'a> = &'a (dyn Fn(PaperPart, f64) -> bool + Sync);
 
-/// What a run left.
+/// The result of a run.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PaperRun {
-    /// `paper.json`.
+    /// The content of `paper.json`.
     pub record: PaperRecord,
-    /// How many pieces were computed.
-    pub made: usize,
-    /// How many were found finished.
+    /// The number of tables, figures and motions that were computed.
+    pub computed: usize,
+    /// The number of those that were reused.
     pub reused: usize,
 }
 
-/// Makes `parts` in `folder`: figures as SVG and PNG, `paper.json`, `index.html`.
+/// Reproduces `parts` in `destination`: figures as SVG and PNG, `paper.json`, `index.html`.
 ///
-/// Tables 1 and 2 and the boxes that need no simulation cost less than a second and are always there; table 1 is
-/// measured anew each time. Everything else is kept in `parts/` and reused while version and inputs are the same. The
-/// record and the page hold all that is finished in the folder, asked for now or before.
+/// Tables 1 and 2 and the boxes without simulation take less than a second and are always computed. Everything else is stored
+/// in `parts/` and reused while version and inputs are the same. The record and the page contain all parts that are finished
+/// in the folder, requested now or before.
 ///
 /// # Errors
-/// [`PaperError`] of the step that failed; finished parts stay.
+/// [`PaperError`] of the step that failed; finished parts are kept.
 pub fn paper<'a>(
     destination: impl Into<Destination<'a>>,
     parts: &[PaperPart],
@@ -78,20 +88,24 @@ pub fn paper<'a>(
     };
     publish(&store, &mut record)?;
     for &part in parts {
-        go_on(progress, part, 0.0)?;
+        report_progress(progress, part, 0.0)?;
         make(&store, part, progress)?;
         publish(&store, &mut record)?;
-        go_on(progress, part, 1.0)?;
+        report_progress(progress, part, 1.0)?;
     }
-    let [made, reused] = store.counts();
+    let [computed, reused] = store.counts();
     Ok(PaperRun {
         record,
-        made,
+        computed,
         reused,
     })
 }
 
-fn go_on(progress: PaperProgress<'_>, part: PaperPart, done: f64) -> Result<(), PaperError> {
+fn report_progress(
+    progress: PaperProgress<'_>,
+    part: PaperPart,
+    done: f64,
+) -> Result<(), PaperError> {
     if progress(part, done) {
         Ok(())
     } else {
@@ -99,7 +113,7 @@ fn go_on(progress: PaperProgress<'_>, part: PaperPart, done: f64) -> Result<(), 
     }
 }
 
-/// Makes what a part needs and has not been made.
+/// Computes what is missing of a part.
 fn make(store: &Store, part: PaperPart, progress: PaperProgress<'_>) -> Result<(), PaperError> {
     let all: Vec<&str> = models().iter().map(|model| model.name).collect();
     match part {
@@ -126,7 +140,7 @@ fn make(store: &Store, part: PaperPart, progress: PaperProgress<'_>) -> Result<(
     Ok(())
 }
 
-/// The models in all cases, the longest motions first, so that no core waits for the last one.
+/// The models in all cases, the longest motions first, so that all cores finish at about the same time.
 fn pairs<'a>(models: &[&'a str]) -> Vec<(&'a str, Case)> {
     let rows = |name: &str| foldmotion_pattern::find_model(name).map_or(0, |model| model.rows);
     let mut models = models.to_vec();
@@ -135,12 +149,12 @@ fn pairs<'a>(models: &[&'a str]) -> Vec<(&'a str, Case)> {
     models.iter().flat_map(cases).collect()
 }
 
-/// Makes every item, on all cores; progress counts the finished ones.
+/// Computes all items in parallel; progress counts the finished ones.
 fn each<T: Sync>(
     items: &[T],
     part: PaperPart,
     progress: PaperProgress<'_>,
-    make: impl Fn(&T, motions::Done<'_>) -> Result<(), PaperError> + Sync,
+    make: impl Fn(&T, motions::PartProgress<'_>) -> Result<(), PaperError> + Sync,
 ) -> Result<(), PaperError> {
     let finished = AtomicUsize::new(0);
     let whole = || finished.load(Ordering::Relaxed) as f64;
@@ -151,16 +165,17 @@ fn each<T: Sync>(
     })
 }
 
-/// Writes `paper.json` and `index.html` with all that is finished.
+/// Writes `paper.json` and `index.html` from all finished parts.
 fn publish(store: &Store, record: &mut PaperRecord) -> Result<(), PaperError> {
     for row in &mut record.cases {
         let case = CASES.into_iter().find(|case| case.name() == row.case);
-        let found = |contact| finished(store, &row.model, case?, contact).map(|f: Folding| f.row);
+        let found =
+            |contact| finished(store, &row.model, case?, contact).map(|f: StoredMotion| f.row);
         let [motion, certificate] = [false, true].map(found);
         row.simulated = motion.as_ref().map(|motion| motion.compact);
         row.simulated_error = motion.as_ref().map(|motion| motion.error);
-        let judged = certificate.as_ref().or(motion.as_ref());
-        row.verdict = judged.map(|motion| motion.verdict);
+        let checked = certificate.as_ref().or(motion.as_ref());
+        row.verdict = checked.map(|motion| motion.verdict);
         (row.motion, row.certificate) = (motion, certificate);
     }
     let unfolded =

@@ -1,6 +1,5 @@
-//! The motions: compact boxes without contact, certificates with contact, states for figure A1.
+//! The motions of the paper: without contact for the compact boxes, with contact for certificates and figure A1.
 
-use foldmotion_check::relative_error;
 use foldmotion_pattern::{Case, Frame};
 use foldmotion_record::positions_at;
 use glam::DVec3;
@@ -13,9 +12,9 @@ use crate::PaperError;
 use foldmotion_study::report::{BoxReport, ErrorReport};
 use foldmotion_study::{Phase, Study};
 
-/// Frames of a motion without contact: its equilibrium does not depend on them, and a figure needs few.
+/// The number of frames of a motion without contact, whose equilibrium does not depend on it.
 const FREE_FRAMES: usize = 60;
-/// Frames of a motion with contact.
+/// The number of frames of a motion with contact.
 const CONTACT_FRAMES: usize = 120;
 
 /// The profiles of figure A1, in its order.
@@ -24,16 +23,16 @@ pub(super) const CERTIFIED: [&str; 3] = ["shelter", "rolling-paper", "omega"];
 /// The motion times of figure A1.
 pub(super) const STRIP_TIMES: [f64; 5] = [0.0, 0.5, 1.0, 1.6, 2.0];
 
-/// What is kept of a motion.
+/// A motion as it is stored.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub(super) struct Folding {
+pub(super) struct StoredMotion {
     pub(super) row: MotionRow,
-    /// The states at [`STRIP_TIMES`] as far as the motion came; empty without contact.
+    /// The states at [`STRIP_TIMES`], as far as the motion came; empty without contact.
     pub(super) states: Vec<(f64, Vec<DVec3>)>,
 }
 
-/// Told how much of the motion is done, from 0 to 1; answers whether to go on.
-pub(super) type Done<'a> = &'a (dyn Fn(f64) -> bool + Sync);
+/// A function that is called with the share of a part that is done, from 0 to 1; returns whether to continue.
+pub(super) type PartProgress<'a> = &'a (dyn Fn(f64) -> bool + Sync);
 
 /// The name, the scene and the inputs of a motion.
 fn part(model: &str, case: Case, contact: bool) -> [String; 3] {
@@ -48,33 +47,38 @@ fn part(model: &str, case: Case, contact: bool) -> [String; 3] {
     [format!("{kind}-{model}-{}", case.name()), scene, inputs]
 }
 
-/// The motion if it has been made.
-pub(super) fn finished(store: &Store, model: &str, case: Case, contact: bool) -> Option<Folding> {
+/// The stored motion; `None` if it has not been computed.
+pub(super) fn finished(
+    store: &Store,
+    model: &str,
+    case: Case,
+    contact: bool,
+) -> Option<StoredMotion> {
     let [name, _, inputs] = part(model, case, contact);
     store.find(&name, &inputs)
 }
 
-/// The motion, made where it has not been.
+/// The stored motion, which is computed if necessary.
 pub(super) fn folding(
     store: &Store,
     model: &str,
     case: Case,
     contact: bool,
-    done: Done<'_>,
-) -> Result<Folding, PaperError> {
+    done: PartProgress<'_>,
+) -> Result<StoredMotion, PaperError> {
     let [name, scene, inputs] = part(model, case, contact);
     store.part(&name, &inputs, || fold(&study(scene)?, contact, done))
 }
 
-/// What figure A1 is drawn from.
+/// The inputs of figure A1, as text.
 pub(super) fn strip_inputs() -> String {
     let models = CERTIFIED.iter();
     let parts = models.flat_map(|model| CASES.map(|case| part(model, case, true).concat()));
     parts.collect()
 }
 
-fn fold(study: &Study, contact: bool, done: Done<'_>) -> Result<Folding, PaperError> {
-    // Engine and check take about equally long; refinement repeats both.
+fn fold(study: &Study, contact: bool, done: PartProgress<'_>) -> Result<StoredMotion, PaperError> {
+    // Engine and check take about the same time, and refinement repeats both.
     let share = |phase, part: f64| match phase {
         Phase::Check => 0.5 + 0.5 * part,
         _ => 0.5 * part,
@@ -92,11 +96,7 @@ fn fold(study: &Study, contact: bool, done: Done<'_>) -> Result<Folding, PaperEr
         reached_t,
         jam_t: folded.jam().map(|jam| jam.time),
         peak_strain: strains.fold(0.0, f64::max),
-        compact: BoxReport {
-            extents: folded.compact.extents.into(),
-            area: folded.compact.area,
-            volume: folded.compact.volume,
-        },
+        compact: BoxReport::from(&folded.compact),
         rms_to_exact: folded
             .compact
             .rms_to_exact
@@ -108,18 +108,11 @@ fn fold(study: &Study, contact: bool, done: Done<'_>) -> Result<Folding, PaperEr
         let times = STRIP_TIMES.map(|time| time.min(reached_t));
         states.extend(times.map(|time| (time, positions_at(&folded.motion, time))));
     }
-    Ok(Folding { row, states })
+    Ok(StoredMotion { row, states })
 }
 
 fn error_of(study: &Study, measured: &foldmotion_check::FittedBox) -> ErrorReport {
-    let closed = study
-        .subject
-        .closed_form()
-        .map_or([0.0; 3], |form| form.extents);
-    let error = relative_error(measured, closed.into(), study.subject.sheet().unit_length);
-    ErrorReport {
-        extents: error.extents.into(),
-        area: error.area,
-        volume: error.volume,
-    }
+    let closed_form = study.subject.closed_form();
+    let extents = closed_form.map_or([0.0; 3], |form| form.extents);
+    ErrorReport::new(measured, extents, study.subject.sheet().unit_length)
 }

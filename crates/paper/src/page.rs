@@ -1,4 +1,4 @@
-//! `index.html`: the paper's numbers, ours and the difference, with every figure inside.
+//! `index.html`: the paper's numbers, ours and the differences, with all figures.
 
 use foldmotion_check::Verdict;
 use std::fmt::Write as _;
@@ -7,21 +7,21 @@ use super::figures::Figure;
 use super::record::{CaseRow, MotionRow, PaperRecord};
 use foldmotion_study::report::BoxReport;
 
-/// The look of the page.
+/// The style sheet of the page.
 const STYLE: &str = include_str!("page.css");
 
-/// What a row without a value shows.
+/// The text of a missing value.
 const NONE: &str = "–";
 
-/// The page.
+/// The text of the page.
 pub(super) fn page(record: &PaperRecord, figures: &[Figure]) -> String {
     let mut page = format!(
         "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
          <meta name=\"viewport\" content=\"width=device-width\">\n\
          <title>Foldable cylindrical surfaces: the paper beside foldmotion</title>\n<style>\n{STYLE}</style>\n</head>\n<body>\n\
          <h1>Constructing foldable cylindrical surfaces via unfolded waterbomb origami units</h1>\n\
-         <p>The tables and figures of the paper as foldmotion {} rebuilds them: the paper's number, ours, and the \
-         difference. Lengths are in units of the rows' height h. The same numbers stand in <code>paper.json</code>.</p>\n",
+         <p>The tables and figures of the paper as foldmotion {} reproduces them: the paper's number, ours, and the \
+         difference. Lengths are in units of the rows' height h. The same numbers are in <code>paper.json</code>.</p>\n",
         record.version
     );
     page.push_str(&table1(record));
@@ -29,7 +29,7 @@ pub(super) fn page(record: &PaperRecord, figures: &[Figure]) -> String {
     page.push_str(&boxes(record));
     page.push_str(&certificates(record));
     page.push_str(&unfoldings(record));
-    page.push_str(&faults(record));
+    page.push_str(&problems(record));
     for figure in figures {
         let (row, svg) = (&figure.row, &figure.svg);
         let caption = marked(&row.caption);
@@ -44,19 +44,8 @@ pub(super) fn page(record: &PaperRecord, figures: &[Figure]) -> String {
 }
 
 fn table1(record: &PaperRecord) -> String {
-    let head = [
-        "profile",
-        "N_r × N_c",
-        "|R_max| paper",
-        "ours",
-        "difference",
-        "|R_ave| paper",
-        "ours",
-        "difference",
-        "T (s) paper",
-        "ours",
-        "difference",
-    ];
+    let head = "profile; N_r × N_c; |R_max| paper; ours; difference; |R_ave| paper; ours; difference; \
+                T (s) paper; ours; difference";
     let rows = record.table1.iter().map(|row| {
         let printed = &row.paper;
         let mut cells = vec![row.model.clone(), format!("{} × {}", row.rows, row.columns)];
@@ -76,13 +65,11 @@ fn table1(record: &PaperRecord) -> String {
     });
     let words = "Residuals of the division into equal segments (equation 1). The paper's times were measured on another \
                  machine (Intel i5-9300H) with its own starting values; ours are the least of five divisions.";
-    section("Table 1", words, &head, rows)
+    section("Table 1", words, head, rows)
 }
 
 fn table2(record: &PaperRecord) -> String {
-    let head = [
-        "profile", "figure", "paper: E", "T", "S, SII", "ours: E", "T", "S, SII", "",
-    ];
+    let head = "profile; figure; paper: E; T; S, SII; ours: E; T; S, SII; ";
     let rows = record.table2.iter().map(|row| {
         let counts = |rows: usize, columns: [usize; 3]| columns.map(|c| format!("{rows} × {c}"));
         let mut cells = vec![row.model.clone()];
@@ -109,28 +96,14 @@ fn table2(record: &PaperRecord) -> String {
     section(
         "Table 2",
         "Units N_r × N_c of one target (Γ, W) in each case.",
-        &head,
+        head,
         rows,
     )
 }
 
 fn boxes(record: &PaperRecord) -> String {
-    let head = [
-        "profile",
-        "case",
-        "N_r × N_c",
-        "w/h",
-        "A paper",
-        "exact state",
-        "difference",
-        "simulated",
-        "relative error",
-        "V paper",
-        "exact state",
-        "difference",
-        "simulated",
-        "relative error",
-    ];
+    let head = "profile; case; N_r × N_c; w/h; A paper; exact state; difference; simulated; relative error; \
+                V paper; exact state; difference; simulated; relative error";
     let rows = record.cases.iter().map(|row| {
         let mut cells = name_of(row);
         cells.push(format!("{:.4}", row.unit_width));
@@ -152,26 +125,13 @@ fn boxes(record: &PaperRecord) -> String {
     });
     let words = "Area A (x–z plane) and volume V of the compact state's box: the paper's closed forms (equations 3 to 7), the \
                  exact state, and the state that the simulation without contact reaches; its error is divided by the \
-                 closed form or, where that is 0, by h² or h³. N_c marked * are ours.";
-    section("Areas and volumes of every case", words, &head, rows)
+                 closed form or, if that is 0, by h² or h³. N_c marked * are ours.";
+    section("Areas and volumes of every case", words, head, rows)
 }
 
 fn certificates(record: &PaperRecord) -> String {
-    let head = [
-        "profile",
-        "case",
-        "N_r × N_c",
-        "contact",
-        "verdict",
-        "first penetration t",
-        "least separation / h",
-        "reached t",
-        "jam t",
-        "peak strain",
-        "frames",
-        "largest error of an extent",
-        "rms to exact / h",
-    ];
+    let head = "profile; case; N_r × N_c; contact; verdict; first penetration t; least separation / h; \
+                reached t; jam t; peak strain; frames; largest error of an extent; rms to exact / h";
     let mut rows = Vec::new();
     for row in &record.cases {
         for (words, motion) in [("on", &row.certificate), ("off", &row.motion)] {
@@ -184,9 +144,9 @@ fn certificates(record: &PaperRecord) -> String {
         }
     }
     let words = "Motions of the default material (Origami Simulator's stiffness), in equilibrium along the schedule. The \
-                 verdict speaks of the recorded frames and straight paths between them, within 1e-6 h. With contact, layers \
+                 verdict is about the recorded frames and straight paths between them, within 1e-6 h. With contact, layers \
                  keep a gap, so that the compact box is larger than the closed form of a sheet without thickness.";
-    section("Certificates", words, &head, rows.into_iter())
+    section("Certificates", words, head, rows.into_iter())
 }
 
 fn motion_cells(motion: &MotionRow) -> Vec<String> {
@@ -216,15 +176,8 @@ fn motion_cells(motion: &MotionRow) -> Vec<String> {
 }
 
 fn unfoldings(record: &PaperRecord) -> String {
-    let head = [
-        "profile",
-        "N_r",
-        "way",
-        "verdict",
-        "crosses at this part of the way to go",
-        "proved clear at every instant",
-        "frames",
-    ];
+    let head = "profile; N_r; path; verdict; crosses at this part of the remaining path; \
+                proved clear at every instant; frames";
     let rows = record.unfoldings.iter().map(|row| {
         vec![
             row.model.clone(),
@@ -239,19 +192,19 @@ fn unfoldings(record: &PaperRecord) -> String {
     });
     let words = "From the deployed state into the plane, rows rigid: uniform scales all hinge angles alike; energy follows the \
                  descent of Cantarella, Demaine, Iben and O'Brien (2004). Closed profiles touch at their seam when deployed.";
-    section("Unfolding", words, &head, rows)
+    section("Unfolding", words, head, rows)
 }
 
 /// The motions that penetrate, jam or stay undecided, in words.
-fn faults(record: &PaperRecord) -> String {
+fn problems(record: &PaperRecord) -> String {
     let mut list = String::new();
-    let mut tell = |words: String| {
+    let mut add = |words: String| {
         let _ = writeln!(list, "<li>{words}</li>");
     };
     for row in &record.unfoldings {
         if let Some(part) = row.crosses_at {
-            tell(format!(
-                "{}, unfolded by the way “{}”: passes through itself from {part:.3} of the way to go on.",
+            add(format!(
+                "{}, unfolded on the path “{}”: passes through itself once {part:.3} of the path remains.",
                 row.model, row.method
             ));
         }
@@ -261,13 +214,13 @@ fn faults(record: &PaperRecord) -> String {
             let Some(motion) = motion else { continue };
             let name = format!("{}, case {}, {contact} contact", row.model, row.case);
             if let Some(t) = motion.first_penetration_t {
-                tell(format!("{name}: penetrates, first at t = {t:.4}."));
+                add(format!("{name}: penetrates, first at t = {t:.4}."));
             }
             if let Some(t) = motion.jam_t {
-                tell(format!("{name}: jams at t = {t:.4}."));
+                add(format!("{name}: jams at t = {t:.4}."));
             }
             if motion.verdict == Verdict::Undecided || !motion.converged {
-                tell(format!(
+                add(format!(
                     "{name}: {}, reached t = {}.",
                     motion.verdict, motion.reached_t
                 ));
@@ -289,10 +242,11 @@ fn name_of(row: &CaseRow) -> Vec<String> {
     ]
 }
 
+/// A table with a title and an introduction; `head` has the names of its columns, separated by `; `.
 fn section(
     title: &str,
     words: &str,
-    head: &[&str],
+    head: &str,
     rows: impl Iterator<Item = Vec<String>>,
 ) -> String {
     let mut body = String::new();
@@ -311,8 +265,7 @@ fn section(
     if body.is_empty() {
         return String::new();
     }
-    let head: Vec<String> = head.iter().map(|h| marked(h)).collect();
-    let head = head.join("</th><th>");
+    let head = marked(head).replace("; ", "</th><th>");
     let words = marked(words);
     format!(
         "<h2>{title}</h2>\n<p>{words}</p>\n<div><table>\n<thead><tr><th>{head}</th></tr></thead>\n<tbody>\n{body}</tbody>\n</table></div>\n"
@@ -325,7 +278,7 @@ fn escaped(text: &str) -> String {
         .replace('>', "&gt;")
 }
 
-/// Words with `_x` lowered.
+/// A text in which `_x` becomes a subscript.
 fn marked(text: &str) -> String {
     let text = escaped(text);
     let mut parts = text.split('_');
@@ -345,7 +298,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn marks_become_lowered_letters_and_signs_are_escaped() {
+    fn subscripts_are_marked_and_signs_are_escaped() {
         assert_eq!(
             marked("|R_max| < N_r × N_c"),
             "|R<sub>max</sub>| &lt; N<sub>r</sub> × N<sub>c</sub>"

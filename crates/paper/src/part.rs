@@ -1,4 +1,4 @@
-//! The parts of the paper that can be asked for.
+//! The parts of the paper.
 
 use crate::PaperError;
 
@@ -22,7 +22,7 @@ pub enum PaperPart {
 }
 
 impl PaperPart {
-    /// Every part, in the order in which they are made.
+    /// All parts, in the order in which they are computed.
     pub const ALL: [Self; 16] = [
         Self::Table1,
         Self::Table2,
@@ -64,10 +64,10 @@ impl PaperPart {
         }
     }
 
-    /// The parts of a list such as `table1,figA1`, in the order in which they are made, each once.
+    /// The parts of a list such as `table1,figA1` in any case, in the order in which they are computed, each once.
     ///
     /// # Errors
-    /// [`PaperError::Part`] of the first name that is none, upper and lower case apart.
+    /// [`PaperError::Part`] of the first unknown name.
     pub fn parse_list(list: &str) -> Result<Vec<Self>, PaperError> {
         let find = |name: &str| {
             let mut parts = Self::ALL.into_iter();
@@ -77,10 +77,10 @@ impl PaperPart {
                 known: Self::ALL.map(Self::name).join(", "),
             })
         };
-        let asked: Vec<Self> = list.split(',').map(find).collect::<Result<_, _>>()?;
+        let requested: Vec<Self> = list.split(',').map(find).collect::<Result<_, _>>()?;
         Ok(Self::ALL
             .into_iter()
-            .filter(|part| asked.contains(part))
+            .filter(|part| requested.contains(part))
             .collect())
     }
 }

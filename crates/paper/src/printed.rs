@@ -1,4 +1,4 @@
-//! The numbers the paper prints in tables 1 and 2.
+//! The numbers that the paper prints in tables 1 and 2.
 
 /// A row of table 1.
 #[derive(Debug, Clone, Copy)]
@@ -6,11 +6,11 @@ pub(super) struct Table1 {
     pub(super) model: &'static str,
     pub(super) rows: usize,
     pub(super) columns: usize,
-    /// |R_max|.
+    /// |R_max|, the largest residual.
     pub(super) max_residual: f64,
-    /// |R_ave|.
+    /// |R_ave|, the mean residual.
     pub(super) mean_residual: f64,
-    /// T (s).
+    /// T, in seconds.
     pub(super) seconds: f64,
 }
 

@@ -1,4 +1,4 @@
-//! `paper.json`: what was found out, beside what the paper prints.
+//! `paper.json`: the computed numbers and those that the paper prints.
 
 use foldmotion_check::Verdict;
 use schemars::JsonSchema;
@@ -142,7 +142,7 @@ pub struct MotionRow {
     pub error: ErrorReport,
 }
 
-/// A profile unfolded into the plane, judged frame by frame.
+/// A profile unfolded into the plane, checked frame by frame.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct UnfoldingRow {
     /// The name of the built-in profile.
@@ -151,7 +151,7 @@ pub struct UnfoldingRow {
     pub rows: usize,
     /// `uniform`: all hinge angles are scaled alike; `energy`: descent of the energy of Cantarella et al. (2004).
     pub method: String,
-    /// Whether the profile crosses itself on the way.
+    /// Whether the profile crosses itself while it unfolds.
     pub verdict: Verdict,
     /// The part of the path still to go, from 1 to 0, at which the first penetration begins; for `uniform` the part
     /// of the hinge angles.

@@ -1,7 +1,7 @@
-//! The folder of the paper: finished parts are kept, and found again by what they were made from.
+//! The output folder of the paper, in which finished parts are stored with the hash of their inputs.
 //!
-//! `parts/NAME.json` holds what was found out in a part with a key: the SHA-256 of the program's version and the part's
-//! inputs. A part of another key is made anew. Every file is written beside its place and renamed into it.
+//! `parts/NAME.json` has the value of a part and a key: the SHA-256 of the program's version and the inputs of the part. A part
+//! with another key is computed again. Each file is written under a temporary name and then renamed.
 
 use std::fs;
 use std::io;
@@ -16,16 +16,16 @@ use crate::PaperError;
 
 use foldmotion_study::VERSION;
 use foldmotion_study::sha256;
-use foldmotion_study::{StudyError, listed, may_run};
+use foldmotion_study::{StudyError, list_names, process_may_exist};
 
-/// The record and the page.
+/// The names of the record and of the page.
 pub(super) const RECORD: &str = "paper.json";
 pub(super) const PAGE: &str = "index.html";
 
-/// Where the parts lie in the folder.
+/// The name of the folder of the parts.
 const PARTS: &str = "parts";
 
-/// What the name of a file ends with, before the number of the process that writes it.
+/// The suffix of temporary names, before the number of the process.
 const PARTIAL: &str = ".partial-";
 
 /// `parts/NAME.json`.
@@ -39,32 +39,32 @@ struct Stored<T> {
 #[derive(Debug)]
 pub(super) struct Store {
     folder: PathBuf,
-    made: AtomicUsize,
+    computed: AtomicUsize,
     reused: AtomicUsize,
 }
 
 impl Store {
-    /// Opens the folder; makes it where it is missing.
+    /// Opens the folder; creates it if necessary.
     pub(super) fn open(folder: &Path) -> Result<Self, PaperError> {
         let parts = folder.join(PARTS);
-        fs::create_dir_all(&parts).map_err(|e| output_error(&parts, "cannot be made", e))?;
+        fs::create_dir_all(&parts).map_err(|e| output_error(&parts, "cannot be created", e))?;
         remove_left_over(folder);
         remove_left_over(&parts);
         Ok(Self {
             folder: folder.to_owned(),
-            made: AtomicUsize::new(0),
+            computed: AtomicUsize::new(0),
             reused: AtomicUsize::new(0),
         })
     }
 
-    /// The finished value of part `name` made from `inputs`, if it is there.
+    /// The stored value of part `name`; `None` if it is missing or has other inputs.
     pub(super) fn find<T: DeserializeOwned>(&self, name: &str, inputs: &str) -> Option<T> {
         let text = fs::read_to_string(self.part_path(name)).ok()?;
         let stored: Stored<T> = serde_json::from_str(&text).ok()?;
         (stored.key == key(inputs)).then_some(stored.value)
     }
 
-    /// The finished value of part `name`, made by `make` where it is not there or was made from other inputs.
+    /// The stored value of part `name`, which is computed by `make` if it is missing or has other inputs.
     pub(super) fn part<T: Serialize + DeserializeOwned>(
         &self,
         name: &str,
@@ -83,11 +83,11 @@ impl Store {
         let text = serde_json::to_string(&stored)
             .map_err(|e| output_error(&path, "cannot be written", e.into()))?;
         write(&path, text.as_bytes())?;
-        self.made.fetch_add(1, Ordering::Relaxed);
+        self.computed.fetch_add(1, Ordering::Relaxed);
         Ok(stored.value)
     }
 
-    /// Forgets part `name`, so that it is made anew.
+    /// Removes part `name`, so that it is computed again.
     pub(super) fn forget(&self, name: &str) -> Result<(), PaperError> {
         let path = self.part_path(name);
         match fs::remove_file(&path) {
@@ -98,7 +98,7 @@ impl Store {
         }
     }
 
-    /// Writes `name` in the folder, at once or not at all.
+    /// Writes the file `name` in the folder atomically.
     pub(super) fn write_file(&self, name: &str, bytes: &[u8]) -> Result<(), PaperError> {
         write(&self.folder.join(name), bytes)
     }
@@ -108,9 +108,9 @@ impl Store {
         fs::read(self.folder.join(name))
     }
 
-    /// How many parts were made and how many found finished.
+    /// The numbers of computed and of reused parts.
     pub(super) fn counts(&self) -> [usize; 2] {
-        [&self.made, &self.reused].map(|count| count.load(Ordering::Relaxed))
+        [&self.computed, &self.reused].map(|count| count.load(Ordering::Relaxed))
     }
 
     fn part_path(&self, name: &str) -> PathBuf {
@@ -118,9 +118,9 @@ impl Store {
     }
 }
 
-/// Refuses a folder with files under the names of the paper's, but without its record: they are of others.
+/// Refuses a folder that has files with names of the paper but no record: they are files of the user.
 pub(super) fn require_clear(folder: &Path) -> Result<(), PaperError> {
-    let is_ours = |name: &str| {
+    let has_name_of_paper = |name: &str| {
         let figure = name
             .strip_prefix("fig")
             .and_then(|rest| rest.split_once('.'));
@@ -138,16 +138,16 @@ pub(super) fn require_clear(folder: &Path) -> Result<(), PaperError> {
                 .file_name()
                 .into_string()
                 .ok()
-                .filter(|name| is_ours(name)),
+                .filter(|name| has_name_of_paper(name)),
         );
     }
     if names.is_empty() {
         return Ok(());
     }
     names.sort_unstable();
-    Err(PaperError::Study(StudyError::InTheWay {
+    Err(PaperError::Study(StudyError::Conflict {
         path: folder.to_owned(),
-        names: listed(&names),
+        names: list_names(&names),
         command: "paper",
     }))
 }
@@ -160,20 +160,20 @@ fn output_error(path: &Path, action: &'static str, source: io::Error) -> PaperEr
     })
 }
 
-/// Removes files that killed processes left half written in `folder`.
+/// Removes the temporary files of killed processes in `folder`.
 fn remove_left_over(folder: &Path) {
     for entry in fs::read_dir(folder).into_iter().flatten().flatten() {
         let name = entry.file_name();
         let parts = name.to_str().and_then(|name| name.rsplit_once(PARTIAL));
         let process = parts.and_then(|(_, number)| number.parse().ok());
-        if process.is_some_and(|process| !may_run(process)) {
-            // What cannot be removed says by its name what it is.
+        if process.is_some_and(|process| !process_may_exist(process)) {
+            // A file that cannot be removed is recognisable by its name.
             let _ = fs::remove_file(entry.path());
         }
     }
 }
 
-/// Writes a file beside its place and renames it into it.
+/// Writes a file under a temporary name and renames it.
 fn write(path: &Path, bytes: &[u8]) -> Result<(), PaperError> {
     let ending = format!("{PARTIAL}{}", std::process::id());
     let mut temporary = path.as_os_str().to_owned();
@@ -181,7 +181,7 @@ fn write(path: &Path, bytes: &[u8]) -> Result<(), PaperError> {
     let temporary = PathBuf::from(temporary);
     let written = fs::write(&temporary, bytes).and_then(|()| fs::rename(&temporary, path));
     written.map_err(|e| {
-        // What cannot be removed says by its name what it is.
+        // A file that cannot be removed is recognisable by its name.
         let _ = fs::remove_file(&temporary);
         output_error(path, "cannot be written", e)
     })
@@ -196,7 +196,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_part_is_made_once_and_anew_where_its_inputs_change() {
+    fn a_part_is_computed_once_and_again_if_its_inputs_change() {
         let home = tempfile::tempdir().unwrap();
         let made = AtomicUsize::new(0);
         let get = |store: &Store, inputs: &str| {
@@ -212,7 +212,7 @@ mod tests {
     }
 
     #[test]
-    fn a_damaged_part_is_made_anew_and_a_failed_one_leaves_nothing() {
+    fn a_damaged_part_is_computed_again_and_a_failed_one_is_not_stored() {
         let home = tempfile::tempdir().unwrap();
         let store = Store::open(home.path()).unwrap();
         store.part("a", "x", || Ok(1)).unwrap();
@@ -225,7 +225,7 @@ mod tests {
     }
 
     #[test]
-    fn files_that_killed_processes_left_half_written_are_removed() {
+    fn temporary_files_of_killed_processes_are_removed() {
         let home = tempfile::tempdir().unwrap();
         let names = ["a.svg.partial-4294967295", "a.svg.partial-1", "a.partial-x"];
         for name in names {
@@ -237,7 +237,7 @@ mod tests {
     }
 
     #[test]
-    fn files_of_others_under_the_papers_names_are_refused_where_no_record_of_it_lies() {
+    fn files_of_the_user_with_names_of_the_paper_are_refused() {
         let home = tempfile::tempdir().unwrap();
         fs::write(home.path().join("notes.txt"), "mine").unwrap();
         require_clear(home.path()).unwrap();
@@ -252,7 +252,7 @@ mod tests {
     }
 
     #[test]
-    fn a_file_in_the_way_of_the_folder_is_refused() {
+    fn a_file_with_the_name_of_the_folder_is_refused() {
         let home = tempfile::tempdir().unwrap();
         let path = home.path().join("file");
         fs::write(&path, "mine").unwrap();

@@ -13,10 +13,10 @@ use crate::PaperError;
 use foldmotion_study::UnitStudy;
 use foldmotion_study::report::BoxReport;
 
-/// Timings are the least of this many.
+/// The number of divisions of which the shortest time is taken.
 const TIMED: usize = 5;
 
-/// Table 1, each profile divided anew.
+/// Table 1: the division of each profile, timed.
 pub(super) fn table1() -> Result<Vec<DivisionRow>, PaperError> {
     let mut rows = Vec::with_capacity(TABLE_1.len());
     for printed in &TABLE_1 {
@@ -53,7 +53,7 @@ pub(super) fn table1() -> Result<Vec<DivisionRow>, PaperError> {
     Ok(rows)
 }
 
-/// Table 2; the profiles it leaves out come with columns of ours.
+/// Table 2, and our columns for the profiles that it omits.
 pub(super) fn table2() -> Vec<CountRow> {
     let row = |model: &foldmotion_pattern::ProfileModel| CountRow {
         model: model.name.to_owned(),
@@ -71,7 +71,7 @@ pub(super) fn table2() -> Vec<CountRow> {
     models().iter().map(row).collect()
 }
 
-/// Closed form and exact box of nine profiles in four cases.
+/// The closed form and the exact box of nine profiles in four cases.
 pub(super) fn cases() -> Result<Vec<CaseRow>, PaperError> {
     let mut rows = Vec::with_capacity(models().len() * CASES.len());
     for model in models() {
@@ -103,7 +103,7 @@ fn case_row(model: &str, study: &UnitStudy) -> Option<CaseRow> {
     })
 }
 
-/// The box of a state along the axes.
+/// The box of a state, along the axes.
 fn box_of(positions: &[DVec3]) -> BoxReport {
     let extents = Aabb::around(positions.iter().copied()).extents();
     BoxReport {

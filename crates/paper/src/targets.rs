@@ -1,4 +1,4 @@
-//! The targets (Γ, W) of the paper: its profiles in the cases of the units, with W = Nc·h of case E.
+//! The targets (Γ, W) of the paper: its profiles in four cases, with W = Nc·h of case E.
 
 use std::path::Path;
 
@@ -15,8 +15,8 @@ pub(super) const LAMBDA: f64 = 0.7;
 
 /// A scene of the built-in profile `model` in `case` with the lines `motion` under `[motion]`.
 ///
-/// Rows and columns are those of tables 1 and 2, h = 1, d = w1'/2; facets are cut as Origami Simulator, the paper's, cuts
-/// them.
+/// Rows and columns are those of tables 1 and 2, h = 1, d = w1'/2. Facets are cut along one diagonal, as in Origami Simulator,
+/// which the paper uses.
 pub(super) fn scene(model: &str, case: Case, motion: &str) -> String {
     let lambda = match case {
         Case::SII => format!("lambda = {LAMBDA}\n"),
@@ -45,12 +45,12 @@ pub(super) fn unit_study(scene: String) -> Result<UnitStudy, PaperError> {
     ))?)
 }
 
-/// The sheet of `model` in `case` with its exact states; nothing is simulated.
+/// The sheet of `model` in `case` with its exact states, without a simulation.
 pub(super) fn sheet(model: &str, case: Case) -> Result<UnitStudy, PaperError> {
     unit_study(scene(model, case, ""))
 }
 
-/// What a part about `scene` is made from: the scene and the curve it names.
+/// The inputs of a part about `scene`, as text: the scene and the curve of its profile.
 pub(super) fn inputs(model: &str, scene: &str) -> String {
     let model: Option<&ProfileModel> = find_model(model);
     format!("{scene}\n{model:?}")

@@ -1,34 +1,34 @@
-//! The nine profiles unfolded into the plane, each motion judged.
+//! The nine profiles unfolded into the plane, with a check of each motion.
 //!
-//! Rows stay rigid rectangles here, so every state is the exact deployed state over a chain of segments of equal
-//! length. Every column repeats the same cross-section; one column is judged.
+//! Rows are rigid rectangles here, so each state is the exact deployed state on a chain of segments of equal length. All
+//! columns have the same cross-section, so one column is checked.
 
 use foldmotion_check::{CollisionOptions, Verdict, collisions};
 use foldmotion_pattern::{Case, Facing, Frame, LayerOrder, Motion, Unit, UnitSheet};
 use glam::DVec2;
 
-use super::motions::Done;
+use super::motions::PartProgress;
 use super::record::UnfoldingRow;
 use super::store::Store;
 use super::targets::{inputs, sheet};
 use crate::PaperError;
 use foldmotion_study::UnitStudy;
 
-/// Frames from deployed to planar: the straight paths between them are what is judged.
+/// The number of frames from deployed to planar; the straight paths between them are checked.
 const FRAMES: usize = 960;
 
-/// The unfoldings of `model`, if they have been judged.
+/// The stored unfoldings of `model`; `None` if they have not been checked.
 pub(super) fn finished(store: &Store, model: &str) -> Option<Vec<UnfoldingRow>> {
     store.find(&name(model), &part_inputs(model))
 }
 
-/// The unfoldings of `model`, judged where they have not been: uniform, and by energy where uniform is not proved clear.
+/// The unfoldings of `model`, which are checked if necessary: uniform, and by energy if uniform is not proved to be clear.
 pub(super) fn unfolding(
     store: &Store,
     model: &str,
-    done: Done<'_>,
+    done: PartProgress<'_>,
 ) -> Result<Vec<UnfoldingRow>, PaperError> {
-    store.part(&name(model), &part_inputs(model), || judge_all(model, done))
+    store.part(&name(model), &part_inputs(model), || check_all(model, done))
 }
 
 fn name(model: &str) -> String {
@@ -39,19 +39,19 @@ fn part_inputs(model: &str) -> String {
     inputs(model, &format!("unfolding, {FRAMES} frames"))
 }
 
-fn judge_all(model: &str, done: Done<'_>) -> Result<Vec<UnfoldingRow>, PaperError> {
+fn check_all(model: &str, done: PartProgress<'_>) -> Result<Vec<UnfoldingRow>, PaperError> {
     let study = sheet(model, Case::E)?;
     let unfolding = &study.unfolding;
     let turns = turns(&study.division.points);
     let scaled = |time: f64| turns.iter().map(|turn| (1.0 - time) * turn).collect();
-    let uniform = judge(model, &study, scaled, done)?;
+    let uniform = check(model, &study, scaled, done)?;
     let is_proved = unfolding.certified && unfolding.path.is_none();
     let mut rows = vec![UnfoldingRow {
         proved: is_proved,
         ..uniform
     }];
     if let Some(path) = &unfolding.path {
-        let by_energy = judge(model, &study, |time| path.at(time), done)?;
+        let by_energy = check(model, &study, |time| path.at(time), done)?;
         rows.push(UnfoldingRow {
             method: "energy".to_owned(),
             proved: unfolding.certified,
@@ -61,12 +61,12 @@ fn judge_all(model: &str, done: Done<'_>) -> Result<Vec<UnfoldingRow>, PaperErro
     Ok(rows)
 }
 
-/// Judges the motion in which the turns of the chain at time t are `turns_at(t)`.
-fn judge(
+/// Checks the motion in which the turns of the chain at time t are `turns_at(t)`.
+fn check(
     model: &str,
     study: &UnitStudy,
     turns_at: impl Fn(f64) -> Vec<f64>,
-    done: Done<'_>,
+    done: PartProgress<'_>,
 ) -> Result<UnfoldingRow, PaperError> {
     let motion = motion(study, turns_at)?;
     let report = collisions(&motion, &CollisionOptions::default(), done)?;
@@ -84,7 +84,7 @@ fn judge(
     })
 }
 
-/// One column of the sheet over the chain with those turns.
+/// The motion of one column of the sheet on the chain with those turns.
 fn motion(study: &UnitStudy, turns_at: impl Fn(f64) -> Vec<f64>) -> Result<Motion, PaperError> {
     let height = study.units.unit.height;
     let failed = |e| PaperError::pattern(&study.profile_source, e);
@@ -113,8 +113,8 @@ fn turns(points: &[DVec2]) -> Vec<f64> {
     points.windows(3).map(turn).collect()
 }
 
-/// The chain of segments of length `height` with those turns; its middle segment lies along x, which keeps the ways of
-/// both ends short.
+/// The chain of segments of length `height` with those turns. Its middle segment lies along x, which keeps the paths of both
+/// ends short.
 fn chain(height: f64, turns: &[f64]) -> Vec<DVec2> {
     let mut heading = -turns[..turns.len() / 2].iter().sum::<f64>();
     let mut point = height * DVec2::from_angle(heading);
@@ -148,10 +148,10 @@ mod tests {
 
     #[test]
     fn the_shelter_unfolds_clear_and_the_spiral_by_energy_where_scaling_crosses() {
-        let rows = judge_all("shelter", &|_| true).unwrap();
+        let rows = check_all("shelter", &|_| true).unwrap();
         assert_eq!(rows.len(), 1, "{rows:?}");
         assert!(rows[0].proved && rows[0].crosses_at.is_none(), "{rows:?}");
-        let rows = judge_all("fermat-spiral", &|_| true).unwrap();
+        let rows = check_all("fermat-spiral", &|_| true).unwrap();
         assert_eq!(rows[0].verdict, Verdict::Penetrating);
         let crosses_at = rows[0].crosses_at.unwrap();
         assert!((0.8..0.9).contains(&crosses_at), "{rows:?}");

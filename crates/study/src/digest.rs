@@ -1,11 +1,11 @@
-//! SHA-256 of what is written.
+//! SHA-256 digests.
 
 use std::fmt::Write as _;
 use std::io::{self, Write};
 
 use sha2::{Digest as _, Sha256};
 
-/// Passes everything on and hashes it.
+/// A writer that hashes what it passes on.
 pub(crate) struct HashedWriter<W> {
     out: W,
     hash: Sha256,

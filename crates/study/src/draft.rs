@@ -1,4 +1,4 @@
-//! What a scene folds, before anything says how it moves: quick enough to follow a hand that drags a control point.
+//! The sheet of a scene without its motion: resolved quickly enough to follow a control point that is dragged.
 
 use foldmotion_geometry::{Division, Fit, Profile};
 use foldmotion_pattern::{CompactBox, PatternCheck, Sheet, UnitSheet};
@@ -11,7 +11,7 @@ use crate::resolve::units::{ResolvedSheet, sheet};
 use crate::scene::DivisionMethod;
 use crate::{SceneSource, StudyError};
 
-/// What a scene folds.
+/// The sheet that a scene folds.
 #[derive(Debug, Clone)]
 pub enum Draft {
     /// A sheet of units on a divided profile.
@@ -23,37 +23,34 @@ pub enum Draft {
 /// A sheet of units on a divided profile.
 #[derive(Debug, Clone)]
 pub struct UnitDraft {
-    /// Γ.
+    /// The curve Γ that the sheet approximates.
     pub profile: Profile,
-    /// Where Γ comes from.
+    /// The origin of Γ: a built-in profile, or a key or file of the scene.
     pub profile_source: String,
-    /// Γ divided.
+    /// The division of Γ into segments.
     pub division: Division,
-    /// How.
+    /// The method of the division.
     pub division_method: DivisionMethod,
-    /// How far Γ is from its segments.
+    /// The distances of Γ from its segments.
     pub fit: Fit,
     /// The sheet of units.
     pub units: UnitSheet,
     /// The pattern check.
     pub pattern: PatternCheck,
-    /// The closed form of the compact box, where the case has one.
+    /// The closed form of the compact box; `None` if the case has none.
     pub closed_form: Option<CompactBox>,
     /// The deployed state.
     pub deployed: Vec<DVec3>,
 }
 
 impl Draft {
-    /// Resolves what `source` folds. What says how it moves (`material`, `motion`, `check`, `record`) is not looked at.
+    /// Resolves the sheet of `source`; the tables `material`, `motion`, `check` and `record` are ignored.
     ///
     /// # Errors
     /// Every unusable value, with file, line, key, value and remedy.
     pub fn resolve(source: &SceneSource) -> Result<Self, StudyError> {
         let scene = source.scene()?;
-        let input = Input {
-            source,
-            scene: &scene,
-        };
+        let input = Input::new(source, &scene);
         if let Some(pattern) = &scene.pattern {
             return Ok(Self::Imported(Box::new(imported(&input, pattern)?)));
         }
@@ -68,7 +65,7 @@ impl Draft {
         }
     }
 
-    /// The sheet of units, where it is one.
+    /// The sheet of units; `None` for an imported pattern.
     pub fn units(&self) -> Option<&UnitDraft> {
         match self {
             Self::Units(draft) => Some(draft),
@@ -76,7 +73,7 @@ impl Draft {
         }
     }
 
-    /// The state in which its motion starts.
+    /// The positions at which the motion starts.
     pub fn start(&self) -> Vec<DVec3> {
         match self {
             Self::Units(draft) => draft.deployed.clone(),

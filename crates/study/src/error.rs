@@ -1,4 +1,4 @@
-//! What can go wrong between a scene file and its results, and the exit status it means.
+//! Errors between a scene file and its results, and the exit status of each.
 
 use std::io;
 use std::path::PathBuf;
@@ -19,52 +19,52 @@ pub enum StudyError {
     Read {
         /// The scene file.
         path: PathBuf,
-        /// Why.
+        /// The error of the operating system.
         source: io::Error,
     },
-    /// The scene is no TOML, or a key is unknown, missing or of the wrong type.
-    #[error("{place}: {message}")]
+    /// The scene is not valid TOML, or a key is unknown, missing or of the wrong type.
+    #[error("{location}: {message}")]
     Parse {
-        /// File, line and column, or the `--set` at fault.
-        place: String,
+        /// File, line and column, or the `--set` that is wrong.
+        location: String,
         /// What is wrong.
         message: String,
     },
-    /// A value is not usable.
-    #[error("{place}: {key}{value}: {message}")]
+    /// A value cannot be used.
+    #[error("{location}: {key}{value}: {message}")]
     Value {
-        /// File and line.
-        place: String,
-        /// The key, dotted.
+        /// The file and the line.
+        location: String,
+        /// The dotted key, such as `sheet.columns`.
         key: String,
-        /// ` = value`, or nothing where the key is absent.
+        /// ` = value`, or empty if the key is absent.
         value: String,
-        /// What is wrong and what would be right.
+        /// What is wrong, and which values are valid.
         message: String,
     },
     /// The profile cannot be divided into equal segments.
     #[error(
-        "{place}: the profile cannot be divided into {segments} equal segments: |R_max| = {:.2} after {iterations} iterations; {remedy}",
+        "{location}: the profile cannot be divided into {segments} equal segments: |R_max| = {:.2} after {iterations} iterations; {remedy}",
         Number(*residual)
     )]
     Undivided {
-        /// File and line.
-        place: String,
-        /// Nr.
+        /// The file and the line.
+        location: String,
+        /// Nr, the number of segments.
         segments: usize,
-        /// |R_max| reached.
+        /// The |R_max| that was reached.
         residual: f64,
-        /// Iterations made.
+        /// The number of iterations.
         iterations: usize,
-        /// What would help.
+        /// What to change.
         remedy: &'static str,
     },
-    /// A motion file cannot be judged.
+    /// A motion file cannot be checked.
     #[error("{}: {message}", path.display())]
     Motion {
         /// The motion file.
         path: PathBuf,
-        /// What is wrong, where, and what would be right.
+        /// What is wrong and where, and what to change.
         message: String,
     },
     /// A certificate cannot be read.
@@ -72,28 +72,28 @@ pub enum StudyError {
     Certificate {
         /// The certificate.
         path: PathBuf,
-        /// What is wrong, and what would be right.
+        /// What is wrong, and what to change.
         message: String,
     },
-    /// A recorded file cannot be made again.
+    /// A recorded file cannot be reproduced.
     #[error("{}: {message}", path.display())]
-    Origin {
+    SourceInfo {
         /// The file.
         path: PathBuf,
-        /// What is wrong, and what would help.
+        /// What is wrong, and what to change.
         message: String,
     },
     /// A file is too large.
-    #[error("{}: it has {size} bytes: at most {limit} are read", path.display())]
+    #[error("{}: the file has {size} bytes; the limit is {limit}", path.display())]
     LargeFile {
         /// The file.
         path: PathBuf,
-        /// Its bytes.
+        /// Its size in bytes.
         size: u64,
-        /// The most.
+        /// The largest size in bytes.
         limit: u64,
     },
-    /// A file is no crease pattern that can be read.
+    /// A file is not a crease pattern that can be read.
     #[error("{}: {error}", path.display())]
     Import {
         /// The file.
@@ -101,7 +101,7 @@ pub enum StudyError {
         /// What is wrong, and with which element.
         error: Box<ImportError>,
     },
-    /// The crease pattern cannot be put on paper as asked.
+    /// The crease pattern cannot be drawn on paper with these options.
     #[error("the pattern: {0}")]
     Cut(#[from] CutError),
     /// The output folder or a file in it cannot be written.
@@ -109,23 +109,23 @@ pub enum StudyError {
     Output {
         /// The folder or file.
         path: PathBuf,
-        /// What was tried.
+        /// What failed, such as "cannot be written".
         action: &'static str,
-        /// Why it failed.
+        /// The error of the operating system.
         source: io::Error,
     },
-    /// Files of others stand where results go.
+    /// Files that foldmotion did not make have names of results.
     #[error(
-        "{}: in the way of the results: {names}; no earlier `foldmotion {command}` made them there, or they were changed since: \
+        "{}: these files have names of results, but `foldmotion {command}` did not make them, or they were changed since: {names}; \
          move them, choose another folder with --out, or replace them with --force",
         path.display()
     )]
-    InTheWay {
+    Conflict {
         /// The output folder.
         path: PathBuf,
-        /// The files.
+        /// The names of the files.
         names: String,
-        /// The command whose results they would be.
+        /// The command that would write them.
         command: &'static str,
     },
     /// The disk cannot hold the results.
@@ -137,13 +137,13 @@ pub enum StudyError {
     DiskTooSmall {
         /// The output folder.
         path: PathBuf,
-        /// What they need, estimated.
+        /// The estimated size of the results.
         needed: String,
-        /// What each output needs.
+        /// The estimated size of each output.
         parts: String,
-        /// What is free.
+        /// The free space.
         available: String,
-        /// What would make them fit.
+        /// What makes the results smaller.
         remedy: String,
     },
     /// The engine failed.
@@ -155,7 +155,7 @@ pub enum StudyError {
     /// The film failed.
     #[error("the motion could not be recorded: {0}")]
     Record(RecordError),
-    /// Ctrl-C.
+    /// The user interrupted the command.
     #[error("interrupted; earlier results are untouched")]
     Interrupted,
 }
@@ -168,18 +168,18 @@ impl StudyError {
             | Self::Parse { .. }
             | Self::Motion { .. }
             | Self::Certificate { .. }
-            | Self::Origin { .. }
+            | Self::SourceInfo { .. }
             | Self::LargeFile { .. }
             | Self::Value { .. }
             | Self::Import { .. }
             | Self::Cut(_)
-            | Self::InTheWay { .. }
+            | Self::Conflict { .. }
             | Self::Undivided { .. } => 2,
             _ => 3,
         }
     }
 
-    /// The dotted key of the scene at fault, where it is one's.
+    /// The dotted scene key that the error is about, if there is one.
     pub fn key(&self) -> Option<&str> {
         match self {
             Self::Value { key, .. } => Some(key),

@@ -1,6 +1,6 @@
-//! Files that are read whole: regular files only, bounded before they are opened.
+//! Input files: only regular files are read, up to a size limit that is checked first.
 //!
-//! A pipe would be waited for, a device would not end.
+//! Reading a pipe could block, and reading a device might never end.
 
 use std::fs::File;
 use std::io::{self, Read as _};
@@ -11,7 +11,7 @@ use crate::StudyError;
 /// The largest scene and the largest crease pattern, bytes: 16 MiB.
 pub(crate) const LARGEST_SCENE: u64 = 16 << 20;
 
-/// Refuses what is no regular file.
+/// Refuses a path that is not a regular file.
 ///
 /// # Errors
 /// [`StudyError::Read`].
@@ -19,16 +19,16 @@ pub fn require_file(path: &Path) -> Result<(), StudyError> {
     size(path).map(drop)
 }
 
-/// The bytes of a regular file.
+/// The size of a regular file in bytes.
 pub(crate) fn size(path: &Path) -> Result<u64, StudyError> {
     let data = std::fs::metadata(path).map_err(|e| failed(path, e))?;
     if data.is_file() {
         return Ok(data.len());
     }
     let message = if data.is_dir() {
-        "it is a folder; name a file in it"
+        "it is a folder; specify a file in it"
     } else {
-        "it is a device or a pipe; only regular files are read: save it as one"
+        "it is a device or a pipe; only regular files are read"
     };
     Err(failed(
         path,
@@ -36,7 +36,7 @@ pub(crate) fn size(path: &Path) -> Result<u64, StudyError> {
     ))
 }
 
-/// Refuses what is no regular file of at most `limit` bytes, and opens it.
+/// Opens a regular file of at most `limit` bytes; returns it with its size.
 pub(crate) fn open(path: &Path, limit: u64) -> Result<(File, u64), StudyError> {
     let size = size(path)?;
     if size > limit {
@@ -53,7 +53,7 @@ pub(crate) fn open(path: &Path, limit: u64) -> Result<(File, u64), StudyError> {
 pub(crate) fn read(path: &Path, limit: u64) -> Result<Vec<u8>, StudyError> {
     let (file, size) = open(path, limit)?;
     let mut bytes = Vec::new();
-    // It may grow meanwhile.
+    // The file may grow while it is read.
     file.take(limit + 1)
         .read_to_end(&mut bytes)
         .map_err(|e| failed(path, e))?;
@@ -73,7 +73,7 @@ pub(crate) fn read_text(path: &Path, limit: u64) -> Result<String, StudyError> {
     String::from_utf8(read(path, limit)?).map_err(|e| {
         let before = &e.as_bytes()[..e.utf8_error().valid_up_to()];
         let line = String::from_utf8_lossy(before).matches('\n').count();
-        let message = format!("line {} is no UTF-8 text", line + 1);
+        let message = format!("line {} is not valid UTF-8", line + 1);
         failed(path, io::Error::new(io::ErrorKind::InvalidData, message))
     })
 }
@@ -90,7 +90,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn regular_files_are_read_up_to_the_limit_and_others_say_their_size() {
+    fn files_above_the_limit_are_refused_with_their_size() {
         let home = tempfile::tempdir().unwrap();
         let path = home.path().join("a.toml");
         std::fs::write(&path, "12345").unwrap();

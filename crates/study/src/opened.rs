@@ -1,35 +1,35 @@
-//! Opens any file: a scene, a crease pattern, or a motion.
+//! Opens a file of any kind: a scene, a crease pattern or a motion.
 
 use std::path::Path;
 use std::sync::Arc;
 
 use foldmotion_check::{CollisionReport, bar_strain, facet_bending};
-use foldmotion_pattern::{FoldFile, Frame, Motion};
+use foldmotion_pattern::{Frame, Motion};
 use foldmotion_solver::{EnergyByKind, Stage};
 
-use crate::certificate::check_file::{CheckOptions, MotionReader, judge_file, motion_error};
+use crate::certificate::check_file::{CheckOptions, check_motion_file, motion_error, read_header};
 use crate::compute::folded::Findings;
 use crate::compute::series::FrameFigures;
-use crate::recording::{ReadMotion, stage_time};
+use crate::recording::{LoadedMotion, stage_time};
 use crate::scene::RecordScene;
 use crate::{Certificate, Destination, MotionRecord, Phase, Progress, SceneSource, StudyError};
 
-/// What a file turned out to be.
+/// A file, by its content.
 #[derive(Debug)]
-pub enum Opened {
-    /// A scene, or a crease pattern as a scene of its own.
+pub enum OpenedFile {
+    /// A scene, or a crease pattern as a scene that only names this file.
     Scene(SceneSource),
-    /// A motion.
+    /// A motion file.
     Motion(Arc<OpenedMotion>),
 }
 
-impl Opened {
+impl OpenedFile {
     /// Reads the file at `path`: a FOLD file with frames in which a vertex moves is a motion; other FOLD files and SVG
-    /// files are crease patterns, all else is a scene.
+    /// files are crease patterns; every other file is a scene.
     ///
     /// # Errors
-    /// [`StudyError::Read`]; of a motion [`StudyError::Motion`], [`StudyError::LargeFile`]; [`StudyError::Interrupted`]
-    /// where `progress` returned false. What is wrong with a scene or a pattern, resolving it tells.
+    /// [`StudyError::Read`]; for a motion [`StudyError::Motion`] and [`StudyError::LargeFile`]; [`StudyError::Interrupted`]
+    /// if `progress` returned false. Errors in a scene or a pattern are reported when it is resolved.
     pub fn read(path: &Path, progress: Progress<'_>) -> Result<Self, StudyError> {
         let is_fold = path
             .extension()
@@ -41,74 +41,68 @@ impl Opened {
     }
 }
 
-/// A motion of a file.
+/// The motion of a file.
 #[derive(Debug)]
 pub struct OpenedMotion {
-    read: ReadMotion,
+    read: LoadedMotion,
 }
 
 impl OpenedMotion {
-    /// The motion in the file; none where it is a crease pattern.
+    /// The motion in the file; `None` if the file is a crease pattern.
     fn read(path: &Path, progress: Progress<'_>) -> Result<Option<Self>, StudyError> {
-        let (file, described) = {
-            let mut input = MotionReader::open(path, Phase::Read, progress)?;
-            let file = FoldFile::read(&mut input);
-            if input.is_stopped {
-                return Err(StudyError::Interrupted);
-            }
-            let Ok(file) = file else {
-                return Ok(None);
-            };
-            (file, input.digest())
+        let (file, sha256) = match read_header(path, progress) {
+            Ok(header) => header,
+            Err(StudyError::Motion { .. }) => return Ok(None),
+            Err(error) => return Err(error),
         };
         if file.frame_count() < 2 {
             return Ok(None);
         }
-        let read = ReadMotion::read_frames(path, file, &described, progress)?;
+        let read = LoadedMotion::read_frames(path, file, sha256, progress)?;
         let mut pairs = read.motion.frames.windows(2);
         let moves = pairs.any(|pair| pair[0].positions != pair[1].positions);
         Ok(moves.then_some(Self { read }))
     }
 
-    /// The motion: with times of its own, or as one stage from t = 1 to t = 2. The order of its layers is the last one
-    /// that the file claims.
+    /// The motion, with the times of the file or, if it has none, as one stage from t = 1 to t = 2. Its layer order is the
+    /// last one that the file claims.
     pub fn motion(&self) -> &Motion {
         &self.read.motion
     }
 
-    /// Its title, the name of its file where it has none.
+    /// The title of the motion, or the name of its file if it has none.
     pub fn title(&self) -> &str {
         self.read.title.as_deref().unwrap_or(&self.read.name)
     }
 
-    /// FOLD's name of its unit of length.
+    /// FOLD's name of the unit of length.
     pub fn unit_name(&self) -> &str {
         self.read.unit.as_deref().unwrap_or("unit")
     }
 
-    /// Whether the lengths of its edges at rest are known, and strain with them.
+    /// Whether the rest lengths of the edges are known, so that strain can be computed.
     pub fn has_rest_lengths(&self) -> bool {
         self.read.is_flat
     }
 
-    /// Judges it as `foldmotion check` does, and measures its frames. The file is read again, in bounded memory.
+    /// Checks the motion as `foldmotion check` does, and measures its frames. The file is read again, in bounded memory.
     ///
     /// # Errors
-    /// Those of [`check_file`](crate::check_file), and [`StudyError::Motion`] where the file has changed since.
+    /// Those of [`check_file`](crate::check_file), and [`StudyError::Motion`] if the file has changed since it was opened.
     pub fn check(
         &self,
         options: &CheckOptions,
         progress: Progress<'_>,
     ) -> Result<(Findings, Certificate), StudyError> {
         let path = &self.read.path;
-        let judged = judge_file(path, *options, progress)?;
-        if judged.sha256 != self.read.sha256 {
+        let check = check_motion_file(path, *options, progress)?;
+        if check.sha256 != self.read.sha256 {
             return Err(motion_error(path, &"it has changed since it was opened"));
         }
-        let certificate = judged.certificate(path);
-        let mut collision = judged.collision;
+        let certificate = check.certificate(path);
+        let mut collision = check.collision;
         if !self.read.has_times {
-            as_one_stage(&mut collision, judged.times.len());
+            as_one_stage(&mut collision, check.times.len());
         }
         let motion = self.motion();
         let order = &motion.compact_order;
@@ -125,8 +119,9 @@ impl OpenedMotion {
         Ok((findings, certificate))
     }
 
-    /// Records it into `folder` as `record` says; keys of it are named as flags in errors. Other files there stay. Facets
-    /// that penetrate are marked as `findings` of it say, else as a certificate beside the file does.
+    /// Records the motion into `destination` with the settings `record`, whose keys appear as flags in errors. Other files
+    /// in the folder are kept. Penetrations of `findings` are marked or, without findings, those of a certificate in the
+    /// folder of the motion.
     ///
     /// # Errors
     /// Those of [`record_file`](crate::record_file).
@@ -169,7 +164,7 @@ impl OpenedMotion {
     }
 }
 
-/// Times that are numbers of frames become those of one stage, as the motion's did.
+/// Converts times that count frames into motion times of one stage, as for the motion.
 fn as_one_stage(collision: &mut CollisionReport, frames: usize) {
     let penetrations = collision
         .first

@@ -1,7 +1,6 @@
 //! The crease pattern of a scene as files for cutting, printing and Origami Simulator.
 
 use std::fmt::Write as _;
-use std::io::Write as _;
 use std::path::PathBuf;
 
 use foldmotion_pattern::{
@@ -12,17 +11,17 @@ use foldmotion_pattern::{
 use crate::VERSION;
 use crate::digest::sha256;
 use crate::resolve::input::Input;
-use crate::resolve::rows::draw_clashes;
+use crate::resolve::rows::clash_drawing;
 use crate::resolve::units::sheet;
-use crate::results::{Destination, MadeFile, Maker, Results, write_error};
+use crate::results::{Command, Destination, ManifestEntry, Results};
 use crate::scene::LengthUnit;
 use crate::{Phase, Progress, SceneSource, StudyError};
 
-/// The file moved into place last.
+/// The file that is moved into the folder last.
 const PATTERN_SVG: &str = "pattern.svg";
-/// The drawing of rows that clash.
+/// The drawing of rows whose creases do not meet.
 const CLASHES_SVG: &str = "clashes.svg";
-/// Ends of lines closer than this, in SVG units, are one vertex for Origami Simulator unless it is told otherwise.
+/// Origami Simulator merges ends of lines closer than this, in SVG units, by default.
 const ORIGAMI_SIMULATOR_TOLERANCE: f64 = 3.0;
 
 /// A kind of pattern file.
@@ -36,31 +35,50 @@ pub enum PatternFormat {
     Fold,
 }
 
-/// How large the pattern is made.
+impl PatternFormat {
+    /// Every format.
+    pub const ALL: [Self; 3] = [Self::Svg, Self::Dxf, Self::Fold];
+
+    /// The name of the format, with which its files end.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Svg => "svg",
+            Self::Dxf => "dxf",
+            Self::Fold => "fold",
+        }
+    }
+
+    /// The format called `name`.
+    pub fn find(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|format| format.name() == name)
+    }
+}
+
+/// The scale of the pattern.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum PatternScale {
-    /// This many times the size in the scene; 1 is life size.
+    /// A multiple of the size in the scene; 1 is life size.
     Factor(f64),
-    /// So that the sheet is this wide (W), mm.
+    /// The scale at which the sheet has this width W, in mm.
     Width(f64),
 }
 
-/// What is written, and how.
+/// Which pattern files are written, and how.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PatternOptions {
     /// The files to write.
     pub formats: Vec<PatternFormat>,
-    /// How large.
+    /// The scale of the pattern.
     pub scale: PatternScale,
-    /// The paper of the pages; none for the whole pattern alone.
+    /// The paper size of the pages; `None` for the whole pattern only.
     pub paper: Option<PaperSize>,
-    /// How far pages repeat each other, mm.
+    /// The overlap of neighbouring pages, in mm.
     pub overlap: f64,
     /// Lines, dashes and margin; `title`, `note` and `scale` are set from the scene.
     pub lines: CutOptions,
 }
 
-/// The sheet of a scene: all that its crease pattern needs.
+/// The sheet of a scene, for its crease pattern.
 #[derive(Debug, Clone)]
 pub struct PatternStudy {
     /// The title of the scene.
@@ -72,33 +90,29 @@ pub struct PatternStudy {
 }
 
 impl PatternStudy {
-    /// Resolves profile, division and sheet of a scene; what says how it moves is only read.
+    /// Resolves profile, division and sheet of a scene; the tables that describe the motion are parsed but ignored.
     ///
     /// # Errors
     /// Every unusable value, with file, line, key, value and remedy.
     pub fn resolve(source: &SceneSource) -> Result<Self, StudyError> {
         let scene = source.scene()?;
-        let input = Input {
-            source,
-            scene: &scene,
-        };
+        let input = Input::new(source, &scene);
         if scene.pattern.is_some() {
-            let message =
-                "is the pattern already; only the sheet of a profile can be written for cutting";
+            let message = "is already a crease pattern; only the sheet of a profile can be written for cutting";
             return Err(input.error("pattern.file", message));
         }
         Ok(Self {
             title: input.title(None),
             unit: scene.profile.unit.unwrap_or_default(),
-            // Nodes in the middle of facets are of the mechanical model, not of the pattern.
+            // Nodes in the middle of facets belong to the mechanical model, not to the pattern.
             units: sheet(&input)?
                 .units
                 .with_facet_model(FacetModel::OneDiagonal),
         })
     }
 
-    /// Draws the column of a scene whose rows clash as clashes.svg into `folder` (figure 10 of the paper); says where.
-    /// None where the rows are equal, or something else is wrong with the scene.
+    /// Draws a column of a scene whose rows clash as `clashes.svg` (figure 10 of the paper) and returns its path; `None` if
+    /// the rows are equal or the scene has another error.
     ///
     /// # Errors
     /// [`StudyError::Output`]; the folder is then as it was.
@@ -106,24 +120,21 @@ impl PatternStudy {
         source: &SceneSource,
         destination: impl Into<Destination<'a>>,
     ) -> Result<Option<PathBuf>, StudyError> {
-        let Ok(Some(figure)) = draw_clashes(source) else {
+        let Ok(Some(figure)) = clash_drawing(source) else {
             return Ok(None);
         };
-        let mut results = Results::open(destination.into(), Maker::Pattern, Some(CLASHES_SVG))?;
+        let mut results = Results::open(destination.into(), Command::Pattern, Some(CLASHES_SVG))?;
         results.require_clear(&|name| name == CLASHES_SVG)?;
         let folder = results.folder().to_owned();
-        results.write(CLASHES_SVG, |out| {
-            out.write_all(figure.as_bytes())
-                .map_err(|e| write_error(&folder, CLASHES_SVG, e))
-        })?;
+        results.write_bytes(CLASHES_SVG, figure.as_bytes())?;
         results.publish(None, &|_| false)?;
         Ok(Some(folder.join(CLASHES_SVG)))
     }
 
     /// Writes pattern.svg, pattern.dxf and pattern.fold, and pattern-ROW-COLUMN.svg and .dxf for pages, into a folder.
     ///
-    /// Files of earlier calls are replaced, and removed where they are of another pattern or paper; other files stay.
-    /// Returns what was written, for the screen.
+    /// Files of earlier calls are replaced, or removed if they belong to another pattern or paper size; other files are kept.
+    /// Returns a summary for the terminal.
     ///
     /// # Errors
     /// [`StudyError`]; the folder is then as it was.
@@ -150,17 +161,11 @@ impl PatternStudy {
             &format!("foldmotion {VERSION}"),
         )?;
         let has = |format| options.formats.contains(&format);
-        let mut results = Results::open(destination.into(), Maker::Pattern, Some(PATTERN_SVG))?;
+        let mut results = Results::open(destination.into(), Command::Pattern, Some(PATTERN_SVG))?;
         results.require_clear(&|name| {
             format_of(name).is_some_and(has) && (tiles.is_some() || !is_page(name))
         })?;
-        let folder = results.folder().to_owned();
-        let mut save = |name: &str, text: &str| {
-            results.write(name, |out| {
-                out.write_all(text.as_bytes())
-                    .map_err(|e| write_error(&folder, name, e))
-            })
-        };
+        let mut save = |name: &str, text: &str| results.write_bytes(name, text.as_bytes());
         if has(PatternFormat::Fold) {
             save("pattern.fold", &fold)?;
         }
@@ -184,7 +189,8 @@ impl PatternStudy {
         }
         let paper = format!("{:?} {} {lines:?}", options.paper, options.overlap);
         let of = sha256(format!("{fold}{paper}").as_bytes());
-        let is_stale = |file: &MadeFile| file.name != CLASHES_SVG && file.of.as_ref() != Some(&of);
+        let is_stale =
+            |file: &ManifestEntry| file.name != CLASHES_SVG && file.of.as_ref() != Some(&of);
         let published = results.publish(Some(&of), &is_stale)?;
         let pages = tiles.map(|tiles| tiles.counts());
         let mut summary = self.summary(&pattern, pages, &lines.note);
@@ -251,20 +257,15 @@ impl PatternStudy {
     }
 }
 
-/// The format of a file by its name, where [`PatternStudy::write`] may write one of this name.
+/// The format of a file that [`PatternStudy::write`] may write under this name.
 fn format_of(name: &str) -> Option<PatternFormat> {
     let (stem, ending) = name.rsplit_once('.')?;
-    let format = match ending {
-        "svg" => PatternFormat::Svg,
-        "dxf" => PatternFormat::Dxf,
-        "fold" => PatternFormat::Fold,
-        _ => return None,
-    };
+    let format = PatternFormat::find(ending)?;
     let may_be = stem == "pattern" || is_page(name) && format != PatternFormat::Fold;
     may_be.then_some(format)
 }
 
-/// Whether a name is that of a page: `pattern-ROW-COLUMN.svg` and so on.
+/// Whether `name` is that of a page, such as `pattern-1-2.svg`.
 fn is_page(name: &str) -> bool {
     let numbers = name.strip_prefix("pattern-").and_then(|rest| {
         let (numbers, _) = rest.rsplit_once('.')?;
@@ -279,7 +280,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn pages_and_patterns_are_known_by_name_and_nothing_else_is() {
+    fn only_patterns_and_pages_are_recognised_by_name() {
         for name in [
             "pattern.svg",
             "pattern.dxf",

@@ -1,24 +1,24 @@
-//! What a run tells while it is under way.
+//! Progress reports.
 
 use foldmotion_solver::Snapshot;
 
-/// A part of a run, as progress names it.
+/// A part of a run.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Phase {
     /// Reading a scene, a pattern or a motion.
     Read,
-    /// The engine.
+    /// Computing the motion.
     Fold,
-    /// The collision check.
+    /// Checking for collisions.
     Check,
-    /// The second proof of a certificate.
+    /// Verifying a certificate by the second proof.
     Verify,
-    /// Films and files.
+    /// Writing films and files.
     Record,
 }
 
 impl Phase {
-    /// Its name on the screen.
+    /// The name of the phase in messages.
     pub fn name(self) -> &'static str {
         match self {
             Self::Read => "read",
@@ -30,17 +30,17 @@ impl Phase {
     }
 }
 
-/// Told how much of a phase is done, from 0 to 1; answers whether to go on.
+/// A function that is called with a phase and the share of it that is done, from 0 to 1; returns whether to continue.
 pub type Progress<'a> = &'a (dyn Fn(Phase, f64) -> bool + Sync);
 
-/// Watches a run. Whoever only wants its progress gives a [`Progress`].
+/// Observes a run. A [`Progress`] is an observer that ignores the states.
 pub trait Watch: Sync {
-    /// Told how much of a phase is done, from 0 to 1; answers whether to go on.
+    /// Called with the share of a phase that is done, from 0 to 1; returns whether to continue.
     fn progress(&self, phase: Phase, done: f64) -> bool;
 
-    /// Told that the engine has come to a state, some hundred times a second for a small sheet. Its positions are worked
-    /// out where they are asked for. They lie where the engine has them: [`Subject::show`](crate::Subject::show) moves
-    /// them to where they are shown.
+    /// Called with each state of the engine, some hundred times a second for a small sheet. Its positions are computed on
+    /// demand, in the frame of reference of the engine; [`Subject::show`](crate::Subject::show) moves them to where they
+    /// are displayed.
     fn state(&self, moment: &Snapshot<'_>) {
         let _ = moment;
     }

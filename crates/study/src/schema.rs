@@ -1,4 +1,4 @@
-//! The JSON schemas that other programs read.
+//! The JSON schemas of the files.
 
 use schemars::{JsonSchema, schema_for};
 

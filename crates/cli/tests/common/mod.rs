@@ -16,3 +16,10 @@ pub(crate) fn foldmotion(folder: &Path, arguments: &[&str]) -> Output {
 pub(crate) fn text(bytes: &[u8]) -> String {
     String::from_utf8(bytes.to_vec()).unwrap()
 }
+
+/// Checks the exit status; a failure shows stderr and stdout.
+#[track_caller]
+pub(crate) fn assert_status(output: &Output, status: i32) {
+    let shown = [&output.stderr, &output.stdout].map(|bytes| text(bytes));
+    assert_eq!(output.status.code(), Some(status), "{shown:?}");
+}

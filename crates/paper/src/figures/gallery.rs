@@ -4,28 +4,31 @@ use foldmotion_pattern::{Case, models};
 use foldmotion_record::{Anchor, Drawing, View};
 use glam::DVec2;
 
-use super::panel::{Cell, FigureState, common_scale};
-use super::pattern::{Place, WORDS, draw};
+use super::panel::{Cell, SheetState, common_scale};
+use super::pattern::{PatternPlacement, WORDS, caption, draw};
 use super::{Composed, page};
 use crate::PaperError;
 use crate::targets::{CASES, sheet};
 use foldmotion_study::UnitStudy;
 
-/// Figure 6.
+/// Figure 6: the nine profiles, deployed.
 pub(super) fn figure6() -> Result<Composed, PaperError> {
     let cell = DVec2::new(310.0, 250.0);
     let mut drawing = page(3.0 * 320.0 + 10.0, 3.0 * 285.0 + 5.0)?;
     for ((k, model), letter) in models().iter().enumerate().zip('a'..) {
         let study = sheet(model.name, Case::E)?;
-        let pose = FigureState::deployed(&study);
+        let state = SheetState::deployed(&study);
         let (x, y) = (10.0 + 320.0 * (k % 3) as f64, 5.0 + 285.0 * (k / 3) as f64);
-        let scale = common_scale(std::slice::from_ref(&pose), View::Iso, cell);
-        let place = Cell::new(x, y, cell.x, cell.y);
-        pose.show(&mut drawing, View::Iso, place, scale)?;
+        let scale = common_scale(std::slice::from_ref(&state), View::Iso, cell);
+        let target = Cell::new(x, y, cell.x, cell.y);
+        state.show(&mut drawing, View::Iso, target, scale)?;
         let name = model.name.replace('-', " ");
         let words = format!("({letter}) {name}, {}", counts(&study));
-        let below = DVec2::new(x + 0.5 * cell.x, y + cell.y + 18.0);
-        drawing.words(below, words, WORDS, Anchor::Middle);
+        caption(
+            &mut drawing,
+            DVec2::new(x + 0.5 * cell.x, y + cell.y + 18.0),
+            words,
+        );
     }
     Ok((
         drawing,
@@ -34,7 +37,7 @@ pub(super) fn figure6() -> Result<Composed, PaperError> {
     ))
 }
 
-/// Figure 7.
+/// Figure 7: two open profiles in four cases.
 pub(super) fn figure7() -> Result<Composed, PaperError> {
     let drawing = four_cases([("chair", "(a) chair"), ("omega", "(b) capital omega")])?;
     Ok((
@@ -43,7 +46,7 @@ pub(super) fn figure7() -> Result<Composed, PaperError> {
     ))
 }
 
-/// Figure 8.
+/// Figure 8: two closed profiles in four cases.
 pub(super) fn figure8() -> Result<Composed, PaperError> {
     let drawing = four_cases([
         ("mushroom", "(a) mushroom"),
@@ -76,8 +79,8 @@ fn four_cases(blocks: [(&str, &str); 2]) -> Result<Drawing, PaperError> {
             .iter()
             .map(|&case| sheet(model, case))
             .collect::<Result<_, _>>()?;
-        let deployed: Vec<FigureState<'_>> = studies.iter().map(FigureState::deployed).collect();
-        let compact: Vec<FigureState<'_>> = studies.iter().map(FigureState::compact).collect();
+        let deployed: Vec<SheetState<'_>> = studies.iter().map(SheetState::deployed).collect();
+        let compact: Vec<SheetState<'_>> = studies.iter().map(SheetState::compact).collect();
         let scale = common_scale(&deployed, View::Iso, cell).min(common_scale(
             &compact,
             View::Iso,
@@ -90,14 +93,17 @@ fn four_cases(blocks: [(&str, &str); 2]) -> Result<Drawing, PaperError> {
             let lower = Cell::new(x, top + 25.0 + cell.y, cell.x, folded);
             compact[column].show(&mut drawing, View::Iso, lower, scale)?;
             let words = format!("case {}, {}", study.units.unit.case.name(), counts(study));
-            let below = DVec2::new(x + 0.5 * cell.x, top + block - 15.0);
-            drawing.words(below, words, WORDS, Anchor::Middle);
+            caption(
+                &mut drawing,
+                DVec2::new(x + 0.5 * cell.x, top + block - 15.0),
+                words,
+            );
         }
     }
     Ok(drawing)
 }
 
-/// Figure 9.
+/// Figure 9: the shelter in four cases, deployed, folded and as a pattern.
 pub(super) fn figure9() -> Result<Composed, PaperError> {
     let line = 250.0;
     let mut drawing = page(1000.0, 4.0 * line + 30.0)?;
@@ -106,22 +112,22 @@ pub(super) fn figure9() -> Result<Composed, PaperError> {
         (480.0, "folded"),
         (810.0, "cut pattern"),
     ] {
-        drawing.words(DVec2::new(x, 20.0), words, WORDS, Anchor::Middle);
+        caption(&mut drawing, DVec2::new(x, 20.0), words);
     }
     for ((k, case), letter) in CASES.into_iter().enumerate().zip('a'..) {
         let study = sheet("shelter", case)?;
         let top = 30.0 + line * k as f64;
-        let poses = [FigureState::deployed(&study), FigureState::compact(&study)];
-        for (pose, x) in poses.iter().zip([10.0, 325.0]) {
+        let states = [SheetState::deployed(&study), SheetState::compact(&study)];
+        for (state, x) in states.iter().zip([10.0, 325.0]) {
             let cell = Cell::new(x, top, 310.0, line);
-            pose.show(&mut drawing, View::Iso, cell, 31.0)?;
+            state.show(&mut drawing, View::Iso, cell, 31.0)?;
         }
         let words = format!("({letter}) case {}, {}", case.name(), counts(&study));
         drawing.words(DVec2::new(10.0, top + 20.0), words, WORDS, Anchor::Start);
         let (scale, width) = (31.0, study.units.unit.width * study.units.columns as f64);
         let left = 810.0 - 0.5 * scale * width;
-        let place = Place::new(DVec2::new(left, top + 15.0), scale, width);
-        draw(&mut drawing, &study.units.sheet, &place, 1.0, |_| true);
+        let placement = PatternPlacement::new(DVec2::new(left, top + 15.0), scale, width);
+        draw(&mut drawing, &study.units.sheet, &placement, 1.0, |_| true);
     }
     Ok((
         drawing,

@@ -13,7 +13,7 @@ use foldmotion_record::{Drawing, RecordError};
 use serde::{Deserialize, Serialize};
 
 use super::PaperPart;
-use super::motions::{Done, strip_inputs};
+use super::motions::{PartProgress, strip_inputs};
 use super::record::FigureRow;
 use super::store::Store;
 use crate::PaperError;
@@ -26,11 +26,11 @@ pub(super) struct Figure {
     pub(super) svg: String,
 }
 
-/// What is kept of a figure.
+/// A figure as it is stored.
 #[derive(Debug, Serialize, Deserialize)]
-struct Drawn {
+struct StoredFigure {
     row: FigureRow,
-    /// The SHA-256 of its files.
+    /// The SHA-256 of its SVG and its PNG file.
     hashes: [String; 2],
 }
 
@@ -40,7 +40,7 @@ fn parts() -> impl Iterator<Item = PaperPart> {
     PaperPart::ALL.into_iter().filter(is_figure)
 }
 
-/// What a figure is made from.
+/// The inputs of a figure, as text.
 fn inputs(part: PaperPart) -> String {
     let models = format!("{:?}", foldmotion_pattern::models());
     match part {
@@ -49,13 +49,13 @@ fn inputs(part: PaperPart) -> String {
     }
 }
 
-/// The figures that stand in the folder as they were drawn.
+/// The figures that are unchanged in the folder.
 pub(super) fn finished(store: &Store) -> Vec<Figure> {
     parts().filter_map(|part| find(store, part)).collect()
 }
 
 fn find(store: &Store, part: PaperPart) -> Option<Figure> {
-    let Drawn { row, hashes } = store.find(part.name(), &inputs(part))?;
+    let StoredFigure { row, hashes } = store.find(part.name(), &inputs(part))?;
     let [svg, png] = [
         store.read_file(&row.files[0]),
         store.read_file(&row.files[1]),
@@ -66,8 +66,12 @@ fn find(store: &Store, part: PaperPart) -> Option<Figure> {
     Some(Figure { row, svg })
 }
 
-/// Draws the figure `part` unless it stands in the folder.
-pub(super) fn draw(store: &Store, part: PaperPart, done: Done<'_>) -> Result<(), PaperError> {
+/// Draws the figure `part` unless it is unchanged in the folder.
+pub(super) fn draw(
+    store: &Store,
+    part: PaperPart,
+    done: PartProgress<'_>,
+) -> Result<(), PaperError> {
     let name = part.name();
     if find(store, part).is_none() {
         store.forget(name)?;
@@ -87,12 +91,12 @@ pub(super) fn draw(store: &Store, part: PaperPart, done: Done<'_>) -> Result<(),
             files,
         };
         let hashes = [sha256(svg.as_bytes()), sha256(&png)];
-        Ok(Drawn { row, hashes })
+        Ok(StoredFigure { row, hashes })
     })?;
     Ok(())
 }
 
-/// A figure and what it shows.
+/// A figure with its caption.
 type Composed = (Drawing, &'static str);
 
 fn compose(store: &Store, part: PaperPart) -> Result<Composed, PaperError> {
@@ -111,7 +115,7 @@ fn compose(store: &Store, part: PaperPart) -> Result<Composed, PaperError> {
     }
 }
 
-/// Draws in the paper's frame cannot fail but for sizes out of range.
+/// An empty page; sizes out of range are errors.
 fn page(width: f64, height: f64) -> Result<Drawing, RecordError> {
     #[expect(clippy::cast_sign_loss, reason = "sizes of pages are positive")]
     let size = [width, height].map(|side| side.ceil() as u32);

@@ -7,22 +7,22 @@ use glam::{DVec2, DVec3};
 use crate::PaperError;
 use foldmotion_study::UnitStudy;
 
-/// The width of lines in pictures, in units of the page, at most.
+/// The largest width of lines in pictures, in units of the page.
 const LINE_WIDTH: f64 = 0.9;
-/// The width of lines, as a part of the rows' height, at most: rows some pixels high need thin lines.
+/// The largest width of lines as a part of the rows' height, since small rows need thin lines.
 const LINE_PART: f64 = 0.03;
-/// Space kept free around a state, in units of the page.
+/// The margin around a state, in units of the page.
 const MARGIN: f64 = 4.0;
 
-/// A state of a sheet, to be shown.
+/// A state of a sheet, for a picture.
 #[derive(Debug)]
-pub(super) struct FigureState<'a> {
+pub(super) struct SheetState<'a> {
     pub(super) sheet: &'a Sheet,
     pub(super) positions: Vec<DVec3>,
     pub(super) order: LayerOrder,
 }
 
-impl<'a> FigureState<'a> {
+impl<'a> SheetState<'a> {
     /// A state without coincident facets.
     pub(super) fn new(study: &'a UnitStudy, positions: Vec<DVec3>) -> Self {
         Self {
@@ -42,7 +42,7 @@ impl<'a> FigureState<'a> {
         Self::new(study, study.units.compact()).layered(study)
     }
 
-    /// The same with the order of the facets that coincide in the compact state.
+    /// This state with the compact layer order.
     pub(super) fn layered(self, study: &UnitStudy) -> Self {
         Self {
             order: study.units.compact_order(),
@@ -55,7 +55,7 @@ impl<'a> FigureState<'a> {
         high - low
     }
 
-    /// Shows it in the middle of a cell, `scale` units of the page a unit of length.
+    /// Draws the state in the middle of a cell; `scale` is the size of a unit of length on the page.
     pub(super) fn show(
         &self,
         drawing: &mut Drawing,
@@ -102,9 +102,9 @@ impl Cell {
     }
 }
 
-/// The largest scale at which every pose fits into a cell of `size`.
-pub(super) fn common_scale(poses: &[FigureState<'_>], view: View, size: DVec2) -> f64 {
-    let room = size - 2.0 * MARGIN;
-    let fit = |pose: &FigureState<'_>| (room / pose.size(view)).min_element();
-    poses.iter().map(fit).fold(f64::INFINITY, f64::min)
+/// The largest scale at which every state fits into a cell of size `size`.
+pub(super) fn common_scale(states: &[SheetState<'_>], view: View, size: DVec2) -> f64 {
+    let space = size - 2.0 * MARGIN;
+    let fit = |state: &SheetState<'_>| (space / state.size(view)).min_element();
+    states.iter().map(fit).fold(f64::INFINITY, f64::min)
 }

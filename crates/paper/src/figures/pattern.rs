@@ -6,25 +6,30 @@ use glam::DVec2;
 
 use crate::PaperError;
 
-/// Size of words.
+/// The font size of captions.
 pub(super) const WORDS: f64 = 13.0;
-/// Size of small words.
+/// The font size of small labels.
 pub(super) const SMALL: f64 = 10.0;
 
-/// Where a crease pattern lies on the page, seen from its front.
+/// Writes a caption with its middle at `at`.
+pub(super) fn caption(drawing: &mut Drawing, at: DVec2, words: impl Into<String>) {
+    drawing.words(at, words, WORDS, Anchor::Middle);
+}
+
+/// The position and scale of a crease pattern on the page, seen from its front.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Place {
+pub(super) struct PatternPlacement {
     /// The left upper corner.
     pub(super) at: DVec2,
-    /// Units of the page a unit of length.
+    /// The size of a unit of length on the page.
     pub(super) scale: f64,
     /// W, the width of the pattern.
     pub(super) width: f64,
-    /// How far the pattern is moved up, in its own unit of length.
+    /// The distance by which the pattern is moved up, in its own unit of length.
     pub(super) skip: f64,
 }
 
-impl Place {
+impl PatternPlacement {
     pub(super) fn new(at: DVec2, scale: f64, width: f64) -> Self {
         Self {
             at,
@@ -34,13 +39,13 @@ impl Place {
         }
     }
 
-    /// Rows run down the page; the width runs to the left, as the front is seen.
+    /// The position of a vertex on the page: rows run down, and the width runs to the left.
     pub(super) fn of(&self, vertex: DVec2) -> DVec2 {
         self.at + self.scale * DVec2::new(self.width - vertex.y, -vertex.x - self.skip)
     }
 }
 
-/// The look of an edge; none for those inside facets.
+/// The stroke of an edge; `None` for an edge inside a facet.
 pub(super) fn stroke(assignment: Assignment, width: f64) -> Option<Stroke> {
     let style = Style::default();
     let color = match assignment {
@@ -52,16 +57,16 @@ pub(super) fn stroke(assignment: Assignment, width: f64) -> Option<Stroke> {
     Some(Stroke::new(color, width))
 }
 
-/// Draws the crease pattern of `sheet`: those of its facets that `shows` names, their outline as a border.
+/// Draws the facets of `sheet` that `shows` selects, with their creases, and their outline as a border.
 pub(super) fn draw(
     drawing: &mut Drawing,
     sheet: &Sheet,
-    place: &Place,
+    placement: &PatternPlacement,
     line_width: f64,
     shows: impl Fn(u32) -> bool,
 ) {
     let front = Style::default().front;
-    let corner = |v: &u32| place.of(sheet.vertices[*v as usize]);
+    let corner = |v: &u32| placement.of(sheet.vertices[*v as usize]);
     for (index, facet) in (0..).zip(&sheet.facets) {
         if shows(index) {
             drawing.area(facet.polygon.iter().map(corner), front);
@@ -91,12 +96,12 @@ pub(super) fn draw_unit(
     scale: f64,
 ) -> Result<(), PaperError> {
     let units = one_column(unit)?;
-    let place = Place {
+    let placement = PatternPlacement {
         skip: f64::from(row) * unit.height,
-        ..Place::new(at, scale, unit.width)
+        ..PatternPlacement::new(at, scale, unit.width)
     };
     let sheet = &units.sheet;
-    draw(drawing, sheet, &place, 1.4, |f| {
+    draw(drawing, sheet, &placement, 1.4, |f| {
         sheet.facets[f as usize].row == row
     });
     let size = scale * DVec2::new(unit.width, unit.height);
@@ -104,7 +109,7 @@ pub(super) fn draw_unit(
         // The first corner of the paper's names stands on the left.
         let mirrored = DVec2::new(position.x, unit.width - position.y);
         if let Some(name) = units.vertex_name(vertex, row, 0) {
-            let corner = place.of(mirrored);
+            let corner = placement.of(mirrored);
             label(
                 drawing,
                 corner,
@@ -120,14 +125,14 @@ pub(super) fn draw_unit(
     Ok(())
 }
 
-/// Two rows of one unit.
+/// A sheet of two rows and one column.
 pub(super) fn one_column(unit: &Unit) -> Result<UnitSheet, PaperError> {
     UnitSheet::new(*unit, 2, 1).map_err(|e| PaperError::pattern("a unit of a figure", e))
 }
 
 /// Writes a vertex's name outside the unit or, inside it, beside the vertex where no crease ends.
 ///
-/// `away`: from the unit's centre. `half`: half the unit's height.
+/// `away` is the position relative to the unit's centre, `half` half the unit's height.
 fn label(drawing: &mut Drawing, at: DVec2, away: DVec2, half: f64, name: &str) {
     let sign = |value: f64| {
         if value.abs() < 1.0 {
@@ -145,11 +150,11 @@ fn label(drawing: &mut Drawing, at: DVec2, away: DVec2, half: f64, name: &str) {
         (x, false) => (3.0 * x, -4.0),
     };
     let anchor = if dx < 0.0 { Anchor::End } else { Anchor::Start };
-    drawing.words(at + DVec2::new(dx, dy), lowered(name), SMALL, anchor);
+    drawing.words(at + DVec2::new(dx, dy), with_subscript(name), SMALL, anchor);
 }
 
-/// `C4^1` with its number lowered.
-fn lowered(name: &str) -> String {
+/// `C4^1` with its number as a subscript: `C_4^1`.
+fn with_subscript(name: &str) -> String {
     let Some((letter, number)) = name.split_at_checked(1) else {
         return name.to_owned();
     };
@@ -162,7 +167,7 @@ fn lowered(name: &str) -> String {
     format!("{letter}_{number}{half}")
 }
 
-/// The parts of the width, each between ticks with its name.
+/// Draws the parts of the width below a unit, each between ticks with its name.
 fn parts_below(drawing: &mut Drawing, unit: &Unit, at: DVec2, scale: f64) {
     let is_sii = unit.case == foldmotion_pattern::Case::SII;
     let has_pads = unit.side_pad > 0.0;

@@ -1,45 +1,44 @@
 //! Figure 2: target surface, tiling, flat-folded state.
 
 use foldmotion_pattern::{Assignment, Case, CreaseKind, Edge, Facet, FacetKind, LayerOrder, Sheet};
-use foldmotion_record::{Anchor, Stroke, View};
+use foldmotion_record::{Stroke, View};
 use glam::{DVec2, DVec3};
 
-use super::panel::{Cell, FigureState, common_scale};
-use super::pattern::WORDS;
+use super::panel::{Cell, SheetState, common_scale};
+use super::pattern::caption;
 use super::{Composed, page};
 use crate::PaperError;
 use crate::targets::sheet;
 use foldmotion_study::UnitStudy;
 
-/// Strips that stand for the smooth surface.
+/// The number of strips that approximate the smooth surface.
 const STRIPS: u32 = 240;
 
-/// Figure 2.
+/// Figure 2: a target surface, its tiling and the folded sheet.
 pub(super) fn figure2() -> Result<Composed, PaperError> {
     let study = sheet("shelter", Case::E)?;
     let (smooth, positions) = swept_surface(&study);
-    let surface = FigureState {
+    let surface = SheetState {
         sheet: &smooth,
         positions,
         order: LayerOrder::default(),
     };
     let cell = DVec2::new(300.0, 300.0);
-    let poses = [surface, FigureState::deployed(&study)];
-    let scale = common_scale(&poses, View::Iso, cell);
+    let states = [surface, SheetState::deployed(&study)];
+    let scale = common_scale(&states, View::Iso, cell);
     let mut drawing = page(960.0, 350.0)?;
     let words = [
         "(a) target surface Φ^T: Γ swept by W",
         "(b) tiled with 7 × 5 units",
     ];
-    for (k, (pose, words)) in poses.iter().zip(words).enumerate() {
+    for (k, (state, words)) in states.iter().zip(words).enumerate() {
         let x = 10.0 + 310.0 * k as f64;
         let cell = Cell::new(x, 10.0, cell.x, cell.y);
-        pose.show(&mut drawing, View::Iso, cell, scale)?;
-        let below = DVec2::new(x + 150.0, 335.0);
-        drawing.words(below, words, WORDS, Anchor::Middle);
+        state.show(&mut drawing, View::Iso, cell, scale)?;
+        caption(&mut drawing, DVec2::new(x + 150.0, 335.0), words);
     }
     let cell = Cell::new(630.0, 100.0, 320.0, 110.0);
-    FigureState::compact(&study).show(&mut drawing, View::Front, cell, scale)?;
+    SheetState::compact(&study).show(&mut drawing, View::Front, cell, scale)?;
     let ink = Stroke::new([110, 110, 115], 1.0);
     let half = 0.5 * scale * study.closed_form.map_or(0.0, |form| form.extents[0]);
     let (left, right) = (
@@ -50,18 +49,11 @@ pub(super) fn figure2() -> Result<Composed, PaperError> {
     for dy in [-5.0, 5.0] {
         drawing.line([left, left + DVec2::new(9.0, dy)], ink);
     }
-    drawing.words(
-        DVec2::new(790.0, 248.0),
-        "growing line G_r",
-        WORDS,
-        Anchor::Middle,
-    );
-    let below = DVec2::new(790.0, 335.0);
-    drawing.words(
-        below,
+    caption(&mut drawing, DVec2::new(790.0, 248.0), "growing line G_r");
+    caption(
+        &mut drawing,
+        DVec2::new(790.0, 335.0),
         "(c) folded flat, seen along the width",
-        WORDS,
-        Anchor::Middle,
     );
     Ok((
         drawing,

@@ -3,23 +3,23 @@
 use foldmotion_record::{Anchor, View};
 use glam::{DVec2, DVec3};
 
-use super::panel::{Cell, FigureState, common_scale};
+use super::panel::{Cell, SheetState, common_scale};
 use super::pattern::{SMALL, WORDS};
 use super::{Composed, page};
 use crate::PaperError;
-use crate::motions::{CERTIFIED, Folding, STRIP_TIMES, finished};
+use crate::motions::{CERTIFIED, STRIP_TIMES, StoredMotion, finished};
 use crate::store::Store;
 use crate::targets::{CASES, sheet};
 use foldmotion_study::UnitStudy;
 
-/// Width and height of a state's cell.
+/// The width and height of the cell of a state.
 const CELL: DVec2 = DVec2::new(230.0, 150.0);
-/// Room for the words on the left.
+/// The width of the labels on the left.
 const LEFT: f64 = 90.0;
-/// Room for the title of a profile.
+/// The height of the title of a profile.
 const TITLE: f64 = 40.0;
 
-/// Figure A1, from the motions with contact.
+/// Figure A1: the motions with contact.
 pub(super) fn figure_a1(store: &Store) -> Result<Composed, PaperError> {
     let block = TITLE + CASES.len() as f64 * (CELL.y + 6.0);
     let width = LEFT + STRIP_TIMES.len() as f64 * (CELL.x + 6.0);
@@ -38,17 +38,17 @@ pub(super) fn figure_a1(store: &Store) -> Result<Composed, PaperError> {
             let folding = finished(store, model, case, true).ok_or(PaperError::INTERRUPTED)?;
             strips.push((sheet(model, case)?, folding));
         }
-        let mut poses = Vec::new();
+        let mut states = Vec::new();
         for (study, folding) in &strips {
-            poses.extend(folding.states.iter().map(|state| pose(study, state)));
+            states.extend(folding.states.iter().map(|state| displayed(study, state)));
         }
-        let scale = common_scale(&poses, View::Iso, CELL);
+        let scale = common_scale(&states, View::Iso, CELL);
         let times = STRIP_TIMES.len();
-        for (index, pose) in poses.iter().enumerate() {
+        for (index, state) in states.iter().enumerate() {
             let (row, column) = (index / times, index % times);
             let x = LEFT + (CELL.x + 6.0) * column as f64;
             let y = top + TITLE + (CELL.y + 6.0) * row as f64;
-            pose.show(
+            state.show(
                 &mut drawing,
                 View::Iso,
                 Cell::new(x, y, CELL.x, CELL.y),
@@ -56,7 +56,7 @@ pub(super) fn figure_a1(store: &Store) -> Result<Composed, PaperError> {
             )?;
             let (study, folding) = &strips[row];
             if column == 0 {
-                words_of(
+                draw_labels(
                     &mut drawing,
                     DVec2::new(10.0, y + 0.5 * CELL.y),
                     study,
@@ -77,11 +77,11 @@ pub(super) fn figure_a1(store: &Store) -> Result<Composed, PaperError> {
     ))
 }
 
-fn words_of(
+fn draw_labels(
     drawing: &mut foldmotion_record::Drawing,
     at: DVec2,
     study: &UnitStudy,
-    folding: &Folding,
+    folding: &StoredMotion,
 ) {
     let case = format!("case {}", study.units.unit.case.name());
     drawing.words(at, case, WORDS, Anchor::Start);
@@ -90,12 +90,12 @@ fn words_of(
     drawing.words(below, words, SMALL, Anchor::Start);
 }
 
-/// A state of a motion, turned as its stage is shown: upright until it is nearly flat, then as the compact state lies.
-fn pose<'a>(study: &'a UnitStudy, (time, positions): &(f64, Vec<DVec3>)) -> FigureState<'a> {
-    let pose = FigureState::new(study, study.turned(*time, positions));
+/// A state of a motion, turned as its stage is displayed: upright before it is flat, then like the compact state.
+fn displayed<'a>(study: &'a UnitStudy, (time, positions): &(f64, Vec<DVec3>)) -> SheetState<'a> {
+    let state = SheetState::new(study, study.turned(*time, positions));
     if *time > 1.0 {
-        pose.layered(study)
+        state.layered(study)
     } else {
-        pose
+        state
     }
 }

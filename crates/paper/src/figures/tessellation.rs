@@ -6,24 +6,26 @@ use foldmotion_pattern::{Case, Unit, UnitSheet, VertexType};
 use foldmotion_record::{Anchor, Drawing};
 use glam::DVec2;
 
-use super::pattern::{Place, SMALL, WORDS, draw, draw_unit};
+use super::pattern::{PatternPlacement, SMALL, caption, draw, draw_unit};
 use super::{Composed, page};
 use crate::PaperError;
 
-/// Figure 1.
+/// Figure 1: the tessellation.
 pub(super) fn figure1() -> Result<Composed, PaperError> {
     let mut drawing = page(900.0, 600.0)?;
     let failed = |e| PaperError::pattern("figure 1", e);
     let unit = Unit::new(Case::E, 1.0, 1.0, None, None).map_err(failed)?;
     let units = UnitSheet::new(unit, 3, 5).map_err(failed)?;
-    let place = Place::new(DVec2::new(30.0, 30.0), 90.0, 5.0);
-    draw(&mut drawing, &units.sheet, &place, 1.4, |_| true);
-    let below = DVec2::new(255.0, 325.0);
-    drawing.words(below, "(a) N_r × N_c = 3 × 5 units", WORDS, Anchor::Middle);
+    let placement = PatternPlacement::new(DVec2::new(30.0, 30.0), 90.0, 5.0);
+    draw(&mut drawing, &units.sheet, &placement, 1.4, |_| true);
+    caption(
+        &mut drawing,
+        DVec2::new(255.0, 325.0),
+        "(a) N_r × N_c = 3 × 5 units",
+    );
     for (row, x, words) in [(0, 560.0, "(b) unit U^O"), (1, 740.0, "(c) unit U^E")] {
         draw_unit(&mut drawing, &unit, row, DVec2::new(x, 60.0), 120.0)?;
-        let below = DVec2::new(x + 60.0, 250.0);
-        drawing.words(below, words, WORDS, Anchor::Middle);
+        caption(&mut drawing, DVec2::new(x + 60.0, 250.0), words);
     }
     let stars = [
         (VertexType::I, 160.0, "vertex I, centre of U^O"),
@@ -32,10 +34,9 @@ pub(super) fn figure1() -> Result<Composed, PaperError> {
     ];
     for (kind, x, words) in stars {
         star(&mut drawing, &units, kind, DVec2::new(x, 455.0));
-        let below = DVec2::new(x, 572.0);
-        drawing.words(below, words, WORDS, Anchor::Middle);
+        caption(&mut drawing, DVec2::new(x, 572.0), words);
         let sums = "angles: 360° in all, alternate ones 180°";
-        drawing.words(below + DVec2::new(0.0, 16.0), sums, SMALL, Anchor::Middle);
+        drawing.words(DVec2::new(x, 588.0), sums, SMALL, Anchor::Middle);
     }
     Ok((
         drawing,
@@ -56,15 +57,17 @@ fn star(drawing: &mut Drawing, units: &UnitSheet, kind: VertexType, centre: DVec
         return;
     };
     let (scale, position) = (95.0, sheet.vertices[check.vertex as usize]);
-    let mut place = Place::new(DVec2::ZERO, scale, 5.0);
-    place.at = centre - place.of(position);
+    let mut placement = PatternPlacement::new(DVec2::ZERO, scale, 5.0);
+    placement.at = centre - placement.of(position);
     let touches = |f: u32| sheet.facets[f as usize].polygon.contains(&check.vertex);
-    draw(drawing, sheet, &place, 1.6, touches);
+    draw(drawing, sheet, &placement, 1.6, touches);
     let creases = sheet.edges.iter().filter(|edge| edge.is_crease());
     let mut headings: Vec<f64> = creases
         .filter(|edge| edge.vertices.contains(&check.vertex))
         .map(|edge| {
-            let [a, b] = edge.vertices.map(|v| place.of(sheet.vertices[v as usize]));
+            let [a, b] = edge
+                .vertices
+                .map(|v| placement.of(sheet.vertices[v as usize]));
             let other = if edge.vertices[0] == check.vertex {
                 b
             } else {

@@ -4,18 +4,18 @@ use foldmotion_pattern::{Case, Unit};
 use foldmotion_record::{Anchor, Drawing, Stroke, Style};
 use glam::DVec2;
 
-use super::pattern::{Place, SMALL, WORDS, draw, one_column};
+use super::pattern::{PatternPlacement, SMALL, WORDS, caption, draw, one_column};
 use super::{Composed, page};
 use crate::PaperError;
 
-/// h_1 = w, h_2 > w, h_3 < w, in units of w.
+/// The heights h_1 = w, h_2 > w, h_3 < w of the rows, in units of w.
 const HEIGHTS: [f64; 3] = [1.0, 1.45, 0.6];
-/// Units of the page a width w.
+/// The size of the width w on the page.
 const SCALE: f64 = 180.0;
-/// Vertices closer than this part of w meet.
+/// Vertices closer than this, in units of w, meet.
 const MEETING: f64 = 1e-9;
 
-/// Figure 10.
+/// Figure 10: columns with rows of unequal height.
 pub(super) fn figure10() -> Result<Composed, PaperError> {
     let mut drawing = page(760.0, 640.0)?;
     let plain = HEIGHTS.map(|height| Unit::new(Case::Plain, 1.0, height, None, None));
@@ -33,8 +33,7 @@ pub(super) fn figure10() -> Result<Composed, PaperError> {
             column.push(unit.map_err(|e| PaperError::pattern("figure 10", e))?);
         }
         draw_column(&mut drawing, &column, DVec2::new(x, 30.0))?;
-        let below = DVec2::new(x + 0.5 * SCALE, 620.0);
-        drawing.words(below, words, WORDS, Anchor::Middle);
+        caption(&mut drawing, DVec2::new(x + 0.5 * SCALE, 620.0), words);
     }
     Ok((
         drawing,
@@ -50,11 +49,11 @@ fn draw_column(drawing: &mut Drawing, units: &[Unit], at: DVec2) -> Result<(), P
         let row = index as u32 % 2;
         let sheet = one_column(unit)?.sheet;
         let skip = f64::from(row) * unit.height;
-        let place = Place {
+        let placement = PatternPlacement {
             skip,
-            ..Place::new(top, SCALE, unit.width)
+            ..PatternPlacement::new(top, SCALE, unit.width)
         };
-        draw(drawing, &sheet, &place, 1.4, |f| {
+        draw(drawing, &sheet, &placement, 1.4, |f| {
             sheet.facets[f as usize].row == row
         });
         let ends = |depth: f64| -> Vec<f64> {
@@ -71,7 +70,7 @@ fn draw_column(drawing: &mut Drawing, units: &[Unit], at: DVec2) -> Result<(), P
         if let Some(above) = &above {
             let boundary = [top, top + DVec2::new(SCALE, 0.0)];
             drawing.line(boundary, Stroke::new(Style::default().mountain, 1.4));
-            mark_clashes(drawing, above, &ends(0.0), &place);
+            mark_clashes(drawing, above, &ends(0.0), &placement);
         }
         above = Some(ends(unit.height));
         let middle = top + DVec2::new(-14.0, 0.5 * SCALE * unit.height);
@@ -94,14 +93,14 @@ fn draw_column(drawing: &mut Drawing, units: &[Unit], at: DVec2) -> Result<(), P
     Ok(())
 }
 
-/// Circles the vertices of one row that meet none of the other.
-fn mark_clashes(drawing: &mut Drawing, above: &[f64], below: &[f64], place: &Place) {
+/// Circles the vertices of each row that do not meet a vertex of the other.
+fn mark_clashes(drawing: &mut Drawing, above: &[f64], below: &[f64], placement: &PatternPlacement) {
     let alone = |list: &[f64], others: &[f64]| -> Vec<f64> {
         let meets = |y: &f64| others.iter().any(|other| (other - y).abs() < MEETING);
         list.iter().copied().filter(|y| !meets(y)).collect()
     };
     for y in [alone(above, below), alone(below, above)].concat() {
-        let centre = place.at + DVec2::new(SCALE * (place.width - y), 0.0);
+        let centre = placement.at + DVec2::new(SCALE * (placement.width - y), 0.0);
         let corner = |k: i32| DVec2::from_angle(f64::from(k) * std::f64::consts::TAU / 24.0);
         let ring = (0..=24).map(|k| centre + 9.0 * corner(k));
         drawing.line(ring, Stroke::new([214, 120, 0], 2.0));

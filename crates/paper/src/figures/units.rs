@@ -4,27 +4,27 @@ use foldmotion_pattern::{Case, Unit};
 use foldmotion_record::{Anchor, Drawing, View};
 use glam::DVec2;
 
-use super::panel::{Cell, FigureState, common_scale};
-use super::pattern::{WORDS, draw_unit};
+use super::panel::{Cell, SheetState, common_scale};
+use super::pattern::{WORDS, caption, draw_unit};
 use super::{Composed, page};
 use crate::PaperError;
 use crate::targets::{LAMBDA, sheet, unit_study};
 use foldmotion_study::UnitStudy;
 
-/// The profile the units are shown on.
+/// The profile on which the units are shown.
 const MODEL: &str = "shelter";
-/// Its width in units of h, and the columns of figures 3 and 4.
+/// The width of the sheet, in units of h.
 const WIDTH: f64 = 5.0;
 
-/// Width of the page.
+/// The width of the page.
 const PAGE: f64 = 1000.0;
-/// Height of a line of units with their deployed and compact state.
+/// The height of a line of units with their deployed and compact states.
 const LINE: f64 = 290.0;
 
-/// Height of the line of units with d = 0.
+/// The height of the line of units with d = 0.
 const D_ZERO: f64 = 200.0;
 
-/// Figure 3.
+/// Figure 3: tall units.
 pub(super) fn figure3() -> Result<Composed, PaperError> {
     let mut drawing = page(PAGE, 2.0 * LINE)?;
     let plain = plain(7)?;
@@ -38,7 +38,7 @@ pub(super) fn figure3() -> Result<Composed, PaperError> {
     ))
 }
 
-/// Figure 4.
+/// Figure 4: short units.
 pub(super) fn figure4() -> Result<Composed, PaperError> {
     let mut drawing = page(PAGE, 2.0 * LINE)?;
     let plain = plain(3)?;
@@ -52,7 +52,7 @@ pub(super) fn figure4() -> Result<Composed, PaperError> {
     ))
 }
 
-/// Figure 5.
+/// Figure 5: units of case SII.
 pub(super) fn figure5() -> Result<Composed, PaperError> {
     let mut drawing = page(PAGE, LINE + D_ZERO)?;
     let width = WIDTH / 3.0;
@@ -74,21 +74,21 @@ pub(super) fn figure5() -> Result<Composed, PaperError> {
     ))
 }
 
-/// The shelter of unmodified rectangles.
+/// The shelter with unmodified rectangles.
 fn plain(columns: usize) -> Result<UnitStudy, PaperError> {
     unit_study(format!(
         "[profile]\nmodel = \"{MODEL}\"\n[sheet]\ncase = \"plain\"\ncolumns = {columns}\nwidth = {WIDTH}\n"
     ))
 }
 
-/// The two units of a case, side by side.
+/// Draws the two units of a case side by side.
 fn two_units(
     drawing: &mut Drawing,
     top: f64,
     letters: [&str; 2],
     name: &str,
     unit: &Unit,
-    caption: f64,
+    caption_top: f64,
 ) -> Result<(), PaperError> {
     let scale = 140.0 / unit.width.max(unit.height);
     for (row, letter) in (0..).zip(letters) {
@@ -96,18 +96,16 @@ fn two_units(
         let at = DVec2::new(left + 0.5 * (140.0 - scale * unit.width), top + 30.0);
         draw_unit(drawing, unit, row, at, scale)?;
         let kind = if row == 0 { "U^O" } else { "U^E" };
-        let below = DVec2::new(left + 70.0, top + caption);
-        drawing.words(
-            below,
+        caption(
+            drawing,
+            DVec2::new(left + 70.0, top + caption_top),
             format!("({letter}) {kind}, {name}"),
-            WORDS,
-            Anchor::Middle,
         );
     }
     Ok(())
 }
 
-/// The two units of a sheet, its deployed and its compact state, these at one scale.
+/// Draws the two units of a sheet, and its deployed and compact states at one scale.
 fn line(
     drawing: &mut Drawing,
     top: f64,
@@ -124,17 +122,17 @@ fn line(
         LINE - 22.0,
     )?;
     let is_flat = study.units.unit.side_pad == 0.0;
-    let poses = [FigureState::deployed(study), FigureState::compact(study)];
+    let states = [SheetState::deployed(study), SheetState::compact(study)];
     let view = if is_flat { View::Front } else { View::Iso };
     let cell = DVec2::new(250.0, LINE - 50.0);
     let scale =
-        common_scale(&poses[..1], View::Iso, cell).min(common_scale(&poses[1..], view, cell));
+        common_scale(&states[..1], View::Iso, cell).min(common_scale(&states[1..], view, cell));
     let words = ["deployed", "folded"];
-    for (k, pose) in poses.iter().enumerate() {
+    for (k, state) in states.iter().enumerate() {
         let x = 460.0 + 270.0 * k as f64;
         let cell = Cell::new(x, top + 10.0, cell.x, cell.y);
         let view = if k == 0 { View::Iso } else { view };
-        pose.show(drawing, view, cell, scale)?;
+        state.show(drawing, view, cell, scale)?;
         let below = DVec2::new(x + 125.0, top + LINE - 22.0);
         let words = format!("({}) {}", letters[2 + k], words[k]);
         drawing.words(below, words, WORDS, Anchor::Middle);

@@ -1,4 +1,4 @@
-//! What the machine allows: f64 operations and bytes a second, for each number of threads.
+//! The limits of the machine: f64 operations and bytes per second, for each number of threads.
 
 use std::hint::black_box;
 
@@ -9,23 +9,23 @@ use rayon::{ThreadPool, ThreadPoolBuildError, ThreadPoolBuilder};
 
 use crate::sample::median_seconds;
 
-/// Ceilings for one number of threads.
+/// The limits for one number of threads.
 pub(crate) struct Ceiling {
     pub(crate) pool: ThreadPool,
-    /// Additions and multiplications a second, fused, on numbers in registers.
+    /// Fused additions and multiplications per second, on numbers in registers.
     pub(crate) operations: f64,
-    /// Bytes a second read and written by a ← b + s c over arrays far larger than the caches.
+    /// Bytes per second read and written by a ← b + s c over arrays much larger than the caches.
     pub(crate) bytes: f64,
 }
 
-/// Numbers of each array of the triad: 128 MB.
+/// The length of each array of the triad: 128 MB.
 const NUMBERS: usize = 16 << 20;
-/// Rounds of the loop of fused operations.
+/// The number of iterations of the loop of fused operations.
 const ROUNDS: usize = 20_000_000;
-/// Independent sums in it, to hide the latency.
+/// The number of independent sums in the loop, which hide the latency.
 const SUMS: usize = 12;
 
-/// The ceilings for one thread and for all.
+/// The limits for one thread and for all.
 pub(crate) fn measure() -> Result<Vec<Ceiling>, ThreadPoolBuildError> {
     let cores = std::thread::available_parallelism().map_or(1, usize::from);
     let mut counts = vec![1, cores];
@@ -87,7 +87,7 @@ fn ceiling(threads: usize) -> Result<Ceiling, ThreadPoolBuildError> {
 struct FusedSums;
 
 impl WithSimd for FusedSums {
-    /// The operations of it.
+    /// The number of operations.
     type Output = usize;
 
     #[expect(clippy::inline_always, reason = "compiled for the machine's vectors")]

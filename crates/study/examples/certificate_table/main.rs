@@ -1,13 +1,13 @@
-//! Computes the tables of docs/src/certificates.md: folds the shelter in many ways, judges each motion, and proves each
-//! certificate again.
+//! Computes the tables of docs/src/certificates.md: folds the shelter in many variants, checks each motion and verifies
+//! each certificate.
 //!
 //! `cargo run --release -p foldmotion-study --no-default-features --example certificate_table` prints them as Markdown.
 //! `--only WORDS` computes the rows that have all of WORDS, of their first columns and `contact` or `no-contact`, such as
 //! `--only "S near-rigid no-contact"`.
 //!
 //! `--matrix` prints another table instead: every file of `scenes/` with contact, without, and moved by the dynamic
-//! engine; `--only` then names scenes and columns. Exit status 1 where a motion got no certificate, or the second proof
-//! did not confirm it; what it found then goes to stderr.
+//! engine; `--only` then names scenes and columns. The exit status is 1 if a motion got no certificate, or
+//! if the second proof did not confirm it; details are then on stderr.
 
 #![expect(
     clippy::print_stdout,
@@ -15,41 +15,41 @@
     reason = "an example that prints its tables"
 )]
 
-mod judged;
+mod checked;
 mod matrix;
 mod number;
 mod shelter;
 
 use std::{error::Error, process::ExitCode};
 
-use judged::{Judged, Motion};
+use checked::{Checked, Motion};
 
-/// What is asked for.
+/// The options of the command line.
 #[derive(Default)]
-struct Asked {
+struct Options {
     matrix: bool,
     only: Vec<String>,
 }
 
-fn asked() -> Result<Asked, Box<dyn Error>> {
-    let mut asked = Asked::default();
+fn arguments() -> Result<Options, Box<dyn Error>> {
+    let mut options = Options::default();
     let mut arguments = std::env::args().skip(1);
     while let Some(argument) = arguments.next() {
         match argument.as_str() {
-            "--matrix" => asked.matrix = true,
+            "--matrix" => options.matrix = true,
             "--only" => {
                 let words = arguments.next().ok_or("--only needs words")?;
-                asked.only = words.split_whitespace().map(str::to_owned).collect();
+                options.only = words.split_whitespace().map(str::to_owned).collect();
             }
-            other => return Err(format!("{other} is not known").into()),
+            other => return Err(format!("{other} is unknown").into()),
         }
     }
-    Ok(asked)
+    Ok(options)
 }
 
 fn main() -> Result<ExitCode, Box<dyn Error>> {
-    let asked = asked()?;
-    let mut tables = if asked.matrix {
+    let options = arguments()?;
+    let mut tables = if options.matrix {
         vec![matrix::table()?]
     } else {
         shelter::tables()
@@ -57,10 +57,10 @@ fn main() -> Result<ExitCode, Box<dyn Error>> {
     for table in &mut tables {
         table
             .rows
-            .retain(|row| asked.only.iter().all(|word| row.has(word)));
+            .retain(|row| options.only.iter().all(|word| row.has(word)));
     }
     if tables.iter().all(|table| table.rows.is_empty()) {
-        return Err(format!("no row has all of {:?}", asked.only).into());
+        return Err(format!("no row has all of {:?}", options.only).into());
     }
     let mut total = Total::default();
     for table in tables.iter().filter(|table| !table.rows.is_empty()) {
@@ -73,14 +73,14 @@ fn main() -> Result<ExitCode, Box<dyn Error>> {
 /// A table of motions.
 struct Table {
     title: String,
-    /// The columns that name a motion, then those of what came out.
+    /// The columns that name a motion, and those of its results.
     columns: [&'static [&'static str]; 2],
     rows: Vec<Row>,
-    /// What came out, one cell a column.
-    cells: fn(&Judged) -> Vec<String>,
+    /// The cells of the results, one for each column.
+    cells: fn(&Checked) -> Vec<String>,
 }
 
-/// A motion to be judged, and the cells that name it.
+/// A motion to be checked, and the cells that name it.
 struct Row {
     names: Vec<String>,
     motion: Motion,
@@ -104,15 +104,15 @@ impl Table {
         println!("| {} |", columns.join(" | "));
         println!("|{}", "---|".repeat(columns.len()));
         for row in &self.rows {
-            let cells = match row.motion.judge() {
-                Ok(judged) => {
-                    total.add(&judged);
-                    (self.cells)(&judged)
+            let cells = match row.motion.check() {
+                Ok(checked) => {
+                    total.add(&checked);
+                    (self.cells)(&checked)
                 }
                 Err(error) => {
                     total.motions += 1;
                     let mut cells = vec!["-".to_owned(); self.columns[1].len()];
-                    cells[0] = format!("not judged: {error}").replace(['|', '\n'], " ");
+                    cells[0] = format!("not checked: {error}").replace(['|', '\n'], " ");
                     cells
                 }
             };
@@ -121,7 +121,7 @@ impl Table {
     }
 }
 
-/// What came out of all motions.
+/// The results of all motions.
 #[derive(Default)]
 struct Total {
     motions: usize,
@@ -132,16 +132,16 @@ struct Total {
 }
 
 impl Total {
-    fn add(&mut self, judged: &Judged) {
+    fn add(&mut self, checked: &Checked) {
         self.motions += 1;
-        self.check_seconds += judged.report.seconds.check;
-        self.verify_seconds += judged.verify_seconds;
-        if judged.verified.verification.is_verified() {
+        self.check_seconds += checked.report.seconds.check;
+        self.verify_seconds += checked.verify_seconds;
+        if checked.verified.verification.is_verified() {
             self.verified += 1;
         } else {
-            eprintln!("{}: {}", judged.report.title, judged.verified.table());
+            eprintln!("{}: {}", checked.report.title, checked.verified.table());
         }
-        let (report, engine) = (&judged.report, &judged.report.engine);
+        let (report, engine) = (&checked.report, &checked.report.engine);
         self.computed_with = Some(format!(
             "foldmotion {} on {}",
             report.version, engine.instruction_set

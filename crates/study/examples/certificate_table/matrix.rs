@@ -1,11 +1,11 @@
-//! Every scene with contact, without, and moved by the dynamic engine.
+//! Every scene with contact, without contact, and with the dynamic engine.
 
 use std::error::Error;
 
-use crate::judged::{Motion, scenes};
+use crate::checked::{Motion, scenes};
 use crate::{Row, Table};
 
-/// Engine and contact; the dynamic engine has none.
+/// Engine and contact; the dynamic engine has no contact.
 const MOVED: [(&str, bool); 3] = [
     ("quasi-static", true),
     ("quasi-static", false),
@@ -51,13 +51,13 @@ pub(crate) fn table() -> Result<Table, Box<dyn Error>> {
             ],
         ],
         rows: rows.collect(),
-        cells: |judged| {
+        cells: |checked| {
             vec![
-                judged.verdict(),
-                judged.outcome(),
-                format!("{:.2}", judged.report.seconds.check),
-                format!("{:.2}", judged.verify_seconds),
-                judged.second_proof(),
+                checked.verdict(),
+                checked.outcome(),
+                format!("{:.2}", checked.report.seconds.check),
+                format!("{:.2}", checked.verify_seconds),
+                checked.second_proof(),
             ]
         },
     })

@@ -1,6 +1,6 @@
-//! Numbers with as many digits as hold on every machine.
+//! Numbers with as many digits as are the same on every machine.
 
-/// `value` with so many significant digits, without an exponent.
+/// `value` with this number of significant digits, without an exponent.
 pub(crate) fn rounded(value: f64, digits: i32) -> String {
     if value == 0.0 || !value.is_finite() {
         return format!("{value}");
@@ -14,12 +14,12 @@ pub(crate) fn rounded(value: f64, digits: i32) -> String {
     format!("{value:.*}", places(digits - 1 - exponent))
 }
 
-/// `value` with so many significant digits and an exponent.
+/// `value` with this number of significant digits and an exponent.
 pub(crate) fn scientific(value: f64, digits: usize) -> String {
     format!("{value:.*e}", digits.saturating_sub(1))
 }
 
-/// The largest number of one significant digit that `value` is not below.
+/// The largest number of one significant digit that is at most `value`.
 pub(crate) fn below(value: f64) -> f64 {
     let unit = 10.0_f64.powf(value.log10().floor());
     if value > 0.0 {
@@ -29,7 +29,7 @@ pub(crate) fn below(value: f64) -> f64 {
     }
 }
 
-/// The smallest number of one significant digit that `value` is not above.
+/// The smallest number of one significant digit that is at least `value`.
 pub(crate) fn above(value: f64) -> f64 {
     let unit = 10.0_f64.powf(value.log10().floor());
     if value > 0.0 {
@@ -39,7 +39,7 @@ pub(crate) fn above(value: f64) -> f64 {
     }
 }
 
-/// A number of decimal places; none where it would be negative.
+/// A number of decimal places; 0 instead of a negative one.
 fn places(count: i32) -> usize {
     usize::try_from(count).unwrap_or(0)
 }

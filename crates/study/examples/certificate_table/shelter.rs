@@ -1,15 +1,15 @@
 //! The shelter in four cases, three materials and two schedules, with contact and without.
 
-use crate::judged::{Judged, Motion};
+use crate::checked::{Checked, Motion};
 use crate::number::{above, below, rounded, scientific};
 use crate::{Row, Table};
 
 const CASES: [&str; 4] = ["E", "T", "S", "SII"];
 const ROWS: usize = 7;
-/// Shallower first penetrations have no digit that holds on every machine: that of E near-rigid is 2.8e-4 h with vectors of 8
+/// Shallower first penetrations have no digit that is the same on every machine: that of E near-rigid is 2.8e-4 h with vectors of 8
 /// numbers and 2e-5 h with others.
 const STEADY_DEPTH: f64 = 1e-3;
-/// A row begins and ends so much of the stage after the one before.
+/// Each row begins and ends this part of the stage after the row before.
 const DELAY: f64 = 0.02;
 
 /// Both tables.
@@ -50,15 +50,15 @@ fn with_contact() -> Table {
             ],
         ],
         rows,
-        cells: |judged| {
-            let [separation, t] = separation(judged);
+        cells: |checked| {
+            let [separation, t] = separation(checked);
             vec![
-                judged.verdict(),
+                checked.verdict(),
                 separation,
                 t,
-                peak_strain(judged),
-                judged.outcome(),
-                judged.second_proof(),
+                peak_strain(checked),
+                checked.outcome(),
+                checked.second_proof(),
             ]
         },
     }
@@ -100,13 +100,13 @@ fn without_contact() -> Table {
             ],
         ],
         rows,
-        cells: |judged| {
+        cells: |checked| {
             vec![
-                judged.verdict(),
-                first_penetration(judged),
-                peak_strain(judged),
-                judged.outcome(),
-                judged.second_proof(),
+                checked.verdict(),
+                first_penetration(checked),
+                peak_strain(checked),
+                checked.outcome(),
+                checked.second_proof(),
             ]
         },
     }
@@ -140,12 +140,12 @@ fn staggered() -> String {
 
 /// The smallest separation and its motion time.
 ///
-/// A motion that jams ends in whatever state rounding leads to: only a bound holds on every machine.
-fn separation(judged: &Judged) -> [String; 2] {
+/// The last state of a motion that jams depends on rounding: only a bound is the same on every machine.
+fn separation(checked: &Checked) -> [String; 2] {
     let none = || "-".to_owned();
-    match judged.verified.certificate.min_separation {
+    match checked.verified.certificate.min_separation {
         None => [none(), none()],
-        Some(closest) if judged.is_finished() => {
+        Some(closest) if checked.is_finished() => {
             [scientific(closest.attained, 3), format!("{:.3}", closest.t)]
         }
         Some(closest) => [
@@ -155,19 +155,19 @@ fn separation(judged: &Judged) -> [String; 2] {
     }
 }
 
-fn peak_strain(judged: &Judged) -> String {
-    let stages = &judged.report.stages;
+fn peak_strain(checked: &Checked) -> String {
+    let stages = &checked.report.stages;
     let peak = stages.iter().map(|s| s.peak_strain).fold(0.0, f64::max);
     let percent = 100.0 * peak;
-    if !judged.is_finished() {
+    if !checked.is_finished() {
         return format!("< {} %", rounded(above(percent), 1));
     }
     let digits = if percent < 1.0 { 2 } else { 3 };
     format!("{} %", rounded(percent, digits))
 }
 
-fn first_penetration(judged: &Judged) -> String {
-    let Some(first) = judged.verified.certificate.penetrations.first() else {
+fn first_penetration(checked: &Checked) -> String {
+    let Some(first) = checked.verified.certificate.penetrations.first() else {
         return "none".to_owned();
     };
     let depth = match first.depth {

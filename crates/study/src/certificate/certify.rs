@@ -1,4 +1,4 @@
-//! From a collision report to the certificate of a motion file.
+//! Composes the certificate of a motion file from a collision report.
 
 use foldmotion_check::{CollisionReport, Penetration, Separation, Undecided};
 use foldmotion_pattern::{FoldFile, Sheet};
@@ -10,28 +10,28 @@ use super::{
 };
 use crate::VERSION;
 
-/// What a motion file is, without its frames: the same whether it was just written or read.
+/// A motion file without its frames; the same whether it was just written or read.
 #[derive(Debug, Clone)]
 pub(crate) struct MotionFile<'a> {
     pub(crate) title: Option<String>,
     pub(crate) sheet: &'a Sheet,
-    /// Faces of the file.
+    /// The number of faces in the file.
     pub(crate) faces: usize,
-    /// Those with more than three corners.
+    /// The number of faces with more than three corners.
     pub(crate) cut_faces: usize,
-    /// The face of each triangle; none where they are the same.
+    /// The face of each triangle; `None` if all faces are triangles.
     pub(crate) triangle_faces: Option<&'a [u32]>,
     pub(crate) has_facets: bool,
     pub(crate) has_unit_length: bool,
 }
 
-/// A motion file and what was found of its motion.
-pub(crate) struct CheckedMotion<'a> {
+/// A motion file with its collision report.
+pub(crate) struct CertificateSource<'a> {
     /// The name of the file.
     pub(crate) name: &'a str,
     pub(crate) sha256: String,
     pub(crate) file: MotionFile<'a>,
-    /// The motion time of each frame, at least one.
+    /// The motion times of the frames, at least one.
     pub(crate) times: &'a [f64],
     pub(crate) collision: &'a CollisionReport,
 }
@@ -51,7 +51,7 @@ impl<'a> From<&'a FoldFile> for MotionFile<'a> {
 }
 
 impl MotionFile<'_> {
-    /// Under which assumptions a verdict on it holds.
+    /// The assumptions under which a verdict on the motion holds.
     pub(crate) fn assumptions(&self) -> Vec<String> {
         let polygons = match self.cut_faces {
             0 => "All faces are triangles.".to_owned(),
@@ -102,7 +102,7 @@ impl MotionFile<'_> {
     }
 }
 
-impl CheckedMotion<'_> {
+impl CertificateSource<'_> {
     pub(crate) fn certificate(self) -> Certificate {
         let report = self.collision;
         let ends = [self.times.first(), self.times.last()];
@@ -143,7 +143,7 @@ impl CheckedMotion<'_> {
 
     fn penetrations(&self) -> Vec<PenetrationEntry> {
         let entry = |p: &Penetration| {
-            // What a frame shows by itself is no interval's.
+            // A penetration that one frame shows by itself belongs to no interval.
             let at_frame = p.conflict.is_some() || (p.frame == 0 && p.passed == self.times[0]);
             let frames = [p.frame, if at_frame { p.frame } else { p.frame + 1 }];
             PenetrationEntry {

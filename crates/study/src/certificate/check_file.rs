@@ -1,8 +1,8 @@
-//! Checks a motion file: reads it twice as a stream, judges it, writes the certificate.
+//! Checks a motion file, which is read twice as a stream, and writes its certificate.
 
 use std::cell::RefCell;
 use std::fs::File;
-use std::io::{self, Read, Write as _};
+use std::io::{self, Read};
 use std::path::Path;
 
 use foldmotion_check::{CheckError, Checker, CollisionOptions, CollisionReport};
@@ -11,10 +11,10 @@ use foldmotion_pattern::{FoldError, FoldFile, Frame, LayerOrder};
 use sha2::{Digest as _, Sha256};
 
 use crate::certificate::Certificate;
-use crate::certificate::certify::{CheckedMotion, MotionFile};
+use crate::certificate::certify::{CertificateSource, MotionFile};
 use crate::certificate::checked::CheckedFile;
 use crate::digest::hexadecimal;
-use crate::results::{CERTIFICATE, Destination, Maker, Results, listed, write_error};
+use crate::results::{CERTIFICATE, Command, Destination, Results, list_names};
 use crate::{Phase, Progress, StudyError, input_file};
 
 /// The largest motion file, bytes: 16 GiB.
@@ -23,9 +23,9 @@ pub(crate) const LARGEST: u64 = 16 << 30;
 /// How a motion file is checked.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct CheckOptions {
-    /// τ, in units of the sheet's unit of length.
+    /// The tolerance τ, in units of the sheet's unit of length.
     pub tolerance: f64,
-    /// Once more pairs of triangles than this penetrate, the check ends at the next frame; 0: no limit.
+    /// The check ends at the next frame once more pairs of triangles than this penetrate; 0 means no limit.
     pub stop_at: usize,
 }
 
@@ -39,43 +39,43 @@ impl Default for CheckOptions {
     }
 }
 
-/// Judges the motion in the FOLD file at `path`, whoever made it, and returns what is proved of it and the work done.
+/// Checks the motion in the FOLD file at `path`, of any origin, and returns its certificate with counts of the work done.
 ///
 /// The file is read twice: first everything but the frames, then one frame at a time. Memory is that of the sheet and
-/// a few frames, however many there are.
+/// a few frames, whatever their number.
 ///
 /// # Errors
-/// [`StudyError::Read`], [`StudyError::Motion`] and [`StudyError::LargeFile`] where the file is no motion that can
-/// be judged; [`StudyError::Interrupted`] where `progress` returned false.
+/// [`StudyError::Read`], [`StudyError::Motion`] and [`StudyError::LargeFile`] if the file is not a motion that can be
+/// checked; [`StudyError::Interrupted`] if `progress` returned false.
 pub fn check_file(
     path: &Path,
     options: &CheckOptions,
     progress: Progress<'_>,
 ) -> Result<CheckedFile, StudyError> {
-    let judged = judge_file(path, *options, progress)?;
+    let check = check_motion_file(path, *options, progress)?;
     progress(Phase::Check, 1.0);
-    let collision = &judged.collision;
+    let collision = &check.collision;
     Ok(CheckedFile {
-        certificate: judged.certificate(path),
+        certificate: check.certificate(path),
         pairs_tested: collision.pairs_tested,
         decided_by: collision.decided_by,
         touching_pairs: collision.touching_pairs,
     })
 }
 
-/// A motion file with what was found of it.
-pub(crate) struct JudgedFile {
+/// A motion file with its collision report.
+pub(crate) struct FileCheck {
     file: FoldFile,
     pub(crate) sha256: String,
     pub(crate) times: Vec<f64>,
     pub(crate) collision: CollisionReport,
 }
 
-impl JudgedFile {
-    /// The certificate of the file, which stands at `path`.
+impl FileCheck {
+    /// The certificate of the file at `path`.
     pub(crate) fn certificate(&self, path: &Path) -> Certificate {
         let name = path.file_name().unwrap_or_default().to_string_lossy();
-        let motion = CheckedMotion {
+        let motion = CertificateSource {
             name: &name,
             sha256: self.sha256.clone(),
             file: MotionFile::from(&self.file),
@@ -86,36 +86,29 @@ impl JudgedFile {
     }
 }
 
-/// Reads the file at `path` twice and judges its motion.
-pub(crate) fn judge_file(
+/// Reads the file at `path` twice and checks its motion.
+pub(crate) fn check_motion_file(
     path: &Path,
     options: CheckOptions,
     progress: Progress<'_>,
-) -> Result<JudgedFile, StudyError> {
-    let (file, described) = {
-        let mut input = MotionReader::open(path, Phase::Read, progress)?;
-        let file = FoldFile::read(&mut input);
-        (input.unless_stopped(file)?, input.digest())
-    };
+) -> Result<FileCheck, StudyError> {
+    let (file, sha256) = read_header(path, progress)?;
     let mut input = MotionReader::open(path, Phase::Check, progress)?;
-    let judge = RefCell::new(Judge::new(&file, options));
+    let checker = RefCell::new(FrameChecker::new(&file, options));
     let read = file.frames(&mut input, &mut |frame, order| {
-        judge.borrow_mut().take(&frame, order)
+        checker.borrow_mut().check(&frame, order)
     });
-    let judge = judge.into_inner();
+    let checker = checker.into_inner();
     if input.is_stopped {
         return Err(StudyError::Interrupted);
     }
-    read.map_err(|e| judge.explain(path, &e))?;
-    let sha256 = input.digest();
-    if sha256 != described {
-        return Err(input.failure(&"it changed while it was read"));
+    read.map_err(|e| checker.explain(path, &e))?;
+    input.require_unchanged(&sha256)?;
+    if checker.times.len() < 2 {
+        return Err(input.failure(&TooFewStates(checker.times.len())));
     }
-    if judge.times.len() < 2 {
-        return Err(input.failure(&NoMotion(judge.times.len())));
-    }
-    let (collision, times) = judge.finish().map_err(|e| motion_error(path, &e))?;
-    Ok(JudgedFile {
+    let (collision, times) = checker.finish().map_err(|e| motion_error(path, &e))?;
+    Ok(FileCheck {
         file,
         sha256,
         times,
@@ -124,30 +117,27 @@ pub(crate) fn judge_file(
 }
 
 impl Certificate {
-    /// Writes `certificate.json` into a folder; other files there stay.
+    /// Writes `certificate.json` into a folder, whose other files are kept.
     ///
     /// # Errors
-    /// [`StudyError::Output`], and [`StudyError::InTheWay`] where a certificate stands there that says something else and
-    /// that foldmotion did not write; it is then as it was.
+    /// [`StudyError::Output`], and [`StudyError::Conflict`] if the folder has another certificate that foldmotion did not
+    /// write, which is then left unchanged.
     pub fn write<'a>(&self, destination: impl Into<Destination<'a>>) -> Result<(), StudyError> {
-        let mut results = Results::open(destination.into(), Maker::Check, Some(CERTIFICATE))?;
+        let mut results = Results::open(destination.into(), Command::Check, Some(CERTIFICATE))?;
         let folder = results.folder().to_owned();
-        results.write(CERTIFICATE, |out| {
-            out.write_all(self.to_json().as_bytes())
-                .map_err(|e| write_error(&folder, CERTIFICATE, e))
-        })?;
-        match results.publish(Some(&self.sha256), &|_| false)?.aside {
-            aside if aside.is_empty() => Ok(()),
-            aside => Err(StudyError::InTheWay {
+        results.write_bytes(CERTIFICATE, self.to_json().as_bytes())?;
+        match results.publish(Some(&self.sha256), &|_| false)?.skipped {
+            skipped if skipped.is_empty() => Ok(()),
+            skipped => Err(StudyError::Conflict {
                 path: folder,
-                names: listed(&aside),
-                command: Maker::Check.name(),
+                names: list_names(&skipped),
+                command: Command::Check.name(),
             }),
         }
     }
 }
 
-/// A motion file under way: hashed, measured, and ended where the user wants.
+/// A motion file that is hashed while it is read; reading stops if the user wants.
 pub(crate) struct MotionReader<'a> {
     path: &'a Path,
     file: File,
@@ -156,7 +146,7 @@ pub(crate) struct MotionReader<'a> {
     hash: Sha256,
     phase: Phase,
     progress: Progress<'a>,
-    pub(crate) is_stopped: bool,
+    is_stopped: bool,
 }
 
 impl<'a> MotionReader<'a> {
@@ -178,6 +168,7 @@ impl<'a> MotionReader<'a> {
         })
     }
 
+    /// `outcome`, or [`StudyError::Interrupted`] if the user stopped the reading.
     pub(crate) fn unless_stopped<T>(&self, outcome: Result<T, FoldError>) -> Result<T, StudyError> {
         if self.is_stopped {
             return Err(StudyError::Interrupted);
@@ -189,9 +180,27 @@ impl<'a> MotionReader<'a> {
         motion_error(self.path, message)
     }
 
-    pub(crate) fn digest(&self) -> String {
+    /// Refuses a file that did not have the SHA-256 `sha256` now that all of it was read.
+    pub(crate) fn require_unchanged(&self, sha256: &str) -> Result<(), StudyError> {
+        if self.digest() == sha256 {
+            return Ok(());
+        }
+        Err(self.failure(&"the file changed while it was read"))
+    }
+
+    fn digest(&self) -> String {
         hexadecimal(&self.hash.clone().finalize())
     }
+}
+
+/// Reads everything but the frames of the motion file at `path`; returns it with the SHA-256 of the file.
+pub(crate) fn read_header(
+    path: &Path,
+    progress: Progress<'_>,
+) -> Result<(FoldFile, String), StudyError> {
+    let mut input = MotionReader::open(path, Phase::Read, progress)?;
+    let file = FoldFile::read(&mut input);
+    Ok((input.unless_stopped(file)?, input.digest()))
 }
 
 impl Read for MotionReader<'_> {
@@ -205,7 +214,7 @@ impl Read for MotionReader<'_> {
         self.hash.update(&buffer[..count]);
         self.read += count as u64;
         if self.read > LARGEST {
-            return Err(io::Error::other("it grew beyond 16 GiB"));
+            return Err(io::Error::other("the file grew beyond 16 GiB"));
         }
         Ok(count)
     }
@@ -218,32 +227,32 @@ pub(crate) fn motion_error(path: &Path, message: &dyn std::fmt::Display) -> Stud
     }
 }
 
-/// A file with fewer states than a motion has: how many.
+/// The error of a file with fewer states than a motion needs, and their number.
 #[derive(Debug, Clone, Copy, thiserror::Error)]
 #[error(
-    "it has {0} state(s), in file_frames or the key frame: a motion needs two or more; to fold a crease pattern use \
+    "the file has {0} state(s) in file_frames and the key frame, and a motion needs two or more; to fold a crease pattern use \
      `foldmotion run`"
 )]
-pub(crate) struct NoMotion(pub(crate) usize);
+pub(crate) struct TooFewStates(pub(crate) usize);
 
-/// Why the second reading ended.
+/// Why the second pass over the file ended.
 #[derive(Debug, thiserror::Error)]
-enum Ended {
+enum FrameError {
     #[error("{0}")]
     Fold(#[from] FoldError),
     #[error("{0}")]
     Check(#[from] CheckError),
 }
 
-/// The check under way.
-struct Judge<'a> {
+/// Checks the frames of a motion file one by one.
+struct FrameChecker<'a> {
     file: &'a FoldFile,
     options: CollisionOptions,
     checker: Option<Checker<'a>>,
     times: Vec<f64>,
 }
 
-impl<'a> Judge<'a> {
+impl<'a> FrameChecker<'a> {
     fn new(file: &'a FoldFile, options: CheckOptions) -> Self {
         Self {
             file,
@@ -257,11 +266,11 @@ impl<'a> Judge<'a> {
         }
     }
 
-    fn take(&mut self, frame: &Frame, order: &LayerOrder) -> Result<(), Ended> {
+    fn check(&mut self, frame: &Frame, order: &LayerOrder) -> Result<(), FrameError> {
         let before = self.times.last().copied();
         if let Some(before) = before.filter(|&before| before >= frame.time) {
-            // A check that has stopped looks at no frame any more.
-            return Err(Ended::Check(CheckError::TimeOrder {
+            // A check that has stopped ignores later frames, so the order is checked here.
+            return Err(FrameError::Check(CheckError::TimeOrder {
                 frame: self.times.len(),
                 time: frame.time,
                 before,
@@ -280,12 +289,12 @@ impl<'a> Judge<'a> {
         Ok(())
     }
 
-    /// The error in the numbers of the file.
-    fn explain(&self, path: &Path, error: &Ended) -> StudyError {
+    /// The error with the indices of the file.
+    fn explain(&self, path: &Path, error: &FrameError) -> StudyError {
         let at = self.file.frame_number(self.times.len());
         match (error, at) {
             (
-                Ended::Check(CheckError::DegenerateFace {
+                FrameError::Check(CheckError::DegenerateFace {
                     face,
                     height,
                     limit,
@@ -295,19 +304,19 @@ impl<'a> Judge<'a> {
             ) => {
                 let face = self.file.triangle_faces[*face];
                 let message = format!(
-                    "{at}: faces_vertices[{face}] has no area: the height of a triangle is {:.3}, more than {:.3} is \
+                    "{at}: faces_vertices[{face}] has no area: the height of a triangle is {:.3}, and more than {:.3} is \
                      needed to tell its sides",
                     Number(*height),
                     Number(*limit)
                 );
                 motion_error(path, &message)
             }
-            (Ended::Check(CheckError::DuplicateFace { f, g }), _) => {
+            (FrameError::Check(CheckError::DuplicateFace { f, g }), _) => {
                 let [f, g] = [f, g].map(|&t| self.file.triangle_faces[t as usize]);
                 let message = format!("faces_vertices[{f}] and [{g}] have the same corners");
                 motion_error(path, &message)
             }
-            (Ended::Check(error), Some(at)) => motion_error(path, &format!("{at}: {error}")),
+            (FrameError::Check(error), Some(at)) => motion_error(path, &format!("{at}: {error}")),
             (error, _) => motion_error(path, error),
         }
     }

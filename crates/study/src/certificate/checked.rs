@@ -1,4 +1,4 @@
-//! What came of the check of a motion file.
+//! The result of the check of a motion file.
 
 use std::fmt::Write as _;
 
@@ -6,21 +6,21 @@ use foldmotion_check::{FilterCounts, PairCounts};
 
 use crate::certificate::Certificate;
 
-/// What is proved of a motion file, and how much work that was.
+/// The certificate of a motion file, with counts of the work that the check did.
 #[derive(Debug, Clone, PartialEq)]
 pub struct CheckedFile {
-    /// What is proved.
+    /// What was proved about the motion.
     pub certificate: Certificate,
-    /// Pairs of triangles judged, counted once an interval.
+    /// The number of pairs of triangles tested, counted once for each interval between frames.
     pub pairs_tested: PairCounts,
-    /// What decided them, counted once an interval.
+    /// What decided these pairs, counted once for each interval between frames.
     pub decided_by: FilterCounts,
-    /// Pairs of triangles that touch or were not shown to keep apart.
+    /// The number of pairs of triangles that touch or were not shown to stay apart.
     pub touching_pairs: usize,
 }
 
 impl CheckedFile {
-    /// The table for the terminal: the certificate, then the work.
+    /// The table for the terminal: the certificate and the counts of work.
     pub fn table(&self) -> String {
         let mut out = self.certificate.table();
         // Writing into a string cannot fail.

@@ -15,14 +15,14 @@ use serde::{Deserialize, Serialize};
 
 /// The format of certificates that this program writes and verifies.
 ///
-/// Format 1, which had no key `format`, was that of versions up to 0.1 before the verdict spoke of the sheet: it could call
-/// *touching* what passed through the sheet at an edge inside it, and it stated counts of work.
+/// Format 1, without the key `format`, was written by versions up to 0.1. Its verdict could be *touching* for a motion that
+/// passes through the sheet at an interior edge, and it stated counts of work.
 pub const FORMAT: u32 = 2;
 
 /// `certificate.json`: what was proved of a motion file, and under which assumptions.
 ///
-/// It states what another proof can decide by itself. How the work was done (pairs tested, pairs found to touch, rules
-/// tested) is said by the report of a run and by the terminal.
+/// It states only what another proof can decide by itself. Counts of work (pairs tested, touching pairs, rules tested) are in
+/// the report of a run and on the terminal.
 ///
 /// Lengths are in the file's unit unless said otherwise. Frames are counted from 0 over the motion; the interval
 /// between frames k and k + 1 is `[k, k + 1]`. The same file gives the same bytes on every run.
@@ -33,7 +33,7 @@ pub struct Certificate {
     pub format: u32,
     /// The version of foldmotion that made the certificate.
     pub version: String,
-    /// The name of the motion file it speaks of.
+    /// The name of the motion file that the certificate is about.
     pub file: String,
     /// The SHA-256 of the motion file, in hexadecimal.
     pub sha256: String,
@@ -65,7 +65,7 @@ pub struct Certificate {
     pub penetrations: Vec<PenetrationEntry>,
     /// Pairs of triangles that could not be decided in an interval.
     pub undecided: Vec<UndecidedEntry>,
-    /// Triangles that lie on each other, and whether their order is proved.
+    /// The clusters of triangles that are stacked, and whether their order is proved.
     pub clusters: Vec<Cluster>,
     /// What the file's `faceOrders` claim.
     pub layer_orders: Claims,
@@ -149,7 +149,7 @@ pub struct UndecidedEntry {
 }
 
 impl Certificate {
-    /// The exit status: 1 a penetration, 3 undecided, else 0.
+    /// The exit status: 1 for a penetration, 3 for undecided, otherwise 0.
     pub fn status(&self) -> u8 {
         match self.verdict {
             Verdict::Penetrating => 1,

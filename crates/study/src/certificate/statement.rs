@@ -1,4 +1,4 @@
-//! What a certificate states, as the second proof takes it; and what of it the motion file alone refutes.
+//! The statement of a certificate as input of the second proof, and what the motion file alone refutes of it.
 
 use foldmotion_check::{
     CollisionReport, FilterCounts, LayerConflict, PairCounts, Penetration, PenetrationKind,
@@ -11,7 +11,7 @@ use super::certify::MotionFile;
 use super::{Certificate, PenetrationEntry, TrianglePair};
 use crate::VERSION;
 
-/// Refutes a field unless it is what it should be.
+/// Refutes a field unless the stated value is the one found.
 fn require<T: PartialEq + std::fmt::Debug>(
     refuted: &mut Vec<Refutation>,
     field: &str,
@@ -24,9 +24,9 @@ fn require<T: PartialEq + std::fmt::Debug>(
     }
 }
 
-/// What the file without its frames refutes.
+/// Refutations by the motion file without its frames.
 pub(crate) fn against_file(certificate: &Certificate, file: &FoldFile) -> Vec<Refutation> {
-    let known = MotionFile::from(file);
+    let file_info = MotionFile::from(file);
     let mut refuted = Vec::new();
     let r = &mut refuted;
     require(r, "version", &certificate.version, &VERSION.to_owned());
@@ -41,7 +41,7 @@ pub(crate) fn against_file(certificate: &Certificate, file: &FoldFile) -> Vec<Re
         r,
         "assumptions",
         &certificate.assumptions,
-        &known.assumptions(),
+        &file_info.assumptions(),
     );
     require(r, "frames", &certificate.frames, &file.frame_count());
     require(
@@ -68,14 +68,14 @@ pub(crate) fn against_file(certificate: &Certificate, file: &FoldFile) -> Vec<Re
     for (field, pair) in pairs(certificate) {
         let [f, g] = pair.triangles;
         if f >= g || g as usize >= file.sheet.faces.len() {
-            let found = "there are no such triangles, the smaller number first";
+            let found = "two indices of triangles, the smaller first, are expected";
             r.push(Refutation::new(
                 field,
                 format!("{:?}", pair.triangles),
                 found,
             ));
         } else {
-            require(r, field, pair, &known.pair(pair.triangles));
+            require(r, field, pair, &file_info.pair(pair.triangles));
         }
     }
     for layers in certificate
@@ -87,7 +87,7 @@ pub(crate) fn against_file(certificate: &Certificate, file: &FoldFile) -> Vec<Re
         let found: Vec<Option<u32>> = layers
             .triangles
             .iter()
-            .map(|&t| ((t as usize) < count).then(|| known.face(t)))
+            .map(|&t| ((t as usize) < count).then(|| file_info.face(t)))
             .collect();
         let stated: Vec<Option<u32>> = layers.faces.iter().copied().map(Some).collect();
         require(r, "penetrations.layers.faces", &stated, &found);
@@ -105,8 +105,8 @@ fn pairs(certificate: &Certificate) -> impl Iterator<Item = (&'static str, &Tria
         .chain(undecided.map(|u| ("undecided.pair", &u.pair)))
 }
 
-/// When a contact begins, as far as it has to be in the interval: what passes through an edge may have been in contact since
-/// an earlier one.
+/// The time at which a contact begins, moved into the interval of the penetration if it is allowed to lie before it: what
+/// passes through an edge may have been in contact since an earlier interval.
 fn in_interval(p: &PenetrationEntry, first: f64) -> f64 {
     let is_long = p.kind == PenetrationKind::ThroughEdge;
     if is_long && (first..p.interval[0]).contains(&p.t) {
@@ -116,7 +116,7 @@ fn in_interval(p: &PenetrationEntry, first: f64) -> f64 {
     }
 }
 
-/// What the times of the frames refute.
+/// Refutations by the times of the frames.
 pub(crate) fn against_times(certificate: &Certificate, times: &[f64]) -> Vec<Refutation> {
     let mut refuted = Vec::new();
     let r = &mut refuted;
@@ -154,7 +154,7 @@ pub(crate) fn against_times(certificate: &Certificate, times: &[f64]) -> Vec<Ref
         };
         if !is_fit {
             let found = if at_frame {
-                "layers are out of order at one frame"
+                "layers are out of order at a single frame"
             } else {
                 "an interval is between one frame and the next"
             };
@@ -172,7 +172,7 @@ pub(crate) fn against_times(certificate: &Certificate, times: &[f64]) -> Vec<Ref
     refuted
 }
 
-/// The statement in the terms of the check; counts of work are no part of it.
+/// The statement as a collision report, with zero counts of work.
 pub(crate) fn claim(certificate: &Certificate) -> CollisionReport {
     let penetrations: Vec<_> = certificate.penetrations.iter().map(penetration).collect();
     let undecided = certificate.undecided.iter().map(|u| Undecided {

@@ -1,4 +1,4 @@
-//! Verifies a certificate: proves its statement about a motion file again by other means.
+//! Verifies a certificate: proves its statement about a motion file again by the second proof.
 
 use std::fmt::Write as _;
 use std::path::Path;
@@ -9,7 +9,7 @@ use foldmotion_pattern::{FoldError, FoldFile, Frame};
 use foldmotion_verify::{Refutation, Verification, Verifier};
 use serde_json::Value;
 
-use crate::certificate::check_file::{MotionReader, NoMotion};
+use crate::certificate::check_file::{MotionReader, TooFewStates, read_header};
 use crate::certificate::statement::{against_file, against_times, claim};
 use crate::certificate::{Certificate, FORMAT};
 use crate::{Phase, Progress, StudyError, input_file};
@@ -17,39 +17,35 @@ use crate::{Phase, Progress, StudyError, input_file};
 /// The largest certificate, bytes: 256 MiB.
 const LARGEST: u64 = 256 << 20;
 
-/// How many lines of a kind the table shows.
+/// The largest number of refuted or unproved claims in the table.
 const SHOWN: usize = 10;
 
-/// A certificate and what came of its verification.
+/// A certificate with the result of its verification.
 #[derive(Debug, Clone, PartialEq)]
 pub struct VerifiedCertificate {
-    /// What was stated.
+    /// The certificate.
     pub certificate: Certificate,
-    /// What came of it.
+    /// The result of the second proof.
     pub verification: Verification,
-    /// The name of the motion file where the certificate calls it otherwise; that alone refutes nothing.
+    /// The name of the motion file if it differs from the name in the certificate; that alone refutes nothing.
     pub other_name: Option<String>,
 }
 
-/// Proves what the certificate at `certificate` states of the motion in the FOLD file at `motion` again.
+/// Verifies the certificate at `certificate` against the motion in the FOLD file at `motion`.
 ///
-/// Nothing of the first proof is used (`foldmotion_verify::Verifier`). Every field is compared with the file, the
-/// frames, the topology or the second proof; only the name of the file is not part of the statement. Memory is that of
+/// The second proof uses nothing of the first (`foldmotion_verify::Verifier`). Every field is compared with the file, the
+/// frames, the topology or the second proof; only the name of the file is not part of the statement. It needs memory for
 /// the sheet and two frames.
 ///
 /// # Errors
-/// [`StudyError::Certificate`] where the certificate cannot be read; otherwise as `check_file`.
+/// [`StudyError::Certificate`] if the certificate cannot be read; otherwise as for `check_file`.
 pub fn verify_file(
     motion: &Path,
     certificate: &Path,
     progress: Progress<'_>,
 ) -> Result<VerifiedCertificate, StudyError> {
     let certificate = read_certificate(certificate)?;
-    let (file, sha256) = {
-        let mut input = MotionReader::open(motion, Phase::Read, progress)?;
-        let file = FoldFile::read(&mut input);
-        (input.unless_stopped(file)?, input.digest())
-    };
+    let (file, sha256) = read_header(motion, progress)?;
     let name = motion.file_name().unwrap_or_default().to_string_lossy();
     let other_name = (name != certificate.file).then(|| name.into_owned());
     let done = |verification| VerifiedCertificate {
@@ -65,16 +61,14 @@ pub fn verify_file(
         let refutation = Refutation::new("sha256", &certificate.sha256, sha256);
         return Ok(done(refuted(vec![refutation])));
     }
-    let faults = against_file(&certificate, &file);
-    if !faults.is_empty() {
-        return Ok(done(refuted(faults)));
+    let refutations = against_file(&certificate, &file);
+    if !refutations.is_empty() {
+        return Ok(done(refuted(refutations)));
     }
     let claim = claim(&certificate);
     let mut input = MotionReader::open(motion, Phase::Verify, progress)?;
     let (mut verification, times) = prove(&file, &mut input, &claim)?;
-    if input.digest() != sha256 {
-        return Err(input.failure(&"it changed while it was read"));
-    }
+    input.require_unchanged(&sha256)?;
     verification
         .refuted
         .extend(against_times(&certificate, &times));
@@ -115,49 +109,49 @@ fn prove(
         return Err(input.failure(&format!("frame {frame} is not later than the one before")));
     }
     let verifier = verifier.filter(|_| times.len() > 1);
-    let verifier = verifier.ok_or_else(|| input.failure(&NoMotion(times.len())))?;
+    let verifier = verifier.ok_or_else(|| input.failure(&TooFewStates(times.len())))?;
     Ok((verifier.finish(), times))
 }
 
 pub(crate) fn read_certificate(path: &Path) -> Result<Certificate, StudyError> {
-    let fault = |message: String| StudyError::Certificate {
+    let error = |message: String| StudyError::Certificate {
         path: path.to_owned(),
         message,
     };
     let text = input_file::read_text(path, LARGEST)?;
-    let no_certificate = |e: serde_json::Error| fault(format!("no certificate: {e}"));
-    let given: Value = serde_json::from_str(&text).map_err(no_certificate)?;
+    let not_a_certificate = |e: serde_json::Error| error(format!("not a certificate: {e}"));
+    let given: Value = serde_json::from_str(&text).map_err(not_a_certificate)?;
     if let Some(reason) = foreign_format(&given) {
-        return Err(fault(reason));
+        return Err(error(reason));
     }
-    let certificate: Certificate = serde_json::from_str(&text).map_err(no_certificate)?;
+    let certificate: Certificate = serde_json::from_str(&text).map_err(not_a_certificate)?;
     let parsed = |text: &str| serde_json::from_str(text).unwrap_or(Value::Null);
     match unknown_key(&given, &parsed(&certificate.to_json())) {
-        Some(key) => Err(fault(format!(
-            "the key `{key}` is not known: it states what cannot be proved"
+        Some(key) => Err(error(format!(
+            "the key `{key}` is unknown, so what it states cannot be proved"
         ))),
         None => Ok(certificate),
     }
 }
 
-/// Why a certificate of another format is refused; none where it has this program's, or is no certificate at all.
+/// Why a certificate of another format is refused; `None` if it has the format of this program, or is not a certificate.
 fn foreign_format(given: &Value) -> Option<String> {
     let remedy = "run `foldmotion check` on the motion again";
     match given.get("format") {
         Some(format) if *format == FORMAT => None,
         None if given.get("verdict").is_none() => None,
         Some(format) if *format != 1 => Some(format!(
-            "it has format {format}; this program reads format {FORMAT}: {remedy}"
+            "the certificate has format {format}, but this program reads format {FORMAT}; {remedy}"
         )),
         _ => Some(format!(
-            "it has format 1; this program reads format {FORMAT}. Certificates of format 1 (versions up to 0.1) could \
-             call a sheet touching that passed through itself at an edge inside it, a crease or the diagonal of a \
-             face, and prove nothing of such a sheet: {remedy}"
+            "the certificate has format 1, but this program reads format {FORMAT}. Certificates of format 1 (versions up to \
+             0.1) could be touching for a sheet that passed through itself at an edge inside it, a crease or the \
+             diagonal of a face, so they prove nothing about touching sheets; {remedy}"
         )),
     }
 }
 
-/// A key that the certificate has and this program does not know.
+/// A key of the certificate that this program does not know.
 fn unknown_key(given: &Value, known: &Value) -> Option<String> {
     match (given, known) {
         (Value::Object(given), Value::Object(known)) => given.iter().find_map(|(key, value)| {
@@ -174,7 +168,7 @@ fn unknown_key(given: &Value, known: &Value) -> Option<String> {
 }
 
 impl VerifiedCertificate {
-    /// The exit status: 2 refuted, 3 not verified, 1 verified and penetrating, 0 verified and clean.
+    /// The exit status: 2 refuted, 3 not verified, 1 verified and penetrating, 0 verified and free or touching.
     pub fn status(&self) -> u8 {
         if !self.verification.refuted.is_empty() {
             2
@@ -185,7 +179,7 @@ impl VerifiedCertificate {
         }
     }
 
-    fn answer(&self) -> &'static str {
+    fn result(&self) -> &'static str {
         match self.status() {
             2 => "REFUTED",
             3 if !self.verification.unproved.is_empty() => "NOT VERIFIED",
@@ -193,9 +187,9 @@ impl VerifiedCertificate {
         }
     }
 
-    /// The answer with its first evidence, on one line.
+    /// The result with its first evidence, on one line.
     pub fn line(&self) -> String {
-        let (v, answer) = (&self.verification, self.answer());
+        let (v, result) = (&self.verification, self.result());
         let stated = &self.certificate.verdict;
         match (v.refuted.first(), v.unproved.first()) {
             (Some(r), _) => {
@@ -204,13 +198,13 @@ impl VerifiedCertificate {
                     stated,
                     found,
                 } = r;
-                format!("{answer}: {field}: stated {stated}; found {found}")
+                format!("{result}: {field}: stated {stated}; found {found}")
             }
             (None, Some(u)) => format!(
-                "{answer}: triangles {} and {} after frame {}: {}",
+                "{result}: triangles {} and {} after frame {}: {}",
                 u.faces[0], u.faces[1], u.frame, u.what
             ),
-            (None, None) => format!("{answer}: {stated}"),
+            (None, None) => format!("{result}: {stated}"),
         }
     }
 
@@ -227,7 +221,10 @@ impl VerifiedCertificate {
             certificate.sha256
         );
         if let Some(name) = &self.other_name {
-            let _ = writeln!(out, "note: the file is called {name} here");
+            let _ = writeln!(
+                out,
+                "note: the certificate names this file, but the motion is in {name}"
+            );
         }
         let _ = writeln!(
             out,
@@ -260,7 +257,7 @@ impl VerifiedCertificate {
         if more > 0 {
             let _ = writeln!(out, "- and {more} more");
         }
-        let _ = writeln!(out, "{}", self.answer());
+        let _ = writeln!(out, "{}", self.result());
         out
     }
 }

@@ -1,86 +1,51 @@
-//! The engines behind one face: what a run needs to know of a computed motion, whichever engine computed it.
+//! One interface to both engines.
 
 use foldmotion_pattern::{FacetModel, Frame};
 use foldmotion_solver::dynamic::{self, DynamicOptions, StageStatus};
 use foldmotion_solver::quasi_static::{
-    Contact, Jam, QuasiStaticOptions, StopReason, Support, run_quasi_static,
+    Contact, Jam, QuasiStaticOptions, Support, run_quasi_static,
 };
 use foldmotion_solver::{Budget, Stage, Watcher};
 
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
-
+use super::stop::{StopCause, StopReport};
 use crate::scene::EngineChoice;
 use crate::{Study, StudyError};
 
-/// A motion as an engine left it, with how it went.
+/// A motion as an engine computed it, with a summary of its stages.
 #[derive(Debug)]
-pub(crate) struct Computed {
-    /// In order of time; positions in the scene's unit.
+pub(crate) struct EngineRun {
+    /// The frames in order of time, with positions in the scene's unit.
     pub(crate) frames: Vec<Frame>,
-    /// One for each stage begun.
+    /// A summary of each stage that was begun.
     pub(crate) stages: Vec<StageSummary>,
-    /// Energy of the contact barriers and the number of contacts at each frame; empty without contact.
+    /// The contact at each frame; empty without contact.
     pub(crate) contacts: Vec<ContactFigures>,
-    /// Where contact stopped the motion.
+    /// Where contact stopped the motion; `None` if it did not.
     pub(crate) jam: Option<Jam>,
-    /// Steps of the dynamic engine, Newton iterations of the quasi-static one.
+    /// The number of steps of the dynamic engine, or of Newton iterations of the quasi-static one.
     pub(crate) steps: u64,
-    /// What it ran on.
+    /// The device: cpu, or the name of the GPU.
     pub(crate) device: String,
 }
 
-/// How a stage went.
+/// A summary of a stage.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct StageSummary {
     pub(crate) stage: Stage,
     pub(crate) converged: bool,
-    /// Motion time of its last state.
+    /// The motion time of the last state.
     pub(crate) reached: f64,
-    /// The largest unbalanced force left, as the engine states it.
+    /// The largest unbalanced force left, in the units of the engine.
     pub(crate) residual: f64,
-    /// Steps, or Newton iterations.
+    /// The number of steps, or of Newton iterations.
     pub(crate) steps: u64,
-    /// Load steps of the quasi-static engine, and those that had to be shortened.
+    /// The number of load steps of the quasi-static engine, and of those that had to be shortened.
     pub(crate) load_steps: Option<[u64; 2]>,
-    /// What ended it where it did not converge.
-    pub(crate) stop: Option<StopSummary>,
+    /// What ended the stage; `None` if it converged.
+    pub(crate) stop: Option<StopReport>,
 }
 
-/// What ended a stage before its end.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct StopSummary {
-    pub(crate) reason: StopCause,
-    /// The load step that the quasi-static engine tried last, in motion time.
-    pub(crate) step: Option<f64>,
-    /// The unbalanced force left, and how much of it counts as equilibrium.
-    pub(crate) residual: f64,
-    pub(crate) tolerance: f64,
-}
-
-/// Why a stage ended before its end.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
-pub enum StopCause {
-    /// No equilibrium was found further on.
-    NoEquilibrium,
-    /// The budget of steps or iterations was used up.
-    OutOfSteps,
-    /// The budget of time was used up.
-    OutOfTime,
-}
-
-impl From<StopReason> for StopCause {
-    fn from(reason: StopReason) -> Self {
-        match reason {
-            StopReason::NoEquilibrium => Self::NoEquilibrium,
-            StopReason::OutOfIterations => Self::OutOfSteps,
-            StopReason::OutOfTime => Self::OutOfTime,
-        }
-    }
-}
-
-/// Contact at one frame.
+/// The contact at one frame: energy of the barriers and number of pairs.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct ContactFigures {
     pub(crate) energy: f64,
@@ -88,13 +53,13 @@ pub(crate) struct ContactFigures {
 }
 
 impl Study {
-    /// Moves the sheet through its stages and records it at `extra_times` too. `watcher` is told its states.
+    /// Moves the sheet through its stages and records frames at `extra_times` too. `watcher` is called with each state.
     pub(crate) fn fold(
         &self,
         extra_times: &[f64],
         budget: Budget,
         watcher: Watcher<'_>,
-    ) -> Result<Computed, StudyError> {
+    ) -> Result<EngineRun, StudyError> {
         match self.engine {
             EngineChoice::Dynamic => self.fold_dynamically(extra_times, budget, watcher),
             EngineChoice::QuasiStatic => self.fold_in_equilibrium(extra_times, budget, watcher),
@@ -106,7 +71,7 @@ impl Study {
         extra_times: &[f64],
         budget: Budget,
         watcher: Watcher<'_>,
-    ) -> Result<Computed, StudyError> {
+    ) -> Result<EngineRun, StudyError> {
         let options = DynamicOptions {
             stages: self.subject.stages().to_vec(),
             device: self.device,
@@ -129,18 +94,19 @@ impl Study {
             residual: s.residual,
             steps: s.steps,
             load_steps: None,
-            stop: (!s.is_converged()).then_some(StopSummary {
+            stop: (!s.is_converged()).then_some(StopReport {
+                t: s.reached,
                 reason: if s.status == StageStatus::OutOfTime {
                     StopCause::OutOfTime
                 } else {
                     StopCause::OutOfSteps
                 },
-                step: None,
+                load_step: None,
                 residual: s.residual,
-                tolerance: s.tolerance,
+                residual_tolerance: s.tolerance,
             }),
         });
-        Ok(Computed {
+        Ok(EngineRun {
             stages: stages.collect(),
             contacts: Vec::new(),
             jam: None,
@@ -150,7 +116,7 @@ impl Study {
         })
     }
 
-    /// A sheet that is to move symmetrically is not held at one place.
+    /// A symmetric sheet floats: holding one triangle would break the symmetry.
     fn support(&self) -> Support {
         match self.subject.units() {
             Some(study) if study.units.facet_model() == FacetModel::Symmetric => Support::Floating,
@@ -163,7 +129,7 @@ impl Study {
         extra_times: &[f64],
         budget: Budget,
         watcher: Watcher<'_>,
-    ) -> Result<Computed, StudyError> {
+    ) -> Result<EngineRun, StudyError> {
         let contact = self.contact_gap.map(|gap| Contact { gap });
         let options = QuasiStaticOptions {
             stages: self.subject.stages().to_vec(),
@@ -188,18 +154,19 @@ impl Study {
             residual: s.residual,
             steps: s.iterations as u64,
             load_steps: Some([s.load_steps as u64, s.shortened_steps as u64]),
-            stop: s.stop.map(|stop| StopSummary {
+            stop: s.stop.map(|stop| StopReport {
+                t: s.reached,
                 reason: stop.reason.into(),
-                step: Some(stop.step),
+                load_step: Some(stop.step),
                 residual: stop.residual,
-                tolerance: stop.tolerance,
+                residual_tolerance: stop.tolerance,
             }),
         });
         let contacts = run.figures.iter().map(|f| ContactFigures {
             energy: f.contact_energy,
             count: f.contacts,
         });
-        Ok(Computed {
+        Ok(EngineRun {
             stages: stages.collect(),
             contacts: if self.contact_gap.is_some() {
                 contacts.collect()

@@ -7,8 +7,8 @@ use glam::DVec3;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// Creases that end further than this from their targets, degrees, did not fold to the end. Layers that a gap or the
-/// stiffness of the sheet holds apart keep creases of the built-in scenes up to 5 degrees away.
+/// A crease that ends further than this from its target, in degrees, did not fold to the end. In the built-in scenes, the
+/// contact gap and the stiffness of the sheet keep creases up to 5 degrees from their targets.
 pub(crate) const FOLDED_WITHIN_DEG: f64 = 10.0;
 
 /// Differences of the fold angles in the last state from the targets of the end of the motion.
@@ -25,8 +25,8 @@ pub struct FoldAngleReport {
 }
 
 impl FoldAngleReport {
-    /// Of the state `positions` against `targets`, one an edge, radians. Angles are compared modulo 360 degrees: on which
-    /// side a crease passed 180 degrees is for the collision check to say.
+    /// Compares the state `positions` with `targets`, one angle for each edge in radians. Angles are compared modulo 360
+    /// degrees: whether a crease passed 180 degrees is a question for the collision check.
     pub(crate) fn new(sheet: &Sheet, positions: &[DVec3], targets: &[f64]) -> Self {
         let angles = sheet.fold_angles(positions);
         let driven = [Assignment::Mountain, Assignment::Valley];
@@ -53,12 +53,12 @@ impl FoldAngleReport {
         }
     }
 
-    /// Whether every crease came near its target.
+    /// Whether every crease ends close to its target.
     pub(crate) fn is_folded(&self) -> bool {
         self.largest_error_deg <= self.tolerance_deg
     }
 
-    /// How far off the creases are, in words.
+    /// The errors of the creases, as part of a sentence.
     pub(crate) fn words(&self) -> String {
         format!(
             "creases end up to {:.1} degrees from their targets ({:.1} on average)",

@@ -1,4 +1,4 @@
-//! A motion and what was found out about it, before anything is written.
+//! A computed motion with its findings, before anything is written.
 
 use std::time::Duration;
 
@@ -6,7 +6,7 @@ use foldmotion_check::{CollisionReport, FittedBox, upright_box};
 use foldmotion_pattern::{Frame, LayerOrder, Motion};
 use foldmotion_solver::quasi_static::Jam;
 
-use super::engine::Computed;
+use super::engine::EngineRun;
 use super::fold_angles::FoldAngleReport;
 use super::jam::JamReport;
 use super::outcome::Outcome;
@@ -16,35 +16,35 @@ use super::stop::StopReport;
 use crate::Study;
 use crate::resolve::subject::Subject;
 
-/// What was found out about a motion.
+/// The collision report, layer orders and figures of a motion.
 #[derive(Debug, Clone)]
 pub struct Findings {
     /// The verdict, with its evidence.
     pub collision: CollisionReport,
-    /// The order of the triangles that coincide, by the index of the frame.
+    /// The order of the triangles that coincide, with the index of the frame.
     pub layer_orders: Vec<(usize, LayerOrder)>,
-    /// Strain, bending, energy and separation, one a frame.
+    /// Strain, bending, energy and separation of each frame.
     pub series: Vec<FrameFigures>,
 }
 
-/// A motion that a study computed, and what was found out about it: the result of [`Study::compute`].
+/// A computed motion with its findings: the result of [`Study::compute`].
 #[derive(Debug)]
 pub struct Folded {
-    /// The motion where it is shown.
+    /// The motion, placed as it is displayed and written.
     pub motion: Motion,
-    /// What was found out about it.
+    /// The findings of its check.
     pub findings: Findings,
     /// The box of its last state.
     pub compact: FittedBox,
-    /// How it ended.
+    /// How the motion ended, with the reason.
     pub outcome: Outcome,
     pub(crate) jam: Option<JamReport>,
     pub(crate) stop: Option<StopReport>,
     /// How close the creases came to their targets.
     pub(crate) fold_angles: FoldAngleReport,
-    pub(crate) computed: Computed,
+    pub(crate) computed: EngineRun,
     pub(crate) path: PathReport,
-    /// Seconds of all its runs.
+    /// Seconds of all runs of the engine.
     pub(crate) engine_seconds: f64,
     pub(crate) check_seconds: f64,
 }
@@ -60,7 +60,7 @@ impl Folded {
         self.computed.jam.as_ref()
     }
 
-    /// How long it took.
+    /// The wall-clock time of engine and check.
     pub fn duration(&self) -> Duration {
         let seconds = self.engine_seconds + self.check_seconds;
         Duration::try_from_secs_f64(seconds).unwrap_or_default()
@@ -68,8 +68,8 @@ impl Folded {
 }
 
 impl Study {
-    /// The box of every frame of `motion`: of units along the axes, as they lie where they are shown; of a pattern along its
-    /// principal axes.
+    /// The box of each frame of `motion`: along the axes for units, which are placed by their exact states, and along the
+    /// principal axes for an imported pattern.
     pub fn boxes(&self, motion: &Motion) -> Vec<FittedBox> {
         let measure = |frame: &Frame| match &self.subject {
             Subject::Units(_) => upright_box(&frame.positions),

@@ -1,4 +1,4 @@
-//! Contact stopped a motion.
+//! The report of a jam.
 
 use std::collections::BTreeSet;
 
@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 use crate::resolve::names::UnitName;
 use crate::resolve::subject::Subject;
 
-/// Contact stopped the motion.
+/// A motion that was stopped by contact.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct JamReport {
     /// From this motion time on the creases do not follow their targets.
@@ -25,7 +25,7 @@ pub struct JamReport {
 }
 
 impl JamReport {
-    /// What blocks, in words.
+    /// The facets that block the motion, as part of a sentence.
     pub(crate) fn words(&self) -> String {
         let pairs = self
             .names
@@ -36,7 +36,7 @@ impl JamReport {
         format!("facets that push hardest: {pairs}")
     }
 
-    /// What the engine says of `subject`, with names for its facets.
+    /// The report of `jam`, with the names of the facets of `subject`.
     pub(crate) fn new(jam: &Jam, subject: &Subject) -> Self {
         let sheet = subject.sheet();
         let facets = |(faces, _): &([u32; 2], f64)| faces.map(|f| sheet.face_facets[f as usize]);

@@ -1,22 +1,20 @@
-//! Refinement: more frames where the recorded ones do not decide what the computed motion does.
+//! Computes, checks and refines a motion.
 //!
-//! The verdict speaks of straight paths between frames. Where one leaves the computed motion further than facets
-//! overlap on it, or could not be decided, the motion itself may be clear: the engine then runs again and records
-//! more frames there.
+//! The verdict is about straight paths between frames. If a penetration is shallower than the straight paths may deviate from
+//! the computed motion, or a pair could not be decided, the computed motion itself may be free of collisions: the engine then
+//! runs again and records more frames there.
 
+mod check;
 pub(crate) mod engine;
 pub(crate) mod fold_angles;
 pub(crate) mod folded;
 pub(crate) mod jam;
-mod judge;
 pub(crate) mod outcome;
 pub(crate) mod path;
 pub(crate) mod preview;
 pub(crate) mod series;
 pub(crate) mod stop;
 pub(crate) mod symmetry;
-#[cfg(test)]
-mod symmetry_tests;
 
 use std::time::Instant;
 
@@ -24,41 +22,40 @@ use foldmotion_check::{Verdict, straying};
 use foldmotion_pattern::{Frame, Motion};
 use foldmotion_solver::Budget;
 
-use self::engine::{Computed, StageSummary, StopCause};
+use self::engine::{EngineRun, StageSummary};
 use self::fold_angles::FoldAngleReport;
 use self::folded::{Findings, Folded};
 use self::jam::JamReport;
-use self::outcome::{Outcome, Parts};
+use self::outcome::{Outcome, OutcomeInput};
 use self::path::PathReport;
-use self::stop::StopReport;
+use self::stop::StopCause;
 use crate::resolve::budget::MotionBudget;
 use crate::{Phase, Study, StudyError, Watch};
 
-/// Runs of the engine with more frames, at most; each divides the straying of a path by 16.
+/// The largest number of refinements; each divides the deviation of the paths by 16.
 const MOST_ROUNDS: usize = 4;
-/// Frames added in all rounds together, at most: where motions are open all along, each round would quadruple them.
+/// The largest number of frames added by all refinements: if the whole motion is open, each refinement would quadruple them.
 const MOST_ADDED: usize = 20_000;
-/// Parts an interval is divided into.
+/// The number of parts into which a refinement divides an interval.
 const PARTS: usize = 4;
-/// Straight paths may stray this many times as far as is estimated of them: the estimate was seen to be half of what it
-/// should be.
+/// The safety factor of the estimated deviation: estimates as low as half of the true value were observed.
 const LARGEST_STRAY: f64 = 2.0;
-/// Shorter intervals are not divided.
+/// The shortest interval, in motion time, that is divided.
 const SHORTEST: f64 = 1e-9;
 
-/// A run of the engine, judged.
-struct Attempt {
-    computed: Computed,
+/// A run of the engine with its check.
+struct CheckedRun {
+    computed: EngineRun,
     motion: Motion,
     findings: Findings,
-    /// How far the straight path after each frame strays.
+    /// The deviation of the straight path after each frame from the computed motion.
     strays: Vec<f64>,
 }
 
-impl Attempt {
-    /// Whether the budget ended it before `earlier` ended.
+impl CheckedRun {
+    /// Whether the budget ended this run before the end of `earlier`.
     fn is_cut_short(&self, earlier: &Self) -> bool {
-        let end = |attempt: &Self| attempt.motion.frames.last().map_or(0.0, |f| f.time);
+        let end = |checked_run: &Self| checked_run.motion.frames.last().map_or(0.0, |f| f.time);
         let is_spent = |stage: &StageSummary| {
             stage
                 .stop
@@ -68,7 +65,7 @@ impl Attempt {
     }
 }
 
-/// Seconds that all runs took.
+/// The wall-clock seconds of all runs.
 #[derive(Debug, Clone, Copy, Default)]
 struct Seconds {
     engine: f64,
@@ -76,47 +73,47 @@ struct Seconds {
 }
 
 impl Study {
-    /// Folds and checks, with more frames where the first ones leave the verdict open; writes nothing.
+    /// Folds and checks, with more frames where the first ones leave the verdict open. Writes no files.
     ///
-    /// A motion that did not converge or jammed is a result too, as far as it came.
+    /// A motion that did not converge or jammed is returned as far as it came.
     ///
     /// # Errors
-    /// [`StudyError::Solver`], [`StudyError::Check`], and [`StudyError::Interrupted`] where `watch` ended it.
+    /// [`StudyError::Solver`], [`StudyError::Check`], and [`StudyError::Interrupted`] if `watch` stopped it.
     pub fn compute(&self, watch: &dyn Watch) -> Result<Folded, StudyError> {
         let budget = self.budget.map_or(Budget::Standard, MotionBudget::start);
         let mut extra_times = self.subject.times_of_interest();
-        let asked = extra_times.len();
+        let initial = extra_times.len();
         let mut seconds = Seconds::default();
         let mut rounds = 0;
-        let mut attempt = self.attempt(&extra_times, budget, watch, &mut seconds)?;
+        let mut checked_run = self.checked_run(&extra_times, budget, watch, &mut seconds)?;
         loop {
-            let more = self.times_between(&attempt);
-            let added = extra_times.len() - asked;
+            let more = self.times_between(&checked_run);
+            let added = extra_times.len() - initial;
             let is_spent = rounds == MOST_ROUNDS || added + more.len() > MOST_ADDED;
             if more.is_empty() || is_spent {
-                return Ok(self.folded(attempt, rounds, added, seconds));
+                return Ok(self.folded(checked_run, rounds, added, seconds));
             }
             let before = extra_times.len();
             extra_times.extend(more);
-            let refined = self.attempt(&extra_times, budget, watch, &mut seconds)?;
-            if refined.is_cut_short(&attempt) {
-                // The budget ended the further run early: what was reached before it stays.
-                let added = before - asked;
-                return Ok(self.folded(attempt, rounds, added, seconds));
+            let refined = self.checked_run(&extra_times, budget, watch, &mut seconds)?;
+            if refined.is_cut_short(&checked_run) {
+                // The budget ended the refined run early, so the earlier run is the result.
+                let added = before - initial;
+                return Ok(self.folded(checked_run, rounds, added, seconds));
             }
-            attempt = refined;
+            checked_run = refined;
             rounds += 1;
         }
     }
 
-    /// Folds and checks once, with frames at `extra_times` too.
-    fn attempt(
+    /// Folds and checks once, with additional frames at `extra_times`.
+    fn checked_run(
         &self,
         extra_times: &[f64],
         budget: Budget,
         watch: &dyn Watch,
         spent: &mut Seconds,
-    ) -> Result<Attempt, StudyError> {
+    ) -> Result<CheckedRun, StudyError> {
         let start = self.subject.start_time();
         let (mut computed, seconds) = timed(|| {
             self.fold(extra_times, budget, &|moment| {
@@ -129,7 +126,7 @@ impl Study {
         let progress = |phase, done| watch.progress(phase, done);
         let (findings, seconds) = timed(|| self.check(&motion, &computed, &progress))?;
         spent.check += seconds;
-        Ok(Attempt {
+        Ok(CheckedRun {
             strays: straying(&motion.frames),
             computed,
             motion,
@@ -137,20 +134,30 @@ impl Study {
         })
     }
 
-    fn folded(&self, attempt: Attempt, rounds: usize, added: usize, seconds: Seconds) -> Folded {
-        let frames = &attempt.motion.frames;
+    fn folded(
+        &self,
+        checked_run: CheckedRun,
+        rounds: usize,
+        added: usize,
+        seconds: Seconds,
+    ) -> Folded {
+        let frames = &checked_run.motion.frames;
         let last = frames.last().map_or(&[][..], |f| &f.positions);
         let sheet = self.subject.sheet();
-        let jam = attempt.computed.jam.as_ref();
+        let jam = checked_run.computed.jam.as_ref();
         let jam = jam.map(|jam| JamReport::new(jam, &self.subject));
-        let stop = attempt.computed.stages.iter().find_map(StopReport::of);
+        let stop = checked_run
+            .computed
+            .stages
+            .iter()
+            .find_map(|stage| stage.stop);
         let fold_angles = FoldAngleReport::new(sheet, last, self.subject.end_angles());
-        let outcome = Outcome::of(&Parts {
+        let outcome = Outcome::of(&OutcomeInput {
             end: frames.last().map_or(0.0, |frame| frame.time),
             jam: jam.as_ref(),
             stop: stop.as_ref(),
             fold_angles: &fold_angles,
-            collision: &attempt.findings.collision,
+            collision: &checked_run.findings.collision,
             sheet,
         });
         Folded {
@@ -159,26 +166,26 @@ impl Study {
             jam,
             stop,
             fold_angles,
-            path: self.path_report(frames, &attempt.strays, rounds, added),
-            computed: attempt.computed,
-            motion: attempt.motion,
-            findings: attempt.findings,
+            path: self.path_report(frames, &checked_run.strays, rounds, added),
+            computed: checked_run.computed,
+            motion: checked_run.motion,
+            findings: checked_run.findings,
             engine_seconds: seconds.engine,
             check_seconds: seconds.check,
         }
     }
 
-    /// Times at which frames are missing: within intervals that could not be decided, or, where every penetration is
-    /// shallower than the straight paths may stray there, within theirs.
-    fn times_between(&self, attempt: &Attempt) -> Vec<f64> {
-        let collision = &attempt.findings.collision;
-        let (frames, strays) = (&attempt.motion.frames, &attempt.strays);
+    /// The times of additional frames: within the intervals that could not be decided and, if every penetration is shallower
+    /// than the possible deviation of the paths, within the intervals of the penetrations.
+    fn times_between(&self, checked_run: &CheckedRun) -> Vec<f64> {
+        let collision = &checked_run.findings.collision;
+        let (frames, strays) = (&checked_run.motion.frames, &checked_run.strays);
         if !matches!(collision.verdict, Verdict::Undecided | Verdict::Penetrating) {
             return Vec::new();
         }
         let height = self.subject.sheet().unit_length;
         let mut open: Vec<usize> = collision.undecided.iter().map(|u| u.frame).collect();
-        // Layers out of order are shown by their frame alone; more frames come where facets passed through.
+        // Layers out of order are shown by one frame, so more frames would not help.
         let passed = collision
             .penetrations
             .iter()

@@ -1,4 +1,4 @@
-//! The outcome of a run: the first thing to be said of it, and the last.
+//! The outcome of a run, which heads every report.
 
 use foldmotion_check::{CollisionReport, Verdict};
 use foldmotion_pattern::Sheet;
@@ -48,7 +48,7 @@ impl Outcome {
         }
     }
 
-    /// Whether the last state is that of the end of the motion.
+    /// Whether the motion reached its end.
     pub fn is_at_end(&self) -> bool {
         matches!(
             self.kind,
@@ -56,7 +56,7 @@ impl Outcome {
         )
     }
 
-    /// The kind in words, with the time at which it happened.
+    /// The kind in words, with the motion time of the event.
     pub fn headline(&self) -> String {
         let at = |word: &str| format!("{word} at t = {:.4}", self.t);
         match self.kind {
@@ -74,16 +74,16 @@ impl Outcome {
         format!("{}: {}", self.headline(), self.reason)
     }
 
-    /// Of what the rest of the report says.
-    pub(crate) fn of(parts: &Parts<'_>) -> Self {
-        let (kind, t, reason) = parts.judge();
+    /// Derives the outcome from the findings about a motion.
+    pub(crate) fn of(input: &OutcomeInput<'_>) -> Self {
+        let (kind, t, reason) = input.outcome();
         Self { kind, t, reason }
     }
 }
 
-/// What an outcome is made of.
-pub(crate) struct Parts<'a> {
-    /// Motion time of the last state.
+/// What an outcome depends on.
+pub(crate) struct OutcomeInput<'a> {
+    /// The motion time of the last state.
     pub(crate) end: f64,
     pub(crate) jam: Option<&'a JamReport>,
     pub(crate) stop: Option<&'a StopReport>,
@@ -92,8 +92,8 @@ pub(crate) struct Parts<'a> {
     pub(crate) sheet: &'a Sheet,
 }
 
-impl Parts<'_> {
-    fn judge(&self) -> (OutcomeKind, f64, String) {
+impl OutcomeInput<'_> {
+    fn outcome(&self) -> (OutcomeKind, f64, String) {
         let so_far = self.verdict_so_far();
         if let Some(jam) = self.jam {
             let reason = format!("{}; {}; {so_far}", self.fold_angles.words(), jam.words());
@@ -130,7 +130,7 @@ impl Parts<'_> {
         }
     }
 
-    /// What the collision check found.
+    /// The verdict of the collision check, in words.
     fn verdict_words(&self) -> String {
         let c = self.collision;
         match c.verdict {

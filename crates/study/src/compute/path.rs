@@ -1,9 +1,9 @@
-//! How close the recorded frames follow the computed motion.
+//! How closely the recorded frames follow the computed motion.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// The recorded path.
+/// The recorded path of the motion.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct PathReport {
     /// The number of frames recorded.

@@ -1,7 +1,6 @@
-//! Figures of every frame: strain, bending, energy, separation. They become the report's stages, `motion.csv` and
-//! `plots.svg`.
+//! Figures of each frame (strain, bending, energy, separation), for the stages of the report, `motion.csv` and `plots.svg`.
 
-use std::io::{self, Write};
+use std::fmt::Write as _;
 
 use foldmotion_check::{bar_strain, facet_bending};
 use foldmotion_pattern::{Frame, Motion};
@@ -9,39 +8,39 @@ use foldmotion_record::{Curve, Panel};
 use foldmotion_solver::{EnergyByKind, Stage};
 
 use crate::Study;
-use crate::compute::engine::Computed;
+use crate::compute::engine::EngineRun;
 
-/// Figures of one frame.
+/// The figures of one frame.
 #[derive(Debug, Clone, Copy)]
 pub struct FrameFigures {
-    /// Its motion time.
+    /// The motion time of the frame.
     pub time: f64,
-    /// Its stage.
+    /// The stage of the frame.
     pub stage: Stage,
-    /// The largest |l / l₀ − 1| of an edge, l₀ in the crease pattern; NaN where that is not known.
+    /// The largest |l / l₀ − 1| of an edge, with l₀ its length in the crease pattern; NaN if that is unknown.
     pub peak_strain: f64,
-    /// The mean of them.
+    /// The mean |l / l₀ − 1| over all edges.
     pub mean_strain: f64,
-    /// The largest |fold angle| inside a facet, degrees.
+    /// The largest |fold angle| inside a facet, in degrees.
     pub peak_bending_deg: f64,
-    /// In units of EA·h for EA = 1; 0 for a motion of unknown material.
+    /// The energy in units of EA·h for EA = 1; 0 for a motion of unknown material.
     pub energy: EnergyByKind,
-    /// Of the contact barriers.
+    /// The energy of the contact barriers, in the same units.
     pub contact_energy: f64,
-    /// Pairs in contact.
+    /// The number of pairs in contact.
     pub contacts: usize,
-    /// Smallest distance of facets that share no vertex, units of h; NaN where all facets share vertices.
+    /// The smallest distance of facets that share no vertex, in units of h; NaN if all facets share vertices.
     pub separation: f64,
 }
 
 impl Study {
-    /// The figures of every frame of `motion`.
+    /// The figures of each frame of `motion`.
     ///
-    /// `separations`: as the collision check lists them, one a frame, or none.
+    /// `separations` has one value for each frame, from the collision check, or is empty.
     pub(crate) fn series(
         &self,
         motion: &Motion,
-        computed: &Computed,
+        computed: &EngineRun,
         separations: &[f64],
     ) -> Vec<FrameFigures> {
         let mut angles = vec![0.0; self.model.hinges.len()];
@@ -61,7 +60,7 @@ impl Study {
                 mean_strain: strain.mean,
                 peak_bending_deg: facet_bending(&motion.sheet, &frame.positions).peak_deg(),
                 energy: self.model.energy_by_kind(&positions, &angles, &targets),
-                // An empty sum is −0.
+                // Adding 0 turns the −0 of an empty sum into 0.
                 contact_energy: contact.map_or(0.0, |c| c.energy) + 0.0,
                 contacts: contact.map_or(0, |c| c.count),
                 separation: separations.get(index).copied().unwrap_or(f64::NAN),
@@ -71,7 +70,7 @@ impl Study {
     }
 }
 
-/// The stage of a motion time and the time within it; where two of `stages` meet, the end of the first.
+/// The stage of a motion time and the time within the stage. The planar state belongs to the end of stage unfold.
 fn stage_at(time: f64, stages: &[Stage]) -> (Stage, f64) {
     if time <= 1.0 && stages.contains(&Stage::Unfold) {
         (Stage::Unfold, time)
@@ -80,21 +79,19 @@ fn stage_at(time: f64, stages: &[Stage]) -> (Stage, f64) {
     }
 }
 
-/// `motion.csv`: one line a frame.
-pub(crate) fn write_csv(series: &[FrameFigures], out: &mut impl Write) -> io::Result<()> {
-    writeln!(
-        out,
-        "t,stage,peak_strain,mean_strain,peak_facet_bending_deg,energy_bars,energy_creases,energy_facets,\
-         energy_face_angles,energy_contact,contacts,separation"
-    )?;
+/// The text of `motion.csv`: one line for each frame.
+pub(crate) fn csv(series: &[FrameFigures]) -> String {
+    let mut out = "t,stage,peak_strain,mean_strain,peak_facet_bending_deg,energy_bars,energy_creases,energy_facets,\
+                   energy_face_angles,energy_contact,contacts,separation\n"
+        .to_owned();
     for f in series {
         let separation = if f.separation.is_finite() {
             format!("{:?}", f.separation)
         } else {
             String::new()
         };
-        // Shortest digits that read back as the same number, with an exponent where it is short.
-        writeln!(
+        // The shortest digits that read back as the same number. Writing into a string cannot fail.
+        let _ = writeln!(
             out,
             "{:?},{},{:?},{:?},{:?},{:?},{:?},{:?},{:?},{:?},{},{separation}",
             f.time,
@@ -108,14 +105,14 @@ pub(crate) fn write_csv(series: &[FrameFigures], out: &mut impl Write) -> io::Re
             f.energy.face_angles,
             f.contact_energy,
             f.contacts,
-        )?;
+        );
     }
-    Ok(())
+    out
 }
 
 /// The panels of `plots.svg`: strain, bending, energy and smallest separation over t.
 ///
-/// `first_penetration`: its motion time, drawn as an upright line across the separation.
+/// The motion time `first_penetration` is drawn as a vertical line across the separation.
 pub(crate) fn panels(series: &[FrameFigures], first_penetration: Option<f64>) -> Vec<Panel> {
     let curve = |name, value: fn(&FrameFigures) -> f64| Curve {
         name,

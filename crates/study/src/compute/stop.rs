@@ -1,13 +1,12 @@
-//! A motion that ended before its end, in `report.json` and on the terminal.
+//! The report of a motion that stopped before its end.
 
 use foldmotion_geometry::Number;
+use foldmotion_solver::quasi_static::StopReason;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::engine::{StageSummary, StopCause};
-
-/// The engine stopped before the end of the motion.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+/// A motion whose engine stopped before its end.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct StopReport {
     /// The motion time of the last state reached; later states were not computed.
     pub t: f64,
@@ -21,20 +20,30 @@ pub struct StopReport {
     pub residual_tolerance: f64,
 }
 
-impl StopReport {
-    /// What ended `stage` before its end, if anything did.
-    pub(crate) fn of(stage: &StageSummary) -> Option<Self> {
-        let stop = stage.stop?;
-        Some(Self {
-            t: stage.reached,
-            reason: stop.reason,
-            load_step: stop.step,
-            residual: stop.residual,
-            residual_tolerance: stop.tolerance,
-        })
-    }
+/// Why a stage ended before its end.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum StopCause {
+    /// No equilibrium was found further on.
+    NoEquilibrium,
+    /// The budget of steps or iterations was used up.
+    OutOfSteps,
+    /// The budget of time was used up.
+    OutOfTime,
+}
 
-    /// Why, in a few words.
+impl From<StopReason> for StopCause {
+    fn from(reason: StopReason) -> Self {
+        match reason {
+            StopReason::NoEquilibrium => Self::NoEquilibrium,
+            StopReason::OutOfIterations => Self::OutOfSteps,
+            StopReason::OutOfTime => Self::OutOfTime,
+        }
+    }
+}
+
+impl StopReport {
+    /// The reason, as part of a sentence.
     pub fn words(&self) -> String {
         match self.reason {
             StopCause::OutOfSteps => {
@@ -48,7 +57,7 @@ impl StopReport {
         .to_owned()
     }
 
-    /// The evidence, a line for the terminal.
+    /// The evidence, as a line for the terminal.
     pub(crate) fn line(&self) -> String {
         let step = self.load_step.map_or_else(String::new, |step| {
             format!(" in the last attempt, a load step of {:.2}", Number(step))
@@ -63,44 +72,33 @@ impl StopReport {
 
 #[cfg(test)]
 mod tests {
-    use foldmotion_solver::Stage;
-
     use super::*;
-    use crate::compute::engine::StopSummary;
 
-    fn report(reason: StopCause, step: Option<f64>) -> Option<StopReport> {
-        StopReport::of(&StageSummary {
-            stage: Stage::Fold,
-            converged: false,
-            reached: 1.25,
+    fn report(reason: StopCause, load_step: Option<f64>) -> StopReport {
+        StopReport {
+            t: 1.25,
+            reason,
+            load_step,
             residual: 0.5,
-            steps: 7,
-            load_steps: None,
-            stop: Some(StopSummary {
-                reason,
-                step,
-                residual: 0.5,
-                tolerance: 1e-9,
-            }),
-        })
+            residual_tolerance: 1e-9,
+        }
     }
 
     #[test]
-    fn a_stop_is_told_with_its_reason_and_its_evidence() {
-        let none = report(StopCause::NoEquilibrium, Some(1e-5)).unwrap();
-        assert_eq!((none.t, none.reason), (1.25, StopCause::NoEquilibrium));
+    fn a_stop_is_reported_with_its_reason_and_its_evidence() {
+        let none = report(StopCause::NoEquilibrium, Some(1e-5));
         assert_eq!(
             none.line(),
             "unbalanced force left in the last attempt, a load step of 1e-5: 0.5; at most 1e-9 counts as \
              equilibrium"
         );
-        let spent = report(StopCause::OutOfSteps, None).unwrap();
+        let spent = report(StopCause::OutOfSteps, None);
         assert_eq!(
             spent.line(),
             "unbalanced force left: 0.5; at most 1e-9 counts as equilibrium"
         );
         assert!(spent.words().contains("steps"));
-        let late = report(StopCause::OutOfTime, None).unwrap();
+        let late = report(StopCause::OutOfTime, None);
         assert!(late.words().contains("time"), "{}", late.words());
     }
 }

@@ -1,4 +1,4 @@
-//! How far a symmetric sheet moves symmetrically.
+//! How closely the motion of a symmetric sheet is symmetric.
 
 use std::collections::HashSet;
 use std::fmt::Write as _;
@@ -9,7 +9,7 @@ use glam::{DVec2, DVec3};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// Vertices closer than this are the same, in units of h.
+/// Vertices closer than this, in units of h, count as the same.
 const SAME: f64 = 1e-7;
 
 /// A frame further than this from its mirror image is no longer symmetric, in units of h. Rounding and the tolerance of
@@ -19,7 +19,7 @@ const BROKEN: f64 = 1e-6;
 /// How well the motion keeps a mirror symmetry of its crease pattern and its first state.
 ///
 /// A symmetric sheet that folds symmetrically at first and differs from its mirror image later has buckled: the symmetric
-/// equilibrium became unstable, and rounding decides which of two mirrored ways it takes.
+/// equilibrium became unstable, and rounding decides which of two mirrored paths it takes.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct SymmetryReport {
     /// The mirror: across the width or along the profile.
@@ -46,7 +46,7 @@ pub enum Mirror {
 impl Mirror {
     const ALL: [Self; 2] = [Self::Across, Self::Along];
 
-    /// Its place in a sentence.
+    /// The direction of the mirror, as part of a sentence.
     fn words(self) -> &'static str {
         match self {
             Self::Across => "across the width",
@@ -63,7 +63,7 @@ impl Mirror {
 }
 
 impl SymmetryReport {
-    /// Of every mirror that maps the triangles and creases of the sheet and the first frame of `motion` to themselves.
+    /// The reports of all mirrors that map the edges of the sheet and the first frame of `motion` to themselves.
     pub(crate) fn all(motion: &Motion) -> Vec<Self> {
         let reports = Mirror::ALL.into_iter().filter_map(|mirror| {
             let images = images(&motion.sheet, mirror)?;
@@ -72,7 +72,7 @@ impl SymmetryReport {
         reports.collect()
     }
 
-    /// `images`: the mirror image of every vertex. None where the first frame is not symmetric.
+    /// The report of a mirror; `None` if the first frame is not symmetric. `images` has the mirror image of each vertex.
     fn of(mirror: Mirror, images: &[usize], motion: &Motion) -> Option<Self> {
         let h = motion.sheet.unit_length;
         let mut report = Self {
@@ -116,7 +116,7 @@ impl SymmetryReport {
     }
 }
 
-/// The mirror image of every vertex; none where the sheet as computed is not its own mirror image.
+/// The mirror image of each vertex; `None` if the sheet is not its own mirror image.
 fn images(sheet: &Sheet, mirror: Mirror) -> Option<Vec<usize>> {
     let near = SAME * sheet.unit_length;
     let points = &sheet.vertices;
@@ -147,7 +147,7 @@ fn images(sheet: &Sheet, mirror: Mirror) -> Option<Vec<usize>> {
     mirrored.all(|edge| known.contains(&edge)).then_some(images)
 }
 
-/// The largest distance of `positions` from their mirror image, which is moved rigidly to fit best.
+/// The largest distance of `positions` from their mirror image after the best rigid fit.
 fn asymmetry(positions: &[DVec3], images: &[usize]) -> f64 {
     let reflect = |&i: &usize| positions[i] * DVec3::new(1.0, -1.0, 1.0);
     let reflected: Vec<DVec3> = images.iter().map(reflect).collect();
@@ -157,3 +157,6 @@ fn asymmetry(positions: &[DVec3], images: &[usize]) -> f64 {
         .map(|(&image, &p)| fit.apply(image).distance(p))
         .fold(0.0, f64::max)
 }
+
+#[cfg(test)]
+mod tests;

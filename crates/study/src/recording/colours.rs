@@ -1,4 +1,4 @@
-//! Strain and bending as values of triangles.
+//! Strain and bending as values of the triangles.
 
 use foldmotion_pattern::{Assignment, Motion, Sheet};
 use foldmotion_record::{Legend, Values};
@@ -7,20 +7,20 @@ use rayon::prelude::*;
 
 use crate::scene::ColourChoice;
 
-/// The smallest range that is shown: below it all is noise.
+/// The smallest range of a colour scale; smaller values are noise.
 const LEAST_RANGE: f64 = 1e-3;
 
-/// A quantity that colours show.
+/// A quantity that colours can show.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Quantity {
-    /// The largest |l / l₀ − 1| of a triangle's edges, per cent; l₀ in the crease pattern.
+    /// The largest |l / l₀ − 1| of a triangle's edges in percent, with l₀ the length in the crease pattern.
     Strain,
-    /// The largest |fold angle| of a triangle's edges inside its facet, degrees.
+    /// The largest |fold angle| of a triangle's edges inside its facet, in degrees.
     Bending,
 }
 
 impl Quantity {
-    /// What `colour` shows, if it is a quantity.
+    /// The quantity that `colour` shows; `None` if it shows the paper.
     pub fn of(colour: ColourChoice) -> Option<Self> {
         match colour {
             ColourChoice::Paper | ColourChoice::Grey => None,
@@ -29,7 +29,7 @@ impl Quantity {
         }
     }
 
-    /// Its name with its unit.
+    /// The name of the quantity with its unit.
     pub fn title(self) -> &'static str {
         match self {
             Self::Strain => "largest bar strain, %",
@@ -37,7 +37,7 @@ impl Quantity {
         }
     }
 
-    /// One value a triangle of `sheet`, its vertices at `positions`.
+    /// The value of each triangle of `sheet` with its vertices at `positions`.
     pub fn values(self, sheet: &Sheet, positions: &[DVec3]) -> Vec<f64> {
         let mut values = vec![0.0_f64; sheet.faces.len()];
         let angles = match self {
@@ -64,7 +64,7 @@ impl Quantity {
         values
     }
 
-    /// The values of every frame, on a scale from 0 to a round number.
+    /// The values of each frame, on a scale from 0 to a round number.
     pub fn of_motion(self, motion: &Motion) -> Values {
         let frames = motion.frames.par_iter();
         let frames: Vec<Vec<f64>> = frames
@@ -79,7 +79,7 @@ impl Quantity {
     }
 }
 
-/// The same scale for figures.
+/// The colour scale of `values`, for figures.
 pub(crate) fn legend(values: &Values) -> Legend {
     Legend {
         title: values.title.clone(),
@@ -87,7 +87,7 @@ pub(crate) fn legend(values: &Values) -> Legend {
     }
 }
 
-/// The next 1, 2 or 5 times a power of ten.
+/// `value` rounded up to 1, 2 or 5 times a power of ten.
 fn rounded_up(value: f64) -> f64 {
     if !(value > LEAST_RANGE && value.is_finite()) {
         return LEAST_RANGE;

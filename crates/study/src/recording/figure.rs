@@ -1,7 +1,7 @@
 //! `figure.svg` and `figure.pdf`: states side by side at one scale.
 
-use std::io::Write as _;
-
+use foldmotion_geometry::Profile;
+use foldmotion_pattern::{Unit, UnitSheet};
 use foldmotion_record::{
     Bounds, Dimension, Drawing, FigureState, FilmOptions, LineStyle, Provenance, RecordError,
     StripOptions, strip,
@@ -9,20 +9,22 @@ use foldmotion_record::{
 use glam::{DVec2, DVec3};
 
 use super::colours::legend;
-use super::{Quantity, Recorder, Shown};
+use super::{ColourValues, Quantity, Recorder};
 use crate::StudyError;
 use crate::VERSION;
-use crate::resolve::known::{UnitSizes, turned};
-use crate::results::{Results, write_error};
+use crate::results::Results;
 use crate::scene::{ColourChoice, OutputChoice};
 
-/// States in a row, at most.
+/// The largest number of states in a row.
 const COLUMNS: usize = 5;
+
+/// Segments of the line that shows the profile.
+const PROFILE_POINTS: u32 = 240;
 
 impl Recorder<'_> {
     pub(super) fn figures(
         &self,
-        values: Shown<'_>,
+        values: ColourValues<'_>,
         results: &mut Results,
     ) -> Result<(), StudyError> {
         let (svg, pdf) = (OutputChoice::Svg, OutputChoice::Pdf);
@@ -30,23 +32,16 @@ impl Recorder<'_> {
             return Ok(());
         }
         let drawing = self.figure(values)?;
-        let folder = results.folder().to_owned();
-        let mut write = |name: &'static str, bytes: &[u8]| {
-            results.write(name, |out| {
-                out.write_all(bytes)
-                    .map_err(|e| write_error(&folder, name, e))
-            })
-        };
         if self.recording.has(svg) {
-            write("figure.svg", drawing.svg()?.as_bytes())?;
+            results.write_bytes("figure.svg", drawing.svg()?.as_bytes())?;
         }
         if self.recording.has(pdf) {
-            write("figure.pdf", &drawing.pdf()?)?;
+            results.write_bytes("figure.pdf", &drawing.pdf()?)?;
         }
         Ok(())
     }
 
-    fn figure(&self, values: Shown<'_>) -> Result<Drawing, StudyError> {
+    fn figure(&self, values: ColourValues<'_>) -> Result<Drawing, StudyError> {
         let times = self.times();
         let poses: Vec<FigureState<'_>> = times.into_iter().map(|time| self.pose(time)).collect();
         let recording = self.recording;
@@ -57,7 +52,7 @@ impl Recorder<'_> {
             style: recording.film.style.clone(),
             unit: self.unit.to_owned(),
             legend: values.map(legend),
-            // All creases look alike over colours that stand for values.
+            // Over colours that show values, all creases look the same.
             has_key: values.is_none(),
             letters: recording.letters,
             ..StripOptions::default()
@@ -68,7 +63,7 @@ impl Recorder<'_> {
         if recording.film.is_transparent {
             options.background = None;
         }
-        // Long labels leave room for fewer states in a row.
+        // If long labels leave no room, fewer states are put in a row.
         let drawing = loop {
             match strip(&self.motion.sheet, &poses, &options) {
                 Err(RecordError::NoRoom { .. }) if options.columns > 1 => options.columns -= 1,
@@ -78,35 +73,33 @@ impl Recorder<'_> {
         Ok(drawing.with_provenance(Provenance {
             title: self.title.to_owned(),
             producer: format!("foldmotion {VERSION}"),
-            scene: self.origin.text(),
-            hash: self.origin.sha256.clone(),
+            scene: self.source_info.text(),
+            hash: self.source_info.sha256.clone(),
         }))
     }
 
     fn pose(&self, time: f64) -> FigureState<'_> {
         let mut pose = FigureState::at(self.motion, &self.marks, time);
         if ![0.0, 1.0, 2.0].contains(&time) {
-            // Names of stages would leave less room for the states.
+            // The name of the stage would leave less room for the states.
             pose.label = format!("t = {time}");
         }
         if let Some(quantity) = Quantity::of(self.recording.colour) {
             pose.values = quantity.values(&self.motion.sheet, &pose.positions);
         }
-        if let Some(known) = &self.known
+        if let Some(study) = self.units
             && self.recording.film.centre.is_none()
         {
-            pose.positions = turned(known, time, &pose.positions);
+            pose.positions = study.turned(time, &pose.positions);
             pose.spot = self
                 .marks
                 .spot_at(&self.motion.sheet, &pose.positions, time);
             if self.recording.has_profile && time == 0.0 {
-                pose.target.clone_from(&known.profile);
+                pose.target = profile_points(&study.profile);
             }
-            if let Some(units) = known
-                .units
-                .filter(|_| self.recording.has_dimensions && time == 1.0)
-            {
-                pose.dimensions = self.dimensions(units, &pose.positions);
+            let has_equal_units = study.units.has_equal_rows();
+            if self.recording.has_dimensions && time == 1.0 && has_equal_units {
+                pose.dimensions = self.dimensions(&study.units, &pose.positions);
             }
         }
         if self.recording.has_box && time >= 2.0 {
@@ -115,14 +108,10 @@ impl Recorder<'_> {
         pose
     }
 
-    /// h and W with w at the edges of the planar state, which lies along the axes with its rows along x.
-    fn dimensions(&self, units: UnitSizes, positions: &[DVec3]) -> Vec<Dimension> {
+    /// The dimensions h and W at the edges of the planar state, which lies along the axes with its rows along x.
+    fn dimensions(&self, units: &UnitSheet, positions: &[DVec3]) -> Vec<Dimension> {
         let [low, high] = ends(positions);
-        let UnitSizes {
-            width,
-            height,
-            columns,
-        } = units;
+        let (Unit { width, height, .. }, columns) = (units.unit, units.columns);
         let name = self.unit;
         let of_units = if columns > 1 {
             format!("W = {columns} w = {} {name}", short(width * columns as f64))
@@ -142,11 +131,11 @@ impl Recorder<'_> {
         ]
     }
 
-    /// The box around the compact state, which lies along the axes.
+    /// The box of the compact state, which lies along the axes.
     fn bounds(&self, positions: &[DVec3]) -> Bounds {
         let [low, high] = ends(positions);
         let unit = self.unit;
-        let closed_form = self.known.as_ref().and_then(|known| known.closed_form);
+        let closed_form = self.units.and_then(|study| study.closed_form);
         let words = closed_form.map(|form| {
             let [x, y, z] = form.extents.map(short);
             format!("closed form {x} × {y} × {z} {unit}")
@@ -162,6 +151,15 @@ impl Recorder<'_> {
     }
 }
 
+/// Points of Γ at the edge y = 0 of the deployed state.
+fn profile_points(profile: &Profile) -> Vec<DVec3> {
+    let point = |k: u32| {
+        let p = profile.position(f64::from(k) / f64::from(PROFILE_POINTS));
+        DVec3::new(p.x, 0.0, p.y)
+    };
+    (0..=PROFILE_POINTS).map(point).collect()
+}
+
 /// The corners of the box around `positions`.
 fn ends(positions: &[DVec3]) -> [DVec3; 2] {
     let points = || positions.iter().copied();
@@ -169,7 +167,7 @@ fn ends(positions: &[DVec3]) -> [DVec3; 2] {
     [low, points().fold(DVec3::NEG_INFINITY, DVec3::max)]
 }
 
-/// What an aimed camera shows, across the view.
+/// The part of the view that a camera with a centre and a width shows.
 fn frame(film: &FilmOptions) -> Option<[DVec2; 2]> {
     let [middle, _] = film.view.extent([film.centre?]);
     let [across, down] = film.size.map(f64::from);
@@ -177,7 +175,7 @@ fn frame(film: &FilmOptions) -> Option<[DVec2; 2]> {
     Some([middle - half, middle + half])
 }
 
-/// Four digits.
+/// A length with four significant digits.
 fn short(value: f64) -> String {
     let size = value.abs();
     if size < 1e-9 {

@@ -1,4 +1,4 @@
-//! How large films will be, told from a few of their pictures.
+//! The sizes of films, estimated from a few of their pictures.
 
 use foldmotion_pattern::{Frame, Motion};
 use foldmotion_record::{
@@ -11,17 +11,18 @@ use crate::scene::OutputChoice;
 use crate::{Phase, Progress};
 use crate::{StudyError, Subject};
 
-/// Seconds of the stages of a sample, and its pictures a second: five pictures a stage.
+/// The seconds of each stage of a sample and its frame rate: five pictures for each stage.
 const SECONDS: [f64; 2] = [1.0; 2];
 const PICTURES_A_SECOND: f64 = 4.0;
 
-/// The camera of a sample turns, degrees, so that no picture repeats the one before.
+/// The turn of the camera of a sample in degrees, so that no two pictures are the same.
 const TURN: f64 = 60.0;
 
-/// Pictures between those of a sample may be richer; those of an MP4 are nearer to each other, and take less.
+/// Safety factors of GIF, MP4 and PNG: other pictures may be richer than those of the sample; consecutive pictures of an MP4 are
+/// more alike, and take less.
 const MARGINS: [f64; 3] = [1.5, 0.8, 1.5];
 
-/// Bytes of the films of a recording.
+/// The estimated sizes of the films of a recording, in bytes.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct FilmSizes {
     pub(super) gif: u64,
@@ -30,7 +31,7 @@ pub(crate) struct FilmSizes {
 }
 
 impl Recording {
-    /// The sizes of its films of `motion`, about.
+    /// The estimated sizes of the films of `motion`.
     pub(crate) fn sample_films(
         &self,
         motion: &Motion,
@@ -68,8 +69,8 @@ impl Recording {
         for writer in &mut writers {
             borrowed.push(writer.as_mut());
         }
-        let may_go_on = |_| progress(Phase::Read, 0.5);
-        film(scene, &options, &mut borrowed, &may_go_on)?;
+        let should_continue = |_| progress(Phase::Read, 0.5);
+        film(scene, &options, &mut borrowed, &should_continue)?;
         drop(borrowed);
         drop(writers);
         let shots = timeline(motion, &options)?.len();
@@ -80,7 +81,7 @@ impl Recording {
     fn sizes(&self, sampled: [usize; 3], shots: usize) -> FilmSizes {
         let still = pictures(&self.film);
         let moving = moving_pictures(&self.film);
-        // What stands still takes no room in a GIF and hardly any in an MP4.
+        // Pictures that repeat the one before take no space in a GIF and little in an MP4.
         let [gif, mp4, png] = [moving, moving + still / 8, still].map(|n| n as f64 / shots as f64);
         let size = |k: usize, times: f64| (MARGINS[k] * sampled[k] as f64 * times) as u64;
         FilmSizes {
@@ -92,8 +93,8 @@ impl Recording {
 }
 
 impl Subject {
-    /// A motion through the states that are known before it is computed.
-    pub(crate) fn known_states(&self) -> Motion {
+    /// A motion through the exact states, which are known before the motion is computed.
+    pub(crate) fn exact_motion(&self) -> Motion {
         let sheet = self.sheet().clone();
         let planar = sheet.planar();
         let states = match self.units() {
@@ -112,6 +113,7 @@ impl Subject {
     }
 }
 
+#[cfg(feature = "mp4")]
 #[cfg(test)]
 mod tests {
     use std::fs;
@@ -119,16 +121,15 @@ mod tests {
 
     use crate::{SceneSource, Study};
 
-    /// Bytes of the files in `folder` whose names end so.
+    /// The bytes of the files in `folder` with this extension.
     fn bytes(folder: &Path, ending: &str) -> u64 {
         let files = fs::read_dir(folder).unwrap().map(Result::unwrap);
         let of_kind = files.filter(|file| file.path().extension().is_some_and(|e| e == ending));
         of_kind.map(|file| file.metadata().unwrap().len()).sum()
     }
 
-    #[cfg(feature = "mp4")]
     #[test]
-    fn what_the_disk_must_hold_is_estimated_to_within_a_factor() {
+    fn sizes_of_files_are_estimated_within_a_factor_of_three() {
         let scenes = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes");
         let mut source = SceneSource::read(&scenes.join("one-row.toml")).unwrap();
         for set in [
@@ -142,7 +143,7 @@ mod tests {
         let study = Study::resolve(&source).unwrap();
         let home = tempfile::tempdir().unwrap();
         let report = study.run(home.path(), &|_, _| true).unwrap();
-        let motion = study.subject.known_states();
+        let motion = study.subject.exact_motion();
         let films = study.recording.sample_films(&motion, &|_, _| true).unwrap();
         let about = study.space(&study.recording, report.path.frames, Some(films));
         let most = study.space(&study.recording, report.path.frames, None);

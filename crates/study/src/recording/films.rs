@@ -4,22 +4,23 @@ use std::fs;
 
 use foldmotion_record::{FilmOptions, FilmWriter, Frames, Gif, Mp4, Scene, Style, film};
 
-use super::{Recorder, Shown};
+use super::{ColourValues, Recorder};
 use crate::StudyError;
 use crate::results::{FRAMES, Results};
 use crate::scene::OutputChoice;
 use crate::{Phase, Progress};
 
-/// The shorter side of pictures in which lines have the width of their style; in others they are in proportion.
+/// The shorter side, in pixels, of pictures in which lines have the width of their style; in other pictures the width is
+/// scaled in proportion.
 const STYLED_SIDE: f64 = 720.0;
 
-/// The narrowest widest line in pixels.
+/// The smallest width to which the widest lines are scaled, in pixels.
 const NARROWEST: f64 = 0.5;
 
 impl Recorder<'_> {
     pub(super) fn films(
         &self,
-        values: Shown<'_>,
+        values: ColourValues<'_>,
         results: &mut Results,
         progress: Progress<'_>,
     ) -> Result<(), StudyError> {
@@ -57,9 +58,9 @@ impl Recorder<'_> {
                 line_width: line_width(film_options),
                 ..film_options.style.clone()
             },
-            provenance: self.origin.text(),
+            provenance: self.source_info.text(),
             ending: self.ending.clone(),
-            // Only pictures can show through.
+            // Only PNG pictures can be transparent.
             is_transparent: film_options.is_transparent && has(OutputChoice::Png),
             ..film_options.clone()
         };
@@ -72,7 +73,7 @@ impl Recorder<'_> {
     }
 }
 
-/// The widest lines of a film, pixels: small and large films of a motion look alike.
+/// The width of the widest lines of a film in pixels, scaled so that small and large films look alike.
 fn line_width(film: &FilmOptions) -> f64 {
     let [across, down] = film.size.map(f64::from);
     let width = film.style.line_width;

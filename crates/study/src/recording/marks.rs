@@ -1,11 +1,11 @@
-//! What is marked in films, figures and pages: where a motion penetrates itself first.
+//! The marks in films, figures and pages: the first penetration of a motion.
 
 use foldmotion_check::{CollisionReport, penetration_spans};
 use foldmotion_pattern::Motion;
 use foldmotion_record::{Marks, Spot};
 
-/// The two facets that are the first to penetrate each other, while they do, and where they begin to: all that cross later
-/// would hide it. `shown`: the motion time of a time of `motion`.
+/// Marks the two facets of the first penetration while they penetrate, and the point at which that begins. Later penetrations
+/// are not marked, since they would hide the first. `shown` converts a time of `motion` into the displayed motion time.
 pub(super) fn marks(
     motion: &Motion,
     collision: &CollisionReport,
@@ -40,7 +40,7 @@ mod tests {
     use crate::{SceneSource, Study};
 
     #[test]
-    fn only_the_first_penetration_of_many_is_marked_and_its_place_is_pointed_out() {
+    fn only_the_first_penetration_of_many_is_marked_and_its_point_is_shown() {
         let scene = include_str!("../../../../scenes/shelter-short-plain.toml");
         let mut scene: toml::Table = scene.parse().unwrap();
         let motion: toml::Table = "contact = false\nframes = 48".parse().unwrap();
@@ -70,8 +70,8 @@ mod tests {
             assert!(facets(frame.time).iter().all(|facet| pair.contains(facet)));
         }
         let spot = |time| FigureState::at(motion, &marks, time).spot;
-        let place = spot(first.passed).unwrap();
-        let apart = place.distance(first.point) / motion.sheet.unit_length;
+        let point = spot(first.passed).unwrap();
+        let apart = point.distance(first.point) / motion.sheet.unit_length;
         assert!(apart < 10.0 * collision.tolerance, "{apart} h");
         assert!(spot(2.0).is_some() && spot(first.time - 1e-6).is_none());
     }

@@ -1,6 +1,5 @@
 //! Films, figures and models of a motion: of a run, and of any motion file.
 
-mod again;
 mod colours;
 mod figure;
 mod film_sample;
@@ -8,52 +7,52 @@ mod films;
 mod marks;
 mod models;
 mod motion_file;
-mod origin;
 mod page;
 mod planned;
+mod reproduce;
 mod run_files;
+mod source_info;
 mod space;
 
 use foldmotion_pattern::Motion;
 use foldmotion_record::{Marks, Values};
 
-use crate::resolve::known::Known;
 use crate::resolve::recording::STATES;
 use crate::results::Results;
-use crate::scene::LengthUnit;
-use crate::{Phase, Progress, Recording, StudyError};
+use crate::scene::{LengthUnit, parse_choice};
+use crate::{Phase, Progress, Recording, StudyError, UnitStudy};
 
-pub use self::again::{Again, record_again};
+pub(crate) use self::motion_file::{LoadedMotion, stage_time};
 pub use self::motion_file::{MotionRecord, record_file};
-pub(crate) use self::motion_file::{ReadMotion, stage_time};
+pub use self::reproduce::{Reproduction, reproduce_file};
 
 pub use self::colours::Quantity;
 pub(crate) use self::film_sample::FilmSizes;
-use self::origin::Origin;
-use self::page::Beside;
+use self::page::PageContent;
+use self::source_info::SourceInfo;
 
 /// Records one motion.
 pub(crate) struct Recorder<'a> {
     pub(crate) recording: &'a Recording,
     pub(crate) motion: &'a Motion,
-    /// Facets that penetrate.
+    /// The facets of the first penetration, with its point.
     pub(crate) marks: Marks,
     pub(crate) title: &'a str,
     /// FOLD's name of the unit of length.
     pub(crate) unit: &'a str,
-    /// What the study says beside the motion, if there is one.
-    pub(crate) known: Option<Known>,
-    pub(crate) origin: Origin,
-    /// Whether the lengths of the sheet at rest are known.
+    /// The sheet of units with its exact states; `None` for an imported pattern and for a motion file.
+    pub(crate) units: Option<&'a UnitStudy>,
+    pub(crate) source_info: SourceInfo,
+    /// Whether the rest lengths of the edges are known.
     pub(crate) has_rest_lengths: bool,
-    /// What a page shows beside the motion.
-    pub(crate) beside: Beside,
-    /// How the motion ended, where it did not fold.
+    /// What a page shows next to the motion.
+    pub(crate) page_content: PageContent,
+    /// How the motion ended; `None` if it folded.
     pub(crate) ending: Option<String>,
 }
 
 impl Recorder<'_> {
-    /// Writes every figure, model, page and film of the recording into `results`; all films in one pass.
+    /// Writes all figures, models, pages and films of the recording into `results`; the films in one pass.
     pub(crate) fn write(
         &self,
         results: &mut Results,
@@ -61,15 +60,15 @@ impl Recorder<'_> {
     ) -> Result<(), StudyError> {
         let values = Quantity::of(self.recording.colour).map(|q| q.of_motion(self.motion));
         self.figures(values.as_ref(), results)?;
-        proceed(progress)?;
+        require_progress(progress)?;
         self.models(results)?;
-        proceed(progress)?;
+        require_progress(progress)?;
         self.page(results)?;
-        proceed(progress)?;
+        require_progress(progress)?;
         self.films(values.as_ref(), results, progress)
     }
 
-    /// The motion times of figures and models. Those after the motion's end or before its beginning are that state.
+    /// The motion times of the states in figures and models, limited to those of the motion.
     fn times(&self) -> Vec<f64> {
         let frames = &self.motion.frames;
         let (Some(first), Some(last)) = (frames.first(), frames.last()) else {
@@ -77,29 +76,31 @@ impl Recorder<'_> {
         };
         let (first, last) = (first.time, last.time);
         let even = |k: i32| first + (last.min(2.0) - first) * f64::from(k) / 4.0;
-        let asked = match &self.recording.at {
+        let requested = match &self.recording.at {
             Some(at) => at.clone(),
             None if first > 0.0 => (0..5).map(even).collect(),
             None => STATES.to_vec(),
         };
-        let mut times: Vec<f64> = asked.into_iter().map(|t| t.clamp(first, last)).collect();
+        let mut times: Vec<f64> = requested
+            .into_iter()
+            .map(|t| t.clamp(first, last))
+            .collect();
         times.dedup();
         times
     }
 
-    /// Metres in the motion's unit of length.
+    /// The length of the motion's unit in metres.
     fn metres(&self) -> f64 {
-        let name = toml::Value::String(self.unit.to_owned());
-        let unit: Option<LengthUnit> = name.try_into().ok();
+        let unit: Option<LengthUnit> = parse_choice(self.unit).ok();
         let millimetres = unit.and_then(LengthUnit::millimetres);
         millimetres.map_or(1.0, |length| length / 1000.0)
     }
 }
 
-/// What a film and a figure show as colours.
-type Shown<'a> = Option<&'a Values>;
+/// The values that films and figures show as colours.
+type ColourValues<'a> = Option<&'a Values>;
 
-fn proceed(progress: Progress<'_>) -> Result<(), StudyError> {
+fn require_progress(progress: Progress<'_>) -> Result<(), StudyError> {
     if progress(Phase::Record, 0.0) {
         Ok(())
     } else {

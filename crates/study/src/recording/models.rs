@@ -1,7 +1,5 @@
 //! `motion.glb`, and an OBJ and STL file of each state.
 
-use std::io::BufWriter;
-
 use foldmotion_pattern::Motion;
 use foldmotion_record::{
     GlbOptions, RecordError, Solid, Style, glb, obj, positions_at, solid, stl, surface_of,
@@ -13,7 +11,7 @@ use crate::VERSION;
 use crate::results::Results;
 use crate::scene::{ColourChoice, OutputChoice};
 
-/// Seconds of a stage that a film jumps over: a GLB has no jumps.
+/// The shortest stage of a GLB in seconds; a film may skip a stage.
 const SHORTEST_STAGE: f64 = 0.01;
 
 impl Recorder<'_> {
@@ -28,14 +26,14 @@ impl Recorder<'_> {
         for time in self.times() {
             let solid = self.solid(time)?;
             if outputs[0] {
-                let text = self.origin.text_at(time);
+                let text = self.source_info.text_at(time);
                 results.write(&state_name(time, OutputChoice::Obj), |out| {
                     obj(&solid, &text, out).map_err(StudyError::from)
                 })?;
             }
             if outputs[1] {
-                // The 80 bytes of the header hold no scene.
-                let label = format!("foldmotion {VERSION} t={time} {}", self.origin.sha256);
+                // The header has 80 bytes, too few for a scene.
+                let label = format!("foldmotion {VERSION} t={time} {}", self.source_info.sha256);
                 results.write(&state_name(time, OutputChoice::Stl), |out| {
                     stl(&solid, &label, out).map_err(StudyError::from)
                 })?;
@@ -44,7 +42,8 @@ impl Recorder<'_> {
         Ok(())
     }
 
-    /// As few morph targets as hold 1e-3 h; fewer where viewers would not take as many.
+    /// Writes the motion with the fewest morph targets that keep the tolerance. If they are too many for viewers, the tolerance
+    /// is doubled.
     fn glb(&self, results: &mut Results) -> Result<(), StudyError> {
         let mut options = GlbOptions {
             seconds: self.recording.film.seconds.map(|s| s.max(SHORTEST_STAGE)),
@@ -53,7 +52,7 @@ impl Recorder<'_> {
                 _ => Style::default(),
             },
             title: self.title.to_owned(),
-            provenance: self.origin.text(),
+            provenance: self.source_info.text(),
             ..GlbOptions::default()
         };
         let motion = self.motion_in_metres();
@@ -65,13 +64,10 @@ impl Recorder<'_> {
                 written => break written.map(drop)?,
             }
         }
-        results.write("motion.glb", |out: &mut BufWriter<_>| {
-            std::io::Write::write_all(out, &bytes)
-                .map_err(|e| StudyError::Record(RecordError::Write(e)))
-        })
+        results.write_bytes("motion.glb", &bytes)
     }
 
-    /// The motion in metres, where its unit is another.
+    /// The motion in metres; `None` if its unit is the metre.
     fn motion_in_metres(&self) -> Option<Motion> {
         let metres = self.metres();
         if metres == 1.0 {

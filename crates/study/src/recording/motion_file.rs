@@ -1,4 +1,4 @@
-//! Records a motion file, whoever made it.
+//! Records a motion file of any origin.
 
 use std::path::{Path, PathBuf};
 
@@ -8,82 +8,82 @@ use foldmotion_record::Marks;
 
 use super::marks::marks;
 use super::page::LARGEST_FOLD;
-use super::{Beside, Origin, Recorder, Recording};
-use crate::certificate::check_file::{LARGEST, MotionReader, NoMotion};
+use super::{PageContent, Recorder, Recording, SourceInfo};
+use crate::certificate::check_file::{LARGEST, MotionReader, TooFewStates, read_header};
 use crate::certificate::statement::claim;
 use crate::certificate::verify_file::read_certificate;
 use crate::resolve::input::{Input, printable};
 use crate::resolve::recording::recording as resolved;
-use crate::results::{CERTIFICATE, Destination, Maker, Published, Results, is_picture};
+use crate::results::{CERTIFICATE, Command, Destination, Published, Results, is_picture};
 use crate::scene::{ColourChoice, OutputChoice, RecordScene};
 use crate::{Phase, Progress};
 use crate::{Scene, SceneSource, StudyError, input_file};
 
-/// Positions held in memory, at most: 2.4 GB.
+/// The largest number of positions held in memory: 2.4 GB.
 const MOST_POSITIONS: usize = 100_000_000;
 
-/// What came of recording a motion file.
+/// The result of recording a motion file.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct MotionRecord {
     /// The names of the files in the folder.
     pub files: Vec<String>,
-    /// Whether penetrations are marked: a certificate of this very file lies beside it.
-    pub is_judged: bool,
-    /// Whether there are some to mark.
+    /// Whether penetrations are marked, because the motion was checked or has a certificate in its folder.
+    pub is_checked: bool,
+    /// Whether there is a penetration to mark.
     pub penetrates: bool,
-    /// What became of other files in the folder.
+    /// What happened to other files in the folder.
     pub published: Published,
 }
 
-/// Records the motion in the FOLD file at `path` into `folder`, as `record` says; keys of it are named as flags in errors.
+/// Records the motion in the FOLD file at `path` with the settings `record`, whose keys appear as flags in errors.
 ///
-/// Without `foldmotion:time` in the file its frames, evenly, are one stage from t = 1 to t = 2. Facets that penetrate
-/// are marked where a `certificate.json` of this very file lies beside it. Other files in `folder` stay.
+/// Without `foldmotion:time` in the file, its frames become one stage with evenly spaced times from t = 1 to t = 2. The first
+/// penetration is marked if the folder of the motion has its `certificate.json`. Other files in the output folder are kept.
 ///
 /// # Errors
-/// [`StudyError`]: a file that is no motion or too large, values that cannot be used, outputs that need a scene.
+/// [`StudyError`] of a file that is not a motion or too large, of values that cannot be used, and of outputs that need a scene.
 pub fn record_file<'a>(
     path: &Path,
     record: &RecordScene,
     destination: impl Into<Destination<'a>>,
     progress: Progress<'_>,
 ) -> Result<MotionRecord, StudyError> {
-    // What cannot be recorded is refused before a long file is read.
+    // Wrong settings are refused before a long file is read.
     recording(record)?;
-    ReadMotion::read(path, progress)?.record_into(destination.into(), record, None, progress)
+    LoadedMotion::read(path, progress)?.record_into(destination.into(), record, None, progress)
 }
 
-/// The folder of what is recorded, where nothing stands in its way.
+/// Opens the folder of a recording, after a check for files of the user that it would replace.
 pub(super) fn open_record(
     recording: &Recording,
     destination: Destination<'_>,
 ) -> Result<Results, StudyError> {
-    let results = Results::open(destination, Maker::Record, None)?;
+    let results = Results::open(destination, Command::Record, None)?;
     results.require_clear(&|name| recording.plans(name))?;
     Ok(results)
 }
 
-/// Moves what was recorded of the motion `sha256` into place; answers its names and what became of other files. Pictures
-/// of an earlier, longer film would mislead; other files are left alone.
+/// Moves the files recorded from the motion `sha256` into the output folder; returns their names and what happened to other
+/// files. Pictures of an earlier film are removed, because a longer film would leave some; other files are kept.
 pub(super) fn publish_record(
     mut results: Results,
     recording: &Recording,
     sha256: &str,
 ) -> Result<(Vec<String>, Published), StudyError> {
     let has_pictures = recording.has(OutputChoice::Png);
-    let aside = results.set_aside();
+    let skipped = results.skip_conflicts();
     let files = results.written().to_vec();
     let published =
         results.publish(Some(sha256), &|file| has_pictures && is_picture(&file.name))?;
     let published = Published {
-        aside,
+        skipped,
         others: Vec::new(),
         ..published
     };
     Ok((files, published))
 }
 
-/// How a motion file is recorded, from `record`.
+/// Resolves the settings `record` of the recording of a motion file.
 pub(super) fn recording(record: &RecordScene) -> Result<Recording, StudyError> {
     let mut record = record.clone();
     let outputs = record
@@ -91,10 +91,10 @@ pub(super) fn recording(record: &RecordScene) -> Result<Recording, StudyError> {
         .get_or_insert_with(|| vec![OutputChoice::Gif]);
     let needs_scene = [OutputChoice::Fold, OutputChoice::Csv];
     let refused = outputs.iter().find(|o| needs_scene.contains(o)).copied();
-    let source = SceneSource::of_flags(&record);
+    let source = SceneSource::from_flags(&record);
     if let Some(output) = refused {
         let message = format!(
-            "{} comes from running a scene (foldmotion run); of a motion there is gif, mp4, png, svg, pdf, glb, obj, stl and html",
+            "{} is written only by running a scene (foldmotion run); a motion can be recorded as gif, mp4, png, svg, pdf, glb, obj, stl or html",
             output.name()
         );
         return Err(source.value_error("record.outputs", message));
@@ -107,55 +107,48 @@ pub(super) fn recording(record: &RecordScene) -> Result<Recording, StudyError> {
         record,
         ..Scene::default()
     };
-    let input = Input {
-        source: &source,
-        scene: &scene,
-    };
+    let input = Input::new(&source, &scene);
     resolved(&input, input.title(None))
 }
 
 /// A motion read from a file.
 #[derive(Debug)]
-pub(crate) struct ReadMotion {
+pub(crate) struct LoadedMotion {
     pub(crate) motion: Motion,
     pub(crate) sha256: String,
     pub(crate) path: PathBuf,
-    /// The name of the file.
+    /// The name of the motion file.
     pub(crate) name: String,
     pub(crate) title: Option<String>,
     pub(crate) unit: Option<String>,
-    /// How the run ended that made it, where it did not fold.
+    /// How the run that wrote the file ended; `None` if it folded, or if the file does not say.
     ending: Option<String>,
     pub(super) marks: Marks,
-    is_judged: bool,
-    /// Whether the crease pattern is known: lengths at rest.
+    is_checked: bool,
+    /// Whether the key frame is the flat crease pattern, so that rest lengths are known.
     pub(crate) is_flat: bool,
     /// Whether the file gives the times of its frames.
     pub(crate) has_times: bool,
 }
 
-impl ReadMotion {
+impl LoadedMotion {
     pub(crate) fn read(path: &Path, progress: Progress<'_>) -> Result<Self, StudyError> {
-        let (file, described) = {
-            let mut input = MotionReader::open(path, Phase::Read, progress)?;
-            let file = FoldFile::read(&mut input);
-            (input.unless_stopped(file)?, input.digest())
-        };
-        Self::read_frames(path, file, &described, progress)
+        let (file, sha256) = read_header(path, progress)?;
+        Self::read_frames(path, file, sha256, progress)
     }
 
-    /// Reads the frames of `file`, read from `path` when it had the SHA-256 `described`.
+    /// Reads the frames of `file`, which was read from `path` when that had the SHA-256 `sha256`.
     pub(crate) fn read_frames(
         path: &Path,
         file: FoldFile,
-        described: &str,
+        sha256: String,
         progress: Progress<'_>,
     ) -> Result<Self, StudyError> {
         let mut input = MotionReader::open(path, Phase::Read, progress)?;
         let positions = file.frame_count().saturating_mul(file.sheet.vertices.len());
         if positions > MOST_POSITIONS {
             let message = format!(
-                "it has {positions} positions of vertices: at most {MOST_POSITIONS} can be recorded; leave out frames"
+                "the motion has {positions} positions of vertices, and at most {MOST_POSITIONS} can be recorded; remove frames"
             );
             return Err(input.failure(&message));
         }
@@ -168,12 +161,9 @@ impl ReadMotion {
             Ok(())
         });
         input.unless_stopped(read)?;
-        let sha256 = input.digest();
-        if sha256 != described {
-            return Err(input.failure(&"it changed while it was read"));
-        }
+        input.require_unchanged(&sha256)?;
         if frames.len() < 2 {
-            return Err(input.failure(&NoMotion(frames.len())));
+            return Err(input.failure(&TooFewStates(frames.len())));
         }
         if let Some(k) = (1..frames.len()).find(|&k| frames[k].time <= frames[k - 1].time) {
             let message = format!("frame {k} of the motion is not later than the one before");
@@ -185,7 +175,7 @@ impl ReadMotion {
             frames,
             compact_order,
         };
-        let judged = judged(path, &motion, &sha256, file.has_times);
+        let marks = certificate_marks(path, &motion, &sha256, file.has_times);
         if !file.has_times {
             as_one_stage(&mut motion);
         }
@@ -197,20 +187,21 @@ impl ReadMotion {
             title: file.title.as_deref().map(printable),
             unit: file.unit,
             ending: file.outcome.filter(|outcome| outcome != "folded"),
-            is_judged: judged.is_some(),
-            marks: judged.unwrap_or_default(),
+            is_checked: marks.is_some(),
+            marks: marks.unwrap_or_default(),
             is_flat: file.rest.iter().all(|p| p.z == file.rest[0].z),
             has_times: file.has_times,
             motion,
         })
     }
 
-    /// Records it into `folder` as `record` says; `judged` takes the place of the verdict beside the file.
+    /// Records the motion with the settings `record`. Penetrations of `collision` are marked instead of those of the certificate
+    /// in the folder of the motion.
     pub(crate) fn record_into(
         &self,
         destination: Destination<'_>,
         record: &RecordScene,
-        judged: Option<&CollisionReport>,
+        collision: Option<&CollisionReport>,
         progress: Progress<'_>,
     ) -> Result<MotionRecord, StudyError> {
         let recording = recording(record)?;
@@ -224,21 +215,21 @@ impl ReadMotion {
         } else {
             results.require(&space(None))?;
         }
-        let marks = judged.map(|collision| marks(&self.motion, collision, |time| time));
-        let is_judged = self.is_judged || marks.is_some();
+        let marks = collision.map(|collision| marks(&self.motion, collision, |time| time));
+        let is_checked = self.is_checked || marks.is_some();
         let marks = marks.unwrap_or_else(|| self.marks.clone());
         let penetrates = !marks.is_empty();
         self.record(&recording, marks, &mut results, progress)?;
         let (files, published) = publish_record(results, &recording, &self.sha256)?;
         Ok(MotionRecord {
             files,
-            is_judged,
+            is_checked,
             penetrates,
             published,
         })
     }
 
-    /// Records it into `results`.
+    /// Records the motion into `results`.
     pub(super) fn record(
         &self,
         recording: &Recording,
@@ -253,37 +244,37 @@ impl ReadMotion {
             marks,
             title: self.title.as_deref().unwrap_or(&self.name),
             unit: self.unit.as_deref().unwrap_or("unit"),
-            known: None,
-            origin: Origin::of_motion(self.name.clone(), record, self.sha256.clone()),
+            units: None,
+            source_info: SourceInfo::of_motion(self.name.clone(), record, self.sha256.clone()),
             has_rest_lengths: self.is_flat,
-            beside: self.beside(recording)?,
+            page_content: self.page_content(recording)?,
             ending: self.ending.clone(),
         };
         recorder.write(results, progress)
     }
 
-    /// What a page shows beside the motion; nothing where none is asked for.
-    fn beside(&self, recording: &Recording) -> Result<Beside, StudyError> {
+    /// What a page shows next to the motion; empty if the recording has no page.
+    fn page_content(&self, recording: &Recording) -> Result<PageContent, StudyError> {
         if !recording.has(OutputChoice::Html) {
-            return Ok(Beside::default());
+            return Ok(PageContent::default());
         }
         let read = |path: &Path| input_file::read(path, LARGEST);
         let bytes = read(&self.path)?;
-        let certificate = if self.is_judged {
+        let certificate = if self.is_checked {
             String::from_utf8(read(&self.path.with_file_name(CERTIFICATE))?).ok()
         } else {
             None
         };
-        Ok(Beside {
+        Ok(PageContent {
             fold: (bytes.len() as u64 <= LARGEST_FOLD).then_some(bytes),
             certificate,
-            ..Beside::default()
+            ..PageContent::default()
         })
     }
 
-    /// Refuses what this motion cannot show.
+    /// Refuses settings that need what this motion does not have.
     fn require_states(&self, recording: &Recording) -> Result<(), StudyError> {
-        let source = SceneSource::of_flags(&recording.scene.record);
+        let source = SceneSource::from_flags(&recording.scene.record);
         let ends = [self.motion.frames.first(), self.motion.frames.last()];
         let [first, last] = ends.map(|frame| frame.map_or(0.0, |f| f.time));
         let outside = |t: &&f64| !(first..=last).contains(*t);
@@ -296,7 +287,7 @@ impl ReadMotion {
         }
         if recording.colour == ColourChoice::Strain && !self.is_flat {
             let message = format!(
-                "{} has no flat crease pattern as its key frame, so lengths at rest are not known; use bending or paper",
+                "the key frame of {} is not a flat crease pattern, so rest lengths are unknown; use bending or paper",
                 self.name
             );
             return Err(source.value_error("record.colour", message));
@@ -305,7 +296,7 @@ impl ReadMotion {
     }
 }
 
-/// The order of the triangles of faces in `order`; those of one face do not overlap.
+/// The order of the triangles, from the `order` of the faces they were cut from.
 fn of_triangles(order: &LayerOrder, file: &FoldFile) -> LayerOrder {
     let mut of_face = vec![Vec::new(); file.polygons.len()];
     for (triangle, &face) in (0..).zip(&file.triangle_faces) {
@@ -322,10 +313,10 @@ fn of_triangles(order: &LayerOrder, file: &FoldFile) -> LayerOrder {
     triangles
 }
 
-/// What the certificate beside the file marks; none where there is none of this very file.
-fn judged(path: &Path, motion: &Motion, sha256: &str, has_times: bool) -> Option<Marks> {
-    let beside = path.parent()?.join(CERTIFICATE);
-    let certificate = read_certificate(&beside).ok()?;
+/// The marks of the certificate in the folder of the motion; `None` if there is no certificate of this file.
+fn certificate_marks(path: &Path, motion: &Motion, sha256: &str, has_times: bool) -> Option<Marks> {
+    let certificate_path = path.parent()?.join(CERTIFICATE);
+    let certificate = read_certificate(&certificate_path).ok()?;
     if certificate.sha256 != sha256 {
         return None;
     }
@@ -338,7 +329,7 @@ fn judged(path: &Path, motion: &Motion, sha256: &str, has_times: bool) -> Option
     if !is_of_motion {
         return None;
     }
-    // The certificate counts frames where the file gives no times.
+    // Without times in the file, the times of the certificate count frames.
     Some(marks(motion, &report, |time| {
         if has_times {
             time
@@ -348,7 +339,7 @@ fn judged(path: &Path, motion: &Motion, sha256: &str, has_times: bool) -> Option
     }))
 }
 
-/// Times that are numbers of frames become one stage, from planar to compact.
+/// Converts times that count frames into motion times of one stage, from planar to compact.
 fn as_one_stage(motion: &mut Motion) {
     let count = motion.frames.len();
     for frame in &mut motion.frames {
@@ -356,6 +347,7 @@ fn as_one_stage(motion: &mut Motion) {
     }
 }
 
+/// The motion time of frame `index` of `count` frames without times.
 pub(crate) fn stage_time(index: f64, count: usize) -> f64 {
     1.0 + index / count.saturating_sub(1).max(1) as f64
 }

@@ -1,4 +1,4 @@
-//! `motion.html`: the motion beside its plots, report and certificate.
+//! `motion.html`: the motion with its plots, report and certificate.
 
 use foldmotion_record::{Page, PageOptions, Panel, Provenance, page};
 
@@ -9,16 +9,16 @@ use crate::VERSION;
 use crate::results::Results;
 use crate::scene::OutputChoice;
 
-/// Motion files inside a page, at most: 256 MiB, which a browser still unpacks.
+/// The largest motion file inside a page, in bytes: 256 MiB, which browsers can still unpack.
 pub(super) const LARGEST_FOLD: u64 = 1 << 28;
 
-/// Seconds of a stage that a film jumps over: a page has no jumps.
+/// The shortest stage of a page in seconds; a film may skip a stage.
 const SHORTEST_STAGE: f64 = 0.01;
 
-/// What a page shows beside the motion.
+/// What a page shows next to the motion.
 #[derive(Debug, Default)]
-pub(crate) struct Beside {
-    /// The text of the report; a page leaves out its times, threads and device.
+pub(crate) struct PageContent {
+    /// The text of the report; the page omits its timings, threads and device.
     pub(crate) report: Option<String>,
     /// The text of the certificate.
     pub(crate) certificate: Option<String>,
@@ -41,8 +41,8 @@ impl Recorder<'_> {
             provenance: Provenance {
                 title: self.title.to_owned(),
                 producer: format!("foldmotion {VERSION}"),
-                scene: self.origin.text(),
-                hash: self.origin.sha256.clone(),
+                scene: self.source_info.text(),
+                hash: self.source_info.sha256.clone(),
             },
             ..PageOptions::default()
         };
@@ -58,10 +58,10 @@ impl Recorder<'_> {
             motion: self.motion,
             marks: &self.marks,
             values: &values,
-            panels: &self.beside.panels,
-            report: self.beside.report.as_deref(),
-            certificate: self.beside.certificate.as_deref(),
-            fold: self.beside.fold.as_deref(),
+            panels: &self.page_content.panels,
+            report: self.page_content.report.as_deref(),
+            certificate: self.page_content.certificate.as_deref(),
+            fold: self.page_content.fold.as_deref(),
         };
         results.write("motion.html", |out| {
             page(&content, &options, out)

@@ -1,4 +1,4 @@
-//! The names of the files that a recording will write, known before it begins.
+//! The names of the files that a recording will write.
 
 use foldmotion_record::{FilmOptions, Playback};
 
@@ -9,7 +9,7 @@ use crate::results::{CERTIFICATE, FRAMES, MOTION};
 use crate::scene::OutputChoice;
 
 impl Recording {
-    /// Whether it will write a file called `name`. Of a motion that ends early some states have other names.
+    /// Whether the recording will write a file called `name`. If the motion ends early, some states have other names.
     pub(crate) fn plans(&self, name: &str) -> bool {
         self.outputs.iter().any(|&output| match output {
             OutputChoice::Fold => [MOTION, CERTIFICATE].contains(&name),
@@ -29,18 +29,18 @@ impl Recording {
     }
 }
 
-/// The number of a picture by its name.
+/// The number in the name of a picture.
 fn picture_number(name: &str) -> Option<u64> {
     let file = name.strip_prefix(FRAMES)?.strip_prefix('/')?;
     file.strip_suffix(".png")?.parse().ok()
 }
 
-/// Pictures of a film of the whole motion, at most.
+/// The largest number of pictures of a film.
 pub(super) fn pictures(film: &FilmOptions) -> u64 {
     in_seconds(film, film.seconds.iter().chain(&film.hold).sum())
 }
 
-/// Those of them that differ from the one before.
+/// The largest number of pictures of a film that differ from the one before.
 pub(super) fn moving_pictures(film: &FilmOptions) -> u64 {
     in_seconds(film, film.seconds.iter().sum())
 }
@@ -50,9 +50,9 @@ pub(super) fn moving_pictures(film: &FilmOptions) -> u64 {
     reason = "the film's options were checked to be positive"
 )]
 fn in_seconds(film: &FilmOptions, seconds: f64) -> u64 {
-    let ways = match film.playback {
+    let passes = match film.playback {
         Playback::Once => 1.0,
         Playback::BackAndForth => 2.0,
     };
-    (ways * seconds * film.fps).ceil() as u64 + 3
+    (passes * seconds * film.fps).ceil() as u64 + 3
 }

@@ -1,4 +1,4 @@
-//! The files of a run beside its report.
+//! The files of a run, except its report.
 
 use std::io::{self, Write};
 use std::path::Path;
@@ -9,26 +9,26 @@ use foldmotion_record::plots;
 use super::marks::marks;
 use super::motion_file::{open_record, publish_record};
 use super::page::LARGEST_FOLD;
-use super::{Beside, Origin, Recorder, Recording};
-use crate::certificate::certify::{CheckedMotion, MotionFile};
+use super::{PageContent, Recorder, Recording, SourceInfo};
+use crate::certificate::certify::{CertificateSource, MotionFile};
 use crate::compute::folded::{Findings, Folded};
-use crate::compute::series::{panels, write_csv};
+use crate::compute::series::{csv, panels};
 use crate::digest::HashedWriter;
 use crate::report::{OutcomeKind, SecondsReport};
 use crate::resolve::input::Input;
 use crate::resolve::recording::recording as resolved;
 use crate::results::{CERTIFICATE, MOTION, Results, write_error};
 use crate::scene::{OutputChoice, RecordScene};
-use crate::{Certificate, Destination, Scene, SceneSource, Study, StudyError, UnitStudy};
+use crate::{Certificate, Destination, Scene, SceneSource, Study, StudyError};
 use crate::{Progress, VERSION};
 
 impl Study {
-    /// Records `folded` as `record` says, in the place of `[record]` of the scene, into `folder`; answers the names of the
-    /// files. Other files there stay, but for pictures of an earlier film where there are new ones.
+    /// Records `folded` into `destination` with the settings `record` instead of the scene's `[record]`; returns the names of
+    /// the files. Other files in the folder are kept, except for the pictures of an earlier film if there are new ones.
     ///
     /// # Errors
-    /// [`StudyError`]: values that cannot be used, each named as a flag, and files that cannot be written; the folder is
-    /// then as it was.
+    /// [`StudyError`] of values that cannot be used, with the key as a flag, and of files that cannot be written; the folder is
+    /// then unchanged.
     pub fn record_as<'a>(
         &self,
         folded: &Folded,
@@ -44,21 +44,18 @@ impl Study {
         publish_record(results, &recording, &sha256).map(|(files, _)| files)
     }
 
-    /// `record` in the place of `[record]` of the scene.
+    /// The recording with `record` instead of the scene's `[record]`.
     fn recording_as(&self, record: &RecordScene) -> Result<Recording, StudyError> {
-        let source = SceneSource::of_flags(record);
+        let source = SceneSource::from_flags(record);
         let scene = Scene {
             record: record.clone(),
             ..self.recording.scene.clone()
         };
-        let input = Input {
-            source: &source,
-            scene: &scene,
-        };
+        let input = Input::new(&source, &scene);
         resolved(&input, self.title.clone())
     }
 
-    /// Writes everything that `recording` asks for and answers the SHA-256 of the motion.
+    /// Writes all outputs of `recording`; returns the SHA-256 of the motion.
     pub(crate) fn record(
         &self,
         recording: &Recording,
@@ -68,7 +65,7 @@ impl Study {
     ) -> Result<String, StudyError> {
         let (motion, findings) = (&folded.motion, &folded.findings);
         let outcome = &folded.outcome;
-        let (sha256, beside) = self.record_fold(recording, folded, results)?;
+        let (sha256, page_content) = self.record_fold(recording, folded, results)?;
         if recording.has(OutputChoice::Csv) {
             record_series(findings, results)?;
         }
@@ -78,10 +75,10 @@ impl Study {
             marks: marks(motion, &findings.collision, |time| time),
             title: &self.title,
             unit: self.unit_name,
-            known: self.subject.units().map(UnitStudy::known),
-            origin: Origin::of_scene(&recording.scene, sha256.clone()),
+            units: self.subject.units(),
+            source_info: SourceInfo::of_scene(&recording.scene, sha256.clone()),
             has_rest_lengths: true,
-            beside,
+            page_content,
             ending: (outcome.kind != OutcomeKind::Folded).then(|| outcome.headline()),
         };
         recorder.write(results, progress)?;
@@ -89,7 +86,7 @@ impl Study {
     }
 
     fn write_fold(&self, folded: &Folded, out: impl Write) -> io::Result<String> {
-        let mut keys = self.subject.kept_keys();
+        let mut keys = self.subject.preserved_keys();
         let outcome = folded.outcome.headline().into();
         keys.insert("foldmotion:outcome".to_owned(), outcome);
         let header = FoldHeader {
@@ -111,14 +108,14 @@ impl Study {
         self.write_fold(folded, io::sink()).map_err(failed)
     }
 
-    /// Writes the motion and its certificate where they are asked for; answers the SHA-256 of the motion and what a page
-    /// shows beside it.
+    /// Writes the motion file and its certificate if the recording has them; returns the SHA-256 of the motion and what a page
+    /// shows next to the motion.
     fn record_fold(
         &self,
         recording: &Recording,
         folded: &Folded,
         results: &mut Results,
-    ) -> Result<(String, Beside), StudyError> {
+    ) -> Result<(String, PageContent), StudyError> {
         let folder = results.folder().to_owned();
         let failed = |e| write_error(&folder, MOTION, e);
         let [has_file, has_page] =
@@ -131,7 +128,7 @@ impl Study {
             let mut bytes = Vec::new();
             sha256 = self.write_fold(folded, &mut bytes).map_err(failed)?;
             if has_file {
-                results.write(MOTION, |out| out.write_all(&bytes).map_err(failed))?;
+                results.write_bytes(MOTION, &bytes)?;
             }
             fold = Some(bytes);
         } else if has_file {
@@ -143,26 +140,23 @@ impl Study {
             sha256 = self.digest(folded)?;
         }
         if !has_file && !has_page {
-            return Ok((sha256, Beside::default()));
+            return Ok((sha256, PageContent::default()));
         }
         let certificate = self.certificate(folded, sha256.clone()).to_json();
         if has_file {
-            results.write(CERTIFICATE, |out| {
-                out.write_all(certificate.as_bytes())
-                    .map_err(|e| write_error(&folder, CERTIFICATE, e))
-            })?;
+            results.write_bytes(CERTIFICATE, certificate.as_bytes())?;
         }
         if !has_page {
-            return Ok((sha256, Beside::default()));
+            return Ok((sha256, PageContent::default()));
         }
-        let beside = self.beside(folded, certificate, fold);
-        Ok((sha256, beside))
+        let content = self.page_content(folded, certificate, fold);
+        Ok((sha256, content))
     }
 
-    /// The certificate of `folded`, as it is written beside its motion file.
+    /// The certificate of `folded`, as it is written next to its motion file.
     ///
     /// # Errors
-    /// [`StudyError::Output`] where the motion has a position that is no number.
+    /// [`StudyError::Output`] if the motion has a position that is not finite.
     pub fn certificate_of(&self, folded: &Folded) -> Result<Certificate, StudyError> {
         Ok(self.certificate(folded, self.digest(folded)?))
     }
@@ -170,7 +164,7 @@ impl Study {
     pub(crate) fn certificate(&self, folded: &Folded, sha256: String) -> Certificate {
         let motion = &folded.motion;
         let times: Vec<f64> = motion.frames.iter().map(|f| f.time).collect();
-        let checked = CheckedMotion {
+        let checked = CertificateSource {
             name: MOTION,
             sha256,
             file: MotionFile {
@@ -188,13 +182,18 @@ impl Study {
         checked.certificate()
     }
 
-    /// What a page shows beside the motion.
-    fn beside(&self, folded: &Folded, certificate: String, fold: Option<Vec<u8>>) -> Beside {
+    /// What a page shows next to the motion.
+    fn page_content(
+        &self,
+        folded: &Folded,
+        certificate: String,
+        fold: Option<Vec<u8>>,
+    ) -> PageContent {
         let findings = &folded.findings;
         let first = findings.collision.first.as_ref().map(|p| p.time);
-        // A page leaves out seconds and files.
+        // A page omits seconds and files.
         let report = self.report(folded, SecondsReport::NONE, &[]);
-        Beside {
+        PageContent {
             report: Some(report.to_json()),
             certificate: Some(certificate),
             fold,
@@ -206,13 +205,7 @@ impl Study {
 /// `motion.csv` and `plots.svg`.
 fn record_series(findings: &Findings, results: &mut Results) -> Result<(), StudyError> {
     let first = findings.collision.first.as_ref().map(|p| p.time);
-    let folder = results.folder().to_owned();
-    results.write("motion.csv", |out| {
-        write_csv(&findings.series, out).map_err(|e| write_error(&folder, "motion.csv", e))
-    })?;
+    results.write_bytes("motion.csv", csv(&findings.series).as_bytes())?;
     let svg = plots(&panels(&findings.series, first))?;
-    results.write("plots.svg", |out| {
-        out.write_all(svg.as_bytes())
-            .map_err(|e| write_error(&folder, "plots.svg", e))
-    })
+    results.write_bytes("plots.svg", svg.as_bytes())
 }

@@ -1,4 +1,4 @@
-//! How much room the files of a recording take on a disk, estimated before it begins.
+//! The sizes of the files of a recording, estimated before it begins.
 
 use foldmotion_pattern::{Motion, Sheet};
 use foldmotion_record::{FilmOptions, MAX_TARGETS};
@@ -10,34 +10,35 @@ use crate::resolve::recording::STATES;
 use crate::results::Space;
 use crate::scene::OutputChoice;
 
-/// Bytes of a figure beside its facets: letters, keys and what it says of its origin.
+/// Bytes of a figure without its facets: letters, key and source information.
 const PAGE: u64 = 200_000;
 
-/// Bytes a facet takes in a figure at most on average.
+/// The largest average number of bytes for a facet in a figure.
 const BYTES_A_FACET: u64 = 400;
 
 /// Bytes of a vertex and of a triangle in an OBJ file.
 const OBJ: [u64; 2] = [70, 24];
 
-/// Bytes of a page beside what moves: the library, scripts and tables.
+/// Bytes of a page without the motion: library, scripts and tables.
 const LIBRARY: u64 = 1_000_000;
 
-/// Bytes of a triangle in an STL file, and before the first one.
+/// Bytes of a triangle in an STL file, and of its header.
 const STL: u64 = 50;
 const STL_HEADER: u64 = 84;
 
-/// Bytes by which a file says where it comes from.
+/// Bytes of the source information in a file.
 const ORIGIN: u64 = 4_000;
 
-/// Bytes by which a GLB describes a morph target.
+/// Bytes of the description of a morph target in a GLB file.
 const TARGET: u64 = 3000;
 
 impl Recording {
-    /// Bytes of everything but `motion.fold`, for a motion of `frames` frames: at most, or about, where `films` are known.
+    /// The bytes of all files except `motion.fold`, for a motion of `frames` frames: an upper bound, or an estimate if `films`
+    /// are given.
     pub(crate) fn space(&self, sheet: &Sheet, frames: usize, films: Option<FilmSizes>) -> Space {
         let states = self.at.as_ref().map_or(STATES.len(), Vec::len) as u64;
         let faces = sheet.faces.len() as u64;
-        // A plate has two sides and walls.
+        // A solid facet has two sides and walls.
         let plates = if self.thickness.is_some() { 8 } else { 1 };
         let film = |known: fn(FilmSizes) -> u64, pixels_a_byte| match films {
             Some(films) => known(films),
@@ -62,7 +63,7 @@ impl Recording {
             }
             OutputChoice::Stl => states * (STL_HEADER + plates * STL * faces),
             OutputChoice::Html => {
-                // The motion file inside is packed to a third and written in base 64.
+                // The motion file inside is compressed to a third and encoded in base 64.
                 Motion::fold_file_size(sheet, frames) / 2 + LIBRARY + 24 * faces * frames as u64
             }
         };
@@ -79,7 +80,7 @@ impl Recording {
     }
 }
 
-/// Pixels of all pictures of a film of the whole motion.
+/// The number of pixels of all pictures of a film.
 fn pixels(film: &FilmOptions) -> u64 {
     let [width, height] = film.size.map(u64::from);
     pictures(film) * width * height

@@ -11,7 +11,7 @@ use serde::{Deserialize, Serialize};
 use crate::Study;
 use crate::resolve::names::UnitName;
 
-/// The verdict.
+/// The verdict of the collision check.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct CollisionSection {
     /// Whether the sheet passes through itself.
@@ -24,8 +24,8 @@ pub struct CollisionSection {
     /// The first penetration between two facets of the same unit, which no path of its neighbours avoids; null if
     /// there is none.
     pub first_within_unit: Option<PenetrationReport>,
-    /// Where the check ended early because of `check.stop_at`; later frames were not judged. Null if all frames were
-    /// judged.
+    /// Where the check ended early because of `check.stop_at`; later frames were not checked. Null if all frames were
+    /// checked.
     pub stopped: Option<Stopped>,
     /// The number of pairs of triangles that penetrate somewhere.
     pub penetrating_pairs: usize,
@@ -58,7 +58,7 @@ pub struct DecidedBy {
     pub share_without_search: f64,
 }
 
-/// A penetration, where it begins.
+/// A penetration, at the time at which it begins.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct PenetrationReport {
     /// The motion time at which it begins.
@@ -73,7 +73,7 @@ pub struct PenetrationReport {
     pub faces: [u32; 2],
     /// The vertices of the features that meet.
     pub vertices: Vec<u32>,
-    /// The names that the paper gives these vertices in the units below, where it names them.
+    /// The names that the paper gives these vertices in the units below; null for vertices without a name.
     pub vertex_names: Vec<Option<String>>,
     /// The units of the two facets; null for an imported pattern.
     pub units: Option<[UnitName; 2]>,
@@ -84,7 +84,7 @@ pub struct PenetrationReport {
 }
 
 impl PenetrationReport {
-    /// A line for the terminal; `h`: the unit of the depth.
+    /// A line for the terminal; `h` is the unit of the depth.
     pub(super) fn line(&self, h: &str) -> String {
         let unit = |side: usize| {
             let unit = self.units.as_ref().map(|pair| &pair[side]);

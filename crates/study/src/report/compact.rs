@@ -1,4 +1,4 @@
-//! The compact state in the report, beside its closed form.
+//! The compact state in the report, compared with its closed form.
 
 use foldmotion_check::{FittedBox, relative_error};
 use foldmotion_geometry::RigidMotion;
@@ -10,10 +10,10 @@ use serde::{Deserialize, Serialize};
 use super::{FoldAngleReport, Outcome};
 use crate::Study;
 
-/// A vertex this close to a skin plane, in units of a, lies on it: wide enough for layers that keep a gap.
+/// A vertex lies on a skin plane if it is within this distance, in units of a; the contact gap requires some.
 const SKIN_TOLERANCE: f64 = 0.05;
 
-/// An extent further than this from its closed form is explained: relative, or in h where the closed form is 0.
+/// A larger error of an extent is explained: relative to its closed form, or in h if that is 0.
 const LARGE_ERROR: f64 = 0.01;
 
 /// A bounding box.
@@ -27,7 +27,7 @@ pub struct BoxReport {
     pub volume: f64,
 }
 
-/// The compact state reached, beside the exact one.
+/// The compact state that was reached, compared with the exact one.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct CompactReport {
     /// Measured after the rigid motion that best fits the exact compact state; for an imported pattern along its
@@ -49,8 +49,8 @@ pub struct CompactReport {
     pub skin: Option<SkinReport>,
 }
 
-/// What a compact sheet touches its skin planes with: the upper one, where the boundary vertices lie, and the lower
-/// one, a below it.
+/// What a compact sheet has in its two skin planes: the upper one with the boundary vertices, and the lower one at the
+/// distance a below it.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct SkinReport {
     /// A vertex lies on a plane if it is within this distance, in units of the flap width a.
@@ -65,7 +65,7 @@ pub struct SkinReport {
     pub exact_lower: SkinPlaneReport,
 }
 
-/// What lies on a skin plane.
+/// The parts of the sheet in a skin plane.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct SkinPlaneReport {
     /// The number of facets that lie in the plane.
@@ -80,7 +80,7 @@ pub struct SkinPlaneReport {
     pub share: f64,
 }
 
-/// Differences to the closed form, each divided by it or, where it is 0, by h, h², h³.
+/// Differences from the closed form, each divided by it or, if it is 0, by h, h² or h³.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct ErrorReport {
     /// The relative errors of the three extents.
@@ -97,6 +97,28 @@ impl From<CompactBox> for BoxReport {
             extents: b.extents,
             area: b.area,
             volume: b.volume,
+        }
+    }
+}
+
+impl From<&FittedBox> for BoxReport {
+    fn from(b: &FittedBox) -> Self {
+        Self {
+            extents: b.extents.into(),
+            area: b.area,
+            volume: b.volume,
+        }
+    }
+}
+
+impl ErrorReport {
+    /// The errors of a box against the extents of its closed form, for units of the height `h`.
+    pub fn new(measured: &FittedBox, closed_form: [f64; 3], h: f64) -> Self {
+        let error = relative_error(measured, closed_form.into(), h);
+        Self {
+            extents: error.extents.into(),
+            area: error.area,
+            volume: error.volume,
         }
     }
 }
@@ -127,14 +149,8 @@ impl Study {
         last: Option<&Frame>,
     ) -> CompactReport {
         let h = self.subject.sheet().unit_length;
-        let error = self.subject.closed_form().map(|closed| {
-            let error = relative_error(measured, closed.extents.into(), h);
-            ErrorReport {
-                extents: error.extents.into(),
-                area: error.area,
-                volume: error.volume,
-            }
-        });
+        let closed_form = self.subject.closed_form();
+        let error = closed_form.map(|form| ErrorReport::new(measured, form.extents, h));
         CompactReport {
             extents: measured.extents.into(),
             area: measured.area,

@@ -1,4 +1,4 @@
-//! What the report says of an imported pattern.
+//! An imported pattern in the report.
 
 use foldmotion_pattern::Assignment;
 use schemars::JsonSchema;
@@ -53,7 +53,7 @@ impl ImportReport {
         }
     }
 
-    /// Its lines in the table.
+    /// The lines of the table.
     pub(crate) fn lines(&self, unit: &str) -> String {
         let stages = match self.stages {
             1 => String::new(),

@@ -24,13 +24,12 @@ pub use self::sheet::{
     UnitReport, VertexReport,
 };
 use self::sheet::{division_report, profile_report, row_reports, unfold_report};
-pub use crate::compute::engine::StopCause;
 pub use crate::compute::fold_angles::FoldAngleReport;
 use crate::compute::folded::Folded;
 pub use crate::compute::jam::JamReport;
 pub use crate::compute::outcome::{Outcome, OutcomeKind};
 pub use crate::compute::path::PathReport;
-pub use crate::compute::stop::StopReport;
+pub use crate::compute::stop::{StopCause, StopReport};
 pub use crate::compute::symmetry::{Mirror, SymmetryReport};
 pub use crate::resolve::names::UnitName;
 
@@ -94,7 +93,7 @@ pub struct Report {
     pub engine: EngineReport,
     /// How many seconds each part of the run took.
     pub seconds: SecondsReport,
-    /// The names of the files written beside this report.
+    /// The names of the files written in addition to this report.
     pub files: Vec<String>,
     /// What happened to other files in the folder; not part of report.json.
     #[serde(skip)]
@@ -117,7 +116,7 @@ impl Report {
 }
 
 impl Study {
-    /// The report of `folded` where nothing is written: without files and the seconds they take.
+    /// The report of `folded` before any files are written.
     pub fn report_of(&self, folded: &Folded) -> Report {
         let seconds = SecondsReport {
             check: folded.check_seconds,
@@ -167,7 +166,7 @@ impl Study {
             fold_angles,
             symmetry: units.map_or_else(Vec::new, |_| SymmetryReport::all(&folded.motion)),
             jam: folded.jam.clone(),
-            stop: folded.stop.clone(),
+            stop: folded.stop,
             collision: self.collision_section(&findings.collision),
             path: folded.path,
             engine: EngineReport {

@@ -8,7 +8,7 @@ use crate::compute::engine::StageSummary;
 use crate::compute::series::FrameFigures;
 use crate::scene::EngineChoice;
 
-/// What happened in a stage.
+/// The figures of a stage.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct StageReport {
     /// The stage: unfold or fold, in this order.
@@ -87,7 +87,7 @@ pub struct SecondsReport {
 }
 
 impl SecondsReport {
-    /// Of a report that tells none.
+    /// Zeros, for a report without timings.
     pub(crate) const NONE: Self = Self {
         check: 0.0,
         record: 0.0,
@@ -95,8 +95,8 @@ impl SecondsReport {
     };
 }
 
-pub(super) fn stage_report(outcome: &StageSummary, series: &[FrameFigures]) -> StageReport {
-    let start = outcome.stage.start_time();
+pub(super) fn stage_report(stage: &StageSummary, series: &[FrameFigures]) -> StageReport {
+    let start = stage.stage.start_time();
     let within: Vec<&FrameFigures> = series
         .iter()
         .filter(|f| (start..=start + 1.0).contains(&f.time))
@@ -111,7 +111,7 @@ pub(super) fn stage_report(outcome: &StageSummary, series: &[FrameFigures]) -> S
     let (peak_facet_bending_deg, peak_facet_bending_t) = peak(|f| f.peak_bending_deg);
     let most = |value: fn(&FrameFigures) -> f64| peak(value).0;
     StageReport {
-        name: outcome.stage,
+        name: stage.stage,
         peak_strain,
         peak_strain_t,
         mean_strain: within.iter().map(|f| f.mean_strain).sum::<f64>() / within.len().max(1) as f64,
@@ -125,11 +125,11 @@ pub(super) fn stage_report(outcome: &StageSummary, series: &[FrameFigures]) -> S
             contact: most(|f| f.contact_energy),
         },
         most_contacts: within.iter().map(|f| f.contacts).max().unwrap_or(0),
-        converged: outcome.converged,
-        reached_t: outcome.reached,
-        residual: outcome.residual,
-        steps: outcome.steps,
-        load_steps: outcome.load_steps.map(|n| n[0]),
-        shortened_load_steps: outcome.load_steps.map(|n| n[1]),
+        converged: stage.converged,
+        reached_t: stage.reached,
+        residual: stage.residual,
+        steps: stage.steps,
+        load_steps: stage.load_steps.map(|n| n[0]),
+        shortened_load_steps: stage.load_steps.map(|n| n[1]),
     }
 }

@@ -1,4 +1,4 @@
-//! What is folded, in the report.
+//! Sheet, profile, division and pattern in the report.
 
 use std::fmt::Write as _;
 
@@ -50,7 +50,7 @@ pub struct UnitReport {
 /// The curve Γ.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct ProfileReport {
-    /// Where the profile comes from: the source of a built-in profile, or the key or file of the scene.
+    /// The origin of the profile: the source of a built-in profile, or the key or file of the scene.
     pub source: String,
     /// Whether the profile returns to its start.
     pub closed: bool,
@@ -74,7 +74,7 @@ pub struct DivisionReport {
     pub max_residual: f64,
     /// |R_ave|: the mean residual of equation 1.
     pub mean_residual: f64,
-    /// How far Γ is from the divided polygon.
+    /// The distances of Γ from the divided polygon.
     pub fit: FitReport,
     /// The number of iterations of the division.
     pub iterations: usize,
@@ -128,7 +128,7 @@ pub struct VertexReport {
 pub struct UnfoldReport {
     /// The path taken: uniform or energy.
     pub method: UnfoldChoice,
-    /// The path the scene asks for: uniform, energy or auto.
+    /// The path that the scene requests: uniform, energy or auto.
     pub asked: UnfoldChoice,
     /// Whether the divided profile was proved not to cross itself on this path.
     pub certified: bool,
@@ -142,7 +142,7 @@ pub struct UnfoldReport {
 }
 
 impl MapReport {
-    /// Its line in the table.
+    /// The line of the table.
     pub(super) fn line(&self, unit: &str) -> String {
         let mut line = format!("map          {} layers", self.layers);
         // Writing into a string cannot fail.
@@ -258,7 +258,7 @@ pub(super) fn unfold_report(unfolding: &Unfolding) -> UnfoldReport {
     let path = unfolding.path.as_ref();
     UnfoldReport {
         method: unfolding.method(),
-        asked: unfolding.asked,
+        asked: unfolding.requested,
         certified: unfolding.certified,
         crosses_at: unfolding.crosses_at,
         steps: path.map(|path| path.steps),

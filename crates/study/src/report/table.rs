@@ -75,7 +75,7 @@ impl Report {
         out
     }
 
-    /// What is folded.
+    /// The sheet that was folded.
     fn write_subject(&self, out: &mut String) {
         let unit = &self.length_unit;
         if let Some(import) = &self.import {
@@ -153,7 +153,7 @@ impl Report {
             if absolute.concat() != "" {
                 let _ = writeln!(
                     out,
-                    "(errors of {} and what is made of it are absolute, in h, h\u{b2}, h\u{b3}: the closed form is 0)",
+                    "(errors of {} and of the area or volume with a factor of 0 are absolute, in h, h\u{b2}, h\u{b3}, since the closed form is 0)",
                     absolute.concat()
                 );
             }
@@ -185,14 +185,12 @@ impl Report {
                 Number(stray),
                 self.tolerance_unit()
             ),
-            _ => {
-                "how far straight paths between them stray is not known: too few frames".to_owned()
-            }
+            _ => "how far straight paths between them stray is unknown: too few frames".to_owned(),
         };
         let _ = writeln!(out, "{} frames{refined}; {straying}", p.frames);
     }
 
-    /// Which part of the motion the verdict is about, where it is not all of it.
+    /// The part of the motion that the verdict is about, unless it is the whole motion.
     fn part_judged(&self) -> &'static str {
         match self.outcome.kind {
             OutcomeKind::Jammed | OutcomeKind::Stopped => " of the motion as far as it came",

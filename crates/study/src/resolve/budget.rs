@@ -9,15 +9,15 @@ use super::input::Input;
 use crate::StudyError;
 use crate::scene::BudgetScene;
 
-/// The longest time, seconds: a hundred years.
+/// The longest time in seconds: a hundred years.
 const MOST_SECONDS: f64 = 3.2e9;
 
-/// What the engine may use up. What it has reached by then is kept, checked and recorded.
+/// A limit of the work of the engine. The motion that it reached by then is checked and recorded.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum MotionBudget {
-    /// Seconds of wall-clock time, over all runs of the engine. Where the motion ends then depends on the machine.
+    /// Seconds of wall-clock time for all runs of the engine together. Where the motion ends then depends on the machine.
     Seconds(f64),
-    /// Newton iterations of the quasi-static engine, steps of the dynamic one, in each run of the engine.
+    /// Newton iterations of the quasi-static engine, or steps of the dynamic one, in each run of the engine.
     Steps(u64),
 }
 
@@ -40,7 +40,7 @@ impl MotionBudget {
             Ok(Self::Seconds(seconds))
         } else {
             Err(format!(
-                "seconds must lie above 0 and be at most {MOST_SECONDS:e}"
+                "seconds must be above 0 and at most {MOST_SECONDS:e}"
             ))
         }
     }
@@ -49,7 +49,7 @@ impl MotionBudget {
 impl FromStr for MotionBudget {
     type Err = String;
 
-    /// `60`, `60 s`, `60 seconds` or `20000 steps`.
+    /// Parses `60`, `60 s`, `60 seconds` or `20000 steps`.
     fn from_str(text: &str) -> Result<Self, String> {
         let text = text.trim();
         let split = text
@@ -86,7 +86,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn seconds_and_steps_are_told_apart_and_nothing_else_is_taken() {
+    fn seconds_and_steps_are_accepted_and_nothing_else() {
         for text in ["60", "60 s", "6e1 seconds", " 60s "] {
             assert_eq!(text.parse(), Ok(MotionBudget::Seconds(60.0)), "{text}");
         }

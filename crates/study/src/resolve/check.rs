@@ -18,7 +18,7 @@ pub(crate) fn collision(
         if !(tolerance > 0.0 && tolerance <= 1e-2) {
             return Err(input.error(
                 "check.touch_tolerance",
-                "must lie above 0 and be at most 0.01 (units of h, or of the mean edge)",
+                "must be above 0 and at most 0.01 (units of h, or of the mean edge)",
             ));
         }
         options.touch_tolerance = tolerance;
@@ -26,8 +26,8 @@ pub(crate) fn collision(
     let (tolerance, least) = (options.touch_tolerance, least_tolerance(subject));
     if tolerance < least {
         let message = format!(
-            "{} is too small for a sheet as long or wide as this beside its unit: rounding takes {:.2}; give a larger \
-             one, or a sheet of fewer or less slender units",
+            "{} is too small for a sheet of this size: rounding needs {:.2} of its unit; set a larger tolerance, or use \
+             fewer or less slender units",
             Number(tolerance),
             Number(least)
         );
@@ -37,16 +37,16 @@ pub(crate) fn collision(
         options.stop_at = usize::try_from(stop_at).map_err(|_| {
             input.error(
                 "check.stop_at",
-                "must be 0, for no limit, or a number of pairs",
+                "must be a number of pairs, or 0 for no limit",
             )
         })?;
     }
     Ok(options)
 }
 
-/// The least tolerance, in units of the sheet's unit of length, that the check can tell from rounding.
+/// The smallest tolerance, in units of the sheet's unit of length, that the check can distinguish from rounding.
 fn least_tolerance(subject: &Subject) -> f64 {
-    /// Of the rounding; the check asks for a hundred times.
+    /// The tolerance in units of the rounding margin; the check needs a hundred.
     const MARGINS: f64 = 128.0;
     let start = subject.start();
     let Some(&first) = start.first() else {

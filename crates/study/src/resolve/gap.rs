@@ -1,4 +1,4 @@
-//! How close layers may come.
+//! The contact gap between layers.
 
 use foldmotion_geometry::Number;
 use foldmotion_solver::quasi_static::Contact;
@@ -9,10 +9,10 @@ use super::subject::Subject;
 use crate::StudyError;
 use crate::scene::EngineChoice;
 
-/// The smallest gap, in units of h: below it a barrier outgrows what f64 resolves.
+/// The smallest gap, in units of h; the barrier of a smaller one exceeds the precision of f64.
 const SMALLEST_GAP: f64 = 1e-6;
 
-/// The gap, in units of the sheet's unit length; none without contact.
+/// The contact gap, in units of the sheet's unit length; `None` without contact.
 pub(crate) fn contact_gap(input: &Input<'_>, subject: &Subject) -> Result<Option<f64>, StudyError> {
     let height = subject.sheet().unit_length;
     let is_map = subject
@@ -23,18 +23,18 @@ pub(crate) fn contact_gap(input: &Input<'_>, subject: &Subject) -> Result<Option
     let is_dynamic = engine(input) == EngineChoice::Dynamic;
     if is_dynamic && motion.contact == Some(true) {
         let message =
-            "the dynamic engine has no contact; use engine = \"quasi-static\", or contact = false";
+            "the dynamic engine has no contact; use engine = \"quasi-static\" or contact = false";
         return Err(input.error("motion.contact", message));
     }
     if is_dynamic || motion.contact == Some(false) {
         let given = [
             ("motion.gap", motion.gap),
-            // Of a map it is also what its stack is measured by.
+            // For a map, the thickness also determines the height of the stack.
             ("material.thickness", thickness.filter(|_| !is_map)),
         ];
         return match given.into_iter().find(|(_, value)| value.is_some()) {
             Some((key, _)) => {
-                Err(input.error(key, "keeps layers apart, but contact is off; leave it out"))
+                Err(input.error(key, "keeps layers apart, but contact is off; omit it"))
             }
             None => Ok(None),
         };
@@ -43,7 +43,7 @@ pub(crate) fn contact_gap(input: &Input<'_>, subject: &Subject) -> Result<Option
     let limit = thinnest / height / layers as f64;
     let (key, gap) = match (motion.gap, thickness) {
         (Some(_), Some(_)) => {
-            let message = "the gap follows from material.thickness; leave one of the two out";
+            let message = "the gap follows from material.thickness; omit one of the two";
             return Err(input.error("motion.gap", message));
         }
         (_, Some(thickness)) => ("material.thickness", thickness / height),
@@ -59,7 +59,7 @@ pub(crate) fn contact_gap(input: &Input<'_>, subject: &Subject) -> Result<Option
         1.0
     };
     let message = format!(
-        "must lie between {} and {:.6}, so that the {layers} layers on each other fit beside the thinnest part of the {}",
+        "must be between {} and {:.6}, so that {layers} layers fit next to the thinnest part of the {}",
         Number(SMALLEST_GAP * scale),
         Number(limit * scale),
         if subject.units().is_some() {
@@ -71,7 +71,7 @@ pub(crate) fn contact_gap(input: &Input<'_>, subject: &Subject) -> Result<Option
     Err(input.error(key, message))
 }
 
-/// The gap where the scene gives none: a pattern with small facets takes the largest that fits.
+/// The default gap: a pattern with small facets takes the largest that fits.
 fn default_gap(subject: &Subject, limit: f64) -> f64 {
     let standard = Contact::default().gap;
     match subject {

@@ -1,4 +1,4 @@
-//! The crease pattern of a file, resolved: what it is and which fold angles it takes.
+//! The crease pattern of a file, resolved, with its fold angles.
 
 use std::path::Path;
 
@@ -17,30 +17,29 @@ use crate::{SceneSource, StudyError, input_file};
 /// A crease pattern of a file.
 #[derive(Debug, Clone)]
 pub struct ImportedStudy {
-    /// The file, as the scene names it.
+    /// The path of the file, as in the scene.
     pub file: String,
-    /// What it holds.
+    /// The imported pattern.
     pub imported: ImportedPattern,
-    /// FOLD's name of its unit of length.
+    /// FOLD's name of the unit of length.
     pub unit_name: &'static str,
-    /// By how much of its fold angles it folds, in percent.
+    /// The part of its fold angles to which the pattern folds, in percent.
     pub fold_percent: f64,
-    /// The fold angles through which it folds, radians, one list of one angle for each edge a stage of the file; it ends
-    /// with the last. One list where the file has no stages.
+    /// The fold angles at the end of each stage of the file, one for each edge, in radians; one list if the file has no stages.
     pub waypoints: Vec<Vec<f64>>,
-    /// The facet that stays in place.
+    /// The facet that stays in place; `None` if none does.
     pub fixed: Option<u32>,
     /// The pattern check.
     pub pattern: PatternCheck,
 }
 
 impl ImportedStudy {
-    /// The fold angle every edge ends with.
+    /// The fold angle of each edge at the end of the motion.
     pub(crate) fn end_angles(&self) -> &[f64] {
         self.waypoints.last().map_or(&[], Vec::as_slice)
     }
 
-    /// The motion times at which a stage of the file ends, but for the last.
+    /// The motion times at which the stages of the file end, except the last.
     pub(crate) fn waypoint_times(&self) -> Vec<f64> {
         let count = self.waypoints.len();
         let time = |k| Stage::Fold.start_time() + k as f64 / count as f64;
@@ -56,7 +55,7 @@ pub(crate) enum PatternFileFormat {
 }
 
 impl PatternFileFormat {
-    /// The format that the name of a file ends in, in upper or lower case.
+    /// The format of a file by its extension, in upper or lower case.
     pub(crate) fn of(path: &Path) -> Option<Self> {
         let ending = path.extension()?.to_str()?.to_ascii_lowercase();
         match ending.as_str() {
@@ -67,7 +66,7 @@ impl PatternFileFormat {
     }
 }
 
-/// The pattern that the scene names.
+/// Reads and resolves the pattern of the scene.
 pub(crate) fn imported(
     input: &Input<'_>,
     scene: &PatternScene,
@@ -75,7 +74,7 @@ pub(crate) fn imported(
     refuse_keys_of_units(input)?;
     let percent = scene.fold_percent.unwrap_or(100.0);
     if !(-100.0..=100.0).contains(&percent) {
-        return Err(input.error("pattern.fold_percent", "must lie between -100 and 100"));
+        return Err(input.error("pattern.fold_percent", "must be between -100 and 100"));
     }
     let imported = read_pattern(input, scene)?;
     let unit_name = match scene.unit {
@@ -93,7 +92,7 @@ pub(crate) fn imported(
     })
 }
 
-/// The schedule from the flat pattern through its waypoints.
+/// The schedule from the flat pattern to its fold angles, through its waypoints.
 pub(crate) fn imported_schedule(
     input: &Input<'_>,
     study: &ImportedStudy,
@@ -109,7 +108,7 @@ pub(crate) fn imported_schedule(
         .map_err(|e| schedule_error(input, e))
 }
 
-/// A pattern takes the place of profile, sheet and division.
+/// Refuses keys that do not apply to an imported pattern.
 fn refuse_keys_of_units(input: &Input<'_>) -> Result<(), StudyError> {
     let scene = input.scene;
     let tables = [
@@ -119,29 +118,28 @@ fn refuse_keys_of_units(input: &Input<'_>) -> Result<(), StudyError> {
     ];
     if let Some((table, _)) = tables.into_iter().find(|(_, given)| *given) {
         let message = format!(
-            "[{table}] describes a sheet of units, and [pattern] brings one of its own; leave one of the two out"
+            "[{table}] describes a sheet of units, but [pattern] imports a sheet; omit one of the two"
         );
         return Err(StudyError::Parse {
-            place: input.source.place_of(table),
+            location: input.source.location_of(table),
             message,
         });
     }
     if scene.motion.unfold.is_some() {
-        let message = "an imported pattern starts flat: nothing is unfolded; leave it out";
+        let message = "an imported pattern starts flat, so nothing is unfolded; omit it";
         return Err(input.error("motion.unfold", message));
     }
     if scene.material.facet_model.is_some() {
-        let message =
-            "cuts the facets of units; an imported pattern is cut as its file says: leave it out";
+        let message = "applies to the facets of units; the facets of an imported pattern are cut as its file says; omit it";
         return Err(input.error("material.facet_model", message));
     }
     Ok(())
 }
 
 fn read_pattern(input: &Input<'_>, scene: &PatternScene) -> Result<ImportedPattern, StudyError> {
-    let path = input.source.beside(&scene.file);
+    let path = input.source.resolve_path(&scene.file);
     let Some(format) = PatternFileFormat::of(&path) else {
-        let message = "must end in .fold or .svg, the formats of crease patterns that are read";
+        let message = "must be a .fold or .svg file";
         return Err(input.error("pattern.file", message));
     };
     let options = ImportOptions {
@@ -170,14 +168,14 @@ fn read_pattern(input: &Input<'_>, scene: &PatternScene) -> Result<ImportedPatte
     })
 }
 
-/// The facet that stays in place: one at most, for several would hold the sheet.
+/// The facet that stays in place. Several fixed facets would prevent the sheet from folding.
 fn fixed_facet(
     input: &Input<'_>,
     scene: &PatternScene,
     imported: &ImportedPattern,
 ) -> Result<Option<u32>, StudyError> {
     let count = imported.sheet.facets.len();
-    let asked = match &scene.fixed {
+    let fixed = match &scene.fixed {
         None => imported.fixed_facets.clone(),
         Some(list) => {
             let facet = |&n: &i64| u32::try_from(n).ok().filter(|&n| (n as usize) < count);
@@ -188,40 +186,43 @@ fn fixed_facet(
             })?
         }
     };
-    match *asked.as_slice() {
+    match *fixed.as_slice() {
         [] => Ok(None),
         [facet] => Ok(Some(facet)),
         _ => {
             let message = format!(
-                "{} facets are to stay in place ({:?} …): only one can; name it here, or [] for none",
-                asked.len(),
-                &asked[..2]
+                "{} facets are fixed ({:?} …), but only one can be; name it here, or use [] for none",
+                fixed.len(),
+                &fixed[..2]
             );
             Err(input.error("pattern.fixed", message))
         }
     }
 }
 
-/// The steps of the scene; a pattern has no rows, columns or units by which they could name creases.
+/// The steps of the scene. Steps for rows, columns or creases of units are refused.
 fn imported_steps(input: &Input<'_>) -> Result<Vec<ScheduleStep>, StudyError> {
     for (index, step) in input.scene.motion.step.iter().enumerate() {
         let is_of_units = !matches!(
             step.creases,
             None | Some(CreaseGroup::All | CreaseGroup::Mountains | CreaseGroup::Valleys)
         );
-        let faults = [
+        let unsuitable = [
             ("stage", step.stage == Stage::Unfold),
             ("creases", is_of_units),
             ("rows", step.rows.is_some()),
             ("columns", step.columns.is_some()),
         ];
-        if let Some((key, _)) = faults.into_iter().find(|(_, is_fault)| *is_fault) {
+        if let Some((key, _)) = unsuitable
+            .into_iter()
+            .find(|&(_, is_unsuitable)| is_unsuitable)
+        {
             let message = match key {
-                "stage" => "an imported pattern starts flat: its one stage is \"fold\"",
+                "stage" => "an imported pattern starts flat; its only stage is \"fold\"",
                 "creases" => {
                     "an imported pattern has no units; use \"all\", \"mountains\" or \"valleys\""
                 }
-                _ => "an imported pattern has no rows and columns; leave it out",
+                _ => "an imported pattern has no rows and columns; omit it",
             };
             return Err(input.error(&format!("motion.step.{index}.{key}"), message));
         }
@@ -229,15 +230,15 @@ fn imported_steps(input: &Input<'_>) -> Result<Vec<ScheduleStep>, StudyError> {
     steps(input)
 }
 
-/// The fold angles along the way, times `fraction`. What a stage says nothing about stays as it was.
+/// The fold angles at the end of each stage, times `fraction`. Angles that a stage does not give are kept.
 fn waypoints(imported: &ImportedPattern, with_stages: bool, fraction: f64) -> Vec<Vec<f64>> {
     if !with_stages || imported.stages.is_empty() {
         return vec![imported.targets.iter().map(|t| t * fraction).collect()];
     }
     let mut last = vec![0.0; imported.targets.len()];
     let stages = imported.stages.iter().map(|stage| {
-        for (angle, asked) in last.iter_mut().zip(&stage.angles) {
-            *angle = asked.map_or(*angle, |asked| asked * fraction);
+        for (angle, target) in last.iter_mut().zip(&stage.angles) {
+            *angle = target.map_or(*angle, |target| target * fraction);
         }
         last.clone()
     });
@@ -245,18 +246,17 @@ fn waypoints(imported: &ImportedPattern, with_stages: bool, fraction: f64) -> Ve
 }
 
 impl SceneSource {
-    /// The scene of a crease pattern that is run by itself: `[pattern]` with this file, and all else left out; none where
-    /// the name of the file ends in no format of crease patterns.
-    pub(crate) fn of_pattern(path: &Path) -> Option<Self> {
+    /// The scene that only has `[pattern]` with this file; `None` if the file is not a crease pattern by its extension.
+    pub(crate) fn for_pattern(path: &Path) -> Option<Self> {
         PatternFileFormat::of(path)?;
         let name = path.file_name()?.to_str()?;
         let mut source = Self::new(path, String::new());
-        source.give("pattern.file", name);
+        source.set_by_file("pattern.file", name);
         Some(source)
     }
 
-    /// Whether [`Self::read`] takes a file for a crease pattern.
+    /// Whether [`Self::read`] treats a file as a crease pattern.
     pub fn is_pattern(path: &Path) -> bool {
-        Self::of_pattern(path).is_some()
+        Self::for_pattern(path).is_some()
     }
 }

@@ -30,7 +30,7 @@ pub(crate) fn material(input: &Input<'_>) -> Result<Material, StudyError> {
         } => input.error(
             &format!("material.{name}"),
             format!(
-                "must lie between {} and {}",
+                "must be between {} and {}",
                 Number(minimum),
                 Number(maximum)
             ),

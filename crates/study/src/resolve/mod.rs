@@ -1,14 +1,12 @@
 //! The study: a scene with everything resolved, ready to run.
 //!
-//! [`Study::resolve`] asks one function a section of the scene: `units` and `imported` for what is folded, `material`,
-//! `motion`, `check` and `recording` for the rest. Each refuses what cannot be used with file, line, key, value and remedy.
+//! Each module resolves one table of the scene, and refuses values that cannot be used with file, line, key, value and remedy.
 
 pub(crate) mod budget;
 mod check;
 mod gap;
 pub(crate) mod imported;
 pub(crate) mod input;
-pub(crate) mod known;
 mod material;
 mod motion;
 pub(crate) mod names;
@@ -37,47 +35,44 @@ use crate::{SceneSource, StudyError};
 /// Everything a run needs, resolved from a scene.
 #[derive(Debug, Clone)]
 pub struct Study {
-    /// Its title.
+    /// The title of the scene.
     pub title: String,
     /// FOLD's name of the unit of length.
     pub unit_name: &'static str,
-    /// What is folded.
+    /// The sheet that is folded.
     pub subject: Subject,
-    /// Bars, hinges and masses.
+    /// The mechanical model: bars, hinges and masses.
     pub model: Model,
     /// The target fold angles along the motion.
     pub schedule: Schedule,
-    /// What moves the sheet.
+    /// The engine that computes the motion.
     pub engine: EngineChoice,
-    /// Where the dynamic engine moves it; the quasi-static one runs on the processor.
+    /// The device of the dynamic engine; the quasi-static engine runs on the processor.
     pub device: Device,
-    /// How close layers may come, in units of the sheet's unit length; none lets them pass through each other.
+    /// The contact gap, in units of the sheet's unit length; `None` if layers may pass through each other.
     pub contact_gap: Option<f64>,
-    /// Thickness of the sheet, where the scene gives it.
+    /// The thickness of the sheet; `None` if the scene does not set it.
     pub thickness: Option<f64>,
-    /// The states t = 2k/frames are recorded.
+    /// The number of intervals: the states at t = 2k/frames are recorded.
     pub frames: usize,
-    /// How much work the engine may do; none: as much as it allows itself.
+    /// The limit of the work of the engine; `None` for its own limit.
     pub budget: Option<MotionBudget>,
-    /// How the motion is checked.
+    /// The options of the collision check.
     pub collision: CollisionOptions,
-    /// What is written beside the report, and how it looks.
+    /// The outputs in addition to the report, and their settings.
     pub recording: Recording,
-    /// What the user should know of the scene, a line each: values that are not used, and why.
+    /// Notes for the user, one line each: values that are not used, and why.
     pub notes: Vec<String>,
 }
 
 impl Study {
-    /// Resolves a scene: what is folded, model, schedule.
+    /// Resolves a scene: sheet, model, schedule and settings.
     ///
     /// # Errors
-    /// Every unusable value, with file, line, key, value and remedy; of an imported pattern with the element.
+    /// The first unusable value, with file, line, key, value and remedy; for an imported pattern with the element.
     pub fn resolve(source: &SceneSource) -> Result<Self, StudyError> {
         let scene = source.scene()?;
-        let input = Input {
-            source,
-            scene: &scene,
-        };
+        let input = Input::new(source, &scene);
         let (subject, schedule) = if let Some(pattern) = &scene.pattern {
             let imported = imported::imported(&input, pattern)?;
             let schedule = imported::imported_schedule(&input, &imported)?;
@@ -115,7 +110,7 @@ fn unit_name(input: &Input<'_>, subject: &Subject) -> &'static str {
     }
 }
 
-/// Values that the scene gives and its case leaves out.
+/// Notes about values of the scene that its case does not use.
 fn notes(input: &Input<'_>, subject: &Subject) -> Vec<String> {
     let Some(units) = subject.units().map(|study| &study.units) else {
         return Vec::new();
@@ -134,9 +129,9 @@ fn notes(input: &Input<'_>, subject: &Subject) -> Vec<String> {
         .filter_map(|(key, value)| Some((key, value?)));
     let note = |(key, value)| {
         let (case, ratio) = (units.unit.case.name(), units.unit.width / units.unit.height);
-        let place = input.source.place_of(key);
+        let location = input.source.location_of(key);
         format!(
-            "{place}: {key} = {} is not used: with w/h = {:.6} the case is {case}",
+            "{location}: {key} = {} is not used: with w/h = {:.6} the case is {case}",
             Number(value),
             Number(ratio)
         )

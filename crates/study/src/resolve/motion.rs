@@ -6,7 +6,7 @@ use super::input::Input;
 use crate::StudyError;
 use crate::scene::{EngineChoice, StepScene};
 
-/// Frames of a motion, at most: the file of a small sheet then stays below some gigabytes.
+/// The largest number of frames, which keeps the file of a small sheet below some gigabytes.
 const MOST_FRAMES: usize = 100_000;
 
 pub(crate) fn engine(input: &Input<'_>) -> EngineChoice {
@@ -35,7 +35,7 @@ pub(crate) fn steps(input: &Input<'_>) -> Result<Vec<ScheduleStep>, StudyError> 
             Some(&[one]) => index_range(input, index, key, [one, one]),
             Some(&[first, last]) => index_range(input, index, key, [first, last]),
             Some(_) => {
-                let message = "must be [first, last], both included, or [one]";
+                let message = "must be [first, last], both included, or [index]";
                 Err(input.error(&format!("motion.step.{index}.{key}"), message))
             }
         };

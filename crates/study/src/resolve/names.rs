@@ -1,4 +1,4 @@
-//! What a facet and its unit are called.
+//! The names of facets and their units.
 
 use foldmotion_pattern::{Facet, UnitSheet};
 use schemars::JsonSchema;
@@ -18,7 +18,7 @@ pub struct UnitName {
 }
 
 impl Subject {
-    /// A facet in words: its kind and unit where it has one.
+    /// The name of a facet: its kind, index and unit.
     pub(crate) fn facet_name(&self, facet: u32) -> String {
         let Some(units) = self.units() else {
             return format!("facet {facet}");
@@ -33,7 +33,7 @@ impl Subject {
         )
     }
 
-    /// The units of two facets; none for an imported pattern.
+    /// The units of two facets; `None` for an imported pattern.
     pub(crate) fn units_of(&self, facets: [u32; 2]) -> Option<[UnitName; 2]> {
         let sheet = &self.units()?.units.sheet;
         Some(facets.map(|facet| {

@@ -1,17 +1,17 @@
-//! Where the frames of a sheet of units lie.
+//! Places the frames of a sheet of units in space.
 //!
-//! The energy of a sheet does not know where it lies, so an engine leaves that open. The exact states are where a
-//! reader expects them: deployed on the profile as the scene gives it, planar in the plane z = 0, compact along the axes.
-//! Between two of them a frame is turned onto the frame before (the rigid motion that fits best), so that the sheet as a
-//! whole turns only as far as it has to; the turn that is then left at the end of the stage is spread over the stage, and
-//! the centre moves from that of one exact state to that of the next. The share of both is 3u² − 2u³ of the stage's time
-//! u, so that nothing jumps where the stages meet.
+//! The energy of a sheet does not depend on its position, so an engine leaves that open. The exact states are at fixed
+//! positions: deployed on the profile of the scene, planar in the plane z = 0, compact along the axes.
+//! Between two of them each frame is fitted rigidly to the frame before, so that the sheet as a whole turns as little as
+//! possible. The rotation that remains at the end of the stage is spread over the stage, and the centre moves from that of one
+//! exact state to that of the next. The share of both is 3u² − 2u³ at the stage's time u, so that the motion is smooth where
+//! the stages meet.
 
 use foldmotion_geometry::RigidMotion;
 use foldmotion_pattern::Frame;
 use glam::{DMat3, DQuat, DVec3};
 
-/// Cosines of half a turn's half angle below this say that it is half a turn, either way round.
+/// A rotation whose half angle has a smaller cosine counts as half a turn, whose direction is arbitrary.
 const HALF_TURN: f64 = 1e-6;
 
 /// The exact states at t = 0, 1, 2.
@@ -22,10 +22,9 @@ pub(crate) struct ExactStates<'a> {
     pub(crate) compact: &'a [DVec3],
 }
 
-/// Moves every frame rigidly: at t = 0, 1, 2 it best fits the exact state, between it moves smoothly.
+/// Moves each frame rigidly: at t = 0, 1, 2 it is fitted to the exact state; between them the motion is smooth.
 ///
-/// Of a stage that did not reach its end, the frames turn as the sheet folds and no further. Precondition: frames in order
-/// of time, from the deployed state onwards.
+/// In a stage that did not reach its end, no rotation is added. The frames must be in order of time, from the deployed state.
 pub(crate) fn place(frames: &mut [Frame], exact: &ExactStates<'_>) {
     let Some((first, rest)) = frames.split_first_mut() else {
         return;
@@ -39,7 +38,7 @@ pub(crate) fn place(frames: &mut [Frame], exact: &ExactStates<'_>) {
     place_stage(flat, fold, exact.compact);
 }
 
-/// Places the frames after `start`, which is placed, in the stage that leads to `exact`.
+/// Places the frames of the stage that leads to `exact`, after its placed first frame `start`.
 fn place_stage(start: &Frame, frames: &mut [Frame], exact: &[DVec3]) {
     let mut before = start;
     for frame in frames.iter_mut() {
@@ -56,11 +55,11 @@ fn place_stage(start: &Frame, frames: &mut [Frame], exact: &[DVec3]) {
     };
     // A best fit keeps the centre.
     let centre = centre(&start.positions);
-    let way = self::centre(exact) - centre;
+    let displacement = self::centre(exact) - centre;
     for frame in frames {
         let share = share(frame.time - start.time.floor());
         let rotation = DMat3::from_axis_angle(axis, share * angle);
-        let translation = centre + share * way - rotation * centre;
+        let translation = centre + share * displacement - rotation * centre;
         let motion = RigidMotion {
             rotation,
             translation,
@@ -69,27 +68,28 @@ fn place_stage(start: &Frame, frames: &mut [Frame], exact: &[DVec3]) {
     }
 }
 
-/// The share of a stage's motion done at its time `u`.
+/// The share of the remaining rigid motion that is applied at the time `u` of a stage.
 fn share(u: f64) -> f64 {
     u * u * (3.0 - 2.0 * u)
 }
 
-/// The shorter way round; of half a turn, whose sign is rounding, the one about the axis whose largest coordinate is positive.
+/// The axis and the angle up to half a turn. The sign of half a turn is rounding, so its axis is the one whose largest
+/// coordinate is positive.
 fn axis_and_angle(rotation: DMat3) -> (DVec3, f64) {
     let q = DQuat::from_mat3(&rotation);
     let largest = |v: DVec3| v.to_array().into_iter().fold(0.0, furthest);
-    let is_other_way = if q.w.abs() < HALF_TURN {
+    let is_reversed = if q.w.abs() < HALF_TURN {
         largest(q.xyz()) < 0.0
     } else {
         q.w < 0.0
     };
-    let q = if is_other_way { -q } else { q };
+    let q = if is_reversed { -q } else { q };
     let sine = q.xyz().length();
     let axis = q.xyz().try_normalize().unwrap_or(DVec3::Z);
     (axis, 2.0 * sine.atan2(q.w))
 }
 
-/// Of two numbers the one further from 0; the first where they are as far.
+/// The number with the larger absolute value; the first of two equal ones.
 fn furthest(a: f64, b: f64) -> f64 {
     if b.abs() > a.abs() { b } else { a }
 }
@@ -98,7 +98,7 @@ fn centre(positions: &[DVec3]) -> DVec3 {
     positions.iter().sum::<DVec3>() / positions.len().max(1) as f64
 }
 
-/// Moves a frame.
+/// Moves a frame rigidly.
 pub(crate) fn apply(motion: &RigidMotion, frame: &mut Frame) {
     for position in &mut frame.positions {
         *position = motion.apply(*position);
@@ -112,14 +112,14 @@ mod tests {
     use foldmotion_solver::Budget;
 
     use super::*;
-    use crate::compute::engine::Computed;
+    use crate::compute::engine::EngineRun;
     use crate::{SceneSource, Study};
 
     /// Frames of the test motions.
     const FRAMES: usize = 120;
 
     /// The motion of a shelter without contact as the engine leaves it: facets with one diagonal let it turn.
-    fn folded(sheet: &str) -> (Study, Computed) {
+    fn folded(sheet: &str) -> (Study, EngineRun) {
         let scene = format!(
             "[profile]\nmodel = \"shelter\"\n[sheet]\n{sheet}\n[material]\nfacet_model = \"one-diagonal\"\n\
              [motion]\ncontact = false\nframes = {FRAMES}\n"
@@ -147,7 +147,7 @@ mod tests {
     }
 
     #[test]
-    fn the_deployed_the_planar_and_the_compact_state_lie_exactly_where_they_should() {
+    fn the_deployed_planar_and_compact_states_are_placed_exactly() {
         for sheet in SHEETS {
             let (study, computed) = folded(sheet);
             let units = study.subject.units().unwrap();
@@ -179,15 +179,15 @@ mod tests {
         }
     }
 
-    /// A bar of 4 × 2 × 1, turned by the engine as it likes.
+    /// A bar of 4 × 2 × 1 that tumbles.
     fn tumbling(times: impl Iterator<Item = f64>) -> Vec<Frame> {
         let frame = |time: f64| {
             let turn =
                 DMat3::from_euler(glam::EulerRot::XYZ, 40.0 * time, -7.0 * time, 90.0 * time);
-            let place = |p: DVec3| turn * p + DVec3::new(time.sin(), 3.0 * time, -time);
+            let moved = |p: DVec3| turn * p + DVec3::new(time.sin(), 3.0 * time, -time);
             Frame {
                 time,
-                positions: BAR.map(place).to_vec(),
+                positions: BAR.map(moved).to_vec(),
             }
         };
         times.map(frame).collect()
@@ -229,7 +229,7 @@ mod tests {
     }
 
     #[test]
-    fn a_stage_that_did_not_reach_its_end_is_not_turned_towards_it() {
+    fn a_stage_that_did_not_reach_its_end_is_not_rotated() {
         let far = BAR.map(|p| DMat3::from_rotation_z(2.0) * p);
         let exact = ExactStates {
             deployed: &BAR,

@@ -11,10 +11,10 @@ use super::input::Input;
 use crate::StudyError;
 use crate::scene::{Closed, ProfileScene, UnequalChoice};
 
-/// Rows of a sheet differ by at most this, over their mean height.
+/// Rows count as equal if they differ by at most this part of their mean height.
 pub(crate) const EQUAL_ROWS: f64 = 1e-9;
 
-/// Γ with its segments.
+/// The curve Γ with its segments.
 pub(crate) struct DividedProfile {
     pub(crate) profile: Profile,
     pub(crate) division: Division,
@@ -22,14 +22,14 @@ pub(crate) struct DividedProfile {
     pub(crate) fit: Fit,
 }
 
-/// Γ and where it comes from.
+/// The curve Γ with its origin.
 pub(crate) struct Curve {
     pub(crate) model: Option<&'static ProfileModel>,
     pub(crate) profile: Profile,
     pub(crate) source: String,
 }
 
-/// The curve, from the one key of `[profile]` that gives it.
+/// The curve of `[profile]`.
 pub(crate) fn curve(input: &Input<'_>) -> Result<Curve, StudyError> {
     let scene = &input.scene.profile;
     check_shape_keys(input, scene)?;
@@ -72,13 +72,13 @@ pub(crate) fn curve(input: &Input<'_>) -> Result<Curve, StudyError> {
             own(profile, "profile.file", &format!("points of {file}"))
         }
         _ => {
-            let message = "no profile: give profile.model (see `foldmotion models`), profile.control_points, profile.points or profile.file";
+            let message = "is missing: set profile.model (see `foldmotion models`), profile.control_points, profile.points or profile.file";
             Err(input.error("profile", message))
         }
     }
 }
 
-/// One key gives the curve, and keys that belong to another are refused.
+/// Refuses a second key that gives the curve, and keys that do not apply to the first.
 fn check_shape_keys(input: &Input<'_>, scene: &ProfileScene) -> Result<(), StudyError> {
     let shapes = [
         ("profile.model", scene.model.is_some()),
@@ -89,15 +89,15 @@ fn check_shape_keys(input: &Input<'_>, scene: &ProfileScene) -> Result<(), Study
     let mut given = shapes.into_iter().filter(|&(_, given)| given);
     let (first, second) = (given.next(), given.next());
     if let (Some((first, _)), Some((key, _))) = (first, second) {
-        let message = format!("{first} gives the curve already; leave one of the two out");
+        let message = format!("{first} already gives the curve; omit one of the two");
         return Err(input.error(key, message));
     }
     if scene.knots.is_some() && scene.control_points.is_none() {
-        let message = "knots belong to profile.control_points; leave them out";
+        let message = "applies only to profile.control_points; omit it";
         return Err(input.error("profile.knots", message));
     }
     if scene.closed.is_some() && scene.model.is_some() {
-        let message = "a built-in model brings its own curve; leave out this key or model";
+        let message = "does not apply to a built-in profile; omit this key or profile.model";
         return Err(input.error("profile.closed", message));
     }
     Ok(())
@@ -106,10 +106,7 @@ fn check_shape_keys(input: &Input<'_>, scene: &ProfileScene) -> Result<(), Study
 fn built_in(input: &Input<'_>, name: &str) -> Result<Curve, StudyError> {
     let Some(model) = find_model(name) else {
         let names: Vec<&str> = models().iter().map(|m| m.name).collect();
-        let message = format!(
-            "no built-in profile of this name; there is: {}",
-            names.join(", ")
-        );
+        let message = format!("is not a built-in profile; there are: {}", names.join(", "));
         return Err(input.error("profile.model", message));
     };
     Ok(Curve {
@@ -122,12 +119,12 @@ fn built_in(input: &Input<'_>, name: &str) -> Result<Curve, StudyError> {
 }
 
 fn outline(input: &Input<'_>, file: &str) -> Result<Outline, StudyError> {
-    let path = input.source.beside(file);
+    let path = input.source.resolve_path(file);
     Outline::read(&path)
         .map_err(|e| input.error("profile.file", format!("{}: {e}", path.display())))
 }
 
-/// The curve divided; for a sheet, whose rows are equal, into equal segments.
+/// Divides the curve into the segments of the rows.
 pub(crate) fn division(input: &Input<'_>, curve: &Curve) -> Result<DividedProfile, StudyError> {
     let method = input
         .scene
@@ -154,7 +151,7 @@ pub(crate) fn division(input: &Input<'_>, curve: &Curve) -> Result<DividedProfil
     Ok(divided)
 }
 
-/// The curve divided by a tolerance, from which the rows follow.
+/// Divides the curve by a tolerance, which determines the number of rows.
 fn simplified(
     input: &Input<'_>,
     curve: &Curve,
@@ -162,7 +159,7 @@ fn simplified(
     length: Option<f64>,
 ) -> Result<(Profile, Division), StudyError> {
     if input.scene.sheet.rows.is_some() {
-        let message = "the rows follow from division.tolerance; leave one of the two out";
+        let message = "the rows follow from division.tolerance; omit one of the two";
         return Err(input.error("sheet.rows", message));
     }
     match length {
@@ -174,7 +171,7 @@ fn simplified(
     .map_err(|e| geometry_error(input, &e))
 }
 
-/// The curve divided into the rows asked for.
+/// Divides the curve into a given number of rows.
 fn divided(
     input: &Input<'_>,
     curve: &Curve,
@@ -193,7 +190,7 @@ fn divided(
     .map_err(|e| geometry_error(input, &e))
 }
 
-/// Rows of unequal height are no sheet of equal units; `sheet.unequal` says what becomes of them.
+/// Refuses rows of unequal height unless `sheet.unequal` allows them.
 fn check_equal(input: &Input<'_>, divided: &DividedProfile) -> Result<(), StudyError> {
     let division = &divided.division;
     let is_taken = matches!(
@@ -206,13 +203,13 @@ fn check_equal(input: &Input<'_>, divided: &DividedProfile) -> Result<(), StudyE
     let segments = division.points.len() - 1;
     if divided.method != DivisionMethod::EqualLength {
         let message = format!(
-            "divides the profile into {segments} segments that differ by up to {:.3} of their mean (the curve is at most {:.6} and on average {:.6} away from them), but the units of a sheet are equal; use \"equal-length\", or set sheet.unequal = \"common-flap\"",
+            "divides the profile into {segments} segments that differ by up to {:.3} of their mean (the curve is at most {:.6} and on average {:.6} away from them), but the rows of this sheet must be equal; use \"equal-length\", or set sheet.unequal = \"common-flap\"",
             division.max_residual, divided.fit.largest, divided.fit.mean
         );
         return Err(input.error("division.method", message));
     }
     Err(StudyError::Undivided {
-        place: input.source.place_of("profile"),
+        location: input.source.location_of("profile"),
         segments,
         residual: division.max_residual,
         iterations: division.iterations,
@@ -235,7 +232,7 @@ fn division_options(
     };
     if let Some(tolerance) = scene.tolerance {
         if !(0.0..1.0).contains(&tolerance) {
-            return Err(input.error("division.tolerance", "must lie between 0 and 1"));
+            return Err(input.error("division.tolerance", "must be between 0 and 1"));
         }
         options.tolerance = tolerance;
     }
@@ -244,13 +241,13 @@ fn division_options(
             .ok()
             .filter(|&n| (1..=1_000_000).contains(&n))
             .ok_or_else(|| {
-                input.error("division.max_iterations", "must lie between 1 and 1000000")
+                input.error("division.max_iterations", "must be between 1 and 1000000")
             })?;
     }
     Ok(options)
 }
 
-/// An error of making the curve, which is about `key` unless it names another.
+/// An error in the curve, which is about `key` unless it is about a more specific one.
 fn curve_error(input: &Input<'_>, error: &GeometryError, key: &str) -> StudyError {
     let key = match error {
         GeometryError::NotClosed { .. } | GeometryError::EndsApart { .. } => "profile.closed",

@@ -1,4 +1,4 @@
-//! What is recorded of a motion: `[record]`, resolved, with errors that name the key.
+//! `[record]`, resolved.
 
 use std::ops::RangeInclusive;
 
@@ -12,21 +12,21 @@ use crate::scene::{
 };
 use crate::{Scene, StudyError};
 
-/// The states of figures and models of a whole motion.
+/// The default motion times of figures and models.
 pub(crate) const STATES: [f64; 5] = [0.0, 0.5, 1.0, 1.5, 2.0];
 
 /// `[record]`, resolved.
 #[derive(Debug, Clone)]
 pub struct Recording {
-    /// What is written, in order, each once.
+    /// The outputs in order, each once.
     pub outputs: Vec<OutputChoice>,
-    /// How films look.
+    /// The options of films.
     pub film: FilmOptions,
-    /// The motion times of figures and models, rising; the standard ones where the scene gives none.
+    /// The motion times of figures and models in rising order; `None` for the default ones.
     pub at: Option<Vec<f64>>,
-    /// What colours show.
+    /// The quantity that colours show.
     pub colour: ColourChoice,
-    /// Thickness of solids in the motion's unit; none for surfaces.
+    /// The thickness of solids in the motion's unit; `None` for surfaces.
     pub thickness: Option<f64>,
     /// Whether figures show the profile.
     pub has_profile: bool,
@@ -34,9 +34,9 @@ pub struct Recording {
     pub has_box: bool,
     /// Whether figures give the sizes of the sheet of units.
     pub has_dimensions: bool,
-    /// The size of letters in figures, millimetres.
+    /// The size of letters in figures, in millimetres.
     pub letters: f64,
-    /// The scene with its title, which recorded files carry.
+    /// The scene with its title, for the source information of recorded files.
     pub(crate) scene: Scene,
 }
 
@@ -46,24 +46,24 @@ impl Recording {
     }
 }
 
-/// The states of a figure, at most.
+/// The largest number of states in a figure.
 const MOST_STATES: usize = 100;
 
-/// The colour of creases over colours that stand for values: a grey between the lightest and the darkest of them.
+/// The colour of creases over colours that show values: a grey between the lightest and the darkest of them.
 const NEUTRAL: [u8; 3] = [176, 176, 180];
 
-/// The narrowest picture, and the widest and farthest one, in the motion's unit: pixels stay finite.
+/// The limits of the width of a picture and of the coordinates of its centre, in the motion's unit.
 const NARROWEST: f64 = 1e-9;
 const FARTHEST: f64 = 1e9;
 
-/// The size of letters in figures where the scene gives none, that of captions in print, and what it may be, millimetres.
+/// The default size of letters in figures, that of captions in print, and its limits, in millimetres.
 const LETTERS: f64 = 2.4;
 const SIZES: RangeInclusive<f64> = 0.5..=20.0;
 
-/// How far a turntable goes round, degrees.
+/// The turn of a turntable, in degrees.
 const TURN: f64 = 360.0;
 
-/// Colours and lines of pictures and figures: over colours that stand for values all creases are grey.
+/// The colours and lines of pictures and figures. Over colours that show values, all creases are grey.
 fn style(colour: ColourChoice) -> Style {
     match colour {
         ColourChoice::Paper => Style::default(),
@@ -77,7 +77,7 @@ fn style(colour: ColourChoice) -> Style {
     }
 }
 
-/// What is written of the motion, and how.
+/// Resolves the recording of a scene.
 pub(crate) fn recording(input: &Input<'_>, title: String) -> Result<Recording, StudyError> {
     let record = &input.scene.record;
     let mut scene = input.scene.clone();
@@ -108,7 +108,7 @@ fn outputs(input: &Input<'_>, film: &FilmOptions) -> Result<Vec<OutputChoice>, S
     outputs.dedup();
     if outputs.contains(&OutputChoice::Mp4) {
         if cfg!(not(feature = "mp4")) {
-            let message = "mp4: this program was built without MP4; build it with --features mp4, which needs a C++ \
+            let message = "mp4: this program was built without MP4; build it with --features mp4, which requires a C++ \
                            compiler, or use gif";
             return Err(input.error("record.outputs", message));
         }
@@ -165,7 +165,7 @@ fn size(input: &Input<'_>, standard: [u32; 2]) -> Result<[u32; 2], StudyError> {
     if let (Some(width), Some(height)) = (side(width), side(height)) {
         return Ok([width, height]);
     }
-    let message = "both sides must lie between 1 and 65535 pixels";
+    let message = "both sides must be between 1 and 65535 pixels";
     Err(input.error("record.size", message))
 }
 
@@ -179,7 +179,8 @@ fn camera(input: &Input<'_>) -> Result<(View, f64), StudyError> {
         Some(CameraScene::Own(own)) => {
             let (azimuth, elevation) = (own.azimuth, own.elevation);
             if !(azimuth.abs() <= 360.0 && elevation.abs() <= 90.0) {
-                let message = "azimuth must lie in -360 to 360 degrees, elevation in -90 to 90";
+                let message =
+                    "azimuth must be between -360 and 360 degrees, elevation between -90 and 90";
                 return Err(input.error("record.camera", message));
             }
             let view = View::Around { azimuth, elevation };
@@ -188,7 +189,7 @@ fn camera(input: &Input<'_>) -> Result<(View, f64), StudyError> {
     })
 }
 
-/// The point in the middle of the picture and the length across it.
+/// The point in the middle of pictures and the length across them.
 fn aim(input: &Input<'_>) -> Result<(Option<DVec3>, Option<f64>), StudyError> {
     let Some(CameraScene::Own(own)) = input.scene.record.camera else {
         return Ok((None, None));
@@ -203,7 +204,7 @@ fn aim(input: &Input<'_>) -> Result<(Option<DVec3>, Option<f64>), StudyError> {
         .is_none_or(|w| (NARROWEST..=FARTHEST).contains(&w))
     {
         let message = format!(
-            "width must lie between {} and {}",
+            "width must be between {} and {}",
             Number(NARROWEST),
             Number(FARTHEST)
         );
@@ -219,14 +220,14 @@ fn letters(input: &Input<'_>) -> Result<f64, StudyError> {
         return Ok(letters);
     }
     let message = format!(
-        "{letters} must lie between {} and {} millimetres; captions in print have 2 to 3",
+        "must be between {} and {} millimetres; captions in print have 2 to 3",
         SIZES.start(),
         SIZES.end()
     );
     Err(input.error("record.letters", message))
 }
 
-/// The motion times asked for, rising.
+/// The motion times of the states; `None` for the default ones.
 fn states(input: &Input<'_>) -> Result<Option<Vec<f64>>, StudyError> {
     let Some(at) = &input.scene.record.at else {
         return Ok(None);
@@ -238,12 +239,12 @@ fn states(input: &Input<'_>) -> Result<Option<Vec<f64>>, StudyError> {
         return Ok(Some(at.clone()));
     }
     let message = format!(
-        "must be 1 to {MOST_STATES} motion times that rise, from 0 (deployed) over 1 (planar) to 2 (compact)"
+        "must be 1 to {MOST_STATES} motion times in rising order, from 0 (deployed) through 1 (planar) to 2 (compact)"
     );
     Err(input.error("record.at", message))
 }
 
-/// The thickness of solids, none for surfaces.
+/// The thickness of solids; `None` for surfaces.
 fn thickness(input: &Input<'_>) -> Result<Option<f64>, StudyError> {
     let key = "record.thickened";
     match (input.scene.record.thickened, input.scene.material.thickness) {
@@ -253,7 +254,7 @@ fn thickness(input: &Input<'_>) -> Result<Option<f64>, StudyError> {
             input.length("material.thickness", thickness).map(Some)
         }
         (Some(ThickenedScene::ByMaterial(true)), None) => {
-            let message = "there is no material.thickness to take; give a thickness here";
+            let message = "material.thickness is not set; set it, or set a thickness here";
             Err(input.error(key, message))
         }
     }

@@ -1,5 +1,4 @@
-//! From the segments of the divided profile to the rows of the sheet: equal or of their own heights, folded unit by unit
-//! or like a map.
+//! From the segments of the divided profile to the rows of the sheet.
 
 use foldmotion_geometry::Division;
 use foldmotion_pattern::{
@@ -15,11 +14,11 @@ use super::unit::{Purpose, pattern_error, require_moderate, unit, unit_width};
 use crate::scene::{CaseChoice, UnequalChoice};
 use crate::{SceneSource, StudyError};
 
-/// λ of a common flap where the scene leaves it open: below 1, so that the lowest rows are split like the others.
+/// The default λ of a common flap, below 1 so that the lowest rows are split like the others.
 const COMMON_LAMBDA: f64 = 0.9;
 
-/// In a facet narrower than this share of its length the bars of a middle node all but line up: soft ones do not hold it
-/// between the creases at the long sides, and no equilibrium is found.
+/// In a facet narrower than this part of its length, the bars of a middle node are nearly collinear: soft bars do not hold it
+/// between the long sides, and no equilibrium is found.
 const NARROW: f64 = 0.1 * (1.0 - 1e-9);
 
 /// The sheet on the segments of `division`.
@@ -47,7 +46,7 @@ pub(crate) fn units(
 }
 
 fn facet_model(input: &Input<'_>, sheet: &UnitSheet) -> FacetModel {
-    // Whole units of a map lie on each other: a middle node in each of their facets makes the stack jam.
+    // The units of a map are stacked, and middle nodes in their facets make the stack jam.
     let is_split = folding(input) == Folding::Map || sheet.narrowest_facet() < NARROW;
     let default = if is_split {
         FacetModel::OneDiagonal
@@ -75,8 +74,7 @@ fn row_units(
         return Ok(vec![unit; division.points.len() - 1]);
     }
     if !matches!(scene.case, None | Some(CaseChoice::Auto)) {
-        let message =
-            "rows of unequal height take a case each; leave it out, or divide into equal lengths";
+        let message = "rows of unequal height each have their own case; omit it, or divide into equal lengths";
         return Err(input.error("sheet.case", message));
     }
     let width = unit_width(input, built_in, height, columns)?;
@@ -95,7 +93,7 @@ fn row_units(
     rows.map_err(|e| pattern_error(input, &e))
 }
 
-/// λ and d are of case SII and of a common flap.
+/// Refuses λ and d, which apply only to case SII and to a common flap.
 fn refuse_flap_keys(input: &Input<'_>) -> Result<(), StudyError> {
     let scene = &input.scene.sheet;
     let given = [
@@ -104,15 +102,14 @@ fn refuse_flap_keys(input: &Input<'_>) -> Result<(), StudyError> {
     ];
     match given.into_iter().find(|&(_, given)| given) {
         Some((key, _)) => {
-            let message =
-                "rows in their own cases have none; leave it out, or set unequal = \"common-flap\"";
+            let message = "does not apply to rows in their own cases; omit it, or set unequal = \"common-flap\"";
             Err(input.error(key, message))
         }
         None => Ok(()),
     }
 }
 
-/// The steps of the scene, or of a map: first its columns fold, then the stack of them row by row.
+/// The steps of the scene. Default for a map: first the columns fold, then the rows.
 pub(crate) fn steps_of(
     input: &Input<'_>,
     units: &UnitSheet,
@@ -139,17 +136,14 @@ pub(crate) fn steps_of(
     Ok(steps.into_iter().chain(map).collect())
 }
 
-/// A drawing (SVG) of one column of the scene's sheet, each row with the creases of its own case, and marks where those
-/// of neighbouring rows do not meet (figure 10); none where the rows are equal.
+/// A drawing (SVG) of one column of the sheet in which each row has the creases of its own case, with marks where those of
+/// neighbouring rows do not meet (figure 10 of the paper); `None` if the rows are equal.
 ///
 /// # Errors
-/// As [`Study::resolve`](crate::Study::resolve), but for rows that clash.
-pub fn draw_clashes(source: &SceneSource) -> Result<Option<String>, StudyError> {
+/// Those of [`Study::resolve`](crate::Study::resolve), except for rows that clash.
+pub fn clash_drawing(source: &SceneSource) -> Result<Option<String>, StudyError> {
     let scene = source.scene()?;
-    let input = Input {
-        source,
-        scene: &scene,
-    };
+    let input = Input::new(source, &scene);
     let curve = curve(&input)?;
     let division = division(&input, &curve)?.division;
     if division.max_residual <= EQUAL_ROWS {

@@ -1,4 +1,4 @@
-//! What is folded: a sheet of units on a profile, or the crease pattern of a file.
+//! The sheet that is folded: units on a profile, or the crease pattern of a file.
 
 use std::borrow::Cow;
 
@@ -13,7 +13,7 @@ use super::imported::ImportedStudy;
 use super::placement::{ExactStates, apply, place};
 use super::units::UnitStudy;
 
-/// What is folded.
+/// The sheet that is folded.
 #[derive(Debug, Clone)]
 pub enum Subject {
     /// A sheet of units, from its deployed state through the flat one into the compact one.
@@ -31,7 +31,7 @@ impl Subject {
         }
     }
 
-    /// The sheet of units, where it is one.
+    /// The sheet of units; `None` for an imported pattern.
     pub fn units(&self) -> Option<&UnitStudy> {
         match self {
             Self::Units(study) => Some(study),
@@ -39,7 +39,7 @@ impl Subject {
         }
     }
 
-    /// The imported pattern, where it is one.
+    /// The imported pattern; `None` for a sheet of units.
     pub fn imported(&self) -> Option<&ImportedStudy> {
         match self {
             Self::Units(_) => None,
@@ -47,7 +47,7 @@ impl Subject {
         }
     }
 
-    /// The stages of its motion.
+    /// The stages of the motion.
     pub fn stages(&self) -> &'static [Stage] {
         match self {
             Self::Units(_) => &Stage::ALL,
@@ -55,12 +55,12 @@ impl Subject {
         }
     }
 
-    /// The motion time at which it starts.
+    /// The motion time at which the motion starts.
     pub fn start_time(&self) -> f64 {
         self.stages()[0].start_time()
     }
 
-    /// The state in which it starts.
+    /// The positions at which the motion starts.
     pub fn start(&self) -> Cow<'_, [DVec3]> {
         match self {
             Self::Units(study) => Cow::Borrowed(&study.deployed),
@@ -68,7 +68,7 @@ impl Subject {
         }
     }
 
-    /// The fold angle every edge ends with, radians.
+    /// The target fold angle of each edge at the end of the motion, in radians.
     pub fn end_angles(&self) -> &[f64] {
         match self {
             Self::Units(study) => study.units.compact_angles(),
@@ -76,7 +76,7 @@ impl Subject {
         }
     }
 
-    /// Motion times that are recorded whatever the frames.
+    /// Motion times that are recorded in addition to the frames of the scene.
     pub(crate) fn times_of_interest(&self) -> Vec<f64> {
         match self {
             Self::Units(_) => Vec::new(),
@@ -84,7 +84,7 @@ impl Subject {
         }
     }
 
-    /// The exact order of the layers in the compact state, where it is known.
+    /// The exact layer order of the compact state; `None` for an imported pattern.
     pub fn compact_order(&self) -> Option<&LayerOrder> {
         Some(&self.units()?.compact_order)
     }
@@ -97,28 +97,28 @@ impl Subject {
         }
     }
 
-    /// The closed form of the compact box, where there is one.
+    /// The closed form of the compact box; `None` if there is none.
     pub fn closed_form(&self) -> Option<CompactBox> {
         self.units()?.closed_form
     }
 
-    /// Keys of the file it comes from that its motion file keeps.
-    pub(crate) fn kept_keys(&self) -> Map<String, Value> {
+    /// Unknown keys of the imported file, which the motion file preserves.
+    pub(crate) fn preserved_keys(&self) -> Map<String, Value> {
         match self {
             Self::Units(_) => Map::new(),
             Self::Imported(study) => study.imported.keys_of_triangles(),
         }
     }
 
-    /// Its title, where it has one.
+    /// The title of the imported pattern, if it has one.
     pub(crate) fn title(&self) -> Option<&String> {
         self.imported()?.imported.title.as_ref()
     }
 
-    /// Moves the frames of a motion to where they are shown.
+    /// Places the frames of a motion as they are displayed and written.
     ///
-    /// Units: at t = 0, 1, 2 as the exact states lie, between them smoothly ([`place`]). A pattern with a
-    /// fixed facet: each frame by the rigid motion that best fits this facet to its place in the pattern. Others stay.
+    /// Units are placed by their exact states ([`place`]). Each frame of a pattern with a fixed facet is moved rigidly so that
+    /// this facet best fits its position in the pattern. Other patterns are not moved.
     pub(crate) fn place(&self, frames: &mut [Frame]) {
         match self {
             Self::Units(study) => {
@@ -133,19 +133,19 @@ impl Subject {
                 let Some(facet) = study.fixed else { return };
                 let sheet = &study.imported.sheet;
                 let corners = &sheet.facets[facet as usize].polygon;
-                let place = |v: &u32| sheet.vertices[*v as usize].extend(0.0);
-                let places: Vec<DVec3> = corners.iter().map(place).collect();
+                let position = |v: &u32| sheet.vertices[*v as usize].extend(0.0);
+                let fixed: Vec<DVec3> = corners.iter().map(position).collect();
                 for frame in frames {
                     let now = corners.iter().map(|&v| frame.positions[v as usize]);
                     let now: Vec<DVec3> = now.collect();
-                    apply(&RigidMotion::best_fit(&now, &places), frame);
+                    apply(&RigidMotion::best_fit(&now, &fixed), frame);
                 }
             }
         }
     }
 
-    /// Moves a state of a run under way to where it is shown: a pattern with its fixed facet to its place. Where units
-    /// will be shown is known at the end of the run only.
+    /// Places a state of a run in progress for display: a pattern by its fixed facet. Units are not moved, since their
+    /// placement depends on the end of the run.
     pub fn show(&self, positions: Vec<DVec3>) -> Vec<DVec3> {
         let mut frame = Frame {
             time: 0.0,
@@ -157,7 +157,7 @@ impl Subject {
         frame.positions
     }
 
-    /// The box of a state: of units in the frame of the exact compact state, of a pattern along its principal axes.
+    /// The box of a state: for units after the best rigid fit to the exact compact state, for a pattern along its principal axes.
     pub(crate) fn measured_box(&self, positions: &[DVec3]) -> FittedBox {
         match self {
             Self::Units(study) => fitted_box(positions, &study.units.compact()),
@@ -165,9 +165,9 @@ impl Subject {
         }
     }
 
-    /// The width of its thinnest part, and how many layers may have to fit beside it.
+    /// The width of the thinnest part of the sheet, and the number of layers that have to fit next to it.
     pub(crate) fn thinnest_part(&self) -> (f64, usize) {
-        /// Layers in a column of a compact sheet; a pattern is taken to have as many.
+        /// The number of layers in a column of a compact sheet, also assumed for a pattern.
         const LAYERS: usize = 8;
         match self {
             Self::Units(study) => {

@@ -1,4 +1,4 @@
-//! How stage 1 moves the row creases.
+//! The motion of the row creases in stage `unfold`.
 
 use foldmotion_geometry::unfolding::{Chain, SweepVerdict, TurnPath, certify, straighten};
 use foldmotion_geometry::{Division, GeometryError, Profile};
@@ -10,40 +10,40 @@ use crate::scene::UnfoldChoice;
 /// The motion of the row creases from the deployed shape to the flat sheet.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Unfolding {
-    /// What the scene asks for.
-    pub asked: UnfoldChoice,
-    /// Whether the divided profile was proved not to cross itself on the way.
+    /// The choice of the scene.
+    pub requested: UnfoldChoice,
+    /// Whether the divided profile was proved not to cross itself.
     pub certified: bool,
-    /// Where uniform scaling first makes the divided profile cross itself, as a share of stage 1; none where it does not,
-    /// or was not looked at.
+    /// Where uniform scaling first makes the divided profile cross itself, as a part of the stage; `None` if it does not, or if
+    /// that was not examined.
     pub crosses_at: Option<f64>,
-    /// The path by energy; none where all turns are scaled together.
+    /// The path by energy; `None` if all turns are scaled together.
     pub path: Option<TurnPath>,
 }
 
 impl Unfolding {
     /// The unfolding of a divided profile.
     ///
-    /// `auto` is uniform where that is proved clear, else by energy where that succeeds. Profiles of more segments than
-    /// [`Chain`] takes are unfolded uniformly, without a proof. `in_turn`: whether rows start at times of their own, of
-    /// which nothing is proved; `auto` is then uniform.
+    /// `auto` is uniform if that is proved not to cross, and otherwise by energy if that succeeds. Profiles with more segments
+    /// than [`Chain`] accepts are unfolded uniformly, without a proof. If `in_turn`, rows start at different times, about which
+    /// nothing is proved; `auto` is then uniform.
     ///
     /// # Errors
-    /// Where energy was asked for: those of [`Chain::new`] and [`straighten`].
+    /// Those of [`Chain::new`] and [`straighten`] if energy was requested.
     pub fn new(
-        asked: UnfoldChoice,
+        requested: UnfoldChoice,
         profile: &Profile,
         division: &Division,
         in_turn: bool,
     ) -> Result<Self, GeometryError> {
         let mut unfolding = Self {
-            asked,
+            requested,
             certified: false,
             crosses_at: None,
             path: None,
         };
         let chain = Chain::new(&division.points, profile.is_closed());
-        if asked == UnfoldChoice::Energy {
+        if requested == UnfoldChoice::Energy {
             unfolding.path = Some(straighten(&chain?)?);
             unfolding.certified = !in_turn;
             return Ok(unfolding);
@@ -57,14 +57,14 @@ impl Unfolding {
             unfolding.crosses_at = Some(fraction);
         }
         unfolding.certified = !in_turn && verdict == SweepVerdict::Clear;
-        if asked == UnfoldChoice::Auto && !unfolding.certified && !in_turn {
+        if requested == UnfoldChoice::Auto && !unfolding.certified && !in_turn {
             unfolding.path = straighten(&chain).ok();
             unfolding.certified = unfolding.path.is_some();
         }
         Ok(unfolding)
     }
 
-    /// Uniform or energy, whichever was taken.
+    /// The method that was taken: uniform or energy.
     pub fn method(&self) -> UnfoldChoice {
         if self.path.is_some() {
             UnfoldChoice::Energy
@@ -73,10 +73,10 @@ impl Unfolding {
         }
     }
 
-    /// The path as fold angles of the row creases of a sheet whose flaps stand on the side `facing`.
+    /// The path as fold angles of the row creases, for flaps on the side `facing`; `None` if uniform.
     pub(crate) fn fold_angles(&self, facing: Facing) -> Option<UnfoldPath> {
         let path = self.path.as_ref()?;
-        // The front lies on the right of the profile where the flaps stand on its left.
+        // If the flaps are on the left of the profile, the front is on its right.
         let sign = match facing {
             Facing::Left => -1.0,
             Facing::Right => 1.0,

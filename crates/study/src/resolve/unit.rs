@@ -1,4 +1,4 @@
-//! The unit of a sheet: its case and sizes, and how many of them are folded.
+//! The unit of a sheet: its case and its sizes, and limits of the number of units.
 
 use foldmotion_pattern::{Case, Folding, PatternError, ProfileModel, Unit, UnitSheet};
 
@@ -6,30 +6,30 @@ use super::input::Input;
 use crate::StudyError;
 use crate::scene::CaseChoice;
 
-/// Units of a sheet that is folded, at most: some 10 GB.
+/// The largest number of units of a sheet that is folded, which needs some 10 GB.
 const MOST_FOLDED: usize = 1_000_000;
-/// Entries of the order of the compact state, at most: about 1 GB.
+/// The largest number of entries of the compact layer order, which needs about 1 GB.
 pub(crate) const MOST_ORDERED: usize = 50_000_000;
 
-/// What a sheet is laid out for.
+/// The purpose of a sheet, which determines its largest size.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Purpose {
-    /// To be seen, or cut.
+    /// To be displayed or cut.
     Show,
-    /// To be folded and checked too.
+    /// To be folded and checked as well.
     Fold,
 }
 
 pub(crate) fn too_many_layers(input: &Input<'_>) -> StudyError {
     let message = format!(
-        "more than {} pairs of facets would coincide in the compact state, too many to check; fewer columns, or a \
-         case whose columns lie beside each other (S, SII)",
+        "more than {} pairs of facets would coincide in the compact state, too many to check; use fewer columns, or a \
+         case whose columns lie side by side (S, SII)",
         MOST_ORDERED / 2
     );
     input.error("sheet.columns", message)
 }
 
-/// Refuses a sheet that memory could not hold or whose layers nothing could check, before it is laid out.
+/// Refuses a sheet that is too large for the memory, or that has too many layers to check, before it is laid out.
 pub(crate) fn require_moderate(
     input: &Input<'_>,
     units: &[Unit],
@@ -39,7 +39,7 @@ pub(crate) fn require_moderate(
     let rows = units.len();
     if rows.saturating_mul(columns) > MOST_FOLDED {
         let message = format!(
-            "{rows} x {columns} units are more than {MOST_FOLDED}, the most that are folded; fewer columns or rows"
+            "{rows} x {columns} units are more than {MOST_FOLDED}, the largest number that can be folded; use fewer columns or rows"
         );
         return Err(input.error("sheet.columns", message));
     }
@@ -55,18 +55,13 @@ pub(crate) fn require_moderate(
     }
 }
 
-/// The case whose columns a built-in profile brings.
-pub(crate) fn case_asked_for(input: &Input<'_>) -> Case {
-    match input.scene.sheet.case {
-        Some(CaseChoice::T) => Case::T,
-        Some(CaseChoice::S) => Case::S,
-        Some(CaseChoice::SII) => Case::SII,
-        Some(CaseChoice::Plain) => Case::Plain,
-        None | Some(CaseChoice::E | CaseChoice::Auto) => Case::E,
-    }
+/// The case of the scene, for the default number of columns; E if w/h decides.
+pub(crate) fn requested_case(input: &Input<'_>) -> Case {
+    let choice = input.scene.sheet.case.and_then(CaseChoice::case);
+    choice.unwrap_or(Case::E)
 }
 
-/// w and the case, from W, Nc and h. A built-in profile is as wide in every case as in case E.
+/// The unit, from W, Nc and h.
 pub(crate) fn unit(
     input: &Input<'_>,
     built_in: Option<&ProfileModel>,
@@ -74,16 +69,16 @@ pub(crate) fn unit(
     columns: usize,
 ) -> Result<Unit, StudyError> {
     let scene = &input.scene.sheet;
-    let choice = scene.case.unwrap_or(CaseChoice::Auto);
+    let choice = scene.case.and_then(CaseChoice::case);
     let width = unit_width(input, built_in, height, columns)?;
-    let case = choice.resolve(width, height, scene.lambda);
-    // Where the case is open, these belong to the one that λ asks for.
-    let is_unused = choice == CaseChoice::Auto && matches!(case, Case::E | Case::T);
+    let case = choice.unwrap_or_else(|| Case::auto(width, height, scene.lambda));
+    // If w/h decides on E or T, λ and d are not used.
+    let is_unused = choice.is_none() && matches!(case, Case::E | Case::T);
     let [lambda, offset] = [scene.lambda, scene.offset].map(|value| value.filter(|_| !is_unused));
     Unit::new(case, width, height, lambda, offset).map_err(|e| pattern_error(input, &e))
 }
 
-/// w, from W and Nc, or from the (mean) height of the rows.
+/// The width w, from W and Nc or from the (mean) height of the rows. A built-in profile has the width W of case E in all cases.
 pub(crate) fn unit_width(
     input: &Input<'_>,
     built_in: Option<&ProfileModel>,
@@ -98,7 +93,8 @@ pub(crate) fn unit_width(
             Ok(model.columns.e as f64 * height / columns as f64)
         }
         (None, _) => {
-            let message = "is missing: only case E makes the width from the rows' height, W = Nc·h";
+            let message =
+                "is missing: only in case E it follows from the height of the rows, W = Nc·h";
             Err(input.error("sheet.width", message))
         }
     }

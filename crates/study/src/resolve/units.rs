@@ -2,7 +2,7 @@
 
 use std::time::Instant;
 
-use foldmotion_geometry::{Division, Fit, Profile};
+use foldmotion_geometry::{Division, Fit, Profile, RigidMotion};
 use foldmotion_pattern::{CompactBox, LayerOrder, PatternCheck, UnitSheet};
 use foldmotion_solver::{Schedule, ScheduleStep, Stage};
 use glam::DVec3;
@@ -12,36 +12,36 @@ use super::motion::schedule_error;
 use super::profile::{DividedProfile, curve, division};
 use super::rows::{steps_of, units};
 use super::unfolding::Unfolding;
-use super::unit::{MOST_ORDERED, Purpose, case_asked_for, pattern_error, too_many_layers};
+use super::unit::{MOST_ORDERED, Purpose, pattern_error, requested_case, too_many_layers};
 use crate::scene::DivisionMethod;
 use crate::{SceneSource, StudyError};
 
 /// A sheet of units on a divided profile.
 #[derive(Debug, Clone)]
 pub struct UnitStudy {
-    /// Γ.
+    /// The curve Γ that the sheet approximates.
     pub profile: Profile,
-    /// Where Γ comes from.
+    /// The origin of Γ: a built-in profile, or a key or file of the scene.
     pub profile_source: String,
-    /// Γ divided.
+    /// The division of Γ into segments.
     pub division: Division,
-    /// How.
+    /// The method of the division.
     pub division_method: DivisionMethod,
-    /// How far Γ is from its segments.
+    /// The distances of Γ from its segments.
     pub fit: Fit,
-    /// Seconds the division took.
+    /// The wall-clock seconds of the division.
     pub division_seconds: f64,
     /// The sheet of units.
     pub units: UnitSheet,
     /// The pattern check.
     pub pattern: PatternCheck,
-    /// The closed form of the compact box, where the case has one.
+    /// The closed form of the compact box; `None` if the case has none.
     pub closed_form: Option<CompactBox>,
     /// The exact order of the layers in the compact state.
     pub compact_order: LayerOrder,
-    /// The deployed state, at which the motion starts.
+    /// The positions of the deployed state, at which the motion starts.
     pub deployed: Vec<DVec3>,
-    /// How stage 1 moves the row creases.
+    /// The motion of the row creases in stage `unfold`.
     pub unfolding: Unfolding,
 }
 
@@ -49,18 +49,26 @@ impl UnitStudy {
     /// Resolves profile, division, sheet and unfolding of a scene.
     ///
     /// # Errors
-    /// Every unusable value, with file, line, key, value and remedy.
+    /// The first unusable value, with file, line, key, value and remedy.
     pub fn resolve(source: &SceneSource) -> Result<Self, StudyError> {
         let scene = source.scene()?;
-        let input = Input {
-            source,
-            scene: &scene,
-        };
+        let input = Input::new(source, &scene);
         Ok(unit_study(&input)?.0)
+    }
+
+    /// A state at motion time `time`, turned as figures show its stage: upright before the sheet is flat, then as the compact
+    /// state lies. `positions` has one position for each vertex of the sheet.
+    pub fn turned(&self, time: f64, positions: &[DVec3]) -> Vec<DVec3> {
+        let fit = match time {
+            t if t < 1.0 => RigidMotion::best_fit(positions, &self.deployed),
+            1.0 => RigidMotion::best_fit(positions, &self.units.sheet.planar()),
+            _ => RigidMotion::best_fit(positions, &self.units.compact()),
+        };
+        positions.iter().map(|&p| fit.apply(p)).collect()
     }
 }
 
-/// Γ divided and the sheet of units: what is folded, before anything says how.
+/// The divided profile and the sheet of units, without a motion.
 pub(crate) struct ResolvedSheet {
     pub(crate) profile_source: String,
     pub(crate) divided: DividedProfile,
@@ -68,14 +76,14 @@ pub(crate) struct ResolvedSheet {
     pub(crate) units: UnitSheet,
 }
 
-/// The sheet of units, and its schedule.
+/// The sheet of units with its schedule.
 pub(crate) fn unit_study(input: &Input<'_>) -> Result<(UnitStudy, Schedule), StudyError> {
     let ResolvedSheet {
         profile_source,
         divided,
         division_seconds,
         units,
-    } = laid_out(input, Purpose::Fold)?;
+    } = lay_out(input, Purpose::Fold)?;
     let (profile, division) = (divided.profile, divided.division);
     let facing = input.scene.sheet.facing.unwrap_or_default();
     let deployed = units
@@ -109,7 +117,7 @@ pub(crate) fn unit_study(input: &Input<'_>) -> Result<(UnitStudy, Schedule), Stu
     Ok((study, schedule))
 }
 
-/// The order of the layers in the compact state, which check and films hold in memory.
+/// The layer order of the compact state, which check and films keep in memory.
 fn compact_order(input: &Input<'_>, units: &UnitSheet) -> Result<LayerOrder, StudyError> {
     units
         .compact_order_within(MOST_ORDERED)
@@ -118,10 +126,10 @@ fn compact_order(input: &Input<'_>, units: &UnitSheet) -> Result<LayerOrder, Stu
 
 /// Divides the profile and lays out the sheet.
 pub(crate) fn sheet(input: &Input<'_>) -> Result<ResolvedSheet, StudyError> {
-    laid_out(input, Purpose::Show)
+    lay_out(input, Purpose::Show)
 }
 
-fn laid_out(input: &Input<'_>, purpose: Purpose) -> Result<ResolvedSheet, StudyError> {
+fn lay_out(input: &Input<'_>, purpose: Purpose) -> Result<ResolvedSheet, StudyError> {
     let curve = curve(input)?;
     let started = Instant::now();
     let divided = division(input, &curve)?;
@@ -129,7 +137,7 @@ fn laid_out(input: &Input<'_>, purpose: Purpose) -> Result<ResolvedSheet, StudyE
     let columns = input.count(
         "sheet.columns",
         input.scene.sheet.columns,
-        curve.model.map(|m| m.columns.of(case_asked_for(input))),
+        curve.model.map(|m| m.columns.of(requested_case(input))),
     )?;
     let units = units(input, curve.model, &divided.division, columns, purpose)?;
     Ok(ResolvedSheet {
@@ -149,7 +157,7 @@ fn unfolding(
     let in_turn = steps
         .iter()
         .any(|step| step.stage == Stage::Unfold && (step.rows.is_some() || step.columns.is_some()));
-    let asked = input.scene.motion.unfold.unwrap_or_default();
-    Unfolding::new(asked, profile, division, in_turn)
+    let requested = input.scene.motion.unfold.unwrap_or_default();
+    Unfolding::new(requested, profile, division, in_turn)
         .map_err(|e| input.error("motion.unfold", e.to_string()))
 }

@@ -1,8 +1,8 @@
-//! Where results go.
+//! The output folder of a command.
 
 use std::path::Path;
 
-/// Where results go.
+/// The output folder of a command, and whether files of the user may be replaced.
 #[derive(Debug, Clone, Copy)]
 pub struct Destination<'a> {
     folder: &'a Path,
@@ -10,7 +10,7 @@ pub struct Destination<'a> {
 }
 
 impl<'a, P: AsRef<Path> + ?Sized> From<&'a P> for Destination<'a> {
-    /// A folder in which only what foldmotion made is replaced.
+    /// A folder in which only files that foldmotion made are replaced.
     fn from(folder: &'a P) -> Self {
         Self {
             folder: folder.as_ref(),
@@ -25,12 +25,12 @@ impl<'a> Destination<'a> {
         self.folder
     }
 
-    /// Whether files of others are replaced too.
+    /// Whether files that foldmotion did not make may be replaced.
     pub fn replaces_all(self) -> bool {
         self.replaces_all
     }
 
-    /// The same, but files of others that stand in the way are replaced too.
+    /// This folder with `replaces_all`: whether files that foldmotion did not make may be replaced.
     #[must_use]
     pub fn replacing(self, replaces_all: bool) -> Self {
         Self {

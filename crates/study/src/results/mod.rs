@@ -1,4 +1,4 @@
-//! The folder of results: written beside its place, then renamed into it.
+//! The output folder: files are written into a temporary folder next to it and then moved into it.
 
 use std::fs::{self, File};
 use std::io::{self, BufWriter, Write};
@@ -7,72 +7,74 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use crate::StudyError;
 
+pub use self::abandoned::process_may_exist;
 pub use self::destination::Destination;
-pub use self::left_over::may_run;
-pub(crate) use self::made::{MadeFile, Maker};
+pub(crate) use self::manifest::{Command, ManifestEntry};
 pub(crate) use self::names::{CERTIFICATE, FRAMES, MOTION, REPORT, is_of_a_run, is_picture};
 pub use self::published::Published;
-pub use self::published::listed;
-pub(crate) use self::space::{Space, size_words};
+pub use self::published::list_names;
+pub(crate) use self::space::Space;
+use self::space::size_words;
 
-use self::made::{LIST, MadeFiles, are_same};
+use self::manifest::{MANIFEST, Manifest, are_same};
 
+mod abandoned;
 mod destination;
-mod left_over;
-mod made;
+mod manifest;
 mod names;
 mod published;
 mod space;
 
-/// The temporary folders of this process. Held while files are moved into place.
-static UNDER_WAY: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
+/// The temporary folders of this process. The lock is held while files are moved into place.
+static UNFINISHED: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
 
-fn under_way() -> MutexGuard<'static, Vec<PathBuf>> {
-    // A poisoned lock only means that another thread panicked; the list is whole.
-    UNDER_WAY.lock().unwrap_or_else(PoisonError::into_inner)
+fn unfinished() -> MutexGuard<'static, Vec<PathBuf>> {
+    // A poisoned lock only means that another thread panicked; the list is intact.
+    UNFINISHED.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// Gives up all results under way, for a process that ends now: those being moved into place get there, all others are
-/// removed. Whatever would be published later waits for ever.
-pub fn give_up_results() {
-    let folders = under_way();
+/// Discards all unfinished results, for a process that is about to end. Results that are being moved into place are completed
+/// first; later ones wait for ever.
+pub fn discard_unfinished_results() {
+    let folders = unfinished();
     for folder in folders.iter() {
-        // What cannot be removed is a hidden folder that says what it is.
+        // A folder that cannot be removed is hidden and recognisable by its name.
         let _ = fs::remove_dir_all(folder);
     }
     std::mem::forget(folders);
 }
 
-/// Results under way, in a temporary folder beside the output folder; removed unless published.
+/// Unfinished results in a temporary folder next to the output folder, which is removed unless they are published.
 #[derive(Debug)]
 pub(crate) struct Results {
     folder: PathBuf,
     temporary: PathBuf,
-    /// Says that this process works in the temporary folder.
+    /// The lock of this process in the temporary folder.
     lock: Option<File>,
-    maker: Maker,
-    /// Whether files of others are replaced.
+    command: Command,
+    /// Whether files that foldmotion did not make may be replaced.
     replaces_all: bool,
-    /// What was made in the folder before.
-    made: MadeFiles,
-    /// The one that speaks of the others, if there is one, moved into place last.
+    /// The files that foldmotion made in the output folder before.
+    manifest: Manifest,
+    /// The file that describes the others, if there is one, which is moved into place last.
     last: Option<&'static str>,
+    /// The names of the files written so far.
     written: Vec<String>,
-    /// How many of those written were held against what stands in the folder.
+    /// The number of these files that were already compared with the output folder.
     cleared: usize,
 }
 
 impl Results {
-    /// Opens the temporary folder of results of `maker`, of which `last` speaks of the others. What killed processes left
-    /// beside it is removed.
+    /// Creates the temporary folder for the results of `command`. The file `last` describes the others. Temporary folders of
+    /// killed processes are removed.
     pub(crate) fn open(
         destination: Destination<'_>,
-        maker: Maker,
+        command: Command,
         last: Option<&'static str>,
     ) -> Result<Self, StudyError> {
         let folder = destination.folder();
         if folder.exists() && !folder.is_dir() {
-            let source = io::Error::new(io::ErrorKind::NotADirectory, "it is a file");
+            let source = io::Error::new(io::ErrorKind::NotADirectory, "it is a file, not a folder");
             return Err(output_error(
                 folder,
                 "cannot be used as output folder",
@@ -83,52 +85,56 @@ impl Results {
             Some(parent) if !parent.as_os_str().is_empty() => parent,
             _ => Path::new("."),
         };
-        fs::create_dir_all(parent).map_err(|e| output_error(parent, "cannot be made", e))?;
+        fs::create_dir_all(parent).map_err(|e| output_error(parent, "cannot be created", e))?;
         let name = folder
             .file_name()
             .unwrap_or_else(|| "out".as_ref())
             .to_string_lossy();
-        left_over::remove(parent, &name);
-        let temporary = left_over::folder_of(parent, &name);
+        abandoned::remove(parent, &name);
+        let temporary = abandoned::folder_of(parent, &name);
         fs::create_dir_all(&temporary)
-            .map_err(|e| output_error(&temporary, "cannot be made", e))?;
-        under_way().push(temporary.clone());
+            .map_err(|e| output_error(&temporary, "cannot be created", e))?;
+        unfinished().push(temporary.clone());
         Ok(Self {
             folder: folder.to_owned(),
-            lock: left_over::lock(&temporary),
+            lock: abandoned::lock(&temporary),
             temporary,
-            maker,
+            command,
             replaces_all: destination.replaces_all(),
-            made: MadeFiles::read(folder),
+            manifest: Manifest::read(folder),
             last,
             written: Vec::new(),
             cleared: 0,
         })
     }
 
-    /// Bytes free where the results go.
+    /// The free space for the results, in bytes.
     pub(crate) fn available(&self) -> Result<u64, StudyError> {
         fs4::available_space(&self.temporary)
             .map_err(|e| output_error(&self.temporary, "cannot be measured", e))
     }
 
-    /// Refuses what the disk cannot hold.
+    /// Refuses results for which the disk has no space.
     pub(crate) fn require(&self, space: &Space) -> Result<(), StudyError> {
         let available = self.available()?;
         if space.total() <= available {
             return Ok(());
         }
-        Err(StudyError::DiskTooSmall {
+        Err(self.too_small(space, available, space.remedy()))
+    }
+
+    /// The error of a disk with `available` free bytes, too few for `space`.
+    pub(crate) fn too_small(&self, space: &Space, available: u64, remedy: String) -> StudyError {
+        StudyError::DiskTooSmall {
             path: self.folder.clone(),
             needed: size_words(space.total()),
             parts: space.words(),
             available: size_words(available),
-            remedy: space.remedy(),
-        })
+            remedy,
+        }
     }
 
-    /// Refuses, before anything is computed, files in the folder that `is_planned` says will be written and that are not
-    /// to be replaced.
+    /// Refuses, before anything is computed, an output folder with files that `is_planned` selects and that may not be replaced.
     pub(crate) fn require_clear(
         &self,
         is_planned: &dyn Fn(&str) -> bool,
@@ -138,31 +144,31 @@ impl Results {
         if names.is_empty() {
             return Ok(());
         }
-        Err(StudyError::InTheWay {
+        Err(StudyError::Conflict {
             path: self.folder.clone(),
-            names: listed(&names),
-            command: self.maker.name(),
+            names: list_names(&names),
+            command: self.command.name(),
         })
     }
 
     fn may_replace(&self, name: &str) -> bool {
-        self.replaces_all || self.made.may_replace(self.maker, &self.folder, name)
+        self.replaces_all || self.manifest.may_replace(self.command, &self.folder, name)
     }
 
-    /// Gives up what was written under the names of files that are not to be replaced; answers their names.
-    pub(crate) fn set_aside(&mut self) -> Vec<String> {
+    /// Discards written files that would replace files of the user; returns their names.
+    pub(crate) fn skip_conflicts(&mut self) -> Vec<String> {
         let (folder, temporary) = (&self.folder, &self.temporary);
-        let is_in_the_way = |name: &String| {
-            let standing = folder.join(name);
-            standing.exists()
-                && !are_same(&standing, &temporary.join(name))
+        let is_conflict = |name: &String| {
+            let existing = folder.join(name);
+            existing.exists()
+                && !are_same(&existing, &temporary.join(name))
                 && !self.may_replace(name)
         };
         let new = self.written[self.cleared..].iter();
-        let aside: Vec<String> = new.filter(|name| is_in_the_way(name)).cloned().collect();
-        self.written.retain(|name| !aside.contains(name));
+        let skipped: Vec<String> = new.filter(|name| is_conflict(name)).cloned().collect();
+        self.written.retain(|name| !skipped.contains(name));
         self.cleared = self.written.len();
-        aside
+        skipped
     }
 
     /// Opens one file of the results.
@@ -173,19 +179,19 @@ impl Results {
         Ok(BufWriter::new(file))
     }
 
-    /// Makes a folder among the results and answers where files go; [`Self::add`] then names them.
+    /// Creates a folder among the results and returns its path; [`Self::add`] takes the names of its files.
     pub(crate) fn create_subfolder(&self, name: &str) -> Result<PathBuf, StudyError> {
         let path = self.temporary.join(name);
         fs::create_dir_all(&path).map_err(|e| write_error(&self.folder, name, e))?;
         Ok(path)
     }
 
-    /// Takes up files that were written into a subfolder.
+    /// Adds the names of files that were written into a subfolder.
     pub(crate) fn add(&mut self, names: Vec<String>) {
         self.written.extend(names);
     }
 
-    /// Where the files are until they are published.
+    /// The temporary folder.
     pub(crate) fn temporary(&self) -> &Path {
         &self.temporary
     }
@@ -201,6 +207,13 @@ impl Results {
         out.flush().map_err(|e| write_error(&self.folder, name, e))
     }
 
+    /// Writes one file with the content `bytes`.
+    pub(crate) fn write_bytes(&mut self, name: &str, bytes: &[u8]) -> Result<(), StudyError> {
+        let mut out = self.create_file(name)?;
+        let written = out.write_all(bytes).and_then(|()| out.flush());
+        written.map_err(|e| write_error(&self.folder, name, e))
+    }
+
     /// The output folder.
     pub(crate) fn folder(&self) -> &Path {
         &self.folder
@@ -211,23 +224,22 @@ impl Results {
         &self.written
     }
 
-    /// Renames every file, which shows what has the SHA-256 `of`, into the output folder, the one that speaks of the others
-    /// last. Of what this maker made before, `is_stale` picks what is removed; all else stays. The names of files of
-    /// others that stayed under the name of one of these come back.
+    /// Moves all files, which show the content with the SHA-256 `of`, into the output folder. Earlier files of this command that
+    /// `is_stale` selects are removed; all other files are kept.
     pub(crate) fn publish(
         mut self,
         of: Option<&str>,
-        is_stale: &dyn Fn(&MadeFile) -> bool,
+        is_stale: &dyn Fn(&ManifestEntry) -> bool,
     ) -> Result<Published, StudyError> {
-        let aside = self.set_aside();
+        let skipped = self.skip_conflicts();
         let folder = self.folder.clone();
         let stale = self.stale(is_stale);
         let (before, after) = self.lists(of, &stale);
-        // Whoever gives up waits until all files are in place.
-        let _moving = under_way();
-        fs::create_dir_all(&folder).map_err(|e| output_error(&folder, "cannot be made", e))?;
+        // Discarding waits until all files are in place.
+        let _moving = unfinished();
+        fs::create_dir_all(&folder).map_err(|e| output_error(&folder, "cannot be created", e))?;
         self.write_list(&before)?;
-        // From here on a report in the folder would speak of other files than those beside it.
+        // From here on, an earlier report would not describe the files next to it.
         let last = self.last.filter(|&last| self.has(last));
         for name in last.into_iter().chain(stale.iter().map(String::as_str)) {
             match fs::remove_file(folder.join(name)) {
@@ -239,9 +251,10 @@ impl Results {
         }
         let frames = folder.join(FRAMES);
         if self.written.iter().any(|name| is_picture(name)) {
-            fs::create_dir_all(&frames).map_err(|e| output_error(&frames, "cannot be made", e))?;
+            fs::create_dir_all(&frames)
+                .map_err(|e| output_error(&frames, "cannot be created", e))?;
         } else if stale.iter().any(|name| is_picture(name)) {
-            // Where other files lie in it, it stays.
+            // The folder is kept if it has other files.
             let _ = fs::remove_dir(&frames);
         }
         let (report, others): (Vec<&String>, Vec<&String>) = self
@@ -255,10 +268,10 @@ impl Results {
         }
         self.write_list(&after)?;
         let mut others = names_of(&folder)?;
-        others.retain(|name| is_of_a_run(name) && !after.has(self.maker, name));
-        others.retain(|name| !aside.contains(name));
+        others.retain(|name| is_of_a_run(name) && !after.has(self.command, name));
+        others.retain(|name| !skipped.contains(name));
         Ok(Published {
-            aside,
+            skipped,
             removed: stale,
             others,
         })
@@ -268,15 +281,15 @@ impl Results {
         self.written.iter().any(|written| written == name)
     }
 
-    /// Files that this maker made before, that `is_stale` picks, that these do not replace and nobody has changed.
-    fn stale(&self, is_stale: &dyn Fn(&MadeFile) -> bool) -> Vec<String> {
-        let stale = self.made.stale(self.maker, is_stale);
+    /// Unchanged earlier files of this command that `is_stale` selects and that are not written again.
+    fn stale(&self, is_stale: &dyn Fn(&ManifestEntry) -> bool) -> Vec<String> {
+        let stale = self.manifest.stale(self.command, is_stale);
         let mut names: Vec<String> = stale.map(|file| file.name.clone()).collect();
         let is_removed = |name: &String| {
             is_inside(name)
                 && !self.has(name)
                 && self.folder.join(name).exists()
-                && self.made.may_replace(self.maker, &self.folder, name)
+                && self.manifest.may_replace(self.command, &self.folder, name)
         };
         names.retain(is_removed);
         names.sort_unstable();
@@ -284,20 +297,20 @@ impl Results {
         names
     }
 
-    /// A list of the files about to be moved beside those in their places, so that whatever ends this process, the next
-    /// one knows both; and one of what will be there.
-    fn lists(&self, of: Option<&str>, stale: &[String]) -> (MadeFiles, MadeFiles) {
-        let new: Vec<MadeFile> = self
+    /// Two manifests: one with both the new files and those they replace, so that the folder can be understood if the process is
+    /// killed meanwhile, and one of the final files.
+    fn lists(&self, of: Option<&str>, stale: &[String]) -> (Manifest, Manifest) {
+        let new: Vec<ManifestEntry> = self
             .written
             .iter()
-            .map(|name| MadeFile::new(self.maker, &self.temporary, name, of))
+            .map(|name| ManifestEntry::new(self.command, &self.temporary, name, of))
             .collect();
-        let (mut before, mut after) = (self.made.clone(), self.made.clone());
+        let (mut before, mut after) = (self.manifest.clone(), self.manifest.clone());
         before.extend(&new);
         let (folder, written) = (&self.folder, &self.written);
-        let is_kept = |file: &MadeFile| {
+        let is_kept = |file: &ManifestEntry| {
             let is_written = written.contains(&file.name);
-            // Made again by another command with the same bytes, a file is of both.
+            // A file that two commands wrote with the same bytes belongs to both.
             let is_same = new.iter().any(|made| made.is_same_by_other(file));
             (!is_written || is_same)
                 && !stale.contains(&file.name)
@@ -308,19 +321,19 @@ impl Results {
         (before, after)
     }
 
-    fn write_list(&self, list: &MadeFiles) -> Result<(), StudyError> {
+    fn write_list(&self, list: &Manifest) -> Result<(), StudyError> {
         list.write(&self.folder, &self.temporary)
-            .map_err(|e| write_error(&self.folder, LIST, e))
+            .map_err(|e| write_error(&self.folder, MANIFEST, e))
     }
 }
 
-/// Whether a name of the list stays in the folder: what a list says must not reach elsewhere.
+/// Whether a name of the manifest is inside the output folder: a manifest must not lead to other folders.
 fn is_inside(name: &str) -> bool {
     let file = name.strip_prefix("frames/").unwrap_or(name);
     !file.contains(['/', '\\']) && !matches!(file, "" | "." | "..")
 }
 
-/// The names of files in `folder` and its folder of pictures; none where there is no folder.
+/// The names of the files in `folder` and its folder of pictures; empty if there is no such folder.
 pub(crate) fn names_of(folder: &Path) -> Result<Vec<String>, StudyError> {
     let mut names = Vec::new();
     if folder.is_dir() {
@@ -329,12 +342,12 @@ pub(crate) fn names_of(folder: &Path) -> Result<Vec<String>, StudyError> {
     if folder.join(FRAMES).is_dir() {
         names.extend(names_in(&folder.join(FRAMES), "frames/")?);
     }
-    names.retain(|name| name != LIST);
+    names.retain(|name| name != MANIFEST);
     names.sort_unstable();
     Ok(names)
 }
 
-/// The names in `folder`, each after `prefix`. A name that is no UTF-8 is none of ours.
+/// The names in `folder`, each with `prefix`. Names that are not UTF-8 are never those of results.
 fn names_in(folder: &Path, prefix: &str) -> Result<Vec<String>, StudyError> {
     let unread = |e| output_error(folder, "cannot be read", e);
     let mut names = Vec::new();
@@ -349,13 +362,13 @@ fn names_in(folder: &Path, prefix: &str) -> Result<Vec<String>, StudyError> {
 impl Drop for Results {
     fn drop(&mut self) {
         self.lock = None;
-        under_way().retain(|folder| *folder != self.temporary);
-        // What cannot be removed is a hidden folder that says what it is; nothing is lost.
+        unfinished().retain(|folder| *folder != self.temporary);
+        // A folder that cannot be removed is hidden and recognisable by its name.
         let _ = fs::remove_dir_all(&self.temporary);
     }
 }
 
-/// An error about writing the result `name` of `folder`.
+/// The error of writing the file `name` of `folder`.
 pub(crate) fn write_error(folder: &Path, name: &str, source: io::Error) -> StudyError {
     output_error(&folder.join(name), "cannot be written", source)
 }

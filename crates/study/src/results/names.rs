@@ -1,18 +1,18 @@
-//! The names of results.
+//! The names of result files.
 
-/// The name under which the motion stands.
+/// The name of the motion file.
 pub(crate) const MOTION: &str = "motion.fold";
 
-/// The folder of pictures among the results.
+/// The name of the folder of pictures.
 pub(crate) const FRAMES: &str = "frames";
 
-/// The name under which the report stands.
+/// The name of the report.
 pub(crate) const REPORT: &str = "report.json";
 
-/// The name under which the certificate of a motion stands.
+/// The name of the certificate.
 pub(crate) const CERTIFICATE: &str = "certificate.json";
 
-/// Files a run may write, beside pictures and states.
+/// The files that a run may write, except pictures and states.
 const NAMES: &[&str] = &[
     REPORT,
     MOTION,
@@ -27,19 +27,19 @@ const NAMES: &[&str] = &[
     "figure.pdf",
 ];
 
-/// Whether a run may write a file of this name.
+/// Whether a run may write a file with this name.
 pub(crate) fn is_of_a_run(name: &str) -> bool {
     NAMES.contains(&name) || is_picture(name) || is_state(name)
 }
 
-/// `frames/0001.png` and so on.
+/// Whether `name` is that of a picture, such as `frames/0001.png`.
 pub(crate) fn is_picture(name: &str) -> bool {
     let file = name.strip_prefix(FRAMES).and_then(|n| n.strip_prefix('/'));
     let number = file.and_then(|n| n.strip_suffix(".png"));
     number.is_some_and(|n| n.len() >= 4 && n.bytes().all(|b| b.is_ascii_digit()))
 }
 
-/// `state-0.5.obj` and so on.
+/// Whether `name` is that of a state, such as `state-0.5.obj`.
 fn is_state(name: &str) -> bool {
     let rest = name.strip_prefix("state-");
     let time = rest.and_then(|n| n.strip_suffix(".obj").or(n.strip_suffix(".stl")));

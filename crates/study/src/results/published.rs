@@ -1,39 +1,40 @@
-//! What became of the other files in a folder of results.
+//! What happened to other files in the output folder.
 
-/// What became of the other files in a folder of results.
+/// What happened to other files in the output folder.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Published {
-    /// Files of others that stayed under the name of one of the results.
-    pub aside: Vec<String>,
-    /// Files made before that were removed.
+    /// Files of the user that were kept instead of results with the same name.
+    pub skipped: Vec<String>,
+    /// Earlier results that were removed.
     pub removed: Vec<String>,
-    /// Files of others that have names of results.
+    /// Files with names of results that this command did not write.
     pub others: Vec<String>,
 }
 
 impl Published {
-    /// In words, a line each.
+    /// The messages for the user.
     pub fn words(&self) -> Vec<String> {
         let lines = [
             (
-                "left as they are and not written, because this command did not make them or they were changed since (--force \
-                 replaces them)",
-                &self.aside,
+                "kept instead of new results, because this command did not make them or they were changed since (--force replaces \
+                 them)",
+                &self.skipped,
             ),
             (
-                "removed, because an earlier motion made them",
+                "removed, because they show an earlier motion",
                 &self.removed,
             ),
-            ("left as they are, though not of this run", &self.others),
+            ("kept, although this run did not make them", &self.others),
         ];
-        let told = lines.into_iter().filter(|(_, names)| !names.is_empty());
-        told.map(|(what, names)| format!("{what}: {}", listed(names)))
+        let messages = lines.into_iter().filter(|(_, names)| !names.is_empty());
+        messages
+            .map(|(what, names)| format!("{what}: {}", list_names(names)))
             .collect()
     }
 }
 
-/// Names for a message, not too many.
-pub fn listed(names: &[String]) -> String {
+/// The first names of a list for a message, with the number of the others.
+pub fn list_names(names: &[String]) -> String {
     const MOST: usize = 8;
     let mut text = names.iter().take(MOST).cloned().collect::<Vec<_>>();
     if names.len() > MOST {

@@ -1,4 +1,4 @@
-//! The room that files take on a disk.
+//! The space that files take on a disk.
 
 use crate::scene::OutputChoice;
 
@@ -7,12 +7,12 @@ use crate::scene::OutputChoice;
 pub(crate) struct Space(Vec<(OutputChoice, u64)>);
 
 impl Space {
-    /// Of all.
+    /// The bytes of all outputs.
     pub(crate) fn total(&self) -> u64 {
         self.0.iter().map(|(_, bytes)| bytes).sum()
     }
 
-    /// Adds `bytes` to those of an output.
+    /// Adds `bytes` to an output.
     pub(crate) fn add(&mut self, output: OutputChoice, bytes: u64) {
         let mut known = self.0.iter_mut();
         match known.find(|(known, _)| *known == output) {
@@ -22,25 +22,25 @@ impl Space {
     }
 
     /// The outputs with their bytes.
-    #[cfg(test)]
+    #[cfg(all(test, feature = "mp4"))]
     pub(crate) fn each(&self) -> impl Iterator<Item = (OutputChoice, u64)> {
         self.0.iter().copied()
     }
 
-    /// What makes the files smaller: the largest output smaller or left out.
+    /// Advice on how to make the files smaller: reduce or omit the largest output.
     pub(crate) fn remedy(&self) -> String {
         let Some((output, _)) = self.0.iter().max_by_key(|(_, bytes)| *bytes) else {
             return "free space".to_owned();
         };
         let name = output.name();
-        let mut remedy = format!("leave {name} out of record.outputs");
+        let mut remedy = format!("omit {name} from record.outputs");
         if [OutputChoice::Gif, OutputChoice::Mp4, OutputChoice::Png].contains(output) {
             remedy += ", or make record.size, record.fps or record.seconds smaller";
         }
         remedy
     }
 
-    /// In words: outputs with their sizes, the largest first.
+    /// The outputs with their sizes in words, the largest first.
     pub(crate) fn words(&self) -> String {
         let mut sizes = self.0.clone();
         sizes.sort_by_key(|&(output, bytes)| (std::cmp::Reverse(bytes), output));
@@ -51,7 +51,7 @@ impl Space {
     }
 }
 
-/// A number of bytes for people.
+/// A number of bytes in words, such as `1.5 MB`.
 pub(crate) fn size_words(bytes: u64) -> String {
     match bytes {
         0..1_000 => format!("{bytes} bytes"),

@@ -1,4 +1,4 @@
-//! What a folder of results keeps, replaces and removes.
+//! Which files of an output folder are kept, replaced and removed.
 
 use super::*;
 
@@ -12,12 +12,12 @@ fn write(results: &mut Results, name: &str, text: &str) {
 }
 
 fn open(folder: &Path) -> Results {
-    Results::open(folder.into(), Maker::Run, Some(REPORT)).unwrap()
+    Results::open(folder.into(), Command::Run, Some(REPORT)).unwrap()
 }
 
 /// Publishes as a run of the motion `of` does.
 fn publish(results: Results, of: &str) -> Published {
-    let is_stale = |file: &MadeFile| file.of.as_deref() != Some(of);
+    let is_stale = |file: &ManifestEntry| file.of.as_deref() != Some(of);
     results.publish(Some(of), &is_stale).unwrap()
 }
 
@@ -28,7 +28,7 @@ fn text(folder: &Path, name: &str) -> String {
 const OLD_REPORT: &str = r#"{"version": "0.1.0", "engine": {}, "files": ["motion.gif"]}"#;
 
 #[test]
-fn published_results_replace_earlier_ones_and_leave_foreign_files() {
+fn published_results_replace_earlier_ones_and_keep_files_of_the_user() {
     let home = tempfile::tempdir().unwrap();
     let folder = home.path().join("out/scene");
     let mut first = open(&folder);
@@ -76,7 +76,7 @@ fn earlier_results_of_the_same_motion_stay_and_may_be_replaced_later() {
 }
 
 #[test]
-fn files_that_no_earlier_run_made_are_named_and_stay_unless_forced() {
+fn files_that_no_earlier_run_made_are_named_and_kept_unless_forced() {
     let home = tempfile::tempdir().unwrap();
     let folder = home.path().join("scene");
     let mut first = open(&folder);
@@ -86,7 +86,7 @@ fn files_that_no_earlier_run_made_are_named_and_stay_unless_forced() {
     // One of its own is changed, one is new, one is of another command.
     fs::write(folder.join("motion.gif"), "an edited film").unwrap();
     fs::write(folder.join("figure.pdf"), "mine").unwrap();
-    let mut record = Results::open((&folder).into(), Maker::Record, None).unwrap();
+    let mut record = Results::open((&folder).into(), Command::Record, None).unwrap();
     write(&mut record, "motion.mp4", "another film");
     record.publish(Some("motion"), &|_| false).unwrap();
     let names = ["figure.pdf", "motion.gif", "motion.mp4"];
@@ -102,12 +102,12 @@ fn files_that_no_earlier_run_made_are_named_and_stay_unless_forced() {
         write(&mut late, name, "new");
     }
     let published = publish(late, "motion");
-    assert_eq!(published.aside, names);
+    assert_eq!(published.skipped, names);
     assert_eq!(text(&folder, "figure.pdf"), "mine");
     assert_eq!(text(&folder, "motion.gif"), "an edited film");
     assert_eq!(text(&folder, "motion.mp4"), "another film");
     let forced = Destination::from(&folder).replacing(true);
-    let mut forced = Results::open(forced, Maker::Run, Some(REPORT)).unwrap();
+    let mut forced = Results::open(forced, Command::Run, Some(REPORT)).unwrap();
     forced.require_clear(&|_| true).unwrap();
     for name in names {
         write(&mut forced, name, "new");
@@ -119,20 +119,20 @@ fn files_that_no_earlier_run_made_are_named_and_stay_unless_forced() {
 }
 
 #[test]
-fn what_is_written_with_the_same_bytes_is_in_nobodys_way() {
+fn a_file_with_the_same_bytes_is_no_conflict() {
     let home = tempfile::tempdir().unwrap();
     let folder = home.path().join("scene");
     let mut run = open(&folder);
     write(&mut run, CERTIFICATE, "a certificate");
     publish(run, "motion");
-    let mut check = Results::open((&folder).into(), Maker::Check, None).unwrap();
+    let mut check = Results::open((&folder).into(), Command::Check, None).unwrap();
     write(&mut check, CERTIFICATE, "a certificate");
     check.publish(Some("motion"), &|_| false).unwrap();
     open(&folder).require_clear(&|_| true).unwrap();
 }
 
 #[test]
-fn without_a_list_a_report_of_a_run_says_what_it_made_and_any_other_report_stays() {
+fn without_a_manifest_the_report_of_a_run_lists_its_files_and_other_reports_are_kept() {
     let home = tempfile::tempdir().unwrap();
     for name in ["motion.gif", "plots.svg"] {
         fs::write(home.path().join(name), "old").unwrap();
@@ -150,19 +150,19 @@ fn without_a_list_a_report_of_a_run_says_what_it_made_and_any_other_report_stays
 }
 
 #[test]
-fn a_list_that_names_files_elsewhere_removes_none() {
+fn a_manifest_that_names_files_of_other_folders_removes_none() {
     let home = tempfile::tempdir().unwrap();
     let folder = home.path().join("scene");
     fs::create_dir(&folder).unwrap();
     fs::write(home.path().join("mine.txt"), "mine").unwrap();
     let list = r#"{"files": [{"name": "../mine.txt", "by": "run", "sha256": null, "of": null}]}"#;
-    fs::write(folder.join(LIST), list).unwrap();
+    fs::write(folder.join(MANIFEST), list).unwrap();
     assert_eq!(publish(open(&folder), "motion"), Published::default());
     assert_eq!(text(home.path(), "mine.txt"), "mine");
 }
 
 #[test]
-fn what_killed_runs_left_is_removed_and_folders_of_living_ones_stay() {
+fn folders_of_killed_runs_are_removed_and_those_of_running_ones_are_kept() {
     let home = tempfile::tempdir().unwrap();
     // No system gives a process this number.
     let dead = home.path().join(".scene.partial-4294967295");
@@ -173,7 +173,7 @@ fn what_killed_runs_left_is_removed_and_folders_of_living_ones_stay() {
         fs::create_dir(folder).unwrap();
         fs::write(folder.join(MOTION), "half a motion").unwrap();
     }
-    let lock = left_over::lock(&locked);
+    let lock = abandoned::lock(&locked);
     drop(open(&home.path().join("scene")));
     assert!(!dead.exists());
     assert!(other.exists() && living.exists() && locked.exists());
@@ -183,7 +183,7 @@ fn what_killed_runs_left_is_removed_and_folders_of_living_ones_stay() {
 }
 
 #[test]
-fn results_that_are_dropped_leave_earlier_ones_as_they_were() {
+fn dropped_results_leave_earlier_ones_unchanged() {
     let home = tempfile::tempdir().unwrap();
     let folder = home.path().join("scene");
     let mut first = open(&folder);
@@ -197,11 +197,11 @@ fn results_that_are_dropped_leave_earlier_ones_as_they_were() {
 }
 
 #[test]
-fn a_file_in_the_way_of_the_folder_is_refused() {
+fn a_file_with_the_name_of_the_output_folder_is_refused() {
     let home = tempfile::tempdir().unwrap();
     let folder = home.path().join("scene");
     fs::write(&folder, "a file").unwrap();
-    let error = Results::open((&folder).into(), Maker::Run, None).unwrap_err();
+    let error = Results::open((&folder).into(), Command::Run, None).unwrap_err();
     assert!(error.to_string().contains("it is a file"), "{error}");
     assert_eq!(fs::read_to_string(&folder).unwrap(), "a file");
 }

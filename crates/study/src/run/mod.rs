@@ -2,23 +2,22 @@
 
 mod space;
 
-use std::io::Write as _;
 use std::time::Instant;
 
 use crate::compute::folded::Folded;
 use crate::compute::timed;
 use crate::report::SecondsReport;
-use crate::results::{Destination, Maker, REPORT, Results, is_picture, write_error};
+use crate::results::{Command, Destination, REPORT, Results, is_picture};
 use crate::scene::OutputChoice;
 use crate::{Progress, Report, Study, StudyError};
 
 impl Study {
-    /// Folds, checks, reports and records; writes the results into `folder` and returns the report.
+    /// Folds, checks, reports and records; writes the results into `destination` and returns the report.
     ///
-    /// A motion that did not converge or jammed is kept and reported as far as it came.
+    /// A motion that did not converge or jammed is reported as far as it came.
     ///
     /// # Errors
-    /// [`StudyError`] of the step that failed; the folder is then as it was.
+    /// [`StudyError`] of the step that failed; the folder is then unchanged.
     pub fn run<'a>(
         &self,
         destination: impl Into<Destination<'a>>,
@@ -30,10 +29,10 @@ impl Study {
         self.finish(&folded, results, started, progress)
     }
 
-    /// Writes the results of `folded`, computed by [`Self::compute`], into `folder`, as [`Self::run`] does.
+    /// Writes the results of `folded`, computed by [`Self::compute`], into `destination`, as [`Self::run`] does.
     ///
     /// # Errors
-    /// [`StudyError`] of the file that failed; the folder is then as it was.
+    /// [`StudyError`] of the file that failed; the folder is then unchanged.
     pub fn write<'a>(
         &self,
         folded: &Folded,
@@ -46,19 +45,19 @@ impl Study {
         self.finish(folded, results, started, progress)
     }
 
-    /// The folder of results, where nothing stands in their way and the disk can hold them.
+    /// Opens the output folder, after checks for conflicting files and for space.
     fn open_results(
         &self,
         destination: Destination<'_>,
         progress: Progress<'_>,
     ) -> Result<Results, StudyError> {
-        let results = Results::open(destination, Maker::Run, Some(REPORT))?;
+        let results = Results::open(destination, Command::Run, Some(REPORT))?;
         results.require_clear(&|name| name == REPORT || self.recording.plans(name))?;
         self.require_space(&results, progress)?;
         Ok(results)
     }
 
-    /// The rest of a run that began at `started`.
+    /// Records and reports the results of a run that began at `started`.
     fn finish(
         &self,
         folded: &Folded,
@@ -66,7 +65,6 @@ impl Study {
         started: Instant,
         progress: Progress<'_>,
     ) -> Result<Report, StudyError> {
-        let folder = results.folder().to_owned();
         let (sha256, record_seconds) =
             timed(|| self.record(&self.recording, folded, &mut results, progress))?;
         let seconds = SecondsReport {
@@ -74,17 +72,14 @@ impl Study {
             record: record_seconds,
             total: started.elapsed().as_secs_f64(),
         };
-        let aside = results.set_aside();
+        let skipped = results.skip_conflicts();
         let mut report = self.report(folded, seconds, results.written());
-        results.write(REPORT, |out| {
-            out.write_all(report.to_json().as_bytes())
-                .map_err(|e| write_error(&folder, REPORT, e))
-        })?;
+        results.write_bytes(REPORT, report.to_json().as_bytes())?;
         let has_pictures = self.recording.has(OutputChoice::Png);
         report.published = results.publish(Some(&sha256), &|file| {
             file.of.as_deref() != Some(&sha256) || has_pictures && is_picture(&file.name)
         })?;
-        report.published.aside = aside;
+        report.published.skipped = skipped;
         Ok(report)
     }
 }

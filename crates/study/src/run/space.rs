@@ -1,17 +1,17 @@
-//! Whether the disk can hold the results, before anything is computed.
+//! Checks the disk space before anything is computed.
 
 use foldmotion_pattern::{LayerOrder, Motion};
 
 use crate::recording::FilmSizes;
-use crate::results::{Results, Space, size_words};
+use crate::results::{Results, Space};
 use crate::scene::OutputChoice;
 use crate::{Progress, Recording, Study, StudyError};
 
-/// Bytes of an entry of `faceOrders` at most on average.
+/// The largest average number of bytes for an entry of `faceOrders`.
 const BYTES_AN_ORDER: u64 = 20;
 
 impl Study {
-    /// Bytes of the files of `recording` for a motion of `frames` frames: at most, or about, where `films` are known.
+    /// The bytes of the files of `recording` for a motion of `frames` frames: an upper bound, or an estimate if `films` are given.
     pub(crate) fn space(
         &self,
         recording: &Recording,
@@ -29,7 +29,7 @@ impl Study {
         space
     }
 
-    /// The same, measured on a few pictures where the bound of the films exceeds what is free.
+    /// The bytes of the files of `recording`. If the upper bound exceeds the free space, the films are estimated from a few pictures.
     pub(crate) fn space_in(
         &self,
         results: &Results,
@@ -41,7 +41,7 @@ impl Study {
         if bound.total() <= results.available()? || !recording.has_films() {
             return Ok(bound);
         }
-        let films = recording.sample_films(&self.subject.known_states(), progress)?;
+        let films = recording.sample_films(&self.subject.exact_motion(), progress)?;
         Ok(self.space(recording, frames, Some(films)))
     }
 
@@ -57,7 +57,7 @@ impl Study {
         }
         let least = self.space(&self.recording, 2, None).total();
         let most = self.space(&self.recording, self.frames, None).total();
-        // What does not depend on the frames may be less than its bound.
+        // The part that does not depend on the frames may be less than its bound.
         let rest = needed.total().saturating_sub(most - least);
         let a_frame = (most - least).div_ceil(self.frames as u64 - 1).max(1);
         let frames = 2 + (available.saturating_sub(rest) / a_frame) as usize;
@@ -67,12 +67,6 @@ impl Study {
         } else {
             needed.remedy()
         };
-        Err(StudyError::DiskTooSmall {
-            path: results.folder().to_owned(),
-            needed: size_words(needed.total()),
-            parts: needed.words(),
-            available: size_words(available),
-            remedy,
-        })
+        Err(results.too_small(&needed, available, remedy))
     }
 }

@@ -1,4 +1,4 @@
-//! Words of scene files that stand for a choice: what is no such word is told the words there are.
+//! Choices by name in scene files, with errors that list the names.
 
 use std::fmt;
 use std::marker::PhantomData;
@@ -6,31 +6,31 @@ use std::marker::PhantomData;
 use serde::de::{IntoDeserializer as _, Visitor};
 use serde::{Deserialize, Deserializer};
 
-/// A word that `T` knows.
-struct Word<T>(T);
+/// A choice that is read by its name.
+struct Named<T>(T);
 
-impl<'de, T: for<'a> Deserialize<'a>> Deserialize<'de> for Word<T> {
+impl<'de, T: for<'a> Deserialize<'a>> Deserialize<'de> for Named<T> {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         deserializer
-            .deserialize_any(WordVisitor(PhantomData))
-            .map(Word)
+            .deserialize_any(NameVisitor(PhantomData))
+            .map(Named)
     }
 }
 
-struct WordVisitor<T>(PhantomData<T>);
+struct NameVisitor<T>(PhantomData<T>);
 
-impl<T: for<'a> Deserialize<'a>> WordVisitor<T> {
-    /// Anything else is looked up as if it were a word, for the sake of the list of words.
+impl<T: for<'a> Deserialize<'a>> NameVisitor<T> {
+    /// Looks up the choice called `word`. Other types of values are looked up by their text, for an error with the list of names.
     fn look_up<E: serde::de::Error>(word: &str) -> Result<T, E> {
         T::deserialize(word.into_deserializer()).map_err(|e: serde::de::value::Error| E::custom(e))
     }
 }
 
-impl<T: for<'a> Deserialize<'a>> Visitor<'_> for WordVisitor<T> {
+impl<T: for<'a> Deserialize<'a>> Visitor<'_> for NameVisitor<T> {
     type Value = T;
 
     fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        // A list or a table: no word is like it.
+        // For a list or a table: the error of an empty name has the list of names.
         match Self::look_up::<serde::de::value::Error>("") {
             Err(e) => {
                 let text = e.to_string();
@@ -60,30 +60,38 @@ impl<T: for<'a> Deserialize<'a>> Visitor<'_> for WordVisitor<T> {
     }
 }
 
-/// A choice that may be left out.
+/// The choice that `name` stands for in a scene file.
+///
+/// # Errors
+/// A message with the names there are.
+pub fn parse_choice<T: for<'a> Deserialize<'a>>(name: &str) -> Result<T, String> {
+    NameVisitor::look_up(name).map_err(|e: serde::de::value::Error| e.to_string())
+}
+
+/// Reads an optional choice.
 pub(crate) fn optional<'de, D, T>(deserializer: D) -> Result<Option<T>, D::Error>
 where
     D: Deserializer<'de>,
     T: for<'a> Deserialize<'a>,
 {
-    Ok(Some(Word::deserialize(deserializer)?.0))
+    Ok(Some(Named::deserialize(deserializer)?.0))
 }
 
-/// A choice that must be made.
+/// Reads a required choice.
 pub(crate) fn required<'de, D, T>(deserializer: D) -> Result<T, D::Error>
 where
     D: Deserializer<'de>,
     T: for<'a> Deserialize<'a>,
 {
-    Ok(Word::deserialize(deserializer)?.0)
+    Ok(Named::deserialize(deserializer)?.0)
 }
 
-/// A list of choices that may be left out.
+/// Reads an optional list of choices.
 pub(crate) fn list<'de, D, T>(deserializer: D) -> Result<Option<Vec<T>>, D::Error>
 where
     D: Deserializer<'de>,
     T: for<'a> Deserialize<'a>,
 {
-    let words = Vec::<Word<T>>::deserialize(deserializer)?;
+    let words = Vec::<Named<T>>::deserialize(deserializer)?;
     Ok(Some(words.into_iter().map(|word| word.0).collect()))
 }

@@ -1,6 +1,4 @@
-//! Lists of a fixed number of values in scene files: neither fewer nor more.
-//!
-//! What serde makes of an array alone leaves out values beyond the last.
+//! Lists of a fixed number of values in scene files. Serde alone would ignore additional values.
 
 use std::fmt;
 use std::marker::PhantomData;
@@ -33,13 +31,15 @@ impl<'de, T: Deserialize<'de>, const N: usize> Visitor<'de> for Values<T, N> {
         }
         let values = <[T; N]>::try_from(values).map_err(|values| {
             let count = values.len();
-            A::Error::custom(format!("a list of {count}, where exactly {N} are needed"))
+            A::Error::custom(format!(
+                "a list of {count} values, but exactly {N} are needed"
+            ))
         })?;
         Ok(Exact(values))
     }
 }
 
-/// One list of `N` values.
+/// Reads an optional list of `N` values.
 pub(crate) fn one<'de, D, T, const N: usize>(deserializer: D) -> Result<Option<[T; N]>, D::Error>
 where
     D: Deserializer<'de>,
@@ -48,7 +48,7 @@ where
     Ok(Option::<Exact<T, N>>::deserialize(deserializer)?.map(|list| list.0))
 }
 
-/// Lists of `N` values.
+/// Reads an optional list of lists of `N` values.
 pub(crate) fn many<'de, D, T, const N: usize>(
     deserializer: D,
 ) -> Result<Option<Vec<[T; N]>>, D::Error>

@@ -1,6 +1,5 @@
-//! The scene: exactly what the user wrote.
-//!
-//! A TOML file; unknown keys are refused. [`crate::Study`] is what becomes of it.
+//! The scene: a TOML file as data, exactly as the user wrote it. Unknown keys are refused. It is resolved into a
+//! [`crate::Study`].
 
 use foldmotion_pattern::Case;
 use schemars::JsonSchema;
@@ -17,6 +16,7 @@ pub use foldmotion_geometry::DivisionMethod;
 pub use foldmotion_pattern::{FacetModel, Facing, Folding};
 pub use foldmotion_solver::{CreaseGroup, Ease, Preset, Stage};
 
+pub use self::choice::parse_choice;
 pub use self::pattern::PatternScene;
 pub use self::record::{
     CameraChoice, CameraScene, ColourChoice, HoldScene, OutputChoice, OwnCamera, Playback,
@@ -48,7 +48,7 @@ pub struct Scene {
     /// The engine, its frames, contact and the schedule.
     #[serde(default)]
     pub motion: MotionScene,
-    /// How the collision check judges the motion.
+    /// The options of the collision check.
     #[serde(default)]
     pub check: CheckScene,
     /// Which files are written of the motion, and how films and figures look.
@@ -66,7 +66,7 @@ pub struct ProfileScene {
     #[serde(deserialize_with = "exact_array::many")]
     #[schemars(extend("x-unit" = "profile.unit"))]
     pub points: Option<Vec<[f64; 2]>>,
-    /// A file of such points beside the scene: .csv (x, z on each line), .dat (an airfoil in Selig's or Lednicer's
+    /// A file of such points, next to the scene: .csv (x, z on each line), .dat (an airfoil in Selig's or Lednicer's
     /// order) or .dxf (one polyline or chain of lines, ASCII).
     pub file: Option<String>,
     /// Control points [x, z] of a cubic NURBS curve with unit weights; at least 4.
@@ -81,7 +81,7 @@ pub struct ProfileScene {
     #[schemars(extend("x-default" = "open; an outline from a file that says it is closed meets its start with a corner"))]
     pub closed: Option<Closed>,
     /// The curve is scaled so that the divided polygon has this length.
-    #[schemars(extend("x-default" = "the curve as it is given", "x-unit" = "profile.unit", "minimum" = 1e-09, "maximum" = 1000000000.0))]
+    #[schemars(extend("x-default" = "the curve as it is given", "x-unit" = "profile.unit", "minimum" = 1e-09, "maximum" = 1_000_000_000.0))]
     pub length: Option<f64>,
     /// The unit of length of the scene and of its results.
     #[serde(deserialize_with = "choice::optional")]
@@ -93,9 +93,9 @@ pub struct ProfileScene {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Closed {
-    /// With a corner.
+    /// The curve meets its start with a corner.
     Corner,
-    /// Smoothly.
+    /// The curve meets its start smoothly.
     Smooth,
 }
 
@@ -137,7 +137,7 @@ impl LengthUnit {
         }
     }
 
-    /// Its length in millimetres; none for the unit that has no physical length.
+    /// The length of the unit in millimetres; `None` for the unit without a physical length.
     pub fn millimetres(self) -> Option<f64> {
         match self {
             Self::Unit => None,
@@ -157,13 +157,13 @@ impl LengthUnit {
 #[serde(deny_unknown_fields, default)]
 pub struct SheetScene {
     /// The width W of the sheet, across all columns.
-    #[schemars(extend("x-default" = "W = Nc·h in case E (section 4.1 of the paper); for a built-in profile, the width it has in case E", "x-unit" = "profile.unit", "minimum" = 1e-09, "maximum" = 1000000000.0))]
+    #[schemars(extend("x-default" = "W = Nc·h in case E (section 4.1 of the paper); for a built-in profile, the width it has in case E", "x-unit" = "profile.unit", "minimum" = 1e-09, "maximum" = 1_000_000_000.0))]
     pub width: Option<f64>,
     /// The number of rows of units, Nr.
-    #[schemars(extend("x-default" = "that of the built-in profile", "minimum" = 1, "maximum" = 1000000))]
+    #[schemars(extend("x-default" = "that of the built-in profile", "minimum" = 1, "maximum" = 1_000_000))]
     pub rows: Option<i64>,
     /// The number of columns of units, Nc.
-    #[schemars(extend("x-default" = "that of the built-in profile in this case", "minimum" = 1, "maximum" = 1000000))]
+    #[schemars(extend("x-default" = "that of the built-in profile in this case", "minimum" = 1, "maximum" = 1_000_000))]
     pub columns: Option<i64>,
     /// The case of the unit: how its width w compares with its height h.
     #[serde(deserialize_with = "choice::optional")]
@@ -190,19 +190,19 @@ pub struct SheetScene {
     pub folding: Option<Folding>,
 }
 
-/// What becomes of rows of unequal height.
+/// How rows of unequal height are treated.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum UnequalChoice {
-    /// They are refused.
+    /// Rows of unequal height are refused.
     Refuse,
-    /// Each takes E, T or S by its own w/h; refused, with the reason, where the creases of neighbours do not meet.
+    /// Each has the case E, T or S by its own w/h. They are refused, with the reason, if the creases of neighbours do not meet.
     OwnCase,
-    /// All have one flap width, a = λ·min(h, w)/2 of the lowest row, with `lambda` in (0, 1], 0.9 where left out.
+    /// All have one flap width, a = λ·min(h, w)/2 of the lowest row, with `lambda` in (0, 1]. Default of `lambda`: 0.9.
     CommonFlap,
 }
 
-/// A case by name, or the one that w/h allows.
+/// A case by name, or the case that follows from w/h.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
 pub enum CaseChoice {
     /// Square units.
@@ -216,21 +216,21 @@ pub enum CaseChoice {
     /// Unmodified rectangles.
     #[serde(rename = "plain")]
     Plain,
-    /// E where w = h within 1e-9, T below, S above, or SII if λ is given.
+    /// E if w = h within 1e-9, T if w is smaller, S if it is larger, or SII if λ is given.
     #[serde(rename = "auto")]
     Auto,
 }
 
 impl CaseChoice {
-    /// The case, by w and h where the scene leaves it open.
-    pub fn resolve(self, width: f64, height: f64, lambda: Option<f64>) -> Case {
+    /// The case; `None` if w/h decides.
+    pub fn case(self) -> Option<Case> {
         match self {
-            Self::E => Case::E,
-            Self::T => Case::T,
-            Self::S => Case::S,
-            Self::SII => Case::SII,
-            Self::Plain => Case::Plain,
-            Self::Auto => Case::auto(width, height, lambda),
+            Self::E => Some(Case::E),
+            Self::T => Some(Case::T),
+            Self::S => Some(Case::S),
+            Self::SII => Some(Case::SII),
+            Self::Plain => Some(Case::Plain),
+            Self::Auto => None,
         }
     }
 }
@@ -248,7 +248,7 @@ pub struct DivisionScene {
     #[schemars(extend("default" = 1e-14, "minimum" = 0, "maximum" = 1))]
     pub tolerance: Option<f64>,
     /// The largest number of iterations.
-    #[schemars(extend("default" = 200, "minimum" = 1, "maximum" = 1000000))]
+    #[schemars(extend("default" = 200, "minimum" = 1, "maximum" = 1_000_000))]
     pub max_iterations: Option<i64>,
 }
 
@@ -256,27 +256,27 @@ pub struct DivisionScene {
 #[derive(Debug, Clone, Default, PartialEq, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct MaterialScene {
-    /// The constants to start from; keys beside it replace single constants.
+    /// The constants to start from; the keys below replace single constants.
     #[serde(deserialize_with = "choice::optional")]
     #[schemars(extend("x-default" = "the constants given below as defaults"))]
     pub preset: Option<Preset>,
     /// The thickness of the sheet: layers come no closer than this. Excludes motion.gap.
-    #[schemars(extend("x-default" = "none: layers keep motion.gap", "x-unit" = "profile.unit, or the unit of the pattern", "minimum" = 1e-09, "maximum" = 1000000000.0))]
+    #[schemars(extend("x-default" = "none: layers keep motion.gap", "x-unit" = "profile.unit, or the unit of the pattern", "minimum" = 1e-09, "maximum" = 1_000_000_000.0))]
     pub thickness: Option<f64>,
     /// The axial stiffness EA of the bars.
-    #[schemars(extend("default" = 20.0, "minimum" = 1e-09, "maximum" = 1000000000000.0))]
+    #[schemars(extend("default" = 20.0, "minimum" = 1e-09, "maximum" = 1_000_000_000_000.0))]
     pub axial_stiffness: Option<f64>,
     /// The stiffness of a crease per unit of its length.
-    #[schemars(extend("default" = 0.7, "minimum" = 1e-09, "maximum" = 1000000000000.0))]
+    #[schemars(extend("default" = 0.7, "minimum" = 1e-09, "maximum" = 1_000_000_000_000.0))]
     pub fold_stiffness: Option<f64>,
     /// The stiffness of a hinge inside a facet per unit of its length.
-    #[schemars(extend("default" = 0.7, "minimum" = 1e-09, "maximum" = 1000000000000.0))]
+    #[schemars(extend("default" = 0.7, "minimum" = 1e-09, "maximum" = 1_000_000_000_000.0))]
     pub facet_stiffness: Option<f64>,
     /// How the quadrilateral facets of units are cut into triangles. Does not apply to a pattern from a file.
     #[schemars(extend("x-default" = "`symmetric`; `one-diagonal` for maps, and if a facet is narrower than a tenth of its length"))]
     pub facet_model: Option<FacetModel>,
     /// The stiffness of the angles of each triangle; Origami Simulator sets 0.2.
-    #[schemars(extend("default" = 0.0, "minimum" = 0, "maximum" = 1000000000000.0))]
+    #[schemars(extend("default" = 0.0, "minimum" = 0, "maximum" = 1_000_000_000_000.0))]
     pub face_angle_stiffness: Option<f64>,
     /// The damping ratio ζ of the bars, used by the dynamic engine.
     #[schemars(extend("default" = 0.45, "minimum" = 0, "maximum" = 1000))]
@@ -292,12 +292,12 @@ pub struct MotionScene {
     #[schemars(extend("default" = "quasi-static"))]
     pub engine: Option<EngineChoice>,
     /// An even number of intervals: the states at t = 2k/frames are recorded.
-    #[schemars(extend("default" = 240, "minimum" = 2, "maximum" = 100000))]
+    #[schemars(extend("default" = 240, "minimum" = 2, "maximum" = 100_000))]
     pub frames: Option<i64>,
     /// Whether layers are kept apart. Only the quasi-static engine has contact.
     #[schemars(extend("x-default" = "true with the quasi-static engine"))]
     pub contact: Option<bool>,
-    /// The closest approach of layers. It has to fit beside the thinnest part of the sheet.
+    /// The closest approach of layers. It has to fit next to the thinnest part of the sheet.
     #[schemars(extend("x-default" = "1e-3, or less if a pattern has small facets", "x-unit" = "h, or the mean edge of a pattern", "minimum" = 1e-06))]
     pub gap: Option<f64>,
     /// How stage unfold flattens the profile.
@@ -305,7 +305,7 @@ pub struct MotionScene {
     #[schemars(extend("default" = "auto"))]
     pub unfold: Option<UnfoldChoice>,
     /// How much work the engine may do, in seconds (60 or "60 s") or in its own steps ("20000 steps"). The motion
-    /// then ends where it is, with exit status 3.
+    /// then ends at the state reached, with exit status 3.
     #[schemars(extend("x-default" = "300 Newton iterations for each state, or a million settling steps for each stage"))]
     pub budget: Option<BudgetScene>,
     /// The schedule. Creases that no step names follow the ramp of their stage.
@@ -316,17 +316,17 @@ pub struct MotionScene {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize, Serialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum UnfoldChoice {
-    /// All fold angles scaled together.
+    /// All fold angles are scaled together.
     Uniform,
     /// A path on which the profile does not cross itself (Cantarella, Demaine, Iben, O'Brien 2004).
     Energy,
-    /// Uniform where that is proved not to cross, else energy.
+    /// Uniform if that is proved not to cross, otherwise energy.
     #[default]
     Auto,
 }
 
 impl UnfoldChoice {
-    /// Its name in scene files.
+    /// The name in scene files.
     pub fn name(self) -> &'static str {
         match self {
             Self::Uniform => "uniform",
@@ -336,7 +336,7 @@ impl UnfoldChoice {
     }
 }
 
-/// `[[motion.step]]`: some creases, and when in their stage they move.
+/// `[[motion.step]]`: some creases, and the part of their stage in which they move.
 #[derive(Debug, Clone, PartialEq, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct StepScene {
@@ -365,18 +365,18 @@ pub struct StepScene {
     pub ease: Option<Ease>,
 }
 
-/// The engines.
+/// The engine that computes a motion.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum EngineChoice {
-    /// Equilibrium along the schedule.
+    /// The sheet is in equilibrium at each step of the schedule.
     QuasiStatic,
-    /// Mass, spring, damper, explicit steps.
+    /// Masses, springs and dampers move in explicit time steps.
     Dynamic,
 }
 
 impl EngineChoice {
-    /// Its name in scenes and reports.
+    /// The name in scenes and reports.
     pub fn name(self) -> &'static str {
         match self {
             Self::QuasiStatic => "quasi-static",
@@ -392,17 +392,17 @@ pub struct CheckScene {
     /// The tolerance τ of the verdict: facets that overlap by no more than this touch.
     #[schemars(extend("default" = 1e-6, "x-unit" = "h, or the mean edge of a pattern", "minimum" = 0, "maximum" = 0.01))]
     pub touch_tolerance: Option<f64>,
-    /// If more pairs of triangles than this penetrate, later frames are not judged; 0 means no limit.
+    /// If more pairs of triangles than this penetrate, later frames are not checked; 0 means no limit.
     #[schemars(extend("default" = 4096, "minimum" = 0))]
     pub stop_at: Option<i64>,
 }
 
-/// Seconds, or words with a unit.
+/// A budget: seconds, or a text with a unit.
 #[derive(Debug, Clone, PartialEq, Deserialize, Serialize, JsonSchema)]
 #[serde(untagged)]
 pub enum BudgetScene {
-    /// Seconds.
+    /// A number of seconds.
     Seconds(f64),
-    /// `60 s` or `20000 steps`.
+    /// A text such as `60 s` or `20000 steps`.
     Words(String),
 }

@@ -1,4 +1,4 @@
-//! `[pattern]`: a crease pattern of a file.
+//! `[pattern]`: a crease pattern from a file.
 
 use foldmotion_pattern::UnknownElements;
 use schemars::JsonSchema;
@@ -7,11 +7,11 @@ use serde::{Deserialize, Serialize};
 use crate::scene::LengthUnit;
 use crate::scene::choice;
 
-/// `[pattern]`: a crease pattern of a file, in place of `[profile]`, `[sheet]` and `[division]`.
+/// `[pattern]`: a crease pattern from a file, instead of `[profile]`, `[sheet]` and `[division]`.
 #[derive(Debug, Clone, Default, PartialEq, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct PatternScene {
-    /// The file beside the scene: .fold, or .svg in Origami Simulator's colours.
+    /// The file, next to the scene: .fold, or .svg in Origami Simulator's colours.
     pub file: String,
     /// The length that 1 stands for in the file.
     #[serde(default, deserialize_with = "choice::optional")]

@@ -1,4 +1,4 @@
-//! `[record]`: what is written of a motion, and how it looks.
+//! `[record]`: the outputs of a motion and their settings.
 
 pub use foldmotion_record::Playback;
 use schemars::JsonSchema;
@@ -10,7 +10,7 @@ use super::{choice, exact_array};
 #[derive(Debug, Clone, Default, PartialEq, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct RecordScene {
-    /// The kinds of files to write beside the report.
+    /// The kinds of files to write in addition to the report.
     #[serde(deserialize_with = "choice::list")]
     #[schemars(extend("default" = ["fold", "gif", "csv"]))]
     pub outputs: Option<Vec<OutputChoice>>,
@@ -71,14 +71,14 @@ pub struct RecordScene {
     pub letters: Option<f64>,
 }
 
-/// Pixels and frames a second of a GIF alone: drawing and packing it costs less than folding a sheet with contact.
+/// The default size and frame rate of films if only a GIF is written, which then costs less time than folding a sheet.
 const GIF_FILM: ([u32; 2], f64) = ([480, 360], 10.0);
 
-/// The same of films that are also written as MP4 or pictures.
+/// The default size and frame rate of films that are also written as MP4 or pictures.
 const FULL_FILM: ([u32; 2], f64) = ([960, 720], 30.0);
 
 impl RecordScene {
-    /// Pixels across and down, and frames a second, of films where the scene leaves them out.
+    /// The default size in pixels and the default frame rate of films.
     pub fn standard_film(&self) -> ([u32; 2], f64) {
         let is_full = |output| matches!(output, &OutputChoice::Mp4 | &OutputChoice::Png);
         if self.outputs.iter().flatten().any(is_full) {
@@ -89,7 +89,7 @@ impl RecordScene {
     }
 }
 
-/// The files a run writes beside its report.
+/// The files that a run writes in addition to its report.
 #[derive(
     Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Deserialize, Serialize, JsonSchema,
 )]
@@ -103,17 +103,17 @@ pub enum OutputChoice {
     Csv,
     /// `motion.mp4`: H.264.
     Mp4,
-    /// `frames/0001.png` on, at a constant rate.
+    /// `frames/0001.png` and so on: pictures at a constant frame rate.
     Png,
     /// `figure.svg`: states side by side, as lines and areas.
     Svg,
-    /// `figure.pdf`: the same.
+    /// `figure.pdf`: the same figure as PDF.
     Pdf,
     /// `motion.glb`: glTF with the motion as morph targets.
     Glb,
     /// `state-0.5.obj`: a file for each of the states `at`.
     Obj,
-    /// `state-0.5.stl`: likewise.
+    /// `state-0.5.stl`: a file for each of the states `at`, as STL.
     Stl,
     /// `motion.html`: the motion, its plots, report and certificate as one page for browsers.
     Html,
@@ -135,7 +135,7 @@ impl OutputChoice {
         Self::Html,
     ];
 
-    /// Its name in scene files, which is also how its files end.
+    /// The name in scene files, which is also the extension of its files.
     pub fn name(self) -> &'static str {
         match self {
             Self::Fold => "fold",
@@ -153,20 +153,20 @@ impl OutputChoice {
     }
 }
 
-/// Seconds a state stands still.
+/// How long films show a state without motion, in seconds.
 #[derive(Debug, Clone, Copy, PartialEq, Deserialize, Serialize, JsonSchema)]
 #[serde(
     untagged,
     expecting = "hold must be a number of seconds, or three: [deployed, planar, compact]"
 )]
 pub enum HoldScene {
-    /// All three alike.
+    /// The same time for all three states.
     Each(f64),
-    /// The deployed, the planar and the compact state.
+    /// The times of the deployed, the planar and the compact state.
     States([f64; 3]),
 }
 
-/// Where the viewer stands.
+/// The position of the viewer.
 #[derive(Debug, Clone, Copy, PartialEq, Deserialize, Serialize, JsonSchema)]
 #[serde(
     untagged,
@@ -175,17 +175,17 @@ pub enum HoldScene {
                  a picture of your own"
 )]
 pub enum CameraScene {
-    /// By name.
+    /// A preset by name.
     Preset(CameraChoice),
-    /// By angles.
+    /// A camera by angles.
     Own(OwnCamera),
 }
 
-/// Camera presets.
+/// The camera presets.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum CameraChoice {
-    /// From above, in front and the side.
+    /// From above, the front and the side.
     Iso,
     /// Along the width.
     Front,
@@ -193,7 +193,7 @@ pub enum CameraChoice {
     Side,
     /// From above.
     Top,
-    /// As iso, once round over the film.
+    /// As iso, with one turn around the motion over the film.
     Turntable,
 }
 
@@ -216,11 +216,11 @@ pub struct OwnCamera {
     pub centre: Option<[f64; 3]>,
     /// The length shown across films and pictures. With a centre, figures show this much of each state, and more if a
     /// state is larger.
-    #[schemars(extend("x-default" = "what all of the motion needs", "x-unit" = "profile.unit", "minimum" = 1e-09, "maximum" = 1000000000.0))]
+    #[schemars(extend("x-default" = "what all of the motion needs", "x-unit" = "profile.unit", "minimum" = 1e-09, "maximum" = 1_000_000_000.0))]
     pub width: Option<f64>,
 }
 
-/// What colours show.
+/// What the colours of films and figures show.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum ColourChoice {
@@ -234,15 +234,15 @@ pub enum ColourChoice {
     Bending,
 }
 
-/// How thick solids are.
+/// The thickness of solids.
 #[derive(Debug, Clone, Copy, PartialEq, Deserialize, Serialize, JsonSchema)]
 #[serde(
     untagged,
     expecting = "thickened must be true, false, or a thickness in profile.unit"
 )]
 pub enum ThickenedScene {
-    /// As the material says, or not at all.
+    /// The thickness of the material, or surfaces.
     ByMaterial(bool),
-    /// In profile.unit.
+    /// A thickness in profile.unit.
     By(f64),
 }

@@ -10,10 +10,10 @@ use crate::input_file::LARGEST_SCENE;
 use crate::scene::RecordScene;
 use crate::{Scene, StudyError, input_file};
 
-/// A commented scene to start from: a shelter, with every key and its default. It runs as it stands.
+/// A commented scene to start from: a shelter, with every key and its default. It can be run without changes.
 pub const FIRST_SCENE: &str = include_str!("first_scene.toml");
 
-/// A scene file as text.
+/// The text of a scene file with values from the command line.
 #[derive(Debug, Clone)]
 pub struct SceneSource {
     path: PathBuf,
@@ -31,20 +31,19 @@ struct Override {
 }
 
 impl SceneSource {
-    /// Reads a scene file. A crease pattern (.fold, .svg) is a scene of its own, of which `[pattern]` names this file and
-    /// all else is left out.
+    /// Reads a scene file. For a crease pattern (.fold, .svg), the scene has only `[pattern]` with this file.
     ///
     /// # Errors
     /// [`StudyError::Read`], and [`StudyError::LargeFile`] above 16 MiB.
     pub fn read(path: &Path) -> Result<Self, StudyError> {
-        if let Some(pattern) = Self::of_pattern(path) {
+        if let Some(pattern) = Self::for_pattern(path) {
             return Ok(pattern);
         }
         let text = input_file::read_text(path, LARGEST_SCENE)?;
         Ok(Self::new(path, text))
     }
 
-    /// A scene from text; `path` names it in errors and, without its ending, in results.
+    /// A scene from text; errors name `path`, and results its stem.
     pub fn new(path: &Path, text: String) -> Self {
         Self {
             path: path.to_owned(),
@@ -53,23 +52,23 @@ impl SceneSource {
         }
     }
 
-    /// Adds a `--set key=value`: a dotted key and a TOML value (a word that is no TOML value is taken as a string).
+    /// Adds a `--set key=value`: a dotted key and a TOML value; anything else is a string.
     ///
     /// # Errors
     /// [`StudyError::Parse`] without `=` or with an empty key.
     pub fn set(&mut self, assignment: &str) -> Result<(), StudyError> {
-        let fault = |message: String| StudyError::Parse {
-            place: format!("--set {assignment}"),
+        let error = |message: String| StudyError::Parse {
+            location: format!("--set {assignment}"),
             message,
         };
         let Some((key, value)) = assignment.split_once('=') else {
-            return Err(fault(
+            return Err(error(
                 "expected key=value, such as sheet.columns=3".to_owned(),
             ));
         };
         let (key, value) = (key.trim(), value.trim());
         if key.split('.').any(str::is_empty) {
-            return Err(fault(
+            return Err(error(
                 "the key is empty; write table.key=value, such as sheet.columns=3".to_owned(),
             ));
         }
@@ -86,7 +85,7 @@ impl SceneSource {
         Ok(())
     }
 
-    /// Adds the value of a flag of the command line, `--name value`, in the place of `key`.
+    /// Adds the value of the command line flag `--name` for `key`.
     pub fn set_by_flag(&mut self, name: &str, key: &str, value: &str) {
         self.overrides.push(Override {
             flag: format!("--{name}"),
@@ -95,8 +94,8 @@ impl SceneSource {
         });
     }
 
-    /// No file, but `[record]` from the command line: each key is named as a flag in errors.
-    pub(crate) fn of_flags(record: &RecordScene) -> Self {
+    /// A scene with only `[record]` from the command line: errors name each key as a flag.
+    pub(crate) fn from_flags(record: &RecordScene) -> Self {
         let mut source = Self::new(Path::new("record"), String::new());
         // A struct of plain values with string keys always serialises.
         let table = Table::try_from(record).unwrap_or_default();
@@ -109,8 +108,8 @@ impl SceneSource {
         source
     }
 
-    /// Gives a key the text `value`, which the file itself stands for.
-    pub(crate) fn give(&mut self, key: &str, value: &str) {
+    /// Sets a key to the text `value`, which stands for the file itself.
+    pub(crate) fn set_by_file(&mut self, key: &str, value: &str) {
         self.overrides.push(Override {
             flag: self.path.display().to_string(),
             key: key.to_owned(),
@@ -123,12 +122,12 @@ impl SceneSource {
         &self.text
     }
 
-    /// A path of the scene: relative ones are beside the scene file.
-    pub(crate) fn beside(&self, path: &str) -> PathBuf {
+    /// The path of a file that the scene names, relative to the folder of the scene.
+    pub(crate) fn resolve_path(&self, path: &str) -> PathBuf {
         self.path.parent().unwrap_or(Path::new("")).join(path)
     }
 
-    /// The file's name without its ending.
+    /// The name of the file without its extension.
     pub fn stem(&self) -> String {
         self.path
             .file_stem()
@@ -138,60 +137,56 @@ impl SceneSource {
     /// Parses the text, then applies the overrides.
     ///
     /// # Errors
-    /// [`StudyError::Parse`] for what is no TOML, unknown keys and wrong types; [`StudyError::Value`] for keys this
-    /// version does not act on yet.
+    /// [`StudyError::Parse`] for invalid TOML, unknown keys and wrong types; [`StudyError::Value`] for a title of several lines.
     pub fn scene(&self) -> Result<Scene, StudyError> {
-        let at_fault = |error: &toml::de::Error| StudyError::Parse {
-            place: error.span().map_or_else(
+        let parse_error = |error: &toml::de::Error| StudyError::Parse {
+            location: error.span().map_or_else(
                 || self.path.display().to_string(),
-                |span| self.place(span.start),
+                |span| self.location(span.start),
             ),
-            message: self.named(error),
+            message: self.message(error),
         };
-        let mut table: Table = toml::from_str(&self.text).map_err(|e| at_fault(&e))?;
+        let mut table: Table = toml::from_str(&self.text).map_err(|e| parse_error(&e))?;
         for Override { key, value, .. } in &self.overrides {
             insert(&mut table, key, value.clone()).map_err(|message| StudyError::Parse {
-                place: format!("--set {key}"),
+                location: format!("--set {key}"),
                 message,
             })?;
         }
-        // The file itself first, so that its own errors carry their line.
+        // The file is parsed by itself first, so that its own errors have a line.
         let scene: Result<Scene, _> = toml::from_str(&self.text);
         if self.overrides.is_empty() {
-            return self.with_title(scene.map_err(|e| at_fault(&e))?);
+            return self.with_valid_title(scene.map_err(|e| parse_error(&e))?);
         }
         match Scene::deserialize_table(table) {
-            Ok(overridden) => self.with_title(overridden),
+            Ok(overridden) => self.with_valid_title(overridden),
             Err(error) => match scene {
-                Err(own) => Err(at_fault(&own)),
+                Err(own) => Err(parse_error(&own)),
                 Ok(_) => Err(StudyError::Parse {
-                    place: self.override_names(),
+                    location: self.override_names(),
                     message: error,
                 }),
             },
         }
     }
 
-    /// What TOML says of an error; a key that stands twice is named.
-    fn named(&self, error: &toml::de::Error) -> String {
+    /// The message of a TOML error, with the name of a duplicate key.
+    fn message(&self, error: &toml::de::Error) -> String {
         let message = error.message();
         let key = error.span().and_then(|span| self.text.get(span));
         match key {
             Some(key) if message == "duplicate key" => {
-                format!(
-                    "the key `{}` stands here a second time",
-                    shortened(key.trim())
-                )
+                format!("the key `{}` is already set above", shortened(key.trim()))
             }
             _ => message.to_owned(),
         }
     }
 
-    /// The scene, where its title is a line of text.
-    fn with_title(&self, scene: Scene) -> Result<Scene, StudyError> {
+    /// Refuses a title with control characters.
+    fn with_valid_title(&self, scene: Scene) -> Result<Scene, StudyError> {
         let mut letters = scene.title.iter().flat_map(|title| title.chars());
         if letters.any(char::is_control) {
-            let message = "must be one line without control characters".to_owned();
+            let message = "must be a single line without control characters".to_owned();
             return Err(self.value_error("title", message));
         }
         Ok(scene)
@@ -206,42 +201,42 @@ impl SceneSource {
         names.join(", ")
     }
 
-    /// An error about the value of a key: with its file, line and value, or the `--set` that gave it.
+    /// The error about the value of a key, with file, line and value, or with the flag that set it.
     pub fn value_error(&self, key: &str, message: String) -> StudyError {
         let overridden = self.overrides.iter().rev().find(|over| over.key == key);
-        let (place, value) = match (overridden, self.locate(key)) {
+        let (location, value) = match (overridden, self.locate(key)) {
             (Some(over), _) => (over.flag.clone(), format!(" = {}", shown(&over.value))),
-            (None, Some((span, value))) => (self.place(span.start), format!(" = {value}")),
+            (None, Some((span, value))) => (self.location(span.start), format!(" = {value}")),
             (None, None) => (self.path.display().to_string(), String::new()),
         };
         StudyError::Value {
-            place,
+            location,
             key: key.to_owned(),
             value,
             message,
         }
     }
 
-    /// The `--set` that gave a key, else its `file:line`, or the file where the key is absent.
-    pub fn place_of(&self, key: &str) -> String {
+    /// The location of a key: the flag that set it, `file:line:column`, or the file if the key is absent.
+    pub fn location_of(&self, key: &str) -> String {
         if let Some(over) = self.overrides.iter().rev().find(|over| over.key == key) {
             return over.flag.clone();
         }
         self.locate(key).map_or_else(
             || self.path.display().to_string(),
-            |(span, _)| self.place(span.start),
+            |(span, _)| self.location(span.start),
         )
     }
 
-    /// `file:line:column` of a byte of the text.
-    fn place(&self, byte: usize) -> String {
+    /// The location of a byte of the text as `file:line:column`.
+    fn location(&self, byte: usize) -> String {
         let before = &self.text[..byte.min(self.text.len())];
         let line = before.matches('\n').count() + 1;
         let column = before.chars().rev().take_while(|&c| c != '\n').count() + 1;
         format!("{}:{line}:{column}", self.path.display())
     }
 
-    /// Where the value of a dotted key stands and its text; a number names an element of a list.
+    /// The span and the text of the value of a dotted key, in which numbers are indices of lists.
     fn locate(&self, key: &str) -> Option<(std::ops::Range<usize>, String)> {
         let table = DeTable::parse(&self.text).ok()?;
         let mut parts = key.split('.');
@@ -257,7 +252,7 @@ impl SceneSource {
     }
 }
 
-/// A value as it may have been written, cut where it is long.
+/// The text of a value, shortened if it is long.
 fn shown(value: &Value) -> String {
     match value {
         Value::Float(number) => Number(*number).to_string(),
@@ -265,7 +260,7 @@ fn shown(value: &Value) -> String {
     }
 }
 
-/// The text of a value, cut where it is long.
+/// A text, shortened if it is long.
 fn shortened(text: &str) -> String {
     const LONGEST: usize = 60;
     if text.chars().count() <= LONGEST {
@@ -288,7 +283,7 @@ fn insert(table: &mut Table, key: &str, value: Value) -> Result<(), String> {
             match entry {
                 Value::Table(inner) => insert(inner, rest, value),
                 _ => Err(format!(
-                    "{group} is no table, so {rest} cannot be set in it"
+                    "{group} is not a table, so {rest} cannot be set in it"
                 )),
             }
         }
@@ -334,7 +329,7 @@ mod tests {
     }
 
     #[test]
-    fn text_that_is_no_toml_is_refused_with_its_line() {
+    fn text_that_is_not_toml_is_refused_with_its_line() {
         let text = source("[sheet]\nrows = = 7\n")
             .scene()
             .unwrap_err()

@@ -21,7 +21,7 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use eframe::egui::{self, CentralPanel, Panel, ScrollArea, Ui};
-use foldmotion_study::{Draft, Opened, OpenedMotion, Preview, Scene, Study};
+use foldmotion_study::{Draft, OpenedFile, OpenedMotion, Preview, Scene, Study};
 
 use crate::design::{DesignInput, DesignPanel, SceneError};
 use crate::document::Document;
@@ -111,7 +111,7 @@ struct Jobs {
     preview: Pending<(Scene, Arc<Draft>), Preview>,
     run: Pending<(Scene, StateFeed), FinishedRun>,
     interaction: Option<Interaction>,
-    opening: Pending<PathBuf, Opened>,
+    opening: Pending<PathBuf, OpenedFile>,
     checking: Pending<Arc<OpenedMotion>, CheckedMotion>,
     recording: Pending<PathBuf, Vec<String>>,
     /// The highest number of states per second of the current run or interaction.

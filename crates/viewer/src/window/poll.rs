@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use eframe::egui::Context;
-use foldmotion_study::{Draft, Opened, Scene};
+use foldmotion_study::{Draft, OpenedFile, Scene};
 
 use super::shown_motion::ShownMotion;
 use super::{Pending, Viewer, motion_keys};
@@ -172,7 +172,7 @@ impl Viewer {
             return;
         };
         match opened {
-            Ok(Opened::Motion(motion)) => {
+            Ok(OpenedFile::Motion(motion)) => {
                 self.settings.recent.add(&path);
                 self.jobs.stop();
                 let job = check_motion(Arc::clone(&motion), self.repaint.clone());
@@ -182,7 +182,7 @@ impl Viewer {
                 let shown = Arc::new(ShownMotion::file(motion, None, key));
                 self.change_motion(|display| display.file = Some(shown));
             }
-            Ok(Opened::Scene(_)) => match Document::open(&path) {
+            Ok(OpenedFile::Scene(_)) => match Document::open(&path) {
                 Ok(document) => {
                     self.settings.recent.add(&path);
                     self.take_document(document);

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use foldmotion_study::{Certificate, CheckOptions, Findings, Opened, OpenedMotion};
+use foldmotion_study::{Certificate, CheckOptions, Findings, OpenedFile, OpenedMotion};
 
 use super::{Job, RepaintSignal};
 
@@ -15,9 +15,9 @@ pub(crate) struct CheckedMotion {
 }
 
 /// Reads a file: a scene, a crease pattern or a motion.
-pub(crate) fn open(path: PathBuf, repaint: RepaintSignal) -> Job<Opened> {
+pub(crate) fn open(path: PathBuf, repaint: RepaintSignal) -> Job<OpenedFile> {
     Job::start("foldmotion open", repaint, move |report| {
-        Ok(Opened::read(&path, report)?)
+        Ok(OpenedFile::read(&path, report)?)
     })
 }
 

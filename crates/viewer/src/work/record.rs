@@ -53,7 +53,7 @@ pub(crate) fn write(
 mod tests {
     use std::fs;
 
-    use foldmotion_study::Opened;
+    use foldmotion_study::OpenedFile;
     use foldmotion_study::scene::{CameraScene, OutputChoice, OwnCamera};
 
     use super::super::job::tests::wait;
@@ -98,7 +98,7 @@ mod tests {
         let files = done(&record(run, kept, view(&outputs), at("mine"), quiet())).unwrap();
         assert!(files.contains(&"motion.fold".to_owned()));
         let opened = done(&open(at("mine/motion.fold"), quiet())).unwrap();
-        let Opened::Motion(motion) = opened else {
+        let OpenedFile::Motion(motion) = opened else {
             panic!("a motion was written")
         };
         assert_eq!(motion.motion().frames, folded.motion.frames);

@@ -1,14 +1,14 @@
-//! The collision check of a motion as it was computed.
+//! The collision check of a computed motion.
 
 use foldmotion_check::{CheckError, Checker, CollisionReport};
 use foldmotion_pattern::{Frame, LayerOrder, Motion};
 
-use super::engine::Computed;
+use super::engine::EngineRun;
 use super::folded::Findings;
 use crate::{Phase, Progress, Study, StudyError};
 
 impl Study {
-    /// The motion where it is shown.
+    /// The motion of `frames`, placed as it is displayed and written.
     pub(crate) fn place(&self, mut frames: Vec<Frame>) -> Motion {
         self.subject.place(&mut frames);
         Motion {
@@ -21,10 +21,10 @@ impl Study {
     pub(crate) fn check(
         &self,
         motion: &Motion,
-        computed: &Computed,
+        computed: &EngineRun,
         progress: Progress<'_>,
     ) -> Result<Findings, StudyError> {
-        let (collision, layer_orders) = self.judge(motion, progress)?;
+        let (collision, layer_orders) = self.check_frames(motion, progress)?;
         Ok(Findings {
             series: self.series(motion, computed, &collision.separation_series),
             collision,
@@ -32,11 +32,12 @@ impl Study {
         })
     }
 
-    /// The verdict, and the order of the layers at every frame that has some.
+    /// The collision report, and the layer order of each frame in which triangles coincide.
     ///
-    /// Where the check stops early, later frames get no order. The order is claimed as the motion file will claim it, so that its check gives the same certificate. In the
-    /// compact frame of a motion without penetration, layers a gap apart lie in the exact order.
-    fn judge(
+    /// If the check stops early, later frames get no order. The order is claimed here as the motion file will claim it, so that
+    /// a check of the file gives the same certificate. In the compact frame of a motion without penetration, layers that a gap
+    /// keeps apart are in the exact order.
+    fn check_frames(
         &self,
         motion: &Motion,
         progress: Progress<'_>,
@@ -47,31 +48,31 @@ impl Study {
             if !progress(Phase::Check, index as f64 / motion.frames.len() as f64) {
                 return Err(CheckError::Cancelled { intervals: index }.into());
             }
-            let mut judged = match checker {
+            let mut current = match checker {
                 Some(mut checker) => {
                     checker.advance(frame)?;
                     checker
                 }
                 None => Checker::new(&motion.sheet, frame, &self.collision)?,
             };
-            if judged.is_stopped() {
-                checker = Some(judged);
+            if current.is_stopped() {
+                checker = Some(current);
                 break;
             }
-            let mut order = judged.layer_order();
+            let mut order = current.layer_order();
             let is_last = index + 1 == motion.frames.len();
-            if is_last && frame.time == 2.0 && judged.is_clean() {
-                for (f, g, sign) in judged.without_false(&motion.compact_order).iter() {
+            if is_last && frame.time == 2.0 && current.is_clean() {
+                for (f, g, sign) in current.without_false(&motion.compact_order).iter() {
                     if order.sign(f, g).is_none() {
                         order.insert(f, g, sign);
                     }
                 }
             }
-            judged.claim(&order, &|triangle| triangle)?;
+            current.claim(&order, &|triangle| triangle)?;
             if !order.is_empty() {
                 orders.push((index, order));
             }
-            checker = Some(judged);
+            checker = Some(current);
         }
         progress(Phase::Check, 1.0);
         let checker = checker.ok_or(CheckError::NoFrames)?;

@@ -1,4 +1,4 @@
-//! What is wrong with a crease pattern or the scene that names it is said with its place, and ends in status 2.
+//! Errors in a crease pattern, or in the scene that names it, have a location and status 2.
 
 use std::path::Path;
 
@@ -12,7 +12,7 @@ fn resolve(folder: &Path, scene: &str) -> Result<Study, StudyError> {
     Study::resolve(&SceneSource::read(&path).unwrap())
 }
 
-/// The refusal of a scene beside which `name` holds `bytes`; it has all `words`.
+/// Checks that a scene next to the file `name` with the content `bytes` is refused with all `words`.
 fn refused(name: &str, bytes: &[u8], scene: &str, words: &[&str]) {
     let folder = tempfile::tempdir().unwrap();
     std::fs::write(folder.path().join(name), bytes).unwrap();
@@ -112,7 +112,7 @@ fn files_are_refused_by_name_and_element() {
 }
 
 #[test]
-fn what_is_refused_is_left_out_where_asked() {
+fn unknown_elements_are_ignored_on_request() {
     let folder = tempfile::tempdir().unwrap();
     let text = SQUARE.replace("</svg>", "<circle r=\"1\" stroke=\"#000\"/></svg>");
     std::fs::write(folder.path().join("c.svg"), text).unwrap();

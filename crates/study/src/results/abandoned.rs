@@ -1,7 +1,7 @@
-//! Folders of results that were never finished, because their process was killed.
+//! Temporary folders of processes that were killed.
 //!
-//! A process holds a lock in its folder, which ends with it however it ends. Where the disk knows no locks, or the folder
-//! has none, the number of the process in the folder's name decides, where the system tells which processes there are.
+//! A process holds a lock in its temporary folder, which the system releases when the process ends. If the file system has no
+//! locks, or the folder has no lock file, the process number in the name of the folder decides, on systems with `/proc`.
 
 use std::fs::{self, File, TryLockError};
 use std::path::{Path, PathBuf};
@@ -9,18 +9,18 @@ use std::path::{Path, PathBuf};
 /// The file in the folder that its process locks.
 const LOCK: &str = ".lock";
 
-/// The folder of this process for results called `name`, in `parent`.
+/// The temporary folder of this process for the output folder `name` in `parent`.
 pub(super) fn folder_of(parent: &Path, name: &str) -> PathBuf {
     parent.join(format!("{}{}", prefix(name), std::process::id()))
 }
 
-/// Says that this process works in `folder`, as long as the answer lives; nothing where the disk knows no locks.
+/// Locks `folder` until the returned file is dropped; `None` if the file system has no locks.
 pub(super) fn lock(folder: &Path) -> Option<File> {
     let lock = File::create(folder.join(LOCK)).ok()?;
     lock.try_lock().ok().map(|()| lock)
 }
 
-/// Removes what killed processes left in `parent` of results called `name`.
+/// Removes the temporary folders in `parent` that killed processes left for the output folder `name`.
 pub(super) fn remove(parent: &Path, name: &str) {
     let prefix = prefix(name);
     for entry in fs::read_dir(parent).into_iter().flatten().flatten() {
@@ -31,7 +31,7 @@ pub(super) fn remove(parent: &Path, name: &str) {
         if let (Some(process), true) = (process, is_folder)
             && is_abandoned(&entry.path(), process)
         {
-            // What cannot be removed is a hidden folder that says what it is.
+            // A folder that cannot be removed is hidden and recognisable by its name.
             let _ = fs::remove_dir_all(entry.path());
         }
     }
@@ -45,12 +45,12 @@ fn is_abandoned(folder: &Path, process: u32) -> bool {
     match File::open(folder.join(LOCK)).map(|lock| lock.try_lock()) {
         Ok(Ok(())) => true,
         Ok(Err(TryLockError::WouldBlock)) => false,
-        Ok(Err(TryLockError::Error(_))) | Err(_) => !may_run(process),
+        Ok(Err(TryLockError::Error(_))) | Err(_) => !process_may_exist(process),
     }
 }
 
-/// Whether there may be a process of this number.
-pub fn may_run(process: u32) -> bool {
+/// Whether a process with this number may exist.
+pub fn process_may_exist(process: u32) -> bool {
     let processes = Path::new("/proc");
     !processes.join("self").exists() || processes.join(process.to_string()).exists()
 }

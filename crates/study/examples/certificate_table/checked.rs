@@ -1,4 +1,4 @@
-//! A scene folded, its motion judged, and the certificate proved again.
+//! A scene folded, its motion checked, and the certificate proved again.
 
 use std::error::Error;
 use std::path::{Path, PathBuf};
@@ -6,20 +6,20 @@ use std::time::Instant;
 
 use foldmotion_study::{Report, SceneSource, Study, VerifiedCertificate, verify_file};
 
-/// A scene and what is set otherwise.
+/// A scene with changed settings.
 pub(crate) struct Motion {
-    /// Its name in `scenes/`, without the ending.
+    /// The name in `scenes/`, without the extension.
     pub(crate) scene: String,
-    /// Whether layers keep apart.
+    /// Whether contact keeps layers apart.
     pub(crate) has_contact: bool,
     /// Other settings, as after `--set`.
     pub(crate) settings: Vec<String>,
 }
 
-/// What came of a motion.
-pub(crate) struct Judged {
+/// The result of a motion.
+pub(crate) struct Checked {
     pub(crate) report: Report,
-    /// The certificate, and what the second proof says of it.
+    /// The certificate with the result of the second proof.
     pub(crate) verified: VerifiedCertificate,
     pub(crate) verify_seconds: f64,
 }
@@ -31,7 +31,7 @@ pub(crate) fn scenes() -> PathBuf {
 
 impl Motion {
     /// Folds, checks and verifies, by the files that `foldmotion run` writes.
-    pub(crate) fn judge(&self) -> Result<Judged, Box<dyn Error>> {
+    pub(crate) fn check(&self) -> Result<Checked, Box<dyn Error>> {
         let mut source = SceneSource::read(&scenes().join(&self.scene).with_extension("toml"))?;
         source.set("record.outputs=[\"fold\"]")?;
         source.set(&format!("motion.contact={}", self.has_contact))?;
@@ -46,7 +46,7 @@ impl Motion {
             &folder.path().join("certificate.json"),
             &|_, _| true,
         )?;
-        Ok(Judged {
+        Ok(Checked {
             report,
             verified,
             verify_seconds: started.elapsed().as_secs_f64(),
@@ -54,30 +54,30 @@ impl Motion {
     }
 }
 
-impl Judged {
-    /// The verdict, and up to when where the check ended early.
+impl Checked {
+    /// The verdict, with the last time checked if the check ended early.
     pub(crate) fn verdict(&self) -> String {
         let certificate = &self.verified.certificate;
         match &certificate.stopped {
             None => certificate.verdict.to_string(),
             Some(stopped) => format!(
-                "{}, judged up to t = {:.3}",
+                "{}, checked up to t = {:.3}",
                 certificate.verdict, stopped.time
             ),
         }
     }
 
-    /// Whether the motion came to its end.
+    /// Whether the motion reached its end.
     pub(crate) fn is_finished(&self) -> bool {
         self.report.outcome.is_at_end()
     }
 
-    /// Whether the motion came to its end, or where it stopped.
+    /// The outcome of the motion.
     pub(crate) fn outcome(&self) -> String {
         self.report.outcome.headline()
     }
 
-    /// What the second proof says.
+    /// The result of the second proof.
     pub(crate) fn second_proof(&self) -> String {
         let verification = &self.verified.verification;
         match self.verified.status() {

@@ -89,7 +89,7 @@ fn without_contact_symmetric_sheets_move_symmetrically() {
 }
 
 #[test]
-fn with_contact_they_do_until_the_stack_buckles() {
+fn with_contact_symmetric_sheets_move_symmetrically_until_the_stack_buckles() {
     // From there on the second derivative of the energy at the symmetric equilibrium is negative in some direction.
     for (sheet, buckles) in [(E, 1.95), (T, 1.95), (S, 1.95), (SII, 3.0)] {
         let (study, frames) = folded(sheet, "", "contact = true");
@@ -117,7 +117,7 @@ fn facets_cut_by_one_diagonal_move_unsymmetrically() {
 }
 
 #[test]
-fn a_sheet_with_narrow_pads_keeps_its_diagonals_unless_asked_otherwise() {
+fn a_sheet_with_narrow_pads_has_one_diagonal_by_default() {
     let model = |width: f64, keys: &str| {
         let scene = format!(
             "[profile]\nmodel = \"shelter\"\nlength = 7.0\n[sheet]\n{S}\ncolumns = 2\nwidth = {width}\n[material]\n{keys}\n"
@@ -133,7 +133,7 @@ fn a_sheet_with_narrow_pads_keeps_its_diagonals_unless_asked_otherwise() {
 }
 
 #[test]
-fn the_dynamic_engine_keeps_the_symmetry_too() {
+fn the_dynamic_engine_keeps_the_symmetry() {
     let (study, frames) = folded(S, "", "engine = \"dynamic\"");
     let worst = largest(&study, &frames, 3.0);
     assert!(worst < SYMMETRIC, "{worst:e}");

@@ -1,4 +1,4 @@
-//! What foldmotion made in a folder: a list beside the results, so that it never takes a file of others for its own.
+//! The manifest of an output folder: the files that foldmotion made there, so that it never replaces a file of the user.
 
 use std::fs::{self, File};
 use std::io::{self, Read as _};
@@ -10,24 +10,24 @@ use sha2::{Digest as _, Sha256};
 use super::names::REPORT;
 use crate::digest::hexadecimal;
 
-/// The name of the list.
-pub(crate) const LIST: &str = ".foldmotion.json";
+/// The name of the manifest file.
+pub(crate) const MANIFEST: &str = ".foldmotion.json";
 
-/// The largest list, or report in place of one, that is read: bytes.
+/// The largest manifest or report that is read, in bytes.
 const LARGEST: u64 = 64 << 20;
 
-/// The command that makes files.
+/// A command that writes files.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
-pub(crate) enum Maker {
+pub(crate) enum Command {
     Run,
     Record,
     Check,
     Pattern,
 }
 
-impl Maker {
-    /// The command.
+impl Command {
+    /// The name of the command.
     pub(crate) fn name(self) -> &'static str {
         match self {
             Self::Run => "run",
@@ -37,37 +37,38 @@ impl Maker {
         }
     }
 
-    /// Whether it may write over what `other` made. A run knows only its own; the others are asked for single files.
+    /// Whether this command may replace files of `other`. A run replaces only its own files.
     fn may_replace(self, other: Self) -> bool {
         self != Self::Run || other == Self::Run
     }
 }
 
-/// A file that was made.
+/// A file in the manifest.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
-pub(crate) struct MadeFile {
-    /// Its name in the folder.
+pub(crate) struct ManifestEntry {
+    /// The name of the file in the folder.
     pub(crate) name: String,
-    pub(crate) by: Maker,
-    /// Its SHA-256; none of a report, whose seconds differ from run to run, and of files that only a report lists.
+    /// The command that wrote the file.
+    pub(crate) by: Command,
+    /// The SHA-256 of the file; `None` for a report, whose timings vary, and for files that only a report lists.
     sha256: Option<String>,
-    /// The SHA-256 of what it shows: of the motion, or of all that makes a pattern.
+    /// The SHA-256 of what the file shows: of the motion, or of the inputs of a pattern.
     pub(crate) of: Option<String>,
 }
 
-impl MadeFile {
-    /// The file `name` of `maker`, which stands in `folder` and shows what has the SHA-256 `of`.
-    pub(crate) fn new(maker: Maker, folder: &Path, name: &str, of: Option<&str>) -> Self {
+impl ManifestEntry {
+    /// The entry of the file `name` in `folder`, written by `command` from the content with the SHA-256 `of`.
+    pub(crate) fn new(command: Command, folder: &Path, name: &str, of: Option<&str>) -> Self {
         let sha256 = (name != REPORT).then(|| digest(&folder.join(name)));
         Self {
             name: name.to_owned(),
-            by: maker,
+            by: command,
             sha256: sha256.flatten(),
             of: of.map(ToOwned::to_owned),
         }
     }
 
-    /// Whether it has the bytes of `other`, which another command made.
+    /// Whether this file has the same bytes as `other` of another command.
     pub(super) fn is_same_by_other(&self, other: &Self) -> bool {
         self.by != other.by
             && self.name == other.name
@@ -76,23 +77,23 @@ impl MadeFile {
     }
 }
 
-/// The list.
+/// The manifest of an output folder.
 #[derive(Debug, Clone, Default, PartialEq, Eq, Serialize, Deserialize)]
-pub(crate) struct MadeFiles {
-    files: Vec<MadeFile>,
+pub(crate) struct Manifest {
+    files: Vec<ManifestEntry>,
 }
 
-impl MadeFiles {
-    /// The list in `folder`. Where there is none, a report lists the files of its run; else nothing is known.
+impl Manifest {
+    /// Reads the manifest of `folder`. Default: the files that a report in the folder lists.
     pub(crate) fn read(folder: &Path) -> Self {
-        let listed = read_bounded(&folder.join(LIST));
+        let listed = read_bounded(&folder.join(MANIFEST));
         if let Some(list) = listed.and_then(|bytes| serde_json::from_slice(&bytes).ok()) {
             return list;
         }
         let files = files_of_report(&folder.join(REPORT)).unwrap_or_default();
-        let made = |name| MadeFile {
+        let made = |name| ManifestEntry {
             name,
-            by: Maker::Run,
+            by: Command::Run,
             sha256: None,
             of: None,
         };
@@ -101,27 +102,27 @@ impl MadeFiles {
         }
     }
 
-    /// Writes the list into `folder`, at once or not at all.
+    /// Writes the manifest into `folder` atomically, by way of the folder `temporary`.
     pub(crate) fn write(&self, folder: &Path, temporary: &Path) -> io::Result<()> {
         let mut text = serde_json::to_string_pretty(self)?;
         text.push('\n');
-        let path = temporary.join(LIST);
+        let path = temporary.join(MANIFEST);
         fs::write(&path, text)?;
-        fs::rename(path, folder.join(LIST))
+        fs::rename(path, folder.join(MANIFEST))
     }
 
-    /// Whether `maker` may write over the file `name` of `folder`: it made it, and nobody has changed it since.
-    pub(crate) fn may_replace(&self, maker: Maker, folder: &Path, name: &str) -> bool {
+    /// Whether `command` may replace the file `name` of `folder`, because it wrote the file and the file was not changed.
+    pub(crate) fn may_replace(&self, command: Command, folder: &Path, name: &str) -> bool {
         let path = folder.join(name);
         let mut candidates = self.files.iter().filter(|file| file.name == name);
         if name == REPORT {
-            return candidates.any(|file| maker.may_replace(file.by))
+            return candidates.any(|file| command.may_replace(file.by))
                 && files_of_report(&path).is_some();
         }
-        // The file is hashed once for all entries of its name.
+        // The file is hashed only once for all entries with its name.
         let mut sha256 = None;
         candidates.any(|file| {
-            maker.may_replace(file.by)
+            command.may_replace(file.by)
                 && file.sha256.as_ref().is_none_or(|made| {
                     let found = sha256.get_or_insert_with(|| digest(&path));
                     found.as_ref() == Some(made)
@@ -129,40 +130,40 @@ impl MadeFiles {
         })
     }
 
-    /// Whether `maker` made the file `name`.
-    pub(crate) fn has(&self, maker: Maker, name: &str) -> bool {
+    /// Whether `command` wrote the file `name`.
+    pub(crate) fn has(&self, command: Command, name: &str) -> bool {
         let mut files = self.files.iter();
-        files.any(|file| file.by == maker && file.name == name)
+        files.any(|file| file.by == command && file.name == name)
     }
 
-    /// Files of `maker` that `is_stale` picks.
+    /// The files of `command` that `is_stale` selects.
     pub(crate) fn stale(
         &self,
-        maker: Maker,
-        is_stale: &dyn Fn(&MadeFile) -> bool,
-    ) -> impl Iterator<Item = &MadeFile> {
-        let of_maker = self.files.iter().filter(move |file| file.by == maker);
-        of_maker.filter(move |file| is_stale(file))
+        command: Command,
+        is_stale: &dyn Fn(&ManifestEntry) -> bool,
+    ) -> impl Iterator<Item = &ManifestEntry> {
+        let of_command = self.files.iter().filter(move |file| file.by == command);
+        of_command.filter(move |file| is_stale(file))
     }
 
-    /// Adds files.
-    pub(crate) fn extend(&mut self, files: &[MadeFile]) {
+    /// Adds files to the manifest.
+    pub(crate) fn extend(&mut self, files: &[ManifestEntry]) {
         self.files.extend_from_slice(files);
     }
 
-    /// Keeps the files that `is_kept` picks.
-    pub(crate) fn retain(&mut self, is_kept: impl Fn(&MadeFile) -> bool) {
+    /// Keeps the files that `is_kept` selects.
+    pub(crate) fn retain(&mut self, is_kept: impl Fn(&ManifestEntry) -> bool) {
         self.files.retain(is_kept);
     }
 }
 
-/// Whether two files hold the same bytes.
+/// Whether two files have the same bytes.
 pub(super) fn are_same(a: &Path, b: &Path) -> bool {
     let size = |path: &Path| fs::metadata(path).map(|data| data.len()).ok();
     size(a).is_some() && size(a) == size(b) && digest(a).is_some() && digest(a) == digest(b)
 }
 
-/// The SHA-256 of a file that can be read.
+/// The SHA-256 of a file; `None` if it cannot be read.
 fn digest(path: &Path) -> Option<String> {
     let mut file = File::open(path).ok()?;
     let mut hash = Sha256::new();
@@ -175,7 +176,7 @@ fn digest(path: &Path) -> Option<String> {
     }
 }
 
-/// The files that a report of ours lists; none of any other file.
+/// The files that a report of foldmotion lists; `None` for any other file.
 fn files_of_report(path: &Path) -> Option<Vec<String>> {
     #[derive(Deserialize)]
     struct Listed {
@@ -190,7 +191,7 @@ fn files_of_report(path: &Path) -> Option<Vec<String>> {
     (!report.version.is_empty()).then_some(files)
 }
 
-/// The bytes of a file that is there, a file, and not too large.
+/// The bytes of a regular file that is not too large.
 fn read_bounded(path: &Path) -> Option<Vec<u8>> {
     let data = fs::metadata(path).ok()?;
     (data.is_file() && data.len() <= LARGEST)
