@@ -100,7 +100,7 @@ fn a_jam_is_reported_with_the_units_that_block_and_without_a_good_verdict() {
     assert!(reason.contains("of unit U^"), "{reason}");
     let out = text(&output.stdout);
     assert!(
-        out.contains("collisions of the motion as far as it came: free"),
+        out.contains("collisions of the motion up to its last state: free"),
         "{out}"
     );
     assert!(!out.contains("compact box"), "{out}");

@@ -45,7 +45,7 @@ pub enum PatternError {
         remedy: &'static str,
     },
     /// λ is missing or out of range.
-    #[error("lambda is {}: case SII needs it strictly between 0 and 1", Number(*value))]
+    #[error("lambda {}: case SII needs it strictly between 0 and 1", stated(*value))]
     LambdaOutOfRange {
         /// The value given, NaN where it is missing.
         value: f64,
@@ -109,4 +109,13 @@ pub enum PatternError {
         /// What to change so that it works.
         remedy: &'static str,
     },
+}
+
+/// What is said of a value that may be missing.
+fn stated(value: f64) -> String {
+    if value.is_nan() {
+        "is missing".to_owned()
+    } else {
+        format!("is {}", Number(value))
+    }
 }

@@ -63,7 +63,7 @@ impl WarningKind {
             Self::Split => "split where it meets other lines",
             Self::Duplicate => "left out, for it lies on another line",
             Self::Conflict => "left out, for it lies on a line that says otherwise",
-            Self::Stray => "left out, for it ends nowhere",
+            Self::Stray => "ignored: it has a dangling end",
             Self::Joined => "joined into one straight line",
             Self::Outside => "left out, for it lies beside the sheet or in a hole",
             Self::MadeBorder => "made border, for it lies at the edge of the sheet",

@@ -19,15 +19,15 @@ pub enum CreaseGroup {
     /// Every crease.
     #[default]
     All,
-    /// On the boundaries between rows ([`CreaseKind::Row`]).
+    /// On the boundaries between rows.
     Rows,
-    /// Between flaps and tucks ([`CreaseKind::Diagonal`]).
+    /// Between flaps and tucks.
     Diagonals,
-    /// Between columns, of a map ([`CreaseKind::Column`]).
+    /// Between columns, of a map.
     Columns,
-    /// Along corner and mid lines ([`CreaseKind::Vertical`]).
+    /// Along corner and mid lines.
     Verticals,
-    /// Beside and across pads ([`CreaseKind::Pad`]).
+    /// Beside and across pads.
     Pads,
     /// Mountain creases.
     Mountains,

@@ -26,8 +26,7 @@ impl CheckedFile {
         // Writing into a string cannot fail.
         let _ = writeln!(
             out,
-            "work: {} pairs of triangles tested, {:.4} % of them shown apart by boxes and axes alone, without trying all axes; {} \
-             touch",
+            "work: {} pairs of triangles tested, {:.4} % of them decided without trying all axes; {} touch",
             self.pairs_tested.total(),
             100.0 * self.decided_by.share_without_search(),
             self.touching_pairs

@@ -126,7 +126,7 @@ impl OutcomeInput<'_> {
         let words = self.verdict_words();
         match &self.collision.first {
             Some(first) => format!("{words} (first at t = {:.4})", first.time),
-            None => format!("as far as it came, {words}"),
+            None => format!("up to that point, {words}"),
         }
     }
 
@@ -134,7 +134,9 @@ impl OutcomeInput<'_> {
     fn verdict_words(&self) -> String {
         let c = self.collision;
         match c.verdict {
-            Verdict::Free => "no facets come within the tolerance of each other (free)".to_owned(),
+            Verdict::Free => {
+                "no two facets come within the tolerance of each other (free)".to_owned()
+            }
             Verdict::Touching => {
                 "facets touch, but none passes through another (touching)".to_owned()
             }

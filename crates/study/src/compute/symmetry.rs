@@ -109,7 +109,7 @@ impl SymmetryReport {
             // Writing into a string cannot fail.
             let _ = write!(
                 line,
-                "; symmetric before t = {t:.4}, where the sheet buckles or its schedule is not symmetric"
+                "; symmetric until t = {t:.4}, where the sheet buckles or its schedule is not symmetric"
             );
         }
         line

@@ -60,14 +60,14 @@ impl ImportReport {
             n => format!(" in {n} stages"),
         };
         let mut lines = format!(
-            "pattern of {}, folded by {} %{stages}; mean edge {:.6} {unit}; {} mountain, {} valley, {} free, {} border edges\n",
+            "pattern of {}, folded by {} %{stages}; mean edge {:.6} {unit}; {} mountain, {} valley and {} border edges, {} free hinges\n",
             self.file,
             self.fold_percent,
             self.mean_edge,
             self.mountains,
             self.valleys,
-            self.free_hinges,
-            self.borders
+            self.borders,
+            self.free_hinges
         );
         for warning in &self.warnings {
             lines.push_str("note: ");

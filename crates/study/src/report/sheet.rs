@@ -178,7 +178,7 @@ impl UnfoldReport {
     /// A line for the terminal.
     pub(super) fn line(&self) -> String {
         let certified = if self.certified {
-            "the profile is proved not to cross itself"
+            "the profile was proved not to cross itself"
         } else {
             "not proved free of crossings"
         };

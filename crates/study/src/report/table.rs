@@ -90,7 +90,7 @@ impl Report {
         ) {
             let _ = writeln!(
                 out,
-                "case {case}, {rows} x {columns} units, w = {:.6} {unit}, h = {:.6} {unit}; rows equal to |R_max| = {:.2} after {} iterations",
+                "case {case}, {rows} x {columns} units, w = {:.6} {unit}, h = {:.6} {unit}; row heights equal to within |R_max| = {:.2} after {} iterations",
                 Number(of_unit.width),
                 Number(of_unit.height),
                 Number(division.max_residual),
@@ -193,7 +193,7 @@ impl Report {
     /// The part of the motion that the verdict is about, unless it is the whole motion.
     fn part_judged(&self) -> &'static str {
         match self.outcome.kind {
-            OutcomeKind::Jammed | OutcomeKind::Stopped => " of the motion as far as it came",
+            OutcomeKind::Jammed | OutcomeKind::Stopped => " of the motion up to its last state",
             _ => "",
         }
     }

@@ -7,12 +7,17 @@
 //! exact state to that of the next. The share of both is 3u² − 2u³ at the stage's time u, so that the motion is smooth where
 //! the stages meet.
 
+use std::f64::consts::{FRAC_PI_2, PI};
+
 use foldmotion_geometry::RigidMotion;
 use foldmotion_pattern::Frame;
 use glam::{DMat3, DQuat, DVec3};
 
 /// A rotation whose half angle has a smaller cosine counts as half a turn, whose direction is arbitrary.
 const HALF_TURN: f64 = 1e-6;
+
+/// A right angle, in radians.
+const QUARTER_TURN: f64 = FRAC_PI_2;
 
 /// The exact states at t = 0, 1, 2.
 #[derive(Debug, Clone, Copy)]
@@ -31,11 +36,43 @@ pub(crate) fn place(frames: &mut [Frame], exact: &ExactStates<'_>) {
     };
     let fit = RigidMotion::best_fit(&first.positions, exact.deployed);
     apply(&fit, first);
+    let turn = half_turn(exact);
     let middle = rest.partition_point(|frame| frame.time <= 1.0);
     let (unfold, fold) = rest.split_at_mut(middle);
-    place_stage(first, unfold, exact.planar);
+    place_stage(first, unfold, &turned(exact.planar, turn));
     let flat = unfold.last().unwrap_or(first);
-    place_stage(flat, fold, exact.compact);
+    place_stage(flat, fold, &turned(exact.compact, turn));
+}
+
+/// The half turn of the planar and the compact state about an axis that keeps a sheet from turning round while it
+/// unfolds; the identity if it does not.
+///
+/// The exact states run along +x with the front up. A profile drawn from left to right, or with its flaps below, leads to a
+/// deployed state that lies the other way.
+fn half_turn(exact: &ExactStates<'_>) -> DMat3 {
+    let angle = |turn: DMat3| {
+        let planar = turned(exact.planar, turn);
+        let fit = RigidMotion::best_fit(exact.deployed, &planar);
+        axis_and_angle(fit.rotation).1
+    };
+    let lies_the_other_way = angle(DMat3::IDENTITY) > PI - QUARTER_TURN / 2.0;
+    let axes = [DVec3::Z, DVec3::Y, DVec3::X];
+    let turns = axes.map(|axis| DMat3::from_diagonal(2.0 * axis - DVec3::ONE));
+    let fitting = turns
+        .into_iter()
+        .find(|&turn| angle(turn) < QUARTER_TURN / 2.0);
+    fitting
+        .filter(|_| lies_the_other_way)
+        .unwrap_or(DMat3::IDENTITY)
+}
+
+/// `positions` turned about their centre.
+fn turned(positions: &[DVec3], turn: DMat3) -> Vec<DVec3> {
+    let centre = centre(positions);
+    positions
+        .iter()
+        .map(|&p| centre + turn * (p - centre))
+        .collect()
 }
 
 /// Places the frames of the stage that leads to `exact`, after its placed first frame `start`.
@@ -193,6 +230,32 @@ mod tests {
         times.map(frame).collect()
     }
 
+    #[test]
+    fn a_profile_drawn_from_left_to_right_does_not_turn_round_while_it_unfolds() {
+        let to_the_right = "[[-3, 0], [-2, 1.2], [0, 1.8], [2, 1.2], [3, 0]]";
+        let to_the_left = "[[3, 0], [2, 1.2], [0, 1.8], [-2, 1.2], [-3, 0]]";
+        for (facing, points) in [
+            ("right", to_the_right),
+            ("left", to_the_right),
+            ("right", to_the_left),
+            ("left", to_the_left),
+        ] {
+            let scene = format!(
+                "[profile]\npoints = {points}\n[sheet]\ncase = \"E\"\nrows = 5\ncolumns = 3\nfacing = \"{facing}\"\n\
+                 [motion]\ncontact = false\nframes = {FRAMES}\n"
+            );
+            let source = SceneSource::new(Path::new("a.toml"), scene);
+            let study = Study::resolve(&source).unwrap();
+            let run = study.fold(&[], Budget::Standard, &|_| true).unwrap();
+            let frames = study.place(run.frames).frames;
+            let flat = frames.iter().find(|frame| frame.time == 1.0).unwrap();
+            let fit = RigidMotion::best_fit(&frames[0].positions, &flat.positions);
+            let turn = axis_and_angle(fit.rotation).1.to_degrees();
+            assert!(turn < 1.0, "{facing} {points}: {turn} degrees");
+            assert!(flat.positions.iter().all(|p| p.z.abs() < 1e-9));
+        }
+    }
+
     const BAR: [DVec3; 4] = [
         DVec3::new(0.0, 0.0, 0.0),
         DVec3::new(4.0, 0.0, 0.0),
@@ -204,13 +267,10 @@ mod tests {
     fn a_rigid_body_turns_from_one_exact_state_to_the_next_without_a_jump() {
         const STEPS: u32 = 100;
         let turned = |angle: f64| BAR.map(|p| DMat3::from_rotation_y(angle) * p + DVec3::X);
-        let (half, quarter) = (
-            turned(std::f64::consts::PI),
-            turned(std::f64::consts::FRAC_PI_2),
-        );
+        let (third, quarter) = (turned(PI / 1.5), turned(FRAC_PI_2));
         let exact = ExactStates {
             deployed: &BAR,
-            planar: &half,
+            planar: &third,
             compact: &quarter,
         };
         let mut frames = tumbling((0..=2 * STEPS).map(|k| f64::from(k) / f64::from(STEPS)));
@@ -221,11 +281,11 @@ mod tests {
             pairs.map(|(p, q)| p.distance(*q)).fold(0.0, f64::max)
         };
         assert!(distance(0, &BAR) < 1e-12);
-        assert!(distance(STEPS, &half) < 1e-12);
+        assert!(distance(STEPS, &third) < 1e-12);
         assert!(distance(2 * STEPS, &quarter) < 1e-12);
-        // Half a turn with a share that grows at most 1.5 times as fast as the time.
+        // A third of a turn with a share that grows at most 1.5 times as fast as the time.
         let turn = largest_turn(&frames);
-        assert!(turn < 1.5 * 180.0 / f64::from(STEPS) + 1e-9, "{turn}");
+        assert!(turn < 1.5 * 120.0 / f64::from(STEPS) + 1e-9, "{turn}");
     }
 
     #[test]

@@ -36,7 +36,7 @@ pub struct RecordScene {
     /// The position of the viewer: a preset, or angles.
     #[schemars(extend("default" = "iso"))]
     pub camera: Option<CameraScene>,
-    /// Whether films come nearer where the sheet is small in the picture. With false all states have the same scale.
+    /// Whether the camera of films moves closer where the sheet is small in the picture. With false all states have the same scale.
     /// A camera with a centre or a width stays where it is.
     #[schemars(extend("default" = true))]
     pub follow: Option<bool>,
@@ -66,7 +66,7 @@ pub struct RecordScene {
     /// Whether figures show h, w and the width W of a sheet of equal units at the planar state.
     #[schemars(extend("default" = true))]
     pub dimensions: Option<bool>,
-    /// The size of the letters in figures.
+    /// The font size of captions and labels in figures.
     #[schemars(extend("default" = 2.4, "x-unit" = "mm", "minimum" = 0.5, "maximum" = 20.0))]
     pub letters: Option<f64>,
 }
@@ -189,7 +189,7 @@ pub enum CameraChoice {
     Iso,
     /// Along the width.
     Front,
-    /// Along the growing direction.
+    /// Along the profile.
     Side,
     /// From above.
     Top,
