@@ -29,7 +29,9 @@ mod stiffness_matrix;
 const REPEATS: usize = 21;
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
-    println!("| sheet | nodes | blocks | ours, ms | faer, ms | ratio | solve ours, ms | solve faer, ms | largest difference |");
+    println!(
+        "| sheet | nodes | blocks | ours, ms | faer, ms | ratio | solve ours, ms | solve faer, ms | largest difference |"
+    );
     println!("| --- | --- | --- | --- | --- | --- | --- | --- | --- |");
     for (rows, columns) in [(7, 5), (35, 4), (100, 3), (500, 2), (40, 40)] {
         compare(rows, columns)?;
@@ -44,7 +46,8 @@ fn compare(rows: usize, columns: usize) -> Result<(), Box<dyn std::error::Error>
     let pairs = pairs(&sheet);
     let mut ours = StiffnessMatrix::new(nodes, &pairs)?;
     fill(&mut ours, nodes, &pairs);
-    let theirs = SparseColMat::try_new_from_triplets(3 * nodes, 3 * nodes, &triplets(nodes, &pairs))?;
+    let theirs =
+        SparseColMat::try_new_from_triplets(3 * nodes, 3 * nodes, &triplets(nodes, &pairs))?;
     let symbolic = SymbolicLlt::try_new(theirs.symbolic(), Side::Lower)?;
     let numeric = || Llt::try_new_with_symbolic(symbolic.clone(), theirs.as_ref(), Side::Lower);
 
@@ -82,7 +85,8 @@ fn compare(rows: usize, columns: usize) -> Result<(), Box<dyn std::error::Error>
 fn pairs(sheet: &Sheet) -> Vec<[u32; 2]> {
     let mut pairs = Vec::new();
     for edge in &sheet.edges {
-        let mut nodes: Vec<u32> = edge.faces.iter().flatten().flat_map(|&f| sheet.faces[f as usize]).collect();
+        let mut nodes: Vec<u32> =
+            edge.faces.iter().flatten().flat_map(|&f| sheet.faces[f as usize]).collect();
         nodes.sort_unstable();
         nodes.dedup();
         for (k, &a) in nodes.iter().enumerate() {

@@ -24,14 +24,8 @@ fn values_of_record_are_refused_by_key_line_and_value() {
         ("[record]\nat = [-0.5]", &["record.at = [-0.5]"]),
         ("[record]\nhold = [1.0, 2.0]", &["scene.toml:10", "three"]),
         ("[record]\ncolour = \"red\"", &["scene.toml:10", "strain"]),
-        (
-            "[record]\nloop = \"twice\"",
-            &["scene.toml:10", "back-and-forth"],
-        ),
-        (
-            "[record]\ncamera = \"below\"",
-            &["scene.toml:10", "turntable"],
-        ),
+        ("[record]\nloop = \"twice\"", &["scene.toml:10", "back-and-forth"]),
+        ("[record]\ncamera = \"below\"", &["scene.toml:10", "turntable"]),
         (
             "[record]\ncamera = { azimuth = 0.0, elevation = 91.0 }",
             &["scene.toml:10", "record.camera", "elevation"],
@@ -56,14 +50,8 @@ fn values_of_record_are_refused_by_key_line_and_value() {
             "[record]\ncamera = { azimuth = 0.0, elevation = 0.0, turn = nan }",
             &["record.camera", "turn"],
         ),
-        (
-            "[record]\nthickened = true",
-            &["record.thickened = true", "material.thickness"],
-        ),
-        (
-            "[record]\nthickened = -1.0",
-            &["record.thickened = -1.0", "positive"],
-        ),
+        ("[record]\nthickened = true", &["record.thickened = true", "material.thickness"]),
+        ("[record]\nthickened = -1.0", &["record.thickened = -1.0", "positive"]),
     ];
     refuses_all(cases);
 }
@@ -73,31 +61,17 @@ fn lists_of_a_fixed_length_accept_neither_fewer_nor_more_values() {
     let points = ["[0.0, 0.0, 5.0, 1.0]", "[0.0, 0.0, \"x\"]", "[0.0]"];
     for point in points {
         for key in ["control_points", "points"] {
-            let text = GOOD
-                .replace("control_points", key)
-                .replace("[0.0, 0.0]", point);
+            let text = GOOD.replace("control_points", key).replace("[0.0, 0.0]", point);
             let message = refusal(&text);
             assert!(message.contains("scene.toml:2"), "{point}: {message}");
         }
     }
     let extra = refusal(&GOOD.replace("[0.0, 0.0]", points[0]));
-    assert!(
-        extra.contains("a list of 4 values, but exactly 2"),
-        "{extra}"
-    );
+    assert!(extra.contains("a list of 4 values, but exactly 2"), "{extra}");
     refuses_all(&[
-        (
-            "[record]\nsize = [96, 72, 7]",
-            &["scene.toml:10", "exactly 2"],
-        ),
-        (
-            "[record]\nseconds = [1.0, 1.0, 1.0]",
-            &["scene.toml:10", "exactly 2"],
-        ),
-        (
-            "[record]\nhold = [1.0, 1.0, 1.0, 1.0]",
-            &["scene.toml:10", "three"],
-        ),
+        ("[record]\nsize = [96, 72, 7]", &["scene.toml:10", "exactly 2"]),
+        ("[record]\nseconds = [1.0, 1.0, 1.0]", &["scene.toml:10", "exactly 2"]),
+        ("[record]\nhold = [1.0, 1.0, 1.0, 1.0]", &["scene.toml:10", "three"]),
         (
             "[record]\ncamera = { azimuth = 0.0, elevation = 0.0, centre = [0.0, 0.0, 0.0, 0.0] }",
             &["scene.toml:10", "camera must be"],

@@ -65,19 +65,10 @@ fn two_triangles(letter: &str) -> ImportedPattern {
 fn a_free_hinge_has_no_stiffness() {
     let free = four_triangles("U");
     let model = Model::new(&free.sheet, &Material::PAPER).unwrap();
-    let hinge = model
-        .hinges
-        .iter()
-        .find(|h| h.kind == HingeKind::Free)
-        .unwrap();
+    let hinge = model.hinges.iter().find(|h| h.kind == HingeKind::Free).unwrap();
     assert_eq!(hinge.stiffness, 0.0);
     assert_eq!(free.free_hinges().collect::<Vec<_>>(), [hinge.edge]);
-    assert!(
-        folded(&free, &Material::PAPER)
-            .iter()
-            .flatten()
-            .all(|a| a.is_finite())
-    );
+    assert!(folded(&free, &Material::PAPER).iter().flatten().all(|a| a.is_finite()));
     // The corner beyond the hinge turned about it: nothing is strained, and only a hinge that is held resists.
     let energy = |letter: &str| {
         let imported = two_triangles(letter);

@@ -9,15 +9,10 @@ use foldmotion_study::{
 use serde_json::{Value, json};
 
 /// A Miura sheet whose facets stay flat.
-const RIGID: [&str; 2] = [
-    "material.preset=near-rigid",
-    "material.facet_stiffness=1000",
-];
+const RIGID: [&str; 2] = ["material.preset=near-rigid", "material.facet_stiffness=1000"];
 
 fn example(name: &str) -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR"))
-        .join("../scenes/imported")
-        .join(name)
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenes/imported").join(name)
 }
 
 fn study(path: &Path, set: &[&str]) -> Study {
@@ -115,10 +110,7 @@ fn a_miura_sheet_folds_along_the_closed_form_of_its_rigid_motion() {
     assert!(report.stages[0].peak_strain < 1e-3);
     let half = |degrees: &f64| (degrees.abs().to_radians() / 2.0).tan();
     let mut compared = 0;
-    for frame in frames(&motion)
-        .iter()
-        .filter(|f| (1.1..1.9).contains(&time(f)))
-    {
+    for frame in frames(&motion).iter().filter(|f| (1.1..1.9).contains(&time(f))) {
         let is_crease = |letter: &str| letter == "M" || letter == "V";
         let is_across = |[a, b]: [[f64; 2]; 2]| (a[1] - b[1]).abs() < 1e-9;
         let across = angles(&motion, frame, |l, ends| is_crease(l) && is_across(ends));
@@ -147,11 +139,7 @@ fn the_report_of_an_import_has_no_unit_and_starts_at_the_flat_sheet() {
     assert_eq!((import.stages, import.fold_percent), (1, 100.0));
     let first = &frames(&motion)[0];
     assert_eq!(time(first), 1.0);
-    assert!(
-        angles(&motion, first, |letter, _| letter != "B")
-            .iter()
-            .all(|a| *a == 0.0)
-    );
+    assert!(angles(&motion, first, |letter, _| letter != "B").iter().all(|a| *a == 0.0));
     assert_eq!(time(frames(&motion).last().unwrap()), 2.0);
     assert_eq!(report.stages[0].name.name(), "fold");
 }
@@ -161,10 +149,8 @@ fn a_square_twist_strains_or_bends_its_facets_because_it_is_not_rigid_foldable()
     let (soft, _) = run(&example("square-twist.svg"), &[]);
     assert_eq!((soft.status(), soft.collision.verdict.name()), (0, "free"));
     assert!(soft.stages[0].peak_strain > 0.02);
-    let (paper, _) = run(
-        &example("square-twist.svg"),
-        &["material.preset=near-rigid", "motion.contact=false"],
-    );
+    let (paper, _) =
+        run(&example("square-twist.svg"), &["material.preset=near-rigid", "motion.contact=false"]);
     assert!(paper.stages[0].peak_strain < 2e-3);
     assert!(paper.stages[0].peak_facet_bending_deg > 10.0);
 }
@@ -178,10 +164,7 @@ fn a_card_with_cuts_pops_up_without_strain() {
         // Half way all creases are at a right angle: the strip stands off the card like a box.
         let half = frames(&motion).iter().find(|f| time(f) == 1.5).unwrap();
         let folded = angles(&motion, half, |l, _| l == "M" || l == "V");
-        assert!(
-            folded.iter().all(|a| (a.abs() - 90.0).abs() < 0.5),
-            "{folded:?}"
-        );
+        assert!(folded.iter().all(|a| (a.abs() - 90.0).abs() < 0.5), "{folded:?}");
         let [x, y, z] = report.compact.extents;
         assert!((x - 4.0).abs() < 0.01 && (y - 2.0).abs() < 0.01 && z < 0.05);
     }
@@ -195,10 +178,7 @@ fn a_frame_with_a_hole_folds_in_steps_and_one_facet_stays_in_place() {
     assert!(report.fold_angles.largest_error_deg > 20.0);
     assert_eq!((report.status(), report.length_unit.as_str()), (3, "cm"));
     let import = report.import.unwrap();
-    assert_eq!(
-        (import.euler_characteristic, import.fixed_facet),
-        (0, Some(0))
-    );
+    assert_eq!((import.euler_characteristic, import.fixed_facet), (0, Some(0)));
     let study = study(&example("frame.toml"), &[]);
     let sheet = study.subject.sheet();
     for frame in frames(&motion) {
@@ -215,20 +195,12 @@ fn a_frame_with_a_hole_folds_in_steps_and_one_facet_stays_in_place() {
         }
     }
     // Valleys wait until 0.4 of the stage.
-    let early = frames(&motion)
-        .iter()
-        .find(|f| (time(f) - 4.0 / 3.0).abs() < 1e-9)
-        .unwrap();
+    let early = frames(&motion).iter().find(|f| (time(f) - 4.0 / 3.0).abs() < 1e-9).unwrap();
     let largest = |letter| {
         let found = angles(&motion, early, |l, _| l == letter);
         found.iter().fold(0.0, |a: f64, b| a.max(b.abs()))
     };
-    assert!(
-        largest("M") > 1.5 * largest("V"),
-        "{} {}",
-        largest("M"),
-        largest("V")
-    );
+    assert!(largest("M") > 1.5 * largest("V"), "{} {}", largest("M"), largest("V"));
 }
 
 #[test]
@@ -265,10 +237,7 @@ fn strip_angles(motion: &Value, at: f64) -> [f64; 2] {
 }
 
 fn assert_near(found: [f64; 2], expected: [f64; 2]) {
-    let is_near = found
-        .iter()
-        .zip(expected)
-        .all(|(a, b)| (a - b).abs() < 1e-4);
+    let is_near = found.iter().zip(expected).all(|(a, b)| (a - b).abs() < 1e-4);
     assert!(is_near, "{found:?} {expected:?}");
 }
 

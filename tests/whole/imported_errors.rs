@@ -31,43 +31,19 @@ fn of_square(more: &str, words: &[&str]) {
 
 #[test]
 fn values_of_the_scene_are_refused_with_their_line() {
-    of_square(
-        "fold_percent = 101",
-        &["scene.toml:3", "fold_percent", "-100 and 100"],
-    );
+    of_square("fold_percent = 101", &["scene.toml:3", "fold_percent", "-100 and 100"]);
     of_square("fold_percent = nan", &["scene.toml:3", "fold_percent"]);
     of_square("fixed = [2]", &["scene.toml:3", "facets 0 to 1"]);
     of_square("fixed = [-1]", &["scene.toml:3", "facets 0 to 1"]);
     of_square("fixed = [0, 1]", &["scene.toml:3", "only one"]);
-    of_square(
-        "vertex_tolerance = 5.0",
-        &["scene.toml:3", "vertex_tolerance"],
-    );
-    of_square(
-        "vertex_tolerance = -1.0",
-        &["scene.toml:3", "vertex_tolerance"],
-    );
-    of_square(
-        "curve_tolerance = 7.0",
-        &["scene.toml:3", "curve_tolerance"],
-    );
-    of_square(
-        "[sheet]\nrows = 3",
-        &["scene.toml:3", "[sheet]", "[pattern]"],
-    );
-    of_square(
-        "[profile]\nmodel = \"omega\"",
-        &["scene.toml:3", "[profile]"],
-    );
-    of_square(
-        "[division]\nmethod = \"parametric\"",
-        &["scene.toml:3", "[division]"],
-    );
+    of_square("vertex_tolerance = 5.0", &["scene.toml:3", "vertex_tolerance"]);
+    of_square("vertex_tolerance = -1.0", &["scene.toml:3", "vertex_tolerance"]);
+    of_square("curve_tolerance = 7.0", &["scene.toml:3", "curve_tolerance"]);
+    of_square("[sheet]\nrows = 3", &["scene.toml:3", "[sheet]", "[pattern]"]);
+    of_square("[profile]\nmodel = \"omega\"", &["scene.toml:3", "[profile]"]);
+    of_square("[division]\nmethod = \"parametric\"", &["scene.toml:3", "[division]"]);
     of_square("[motion]\nunfold = \"auto\"", &["scene.toml:4", "flat"]);
-    of_square(
-        "[motion]\ngap = 0.5",
-        &["scene.toml:4", "motion.gap", "pattern"],
-    );
+    of_square("[motion]\ngap = 0.5", &["scene.toml:4", "motion.gap", "pattern"]);
     for (line, word) in [
         ("stage = \"unfold\"", "starts flat"),
         ("stage = \"fold\"\nrows = [0]", "no rows"),
@@ -92,16 +68,8 @@ fn files_are_refused_by_name_and_element() {
     refused("none.fold", b"{}", &["none.fold", "vertices_coords"]);
     refused("bytes.svg", b"<svg>\xff</svg>", &["bytes.svg", "UTF-8"]);
     let unknown = SQUARE.replace("#f00", "#abc");
-    refused(
-        "u.svg",
-        unknown.as_bytes(),
-        &["u.svg", "<path id=\"fold\"> (line 3)"],
-    );
-    refused(
-        "huge.svg",
-        &vec![b' '; (16 << 20) + 1],
-        &["huge.svg", "bytes"],
-    );
+    refused("u.svg", unknown.as_bytes(), &["u.svg", "<path id=\"fold\"> (line 3)"]);
+    refused("huge.svg", &vec![b' '; (16 << 20) + 1], &["huge.svg", "bytes"]);
     let folder = tempfile::tempdir().unwrap();
     let missing = resolve(folder.path(), &scene("gone.svg")).err().unwrap();
     assert_eq!(missing.status(), 2);
@@ -117,10 +85,7 @@ fn unknown_elements_are_ignored_on_request() {
     let text = SQUARE.replace("</svg>", "<circle r=\"1\" stroke=\"#000\"/></svg>");
     std::fs::write(folder.path().join("c.svg"), text).unwrap();
     assert!(resolve(folder.path(), "[pattern]\nfile = \"c.svg\"\n").is_err());
-    let study = resolve(
-        folder.path(),
-        "[pattern]\nfile = \"c.svg\"\nunknown = \"ignore\"\n",
-    );
+    let study = resolve(folder.path(), "[pattern]\nfile = \"c.svg\"\nunknown = \"ignore\"\n");
     let study = study.unwrap();
     let imported = &study.subject.imported().unwrap().imported;
     assert_eq!(imported.sheet.facets.len(), 2);

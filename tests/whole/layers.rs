@@ -34,11 +34,8 @@ fn the_order_followed_from_a_motion_is_the_exact_order_of_the_compact_state() {
     ] {
         let scenes = Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenes");
         let mut source = SceneSource::read(&scenes.join(format!("{scene}.toml"))).unwrap();
-        for assignment in [
-            "motion.contact=false",
-            "motion.frames=20",
-            "record.outputs=[\"fold\"]",
-        ] {
+        for assignment in ["motion.contact=false", "motion.frames=20", "record.outputs=[\"fold\"]"]
+        {
             source.set(assignment).unwrap();
         }
         let home = tempfile::tempdir().unwrap();
@@ -49,17 +46,8 @@ fn the_order_followed_from_a_motion_is_the_exact_order_of_the_compact_state() {
         let exact = UnitSheet::new(unit, report.rows.unwrap(), report.columns.unwrap())
             .unwrap()
             .with_facet_model(study.subject.units().unwrap().units.facet_model());
-        let (exact, order) = (
-            exact.compact_order(),
-            followed(&home.path().join("motion.fold")),
-        );
+        let (exact, order) = (exact.compact_order(), followed(&home.path().join("motion.fold")));
         assert!(!exact.is_empty());
-        assert_eq!(
-            order,
-            exact,
-            "{scene}: {} of {} orders",
-            order.len(),
-            exact.len()
-        );
+        assert_eq!(order, exact, "{scene}: {} of {} orders", order.len(), exact.len());
     }
 }

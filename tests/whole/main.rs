@@ -1,10 +1,6 @@
 //! Whole-program tests: scene files in, results out.
 
-#![expect(
-    clippy::unwrap_used,
-    clippy::panic,
-    reason = "a test fails where something is missing"
-)]
+#![expect(clippy::unwrap_used, clippy::panic, reason = "a test fails where something is missing")]
 
 mod bad_input;
 mod bad_record;

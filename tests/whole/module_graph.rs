@@ -44,10 +44,7 @@ impl Crate {
     fn add_module(&mut self, file: &Path, module: &[String], folder: &Path) {
         let text = stripped(&fs::read_to_string(file).unwrap());
         for name in declared_modules(&text) {
-            let files = [
-                folder.join(format!("{name}.rs")),
-                folder.join(&name).join("mod.rs"),
-            ];
+            let files = [folder.join(format!("{name}.rs")), folder.join(&name).join("mod.rs")];
             if let Some(file) = files.iter().find(|file| file.exists()) {
                 let child = [module, std::slice::from_ref(&name)].concat();
                 self.add_module(file, &child, &folder.join(name));
@@ -84,10 +81,7 @@ impl Crate {
             "super" => module.to_vec(),
             name => {
                 let child = [module, &[name.to_owned()]].concat();
-                return self
-                    .texts
-                    .contains_key(&child)
-                    .then(|| [module, path].concat());
+                return self.texts.contains_key(&child).then(|| [module, path].concat());
             }
         };
         let ups = path.iter().take_while(|part| *part == "super").count();
@@ -97,13 +91,9 @@ impl Crate {
 
     /// The module in which what `path` names is defined.
     fn home(&self, path: &[String], depth: usize) -> Module {
-        let length = (0..=path.len())
-            .rev()
-            .find(|&k| self.texts.contains_key(&path[..k]));
+        let length = (0..=path.len()).rev().find(|&k| self.texts.contains_key(&path[..k]));
         let (module, rest) = path.split_at(length.unwrap_or(0));
-        let reexported = rest
-            .first()
-            .and_then(|name| self.names.get(module)?.get(name));
+        let reexported = rest.first().and_then(|name| self.names.get(module)?.get(name));
         match reexported {
             Some(target) if depth < 16 && target != path => {
                 self.home(&[&target[..], &rest[1..]].concat(), depth + 1)
@@ -114,15 +104,9 @@ impl Crate {
 
     /// All cycles, as the children of a parent that use each other.
     fn cycles(&self) -> Vec<String> {
-        let parents: BTreeSet<Module> = self
-            .texts
-            .keys()
-            .filter_map(|m| Some(m.split_last()?.1.to_vec()))
-            .collect();
-        parents
-            .iter()
-            .filter_map(|parent| self.cycle_below(parent))
-            .collect()
+        let parents: BTreeSet<Module> =
+            self.texts.keys().filter_map(|m| Some(m.split_last()?.1.to_vec())).collect();
+        parents.iter().filter_map(|parent| self.cycle_below(parent)).collect()
     }
 
     fn cycle_below(&self, parent: &[String]) -> Option<String> {
@@ -134,10 +118,7 @@ impl Crate {
         for (module, uses) in &self.uses {
             let Some(from) = child(module) else { continue };
             let targets = uses.iter().filter_map(|path| child(&self.home(path, 0)));
-            edges
-                .entry(from.clone())
-                .or_default()
-                .extend(targets.filter(|to| *to != from));
+            edges.entry(from.clone()).or_default().extend(targets.filter(|to| *to != from));
         }
         // What only points outwards, or only is pointed at, is on no cycle.
         loop {
@@ -168,11 +149,7 @@ fn stripped(text: &str) -> String {
         }
         let code = line.split("//").next().unwrap_or_default();
         let is_string = |(index, part): (usize, &str)| {
-            if index % 2 == 0 {
-                part.to_owned()
-            } else {
-                String::new()
-            }
+            if index % 2 == 0 { part.to_owned() } else { String::new() }
         };
         out.extend(code.split('"').enumerate().map(is_string));
         out.push('\n');
@@ -185,16 +162,12 @@ fn stripped(text: &str) -> String {
 
 /// The modules that have their own files.
 fn declared_modules(text: &str) -> Vec<String> {
-    let declarations = text
-        .lines()
-        .filter(|line| line.ends_with(';') && !line.contains("#[cfg(test)]"));
+    let declarations =
+        text.lines().filter(|line| line.ends_with(';') && !line.contains("#[cfg(test)]"));
     let names = declarations.filter_map(|line| {
-        line.split_once("mod ")
-            .filter(|(before, _)| before.is_empty() || before.starts_with("pub"))
+        line.split_once("mod ").filter(|(before, _)| before.is_empty() || before.starts_with("pub"))
     });
-    names
-        .map(|(_, name)| name.trim_end_matches(';').to_owned())
-        .collect()
+    names.map(|(_, name)| name.trim_end_matches(';').to_owned()).collect()
 }
 
 /// The trees of all `use` statements, and the text without them.
@@ -202,22 +175,14 @@ fn use_trees(text: &str) -> (Vec<String>, String) {
     let (mut trees, mut rest) = (Vec::new(), String::new());
     let mut text = text;
     while let Some(start) = text.find("use ") {
-        let is_word = text[..start]
-            .chars()
-            .next_back()
-            .is_none_or(char::is_whitespace);
+        let is_word = text[..start].chars().next_back().is_none_or(char::is_whitespace);
         let Some(end) = text[start..].find(';').filter(|_| is_word) else {
             rest.push_str(&text[..start + 4]);
             text = &text[start + 4..];
             continue;
         };
         rest.push_str(&text[..start]);
-        trees.push(
-            text[start + 4..start + end]
-                .split_whitespace()
-                .collect::<Vec<_>>()
-                .join(" "),
-        );
+        trees.push(text[start + 4..start + end].split_whitespace().collect::<Vec<_>>().join(" "));
         text = &text[start + end..];
     }
     rest.push_str(text);
@@ -227,13 +192,9 @@ fn use_trees(text: &str) -> (Vec<String>, String) {
 /// The paths of a `use` tree, each with the name it brings.
 fn expanded(tree: &str) -> Vec<(Vec<String>, String)> {
     let Some((before, inside)) = tree.split_once('{') else {
-        let (path, alias) = tree
-            .split_once(" as ")
-            .map_or((tree, None), |(path, name)| (path, Some(name)));
-        let mut path: Vec<String> = path
-            .split("::")
-            .map(|part| part.trim().to_owned())
-            .collect();
+        let (path, alias) =
+            tree.split_once(" as ").map_or((tree, None), |(path, name)| (path, Some(name)));
+        let mut path: Vec<String> = path.split("::").map(|part| part.trim().to_owned()).collect();
         if path.len() > 1 && path.last().is_some_and(|last| last == "self") {
             path.pop();
         }
@@ -257,13 +218,8 @@ fn expanded(tree: &str) -> Vec<(Vec<String>, String)> {
             part.push(letter);
         }
     }
-    let parts = parts
-        .iter()
-        .map(|part| part.trim())
-        .filter(|part| !part.is_empty());
-    parts
-        .flat_map(|part| expanded(&format!("{before}{part}")))
-        .collect()
+    let parts = parts.iter().map(|part| part.trim()).filter(|part| !part.is_empty());
+    parts.flat_map(|part| expanded(&format!("{before}{part}"))).collect()
 }
 
 /// Paths in code that begin at the crate, the module or its parent.
@@ -271,17 +227,10 @@ fn inline_paths(text: &str) -> Vec<Vec<String>> {
     let is_path = |c: char| c.is_alphanumeric() || c == '_' || c == ':';
     let words = text.split(|c| !is_path(c));
     let paths = words.filter(|word| {
-        ["crate::", "self::", "super::"]
-            .iter()
-            .any(|start| word.starts_with(start))
+        ["crate::", "self::", "super::"].iter().any(|start| word.starts_with(start))
     });
     paths
-        .map(|path| {
-            path.split("::")
-                .filter(|part| !part.is_empty())
-                .map(str::to_owned)
-                .collect()
-        })
+        .map(|path| path.split("::").filter(|part| !part.is_empty()).map(str::to_owned).collect())
         .collect()
 }
 
@@ -295,10 +244,7 @@ fn modules_of_no_crate_form_a_cycle() {
         let graph = Crate::read(&folder.join("src"));
         modules += graph.texts.len();
         found.extend(
-            graph
-                .cycles()
-                .into_iter()
-                .map(|cycle| format!("{}: {cycle}", folder.display())),
+            graph.cycles().into_iter().map(|cycle| format!("{}: {cycle}", folder.display())),
         );
     }
     assert!(modules > 400, "{modules}");
@@ -307,17 +253,10 @@ fn modules_of_no_crate_form_a_cycle() {
 
 #[test]
 fn a_cycle_is_found_through_reexports_inline_paths_and_modules_of_modules() {
-    let direct = [
-        ("", "mod a; mod b;"),
-        ("a", "use crate::b::{X, Y};"),
-        ("b", "fn f() { super::a::g() }"),
-    ];
+    let direct =
+        [("", "mod a; mod b;"), ("a", "use crate::b::{X, Y};"), ("b", "fn f() { super::a::g() }")];
     assert_eq!(Crate::of_text(&direct).cycles().len(), 1);
-    let reexported = [
-        ("", "pub use b::X;"),
-        ("a", "use crate::X;"),
-        ("b", "use super::a::f;"),
-    ];
+    let reexported = [("", "pub use b::X;"), ("a", "use crate::X;"), ("b", "use super::a::f;")];
     assert_eq!(Crate::of_text(&reexported).cycles().len(), 1);
     let deeper = [
         ("", ""),
@@ -327,23 +266,13 @@ fn a_cycle_is_found_through_reexports_inline_paths_and_modules_of_modules() {
         ("b", "use crate::a::d::Y;"),
     ];
     assert_eq!(Crate::of_text(&deeper).cycles().len(), 1);
-    let parent_and_child = [
-        ("", ""),
-        ("a", "use self::c::X;"),
-        ("a::c", "use super::Y;"),
-        ("b", "use crate::a::Y;"),
-    ];
-    assert_eq!(
-        Crate::of_text(&parent_and_child).cycles(),
-        Vec::<String>::new()
-    );
+    let parent_and_child =
+        [("", ""), ("a", "use self::c::X;"), ("a::c", "use super::Y;"), ("b", "use crate::a::Y;")];
+    assert_eq!(Crate::of_text(&parent_and_child).cycles(), Vec::<String>::new());
     let only_in_tests = [
         ("", ""),
         ("a", "#[cfg(test)]\nmod tests {\n use crate::b::X;\n}"),
         ("b", "use crate::a::Y;"),
     ];
-    assert_eq!(
-        Crate::of_text(&only_in_tests).cycles(),
-        Vec::<String>::new()
-    );
+    assert_eq!(Crate::of_text(&only_in_tests).cycles(), Vec::<String>::new());
 }

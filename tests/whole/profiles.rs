@@ -15,11 +15,9 @@ fn every_built_in_profile_resolves_in_every_case_with_the_same_polygon_and_width
         let target = resolve(&format!("[profile]\nmodel = \"{}\"", model.name));
         let width = target.units.unit.width * target.units.columns as f64;
         assert_eq!(target.units.columns, model.columns.e);
-        for (case, columns) in [
-            ("T", model.columns.t),
-            ("S", model.columns.s),
-            ("SII", model.columns.s),
-        ] {
+        for (case, columns) in
+            [("T", model.columns.t), ("S", model.columns.s), ("SII", model.columns.s)]
+        {
             let lambda = if case == "SII" { "lambda = 0.7" } else { "" };
             let study = resolve(&format!(
                 "[profile]\nmodel = \"{}\"\n[sheet]\ncase = \"{case}\"\n{lambda}\n",
@@ -103,9 +101,7 @@ fn a_drawing_may_close_its_polyline_by_a_long_side_and_be_a_chain_of_lines() {
     let (_folder, source) = beside("plot.dxf", long, "");
     assert!(UnitStudy::resolve(&source).unwrap().profile.is_closed());
     let line = |[x, y, u, v]: [i32; 4]| format!("0\nLINE\n10\n{x}\n20\n{y}\n11\n{u}\n21\n{v}\n");
-    let lines = [[2, 1, 1, 0], [0, 0, 1, 0], [2, 1, 4, 1]]
-        .map(line)
-        .concat();
+    let lines = [[2, 1, 1, 0], [0, 0, 1, 0], [2, 1, 4, 1]].map(line).concat();
     let (_folder, source) = beside("plot.dxf", &format!("{lines}0\nEOF\n"), "");
     let study = UnitStudy::resolve(&source).unwrap();
     assert!(!study.profile.is_closed());
@@ -116,33 +112,15 @@ fn a_drawing_may_close_its_polyline_by_a_long_side_and_be_a_chain_of_lines() {
 fn bad_outlines_are_refused_with_file_line_value_and_remedy() {
     let repeated = "0,0\n1,1\n1,1\n2,0\n";
     let crossing = "0,0\n4,4\n4,0\n0,4\n";
-    let many = (0..20_001)
-        .map(|k| format!("{k},0"))
-        .collect::<Vec<_>>()
-        .join("\n");
+    let many = (0..20_001).map(|k| format!("{k},0")).collect::<Vec<_>>().join("\n");
     let cut_off = "0\nLWPOLYLINE\n90\n4\n70\n1\n10\n0\n20\n0\n10\n3\n20\n0\n10\n4\n20\n2\n";
     let arc = "0\nARC\n10\n0\n20\n0\n40\n1\n0\nEOF\n";
     let cases: [(&str, &str, &str, &[&str]); 10] = [
-        (
-            "a.dxf",
-            cut_off,
-            "",
-            &["profile.file", "line 18", "cut off"],
-        ),
+        ("a.dxf", cut_off, "", &["profile.file", "line 18", "cut off"]),
         ("a.dxf", arc, "", &["profile.file", "line 2", "ARC"]),
-        (
-            "a.csv",
-            "0,0\n1,oops\n",
-            "",
-            &["profile.file = \"a.csv\"", "line 2", "oops"],
-        ),
+        ("a.csv", "0,0\n1,oops\n", "", &["profile.file = \"a.csv\"", "line 2", "oops"]),
         ("a.csv", "0,0\n", "", &["profile.file", "1 points"]),
-        (
-            "a.csv",
-            repeated,
-            "",
-            &["profile.file", "points 1 and 2", "remove"],
-        ),
+        ("a.csv", repeated, "", &["profile.file", "points 1 and 2", "remove"]),
         ("a.csv", crossing, "", &["profile.file", "crosses itself"]),
         ("a.csv", &many, "", &["20001 points"]),
         (
@@ -204,19 +182,13 @@ fn a_douglas_peucker_tolerance_replaces_the_rows_and_must_leave_two_segments() {
     assert!(refusal(&scene("0.9", "")).contains("leaves 1"));
     assert!(refusal(&scene("0.0", "")).contains("division.tolerance"));
     let both = refusal(&scene("0.01", "[sheet]\nrows = 9\n"));
-    assert!(
-        both.contains("sheet.rows = 9") && both.contains("follow from"),
-        "{both}"
-    );
+    assert!(both.contains("sheet.rows = 9") && both.contains("follow from"), "{both}");
 }
 
 #[test]
 fn one_key_gives_the_curve() {
     let message = refusal("[profile]\nmodel = \"omega\"\nfile = \"a.csv\"\n");
-    assert!(
-        message.contains("profile.file") && message.contains("profile.model"),
-        "{message}"
-    );
+    assert!(message.contains("profile.file") && message.contains("profile.model"), "{message}");
     let message = refusal("[profile]\npoints = [[0, 0], [1, 1]]\nknots = [0, 1]\n");
     assert!(message.contains("profile.knots"), "{message}");
 }

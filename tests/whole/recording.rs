@@ -25,10 +25,7 @@ fn run(folder: &Path, set: &[&str]) -> Report {
     for assignment in SMALL.iter().chain(set) {
         source.set(assignment).unwrap();
     }
-    Study::resolve(&source)
-        .unwrap()
-        .run(folder, &|_, _| true)
-        .unwrap()
+    Study::resolve(&source).unwrap().run(folder, &|_, _| true).unwrap()
 }
 
 /// A run with every output, in a folder of its own.
@@ -46,9 +43,7 @@ fn again(file: &Path, motion: Option<&Path>, out: &Path) -> Reproduction {
 
 /// The pictures of a GIF, and the hundredths of a second they last together.
 fn gif_pictures(path: &Path) -> (usize, u32) {
-    let mut reader = gif::DecodeOptions::new()
-        .read_info(File::open(path).unwrap())
-        .unwrap();
+    let mut reader = gif::DecodeOptions::new().read_info(File::open(path).unwrap()).unwrap();
     assert_eq!((reader.width(), reader.height()), (64, 48));
     let (mut count, mut time) = (0, 0);
     while let Some(frame) = reader.read_next_frame().unwrap() {
@@ -92,12 +87,7 @@ fn one_run_writes_every_output_and_other_readers_open_them() {
     let svg = fs::read_to_string(folder.join("figure.svg")).unwrap();
     let tree = roxmltree::Document::parse(&svg).unwrap();
     let words: Vec<&str> = tree.descendants().filter_map(|n| n.text()).collect();
-    for word in [
-        "t = 0, deployed",
-        "t = 2, compact",
-        "mountain",
-        "closed form 1 × 0 × 0.5 m",
-    ] {
+    for word in ["t = 0, deployed", "t = 2, compact", "mountain", "closed form 1 × 0 × 0.5 m"] {
         assert!(words.iter().any(|w| w.contains(word)), "{word}: {words:?}");
     }
     let pdf = fs::read(folder.join("figure.pdf")).unwrap();
@@ -110,12 +100,7 @@ fn one_run_writes_every_output_and_other_readers_open_them() {
     let triangles = u32::from_le_bytes(stl[80..84].try_into().unwrap());
     assert_eq!(stl.len(), 84 + 50 * triangles as usize);
     let page = fs::read_to_string(folder.join("motion.html")).unwrap();
-    for part in [
-        &report.title,
-        "Certificate",
-        "closed form",
-        "id=\"fold-file\"",
-    ] {
+    for part in [&report.title, "Certificate", "closed form", "id=\"fold-file\""] {
         assert!(page.contains(part), "{part}");
     }
 }
@@ -142,11 +127,7 @@ fn every_file_of_a_run_is_reproduced_with_the_same_bytes() {
     let beside =
         reproduce_file(&folder.join("figure.svg"), None, None, false, &|_, _| true).unwrap();
     assert_eq!(beside.path, folder.join("figure-again.svg"));
-    assert_eq!(
-        fs::read_dir(home.path()).unwrap().count(),
-        2,
-        "nothing temporary is left"
-    );
+    assert_eq!(fs::read_dir(home.path()).unwrap().count(), 2, "nothing temporary is left");
 }
 
 #[test]
@@ -198,10 +179,7 @@ fn pictures_of_a_longer_film_are_removed_and_other_files_are_kept() {
     run(&folder, &["record.outputs=[\"png\"]", "record.hold=0.0"]);
     let short = fs::read_dir(folder.join("frames")).unwrap().count();
     assert_eq!([long, short], [11, 8]);
-    assert!(
-        folder.join("state-1.obj").exists(),
-        "it shows the same motion"
-    );
+    assert!(folder.join("state-1.obj").exists(), "it shows the same motion");
     fs::write(folder.join("frames/9999.png"), "mine").unwrap();
     let other = ["record.outputs=[]", "motion.frames=22"];
     let published = run(&folder, &other).published;
@@ -289,20 +267,12 @@ fn any_fold_motion_is_recorded_in_metres_and_reproduced() {
         .flat_map(|l| l.split(' ').skip(1))
         .map(|n| n.parse::<f64>().unwrap())
         .fold(0.0, f64::max);
-    assert!(
-        (largest - 0.01).abs() < 1e-12,
-        "10 mm are 0.01 m: {largest}"
-    );
+    assert!((largest - 0.01).abs() < 1e-12, "10 mm are 0.01 m: {largest}");
     let svg = fs::read_to_string(folder.join("figure.svg")).unwrap();
     assert!(svg.contains("t = 1.25") && svg.contains("largest bar strain, %"));
-    for name in [
-        "motion.gif",
-        "figure.pdf",
-        "motion.glb",
-        "motion.html",
-        "state-1.obj",
-        "frames/0002.png",
-    ] {
+    for name in
+        ["motion.gif", "figure.pdf", "motion.glb", "motion.html", "state-1.obj", "frames/0002.png"]
+    {
         // The motion is in the parent folder; for pictures it is specified.
         let named = name.contains('/').then_some(motion.as_path());
         let made = again(&folder.join(name), named, &home.path().join("again"));
@@ -319,12 +289,7 @@ fn other_files_in_the_folder_of_a_motion_are_kept() {
     let recorded = record_file(&motion, &record, &folder, &|_, _| true).unwrap();
     assert_eq!(recorded.files, ["figure.svg"]);
     assert!(recorded.is_checked, "its certificate lies beside it");
-    for name in [
-        "report.json",
-        "motion.fold",
-        "certificate.json",
-        "frames/0001.png",
-    ] {
+    for name in ["report.json", "motion.fold", "certificate.json", "frames/0001.png"] {
         assert!(folder.join(name).exists(), "{name}");
     }
     assert_eq!(fs::read(folder.join("motion.gif")).unwrap(), before);
@@ -344,27 +309,16 @@ fn outputs_that_a_motion_cannot_have_are_refused_with_flag_and_value() {
         }
         assert!(!folder.exists());
     };
-    refusal(
-        small(&[OutputChoice::Fold]),
-        &["--outputs", "\"fold\"", "foldmotion run"],
-    );
+    refusal(small(&[OutputChoice::Fold]), &["--outputs", "\"fold\"", "foldmotion run"]);
     refusal(small(&[OutputChoice::Csv]), &["--outputs", "csv"]);
-    let at = |times: &[f64]| RecordScene {
-        at: Some(times.to_vec()),
-        ..small(&[OutputChoice::Svg])
-    };
+    let at =
+        |times: &[f64]| RecordScene { at: Some(times.to_vec()), ..small(&[OutputChoice::Svg]) };
     refusal(at(&[0.5, 1.0]), &["--at", "0.5", "t = 1 to 2"]);
     refusal(at(&[2.5]), &["--at", "2.5"]);
     refusal(at(&[2.0, 1.0]), &["--at", "rising"]);
-    let wide = RecordScene {
-        size: Some([5000, 48]),
-        ..small(&[OutputChoice::Mp4])
-    };
+    let wide = RecordScene { size: Some([5000, 48]), ..small(&[OutputChoice::Mp4]) };
     refusal(wide, &["--size", "5000", "mp4"]);
-    let profile = RecordScene {
-        profile: Some(true),
-        ..small(&[OutputChoice::Svg])
-    };
+    let profile = RecordScene { profile: Some(true), ..small(&[OutputChoice::Svg]) };
     refusal(profile, &["--profile", "run the scene"]);
 }
 
@@ -383,9 +337,6 @@ fn a_motion_without_crease_pattern_shows_bending_but_no_strain() {
     };
     let strain = record_file(&path, &with(ColourChoice::Strain), &folder, &|_, _| true);
     let text = strain.unwrap_err().to_string();
-    assert!(
-        text.contains("--colour") && text.contains("crease pattern"),
-        "{text}"
-    );
+    assert!(text.contains("--colour") && text.contains("crease pattern"), "{text}");
     record_file(&path, &with(ColourChoice::Bending), &folder, &|_, _| true).unwrap();
 }

@@ -22,17 +22,10 @@ fn a_coarse_recording_is_refined_until_its_verdict_is_that_of_the_motion() {
     let folder = tempfile::tempdir().unwrap();
     // Straight from 90° to 180° sheets of E and T cross themselves; the motion does not. Those of S and SII do not either
     // way, and need no more frames.
-    for (scene, crosses) in [
-        ("shelter-e", true),
-        ("shelter-t", true),
-        ("shelter-s", false),
-        ("shelter-sii", false),
-    ] {
-        let report = run(
-            scene,
-            &["motion.frames=4", "record.outputs=[]"],
-            folder.path(),
-        );
+    for (scene, crosses) in
+        [("shelter-e", true), ("shelter-t", true), ("shelter-s", false), ("shelter-sii", false)]
+    {
+        let report = run(scene, &["motion.frames=4", "record.outputs=[]"], folder.path());
         assert_eq!(report.collision.verdict.name(), "touching", "{scene}");
         let is_refined = report.path.refinements > 0;
         assert_eq!(is_refined, crosses, "{scene}: {:?}", report.path);
@@ -44,11 +37,7 @@ fn a_coarse_recording_is_refined_until_its_verdict_is_that_of_the_motion() {
 fn a_motion_that_crosses_itself_is_refined_no_further_than_necessary() {
     let folder = tempfile::tempdir().unwrap();
     let none = "record.outputs=[]";
-    let coarse = run(
-        "shelter-short-plain",
-        &["motion.frames=6", none],
-        folder.path(),
-    );
+    let coarse = run("shelter-short-plain", &["motion.frames=6", none], folder.path());
     let fine = run("shelter-short-plain", &[none], folder.path());
     for report in [&coarse, &fine] {
         assert_eq!(report.collision.verdict.name(), "penetrating");
@@ -89,21 +78,11 @@ fn the_reported_straying_is_that_of_intermediate_frames() {
     for (k, estimate) in estimates.iter().enumerate() {
         let [from, between, to] = [0, 1, 2].map(|j| &all[2 * k + j].positions);
         let chords = from.iter().zip(to).map(|(p, q)| p.midpoint(*q));
-        let measured = chords
-            .zip(between)
-            .map(|(p, q)| p.distance(*q))
-            .fold(0.0, f64::max);
+        let measured = chords.zip(between).map(|(p, q)| p.distance(*q)).fold(0.0, f64::max);
         right += usize::from(*estimate > 0.5 * measured && *estimate < 5.0 * measured);
     }
-    assert!(
-        right * 6 >= estimates.len() * 5,
-        "{right} of {}",
-        estimates.len()
-    );
+    assert!(right * 6 >= estimates.len() * 5, "{right} of {}", estimates.len());
     let largest = straying(&all).into_iter().fold(0.0, f64::max);
     let reported = report.path.straying.unwrap() * report.unit.unwrap().height;
-    assert!(
-        (reported - largest).abs() < 1e-9 * largest,
-        "{reported} {largest}"
-    );
+    assert!((reported - largest).abs() < 1e-9 * largest, "{reported} {largest}");
 }

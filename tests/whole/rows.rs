@@ -34,14 +34,8 @@ fn unequal_rows_with_one_flap_width_fold_to_their_exact_box_with_and_without_con
         let report = run("shelter-unequal", &[contact]);
         let verdict = report.collision.verdict.name();
         assert!(verdicts.contains(&verdict), "{contact}: {verdict}");
-        assert_eq!(
-            (report.case.as_deref().unwrap(), report.status()),
-            ("SII", 0)
-        );
-        assert!(
-            report.compact.rms_to_exact.unwrap() < tolerance,
-            "{contact}"
-        );
+        assert_eq!((report.case.as_deref().unwrap(), report.status()), ("SII", 0));
+        assert!(report.compact.rms_to_exact.unwrap() < tolerance, "{contact}");
         if contact.ends_with("false") {
             assert!(largest_error(&report) < tolerance);
         }
@@ -53,10 +47,7 @@ fn unequal_rows_with_one_flap_width_fold_to_their_exact_box_with_and_without_con
                 .any(|row| row.height > 1.2 * rows[0].height || row.height < rows[0].height / 1.2)
         );
         let skin = report.compact.skin.unwrap();
-        for (measured, exact) in [
-            (skin.upper, skin.exact_upper),
-            (skin.lower, skin.exact_lower),
-        ] {
+        for (measured, exact) in [(skin.upper, skin.exact_upper), (skin.lower, skin.exact_lower)] {
             assert_eq!(measured.facets, exact.facets);
             assert!(exact.facets > 0);
             assert!((measured.area / exact.area - 1.0).abs() < tolerance);
@@ -75,11 +66,7 @@ fn a_short_sheet_lies_on_one_skin_plane_with_facets_and_on_the_other_with_edges(
 
 #[test]
 fn rows_in_cases_that_clash_are_refused_by_name_and_drawn() {
-    let set = [
-        "sheet.unequal=own-case",
-        "sheet.width=2.0",
-        "sheet.lambda=0.8",
-    ];
+    let set = ["sheet.unequal=own-case", "sheet.width=2.0", "sheet.lambda=0.8"];
     let with_lambda = Study::resolve(&source("shelter-unequal", &set)).unwrap_err();
     assert!(with_lambda.to_string().contains("sheet.lambda"));
     let text = std::fs::read_to_string(
@@ -95,10 +82,7 @@ fn rows_in_cases_that_clash_are_refused_by_name_and_drawn() {
     let error = Study::resolve(&own).unwrap_err();
     assert_eq!(error.status(), 2);
     let message = error.to_string();
-    assert!(
-        message.contains("sheet.unequal") && message.contains("clash"),
-        "{message}"
-    );
+    assert!(message.contains("sheet.unequal") && message.contains("clash"), "{message}");
     let svg = clash_drawing(&own).unwrap().unwrap();
     assert!(svg.contains("class=\"clash\""));
     assert_eq!(clash_drawing(&source("shelter-s", &[])).unwrap(), None);
@@ -120,10 +104,7 @@ fn a_map_folds_to_one_unit_of_all_layers_beside_the_box_of_the_waterbomb_stack()
     assert_eq!(report.collision.verdict.name(), "touching");
     let (h, w) = (report.unit.unwrap().height, report.unit.unwrap().width);
     for (found, expected) in report.compact.extents.into_iter().zip([h, w, 0.0]) {
-        assert!(
-            (found - expected).abs() < 1e-6 * h,
-            "{found} is not {expected}"
-        );
+        assert!((found - expected).abs() < 1e-6 * h, "{found} is not {expected}");
     }
     let waterbomb = map.waterbomb.unwrap();
     let a = report.unit.unwrap().flap;

@@ -13,11 +13,7 @@ struct Expected {
 }
 
 const fn expected(scene: &'static str, verdict: &'static str, status: u8) -> Expected {
-    Expected {
-        scene,
-        verdict,
-        status,
-    }
+    Expected { scene, verdict, status }
 }
 
 /// As they stand: with contact, but for the short rectangles, whose compact state no order of layers admits.
@@ -64,10 +60,7 @@ fn run(scene: &str, set: &[&str], folder: &Path) -> Report {
     for assignment in set {
         source.set(assignment).unwrap();
     }
-    Study::resolve(&source)
-        .unwrap()
-        .run(folder, &|_, _| true)
-        .unwrap()
+    Study::resolve(&source).unwrap().run(folder, &|_, _| true).unwrap()
 }
 
 #[test]
@@ -98,32 +91,17 @@ fn worst_box_error(report: &Report) -> Option<f64> {
 #[test]
 fn every_scene_has_its_verdict_and_writes_its_files() {
     let home = tempfile::tempdir().unwrap();
-    for Expected {
-        scene,
-        verdict,
-        status,
-    } in EXPECTED
-    {
+    for Expected { scene, verdict, status } in EXPECTED {
         let folder = home.path().join(scene);
         let report = run(scene, &SMALL_FILM, &folder);
-        let kind = if *status == 1 {
-            OutcomeKind::Collides
-        } else {
-            OutcomeKind::Folded
-        };
+        let kind = if *status == 1 { OutcomeKind::Collides } else { OutcomeKind::Folded };
         assert_eq!(report.outcome.kind, kind, "{scene}");
         assert_eq!(
             (report.collision.verdict.name(), report.status()),
             (*verdict, *status),
             "{scene}"
         );
-        assert!(
-            report
-                .stages
-                .iter()
-                .all(|s| s.converged && s.reached_t >= 1.0),
-            "{scene}"
-        );
+        assert!(report.stages.iter().all(|s| s.converged && s.reached_t >= 1.0), "{scene}");
         // Layers are a gap of 1e-3 h apart, and there are eight of them in a column; long stacks add up.
         assert!(
             report.compact.rms_to_exact.unwrap()
@@ -132,29 +110,12 @@ fn every_scene_has_its_verdict_and_writes_its_files() {
             report.compact.rms_to_exact.unwrap()
         );
         let is_equal = report.unequal_rows.is_none();
-        assert_eq!(
-            report.division.as_ref().unwrap().max_residual <= 1e-12,
-            is_equal,
-            "{scene}"
-        );
-        for file in [
-            "report.json",
-            "motion.fold",
-            "motion.gif",
-            "motion.csv",
-            "plots.svg",
-        ] {
-            assert!(
-                folder.join(file).metadata().unwrap().len() > 0,
-                "{scene}: {file}"
-            );
+        assert_eq!(report.division.as_ref().unwrap().max_residual <= 1e-12, is_equal, "{scene}");
+        for file in ["report.json", "motion.fold", "motion.gif", "motion.csv", "plots.svg"] {
+            assert!(folder.join(file).metadata().unwrap().len() > 0, "{scene}: {file}");
         }
         let written = std::fs::read_to_string(folder.join("report.json")).unwrap();
-        assert_eq!(
-            serde_json::from_str::<Report>(&written).unwrap(),
-            report,
-            "{scene}"
-        );
+        assert_eq!(serde_json::from_str::<Report>(&written).unwrap(), report, "{scene}");
         assert_eq!(
             *verdict == "penetrating",
             report.collision.first.is_some(),
@@ -169,12 +130,7 @@ fn every_scene_has_its_verdict_and_writes_its_files() {
 #[test]
 fn the_dynamic_engine_reaches_the_exact_compact_state_with_the_verdicts_measured() {
     let home = tempfile::tempdir().unwrap();
-    for Expected {
-        scene,
-        verdict,
-        status,
-    } in DYNAMIC
-    {
+    for Expected { scene, verdict, status } in DYNAMIC {
         let set = ["motion.engine=dynamic", "motion.contact=false", REPORT_ONLY];
         let report = run(scene, &set, &home.path().join(scene));
         assert_eq!(
@@ -204,10 +160,7 @@ fn without_contact_the_quasi_static_engine_ends_on_the_exact_compact_state_at_an
                 &format!("material.axial_stiffness={stiffness}.0"),
             ];
             let report = run(scene, &set, home.path());
-            assert!(
-                report.stages.iter().all(|s| s.converged),
-                "{scene} at {stiffness}"
-            );
+            assert!(report.stages.iter().all(|s| s.converged), "{scene} at {stiffness}");
             let rms = report.compact.rms_to_exact.unwrap();
             assert!(rms < 1e-9, "{scene} at {stiffness}: {rms}");
         }
@@ -220,19 +173,10 @@ fn a_near_rigid_sheet_without_contact_folds_up_whatever_the_number_of_frames() {
     for frames in [180, 200, 240] {
         let home = tempfile::tempdir().unwrap();
         let frames = format!("motion.frames={frames}");
-        let set = [
-            "material.preset=near-rigid",
-            "motion.contact=false",
-            &frames,
-            REPORT_ONLY,
-        ];
+        let set = ["material.preset=near-rigid", "motion.contact=false", &frames, REPORT_ONLY];
         let report = run("shelter-t", &set, home.path());
         assert!(report.stages.iter().all(|s| s.converged), "{frames}");
-        assert!(
-            report.outcome.is_at_end(),
-            "{frames}: {}",
-            report.outcome.line()
-        );
+        assert!(report.outcome.is_at_end(), "{frames}: {}", report.outcome.line());
         assert_eq!(report.stop, None);
         let rms = report.compact.rms_to_exact.unwrap();
         assert!(rms < 1e-9, "{frames}: {rms}");
@@ -242,31 +186,17 @@ fn a_near_rigid_sheet_without_contact_folds_up_whatever_the_number_of_frames() {
 #[test]
 fn contact_stops_short_plain_rectangles_and_names_what_blocks() {
     let home = tempfile::tempdir().unwrap();
-    let report = run(
-        "shelter-short-plain",
-        &["motion.contact=true", REPORT_ONLY],
-        home.path(),
-    );
-    assert_eq!(
-        (report.status(), report.collision.verdict.name()),
-        (3, "free")
-    );
+    let report = run("shelter-short-plain", &["motion.contact=true", REPORT_ONLY], home.path());
+    assert_eq!((report.status(), report.collision.verdict.name()), (3, "free"));
     let jam = report.jam.unwrap();
-    assert!(
-        jam.t > 1.0 && jam.t < 2.0 && !jam.facets.is_empty(),
-        "{jam:?}"
-    );
+    assert!(jam.t > 1.0 && jam.t < 2.0 && !jam.facets.is_empty(), "{jam:?}");
 }
 
 /// The sheet jams at t = 2 with another stack of layers than in the compact state.
 #[test]
 fn a_jammed_sheet_claims_no_order_of_layers_that_it_does_not_have() {
     let home = tempfile::tempdir().unwrap();
-    let set = [
-        "material.preset=near-rigid",
-        "motion.frames=120",
-        "record.outputs=[\"fold\"]",
-    ];
+    let set = ["material.preset=near-rigid", "motion.frames=120", "record.outputs=[\"fold\"]"];
     let report = run("shelter-t", &set, home.path());
     assert_eq!(report.outcome.kind, OutcomeKind::Jammed);
     assert_eq!(report.collision.verdict.name(), "free");
@@ -281,11 +211,7 @@ fn a_jammed_sheet_claims_no_order_of_layers_that_it_does_not_have() {
 fn the_compact_box_converges_linearly_with_the_gap() {
     let home = tempfile::tempdir().unwrap();
     let extents = [4e-3, 2e-3, 1e-3].map(|gap| {
-        let set = [
-            &format!("motion.gap={gap}"),
-            "motion.frames=120",
-            REPORT_ONLY,
-        ];
+        let set = [&format!("motion.gap={gap}"), "motion.frames=120", REPORT_ONLY];
         let report = run("shelter-s", &set, home.path());
         assert_eq!(report.collision.verdict.name(), "free");
         let closed = report.closed_form.unwrap().extents;
@@ -298,10 +224,7 @@ fn the_compact_box_converges_linearly_with_the_gap() {
         // Richardson: what is left at no gap after the linear part is taken off.
         assert!((2.0 * e1 - e2).abs() < 1e-3, "axis {axis}: {e4} {e2} {e1}");
         assert!((2.0 * e2 - e4).abs() < 4e-3, "axis {axis}: {e4} {e2} {e1}");
-        assert!(
-            e4 > e2 && e2 > e1 && e1 > 0.0,
-            "axis {axis}: {e4} {e2} {e1}"
-        );
+        assert!(e4 > e2 && e2 > e1 && e1 > 0.0, "axis {axis}: {e4} {e2} {e1}");
     }
 }
 
@@ -311,29 +234,15 @@ fn a_short_plain_unit_is_found_crossing_at_the_ends_of_a_mid_line() {
     let home = tempfile::tempdir().unwrap();
     let report = run("shelter-short-plain", &[REPORT_ONLY], home.path());
     let within = report.collision.first_within_unit.unwrap();
-    let names: Vec<&str> = within
-        .vertex_names
-        .iter()
-        .flatten()
-        .map(String::as_str)
-        .collect();
+    let names: Vec<&str> = within.vertex_names.iter().flatten().map(String::as_str).collect();
     let pairs = [["C2", "C6"], ["D1", "D6"], ["D3", "D8"]];
-    assert!(
-        pairs
-            .iter()
-            .any(|pair| pair.iter().all(|name| names.contains(name))),
-        "{within:?}"
-    );
+    assert!(pairs.iter().any(|pair| pair.iter().all(|name| names.contains(name))), "{within:?}");
 }
 
 #[test]
 fn one_square_unit_folds_to_half_its_width_times_its_height() {
     let home = tempfile::tempdir().unwrap();
-    let report = run(
-        "one-unit",
-        &["motion.contact=false", REPORT_ONLY],
-        home.path(),
-    );
+    let report = run("one-unit", &["motion.contact=false", REPORT_ONLY], home.path());
     assert!((report.compact.area - 0.5).abs() < 1e-6 && report.compact.extents[1].abs() < 1e-6);
 }
 
@@ -343,17 +252,10 @@ fn results_are_the_same_bytes_for_one_thread_and_for_two() {
     let home = tempfile::tempdir().unwrap();
     let mut reports = Vec::new();
     for threads in [1, 2] {
-        let pool = rayon::ThreadPoolBuilder::new()
-            .num_threads(threads)
-            .build()
-            .unwrap();
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
         let folder = home.path().join(threads.to_string());
-        let small = [
-            "motion.frames=60",
-            "record.size=[160, 120]",
-            "sheet.rows=4",
-            "profile.length=4.0",
-        ];
+        let small =
+            ["motion.frames=60", "record.size=[160, 120]", "sheet.rows=4", "profile.length=4.0"];
         let mut report = pool.install(|| run("shelter-sii", &small, &folder));
         report.engine.seconds = 0.0;
         report.engine.threads = 0;
@@ -376,11 +278,7 @@ fn the_compact_frame_of_the_file_has_the_right_orientation() {
     let home = tempfile::tempdir().unwrap();
     run(
         "shelter-s",
-        &[
-            "record.outputs=[\"fold\"]",
-            "motion.frames=40",
-            "motion.contact=false",
-        ],
+        &["record.outputs=[\"fold\"]", "motion.frames=40", "motion.contact=false"],
         home.path(),
     );
     let text = std::fs::read_to_string(home.path().join("motion.fold")).unwrap();
@@ -389,10 +287,7 @@ fn the_compact_frame_of_the_file_has_the_right_orientation() {
     let coords: Vec<[f64; 3]> = serde_json::from_value(last["vertices_coords"].clone()).unwrap();
     let span = |axis: usize| {
         let values = coords.iter().map(|p| p[axis]);
-        (
-            values.clone().fold(f64::INFINITY, f64::min),
-            values.fold(f64::NEG_INFINITY, f64::max),
-        )
+        (values.clone().fold(f64::INFINITY, f64::min), values.fold(f64::NEG_INFINITY, f64::max))
     };
     let (x, y, z) = (span(0), span(1), span(2));
     assert!((x.0 + 4.0).abs() < 1e-3 && x.1.abs() < 1e-3, "{x:?}");
@@ -408,15 +303,8 @@ fn an_interrupted_run_leaves_earlier_results_as_they_were() {
     run("one-unit", &[REPORT_ONLY], &folder);
     let before = std::fs::read(folder.join("report.json")).unwrap();
     let source = SceneSource::read(&scenes().join("one-unit.toml")).unwrap();
-    let error = Study::resolve(&source)
-        .unwrap()
-        .run(&folder, &|_, done| done < 0.5)
-        .unwrap_err();
+    let error = Study::resolve(&source).unwrap().run(&folder, &|_, done| done < 0.5).unwrap_err();
     assert_eq!(error.status(), 3);
     assert_eq!(std::fs::read(folder.join("report.json")).unwrap(), before);
-    assert_eq!(
-        std::fs::read_dir(home.path()).unwrap().count(),
-        1,
-        "nothing half-written is left"
-    );
+    assert_eq!(std::fs::read_dir(home.path()).unwrap().count(), 1, "nothing half-written is left");
 }

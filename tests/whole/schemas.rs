@@ -17,10 +17,7 @@ fn is_current(file: &str, text: &str) {
         std::fs::write(&path, text).unwrap();
     }
     let stored = std::fs::read_to_string(&path).unwrap_or_default();
-    assert!(
-        stored == text,
-        "{file} is not current: run the tests once with UPDATE_SCHEMAS=1"
-    );
+    assert!(stored == text, "{file} is not current: run the tests once with UPDATE_SCHEMAS=1");
 }
 
 #[test]
@@ -66,12 +63,7 @@ fn undescribed(node: &Value, path: &str, found: &mut Vec<String>) {
 
 #[test]
 fn every_key_of_the_schemas_is_described_in_thirty_characters_or_more() {
-    for schema in [
-        scene_schema(),
-        report_schema(),
-        certificate_schema(),
-        paper_schema(),
-    ] {
+    for schema in [scene_schema(), report_schema(), certificate_schema(), paper_schema()] {
         let schema: Value = serde_json::from_str(&schema).unwrap();
         let mut found = Vec::new();
         let title = schema["title"].as_str().unwrap_or_default();

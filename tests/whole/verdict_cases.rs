@@ -86,8 +86,7 @@ fn rotations() -> Vec<([usize; 3], [f64; 3])> {
         [(1.0, 1.0), (1.0, -1.0), (-1.0, 1.0), (-1.0, -1.0)].map(|(x, y)| [x, y, x * y * parity])
     };
     let all = orders.into_iter();
-    all.flat_map(|(order, parity)| signs(parity).map(|sign| (order, sign)))
-        .collect()
+    all.flat_map(|(order, parity)| signs(parity).map(|sign| (order, sign))).collect()
 }
 
 fn rotated(motion: &Value, (order, sign): ([usize; 3], [f64; 3])) -> Value {
@@ -121,10 +120,8 @@ fn cut(motion: &Value, shift: usize) -> Value {
 fn subdivided(motion: &Value) -> Value {
     let mut motion = cut(motion, 0);
     let faces = motion["faces_vertices"].as_array().unwrap().clone();
-    let corners: Vec<[usize; 3]> = faces
-        .iter()
-        .map(|face| [0, 1, 2].map(|i| face[i].as_u64().unwrap() as usize))
-        .collect();
+    let corners: Vec<[usize; 3]> =
+        faces.iter().map(|face| [0, 1, 2].map(|i| face[i].as_u64().unwrap() as usize)).collect();
     let count = motion["vertices_coords"].as_array().unwrap().len();
     change_frames(&mut motion, |coordinates| {
         for face in &corners {
@@ -165,10 +162,7 @@ fn is_true(name: &str, what: &str, motion: &Value, truth: (Verdict, Option<f64>)
     let checked = check(motion);
     assert_eq!(checked.verdict, truth.0, "{name}, {what}");
     let verification = checked.verification;
-    assert!(
-        verification.is_verified(),
-        "{name}, {what}: {verification:?}"
-    );
+    assert!(verification.is_verified(), "{name}, {what}: {verification:?}");
     if let Some(expected) = truth.1 {
         let found = checked.separation.unwrap();
         // The expected value has three digits; the stated bound may be smaller by τ/100.
@@ -197,12 +191,7 @@ fn no_verdict_changes_in_24_rotations() {
     for (name, verdict, separation) in CASES {
         for (k, rotation) in rotations().into_iter().enumerate() {
             let motion = rotated(&read(name), rotation);
-            is_true(
-                name,
-                &format!("rotation {k}"),
-                &motion,
-                (verdict, separation),
-            );
+            is_true(name, &format!("rotation {k}"), &motion, (verdict, separation));
         }
     }
 }

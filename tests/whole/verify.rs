@@ -117,9 +117,9 @@ impl Random {
 /// bounds are tight: that they are not states less.
 fn leaves(value: &Value, at: &str, found: &mut Vec<String>) {
     match value {
-        Value::Object(map) => map
-            .iter()
-            .for_each(|(key, v)| leaves(v, &format!("{at}/{key}"), found)),
+        Value::Object(map) => {
+            map.iter().for_each(|(key, v)| leaves(v, &format!("{at}/{key}"), found))
+        }
         Value::Array(list) => (0..).zip(list).for_each(|(k, v)| {
             let k: usize = k;
             leaves(v, &format!("{at}/{k}"), found);
@@ -188,10 +188,7 @@ fn change_lists(certificate: &mut Value, which: usize) -> &'static str {
             "a penetration twice"
         }
         2 if certificate["penetrations"].as_array().unwrap().len() > 1 => {
-            certificate["penetrations"]
-                .as_array_mut()
-                .unwrap()
-                .reverse();
+            certificate["penetrations"].as_array_mut().unwrap().reverse();
             "penetrations in another order"
         }
         3 => {
@@ -243,11 +240,7 @@ fn move_triangle(frame: &mut Value, vertices: &[usize]) {
     let p = corners(frame, vertices);
     let edge = |i: usize| [0, 1, 2].map(|k| p[i][k] - p[0][k]);
     let (u, v) = (edge(1), edge(2));
-    let n = [
-        u[1] * v[2] - u[2] * v[1],
-        u[2] * v[0] - u[0] * v[2],
-        u[0] * v[1] - u[1] * v[0],
-    ];
+    let n = [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]];
     let length = n.iter().map(|x| x * x).sum::<f64>().sqrt();
     for (&vertex, p) in vertices.iter().zip(&p) {
         let moved = [0, 1, 2].map(|k| p[k] + 0.3 * n[k] / length);
@@ -292,10 +285,8 @@ fn change_motion(of: &Certified, which: usize, random: &mut Random) -> (Value, &
             let triangle = &of.motion["faces_vertices"][face as usize];
             let triangle: Vec<usize> = serde_json::from_value(triangle.clone()).unwrap();
             let frames = frames(&mut motion);
-            let times: Vec<f64> = frames
-                .iter()
-                .map(|f| f["foldmotion:time"].as_f64().unwrap())
-                .collect();
+            let times: Vec<f64> =
+                frames.iter().map(|f| f["foldmotion:time"].as_f64().unwrap()).collect();
             for (k, frame) in frames.iter_mut().enumerate() {
                 let before = times[k.saturating_sub(1)];
                 let after = times[(k + 1).min(count - 1)];
@@ -328,12 +319,7 @@ fn change_motion(of: &Certified, which: usize, random: &mut Random) -> (Value, &
 
 #[test]
 fn certificates_of_free_touching_and_penetrating_motions_verify() {
-    let expected = [
-        ("free", 0),
-        ("touching", 0),
-        ("penetrating", 1),
-        ("penetrating", 1),
-    ];
+    let expected = [("free", 0), ("touching", 0), ("penetrating", 1), ("penetrating", 1)];
     for (of, (verdict, status)) in certified().iter().zip(expected) {
         assert_eq!(of.certificate["verdict"], verdict);
         let verified = of.verify(&of.motion, &of.certificate).unwrap();
@@ -355,10 +341,7 @@ fn every_seeded_change_of_a_motion_or_a_certificate_is_refused() {
         assert_eq!(status, 2, "{seed}: {name}, hash and all");
         let forged = of.forged_for(&motion);
         let status = of.status(&motion, &forged);
-        assert!(
-            status >= 2,
-            "{seed}: {name}, with the hash forged: {status}"
-        );
+        assert!(status >= 2, "{seed}: {name}, with the hash forged: {status}");
         refused += 2;
     }
     for seed in 0..180 {
@@ -366,11 +349,8 @@ fn every_seeded_change_of_a_motion_or_a_certificate_is_refused() {
         let mut certificate = of.certificate.clone();
         let mut pointers = Vec::new();
         leaves(&certificate, "", &mut pointers);
-        let is_of_layers = |p: &String| {
-            ["/clusters", "/layer_orders"]
-                .iter()
-                .any(|at| p.starts_with(at))
-        };
+        let is_of_layers =
+            |p: &String| ["/clusters", "/layer_orders"].iter().any(|at| p.starts_with(at));
         let is_penetration = |p: &String| p.starts_with("/penetrations");
         match seed {
             0..90 => {}
@@ -395,10 +375,7 @@ fn every_seeded_change_of_a_motion_or_a_certificate_is_refused() {
     }
     assert!(refused >= 100, "{refused}");
     for of in &all {
-        assert!(
-            of.status(&of.motion, &of.certificate) < 2,
-            "the unchanged twin"
-        );
+        assert!(of.status(&of.motion, &of.certificate) < 2, "the unchanged twin");
     }
 }
 
@@ -419,10 +396,7 @@ fn a_penetrating_motion_with_a_clean_certificate_is_refuted_and_so_is_the_revers
     let verified = swapped.verify(&swapped.motion, &lie).unwrap();
     assert_eq!(verified.status(), 2, "{}", verified.table());
     let refuted = &verified.verification.refuted;
-    assert!(
-        refuted.iter().all(|r| r.field == "penetrations"),
-        "{refuted:?}"
-    );
+    assert!(refuted.iter().all(|r| r.field == "penetrations"), "{refuted:?}");
     let mut lie = clean.certificate.clone();
     lie["verdict"] = json!("penetrating");
     let mut invented = penetrating.certificate["penetrations"][0].clone();

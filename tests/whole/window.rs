@@ -13,12 +13,8 @@ use foldmotion_study::{
 fn source(set: &[&str]) -> SceneSource {
     let scene = Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenes/one-unit.toml");
     let mut source = SceneSource::read(&scene).unwrap();
-    let small = [
-        "record.size=[64, 48]",
-        "record.fps=5.0",
-        "record.seconds=[0.0, 1.0]",
-        "motion.frames=20",
-    ];
+    let small =
+        ["record.size=[64, 48]", "record.fps=5.0", "record.seconds=[0.0, 1.0]", "motion.frames=20"];
     for assignment in small.iter().chain(set) {
         source.set(assignment).unwrap();
     }
@@ -75,10 +71,7 @@ fn computing_and_then_writing_gives_the_files_of_a_run() {
     assert_eq!(report.files, written.files);
     assert!(written.seconds.total >= written.engine.seconds);
     let certificate = study.certificate_of(&folded).unwrap().to_json();
-    assert_eq!(
-        certificate,
-        fs::read_to_string(once.join("certificate.json")).unwrap()
-    );
+    assert_eq!(certificate, fs::read_to_string(once.join("certificate.json")).unwrap());
     assert!(folded.is_converged() && folded.jam().is_none());
     let boxes = study.boxes(&folded.motion);
     // The two boxes are measured after different rigid fits, so they differ by rounding.
@@ -94,37 +87,24 @@ fn a_recording_with_the_camera_of_the_window_equals_a_run_with_that_camera() {
     let folded = plain.compute(&|_, _| true).unwrap();
     let home = tempfile::tempdir().unwrap();
     let [window, scene, other] = ["window", "scene", "other"].map(|name| home.path().join(name));
-    let names = plain
-        .record_as(&folded, &seen(&outputs), &window, &|_, _| true)
-        .unwrap();
+    let names = plain.record_as(&folded, &seen(&outputs), &window, &|_, _| true).unwrap();
     assert!(names.contains(&"figure.svg".to_owned()) && !window.join("report.json").exists());
     let camera = "record.camera={ azimuth = -35.0, elevation = 25.0, centre = [0.25, 0.5, 0.125], width = 3.0 }";
     let outputs_key = "record.outputs=[\"gif\", \"png\", \"svg\"]";
-    study(&[camera, outputs_key])
-        .run(&scene, &|_, _| true)
-        .unwrap();
+    study(&[camera, outputs_key]).run(&scene, &|_, _| true).unwrap();
     assert_eq!(files(&window), files(&scene));
     let mut moved = seen(&outputs);
-    let Some(CameraScene::Own(own)) = &mut moved.camera else {
-        panic!("it has one")
-    };
+    let Some(CameraScene::Own(own)) = &mut moved.camera else { panic!("it has one") };
     own.centre = Some([0.25, 0.5, 0.625]);
-    plain
-        .record_as(&folded, &moved, &other, &|_, _| true)
-        .unwrap();
+    plain.record_as(&folded, &moved, &other, &|_, _| true).unwrap();
     for name in ["motion.gif", "frames/0001.png", "figure.svg"] {
         let [a, b] = [&window, &other].map(|folder| fs::read(folder.join(name)).unwrap());
         assert_ne!(a, b, "{name}");
     }
     fs::create_dir_all(home.path().join("again")).unwrap();
     let again = Some(home.path().join("again"));
-    let made = reproduce_file(
-        &window.join("motion.gif"),
-        None,
-        again.as_deref(),
-        false,
-        &|_, _| true,
-    );
+    let made =
+        reproduce_file(&window.join("motion.gif"), None, again.as_deref(), false, &|_, _| true);
     assert!(made.unwrap().is_same);
 }
 
@@ -134,20 +114,16 @@ fn an_invalid_recording_is_refused_with_its_flag() {
     let folded = study.compute(&|_, _| true).unwrap();
     let home = tempfile::tempdir().unwrap();
     let mut asked = seen(&[OutputChoice::Png]);
-    let Some(CameraScene::Own(own)) = &mut asked.camera else {
-        panic!("it has one")
-    };
+    let Some(CameraScene::Own(own)) = &mut asked.camera else { panic!("it has one") };
     own.width = Some(-3.0);
     let error = study.record_as(&folded, &asked, &home.path().join("out"), &|_, _| true);
     let error = error.unwrap_err();
     assert_eq!((error.status(), error.key()), (2, Some("record.camera")));
     assert_eq!(fs::read_dir(home.path()).unwrap().count(), 0);
-    let stopped = study.record_as(
-        &folded,
-        &seen(&[OutputChoice::Png]),
-        &home.path().join("out"),
-        &|_, _| false,
-    );
+    let stopped =
+        study.record_as(&folded, &seen(&[OutputChoice::Png]), &home.path().join("out"), &|_, _| {
+            false
+        });
     assert!(matches!(stopped, Err(StudyError::Interrupted)));
     assert_eq!(fs::read_dir(home.path()).unwrap().count(), 0);
 }
@@ -162,18 +138,13 @@ struct Seen {
 impl Watch for Seen {
     fn progress(&self, phase: Phase, _: f64) -> bool {
         phase != Phase::Fold
-            || self
-                .most
-                .is_none_or(|most| self.states.lock().unwrap().len() < most)
+            || self.most.is_none_or(|most| self.states.lock().unwrap().len() < most)
     }
 
     fn state(&self, moment: &Snapshot<'_>) {
         let positions = moment.positions();
         assert!(positions.iter().all(|p| p.is_finite()));
-        self.states
-            .lock()
-            .unwrap()
-            .push((moment.time, positions.len()));
+        self.states.lock().unwrap().push((moment.time, positions.len()));
     }
 }
 
@@ -187,18 +158,11 @@ fn an_observed_run_reports_its_states_and_has_the_same_result() {
         assert_eq!(watched.motion.frames, alone.motion.frames);
         let states = seen.states.into_inner().unwrap();
         let vertices = study.subject.sheet().vertices.len();
-        assert!(
-            states.len() > 2 * watched.motion.frames.len(),
-            "{engine}: {}",
-            states.len()
-        );
+        assert!(states.len() > 2 * watched.motion.frames.len(), "{engine}: {}", states.len());
         assert!(states.iter().all(|&(_, count)| count == vertices));
         assert!(states.is_sorted_by(|a, b| a.0 <= b.0));
         assert_eq!(states.last().map(|s| s.0), Some(2.0));
-        let few = Seen {
-            most: Some(3),
-            ..Seen::default()
-        };
+        let few = Seen { most: Some(3), ..Seen::default() };
         assert!(matches!(study.compute(&few), Err(StudyError::Interrupted)));
         assert_eq!(few.states.into_inner().unwrap().len(), 3);
     }
@@ -208,17 +172,11 @@ fn an_observed_run_reports_its_states_and_has_the_same_result() {
 fn a_file_is_opened_by_its_content() {
     let home = tempfile::tempdir().unwrap();
     let folder = home.path().join("unit");
-    study(&["record.outputs=[\"fold\"]"])
-        .run(&folder, &|_, _| true)
-        .unwrap();
+    study(&["record.outputs=[\"fold\"]"]).run(&folder, &|_, _| true).unwrap();
     let open = |path: &Path| OpenedFile::read(path, &|_, _| true);
     let path = folder.join("motion.fold");
-    let OpenedFile::Motion(motion) = open(&path).unwrap() else {
-        panic!("a run writes a motion")
-    };
-    let (findings, certificate) = motion
-        .check(&CheckOptions::default(), &|_, _| true)
-        .unwrap();
+    let OpenedFile::Motion(motion) = open(&path).unwrap() else { panic!("a run writes a motion") };
+    let (findings, certificate) = motion.check(&CheckOptions::default(), &|_, _| true).unwrap();
     let alone = check_file(&path, &CheckOptions::default(), &|_, _| true).unwrap();
     assert_eq!(certificate.to_json(), alone.certificate.to_json());
     assert_eq!(findings.series.len(), motion.motion().frames.len());
@@ -229,9 +187,7 @@ fn a_file_is_opened_by_its_content() {
     let mut text = fs::read_to_string(&path).unwrap();
     text.push(' ');
     fs::write(&path, text).unwrap();
-    let error = motion
-        .check(&CheckOptions::default(), &|_, _| true)
-        .unwrap_err();
+    let error = motion.check(&CheckOptions::default(), &|_, _| true).unwrap_err();
     assert!(error.to_string().contains("changed"), "{error}");
 
     let scenes = Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenes");
@@ -239,11 +195,7 @@ fn a_file_is_opened_by_its_content() {
     for entry in fs::read_dir(&scenes).unwrap() {
         let path = entry.unwrap().path();
         if path.is_file() {
-            assert!(
-                matches!(open(&path), Ok(OpenedFile::Scene(_))),
-                "{}",
-                path.display()
-            );
+            assert!(matches!(open(&path), Ok(OpenedFile::Scene(_))), "{}", path.display());
             found += 1;
         }
     }
@@ -251,18 +203,10 @@ fn a_file_is_opened_by_its_content() {
     // A file that is not a motion is opened as a crease pattern, whose import reports the error.
     let broken = home.path().join("broken.fold");
     fs::write(&broken, "{").unwrap();
-    let OpenedFile::Scene(source) = open(&broken).unwrap() else {
-        panic!("it is no motion")
-    };
+    let OpenedFile::Scene(source) = open(&broken).unwrap() else { panic!("it is no motion") };
     assert!(Study::resolve(&source).is_err());
-    assert!(matches!(
-        open(Path::new("nowhere.toml")),
-        Err(StudyError::Read { .. })
-    ));
-    assert!(matches!(
-        OpenedFile::read(&path, &|_, _| false),
-        Err(StudyError::Interrupted)
-    ));
+    assert!(matches!(open(Path::new("nowhere.toml")), Err(StudyError::Read { .. })));
+    assert!(matches!(OpenedFile::read(&path, &|_, _| false), Err(StudyError::Interrupted)));
 }
 
 #[test]
@@ -290,13 +234,8 @@ fn a_motion_without_times_is_one_stage_and_so_is_its_verdict() {
     let OpenedFile::Motion(motion) = OpenedFile::read(&path, &|_, _| true).unwrap() else {
         panic!("it moves")
     };
-    let (findings, certificate) = motion
-        .check(&CheckOptions::default(), &|_, _| true)
-        .unwrap();
-    let ends = [
-        &motion.motion().frames[0],
-        motion.motion().frames.last().unwrap(),
-    ];
+    let (findings, certificate) = motion.check(&CheckOptions::default(), &|_, _| true).unwrap();
+    let ends = [&motion.motion().frames[0], motion.motion().frames.last().unwrap()];
     assert_eq!(ends.map(|frame| frame.time), [1.0, 2.0]);
     assert_eq!(certificate.verdict.name(), "penetrating");
     let first = findings.collision.first.unwrap();

@@ -23,10 +23,7 @@ pub struct FittedBox {
 pub fn fitted_box(positions: &[DVec3], exact: &[DVec3]) -> FittedBox {
     let fit = RigidMotion::best_fit(positions, exact);
     let fitted = || positions.iter().map(|&p| fit.apply(p));
-    let squared: f64 = fitted()
-        .zip(exact)
-        .map(|(p, &q)| p.distance_squared(q))
-        .sum();
+    let squared: f64 = fitted().zip(exact).map(|(p, &q)| p.distance_squared(q)).sum();
     let rms = (squared / positions.len().max(1) as f64).sqrt();
     measured(Aabb::around(fitted()), Some(rms))
 }
@@ -66,10 +63,7 @@ pub fn principal_box(positions: &[DVec3], faces: &[[u32; 3]]) -> FittedBox {
         sum + (a + b + c + square(middle(t) - centre) * 9.0) * (area(t) / 12.0)
     });
     let motion = RigidMotion::to_principal_axes(centre, moments);
-    measured(
-        Aabb::around(positions.iter().map(|&p| motion.apply(p))),
-        None,
-    )
+    measured(Aabb::around(positions.iter().map(|&p| motion.apply(p))), None)
 }
 
 /// How far a measured box is from its closed form.
@@ -94,11 +88,7 @@ pub fn relative_error(measured: &FittedBox, extents: DVec3, unit_length: f64) ->
     RelativeError {
         extents: DVec3::new(of_extent(0), of_extent(1), of_extent(2)),
         area: relative(measured.area, extents.x * extents.z, unit_length.powi(2)),
-        volume: relative(
-            measured.volume,
-            extents.x * extents.y * extents.z,
-            unit_length.powi(3),
-        ),
+        volume: relative(measured.volume, extents.x * extents.y * extents.z, unit_length.powi(3)),
     }
 }
 
@@ -123,10 +113,8 @@ mod tests {
     #[test]
     fn the_box_does_not_depend_on_where_the_state_lies() {
         let turn = DQuat::from_axis_angle(DVec3::new(1.0, -2.0, 0.4).normalize(), 2.1);
-        let moved: Vec<_> = brick()
-            .into_iter()
-            .map(|p| turn * p + DVec3::new(5.0, 1.0, -9.0))
-            .collect();
+        let moved: Vec<_> =
+            brick().into_iter().map(|p| turn * p + DVec3::new(5.0, 1.0, -9.0)).collect();
         let measured = fitted_box(&moved, &brick());
         assert!(measured.extents.distance(DVec3::new(3.0, 2.0, 0.5)) < 1e-12);
         assert!((measured.area - 1.5).abs() < 1e-12 && (measured.volume - 3.0).abs() < 1e-12);
@@ -139,23 +127,13 @@ mod tests {
     fn a_rectangle_has_its_sides_as_principal_extents_however_it_is_cut_and_turned() {
         let turn = DQuat::from_axis_angle(DVec3::new(1.0, -2.0, 0.4).normalize(), 2.1);
         let at = |x: f64, y: f64| turn * DVec3::new(x, y, 0.0) + DVec3::new(5.0, 1.0, -9.0);
-        let positions = [
-            at(0.0, 0.0),
-            at(2.0, 0.0),
-            at(2.0, 5.0),
-            at(0.0, 5.0),
-            at(0.1, 0.7),
-        ];
+        let positions = [at(0.0, 0.0), at(2.0, 0.0), at(2.0, 5.0), at(0.0, 5.0), at(0.1, 0.7)];
         let halves = [[0, 1, 2], [0, 2, 3]];
         let fan = [[0, 1, 4], [1, 2, 4], [2, 3, 4], [3, 0, 4]];
-        for FittedBox { extents, .. } in [
-            principal_box(&positions, &halves),
-            principal_box(&positions, &fan),
-        ] {
-            assert!(
-                extents.distance(DVec3::new(5.0, 2.0, 0.0)) < 1e-12,
-                "{extents}"
-            );
+        for FittedBox { extents, .. } in
+            [principal_box(&positions, &halves), principal_box(&positions, &fan)]
+        {
+            assert!(extents.distance(DVec3::new(5.0, 2.0, 0.0)) < 1e-12, "{extents}");
         }
         assert_eq!(principal_box(&[], &[]).extents, DVec3::ZERO);
     }

@@ -49,10 +49,7 @@ mod tests {
     use super::*;
 
     fn sampled(times: &[f64], path: impl Fn(f64) -> DVec3) -> Vec<Frame> {
-        let frame = |&time: &f64| Frame {
-            time,
-            positions: vec![DVec3::ZERO, path(time)],
-        };
+        let frame = |&time: &f64| Frame { time, positions: vec![DVec3::ZERO, path(time)] };
         times.iter().map(frame).collect()
     }
 

@@ -19,11 +19,7 @@ pub struct BarStrain {
 ///
 /// `positions`: one for each vertex. Precondition: no edge of the crease pattern has length 0.
 pub fn bar_strain(sheet: &Sheet, positions: &[DVec3]) -> BarStrain {
-    let mut strain = BarStrain {
-        peak: 0.0,
-        peak_edge: 0,
-        mean: 0.0,
-    };
+    let mut strain = BarStrain { peak: 0.0, peak_edge: 0, mean: 0.0 };
     for (index, edge) in sheet.edges.iter().enumerate() {
         let [i, j] = edge.vertices.map(|v| v as usize);
         let rest_length = sheet.vertices[i].distance(sheet.vertices[j]);
@@ -56,19 +52,13 @@ impl FacetBending {
 /// The largest bend of any facet. `positions`: one for each vertex.
 pub fn facet_bending(sheet: &Sheet, positions: &[DVec3]) -> FacetBending {
     let angles = sheet.fold_angles(positions);
-    let mut bending = FacetBending {
-        peak_rad: 0.0,
-        peak_edge: None,
-    };
+    let mut bending = FacetBending { peak_rad: 0.0, peak_edge: None };
     for (index, (edge, angle)) in sheet.edges.iter().zip(angles).enumerate() {
         let (Assignment::Facet, Some(angle)) = (edge.assignment, angle) else {
             continue;
         };
         if bending.peak_edge.is_none() || angle.abs() > bending.peak_rad {
-            bending = FacetBending {
-                peak_rad: angle.abs(),
-                peak_edge: Some(index),
-            };
+            bending = FacetBending { peak_rad: angle.abs(), peak_edge: Some(index) };
         }
     }
     bending

@@ -34,10 +34,7 @@ pub(crate) fn watch() -> Result<(), Failure> {
             });
         }
     })
-    .map_err(|e| Failure {
-        message: format!("Ctrl-C cannot be watched: {e}"),
-        status: FAILED,
-    })
+    .map_err(|e| Failure { message: format!("Ctrl-C cannot be watched: {e}"), status: FAILED })
 }
 
 /// Ends the process, but not while results are moved into place.

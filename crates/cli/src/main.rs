@@ -46,10 +46,7 @@ struct Failure {
 impl<E: Into<PaperError>> From<E> for Failure {
     fn from(error: E) -> Self {
         let error = error.into();
-        Self {
-            message: error.to_string(),
-            status: error.status(),
-        }
+        Self { message: error.to_string(), status: error.status() }
     }
 }
 
@@ -140,9 +137,7 @@ fn scene_and_folder(
     for assignment in set {
         source.set(assignment)?;
     }
-    let folder = out
-        .cloned()
-        .unwrap_or_else(|| PathBuf::from("out").join(source.stem()));
+    let folder = out.cloned().unwrap_or_else(|| PathBuf::from("out").join(source.stem()));
     Ok((source, folder))
 }
 
@@ -153,10 +148,7 @@ fn check_motion(arguments: &CheckArguments) -> Result<u8, Failure> {
         return verify_certificate(arguments, certificate);
     }
     let stem = arguments.motion.file_stem().unwrap_or_default();
-    let folder = arguments
-        .out
-        .clone()
-        .unwrap_or_else(|| PathBuf::from("out").join(stem));
+    let folder = arguments.out.clone().unwrap_or_else(|| PathBuf::from("out").join(stem));
     let mut options = CheckOptions::default();
     if let Some(tolerance) = arguments.tolerance {
         options.tolerance = tolerance;
@@ -205,15 +197,8 @@ fn record_motion(arguments: &RecordArguments) -> Result<u8, Failure> {
             warn(&format!("warning: {warning}"));
         }
         if !arguments.quiet {
-            let same = if copy.is_same {
-                "identical to"
-            } else {
-                "different from"
-            };
-            print(&format!(
-                "{}: {same} the file it reproduces\n",
-                copy.path.display()
-            ))?;
+            let same = if copy.is_same { "identical to" } else { "different from" };
+            print(&format!("{}: {same} the file it reproduces\n", copy.path.display()))?;
         }
         return Ok(0);
     }
@@ -261,9 +246,7 @@ fn rebuild_paper(arguments: &PaperArguments) -> Result<u8, Failure> {
         let (computed, reused) = (run.computed, run.reused);
         let page = arguments.out.join("index.html");
         let page = page.display();
-        print(&format!(
-            "{computed} parts computed, {reused} reused\nresults in {page}\n"
-        ))?;
+        print(&format!("{computed} parts computed, {reused} reused\nresults in {page}\n"))?;
     }
     Ok(0)
 }
@@ -280,9 +263,8 @@ fn write_pattern(arguments: &PatternArguments) -> Result<u8, Failure> {
     {
         print(&format!("the rows are drawn in {}\n", figure.display()))?;
     }
-    let summary = study?.write(destination, &arguments.options(), &|_, _| {
-        interrupt::should_continue()
-    })?;
+    let summary =
+        study?.write(destination, &arguments.options(), &|_, _| interrupt::should_continue())?;
     if !arguments.quiet {
         print(&summary)?;
         print(&format!("pattern in {}\n", folder.display()))?;
@@ -303,10 +285,9 @@ fn open_window(arguments: &ViewArguments) -> Result<u8, Failure> {
         timings: arguments.timings,
         ..ViewOptions::default()
     };
-    view(options).map(|()| 0).map_err(|error| Failure {
-        message: error.to_string(),
-        status: FAILED,
-    })
+    view(options)
+        .map(|()| 0)
+        .map_err(|error| Failure { message: error.to_string(), status: FAILED })
 }
 
 #[cfg(not(feature = "window"))]
@@ -334,11 +315,7 @@ fn list_models() -> Result<u8, Failure> {
             columns.e,
             columns.t,
             columns.s,
-            if columns.ours {
-                ", T to SII our choice"
-            } else {
-                ""
-            },
+            if columns.ours { ", T to SII our choice" } else { "" },
             model.source
         ))?;
     }
@@ -352,10 +329,7 @@ fn use_threads(threads: Option<usize>) -> Result<(), Failure> {
     rayon::ThreadPoolBuilder::new()
         .num_threads(threads)
         .build_global()
-        .map_err(|e| Failure {
-            message: format!("--threads {threads}: {e}"),
-            status: FAILED,
-        })
+        .map_err(|e| Failure { message: format!("--threads {threads}: {e}"), status: FAILED })
 }
 
 /// Prints what happened to other files in the folder of results.
@@ -380,10 +354,9 @@ fn sanitized(text: &str) -> String {
 /// Prints to stdout. A reader that has closed the pipe (`| head`) is not an error.
 fn print(text: &str) -> Result<(), Failure> {
     match std::io::stdout().write_all(sanitized(text).as_bytes()) {
-        Err(e) if e.kind() != std::io::ErrorKind::BrokenPipe => Err(Failure {
-            message: format!("stdout: {e}"),
-            status: FAILED,
-        }),
+        Err(e) if e.kind() != std::io::ErrorKind::BrokenPipe => {
+            Err(Failure { message: format!("stdout: {e}"), status: FAILED })
+        }
         _ => Ok(()),
     }
 }

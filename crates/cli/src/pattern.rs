@@ -29,12 +29,7 @@ pub(crate) struct PatternArguments {
     )]
     formats: Vec<PatternFormat>,
     /// Scale the pattern by this factor; 1 is the size in the scene
-    #[arg(
-        long,
-        value_name = "X",
-        allow_negative_numbers = true,
-        conflicts_with = "width"
-    )]
+    #[arg(long, value_name = "X", allow_negative_numbers = true, conflicts_with = "width")]
     scale: Option<f64>,
     /// Scale the pattern so that the sheet is this wide (W): a length with mm, cm, m, in or pt, such as 200mm
     #[arg(long, value_name = "LENGTH", value_parser = parse_millimetres, allow_hyphen_values = true)]
@@ -145,14 +140,7 @@ mod tests {
         assert_eq!(dashes.class, DashedClass::Mountain);
         assert_eq!(dashes.lengths, [6.0, 2.0, 5.0, 2.0]);
         assert!(parse_dashes("valley=none").unwrap().lengths.is_empty());
-        for text in [
-            "",
-            "mountain",
-            "cut=1,2",
-            "valley=",
-            "valley=1,,2",
-            "valley=a,b",
-        ] {
+        for text in ["", "mountain", "cut=1,2", "valley=", "valley=1,,2", "valley=a,b"] {
             assert!(parse_dashes(text).is_err(), "{text}");
         }
     }

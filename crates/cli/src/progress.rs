@@ -43,16 +43,10 @@ impl Reporter {
     /// A reporter that prints nothing if `quiet`.
     pub(crate) fn new(quiet: bool) -> Self {
         if quiet {
-            return Self {
-                bar: None,
-                last: None,
-            };
+            return Self { bar: None, last: None };
         }
         if std::io::stderr().is_terminal() {
-            return Self {
-                bar: Some(bar()),
-                last: None,
-            };
+            return Self { bar: Some(bar()), last: None };
         }
         let now = Instant::now();
         let last = Arc::new(Mutex::new(LastLine {
@@ -64,10 +58,7 @@ impl Reporter {
         }));
         let watched = Arc::downgrade(&last);
         thread::spawn(move || repeat(&watched));
-        Self {
-            bar: None,
-            last: Some(last),
-        }
+        Self { bar: None, last: Some(last) }
     }
 
     /// Reports that the share `done` (0 to 1) of the phase or part `name` is done.
@@ -126,10 +117,7 @@ fn repeat(last: &Weak<Mutex<LastLine>>) {
         if let Some(phase) = last.phase.filter(|_| last.at.elapsed() >= HEARTBEAT) {
             last.at = Instant::now();
             let (percent, seconds) = (100.0 * last.done, last.started.elapsed().as_secs());
-            let _ = writeln!(
-                std::io::stderr(),
-                "{phase} {percent:.0} %, {seconds} s elapsed"
-            );
+            let _ = writeln!(std::io::stderr(), "{phase} {percent:.0} %, {seconds} s elapsed");
         }
     }
 }

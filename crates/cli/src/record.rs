@@ -150,9 +150,7 @@ fn parse_size(text: &str) -> Result<[i64; 2], String> {
 }
 
 fn numbers(text: &str) -> Option<Vec<f64>> {
-    text.split(',')
-        .map(|part| part.trim().parse().ok())
-        .collect()
+    text.split(',').map(|part| part.trim().parse().ok()).collect()
 }
 
 fn parse_numbers<const N: usize>(text: &str) -> Result<[f64; N], String> {
@@ -170,13 +168,7 @@ fn parse_hold(text: &str) -> Result<HoldScene, String> {
 
 fn parse_camera(text: &str) -> Result<CameraScene, String> {
     let own = |azimuth, elevation, turn| {
-        CameraScene::Own(OwnCamera {
-            azimuth,
-            elevation,
-            turn,
-            centre: None,
-            width: None,
-        })
+        CameraScene::Own(OwnCamera { azimuth, elevation, turn, centre: None, width: None })
     };
     if let Ok(preset) = parse_choice(text) {
         return Ok(CameraScene::Preset(preset));
@@ -184,9 +176,10 @@ fn parse_camera(text: &str) -> Result<CameraScene, String> {
     match numbers(text).as_deref() {
         Some(&[azimuth, elevation]) => Ok(own(azimuth, elevation, None)),
         Some(&[azimuth, elevation, turn]) => Ok(own(azimuth, elevation, Some(turn))),
-        _ => Err(
-            "expected iso, front, side, top, turntable, or AZIMUTH,ELEVATION in degrees".to_owned(),
-        ),
+        _ => {
+            Err("expected iso, front, side, top, turntable, or AZIMUTH,ELEVATION in degrees"
+                .to_owned())
+        }
     }
 }
 

@@ -1,9 +1,6 @@
 //! `foldmotion check` as a user sees it.
 
-#![expect(
-    clippy::unwrap_used,
-    reason = "a test fails where something is missing"
-)]
+#![expect(clippy::unwrap_used, reason = "a test fails where something is missing")]
 
 mod common;
 
@@ -22,18 +19,11 @@ fn json_of(path: &Path) -> Value {
 fn run(home: &Path, scene: &str, set: &[&str]) -> Value {
     let scene = format!("{}/../../scenes/{scene}.toml", env!("CARGO_MANIFEST_DIR"));
     let mut arguments = vec!["run", &scene, "--quiet", "--out", "run"];
-    for assignment in ["record.outputs=[\"fold\"]", "motion.frames=20"]
-        .iter()
-        .chain(set)
-    {
+    for assignment in ["record.outputs=[\"fold\"]", "motion.frames=20"].iter().chain(set) {
         arguments.extend(["--set", assignment]);
     }
     let output = foldmotion(home, &arguments);
-    assert!(
-        matches!(output.status.code(), Some(0 | 1)),
-        "{}",
-        text(&output.stderr)
-    );
+    assert!(matches!(output.status.code(), Some(0 | 1)), "{}", text(&output.stderr));
     json_of(&home.join("run/report.json"))
 }
 
@@ -46,10 +36,7 @@ fn agrees(report: &Value, certificate: &Value) {
     }
     assert_eq!(certificate["unit_length"], report["unit"]["height"]);
     let separation = &certificate["min_separation"];
-    assert_eq!(
-        separation["distance"].as_f64(),
-        collision["min_separation"].as_f64()
-    );
+    assert_eq!(separation["distance"].as_f64(), collision["min_separation"].as_f64());
     let penetrations = certificate["penetrations"].as_array().unwrap();
     assert_eq!(json!(penetrations.len()), collision["penetrating_pairs"]);
     if let Some(first) = penetrations.first() {
@@ -65,24 +52,15 @@ type Change<'a> = (&'a dyn Fn(&mut Value), &'a str);
 #[test]
 fn motions_of_runs_get_the_verdict_of_their_run() {
     let short = ["sheet.rows=2", "profile.length=2.0"];
-    for (scene, set, status) in [
-        ("one-unit", &[][..], 0),
-        ("shelter-short-plain", &short[..], 1),
-    ] {
+    for (scene, set, status) in [("one-unit", &[][..], 0), ("shelter-short-plain", &short[..], 1)] {
         let home = tempfile::tempdir().unwrap();
         let report = run(home.path(), scene, set);
         let output = foldmotion(home.path(), &["check", "run/motion.fold"]);
         let (out, err) = (text(&output.stdout), text(&output.stderr));
         assert_status(&output, status);
-        assert!(
-            out.contains("verdict: ") && out.contains("sha256 "),
-            "{out}"
-        );
+        assert!(out.contains("verdict: ") && out.contains("sha256 "), "{out}");
         assert!(err.contains("check "), "{err}");
-        agrees(
-            &report,
-            &json_of(&home.path().join("out/motion/certificate.json")),
-        );
+        agrees(&report, &json_of(&home.path().join("out/motion/certificate.json")));
     }
 }
 
@@ -96,42 +74,21 @@ fn a_vertex_moved_through_the_sheet_is_a_penetration() {
     let frame = &mut motion["file_frames"][14]["vertices_coords"];
     let points: Vec<[f64; 3]> = serde_json::from_value(frame.clone()).unwrap();
     let far = points.len() - 1;
-    let to: Vec<f64> = (0..3)
-        .map(|i| 2.0 * points[0][i] - points[far][i])
-        .collect();
+    let to: Vec<f64> = (0..3).map(|i| 2.0 * points[0][i] - points[far][i]).collect();
     frame[far] = json!(to);
     fs::write(&path, motion.to_string()).unwrap();
-    let arguments = [
-        "check",
-        "run/motion.fold",
-        "--out",
-        "run",
-        "--json",
-        "--quiet",
-    ];
+    let arguments = ["check", "run/motion.fold", "--out", "run", "--json", "--quiet"];
     let output = foldmotion(home.path(), &arguments);
     assert_status(&output, 1);
     let written = fs::read(home.path().join("run/certificate.json")).unwrap();
     assert_eq!(text(&output.stdout), text(&written));
     let err = text(&output.stderr);
-    assert!(
-        err.starts_with("foldmotion: penetrating") && err.lines().count() == 1,
-        "{err}"
-    );
-    assert!(
-        home.path().join("run/report.json").exists(),
-        "foreign files stay"
-    );
+    assert!(err.starts_with("foldmotion: penetrating") && err.lines().count() == 1, "{err}");
+    assert!(home.path().join("run/report.json").exists(), "foreign files stay");
     let certificate: Value = serde_json::from_slice(&written).unwrap();
     let first = &certificate["penetrations"][0];
-    assert!(
-        first["frames"] == json!([13, 14]) || first["frames"] == json!([14, 15]),
-        "{first}"
-    );
-    assert_eq!(
-        text(&foldmotion(home.path(), &arguments).stdout),
-        text(&written)
-    );
+    assert!(first["frames"] == json!([13, 14]) || first["frames"] == json!([14, 15]), "{first}");
+    assert_eq!(text(&foldmotion(home.path(), &arguments).stdout), text(&written));
 }
 
 /// A square of polygons that folds along its middle by `angle` degrees at its last frame.
@@ -158,15 +115,9 @@ fn polygons_are_checked_and_the_certificate_says_that_they_were_cut() {
         assert_status(&output, status);
         let certificate: Value = serde_json::from_slice(&output.stdout).unwrap();
         assert_eq!(certificate["verdict"], verdict);
-        assert_eq!(
-            (&certificate["faces"], &certificate["triangles"]),
-            (&json!(2), &json!(4))
-        );
+        assert_eq!((&certificate["faces"], &certificate["triangles"]), (&json!(2), &json!(4)));
         let said = certificate["assumptions"].to_string();
-        assert!(
-            said.contains("2 faces with more than three corners were cut"),
-            "{said}"
-        );
+        assert!(said.contains("2 faces with more than three corners were cut"), "{said}");
     }
 }
 
@@ -174,14 +125,7 @@ fn polygons_are_checked_and_the_certificate_says_that_they_were_cut() {
 fn the_given_tolerance_is_certified() {
     let home = tempfile::tempdir().unwrap();
     fs::write(home.path().join("book.fold"), folding(90.0).to_string()).unwrap();
-    let arguments = [
-        "check",
-        "book.fold",
-        "--json",
-        "--quiet",
-        "--tolerance",
-        "1e-4",
-    ];
+    let arguments = ["check", "book.fold", "--json", "--quiet", "--tolerance", "1e-4"];
     let output = foldmotion(home.path(), &arguments);
     let certificate: Value = serde_json::from_slice(&output.stdout).unwrap();
     assert_eq!(certificate["tolerance"], json!(1e-4));
@@ -192,12 +136,7 @@ fn bad_motions_are_status_2_and_write_no_files() {
     let home = tempfile::tempdir().unwrap();
     let flat = |v: &mut Value| v["file_frames"][4]["vertices_coords"][4] = json!([0, 0, 0]);
     let backwards = |v: &mut Value| {
-        for (k, frame) in v["file_frames"]
-            .as_array_mut()
-            .unwrap()
-            .iter_mut()
-            .enumerate()
-        {
+        for (k, frame) in v["file_frames"].as_array_mut().unwrap().iter_mut().enumerate() {
             frame["foldmotion:time"] = json!(-(k as f64));
         }
     };
@@ -222,10 +161,7 @@ fn bad_motions_are_status_2_and_write_no_files() {
         let output = foldmotion(home.path(), &["check", "bad.fold", "--quiet"]);
         let error = text(&output.stderr);
         assert_status(&output, 2);
-        assert!(
-            error.contains(named) && error.contains("bad.fold"),
-            "{error}"
-        );
+        assert!(error.contains(named) && error.contains("bad.fold"), "{error}");
         assert!(!home.path().join("out").exists());
     }
     fs::write(home.path().join("bad.fold"), &good).unwrap();
@@ -246,10 +182,7 @@ fn bad_motions_are_status_2_and_write_no_files() {
 fn verification_has_an_exit_status_and_leaves_the_certificate_unchanged() {
     let home = tempfile::tempdir().unwrap();
     fs::write(home.path().join("book.fold"), folding(240.0).to_string()).unwrap();
-    foldmotion(
-        home.path(),
-        &["check", "book.fold", "--out", ".", "--quiet"],
-    );
+    foldmotion(home.path(), &["check", "book.fold", "--out", ".", "--quiet"]);
     let path = home.path().join("certificate.json");
     let written = fs::read(&path).unwrap();
     let verify = ["check", "book.fold", "--verify", "certificate.json"];
@@ -279,10 +212,7 @@ fn verification_has_an_exit_status_and_leaves_the_certificate_unchanged() {
 fn a_certificate_of_another_format_is_refused_with_the_reason_and_the_remedy() {
     let home = tempfile::tempdir().unwrap();
     fs::write(home.path().join("book.fold"), folding(90.0).to_string()).unwrap();
-    foldmotion(
-        home.path(),
-        &["check", "book.fold", "--out", ".", "--quiet"],
-    );
+    foldmotion(home.path(), &["check", "book.fold", "--out", ".", "--quiet"]);
     let path = home.path().join("certificate.json");
     let written = json_of(&path);
     assert_eq!(written["format"], json!(2));
@@ -295,18 +225,14 @@ fn a_certificate_of_another_format_is_refused_with_the_reason_and_the_remedy() {
     named["format"] = json!(1);
     later["format"] = json!(3);
     let reason = &["format 1", "up to 0.1", "an edge inside it"][..];
-    for (certificate, reason) in [
-        (first, reason),
-        (named, reason),
-        (later, &["format 3", "format 2"]),
-    ] {
+    for (certificate, reason) in
+        [(first, reason), (named, reason), (later, &["format 3", "format 2"])]
+    {
         fs::write(&path, certificate.to_string()).unwrap();
         let output = foldmotion(home.path(), &verify);
         let error = text(&output.stderr);
         assert_status(&output, 2);
-        let said = reason
-            .iter()
-            .chain(&["certificate.json: ", "run `foldmotion check`"]);
+        let said = reason.iter().chain(&["certificate.json: ", "run `foldmotion check`"]);
         for words in said {
             assert!(error.contains(words), "{words}: {error}");
         }
@@ -366,10 +292,7 @@ fn the_certificate_of_a_run_is_byte_for_byte_that_of_its_motion_file() {
         let home = tempfile::tempdir().unwrap();
         run(home.path(), scene, set);
         let own = fs::read(home.path().join("run/certificate.json")).unwrap();
-        let output = foldmotion(
-            home.path(),
-            &["check", "run/motion.fold", "--quiet", "--json"],
-        );
+        let output = foldmotion(home.path(), &["check", "run/motion.fold", "--quiet", "--json"]);
         assert_eq!(text(&own), text(&output.stdout), "{scene} {set:?}");
     }
 }
@@ -379,32 +302,16 @@ fn swapped_layers_in_face_orders_are_named() {
     let home = tempfile::tempdir().unwrap();
     let motion = flat_unit(home.path());
     let (status, certificate) = check(home.path(), &motion);
-    assert_eq!(
-        (status, &certificate["verdict"]),
-        (Some(0), &json!("touching"))
-    );
+    assert_eq!((status, &certificate["verdict"]), (Some(0), &json!("touching")));
     let clusters = certificate["clusters"].as_array().unwrap();
-    assert!(
-        clusters.iter().any(|c| c["order"] == "proved"),
-        "{clusters:?}"
-    );
+    assert!(clusters.iter().any(|c| c["order"] == "proved"), "{clusters:?}");
     let last = motion["file_frames"].as_array().unwrap().len() - 1;
     let orders = motion["file_frames"][last]["faceOrders"].clone();
     let orders: Vec<(u32, u32, i8)> = serde_json::from_value(orders).unwrap();
     let (f, g, _) = orders[0];
     let swapped: Vec<_> = orders
         .iter()
-        .map(|&(a, b, s)| {
-            (
-                a,
-                b,
-                if (a.min(b), a.max(b)) == (f.min(g), f.max(g)) {
-                    -s
-                } else {
-                    s
-                },
-            )
-        })
+        .map(|&(a, b, s)| (a, b, if (a.min(b), a.max(b)) == (f.min(g), f.max(g)) { -s } else { s }))
         .collect();
     let mut changed = motion.clone();
     changed["file_frames"][last]["faceOrders"] = json!(swapped);
@@ -433,10 +340,7 @@ fn a_motion_whose_last_frames_have_their_layers_exchanged_is_refused() {
         frame["vertices_coords"] = json!(points);
     }
     let (status, certificate) = check(home.path(), &motion);
-    assert_eq!(
-        (status, &certificate["verdict"]),
-        (Some(1), &json!("penetrating"))
-    );
+    assert_eq!((status, &certificate["verdict"]), (Some(1), &json!("penetrating")));
 }
 
 #[test]
@@ -447,16 +351,8 @@ fn false_face_orders_of_a_motion_with_contact_are_refused() {
     assert_eq!(foldmotion(home.path(), &check).status.code(), Some(0));
     let certificate = json_of(&home.path().join("run/certificate.json"));
     let count = |key: &str| certificate["layer_orders"][key].as_u64().unwrap();
-    assert!(
-        count("claimed") > 0 && count("ignored") == 0,
-        "{certificate}"
-    );
-    let verify = [
-        "check",
-        "run/motion.fold",
-        "--verify",
-        "run/certificate.json",
-    ];
+    assert!(count("claimed") > 0 && count("ignored") == 0, "{certificate}");
+    let verify = ["check", "run/motion.fold", "--verify", "run/certificate.json"];
     let output = foldmotion(home.path(), &verify);
     assert_status(&output, 0);
     let path = home.path().join("run/motion.fold");
@@ -471,8 +367,5 @@ fn false_face_orders_of_a_motion_with_contact_are_refused() {
     let output = foldmotion(home.path(), &check);
     let err = text(&output.stderr);
     assert_status(&output, 2);
-    assert!(
-        err.contains("faceOrders has [") && err.contains("turn the sign"),
-        "{err}"
-    );
+    assert!(err.contains("faceOrders has [") && err.contains("turn the sign"), "{err}");
 }

@@ -1,9 +1,6 @@
 //! The binary as a user sees it: exit status, stdout, stderr, files.
 
-#![expect(
-    clippy::unwrap_used,
-    reason = "a test fails where something is missing"
-)]
+#![expect(clippy::unwrap_used, reason = "a test fails where something is missing")]
 
 mod common;
 
@@ -42,14 +39,8 @@ fn a_run_prints_a_table_and_plain_progress() {
     arguments.extend(SMALL);
     let output = foldmotion(home.path(), &arguments);
     let (out, err) = (text(&output.stdout), text(&output.stderr));
-    assert!(
-        out.contains("closed form") && out.contains("collisions: free"),
-        "{out}"
-    );
-    assert!(
-        err.lines().any(|l| l.starts_with("fold ")) && err.contains("record"),
-        "{err}"
-    );
+    assert!(out.contains("closed form") && out.contains("collisions: free"), "{out}");
+    assert!(err.lines().any(|l| l.starts_with("fold ")) && err.contains("record"), "{err}");
     assert!(home.path().join("here/motion.gif").exists());
 }
 
@@ -87,11 +78,7 @@ fn bad_input_is_status_2_and_writes_no_files() {
         let output = foldmotion(home.path(), &arguments);
         assert_status(&output, 2);
         assert!(!text(&output.stderr).contains("panicked"), "{arguments:?}");
-        assert_eq!(
-            std::fs::read_dir(home.path()).unwrap().count(),
-            0,
-            "{arguments:?}"
-        );
+        assert_eq!(std::fs::read_dir(home.path()).unwrap().count(), 0, "{arguments:?}");
     }
 }
 
@@ -100,17 +87,11 @@ fn an_output_folder_that_cannot_be_written_is_status_3() {
     let home = tempfile::tempdir().unwrap();
     std::fs::write(home.path().join("file"), "mine").unwrap();
     let unit = scene("one-unit");
-    let output = foldmotion(
-        home.path(),
-        &["run", unit.as_str(), "--out", "file", "--quiet"],
-    );
+    let output = foldmotion(home.path(), &["run", unit.as_str(), "--out", "file", "--quiet"]);
     assert_status(&output, 3);
     let error = text(&output.stderr);
     assert!(error.contains("file") && error.contains("--out"), "{error}");
-    assert_eq!(
-        std::fs::read_to_string(home.path().join("file")).unwrap(),
-        "mine"
-    );
+    assert_eq!(std::fs::read_to_string(home.path().join("file")).unwrap(), "mine");
 }
 
 #[test]
@@ -121,26 +102,12 @@ fn the_scene_of_init_can_be_run_and_an_existing_file_is_kept() {
     let written = std::fs::read_to_string(home.path().join("mine.toml")).unwrap();
     let second = foldmotion(home.path(), &["init", "mine.toml"]);
     assert_eq!(second.status.code(), Some(2));
-    assert_eq!(
-        std::fs::read_to_string(home.path().join("mine.toml")).unwrap(),
-        written
-    );
+    assert_eq!(std::fs::read_to_string(home.path().join("mine.toml")).unwrap(), written);
     // A penetration is a valid result as well.
-    let set = [
-        "run",
-        "mine.toml",
-        "--quiet",
-        "--set",
-        "record.outputs=[]",
-        "--set",
-        "motion.frames=20",
-    ];
+    let set =
+        ["run", "mine.toml", "--quiet", "--set", "record.outputs=[]", "--set", "motion.frames=20"];
     let run = foldmotion(home.path(), &set);
-    assert!(
-        matches!(run.status.code(), Some(0 | 1)),
-        "{}",
-        text(&run.stderr)
-    );
+    assert!(matches!(run.status.code(), Some(0 | 1)), "{}", text(&run.stderr));
 }
 
 #[test]
@@ -151,24 +118,12 @@ fn models_lists_all_nine_with_rows_columns_and_source() {
     let lines: Vec<_> = text.lines().collect();
     assert_eq!(lines.len(), 18);
     for (name, units) in [
-        (
-            "shelter",
-            "7 x 5 (E), 7 (T), 3 (S, SII) units, T to SII our choice; drawn",
-        ),
+        ("shelter", "7 x 5 (E), 7 (T), 3 (S, SII) units, T to SII our choice; drawn"),
         ("chair", "9 x 4 (E), 6 (T), 2 (S, SII) units; drawn"),
-        (
-            "airfoil",
-            "26 x 7 (E), 10 (T), 5 (S, SII) units, T to SII our choice; NACA 4415",
-        ),
-        (
-            "bunny",
-            "100 x 5 (E), 8 (T), 3 (S, SII) units; silhouette of the Stanford",
-        ),
+        ("airfoil", "26 x 7 (E), 10 (T), 5 (S, SII) units, T to SII our choice; NACA 4415"),
+        ("bunny", "100 x 5 (E), 8 (T), 3 (S, SII) units; silhouette of the Stanford"),
     ] {
-        let at = lines
-            .iter()
-            .position(|l| l.starts_with(&format!("{name} ")))
-            .unwrap();
+        let at = lines.iter().position(|l| l.starts_with(&format!("{name} "))).unwrap();
         assert!(lines[at + 1].trim_start().starts_with(units), "{text}");
     }
 }
@@ -194,10 +149,7 @@ fn the_device_is_in_the_report_and_a_gpu_is_refused_for_the_quasi_static_engine(
 #[test]
 fn a_crease_pattern_is_run_without_a_scene_whatever_the_case_of_its_extension() {
     let home = tempfile::tempdir().unwrap();
-    let stored = format!(
-        "{}/../../scenes/imported/pop-up",
-        env!("CARGO_MANIFEST_DIR")
-    );
+    let stored = format!("{}/../../scenes/imported/pop-up", env!("CARGO_MANIFEST_DIR"));
     for (ending, name) in [("svg", "card.SVG"), ("fold", "own.Fold")] {
         std::fs::copy(format!("{stored}.{ending}"), home.path().join(name)).unwrap();
         let mut arguments = vec!["run", name, "--set", "pattern.fold_percent=50"];
@@ -205,10 +157,7 @@ fn a_crease_pattern_is_run_without_a_scene_whatever_the_case_of_its_extension() 
         let output = foldmotion(home.path(), &arguments);
         assert_status(&output, 0);
         let out = text(&output.stdout);
-        assert!(
-            out.contains("folded by 50 %") && out.contains("mean edge"),
-            "{out}"
-        );
+        assert!(out.contains("folded by 50 %") && out.contains("mean edge"), "{out}");
         let stem = name.split('.').next().unwrap();
         for file in ["motion.fold", "motion.gif", "motion.csv", "report.json"] {
             let path = home.path().join("out").join(stem).join(file);
@@ -218,10 +167,7 @@ fn a_crease_pattern_is_run_without_a_scene_whatever_the_case_of_its_extension() 
     let missing = foldmotion(home.path(), &["run", "gone.svg"]);
     assert_eq!(missing.status.code(), Some(2));
     assert!(text(&missing.stderr).contains("gone.svg"));
-    let wrong = foldmotion(
-        home.path(),
-        &["run", "card.SVG", "--set", "pattern.fold_percent=x"],
-    );
+    let wrong = foldmotion(home.path(), &["run", "card.SVG", "--set", "pattern.fold_percent=x"]);
     assert_eq!(wrong.status.code(), Some(2));
     let pattern = foldmotion(home.path(), &["pattern", "card.SVG"]);
     assert_eq!(pattern.status.code(), Some(2), "{}", text(&pattern.stderr));
@@ -239,10 +185,7 @@ fn without_a_display_the_window_says_what_to_install_and_what_works_without() {
         .unwrap();
     let err = text(&output.stderr);
     assert_status(&output, 3);
-    assert!(
-        err.contains("xvfb") && err.contains("foldmotion run"),
-        "{err}"
-    );
+    assert!(err.contains("xvfb") && err.contains("foldmotion run"), "{err}");
     assert_eq!(text(&output.stdout), "");
 }
 
@@ -276,10 +219,7 @@ fn a_second_run_keeps_the_films_of_the_first_and_files_of_the_user() {
     let third = run("[\"pdf\"]", &[]);
     let said = text(&third.stderr);
     assert_eq!(third.status.code(), Some(2), "{said}");
-    assert!(
-        said.contains("figure.pdf") && said.contains("--force"),
-        "{said}"
-    );
+    assert!(said.contains("figure.pdf") && said.contains("--force"), "{said}");
     assert_eq!(std::fs::read_to_string(&own).unwrap(), "mine");
     assert_eq!(run("[\"pdf\"]", &["--force"]).status.code(), Some(0));
     assert!(std::fs::read(&own).unwrap().starts_with(b"%PDF"));
@@ -357,10 +297,7 @@ fn an_interrupt_ends_a_run_at_any_point_and_leaves_no_files() {
         // The interrupt is sent once the engine works.
         let mut lines = lines.map(Result::unwrap);
         assert!(lines.any(|line| line.starts_with("fold")));
-        let killed = Command::new("kill")
-            .arg(signal)
-            .arg(run.id().to_string())
-            .status();
+        let killed = Command::new("kill").arg(signal).arg(run.id().to_string()).status();
         assert!(killed.unwrap().success());
         assert_eq!(run.wait().unwrap().code(), Some(3), "{signal}");
         assert!(lines.any(|line| line.contains("interrupted")));
@@ -374,16 +311,7 @@ fn flags_and_files_that_exclude_each_other_are_named() {
     let home = tempfile::tempdir().unwrap();
     let unit = scene("one-unit");
     let outputs = "record.outputs=[\"fold\", \"obj\"]";
-    let arguments = [
-        "run",
-        &unit,
-        "--out",
-        "here",
-        "--set",
-        outputs,
-        "--set",
-        "motion.frames=20",
-    ];
+    let arguments = ["run", &unit, "--out", "here", "--set", outputs, "--set", "motion.frames=20"];
     assert_eq!(foldmotion(home.path(), &arguments).status.code(), Some(0));
     let pattern = scene("imported/miura").replace(".toml", ".svg");
     let motion = "here/motion.fold";
@@ -393,11 +321,7 @@ fn flags_and_files_that_exclude_each_other_are_named() {
             &["state-1.obj", motion, "omit"],
             "nothing",
         ),
-        (
-            &["check", motion, "--tolerance", "nan"],
-            &["--tolerance", "nan", "1e-6"],
-            "frame",
-        ),
+        (&["check", motion, "--tolerance", "nan"], &["--tolerance", "nan", "1e-6"], "frame"),
         (&["pattern", &pattern], &["miura.svg", "already"], "--set"),
     ];
     for (arguments, words, other) in cases {
@@ -421,8 +345,5 @@ fn no_control_characters_of_a_file_reach_the_terminal() {
     let said = text(&output.stdout);
     assert_status(&output, 0);
     let is_command = |letter: char| letter.is_control() && letter != '\n';
-    assert!(
-        said.contains("red") && !said.contains(is_command),
-        "{said:?}"
-    );
+    assert!(said.contains("red") && !said.contains(is_command), "{said:?}");
 }

@@ -1,9 +1,6 @@
 //! The outcome is the first and last line of the output, and an exit status that is not 0 is explained even with `--quiet`.
 
-#![expect(
-    clippy::unwrap_used,
-    reason = "a test fails where something is missing"
-)]
+#![expect(clippy::unwrap_used, reason = "a test fails where something is missing")]
 
 mod common;
 
@@ -26,12 +23,7 @@ fn json_of(path: &Path) -> Value {
 /// Runs `file` with only the motion file as output; returns the output and the report.
 fn run(home: &Path, file: &str, more: &[&str]) -> (Output, Value) {
     let mut arguments = vec!["run", file, "--out", "out"];
-    arguments.extend([
-        "--set",
-        "record.outputs=[\"fold\"]",
-        "--set",
-        "motion.frames=20",
-    ]);
+    arguments.extend(["--set", "record.outputs=[\"fold\"]", "--set", "motion.frames=20"]);
     arguments.extend(more);
     let output = foldmotion(home, &arguments);
     let report = json_of(&home.join("out/report.json"));
@@ -64,14 +56,9 @@ fn assert_is_reported_everywhere(
     assert!(out.starts_with(headline), "{out}");
     let last = out.lines().last().unwrap();
     assert!(last.starts_with(headline), "{out}");
-    assert_eq!(
-        json_of(&home.join("out/motion.fold"))["foldmotion:outcome"],
-        last
-    );
+    assert_eq!(json_of(&home.join("out/motion.fold"))["foldmotion:outcome"], last);
     let reason = report["outcome"]["reason"].as_str().unwrap();
-    let reported = err
-        .lines()
-        .any(|line| line == format!("foldmotion: {last}: {reason}"));
+    let reported = err.lines().any(|line| line == format!("foldmotion: {last}: {reason}"));
     assert_eq!(reported, kind != "folded", "{err}");
     let kept = ["motion.fold", "report.json"].map(|name| home.join("out").join(name).exists());
     assert_eq!(kept, [true; 2]);
@@ -89,20 +76,14 @@ fn a_sheet_that_folds_is_reported_as_folded() {
 #[test]
 fn a_jam_is_reported_with_the_units_that_block_and_without_a_good_verdict() {
     let home = tempfile::tempdir().unwrap();
-    let (output, report) = run(
-        home.path(),
-        &scene("shelter-short-plain"),
-        &["--set", "motion.contact=true"],
-    );
+    let (output, report) =
+        run(home.path(), &scene("shelter-short-plain"), &["--set", "motion.contact=true"]);
     assert_status(&output, 3);
     assert_is_reported_everywhere(home.path(), &output, &report, "jammed", "jammed at t = 1.");
     let reason = report["outcome"]["reason"].as_str().unwrap();
     assert!(reason.contains("of unit U^"), "{reason}");
     let out = text(&output.stdout);
-    assert!(
-        out.contains("collisions of the motion up to its last state: free"),
-        "{out}"
-    );
+    assert!(out.contains("collisions of the motion up to its last state: free"), "{out}");
     assert!(!out.contains("compact box"), "{out}");
 }
 
@@ -133,13 +114,7 @@ fn a_sheet_that_passes_through_itself_collides() {
     let set = ["--set", "sheet.rows=2", "--set", "profile.length=2.0"];
     let (output, report) = run(home.path(), &scene("shelter-short-plain"), &set);
     assert_status(&output, 1);
-    assert_is_reported_everywhere(
-        home.path(),
-        &output,
-        &report,
-        "collides",
-        "collides at t = ",
-    );
+    assert_is_reported_everywhere(home.path(), &output, &report, "collides", "collides at t = ");
     assert_eq!(report["outcome"]["t"], report["collision"]["first"]["t"]);
 }
 
@@ -157,10 +132,7 @@ fn a_budget_of_steps_ends_a_run_always_at_the_same_state() {
         assert!((100..=160).contains(&steps), "{engine}: {steps}");
         let motion = fs::read(home.path().join("out/motion.fold")).unwrap();
         run(home.path(), &scene("one-unit"), &budget);
-        assert_eq!(
-            fs::read(home.path().join("out/motion.fold")).unwrap(),
-            motion
-        );
+        assert_eq!(fs::read(home.path().join("out/motion.fold")).unwrap(), motion);
     }
 }
 
@@ -200,18 +172,9 @@ fn a_status_that_is_not_0_is_explained_even_when_quiet() {
         assert_status(output, status);
         assert_eq!(text(&output.stdout), "");
         assert_eq!(err.lines().count(), 1, "{err}");
-        assert!(
-            err.starts_with("foldmotion: ") && err.contains(word),
-            "{err}"
-        );
+        assert!(err.starts_with("foldmotion: ") && err.contains(word), "{err}");
     };
-    let set = [
-        "--set",
-        "sheet.rows=2",
-        "--set",
-        "profile.length=2.0",
-        "--quiet",
-    ];
+    let set = ["--set", "sheet.rows=2", "--set", "profile.length=2.0", "--quiet"];
     let (output, _) = run(home.path(), &scene("shelter-short-plain"), &set);
     one_line(&output, 1, "collides at t = ");
     let check = ["check", "out/motion.fold", "--out", "out", "--quiet"];
@@ -222,13 +185,7 @@ fn a_status_that_is_not_0_is_explained_even_when_quiet() {
     certificate["verdict"] = "free".into();
     certificate["penetrations"] = json!([]);
     fs::write(&path, certificate.to_string()).unwrap();
-    let verify = [
-        "check",
-        "out/motion.fold",
-        "--verify",
-        "out/certificate.json",
-        "--quiet",
-    ];
+    let verify = ["check", "out/motion.fold", "--verify", "out/certificate.json", "--quiet"];
     one_line(&foldmotion(home.path(), &verify), 2, "REFUTED");
 }
 

@@ -1,9 +1,6 @@
 //! `foldmotion paper` as a user sees it: parts, files, reuse, refusals.
 
-#![expect(
-    clippy::unwrap_used,
-    reason = "a test fails where something is missing"
-)]
+#![expect(clippy::unwrap_used, reason = "a test fails where something is missing")]
 
 mod common;
 
@@ -51,10 +48,7 @@ fn table_1_is_compared_with_the_papers_numbers_in_record_and_page() {
     for words in ["7.247e-11", "56.024", "100 × 8", "Areas and volumes"] {
         assert!(page.contains(words), "{words}");
     }
-    assert!(
-        !page.contains("http://") && !page.contains("https://"),
-        "the page needs no network"
-    );
+    assert!(!page.contains("http://") && !page.contains("https://"), "the page needs no network");
 }
 
 #[test]
@@ -83,10 +77,7 @@ fn an_unknown_part_is_refused_with_the_list_of_parts_and_writes_no_files() {
     let output = paper(home.path(), "table1,fig11");
     assert_status(&output, 2);
     let message = text(&output.stderr);
-    assert!(
-        message.contains("\"fig11\"") && message.contains("fig10, unfoldings"),
-        "{message}"
-    );
+    assert!(message.contains("\"fig11\"") && message.contains("fig10, unfoldings"), "{message}");
     assert_eq!(fs::read_dir(home.path()).unwrap().count(), 0);
 }
 
@@ -97,8 +88,5 @@ fn a_folder_that_cannot_be_written_is_refused() {
     let output = paper(home.path(), "table1");
     assert_status(&output, 3);
     assert!(text(&output.stderr).contains("choose another folder with --out"));
-    assert_eq!(
-        fs::read_to_string(home.path().join("paper")).unwrap(),
-        "a file"
-    );
+    assert_eq!(fs::read_to_string(home.path().join("paper")).unwrap(), "a file");
 }

@@ -1,9 +1,6 @@
 //! `foldmotion pattern` as a user sees it.
 
-#![expect(
-    clippy::unwrap_used,
-    reason = "a test fails where something is missing"
-)]
+#![expect(clippy::unwrap_used, reason = "a test fails where something is missing")]
 
 mod common;
 
@@ -33,37 +30,18 @@ fn names(folder: &Path) -> Vec<String> {
 #[test]
 fn the_pattern_of_every_case_is_written_in_the_size_of_its_scene() {
     let home = tempfile::tempdir().unwrap();
-    for name in [
-        "shelter-e",
-        "shelter-t",
-        "shelter-s",
-        "shelter-sii",
-        "shelter-tall-plain",
-    ] {
+    for name in ["shelter-e", "shelter-t", "shelter-s", "shelter-sii", "shelter-tall-plain"] {
         let output = pattern(home.path(), &[&scene(name), "--margin", "0"]);
         assert_status(&output, 0);
         let folder = home.path().join("out").join(name);
-        assert_eq!(
-            names(&folder),
-            ["pattern.dxf", "pattern.fold", "pattern.svg"]
-        );
+        assert_eq!(names(&folder), ["pattern.dxf", "pattern.fold", "pattern.svg"]);
         let svg = std::fs::read_to_string(folder.join("pattern.svg")).unwrap();
-        assert!(
-            svg.contains("1 m of the scene is 1000 mm on paper"),
-            "{name}"
-        );
+        assert!(svg.contains("1 m of the scene is 1000 mm on paper"), "{name}");
         // h = 1 m, seven rows, W = 5 m; rows differ by what the division leaves.
-        assert!(
-            svg.contains("width=\"7000mm\" height=\"5000mm\""),
-            "{name}: {}",
-            &svg[..400]
-        );
+        assert!(svg.contains("width=\"7000mm\" height=\"5000mm\""), "{name}: {}", &svg[..400]);
         let fold = std::fs::read(folder.join("pattern.fold")).unwrap();
         let fold: serde_json::Value = serde_json::from_slice(&fold).unwrap();
-        assert_eq!(
-            (&fold["frame_unit"], &fold["file_spec"]),
-            (&"mm".into(), &1.2.into())
-        );
+        assert_eq!((&fold["frame_unit"], &fold["file_spec"]), (&"mm".into(), &1.2.into()));
     }
 }
 
@@ -79,26 +57,13 @@ fn every_unit_of_length_becomes_millimetres() {
     ];
     for (unit, width, note) in units {
         let set = format!("profile.unit={unit}");
-        let arguments = [
-            &scene("shelter-e"),
-            "--set",
-            &set,
-            "--margin=0",
-            "--out=here",
-            "--formats=svg",
-        ];
+        let arguments =
+            [&scene("shelter-e"), "--set", &set, "--margin=0", "--out=here", "--formats=svg"];
         let output = pattern(home.path(), &arguments);
         assert_status(&output, 0);
         let svg = std::fs::read_to_string(home.path().join("here/pattern.svg")).unwrap();
-        assert!(
-            svg.contains(&format!("width=\"{width}\"")),
-            "{unit}: {}",
-            &svg[..400]
-        );
-        assert!(
-            svg.contains(note) && text(&output.stdout).contains(note),
-            "{unit}"
-        );
+        assert!(svg.contains(&format!("width=\"{width}\"")), "{unit}: {}", &svg[..400]);
+        assert!(svg.contains(note) && text(&output.stdout).contains(note), "{unit}");
     }
 }
 
@@ -133,19 +98,14 @@ fn the_same_scene_gives_the_same_bytes() {
     let home = tempfile::tempdir().unwrap();
     let shelter = scene("shelter-s");
     for out in ["a", "b"] {
-        let output = pattern(
-            home.path(),
-            &[&shelter, "--out", out, "--scale", "0.05", "--sheet", "a3"],
-        );
+        let output =
+            pattern(home.path(), &[&shelter, "--out", out, "--scale", "0.05", "--sheet", "a3"]);
         assert_status(&output, 0);
     }
     let (a, b) = (home.path().join("a"), home.path().join("b"));
     assert_eq!(names(&a), names(&b));
     for name in names(&a) {
-        assert_eq!(
-            std::fs::read(a.join(&name)).unwrap(),
-            std::fs::read(b.join(&name)).unwrap()
-        );
+        assert_eq!(std::fs::read(a.join(&name)).unwrap(), std::fs::read(b.join(&name)).unwrap());
     }
 }
 
@@ -182,37 +142,26 @@ fn bad_input_is_status_2_and_writes_no_files() {
         assert!(!error.contains("panicked") && !error.is_empty(), "{case:?}");
         assert!(names(home.path()).is_empty(), "{case:?}");
     }
-    assert_eq!(
-        pattern(home.path(), &["missing.toml"]).status.code(),
-        Some(2)
-    );
+    assert_eq!(pattern(home.path(), &["missing.toml"]).status.code(), Some(2));
 }
 
 #[test]
 fn rows_that_clash_are_named_and_drawn() {
     let home = tempfile::tempdir().unwrap();
     let unequal = std::fs::read_to_string(scene("shelter-unequal")).unwrap();
-    let own = unequal
-        .replace("common-flap", "own-case")
-        .replace("lambda = 0.8\n", "");
+    let own = unequal.replace("common-flap", "own-case").replace("lambda = 0.8\n", "");
     std::fs::write(home.path().join("own.toml"), own).unwrap();
     let output = pattern(home.path(), &["own.toml"]);
     assert_status(&output, 2);
     let error = text(&output.stderr);
-    assert!(
-        error.contains("clash") && error.contains("row 0"),
-        "{error}"
-    );
+    assert!(error.contains("clash") && error.contains("row 0"), "{error}");
     let folder = home.path().join("out/own");
     assert_eq!(names(&folder), ["clashes.svg"]);
     assert!(text(&output.stdout).contains("clashes.svg"));
     let figure = std::fs::read_to_string(folder.join("clashes.svg")).unwrap();
     assert!(figure.contains("</svg>"));
     // Other errors draw nothing.
-    let output = pattern(
-        home.path(),
-        &[&scene("shelter-s"), "--set", "sheet.width=-1.0"],
-    );
+    let output = pattern(home.path(), &[&scene("shelter-s"), "--set", "sheet.width=-1.0"]);
     assert_status(&output, 2);
     assert_eq!(names(&home.path().join("out")), ["own"]);
 }

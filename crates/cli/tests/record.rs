@@ -1,9 +1,6 @@
 //! `foldmotion record` as a user sees it.
 
-#![expect(
-    clippy::unwrap_used,
-    reason = "a test fails where something is missing"
-)]
+#![expect(clippy::unwrap_used, reason = "a test fails where something is missing")]
 
 mod common;
 
@@ -42,20 +39,11 @@ fn a_motion_is_recorded_and_a_file_is_reproduced() {
     let output = foldmotion(home.path(), &flags);
     assert_status(&output, 0);
     let said = text(&output.stdout);
-    assert!(
-        said.contains("4 files in out/pair") && said.contains("not marked"),
-        "{said}"
-    );
+    assert!(said.contains("4 files in out/pair") && said.contains("not marked"), "{said}");
     assert!(text(&output.stderr).contains("record "));
-    let again = foldmotion(
-        home.path(),
-        &["record", "--again", "out/pair/motion.gif", "--quiet"],
-    );
+    let again = foldmotion(home.path(), &["record", "--again", "out/pair/motion.gif", "--quiet"]);
     assert_eq!(again.status.code(), Some(0), "{}", text(&again.stderr));
-    assert_eq!(
-        (text(&again.stdout), text(&again.stderr)),
-        (String::new(), String::new())
-    );
+    assert_eq!((text(&again.stdout), text(&again.stderr)), (String::new(), String::new()));
     let bytes = ["motion.gif", "motion-again.gif"]
         .map(|name| std::fs::read(home.path().join("out/pair").join(name)).unwrap());
     assert!(bytes[0] == bytes[1]);

@@ -15,10 +15,8 @@ struct Random(u64);
 
 impl Random {
     fn unit(&mut self) -> f64 {
-        self.0 = self
-            .0
-            .wrapping_mul(6_364_136_223_846_793_005)
-            .wrapping_add(1_442_695_040_888_963_407);
+        self.0 =
+            self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
         (self.0 >> 11) as f64 / (1_u64 << 53) as f64
     }
 
@@ -33,9 +31,8 @@ fn main() -> Result<(), GeometryError> {
     let mut random = Random(1);
     let (mut divided, mut stalled, mut slowest) = (0_u32, Vec::new(), 0.0_f64);
     for curve in 0..curves.unwrap_or(4000_u32) {
-        let points: Vec<_> = (0..4 + random.below(6))
-            .map(|_| DVec2::new(random.unit(), random.unit()))
-            .collect();
+        let points: Vec<_> =
+            (0..4 + random.below(6)).map(|_| DVec2::new(random.unit(), random.unit())).collect();
         let closure = [Closure::Open, Closure::Corner, Closure::Smooth][random.below(3)];
         let segments = 3 + random.below(58);
         let profile = Profile::new(&points, closure)?;

@@ -18,10 +18,7 @@ use oracle::{
 };
 
 fn main() -> Result<ExitCode, Box<dyn Error>> {
-    let asked = std::env::args()
-        .nth(1)
-        .map(|a| a.parse::<u64>())
-        .transpose()?;
+    let asked = std::env::args().nth(1).map(|a| a.parse::<u64>()).transpose()?;
     let share = asked.unwrap_or(1_000_000).div_ceil(Class::ALL.len() as u64);
     let (alone, pairs) = ((2 * share).div_ceil(3), share.div_ceil(3).div_ceil(15));
     let start = Instant::now();
@@ -31,11 +28,7 @@ fn main() -> Result<ExitCode, Box<dyn Error>> {
     for class in Class::ALL {
         let (of_pairs, pairs) = try_pairs(class, pairs, kernel);
         let tally = try_queries(class, alone, kernel).plus(of_pairs);
-        println!(
-            "{:<18}{tally}  {:.1} s",
-            format!("{class:?}"),
-            start.elapsed().as_secs_f64()
-        );
+        println!("{:<18}{tally}  {:.1} s", format!("{class:?}"), start.elapsed().as_secs_f64());
         (all, all_pairs) = (all.plus(tally), all_pairs.plus(pairs));
         lines.push(format!("{:<18}{pairs}", format!("{class:?}")));
     }

@@ -11,16 +11,11 @@ use glam::DVec2;
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     for count in std::env::args().skip(1) {
         let count: i32 = count.parse()?;
-        let points: Vec<DVec2> = (-count / 2..=count / 2)
-            .map(|k| spiral(k, count / 2))
-            .collect();
+        let points: Vec<DVec2> = (-count / 2..=count / 2).map(|k| spiral(k, count / 2)).collect();
         let chain = Chain::new(&points, false)?;
         let started = Instant::now();
         let uniform = certify(&chain, chain.turns(), &vec![0.0; chain.turns().len()]);
-        println!(
-            "{count} segments, uniform: {uniform:?} in {:.2?}",
-            started.elapsed()
-        );
+        println!("{count} segments, uniform: {uniform:?} in {:.2?}", started.elapsed());
         let started = Instant::now();
         let path = straighten(&chain)?;
         println!(

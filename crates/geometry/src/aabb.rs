@@ -13,26 +13,19 @@ pub struct Aabb {
 
 impl Aabb {
     /// The box that contains no point: the neutral element of [`Aabb::union`].
-    pub const EMPTY: Self = Self {
-        min: DVec3::INFINITY,
-        max: DVec3::NEG_INFINITY,
-    };
+    pub const EMPTY: Self = Self { min: DVec3::INFINITY, max: DVec3::NEG_INFINITY };
 
     /// The smallest box that contains the points.
     pub fn around(points: impl IntoIterator<Item = DVec3>) -> Self {
-        points.into_iter().fold(Self::EMPTY, |hull, p| Self {
-            min: hull.min.min(p),
-            max: hull.max.max(p),
-        })
+        points
+            .into_iter()
+            .fold(Self::EMPTY, |hull, p| Self { min: hull.min.min(p), max: hull.max.max(p) })
     }
 
     /// The smallest box that contains both.
     #[must_use]
     pub fn union(&self, other: &Self) -> Self {
-        Self {
-            min: self.min.min(other.min),
-            max: self.max.max(other.max),
-        }
+        Self { min: self.min.min(other.min), max: self.max.max(other.max) }
     }
 
     /// The box with every face moved outwards by `radius`, rounded outwards.
@@ -60,11 +53,7 @@ impl Aabb {
     /// The length of the diagonal; not positive for the empty box.
     pub fn diagonal(&self) -> f64 {
         let extents = self.extents();
-        if extents.min_element() < 0.0 {
-            0.0
-        } else {
-            extents.length()
-        }
+        if extents.min_element() < 0.0 { 0.0 } else { extents.length() }
     }
 
     /// The side lengths.

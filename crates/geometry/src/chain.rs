@@ -169,9 +169,7 @@ impl<'a> Chain<'a> {
     fn farthest_from(&self, other: &Self) -> f64 {
         (self.parameters.iter().zip(&other.parameters))
             .zip(&self.speeds)
-            .fold(0.0, |far: f64, ((a, b), speed)| {
-                far.max((a - b).abs() * speed)
-            })
+            .fold(0.0, |far: f64, ((a, b), speed)| far.max((a - b).abs() * speed))
     }
 
     /// The chain after a step, corrected, with its tangent; `None` if the step was too long.
@@ -239,10 +237,7 @@ impl<'a> Chain<'a> {
 /// Γ and Γ' at t, continued straight beyond t = 1.
 fn beyond_the_end(profile: &Profile, t: f64) -> (DVec2, DVec2) {
     let velocity = profile.derivative(t);
-    (
-        profile.position(t) + velocity * (t - 1.0).max(0.0),
-        velocity,
-    )
+    (profile.position(t) + velocity * (t - 1.0).max(0.0), velocity)
 }
 
 /// The Jacobian of the equations h_{k+1} − h_k = 0 as Q R: R has three diagonals and one column more than rows.
@@ -317,11 +312,7 @@ fn rotate(
     }
     let (cosine, sine) = (upper[0] / size, below / size);
     let (u, l) = (*upper, *lower);
-    *upper = [
-        size,
-        cosine * u[1] + sine * l[0],
-        cosine * u[2] + sine * l[1],
-    ];
+    *upper = [size, cosine * u[1] + sine * l[0], cosine * u[2] + sine * l[1]];
     lower[0] = cosine * l[0] - sine * u[1];
     lower[1] = cosine * l[1] - sine * u[2];
     let (a, b) = (*upper_value, *lower_value);

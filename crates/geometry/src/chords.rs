@@ -26,11 +26,7 @@ impl Chords {
         let lengths: Vec<_> = points.windows(2).map(|p| p[0].distance(p[1])).collect();
         let mean = lengths.iter().sum::<f64>() / lengths.len() as f64;
         check_resolution(mean, profile)?;
-        Ok(Self {
-            points,
-            mean,
-            residuals: lengths.iter().map(|h| (h - mean) / mean).collect(),
-        })
+        Ok(Self { points, mean, residuals: lengths.iter().map(|h| (h - mean) / mean).collect() })
     }
 
     /// The energy E of equation 2.
@@ -59,10 +55,7 @@ pub(crate) fn check_resolution(length: f64, profile: &Profile) -> Result<(), Geo
 }
 
 pub(crate) fn too_short(length: f64, profile: &Profile) -> GeometryError {
-    GeometryError::SegmentTooShort {
-        length,
-        minimum: shortest_segment(profile),
-    }
+    GeometryError::SegmentTooShort { length, minimum: shortest_segment(profile) }
 }
 
 fn shortest_segment(profile: &Profile) -> f64 {

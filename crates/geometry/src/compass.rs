@@ -70,20 +70,15 @@ mod tests {
     fn chords_stepped_off_around_a_corner_are_equal() {
         let parameters: Vec<_> = (0..=1000).map(|k| f64::from(k) / 1000.0).collect();
         // Up and down again: a corner of 2 atan(1/4) at u = ½.
-        let points = parameters
-            .iter()
-            .map(|&u| DVec2::new(u, 2.0 - 4.0 * (u - 0.5).abs()))
-            .collect();
+        let points =
+            parameters.iter().map(|&u| DVec2::new(u, 2.0 - 4.0 * (u - 0.5).abs())).collect();
         let samples = Samples { parameters, points };
         for segments in [1, 2, 3, 4, 5, 8, 13] {
             let opening = samples.widest_opening(segments, 17f64.sqrt());
             let mut ends = vec![0.0];
             ends.extend(samples.walk(segments, opening));
             let at = |u: f64| DVec2::new(u, 2.0 - 4.0 * (u - 0.5).abs());
-            let chords: Vec<_> = ends
-                .windows(2)
-                .map(|u| at(u[0]).distance(at(u[1])))
-                .collect();
+            let chords: Vec<_> = ends.windows(2).map(|u| at(u[0]).distance(at(u[1]))).collect();
             assert_eq!(chords.len(), segments);
             for chord in &chords {
                 assert!((chord - opening).abs() < 1e-2 * opening, "{chords:?}");

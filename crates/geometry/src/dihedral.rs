@@ -56,10 +56,7 @@ pub fn fold_angle_gradient(e0: DVec3, e1: DVec3, left: DVec3, right: DVec3) -> [
 pub fn nearest_turn(angle: f64, previous: f64) -> f64 {
     let turns = ((previous - angle) / TAU).round();
     let unwrapped = angle + turns * TAU;
-    debug_assert!(
-        (unwrapped - previous).abs() <= PI + 1e-9,
-        "one turn brings the angle within π"
-    );
+    debug_assert!((unwrapped - previous).abs() <= PI + 1e-9, "one turn brings the angle within π");
     unwrapped
 }
 

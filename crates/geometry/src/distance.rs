@@ -23,19 +23,11 @@ struct Points {
 
 impl Points {
     fn between(on_a: DVec3, on_b: DVec3) -> Self {
-        Self {
-            squared: on_a.distance_squared(on_b),
-            on_a,
-            on_b,
-        }
+        Self { squared: on_a.distance_squared(on_b), on_a, on_b }
     }
 
     fn flipped(self) -> Self {
-        Self {
-            on_a: self.on_b,
-            on_b: self.on_a,
-            ..self
-        }
+        Self { on_a: self.on_b, on_b: self.on_a, ..self }
     }
 
     fn keep_nearer(&mut self, other: Self) {
@@ -47,11 +39,7 @@ impl Points {
 
 impl From<Points> for Closest {
     fn from(points: Points) -> Self {
-        Self {
-            distance: points.on_a.distance(points.on_b),
-            on_a: points.on_a,
-            on_b: points.on_b,
-        }
+        Self { distance: points.on_a.distance(points.on_b), on_a: points.on_a, on_b: points.on_b }
     }
 }
 
@@ -114,11 +102,7 @@ fn of_segments(a: [DVec3; 2], b: [DVec3; 2]) -> Points {
 
 /// x / y clamped to [0, 1]; 0 if y is 0.
 fn share(x: f64, y: f64) -> f64 {
-    if y > 0.0 {
-        (x / y).clamp(0.0, 1.0)
-    } else {
-        0.0
-    }
+    if y > 0.0 { (x / y).clamp(0.0, 1.0) } else { 0.0 }
 }
 
 /// The parameter in (0, 1) at which the second of two nearly parallel segments crosses the first, seen along their
@@ -214,8 +198,7 @@ impl Facet {
     /// A point of a sliver: the distance of the foot from the longest edge is uncertain, but along the edge the point
     /// is the nearest.
     fn foot_in_sliver(&self, point: DVec3) -> Option<DVec3> {
-        self.section(point)
-            .map(|section| on_segment(point, section))
+        self.section(point).map(|section| on_segment(point, section))
     }
 
     /// The index of the longest edge, and the part of the next edge normal to it.
@@ -259,18 +242,12 @@ impl Facet {
         }
         let point = from.lerp(to, s / (s - t));
         if !self.is_sliver {
-            return self
-                .foot_inside(point)
-                .map(|_| Points::between(point, point));
+            return self.foot_inside(point).map(|_| Points::between(point, point));
         }
         let met = of_segments([from, to], self.section(point)?);
         let far = from.distance(self.corners[0]) + to.distance(self.corners[0]);
         let is_met = met.squared <= (8.0 * f64::EPSILON * far).powi(2);
-        Some(if is_met {
-            Points::between(met.on_a, met.on_a)
-        } else {
-            met
-        })
+        Some(if is_met { Points::between(met.on_a, met.on_a) } else { met })
     }
 }
 
@@ -278,10 +255,7 @@ impl Facet {
 pub(crate) fn point_triangle(point: DVec3, triangle: &[DVec3; 3]) -> Closest {
     let facet = Facet::new(triangle);
     let foot = facet.foot_inside(point).into_iter();
-    let on_rim = facet
-        .edges()
-        .into_iter()
-        .map(|edge| on_segment(point, edge));
+    let on_rim = facet.edges().into_iter().map(|edge| on_segment(point, edge));
     let nearest = foot.chain(on_rim).min_by(|p, q| {
         let squared = |r: &DVec3| point.distance_squared(*r);
         squared(p).total_cmp(&squared(q))
@@ -361,16 +335,9 @@ mod tests {
             let n = 24;
             let closest = triangle_triangle(&a, &b);
             let dense = sampled(&a, &b, n);
-            assert!(
-                closest.distance <= dense + 1e-14,
-                "{case}: {} > {dense}",
-                closest.distance
-            );
+            assert!(closest.distance <= dense + 1e-14, "{case}: {} > {dense}", closest.distance);
             // The samples lie within 2 · (longest edge) / n of every point.
-            assert!(
-                closest.distance >= dense - 4.0 * 3.5 / f64::from(n),
-                "{case}"
-            );
+            assert!(closest.distance >= dense - 4.0 * 3.5 / f64::from(n), "{case}");
             assert!(closest.on_a.distance(closest.on_b) <= closest.distance + 1e-15);
         }
     }
@@ -409,11 +376,8 @@ mod tests {
         let a = [DVec3::ZERO, DVec3::X, DVec3::Y];
         let above = a.map(|p| p * 0.25 + DVec3::new(0.1, 0.1, 0.7));
         assert!((triangle_triangle(&a, &above).distance - 0.7).abs() < 1e-15);
-        let through = [
-            DVec3::new(0.2, 0.2, -1.0),
-            DVec3::new(0.2, 0.2, 1.0),
-            DVec3::new(5.0, 5.0, 0.0),
-        ];
+        let through =
+            [DVec3::new(0.2, 0.2, -1.0), DVec3::new(0.2, 0.2, 1.0), DVec3::new(5.0, 5.0, 0.0)];
         assert_eq!(triangle_triangle(&a, &through).distance, 0.0);
         let inside = a.map(|p| p * 0.2 + DVec3::new(0.1, 0.1, 0.0));
         assert_eq!(triangle_triangle(&a, &inside).distance, 0.0);

@@ -44,11 +44,7 @@ pub struct DivisionOptions {
 
 impl Default for DivisionOptions {
     fn default() -> Self {
-        Self {
-            method: DivisionMethod::EqualLength,
-            tolerance: 1e-14,
-            max_iterations: 200,
-        }
+        Self { method: DivisionMethod::EqualLength, tolerance: 1e-14, max_iterations: 200 }
     }
 }
 
@@ -140,11 +136,7 @@ pub fn simplify(profile: &Profile, tolerance: f64) -> Result<Division, GeometryE
     let segments = parameters.len() - 1;
     let minimum = if profile.is_closed() { 3 } else { 2 };
     if segments < minimum {
-        return Err(GeometryError::TooCoarse {
-            tolerance,
-            segments,
-            minimum,
-        });
+        return Err(GeometryError::TooCoarse { tolerance, segments, minimum });
     }
     finish(profile, direct(profile, parameters)?)
 }
@@ -296,9 +288,7 @@ fn check_request(
         });
     }
     if options.tolerance.is_nan() || options.tolerance < 0.0 {
-        return Err(GeometryError::Tolerance {
-            value: options.tolerance,
-        });
+        return Err(GeometryError::Tolerance { value: options.tolerance });
     }
     Ok(())
 }

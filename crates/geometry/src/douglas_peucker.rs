@@ -33,9 +33,7 @@ pub(crate) fn split(
         wanted
     }
     .clamp(FEWEST_SAMPLES, MOST_SAMPLES);
-    let points: Vec<_> = (0..=count)
-        .map(|k| profile.position(k as f64 / count as f64))
-        .collect();
+    let points: Vec<_> = (0..=count).map(|k| profile.position(k as f64 / count as f64)).collect();
     let mut kept = vec![0, count];
     let mut pending: BinaryHeap<_> = farthest(&points, 0, count).into_iter().collect();
     // A deviation below rounding counts as none.
@@ -72,11 +70,7 @@ fn farthest(points: &[DVec2], start: usize, end: usize) -> Option<Farthest> {
     for at in start + 1..end {
         let distance = distance_to_segment(points[at], points[start], points[end]);
         if worst.as_ref().is_none_or(|w| distance > w.distance) {
-            worst = Some(Farthest {
-                distance,
-                ends: [start, end],
-                at,
-            });
+            worst = Some(Farthest { distance, ends: [start, end], at });
         }
     }
     worst
@@ -85,11 +79,7 @@ fn farthest(points: &[DVec2], start: usize, end: usize) -> Option<Farthest> {
 /// The distance of p from the segment a b, which may be a point.
 pub(crate) fn distance_to_segment(p: DVec2, a: DVec2, b: DVec2) -> f64 {
     let squared = (b - a).length_squared();
-    let share = if squared > 0.0 {
-        ((p - a).dot(b - a) / squared).clamp(0.0, 1.0)
-    } else {
-        0.0
-    };
+    let share = if squared > 0.0 { ((p - a).dot(b - a) / squared).clamp(0.0, 1.0) } else { 0.0 };
     p.distance(a + share * (b - a))
 }
 

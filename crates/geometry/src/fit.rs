@@ -29,11 +29,7 @@ impl Division {
             let mut before = (ends[0], 0.0);
             for k in 1..=SAMPLES {
                 let t = u[0] + (u[1] - u[0]) * (k as f64 / SAMPLES as f64);
-                let p = if k == SAMPLES {
-                    ends[1]
-                } else {
-                    profile.position(t)
-                };
+                let p = if k == SAMPLES { ends[1] } else { profile.position(t) };
                 let distance = distance_to_segment(p, ends[0], ends[1]);
                 let step = p.distance(before.0);
                 largest = largest.max(distance);
@@ -42,9 +38,6 @@ impl Division {
                 before = (p, distance);
             }
         }
-        Fit {
-            largest,
-            mean: sum / length,
-        }
+        Fit { largest, mean: sum / length }
     }
 }

@@ -35,10 +35,7 @@ fn checked(points: &[DVec2], closure: Closure) -> Result<Vec<DVec2>, GeometryErr
     let closed = closure != Closure::Open;
     let mut points = points.to_vec();
     let in_range = |c: f64| c.abs() <= LARGEST_COORDINATE;
-    if let Some(index) = points
-        .iter()
-        .position(|p| !(in_range(p.x) && in_range(p.y)))
-    {
+    if let Some(index) = points.iter().position(|p| !(in_range(p.x) && in_range(p.y))) {
         return Err(GeometryError::Point {
             index,
             x: points[index].x,
@@ -57,9 +54,8 @@ fn checked(points: &[DVec2], closure: Closure) -> Result<Vec<DVec2>, GeometryErr
     }
     if closed && !repeated {
         let gap = points[0].distance(points[points.len() - 1]);
-        let longest = points
-            .windows(2)
-            .fold(0.0, |longest: f64, p| longest.max(p[0].distance(p[1])));
+        let longest =
+            points.windows(2).fold(0.0, |longest: f64, p| longest.max(p[0].distance(p[1])));
         if gap > 2.0 * longest {
             return Err(GeometryError::EndsApart { gap, longest });
         }
@@ -82,16 +78,11 @@ fn centripetal(points: &[DVec2]) -> Result<Vec<f64>, GeometryError> {
         *parameter /= sum;
     }
     parameters[last] = 1.0;
-    match parameters
-        .windows(2)
-        .position(|u| u[1] - u[0] < NARROWEST_SPAN || sum == 0.0)
-    {
+    match parameters.windows(2).position(|u| u[1] - u[0] < NARROWEST_SPAN || sum == 0.0) {
         None => Ok(parameters),
-        Some(index) => Err(GeometryError::RepeatedPoint {
-            index,
-            x: points[index].x,
-            z: points[index].y,
-        }),
+        Some(index) => {
+            Err(GeometryError::RepeatedPoint { index, x: points[index].x, z: points[index].y })
+        }
     }
 }
 
@@ -102,14 +93,9 @@ fn natural(points: &[DVec2], u: &[f64], c: &[f64]) -> Result<Nurbs, GeometryErro
         c.windows(2).map(|c| 2.0 * (c[0] + c[1])),
         c[1..].iter().take(last.saturating_sub(2)).copied(),
     );
-    let right: Vec<_> = (1..last)
-        .map(|k| bend(points[k - 1], points[k], points[k + 1], c[k - 1], c[k]))
-        .collect();
-    let inner = if last > 1 {
-        solve(&factors, &right)
-    } else {
-        Vec::new()
-    };
+    let right: Vec<_> =
+        (1..last).map(|k| bend(points[k - 1], points[k], points[k + 1], c[k - 1], c[k])).collect();
+    let inner = if last > 1 { solve(&factors, &right) } else { Vec::new() };
     let mut bends = vec![DVec2::ZERO];
     bends.extend(inner);
     bends.push(DVec2::ZERO);
@@ -140,15 +126,7 @@ fn periodic(points: &[DVec2], u: &[f64], c: &[f64]) -> Result<Nurbs, GeometryErr
     let before = |k: usize| (k + count - 1) % count;
     let after = |k: usize| (k + 1) % count;
     let right: Vec<_> = (0..count)
-        .map(|k| {
-            bend(
-                points[before(k)],
-                points[k],
-                points[after(k)],
-                c[before(k)],
-                c[k],
-            )
-        })
+        .map(|k| bend(points[before(k)], points[k], points[after(k)], c[before(k)], c[k]))
         .collect();
     let bends = solve_cyclic(c, &right);
     let control = |k: usize| {
@@ -158,9 +136,7 @@ fn periodic(points: &[DVec2], u: &[f64], c: &[f64]) -> Result<Nurbs, GeometryErr
         points[k] + slope * ((b - a) / 3.0) - bends[k] * (a * b / 6.0)
     };
     // The control points of u_{−1} … u_{count+1}, over the knots u_{−3} … u_{count+3}.
-    let control_points = (0..count + 3)
-        .map(|i| control((i + count - 1) % count))
-        .collect();
+    let control_points = (0..count + 3).map(|i| control((i + count - 1) % count)).collect();
     let knots = (0..count + 7)
         .map(|i| {
             let (turns, k) = ((i + 2 * count - 3) / count, (i + 2 * count - 3) % count);
@@ -181,10 +157,7 @@ fn solve(factors: &Tridiagonal, right: &[DVec2]) -> Vec<DVec2> {
         factors.solve(&side)
     };
     let (x, z) = (along(|p| p.x), along(|p| p.y));
-    x.into_iter()
-        .zip(z)
-        .map(|(x, z)| DVec2::new(x, z))
-        .collect()
+    x.into_iter().zip(z).map(|(x, z)| DVec2::new(x, z)).collect()
 }
 
 /// Solves the cyclic system, which is tridiagonal except for its corners; they are removed as a matrix of rank one
@@ -195,11 +168,7 @@ fn solve_cyclic(c: &[f64], right: &[DVec2]) -> Vec<DVec2> {
     // A = T + corner (e_0 + e_n)(e_0 + e_n)ᵀ; T stays diagonally dominant.
     let diagonal = (0..count).map(|k| {
         let inner = 2.0 * (c[(k + count - 1) % count] + c[k]);
-        if k == 0 || k == count - 1 {
-            inner - corner
-        } else {
-            inner
-        }
+        if k == 0 || k == count - 1 { inner - corner } else { inner }
     });
     let factors = Tridiagonal::factor(diagonal, c[..count - 1].iter().copied());
     let mut ends = vec![0.0; count];

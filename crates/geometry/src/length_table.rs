@@ -34,10 +34,7 @@ impl LengthTable {
             length += piece_length(profile.curve(), u[0], u[1]);
             lengths.push(length);
         }
-        Self {
-            parameters,
-            lengths,
-        }
+        Self { parameters, lengths }
     }
 
     /// The length of the profile.
@@ -61,19 +58,13 @@ impl LengthTable {
         let even: Vec<_> = std::iter::once(0.0).chain(inner).chain([1.0]).collect();
         match even.windows(2).position(|u| u[1] <= u[0]) {
             None => Ok(even),
-            Some(k) => Err(GeometryError::Start {
-                index: k + 1,
-                value: even[k + 1],
-            }),
+            Some(k) => Err(GeometryError::Start { index: k + 1, value: even[k + 1] }),
         }
     }
 
     /// The points at the parameters of the table.
     pub(crate) fn samples(&self, profile: &Profile) -> Samples {
         let points = self.parameters.iter().map(|&u| profile.position(u));
-        Samples {
-            points: points.collect(),
-            parameters: self.parameters.clone(),
-        }
+        Samples { points: points.collect(), parameters: self.parameters.clone() }
     }
 }

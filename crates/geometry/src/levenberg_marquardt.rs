@@ -106,12 +106,7 @@ pub(crate) fn minimise(
             rejected += 1;
         }
     };
-    Ok(Minimum {
-        parameters,
-        chords,
-        iterations,
-        ending,
-    })
+    Ok(Minimum { parameters, chords, iterations, ending })
 }
 
 /// A step of the unknowns, and the reduction of E that the linear model predicts for it.
@@ -167,9 +162,7 @@ impl Linearised {
                 [-velocities[k], velocities[k + 1]].map(|v| direction.dot(v) / chords.mean)
             })
             .collect();
-        let fastest = velocities
-            .iter()
-            .fold(0.0, |max: f64, v| max.max(v.length()));
+        let fastest = velocities.iter().fold(0.0, |max: f64, v| max.max(v.length()));
         let count = slopes.len() as f64;
         let mut linear = Self {
             residuals: chords.residuals.clone(),
@@ -193,17 +186,11 @@ impl Linearised {
     /// The gradient Jᵀr of E.
     fn gradient(&self) -> Vec<f64> {
         let squared = dot(&self.residuals, &self.residuals);
-        self.pull
-            .iter()
-            .zip(&self.mean_gradient)
-            .map(|(v, g)| v - squared * g)
-            .collect()
+        self.pull.iter().zip(&self.mean_gradient).map(|(v, g)| v - squared * g).collect()
     }
 
     fn diagonal(&self) -> impl Iterator<Item = f64> {
-        self.slopes
-            .windows(2)
-            .map(|s| s[0][1] * s[0][1] + s[1][0] * s[1][0])
+        self.slopes.windows(2).map(|s| s[0][1] * s[0][1] + s[1][0] * s[1][0])
     }
 
     fn largest_diagonal(&self) -> f64 {
@@ -284,14 +271,7 @@ mod tests {
     use crate::Closure;
 
     fn wavy() -> (Profile, Vec<f64>) {
-        let points = [
-            (0.0, 0.0),
-            (1.0, 2.0),
-            (2.0, -1.0),
-            (3.0, 1.5),
-            (5.0, 0.0),
-            (5.5, 2.0),
-        ];
+        let points = [(0.0, 0.0), (1.0, 2.0), (2.0, -1.0), (3.0, 1.5), (5.0, 0.0), (5.5, 2.0)];
         let points = points.map(|(x, z)| DVec2::new(x, z));
         let profile = Profile::new(&points, Closure::Open).unwrap();
         (profile, vec![0.0, 0.13, 0.3, 0.38, 0.61, 0.8, 1.0])
@@ -308,10 +288,7 @@ mod tests {
                     Chords::new(profile, &u).unwrap().residuals
                 };
                 let (up, down) = (shifted(1.0), shifted(-1.0));
-                up.iter()
-                    .zip(&down)
-                    .map(|(a, b)| (a - b) / (2.0 * step))
-                    .collect()
+                up.iter().zip(&down).map(|(a, b)| (a - b) / (2.0 * step)).collect()
             })
             .collect()
     }
@@ -337,9 +314,7 @@ mod tests {
             let right_hand_side = [0.3, -1.0, 2.0, 0.7, -0.2];
             let x = linear.solve(damping, &right_hand_side).unwrap();
             for (i, expected) in right_hand_side.iter().enumerate() {
-                let row: f64 = (0..x.len())
-                    .map(|j| dot(&columns[i], &columns[j]) * x[j])
-                    .sum();
+                let row: f64 = (0..x.len()).map(|j| dot(&columns[i], &columns[j]) * x[j]).sum();
                 let error = (row + damping * x[i] - expected).abs();
                 assert!(error < 1e-7, "μ = {damping}, row {i}: error {error}");
             }
@@ -353,9 +328,6 @@ mod tests {
         let share = admissible_share(&change, &parameters);
         assert!((share - 0.9 * 0.1 / 0.4).abs() < 1e-15);
         assert_eq!(admissible_share(&[0.01, 0.01], &parameters), 1.0);
-        assert!(
-            admissible_share(&[-0.5, 0.0], &parameters) < 0.8,
-            "the ends hold too"
-        );
+        assert!(admissible_share(&[-0.5, 0.0], &parameters) < 0.8, "the ends hold too");
     }
 }

@@ -34,10 +34,7 @@ impl Nurbs {
             .chain(inner)
             .chain(std::iter::repeat_n(1.0, DEGREE + 1))
             .collect();
-        Ok(Self {
-            control_points,
-            knots,
-        })
+        Ok(Self { control_points, knots })
     }
 
     /// The curve with the caller's knots U_0 … U_{n+3} for n control points, mapped so that its domain
@@ -61,10 +58,7 @@ impl Nurbs {
             *knot = (*knot - start) / (end - start);
         }
         check_knot_spacing(&knots)?;
-        Ok(Self {
-            control_points,
-            knots,
-        })
+        Ok(Self { control_points, knots })
     }
 
     /// The control points P_i as (x, z).
@@ -92,18 +86,14 @@ impl Nurbs {
         let (span, u) = self.span(u);
         let basis = self.basis::<4>(span, u);
         let first = span - DEGREE;
-        (0..4)
-            .map(|j| basis[j] * self.control_points[first + j])
-            .sum()
+        (0..4).map(|j| basis[j] * self.control_points[first + j]).sum()
     }
 
     /// The derivative dC/du, from the right at a corner of the curve, from the left at u = 1.
     pub fn derivative(&self, u: f64) -> DVec2 {
         let (span, u) = self.span(u);
         let basis = self.basis::<3>(span, u);
-        (0..3)
-            .map(|j| basis[j] * self.velocity(span - DEGREE + j))
-            .sum()
+        (0..3).map(|j| basis[j] * self.velocity(span - DEGREE + j)).sum()
     }
 
     /// The second derivative d²C/du², from the right at knots where it jumps, from the left at u = 1.
@@ -114,9 +104,7 @@ impl Nurbs {
             2.0 * (self.velocity(i + 1) - self.velocity(i))
                 / (self.knots[i + 4] - self.knots[i + 2])
         };
-        (0..2)
-            .map(|j| basis[j] * acceleration(span - DEGREE + j))
-            .sum()
+        (0..2).map(|j| basis[j] * acceleration(span - DEGREE + j)).sum()
     }
 
     /// The same curve in the opposite direction: u ↦ C(1 − u).
@@ -132,10 +120,7 @@ impl Nurbs {
     pub(crate) fn scaled(&self, factor: f64) -> Result<Self, GeometryError> {
         let control_points: Vec<_> = self.control_points.iter().map(|p| *p * factor).collect();
         check_control_points(&control_points)?;
-        Ok(Self {
-            control_points,
-            knots: self.knots.clone(),
-        })
+        Ok(Self { control_points, knots: self.knots.clone() })
     }
 
     /// Control point i of the derivative, of degree 2: 3 (P_{i+1} − P_i) / (U_{i+4} − U_{i+1}) (equation 3.4).
@@ -186,10 +171,7 @@ fn check_control_points(points: &[DVec2]) -> Result<(), GeometryError> {
     }
     // NaN fails the comparison too.
     let in_range = |c: f64| c.abs() <= LARGEST_COORDINATE;
-    match points
-        .iter()
-        .position(|p| !(in_range(p.x) && in_range(p.y)))
-    {
+    match points.iter().position(|p| !(in_range(p.x) && in_range(p.y))) {
         None => Ok(()),
         Some(index) => Err(GeometryError::ControlPoint {
             index,
@@ -213,11 +195,7 @@ fn check_knots(knots: &[f64], control_points: usize) -> Result<(), GeometryError
             return Err(GeometryError::KnotNotFinite { index, value });
         }
         if index > 0 && value < knots[index - 1] {
-            return Err(GeometryError::KnotsDecrease {
-                index,
-                previous: knots[index - 1],
-                value,
-            });
+            return Err(GeometryError::KnotsDecrease { index, previous: knots[index - 1], value });
         }
     }
     Ok(())
@@ -227,27 +205,15 @@ fn check_knots(knots: &[f64], control_points: usize) -> Result<(), GeometryError
 fn check_knot_spacing(knots: &[f64]) -> Result<(), GeometryError> {
     for group in knots.chunk_by(|a, b| a == b) {
         let u = group[0];
-        let limit = if u > 0.0 && u < 1.0 {
-            DEGREE
-        } else {
-            DEGREE + 1
-        };
+        let limit = if u > 0.0 && u < 1.0 { DEGREE } else { DEGREE + 1 };
         if group.len() > limit {
-            return Err(GeometryError::KnotMultiplicity {
-                u,
-                count: group.len(),
-                limit,
-            });
+            return Err(GeometryError::KnotMultiplicity { u, count: group.len(), limit });
         }
     }
     for (index, pair) in knots.windows(2).enumerate() {
         let width = pair[1] - pair[0];
         if width > 0.0 && width < NARROWEST_SPAN {
-            return Err(GeometryError::KnotSpanTooNarrow {
-                index,
-                width,
-                minimum: NARROWEST_SPAN,
-            });
+            return Err(GeometryError::KnotSpanTooNarrow { index, width, minimum: NARROWEST_SPAN });
         }
     }
     Ok(())

@@ -16,25 +16,15 @@ pub(crate) fn orientation(a: DVec2, b: DVec2, c: DVec2) -> Ordering {
     let determinant = left - right;
     let unit = 0.5 * f64::EPSILON;
     let bound = (3.0 + 16.0 * unit) * unit * (left.abs() + right.abs());
-    let sign = if determinant.abs() > bound {
-        determinant
-    } else {
-        exact_determinant_sign(a, b, c)
-    };
+    let sign =
+        if determinant.abs() > bound { determinant } else { exact_determinant_sign(a, b, c) };
     sign.total_cmp(&0.0)
 }
 
 /// A number with exactly the sign of a.x b.y − a.y b.x + b.x c.y − b.y c.x + c.x a.y − c.y a.x.
 fn exact_determinant_sign(a: DVec2, b: DVec2, c: DVec2) -> f64 {
     let mut expansion = Vec::with_capacity(12);
-    for (p, q) in [
-        (a.x, b.y),
-        (-a.y, b.x),
-        (b.x, c.y),
-        (-b.y, c.x),
-        (c.x, a.y),
-        (-c.y, a.x),
-    ] {
+    for (p, q) in [(a.x, b.y), (-a.y, b.x), (b.x, c.y), (-b.y, c.x), (c.x, a.y), (-c.y, a.x)] {
         let product = p * q;
         add(&mut expansion, f64::mul_add(p, q, -product));
         add(&mut expansion, product);
@@ -86,9 +76,6 @@ mod tests {
             assert_eq!(orientation(a, b, c), orientation(b, c, a));
             collinear += usize::from(orientation(a, b, c) == Ordering::Equal);
         }
-        assert!(
-            collinear < 200,
-            "rounded points must not all count as collinear"
-        );
+        assert!(collinear < 200, "rounded points must not all count as collinear");
     }
 }

@@ -37,10 +37,7 @@ pub fn first_crossing(points: &[DVec2], closed: bool) -> Option<Crossing> {
             (true, true) => {
                 let (i, j) = (boxes.segment(a), boxes.segment(b));
                 if let Some(point) = shared_point(points, closed, i, j) {
-                    return Some(Crossing {
-                        segments: [i, j],
-                        point,
-                    });
+                    return Some(Crossing { segments: [i, j], point });
                 }
             }
             // Both runs have the same depth, so both are split; a run paired with itself gives three pairs.
@@ -78,10 +75,7 @@ impl RunBoxes {
             let (a, b) = (corners[2 * node], corners[2 * node + 1]);
             corners[node] = (a.0.min(b.0), a.1.max(b.1));
         }
-        Self {
-            corners,
-            first_leaf,
-        }
+        Self { corners, first_leaf }
     }
 
     fn meet(&self, a: usize, b: usize) -> bool {
@@ -120,11 +114,7 @@ fn folded_back(a: DVec2, b: DVec2, c: DVec2) -> Option<DVec2> {
     // The points are exactly collinear: the order along either axis tells the direction.
     let same_way = |p: f64, q: f64, r: f64| (p < q && r < q) || (p > q && r > q);
     let overlap = same_way(a.x, b.x, c.x) || same_way(a.y, b.y, c.y);
-    let nearer = if (a - b).length_squared() < (c - b).length_squared() {
-        a
-    } else {
-        c
-    };
+    let nearer = if (a - b).length_squared() < (c - b).length_squared() { a } else { c };
     overlap.then_some(nearer)
 }
 
@@ -141,11 +131,7 @@ fn meeting_point([a, b]: [DVec2; 2], [c, d]: [DVec2; 2]) -> Option<DVec2> {
     }
     let (along, across) = (b - a, d - c);
     let share = (c - a).perp_dot(across) / along.perp_dot(across);
-    Some(if share.is_finite() {
-        a + along * share.clamp(0.0, 1.0)
-    } else {
-        a
-    })
+    Some(if share.is_finite() { a + along * share.clamp(0.0, 1.0) } else { a })
 }
 
 /// An end of one of two collinear segments that lies on the other.

@@ -98,11 +98,7 @@ impl Profile {
 
     /// The point Γ(u); for a closed profile Γ(1) is bitwise Γ(0).
     pub fn position(&self, u: f64) -> DVec2 {
-        if self.is_closed() && u >= 1.0 {
-            self.curve.position(0.0)
-        } else {
-            self.curve.position(u)
-        }
+        if self.is_closed() && u >= 1.0 { self.curve.position(0.0) } else { self.curve.position(u) }
     }
 
     /// The derivative dΓ/du, see [`Nurbs::derivative`].
@@ -117,10 +113,7 @@ impl Profile {
 
     /// The largest absolute coordinate of a control point, to which rounding in positions is relative.
     pub fn magnitude(&self) -> f64 {
-        self.curve
-            .control_points()
-            .iter()
-            .fold(0.0, |size: f64, p| size.max(p.abs().max_element()))
+        self.curve.control_points().iter().fold(0.0, |size: f64, p| size.max(p.abs().max_element()))
     }
 
     /// The length ∫ |Γ'| du, within `accuracy` (absolute, in the unit of the profile), but no better than rounding
@@ -137,19 +130,13 @@ impl Profile {
         if !(factor > 0.0 && factor.is_finite()) {
             return Err(GeometryError::Scale { factor });
         }
-        Ok(Self {
-            curve: self.curve.scaled(factor)?,
-            closure: self.closure,
-        })
+        Ok(Self { curve: self.curve.scaled(factor)?, closure: self.closure })
     }
 
     /// The same profile in the opposite direction.
     #[must_use]
     pub fn reversed(&self) -> Self {
-        Self {
-            curve: self.curve.reversed(),
-            closure: self.closure,
-        }
+        Self { curve: self.curve.reversed(), closure: self.closure }
     }
 
     /// Checks that the profile does not meet itself, apart from the common start and end of a closed one.

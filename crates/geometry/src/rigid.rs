@@ -15,10 +15,7 @@ pub struct RigidMotion {
 
 impl RigidMotion {
     /// The motion that leaves every point where it is.
-    pub const IDENTITY: Self = Self {
-        rotation: DMat3::IDENTITY,
-        translation: DVec3::ZERO,
-    };
+    pub const IDENTITY: Self = Self { rotation: DMat3::IDENTITY, translation: DVec3::ZERO };
 
     /// Applies the motion: R x + c.
     pub fn apply(&self, point: DVec3) -> DVec3 {
@@ -45,10 +42,7 @@ impl RigidMotion {
             covariance += DMat3::from_cols(a * b.x, a * b.y, a * b.z);
         }
         let rotation = DMat3::from_quat(largest_rotation(covariance));
-        Self {
-            rotation,
-            translation: target_centre - rotation * source_centre,
-        }
+        Self { rotation, translation: target_centre - rotation * source_centre }
     }
 
     /// The rigid motion that moves `centre` to the origin and the principal axes of `covariance`, a symmetric matrix,
@@ -61,33 +55,17 @@ impl RigidMotion {
         let axis = |i: usize| DVec3::new(vectors[0][i], vectors[1][i], vectors[2][i]);
         let [x, y] = [order[0], order[1]].map(axis);
         let rotation = DMat3::from_cols(x, y, x.cross(y)).transpose();
-        Self {
-            rotation,
-            translation: -(rotation * centre),
-        }
+        Self { rotation, translation: -(rotation * centre) }
     }
 }
 
 /// The unit quaternion that maximises tr(R covariance), covariance\[i\]\[j\] = Σ a_i b_j.
-#[expect(
-    clippy::needless_range_loop,
-    reason = "matrix indices read like the formula"
-)]
+#[expect(clippy::needless_range_loop, reason = "matrix indices read like the formula")]
 fn largest_rotation(covariance: DMat3) -> DQuat {
     let s = |i: usize, j: usize| covariance.col(j)[i];
     let mut a = [
-        [
-            s(0, 0) + s(1, 1) + s(2, 2),
-            s(1, 2) - s(2, 1),
-            s(2, 0) - s(0, 2),
-            s(0, 1) - s(1, 0),
-        ],
-        [
-            0.0,
-            s(0, 0) - s(1, 1) - s(2, 2),
-            s(0, 1) + s(1, 0),
-            s(2, 0) + s(0, 2),
-        ],
+        [s(0, 0) + s(1, 1) + s(2, 2), s(1, 2) - s(2, 1), s(2, 0) - s(0, 2), s(0, 1) - s(1, 0)],
+        [0.0, s(0, 0) - s(1, 1) - s(2, 2), s(0, 1) + s(1, 0), s(2, 0) + s(0, 2)],
         [0.0, 0.0, s(1, 1) - s(0, 0) - s(2, 2), s(1, 2) + s(2, 1)],
         [0.0, 0.0, 0.0, s(2, 2) - s(0, 0) - s(1, 1)],
     ];
@@ -97,9 +75,7 @@ fn largest_rotation(covariance: DMat3) -> DQuat {
         }
     }
     let vectors = diagonalise(&mut a);
-    let best = (0..4)
-        .max_by(|&i, &j| a[i][i].total_cmp(&a[j][j]))
-        .unwrap_or(0);
+    let best = (0..4).max_by(|&i, &j| a[i][i].total_cmp(&a[j][j])).unwrap_or(0);
     let v = |i: usize| vectors[i][best];
     DQuat::from_xyzw(v(1), v(2), v(3), v(0)).normalize()
 }
@@ -112,11 +88,7 @@ mod tests {
         (0..20)
             .map(|i| {
                 let x = f64::from(i);
-                DVec3::new(
-                    (x * 1.7).sin(),
-                    (x * 0.9).cos() * 2.0,
-                    (x * 0.31).sin() * 0.5,
-                )
+                DVec3::new((x * 1.7).sin(), (x * 0.9).cos() * 2.0, (x * 0.31).sin() * 0.5)
             })
             .collect()
     }
@@ -144,21 +116,16 @@ mod tests {
         assert!(motion.apply(centre).length() < 1e-14);
         assert!((motion.rotation.determinant() - 1.0).abs() < 1e-14);
         // The axis of variance 9 goes along x, 2 along y, 0.5 along z.
-        for (own, along) in [
-            (turn.y_axis, DVec3::X),
-            (turn.z_axis, DVec3::Y),
-            (turn.x_axis, DVec3::Z),
-        ] {
+        for (own, along) in
+            [(turn.y_axis, DVec3::X), (turn.z_axis, DVec3::Y), (turn.x_axis, DVec3::Z)]
+        {
             assert!(((motion.rotation * own).dot(along).abs() - 1.0).abs() < 1e-14);
         }
     }
 
     #[test]
     fn a_planar_set_is_fitted_by_a_rotation_never_by_a_reflection() {
-        let source: Vec<_> = cloud()
-            .into_iter()
-            .map(|p| DVec3::new(p.x, p.y, 0.0))
-            .collect();
+        let source: Vec<_> = cloud().into_iter().map(|p| DVec3::new(p.x, p.y, 0.0)).collect();
         let mirrored: Vec<_> = source.iter().map(|p| DVec3::new(-p.x, p.y, 0.0)).collect();
         let fit = RigidMotion::best_fit(&source, &mirrored);
         assert!((fit.rotation.determinant() - 1.0).abs() < 1e-14);

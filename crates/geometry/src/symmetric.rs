@@ -11,10 +11,8 @@ pub(crate) fn diagonalise<const N: usize>(a: &mut [[f64; N]; N]) -> [[f64; N]; N
         row[i] = 1.0;
     }
     for _sweep in 0..SWEEPS {
-        let off: f64 = (0..N)
-            .flat_map(|i| (0..i).map(move |j| (i, j)))
-            .map(|(i, j)| a[i][j].abs())
-            .sum();
+        let off: f64 =
+            (0..N).flat_map(|i| (0..i).map(move |j| (i, j))).map(|(i, j)| a[i][j].abs()).sum();
         let diagonal: f64 = (0..N).map(|i| a[i][i].abs()).sum();
         if off <= f64::EPSILON * 1e-3 * diagonal {
             break;
@@ -28,10 +26,7 @@ pub(crate) fn diagonalise<const N: usize>(a: &mut [[f64; N]; N]) -> [[f64; N]; N
     vectors
 }
 
-#[expect(
-    clippy::needless_range_loop,
-    reason = "matrix indices read like the formula"
-)]
+#[expect(clippy::needless_range_loop, reason = "matrix indices read like the formula")]
 fn rotate<const N: usize>(a: &mut [[f64; N]; N], vectors: &mut [[f64; N]; N], p: usize, q: usize) {
     if a[p][q] == 0.0 {
         return;

@@ -36,30 +36,11 @@ fn neighbours_may_bend_but_not_fold_back() {
 
 #[test]
 fn collinear_strands_that_overlap_cross() {
-    let back = |x: f64| {
-        [
-            [0.0, 0.0],
-            [1.0, 0.0],
-            [1.0, 1.0],
-            [x, 1.0],
-            [x, 0.0],
-            [x - 0.5, 0.0],
-        ]
-    };
+    let back = |x: f64| [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [x, 1.0], [x, 0.0], [x - 0.5, 0.0]];
     assert!(crosses(&back(1.25), false));
-    assert!(!crosses(
-        &[[0.0, 0.0], [1.0, 0.0], [1.5, 1.0], [2.0, 0.0], [3.0, 0.0]],
-        false
-    ));
+    assert!(!crosses(&[[0.0, 0.0], [1.0, 0.0], [1.5, 1.0], [2.0, 0.0], [3.0, 0.0]], false));
     assert!(crosses(
-        &[
-            [0.0, 0.0],
-            [1.0, 0.0],
-            [1.5, 1.0],
-            [0.5, 1.0],
-            [0.5, 0.0],
-            [0.75, 0.0]
-        ],
+        &[[0.0, 0.0], [1.0, 0.0], [1.5, 1.0], [0.5, 1.0], [0.5, 0.0], [0.75, 0.0]],
         false
     ));
 }
@@ -69,14 +50,8 @@ fn a_closed_polygon_may_meet_itself_at_its_start_only() {
     let square = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0], [0.0, 0.0]];
     assert!(!crosses(&square, true));
     assert!(crosses(&square, false));
-    assert!(crosses(
-        &[[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [2.0, 0.0], [0.0, 0.0]],
-        true
-    ));
-    assert!(!crosses(
-        &[[0.0, 0.0], [1.0, 0.0], [0.5, 1.0], [0.0, 0.0]],
-        true
-    ));
+    assert!(crosses(&[[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [2.0, 0.0], [0.0, 0.0]], true));
+    assert!(!crosses(&[[0.0, 0.0], [1.0, 0.0], [0.5, 1.0], [0.0, 0.0]], true));
 }
 
 #[test]
@@ -97,13 +72,7 @@ fn a_long_double_spiral_is_simple_until_one_point_is_moved_across() {
     assert_eq!(first_crossing(&points, false), None);
     points[60_000] *= 1.06;
     let crossing = first_crossing(&points, false).unwrap();
-    assert!(
-        crossing
-            .segments
-            .iter()
-            .any(|s| (59_999..=60_000).contains(s)),
-        "{crossing:?}"
-    );
+    assert!(crossing.segments.iter().any(|s| (59_999..=60_000).contains(s)), "{crossing:?}");
 }
 
 proptest! {

@@ -9,10 +9,7 @@ fn points(coordinates: &[[f64; 2]]) -> Vec<DVec2> {
 }
 
 fn control_points(counts: std::ops::Range<usize>) -> impl Strategy<Value = Vec<DVec2>> {
-    prop::collection::vec(
-        (-5.0..5.0, -5.0..5.0).prop_map(|(x, z)| DVec2::new(x, z)),
-        counts,
-    )
+    prop::collection::vec((-5.0..5.0, -5.0..5.0).prop_map(|(x, z)| DVec2::new(x, z)), counts)
 }
 
 /// A clamped knot vector of uneven spans, one of them possibly empty, for `count` control points.
@@ -37,41 +34,22 @@ fn four_clamped_control_points_make_a_bezier_curve() {
         let derivative =
             3.0 * (v * v * (p[1] - p[0]) + 2.0 * v * u * (p[2] - p[1]) + u * u * (p[3] - p[2]));
         let second = 6.0 * (v * (p[2] - 2.0 * p[1] + p[0]) + u * (p[3] - 2.0 * p[2] + p[1]));
-        assert!(
-            (curve.position(u) - position).length() < 1e-14,
-            "position at {u}"
-        );
-        assert!(
-            (curve.derivative(u) - derivative).length() < 1e-13,
-            "derivative at {u}"
-        );
-        assert!(
-            (curve.second_derivative(u) - second).length() < 1e-12,
-            "second at {u}"
-        );
+        assert!((curve.position(u) - position).length() < 1e-14, "position at {u}");
+        assert!((curve.derivative(u) - derivative).length() < 1e-13, "derivative at {u}");
+        assert!((curve.second_derivative(u) - second).length() < 1e-12, "second at {u}");
     }
 }
 
 #[test]
 fn a_clamped_curve_runs_exactly_from_its_first_to_its_last_control_point() {
-    let p = points(&[
-        [0.1, 0.7],
-        [1.0, 2.0],
-        [2.0, -1.0],
-        [3.0, 3.0],
-        [0.3, 0.9],
-        [7.1, 0.1],
-    ]);
+    let p = points(&[[0.1, 0.7], [1.0, 2.0], [2.0, -1.0], [3.0, 3.0], [0.3, 0.9], [7.1, 0.1]]);
     let curve = Nurbs::with_knots(p.clone(), uneven_knots(6)).unwrap();
     assert_eq!(curve.position(0.0), p[0]);
     assert_eq!(curve.position(1.0), p[5]);
     assert_eq!(curve.position(-3.0), p[0]);
     assert_eq!(curve.position(9.0), p[5]);
     let breakpoints = curve.breakpoints();
-    assert_eq!(
-        (breakpoints[0], breakpoints[breakpoints.len() - 1]),
-        (0.0, 1.0)
-    );
+    assert_eq!((breakpoints[0], breakpoints[breakpoints.len() - 1]), (0.0, 1.0));
     assert!(breakpoints.windows(2).all(|u| u[0] < u[1]));
 }
 
@@ -96,18 +74,14 @@ fn a_corner_profile_returns_to_its_first_control_point_whether_it_is_repeated_or
     let repeated: Vec<_> = p.iter().copied().chain([p[0]]).collect();
     assert_eq!(Profile::new(&repeated, Closure::Corner).unwrap(), profile);
     assert_eq!(profile.position(1.0), p[0]);
-    let turn = profile
-        .derivative(0.0)
-        .angle_to(profile.derivative(1.0))
-        .abs();
+    let turn = profile.derivative(0.0).angle_to(profile.derivative(1.0)).abs();
     assert!(turn > 0.1, "a corner, not a smooth return: {turn}");
 }
 
 #[test]
 fn the_length_of_a_straight_profile_is_the_distance_of_its_ends() {
-    let p: Vec<_> = [0.0, 0.1, 0.15, 0.7, 0.75, 1.0]
-        .map(|s| DVec2::new(1.0 + 3.0 * s, 2.0 - 4.0 * s))
-        .to_vec();
+    let p: Vec<_> =
+        [0.0, 0.1, 0.15, 0.7, 0.75, 1.0].map(|s| DVec2::new(1.0 + 3.0 * s, 2.0 - 4.0 * s)).to_vec();
     let profile = Profile::with_knots(&p, &uneven_knots(6), Closure::Open).unwrap();
     assert!((profile.arc_length(1e-12) - 5.0).abs() < 1e-12);
 }
@@ -115,12 +89,7 @@ fn the_length_of_a_straight_profile_is_the_distance_of_its_ends() {
 #[test]
 fn the_length_of_a_parabola_is_within_the_requested_accuracy() {
     // Degree-elevated quadratic Bézier (0,0) (½,0) (1,1): z = x², length √5/2 + asinh(2)/4.
-    let p = points(&[
-        [0.0, 0.0],
-        [1.0 / 3.0, 0.0],
-        [2.0 / 3.0, 1.0 / 3.0],
-        [1.0, 1.0],
-    ]);
+    let p = points(&[[0.0, 0.0], [1.0 / 3.0, 0.0], [2.0 / 3.0, 1.0 / 3.0], [1.0, 1.0]]);
     let profile = Profile::new(&p, Closure::Open).unwrap();
     let exact = 5f64.sqrt() / 2.0 + 2f64.asinh() / 4.0;
     for k in 1..15 {
@@ -145,17 +114,12 @@ fn periodic_curves_around_a_circle_approach_its_circumference() {
         let turn = std::f64::consts::TAU / n as f64;
         // On a circle of control points (P_{i−1} + 4 P_i + P_{i+1}) / 6 shrinks the radius by (2 + cos turn) / 3.
         let radius = 3.0 / (2.0 + turn.cos());
-        let p: Vec<_> = (0..n)
-            .map(|k| radius * DVec2::from_angle(turn * k as f64))
-            .collect();
+        let p: Vec<_> = (0..n).map(|k| radius * DVec2::from_angle(turn * k as f64)).collect();
         let profile = Profile::new(&p, Closure::Smooth).unwrap();
         (profile.arc_length(1e-13) - std::f64::consts::TAU).abs()
     };
     let order = (error(8) / error(16)).log2();
-    assert!(
-        (3.5..6.5).contains(&order),
-        "fourth order or better: {order}"
-    );
+    assert!((3.5..6.5).contains(&order), "fourth order or better: {order}");
     assert!(error(128) < 1e-7, "{:e}", error(128));
 }
 
@@ -165,10 +129,7 @@ fn unusable_control_points_and_knots_are_refused_with_their_evidence() {
     let with = |knots: &[f64]| Profile::with_knots(&good, knots, Closure::Open).unwrap_err();
     assert!(matches!(
         Profile::new(&good[..3], Closure::Corner).unwrap_err(),
-        GeometryError::TooFewControlPoints {
-            count: 3,
-            minimum: 4
-        }
+        GeometryError::TooFewControlPoints { count: 3, minimum: 4 }
     ));
     for bad in [f64::NAN, f64::INFINITY, -1e101] {
         let mut p = good.clone();
@@ -178,32 +139,16 @@ fn unusable_control_points_and_knots_are_refused_with_their_evidence() {
             GeometryError::ControlPoint { index: 2, .. }
         ));
     }
-    assert!(matches!(
-        with(&[0.0; 8]),
-        GeometryError::KnotCount { expected: 9, .. }
-    ));
+    assert!(matches!(with(&[0.0; 8]), GeometryError::KnotCount { expected: 9, .. }));
     let knots = |inner: f64| [0.0, 0.0, 0.0, 0.0, inner, 1.0, 1.0, 1.0, 1.0];
     assert!(Profile::with_knots(&good, &knots(0.3), Closure::Open).is_ok());
-    assert!(matches!(
-        with(&knots(f64::NAN)),
-        GeometryError::KnotNotFinite { index: 4, .. }
-    ));
-    assert!(matches!(
-        with(&knots(-0.5)),
-        GeometryError::KnotsDecrease { index: 4, .. }
-    ));
+    assert!(matches!(with(&knots(f64::NAN)), GeometryError::KnotNotFinite { index: 4, .. }));
+    assert!(matches!(with(&knots(-0.5)), GeometryError::KnotsDecrease { index: 4, .. }));
     assert!(matches!(
         with(&knots(0.0)),
-        GeometryError::KnotMultiplicity {
-            count: 5,
-            limit: 4,
-            ..
-        }
+        GeometryError::KnotMultiplicity { count: 5, limit: 4, .. }
     ));
-    assert!(matches!(
-        with(&knots(1e-12)),
-        GeometryError::KnotSpanTooNarrow { .. }
-    ));
+    assert!(matches!(with(&knots(1e-12)), GeometryError::KnotSpanTooNarrow { .. }));
     assert!(matches!(with(&[2.0; 9]), GeometryError::KnotRange { .. }));
     let unclamped: Vec<_> = (0..10).map(f64::from).collect();
     assert!(matches!(
@@ -216,10 +161,7 @@ fn unusable_control_points_and_knots_are_refused_with_their_evidence() {
     );
     let profile = Profile::new(&good, Closure::Open).unwrap();
     for factor in [0.0, -1.0, f64::NAN, f64::INFINITY] {
-        assert!(matches!(
-            profile.scaled(factor),
-            Err(GeometryError::Scale { .. })
-        ));
+        assert!(matches!(profile.scaled(factor), Err(GeometryError::Scale { .. })));
     }
     assert!(profile.scaled(1e100).is_err(), "out of range");
 }

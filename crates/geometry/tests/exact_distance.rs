@@ -86,12 +86,8 @@ fn between_insides(a: [Point; 2], b: [Point; 2]) -> Option<f64> {
 }
 
 fn of_segments(a: [Point; 2], b: [Point; 2]) -> f64 {
-    let ends = a
-        .map(|p| to_segment(p, b))
-        .into_iter()
-        .chain(b.map(|p| to_segment(p, a)));
-    ends.chain(between_insides(a, b))
-        .fold(f64::INFINITY, f64::min)
+    let ends = a.map(|p| to_segment(p, b)).into_iter().chain(b.map(|p| to_segment(p, a)));
+    ends.chain(between_insides(a, b)).fold(f64::INFINITY, f64::min)
 }
 
 /// Whether a segment passes through the inside of a triangle.
@@ -119,13 +115,9 @@ fn of_triangles(a: [Point; 3], b: [Point; 3]) -> f64 {
     if meets {
         return 0.0;
     }
-    let corners = a
-        .iter()
-        .filter_map(|&p| to_inside(p, b))
-        .chain(b.iter().filter_map(|&p| to_inside(p, a)));
-    let pairs = edges(a)
-        .into_iter()
-        .flat_map(|e| edges(b).map(|f| of_segments(e, f)));
+    let corners =
+        a.iter().filter_map(|&p| to_inside(p, b)).chain(b.iter().filter_map(|&p| to_inside(p, a)));
+    let pairs = edges(a).into_iter().flat_map(|e| edges(b).map(|f| of_segments(e, f)));
     corners.chain(pairs).fold(f64::INFINITY, f64::min)
 }
 

@@ -19,15 +19,8 @@ fn no_meeting_is_missed_by_the_kernels() {
         println!("{class:?} {tally}");
         assert_eq!(tally.false_negatives, 0, "{class:?}: {tally}");
         assert!(tally.meets >= 10, "{class:?} has meetings: {tally}");
-        let is_exact = !matches!(
-            class,
-            Class::NearDegenerate | Class::SubUlp | Class::HugeOrTiny
-        );
-        let allowed = if is_exact {
-            tally.queries / 20
-        } else {
-            tally.queries / 2
-        };
+        let is_exact = !matches!(class, Class::NearDegenerate | Class::SubUlp | Class::HugeOrTiny);
+        let allowed = if is_exact { tally.queries / 20 } else { tally.queries / 2 };
         assert!(tally.false_positives <= allowed, "{class:?}: {tally}");
     }
 }
@@ -74,9 +67,7 @@ fn trusting_kernel(query: &Query) -> bool {
         }
         let [x, y, z] = differences(t0 + (t1 - t0) * (v0 / (v0 - v1)).clamp(0.0, 1.0));
         let normal = (y - x).cross(z - x);
-        [x.cross(y), y.cross(z), z.cross(x)]
-            .iter()
-            .all(|side| side.dot(normal) >= 0.0)
+        [x.cross(y), y.cross(z), z.cross(x)].iter().all(|side| side.dot(normal) >= 0.0)
     })
 }
 
@@ -125,10 +116,7 @@ fn the_reported_impact_is_no_later_than_the_first() {
                 Impact::Within { from, to } => {
                     assert!(to - from <= 1.0 / (1u64 << 44) as f64);
                     let before = (from * 64.0).floor() / 64.0;
-                    assert!(
-                        before == from || !until(before).meets(),
-                        "{class:?} {number}"
-                    );
+                    assert!(before == from || !until(before).meets(), "{class:?} {number}");
                 }
                 other => panic!("{class:?} {number}: {other:?}"),
             }
@@ -145,10 +133,7 @@ fn features_within_the_separation_at_an_instant_are_never_reported_as_apart() {
         let query = query(Class::SharedCoordinates, number);
         let t = (number % 9) as f64 / 8.0;
         let at = |path: &Path| path[0] * (1.0 - t) + path[1] * t;
-        let (i, j) = (
-            (number / 9 % 3) as f64 * 0.25,
-            (number / 27 % 3) as f64 * 0.25,
-        );
+        let (i, j) = ((number / 9 % 3) as f64 * 0.25, (number / 27 % 3) as f64 * 0.25);
         let apart = match &query {
             Query::VertexFacet(p, [a, b, c]) => {
                 at(p) - (at(a) * i + at(b) * j + at(c) * (1.0 - i - j))
@@ -158,16 +143,10 @@ fn features_within_the_separation_at_an_instant_are_never_reported_as_apart() {
             }
         };
         let separation = apart.length().next_up();
-        assert!(
-            may_meet(&query, separation),
-            "{number}: {query:?} {separation}"
-        );
+        assert!(may_meet(&query, separation), "{number}: {query:?} {separation}");
         told_apart += u32::from(!may_meet(&query, 0.25 * separation));
     }
-    assert!(
-        told_apart > 300,
-        "smaller separations are kept: {told_apart}"
-    );
+    assert!(told_apart > 300, "smaller separations are kept: {told_apart}");
 }
 
 #[test]

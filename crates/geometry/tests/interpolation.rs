@@ -28,10 +28,7 @@ fn the_curve_runs_through_every_point_with_two_continuous_derivatives() {
         let spans = points.len() - usize::from(closure == Closure::Open);
         assert_eq!(knots.len(), spans + 1);
         for (p, &u) in points.iter().zip(&knots) {
-            assert!(
-                profile.position(u).distance(*p) < 1e-14,
-                "{closure:?} at {u}"
-            );
+            assert!(profile.position(u).distance(*p) < 1e-14, "{closure:?} at {u}");
         }
         for &u in &knots[1..spans] {
             let (before, after) = (u - 1e-9, u + 1e-9);
@@ -103,14 +100,8 @@ fn points_that_make_no_curve_are_refused() {
         Profile::through(&points, closure).unwrap_err()
     };
     let open = Closure::Open;
-    assert!(matches!(
-        through(&[], open),
-        GeometryError::PointCount { count: 0, .. }
-    ));
-    assert!(matches!(
-        through(&[[0.0, 0.0]], open),
-        GeometryError::PointCount { .. }
-    ));
+    assert!(matches!(through(&[], open), GeometryError::PointCount { count: 0, .. }));
+    assert!(matches!(through(&[[0.0, 0.0]], open), GeometryError::PointCount { .. }));
     let triangle = [[0.0, 0.0], [1.0, 0.0], [0.0, 0.0]];
     assert!(matches!(
         through(&triangle, Closure::Corner),
@@ -128,21 +119,8 @@ fn points_that_make_no_curve_are_refused() {
         through(&[[0.0, 0.0], [f64::NAN, 0.0]], open),
         GeometryError::Point { index: 1, .. }
     ));
-    let apart = [
-        [0.0, 0.0],
-        [1.0, 0.0],
-        [2.0, 1.0],
-        [3.0, 4.0],
-        [4.0, 6.0],
-        [5.0, 9.0],
-    ];
-    assert!(matches!(
-        through(&apart, Closure::Smooth),
-        GeometryError::EndsApart { .. }
-    ));
+    let apart = [[0.0, 0.0], [1.0, 0.0], [2.0, 1.0], [3.0, 4.0], [4.0, 6.0], [5.0, 9.0]];
+    assert!(matches!(through(&apart, Closure::Smooth), GeometryError::EndsApart { .. }));
     let many = vec![[0.0, 0.0]; 20_001];
-    assert!(matches!(
-        through(&many, open),
-        GeometryError::PointCount { count: 20_001, .. }
-    ));
+    assert!(matches!(through(&many, open), GeometryError::PointCount { count: 20_001, .. }));
 }

@@ -94,11 +94,7 @@ pub fn paper<'a>(
         report_progress(progress, part, 1.0)?;
     }
     let [computed, reused] = store.counts();
-    Ok(PaperRun {
-        record,
-        computed,
-        reused,
-    })
+    Ok(PaperRun { record, computed, reused })
 }
 
 fn report_progress(
@@ -106,11 +102,7 @@ fn report_progress(
     part: PaperPart,
     done: f64,
 ) -> Result<(), PaperError> {
-    if progress(part, done) {
-        Ok(())
-    } else {
-        Err(PaperError::INTERRUPTED)
-    }
+    if progress(part, done) { Ok(()) } else { Err(PaperError::INTERRUPTED) }
 }
 
 /// Computes what is missing of a part.
@@ -126,12 +118,9 @@ fn make(store: &Store, part: PaperPart, progress: PaperProgress<'_>) -> Result<(
             folding(store, model, case, false, done).map(drop)
         })?,
         PaperPart::Certificates | PaperPart::FigureA1 => {
-            each(
-                &pairs(&CERTIFIED),
-                part,
-                progress,
-                |&(model, case), done| folding(store, model, case, true, done).map(drop),
-            )?;
+            each(&pairs(&CERTIFIED), part, progress, |&(model, case), done| {
+                folding(store, model, case, true, done).map(drop)
+            })?;
             if part == PaperPart::FigureA1 {
                 figures::draw(store, part, &|done| progress(part, done))?;
             }

@@ -36,11 +36,8 @@ pub(super) type PartProgress<'a> = &'a (dyn Fn(f64) -> bool + Sync);
 
 /// The name, the scene and the inputs of a motion.
 fn part(model: &str, case: Case, contact: bool) -> [String; 3] {
-    let (kind, frames) = if contact {
-        ("certificate", CONTACT_FRAMES)
-    } else {
-        ("case", FREE_FRAMES)
-    };
+    let (kind, frames) =
+        if contact { ("certificate", CONTACT_FRAMES) } else { ("case", FREE_FRAMES) };
     let motion = format!("contact = {contact}\nframes = {frames}\n");
     let scene = scene(model, case, &motion);
     let inputs = inputs(model, &scene);

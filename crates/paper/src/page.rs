@@ -49,18 +49,13 @@ fn table1(record: &PaperRecord) -> String {
     let rows = record.table1.iter().map(|row| {
         let printed = &row.paper;
         let mut cells = vec![row.model.clone(), format!("{} × {}", row.rows, row.columns)];
-        for (paper, ours) in [
-            (printed.max_residual, row.max_residual),
-            (printed.mean_residual, row.mean_residual),
-        ] {
+        for (paper, ours) in
+            [(printed.max_residual, row.max_residual), (printed.mean_residual, row.mean_residual)]
+        {
             cells.extend([paper, ours, ours - paper].map(|value| format!("{value:.3e}")));
         }
         let (paper, ours) = (printed.seconds, row.seconds);
-        cells.extend([
-            format!("{paper:.3}"),
-            format!("{ours:.6}"),
-            format!("{:.3}", ours - paper),
-        ]);
+        cells.extend([format!("{paper:.3}"), format!("{ours:.6}"), format!("{:.3}", ours - paper)]);
         cells
     });
     let words = "Residuals of the division into equal segments (equation 1). The paper's times were measured on another \
@@ -81,10 +76,7 @@ fn table2(record: &PaperRecord) -> String {
             None => cells.extend([NONE; 4].map(str::to_owned)),
         }
         cells.extend(counts(row.rows, row.columns));
-        let is_same = row
-            .paper
-            .as_ref()
-            .map(|p| (p.rows, p.columns) == (row.rows, row.columns));
+        let is_same = row.paper.as_ref().map(|p| (p.rows, p.columns) == (row.rows, row.columns));
         let remark = match is_same {
             Some(true) => "as printed",
             Some(false) => "differs",
@@ -93,12 +85,7 @@ fn table2(record: &PaperRecord) -> String {
         cells.push(remark.to_owned());
         cells
     });
-    section(
-        "Table 2",
-        "Units N_r × N_c of one target (Γ, W) in each case.",
-        head,
-        rows,
-    )
+    section("Table 2", "Units N_r × N_c of one target (Γ, W) in each case.", head, rows)
 }
 
 fn boxes(record: &PaperRecord) -> String {
@@ -107,10 +94,7 @@ fn boxes(record: &PaperRecord) -> String {
     let rows = record.cases.iter().map(|row| {
         let mut cells = name_of(row);
         cells.push(format!("{:.4}", row.unit_width));
-        let errors = row
-            .simulated_error
-            .map(|error| (error.area, error.volume))
-            .unzip();
+        let errors = row.simulated_error.map(|error| (error.area, error.volume)).unzip();
         let values: [fn(&BoxReport) -> f64; 2] = [|b| b.area, |b| b.volume];
         for (value, error) in values.into_iter().zip([errors.0, errors.1]) {
             let (paper, exact) = (value(&row.closed_form), value(&row.exact));
@@ -155,17 +139,11 @@ fn motion_cells(motion: &MotionRow) -> Vec<String> {
     vec![
         motion.verdict.to_string(),
         optional(motion.first_penetration_t),
-        motion
-            .min_separation
-            .map_or(NONE.to_owned(), |s| format!("{s:.1e}")),
+        motion.min_separation.map_or(NONE.to_owned(), |s| format!("{s:.1e}")),
         format!(
             "{}{}",
             motion.reached_t,
-            if motion.converged {
-                ""
-            } else {
-                " (not in equilibrium)"
-            }
+            if motion.converged { "" } else { " (not in equilibrium)" }
         ),
         optional(motion.jam_t),
         format!("{:.1e}", motion.peak_strain),
@@ -184,8 +162,7 @@ fn unfoldings(record: &PaperRecord) -> String {
             row.rows.to_string(),
             row.method.clone(),
             row.verdict.to_string(),
-            row.crosses_at
-                .map_or(NONE.to_owned(), |part| format!("{part:.4}")),
+            row.crosses_at.map_or(NONE.to_owned(), |part| format!("{part:.4}")),
             if row.proved { "yes" } else { NONE }.to_owned(),
             row.frames.to_string(),
         ]
@@ -220,10 +197,7 @@ fn problems(record: &PaperRecord) -> String {
                 add(format!("{name}: jams at t = {t:.4}."));
             }
             if motion.verdict == Verdict::Undecided || !motion.converged {
-                add(format!(
-                    "{name}: {}, reached t = {}.",
-                    motion.verdict, motion.reached_t
-                ));
+                add(format!("{name}: {}, reached t = {}.", motion.verdict, motion.reached_t));
             }
         }
     }
@@ -235,11 +209,7 @@ fn problems(record: &PaperRecord) -> String {
 
 fn name_of(row: &CaseRow) -> Vec<String> {
     let mark = if row.columns_ours { " *" } else { "" };
-    vec![
-        row.model.clone(),
-        row.case.clone(),
-        format!("{} × {}{mark}", row.rows, row.columns),
-    ]
+    vec![row.model.clone(), row.case.clone(), format!("{} × {}{mark}", row.rows, row.columns)]
 }
 
 /// A table with a title and an introduction; `head` has the names of its columns, separated by `; `.
@@ -273,9 +243,7 @@ fn section(
 }
 
 fn escaped(text: &str) -> String {
-    text.replace('&', "&amp;")
-        .replace('<', "&lt;")
-        .replace('>', "&gt;")
+    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;")
 }
 
 /// A text in which `_x` becomes a subscript.
@@ -284,9 +252,7 @@ fn marked(text: &str) -> String {
     let mut parts = text.split('_');
     let mut marked = parts.next().unwrap_or_default().to_owned();
     for part in parts {
-        let end = part
-            .find(|c: char| !c.is_alphanumeric())
-            .unwrap_or(part.len());
+        let end = part.find(|c: char| !c.is_alphanumeric()).unwrap_or(part.len());
         let (low, rest) = part.split_at(end);
         let _ = write!(marked, "<sub>{low}</sub>{rest}");
     }

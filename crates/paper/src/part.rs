@@ -78,10 +78,7 @@ impl PaperPart {
             })
         };
         let requested: Vec<Self> = list.split(',').map(find).collect::<Result<_, _>>()?;
-        Ok(Self::ALL
-            .into_iter()
-            .filter(|part| requested.contains(part))
-            .collect())
+        Ok(Self::ALL.into_iter().filter(|part| requested.contains(part)).collect())
     }
 }
 
@@ -102,10 +99,7 @@ mod tests {
         for list in ["", "fig11", "table1,,fig1", "figure1"] {
             let error = PaperPart::parse_list(list).unwrap_err();
             assert_eq!(error.status(), 2);
-            assert!(
-                error.to_string().contains("table1, table2, fig1"),
-                "{error}"
-            );
+            assert!(error.to_string().contains("table1, table2, fig1"), "{error}");
         }
     }
 }

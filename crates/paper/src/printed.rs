@@ -20,14 +20,7 @@ const fn row(
     [max_residual, mean_residual]: [f64; 2],
     seconds: f64,
 ) -> Table1 {
-    Table1 {
-        model,
-        rows,
-        columns,
-        max_residual,
-        mean_residual,
-        seconds,
-    }
+    Table1 { model, rows, columns, max_residual, mean_residual, seconds }
 }
 
 /// Table 1, in its order.
@@ -35,12 +28,7 @@ pub(super) const TABLE_1: [Table1; 9] = [
     row("shelter", [7, 5], [2.62096e-14, 8.61766e-15], 0.010),
     row("chair", [9, 4], [1.95472e-14, 9.99077e-15], 0.033),
     row("rolling-paper", [12, 4], [7.28233e-14, 2.64116e-14], 0.088),
-    row(
-        "fermat-spiral",
-        [100, 2],
-        [2.73695e-11, 3.98563e-12],
-        39.268,
-    ),
+    row("fermat-spiral", [100, 2], [2.73695e-11, 3.98563e-12], 39.268),
     row("omega", [35, 5], [5.03413e-13, 1.56708e-13], 1.475),
     row("mushroom", [14, 3], [1.06474e-13, 2.58246e-14], 0.208),
     row("whale", [20, 3], [1.40942e-12, 2.89229e-13], 0.351),
@@ -63,12 +51,7 @@ const fn counts(
     rows: usize,
     columns: [usize; 3],
 ) -> Table2 {
-    Table2 {
-        model,
-        figure,
-        rows,
-        columns,
-    }
+    Table2 { model, figure, rows, columns }
 }
 
 /// Table 2, in its order.

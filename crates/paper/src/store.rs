@@ -75,10 +75,7 @@ impl Store {
             self.reused.fetch_add(1, Ordering::Relaxed);
             return Ok(value);
         }
-        let stored = Stored {
-            key: key(inputs),
-            value: make()?,
-        };
+        let stored = Stored { key: key(inputs), value: make()? };
         let path = self.part_path(name);
         let text = serde_json::to_string(&stored)
             .map_err(|e| output_error(&path, "cannot be written", e.into()))?;
@@ -121,9 +118,7 @@ impl Store {
 /// Refuses a folder that has files with names of the paper but no record: they are files of the user.
 pub(super) fn require_clear(folder: &Path) -> Result<(), PaperError> {
     let has_name_of_paper = |name: &str| {
-        let figure = name
-            .strip_prefix("fig")
-            .and_then(|rest| rest.split_once('.'));
+        let figure = name.strip_prefix("fig").and_then(|rest| rest.split_once('.'));
         let is_figure = figure.is_some_and(|(_, ending)| matches!(ending, "svg" | "png"));
         is_figure || [RECORD, PAGE].contains(&name)
     };
@@ -133,13 +128,7 @@ pub(super) fn require_clear(folder: &Path) -> Result<(), PaperError> {
     }
     let mut names: Vec<String> = Vec::new();
     for entry in fs::read_dir(folder).into_iter().flatten().flatten() {
-        names.extend(
-            entry
-                .file_name()
-                .into_string()
-                .ok()
-                .filter(|name| has_name_of_paper(name)),
-        );
+        names.extend(entry.file_name().into_string().ok().filter(|name| has_name_of_paper(name)));
     }
     if names.is_empty() {
         return Ok(());
@@ -153,11 +142,7 @@ pub(super) fn require_clear(folder: &Path) -> Result<(), PaperError> {
 }
 
 fn output_error(path: &Path, action: &'static str, source: io::Error) -> PaperError {
-    PaperError::Study(StudyError::Output {
-        path: path.to_owned(),
-        action,
-        source,
-    })
+    PaperError::Study(StudyError::Output { path: path.to_owned(), action, source })
 }
 
 /// Removes the temporary files of killed processes in `folder`.
@@ -244,10 +229,7 @@ mod tests {
         for (name, text) in [(PAGE, "mine"), ("fig3.png", "mine"), (RECORD, "{}")] {
             fs::write(home.path().join(name), text).unwrap();
             let error = require_clear(home.path()).unwrap_err();
-            assert!(
-                error.status() == 2 && error.to_string().contains(name),
-                "{error}"
-            );
+            assert!(error.status() == 2 && error.to_string().contains(name), "{error}");
         }
     }
 

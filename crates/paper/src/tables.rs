@@ -21,9 +21,7 @@ pub(super) fn table1() -> Result<Vec<DivisionRow>, PaperError> {
     let mut rows = Vec::with_capacity(TABLE_1.len());
     for printed in &TABLE_1 {
         let model = find_model(printed.model).ok_or_else(|| PaperError::model(printed.model))?;
-        let profile = model
-            .profile()
-            .map_err(|e| PaperError::geometry(model.name, e))?;
+        let profile = model.profile().map_err(|e| PaperError::geometry(model.name, e))?;
         let options = DivisionOptions::default();
         let mut seconds = f64::INFINITY;
         let mut divided = None;
@@ -59,14 +57,13 @@ pub(super) fn table2() -> Vec<CountRow> {
         model: model.name.to_owned(),
         rows: model.rows,
         columns: [model.columns.e, model.columns.t, model.columns.s],
-        paper: TABLE_2
-            .iter()
-            .find(|printed| printed.model == model.name)
-            .map(|printed| PrintedCounts {
+        paper: TABLE_2.iter().find(|printed| printed.model == model.name).map(|printed| {
+            PrintedCounts {
                 figure: printed.figure.to_owned(),
                 rows: printed.rows,
                 columns: printed.columns,
-            }),
+            }
+        }),
     };
     models().iter().map(row).collect()
 }
@@ -124,18 +121,10 @@ mod tests {
             assert_eq!([row.rows, row.columns], [printed.rows, printed.columns]);
         }
         let table2 = table2();
-        let printed: Vec<_> = table2
-            .iter()
-            .filter_map(|r| Some((r, r.paper.as_ref()?)))
-            .collect();
+        let printed: Vec<_> = table2.iter().filter_map(|r| Some((r, r.paper.as_ref()?))).collect();
         assert_eq!(printed.len(), TABLE_2.len());
         for (row, paper) in printed {
-            assert_eq!(
-                (row.rows, row.columns),
-                (paper.rows, paper.columns),
-                "{}",
-                row.model
-            );
+            assert_eq!((row.rows, row.columns), (paper.rows, paper.columns), "{}", row.model);
         }
     }
 
@@ -143,17 +132,8 @@ mod tests {
     fn no_residual_is_above_the_papers_or_1e_13() {
         for row in table1().unwrap() {
             let limit = row.paper.max_residual.min(1e-13);
-            assert!(
-                row.max_residual <= limit,
-                "{}: {:e}",
-                row.model,
-                row.max_residual
-            );
-            assert!(
-                row.mean_residual <= row.paper.mean_residual,
-                "{}",
-                row.model
-            );
+            assert!(row.max_residual <= limit, "{}: {:e}", row.model, row.max_residual);
+            assert!(row.mean_residual <= row.paper.mean_residual, "{}", row.model);
         }
     }
 
@@ -171,21 +151,10 @@ mod tests {
             ];
             for (exact, closed) in pairs {
                 let error = (exact - closed).abs() / if closed == 0.0 { 1.0 } else { closed };
-                assert!(
-                    error < 1e-12,
-                    "{} {}: {exact} {closed}",
-                    row.model,
-                    row.case
-                );
+                assert!(error < 1e-12, "{} {}: {exact} {closed}", row.model, row.case);
             }
             let is_flat = matches!(row.case.as_str(), "E" | "T");
-            assert_eq!(
-                row.closed_form.volume == 0.0,
-                is_flat,
-                "{} {}",
-                row.model,
-                row.case
-            );
+            assert_eq!(row.closed_form.volume == 0.0, is_flat, "{} {}", row.model, row.case);
         }
     }
 

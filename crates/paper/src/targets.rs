@@ -31,18 +31,12 @@ pub(super) fn scene(model: &str, case: Case, motion: &str) -> String {
 
 /// The study of such a scene.
 pub(super) fn study(scene: String) -> Result<Study, PaperError> {
-    Ok(Study::resolve(&SceneSource::new(
-        Path::new("paper.toml"),
-        scene,
-    ))?)
+    Ok(Study::resolve(&SceneSource::new(Path::new("paper.toml"), scene))?)
 }
 
 /// The sheet of such a scene.
 pub(super) fn unit_study(scene: String) -> Result<UnitStudy, PaperError> {
-    Ok(UnitStudy::resolve(&SceneSource::new(
-        Path::new("paper.toml"),
-        scene,
-    ))?)
+    Ok(UnitStudy::resolve(&SceneSource::new(Path::new("paper.toml"), scene))?)
 }
 
 /// The sheet of `model` in `case` with its exact states, without a simulation.

@@ -46,10 +46,7 @@ fn check_all(model: &str, done: PartProgress<'_>) -> Result<Vec<UnfoldingRow>, P
     let scaled = |time: f64| turns.iter().map(|turn| (1.0 - time) * turn).collect();
     let uniform = check(model, &study, scaled, done)?;
     let is_proved = unfolding.certified && unfolding.path.is_none();
-    let mut rows = vec![UnfoldingRow {
-        proved: is_proved,
-        ..uniform
-    }];
+    let mut rows = vec![UnfoldingRow { proved: is_proved, ..uniform }];
     if let Some(path) = &unfolding.path {
         let by_energy = check(model, &study, |time| path.at(time), done)?;
         rows.push(UnfoldingRow {
@@ -97,11 +94,7 @@ fn motion(study: &UnitStudy, turns_at: impl Fn(f64) -> Vec<f64>) -> Result<Motio
         Ok(Frame { time, positions })
     };
     let frames = (0..=FRAMES).map(state).collect::<Result<_, PaperError>>()?;
-    Ok(Motion {
-        frames,
-        sheet: units.sheet,
-        compact_order: LayerOrder::default(),
-    })
+    Ok(Motion { frames, sheet: units.sheet, compact_order: LayerOrder::default() })
 }
 
 /// The turns from each segment of a polygon to the next, radians in (−π, π].

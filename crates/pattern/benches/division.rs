@@ -2,10 +2,7 @@
 //!
 //! `cargo bench -p foldmotion-pattern`
 
-#![expect(
-    clippy::unwrap_used,
-    reason = "a bench stops where a profile is broken"
-)]
+#![expect(clippy::unwrap_used, reason = "a bench stops where a profile is broken")]
 
 use divan::counter::ItemsCount;
 use divan::{Bencher, black_box};

@@ -26,11 +26,7 @@ impl CompactBox {
         let x = rows * unit.height - (rows - 1.0) * unit.flap;
         let y = columns * unit.compact_width();
         let area = x * unit.flap;
-        Some(Self {
-            extents: [x, y, unit.flap],
-            area,
-            volume: area * y,
-        })
+        Some(Self { extents: [x, y, unit.flap], area, volume: area * y })
     }
 }
 
@@ -78,9 +74,7 @@ mod tests {
                 let points = sheet.compact();
                 let low = points.iter().copied().reduce(glam::DVec3::min).unwrap();
                 let high = points.iter().copied().reduce(glam::DVec3::max).unwrap();
-                let error = ((high - low) - glam::DVec3::from(closed.extents))
-                    .abs()
-                    .max_element();
+                let error = ((high - low) - glam::DVec3::from(closed.extents)).abs().max_element();
                 assert!(error < 1e-13, "{case:?} {rows} x {columns}: {error}");
             }
         }
@@ -93,11 +87,7 @@ mod tests {
             CompactBox::closed_form(&Unit::new(case, w, h, lambda, None).unwrap(), 7, 5).unwrap()
         };
         let e = of(Case::E, 1.0, None);
-        assert!(
-            (e.area - (nr + 1.0) / 4.0 * h * h).abs() < 1e-14,
-            "equation 3: {}",
-            e.area
-        );
+        assert!((e.area - (nr + 1.0) / 4.0 * h * h).abs() < 1e-14, "equation 3: {}", e.area);
         let w = 0.7;
         let t = of(Case::T, w, None);
         assert!(
@@ -115,11 +105,7 @@ mod tests {
         let l = 0.7;
         let sii = of(Case::SII, w, Some(l));
         let volume = nc * (w - l * h) * (2.0 * nr - l * nr + l) / 4.0 * l * h * h;
-        assert!(
-            (sii.volume - volume).abs() < 1e-13,
-            "equation 7: {}",
-            sii.volume
-        );
+        assert!((sii.volume - volume).abs() < 1e-13, "equation 7: {}", sii.volume);
     }
 
     #[test]

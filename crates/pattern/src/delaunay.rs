@@ -20,9 +20,7 @@ pub(crate) fn delaunay(loops: &[Vec<u32>], points: &[DVec2]) -> Option<Vec<[u32;
     let position = |v: u32| points[v as usize];
     corners.sort_by(|&a, &b| {
         let (p, q) = (position(a), position(b));
-        p.x.total_cmp(&q.x)
-            .then(p.y.total_cmp(&q.y))
-            .then(a.cmp(&b))
+        p.x.total_cmp(&q.x).then(p.y.total_cmp(&q.y)).then(a.cmp(&b))
     });
     corners.dedup();
     for vertex in corners {
@@ -73,21 +71,11 @@ fn flood(
             }
         }
     }
-    let inside = mesh
-        .inner_faces()
-        .filter(|face| is_inside[face.fix().index()]);
-    Some(
-        inside
-            .map(|face| face.vertices().map(|v| vertices[v.index()]))
-            .collect(),
-    )
+    let inside = mesh.inner_faces().filter(|face| is_inside[face.fix().index()]);
+    Some(inside.map(|face| face.vertices().map(|v| vertices[v.index()])).collect())
 }
 
 /// Coordinates too small for the triangulation are 0.
 fn without_dust(coordinate: f64) -> f64 {
-    if coordinate.abs() < spade::MIN_ALLOWED_VALUE {
-        0.0
-    } else {
-        coordinate
-    }
+    if coordinate.abs() < spade::MIN_ALLOWED_VALUE { 0.0 } else { coordinate }
 }

@@ -113,9 +113,5 @@ pub enum PatternError {
 
 /// What is said of a value that may be missing.
 fn stated(value: f64) -> String {
-    if value.is_nan() {
-        "is missing".to_owned()
-    } else {
-        format!("is {}", Number(value))
-    }
+    if value.is_nan() { "is missing".to_owned() } else { format!("is {}", Number(value)) }
 }

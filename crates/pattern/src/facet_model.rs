@@ -43,10 +43,7 @@ pub(crate) struct MiddleNode {
 impl MiddleNode {
     fn of(vertices: &[DVec2], [a, b, c, d]: [u32; 4]) -> Self {
         let [p, q, r, s] = [a, b, c, d].map(|v| vertices[v as usize]);
-        Self {
-            diagonal: [a, c],
-            share: (q - p).perp_dot(s - q) / (r - p).perp_dot(s - q),
-        }
+        Self { diagonal: [a, c], share: (q - p).perp_dot(s - q) / (r - p).perp_dot(s - q) }
     }
 }
 
@@ -71,15 +68,10 @@ impl CutFacets {
             let middle = vertices.len() as u32;
             vertices.push(p.lerp(r, node.share));
             middle_nodes.push(node);
-            [[a, b], [b, c], [c, d], [d, a]]
-                .map(|[from, to]| [from, to, middle])
-                .to_vec()
+            [[a, b], [b, c], [c, d], [d, a]].map(|[from, to]| [from, to, middle]).to_vec()
         };
         let triangles = facets.iter().map(&mut cut).collect();
-        Self {
-            triangles,
-            middle_nodes,
-        }
+        Self { triangles, middle_nodes }
     }
 }
 

@@ -60,11 +60,9 @@ mod tests {
         let square = Unit::new(Case::E, 1.0, 1.0, None, None).unwrap();
         let short = Unit::new(Case::Plain, 2.5, 1.0, None, None).unwrap();
         for (rows, columns) in [(4, 3), (5, 11), (7, 5), (12, 8), (9, 20)] {
-            for (unit, folding) in [
-                (square, Folding::Waterbomb),
-                (square, Folding::Map),
-                (short, Folding::Map),
-            ] {
+            for (unit, folding) in
+                [(square, Folding::Waterbomb), (square, Folding::Map), (short, Folding::Map)]
+            {
                 let sheet = UnitSheet::laid_out(&vec![unit; rows], columns, folding).unwrap();
                 let exact = sheet.compact_order().len() as f64;
                 let told = UnitSheet::count_compact_order(unit, rows, columns, folding);

@@ -37,18 +37,15 @@ impl UnitSheet {
         }
         let positions = self.compact();
         let tolerance = OVERLAP_TOLERANCE * self.unit.height;
-        let mut layers: Vec<Layer> = (0..self.sheet.faces.len() as u32)
-            .map(|f| self.layer(f, &positions))
-            .collect();
+        let mut layers: Vec<Layer> =
+            (0..self.sheet.faces.len() as u32).map(|f| self.layer(f, &positions)).collect();
         layers.sort_by(|a, b| a.plane.cmp(&b.plane).then(a.offset.total_cmp(&b.offset)));
         let same_plane =
             |a: &Layer, b: &Layer| a.plane == b.plane && (a.offset - b.offset).abs() <= tolerance;
         for cluster in layers.chunk_by_mut(same_plane) {
             cluster.sort_by(|a, b| a.low.total_cmp(&b.low).then(a.face.cmp(&b.face)));
             for (i, a) in cluster.iter().enumerate() {
-                let near = cluster[i + 1..]
-                    .iter()
-                    .take_while(|b| b.low < a.high - tolerance);
+                let near = cluster[i + 1..].iter().take_while(|b| b.low < a.high - tolerance);
                 for b in near.filter(|b| a.overlaps(b, tolerance)) {
                     let (lower, upper) = if a.rank < b.rank { (a, b) } else { (b, a) };
                     // The rank grows along +axis; FOLD asks for the side of the second facet's front normal.
@@ -81,45 +78,19 @@ impl UnitSheet {
             _ => u64::from(self.half_unit_rank(facet_index)),
         };
         let (flat, offset, normal_along) = match plane {
-            Plane::X => (
-                corners.map(|p| DVec2::new(p.z, p.y)),
-                corners[0].x,
-                normal.x,
-            ),
-            Plane::Y => (
-                corners.map(|p| DVec2::new(p.x, p.z)),
-                corners[0].y,
-                normal.y,
-            ),
-            Plane::Z => (
-                corners.map(|p| DVec2::new(p.x, p.y)),
-                corners[0].z,
-                normal.z,
-            ),
+            Plane::X => (corners.map(|p| DVec2::new(p.z, p.y)), corners[0].x, normal.x),
+            Plane::Y => (corners.map(|p| DVec2::new(p.x, p.z)), corners[0].y, normal.y),
+            Plane::Z => (corners.map(|p| DVec2::new(p.x, p.y)), corners[0].z, normal.z),
         };
         let low = flat.iter().map(|p| p.x).fold(f64::INFINITY, f64::min);
         let high = flat.iter().map(|p| p.x).fold(f64::NEG_INFINITY, f64::max);
-        Layer {
-            face,
-            facet: facet_index,
-            plane,
-            flat,
-            offset,
-            rank,
-            normal_along,
-            low,
-            high,
-        }
+        Layer { face, facet: facet_index, plane, flat, offset, rank, normal_along, low, high }
     }
 
     /// Rank of a flap or tuck along +y.
     fn half_unit_rank(&self, facet: u32) -> u32 {
         let facet = &self.sheet.facets[facet as usize];
-        let middle = facet
-            .polygon
-            .iter()
-            .map(|&v| self.sheet.vertices[v as usize].y)
-            .sum::<f64>()
+        let middle = facet.polygon.iter().map(|&v| self.sheet.vertices[v as usize].y).sum::<f64>()
             / facet.polygon.len() as f64;
         let first_half = middle < (f64::from(facet.column) + 0.5) * self.unit.width;
         let even = facet.row.is_multiple_of(2);
@@ -137,11 +108,7 @@ impl UnitSheet {
         let facet = &self.sheet.facets[facet as usize];
         let row = facet.row as usize;
         let middle = f64::midpoint(self.boundaries[row], self.boundaries[row + 1]);
-        let mean = facet
-            .polygon
-            .iter()
-            .map(|&v| self.sheet.vertices[v as usize].x)
-            .sum::<f64>()
+        let mean = facet.polygon.iter().map(|&v| self.sheet.vertices[v as usize].x).sum::<f64>()
             / facet.polygon.len() as f64;
         mean < middle
     }
@@ -175,25 +142,17 @@ impl Layer {
         if self.facet == other.facet || self.rank == other.rank {
             return false;
         }
-        let axes = |t: &[DVec2; 3]| {
-            [
-                (t[1] - t[0]).perp(),
-                (t[2] - t[1]).perp(),
-                (t[0] - t[2]).perp(),
-            ]
-        };
+        let axes =
+            |t: &[DVec2; 3]| [(t[1] - t[0]).perp(), (t[2] - t[1]).perp(), (t[0] - t[2]).perp()];
         let span = |t: &[DVec2; 3], axis: DVec2| {
             let d = t.map(|p| p.dot(axis));
             (d[0].min(d[1]).min(d[2]), d[0].max(d[1]).max(d[2]))
         };
-        axes(&self.flat)
-            .into_iter()
-            .chain(axes(&other.flat))
-            .all(|axis| {
-                let axis = axis.normalize_or_zero();
-                let (a, b) = (span(&self.flat, axis), span(&other.flat, axis));
-                a.1.min(b.1) - a.0.max(b.0) > tolerance
-            })
+        axes(&self.flat).into_iter().chain(axes(&other.flat)).all(|axis| {
+            let axis = axis.normalize_or_zero();
+            let (a, b) = (span(&self.flat, axis), span(&other.flat, axis));
+            a.1.min(b.1) - a.0.max(b.0) > tolerance
+        })
     }
 }
 
@@ -246,22 +205,10 @@ mod tests {
                 if angle.abs() < 3.0 || edge.kind == CreaseKind::Border {
                     continue;
                 }
-                let [Some(f), Some(g)] = edge.faces else {
-                    panic!("a crease joins two triangles")
-                };
+                let [Some(f), Some(g)] = edge.faces else { panic!("a crease joins two triangles") };
                 let expected = if angle > 0.0 { 1 } else { -1 };
-                assert_eq!(
-                    order.sign(f, g),
-                    Some(expected),
-                    "{:?} {edge:?}",
-                    sheet.unit.case
-                );
-                assert_eq!(
-                    order.sign(g, f),
-                    Some(expected),
-                    "{:?} {edge:?}",
-                    sheet.unit.case
-                );
+                assert_eq!(order.sign(f, g), Some(expected), "{:?} {edge:?}", sheet.unit.case);
+                assert_eq!(order.sign(g, f), Some(expected), "{:?} {edge:?}", sheet.unit.case);
                 seen += 1;
             }
             assert!(seen > 20);
@@ -271,11 +218,6 @@ mod tests {
     #[test]
     fn a_short_unmodified_rectangle_has_no_order() {
         let unit = Unit::new(Case::Plain, 2.5, 1.0, None, None).unwrap();
-        assert!(
-            UnitSheet::new(unit, 3, 2)
-                .unwrap()
-                .compact_order()
-                .is_empty()
-        );
+        assert!(UnitSheet::new(unit, 3, 2).unwrap().compact_order().is_empty());
     }
 }

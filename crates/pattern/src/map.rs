@@ -41,11 +41,7 @@ impl UnitSheet {
     pub fn map_rank(&self, row: u32, column: u32) -> u64 {
         let columns = self.columns as u64;
         let (row, column) = (u64::from(row), u64::from(column));
-        let within = if row.is_multiple_of(2) {
-            column
-        } else {
-            columns - 1 - column
-        };
+        let within = if row.is_multiple_of(2) { column } else { columns - 1 - column };
         row * columns + within
     }
 
@@ -60,9 +56,7 @@ impl UnitSheet {
         let count = self.rows * self.columns;
         let mut next: Vec<BTreeMap<u32, u32>> = vec![BTreeMap::new(); count];
         for edge in &sheet.edges {
-            let of = edge
-                .faces
-                .map(|face| face.map(|f| sheet.face_facets[f as usize]));
+            let of = edge.faces.map(|face| face.map(|f| sheet.face_facets[f as usize]));
             if of[0] == of[1] {
                 continue;
             }
@@ -96,11 +90,7 @@ impl UnitSheet {
                 (CreaseKind::Facet, 0.0)
             } else {
                 let (lower, upper) = (of[0].min(of[1]), of[0].max(of[1]));
-                let kind = if lower.0 == upper.0 {
-                    CreaseKind::Column
-                } else {
-                    CreaseKind::Row
-                };
+                let kind = if lower.0 == upper.0 { CreaseKind::Column } else { CreaseKind::Row };
                 // A valley lays the facets front on front: the upper one on the front of one that faces up.
                 let is_above = self.map_rank(upper.0, upper.1) > self.map_rank(lower.0, lower.1);
                 let faces_up = (lower.0 + lower.1).is_multiple_of(2);
@@ -124,11 +114,7 @@ impl UnitSheet {
         let position = |&(line, location): &(u32, VertexLocation)| {
             let line = &self.lines[line as usize];
             let from_start = line.y - f64::from(line.column) * width;
-            let y = if line.column.is_multiple_of(2) {
-                from_start
-            } else {
-                width - from_start
-            };
+            let y = if line.column.is_multiple_of(2) { from_start } else { width - from_start };
             let x = match location {
                 VertexLocation::Boundary { boundary } => starts[boundary as usize],
                 VertexLocation::Mid { row, lower, .. } => {
@@ -149,22 +135,14 @@ impl UnitSheet {
         let starts = self.map_boundaries();
         let low = starts.iter().copied().fold(f64::INFINITY, f64::min);
         let high = starts.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-        CompactBox {
-            extents: [high - low, self.unit.width, 0.0],
-            area: 0.0,
-            volume: 0.0,
-        }
+        CompactBox { extents: [high - low, self.unit.width, 0.0], area: 0.0, volume: 0.0 }
     }
 
     /// x of each row boundary in the folded map.
     fn map_boundaries(&self) -> Vec<f64> {
         let mut starts = vec![0.0];
         for (row, unit) in self.row_units.iter().enumerate() {
-            let step = if row.is_multiple_of(2) {
-                -unit.height
-            } else {
-                unit.height
-            };
+            let step = if row.is_multiple_of(2) { -unit.height } else { unit.height };
             starts.push(starts[row] + step);
         }
         starts

@@ -159,9 +159,7 @@ pub struct Sheet {
 impl Sheet {
     /// The corner of triangle `face` that does not lie on `edge`.
     pub fn apex(&self, face: u32, edge: &Edge) -> Option<u32> {
-        self.faces[face as usize]
-            .into_iter()
-            .find(|v| !edge.vertices.contains(v))
+        self.faces[face as usize].into_iter().find(|v| !edge.vertices.contains(v))
     }
 
     /// The four points of a hinge, [e0, e1, left apex, right apex]; `None` for a border edge.

@@ -47,10 +47,7 @@ impl UnitSheet {
         }
         let extents = self.closed_form()?.extents;
         let plane = |z: f64| self.skin_plane(positions, z, tolerance, extents[0] * extents[1]);
-        Some(Skin {
-            upper: plane(0.0),
-            lower: plane(-self.unit.flap),
-        })
+        Some(Skin { upper: plane(0.0), lower: plane(-self.unit.flap) })
     }
 
     /// The areas on the upper and the lower plane in closed form: the top pads of U^O rows are the side pads, those of
@@ -67,11 +64,7 @@ impl UnitSheet {
         let mut areas = [0.0; 2];
         for row in 0..self.rows {
             let height = self.row_height(row);
-            let (top, bottom) = if row % 2 == 0 {
-                (side, centre)
-            } else {
-                (centre, side)
-            };
+            let (top, bottom) = if row % 2 == 0 { (side, centre) } else { (centre, side) };
             areas[0] += top * height;
             if self.row_units[row].split {
                 areas[1] += bottom * (height - 2.0 * self.unit.flap);
@@ -83,11 +76,8 @@ impl UnitSheet {
     fn skin_plane(&self, positions: &[DVec3], z: f64, tolerance: f64, rectangle: f64) -> SkinPlane {
         let sheet = &self.sheet;
         let is_on = |v: &u32| (positions[*v as usize].z - z).abs() <= tolerance;
-        let on_plane: Vec<bool> = sheet
-            .facets
-            .iter()
-            .map(|facet| facet.polygon.iter().all(is_on))
-            .collect();
+        let on_plane: Vec<bool> =
+            sheet.facets.iter().map(|facet| facet.polygon.iter().all(is_on)).collect();
         let is_flat = |face: &Option<u32>| {
             face.is_some_and(|face| on_plane[sheet.face_facets[face as usize] as usize])
         };
@@ -119,11 +109,7 @@ impl UnitSheet {
             edges: lines.len(),
             vertices: all - covered.len(),
             area,
-            share: if rectangle > 0.0 {
-                area / rectangle
-            } else {
-                0.0
-            },
+            share: if rectangle > 0.0 { area / rectangle } else { 0.0 },
         }
     }
 }
@@ -181,10 +167,7 @@ mod tests {
     fn sii_lies_on_both_planes_with_facets() {
         let skin = exact(&sheet(Case::SII, 1.6, Some(0.7), None));
         // Top pads: P strips (4) in even rows, Q strips (3) in odd ones; bottom pads the other way round.
-        assert_eq!(
-            (skin.upper.facets, skin.lower.facets),
-            (3 * 4 + 2 * 3, 3 * 3 + 2 * 4)
-        );
+        assert_eq!((skin.upper.facets, skin.lower.facets), (3 * 4 + 2 * 3, 3 * 3 + 2 * 4));
         assert!(skin.upper.area > 0.0 && skin.lower.area > 0.0);
         assert!(skin.upper.share < 1.0 && skin.lower.share < skin.upper.share);
     }
@@ -193,12 +176,7 @@ mod tests {
     fn a_vertex_lifted_off_the_plane_takes_its_facets_with_it() {
         let sheet = sheet(Case::SII, 1.6, Some(0.7), None);
         let mut positions = sheet.compact();
-        let pad = sheet
-            .sheet
-            .facets
-            .iter()
-            .find(|f| f.kind == crate::FacetKind::TopPad)
-            .unwrap();
+        let pad = sheet.sheet.facets.iter().find(|f| f.kind == crate::FacetKind::TopPad).unwrap();
         positions[pad.polygon[0] as usize].z += 0.01;
         let lifted = sheet.skin(&positions, 1e-3).unwrap();
         assert!(lifted.upper.area < exact(&sheet).upper.area - 1e-3);

@@ -69,10 +69,8 @@ impl UnitSheet {
             Facing::Left => -1.0,
             Facing::Right => 1.0,
         };
-        let turns: Vec<f64> = polygon
-            .windows(3)
-            .map(|p| sign * turn(p[1] - p[0], p[2] - p[1]))
-            .collect();
+        let turns: Vec<f64> =
+            polygon.windows(3).map(|p| sign * turn(p[1] - p[0], p[2] - p[1])).collect();
         let angle = |edge: &crate::Edge| match edge.kind {
             CreaseKind::Row => turns[edge.row as usize - 1],
             _ => 0.0,
@@ -84,10 +82,7 @@ impl UnitSheet {
         if polygon.len() == self.rows + 1 {
             Ok(())
         } else {
-            Err(PatternError::WrongPolygon {
-                found: polygon.len(),
-                rows: self.rows,
-            })
+            Err(PatternError::WrongPolygon { found: polygon.len(), rows: self.rows })
         }
     }
 
@@ -106,36 +101,21 @@ impl UnitSheet {
         // x of the P and the Q lines on every boundary.
         let (mut p, mut q) = (vec![0.0], vec![-a]);
         for row in 0..self.rows {
-            let (corner, mid) = if row % 2 == 0 {
-                (&mut p, &mut q)
-            } else {
-                (&mut q, &mut p)
-            };
+            let (corner, mid) = if row % 2 == 0 { (&mut p, &mut q) } else { (&mut q, &mut p) };
             corner.push(corner[row] - self.row_height(row));
             mid.push(corner[row + 1] + a);
         }
         let position = |&(line, location): &(u32, VertexLocation)| {
             let line = &self.lines[line as usize];
-            let (own, other) = if line.family == Family::P {
-                (&p, &q)
-            } else {
-                (&q, &p)
-            };
+            let (own, other) = if line.family == Family::P { (&p, &q) } else { (&q, &p) };
             let (x, z) = match location {
                 VertexLocation::Boundary { boundary } => (own[boundary as usize], 0.0),
                 // A mid line's corner line is the other family.
-                VertexLocation::Mid {
-                    row, both: true, ..
-                } => (
-                    f64::midpoint(other[row as usize], other[row as usize + 1]),
-                    -a,
-                ),
-                VertexLocation::Mid {
-                    row, lower: false, ..
-                } => (other[row as usize] - a, -a),
-                VertexLocation::Mid {
-                    row, lower: true, ..
-                } => (other[row as usize + 1] + a, -a),
+                VertexLocation::Mid { row, both: true, .. } => {
+                    (f64::midpoint(other[row as usize], other[row as usize + 1]), -a)
+                }
+                VertexLocation::Mid { row, lower: false, .. } => (other[row as usize] - a, -a),
+                VertexLocation::Mid { row, lower: true, .. } => (other[row as usize + 1] + a, -a),
             };
             DVec3::new(x, line.compact_y, z)
         };
@@ -210,11 +190,7 @@ fn fold(sheet: &Sheet, angles: &[f64]) -> (Vec<DVec3>, u32) {
             let [e0, e1] = edge.vertices.map(|v| positions[v as usize]);
             // Seen from a fixed right facet a positive angle turns the left one about e0 → e1; seen from the left
             // facet it turns the right one in the opposite direction.
-            let turn = if edge.faces[0] == Some(next) {
-                angles[index]
-            } else {
-                -angles[index]
-            };
+            let turn = if edge.faces[0] == Some(next) { angles[index] } else { -angles[index] };
             let spin = DMat3::from_quat(DQuat::from_axis_angle((e1 - e0).normalize(), turn));
             placed[next as usize] = Some((spin * rotation, spin * (shift - e0) + e0));
             queue.push_back(next);
@@ -231,10 +207,7 @@ mod tests {
     /// Positions of one state fitted onto another: the largest distance left.
     fn misfit(a: &[DVec3], b: &[DVec3]) -> f64 {
         let motion = RigidMotion::best_fit(a, b);
-        a.iter()
-            .zip(b)
-            .map(|(&p, &q)| motion.apply(p).distance(q))
-            .fold(0.0, f64::max)
+        a.iter().zip(b).map(|(&p, &q)| motion.apply(p).distance(q)).fold(0.0, f64::max)
     }
 
     #[test]
@@ -262,12 +235,7 @@ mod tests {
         let sheet =
             UnitSheet::new(Unit::new(Case::S, 1.6, 1.0, None, None).unwrap(), 3, 2).unwrap();
         let mut angles = sheet.compact_angles().to_vec();
-        let crease = sheet
-            .sheet
-            .edges
-            .iter()
-            .position(|e| e.kind == CreaseKind::Diagonal)
-            .unwrap();
+        let crease = sheet.sheet.edges.iter().position(|e| e.kind == CreaseKind::Diagonal).unwrap();
         angles[crease] -= 0.1;
         let (folded, _) = fold(&sheet.sheet, &angles);
         assert!(misfit(&folded, &sheet.compact()) > 1e-3);

@@ -158,13 +158,7 @@ pub fn clashes(units: &[Unit]) -> Vec<Clash> {
 
 /// Where creases end on the boundaries of a row, within one column: at its lines P and Q.
 fn boundary_ends(unit: &Unit) -> Vec<f64> {
-    let Unit {
-        width,
-        flap,
-        side_pad,
-        centre_pad,
-        ..
-    } = *unit;
+    let Unit { width, flap, side_pad, centre_pad, .. } = *unit;
     let mut ends = vec![side_pad, side_pad + flap];
     if centre_pad > 0.0 {
         ends.push(width - side_pad - flap);
@@ -189,9 +183,7 @@ mod tests {
     fn in_figure_10_the_square_row_meets_the_tall_one_and_the_short_one_clashes() {
         let units = own_cases(1.0, &[1.0, 1.4, 0.6]).unwrap();
         let found = clashes(&units);
-        let [clash] = found.as_slice() else {
-            panic!("one clash, not {found:?}")
-        };
+        let [clash] = found.as_slice() else { panic!("one clash, not {found:?}") };
         assert_eq!((clash.row, clash.name().as_str()), (1, "T against S"));
         assert_eq!(clash.ends[0], [0.0, 1.0]);
         let expected = [0.2, 0.8];
@@ -208,11 +200,8 @@ mod tests {
                 let units = own_cases(1.0, &[h0, h1]).unwrap();
                 let names: Vec<String> = clashes(&units).iter().map(Clash::name).collect();
                 let meets = h0 == h1 || (upper != "S" && lower != "S");
-                let expected = if meets {
-                    Vec::new()
-                } else {
-                    vec![format!("{upper} against {lower}")]
-                };
+                let expected =
+                    if meets { Vec::new() } else { vec![format!("{upper} against {lower}")] };
                 assert_eq!(names, expected, "heights {h0} and {h1}");
                 assert_eq!(UnitSheet::with_rows(&units, 2).is_ok(), meets);
             }
@@ -246,10 +235,7 @@ mod tests {
     #[test]
     fn one_flap_width_over_equal_heights_is_case_sii() {
         let units = common_flap(1.6, &[1.0; 4], 0.7, None).unwrap();
-        assert_eq!(
-            units[3],
-            Unit::new(Case::SII, 1.6, 1.0, Some(0.7), None).unwrap()
-        );
+        assert_eq!(units[3], Unit::new(Case::SII, 1.6, 1.0, Some(0.7), None).unwrap());
         let units = common_flap(0.7, &[1.0; 4], 1.0, None).unwrap();
         assert_eq!(units[0], Unit::new(Case::T, 0.7, 1.0, None, None).unwrap());
     }
@@ -267,9 +253,6 @@ mod tests {
         assert!(common_flap(1.0, &[1.0, 2.0], 1.0, Some(0.1)).is_err());
         // A row that is split by a hair.
         let error = common_flap(1.0, &[1.0, 1.0 + 1e-12], 1.0, None).unwrap_err();
-        assert!(
-            matches!(error, PatternError::DegenerateUnit { .. }),
-            "{error}"
-        );
+        assert!(matches!(error, PatternError::DegenerateUnit { .. }), "{error}");
     }
 }

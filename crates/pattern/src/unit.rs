@@ -93,10 +93,7 @@ impl Unit {
         if case != Case::SII {
             for (key, value) in [("lambda", lambda), ("offset", offset)] {
                 if value.is_some() {
-                    return Err(PatternError::KeyWithoutCase {
-                        key,
-                        case: case.name(),
-                    });
+                    return Err(PatternError::KeyWithoutCase { key, case: case.name() });
                 }
             }
         }
@@ -125,26 +122,15 @@ impl Unit {
 
     /// The distance of a mid vertex from its row boundary: a, or h/2 in an unmodified rectangle.
     pub fn mid_distance(&self) -> f64 {
-        if self.split {
-            self.flap
-        } else {
-            self.height / 2.0
-        }
+        if self.split { self.flap } else { self.height / 2.0 }
     }
 
     /// The narrowest of the parts the unit has: flap, pads, and the part between split mid vertices.
     pub fn thinnest_part(&self) -> f64 {
-        let ridge = if self.split {
-            self.height - 2.0 * self.flap
-        } else {
-            self.height
-        };
+        let ridge = if self.split { self.height - 2.0 * self.flap } else { self.height };
         // Pads that the case does not have are exactly 0 wide.
         let parts = [self.flap, self.side_pad, self.centre_pad, ridge];
-        parts
-            .into_iter()
-            .filter(|&part| part > 0.0)
-            .fold(f64::INFINITY, f64::min)
+        parts.into_iter().filter(|&part| part > 0.0).fold(f64::INFINITY, f64::min)
     }
 
     /// The width of one column in the compact state, 2s + 2d: flaps have no extent across the width.
@@ -154,42 +140,19 @@ impl Unit {
 
     pub(crate) fn require_wide_parts(&self) -> Result<(), PatternError> {
         let least = EQUAL_WIDTH_TOLERANCE * self.height;
-        let ridge = if self.split {
-            self.height - 2.0 * self.flap
-        } else {
-            self.height
-        };
+        let ridge = if self.split { self.height - 2.0 * self.flap } else { self.height };
         // Pads that the case does not have are exactly 0 wide.
         let pad = |width: f64| if width == 0.0 { f64::INFINITY } else { width };
         let parts = [
-            (
-                "the flap",
-                self.flap,
-                "choose fewer columns or a larger lambda",
-            ),
-            (
-                "the side pad",
-                pad(self.side_pad),
-                "choose a smaller offset or another width",
-            ),
-            (
-                "the centre pad",
-                pad(self.centre_pad),
-                "use offset = 0 or a larger one",
-            ),
-            (
-                "the part between the split mid vertices",
-                ridge,
-                "choose case E or a smaller lambda",
-            ),
+            ("the flap", self.flap, "choose fewer columns or a larger lambda"),
+            ("the side pad", pad(self.side_pad), "choose a smaller offset or another width"),
+            ("the centre pad", pad(self.centre_pad), "use offset = 0 or a larger one"),
+            ("the part between the split mid vertices", ridge, "choose case E or a smaller lambda"),
         ];
         match parts.into_iter().find(|&(_, value, _)| value < least) {
-            Some((part, value, remedy)) => Err(PatternError::DegenerateUnit {
-                part,
-                value,
-                height: self.height,
-                remedy,
-            }),
+            Some((part, value, remedy)) => {
+                Err(PatternError::DegenerateUnit { part, value, height: self.height, remedy })
+            }
             None => Ok(()),
         }
     }
@@ -214,13 +177,7 @@ fn require_ratio(case: Case, width: f64, height: f64) -> Result<(), PatternError
     if holds {
         Ok(())
     } else {
-        Err(PatternError::CaseContradictsUnit {
-            case: case.name(),
-            need,
-            width,
-            height,
-            remedy,
-        })
+        Err(PatternError::CaseContradictsUnit { case: case.name(), need, width, height, remedy })
     }
 }
 
@@ -274,47 +231,28 @@ mod tests {
 
     #[test]
     fn a_case_that_contradicts_the_width_is_refused() {
-        for (case, width) in [
-            (Case::E, 1.1),
-            (Case::T, 1.0),
-            (Case::T, 1.2),
-            (Case::S, 1.0),
-            (Case::S, 0.9),
-        ] {
+        for (case, width) in
+            [(Case::E, 1.1), (Case::T, 1.0), (Case::T, 1.2), (Case::S, 1.0), (Case::S, 0.9)]
+        {
             let error = Unit::new(case, width, 1.0, None, None).unwrap_err();
-            assert!(
-                matches!(error, PatternError::CaseContradictsUnit { .. }),
-                "{error}"
-            );
+            assert!(matches!(error, PatternError::CaseContradictsUnit { .. }), "{error}");
         }
         let error = Unit::new(Case::SII, 0.9, 1.0, Some(0.5), None).unwrap_err();
-        assert!(
-            matches!(error, PatternError::CaseContradictsUnit { .. }),
-            "{error}"
-        );
+        assert!(matches!(error, PatternError::CaseContradictsUnit { .. }), "{error}");
     }
 
     #[test]
     fn lambda_and_offset_out_of_range_are_refused() {
         for lambda in [None, Some(0.0), Some(1.0), Some(-0.2), Some(f64::NAN)] {
             let error = Unit::new(Case::SII, 1.6, 1.0, lambda, None).unwrap_err();
-            assert!(
-                matches!(error, PatternError::LambdaOutOfRange { .. }),
-                "{error}"
-            );
+            assert!(matches!(error, PatternError::LambdaOutOfRange { .. }), "{error}");
         }
         for offset in [-0.1, 0.46, 0.5, f64::NAN] {
             let error = Unit::new(Case::SII, 1.6, 1.0, Some(0.7), Some(offset)).unwrap_err();
-            assert!(
-                matches!(error, PatternError::OffsetOutOfRange { .. }),
-                "{error}"
-            );
+            assert!(matches!(error, PatternError::OffsetOutOfRange { .. }), "{error}");
         }
         let error = Unit::new(Case::S, 1.6, 1.0, Some(0.7), None).unwrap_err();
-        assert!(
-            matches!(error, PatternError::KeyWithoutCase { key: "lambda", .. }),
-            "{error}"
-        );
+        assert!(matches!(error, PatternError::KeyWithoutCase { key: "lambda", .. }), "{error}");
     }
 
     #[test]

@@ -74,10 +74,7 @@ impl VertexCheck {
     /// The sums of every other sector angle, radians; `None` for an odd number of creases.
     pub fn alternate_sums(&self) -> Option<[f64; 2]> {
         let sum = |start: usize| self.sectors.iter().skip(start).step_by(2).sum();
-        self.sectors
-            .len()
-            .is_multiple_of(2)
-            .then(|| [sum(0), sum(1)])
+        self.sectors.len().is_multiple_of(2).then(|| [sum(0), sum(1)])
     }
 
     /// Whether the sector angles sum to 2π.
@@ -190,9 +187,7 @@ impl Sheet {
             })
         };
         let around = creases_around(self).into_iter().enumerate();
-        PatternCheck {
-            vertices: around.filter_map(vertex_check).collect(),
-        }
+        PatternCheck { vertices: around.filter_map(vertex_check).collect() }
     }
 }
 
@@ -273,49 +268,26 @@ mod tests {
     fn e_has_six_crease_vertices_of_types_i_j_and_k_that_fold_flat() {
         let check = check(Case::E, 1.0, None, 3, 5);
         assert!(check.is_developable() && check.is_flat_foldable());
-        let groups: Vec<_> = check
-            .groups()
-            .iter()
-            .map(|g| (g.kind, g.degree, g.count))
-            .collect();
+        let groups: Vec<_> = check.groups().iter().map(|g| (g.kind, g.degree, g.count)).collect();
         // Centres: 5 in even rows, 4 inside odd rows. Boundaries: P inside (4), Q (5): J and K swap each boundary.
-        assert_eq!(
-            groups,
-            [
-                (VertexType::I, 6, 14),
-                (VertexType::J, 6, 9),
-                (VertexType::K, 6, 9)
-            ]
-        );
+        assert_eq!(groups, [(VertexType::I, 6, 14), (VertexType::J, 6, 9), (VertexType::K, 6, 9)]);
     }
 
     #[test]
     fn the_sector_angles_of_the_centre_are_those_of_figure_1b() {
         let check = check(Case::E, 1.0, None, 1, 1);
-        let [centre] = check.vertices.as_slice() else {
-            panic!("one interior vertex")
-        };
+        let [centre] = check.vertices.as_slice() else { panic!("one interior vertex") };
         let mut sectors = centre.sectors.clone();
         sectors.sort_by(f64::total_cmp);
         let expected = [PI / 4.0, PI / 4.0, PI / 4.0, PI / 4.0, PI / 2.0, PI / 2.0];
-        assert!(
-            sectors
-                .iter()
-                .zip(expected)
-                .all(|(a, b)| (a - b).abs() < 1e-15),
-            "{sectors:?}"
-        );
+        assert!(sectors.iter().zip(expected).all(|(a, b)| (a - b).abs() < 1e-15), "{sectors:?}");
     }
 
     #[test]
     fn t_splits_its_centres_into_four_crease_vertices_and_still_folds_flat() {
         let check = check(Case::T, 0.7, None, 3, 3);
         assert!(check.is_developable() && check.is_flat_foldable());
-        let split = check
-            .groups()
-            .into_iter()
-            .find(|g| g.kind == VertexType::Split)
-            .unwrap();
+        let split = check.groups().into_iter().find(|g| g.kind == VertexType::Split).unwrap();
         assert_eq!((split.degree, split.count), (4, 2 * (3 + 2 + 3)));
     }
 
@@ -324,17 +296,9 @@ mod tests {
         for (case, lambda) in [(Case::S, None), (Case::SII, Some(0.7))] {
             let check = check(case, 1.6, lambda, 3, 3);
             assert!(check.is_developable() && !check.is_flat_foldable());
-            let bad: Vec<_> = check
-                .groups()
-                .into_iter()
-                .filter(|g| !g.flat_foldable)
-                .collect();
+            let bad: Vec<_> = check.groups().into_iter().filter(|g| !g.flat_foldable).collect();
             assert!(bad.iter().all(|g| g.kind == VertexType::Pad), "{bad:?}");
-            assert!(
-                bad.iter()
-                    .any(|g| g.degree == 5 && g.alternate_sums.is_none()),
-                "{bad:?}"
-            );
+            assert!(bad.iter().any(|g| g.degree == 5 && g.alternate_sums.is_none()), "{bad:?}");
         }
     }
 
@@ -342,10 +306,7 @@ mod tests {
     fn the_unmodified_rectangle_satisfies_the_angle_conditions_whatever_its_shape() {
         for width in [0.7, 1.0, 2.5] {
             let check = check(Case::Plain, width, None, 3, 3);
-            assert!(
-                check.is_developable() && check.is_flat_foldable(),
-                "w = {width}"
-            );
+            assert!(check.is_developable() && check.is_flat_foldable(), "w = {width}");
         }
     }
 

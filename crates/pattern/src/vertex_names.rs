@@ -28,9 +28,7 @@ impl UnitSheet {
         };
         let letter = if even { 'C' } else { 'D' };
         let half = match location {
-            VertexLocation::Mid {
-                both: false, lower, ..
-            } => {
+            VertexLocation::Mid { both: false, lower, .. } => {
                 if lower {
                     "^2"
                 } else {
@@ -46,10 +44,7 @@ impl UnitSheet {
     fn side_of(&self, family: Family, y: f64, column: u32) -> Option<u32> {
         let start = f64::from(column) * self.unit.width;
         let sides = match family {
-            Family::P => vec![
-                (0, self.unit.side_pad),
-                (2, self.unit.width - self.unit.side_pad),
-            ],
+            Family::P => vec![(0, self.unit.side_pad), (2, self.unit.width - self.unit.side_pad)],
             Family::Q => vec![(1, self.unit.width / 2.0)],
         };
         let near = |&(_, at): &(u32, f64)| (y - start - at).abs() < 1e-9 * self.unit.width;
@@ -66,26 +61,16 @@ mod tests {
     fn names(case: Case, width: f64, row: u32, column: u32) -> BTreeSet<String> {
         let units = UnitSheet::new(Unit::new(case, width, 1.0, None, None).unwrap(), 3, 3).unwrap();
         let all = 0..units.sheet.vertices.len() as u32;
-        all.filter_map(|v| units.vertex_name(v, row, column))
-            .collect()
+        all.filter_map(|v| units.vertex_name(v, row, column)).collect()
     }
 
     #[test]
     fn every_unit_has_the_names_of_its_figure_once() {
         let expected = |list: &str| list.split(' ').map(str::to_owned).collect::<BTreeSet<_>>();
         for column in 0..3 {
-            assert_eq!(
-                names(Case::E, 1.0, 0, column),
-                expected("C1 C2 C3 C4 C5 C6 C7")
-            );
-            assert_eq!(
-                names(Case::S, 1.6, 1, column),
-                expected("D1 D2 D3 D4 D5 D6 D7 D8")
-            );
-            assert_eq!(
-                names(Case::T, 0.7, 2, column),
-                expected("C1 C2 C3 C4^1 C4^2 C5 C6 C7")
-            );
+            assert_eq!(names(Case::E, 1.0, 0, column), expected("C1 C2 C3 C4 C5 C6 C7"));
+            assert_eq!(names(Case::S, 1.6, 1, column), expected("D1 D2 D3 D4 D5 D6 D7 D8"));
+            assert_eq!(names(Case::T, 0.7, 2, column), expected("C1 C2 C3 C4^1 C4^2 C5 C6 C7"));
         }
     }
 

@@ -36,9 +36,8 @@ fn one_facet_a_unit_covers_it_counter_clockwise() {
         assert_eq!(sheet.facets.len(), map.rows * map.columns);
         for (facet, units) in sheet.facets.iter().zip(0..) {
             let corner = |i: usize| sheet.vertices[facet.polygon[i % facet.polygon.len()] as usize];
-            let area: f64 = (0..facet.polygon.len())
-                .map(|i| corner(i).perp_dot(corner(i + 1)) / 2.0)
-                .sum();
+            let area: f64 =
+                (0..facet.polygon.len()).map(|i| corner(i).perp_dot(corner(i + 1)) / 2.0).sum();
             let expected = map.unit.width * map.row_units()[facet.row as usize].height;
             assert!((area / expected - 1.0).abs() < 1e-13, "unit {units}");
         }
@@ -83,10 +82,7 @@ fn only_the_lines_between_units_are_creases_and_all_of_them_are() {
         }
         let width = map.unit.width * map.columns as f64;
         let height: f64 = map.row_units().iter().map(|u| u.height).sum();
-        let expected = [
-            width * (map.rows - 1) as f64,
-            height * (map.columns - 1) as f64,
-        ];
+        let expected = [width * (map.rows - 1) as f64, height * (map.columns - 1) as f64];
         for (found, expected) in lengths.into_iter().zip(expected) {
             assert!((found - expected).abs() < 1e-12, "{found} != {expected}");
         }

@@ -41,10 +41,7 @@ fn every_sheet() -> impl Iterator<Item = UnitSheet> {
     let of_model = move |model| {
         CASES.iter().flat_map(move |&c| {
             let sheet = move |&(rows, columns): &(usize, usize)| sheet(c, rows, columns);
-            SIZES
-                .iter()
-                .map(sheet)
-                .map(move |s| s.with_facet_model(model))
+            SIZES.iter().map(sheet).map(move |s| s.with_facet_model(model))
         })
     };
     models.into_iter().flat_map(of_model)
@@ -80,19 +77,11 @@ fn angle_error(sheet: &Sheet, positions: &[DVec3], expected: &[f64]) -> f64 {
 
 #[test]
 fn vertices_and_facets_are_as_many_as_the_geometry_counts() {
-    let counts = [
-        (CASES[0], 126, 210),
-        (CASES[1], 164, 210),
-        (CASES[3], 192, 270),
-        (CASES[5], 328, 363),
-    ];
+    let counts =
+        [(CASES[0], 126, 210), (CASES[1], 164, 210), (CASES[3], 192, 270), (CASES[5], 328, 363)];
     for (case, vertices, facets) in counts {
         let sheet = sheet(case, 7, 5).sheet;
-        assert_eq!(
-            (sheet.vertices.len(), sheet.facets.len()),
-            (vertices, facets),
-            "{case:?}"
-        );
+        assert_eq!((sheet.vertices.len(), sheet.facets.len()), (vertices, facets), "{case:?}");
     }
 }
 
@@ -126,15 +115,13 @@ fn a_middle_node_makes_four_triangles_of_a_quadrilateral_and_changes_nothing_els
 #[test]
 fn a_sheet_with_middle_nodes_is_its_own_mirror_image_and_one_with_diagonals_is_not() {
     for &case in &[CASES[1], CASES[3], CASES[5]] {
-        for (model, is_symmetric) in [
-            (FacetModel::Symmetric, true),
-            (FacetModel::OneDiagonal, false),
-        ] {
+        for (model, is_symmetric) in
+            [(FacetModel::Symmetric, true), (FacetModel::OneDiagonal, false)]
+        {
             let s = sheet(case, 3, 2).with_facet_model(model);
             let (length, width) = (3.0 * s.unit.height, 2.0 * s.unit.width);
-            let mirrors: [&dyn Fn(DVec2) -> DVec2; 2] = [&|v| DVec2::new(v.x, width - v.y), &|v| {
-                DVec2::new(-length - v.x, v.y)
-            }];
+            let mirrors: [&dyn Fn(DVec2) -> DVec2; 2] =
+                [&|v| DVec2::new(v.x, width - v.y), &|v| DVec2::new(-length - v.x, v.y)];
             let lines = |map: &dyn Fn(u32) -> u32| {
                 let ends = s.sheet.edges.iter().map(|e| {
                     let mut ends = e.vertices.map(map);
@@ -175,22 +162,12 @@ fn every_sheet_is_a_disc_of_counter_clockwise_triangles_that_fills_its_rectangle
         assert!(sheet.faces.iter().all(|f| area(f) > 0.0));
         let total: f64 = sheet.faces.iter().map(area).sum();
         let expected = (s.rows * s.columns) as f64 * s.unit.width * s.unit.height;
-        assert!(
-            (total / expected - 1.0).abs() < 1e-13,
-            "{total} != {expected}"
-        );
+        assert!((total / expected - 1.0).abs() < 1e-13, "{total} != {expected}");
         for edge in sheet.edges.iter().filter(|e| e.is_hinge()) {
             for (face, from) in edge.faces.iter().zip([0, 1]) {
                 let corners = sheet.faces[face.unwrap() as usize];
-                let at = corners
-                    .iter()
-                    .position(|&v| v == edge.vertices[from])
-                    .unwrap();
-                assert_eq!(
-                    corners[(at + 1) % 3],
-                    edge.vertices[1 - from],
-                    "left face first"
-                );
+                let at = corners.iter().position(|&v| v == edge.vertices[from]).unwrap();
+                assert_eq!(corners[(at + 1) % 3], edge.vertices[1 - from], "left face first");
             }
         }
     }
@@ -199,22 +176,12 @@ fn every_sheet_is_a_disc_of_counter_clockwise_triangles_that_fills_its_rectangle
 #[test]
 fn every_exact_state_is_isometric_to_the_sheet() {
     for s in every_sheet() {
-        let deployed = s
-            .deployed(&polygon(s.rows, s.unit.height), Facing::Left)
-            .unwrap();
-        for (name, state) in [
-            ("planar", s.sheet.planar()),
-            ("compact", s.compact()),
-            ("deployed", deployed),
-        ] {
+        let deployed = s.deployed(&polygon(s.rows, s.unit.height), Facing::Left).unwrap();
+        for (name, state) in
+            [("planar", s.sheet.planar()), ("compact", s.compact()), ("deployed", deployed)]
+        {
             let strain = largest_strain(&s.sheet, &state);
-            assert!(
-                strain < 1e-13,
-                "{:?} {name} {} x {}: {strain}",
-                s.unit,
-                s.rows,
-                s.columns
-            );
+            assert!(strain < 1e-13, "{:?} {name} {} x {}: {strain}", s.unit, s.rows, s.columns);
         }
     }
 }
@@ -223,13 +190,7 @@ fn every_exact_state_is_isometric_to_the_sheet() {
 fn measured_angles_of_the_compact_state_are_the_table_of_compact_angles() {
     for s in every_sheet() {
         let error = angle_error(&s.sheet, &s.compact(), s.compact_angles());
-        assert!(
-            error < 1e-7,
-            "{:?} {} x {}: {error}",
-            s.unit,
-            s.rows,
-            s.columns
-        );
+        assert!(error < 1e-7, "{:?} {} x {}: {error}", s.unit, s.rows, s.columns);
     }
 }
 
@@ -258,11 +219,7 @@ fn the_table_of_compact_angles_is_that_of_the_geometry() {
                 [FacetKind::Flap, FacetKind::Flap] => {
                     // On a mid line the flaps' common edge joins two mid vertices, h − 2a long; else it is h long.
                     let [p, q] = edge.vertices.map(|v| s.sheet.vertices[v as usize]);
-                    if p.distance(q) < s.unit.height * (1.0 - 1e-9) {
-                        PI
-                    } else {
-                        -PI
-                    }
+                    if p.distance(q) < s.unit.height * (1.0 - 1e-9) { PI } else { -PI }
                 }
                 [FacetKind::Flap, FacetKind::TopPad]
                 | [FacetKind::Tuck | FacetKind::TopPad, FacetKind::Wall] => -FRAC_PI_2,
@@ -302,9 +259,7 @@ fn the_deployed_state_lies_on_the_polygon_and_bends_only_the_hinges_between_rows
 #[test]
 fn the_flaps_are_on_the_requested_side_of_the_profile() {
     let s = sheet(CASES[0], 3, 2);
-    let polygon: Vec<DVec2> = (0..4)
-        .map(|k| DVec2::new(f64::from(k) * 1.3, 0.0))
-        .collect();
+    let polygon: Vec<DVec2> = (0..4).map(|k| DVec2::new(f64::from(k) * 1.3, 0.0)).collect();
     for (facing, front) in [(Facing::Left, -1.0), (Facing::Right, 1.0)] {
         let deployed = s.deployed(&polygon, facing).unwrap();
         let [a, b, c] = s.sheet.faces[0].map(|v| deployed[v as usize]);

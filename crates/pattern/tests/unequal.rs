@@ -152,11 +152,7 @@ fn overlap(a: [DVec3; 3], b: [DVec3; 3]) -> bool {
         (0..3).any(|i| {
             let (p, q, r) = (t[i], t[(i + 1) % 3], t[(i + 2) % 3]);
             let outwards = (q - p).cross(normal).normalize();
-            let outwards = if (r - p).dot(outwards) > 0.0 {
-                -outwards
-            } else {
-                outwards
-            };
+            let outwards = if (r - p).dot(outwards) > 0.0 { -outwards } else { outwards };
             other.iter().all(|&x| (x - p).dot(outwards) > -1e-9)
         })
     };
@@ -175,10 +171,7 @@ fn equal_rows_give_the_sheet_of_equal_units_bit_for_bit() {
         let unit = Unit::new(case, width * h, h, lambda, None).unwrap();
         let equal = UnitSheet::new(unit, 5, 3).unwrap();
         assert_eq!(UnitSheet::with_rows(&[unit; 5], 3).unwrap(), equal);
-        assert_eq!(
-            equal.sheet.vertices[equal.sheet.vertices.len() - 1].x,
-            -5.0 * h
-        );
+        assert_eq!(equal.sheet.vertices[equal.sheet.vertices.len() - 1].x, -5.0 * h);
     }
 }
 

@@ -29,12 +29,8 @@ pub enum View {
 
 impl View {
     /// Every view by its name in a scene file.
-    pub const NAMES: [(&'static str, Self); 4] = [
-        ("iso", Self::Iso),
-        ("front", Self::Front),
-        ("side", Self::Side),
-        ("top", Self::Top),
-    ];
+    pub const NAMES: [(&'static str, Self); 4] =
+        [("iso", Self::Iso), ("front", Self::Front), ("side", Self::Side), ("top", Self::Top)];
 
     /// The view called `name` in a scene file.
     pub fn from_name(name: &str) -> Option<Self> {
@@ -69,11 +65,7 @@ impl View {
             low = low.min(across);
             high = high.max(across);
         }
-        if is_finite {
-            [low, high]
-        } else {
-            [DVec2::NAN; 2]
-        }
+        if is_finite { [low, high] } else { [DVec2::NAN; 2] }
     }
 }
 
@@ -175,9 +167,7 @@ impl Camera {
             let foot = DVec3::new(middle.x, middle.y, point.z);
             [-radius, radius].map(|r| sides.map(|side| foot + r * side))
         };
-        let points = points
-            .into_iter()
-            .flat_map(|p| ends(p).into_iter().flatten());
+        let points = points.into_iter().flat_map(|p| ends(p).into_iter().flatten());
         Self::fit(view, points, size, margin)
     }
 
@@ -204,11 +194,7 @@ impl Camera {
             let [width, height] = (pixels / scale).to_array();
             return Err(RecordError::Extent { width, height });
         }
-        Ok(Self {
-            scale,
-            origin,
-            ..self
-        })
+        Ok(Self { scale, origin, ..self })
     }
 
     /// The camera turned by `degrees`, counter-clockwise seen from above, about the vertical through `middle`, which
@@ -268,11 +254,7 @@ mod tests {
 
     #[test]
     fn angles_name_the_fixed_views_and_every_view_has_a_right_handed_frame() {
-        let named = [
-            (View::Front, -90.0, 0.0),
-            (View::Side, 0.0, 0.0),
-            (View::Top, -90.0, 90.0),
-        ];
+        let named = [(View::Front, -90.0, 0.0), (View::Side, 0.0, 0.0), (View::Top, -90.0, 90.0)];
         for (view, azimuth, elevation) in named {
             let (found, expected) = (View::Around { azimuth, elevation }.axes(), view.axes());
             for (a, b) in found.into_iter().zip(expected) {
@@ -285,10 +267,7 @@ mod tests {
             assert!((right.cross(up) - toward).length() < 1e-14);
             assert!((right.length() - 1.0).abs() < 1e-14 && right.z == 0.0);
         }
-        let nowhere = View::Around {
-            azimuth: f64::NAN,
-            elevation: 0.0,
-        };
+        let nowhere = View::Around { azimuth: f64::NAN, elevation: 0.0 };
         assert!(Camera::fit(nowhere, [DVec3::ONE], [9, 9], 0.0).is_err());
     }
 
@@ -296,10 +275,7 @@ mod tests {
     fn an_aimed_camera_shows_its_centre_in_the_middle_and_its_width_across() {
         let points = [DVec3::ZERO, DVec3::new(3.0, 1.0, 0.5)];
         let (centre, size) = (DVec3::new(2.0, -1.0, 0.3), [400, 100]);
-        let view = View::Around {
-            azimuth: -37.0,
-            elevation: 21.0,
-        };
+        let view = View::Around { azimuth: -37.0, elevation: 21.0 };
         let fitted = Camera::fit(view, points, size, 0.1).unwrap();
         let camera = fitted.aimed(Some(centre), Some(8.0), size).unwrap();
         let project = |point: DVec3| camera.project(point).truncate();

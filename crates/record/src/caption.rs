@@ -32,11 +32,7 @@ impl Overlay {
         let letters = letters(size);
         let height = (2.0 * letters).round() as u32;
         let words = written(&[(0.5 * letters, &text)], [size[0], height], letters)?;
-        Ok(Self {
-            at: [0, size[1].saturating_sub(height)],
-            words,
-            scale: None,
-        })
+        Ok(Self { at: [0, size[1].saturating_sub(height)], words, scale: None })
     }
 
     /// The colour scale of `values` with their title and range, in the upper left corner.
@@ -55,20 +51,10 @@ impl Overlay {
         };
         let right = f64::from(left + width);
         let (start, below) = (f64::from(left), 3.4 * letters);
-        line(
-            &mut page,
-            start,
-            1.3 * letters,
-            &values.title,
-            Anchor::Start,
-        );
+        line(&mut page, start, 1.3 * letters, &values.title, Anchor::Start);
         line(&mut page, start, below, &low, Anchor::Start);
         line(&mut page, right, below, &high, Anchor::End);
-        Ok(Self {
-            at: [0, 0],
-            words: page.image()?,
-            scale: Some([left, top, width, thick]),
-        })
+        Ok(Self { at: [0, 0], words: page.image()?, scale: Some([left, top, width, thick]) })
     }
 
     /// Lays it over `image`; `alpha`, where given, covers what is written on.
@@ -108,11 +94,7 @@ impl Overlay {
 /// Dark words on light ground, light ones on dark.
 pub(crate) fn ink(ground: [u8; 3]) -> [u8; 3] {
     let [r, g, b] = ground.map(u32::from);
-    if 2 * r + 4 * g + b > 7 * 110 {
-        [38, 38, 42]
-    } else {
-        [235; 3]
-    }
+    if 2 * r + 4 * g + b > 7 * 110 { [38, 38, 42] } else { [235; 3] }
 }
 
 fn letters(size: [u32; 2]) -> f64 {
@@ -164,11 +146,7 @@ mod tests {
 
     #[test]
     fn captions_leave_ink_only_along_the_lower_edge_and_name_the_stage() {
-        let mut image = Image {
-            width: 121,
-            height: 90,
-            pixels: vec![[255; 3]; 121 * 90],
-        };
+        let mut image = Image { width: 121, height: 90, pixels: vec![[255; 3]; 121 * 90] };
         let overlay = Overlay::caption(0.5, None, [121, 90]).unwrap();
         overlay.draw(&mut image, None, [255; 3]);
         let dark = |rows: std::ops::Range<usize>| {

@@ -14,10 +14,7 @@ use crate::{Image, Style};
 #[expect(clippy::cast_sign_loss, reason = "clamped to 0 to 255 before")]
 pub(crate) fn uncovered(image: &Image, style: &Style, draw: impl Fn(&Style) -> Image) -> Vec<u8> {
     let far = |byte: u8| if byte < 128 { u8::MAX } else { 0 };
-    let other = Style {
-        background: style.background.map(far),
-        ..style.clone()
-    };
+    let other = Style { background: style.background.map(far), ..style.clone() };
     let range = linear(style.background) - linear(other.background);
     let whole = range.abs().element_sum();
     let alpha = |(a, b): (&[u8; 3], &[u8; 3])| {

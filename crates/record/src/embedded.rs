@@ -26,11 +26,7 @@ pub fn embedded(bytes: &[u8]) -> Option<String> {
 /// The comment among the extensions before the first picture (GIF89a, sections 17 to 26).
 fn gif(bytes: &[u8]) -> Option<String> {
     let flags = *bytes.get(10)?;
-    let colours = if flags & 0x80 == 0 {
-        0
-    } else {
-        3 << ((flags & 7) + 1)
-    };
+    let colours = if flags & 0x80 == 0 { 0 } else { 3 << ((flags & 7) + 1) };
     let mut rest = bytes.get(13 + colours..)?;
     while let [0x21, label, blocks @ ..] = rest {
         let mut text = Vec::new();
@@ -122,9 +118,5 @@ fn xml(bytes: &[u8]) -> Option<String> {
     let rest = &bytes[from..];
     let text = std::str::from_utf8(&rest[..find(rest, END)?]).ok()?;
     // In this sequence, because what is escaped may itself look like an escape.
-    Some(
-        text.replace("&lt;", "<")
-            .replace("&gt;", ">")
-            .replace("&amp;", "&"),
-    )
+    Some(text.replace("&lt;", "<").replace("&gt;", ">").replace("&amp;", "&"))
 }

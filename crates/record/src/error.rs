@@ -249,9 +249,7 @@ impl From<::png::EncodingError> for RecordError {
     fn from(error: ::png::EncodingError) -> Self {
         match error {
             ::png::EncodingError::IoError(error) => Self::Write(error),
-            other => Self::Png {
-                message: other.to_string(),
-            },
+            other => Self::Png { message: other.to_string() },
         }
     }
 }

@@ -127,18 +127,11 @@ impl FilmOptions {
         ];
         for (name, value) in durations {
             if !(0.0..=MAX_SECONDS).contains(&value) {
-                return Err(RecordError::Seconds {
-                    name,
-                    value,
-                    limit: MAX_SECONDS,
-                });
+                return Err(RecordError::Seconds { name, value, limit: MAX_SECONDS });
             }
         }
         if !(-MAX_TURN..=MAX_TURN).contains(&self.turn) {
-            return Err(RecordError::Turn {
-                value: self.turn,
-                limit: MAX_TURN,
-            });
+            return Err(RecordError::Turn { value: self.turn, limit: MAX_TURN });
         }
         Ok(())
     }

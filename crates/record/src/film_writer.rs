@@ -116,17 +116,8 @@ pub fn film(
         }
         let next = done..(done + length).min(set.shots.len());
         let (pictures, taken) = rayon::join(
-            || {
-                next.clone()
-                    .into_par_iter()
-                    .map(|i| set.picture(i))
-                    .collect()
-            },
-            || {
-                writers
-                    .iter_mut()
-                    .try_for_each(|writer| writer.take(&drawn))
-            },
+            || next.clone().into_par_iter().map(|i| set.picture(i)).collect(),
+            || writers.iter_mut().try_for_each(|writer| writer.take(&drawn)),
         );
         taken?;
         let pictures: Result<Vec<Picture>, RecordError> = pictures;
@@ -162,14 +153,11 @@ impl<'a> Set<'a> {
         if let Some(values) = scene.values {
             values.check(motion)?;
         }
-        let points = motion
-            .frames
-            .iter()
-            .flat_map(|f| f.positions.iter().copied());
-        let (low, high) = points.clone().fold(
-            (DVec3::INFINITY, DVec3::NEG_INFINITY),
-            |(low, high), point| (low.min(point), high.max(point)),
-        );
+        let points = motion.frames.iter().flat_map(|f| f.positions.iter().copied());
+        let (low, high) =
+            points.clone().fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(low, high), point| {
+                (low.min(point), high.max(point))
+            });
         let middle = options.centre.unwrap_or((low + high) * 0.5);
         let (view, size, margin) = (options.view, options.size, options.margin);
         let camera = if options.turn == 0.0 {
@@ -205,26 +193,15 @@ impl<'a> Set<'a> {
             ..options.style.clone()
         };
         let paints = self.paints(index);
-        let draw = |style: &Style| {
-            raster(
-                &self.paper,
-                &positions,
-                &camera,
-                style,
-                &paints,
-                options.size,
-            )
-        };
+        let draw =
+            |style: &Style| raster(&self.paper, &positions, &camera, style, &paints, options.size);
         let mut image = draw(&style);
-        let mut alpha = options
-            .is_transparent
-            .then(|| uncovered(&image, &style, draw));
+        let mut alpha = options.is_transparent.then(|| uncovered(&image, &style, draw));
         let last = self.scene.motion.frames.last();
         let is_last = last.is_some_and(|frame| shot.time >= frame.time);
         let ending = options.ending.as_deref().filter(|_| is_last);
-        let caption = options
-            .has_caption
-            .then(|| Overlay::caption(shot.time, ending, options.size));
+        let caption =
+            options.has_caption.then(|| Overlay::caption(shot.time, ending, options.size));
         let overlays = [self.legend.clone(), caption.transpose()?];
         for overlay in overlays.into_iter().flatten() {
             overlay.draw(&mut image, alpha.as_deref_mut(), options.style.background);
@@ -238,11 +215,7 @@ impl<'a> Set<'a> {
     }
 
     fn paints(&self, index: usize) -> Vec<Paint> {
-        let Scene {
-            motion,
-            marks,
-            values,
-        } = self.scene;
+        let Scene { motion, marks, values } = self.scene;
         let time = self.shots[index].time;
         let before = index.checked_sub(1).map_or(time, |i| self.shots[i].time);
         let marked = marks.at(&motion.sheet, before.min(time), before.max(time));
@@ -270,9 +243,7 @@ fn following(
     let centre = DVec2::from(options.size.map(f64::from)) * 0.5;
     let around = |(shot, camera): (&Shot, &Camera)| {
         let positions = positions_at(motion, shot.time);
-        let points = positions
-            .iter()
-            .map(|&p| camera.project(p).truncate() - centre);
+        let points = positions.iter().map(|&p| camera.project(p).truncate() - centre);
         let empty = [DVec2::INFINITY, DVec2::NEG_INFINITY];
         points.fold(empty, |[low, high], p| [low.min(p), high.max(p)])
     };

@@ -35,10 +35,7 @@ impl Frame {
     fn around(middle: DVec2, half: DVec2, room: DVec2) -> Self {
         let part = (half / room).max_element().clamp(LEAST, 1.0);
         let free = (1.0 - part) * room;
-        Self {
-            middle: middle.clamp(-free, free),
-            part,
-        }
+        Self { middle: middle.clamp(-free, free), part }
     }
 }
 
@@ -90,9 +87,7 @@ mod tests {
         let part = |k: u32| f64::from(k) / f64::from(count - 1);
         let half = |k: u32| (0.025 + 0.975 * part(k).powi(3)) * ROOM * DVec2::new(1.0, 0.7);
         let middle = |k: u32| (1.0 - part(k)) * DVec2::new(-40.0, 20.0);
-        (0..count)
-            .map(|k| [middle(k) - half(k), middle(k) + half(k)])
-            .collect()
+        (0..count).map(|k| [middle(k) - half(k), middle(k) + half(k)]).collect()
     }
 
     #[test]
@@ -133,10 +128,7 @@ mod tests {
     #[test]
     fn a_sheet_that_keeps_its_size_is_seen_in_the_whole_picture() {
         let boxes = [[-ROOM, ROOM * 0.9], [-0.61 * ROOM, 0.61 * ROOM]];
-        let whole = Frame {
-            middle: DVec2::ZERO,
-            part: 1.0,
-        };
+        let whole = Frame { middle: DVec2::ZERO, part: 1.0 };
         assert_eq!(frames(&boxes, ROOM, 30.0), [whole; 2]);
     }
 

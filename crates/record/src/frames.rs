@@ -24,21 +24,14 @@ pub struct Frames<F> {
 impl<F: FnMut(&str, &[u8]) -> std::io::Result<()> + Send> Frames<F> {
     /// `write` gets the name and the bytes of each file, in order.
     pub fn new(write: F) -> Self {
-        Self {
-            write,
-            count: 0,
-            provenance: String::new(),
-            background: [0; 3],
-        }
+        Self { write, count: 0, provenance: String::new(), background: [0; 3] }
     }
 }
 
 impl<F> std::fmt::Debug for Frames<F> {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         let count = self.count;
-        f.debug_struct("Frames")
-            .field("count", &count)
-            .finish_non_exhaustive()
+        f.debug_struct("Frames").field("count", &count).finish_non_exhaustive()
     }
 }
 

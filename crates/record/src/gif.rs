@@ -23,11 +23,7 @@ pub fn gif(
     writer: impl Write + Send,
     progress: &(dyn Fn(f64) -> bool + Sync),
 ) -> Result<(), RecordError> {
-    let scene = Scene {
-        motion,
-        marks,
-        values: None,
-    };
+    let scene = Scene { motion, marks, values: None };
     film(scene, options, &mut [&mut Gif::new(writer)], progress)
 }
 
@@ -42,12 +38,7 @@ pub struct Gif<W: Write> {
 impl<W: Write> Gif<W> {
     /// `writer`: where the bytes go; best buffered.
     pub fn new(writer: W) -> Self {
-        Self {
-            writer: Some(writer),
-            encoder: None,
-            palette: None,
-            previous: None,
-        }
+        Self { writer: Some(writer), encoder: None, palette: None, previous: None }
     }
 }
 
@@ -84,13 +75,9 @@ impl<W: Write + Send> FilmWriter for Gif<W> {
             return Ok(());
         };
         let width = last.image.width as u16;
-        let indices: Vec<_> = (pictures.par_iter())
-            .map(|picture| palette.indices(&picture.image))
-            .collect();
-        let before = |i: usize| {
-            i.checked_sub(1)
-                .map_or(self.previous.as_ref(), |j| indices.get(j))
-        };
+        let indices: Vec<_> =
+            (pictures.par_iter()).map(|picture| palette.indices(&picture.image)).collect();
+        let before = |i: usize| i.checked_sub(1).map_or(self.previous.as_ref(), |j| indices.get(j));
         let frames: Vec<_> = (0..indices.len())
             .into_par_iter()
             .map(|i| compressed(before(i), &indices[i], width, pictures[i].shot.centiseconds))
@@ -126,11 +113,7 @@ fn compressed(before: Option<&Vec<u8>>, after: &[u8], width: u16, delay: u16) ->
             None => buffer.extend_from_slice(&after[part]),
             Some(before) => {
                 let kept = |(old, new): (&u8, &u8)| {
-                    if old == new {
-                        Palette::TRANSPARENT
-                    } else {
-                        *new
-                    }
+                    if old == new { Palette::TRANSPARENT } else { *new }
                 };
                 buffer.extend(before[part.clone()].iter().zip(&after[part]).map(kept));
             }

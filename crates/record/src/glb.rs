@@ -71,10 +71,7 @@ pub fn glb(
     options: &GlbOptions,
     mut writer: impl Write,
 ) -> Result<KeyFrames, RecordError> {
-    for (name, value) in [
-        ("seconds[0]", options.seconds[0]),
-        ("seconds[1]", options.seconds[1]),
-    ] {
+    for (name, value) in [("seconds[0]", options.seconds[0]), ("seconds[1]", options.seconds[1])] {
         if !(value.is_finite() && value > 0.0) {
             return Err(RecordError::NotPositive { name, value });
         }
@@ -89,12 +86,7 @@ pub fn glb(
         });
     }
     check_size(motion, options, keys.frames.len())?;
-    let mut scene = Model {
-        motion,
-        options,
-        keys: &keys,
-        buffer: Buffer::default(),
-    };
+    let mut scene = Model { motion, options, keys: &keys, buffer: Buffer::default() };
     let document = scene.document();
     writer.write_all(&container(&document, &scene.buffer.bytes))?;
     writer.flush()?;
@@ -127,13 +119,7 @@ struct Model<'a> {
 impl Model<'_> {
     fn document(&mut self) -> Value {
         let style = &self.options.style;
-        let colours = [
-            style.front,
-            style.back,
-            style.mountain,
-            style.valley,
-            style.border,
-        ];
+        let colours = [style.front, style.back, style.mountain, style.valley, style.border];
         let names = ["front", "back", "mountain", "valley", "border"];
         let materials: Vec<Value> = names.iter().zip(colours).map(material).collect();
         let sides = [0, 1].map(|side| self.side(side));
@@ -189,10 +175,7 @@ impl Model<'_> {
     /// The positions of the key frames.
     fn states(&self) -> impl Iterator<Item = &[DVec3]> {
         let frames = &self.motion.frames;
-        self.keys
-            .frames
-            .iter()
-            .map(|&i| frames[i].positions.as_slice())
+        self.keys.frames.iter().map(|&i| frames[i].positions.as_slice())
     }
 
     /// The triangles seen from the front (0) or from the back (1).
@@ -214,13 +197,8 @@ impl Model<'_> {
         let normals: Option<Vec<_>> =
             (self.options.has_normals).then(|| self.states().map(normals).collect());
         let count = 3 * faces.len() as u32;
-        let order = (0..count).map(|i| {
-            if side == 1 && i % 3 > 0 {
-                i - i % 3 + 3 - i % 3
-            } else {
-                i
-            }
-        });
+        let order =
+            (0..count).map(|i| if side == 1 && i % 3 > 0 { i - i % 3 + 3 - i % 3 } else { i });
         let indices = self.buffer.indices(&order.collect::<Vec<_>>());
         self.primitive(&positions, normals.as_deref(), side, 4, Some(indices))
     }
@@ -283,20 +261,14 @@ impl Model<'_> {
         }
         let [unfold, fold] = self.options.seconds;
         let seconds = |time: f64| time.min(1.0) * unfold + (time - 1.0).max(0.0) * fold;
-        let times = self
-            .keys
-            .frames
-            .iter()
-            .map(|&i| seconds(self.motion.frames[i].time));
+        let times = self.keys.frames.iter().map(|&i| seconds(self.motion.frames[i].time));
         let times: Vec<f64> = times.collect();
         let times: Vec<f32> = times.iter().map(|s| (s - times[0]) as f32).collect();
         let weight = |key: usize, target: usize| f32::from(u8::from(key == target + 1));
         let rows = (0..count).flat_map(|key| (0..count - 1).map(move |t| weight(key, t)));
         let weights: Vec<f32> = rows.collect();
-        let (input, output) = (
-            self.buffer.scalars(&times, true),
-            self.buffer.scalars(&weights, false),
-        );
+        let (input, output) =
+            (self.buffer.scalars(&times, true), self.buffer.scalars(&weights, false));
         let channel =
             |node: usize| json!({"sampler": 0, "target": {"node": node, "path": "weights"}});
         Some(json!({

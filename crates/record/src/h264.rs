@@ -38,9 +38,7 @@ pub struct Mp4<W> {
 impl<W> std::fmt::Debug for Mp4<W> {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         let frames = self.track.lengths.len();
-        f.debug_struct("Mp4")
-            .field("frames", &frames)
-            .finish_non_exhaustive()
+        f.debug_struct("Mp4").field("frames", &frames).finish_non_exhaustive()
     }
 }
 
@@ -69,10 +67,7 @@ impl<W: Write + Send> Mp4<W> {
     /// [`RecordError::Feature`] in a build without the feature `mp4`.
     pub fn new(writer: W) -> Result<Self, RecordError> {
         if cfg!(not(feature = "mp4")) {
-            return Err(RecordError::Feature {
-                what: "an MP4 film",
-                feature: "mp4",
-            });
+            return Err(RecordError::Feature { what: "an MP4 film", feature: "mp4" });
         }
         Ok(Self {
             writer,
@@ -115,9 +110,8 @@ impl<W: Write + Send> FilmWriter for Mp4<W> {
     }
 
     fn take(&mut self, pictures: &[Picture]) -> Result<(), RecordError> {
-        let planes: Vec<_> = (pictures.par_iter())
-            .map(|picture| Planes::new(&picture.image))
-            .collect();
+        let planes: Vec<_> =
+            (pictures.par_iter()).map(|picture| Planes::new(&picture.image)).collect();
         for (planes, picture) in planes.iter().zip(pictures) {
             for _ in 0..picture.shot.repeats {
                 self.push(planes)?;
@@ -201,18 +195,13 @@ fn encoder(fps: f64) -> Result<Encoder, RecordError> {
         .intra_frame_period(IntraFramePeriod::from_num_frames(period))
         .num_threads(1)
         .vui(VuiConfig::bt709());
-    Ok(Encoder::with_api_config(
-        OpenH264API::from_source(),
-        config,
-    )?)
+    Ok(Encoder::with_api_config(OpenH264API::from_source(), config)?)
 }
 
 #[cfg(feature = "mp4")]
 impl From<openh264::Error> for RecordError {
     fn from(error: openh264::Error) -> Self {
-        Self::H264 {
-            message: error.to_string(),
-        }
+        Self::H264 { message: error.to_string() }
     }
 }
 
@@ -258,10 +247,7 @@ impl Planes {
                 planes[2].push((128.5 + red) as u8);
             }
         }
-        Self {
-            size: [even_width, even_height],
-            planes,
-        }
+        Self { size: [even_width, even_height], planes }
     }
 
     fn slices(&self) -> openh264::formats::YUVSlices<'_> {
@@ -279,11 +265,7 @@ mod tests {
     #[test]
     fn white_black_and_pure_colours_get_their_codes_and_odd_sides_grow() {
         let code = |color: [u8; 3]| {
-            let planes = Planes::new(&Image {
-                width: 3,
-                height: 1,
-                pixels: vec![color; 3],
-            });
+            let planes = Planes::new(&Image { width: 3, height: 1, pixels: vec![color; 3] });
             assert_eq!(planes.size, [4, 2]);
             let [y, u, v] = planes.planes;
             assert_eq!([y.len(), u.len(), v.len()], [8, 2, 2]);

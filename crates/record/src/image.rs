@@ -22,10 +22,7 @@ impl Image {
     /// # Panics
     /// Where x or y lies outside the picture.
     pub fn pixel(&self, x: u32, y: u32) -> [u8; 3] {
-        assert!(
-            x < self.width && y < self.height,
-            "({x}, {y}) is in the picture"
-        );
+        assert!(x < self.width && y < self.height, "({x}, {y}) is in the picture");
         self.pixels[(y * self.width + x) as usize]
     }
 }
@@ -37,9 +34,5 @@ pub(crate) fn check_size([width, height]: [u32; 2]) -> Result<(), RecordError> {
     if side.contains(&width) && side.contains(&height) && area <= MAX_PIXELS {
         return Ok(());
     }
-    Err(RecordError::Size {
-        width,
-        height,
-        limit: MAX_PIXELS,
-    })
+    Err(RecordError::Size { width, height, limit: MAX_PIXELS })
 }

@@ -29,10 +29,7 @@ pub struct KeyFrames {
 /// [`RecordError::NotFinite`].
 pub fn key_frames(motion: &Motion, tolerance: f64) -> Result<KeyFrames, RecordError> {
     if !(tolerance.is_finite() && tolerance > 0.0) {
-        return Err(RecordError::NotPositive {
-            name: "tolerance",
-            value: tolerance,
-        });
+        return Err(RecordError::NotPositive { name: "tolerance", value: tolerance });
     }
     check_times(motion)?;
     check_frames(motion)?;
@@ -103,10 +100,7 @@ mod tests {
         let frame = |degrees: u32| {
             let turn = glam::DQuat::from_rotation_y(f64::from(degrees).to_radians());
             let positions = units.sheet.planar().iter().map(|&p| turn * p).collect();
-            Frame {
-                time: f64::from(degrees) / 90.0,
-                positions,
-            }
+            Frame { time: f64::from(degrees) / 90.0, positions }
         };
         Motion {
             frames: (0..=90).map(frame).collect(),
@@ -124,17 +118,11 @@ mod tests {
             let error = measured(&motion, &keys.frames);
             assert!(error <= tolerance && (error - keys.error).abs() < 1e-12);
             assert!(keys.frames.is_sorted_by(|a, b| a < b));
-            assert!(
-                keys.frames.len() <= count,
-                "a larger tolerance needs no more"
-            );
+            assert!(keys.frames.len() <= count, "a larger tolerance needs no more");
             count = keys.frames.len();
         }
         assert_eq!(count, 2);
-        assert!(
-            measured(&motion, &[0, 90]) > 1e-2,
-            "two frames are not enough"
-        );
+        assert!(measured(&motion, &[0, 90]) > 1e-2, "two frames are not enough");
     }
 
     #[test]

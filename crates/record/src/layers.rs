@@ -35,9 +35,8 @@ impl Layers {
     /// a missing position counts as the origin.
     pub fn new(sheet: &Sheet, order: &LayerOrder, folded: &[DVec3]) -> Self {
         let count = sheet.faces.len();
-        let orders: Vec<(u32, u32, i8)> = (order.iter())
-            .filter(|&(f, g, _)| f != g && (f.max(g) as usize) < count)
-            .collect();
+        let orders: Vec<(u32, u32, i8)> =
+            (order.iter()).filter(|&(f, g, _)| f != g && (f.max(g) as usize) < count).collect();
         let mut around = vec![Vec::new(); count];
         for &(f, g, _) in &orders {
             around[f as usize].push(g as usize);
@@ -47,11 +46,7 @@ impl Layers {
         let mut above = vec![Vec::new(); count];
         for &(f, g, sign) in &orders {
             let (f, g) = (f as usize, g as usize);
-            let [low, high] = if f64::from(sign) * facings[g] > 0.0 {
-                [g, f]
-            } else {
-                [f, g]
-            };
+            let [low, high] = if f64::from(sign) * facings[g] > 0.0 { [g, f] } else { [f, g] };
             above[low].push(high);
         }
         let mut below = reversed(&above);
@@ -70,11 +65,7 @@ impl Layers {
         pairs.dedup();
         let before = |face: usize| {
             let [above, below] = [depths[face], heights[face]];
-            if facings[face] > 0.0 {
-                [above, below]
-            } else {
-                [below, above]
-            }
+            if facings[face] > 0.0 { [above, below] } else { [below, above] }
         };
         Self {
             lifts: (0..count).map(lift).collect(),
@@ -100,11 +91,7 @@ fn stacks(sheet: &Sheet, folded: &[DVec3], around: &[Vec<usize>]) -> (Vec<usize>
             for &next in &around[face] {
                 if facings[next] == 0.0 {
                     let is_alike = normals[face].dot(normals[next]) >= 0.0;
-                    facings[next] = if is_alike {
-                        facings[face]
-                    } else {
-                        -facings[face]
-                    };
+                    facings[next] = if is_alike { facings[face] } else { -facings[face] };
                     stacks[next] = first;
                     waiting.push_back(next);
                 }
@@ -165,12 +152,7 @@ mod tests {
 
     #[test]
     fn lifts_and_layers_before_keep_every_order_of_every_case_from_both_sides() {
-        for (case, width) in [
-            (Case::E, 1.0),
-            (Case::T, 0.8),
-            (Case::S, 1.6),
-            (Case::SII, 1.7),
-        ] {
+        for (case, width) in [(Case::E, 1.0), (Case::T, 0.8), (Case::S, 1.6), (Case::SII, 1.7)] {
             let unit =
                 Unit::new(case, width, 1.0, (case == Case::SII).then_some(0.7), None).unwrap();
             let units = UnitSheet::new(unit, 5, 2).unwrap();
@@ -180,11 +162,7 @@ mod tests {
             assert!(!order.is_empty());
             for (f, g, sign) in order.iter() {
                 let [f, g] = [f as usize, g as usize];
-                let facing = if normals[f].dot(normals[g]) > 0.0 {
-                    1
-                } else {
-                    -1
-                };
+                let facing = if normals[f].dot(normals[g]) > 0.0 { 1 } else { -1 };
                 let above = facing * layers.lifts[f] - layers.lifts[g];
                 assert!(above * i32::from(sign) > 0, "{case:?} {f} over {g}");
                 // From g's front, and from behind it.

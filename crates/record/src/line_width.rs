@@ -19,9 +19,7 @@ const LEAST: f64 = 0.25;
 ///
 /// Precondition: one position for each vertex.
 pub fn line_width(sheet: &Sheet, positions: &[DVec3], camera: &Camera, widest: f64) -> f64 {
-    let points: Vec<DVec2> = (positions.iter())
-        .map(|&p| camera.project(p).truncate())
-        .collect();
+    let points: Vec<DVec2> = (positions.iter()).map(|&p| camera.project(p).truncate()).collect();
     let (mut area, mut moment) = (0.0, 0.0);
     for face in &sheet.faces {
         let [a, b, c] = face.map(|v| points[v as usize]);
@@ -33,11 +31,7 @@ pub fn line_width(sheet: &Sheet, positions: &[DVec3], camera: &Camera, widest: f
             moment += doubled * doubled / longest;
         }
     }
-    if area > 0.0 {
-        (PART * moment / area).clamp(LEAST * widest, widest)
-    } else {
-        widest
-    }
+    if area > 0.0 { (PART * moment / area).clamp(LEAST * widest, widest) } else { widest }
 }
 
 #[cfg(test)]
@@ -63,10 +57,7 @@ mod tests {
         assert_eq!(width(DVec2::splat(1.0)), 0.5, "specks");
         assert_eq!(width(DVec2::ZERO), 2.0, "nothing to judge by");
         let (some, half) = (width(DVec2::splat(20.0)), width(DVec2::splat(10.0)));
-        assert!(
-            some < 2.0 && (half / some - 0.5).abs() < 1e-12,
-            "{some} {half}"
-        );
+        assert!(some < 2.0 && (half / some - 0.5).abs() < 1e-12, "{some} {half}");
         let slanted = width(DVec2::new(20.0, 8.0));
         assert!(slanted < some, "{slanted}");
     }

@@ -29,16 +29,8 @@ impl Spot {
         let part = |p: DVec3, q: DVec3| normal.dot((p - point).cross(q - point)).max(0.0);
         let parts = [part(b, c), part(c, a), part(a, b)];
         let sum: f64 = parts.iter().sum();
-        let weights = if sum > 0.0 {
-            parts.map(|part| part / sum)
-        } else {
-            [1.0 / 3.0; 3]
-        };
-        Some(Self {
-            from,
-            face,
-            weights,
-        })
+        let weights = if sum > 0.0 { parts.map(|part| part / sum) } else { [1.0 / 3.0; 3] };
+        Some(Self { from, face, weights })
     }
 
     /// Its position while the vertices are at `positions`.
@@ -114,10 +106,7 @@ mod tests {
         let units = UnitSheet::new(unit, 2, 1).unwrap();
         let frame = |time: f64, positions| Frame { time, positions };
         let motion = Motion {
-            frames: vec![
-                frame(1.0, units.sheet.planar()),
-                frame(2.0, units.compact()),
-            ],
+            frames: vec![frame(1.0, units.sheet.planar()), frame(2.0, units.compact())],
             compact_order: units.compact_order(),
             sheet: units.sheet,
         };
@@ -165,10 +154,6 @@ mod tests {
             [0; 3]
         );
         marks.insert(u32::MAX, 0.0, 2.0);
-        assert_eq!(
-            count(&marks, 1.1, 1.2),
-            0,
-            "a face the sheet has not is passed over"
-        );
+        assert_eq!(count(&marks, 1.1, 1.2), 0, "a face the sheet has not is passed over");
     }
 }

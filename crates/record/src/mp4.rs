@@ -33,10 +33,7 @@ impl Track {
     /// # Errors
     /// [`RecordError::FileSize`] where 32-bit offsets do not reach, [`RecordError::Write`].
     pub(crate) fn write(&self, writer: &mut impl Write) -> Result<(), RecordError> {
-        let kind = boxed(
-            *b"ftyp",
-            &[b"isom", &512_u32.to_be_bytes(), b"isomiso2avc1mp41"],
-        );
+        let kind = boxed(*b"ftyp", &[b"isom", &512_u32.to_be_bytes(), b"isomiso2avc1mp41"]);
         // The index is as long for any offset.
         let index_length = self.movie(0).len() as u64;
         let start = kind.len() as u64 + index_length + 8;
@@ -69,13 +66,8 @@ impl Track {
                 &words(&[0, 0, 0, 0, 0, 0, 2]),
             ],
         );
-        let track = boxed(
-            *b"trak",
-            &[
-                &self.track_header(duration),
-                &self.media(scale, duration, offset),
-            ],
-        );
+        let track =
+            boxed(*b"trak", &[&self.track_header(duration), &self.media(scale, duration, offset)]);
         boxed(*b"moov", &[&header, &track, &self.words_of_user()])
     }
 
@@ -94,14 +86,8 @@ impl Track {
 
     fn media(&self, scale: u32, duration: u32, offset: u32) -> Vec<u8> {
         // "und" in three letters of five bits.
-        let header = boxed(
-            *b"mdhd",
-            &[&words(&[0, 0, 0, scale, duration, 0x55C4_0000])],
-        );
-        let handler = boxed(
-            *b"hdlr",
-            &[&words(&[0, 0]), b"vide", &words(&[0, 0, 0]), b"video\0"],
-        );
+        let header = boxed(*b"mdhd", &[&words(&[0, 0, 0, scale, duration, 0x55C4_0000])]);
+        let handler = boxed(*b"hdlr", &[&words(&[0, 0]), b"vide", &words(&[0, 0, 0]), b"video\0"]);
         let location = boxed(*b"url ", &[&words(&[1])]);
         let references = boxed(*b"dref", &[&words(&[0, 1]), &location]);
         let info = boxed(
@@ -119,10 +105,7 @@ impl Track {
         let count = self.lengths.len() as u32;
         let description = boxed(*b"stsd", &[&words(&[0, 1]), &self.description()]);
         let durations = boxed(*b"stts", &[&words(&[0, 1, count, TICKS])]);
-        let keys = boxed(
-            *b"stss",
-            &[&words(&[0, self.keys.len() as u32]), &words(&self.keys)],
-        );
+        let keys = boxed(*b"stss", &[&words(&[0, self.keys.len() as u32]), &words(&self.keys)]);
         let chunks = boxed(*b"stsc", &[&words(&[0, 1, 1, count, 1])]);
         let lengths = boxed(*b"stsz", &[&words(&[0, 0, count]), &words(&self.lengths)]);
         let offsets = boxed(*b"stco", &[&words(&[0, 1, offset])]);
@@ -176,10 +159,7 @@ impl Track {
         }
         let data = boxed(*b"data", &[&words(&[1, 0]), self.provenance.as_bytes()]);
         let list = boxed(*b"ilst", &[&boxed(*b"\xA9cmt", &[&data])]);
-        let handler = boxed(
-            *b"hdlr",
-            &[&words(&[0, 0]), b"mdirappl", &words(&[0, 0]), &[0]],
-        );
+        let handler = boxed(*b"hdlr", &[&words(&[0, 0]), b"mdirappl", &words(&[0, 0]), &[0]]);
         let meta = boxed(*b"meta", &[&words(&[0]), &handler, &list]);
         boxed(*b"udta", &[&meta])
     }
@@ -189,10 +169,7 @@ impl Track {
 const MATRIX: [u32; 9] = [0x1_0000, 0, 0, 0, 0x1_0000, 0, 0, 0, 0x4000_0000];
 
 fn words(values: &[u32]) -> Vec<u8> {
-    values
-        .iter()
-        .flat_map(|value| value.to_be_bytes())
-        .collect()
+    values.iter().flat_map(|value| value.to_be_bytes()).collect()
 }
 
 fn boxed(kind: [u8; 4], parts: &[&[u8]]) -> Vec<u8> {

@@ -91,10 +91,8 @@ impl Palette {
 
     /// The colours of the background and of the lines.
     fn of_lines(inks: &Inks) -> Self {
-        let mut palette = Self {
-            colors: Vec::new(),
-            cells: vec![OnceLock::new(); 1 << (3 * CELL_BITS)],
-        };
+        let mut palette =
+            Self { colors: Vec::new(), cells: vec![OnceLock::new(); 1 << (3 * CELL_BITS)] };
         for color in [inks.background, inks.mountain, inks.valley, inks.border] {
             palette.push(color);
         }
@@ -161,10 +159,7 @@ impl Palette {
         let least = |color: [u8; 3]| distance(color, from_fn(|i| color[i].clamp(low[i], high[i])));
         let most = |color: [u8; 3]| {
             let is_high = |i: usize| color[i].abs_diff(high[i]) > color[i].abs_diff(low[i]);
-            distance(
-                color,
-                from_fn(|i| if is_high(i) { high[i] } else { low[i] }),
-            )
+            distance(color, from_fn(|i| if is_high(i) { high[i] } else { low[i] }))
         };
         let limit = self.colors.iter().map(|&color| most(color)).min();
         // The colours lead, so that the index never counts past the last of a full palette.
@@ -218,9 +213,7 @@ mod tests {
         for k in 0..40_000_u32 {
             let color = [k * 7, k * 11 / 3, k * 13 / 5].map(|value| (value % 256) as u8);
             let colors = palette.colors().iter();
-            let all = (0..)
-                .zip(colors)
-                .min_by_key(|(_, other)| distance(color, **other));
+            let all = (0..).zip(colors).min_by_key(|(_, other)| distance(color, **other));
             assert_eq!(Some(palette.nearest(color)), all.map(|(index, _)| index));
         }
     }

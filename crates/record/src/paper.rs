@@ -36,12 +36,7 @@ impl<'a> Paper<'a> {
                 row.push((g, sign));
             }
         }
-        Self {
-            sheet,
-            face_edges,
-            facet_edges,
-            layers,
-        }
+        Self { sheet, face_edges, facet_edges, layers }
     }
 
     /// The drawn edges of triangle `face`.

@@ -29,12 +29,7 @@ impl<'a> Canvas<'a> {
             _ => inks.paper(face.normal),
         };
         let faces: Vec<Vec3> = surface.faces().iter().enumerate().map(colour).collect();
-        Self {
-            surface,
-            inks,
-            colors: faces.iter().map(|&light| encoded(light)).collect(),
-            faces,
-        }
+        Self { surface, inks, colors: faces.iter().map(|&light| encoded(light)).collect(), faces }
     }
 
     /// The colour of the line of `edge`.

@@ -48,19 +48,13 @@ pub(crate) fn check_positions(
 ) -> Result<(), RecordError> {
     let (found, expected) = (positions.len(), sheet.vertices.len());
     if found != expected {
-        return Err(RecordError::VertexCount {
-            frame,
-            found,
-            expected,
-        });
+        return Err(RecordError::VertexCount { frame, found, expected });
     }
     match positions.iter().position(|p| !p.is_finite()) {
         None => Ok(()),
-        Some(vertex) => Err(RecordError::NotFinite {
-            frame,
-            vertex,
-            position: positions[vertex].to_array(),
-        }),
+        Some(vertex) => {
+            Err(RecordError::NotFinite { frame, vertex, position: positions[vertex].to_array() })
+        }
     }
 }
 
@@ -81,11 +75,7 @@ pub(crate) fn raster(
         .par_chunks_mut(width * LARGEST)
         .enumerate()
         .for_each(|(index, rows)| Strip::new(&canvas, rows, width, index * LARGEST).draw());
-    Image {
-        width: size[0],
-        height: size[1],
-        pixels,
-    }
+    Image { width: size[0], height: size[1], pixels }
 }
 
 /// A square of pixels; `left` and `top` are those of its first pixel.
@@ -100,10 +90,7 @@ impl Region {
     fn square(self) -> Square {
         let half = 0.5 * self.side as f64;
         let corner = DVec2::new(self.left as f64, self.top as f64);
-        Square {
-            centre: corner + half,
-            half,
-        }
+        Square { centre: corner + half, half }
     }
 
     fn quarters(self) -> [Self; 4] {
@@ -147,11 +134,7 @@ impl<'a> Strip<'a> {
 
     fn draw(&mut self) {
         for left in (0..self.width).step_by(LARGEST) {
-            let region = Region {
-                left,
-                top: self.rows[0],
-                side: LARGEST,
-            };
+            let region = Region { left, top: self.rows[0], side: LARGEST };
             self.divide(region, 0);
         }
     }
@@ -281,10 +264,7 @@ mod tests {
                     let sum: Vec3 = at_samples(centre, light).into_iter().sum();
                     let expected = encoded(sum / SAMPLES as f32);
                     let error = (0..3).map(|c| pixel[c].abs_diff(expected[c])).max();
-                    assert!(
-                        error <= Some(1),
-                        "{case:?} {part} {corner:?}: {pixel:?} {expected:?}"
-                    );
+                    assert!(error <= Some(1), "{case:?} {part} {corner:?}: {pixel:?} {expected:?}");
                 }
             }
         }

@@ -52,11 +52,7 @@ mod tests {
     fn a_ring_leaves_its_middle_and_all_beyond_it_and_stays_in_the_picture() {
         let ground = [10, 20, 30];
         let drawn = |centre: DVec2| {
-            let mut image = Image {
-                width: 200,
-                height: 100,
-                pixels: vec![ground; 200 * 100],
-            };
+            let mut image = Image { width: 200, height: 100, pixels: vec![ground; 200 * 100] };
             let mut alpha = vec![0; 200 * 100];
             ring(&mut image, Some(&mut alpha), centre, [233, 30, 160]);
             (image, alpha)

@@ -44,16 +44,10 @@ impl ScreenFace {
         let nearest = depths.into_iter().fold(f64::NEG_INFINITY, f64::max);
         let farthest = depths.into_iter().fold(f64::INFINITY, f64::min);
         let is_edge_on = normal.z.abs() < 1e-9;
-        let gradient = if is_edge_on {
-            DVec2::ZERO
-        } else {
-            DVec2::new(-normal.x, normal.y) / normal.z
-        };
-        let offset = if is_edge_on {
-            nearest
-        } else {
-            corners[0].z - gradient.dot(corners[0].truncate())
-        };
+        let gradient =
+            if is_edge_on { DVec2::ZERO } else { DVec2::new(-normal.x, normal.y) / normal.z };
+        let offset =
+            if is_edge_on { nearest } else { corners[0].z - gradient.dot(corners[0].truncate()) };
         let flat = corners.map(DVec3::truncate);
         let inside = if normal.z < 0.0 { 1.0 } else { -1.0 };
         let side = |i: usize| {
@@ -146,16 +140,8 @@ impl ScreenFace {
     /// `f64::clamp` checks its bounds each time.
     #[inline]
     fn within(&self, depth: f64) -> f64 {
-        let depth = if depth > self.nearest {
-            self.nearest
-        } else {
-            depth
-        };
-        if depth < self.farthest {
-            self.farthest
-        } else {
-            depth
-        }
+        let depth = if depth > self.nearest { self.nearest } else { depth };
+        if depth < self.farthest { self.farthest } else { depth }
     }
 
     /// Kept within the corners' depths: the plane of a triangle seen edge-on is steep beyond measure.
@@ -177,22 +163,14 @@ impl ScreenFace {
 
 impl Side {
     /// Nothing lies inside: a triangle seen edge-on covers no point, only its outlines show.
-    const NOWHERE: Self = Self {
-        n: DVec2::ZERO,
-        c: f64::NEG_INFINITY,
-        spread: 0.0,
-    };
+    const NOWHERE: Self = Self { n: DVec2::ZERO, c: f64::NEG_INFINITY, spread: 0.0 };
 
     /// `inside` = 1 keeps the side that (−d.y, d.x) points to, d = end − start. Neighbours pass the same ends with
     /// opposite signs and get exactly opposite distances.
     fn new(start: DVec2, end: DVec2, inside: f64) -> Self {
         let d = end - start;
         let n = DVec2::new(-d.y, d.x).normalize_or_zero();
-        Self {
-            n: n * inside,
-            c: -n.dot(start) * inside,
-            spread: n.abs().element_sum(),
-        }
+        Self { n: n * inside, c: -n.dot(start) * inside, spread: n.abs().element_sum() }
     }
 
     #[inline]

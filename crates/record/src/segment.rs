@@ -23,11 +23,7 @@ impl Segment {
         Self {
             start: start.truncate(),
             along,
-            inverse_squared: if length_squared > 0.0 {
-                length_squared.recip()
-            } else {
-                0.0
-            },
+            inverse_squared: if length_squared > 0.0 { length_squared.recip() } else { 0.0 },
             depths: [start.z, end.z],
             is_outline,
         }

@@ -75,10 +75,7 @@ impl Style {
         if (0.0..=MAX_LINE_WIDTH).contains(&self.line_width) {
             return Ok(());
         }
-        Err(RecordError::LineWidth {
-            value: self.line_width,
-            limit: MAX_LINE_WIDTH,
-        })
+        Err(RecordError::LineWidth { value: self.line_width, limit: MAX_LINE_WIDTH })
     }
 
     /// The colours in linear light.
@@ -179,11 +176,7 @@ pub(crate) fn encoded(light: Vec3) -> [u8; 3] {
 /// Byte `value` of sRGB, also between two bytes, in linear light.
 fn decoded(value: f32) -> f32 {
     let value = value / 255.0;
-    if value <= 0.040_45 {
-        value / 12.92
-    } else {
-        ((value + 0.055) / 1.055).powf(2.4)
-    }
+    if value <= 0.040_45 { value / 12.92 } else { ((value + 0.055) / 1.055).powf(2.4) }
 }
 
 /// The inverse of [`decoded`], rounded, by looking it up.
@@ -209,10 +202,7 @@ impl Encoding {
             let light = cell as f32 / Self::CELLS as f32;
             limits.partition_point(|&limit| limit <= light) as u8
         };
-        Self {
-            cells: (0..=Self::CELLS).map(byte).collect(),
-            limits,
-        }
+        Self { cells: (0..=Self::CELLS).map(byte).collect(), limits }
     }
 
     #[expect(clippy::cast_sign_loss, reason = "clamped to 0 to CELLS before")]
@@ -246,10 +236,7 @@ mod tests {
             };
             let byte = (value * 255.0).clamp(0.0, 255.0);
             let found = encoded(Vec3::splat(light as f32))[0];
-            assert!(
-                (byte - f64::from(found)).abs() < 0.5 + 1e-4,
-                "{light}: {found}"
-            );
+            assert!((byte - f64::from(found)).abs() < 0.5 + 1e-4, "{light}: {found}");
         }
     }
 

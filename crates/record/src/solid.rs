@@ -41,10 +41,7 @@ impl Solid {
 /// [`RecordError::VertexCount`], [`RecordError::NotFinite`].
 pub fn surface_of(sheet: &Sheet, positions: &[DVec3]) -> Result<Solid, RecordError> {
     check_positions(sheet, 0, positions)?;
-    Ok(Solid {
-        vertices: positions.to_vec(),
-        faces: sheet.faces.clone(),
-    })
+    Ok(Solid { vertices: positions.to_vec(), faces: sheet.faces.clone() })
 }
 
 /// `sheet` with its vertices at `positions` as a closed solid of `thickness`.
@@ -72,10 +69,7 @@ pub fn solid(sheet: &Sheet, positions: &[DVec3], thickness: f64) -> Result<Solid
     for (face, &facet) in sheet.faces.iter().zip(&sheet.face_facets) {
         plates[facet as usize].push(*face);
     }
-    let mut solid = Solid {
-        vertices: Vec::new(),
-        faces: Vec::new(),
-    };
+    let mut solid = Solid { vertices: Vec::new(), faces: Vec::new() };
     for faces in &plates {
         solid.push_plate(faces, positions, 0.5 * thickness);
     }

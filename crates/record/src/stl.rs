@@ -32,11 +32,7 @@ pub fn stl(solid: &Solid, label: &str, mut writer: impl Write) -> Result<(), Rec
     }
     let space = if label.starts_with("solid") { " " } else { "" };
     let printable = |c: char| {
-        if matches!(c, ' '..='~') {
-            c as u8
-        } else {
-            b'?'
-        }
+        if matches!(c, ' '..='~') { c as u8 } else { b'?' }
     };
     let mut header: Vec<u8> = space.chars().chain(label.chars()).map(printable).collect();
     header.resize(HEADER, 0);

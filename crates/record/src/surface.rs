@@ -125,17 +125,12 @@ impl<'a> Surface<'a> {
         let points: Vec<DVec3> = positions.iter().map(|&p| camera.project(p)).collect();
         let corner = |v: u32| points[v as usize];
         let sheet = paper.sheet;
-        let mut faces: Vec<ScreenFace> = sheet
-            .faces
-            .iter()
-            .map(|&face| ScreenFace::new(face, face.map(corner)))
-            .collect();
+        let mut faces: Vec<ScreenFace> =
+            sheet.faces.iter().map(|&face| ScreenFace::new(face, face.map(corner))).collect();
         let half_width = 0.5 * style.line_width;
         let mut segments = Vec::with_capacity(sheet.edges.len());
         for edge in &sheet.edges {
-            let [left, right] = edge
-                .faces
-                .map(|face| Some(faces[face? as usize].faces_viewer()));
+            let [left, right] = edge.faces.map(|face| Some(faces[face? as usize].faces_viewer()));
             segments.push(Segment::new(edge.vertices.map(corner), left != right));
         }
         for (index, face) in (0..).zip(&mut faces) {
@@ -203,11 +198,7 @@ impl<'a> Surface<'a> {
         let cosines = [f, g].map(|face| self.face(face).cosine());
         let reach = self.tie / cosines[0].min(cosines[1]);
         let window = self.tie_window(f, g);
-        let order = if closest < window {
-            self.order(f, g)
-        } else {
-            None
-        };
+        let order = if closest < window { self.order(f, g) } else { None };
         Comparison {
             window,
             order,
@@ -301,24 +292,13 @@ impl<'a> Surface<'a> {
     fn candidate(&self, face: u32, point: DVec2) -> Option<Candidate> {
         let screen = self.face(face);
         if screen.covers(point) {
-            return Some(Candidate {
-                face,
-                depth: screen.depth(point),
-                covers: true,
-            });
+            return Some(Candidate { face, depth: screen.depth(point), covers: true });
         }
-        let square = Square {
-            centre: point,
-            half: 0.0,
-        };
+        let square = Square { centre: point, half: 0.0 };
         if screen.reach == 0.0 || !screen.may_touch(&square) {
             return None;
         }
-        Some(Candidate {
-            face,
-            depth: self.outline_depth(face, point)?,
-            covers: false,
-        })
+        Some(Candidate { face, depth: self.outline_depth(face, point)?, covers: false })
     }
 
     /// The depth of the nearest outline of triangle `face` that covers `point`.
@@ -338,12 +318,7 @@ impl<'a> Surface<'a> {
     /// Adds triangle `face` at the samples of the pixel around `centre` to `layers` where it may be seen.
     pub(crate) fn find_layer(&self, face: u32, centre: DVec2, layers: &mut Vec<Layer>) {
         let surface = self;
-        self.arch.dispatch(FindLayer {
-            surface,
-            face,
-            centre,
-            layers,
-        });
+        self.arch.dispatch(FindLayer { surface, face, centre, layers });
     }
 
     fn outlines(&self, face: u32) -> impl Iterator<Item = &Segment> {
@@ -357,11 +332,7 @@ impl<'a> Surface<'a> {
     /// Each triangle draws the halves of the lines of its facet that lie on it: a hidden line never shows, and no
     /// line needs a depth of its own.
     pub(crate) fn lines(&self, face: u32) -> &[u32] {
-        if self.half_width > 0.0 {
-            self.paper.edges_of_facet(face)
-        } else {
-            &[]
-        }
+        if self.half_width > 0.0 { self.paper.edges_of_facet(face) } else { &[] }
     }
 
     /// The edge whose line covers `point` where triangle `face` is seen, the nearest of several.
@@ -389,12 +360,7 @@ impl<'a> Surface<'a> {
     pub(crate) fn find_lines(&self, edges: &[u32], centre: DVec2, found: &mut Vec<(u32, Mask)>) {
         found.clear();
         let surface = self;
-        self.arch.dispatch(FindLines {
-            surface,
-            edges,
-            centre,
-            found,
-        });
+        self.arch.dispatch(FindLines { surface, edges, centre, found });
     }
 
     /// Whether no other triangle of `list` than `face` is seen in `square`, judged from bounds: true is certain, false
@@ -405,8 +371,7 @@ impl<'a> Surface<'a> {
             return false;
         }
         let [farthest, _] = screen.depths(square, 0.0);
-        list.iter()
-            .all(|&other| other == face || self.is_before(face, farthest, other, square))
+        list.iter().all(|&other| other == face || self.is_before(face, farthest, other, square))
     }
 
     /// Whether `face`, nowhere farther than `farthest`, is in front of `other` in the whole square.

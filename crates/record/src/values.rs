@@ -45,11 +45,7 @@ impl Values {
         let next = motion.frames.partition_point(|frame| frame.time < time);
         let (after, before) = (next.min(last), next.saturating_sub(1).min(last));
         let [from, to] = [before, after].map(|i| motion.frames[i].time);
-        let part = if to > from {
-            ((time - from) / (to - from)).clamp(0.0, 1.0)
-        } else {
-            0.0
-        };
+        let part = if to > from { ((time - from) / (to - from)).clamp(0.0, 1.0) } else { 0.0 };
         let [low, high] = self.range;
         let colour = |(&a, &b): (&f64, &f64)| {
             let value = if part == 1.0 { b } else { a + (b - a) * part };

@@ -14,10 +14,8 @@ use foldmotion_solver::{Material, Model, Schedule};
 use glam::{DVec2, DVec3};
 
 fn main() -> Result<(), Box<dyn Error>> {
-    let sizes: Vec<usize> = std::env::args()
-        .skip(1)
-        .map(|a| a.parse())
-        .collect::<Result<_, _>>()?;
+    let sizes: Vec<usize> =
+        std::env::args().skip(1).map(|a| a.parse()).collect::<Result<_, _>>()?;
     let sizes = match sizes[..] {
         [rows, columns] => vec![(rows, columns)],
         _ => vec![(3, 2), (7, 3), (7, 5)],
@@ -47,23 +45,13 @@ fn fold(unit: Unit, rows: usize, columns: usize) -> Result<(), Box<dyn Error>> {
     let schedule = Schedule::uniform(&units.sheet, &deployed_angles, units.compact_angles())?;
     let start = units.deployed(&arch, Facing::Left)?;
     let begin = Instant::now();
-    let run = run(
-        &model,
-        &schedule,
-        &start,
-        &DynamicOptions::default(),
-        &|_| true,
-    )?;
+    let run = run(&model, &schedule, &start, &DynamicOptions::default(), &|_| true)?;
     let seconds = begin.elapsed().as_secs_f64();
     let strain = |positions: &[DVec3]| {
         let strains = model.strains(&model.to_model(positions));
         strains.into_iter().map(f64::abs).fold(0.0, f64::max)
     };
-    let peak = run
-        .frames
-        .iter()
-        .map(|frame| strain(&frame.positions))
-        .fold(0.0, f64::max);
+    let peak = run.frames.iter().map(|frame| strain(&frame.positions)).fold(0.0, f64::max);
     let last = run.frames.last().map_or(&start, |frame| &frame.positions);
     let rate = run.steps as f64 * model.node_count() as f64 / seconds / 1e6;
     let [unfold, fold] = [run.stages[0], run.stages[1]];
@@ -86,9 +74,7 @@ fn fold(unit: Unit, rows: usize, columns: usize) -> Result<(), Box<dyn Error>> {
 fn rms(positions: &[DVec3], exact: &[DVec3]) -> f64 {
     let motion = RigidMotion::best_fit(positions, exact);
     let pairs = positions.iter().zip(exact);
-    let squares: f64 = pairs
-        .map(|(p, q)| motion.apply(*p).distance_squared(*q))
-        .sum();
+    let squares: f64 = pairs.map(|(p, q)| motion.apply(*p).distance_squared(*q)).sum();
     (squares / exact.len() as f64).sqrt()
 }
 

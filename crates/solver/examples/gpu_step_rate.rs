@@ -22,17 +22,9 @@ const COPIED: u64 = 128 << 20;
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let gpu = Gpu::new()?;
-    let kind = if gpu.is_software() {
-        ", in software"
-    } else {
-        ""
-    };
+    let kind = if gpu.is_software() { ", in software" } else { "" };
     let copy_rate = gpu.copy_rate(COPIED)?;
-    println!(
-        "{}{kind}: copies {:.1} GB/s, read and written",
-        gpu.name(),
-        copy_rate * 1e-9
-    );
+    println!("{}{kind}: copies {:.1} GB/s, read and written", gpu.name(), copy_rate * 1e-9);
     println!(
         "nodes, million node-steps/s, bytes a node-step, share of the copy's rate, bytes a node held"
     );

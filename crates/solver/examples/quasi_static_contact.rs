@@ -34,10 +34,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         polygon.push(polygon[row] + direction);
     }
     let deployed = sheet.deployed(&polygon, Facing::Left)?;
-    let material = Material {
-        axial_stiffness,
-        ..Material::default()
-    };
+    let material = Material { axial_stiffness, ..Material::default() };
     let model = Model::new(&sheet.sheet, &material)?;
     let angles = sheet.deployed_angles(&polygon, Facing::Left)?;
     let schedule = Schedule::uniform(&sheet.sheet, &angles, sheet.compact_angles())?;
@@ -53,11 +50,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let exact = sheet.compact();
     let motion = RigidMotion::best_fit(&last.positions, &exact);
     let fitted: Vec<DVec3> = last.positions.iter().map(|&p| motion.apply(p)).collect();
-    let squares: f64 = fitted
-        .iter()
-        .zip(&exact)
-        .map(|(&p, &q)| p.distance_squared(q))
-        .sum();
+    let squares: f64 = fitted.iter().zip(&exact).map(|(&p, &q)| p.distance_squared(q)).sum();
     let extents = |p: &[DVec3]| {
         p.iter().copied().reduce(DVec3::max).unwrap_or_default()
             - p.iter().copied().reduce(DVec3::min).unwrap_or_default()

@@ -49,9 +49,7 @@ fn measure(rows: usize, columns: usize) -> Result<(usize, f64), Box<dyn std::err
 /// The slope of the line of least squares.
 fn slope(points: &[(f64, f64)]) -> f64 {
     let count = points.len() as f64;
-    let (sx, sy) = points
-        .iter()
-        .fold((0.0, 0.0), |(x, y), p| (x + p.0, y + p.1));
+    let (sx, sy) = points.iter().fold((0.0, 0.0), |(x, y), p| (x + p.0, y + p.1));
     let (mx, my) = (sx / count, sy / count);
     let products: f64 = points.iter().map(|p| (p.0 - mx) * (p.1 - my)).sum();
     let squares: f64 = points.iter().map(|p| (p.0 - mx) * (p.0 - mx)).sum();

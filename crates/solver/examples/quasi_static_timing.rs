@@ -12,10 +12,7 @@ use foldmotion_solver::{Material, Model, Schedule};
 use glam::{DVec2, DVec3};
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
-    let rows: Vec<usize> = std::env::args()
-        .skip(1)
-        .map(|a| a.parse())
-        .collect::<Result<_, _>>()?;
+    let rows: Vec<usize> = std::env::args().skip(1).map(|a| a.parse()).collect::<Result<_, _>>()?;
     let rows = if rows.is_empty() { vec![7, 35] } else { rows };
     println!(
         "case rows axial  nodes  seconds  load steps  shortened  iterations  factors  residual  rms"
@@ -54,21 +51,13 @@ fn measure(
         polygon.push(polygon[row] + direction);
     }
     let deployed = sheet.deployed(&polygon, Facing::Left)?;
-    let material = Material {
-        axial_stiffness,
-        ..Material::default()
-    };
+    let material = Material { axial_stiffness, ..Material::default() };
     let model = Model::new(&sheet.sheet, &material)?;
     let angles = sheet.deployed_angles(&polygon, Facing::Left)?;
     let schedule = Schedule::uniform(&sheet.sheet, &angles, sheet.compact_angles())?;
     let start = Instant::now();
-    let run = run_quasi_static(
-        &model,
-        &schedule,
-        &deployed,
-        &QuasiStaticOptions::default(),
-        &|_| true,
-    )?;
+    let run =
+        run_quasi_static(&model, &schedule, &deployed, &QuasiStaticOptions::default(), &|_| true)?;
     let seconds = start.elapsed().as_secs_f64();
     let last = run.frames.last().ok_or("no frames")?;
     let rms = misfit(&last.positions, &sheet.compact());
@@ -92,10 +81,6 @@ fn measure(
 /// The root mean square distance after the best rigid fit.
 fn misfit(a: &[DVec3], b: &[DVec3]) -> f64 {
     let motion = RigidMotion::best_fit(a, b);
-    let squares: f64 = a
-        .iter()
-        .zip(b)
-        .map(|(&p, &q)| motion.apply(p).distance_squared(q))
-        .sum();
+    let squares: f64 = a.iter().zip(b).map(|(&p, &q)| motion.apply(p).distance_squared(q)).sum();
     (squares / a.len() as f64).sqrt()
 }

@@ -23,10 +23,7 @@ impl Budget {
 
     /// How a search with `left` steps, from [`Self::left`], has to end.
     pub(crate) fn allowance(self, left: u64) -> Allowance {
-        Allowance {
-            steps: left,
-            budget: self,
-        }
+        Allowance { steps: left, budget: self }
     }
 
     /// The steps left after `taken` steps of the run, if the default of the engine is `standard` more.

@@ -12,11 +12,7 @@ pub(crate) fn hilbert_order(points: &[DVec2]) -> Vec<u32> {
     let low = points.iter().copied().fold(DVec2::INFINITY, DVec2::min);
     let high = points.iter().copied().fold(DVec2::NEG_INFINITY, DVec2::max);
     let side = (high - low).max_element();
-    let scale = if side > 0.0 {
-        f64::from((1u32 << LEVELS) - 1) / side
-    } else {
-        0.0
-    };
+    let scale = if side > 0.0 { f64::from((1u32 << LEVELS) - 1) / side } else { 0.0 };
     #[expect(clippy::cast_sign_loss, reason = "no point lies below the lowest")]
     let keys: Vec<u64> = points
         .iter()

@@ -68,22 +68,13 @@ pub struct Material {
 impl Material {
     /// Origami Simulator's own numbers, face-angle springs included: as an elastic sheet about h/3 thick, so bars
     /// strain by several per cent in between.
-    pub const ORIGAMI_SIMULATOR: Self = Self {
-        face_angle_stiffness: 0.2,
-        ..Self::SOFT
-    };
+    pub const ORIGAMI_SIMULATOR: Self = Self { face_angle_stiffness: 0.2, ..Self::SOFT };
 
     /// A sheet about h/30 thick (0.3 mm card for h = 1 cm): bars strain by less than a per cent.
-    pub const PAPER: Self = Self {
-        axial_stiffness: 2_000.0,
-        ..Self::SOFT
-    };
+    pub const PAPER: Self = Self { axial_stiffness: 2_000.0, ..Self::SOFT };
 
     /// A sheet about h/110 thick (0.1 mm paper for h = 11 mm): bars strain by less than a thousandth.
-    pub const NEAR_RIGID: Self = Self {
-        axial_stiffness: 25_000.0,
-        ..Self::SOFT
-    };
+    pub const NEAR_RIGID: Self = Self { axial_stiffness: 25_000.0, ..Self::SOFT };
 
     const SOFT: Self = Self {
         axial_stiffness: 20.0,
@@ -115,12 +106,7 @@ impl Material {
         }
         let name = "face_angle_stiffness";
         within(name, self.face_angle_stiffness, 0.0, Self::MAX_STIFFNESS)?;
-        within(
-            "damping_ratio",
-            self.damping_ratio,
-            0.0,
-            Self::MAX_DAMPING_RATIO,
-        )
+        within("damping_ratio", self.damping_ratio, 0.0, Self::MAX_DAMPING_RATIO)
     }
 }
 
@@ -134,12 +120,7 @@ fn within(name: &'static str, value: f64, minimum: f64, maximum: f64) -> Result<
     if (minimum..=maximum).contains(&value) {
         Ok(())
     } else {
-        Err(SolverError::MaterialOutOfRange {
-            name,
-            value,
-            minimum,
-            maximum,
-        })
+        Err(SolverError::MaterialOutOfRange { name, value, minimum, maximum })
     }
 }
 

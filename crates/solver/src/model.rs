@@ -132,19 +132,12 @@ impl Model {
         if sheet.faces.is_empty() {
             return Err(SolverError::NoFacets);
         }
-        let rest: Vec<DVec3> = sheet
-            .vertices
-            .iter()
-            .map(|v| (*v / unit_length).extend(0.0))
-            .collect();
+        let rest: Vec<DVec3> =
+            sheet.vertices.iter().map(|v| (*v / unit_length).extend(0.0)).collect();
         let bars = build_bars(sheet, material, &rest)?;
         let hinges = build_hinges(sheet, material, &bars);
         let faces = build_faces(sheet, &rest)?;
-        let face_angles = if material.face_angle_stiffness > 0.0 {
-            faces
-        } else {
-            Vec::new()
-        };
+        let face_angles = if material.face_angle_stiffness > 0.0 { faces } else { Vec::new() };
         Ok(Self {
             unit_length,
             material: *material,
@@ -248,10 +241,7 @@ impl Model {
 
     /// (l − l₀) / l₀ of every bar.
     pub fn strains(&self, positions: &[DVec3]) -> Vec<f64> {
-        self.bars
-            .iter()
-            .map(|bar| bar.length(positions) / bar.rest_length - 1.0)
-            .collect()
+        self.bars.iter().map(|bar| bar.length(positions) / bar.rest_length - 1.0).collect()
     }
 }
 
@@ -288,27 +278,17 @@ impl FaceAngles {
     pub fn deviations(&self, positions: &[DVec3]) -> [f64; 3] {
         let [a, b, c] = self.vertices.map(|v| positions[v as usize]);
         let [a0, b0, c0] = self.rest_angles;
-        [
-            face_angle(a, b, c) - a0,
-            face_angle(b, c, a) - b0,
-            face_angle(c, a, b) - c0,
-        ]
+        [face_angle(a, b, c) - a0, face_angle(b, c, a) - b0, face_angle(c, a, b) - c0]
     }
 
     /// The gradient of Σ k (α − α₀)² / 2 over its corners with respect to its nodes.
     pub fn energy_gradient(&self, positions: &[DVec3], stiffness: f64) -> [DVec3; 3] {
         let [a, b, c] = self.vertices.map(|v| positions[v as usize]);
-        let moments = self
-            .deviations(positions)
-            .map(|deviation| stiffness * deviation);
+        let moments = self.deviations(positions).map(|deviation| stiffness * deviation);
         let at_a = face_angle_gradient(a, b, c).map(|g| g * moments[0]);
         let at_b = face_angle_gradient(b, c, a).map(|g| g * moments[1]);
         let at_c = face_angle_gradient(c, a, b).map(|g| g * moments[2]);
-        [
-            at_a[0] + at_b[2] + at_c[1],
-            at_a[1] + at_b[0] + at_c[2],
-            at_a[2] + at_b[1] + at_c[0],
-        ]
+        [at_a[0] + at_b[2] + at_c[1], at_a[1] + at_b[0] + at_c[2], at_a[2] + at_b[1] + at_c[0]]
     }
 }
 
@@ -325,19 +305,9 @@ fn build_bars(sheet: &Sheet, material: &Material, rest: &[DVec3]) -> Result<Vec<
             });
         }
         let stiffness = material.axial_stiffness / length;
-        Ok(Bar {
-            vertices,
-            rest_length: length,
-            stiffness,
-        })
+        Ok(Bar { vertices, rest_length: length, stiffness })
     };
-    sheet
-        .edges
-        .iter()
-        .map(|edge| edge.vertices)
-        .enumerate()
-        .map(bar)
-        .collect()
+    sheet.edges.iter().map(|edge| edge.vertices).enumerate().map(bar).collect()
 }
 
 fn build_hinges(sheet: &Sheet, material: &Material, bars: &[Bar]) -> Vec<Hinge> {
@@ -351,12 +321,7 @@ fn build_hinges(sheet: &Sheet, material: &Material, bars: &[Bar]) -> Vec<Hinge> 
             Assignment::Border | Assignment::Facet => (HingeKind::Facet, material.facet_stiffness),
         };
         let rest_length = bars[index].rest_length;
-        Some(Hinge {
-            vertices,
-            edge: index as u32,
-            stiffness: stiffness * rest_length,
-            kind,
-        })
+        Some(Hinge { vertices, edge: index as u32, stiffness: stiffness * rest_length, kind })
     };
     sheet.edges.iter().enumerate().filter_map(hinge).collect()
 }
@@ -374,15 +339,8 @@ fn build_faces(sheet: &Sheet, rest: &[DVec3]) -> Result<Vec<FaceAngles>, SolverE
                 minimum: MIN_LENGTH,
             });
         }
-        let rest_angles = [
-            face_angle(a, b, c),
-            face_angle(b, c, a),
-            face_angle(c, a, b),
-        ];
-        Ok(FaceAngles {
-            vertices,
-            rest_angles,
-        })
+        let rest_angles = [face_angle(a, b, c), face_angle(b, c, a), face_angle(c, a, b)];
+        Ok(FaceAngles { vertices, rest_angles })
     };
     sheet.faces.iter().enumerate().map(face).collect()
 }

@@ -38,46 +38,25 @@ fn scene(case: Case, rows: usize, columns: usize, material: &Material, share: f6
     let compact: Vec<f64> = sheet.compact_angles().iter().map(|a| a * share).collect();
     let schedule = Schedule::uniform(&sheet.sheet, &angles, &compact).unwrap();
     let model = Model::new(&sheet.sheet, material).unwrap();
-    Scene {
-        sheet,
-        deployed,
-        model,
-        schedule,
-    }
+    Scene { sheet, deployed, model, schedule }
 }
 
 fn axial(axial_stiffness: f64) -> Material {
-    Material {
-        axial_stiffness,
-        ..Material::default()
-    }
+    Material { axial_stiffness, ..Material::default() }
 }
 
 fn run(scene: &Scene, options: &QuasiStaticOptions) -> QuasiStaticRun {
-    run_quasi_static(
-        &scene.model,
-        &scene.schedule,
-        &scene.deployed,
-        options,
-        &|_| true,
-    )
-    .unwrap()
+    run_quasi_static(&scene.model, &scene.schedule, &scene.deployed, options, &|_| true).unwrap()
 }
 
 fn frames(frames: usize) -> QuasiStaticOptions {
-    QuasiStaticOptions {
-        frames,
-        ..QuasiStaticOptions::default()
-    }
+    QuasiStaticOptions { frames, ..QuasiStaticOptions::default() }
 }
 
 /// The root mean square distance after the best rigid fit.
 fn misfit(a: &[DVec3], b: &[DVec3]) -> f64 {
     let motion = RigidMotion::best_fit(a, b);
-    let squares = a
-        .iter()
-        .zip(b)
-        .map(|(&p, &q)| motion.apply(p).distance_squared(q));
+    let squares = a.iter().zip(b).map(|(&p, &q)| motion.apply(p).distance_squared(q));
     (squares.sum::<f64>() / a.len() as f64).sqrt()
 }
 
@@ -100,10 +79,7 @@ fn every_case_ends_in_its_exact_compact_state_whatever_its_stiffness() {
 fn a_stiff_sheet_of_seven_by_five_ends_in_its_exact_compact_state() {
     let scene = scene(Case::S, 7, 5, &axial(20_000.0), 1.0);
     let run = run(&scene, &frames(120));
-    let rms = misfit(
-        &run.frames.last().unwrap().positions,
-        &scene.sheet.compact(),
-    );
+    let rms = misfit(&run.frames.last().unwrap().positions, &scene.sheet.compact());
     assert!(run.is_complete() && rms < 1e-9, "{rms} {:?}", run.stages);
 }
 
@@ -153,14 +129,8 @@ fn every_frame_lies_at_its_instant_and_is_in_balance() {
     let mut worst: f64 = 0.0;
     for (k, frame) in run.frames.iter().enumerate() {
         assert!((frame.time - k as f64 / 20.0).abs() < 1e-15);
-        let stage = if frame.time <= 1.0 {
-            Stage::Unfold
-        } else {
-            Stage::Fold
-        };
-        scene
-            .schedule
-            .targets(stage, frame.time - stage.start_time(), &mut targets);
+        let stage = if frame.time <= 1.0 { Stage::Unfold } else { Stage::Fold };
+        scene.schedule.targets(stage, frame.time - stage.start_time(), &mut targets);
         let positions = model.to_model(&frame.positions);
         model.follow_angles(&positions, &mut angles);
         let mut gradient = vec![DVec3::ZERO; positions.len()];
@@ -182,10 +152,7 @@ fn every_frame_lies_at_its_instant_and_is_in_balance() {
 #[test]
 fn load_steps_between_frames_are_recorded_where_asked() {
     let scene = scene(Case::T, 7, 3, &axial(2_000.0), 1.0);
-    let every = QuasiStaticOptions {
-        record_load_steps: true,
-        ..frames(24)
-    };
+    let every = QuasiStaticOptions { record_load_steps: true, ..frames(24) };
     let run = run(&scene, &every);
     let steps: usize = run.stages.iter().map(|s| s.load_steps).sum();
     assert_eq!(run.frames.len(), steps + 1);
@@ -202,14 +169,8 @@ fn both_engines_settle_in_the_same_strained_shape() {
         tolerance: 1e-10,
         ..dynamic::DynamicOptions::default()
     };
-    let dynamically = dynamic::run(
-        &scene.model,
-        &scene.schedule,
-        &scene.deployed,
-        &options,
-        &|_| true,
-    )
-    .unwrap();
+    let dynamically =
+        dynamic::run(&scene.model, &scene.schedule, &scene.deployed, &options, &|_| true).unwrap();
     let last = &statically.frames.last().unwrap().positions;
     let other = &dynamically.frames.last().unwrap().positions;
     assert!(misfit(last, other) < 1e-6, "{}", misfit(last, other));
@@ -221,10 +182,7 @@ fn both_engines_settle_in_the_same_strained_shape() {
 fn the_result_is_bitwise_the_same_on_any_number_of_threads() {
     let scene = scene(Case::E, 3, 2, &axial(2_000.0), 1.0);
     let on = |threads: usize| {
-        let pool = rayon::ThreadPoolBuilder::new()
-            .num_threads(threads)
-            .build()
-            .unwrap();
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
         pool.install(|| run(&scene, &frames(24)))
     };
     assert_eq!(on(1), on(4));
@@ -234,12 +192,8 @@ fn the_result_is_bitwise_the_same_on_any_number_of_threads() {
 fn folds_are_followed_past_half_a_turn() {
     // One crease driven to 200°: nothing else can give way to it.
     let mut scene = scene(Case::E, 1, 1, &axial(2_000.0), 1.0);
-    let compact: Vec<f64> = scene
-        .sheet
-        .compact_angles()
-        .iter()
-        .map(|a| a * 200.0 / 180.0)
-        .collect();
+    let compact: Vec<f64> =
+        scene.sheet.compact_angles().iter().map(|a| a * 200.0 / 180.0).collect();
     let deployed = vec![0.0; compact.len()];
     scene.schedule = Schedule::uniform(&scene.sheet.sheet, &deployed, &compact).unwrap();
     let run = run(&scene, &frames(60));
@@ -261,11 +215,7 @@ fn folds_are_followed_past_half_a_turn() {
 fn a_search_without_enough_iterations_keeps_what_was_reached_and_says_where_it_ended() {
     // This sheet snaps, which takes hundreds of iterations.
     let scene = scene(Case::T, 7, 5, &axial(2_000.0), 1.0);
-    let hasty = QuasiStaticOptions {
-        max_iterations: 2,
-        stages: vec![Stage::Fold],
-        ..frames(24)
-    };
+    let hasty = QuasiStaticOptions { max_iterations: 2, stages: vec![Stage::Fold], ..frames(24) };
     let planar = scene.sheet.sheet.planar();
     let run = run_quasi_static(&scene.model, &scene.schedule, &planar, &hasty, &|_| true).unwrap();
     assert!(!run.is_complete());
@@ -284,19 +234,13 @@ fn a_stage_without_enough_iterations_keeps_what_was_reached_and_says_where_it_en
     let scene = scene(Case::T, 7, 5, &axial(2_000.0), 1.0);
     let whole = run(&scene, &frames(24));
     assert!(whole.is_complete() && whole.stages.iter().all(|stage| stage.stop.is_none()));
-    let short = QuasiStaticOptions {
-        iterations_a_step: 2,
-        ..frames(24)
-    };
+    let short = QuasiStaticOptions { iterations_a_step: 2, ..frames(24) };
     let ended = run(&scene, &short);
     assert!(!ended.is_complete());
     let stage = ended.stages.last().unwrap();
     let stop = stage.stop.unwrap();
     assert_eq!(stop.reason, StopReason::OutOfIterations);
-    assert!(
-        stop.residual > stop.tolerance && stop.step > 0.0,
-        "{stop:?}"
-    );
+    assert!(stop.residual > stop.tolerance && stop.step > 0.0, "{stop:?}");
     assert_eq!(stage.iterations, 240);
     assert_eq!(ended.frames.last().unwrap().time, stage.reached);
     // Until then nothing differs.
@@ -314,18 +258,9 @@ fn input_that_does_not_fit_is_refused_with_its_evidence() {
         let error = go(&scene.deployed, &frames(odd));
         assert!(matches!(error, SolverError::Frames { frames, .. } if frames == odd));
     }
-    let tolerance = QuasiStaticOptions {
-        tolerance: f64::NAN,
-        ..frames(2)
-    };
+    let tolerance = QuasiStaticOptions { tolerance: f64::NAN, ..frames(2) };
     let error = go(&scene.deployed, &tolerance);
-    assert!(matches!(
-        error,
-        SolverError::Option {
-            name: "tolerance",
-            ..
-        }
-    ));
+    assert!(matches!(error, SolverError::Option { name: "tolerance", .. }));
     let error = go(&scene.deployed[1..], &frames(2));
     assert!(matches!(error, SolverError::Count { .. }));
     let mut broken = scene.deployed.clone();
@@ -338,24 +273,15 @@ fn input_that_does_not_fit_is_refused_with_its_evidence() {
 fn the_caller_can_end_the_run() {
     let scene = scene(Case::E, 1, 1, &Material::default(), 1.0);
     let stop = |moment: &Snapshot<'_>| moment.time < 0.5;
-    let error = run_quasi_static(
-        &scene.model,
-        &scene.schedule,
-        &scene.deployed,
-        &frames(8),
-        &stop,
-    )
-    .unwrap_err();
+    let error = run_quasi_static(&scene.model, &scene.schedule, &scene.deployed, &frames(8), &stop)
+        .unwrap_err();
     assert_eq!(error, SolverError::Cancelled { time: 0.5 });
 }
 
 #[test]
 fn times_asked_for_are_recorded_once_and_lie_on_the_same_path() {
     let scene = scene(Case::E, 3, 1, &Material::default(), 1.0);
-    let plain = QuasiStaticOptions {
-        frames: 8,
-        ..QuasiStaticOptions::default()
-    };
+    let plain = QuasiStaticOptions { frames: 8, ..QuasiStaticOptions::default() };
     let asked = QuasiStaticOptions {
         extra_times: vec![1.7, 0.1, 1.0, 1.25, 1.7 + 1e-14, 0.0, 2.0, -0.3, 2.5],
         ..plain.clone()

@@ -25,17 +25,9 @@ fn scene(unit: Unit, rows: usize, columns: usize, axial_stiffness: f64, turn: f6
     let deployed = sheet.deployed(&polygon, Facing::Left).unwrap();
     let angles = sheet.deployed_angles(&polygon, Facing::Left).unwrap();
     let schedule = Schedule::uniform(&sheet.sheet, &angles, sheet.compact_angles()).unwrap();
-    let material = Material {
-        axial_stiffness,
-        ..Material::default()
-    };
+    let material = Material { axial_stiffness, ..Material::default() };
     let model = Model::new(&sheet.sheet, &material).unwrap();
-    Scene {
-        sheet,
-        deployed,
-        model,
-        schedule,
-    }
+    Scene { sheet, deployed, model, schedule }
 }
 
 fn unit(case: Case) -> Unit {
@@ -50,22 +42,11 @@ fn unit(case: Case) -> Unit {
 }
 
 fn with_gap(gap: f64, frames: usize) -> QuasiStaticOptions {
-    QuasiStaticOptions {
-        frames,
-        contact: Some(Contact { gap }),
-        ..QuasiStaticOptions::default()
-    }
+    QuasiStaticOptions { frames, contact: Some(Contact { gap }), ..QuasiStaticOptions::default() }
 }
 
 fn run(scene: &Scene, options: &QuasiStaticOptions) -> QuasiStaticRun {
-    run_quasi_static(
-        &scene.model,
-        &scene.schedule,
-        &scene.deployed,
-        options,
-        &|_| true,
-    )
-    .unwrap()
+    run_quasi_static(&scene.model, &scene.schedule, &scene.deployed, options, &|_| true).unwrap()
 }
 
 /// The smallest distance of primitives that share no vertex, by trying all: every vertex and facet, every two edges.
@@ -100,40 +81,21 @@ fn extents(scene: &Scene, frame: &Frame) -> DVec3 {
 #[test]
 fn the_gap_is_kept_in_every_frame_and_between() {
     let gap = 1e-3;
-    for (case, stiffness) in [
-        (Case::S, 20.0),
-        (Case::E, 2_000.0),
-        (Case::SII, 20_000.0),
-        (Case::T, 20.0),
-    ] {
+    for (case, stiffness) in
+        [(Case::S, 20.0), (Case::E, 2_000.0), (Case::SII, 20_000.0), (Case::T, 20.0)]
+    {
         let scene = scene(unit(case), 3, 1, stiffness, 0.4);
         let run = run(&scene, &with_gap(gap, 60));
-        assert!(
-            run.is_complete(),
-            "{case:?}: {:?} {:?}",
-            run.stages,
-            run.jam
-        );
-        assert!(
-            run.figures.last().unwrap().contacts > 0,
-            "{case:?}: layers meet"
-        );
+        assert!(run.is_complete(), "{case:?}: {:?} {:?}", run.stages, run.jam);
+        assert!(run.figures.last().unwrap().contacts > 0, "{case:?}: layers meet");
         for pair in run.frames.windows(2) {
             let own = smallest_distance(&scene, &pair[0].positions);
-            assert!(
-                own >= gap * (1.0 - 1e-9),
-                "{case:?} t = {}: {own}",
-                pair[0].time
-            );
+            assert!(own >= gap * (1.0 - 1e-9), "{case:?} t = {}: {own}", pair[0].time);
             for share in [0.25, 0.5, 0.75] {
                 let ends = pair[0].positions.iter().zip(&pair[1].positions);
                 let between: Vec<DVec3> = ends.map(|(a, b)| a.lerp(*b, share)).collect();
                 let own = smallest_distance(&scene, &between);
-                assert!(
-                    own >= 0.49 * gap,
-                    "{case:?} after t = {}: {own}",
-                    pair[0].time
-                );
+                assert!(own >= 0.49 * gap, "{case:?} after t = {}: {own}", pair[0].time);
             }
         }
     }
@@ -142,10 +104,7 @@ fn the_gap_is_kept_in_every_frame_and_between() {
 #[test]
 fn without_contact_the_same_layers_come_closer_than_the_gap() {
     let scene = scene(unit(Case::S), 3, 1, 20.0, 0.4);
-    let free = QuasiStaticOptions {
-        contact: None,
-        ..with_gap(1e-3, 60)
-    };
+    let free = QuasiStaticOptions { contact: None, ..with_gap(1e-3, 60) };
     let run = run(&scene, &free);
     let last = run.frames.last().unwrap();
     assert!(smallest_distance(&scene, &last.positions) < 1e-9);
@@ -164,15 +123,9 @@ fn the_compact_extents_fall_linearly_with_the_gap_to_the_closed_form() {
             - exact.iter().copied().reduce(DVec3::min).unwrap();
         // The straight line through the two narrow gaps meets the closed form, and the wide one lies near it.
         let limit = narrow * 2.0 - middle;
-        assert!(
-            (limit - exact).abs().max_element() < 1e-3,
-            "{case:?}: {limit} {exact}"
-        );
+        assert!((limit - exact).abs().max_element() < 1e-3, "{case:?}: {limit} {exact}");
         let line = middle * 2.0 - narrow * 1.0 + (middle - narrow);
-        assert!(
-            (wide - line).abs().max_element() < 5e-3,
-            "{case:?}: {wide} {line}"
-        );
+        assert!((wide - line).abs().max_element() < 5e-3, "{case:?}: {wide} {line}");
         assert!((narrow - exact).y > 1e-3, "{case:?}: layers have thickness");
     }
 }
@@ -182,12 +135,7 @@ fn a_stiff_sheet_folds_up_with_strains_below_a_thousandth() {
     for case in [Case::E, Case::T, Case::S, Case::SII] {
         let scene = scene(unit(case), 3, 2, 40_000.0, 0.4);
         let run = run(&scene, &with_gap(1e-3, 120));
-        assert!(
-            run.is_complete(),
-            "{case:?}: {:?} {:?}",
-            run.stages,
-            run.jam
-        );
+        assert!(run.is_complete(), "{case:?}: {:?} {:?}", run.stages, run.jam);
         let strains = run
             .frames
             .iter()
@@ -208,16 +156,10 @@ fn a_short_plain_unit_stops_against_itself_and_says_so() {
     assert!(!jam.blocking.is_empty() && jam.blocking.is_sorted_by(|a, b| a.1 >= b.1));
     for (faces, force) in &jam.blocking {
         assert!(
-            faces
-                .iter()
-                .all(|&f| (f as usize) < scene.sheet.sheet.faces.len())
-                && *force > 0.0
+            faces.iter().all(|&f| (f as usize) < scene.sheet.sheet.faces.len()) && *force > 0.0
         );
     }
-    let free = QuasiStaticOptions {
-        contact: None,
-        ..with_gap(1e-3, 60)
-    };
+    let free = QuasiStaticOptions { contact: None, ..with_gap(1e-3, 60) };
     let through = run(&scene, &free);
     assert!(through.is_complete());
     assert!(through.figures.last().unwrap().fold_angle_error < 1e-9);
@@ -227,10 +169,7 @@ fn a_short_plain_unit_stops_against_itself_and_says_so() {
 fn the_seam_of_a_closed_profile_is_admitted_and_opens() {
     let turn = std::f64::consts::TAU / 8.0;
     let scene = scene(unit(Case::E), 8, 1, 20.0, turn);
-    let options = QuasiStaticOptions {
-        stages: vec![Stage::Unfold],
-        ..with_gap(1e-3, 40)
-    };
+    let options = QuasiStaticOptions { stages: vec![Stage::Unfold], ..with_gap(1e-3, 40) };
     let run = run(&scene, &options);
     assert!(run.is_complete(), "{:?}", run.stages);
     assert!(smallest_distance(&scene, &run.frames[0].positions) < 1e-9);
@@ -243,13 +182,7 @@ fn a_start_that_crosses_itself_is_refused_with_the_pair() {
     // Four rows that turn by 108° each: the last crosses the first.
     let scene = scene(unit(Case::E), 5, 1, 20.0, 144.0_f64.to_radians());
     let go = |options: &QuasiStaticOptions| {
-        run_quasi_static(
-            &scene.model,
-            &scene.schedule,
-            &scene.deployed,
-            options,
-            &|_| false,
-        )
+        run_quasi_static(&scene.model, &scene.schedule, &scene.deployed, options, &|_| false)
     };
     let error = go(&with_gap(1e-3, 4)).unwrap_err();
     let SolverError::StartCrosses { faces } = error else {
@@ -267,17 +200,9 @@ fn a_gap_the_facets_cannot_close_to_is_refused() {
     let scene = scene(unit(Case::S), 1, 1, 20.0, 0.0);
     for gap in [0.5, 0.0, -1.0, f64::NAN] {
         let options = with_gap(gap, 4);
-        let result = run_quasi_static(
-            &scene.model,
-            &scene.schedule,
-            &scene.deployed,
-            &options,
-            &|_| true,
-        );
-        assert!(
-            matches!(result, Err(SolverError::GapTooLarge { .. })),
-            "{gap}"
-        );
+        let result =
+            run_quasi_static(&scene.model, &scene.schedule, &scene.deployed, &options, &|_| true);
+        assert!(matches!(result, Err(SolverError::GapTooLarge { .. })), "{gap}");
     }
 }
 
@@ -285,10 +210,7 @@ fn a_gap_the_facets_cannot_close_to_is_refused() {
 fn contact_gives_bitwise_the_same_result_on_any_number_of_threads() {
     let scene = scene(unit(Case::S), 3, 1, 20.0, 0.4);
     let on = |threads: usize| {
-        let pool = rayon::ThreadPoolBuilder::new()
-            .num_threads(threads)
-            .build()
-            .unwrap();
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
         pool.install(|| run(&scene, &with_gap(1e-3, 40)))
     };
     assert_eq!(on(1), on(3));

@@ -13,10 +13,7 @@ pub(crate) struct HashedWriter<W> {
 
 impl<W: Write> HashedWriter<W> {
     pub(crate) fn new(out: W) -> Self {
-        Self {
-            out,
-            hash: Sha256::new(),
-        }
+        Self { out, hash: Sha256::new() }
     }
 
     /// The digest of everything written so far.

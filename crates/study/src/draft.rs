@@ -83,17 +83,9 @@ impl Draft {
 }
 
 fn unit_draft(input: &Input<'_>) -> Result<UnitDraft, StudyError> {
-    let ResolvedSheet {
-        profile_source,
-        divided,
-        units,
-        ..
-    } = sheet(input)?;
+    let ResolvedSheet { profile_source, divided, units, .. } = sheet(input)?;
     let deployed = units
-        .deployed(
-            &divided.division.points,
-            input.scene.sheet.facing.unwrap_or_default(),
-        )
+        .deployed(&divided.division.points, input.scene.sheet.facing.unwrap_or_default())
         .map_err(|e| pattern_error(input, &e))?;
     Ok(UnitDraft {
         pattern: units.check(),

@@ -30,21 +30,14 @@ pub(crate) fn size(path: &Path) -> Result<u64, StudyError> {
     } else {
         "it is a device or a pipe; only regular files are read"
     };
-    Err(failed(
-        path,
-        io::Error::new(io::ErrorKind::InvalidInput, message),
-    ))
+    Err(failed(path, io::Error::new(io::ErrorKind::InvalidInput, message)))
 }
 
 /// Opens a regular file of at most `limit` bytes; returns it with its size.
 pub(crate) fn open(path: &Path, limit: u64) -> Result<(File, u64), StudyError> {
     let size = size(path)?;
     if size > limit {
-        return Err(StudyError::LargeFile {
-            path: path.to_owned(),
-            size,
-            limit,
-        });
+        return Err(StudyError::LargeFile { path: path.to_owned(), size, limit });
     }
     Ok((File::open(path).map_err(|e| failed(path, e))?, size))
 }
@@ -54,16 +47,10 @@ pub(crate) fn read(path: &Path, limit: u64) -> Result<Vec<u8>, StudyError> {
     let (file, size) = open(path, limit)?;
     let mut bytes = Vec::new();
     // The file may grow while it is read.
-    file.take(limit + 1)
-        .read_to_end(&mut bytes)
-        .map_err(|e| failed(path, e))?;
+    file.take(limit + 1).read_to_end(&mut bytes).map_err(|e| failed(path, e))?;
     let found = bytes.len() as u64;
     if found > limit {
-        return Err(StudyError::LargeFile {
-            path: path.to_owned(),
-            size: size.max(found),
-            limit,
-        });
+        return Err(StudyError::LargeFile { path: path.to_owned(), size: size.max(found), limit });
     }
     Ok(bytes)
 }
@@ -79,10 +66,7 @@ pub(crate) fn read_text(path: &Path, limit: u64) -> Result<String, StudyError> {
 }
 
 fn failed(path: &Path, source: io::Error) -> StudyError {
-    StudyError::Read {
-        path: path.to_owned(),
-        source,
-    }
+    StudyError::Read { path: path.to_owned(), source }
 }
 
 #[cfg(test)]

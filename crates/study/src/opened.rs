@@ -31,9 +31,7 @@ impl OpenedFile {
     /// [`StudyError::Read`]; for a motion [`StudyError::Motion`] and [`StudyError::LargeFile`]; [`StudyError::Interrupted`]
     /// if `progress` returned false. Errors in a scene or a pattern are reported when it is resolved.
     pub fn read(path: &Path, progress: Progress<'_>) -> Result<Self, StudyError> {
-        let is_fold = path
-            .extension()
-            .is_some_and(|ending| ending.eq_ignore_ascii_case("fold"));
+        let is_fold = path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("fold"));
         if is_fold && let Some(motion) = OpenedMotion::read(path, progress)? {
             return Ok(Self::Motion(Arc::new(motion)));
         }
@@ -109,10 +107,7 @@ impl OpenedMotion {
         let last = motion.frames.len().saturating_sub(1);
         let findings = Findings {
             series: self.series(&collision),
-            layer_orders: (!order.is_empty())
-                .then(|| (last, order.clone()))
-                .into_iter()
-                .collect(),
+            layer_orders: (!order.is_empty()).then(|| (last, order.clone())).into_iter().collect(),
             collision,
         };
         progress(Phase::Check, 1.0);
@@ -133,24 +128,18 @@ impl OpenedMotion {
         progress: Progress<'_>,
     ) -> Result<MotionRecord, StudyError> {
         let collision = findings.map(|findings| &findings.collision);
-        self.read
-            .record_into(destination.into(), record, collision, progress)
+        self.read.record_into(destination.into(), record, collision, progress)
     }
 
     fn series(&self, collision: &CollisionReport) -> Vec<FrameFigures> {
         let motion = self.motion();
         let separations = &collision.separation_series;
         let figures = |(index, frame): (usize, &Frame)| {
-            let strain = self
-                .has_rest_lengths()
-                .then(|| bar_strain(&motion.sheet, &frame.positions));
+            let strain =
+                self.has_rest_lengths().then(|| bar_strain(&motion.sheet, &frame.positions));
             FrameFigures {
                 time: frame.time,
-                stage: if frame.time < 1.0 {
-                    Stage::Unfold
-                } else {
-                    Stage::Fold
-                },
+                stage: if frame.time < 1.0 { Stage::Unfold } else { Stage::Fold },
                 peak_strain: strain.as_ref().map_or(f64::NAN, |s| s.peak),
                 mean_strain: strain.as_ref().map_or(f64::NAN, |s| s.mean),
                 peak_bending_deg: facet_bending(&motion.sheet, &frame.positions).peak_deg(),
@@ -166,10 +155,7 @@ impl OpenedMotion {
 
 /// Converts times that count frames into motion times of one stage, as for the motion.
 fn as_one_stage(collision: &mut CollisionReport, frames: usize) {
-    let penetrations = collision
-        .first
-        .iter_mut()
-        .chain(&mut collision.penetrations);
+    let penetrations = collision.first.iter_mut().chain(&mut collision.penetrations);
     for penetration in penetrations {
         penetration.time = stage_time(penetration.time, frames);
         penetration.passed = stage_time(penetration.passed, frames);

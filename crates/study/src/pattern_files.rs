@@ -105,9 +105,7 @@ impl PatternStudy {
             title: input.title(None),
             unit: scene.profile.unit.unwrap_or_default(),
             // Nodes in the middle of facets belong to the mechanical model, not to the pattern.
-            units: sheet(&input)?
-                .units
-                .with_facet_model(FacetModel::OneDiagonal),
+            units: sheet(&input)?.units.with_facet_model(FacetModel::OneDiagonal),
         })
     }
 
@@ -147,11 +145,8 @@ impl PatternStudy {
         let lines = self.line_options(options);
         let angles = self.units.compact_angles();
         let pattern = CutPattern::new(&self.units.sheet, angles, &lines)?;
-        let layout = |PaperSize(paper)| PageLayout {
-            paper,
-            margin: lines.margin,
-            overlap: options.overlap,
-        };
+        let layout =
+            |PaperSize(paper)| PageLayout { paper, margin: lines.margin, overlap: options.overlap };
         let tiles = options.paper.map(|paper| pattern.tiles(layout(paper)));
         let tiles = tiles.transpose()?;
         let fold = crease_pattern_fold(
@@ -281,12 +276,7 @@ mod tests {
 
     #[test]
     fn only_patterns_and_pages_are_recognised_by_name() {
-        for name in [
-            "pattern.svg",
-            "pattern.dxf",
-            "pattern.fold",
-            "pattern-1-12.svg",
-        ] {
+        for name in ["pattern.svg", "pattern.dxf", "pattern.fold", "pattern-1-12.svg"] {
             assert!(format_of(name).is_some(), "{name}");
         }
         for name in [

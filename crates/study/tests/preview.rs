@@ -11,11 +11,7 @@ fn a_preview_of_a_scene_with_contact_reaches_the_exact_compact_state() {
     let source = SceneSource::new(Path::new("a.toml"), scene.to_owned());
     let study = Study::resolve(&source).unwrap();
     assert!(study.contact_gap.is_some());
-    let Preview {
-        motion,
-        series,
-        boxes,
-    } = study.preview(&|_, _| true).unwrap();
+    let Preview { motion, series, boxes } = study.preview(&|_, _| true).unwrap();
     assert_eq!(series.len(), motion.frames.len());
     assert_eq!(boxes.len(), motion.frames.len());
     assert!(series.iter().all(|f| f.separation.is_nan()));
@@ -29,8 +25,5 @@ fn a_preview_of_a_scene_with_contact_reaches_the_exact_compact_state() {
     assert!((reached.volume / closed_form.volume - 1.0).abs() < 1e-5);
     let flat = motion.frames.iter().position(|f| f.time == 1.0).unwrap();
     assert!(boxes[flat].volume < 1e-9 * boxes[0].volume);
-    assert!(matches!(
-        study.preview(&|_, _| false),
-        Err(StudyError::Interrupted)
-    ));
+    assert!(matches!(study.preview(&|_, _| false), Err(StudyError::Interrupted)));
 }

@@ -8,26 +8,17 @@
 //! FOLD files for `foldmotion check`. The exit status is 1 if the kernels missed a meeting or a motion has an error.
 
 #![expect(clippy::print_stdout, reason = "an example that prints its table")]
-#![expect(
-    clippy::disallowed_methods,
-    reason = "the tests compare the two proofs"
-)]
+#![expect(clippy::disallowed_methods, reason = "the tests compare the two proofs")]
 
 #[path = "../tests/ccd_queries/completion.rs"]
 mod completion;
 #[path = "../../geometry/tests/oracle/mod.rs"]
-#[expect(
-    dead_code,
-    reason = "shared with the tests on its own queries, which use more of it"
-)]
+#[expect(dead_code, reason = "shared with the tests on its own queries, which use more of it")]
 mod oracle;
 #[path = "../../geometry/tests/ccd_queries/recorded/mod.rs"]
 mod recorded;
 #[path = "../../check/tests/collision/sheets.rs"]
-#[expect(
-    dead_code,
-    reason = "shared with the tests of folded sheets, which use more of it"
-)]
+#[expect(dead_code, reason = "shared with the tests of folded sheets, which use more of it")]
 mod sheets;
 #[path = "../tests/ccd_queries/trial.rs"]
 mod trial;
@@ -69,10 +60,7 @@ fn main() -> Result<ExitCode, Box<dyn Error>> {
         let by_kernels = queries.fold(KernelTally::default(), |t, q| t.count(q, kernel));
         let as_motions = try_motions(&file, completions, judge);
         let [rounded, untrue] = oddities(&file);
-        println!(
-            "{:<40}{by_kernels} |{as_motions} | {rounded} {untrue}",
-            file.name
-        );
+        println!("{:<40}{by_kernels} |{as_motions} | {rounded} {untrue}", file.name);
         if let Some(out) = &out {
             write_failures(&file, &as_motions.failures, out)?;
         }
@@ -80,14 +68,8 @@ fn main() -> Result<ExitCode, Box<dyn Error>> {
         motions = motions.plus(as_motions);
         odd = [odd[0] + rounded, odd[1] + untrue];
     }
-    println!(
-        "{:<40}{kernels} |{motions} | {} {}\n",
-        "all", odd[0], odd[1]
-    );
-    motions
-        .failures
-        .iter()
-        .for_each(|failure| println!("{failure}"));
+    println!("{:<40}{kernels} |{motions} | {} {}\n", "all", odd[0], odd[1]);
+    motions.failures.iter().for_each(|failure| println!("{failure}"));
     println!("{:.1} s", start.elapsed().as_secs_f64());
     let is_wrong = kernels.false_negatives > 0 || !motions.failures.is_empty();
     Ok(ExitCode::from(u8::from(is_wrong)))
@@ -111,12 +93,7 @@ fn write_failures(
         let at = file.queries.iter().find(|r| r.line == failure.line);
         if let Some(recorded) = at {
             let motion = completion::as_motion(&recorded.query, failure.completion);
-            let Failure {
-                line,
-                completion,
-                kind,
-                ..
-            } = failure;
+            let Failure { line, completion, kind, .. } = failure;
             let name = format!("{stem}_{line}_{completion}_{kind:?}.fold");
             fs::write(out.join(name), fold_text(&motion))?;
         }

@@ -7,10 +7,7 @@
 //! as a motion.
 
 #![expect(clippy::print_stdout, reason = "an example that prints its table")]
-#![expect(
-    clippy::disallowed_methods,
-    reason = "the tests compare the two proofs"
-)]
+#![expect(clippy::disallowed_methods, reason = "the tests compare the two proofs")]
 
 #[path = "../tests/sheet_oracle/oracle/mod.rs"]
 #[expect(clippy::expect_used, reason = "the oracle is a test")]
@@ -93,20 +90,13 @@ fn main() -> Result<ExitCode, Box<dyn Error>> {
         return Ok(ExitCode::SUCCESS);
     }
     let classes = asked.class.map_or(Class::ALL.to_vec(), |class| vec![class]);
-    let share = asked
-        .sheets
-        .unwrap_or(100_000)
-        .div_ceil(classes.len() as u64);
+    let share = asked.sheets.unwrap_or(100_000).div_ceil(classes.len() as u64);
     let start = Instant::now();
     println!("{HEADER}");
     let mut all = Tally::default();
     for class in classes {
         let tally = try_class(class, share);
-        println!(
-            "{:<16} {tally}  {:.1} s",
-            format!("{class:?}"),
-            start.elapsed().as_secs_f64()
-        );
+        println!("{:<16} {tally}  {:.1} s", format!("{class:?}"), start.elapsed().as_secs_f64());
         for (what, numbers) in tally.lists() {
             if !numbers.is_empty() {
                 let first: Vec<_> = numbers.iter().take(8).collect();
@@ -116,7 +106,5 @@ fn main() -> Result<ExitCode, Box<dyn Error>> {
         all.add(&tally);
     }
     println!("{:<16} {all}", "all");
-    Ok(ExitCode::from(u8::from(
-        !all.missed.is_empty() || !all.false_alarms.is_empty(),
-    )))
+    Ok(ExitCode::from(u8::from(!all.missed.is_empty() || !all.false_alarms.is_empty())))
 }

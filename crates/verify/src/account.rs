@@ -137,11 +137,9 @@ impl Verifier<'_> {
         let evidence = self.evidence_of(faces, lost);
         let stated = self.claimed.get(&faces).map(|p| p.frame);
         match stated {
-            Some(frame) => self.refute(
-                &format!("penetrations[{faces:?}].frames"),
-                frame,
-                self.frames - 1,
-            ),
+            Some(frame) => {
+                self.refute(&format!("penetrations[{faces:?}].frames"), frame, self.frames - 1)
+            }
             // If nothing nearby is listed either, that was refuted when the evidence was evaluated.
             None if self.is_listed_around(faces, self.last.time) => {
                 self.refute("penetrations", "an incomplete list", evidence.what);
@@ -157,10 +155,7 @@ impl Verifier<'_> {
         if evidence.pairs.iter().all(|p| self.accounted.contains(p)) {
             return;
         }
-        let is_listed = evidence
-            .pairs
-            .iter()
-            .any(|&p| self.is_listed_around(p, time));
+        let is_listed = evidence.pairs.iter().any(|&p| self.is_listed_around(p, time));
         if !is_listed && !evidence.is_sure {
             if self.questioned.insert(evidence.pairs[0]) {
                 self.leave_open(evidence.pairs[0], &format!("whether {}", evidence.what));
@@ -186,10 +181,9 @@ impl Verifier<'_> {
             let moving = pair.moving(&start.positions, &self.last.positions);
             let known = match index.map(|index| &judged[index]) {
                 Ok(judged) if judged.lost.is_some() || judged.is_skipped => NeighbourState::Lost,
-                Ok(judged) => judged
-                    .trail
-                    .as_ref()
-                    .map_or(NeighbourState::Apart, NeighbourState::Contact),
+                Ok(judged) => {
+                    judged.trail.as_ref().map_or(NeighbourState::Apart, NeighbourState::Contact)
+                }
                 Err(_) if pair.shared > 2 || self.dropped.contains_key(&faces) => {
                     NeighbourState::Lost
                 }
@@ -215,10 +209,7 @@ impl Verifier<'_> {
             })
             .collect();
         let times = [start.time, self.last.time];
-        through
-            .iter()
-            .map(|t| PassageEvidence::of(t, times))
-            .collect()
+        through.iter().map(|t| PassageEvidence::of(t, times)).collect()
     }
 
     /// Evaluates whether sides fit together at the first frame.
@@ -253,13 +244,11 @@ impl Verifier<'_> {
         let least = |limit: f64| {
             let parts = disjoint_parts(moving);
             let nearest =
-                parts
-                    .iter()
-                    .filter_map(|part| match keeps_distance(part, limit, PART_BUDGET) {
-                        DistanceProof::Kept => None,
-                        DistanceProof::Nearer { distance, .. } => Some(distance),
-                        DistanceProof::Unproved => Some(limit),
-                    });
+                parts.iter().filter_map(|part| match keeps_distance(part, limit, PART_BUDGET) {
+                    DistanceProof::Kept => None,
+                    DistanceProof::Nearer { distance, .. } => Some(distance),
+                    DistanceProof::Unproved => Some(limit),
+                });
             nearest.fold(f64::INFINITY, f64::min)
         };
         match self.claim.verdict {
@@ -302,12 +291,7 @@ impl Verifier<'_> {
 
 impl PassageEvidence {
     fn of(through: &EdgePassage, times: [f64; 2]) -> Self {
-        let EdgePassage {
-            face,
-            between: [f, g],
-            time,
-            is_sure,
-        } = *through;
+        let EdgePassage { face, between: [f, g], time, is_sure } = *through;
         let t = times[0] + (times[1] - times[0]) * time;
         Self {
             pairs: [f, g].map(|other| [face.min(other), face.max(other)]),

@@ -35,11 +35,7 @@ pub(crate) fn highest(pose: &PairPose, u: DVec3, v: DVec3) -> f64 {
     let across = across / sine;
     let heights = differences(pose).map(|corner| {
         let (x, y) = (corner.dot(u), corner.dot(across));
-        if y > 0.0 && y * cosine < x * sine {
-            x.hypot(y)
-        } else {
-            x.max(corner.dot(v))
-        }
+        if y > 0.0 && y * cosine < x * sine { x.hypot(y) } else { x.max(corner.dot(v)) }
     });
     heights.fold(f64::NEG_INFINITY, f64::max)
 }
@@ -93,10 +89,7 @@ pub(crate) fn normals(pose: &PairPose) -> Vec<DVec3> {
     // If everything lies near a line, cross products of sides are inaccurate.
     let longest = a.into_iter().chain(b);
     let longest = longest.max_by(|u, v| u.length_squared().total_cmp(&v.length_squared()));
-    for (side, axis) in longest
-        .into_iter()
-        .flat_map(|u| COORDINATES.map(|v| (u, v)))
-    {
+    for (side, axis) in longest.into_iter().flat_map(|u| COORDINATES.map(|v| (u, v))) {
         push(side, axis);
     }
     normals
@@ -150,10 +143,7 @@ mod tests {
 
     fn pose(random: &mut Random) -> PairPose {
         let mut triangle = || [(); 3].map(|()| random.vector());
-        PairPose {
-            a: triangle(),
-            b: triangle(),
-        }
+        PairPose { a: triangle(), b: triangle() }
     }
 
     #[test]

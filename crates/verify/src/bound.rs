@@ -40,11 +40,7 @@ impl Path {
         let (shortest, longest) = self.lengths();
         let sure = least - margin;
         let divisor = if sure > 0.0 { longest } else { shortest };
-        let gap = if divisor > margin / moving.size {
-            sure / divisor
-        } else {
-            f64::NEG_INFINITY
-        };
+        let gap = if divisor > margin / moving.size { sure / divisor } else { f64::NEG_INFINITY };
         let room = match moving.shared {
             0 => gap,
             _ if clear.is_finite() => (clear - margin) / longest,
@@ -62,9 +58,6 @@ impl MovingPair {
         if self.may_clear(axis.0) {
             return bound;
         }
-        Bound {
-            room: f64::NEG_INFINITY,
-            ..bound
-        }
+        Bound { room: f64::NEG_INFINITY, ..bound }
     }
 }

@@ -32,9 +32,7 @@ impl Boxes {
         let count = self.low[0].len();
         let rows: Vec<Vec<u32>> = (0..count).into_par_iter().map(|i| self.row(i)).collect();
         let pairs = rows.iter().enumerate();
-        pairs
-            .flat_map(|(i, row)| row.iter().map(move |&j| [i as u32, j]))
-            .collect()
+        pairs.flat_map(|(i, row)| row.iter().map(move |&j| [i as u32, j])).collect()
     }
 
     fn row(&self, i: usize) -> Vec<u32> {
@@ -60,17 +58,12 @@ impl Boxes {
     }
 
     /// Whether box i overlaps any of the boxes `from` to `to`. The loop has no branch, so that it is vectorised.
-    #[expect(
-        clippy::needless_bitwise_bool,
-        reason = "lazy operators would be branches"
-    )]
+    #[expect(clippy::needless_bitwise_bool, reason = "lazy operators would be branches")]
     fn any(&self, i: usize, from: usize, to: usize) -> bool {
         let low = [0, 1, 2].map(|k| &self.low[k][from..to]);
         let high = [0, 1, 2].map(|k| &self.high[k][from..to]);
-        let (below, above) = (
-            self.low.each_ref().map(|c| c[i]),
-            self.high.each_ref().map(|c| c[i]),
-        );
+        let (below, above) =
+            (self.low.each_ref().map(|c| c[i]), self.high.each_ref().map(|c| c[i]));
         let mut any = 0;
         for j in 0..to - from {
             let hit = (low[0][j] <= above[0])
@@ -104,12 +97,7 @@ mod tests {
             all.push(ends.iter().copied(), 0.01);
         }
         let touches = |p: &[DVec3; 2], q: &[DVec3; 2]| {
-            let (p0, p1, q0, q1) = (
-                p[0].min(p[1]),
-                p[0].max(p[1]),
-                q[0].min(q[1]),
-                q[0].max(q[1]),
-            );
+            let (p0, p1, q0, q1) = (p[0].min(p[1]), p[0].max(p[1]), q[0].min(q[1]), q[0].max(q[1]));
             p0.cmple(q1 + 0.02).all() && q0.cmple(p1 + 0.02).all()
         };
         let mut expected = Vec::new();

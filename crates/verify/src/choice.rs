@@ -68,9 +68,7 @@ impl Verifier<'_> {
                         let here = oriented(&pair, wall, vec![*d]);
                         let level = CLEAR * self.limits.tolerance;
                         there.is_empty()
-                            || poses
-                                .iter()
-                                .all(|pose| are_connected(pose, &here, &there, level))
+                            || poses.iter().all(|pose| are_connected(pose, &here, &there, level))
                     };
                     let fitting: Vec<DVec3> = kept.iter().copied().filter(fits).collect();
                     if !fitting.is_empty() {
@@ -91,10 +89,8 @@ impl Verifier<'_> {
         if let Ok(index) = self.sides.binary_search_by(|(f, _)| f.cmp(&faces)) {
             return self.sides[index].1.directions.clone();
         }
-        let is_open = self
-            .undecided
-            .iter()
-            .any(|(open, frame)| *open == faces && frame + 1 == self.frames);
+        let is_open =
+            self.undecided.iter().any(|(open, frame)| *open == faces && frame + 1 == self.frames);
         if is_open
             || pair.shared > 2
             || self.lost.contains(&faces)

@@ -17,10 +17,7 @@ impl Closest {
     }
 
     fn reversed(self) -> Self {
-        Self {
-            on_a: self.on_b,
-            on_b: self.on_a,
-        }
+        Self { on_a: self.on_b, on_b: self.on_a }
     }
 }
 
@@ -61,13 +58,7 @@ fn below(p: DVec3, t: &[DVec3; 3]) -> Option<DVec3> {
 
 fn nearest(points: impl Iterator<Item = DVec3>, p: DVec3) -> DVec3 {
     points
-        .reduce(|q, r| {
-            if p.distance_squared(r) < p.distance_squared(q) {
-                r
-            } else {
-                q
-            }
-        })
+        .reduce(|q, r| if p.distance_squared(r) < p.distance_squared(q) { r } else { q })
         .unwrap_or(p)
 }
 
@@ -93,10 +84,7 @@ fn of_segments(s: [DVec3; 2], r: [DVec3; 2]) -> Closest {
             let (on_a, on_b) = (s[0] + u * x, r[0] + v * y);
             let as_met = Closest { on_a, on_b };
             let on_b = on_segment(on_a, r);
-            let again = Closest {
-                on_a: on_segment(on_b, s),
-                on_b,
-            };
+            let again = Closest { on_a: on_segment(on_b, s), on_b };
             best = closer([best, as_met, again].into_iter());
         }
     }
@@ -104,12 +92,8 @@ fn of_segments(s: [DVec3; 2], r: [DVec3; 2]) -> Closest {
 }
 
 fn closer(all: impl Iterator<Item = Closest>) -> Closest {
-    let far = Closest {
-        on_a: DVec3::ZERO,
-        on_b: DVec3::INFINITY,
-    };
-    all.reduce(|p, q| if q.distance() < p.distance() { q } else { p })
-        .unwrap_or(far)
+    let far = Closest { on_a: DVec3::ZERO, on_b: DVec3::INFINITY };
+    all.reduce(|p, q| if q.distance() < p.distance() { q } else { p }).unwrap_or(far)
 }
 
 /// The point at which a segment crosses the plane of a triangle, and the point of the triangle nearest to it.
@@ -130,14 +114,8 @@ pub(crate) fn closest(pose: &PairPose) -> Closest {
     let (a, b) = (&pose.a, &pose.b);
     let through_b = (0..3).filter_map(|i| pierced(edge(a, i), b));
     let through_a = (0..3).filter_map(|i| pierced(edge(b, i), a).map(Closest::reversed));
-    let from_a = a.iter().map(|&p| Closest {
-        on_a: p,
-        on_b: on_triangle(p, b),
-    });
-    let from_b = b.iter().map(|&p| Closest {
-        on_a: p,
-        on_b: on_triangle(p, a),
-    });
+    let from_a = a.iter().map(|&p| Closest { on_a: p, on_b: on_triangle(p, b) });
+    let from_b = b.iter().map(|&p| Closest { on_a: p, on_b: on_triangle(p, a) });
     let edges = (0..9).map(|k| of_segments(edge(a, k / 3), edge(b, k % 3)));
     let corners = from_a.chain(from_b.map(Closest::reversed));
     closer(corners.chain(edges).chain(through_b).chain(through_a))
@@ -169,10 +147,7 @@ mod tests {
         let mut random = Random::new(8);
         for _ in 0..200 {
             let mut triangle = |shift: f64| [(); 3].map(|()| random.vector() + DVec3::X * shift);
-            let pose = PairPose {
-                a: triangle(0.0),
-                b: triangle(1.2),
-            };
+            let pose = PairPose { a: triangle(0.0), b: triangle(1.2) };
             let (found, dense) = (closest(&pose).distance(), sampled(&pose));
             assert!(found <= dense + 1e-12, "{found} {dense}");
             assert!(found >= dense - 0.15, "{found} {dense}");

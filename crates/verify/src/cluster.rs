@@ -57,18 +57,10 @@ pub(crate) fn prove(
     layers: &[Layer],
     scale: LayerTolerances,
 ) -> Vec<FoundCluster> {
-    let stacks = LayerStacks {
-        sheet,
-        positions,
-        scale,
-        around: around(sheet.faces.len(), layers),
-        hinges,
-    };
+    let stacks =
+        LayerStacks { sheet, positions, scale, around: around(sheet.faces.len(), layers), hinges };
     let groups = stacks.groups();
-    groups
-        .into_iter()
-        .map(|group| stacks.prove(group))
-        .collect()
+    groups.into_iter().map(|group| stacks.prove(group)).collect()
 }
 
 impl LayerStacks<'_> {
@@ -180,11 +172,7 @@ impl<'a> Flat<'a> {
         let of = |face: u32| corners(stacks.sheet, stacks.positions, face);
         let plane = Plane::of(&of(faces[0]));
         let flat = |&face: &u32| plane.map_or([DVec2::ZERO; 3], |p| p.triangle(&of(face)));
-        Self {
-            faces,
-            triangles: faces.iter().map(flat).collect(),
-            plane,
-        }
+        Self { faces, triangles: faces.iter().map(flat).collect(), plane }
     }
 
     fn triangle(&self, face: u32) -> &[DVec2; 3] {
@@ -201,9 +189,8 @@ impl<'a> Flat<'a> {
         let is_below = |f: u32, g: u32| Some(stacks.below(f, g)?.dot(plane.normal) > 0.0);
         let of_face = |&f: &u32| {
             let later = stacks.around[f as usize].iter().filter(|(g, _)| *g > f);
-            let later: Vec<(u32, bool)> = later
-                .filter_map(|&(g, up)| Some((g, up?.dot(plane.normal) > 0.0)))
-                .collect();
+            let later: Vec<(u32, bool)> =
+                later.filter_map(|&(g, up)| Some((g, up?.dot(plane.normal) > 0.0))).collect();
             let mut found = Vec::new();
             for (k, &(g, f_below_g)) in later.iter().enumerate() {
                 for &(h, f_below_h) in &later[k + 1..] {
@@ -241,13 +228,10 @@ impl<'a> Flat<'a> {
             let mut most = 1;
             for &(g, _) in others {
                 let common = within(of(f), of(g));
-                let first = common
-                    .iter()
-                    .min_by(|p, q| p.x.total_cmp(&q.x).then(p.y.total_cmp(&q.y)));
+                let first =
+                    common.iter().min_by(|p, q| p.x.total_cmp(&q.x).then(p.y.total_cmp(&q.y)));
                 let Some(&corner) = first else { continue };
-                let over = others
-                    .iter()
-                    .filter(|&&(h, _)| holds(of(h), corner, 0.2 * by));
+                let over = others.iter().filter(|&&(h, _)| holds(of(h), corner, 0.2 * by));
                 most = most.max(1 + over.count());
             }
             most

@@ -77,11 +77,7 @@ pub(crate) fn uncoupled<'a>(
                     NeighbourState::Contact(trail) => Some(trail),
                     NeighbourState::Apart => None,
                 };
-                let beyond = NeighbourPair {
-                    pair,
-                    moving,
-                    trail,
-                };
+                let beyond = NeighbourPair { pair, moving, trail };
                 let found = followed.uncoupled_at((wall, edge), &beyond);
                 all.extend(found.map(|(time, is_sure)| EdgePassage {
                     face: wall,
@@ -109,9 +105,8 @@ impl ContactPair<'_> {
         (wall, edge): (u32, [u32; 2]),
         beyond: &NeighbourPair<'_>,
     ) -> Option<(f64, bool)> {
-        let mut instants: Vec<f64> = (0..=SAMPLES)
-            .map(|k| f64::from(k) / f64::from(SAMPLES))
-            .collect();
+        let mut instants: Vec<f64> =
+            (0..=SAMPLES).map(|k| f64::from(k) / f64::from(SAMPLES)).collect();
         instants.extend(thinned(self.trail));
         instants.extend(beyond.trail.into_iter().flat_map(thinned));
         instants.sort_by(f64::total_cmp);
@@ -140,11 +135,8 @@ impl ContactPair<'_> {
     pub(crate) fn to_edge(&self, wall: u32, edge: [u32; 2], t: f64) -> Vec<PairPose> {
         let pose = self.moving.at(t);
         let FacePair { faces, a, b, .. } = self.pair;
-        let (of_wall, of_face) = if faces[0] == wall {
-            ((a, pose.a), (b, pose.b))
-        } else {
-            ((b, pose.b), (a, pose.a))
-        };
+        let (of_wall, of_face) =
+            if faces[0] == wall { ((a, pose.a), (b, pose.b)) } else { ((b, pose.b), (a, pose.a)) };
         let kept_corners = |(corners, positions): (&[u32; 3], [DVec3; 3]),
                             kept: &dyn Fn(&u32) -> bool| {
             let both = corners.iter().zip(positions);

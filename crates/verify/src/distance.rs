@@ -79,10 +79,7 @@ fn without(v: DVec3, basis: &[DVec3]) -> DVec3 {
 /// to that at the second, or stays at one of them. The Bernstein coefficients bound the gap along it from below, and so
 /// the distance.
 pub(crate) fn keeps_distance(moving: &MovingPair, limit: f64, budget: u32) -> DistanceProof {
-    let none = OnPlane {
-        a: [false; 3],
-        b: [false; 3],
-    };
+    let none = OnPlane { a: [false; 3], b: [false; 3] };
     let measure = |pose: &PairPose| {
         let found = closest(pose);
         let distance = found.distance();
@@ -94,10 +91,7 @@ pub(crate) fn keeps_distance(moving: &MovingPair, limit: f64, budget: u32) -> Di
     let mut here = measure(&pose);
     for _ in 0..budget {
         if here.0 < limit {
-            return DistanceProof::Nearer {
-                time,
-                distance: here.0,
-            };
+            return DistanceProof::Nearer { time, distance: here.0 };
         }
         if time >= 1.0 {
             return DistanceProof::Kept;
@@ -139,17 +133,11 @@ mod tests {
         let mut kept = 0;
         for _ in 0..200 {
             let mut triangle = |shift: f64| [(); 3].map(|()| random.vector() + DVec3::X * shift);
-            let (start, end) = (
-                [triangle(0.0), triangle(2.0)],
-                [triangle(0.0), triangle(2.0)],
-            );
+            let (start, end) = ([triangle(0.0), triangle(2.0)], [triangle(0.0), triangle(2.0)]);
             let moving = MovingPair::new(start, end, 0);
             let distance = |k: u32| closest(&moving.at(f64::from(k) / 500.0)).distance();
             let least = (0..=500).map(distance).fold(f64::INFINITY, f64::min);
-            assert_ne!(
-                keeps_distance(&moving, least + 1e-3, 100_000),
-                DistanceProof::Kept
-            );
+            assert_ne!(keeps_distance(&moving, least + 1e-3, 100_000), DistanceProof::Kept);
             if least > 0.05 {
                 kept += 1;
                 let answer = keeps_distance(&moving, least - 0.02, 100_000);

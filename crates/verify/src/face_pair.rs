@@ -30,12 +30,7 @@ impl FacePair {
             }
             sorted
         };
-        Self {
-            faces,
-            a: first(a),
-            b: first(b),
-            shared: common.len(),
-        }
+        Self { faces, a: first(a), b: first(b), shared: common.len() }
     }
 
     pub(crate) fn moving(&self, start: &[DVec3], end: &[DVec3]) -> MovingPair {

@@ -69,10 +69,7 @@ pub(crate) fn follow_leniently(moving: &MovingPair, side: &Side, limits: &Limits
         FollowOutcome::Clean { .. } => followed,
         FollowOutcome::Crosses(crossing) if is_deep(crossing) => followed,
         _ => {
-            let lenient = Limits {
-                tolerance: LENIENCE * limits.tolerance,
-                ..*limits
-            };
+            let lenient = Limits { tolerance: LENIENCE * limits.tolerance, ..*limits };
             match follow(moving, side, &lenient) {
                 clean @ FollowOutcome::Clean { .. } => clean,
                 _ => followed,
@@ -181,16 +178,7 @@ impl<'a> Follower<'a> {
         FollowOutcome::Undecided { time: self.time }
     }
 
-    fn land(
-        &mut self,
-        Step {
-            side,
-            apart,
-            directions,
-        }: Step,
-        pose: PairPose,
-        step: f64,
-    ) {
+    fn land(&mut self, Step { side, apart, directions }: Step, pose: PairPose, step: f64) {
         self.trail.push([self.time, self.time + step], directions);
         self.time += step;
         self.pose = pose;
@@ -239,11 +227,7 @@ impl<'a> Follower<'a> {
         let centre = inner(part, &all);
         all.retain(|axis| axis.room > limit);
         all.sort_by(|p, q| q.room.total_cmp(&p.room));
-        let tried = if step > SEARCH_STEP {
-            FAVOURITES
-        } else {
-            all.len()
-        };
+        let tried = if step > SEARCH_STEP { FAVOURITES } else { all.len() };
         for axis in all.iter().take(tried) {
             if part.bound(axis.feature).room > limit {
                 return unit_end(part, axis);
@@ -292,9 +276,7 @@ impl<'a> Follower<'a> {
         self.has_touched = true;
         let there = axes(part, end);
         let clear = clearance(self.moving, self.limits);
-        let joined = clear_of(&there, clear)
-            .is_some()
-            .then(|| joined(end, &there, &landed, limit));
+        let joined = clear_of(&there, clear).is_some().then(|| joined(end, &there, &landed, limit));
         let way_out = joined.and_then(|joined| clear_of(&joined, clear));
         let apart = way_out.or_else(|| strictly_apart(&there, &landed));
         Some(Step {
@@ -363,15 +345,10 @@ impl<'a> Follower<'a> {
         let Some((mut apart, direction)) = self.last_apart else {
             return 0.0;
         };
-        let mut contact = if self.is_in_contact {
-            self.first_contact
-        } else {
-            self.time
-        };
+        let mut contact = if self.is_in_contact { self.first_contact } else { self.time };
         let parting = |t: f64| {
             let all = axes(self.moving, &self.moving.at(t)).into_iter();
-            all.filter(|axis| axis.room > 0.0)
-                .map(|axis| axis.direction)
+            all.filter(|axis| axis.room > 0.0).map(|axis| axis.direction)
         };
         // The step that ended in contact was proved along one of the directions along which the triangles were apart.
         let before: Vec<DVec3> = parting(apart).chain([direction]).collect();
@@ -390,10 +367,7 @@ impl<'a> Follower<'a> {
 /// The corners on the plane of an axis that is not built from the triangles: the shared ones.
 fn corners(moving: &MovingPair) -> OnPlane {
     let shared = [0, 1, 2].map(|i| i < moving.shared);
-    OnPlane {
-        a: shared,
-        b: shared,
-    }
+    OnPlane { a: shared, b: shared }
 }
 
 fn first_direction(side: &Side) -> DVec3 {
@@ -408,9 +382,7 @@ fn unit_end(part: &MovingPair, axis: &Axis) -> Option<DVec3> {
 /// The instants time + 2^(k − 34) for k = 0, 1, … that are less than 1, and 1 itself.
 pub(crate) fn instants_after(time: f64) -> impl Iterator<Item = f64> {
     let later = std::iter::successors(Some(SHORTEST_STEP), |after| Some(2.0 * after));
-    let within = later
-        .map(move |after| time + after)
-        .take_while(|&t| t < 1.0);
+    let within = later.map(move |after| time + after).take_while(|&t| t < 1.0);
     within.chain([1.0])
 }
 

@@ -97,21 +97,14 @@ pub(crate) fn depth(moving: &MovingPair, pose: &PairPose) -> f64 {
 pub(crate) fn inner(moving: &MovingPair, axes: &[Axis]) -> Option<DVec3> {
     let rounding = 1e-12 * moving.size;
     let rim = axes.iter().filter(|axis| axis.overlap <= rounding);
-    rim.map(|axis| axis.direction)
-        .sum::<DVec3>()
-        .try_normalize()
+    rim.map(|axis| axis.direction).sum::<DVec3>().try_normalize()
 }
 
 /// The axes with an overlap of at most `limit` that are connected to a seed in D(t).
 pub(crate) fn joined(pose: &PairPose, axes: &[Axis], seeds: &[DVec3], limit: f64) -> Vec<Axis> {
-    let low: Vec<Axis> = axes
-        .iter()
-        .copied()
-        .filter(|x| x.overlap <= limit)
-        .collect();
+    let low: Vec<Axis> = axes.iter().copied().filter(|x| x.overlap <= limit).collect();
     let nodes: Vec<DVec3> = low.iter().map(|x| x.direction).collect();
     let is_reached = reached(pose, &nodes, seeds, limit);
     let both = low.into_iter().zip(is_reached);
-    both.filter_map(|(axis, is_reached)| is_reached.then_some(axis))
-        .collect()
+    both.filter_map(|(axis, is_reached)| is_reached.then_some(axis)).collect()
 }

@@ -37,10 +37,7 @@ pub(crate) struct LayerTolerances {
 impl LayerTolerances {
     pub(crate) fn new(tolerance: f64, positions: &[DVec3]) -> Self {
         let extent = positions.iter().map(|p| p.length()).fold(0.0, f64::max);
-        Self {
-            tolerance,
-            slack: (1e-6 * tolerance).max(64.0 * f64::EPSILON * extent),
-        }
+        Self { tolerance, slack: (1e-6 * tolerance).max(64.0 * f64::EPSILON * extent) }
     }
 
     /// Lines nearer than this count as one, and smaller overlaps of layers count as none.
@@ -67,12 +64,7 @@ pub(crate) fn find(
         let [a, b] = faces.map(|f| corners(sheet, positions, f));
         let margin = margin(&a, &b, scale);
         let doubt = (margin.abs() <= scale.slack).then_some("whether they lie on each other");
-        (margin >= -scale.slack).then_some(Layer {
-            faces,
-            up: None,
-            is_lost: false,
-            doubt,
-        })
+        (margin >= -scale.slack).then_some(Layer { faces, up: None, is_lost: false, doubt })
     });
     found.collect()
 }
@@ -98,7 +90,5 @@ fn margin(a: &[DVec3; 3], b: &[DVec3; 3], scale: &LayerTolerances) -> f64 {
 /// `normal` or its opposite, whichever all directions point along; `None` if they do not agree.
 pub(crate) fn side_of(normal: DVec3, directions: &[DVec3]) -> Option<DVec3> {
     let points = |n: DVec3| directions.iter().all(|d| d.dot(n) > CLEAR);
-    [normal, -normal]
-        .into_iter()
-        .find(|&n| !directions.is_empty() && points(n))
+    [normal, -normal].into_iter().find(|&n| !directions.is_empty() && points(n))
 }

@@ -26,16 +26,11 @@ pub(crate) struct LayerState {
 
 impl LayerState {
     pub(crate) fn new(hinges: Vec<[Option<(u32, u32)>; 3]>) -> Self {
-        Self {
-            hinges,
-            ..Self::default()
-        }
+        Self { hinges, ..Self::default() }
     }
 
     pub(crate) fn order(&self, faces: [u32; 2]) -> Option<&Layer> {
-        let found = self
-            .layers
-            .binary_search_by(|layer| layer.faces.cmp(&faces));
+        let found = self.layers.binary_search_by(|layer| layer.faces.cmp(&faces));
         found.ok().map(|index| &self.layers[index])
     }
 }

@@ -55,10 +55,7 @@ impl Verifier<'_> {
         }
         self.layer_state.claims.claimed += order.len();
         self.layer_state.claims.ignored += order.len() - used.len() - stacked.held;
-        if let Some(entry) = stacked
-            .refuted
-            .filter(|_| self.claim.penetrations.is_empty())
-        {
+        if let Some(entry) = stacked.refuted.filter(|_| self.claim.penetrations.is_empty()) {
             let found = format!("the faces are stacked the other way round at frame {frame}");
             self.refute("faceOrders", format!("{entry:?}"), found);
         }
@@ -76,11 +73,7 @@ impl Verifier<'_> {
         };
         if known.dot(up) < 0.0 {
             let is_crease = self.frames == 1 && self.assigned(faces).is_some();
-            let rule = if is_crease {
-                LayerRule::Crease
-            } else {
-                LayerRule::Claim
-            };
+            let rule = if is_crease { LayerRule::Crease } else { LayerRule::Claim };
             self.layer_state.contradictions.push(Contradiction {
                 rule,
                 faces: faces.to_vec(),
@@ -154,10 +147,7 @@ impl Verifier<'_> {
             }
             if let Some(doubt) = layer.doubt {
                 let frame = self.frames - 1;
-                self.layer_state
-                    .doubts
-                    .entry(frame)
-                    .or_insert((faces, doubt));
+                self.layer_state.doubts.entry(frame).or_insert((faces, doubt));
             }
         }
         self.layer_state.layers = layers;

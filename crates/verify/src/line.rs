@@ -74,13 +74,7 @@ impl Line {
         let (at, end, apex) = (triangle[i], triangle[(i + 1) % 3], triangle[(i + 2) % 3]);
         let along = (end - at).try_normalize()?;
         let up = along.cross(apex - at).try_normalize()?;
-        Some(Self {
-            at,
-            along,
-            inward: up.cross(along),
-            up,
-            length: at.distance(end),
-        })
+        Some(Self { at, along, inward: up.cross(along), up, length: at.distance(end) })
     }
 
     fn angle(&self, towards: DVec3) -> f64 {
@@ -179,13 +173,7 @@ impl LayerStacks<'_> {
             let apex = corners.find(|v| !ends.contains(v)).unwrap_or(ends[0]);
             line.angle(self.positions[apex as usize] - self.positions[ends[0] as usize])
         });
-        Chord {
-            key: (0, false, edge),
-            faces,
-            angles,
-            reach,
-            vertices: ends.to_vec(),
-        }
+        Chord { key: (0, false, edge), faces, angles, reach, vertices: ends.to_vec() }
     }
 
     /// Sorts all ends around the line and joins them. The first chord is the hinge whose junctions are recorded.
@@ -194,11 +182,7 @@ impl LayerStacks<'_> {
         let sorted = self.sorted(line, &ends);
         let joins = sorted.as_ref().is_some_and(|all| is_planar(all));
         for (k, other) in chords.iter().enumerate().skip(1) {
-            let crosses = if joins {
-                Some(false)
-            } else {
-                self.crosses(line, &ends, k)
-            };
+            let crosses = if joins { Some(false) } else { self.crosses(line, &ends, k) };
             let (own, theirs) = (chords[0].key, other.key);
             let key = if theirs.1 {
                 (own.2, true, theirs.2)
@@ -281,12 +265,7 @@ fn is_planar(sorted: &[usize]) -> bool {
 /// alike.
 fn grouped_ends(chords: &[&Chord]) -> Vec<ChordEnd> {
     let of = |(chord, c): (usize, &&Chord)| {
-        let end = |k: usize| ChordEnd {
-            chord,
-            face: c.faces[k],
-            angle: c.angles[k],
-            group: 0,
-        };
+        let end = |k: usize| ChordEnd { chord, face: c.faces[k], angle: c.angles[k], group: 0 };
         [end(0), end(1)]
     };
     let mut ends: Vec<ChordEnd> = chords.iter().enumerate().flat_map(of).collect();

@@ -50,10 +50,7 @@ impl<'a> Verifier<'a> {
         if is_deep && lost.is_none() {
             self.refute(
                 "penetrations",
-                format!(
-                    "triangles {:?} penetrate after frame {}",
-                    pair.faces, stated.frame
-                ),
+                format!("triangles {:?} penetrate after frame {}", pair.faces, stated.frame),
                 "they do not",
             );
             return;
@@ -100,13 +97,11 @@ impl<'a> Verifier<'a> {
     /// Names the listed penetrations that were not found.
     pub(crate) fn leave_pending_open(&mut self) {
         let pending = std::mem::take(&mut self.pending).into_iter();
-        self.outcome
-            .unproved
-            .extend(pending.map(|(stated, _)| Unproved {
-                faces: stated.faces,
-                frame: stated.frame,
-                what: "whether they penetrate as listed".to_owned(),
-            }));
+        self.outcome.unproved.extend(pending.map(|(stated, _)| Unproved {
+            faces: stated.faces,
+            frame: stated.frame,
+            what: "whether they penetrate as listed".to_owned(),
+        }));
     }
 
     fn compare(&mut self, stated: &Penetration, found: &FoundPenetration, pair: &FacePair) {

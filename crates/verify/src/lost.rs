@@ -38,19 +38,11 @@ impl LostSide {
     ) -> Self {
         let depth = followed.as_ref().map_or(0.0, |found| found.crossing.depth);
         let is_deep = moving.shared == 0 && depth > limits.tolerance;
-        let mut lost = Self {
-            found: followed,
-            is_deep,
-            is_clear: is_deep,
-            are_parts_clean: false,
-        };
+        let mut lost = Self { found: followed, is_deep, is_clear: is_deep, are_parts_clean: false };
         if is_deep {
             return lost;
         }
-        let wide = Limits {
-            tolerance: CLEAR * limits.tolerance,
-            ..*limits
-        };
+        let wide = Limits { tolerance: CLEAR * limits.tolerance, ..*limits };
         let from = |part: &MovingPair| {
             let all = Side::at_start(part, limits);
             all.filter(|_| is_open).unwrap_or_else(|| side.clone())

@@ -62,14 +62,7 @@ impl MovingPair {
         let relative = |t: usize| [0, 1, 2].map(|i| [start[t][i] - origin, end[t][i] - origin]);
         let (a, b) = (relative(0), relative(1));
         let reach = a.iter().chain(&b).flatten().map(|p| p.length());
-        Self {
-            a,
-            b,
-            shared,
-            origin,
-            size: 2.0 * reach.fold(0.0, f64::max),
-            is_part: false,
-        }
+        Self { a, b, shared, origin, size: 2.0 * reach.fold(0.0, f64::max), is_part: false }
     }
 
     /// The features that can be axes: the face normals of A − B, the normals in the planes of the triangles, and three
@@ -90,16 +83,9 @@ impl MovingPair {
     /// The positions at t in [0, 1].
     pub(crate) fn at(&self, t: f64) -> PairPose {
         let between = |c: [DVec3; 2]| {
-            if t >= 1.0 {
-                c[1]
-            } else {
-                c[0] + (c[1] - c[0]) * t
-            }
+            if t >= 1.0 { c[1] } else { c[0] + (c[1] - c[0]) * t }
         };
-        PairPose {
-            a: self.a.map(between),
-            b: self.b.map(between),
-        }
+        PairPose { a: self.a.map(between), b: self.b.map(between) }
     }
 
     /// The pair between two instants; corners move straight there too.
@@ -138,17 +124,10 @@ impl MovingPair {
     /// Which corners lie on the plane of the axis through the shared corners, by construction.
     pub(crate) fn on_plane(&self, feature: Feature) -> OnPlane {
         let shared = [0, 1, 2].map(|i| i < self.shared);
-        let mut on_plane = OnPlane {
-            a: shared,
-            b: shared,
-        };
+        let mut on_plane = OnPlane { a: shared, b: shared };
         // Edges 0 and 2 start or end at corner 0.
         let mut lay = |is_b: bool, i: usize| {
-            let corners = if is_b {
-                &mut on_plane.b
-            } else {
-                &mut on_plane.a
-            };
+            let corners = if is_b { &mut on_plane.b } else { &mut on_plane.a };
             corners[i] = true;
             corners[(i + 1) % 3] = true;
         };

@@ -26,11 +26,7 @@ impl Neighbourhood {
                 at_vertex[v as usize].push(face);
             }
         }
-        Self {
-            faces: sheet.faces.clone(),
-            at_edge,
-            at_vertex,
-        }
+        Self { faces: sheet.faces.clone(), at_edge, at_vertex }
     }
 
     /// The triangles beyond an edge of a triangle.
@@ -56,10 +52,8 @@ impl Neighbourhood {
 
     /// The triangles with a vertex among those given, each once.
     pub(crate) fn faces_at(&self, vertices: &[u32]) -> Vec<u32> {
-        let mut faces: Vec<u32> = vertices
-            .iter()
-            .flat_map(|&v| self.at_vertex[v as usize].iter().copied())
-            .collect();
+        let mut faces: Vec<u32> =
+            vertices.iter().flat_map(|&v| self.at_vertex[v as usize].iter().copied()).collect();
         faces.sort_unstable();
         faces.dedup();
         faces
@@ -73,8 +67,7 @@ impl Neighbourhood {
         let several = at_edges.into_iter().chain(at_vertices).flatten();
         let all = several.map(|faces| faces.iter().map(|&f| *self.corners(f)).collect());
         let all = std::iter::once(vec![*corners]).chain(all);
-        all.filter_map(|triangles: Vec<[u32; 3]>| Surface::of(&triangles))
-            .collect()
+        all.filter_map(|triangles: Vec<[u32; 3]>| Surface::of(&triangles)).collect()
     }
 
     /// The triangles with a vertex among those given, the two at each of their edges, and the triangles around each of
@@ -91,17 +84,15 @@ impl Neighbourhood {
         let several = several.map(|faces| faces.iter().map(corners).collect());
         let single = faces.iter().map(|f| vec![corners(f)]);
         let all = single.chain(several);
-        all.filter_map(|triangles: Vec<[u32; 3]>| Surface::of(&triangles))
-            .collect()
+        all.filter_map(|triangles: Vec<[u32; 3]>| Surface::of(&triangles)).collect()
     }
 
     /// The edges with an end among the vertices given, each once.
     pub(crate) fn edges_at(&self, vertices: &[u32]) -> Vec<[u32; 2]> {
         let faces = self.faces_at(vertices);
         let all = faces.iter().flat_map(|&face| edges(self.corners(face)));
-        let mut ending: Vec<[u32; 2]> = all
-            .filter(|edge| edge.iter().any(|v| vertices.contains(v)))
-            .collect();
+        let mut ending: Vec<[u32; 2]> =
+            all.filter(|edge| edge.iter().any(|v| vertices.contains(v))).collect();
         ending.sort_unstable();
         ending.dedup();
         ending

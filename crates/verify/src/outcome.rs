@@ -18,11 +18,7 @@ impl Refutation {
     )]
     /// A refutation of a field, from what it states and what was found.
     pub fn new(field: impl Into<String>, stated: impl ToString, found: impl ToString) -> Self {
-        Self {
-            field: field.into(),
-            stated: stated.to_string(),
-            found: found.to_string(),
-        }
+        Self { field: field.into(), stated: stated.to_string(), found: found.to_string() }
     }
 }
 

@@ -43,11 +43,7 @@ impl Path {
             (n[2].cross(v[0]) + n[1].cross(v[1]) * 2.0) / 3.0,
             n[2].cross(v[1]),
         ];
-        Self {
-            coefficients,
-            degree: 3,
-            power: 3,
-        }
+        Self { coefficients, degree: 3, power: 3 }
     }
 
     pub(crate) fn reversed(mut self) -> Self {
@@ -94,10 +90,7 @@ impl Path {
     pub(crate) fn lengths(&self) -> (f64, f64) {
         let used = &self.coefficients[..=self.degree];
         let along = used.iter().sum::<DVec3>().normalize_or_zero();
-        let least = used
-            .iter()
-            .map(|n| n.dot(along))
-            .fold(f64::INFINITY, f64::min);
+        let least = used.iter().map(|n| n.dot(along)).fold(f64::INFINITY, f64::min);
         let longest = used.iter().map(|n| n.length()).fold(0.0, f64::max);
         (least, longest)
     }
@@ -120,10 +113,7 @@ mod tests {
     fn value(coefficients: &[f64], t: f64) -> f64 {
         let mut values = coefficients.to_vec();
         while values.len() > 1 {
-            values = values
-                .windows(2)
-                .map(|w| w[0] + (w[1] - w[0]) * t)
-                .collect();
+            values = values.windows(2).map(|w| w[0] + (w[1] - w[0]) * t).collect();
         }
         values[0]
     }

@@ -33,26 +33,13 @@ pub(crate) struct FoundPenetration {
 
 impl FoundPenetration {
     pub(crate) fn new(moving: &MovingPair, frame: usize, crossing: SideCrossing) -> Self {
-        Self {
-            moving: *moving,
-            frame,
-            times: [0.0, 1.0],
-            crossing,
-        }
+        Self { moving: *moving, frame, times: [0.0, 1.0], crossing }
     }
 
     pub(crate) fn at_first_frame(moving: &MovingPair, time: f64, depth: f64) -> Self {
-        let crossing = SideCrossing {
-            contact: 0.0,
-            passed: 0.0,
-            depth,
-            reach: depth,
-            side: Vec::new(),
-        };
-        Self {
-            times: [time; 2],
-            ..Self::new(moving, 0, crossing)
-        }
+        let crossing =
+            SideCrossing { contact: 0.0, passed: 0.0, depth, reach: depth, side: Vec::new() };
+        Self { times: [time; 2], ..Self::new(moving, 0, crossing) }
     }
 
     fn is_first_frame(&self) -> bool {
@@ -67,9 +54,7 @@ impl FoundPenetration {
     /// move by half of τ relative to each other.
     fn time_slack(&self, limits: &Limits) -> f64 {
         let corners = || self.moving.a.iter().chain(&self.moving.b);
-        let moved = corners()
-            .map(|p| (p[1] - p[0]).length())
-            .fold(0.0, f64::max);
+        let moved = corners().map(|p| (p[1] - p[0]).length()).fold(0.0, f64::max);
         let share = TIME_ACCURACY.max(0.25 * limits.tolerance / moved);
         let [start, end] = self.times;
         share.min(1.0) * (end - start) + 4.0 * f64::EPSILON * start.abs().max(end.abs())
@@ -136,9 +121,7 @@ impl FoundPenetration {
             return is_close(depths.fold(0.0, f64::max));
         }
         let of_stated = self.share(stated.passed).into_iter();
-        let instants = of_stated
-            .chain([self.crossing.passed])
-            .flat_map(instants_after);
+        let instants = of_stated.chain([self.crossing.passed]).flat_map(instants_after);
         let overlaps = instants.flat_map(|t| {
             let pose = self.moving.at(t);
             let all = axes(&self.moving, &pose).into_iter();
@@ -265,18 +248,10 @@ pub(crate) fn meeting_error(
     let are_edges = || {
         (0..9).any(|k| {
             let (i, j) = (k / 3, k % 3);
-            let ends = [
-                pair.a[i],
-                pair.a[(i + 1) % 3],
-                pair.b[j],
-                pair.b[(j + 1) % 3],
-            ];
+            let ends = [pair.a[i], pair.a[(i + 1) % 3], pair.b[j], pair.b[(j + 1) % 3]];
             let (off_a, off_b) = (off_edge(&pose.a, i), off_edge(&pose.b, j));
-            let is_between = if is_far {
-                (off_a - off_b).abs() <= near
-            } else {
-                off_a.max(off_b) <= near
-            };
+            let is_between =
+                if is_far { (off_a - off_b).abs() <= near } else { off_a.max(off_b) <= near };
             is_named(&ends) && is_between
         })
     };

@@ -49,10 +49,7 @@ impl Surface {
         let once = |side: &[u32; 2]| sides.iter().filter(|other| *other == side).count() == 1;
         let is_oriented = sides.iter().all(once);
         let rim = sides.iter().filter(|&&[p, q]| !sides.contains(&[q, p]));
-        is_oriented.then(|| Self {
-            rim: rim.copied().collect(),
-            triangles: oriented,
-        })
+        is_oriented.then(|| Self { rim: rim.copied().collect(), triangles: oriented })
     }
 
     /// Whether an edge passes through the surface for every offset, possibly by less than τ.
@@ -62,11 +59,10 @@ impl Surface {
         position: &dyn Fn(u32) -> DVec3,
         tolerance: f64,
     ) -> bool {
-        self.placed(edge, position)
-            .is_some_and(|(ends, triangles)| {
-                let mut times = times_through(ends, &triangles, tolerance).skip(1);
-                times.all(|times| times.is_some_and(|times| times != 0))
-            })
+        self.placed(edge, position).is_some_and(|(ends, triangles)| {
+            let mut times = times_through(ends, &triangles, tolerance).skip(1);
+            times.all(|times| times.is_some_and(|times| times != 0))
+        })
     }
 
     /// The ends of an edge and the triangles, in space; `None` if they have a vertex in common.
@@ -93,19 +89,14 @@ impl Surface {
         };
         let reach = (1.0 + LONGEST_OFFSET) * tolerance;
         let mut times = times_through(ends, &triangles, tolerance);
-        times
-            .find_map(|times| times)
-            .is_some_and(|times| times != 0)
+        times.find_map(|times| times).is_some_and(|times| times != 0)
             && ends.iter().all(|&end| {
                 let off = |t: &[DVec3; 3]| on_triangle(end, t).distance(end);
                 triangles.iter().all(|t| off(t) > reach)
             })
             && self.rim.iter().all(|side| {
                 let [[p, q], [u, v]] = [ends, side.map(position)];
-                let both = PairPose {
-                    a: [p, q, q],
-                    b: [u, v, v],
-                };
+                let both = PairPose { a: [p, q, q], b: [u, v, v] };
                 closest(&both).distance() > reach
             })
     }
@@ -150,11 +141,7 @@ fn through([p, q]: [DVec3; 2], t: &[DVec3; 3]) -> Option<i32> {
     if above == below {
         return Some(0);
     }
-    let turns = [
-        sign([p, q, u, v])?,
-        sign([p, q, v, w])?,
-        sign([p, q, w, u])?,
-    ];
+    let turns = [sign([p, q, u, v])?, sign([p, q, v, w])?, sign([p, q, w, u])?];
     let is_inside = turns.iter().all(|&turn| turn == turns[0]);
     let direction = if above { 1 } else { -1 };
     Some(if is_inside { direction } else { 0 })

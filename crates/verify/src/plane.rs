@@ -20,11 +20,7 @@ impl Plane {
         let [p, q, r] = *triangle;
         let normal = (q - p).cross(r - p).try_normalize()?;
         let x = (q - p).try_normalize()?;
-        Some(Self {
-            origin: p,
-            axes: [x, normal.cross(x)],
-            normal,
-        })
+        Some(Self { origin: p, axes: [x, normal.cross(x)], normal })
     }
 
     pub(crate) fn height(&self, p: DVec3) -> f64 {
@@ -41,11 +37,7 @@ impl Plane {
     /// The projection of a triangle along the normal, counter-clockwise.
     pub(crate) fn triangle(&self, corners: &[DVec3; 3]) -> [DVec2; 3] {
         let [p, q, r] = corners.map(|p| self.seen(p));
-        if (q - p).perp_dot(r - p) < 0.0 {
-            [p, r, q]
-        } else {
-            [p, q, r]
-        }
+        if (q - p).perp_dot(r - p) < 0.0 { [p, r, q] } else { [p, q, r] }
     }
 }
 
@@ -150,11 +142,7 @@ mod tests {
 
     fn triangle(random: &mut Random) -> [DVec2; 3] {
         let corners = [(); 3].map(|()| random.vector());
-        let plane = Plane {
-            origin: DVec3::ZERO,
-            axes: [DVec3::X, DVec3::Y],
-            normal: DVec3::Z,
-        };
+        let plane = Plane { origin: DVec3::ZERO, axes: [DVec3::X, DVec3::Y], normal: DVec3::Z };
         plane.triangle(&corners)
     }
 

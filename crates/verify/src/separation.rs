@@ -11,22 +11,14 @@ use foldmotion_check::Separation;
 impl Verifier<'_> {
     /// Compares the stated closest approach with the motion, if its time lies between `start` and the last frame.
     pub(crate) fn meet_separation(&mut self, start: &Frame) {
-        let Some(stated) = self
-            .claim
-            .min_separation
-            .filter(|_| !self.is_separation_met)
-        else {
+        let Some(stated) = self.claim.min_separation.filter(|_| !self.is_separation_met) else {
             return;
         };
         let length = self.last.time - start.time;
         if !(stated.time >= start.time && stated.time <= self.last.time) {
             return;
         }
-        let t = if length > 0.0 {
-            (stated.time - start.time) / length
-        } else {
-            0.0
-        };
+        let t = if length > 0.0 { (stated.time - start.time) / length } else { 0.0 };
         match self.separation_error(&stated, start, t) {
             None => self.is_separation_met = true,
             Some(mismatch) => self.separation_error = Some(mismatch),

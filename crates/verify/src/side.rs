@@ -31,18 +31,12 @@ pub(crate) struct Limits {
 impl Side {
     /// Apart, along this direction among others.
     pub(crate) fn apart(direction: DVec3) -> Self {
-        Self {
-            is_apart: true,
-            directions: vec![direction],
-        }
+        Self { is_apart: true, directions: vec![direction] }
     }
 
     /// In contact, with these directions reached.
     pub(crate) fn contact(directions: Vec<DVec3>) -> Self {
-        Self {
-            is_apart: false,
-            directions,
-        }
+        Self { is_apart: false, directions }
     }
 
     /// The side at the first instant of a motion: any that D(t) allows; `None` if the triangles are deeper than τ.
@@ -56,9 +50,7 @@ impl Side {
         let mut directions: Vec<_> = within.map(|x| x.direction).collect();
         if directions.is_empty() {
             let within = arcs::normals(&pose).into_iter();
-            directions = within
-                .filter(|&d| pose.overlap(d) <= limits.tolerance)
-                .collect();
+            directions = within.filter(|&d| pose.overlap(d) <= limits.tolerance).collect();
         }
         let has_some = !directions.is_empty();
         has_some.then_some(Self::contact(directions))

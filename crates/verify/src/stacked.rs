@@ -61,13 +61,10 @@ impl SheetState<'_> {
         }
         let of = |face| triangles.get(&face).into_iter().flatten().copied();
         for (f, g, sign) in open {
-            let ranges: Vec<HeightRange> = of(f)
-                .flat_map(|a| of(g).filter_map(move |b| self.heights(a, b)))
-                .collect();
+            let ranges: Vec<HeightRange> =
+                of(f).flat_map(|a| of(g).filter_map(move |b| self.heights(a, b))).collect();
             let sign_of = |height: f64| height * f64::from(sign);
-            let ends = ranges
-                .iter()
-                .flat_map(|s| [sign_of(s.low), sign_of(s.high)]);
+            let ends = ranges.iter().flat_map(|s| [sign_of(s.low), sign_of(s.high)]);
             let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
             for end in ends {
                 (low, high) = (low.min(end), high.max(end));
@@ -80,9 +77,7 @@ impl SheetState<'_> {
                 stacked.refuted = stacked.refuted.or(Some(entry));
             }
             let is_close = |height: f64| (height.abs() - tolerance).abs() <= DOUBTFUL * tolerance;
-            let doubtful = ranges
-                .iter()
-                .find(|s| s.is_doubtful || is_close(low) || is_close(high));
+            let doubtful = ranges.iter().find(|s| s.is_doubtful || is_close(low) || is_close(high));
             stacked.doubtful = stacked.doubtful.or(doubtful.map(|s| s.triangles));
         }
         stacked
@@ -102,9 +97,8 @@ impl SheetState<'_> {
         let lifted = a.map(|p| (of_b.seen(p), of_b.height(p)));
         let common = plane::within(&seen_a, &seen_b);
         let heights = common.into_iter().map(|point| height_at(point, &lifted));
-        let (low, high) = heights.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), x| {
-            (l.min(x), h.max(x))
-        });
+        let (low, high) =
+            heights.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), x| (l.min(x), h.max(x)));
         let gap = low.max(-high).max(0.0);
         let near = 1.0 - gap / (NEAR * self.sheet.unit_length);
         let least = along.min(overlap).min(near);

@@ -14,11 +14,7 @@ const POINT_TOLERANCES: f64 = 20.0;
 const NONE: &str = "no such cluster";
 
 fn name(faces: &[u32], frames: [usize; 2]) -> String {
-    format!(
-        "{} triangles from {:?} at frames {frames:?}",
-        faces.len(),
-        faces.first()
-    )
+    format!("{} triangles from {:?} at frames {frames:?}", faces.len(), faces.first())
 }
 
 impl Verifier<'_> {
@@ -30,10 +26,7 @@ impl Verifier<'_> {
         contradictions: &[Contradiction],
     ) {
         let claim = self.claim;
-        let conflicts = claim
-            .penetrations
-            .iter()
-            .filter_map(|p| Some((p, p.conflict.as_ref()?)));
+        let conflicts = claim.penetrations.iter().filter_map(|p| Some((p, p.conflict.as_ref()?)));
         for (stated, conflict) in conflicts.clone().filter(|(p, _)| p.frame == frame) {
             let is_it = |f: &&Contradiction| f.rule == conflict.rule && f.faces == conflict.faces;
             let what = match contradictions.iter().find(is_it) {
@@ -147,11 +140,7 @@ impl Verifier<'_> {
         let last = self.frames - 1;
         let late = |p: &&Penetration| p.conflict.is_some() && p.frame > last;
         if let Some(p) = self.claim.penetrations.iter().find(late) {
-            self.refute(
-                "penetrations.frames",
-                p.frame,
-                format!("the last frame is {last}"),
-            );
+            self.refute("penetrations.frames", p.frame, format!("the last frame is {last}"));
         }
     }
 }
@@ -169,11 +158,7 @@ impl FoundCluster {
         let is_same = stated.faces == self.faces && stated.frames == self.frames;
         require(
             is_same && stated.times == self.times,
-            format!(
-                "{}, t = {:?}",
-                name(&stated.faces, stated.frames),
-                stated.times
-            ),
+            format!("{}, t = {:?}", name(&stated.faces, stated.frames), stated.times),
             format!("{}, t = {:?}", name(&self.faces, self.frames), self.times),
         );
         require(

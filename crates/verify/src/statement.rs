@@ -21,11 +21,7 @@ pub(crate) struct Findings<'a> {
 pub(crate) fn consistency(claim: &CollisionReport, facts: &Findings<'_>) -> Vec<Refutation> {
     let mut refuted = Vec::new();
     if let Some(says) = verdict_error(claim, facts.touching) {
-        refuted.push(Refutation::new(
-            "verdict",
-            format!("{:?}", claim.verdict),
-            says,
-        ));
+        refuted.push(Refutation::new("verdict", format!("{:?}", claim.verdict), says));
     }
     refuted.extend(stop_error(claim, facts.last));
     if claim.min_separation.is_none() && has_measured_pair(facts.sheet) {
@@ -37,11 +33,7 @@ pub(crate) fn consistency(claim: &CollisionReport, facts: &Findings<'_>) -> Vec<
     }
     if let Some(says) = separation_error(claim, facts.rounding) {
         let stated = claim.min_separation.map(|s| (s.distance, s.attained));
-        refuted.push(Refutation::new(
-            "min_separation",
-            format!("{stated:?}"),
-            says,
-        ));
+        refuted.push(Refutation::new("min_separation", format!("{stated:?}"), says));
     }
     order_of_penetrations(claim, &mut refuted);
     refuted
@@ -108,9 +100,7 @@ fn order_of_penetrations(claim: &CollisionReport, refuted: &mut Vec<Refutation>)
 ///
 /// Between *free* and *touching*, the pairs that surely or possibly come within τ decide.
 fn verdict_error(claim: &CollisionReport, [sure, possible]: [usize; 2]) -> Option<&'static str> {
-    let is_close = claim
-        .min_separation
-        .is_some_and(|s| s.distance <= claim.tolerance);
+    let is_close = claim.min_separation.is_some_and(|s| s.distance <= claim.tolerance);
     let (is_so, says) = if !claim.penetrations.is_empty() {
         let is_so = claim.verdict == Verdict::Penetrating;
         (is_so, "penetrations are listed")

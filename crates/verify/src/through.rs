@@ -47,11 +47,7 @@ impl Interval<'_> {
     /// The share of the interval at a motion time, clamped to [0, 1].
     fn share(&self, time: f64) -> f64 {
         let [start, end] = self.times();
-        if end > start {
-            ((time - start) / (end - start)).clamp(0.0, 1.0)
-        } else {
-            0.0
-        }
+        if end > start { ((time - start) / (end - start)).clamp(0.0, 1.0) } else { 0.0 }
     }
 
     /// Whether, at one of the instants examined, an edge near the stated triangles pierces the sheet so far that no
@@ -212,10 +208,8 @@ impl Interval<'_> {
     fn deepest(&self, stated: &Penetration) -> f64 {
         let corners = stated.faces.map(|f| *self.around.corners(f));
         let faces = self.around.faces_at(&corners.concat());
-        let all: Vec<[u32; 2]> = faces
-            .iter()
-            .flat_map(|&face| edges(self.around.corners(face)))
-            .collect();
+        let all: Vec<[u32; 2]> =
+            faces.iter().flat_map(|&face| edges(self.around.corners(face))).collect();
         let beyond = |t: f64| {
             let heights = faces.iter().flat_map(|&face| {
                 let [p, q, r] = self.around.corners(face).map(|v| self.position(v, t));

@@ -24,19 +24,13 @@ pub(crate) struct Trail {
 impl Trail {
     pub(crate) fn new(side: &Side) -> Self {
         let contact = (!side.is_apart).then(|| side.directions.clone());
-        Self {
-            start: contact.unwrap_or_default(),
-            steps: Vec::new(),
-        }
+        Self { start: contact.unwrap_or_default(), steps: Vec::new() }
     }
 
     /// The trail of a pair that does not move.
     pub(crate) fn at_rest(side: &Side) -> Self {
         let directions = side.directions.iter().copied().map(StepDirection::Fixed);
-        Self {
-            steps: vec![([0.0, 1.0], directions.collect())],
-            ..Self::new(side)
-        }
+        Self { steps: vec![([0.0, 1.0], directions.collect())], ..Self::new(side) }
     }
 
     pub(crate) fn push(&mut self, times: [f64; 2], directions: Vec<StepDirection>) {
@@ -45,10 +39,7 @@ impl Trail {
 
     /// The ends of the steps in contact.
     pub(crate) fn instants(&self) -> impl Iterator<Item = f64> {
-        let in_contact = self
-            .steps
-            .iter()
-            .filter(|(_, directions)| !directions.is_empty());
+        let in_contact = self.steps.iter().filter(|(_, directions)| !directions.is_empty());
         in_contact.flat_map(|(times, _)| *times)
     }
 
@@ -66,12 +57,10 @@ impl Trail {
         }
         let pose = moving.at(t);
         let here = moving.part(&pose, &pose);
-        let directions = directions
-            .iter()
-            .filter_map(|step_direction| match *step_direction {
-                StepDirection::Along(feature) => here.directed(feature).ends()[0].try_normalize(),
-                StepDirection::Fixed(direction) => Some(direction),
-            });
+        let directions = directions.iter().filter_map(|step_direction| match *step_direction {
+            StepDirection::Along(feature) => here.directed(feature).ends()[0].try_normalize(),
+            StepDirection::Fixed(direction) => Some(direction),
+        });
         directions.collect()
     }
 }

@@ -34,12 +34,7 @@ impl Verifier<'_> {
             let pierced = |a, b| self.pierced(start, a, b);
             pierced(f, g).or_else(|| pierced(g, f))
         });
-        let Some(Pierced {
-            edge,
-            face,
-            instant,
-        }) = found
-        else {
+        let Some(Pierced { edge, face, instant }) = found else {
             return;
         };
         self.is_pierced = true;
@@ -69,11 +64,7 @@ impl Verifier<'_> {
                         .any(|surface| surface.is_pierced(edge, &position, tolerance))
             });
             if let Some(edge) = pierced {
-                return Some(Pierced {
-                    edge,
-                    face,
-                    instant,
-                });
+                return Some(Pierced { edge, face, instant });
             }
         }
         None

@@ -104,10 +104,7 @@ impl<'a> Verifier<'a> {
         let mut verifier = Self {
             sheet,
             claim,
-            limits: Limits {
-                tolerance: claim.tolerance * unit,
-                budget: BUDGET,
-            },
+            limits: Limits { tolerance: claim.tolerance * unit, budget: BUDGET },
             reach: 0.0,
             reference: first.positions[0],
             last: first,
@@ -156,11 +153,8 @@ impl<'a> Verifier<'a> {
             .map(|&faces| FacePair::new(self.sheet, faces))
             .filter(|pair| pair.shared < 3)
             .collect();
-        let mut judged: Vec<PairFindings> = pairs
-            .par_iter()
-            .with_min_len(64)
-            .map(|pair| self.judge(pair, &start))
-            .collect();
+        let mut judged: Vec<PairFindings> =
+            pairs.par_iter().with_min_len(64).map(|pair| self.judge(pair, &start)).collect();
         self.sides.clear();
         let times = [start.time, self.last.time];
         self.account(&start, &pairs, &mut judged);
@@ -187,11 +181,7 @@ impl<'a> Verifier<'a> {
         self.leave_pending_open();
         self.prove_layers();
         self.compare_clusters();
-        if let Some(separation) = self
-            .claim
-            .min_separation
-            .filter(|_| !self.is_separation_met)
-        {
+        if let Some(separation) = self.claim.min_separation.filter(|_| !self.is_separation_met) {
             let mismatch = self.separation_error.take();
             let found =
                 mismatch.unwrap_or_else(|| "the motion does not include this time".to_owned());
@@ -209,9 +199,7 @@ impl<'a> Verifier<'a> {
             .collect();
         for (faces, frame) in missing {
             let open = self.outcome.unproved.iter();
-            let is_open = open
-                .into_iter()
-                .any(|u| u.faces == faces && u.frame == frame);
+            let is_open = open.into_iter().any(|u| u.faces == faces && u.frame == frame);
             if !is_open {
                 self.refute(
                     "penetrations",
@@ -312,10 +300,7 @@ impl<'a> Verifier<'a> {
         let mut boxes = Boxes::default();
         for corners in &self.sheet.faces {
             let swept = corners.iter().flat_map(|&v| {
-                [
-                    start[v as usize] - origin,
-                    self.last.positions[v as usize] - origin,
-                ]
+                [start[v as usize] - origin, self.last.positions[v as usize] - origin]
             });
             boxes.push(swept, radius);
         }
@@ -324,16 +309,11 @@ impl<'a> Verifier<'a> {
 
     fn judge(&self, pair: &FacePair, start: &Frame) -> PairFindings {
         let moving = pair.moving(&start.positions, &self.last.positions);
-        let known = self
-            .sides
-            .binary_search_by(|(faces, _)| faces.cmp(&pair.faces));
+        let known = self.sides.binary_search_by(|(faces, _)| faces.cmp(&pair.faces));
         let known = known.ok().map(|index| &self.sides[index].1);
         let interval = self.frames - 1;
         if self.undecided.contains(&(pair.faces, interval)) {
-            return PairFindings {
-                is_skipped: true,
-                ..PairFindings::default()
-            };
+            return PairFindings { is_skipped: true, ..PairFindings::default() };
         }
         let mut judged = PairFindings::default();
         let mut is_apart = false;
@@ -402,16 +382,11 @@ impl<'a> Verifier<'a> {
         judged: &mut PairFindings,
     ) {
         judged.is_followed = true;
-        let fresh = Side {
-            is_apart: true,
-            directions: Vec::new(),
-        };
+        let fresh = Side { is_apart: true, directions: Vec::new() };
         let was_undecided =
             self.frames > 1 && self.undecided.contains(&(pair.faces, self.frames - 2));
         let was_lost = was_undecided || self.lost.contains(&pair.faces);
-        let anew = was_lost
-            .then(|| Side::at_start(moving, &self.limits))
-            .flatten();
+        let anew = was_lost.then(|| Side::at_start(moving, &self.limits)).flatten();
         let side = known.or(anew.as_ref()).unwrap_or(&fresh);
         let lost = |crossing: Option<SideCrossing>| {
             let found =
@@ -430,11 +405,8 @@ impl<'a> Verifier<'a> {
             }
             FollowOutcome::Crosses(crossing) => {
                 let lost = lost(Some(crossing));
-                judged.touching = if lost.is_deep {
-                    [false; 2]
-                } else {
-                    [judged.touching[0], true]
-                };
+                judged.touching =
+                    if lost.is_deep { [false; 2] } else { [judged.touching[0], true] };
                 judged.lost = Some(lost);
             }
             FollowOutcome::Undecided { .. } => {
@@ -452,11 +424,8 @@ impl<'a> Verifier<'a> {
         if let Some((time, distance)) = judged.nearer {
             let unit = self.sheet.unit_length;
             let stated = self.claim.min_separation.map_or(0.0, |s| s.distance);
-            let found = format!(
-                "triangles {faces:?} are {:e} apart at t = {}",
-                distance / unit,
-                at(time)
-            );
+            let found =
+                format!("triangles {faces:?} are {:e} apart at t = {}", distance / unit, at(time));
             self.refute("min_separation.distance", format!("{stated:e}"), found);
         }
         if let Some(what) = judged.unproved {

@@ -1,9 +1,6 @@
 //! The smallest separation: between its bounds, in both proofs.
 #![expect(clippy::unwrap_used, reason = "a test stops where a value is missing")]
-#![expect(
-    clippy::disallowed_methods,
-    reason = "the tests compare the two proofs"
-)]
+#![expect(clippy::disallowed_methods, reason = "the tests compare the two proofs")]
 
 #[path = "../../check/tests/collision/sheets.rs"]
 #[expect(dead_code, reason = "shared with tests that use more of it")]
@@ -37,11 +34,7 @@ fn read(name: &str) -> Motion {
         Ok(())
     });
     kept.unwrap();
-    Motion {
-        sheet: file.sheet,
-        frames,
-        compact_order: LayerOrder::default(),
-    }
+    Motion { sheet: file.sheet, frames, compact_order: LayerOrder::default() }
 }
 
 fn accuracy(separation: &Separation) -> f64 {
@@ -54,10 +47,7 @@ fn separation(motion: &Motion, case: &str) -> (Separation, Verdict) {
     let separation = report.min_separation.unwrap();
     assert!(separation.is_tight, "{case}: {separation:?}");
     let open = separation.attained - separation.distance;
-    assert!(
-        open >= 0.0 && open <= accuracy(&separation),
-        "{case}: {separation:?}"
-    );
+    assert!(open >= 0.0 && open <= accuracy(&separation), "{case}: {separation:?}");
     let verification = verify(motion, &report);
     let refuted = verification.refuted.iter().map(|r| r.field.as_str());
     let open = verification.unproved.iter().map(|u| u.what.as_str());
@@ -93,11 +83,8 @@ fn the_true_separations_of_pairs_that_pass_closely_are_found() {
         let motion = read(name);
         for place in 0..6 {
             let turn = DQuat::from_axis_angle(random.vector().normalize(), 3.0 * random.number());
-            let (turn, shift) = if place == 0 {
-                (DQuat::IDENTITY, DVec3::ZERO)
-            } else {
-                (turn, random.vector())
-            };
+            let (turn, shift) =
+                if place == 0 { (DQuat::IDENTITY, DVec3::ZERO) } else { (turn, random.vector()) };
             let case = format!("{name} in place {place}");
             let placed = placed(&motion, turn, shift);
             let (found, verdict) = separation(&placed, &case);
@@ -111,11 +98,7 @@ fn the_true_separations_of_pairs_that_pass_closely_are_found() {
 
 #[test]
 fn a_bound_that_is_too_high_is_refuted() {
-    for name in [
-        "sep7_5e-06_3.3e-11.fold",
-        "sep7_2e-05_1e-10.fold",
-        "false_touching_min.fold",
-    ] {
+    for name in ["sep7_5e-06_3.3e-11.fold", "sep7_2e-05_1e-10.fold", "false_touching_min.fold"] {
         let motion = read(name);
         let report = judge(&motion);
         let found = report.min_separation.unwrap();
@@ -130,13 +113,7 @@ fn a_bound_that_is_too_high_is_refuted() {
         };
         assert!(!is_refuted(found), "{name}");
         let too_high = 1.01 * found.distance;
-        assert!(
-            is_refuted(Separation {
-                distance: too_high,
-                ..found
-            }),
-            "{name}"
-        );
+        assert!(is_refuted(Separation { distance: too_high, ..found }), "{name}");
         // What is attained at the first frame is an upper bound too; only the motion refutes the lower one.
         let first = motion.frames[0].positions.as_slice();
         let corners = |f: usize| motion.sheet.faces[f].map(|v| first[v as usize]);
@@ -149,49 +126,19 @@ fn a_bound_that_is_too_high_is_refuted() {
             ..found
         };
         assert!(!is_refuted(loose), "{name}");
-        assert!(
-            is_refuted(Separation {
-                distance: too_high,
-                ..loose
-            }),
-            "{name}"
-        );
-        assert!(
-            is_refuted(Separation {
-                is_tight: true,
-                ..loose
-            }),
-            "{name}"
-        );
+        assert!(is_refuted(Separation { distance: too_high, ..loose }), "{name}");
+        assert!(is_refuted(Separation { is_tight: true, ..loose }), "{name}");
         // A distance that is not attained, or is attained elsewhere, is not accepted either.
         let lower = found.attained - 0.001 * found.attained;
         let (attained, distance) = (lower, 0.9 * lower);
         let is_tight = false;
-        let shifted = [
-            found.points[0],
-            found.points[1] + (found.points[1] - found.points[0]),
-        ];
+        let shifted = [found.points[0], found.points[1] + (found.points[1] - found.points[0])];
         for wrong in [
-            Separation {
-                points: shifted,
-                ..found
-            },
+            Separation { points: shifted, ..found },
             Separation { time: 0.5, ..found },
-            Separation {
-                attained: 2.0 * found.attained,
-                is_tight,
-                ..found
-            },
-            Separation {
-                attained,
-                distance,
-                is_tight,
-                ..found
-            },
-            Separation {
-                distance: f64::NAN,
-                ..found
-            },
+            Separation { attained: 2.0 * found.attained, is_tight, ..found },
+            Separation { attained, distance, is_tight, ..found },
+            Separation { distance: f64::NAN, ..found },
         ] {
             assert!(is_refuted(wrong), "{name}: {wrong:?}");
         }
@@ -209,12 +156,7 @@ fn two_triangles(random: &mut Random, thin: f64, near: f64) -> Motion {
         .map(|_| {
             let drift = [random.vector() * shape, random.vector() * shape];
             let moved = |(k, p): (usize, &DVec3)| {
-                let up = DVec3::Z
-                    * if k < 3 {
-                        0.0
-                    } else {
-                        near * (1.0 + 0.3 * drift[0].x)
-                    };
+                let up = DVec3::Z * if k < 3 { 0.0 } else { near * (1.0 + 0.3 * drift[0].x) };
                 turn * (*p + drift[k / 3] * 0.5 + up)
             };
             start.iter().enumerate().map(moved).collect()
@@ -236,9 +178,7 @@ fn sampled(motion: &Motion) -> (f64, f64) {
             least = least.min(triangle_triangle(&corners(0, s), &corners(1, s)).distance);
         }
         let moves: Vec<DVec3> = p.iter().zip(q).map(|(p, q)| *q - *p).collect();
-        let speeds = moves[..3]
-            .iter()
-            .flat_map(|u| moves[3..].iter().map(|v| u.distance(*v)));
+        let speeds = moves[..3].iter().flat_map(|u| moves[3..].iter().map(|v| u.distance(*v)));
         between = speeds.fold(between, f64::max);
     }
     (least, between / f64::from(2 * SAMPLES))
@@ -256,10 +196,7 @@ fn the_bounds_of_slivers_and_of_near_pairs_hold_what_dense_sampling_finds_in_bot
         let (least, slack) = sampled(&motion);
         assert!(found.distance <= least, "{name}: {found:?} above {least:e}");
         let allowed = slack + accuracy(&found);
-        assert!(
-            found.distance >= least - allowed,
-            "{name}: {found:?} far below {least:e}"
-        );
+        assert!(found.distance >= least - allowed, "{name}: {found:?} far below {least:e}");
         let is_free = verdict == Verdict::Free;
         assert_eq!(is_free, found.distance > TOLERANCE, "{name}: {found:?}");
         verdicts[verdict as usize] += 1;
@@ -284,10 +221,7 @@ fn the_bounds_of_a_single_frame_are_those_of_its_triangles() {
 #[test]
 fn an_exhausted_budget_is_reported() {
     let motion = read("sep7_5e-06_3.3e-11.fold");
-    let hasty = CollisionOptions {
-        budget: 8,
-        ..CollisionOptions::default()
-    };
+    let hasty = CollisionOptions { budget: 8, ..CollisionOptions::default() };
     let report = collisions(&motion, &hasty, &|_| true).unwrap();
     let found = report.min_separation.unwrap();
     assert!(!found.is_tight && found.distance <= 5.745e-6, "{found:?}");

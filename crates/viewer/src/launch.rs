@@ -49,9 +49,7 @@ fn require_display() -> Result<(), ViewerError> {
     if is_set("DISPLAY") || is_set("WAYLAND_DISPLAY") || is_set("WAYLAND_SOCKET") {
         return Ok(());
     }
-    Err(ViewerError::NoDisplay {
-        reason: "none is named".to_owned(),
-    })
+    Err(ViewerError::NoDisplay { reason: "none is named".to_owned() })
 }
 
 #[cfg(not(all(unix, not(target_os = "macos"))))]
@@ -64,11 +62,7 @@ fn icon() -> IconData {
     const SIDE: u32 = 64;
     let colour = |x: f32, y: f32| -> [u8; 4] {
         let ridge = 0.5 + 0.18 * (y - 0.5);
-        let slope = if x < ridge {
-            x / ridge
-        } else {
-            (1.0 - x) / (1.0 - ridge)
-        };
+        let slope = if x < ridge { x / ridge } else { (1.0 - x) / (1.0 - ridge) };
         let top = 0.62 - 0.44 * slope;
         match (y > top && y < top + 0.42, x < ridge) {
             (true, true) => [255, 246, 226, 255],
@@ -78,9 +72,5 @@ fn icon() -> IconData {
     };
     let centre = |k: u32| (k as f32 + 0.5) / SIDE as f32;
     let rgba = (0..SIDE * SIDE).flat_map(|k| colour(centre(k % SIDE), centre(k / SIDE)));
-    IconData {
-        rgba: rgba.collect(),
-        width: SIDE,
-        height: SIDE,
-    }
+    IconData { rgba: rgba.collect(), width: SIDE, height: SIDE }
 }

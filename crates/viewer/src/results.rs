@@ -38,12 +38,7 @@ pub(crate) fn file_results(
     let certificate = &judged.certificate;
     let collision = &judged.findings.collision;
     let colour = verdict_colour(ui, certificate.verdict);
-    ui.label(
-        RichText::new(certificate.verdict.name())
-            .size(20.0)
-            .strong()
-            .color(colour),
-    );
+    ui.label(RichText::new(certificate.verdict.name()).size(20.0).strong().color(colour));
     ui.label(format!(
         "{} pairs tested between {} frames, tolerance {:.0e} units of length",
         collision.pairs_tested.total(),
@@ -62,10 +57,7 @@ pub(crate) fn file_results(
         chosen = time_link(ui, &words, first.time);
     }
     if collision.penetrations.len() > 1 {
-        ui.label(format!(
-            "{} pairs of triangles penetrate",
-            collision.penetrations.len()
-        ));
+        ui.label(format!("{} pairs of triangles penetrate", collision.penetrations.len()));
     }
     if let Some(separation) = &collision.min_separation {
         let words = format!("smallest separation {:.2e} at", separation.distance);
@@ -141,10 +133,7 @@ fn outcome(ui: &mut Ui, report: &Report) -> Option<f64> {
 
 fn penetration(ui: &mut Ui, first: &PenetrationReport) -> Option<f64> {
     let units = first.units.as_ref().map_or_else(String::new, |[a, b]| {
-        format!(
-            " (row {}, column {} and row {}, column {})",
-            a.row, a.column, b.row, b.column
-        )
+        format!(" (row {}, column {} and row {}, column {})", a.row, a.column, b.row, b.column)
     });
     let words = format!(
         "{}: facets {} and {}{units}, {:.2e} h deep, at",
@@ -159,9 +148,7 @@ fn time_link(ui: &mut Ui, words: &str, t: f64) -> Option<f64> {
         ui.spacing_mut().item_spacing.x = 4.0;
         ui.label(words);
         let link = ui.add(Link::new(format!("t\u{a0}=\u{a0}{t:.4}")));
-        link.on_hover_text("Go to this motion time")
-            .clicked()
-            .then_some(t)
+        link.on_hover_text("Go to this motion time").clicked().then_some(t)
     })
     .inner
 }
@@ -169,40 +156,35 @@ fn time_link(ui: &mut Ui, words: &str, t: f64) -> Option<f64> {
 fn boxes(ui: &mut Ui, report: &Report) {
     let unit = &report.length_unit;
     ui.strong(format!("compact box, {unit}"));
-    Grid::new("compact box")
-        .num_columns(4)
-        .striped(true)
-        .show(ui, |ui| {
-            let about = "Equations 3 to 7 of the paper";
-            ui.label("");
-            ui.weak("measured");
-            ui.weak("closed form").on_hover_text(about);
-            ui.weak("error").on_hover_text(about);
-            ui.end_row();
-            let (compact, form) = (&report.compact, report.closed_form.as_ref());
-            let error = compact.relative_error.as_ref();
-            let extents = ["x, length", "y, width", "z, flaps"]
-                .into_iter()
-                .enumerate();
-            let extents = extents.map(|(k, name)| {
-                let form = form.map(|f| f.extents[k]);
-                let error = error.map(|e| e.extents[k]);
-                (name, compact.extents[k], form, error)
-            });
-            let (form_area, error_area) = (form.map(|f| f.area), error.map(|e| e.area));
-            let (form_volume, error_volume) = (form.map(|f| f.volume), error.map(|e| e.volume));
-            let sizes = [
-                ("area x·z", compact.area, form_area, error_area),
-                ("volume", compact.volume, form_volume, error_volume),
-            ];
-            for (name, value, form, error) in extents.chain(sizes) {
-                ui.label(name);
-                ui.label(format!("{value:.5}"));
-                ui.label(form.map_or_else(|| "–".to_owned(), |v| format!("{v:.5}")));
-                ui.label(error.map_or_else(|| "–".to_owned(), |v| format!("{v:+.1e}")));
-                ui.end_row();
-            }
+    Grid::new("compact box").num_columns(4).striped(true).show(ui, |ui| {
+        let about = "Equations 3 to 7 of the paper";
+        ui.label("");
+        ui.weak("measured");
+        ui.weak("closed form").on_hover_text(about);
+        ui.weak("error").on_hover_text(about);
+        ui.end_row();
+        let (compact, form) = (&report.compact, report.closed_form.as_ref());
+        let error = compact.relative_error.as_ref();
+        let extents = ["x, length", "y, width", "z, flaps"].into_iter().enumerate();
+        let extents = extents.map(|(k, name)| {
+            let form = form.map(|f| f.extents[k]);
+            let error = error.map(|e| e.extents[k]);
+            (name, compact.extents[k], form, error)
         });
+        let (form_area, error_area) = (form.map(|f| f.area), error.map(|e| e.area));
+        let (form_volume, error_volume) = (form.map(|f| f.volume), error.map(|e| e.volume));
+        let sizes = [
+            ("area x·z", compact.area, form_area, error_area),
+            ("volume", compact.volume, form_volume, error_volume),
+        ];
+        for (name, value, form, error) in extents.chain(sizes) {
+            ui.label(name);
+            ui.label(format!("{value:.5}"));
+            ui.label(form.map_or_else(|| "–".to_owned(), |v| format!("{v:.5}")));
+            ui.label(error.map_or_else(|| "–".to_owned(), |v| format!("{v:+.1e}")));
+            ui.end_row();
+        }
+    });
 }
 
 fn stage_rows(ui: &mut Ui, stage: &StageReport) -> Option<f64> {
@@ -214,10 +196,7 @@ fn stage_rows(ui: &mut Ui, stage: &StageReport) -> Option<f64> {
     }
     let strain = format!("largest strain {:.2e} at", stage.peak_strain);
     chosen = time_link(ui, &strain, stage.peak_strain_t).or(chosen);
-    let bending = format!(
-        "largest facet bending {:.2}° at",
-        stage.peak_facet_bending_deg
-    );
+    let bending = format!("largest facet bending {:.2}° at", stage.peak_facet_bending_deg);
     chosen = time_link(ui, &bending, stage.peak_facet_bending_t).or(chosen);
     let e = &stage.peak_energy;
     ui.label(format!(

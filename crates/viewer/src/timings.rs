@@ -100,12 +100,7 @@ impl Timings {
         let most = times.get((count * 95 / 100).min(count.checked_sub(1)?))?;
         let ms = |d: Duration| d.as_secs_f64() * 1e3;
         let mean = |k: usize| frames.iter().map(|times| ms(times[k])).sum::<f64>() / count as f64;
-        Some(FrameTimes {
-            count,
-            mean_ms: mean(0),
-            most_ms: ms(*most),
-            spacing_ms: mean(1),
-        })
+        Some(FrameTimes { count, mean_ms: mean(0), most_ms: ms(*most), spacing_ms: mean(1) })
     }
 
     /// All measurements as text, one per line.
@@ -176,17 +171,11 @@ mod tests {
         }
         timings.rate("run", 240.0);
         let text = timings.summary();
-        assert!(
-            text.contains("first picture") && text.contains("240 states"),
-            "{text}"
-        );
+        assert!(text.contains("first picture") && text.contains("240 states"), "{text}");
         if thread_time().is_some() {
             let count = |activity| timings.frame_times(activity).map(|times| times.count);
             assert_eq!(Activity::ALL.map(count), [Some(5), None, Some(FRAMES)]);
-            assert!(
-                text.contains("during background jobs") && text.contains("memory"),
-                "{text}"
-            );
+            assert!(text.contains("during background jobs") && text.contains("memory"), "{text}");
         }
     }
 }

@@ -93,11 +93,7 @@ impl<'a> Checker<'a> {
         validate_faces(sheet)?;
         let hull = Aabb::around(first.positions.iter().copied());
         let centre = (hull.min + hull.max) * 0.5;
-        let origin = if centre.is_finite() {
-            centre
-        } else {
-            DVec3::ZERO
-        };
+        let origin = if centre.is_finite() { centre } else { DVec3::ZERO };
         let last = CentredFrame::new(sheet, first, 0, origin)?;
         let tolerance = value * sheet.unit_length;
         let limits = limits_for(0, last.extent, tolerance, options.budget)?;
@@ -144,11 +140,7 @@ impl<'a> Checker<'a> {
         let next = CentredFrame::new(self.sheet, frame, self.frames, self.origin)?;
         let (before, time) = (self.last.time, next.time);
         if time.partial_cmp(&before) != Some(std::cmp::Ordering::Greater) {
-            return Err(CheckError::TimeOrder {
-                frame: self.frames,
-                time,
-                before,
-            });
+            return Err(CheckError::TimeOrder { frame: self.frames, time, before });
         }
         let extent = self.last.extent.max(next.extent);
         let limits = limits_for(self.frames, extent, self.tolerance, self.budget)?;
@@ -187,18 +179,13 @@ impl<'a> Checker<'a> {
             self.bound_only_frame();
         }
         let by_time = |p: &Penetration, q: &Penetration| {
-            let by_times = p
-                .time
-                .total_cmp(&q.time)
-                .then(p.passed.total_cmp(&q.passed));
+            let by_times = p.time.total_cmp(&q.time).then(p.passed.total_cmp(&q.passed));
             by_times.then(p.faces.cmp(&q.faces))
         };
         self.report.penetrations.sort_by(by_time);
         let unit = self.sheet.unit_length;
         let mut report = self.report;
-        report
-            .clusters
-            .sort_by(|p, q| p.frames.cmp(&q.frames).then(p.faces.cmp(&q.faces)));
+        report.clusters.sort_by(|p, q| p.frames.cmp(&q.frames).then(p.faces.cmp(&q.faces)));
         report.first = report.penetrations.first().cloned();
         report.touching_pairs = self.touching.len();
         report.min_separation = self.nearest.separation(unit, self.origin);
@@ -234,10 +221,9 @@ impl<'a> Checker<'a> {
 
     /// Computes the lower bound of the separation for a motion of a single frame.
     fn bound_only_frame(&mut self) {
-        let (Some(nearest), Ok(limits)) = (
-            self.nearest.distance(),
-            limits_for(0, self.last.extent, self.tolerance, self.budget),
-        ) else {
+        let (Some(nearest), Ok(limits)) =
+            (self.nearest.distance(), limits_for(0, self.last.extent, self.tolerance, self.budget))
+        else {
             return;
         };
         let (radius, time) = (0.5 * nearest, self.last.time);
@@ -265,20 +251,12 @@ impl<'a> Checker<'a> {
             .collect();
         self.tree.refit(&swept);
         let pairs = self.tree.overlapping_pairs(&swept);
-        pairs
-            .into_iter()
-            .map(|(f, g)| FacePair::new(self.sheet, f, g))
-            .collect()
+        pairs.into_iter().map(|(f, g)| FacePair::new(self.sheet, f, g)).collect()
     }
 
     /// Determines the sides at the first frame.
     fn judge_first_frame(&mut self, limits: &Limits) -> Result<(), CheckError> {
-        let swept: Vec<_> = self
-            .last
-            .boxes
-            .iter()
-            .map(|b| b.inflated(self.tolerance))
-            .collect();
+        let swept: Vec<_> = self.last.boxes.iter().map(|b| b.inflated(self.tolerance)).collect();
         self.tree.refit(&swept);
         let assignments = assignments(self.sheet);
         for (f, g) in self.tree.overlapping_pairs(&swept) {
@@ -369,13 +347,7 @@ impl<'a> Checker<'a> {
         }
         let decided_by = &mut self.report.decided_by;
         match judgement {
-            Judgement::Passed {
-                side,
-                effort,
-                is_touching,
-                is_near,
-                distance,
-            } => {
+            Judgement::Passed { side, effort, is_touching, is_near, distance } => {
                 if is_near {
                     self.near.push(pair.faces);
                 }
@@ -420,18 +392,9 @@ fn limits_for(
 ) -> Result<Limits, CheckError> {
     let margin = Limits::margin_for(extent);
     if margin * ROUNDINGS > tolerance {
-        return Err(CheckError::ToleranceBelowRounding {
-            frame,
-            extent,
-            margin,
-            tolerance,
-        });
+        return Err(CheckError::ToleranceBelowRounding { frame, extent, margin, tolerance });
     }
-    Ok(Limits {
-        tolerance,
-        margin,
-        budget,
-    })
+    Ok(Limits { tolerance, margin, budget })
 }
 
 fn empty_report(tolerance: f64) -> CollisionReport {
@@ -456,11 +419,7 @@ fn validate_faces(sheet: &Sheet) -> Result<(), CheckError> {
     let vertices = sheet.vertices.len();
     for (face, corners) in sheet.faces.iter().enumerate() {
         if let Some(&vertex) = corners.iter().find(|&&v| v as usize >= vertices) {
-            return Err(CheckError::CornerOutOfRange {
-                face,
-                vertex,
-                vertices,
-            });
+            return Err(CheckError::CornerOutOfRange { face, vertex, vertices });
         }
     }
     Ok(())
@@ -479,10 +438,6 @@ fn assignments(sheet: &Sheet) -> BTreeMap<(u32, u32), Assignment> {
 
 /// The axes that point to the side of `normal`; all of them if none does.
 pub(super) fn on_side(axes: &[DVec3], normal: DVec3) -> Vec<DVec3> {
-    let kept: Vec<_> = axes
-        .iter()
-        .copied()
-        .filter(|d| d.dot(normal) > 0.5)
-        .collect();
+    let kept: Vec<_> = axes.iter().copied().filter(|d| d.dot(normal) > 0.5).collect();
     if kept.is_empty() { axes.to_vec() } else { kept }
 }

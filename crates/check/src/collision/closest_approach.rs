@@ -29,11 +29,7 @@ struct Attained {
 
 impl ClosestApproach {
     pub(super) fn new(limits: &Limits) -> Self {
-        Self {
-            attained: None,
-            at_least: f64::INFINITY,
-            limits: *limits,
-        }
+        Self { attained: None, at_least: f64::INFINITY, limits: *limits }
     }
 
     /// The smallest distance found; `None` if no pair is measured.
@@ -53,11 +49,7 @@ impl ClosestApproach {
     /// Records a distance that is attained, if it is the smallest so far.
     pub(super) fn keep(&mut self, faces: [u32; 2], time: f64, closest: Closest) {
         if self.distance().is_none_or(|least| closest.distance < least) {
-            self.attained = Some(Attained {
-                faces,
-                time,
-                closest,
-            });
+            self.attained = Some(Attained { faces, time, closest });
         }
     }
 
@@ -72,11 +64,7 @@ impl ClosestApproach {
 
     /// The bounds in units of `unit`, with points relative to the origin of the motion.
     pub(super) fn separation(&self, unit: f64, origin: DVec3) -> Option<Separation> {
-        let Attained {
-            faces,
-            time,
-            closest,
-        } = self.attained?;
+        let Attained { faces, time, closest } = self.attained?;
         let upper = closest.distance;
         let lower = self.at_least.min(upper - self.limits.margin).max(0.0);
         Some(Separation {

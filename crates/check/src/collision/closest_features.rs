@@ -21,25 +21,16 @@ impl ClosestFeatures {
     /// distance exceeds the smallest one by at most `slack`.
     pub(super) fn nearest(pair: &FacePair, pose: &PairPose, wants_edges: bool, slack: f64) -> Self {
         let (corner, edges) = (Self::corner_and_facet(pair, pose), Self::edges(pair, pose));
-        let (wanted, other) = if wants_edges {
-            (edges, corner)
-        } else {
-            (corner, edges)
-        };
-        if wanted.distance <= other.distance + slack {
-            wanted
-        } else {
-            other
-        }
+        let (wanted, other) = if wants_edges { (edges, corner) } else { (corner, edges) };
+        if wanted.distance <= other.distance + slack { wanted } else { other }
     }
 
     /// The corner, among those not shared, that is nearest to the other facet.
     fn corner_and_facet(pair: &FacePair, pose: &PairPose) -> Self {
         let mut nearest = Self::far();
-        for (of, at, facet, triangle) in [
-            (&pair.a, &pose.a, &pair.b, &pose.b),
-            (&pair.b, &pose.b, &pair.a, &pose.a),
-        ] {
+        for (of, at, facet, triangle) in
+            [(&pair.a, &pose.a, &pair.b, &pose.b), (&pair.b, &pose.b, &pair.a, &pose.a)]
+        {
             for i in pair.shared..3 {
                 let distance = triangle_triangle(&[at[i]; 3], triangle).distance;
                 if distance < nearest.distance {
@@ -77,11 +68,6 @@ impl ClosestFeatures {
     }
 
     fn far() -> Self {
-        Self {
-            vertices: Vec::new(),
-            point: DVec3::ZERO,
-            are_edges: false,
-            distance: f64::INFINITY,
-        }
+        Self { vertices: Vec::new(), point: DVec3::ZERO, are_edges: false, distance: f64::INFINITY }
     }
 }

@@ -24,12 +24,7 @@ impl FacePair {
                 shared += 1;
             }
         }
-        Self {
-            faces: [f, g],
-            a,
-            b,
-            shared,
-        }
+        Self { faces: [f, g], a, b, shared }
     }
 
     /// The key under which the pair is looked up.
@@ -39,11 +34,7 @@ impl FacePair {
 
     pub(super) fn pose(&self, positions: &[DVec3]) -> PairPose {
         let positions_of = |corners: [u32; 3]| corners.map(|v| positions[v as usize]);
-        PairPose {
-            a: positions_of(self.a),
-            b: positions_of(self.b),
-            shared: self.shared,
-        }
+        PairPose { a: positions_of(self.a), b: positions_of(self.b), shared: self.shared }
     }
 }
 

@@ -50,25 +50,11 @@ impl CentredFrame {
         for (face, corner) in sheet.faces.iter().enumerate() {
             let height = least_height(corners(corner));
             if height.is_nan() || height <= limit {
-                return Err(CheckError::DegenerateFace {
-                    frame: index,
-                    face,
-                    height,
-                    limit,
-                });
+                return Err(CheckError::DegenerateFace { frame: index, face, height, limit });
             }
         }
-        let boxes = sheet
-            .faces
-            .iter()
-            .map(|f| Aabb::around(corners(f)))
-            .collect();
-        Ok(Self {
-            time: frame.time,
-            boxes,
-            extent,
-            positions,
-        })
+        let boxes = sheet.faces.iter().map(|f| Aabb::around(corners(f))).collect();
+        Ok(Self { time: frame.time, boxes, extent, positions })
     }
 
     /// The closest triangles among facets that share no vertex.

@@ -44,18 +44,12 @@ pub(super) struct DistanceBounds {
 }
 
 impl DistanceBounds {
-    pub(super) const NOT_MEASURED: Self = Self {
-        approach: None,
-        at_least: f64::INFINITY,
-    };
+    pub(super) const NOT_MEASURED: Self = Self { approach: None, at_least: f64::INFINITY };
 }
 
 impl From<ApproachBounds> for DistanceBounds {
     fn from(found: ApproachBounds) -> Self {
-        Self {
-            approach: found.nearest,
-            at_least: found.at_least,
-        }
+        Self { approach: found.nearest, at_least: found.at_least }
     }
 }
 
@@ -138,10 +132,9 @@ impl PairTest<'_> {
     }
 
     fn distance(&self, moving: &MovingPair) -> DistanceBounds {
-        self.nearer_than
-            .map_or(DistanceBounds::NOT_MEASURED, |bound| {
-                DistanceBounds::from(closest_approach(moving, bound, self.limits))
-            })
+        self.nearer_than.map_or(DistanceBounds::NOT_MEASURED, |bound| {
+            DistanceBounds::from(closest_approach(moving, bound, self.limits))
+        })
     }
 
     fn passed(&self, pair: &FacePair, moving: &MovingPair, passage: PairCertificate) -> Judgement {
@@ -159,11 +152,7 @@ impl PairTest<'_> {
         let clearance = passage.clearance - self.limits.margin;
         let may_touch = !self.has_touched && clearance <= tolerance;
         let wanted = self.nearer_than.unwrap_or(0.0);
-        let bound = if may_touch {
-            wanted.max(2.0 * tolerance)
-        } else {
-            wanted
-        };
+        let bound = if may_touch { wanted.max(2.0 * tolerance) } else { wanted };
         let is_news = clearance < enough_clearance(bound, self.limits);
         let found = is_news.then(|| closest_approach(moving, bound, self.limits));
         let at_least = found.map_or(0.0, |found| found.at_least).max(clearance);
@@ -246,9 +235,7 @@ fn is_sliver(pair: &FacePair, moving: &MovingPair, reach: f64) -> bool {
         let area = edge.cross(apex - pose.a[0]);
         area.length() <= reach * edge.length()
     };
-    [moving.start, moving.end]
-        .iter()
-        .any(|pose| is_low(pose, pose.a[2]) || is_low(pose, pose.b[2]))
+    [moving.start, moving.end].iter().any(|pose| is_low(pose, pose.a[2]) || is_low(pose, pose.b[2]))
 }
 
 /// The corners of the two triangles that span the largest simplices without a common vertex, shared corners first.
@@ -266,11 +253,8 @@ fn disjoint_parts(shared: usize) -> &'static [[[usize; 3]; 2]] {
 }
 
 fn part(moving: &MovingPair, a: [usize; 3], b: [usize; 3]) -> MovingPair {
-    let of = |pose: &PairPose| PairPose {
-        a: a.map(|i| pose.a[i]),
-        b: b.map(|j| pose.b[j]),
-        shared: 0,
-    };
+    let of =
+        |pose: &PairPose| PairPose { a: a.map(|i| pose.a[i]), b: b.map(|j| pose.b[j]), shared: 0 };
     MovingPair::new(of(&moving.start), of(&moving.end))
 }
 
@@ -305,11 +289,7 @@ fn features(pair: &FacePair, pose: &PairPose, axis: &Axis, limits: &Limits) -> C
 }
 
 fn kind_of(features: &ClosestFeatures) -> PenetrationKind {
-    if features.are_edges {
-        PenetrationKind::EdgeEdge
-    } else {
-        PenetrationKind::VertexFacet
-    }
+    if features.are_edges { PenetrationKind::EdgeEdge } else { PenetrationKind::VertexFacet }
 }
 
 /// The vertices of the features, each once; the four of the hinge for triangles that share an edge.

@@ -67,18 +67,14 @@ impl Checker<'_> {
                 self.apply_claim(index, up);
             }
         }
-        let stacked = self
-            .stack(face_of)
-            .compare(unused_claims(order, |claim| used.contains(claim)));
+        let stacked =
+            self.stack(face_of).compare(unused_claims(order, |claim| used.contains(claim)));
         self.report.claims.claimed += order.len();
         self.report.claims.ignored += order.len() - used.len() - stacked.held;
         match stacked.refuted {
-            Some((f, g, sign)) if self.is_clean() => Err(CheckError::FalseOrder {
-                frame: self.frames - 1,
-                f,
-                g,
-                sign,
-            }),
+            Some((f, g, sign)) if self.is_clean() => {
+                Err(CheckError::FalseOrder { frame: self.frames - 1, f, g, sign })
+            }
             _ => Ok(()),
         }
     }
@@ -100,18 +96,13 @@ impl Checker<'_> {
 
     /// Applies the claim that the first layer of a pair lies below the second along `up`.
     fn apply_claim(&mut self, index: usize, up: DVec3) {
-        let LayerPair {
-            faces, up: known, ..
-        } = self.layers[index];
+        let LayerPair { faces, up: known, .. } = self.layers[index];
         match known {
             Some(known) if known.dot(up) < 0.0 => {
                 let rule = self.claim_rule(faces);
                 let contradiction = Contradiction {
                     faces,
-                    conflict: LayerConflict {
-                        rule,
-                        faces: faces.to_vec(),
-                    },
+                    conflict: LayerConflict { rule, faces: faces.to_vec() },
                     vertices: self.sheet.faces[faces[0] as usize].to_vec(),
                     point: layer_point(self.sheet, &self.last.positions, faces),
                 };
@@ -208,18 +199,10 @@ impl Checker<'_> {
             return;
         }
         let positions = &self.last.positions;
-        let proof = prove(
-            self.sheet,
-            &self.edges,
-            positions,
-            &self.layers,
-            self.tolerance,
-        );
+        let proof = prove(self.sheet, &self.edges, positions, &self.layers, self.tolerance);
         let frame = self.frames - 1;
-        let (counted, open): (Vec<_>, Vec<_>) = proof
-            .contradictions
-            .into_iter()
-            .partition(|contradiction| self.counts(contradiction));
+        let (counted, open): (Vec<_>, Vec<_>) =
+            proof.contradictions.into_iter().partition(|contradiction| self.counts(contradiction));
         for mut cluster in proof.clusters {
             let holds = |c: &Contradiction| cluster.faces.binary_search(&c.faces[0]).is_ok();
             if open.iter().any(holds) && !counted.iter().any(holds) {
@@ -247,10 +230,8 @@ impl Checker<'_> {
     fn counts(&self, contradiction: &Contradiction) -> bool {
         use LayerRule::{Bent, TacoTaco, TacoTortilla, TortillaTortilla};
         let conflict = &contradiction.conflict;
-        let is_along_line = matches!(
-            conflict.rule,
-            TacoTaco | TacoTortilla | TortillaTortilla | Bent
-        );
+        let is_along_line =
+            matches!(conflict.rule, TacoTaco | TacoTortilla | TortillaTortilla | Bent);
         let is_among = |pair: &[u32; 2]| pair.iter().all(|face| conflict.faces.contains(face));
         !is_along_line || self.claimed.iter().any(is_among)
     }

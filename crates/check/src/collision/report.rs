@@ -21,11 +21,7 @@ pub struct CollisionOptions {
 
 impl Default for CollisionOptions {
     fn default() -> Self {
-        Self {
-            touch_tolerance: 1e-6,
-            budget: 1 << 16,
-            stop_at: 4096,
-        }
+        Self { touch_tolerance: 1e-6, budget: 1 << 16, stop_at: 4096 }
     }
 }
 

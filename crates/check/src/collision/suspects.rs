@@ -27,14 +27,7 @@ impl Checker<'_> {
         }
         self.touching.insert(pair.key());
         self.near.push(pair.faces);
-        self.suspects.insert(
-            pair.key(),
-            Suspect {
-                frame,
-                times,
-                evidence,
-            },
-        );
+        self.suspects.insert(pair.key(), Suspect { frame, times, evidence });
     }
 
     /// Counts the passages of the sheet through itself in the interval that begins at `start`; `None`: at the first
@@ -62,11 +55,7 @@ impl Checker<'_> {
         self.unfollow_penetrating();
         for [f, g] in found.unsure {
             if !self.penetrating.contains(&(f, g)) {
-                self.report.undecided.push(Undecided {
-                    time: times[0],
-                    frame,
-                    faces: [f, g],
-                });
+                self.report.undecided.push(Undecided { time: times[0], frame, faces: [f, g] });
             }
         }
     }
@@ -74,9 +63,7 @@ impl Checker<'_> {
     /// Pairs that penetrate no longer have a side.
     fn unfollow_penetrating(&mut self) {
         let penetrating = &self.penetrating;
-        let lost = self
-            .sides
-            .extract_if(.., |(pair, _)| penetrating.contains(pair));
+        let lost = self.sides.extract_if(.., |(pair, _)| penetrating.contains(pair));
         self.unfollowed.extend(lost.map(|(pair, _)| pair));
     }
 
@@ -108,11 +95,7 @@ impl Checker<'_> {
                 suspect.times[1] >= crossing.since && suspect.evidence.is_in_contact(self.tolerance)
             };
             if let Some(suspect) = suspect.filter(is_meant).filter(|_| !is_known) {
-                let Suspect {
-                    frame,
-                    times,
-                    evidence,
-                } = suspect.clone();
+                let Suspect { frame, times, evidence } = suspect.clone();
                 self.record_penetration([f, g], frame, times, evidence);
                 is_named = true;
             }
@@ -141,10 +124,7 @@ impl Checker<'_> {
     fn mark_penetrating(&mut self, faces: [u32; 2], times: [f64; 2]) {
         self.penetrating.insert((faces[0], faces[1]));
         if self.is_measured(&FacePair::new(self.sheet, faces[0], faces[1])) {
-            let met = DistanceBounds {
-                approach: None,
-                at_least: 0.0,
-            };
+            let met = DistanceBounds { approach: None, at_least: 0.0 };
             self.nearest.record(faces, times, &met);
         }
     }

@@ -168,19 +168,16 @@ pub(super) fn cells_of(topology: &Topology, [f, g]: [u32; 2]) -> Vec<Cell> {
 /// `edge`.
 pub(super) fn turn(topology: &Topology, vertex: u32, edge: u32) -> Vec<(Cell, i64)> {
     let faces = topology.edge_faces[edge as usize].iter();
-    let through_faces = faces
-        .filter(|&&face| !topology.corners(face).contains(&vertex))
-        .map(|&face| {
+    let through_faces =
+        faces.filter(|&&face| !topology.corners(face).contains(&vertex)).map(|&face| {
             let cell = Cell::VertexFacet { vertex, face };
             (cell, topology.direction_in(edge, face))
         });
     let edges = topology.vertex_edges[vertex as usize].iter();
-    let through_edge = edges
-        .filter(|&&other| topology.are_disjoint(other, edge))
-        .map(|&other| {
-            let is_start = topology.ends(other)[0] == vertex;
-            (Cell::edges(other, edge), if is_start { -1 } else { 1 })
-        });
+    let through_edge = edges.filter(|&&other| topology.are_disjoint(other, edge)).map(|&other| {
+        let is_start = topology.ends(other)[0] == vertex;
+        (Cell::edges(other, edge), if is_start { -1 } else { 1 })
+    });
     through_faces.chain(through_edge).collect()
 }
 
@@ -246,10 +243,8 @@ mod tests {
 
     fn count(cell: Cell, topology: &Topology, frames: &[Vec<DVec3>]) -> i64 {
         let steps = frames.windows(2);
-        let passages = steps.flat_map(|w| {
-            cell.passages(topology, IntervalEnds([&w[0], &w[1]]))
-                .unwrap()
-        });
+        let passages =
+            steps.flat_map(|w| cell.passages(topology, IntervalEnds([&w[0], &w[1]])).unwrap());
         passages.map(|p| i64::from(p.sign)).sum()
     }
 
@@ -327,9 +322,8 @@ mod tests {
         let mut random = Random::new(6);
         let mut pierced = 0;
         for _ in 0..600 {
-            let frames: Vec<Vec<DVec3>> = (0..2)
-                .map(|_| (0..8).map(|_| random.vector()).collect())
-                .collect();
+            let frames: Vec<Vec<DVec3>> =
+                (0..2).map(|_| (0..8).map(|_| random.vector()).collect()).collect();
             for edge in 0..topology.edges.len() as u32 {
                 for face in 0..4 {
                     let ends = topology.ends(edge);

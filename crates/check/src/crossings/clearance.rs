@@ -25,9 +25,8 @@ impl Clearances {
             return;
         }
         let pairs = near.par_iter().with_min_len(cells_a_task);
-        let mut cells: Vec<Cell> = pairs
-            .flat_map_iter(|&faces| cells_of(topology, faces))
-            .collect();
+        let mut cells: Vec<Cell> =
+            pairs.flat_map_iter(|&faces| cells_of(topology, faces)).collect();
         cells.par_sort_unstable();
         cells.dedup();
         let mut known = self.cells.iter().zip(&self.bounds).peekable();

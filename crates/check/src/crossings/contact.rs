@@ -47,13 +47,7 @@ pub(super) struct ContactInterval {
 
 impl Contact {
     pub(super) fn new(number: u64, since: f64) -> Self {
-        Self {
-            number,
-            since,
-            passed: None,
-            sum: 0,
-            terms: Vec::new(),
-        }
+        Self { number, since, passed: None, sum: 0, terms: Vec::new() }
     }
 }
 
@@ -67,11 +61,7 @@ impl CellState {
     pub(super) fn new(cell: Cell, topology: &Topology, ends: IntervalEnds<'_>, reach: f64) -> Self {
         let pose = cell.moving(topology, ends).end;
         let passages = cell.passages(topology, ends);
-        let distance = if corners_are_within(&pose, reach) {
-            0.0
-        } else {
-            feature_distance(&pose)
-        };
+        let distance = if corners_are_within(&pose, reach) { 0.0 } else { feature_distance(&pose) };
         Self {
             is_unsure: passages.is_none(),
             passages: passages.unwrap_or_default(),

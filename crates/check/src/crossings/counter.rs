@@ -89,9 +89,7 @@ impl CrossingCounter {
                 found.unsure.extend(self.pairs_of(edge, face).first());
                 continue;
             };
-            let known = terms
-                .iter()
-                .filter_map(|(cell, sign)| Some((*unknowns.get(cell)?, *sign)));
+            let known = terms.iter().filter_map(|(cell, sign)| Some((*unknowns.get(cell)?, *sign)));
             if self.system.add(&known.collect::<Vec<_>>(), pierced) {
                 continue;
             }
@@ -114,11 +112,7 @@ impl CrossingCounter {
     pub(crate) fn advance(&mut self, interval: &Interval<'_>) -> Found {
         let positions = interval.positions.map(|positions| self.moved(positions));
         let states = self.observe(interval, IntervalEnds([&positions[0], &positions[1]]));
-        let step = MovedInterval {
-            times: interval.times,
-            positions,
-            states,
-        };
+        let step = MovedInterval { times: interval.times, positions, states };
         if self.is_quiet(&step) && self.quiet.len() < MOST_QUIET {
             let passed = step.states.iter().filter(|(_, s)| !s.passages.is_empty());
             self.passed.extend(passed.map(|(cell, _)| *cell));
@@ -161,16 +155,13 @@ impl CrossingCounter {
 
     /// Whether one of the pairs of triangles around a cell is excluded from the counts.
     fn is_lost(&self, cell: Cell, interval: &Interval<'_>) -> bool {
-        cell.faces(&self.topology)
-            .any(|pair| (interval.is_lost)(pair))
+        cell.faces(&self.topology).any(|pair| (interval.is_lost)(pair))
     }
 
     /// Whether everything that can pass through something in a pair of triangles is counted.
     pub(crate) fn counts(&self, faces: [u32; 2], is_lost: &dyn Fn([u32; 2]) -> bool) -> bool {
         let is_beside = |cell: &Cell| matches!(cell, Cell::VertexEdge { .. });
-        let mut through = cells_of(&self.topology, faces)
-            .into_iter()
-            .filter(|c| !is_beside(c));
+        let mut through = cells_of(&self.topology, faces).into_iter().filter(|c| !is_beside(c));
         !through.any(|cell| cell.faces(&self.topology).any(is_lost))
     }
 
@@ -240,12 +231,10 @@ impl CrossingCounter {
     /// Finds the times at which the cells are in contact.
     fn time_contacts(&self, states: &mut BTreeMap<Cell, CellState>, ends: IntervalEnds<'_>) {
         let mut list: Vec<_> = states.iter_mut().collect();
-        list.par_iter_mut()
-            .with_min_len(CELLS_A_TASK)
-            .for_each(|(cell, state)| {
-                let pair = cell.moving(&self.topology, ends);
-                state.time(&pair, self.reach, &self.limits);
-            });
+        list.par_iter_mut().with_min_len(CELLS_A_TASK).for_each(|(cell, state)| {
+            let pair = cell.moving(&self.topology, ends);
+            state.time(&pair, self.reach, &self.limits);
+        });
         self.mark_unsure_around(states);
     }
 

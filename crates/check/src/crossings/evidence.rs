@@ -54,14 +54,10 @@ impl CrossingEvidence {
         let around = pierced_around(topology, cell);
         let at_instant = |share: f64| {
             let [start, end] = ends.0;
-            let positions: Vec<DVec3> = start
-                .iter()
-                .zip(end)
-                .map(|(p, q)| p.lerp(*q, share))
-                .collect();
-            let depths = around
-                .iter()
-                .filter_map(|&(edge, face)| depth(topology, edge, face, &positions));
+            let positions: Vec<DVec3> =
+                start.iter().zip(end).map(|(p, q)| p.lerp(*q, share)).collect();
+            let depths =
+                around.iter().filter_map(|&(edge, face)| depth(topology, edge, face, &positions));
             depths.fold(0.0, f64::max)
         };
         let later = std::iter::successors(Some(FIRST_INSTANT), |after| Some(2.0 * after));
@@ -78,15 +74,11 @@ impl CrossingEvidence {
 fn pierced_around(topology: &Topology, cell: Cell) -> Vec<(u32, u32)> {
     let [a, b] = cell.corners(topology);
     let edges_at = |corners: [u32; 3]| -> Vec<u32> {
-        let at = corners
-            .iter()
-            .flat_map(|&v| &topology.vertex_edges[v as usize]);
+        let at = corners.iter().flat_map(|&v| &topology.vertex_edges[v as usize]);
         at.copied().collect()
     };
     let faces_at = |corners: [u32; 3]| -> Vec<u32> {
-        let at = corners
-            .iter()
-            .flat_map(|&v| &topology.vertex_faces[v as usize]);
+        let at = corners.iter().flat_map(|&v| &topology.vertex_faces[v as usize]);
         at.copied().collect()
     };
     let mut pairs: Vec<(u32, u32)> = [(a, b), (b, a)]

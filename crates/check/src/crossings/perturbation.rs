@@ -9,9 +9,7 @@ const OFFSET: f64 = 1.0 / 4096.0;
 pub(super) fn offsets(count: usize, tolerance: f64) -> Vec<DVec3> {
     let offset = OFFSET * tolerance;
     let vertices = 0..count as u64;
-    vertices
-        .map(|v| [0, 1, 2].map(|k| offset * scattered(3 * v + k)).into())
-        .collect()
+    vertices.map(|v| [0, 1, 2].map(|k| offset * scattered(3 * v + k)).into()).collect()
 }
 
 /// A pseudo-random number in [−1, 1), the same on every machine.

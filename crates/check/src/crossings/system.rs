@@ -32,10 +32,7 @@ impl EquationSystem {
     pub(super) fn new() -> Self {
         Self {
             unknowns: 0,
-            residues: PRIMES.map(|prime| Triangular {
-                prime,
-                rows: BTreeMap::new(),
-            }),
+            residues: PRIMES.map(|prime| Triangular { prime, rows: BTreeMap::new() }),
         }
     }
 
@@ -63,10 +60,7 @@ impl EquationSystem {
 impl Triangular {
     /// The equation reduced by all rows, its last coefficient scaled to 1.
     fn reduced(&self, terms: &[(u32, i64)], sum: i64) -> Row {
-        let mut row = Row {
-            terms: BTreeMap::new(),
-            sum: self.residue(sum),
-        };
+        let mut row = Row { terms: BTreeMap::new(), sum: self.residue(sum) };
         for &(unknown, coefficient) in terms {
             self.add(&mut row, unknown, self.residue(coefficient));
         }
@@ -159,9 +153,8 @@ mod tests {
             .collect();
         let mut is_solved = false;
         for _ in 0..300 {
-            let terms: Vec<(u32, i64)> = (0..4)
-                .map(|_| (random.index(40) as u32, random.integer(1)))
-                .collect();
+            let terms: Vec<(u32, i64)> =
+                (0..4).map(|_| (random.index(40) as u32, random.integer(1))).collect();
             let sum: i64 = terms.iter().map(|&(u, c)| c * solution[u as usize]).sum();
             assert!(system.add(&terms, sum));
             if system.residues.iter().all(|r| r.rows.len() == 40) {

@@ -72,9 +72,7 @@ impl LayerStack {
     pub(super) fn depth(&self, neighbours: &[Vec<usize>], margin: f64) -> usize {
         let count = |i: usize, point: DVec2| {
             let others = neighbours[i].iter();
-            1 + others
-                .filter(|&&k| flat::holds(&self.triangles[k], point, margin))
-                .count()
+            1 + others.filter(|&&k| flat::holds(&self.triangles[k], point, margin)).count()
         };
         let at = |i: usize| {
             let own = count(i, flat::middle(&self.triangles[i]));
@@ -100,10 +98,7 @@ mod tests {
             lists[low].push(high);
             lists[low].sort_unstable();
         }
-        LayerStack {
-            triangles,
-            above: lists,
-        }
+        LayerStack { triangles, above: lists }
     }
 
     fn plate(at: DVec2) -> [DVec2; 3] {
@@ -112,11 +107,7 @@ mod tests {
 
     #[test]
     fn three_layers_in_a_cycle_over_one_region_are_found_and_sorted_ones_are_not() {
-        let plates = || {
-            (0..4)
-                .map(|k| plate(DVec2::splat(0.01 * f64::from(k))))
-                .collect()
-        };
+        let plates = || (0..4).map(|k| plate(DVec2::splat(0.01 * f64::from(k)))).collect();
         let sorted = [(0, 1), (0, 2), (1, 2), (2, 3), (1, 3), (0, 3)];
         assert!(stack(plates(), &sorted).cycles(WIDTH).is_empty());
         let circle = [(0, 1), (2, 0), (1, 2), (2, 3), (1, 3), (0, 3)];
@@ -130,28 +121,17 @@ mod tests {
     fn a_pinwheel_may_form_a_cycle_if_its_blades_share_no_region() {
         // Three long blades around an empty centre, each over the next.
         let turn = |k: u32| DVec2::from_angle(f64::from(k) * std::f64::consts::TAU / 3.0);
-        let blade = [
-            DVec2::new(-2.0, 0.5),
-            DVec2::new(2.0, 0.5),
-            DVec2::new(2.0, 0.9),
-        ];
+        let blade = [DVec2::new(-2.0, 0.5), DVec2::new(2.0, 0.5), DVec2::new(2.0, 0.9)];
         let blades: Vec<_> = (0..3).map(|k| blade.map(|p| turn(k).rotate(p))).collect();
         assert!(flat::overlap(&blades[0], &blades[1], WIDTH));
-        assert!(
-            stack(blades, &[(0, 1), (1, 2), (2, 0)])
-                .cycles(WIDTH)
-                .is_empty()
-        );
+        assert!(stack(blades, &[(0, 1), (1, 2), (2, 0)]).cycles(WIDTH).is_empty());
     }
 
     #[test]
     fn the_depth_of_shifted_plates_is_their_number() {
-        let plates: Vec<_> = (0..5)
-            .map(|k| plate(DVec2::X * 0.1 * f64::from(k)))
-            .collect();
-        let neighbours: Vec<Vec<usize>> = (0..5)
-            .map(|i| (0..5).filter(|&j| j != i).collect())
-            .collect();
+        let plates: Vec<_> = (0..5).map(|k| plate(DVec2::X * 0.1 * f64::from(k))).collect();
+        let neighbours: Vec<Vec<usize>> =
+            (0..5).map(|i| (0..5).filter(|&j| j != i).collect()).collect();
         assert_eq!(stack(plates, &[]).depth(&neighbours, 1e-5), 5);
     }
 }

@@ -42,28 +42,17 @@ pub(crate) fn prove(
     pairs: &[LayerPair],
     tolerance: f64,
 ) -> Proof {
-    let layers = FrameLayers {
-        sheet,
-        edges,
-        positions,
-        pairs,
-        tolerance,
-    };
+    let layers = FrameLayers { sheet, edges, positions, pairs, tolerance };
     let groups = groups(sheet.faces.len(), pairs);
-    let mut proof = Proof {
-        clusters: Vec::with_capacity(groups.len()),
-        contradictions: Vec::new(),
-    };
+    let mut proof =
+        Proof { clusters: Vec::with_capacity(groups.len()), contradictions: Vec::new() };
     for group in &groups {
         let mut tests = ClusterTests::default();
         layers.test_hinges(group, &mut tests);
         let depth = layers.test_cycles(group, &mut tests);
         layers.count_creases(group, &mut tests);
         let all_known = group.pairs.iter().all(|&i| pairs[i].up.is_some());
-        let order = match (
-            tests.contradictions.is_empty(),
-            all_known && !tests.is_partial,
-        ) {
+        let order = match (tests.contradictions.is_empty(), all_known && !tests.is_partial) {
             (false, _) => LayerProof::Contradicted,
             (true, true) => LayerProof::Proved,
             (true, false) => LayerProof::Unproved,
@@ -108,10 +97,7 @@ fn groups(faces: usize, pairs: &[LayerPair]) -> Vec<Group> {
         let root = root(&mut parent, face) as usize;
         if group_of[root] == usize::MAX {
             group_of[root] = groups.len();
-            groups.push(Group {
-                faces: Vec::new(),
-                pairs: Vec::new(),
-            });
+            groups.push(Group { faces: Vec::new(), pairs: Vec::new() });
         }
         groups[group_of[root]].faces.push(face);
     }
@@ -161,10 +147,7 @@ impl FrameLayers<'_> {
             if !is_kept {
                 tests.contradictions.push(Contradiction {
                     faces: self.pairs[junction.pair].faces,
-                    conflict: LayerConflict {
-                        rule,
-                        faces: junction.all_faces(),
-                    },
+                    conflict: LayerConflict { rule, faces: junction.all_faces() },
                     vertices: junction.vertices(self.sheet),
                     point: junction.point,
                 });
@@ -207,10 +190,7 @@ impl FrameLayers<'_> {
             faces.sort_unstable();
             tests.contradictions.push(Contradiction {
                 faces: [faces[0], faces[1]],
-                conflict: LayerConflict {
-                    rule: LayerRule::Transitivity,
-                    faces: faces.to_vec(),
-                },
+                conflict: LayerConflict { rule: LayerRule::Transitivity, faces: faces.to_vec() },
                 vertices: self.sheet.faces[faces[0] as usize].to_vec(),
                 point: origin + x * point.x + y * point.y,
             });

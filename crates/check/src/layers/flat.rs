@@ -4,11 +4,7 @@ use glam::DVec2;
 
 /// Sorts the corners counter-clockwise.
 pub(super) fn counter_clockwise([p, q, r]: [DVec2; 3]) -> [DVec2; 3] {
-    if (q - p).perp_dot(r - p) < 0.0 {
-        [p, r, q]
-    } else {
-        [p, q, r]
-    }
+    if (q - p).perp_dot(r - p) < 0.0 { [p, r, q] } else { [p, q, r] }
 }
 
 /// Whether the triangles overlap by more than `width` in every direction.
@@ -26,9 +22,7 @@ pub(super) fn overlap(a: &[DVec2; 3], b: &[DVec2; 3], width: f64) -> bool {
 
 fn span(points: &[DVec2], direction: DVec2) -> [f64; 2] {
     let heights = points.iter().map(|p| p.dot(direction));
-    heights.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], h| {
-        [low.min(h), high.max(h)]
-    })
+    heights.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], h| [low.min(h), high.max(h)])
 }
 
 /// The intersection of counter-clockwise triangles, clipped side by side (Sutherland and Hodgman 1974).
@@ -100,11 +94,7 @@ mod tests {
         let exact = 0.6 * std::f64::consts::FRAC_1_SQRT_2;
         assert!(overlap(&CORNER, &other, exact - 1e-12));
         assert!(!overlap(&CORNER, &other, exact + 1e-12));
-        assert!(!overlap(
-            &CORNER,
-            &CORNER.map(|p| DVec2::new(-p.x, p.y)),
-            0.0
-        ));
+        assert!(!overlap(&CORNER, &CORNER.map(|p| DVec2::new(-p.x, p.y)), 0.0));
     }
 
     #[test]
@@ -118,9 +108,8 @@ mod tests {
         // The strip 0 ≤ x ≤ 0.5 below y = 0.75 − x and y = 0.5 + x: a roof over a rectangle of 0.5 × 0.25.
         let roof = |x: f64| (0.75 - x).min(0.5 + x);
         let steps = 100_000;
-        let sum: f64 = (0..steps)
-            .map(|k| roof((f64::from(k) + 0.5) / f64::from(steps) * 0.5))
-            .sum();
+        let sum: f64 =
+            (0..steps).map(|k| roof((f64::from(k) + 0.5) / f64::from(steps) * 0.5)).sum();
         assert!((area - sum / f64::from(steps) * 0.5).abs() < 1e-9, "{area}");
         assert!(holds(&CORNER, middle(&polygon), 0.1) && holds(&mirrored, middle(&polygon), 0.1));
         assert!(is_wide(&polygon, 0.49) && !is_wide(&polygon, 0.51));

@@ -114,14 +114,8 @@ impl FrameLayers<'_> {
                 let Some((other, others, point)) = self.at_line(a, i, b) else {
                     continue;
                 };
-                let junction = Junction {
-                    edge,
-                    other,
-                    faces: [a, beyond],
-                    others,
-                    pair: index,
-                    point,
-                };
+                let junction =
+                    Junction { edge, other, faces: [a, beyond], others, pair: index, point };
                 found.extend(junction.in_order());
             }
         }
@@ -176,10 +170,7 @@ impl FrameLayers<'_> {
             }
             Partner::Across { face } => {
                 let across = front_normal(self.sheet, face, self.positions).cross(line.along);
-                [across, -across].map(|towards| HalfPlane {
-                    face,
-                    angle: line.angle(towards),
-                })
+                [across, -across].map(|towards| HalfPlane { face, angle: line.angle(towards) })
             }
         };
         let cut = widest_gap([own[0].angle, own[1].angle, others[0].angle, others[1].angle]);
@@ -201,10 +192,7 @@ impl FrameLayers<'_> {
             return Some(from_cut(x) < from_cut(y));
         }
         let key = [x.face.min(y.face), x.face.max(y.face)];
-        let found = self
-            .pairs
-            .binary_search_by(|pair| pair.faces.cmp(&key))
-            .ok()?;
+        let found = self.pairs.binary_search_by(|pair| pair.faces.cmp(&key)).ok()?;
         let first_is_below = self.pairs[found].up?;
         let growing = line.up * x.angle.cos() - line.inward * x.angle.sin();
         let is_below = first_is_below.dot(growing) > 0.0;
@@ -214,15 +202,9 @@ impl FrameLayers<'_> {
     /// The half-plane of triangle `face` at its edge `ends`.
     fn half(&self, line: &Line, face: u32, ends: [u32; 2]) -> HalfPlane {
         let corners = self.sheet.faces[face as usize];
-        let apex = corners
-            .into_iter()
-            .find(|v| !ends.contains(v))
-            .unwrap_or(corners[0]);
+        let apex = corners.into_iter().find(|v| !ends.contains(v)).unwrap_or(corners[0]);
         let towards = self.positions[apex as usize] - self.positions[ends[0] as usize];
-        HalfPlane {
-            face,
-            angle: line.angle(towards),
-        }
+        HalfPlane { face, angle: line.angle(towards) }
     }
 
     /// The line through edge `i` of a triangle, with the apex inward.
@@ -232,13 +214,7 @@ impl FrameLayers<'_> {
         let along = (end - at).try_normalize()?;
         let towards = apex - at;
         let inward = (towards - along * along.dot(towards)).try_normalize()?;
-        Some(Line {
-            at,
-            along,
-            inward,
-            up: along.cross(inward),
-            length: at.distance(end),
-        })
+        Some(Line { at, along, inward, up: along.cross(inward), length: at.distance(end) })
     }
 
     fn corners(&self, face: u32) -> [DVec3; 3] {
@@ -280,9 +256,7 @@ fn rule_of(own: &[HalfPlane; 2], others: &[HalfPlane; 2]) -> LayerRule {
 fn widest_gap(mut angles: [f64; 4]) -> f64 {
     angles.sort_by(f64::total_cmp);
     let gap = |i: usize| (angles[(i + 1) % 4] - angles[i]).rem_euclid(TAU);
-    let widest = (0..4)
-        .max_by(|&i, &j| gap(i).total_cmp(&gap(j)))
-        .unwrap_or(0);
+    let widest = (0..4).max_by(|&i, &j| gap(i).total_cmp(&gap(j))).unwrap_or(0);
     // If all four angles are equal, the gap is a full turn, which the remainder turns into 0.
     let half = 0.5 * gap(widest);
     angles[widest] + if half > 0.0 { half } else { PI }

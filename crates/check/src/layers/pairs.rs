@@ -57,11 +57,7 @@ pub(crate) fn layer_pairs(
             is_lost: false,
         })
     };
-    sides
-        .par_iter()
-        .with_min_len(256)
-        .filter_map(layers)
-        .collect()
+    sides.par_iter().with_min_len(256).filter_map(layers).collect()
 }
 
 /// `normal` or its opposite, whichever side all directions point to; `None` if they disagree.

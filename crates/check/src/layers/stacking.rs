@@ -81,9 +81,7 @@ impl FaceStack<'_> {
         (f, g, sign): (u32, u32, i8),
     ) -> Option<bool> {
         let of = |face: u32| triangles.get(&face).map_or(&[][..], Vec::as_slice);
-        let pairs = of(f)
-            .iter()
-            .flat_map(|&a| of(g).iter().map(move |&b| (a, b)));
+        let pairs = of(f).iter().flat_map(|&a| of(g).iter().map(move |&b| (a, b)));
         let heights = pairs.filter_map(|(a, b)| self.heights(a, b));
         let spans = heights.map(|[low, high]| match sign {
             1 => [low, high],
@@ -123,11 +121,7 @@ impl FaceStack<'_> {
         let heights = flat::common(&both).into_iter().map(height);
         let empty = [f64::INFINITY, f64::NEG_INFINITY];
         let [low, high] = heights.fold(empty, |[low, high], h| [low.min(h), high.max(h)]);
-        let gap = if low <= 0.0 && high >= 0.0 {
-            0.0
-        } else {
-            low.abs().min(high.abs())
-        };
+        let gap = if low <= 0.0 && high >= 0.0 { 0.0 } else { low.abs().min(high.abs()) };
         (gap <= NEAR * self.sheet.unit_length).then_some([low, high])
     }
 }

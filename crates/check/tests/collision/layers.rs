@@ -34,10 +34,7 @@ fn cases(rows: usize, columns: usize) -> Vec<UnitSheet> {
 fn judge(sheet: &Sheet, states: &[(Vec<DVec3>, LayerOrder)]) -> (CollisionReport, LayerOrder) {
     let mut checker: Option<Checker<'_>> = None;
     for (k, (positions, claims)) in states.iter().enumerate() {
-        let frame = Frame {
-            time: k as f64,
-            positions: positions.clone(),
-        };
+        let frame = Frame { time: k as f64, positions: positions.clone() };
         if let Some(checker) = &mut checker {
             checker.advance(&frame).unwrap();
         } else {
@@ -73,27 +70,14 @@ fn the_exact_compact_states_are_proved_in_their_exact_order() {
         let order = units.compact_order();
         let report = judge_state(&units, &order);
         assert_eq!(report.verdict, Verdict::Touching, "{:?}", report.first);
-        assert!(
-            report
-                .clusters
-                .iter()
-                .all(|c| c.order == LayerProof::Proved)
-        );
-        assert_eq!(
-            (report.claims.claimed, report.claims.ignored),
-            (order.len(), 0)
-        );
+        assert!(report.clusters.iter().all(|c| c.order == LayerProof::Proved));
+        assert_eq!((report.claims.claimed, report.claims.ignored), (order.len(), 0));
         let pairs: usize = report.clusters.iter().map(|c| c.pairs).sum();
         assert_eq!(2 * pairs, order.len(), "{:?}", units.unit.case);
         // Without claims, only the orders of creases folded flat are known.
         let report = judge_state(&units, &LayerOrder::default());
         assert_eq!(report.verdict, Verdict::Touching, "{:?}", report.first);
-        assert!(
-            report
-                .clusters
-                .iter()
-                .any(|c| c.order == LayerProof::Unproved)
-        );
+        assert!(report.clusters.iter().any(|c| c.order == LayerProof::Unproved));
     }
 }
 
@@ -110,13 +94,7 @@ fn every_kind_of_rule_is_tested_in_the_compact_states() {
             assert_eq!(c.rules.transitivity, c.pairs as u64);
         }
     }
-    let all = [
-        most.taco_taco,
-        most.taco_tortilla,
-        most.tortilla_tortilla,
-        most.bent,
-        most.crease,
-    ];
+    let all = [most.taco_taco, most.taco_tortilla, most.tortilla_tortilla, most.bent, most.crease];
     assert!(all.iter().all(|&n| n > 0), "{most:?}");
 }
 
@@ -129,9 +107,7 @@ fn adjacent_pairs(units: &UnitSheet, order: &LayerOrder) -> Vec<(u32, u32)> {
     };
     // Above along one normal for both, that of g.
     let is_above = |f: u32, g: u32, up: DVec3| {
-        order
-            .sign(f, g)
-            .map(|s| f64::from(s) * normal(g).dot(up) > 0.0)
+        order.sign(f, g).map(|s| f64::from(s) * normal(g).dot(up) > 0.0)
     };
     let faces = 0..units.sheet.faces.len() as u32;
     let pairs = order.iter().filter(|&(f, g, _)| f < g);
@@ -165,12 +141,7 @@ fn every_swap_of_two_adjacent_layers_of_a_compact_state_is_refused() {
                 missed.push((f, g));
             }
         }
-        assert!(
-            missed.is_empty(),
-            "{:?}: {missed:?} of {}",
-            units.unit.case,
-            swaps.len()
-        );
+        assert!(missed.is_empty(), "{:?}: {missed:?} of {}", units.unit.case, swaps.len());
     }
 }
 
@@ -186,19 +157,13 @@ fn flat_fold(n: u32, signs: &[f64]) -> foldmotion_pattern::Motion {
 #[test]
 fn the_order_follows_from_the_motion_and_outlives_contact() {
     let motion = flat_fold(2, &[1.0]);
-    let states: Vec<_> = motion
-        .frames
-        .iter()
-        .map(|f| (f.positions.clone(), LayerOrder::default()))
-        .collect();
+    let states: Vec<_> =
+        motion.frames.iter().map(|f| (f.positions.clone(), LayerOrder::default())).collect();
     let (report, order) = judge(&motion.sheet, &states);
     assert_eq!(report.verdict, Verdict::Touching);
     // A valley: each square lies on the front of the other. All four pairs of halves overlap, but the two that share a
     // side beside the diagonal only touch there.
-    assert!(
-        order.iter().all(|(_, _, sign)| sign == 1) && order.len() >= 6,
-        "{order:?}"
-    );
+    assert!(order.iter().all(|(_, _, sign)| sign == 1) && order.len() >= 6, "{order:?}");
     assert_eq!(report.clusters.len(), 1);
     let cluster = &report.clusters[0];
     assert_eq!((cluster.frames, cluster.layers), ([24, 24], 2));
@@ -208,21 +173,15 @@ fn the_order_follows_from_the_motion_and_outlives_contact() {
 #[test]
 fn a_claim_against_the_motion_is_a_penetration_that_names_the_pair() {
     let motion = flat_fold(2, &[1.0]);
-    let mut states: Vec<_> = motion
-        .frames
-        .iter()
-        .map(|f| (f.positions.clone(), LayerOrder::default()))
-        .collect();
+    let mut states: Vec<_> =
+        motion.frames.iter().map(|f| (f.positions.clone(), LayerOrder::default())).collect();
     let mut claims = LayerOrder::default();
     claims.insert(1, 3, -1);
     states[24].1 = claims.clone();
     let (report, _) = judge(&motion.sheet, &states);
     assert_eq!(report.verdict, Verdict::Penetrating);
     let first = report.first.unwrap();
-    assert_eq!(
-        (first.faces, first.kind),
-        ([1, 3], PenetrationKind::LayerOrder)
-    );
+    assert_eq!((first.faces, first.kind), ([1, 3], PenetrationKind::LayerOrder));
     assert_eq!(first.conflict.unwrap().rule, LayerRule::Claim);
     assert_eq!((first.time, first.frame, first.depth), (24.0, 24, 0.0));
     // Before the layers meet, the same claim is about no layers, and counted as ignored.
@@ -236,16 +195,9 @@ fn a_claim_against_the_motion_is_a_penetration_that_names_the_pair() {
 #[test]
 fn a_claim_at_the_first_frame_decides_the_side_from_then_on() {
     let plates = crate::sheets::sheet(
-        [
-            (0.0, 0.0),
-            (1.0, 0.0),
-            (0.0, 1.0),
-            (5.0, 0.0),
-            (5.5, 0.0),
-            (5.0, 0.5),
-        ]
-        .map(glam::DVec2::from)
-        .to_vec(),
+        [(0.0, 0.0), (1.0, 0.0), (0.0, 1.0), (5.0, 0.0), (5.5, 0.0), (5.0, 0.5)]
+            .map(glam::DVec2::from)
+            .to_vec(),
         vec![[0, 1, 2], [3, 4, 5]],
     );
     let at = |z: f64| {
@@ -288,39 +240,22 @@ fn a_square_folded_into_another_pocket_cannot_be_claimed_between_its_layers() {
     }
     for levels in [[0, 1, 2], [2, 1, 0], [1, 0, 2], [2, 0, 1]] {
         let report = verdict(levels);
-        let rules = report
-            .penetrations
-            .iter()
-            .map(|p| p.conflict.as_ref().unwrap().rule);
+        let rules = report.penetrations.iter().map(|p| p.conflict.as_ref().unwrap().rule);
         let is_named = rules.clone().any(|rule| rule == LayerRule::Crease);
-        assert!(
-            is_named && report.verdict == Verdict::Penetrating,
-            "{levels:?}"
-        );
+        assert!(is_named && report.verdict == Verdict::Penetrating, "{levels:?}");
     }
 }
 
 #[test]
 fn the_order_followed_from_a_motion_does_not_depend_on_threads() {
     let motion = flat_fold(5, &[1.0, -1.0, 1.0, -1.0]);
-    let states: Vec<_> = motion
-        .frames
-        .iter()
-        .map(|f| (f.positions.clone(), LayerOrder::default()))
-        .collect();
+    let states: Vec<_> =
+        motion.frames.iter().map(|f| (f.positions.clone(), LayerOrder::default())).collect();
     let expected = judge(&motion.sheet, &states);
-    assert_eq!(
-        expected.0.verdict,
-        Verdict::Touching,
-        "{:?}",
-        expected.0.first
-    );
+    assert_eq!(expected.0.verdict, Verdict::Touching, "{:?}", expected.0.first);
     assert_eq!(expected.0.clusters[0].layers, 5);
     for threads in [1, 3] {
-        let pool = rayon::ThreadPoolBuilder::new()
-            .num_threads(threads)
-            .build()
-            .unwrap();
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
         assert_eq!(pool.install(|| judge(&motion.sheet, &states)), expected);
     }
 }
@@ -329,12 +264,7 @@ fn the_order_followed_from_a_motion_does_not_depend_on_threads() {
 fn two_squares(gap: f64) -> (Sheet, Vec<DVec3>) {
     let mut sheet = strip(3, 1);
     // Without the square between them.
-    let faces = [
-        sheet.faces[0],
-        sheet.faces[1],
-        sheet.faces[4],
-        sheet.faces[5],
-    ];
+    let faces = [sheet.faces[0], sheet.faces[1], sheet.faces[4], sheet.faces[5]];
     let corner = |v: usize, x: f64, z: f64| DVec3::new(x, sheet.vertices[v].y, z);
     let mut positions: Vec<DVec3> = (0..8).map(|v| corner(v, 0.0, 0.0)).collect();
     for (v, x, z) in [(0, 0.0, 0.0), (2, 1.0, 0.0), (4, 0.0, gap), (6, 1.0, gap)] {
@@ -361,10 +291,7 @@ fn claims_about_facets_a_gap_apart_are_compared_with_where_they_are() {
     let claims = claimed(1e-3, 1).unwrap();
     assert_eq!((claims.claimed, claims.ignored), (1, 0));
     let error = claimed(1e-3, -1).unwrap_err().to_string();
-    assert!(
-        error.contains("faceOrders has [2, 0, -1] at frame 0"),
-        "{error}"
-    );
+    assert!(error.contains("faceOrders has [2, 0, -1] at frame 0"), "{error}");
     // Far apart they are not layers of one stack.
     for sign in [1, -1] {
         let claims = claimed(0.5, sign).unwrap();

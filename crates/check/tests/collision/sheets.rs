@@ -97,15 +97,9 @@ pub(crate) fn folded(sheet: &Sheet, directions: &[f64]) -> Vec<DVec3> {
 }
 
 pub(crate) fn motion(sheet: Sheet, states: impl IntoIterator<Item = Vec<DVec3>>) -> Motion {
-    let frames = states.into_iter().enumerate().map(|(k, positions)| Frame {
-        time: k as f64,
-        positions,
-    });
-    Motion {
-        frames: frames.collect(),
-        sheet,
-        compact_order: LayerOrder::default(),
-    }
+    let frames =
+        states.into_iter().enumerate().map(|(k, positions)| Frame { time: k as f64, positions });
+    Motion { frames: frames.collect(), sheet, compact_order: LayerOrder::default() }
 }
 
 /// The strip folded through states given by directions, with `between` frames from one to the next.
@@ -131,20 +125,10 @@ pub(crate) fn accordion(n: u32, columns: u32, frames: u32, gap: f64, turn: f64) 
     let states: Vec<_> = (0..=frames)
         .map(|k| {
             let s = f64::from(k) / f64::from(frames);
-            let directions: Vec<_> = (0..n)
-                .map(|i| {
-                    if i % 2 == 0 {
-                        steepest * s
-                    } else {
-                        -steepest * s
-                    }
-                })
-                .collect();
+            let directions: Vec<_> =
+                (0..n).map(|i| if i % 2 == 0 { steepest * s } else { -steepest * s }).collect();
             let q = glam::DQuat::from_axis_angle(DVec3::new(1.0, 2.0, 2.0) / 3.0, turn * s);
-            folded(&sheet, &directions)
-                .into_iter()
-                .map(|p| q * p)
-                .collect()
+            folded(&sheet, &directions).into_iter().map(|p| q * p).collect()
         })
         .collect();
     motion(sheet, states)

@@ -18,9 +18,7 @@ fn fermat_spiral(half: usize) -> Headings {
     let at = |angle: f64| DVec2::from_angle(angle) * angle.sqrt();
     // Distances from a point of the arm increase along it up to at least 1.5.
     let next = |last: f64, length: f64| {
-        last_where([last, last + 1.5], |angle| {
-            at(angle).distance(at(last)) < length
-        })
+        last_where([last, last + 1.5], |angle| at(angle).distance(at(last)) < length)
     };
     let arm = |length: f64| marched(half, |last| next(last, length));
     let length = last_where([0.5, 2.0], |length| arm(length)[half] < 6.0 * PI);
@@ -61,10 +59,7 @@ fn headings(points: &[DVec2]) -> Headings {
 /// All turns scaled to a deployment fraction; the heading in the middle is kept.
 fn scaled(headings: &Headings, fraction: f64) -> Headings {
     let middle = headings[headings.len() / 2];
-    headings
-        .iter()
-        .map(|h| middle + (h - middle) * fraction)
-        .collect()
+    headings.iter().map(|h| middle + (h - middle) * fraction).collect()
 }
 
 fn points(headings: &Headings) -> Vec<DVec2> {
@@ -93,10 +88,8 @@ fn judge(motion: &Motion) -> CollisionReport {
 fn crossing_fractions(headings: &Headings) -> Option<[f64; 2]> {
     let crosses =
         |fraction: f64| first_crossing(&points(&scaled(headings, fraction)), false).is_some();
-    let samples: Vec<f64> = (1..1000)
-        .map(|k| f64::from(k) / 1000.0)
-        .filter(|&f| crosses(f))
-        .collect();
+    let samples: Vec<f64> =
+        (1..1000).map(|k| f64::from(k) / 1000.0).filter(|&f| crosses(f)).collect();
     Some([*samples.last()?, *samples.first()?])
 }
 
@@ -105,10 +98,7 @@ fn a_fermat_spiral_of_100_segments_penetrates_between_the_fractions_sampling_fin
  {
     let spiral = fermat_spiral(50);
     let [first, last] = crossing_fractions(&spiral).unwrap();
-    assert!(
-        (first - 0.85).abs() < 0.02 && (last - 0.34).abs() < 0.02,
-        "{first} {last}"
-    );
+    assert!((first - 0.85).abs() < 0.02 && (last - 0.34).abs() < 0.02, "{first} {last}");
     let report = judge(&unrolling(&spiral, 1.0, 0.0, 1000));
     assert_eq!(report.verdict, Verdict::Penetrating);
     let begins = 1.0 - report.first.unwrap().time / 1000.0;
@@ -136,15 +126,11 @@ fn airfoil(half: usize) -> Headings {
     // From the leading edge along x = u², on which distances increase.
     let next = |last: f64, length: f64| {
         let start = upper(last * last);
-        last_where([last, last + 1.0], |u| {
-            upper(u * u).distance(start) < length
-        })
+        last_where([last, last + 1.0], |u| upper(u * u).distance(start) < length)
     };
     let march = |length: f64| marched(half, |last| next(last, length));
     let scale = 1.0 / half as f64;
-    let length = last_where([0.5 * scale, 2.0 * scale], |length| {
-        march(length)[half] < 1.0
-    });
+    let length = last_where([0.5 * scale, 2.0 * scale], |length| march(length)[half] < 1.0);
     let side: Vec<DVec2> = march(length).into_iter().map(|u| upper(u * u)).collect();
     let back = side.iter().rev().copied();
     let forth = side[1..half].iter().map(|p| DVec2::new(p.x, -p.y));
@@ -153,23 +139,13 @@ fn airfoil(half: usize) -> Headings {
 
 #[test]
 fn a_circle_and_an_airfoil_touch_only_at_their_seam_and_open() {
-    let circle: Vec<DVec2> = (0..30)
-        .map(|k| DVec2::from_angle(TAU * f64::from(k) / 30.0))
-        .collect();
+    let circle: Vec<DVec2> =
+        (0..30).map(|k| DVec2::from_angle(TAU * f64::from(k) / 30.0)).collect();
     for (name, headings) in [("circle", closed(&circle)), ("airfoil", airfoil(20))] {
         let report = judge(&unrolling(&headings, 1.0, 0.0, 120));
-        assert_eq!(
-            report.verdict,
-            Verdict::Touching,
-            "{name}: {:?}",
-            report.first
-        );
+        assert_eq!(report.verdict, Verdict::Touching, "{name}: {:?}", report.first);
         // The facets on either side of the seam: two triangles each.
-        assert!(
-            report.touching_pairs <= 4,
-            "{name}: {}",
-            report.touching_pairs
-        );
+        assert!(report.touching_pairs <= 4, "{name}: {}", report.touching_pairs);
         assert_eq!(crossing_fractions(&headings), None, "{name}");
         let opened = judge(&unrolling(&headings, 0.99, 0.0, 120));
         assert_eq!(opened.verdict, Verdict::Free, "{name}");
@@ -194,11 +170,7 @@ fn the_first_contact_of_a_recorded_motion_is_found_to_a_millionth_of_a_frame_int
         let report = judge(&motion);
         let first = report.first.unwrap();
         let sampled = first_contact(&motion);
-        assert!(
-            (first.time - sampled).abs() < 1e-6,
-            "{half}: {} {sampled}",
-            first.time
-        );
+        assert!((first.time - sampled).abs() < 1e-6, "{half}: {} {sampled}", first.time);
     }
 }
 

@@ -34,10 +34,7 @@ fn a_strip_that_stays_apart_is_free_with_its_closest_approach() {
     let report = judge(&fold(3, &[&[0.0; 3], &channel, &[0.0; 3]], 7));
     assert_eq!(report.verdict, Verdict::Free, "{report:?}");
     let separation = report.min_separation.unwrap();
-    assert!(
-        (separation.distance - expected).abs() < 1e-4,
-        "{separation:?}"
-    );
+    assert!((separation.distance - expected).abs() < 1e-4, "{separation:?}");
     assert_eq!(separation.time, 7.0);
     assert_eq!(report.separation_series.len(), 15);
     assert_eq!(report.touching_pairs, 0);
@@ -48,10 +45,7 @@ fn a_strip_that_stays_apart_is_free_with_its_closest_approach() {
 #[test]
 fn the_closest_approach_between_frames_is_found() {
     // The corner of the upper plate passes the lower one at a height of 0.1 halfway through.
-    let report = judge(&two_plates(&[
-        DVec3::new(-2.0, 0.1, 0.1),
-        DVec3::new(2.0, 0.1, 0.1),
-    ]));
+    let report = judge(&two_plates(&[DVec3::new(-2.0, 0.1, 0.1), DVec3::new(2.0, 0.1, 0.1)]));
     let separation = report.min_separation.unwrap();
     assert_eq!(report.verdict, Verdict::Free);
     assert!((separation.distance - 0.1).abs() < 2e-5, "{separation:?}");
@@ -61,10 +55,7 @@ fn the_closest_approach_between_frames_is_found() {
 
 #[test]
 fn plates_pass_through_each_other_between_two_frames() {
-    let report = judge(&two_plates(&[
-        DVec3::new(0.1, 0.1, 0.3),
-        DVec3::new(0.1, 0.1, -0.1),
-    ]));
+    let report = judge(&two_plates(&[DVec3::new(0.1, 0.1, 0.3), DVec3::new(0.1, 0.1, -0.1)]));
     assert_eq!(report.verdict, Verdict::Penetrating);
     let first = report.first.unwrap();
     assert_eq!(first.kind, PenetrationKind::PassedThrough);
@@ -86,16 +77,10 @@ fn plates_that_touch_and_part_are_touching_and_those_that_stop_a_little_apart_to
     assert_eq!(report.verdict, Verdict::Free);
     let report = judge(&two_plates(&[at(0.3), at(0.0), at(-0.3)]));
     assert_eq!(report.verdict, Verdict::Penetrating);
-    let wide = CollisionOptions {
-        touch_tolerance: 1e-3,
-        ..CollisionOptions::default()
-    };
+    let wide = CollisionOptions { touch_tolerance: 1e-3, ..CollisionOptions::default() };
     let near = two_plates(&[at(0.3), at(5e-4), at(0.3)]);
     let report = collisions(&near, &wide, &|_| true).unwrap();
-    assert_eq!(
-        (report.verdict, report.tolerance),
-        (Verdict::Touching, 1e-3)
-    );
+    assert_eq!((report.verdict, report.tolerance), (Verdict::Touching, 1e-3));
 }
 
 #[test]
@@ -121,10 +106,7 @@ fn a_strip_folded_through_itself_penetrates_at_the_right_time() {
     // Dense frames of the same motion find the first contact no earlier than straight paths allow.
     let dense = judge(&fold(4, &states, 240));
     let dense_first = dense.first.unwrap().time / 20.0;
-    assert!(
-        (dense_first - first.time).abs() < 0.1,
-        "{dense_first} {first:?}"
-    );
+    assert!((dense_first - first.time).abs() < 0.1, "{dense_first} {first:?}");
     assert!(report.penetrations.is_sorted_by(|p, q| p.time <= q.time));
 }
 
@@ -138,11 +120,8 @@ fn a_fold_of_exactly_half_a_turn_touches_and_one_past_it_penetrates_by_its_overl
     for past in [1e-5, 0.01, 0.5] {
         let report = to(past);
         assert_eq!(report.verdict, Verdict::Penetrating, "{past}");
-        let hinge = report
-            .penetrations
-            .iter()
-            .find(|p| p.kind == PenetrationKind::FoldedThrough)
-            .unwrap();
+        let hinge =
+            report.penetrations.iter().find(|p| p.kind == PenetrationKind::FoldedThrough).unwrap();
         assert_eq!(hinge.vertices.len(), 4);
     }
 }
@@ -175,13 +154,7 @@ fn a_closed_ring_whose_seam_opens_touches() {
 
 #[test]
 fn crossing_around_a_shared_vertex_is_found() {
-    let vertices = [
-        (0.0, 0.0),
-        (1.0, -1.0),
-        (1.0, 1.0),
-        (-1.0, 1.0),
-        (-1.0, -1.0),
-    ];
+    let vertices = [(0.0, 0.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0), (-1.0, -1.0)];
     let vertices: Vec<_> = vertices.into_iter().map(DVec2::from).collect();
     let fan = sheet(vertices.clone(), vec![[0, 1, 2], [0, 3, 4]]);
     let swung = |z: f64| {
@@ -255,14 +228,7 @@ fn motions_that_cannot_be_judged_are_refused_by_name() {
         collisions(&motion, &CollisionOptions::default(), &|_| true).unwrap_err()
     };
     let nan = with(&|m| m.frames[2].positions[1].y = f64::NAN);
-    assert!(matches!(
-        nan,
-        CheckError::NotFinite {
-            frame: 2,
-            vertex: 1,
-            ..
-        }
-    ));
+    assert!(matches!(nan, CheckError::NotFinite { frame: 2, vertex: 1, .. }));
     let short = with(&|m| m.frames[1].positions.truncate(3));
     assert!(matches!(short, CheckError::FrameSize { frame: 1, .. }));
     let order = with(&|m| m.frames[2].time = 1.0);
@@ -272,22 +238,12 @@ fn motions_that_cannot_be_judged_are_refused_by_name() {
     let far = with(&|m| m.frames[1].positions.iter_mut().for_each(|p| p.x += 1e9));
     assert!(matches!(far, CheckError::ToleranceBelowRounding { .. }));
     let corner = with(&|m| m.sheet.faces[0][0] = 77);
-    assert!(matches!(
-        corner,
-        CheckError::CornerOutOfRange {
-            face: 0,
-            vertex: 77,
-            ..
-        }
-    ));
+    assert!(matches!(corner, CheckError::CornerOutOfRange { face: 0, vertex: 77, .. }));
     let twice = with(&|m| m.sheet.faces[1] = m.sheet.faces[0]);
     assert!(matches!(twice, CheckError::DuplicateFace { f: 0, g: 1 }));
     assert_eq!(with(&|m| m.frames.clear()), CheckError::NoFrames);
     for touch_tolerance in [0.0, -1.0, f64::NAN, 0.5] {
-        let options = CollisionOptions {
-            touch_tolerance,
-            ..CollisionOptions::default()
-        };
+        let options = CollisionOptions { touch_tolerance, ..CollisionOptions::default() };
         let refused = collisions(&good, &options, &|_| true).unwrap_err();
         assert!(matches!(refused, CheckError::ToleranceOutOfRange { .. }));
     }
@@ -297,18 +253,11 @@ fn motions_that_cannot_be_judged_are_refused_by_name() {
 
 #[test]
 fn with_an_exhausted_budget_freedom_is_still_proved_by_distance_and_no_penetration_is_hidden() {
-    let options = CollisionOptions {
-        budget: 1,
-        ..CollisionOptions::default()
-    };
+    let options = CollisionOptions { budget: 1, ..CollisionOptions::default() };
     let of = |motion: &Motion| collisions(motion, &options, &|_| true).unwrap();
     let apart = of(&accordion(6, 1, 4, 1e-3, 2.0));
     let separation = apart.min_separation.unwrap();
-    assert_eq!(
-        apart.verdict == Verdict::Free,
-        separation.distance > 1e-6,
-        "{separation:?}"
-    );
+    assert_eq!(apart.verdict == Verdict::Free, separation.distance > 1e-6, "{separation:?}");
     let through = two_plates(&[DVec3::new(0.1, 0.1, 0.3), DVec3::new(0.1, 0.1, -0.3)]);
     assert_eq!(of(&through).verdict, Verdict::Penetrating);
 }
@@ -361,10 +310,7 @@ fn below_a_large_plate(turn: DQuat) -> Motion {
     vertices.extend((0..4).flat_map(|j| (0..4).map(move |i| small(i, j))));
     let mut faces = vec![[0, 1, 2], [0, 2, 3]];
     for corner in (0..3).flat_map(|j| (0..3).map(move |i| 4 + i + 4 * j)) {
-        faces.extend([
-            [corner, corner + 1, corner + 5],
-            [corner, corner + 5, corner + 4],
-        ]);
+        faces.extend([[corner, corner + 1, corner + 5], [corner, corner + 5, corner + 4]]);
     }
     let places = [(0.0, -1.0), (0.0, 0.0), (0.5, 0.0), (0.0, -1.0)];
     let tilt = DQuat::from_rotation_z(0.8);
@@ -386,10 +332,7 @@ fn a_tolerance_gives_the_right_verdict_or_is_refused_however_small_it_is() {
         let axis = DVec3::new(1.0, f64::from(k), -2.0).normalize();
         let motion = below_a_large_plate(DQuat::from_axis_angle(axis, 0.7 * f64::from(k)));
         for touch_tolerance in [1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8] {
-            let options = CollisionOptions {
-                touch_tolerance,
-                ..CollisionOptions::default()
-            };
+            let options = CollisionOptions { touch_tolerance, ..CollisionOptions::default() };
             match collisions(&motion, &options, &|_| true) {
                 Ok(report) => {
                     judged += 1;
@@ -419,16 +362,8 @@ fn edges_that_lie_down_on_each_other_touch_for_every_tolerance() {
     };
     let motion = motion(sheet, [at(1.0), at(0.0)]);
     for touch_tolerance in [1e-5, 1e-6, 1e-7, 3.5e-8, 1e-8, 1e-9] {
-        let options = CollisionOptions {
-            touch_tolerance,
-            ..CollisionOptions::default()
-        };
+        let options = CollisionOptions { touch_tolerance, ..CollisionOptions::default() };
         let report = collisions(&motion, &options, &|_| true).unwrap();
-        assert_eq!(
-            report.verdict,
-            Verdict::Touching,
-            "{touch_tolerance}: {:?}",
-            report.first
-        );
+        assert_eq!(report.verdict, Verdict::Touching, "{touch_tolerance}: {:?}", report.first);
     }
 }

@@ -33,11 +33,7 @@ fn spread(axes: &[Axis], marked: &mut [bool], limits: &Limits) {
 }
 
 fn free_axis(pose: &PairPose, direction: DVec3) -> Axis {
-    Axis {
-        direction,
-        overlap: pose.overlap(direction),
-        feature: Feature::Free,
-    }
+    Axis { direction, overlap: pose.overlap(direction), feature: Feature::Free }
 }
 
 /// The state of a pair at `time`, certified up to there.
@@ -128,11 +124,7 @@ impl<'a> Certifier<'a> {
         let Side::Apart(direction) = self.side else {
             let parts =
                 widest(end, self.limits).is_some() && widest(&self.pose, self.limits).is_none();
-            return if parts {
-                self.part(end, step)
-            } else {
-                self.touch(end)
-            };
+            return if parts { self.part(end, step) } else { self.touch(end) };
         };
         let mut apart = self.glide(direction, end);
         if apart.is_none() && !self.is_fresh {
@@ -283,9 +275,7 @@ impl<'a> Certifier<'a> {
             let from_side = overlap_from_side(&pose, &seeds, self.limits);
             reach = reach.max(from_side.overlap);
             depth = depth.max(deepest.overlap);
-            let witness = [deepest, from_side]
-                .into_iter()
-                .find(|axis| axis.overlap > too_deep);
+            let witness = [deepest, from_side].into_iter().find(|axis| axis.overlap > too_deep);
             found = found.or(witness.map(|axis| (instant, axis)));
             if instant >= 1.0 {
                 break;
@@ -360,12 +350,6 @@ fn overlap_from_side(pose: &PairPose, seeds: &[DVec3], limits: &Limits) -> Axis 
     all.into_iter()
         .filter(is_near)
         .chain(carried)
-        .reduce(|least, next| {
-            if next.overlap < least.overlap {
-                next
-            } else {
-                least
-            }
-        })
+        .reduce(|least, next| if next.overlap < least.overlap { next } else { least })
         .unwrap_or_else(|| pose.depth())
 }

@@ -30,10 +30,7 @@ impl Clearest {
         limits: &Limits,
     ) -> Option<Self> {
         let line = closest.on_b - closest.on_a;
-        let mut best = Self {
-            direction: line.try_normalize()?,
-            gap: f64::NEG_INFINITY,
-        };
+        let mut best = Self { direction: line.try_normalize()?, gap: f64::NEG_INFINITY };
         best.gap = pose.gap(best.direction, limits);
         if best.gap < closest.distance - slack {
             visit_directions(pose, |direction| {
@@ -84,15 +81,9 @@ fn visit_directions(pose: &PairPose, mut visit: impl FnMut(DVec3)) {
 
 /// u × v over |u|, normal to both to within rounding even if they are nearly parallel; 0 if they are parallel.
 fn common_normal(u: DVec3, v: DVec3) -> DVec3 {
-    let (long, short) = if u.length_squared() >= v.length_squared() {
-        (u, v)
-    } else {
-        (v, u)
-    };
+    let (long, short) = if u.length_squared() >= v.length_squared() { (u, v) } else { (v, u) };
     let along = long.try_normalize().unwrap_or(DVec3::ZERO);
-    let across = normal_part(short, along)
-        .try_normalize()
-        .unwrap_or(DVec3::ZERO);
+    let across = normal_part(short, along).try_normalize().unwrap_or(DVec3::ZERO);
     along.cross(across)
 }
 
@@ -102,11 +93,7 @@ mod tests {
     use crate::distance::triangle_triangle;
     use foldmotion_random::Random;
 
-    const LIMITS: Limits = Limits {
-        tolerance: 1e-6,
-        margin: 1e-14,
-        budget: 1,
-    };
+    const LIMITS: Limits = Limits { tolerance: 1e-6, margin: 1e-14, budget: 1 };
 
     fn clearest(pose: &PairPose, slack: f64) -> (f64, Option<Clearest>) {
         let closest = triangle_triangle(&pose.a, &pose.b);
@@ -134,11 +121,7 @@ mod tests {
             };
             apart += 1;
             assert!(found.gap <= distance + 1e-14, "{case}");
-            assert!(
-                found.gap >= distance - 1e-11,
-                "{case}: {} of {distance}",
-                found.gap
-            );
+            assert!(found.gap >= distance - 1e-11, "{case}: {} of {distance}", found.gap);
         }
         assert!(apart > 1000, "{apart}");
     }

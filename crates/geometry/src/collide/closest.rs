@@ -51,15 +51,8 @@ pub fn enough_clearance(bound: f64, limits: &Limits) -> f64 {
 ///
 /// Precondition: the triangles share no corner.
 pub fn closest_approach(pair: &MovingPair, bound: f64, limits: &Limits) -> ApproachBounds {
-    Search {
-        pair,
-        limits,
-        bound,
-        nearest: None,
-        instants: Vec::new(),
-        open: BinaryHeap::new(),
-    }
-    .run()
+    Search { pair, limits, bound, nearest: None, instants: Vec::new(), open: BinaryHeap::new() }
+        .run()
 }
 
 /// The triangles at an instant.
@@ -121,11 +114,7 @@ impl Search<'_> {
         }
         let open = self.open.peek().map_or(0.0, |stretch| stretch.at_least);
         let at_least = open.min(self.bound - self.limits.margin).max(0.0);
-        ApproachBounds {
-            nearest: self.nearest,
-            at_least,
-            is_complete: self.is_enough(at_least),
-        }
+        ApproachBounds { nearest: self.nearest, at_least, is_complete: self.is_enough(at_least) }
     }
 
     fn is_enough(&self, at_least: f64) -> bool {
@@ -158,11 +147,7 @@ impl Search<'_> {
         }
         let slack = 0.1 * accuracy(closest.distance, self.limits);
         let clearest = Clearest::of(&pose, &closest, slack, self.limits);
-        self.instants.push(Instant {
-            time,
-            pose,
-            clearest,
-        });
+        self.instants.push(Instant { time, pose, clearest });
         self.instants.len() - 1
     }
 
@@ -217,14 +202,9 @@ mod tests {
             let [p, q] = [(); 2].map(|()| [random.number(), random.number()]);
             let at = |l: [f64; 2], s: f64| l[0] + (l[1] - l[0]) * s;
             let samples = (0..=1000).map(|k| f64::from(k) / 1000.0);
-            let least = samples
-                .map(|s| at(p, s).max(at(q, s)))
-                .fold(f64::INFINITY, f64::min);
+            let least = samples.map(|s| at(p, s).max(at(q, s))).fold(f64::INFINITY, f64::min);
             let found = least_of_greater(p, q);
-            assert!(
-                found <= least + 1e-15 && found >= least - 4e-3,
-                "{found} {least}"
-            );
+            assert!(found <= least + 1e-15 && found >= least - 4e-3, "{found} {least}");
         }
     }
 }

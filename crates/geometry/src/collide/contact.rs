@@ -132,16 +132,8 @@ fn closest(pose: &PairPose) -> Closest {
         (true, true) => segment_segment([a[0], a[1]], [b[0], b[1]]),
         (true, false) if a[0] == a[1] => point_triangle(a[0], b),
         (false, true) if b[0] == b[1] => {
-            let Closest {
-                distance,
-                on_a,
-                on_b,
-            } = point_triangle(b[0], a);
-            Closest {
-                distance,
-                on_a: on_b,
-                on_b: on_a,
-            }
+            let Closest { distance, on_a, on_b } = point_triangle(b[0], a);
+            Closest { distance, on_a: on_b, on_b: on_a }
         }
         _ => triangle_triangle(a, b),
     }
@@ -157,11 +149,7 @@ struct Instant {
 impl Instant {
     fn new(pair: &MovingPair, time: f64) -> Self {
         let pose = pair.at(time);
-        Self {
-            time,
-            closest: closest(&pose),
-            pose,
-        }
+        Self { time, closest: closest(&pose), pose }
     }
 
     /// The direction along which the features are farthest apart, approximately.
@@ -185,10 +173,7 @@ impl Instant {
 
     /// The barycentric coordinates of the closest points.
     fn shares(&self) -> [[f64; 3]; 2] {
-        [
-            shares(self.closest.on_a, &self.pose.a),
-            shares(self.closest.on_b, &self.pose.b),
-        ]
+        [shares(self.closest.on_a, &self.pose.a), shares(self.closest.on_b, &self.pose.b)]
     }
 }
 
@@ -198,19 +183,12 @@ fn normal_to(spans: [DVec3; 4], nearest: DVec3) -> Option<DVec3> {
     let by_length = |s: &DVec3, t: &DVec3| s.length_squared().total_cmp(&t.length_squared());
     let longest = spans.into_iter().max_by(by_length)?;
     let along = longest.try_normalize()?;
-    let normal = spans
-        .map(|s| along.cross(s))
-        .into_iter()
-        .max_by(by_length)?;
+    let normal = spans.map(|s| along.cross(s)).into_iter().max_by(by_length)?;
     if normal.length() <= PARALLEL * longest.length() {
         return (nearest - along * along.dot(nearest)).try_normalize();
     }
     let normal = normal.normalize();
-    Some(if normal.dot(nearest) < 0.0 {
-        -normal
-    } else {
-        normal
-    })
+    Some(if normal.dot(nearest) < 0.0 { -normal } else { normal })
 }
 
 /// Whether a direction shows that the features are farther apart than `distance` throughout.
@@ -256,18 +234,10 @@ fn shares(point: DVec3, corners: &[DVec3; 3]) -> [f64; 3] {
         let z = u.cross(w).dot(n) / squared;
         return clamped([1.0 - y - z, y, z]);
     }
-    let far = if u.length_squared() >= v.length_squared() {
-        1
-    } else {
-        2
-    };
+    let far = if u.length_squared() >= v.length_squared() { 1 } else { 2 };
     let along = corners[far] - p;
     let squared = along.length_squared();
-    let share = if squared > 0.0 {
-        w.dot(along) / squared
-    } else {
-        0.0
-    };
+    let share = if squared > 0.0 { w.dot(along) / squared } else { 0.0 };
     let mut shares = [1.0 - share, 0.0, 0.0];
     shares[far] = share;
     clamped(shares)
@@ -284,11 +254,7 @@ mod tests {
     use super::*;
     use foldmotion_random::Random;
 
-    const LIMITS: Limits = Limits {
-        tolerance: 1e-6,
-        margin: 1e-13,
-        budget: 1000,
-    };
+    const LIMITS: Limits = Limits { tolerance: 1e-6, margin: 1e-13, budget: 1000 };
 
     fn feature(random: &mut Random, corners: usize) -> [DVec3; 3] {
         let p = [(); 3].map(|()| random.vector());
@@ -301,11 +267,8 @@ mod tests {
         let mut stretches = 0;
         for case in 0..400 {
             let (m, n) = (1 + case % 3, 1 + case / 3 % 3);
-            let mut pose = || PairPose {
-                a: feature(&mut random, m),
-                b: feature(&mut random, n),
-                shared: 0,
-            };
+            let mut pose =
+                || PairPose { a: feature(&mut random, m), b: feature(&mut random, n), shared: 0 };
             let pair = MovingPair::new(pose(), pose());
             let distance = 0.3;
             let near = contact_times(&pair, distance, &LIMITS).unwrap();
@@ -328,11 +291,7 @@ mod tests {
     #[test]
     fn a_point_that_slides_far_along_a_plate_in_contact_is_near_in_one_interval() {
         let plate = [DVec3::ZERO, DVec3::X * 4.0, DVec3::Y * 4.0];
-        let at = |x: f64| PairPose {
-            a: [DVec3::new(x, 0.5, 4e-7); 3],
-            b: plate,
-            shared: 0,
-        };
+        let at = |x: f64| PairPose { a: [DVec3::new(x, 0.5, 4e-7); 3], b: plate, shared: 0 };
         let pair = MovingPair::new(at(0.25), at(3.0));
         assert_eq!(contact_times(&pair, 1e-6, &LIMITS).unwrap(), [[0.0, 1.0]]);
     }
@@ -345,11 +304,7 @@ mod tests {
             let along = DVec3::new(3.0, left, 0.0);
             PairPose {
                 a: [DVec3::ZERO, along, along],
-                b: [
-                    DVec3::X,
-                    DVec3::new(0.0, 1.0, left),
-                    DVec3::new(0.0, 1.0, left),
-                ],
+                b: [DVec3::X, DVec3::new(0.0, 1.0, left), DVec3::new(0.0, 1.0, left)],
                 shared: 0,
             }
         });

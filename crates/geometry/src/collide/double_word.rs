@@ -75,10 +75,7 @@ impl Sub for DoubleWord {
     type Output = Self;
 
     fn sub(self, other: Self) -> Self {
-        let negative = Self {
-            high: -other.high,
-            low: -other.low,
-        };
+        let negative = Self { high: -other.high, low: -other.low };
         self + negative
     }
 }
@@ -99,10 +96,7 @@ impl Scalar for DoubleWord {
     const ROUNDOFF: f64 = 2.0 * f64::EPSILON * f64::EPSILON;
 
     fn new(value: f64) -> Self {
-        Self {
-            high: value,
-            low: 0.0,
-        }
+        Self { high: value, low: 0.0 }
     }
 
     fn difference(a: f64, b: f64) -> Self {

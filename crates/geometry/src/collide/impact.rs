@@ -40,11 +40,7 @@ pub struct ImpactSearch {
 impl Default for ImpactSearch {
     /// Impacts at distance 0, located to within 2⁻⁴⁴.
     fn default() -> Self {
-        Self {
-            separation: 0.0,
-            resolution: 1.0 / (1u64 << 44) as f64,
-            budget: 4096,
-        }
+        Self { separation: 0.0, resolution: 1.0 / (1u64 << 44) as f64, budget: 4096 }
     }
 }
 
@@ -180,10 +176,7 @@ mod tests {
         // δ and the gap are dyadic. At rest at distance δ the features count as within it; one ulp farther they need
         // not, and a thousand ulps farther they must not.
         let at = |gap: f64, separation: f64| {
-            let search = ImpactSearch {
-                separation,
-                ..ImpactSearch::default()
-            };
+            let search = ImpactSearch { separation, ..ImpactSearch::default() };
             vertex_facet(falling(1.0, 1.0, gap), plate(), &search)
         };
         assert!(matches!(at(0.125, 0.125), Impact::Within { .. }));
@@ -204,12 +197,7 @@ mod tests {
             "{meeting:?}"
         );
         assert_eq!(edge_edge(a, across(1.0, -3.0, 1.5), &search), Impact::Never);
-        let along = |y: f64| {
-            [
-                still(DVec3::new(-3.0, y, 0.0)),
-                still(DVec3::new(3.0, y, 0.0)),
-            ]
-        };
+        let along = |y: f64| [still(DVec3::new(-3.0, y, 0.0)), still(DVec3::new(3.0, y, 0.0))];
         assert_eq!(edge_edge(a, along(1e-12), &search), Impact::Never);
         let on = edge_edge(a, along(0.0), &search);
         assert!(matches!(on, Impact::Within { from: 0.0, .. }), "{on:?}");
@@ -222,10 +210,7 @@ mod tests {
         assert_eq!(nan, Impact::Undecided { from: 0.0 });
         let far = vertex_facet(falling(1.0, f64::MAX, -f64::MAX), plate(), &search);
         assert!(far != Impact::Never);
-        let poor = ImpactSearch {
-            budget: 3,
-            ..search
-        };
+        let poor = ImpactSearch { budget: 3, ..search };
         let ended = vertex_facet(falling(1.0, 1.0, -2.0), plate(), &poor);
         assert!(matches!(ended, Impact::Undecided { from } if from <= 1.0 / 3.0));
     }

@@ -53,10 +53,7 @@ impl MovingPair {
         };
         [
             self.start.projections(d0),
-            (
-                middle(&self.start.a, &self.end.a),
-                middle(&self.start.b, &self.end.b),
-            ),
+            (middle(&self.start.a, &self.end.a), middle(&self.start.b, &self.end.b)),
             self.end.projections(d1),
         ]
     }
@@ -67,9 +64,7 @@ impl MovingPair {
             return false;
         };
         let allowed = limits.tolerance * shortest - limits.margin;
-        self.heights(d0, d1)
-            .iter()
-            .all(|(a, b)| overlap_of(a, b) <= allowed)
+        self.heights(d0, d1).iter().all(|(a, b)| overlap_of(a, b) <= allowed)
     }
 
     /// A lower bound of the gap along the direction moving from `d0` to `d1`; if positive, the triangles are apart
@@ -125,11 +120,7 @@ impl Hinge {
         let vectors = |p: &PairPose| [p.a[1] - p.a[0], p.a[2] - p.a[0], p.b[2] - p.a[0]];
         let ([e0, l0, r0], [e1, l1, r1]) = (vectors(&pair.start), vectors(&pair.end));
         let normal = |v0: DVec3, v1: DVec3| {
-            [
-                e0.cross(v0),
-                (e0.cross(v1) + e1.cross(v0)) * 0.5,
-                e1.cross(v1),
-            ]
+            [e0.cross(v0), (e0.cross(v1) + e1.cross(v0)) * 0.5, e1.cross(v1)]
         };
         let all = [e0, l0, r0, e1, l1, r1].map(DVec3::length_squared);
         Self {
@@ -170,11 +161,7 @@ mod tests {
     use super::*;
     use foldmotion_random::Random;
 
-    const LIMITS: Limits = Limits {
-        tolerance: 1e-6,
-        margin: 1e-13,
-        budget: 1000,
-    };
+    const LIMITS: Limits = Limits { tolerance: 1e-6, margin: 1e-13, budget: 1000 };
 
     fn random_pair(random: &mut Random, shared: usize) -> MovingPair {
         let mut pose = || {
@@ -183,10 +170,7 @@ mod tests {
             b[..shared].copy_from_slice(&a[..shared]);
             PairPose { a, b, shared }
         };
-        MovingPair {
-            start: pose(),
-            end: pose(),
-        }
+        MovingPair { start: pose(), end: pose() }
     }
 
     #[test]

@@ -75,10 +75,7 @@ impl<T: Scalar, const N: usize> MovingPatch<T, N> {
     /// its sign; there the origin lies in the patch if all c_k × c_{k+1} point to one side.
     pub(super) fn passages(&self, signs: [i8; 2]) -> Option<Vec<([f64; 2], i8)>> {
         let mut found = Vec::new();
-        let mut open = vec![SignedInterval {
-            times: [0.0, 1.0],
-            signs,
-        }];
+        let mut open = vec![SignedInterval { times: [0.0, 1.0], signs }];
         let mut budget = BUDGET;
         while let Some(interval) = open.pop() {
             budget = budget.checked_sub(1)?;
@@ -96,14 +93,8 @@ impl<T: Scalar, const N: usize> MovingPatch<T, N> {
             }
             let (middle, sign) = self.cut(interval.times)?;
             let ([t0, t1], [s0, s1]) = (interval.times, interval.signs);
-            open.push(SignedInterval {
-                times: [middle, t1],
-                signs: [sign, s1],
-            });
-            open.push(SignedInterval {
-                times: [t0, middle],
-                signs: [s0, sign],
-            });
+            open.push(SignedInterval { times: [middle, t1], signs: [sign, s1] });
+            open.push(SignedInterval { times: [t0, middle], signs: [s0, sign] });
         }
         Some(found)
     }
@@ -202,9 +193,7 @@ impl<T: Scalar, const N: usize> MovingPatch<T, N> {
 }
 
 fn range(values: impl Iterator<Item = f64>) -> (f64, f64) {
-    values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), v| {
-        (low.min(v), high.max(v))
-    })
+    values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), v| (low.min(v), high.max(v)))
 }
 
 fn spanning<T: Scalar, const N: usize>(corners: &[Vector<T>; N]) -> [&Vector<T>; 3] {

@@ -56,11 +56,7 @@ pub fn edge_passages(a: [[DVec3; 2]; 2], b: [[DVec3; 2]; 2]) -> Option<Vec<Passa
 
 /// The exact sign of det(a − d, b − d, c − d); 0 if the four points lie in one plane.
 pub fn sign_of_volume(points: [DVec3; 4]) -> i8 {
-    let [a, b, c, d] = points.map(|p| Coord3D {
-        x: p.x,
-        y: p.y,
-        z: p.z,
-    });
+    let [a, b, c, d] = points.map(|p| Coord3D { x: p.x, y: p.y, z: p.z });
     let value = orient3d(a, b, c, d);
     i8::from(value > 0.0) - i8::from(value < 0.0)
 }
@@ -83,10 +79,7 @@ fn signed<const N: usize>(
     let passages = MovingPatch::<f64, N>::new(points).passages(signs);
     let passages =
         passages.or_else(|| MovingPatch::<DoubleWord, N>::new(points).passages(signs))?;
-    let passing = |(times, sign): ([f64; 2], i8)| Passage {
-        times,
-        sign: sign * orientation,
-    };
+    let passing = |(times, sign): ([f64; 2], i8)| Passage { times, sign: sign * orientation };
     Some(passages.into_iter().map(passing).collect())
 }
 
@@ -95,11 +88,7 @@ mod tests {
     use super::*;
     use foldmotion_random::Random;
 
-    const PLATE: [DVec3; 3] = [
-        DVec3::ZERO,
-        DVec3::new(4.0, 0.0, 0.0),
-        DVec3::new(0.0, 4.0, 0.0),
-    ];
+    const PLATE: [DVec3; 3] = [DVec3::ZERO, DVec3::new(4.0, 0.0, 0.0), DVec3::new(0.0, 4.0, 0.0)];
 
     fn still<const N: usize>(points: [DVec3; N]) -> [[DVec3; 2]; N] {
         points.map(|p| [p, p])
@@ -110,10 +99,7 @@ mod tests {
         let path = [DVec3::new(1.0, 1.0, -1.0), DVec3::new(1.0, 1.0, 3.0)];
         let up = vertex_passages(path, still(PLATE)).unwrap();
         assert_eq!(up.len(), 1);
-        assert!(
-            up[0].sign == 1 && (up[0].time() - 0.25).abs() < 1e-9,
-            "{up:?}"
-        );
+        assert!(up[0].sign == 1 && (up[0].time() - 0.25).abs() < 1e-9, "{up:?}");
         let down = vertex_passages([path[1], path[0]], still(PLATE)).unwrap();
         assert!(down[0].sign == -1 && (down[0].time() - 0.75).abs() < 1e-9);
         let beside = path.map(|p| p + DVec3::X * 3.0);
@@ -173,9 +159,8 @@ mod tests {
             let detour = p.midpoint(q) + random.vector() * 0.05;
             let bent = sum(&[p, detour, q], facet);
             // The triangle p, detour, q meets the rim an even or odd number of times; they are counted exactly.
-            let rim: i32 = (0..3)
-                .map(|k| pierced([p, detour, q], [facet[k], facet[(k + 1) % 3]]))
-                .sum();
+            let rim: i32 =
+                (0..3).map(|k| pierced([p, detour, q], [facet[k], facet[(k + 1) % 3]])).sum();
             assert_eq!(bent - direct, rim, "{p} {q} {facet:?} {detour}");
             passed += i32::from(direct != 0);
         }
@@ -200,10 +185,6 @@ mod tests {
             sign_of_volume([c, d, m, q]),
             sign_of_volume([c, d, q, p]),
         ];
-        if inside[0] == inside[1] && inside[1] == inside[2] {
-            i32::from(above)
-        } else {
-            0
-        }
+        if inside[0] == inside[1] && inside[1] == inside[2] { i32::from(above) } else { 0 }
     }
 }

@@ -80,9 +80,7 @@ impl<const N: usize> Patch<N> {
     }
 
     fn is_clear_along_coordinates(&self, from: &[DVec3; N], to: &[DVec3; N]) -> bool {
-        [DVec3::X, DVec3::Y, DVec3::Z]
-            .into_iter()
-            .any(|d| self.is_clear_along(from, to, d, d))
+        [DVec3::X, DVec3::Y, DVec3::Z].into_iter().any(|d| self.is_clear_along(from, to, d, d))
     }
 
     /// Whether every corner lies beyond the separation on one side along the direction moving from `d0` to `d1`.
@@ -95,11 +93,7 @@ impl<const N: usize> Patch<N> {
             + TINY;
         let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
         for (p0, p1) in from.iter().zip(to) {
-            let heights = [
-                d0.dot(*p0),
-                f64::midpoint(d0.dot(*p1), d1.dot(*p0)),
-                d1.dot(*p1),
-            ];
+            let heights = [d0.dot(*p0), f64::midpoint(d0.dot(*p1), d1.dot(*p0)), d1.dot(*p1)];
             low = low.min(lowest(&heights));
             high = high.max(highest(&heights));
         }
@@ -186,10 +180,7 @@ mod tests {
             let distance = crate::triangle_triangle(&triangle, &origin).distance;
             let d = direction_away(&triangle).unwrap();
             let least = lowest(&triangle.map(|p| d.dot(p)));
-            assert!(
-                (least - distance).abs() < 1e-12,
-                "{case}: {least} {distance}"
-            );
+            assert!((least - distance).abs() < 1e-12, "{case}: {least} {distance}");
         }
     }
 

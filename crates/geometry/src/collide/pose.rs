@@ -104,11 +104,8 @@ impl PairPose {
     /// ±(edge of A × edge of B) (Gottschalk, Lin and Manocha 1996), so the depth is exact. If it does not, one of them
     /// separates, or an in-plane edge normal if the triangles are coplanar.
     pub fn depth(&self) -> Axis {
-        let mut deepest = Axis {
-            direction: DVec3::X,
-            overlap: self.overlap(DVec3::X),
-            feature: Feature::Free,
-        };
+        let mut deepest =
+            Axis { direction: DVec3::X, overlap: self.overlap(DVec3::X), feature: Feature::Free };
         self.visit_axes(|axis| {
             if axis.overlap < deepest.overlap {
                 deepest = axis;
@@ -139,11 +136,7 @@ impl PairPose {
             for direction in bisector.into_iter().chain(inner.try_normalize()) {
                 let overlap = self.overlap(direction);
                 if overlap <= limit {
-                    axes.push(Axis {
-                        direction,
-                        overlap,
-                        feature: Feature::Free,
-                    });
+                    axes.push(Axis { direction, overlap, feature: Feature::Free });
                 }
             }
         }
@@ -173,16 +166,8 @@ impl PairPose {
                 return;
             };
             let (a, b) = self.projections(direction);
-            visit(Axis {
-                direction,
-                overlap: overlap_of(&a, &b),
-                feature,
-            });
-            visit(Axis {
-                direction: -direction,
-                overlap: overlap_of(&b, &a),
-                feature,
-            });
+            visit(Axis { direction, overlap: overlap_of(&a, &b), feature });
+            visit(Axis { direction: -direction, overlap: overlap_of(&b, &a), feature });
         };
         both_ways(normal_a, Feature::NormalA);
         both_ways(normal_b, Feature::NormalB);
@@ -198,13 +183,10 @@ impl PairPose {
         if normal_a == DVec3::ZERO && normal_b == DVec3::ZERO {
             // Both triangles have shrunk to segments, at an instant between frames; parallel segments have no other
             // normals.
-            let longest = edges_a.into_iter().chain(edges_b).reduce(|p, q| {
-                if q.length_squared() > p.length_squared() {
-                    q
-                } else {
-                    p
-                }
-            });
+            let longest = edges_a
+                .into_iter()
+                .chain(edges_b)
+                .reduce(|p, q| if q.length_squared() > p.length_squared() { q } else { p });
             if let Some(along) = longest.and_then(DVec3::try_normalize) {
                 let (u, v) = along.any_orthonormal_pair();
                 let apart = self.b[0] - self.a[0];
@@ -249,11 +231,7 @@ fn highest_between(start: f64, end: f64, cosine: f64) -> f64 {
         return start.max(end);
     }
     let rise = (end - start * cosine) / sine;
-    if rise > 0.0 && rise * cosine < start * sine {
-        start.hypot(rise)
-    } else {
-        start.max(end)
-    }
+    if rise > 0.0 && rise * cosine < start * sine { start.hypot(rise) } else { start.max(end) }
 }
 
 /// A lower bound of |d(s)| for d(s) between `from` and `to`; `None` if they are more than 90° apart.
@@ -274,11 +252,7 @@ mod tests {
         let mut random = Random::new(14);
         let mut tight = 0;
         for _ in 0..2000 {
-            let pose = PairPose {
-                a: random.triangle(1.0),
-                b: random.triangle(1.0),
-                shared: 0,
-            };
+            let pose = PairPose { a: random.triangle(1.0), b: random.triangle(1.0), shared: 0 };
             let [u, v] = [(); 2].map(|()| random.vector().normalize_or(DVec3::X));
             let bound = highest_between(pose.overlap(u), pose.overlap(v), u.dot(v));
             let sampled = (0..=100).map(|k| u.lerp(v, f64::from(k) / 100.0));
@@ -316,11 +290,7 @@ mod tests {
         let mut random = Random::new(21);
         let mut crossing = 0;
         while crossing < 60 {
-            let pose = PairPose {
-                a: random.triangle(1.0),
-                b: random.triangle(1.0),
-                shared: 0,
-            };
+            let pose = PairPose { a: random.triangle(1.0), b: random.triangle(1.0), shared: 0 };
             if triangle_triangle(&pose.a, &pose.b).distance > 0.0 {
                 continue;
             }
@@ -353,11 +323,7 @@ mod tests {
     #[test]
     fn coplanar_triangles_side_by_side_are_apart_and_on_each_other_have_no_depth() {
         let a = [DVec3::ZERO, DVec3::X, DVec3::Y];
-        let pose = |shift: DVec3| PairPose {
-            a,
-            b: a.map(|p| p + shift),
-            shared: 0,
-        };
+        let pose = |shift: DVec3| PairPose { a, b: a.map(|p| p + shift), shared: 0 };
         assert!(pose(DVec3::X * 1.5).depth().overlap < -0.3);
         assert!(pose(DVec3::X * 0.1).depth().overlap.abs() < 1e-15);
     }
@@ -368,11 +334,7 @@ mod tests {
         for past in [1e-3, 1e-5] {
             let pose = PairPose {
                 a: [DVec3::ZERO, DVec3::X, DVec3::Y],
-                b: [
-                    DVec3::ZERO,
-                    DVec3::X,
-                    DVec3::new(1.0, f64::cos(past), -f64::sin(past)),
-                ],
+                b: [DVec3::ZERO, DVec3::X, DVec3::new(1.0, f64::cos(past), -f64::sin(past))],
                 shared: 2,
             };
             let mut from_below = f64::INFINITY;

@@ -28,11 +28,7 @@ impl Tree {
     /// Splits at the median of the box centres along the longest side, down to leaves of four.
     pub fn new(boxes: &[Aabb]) -> Self {
         let mut items: Vec<u32> = (0..boxes.len() as u32).collect();
-        let mut nodes = vec![Node {
-            hull: Aabb::EMPTY,
-            first: 0,
-            count: 0,
-        }];
+        let mut nodes = vec![Node { hull: Aabb::EMPTY, first: 0, count: 0 }];
         let mut open = vec![(0usize, 0usize, items.len())];
         while let Some((node, start, end)) = open.pop() {
             if end - start <= LEAF_SIZE {
@@ -61,9 +57,7 @@ impl Tree {
             let first = first as usize;
             self.nodes[node].hull = if self.is_leaf(node) {
                 let items = &self.items[first..first + count as usize];
-                items
-                    .iter()
-                    .fold(Aabb::EMPTY, |hull, &i| hull.union(&boxes[i as usize]))
+                items.iter().fold(Aabb::EMPTY, |hull, &i| hull.union(&boxes[i as usize]))
             } else {
                 self.nodes[first].hull.union(&self.nodes[first + 1].hull)
             };
@@ -134,11 +128,7 @@ impl Tree {
 
     fn visit_leaves(&self, p: usize, q: usize, visit: &mut impl FnMut(u32, u32)) {
         for (position, &i) in self.leaf(p).iter().enumerate() {
-            let others = if p == q {
-                &self.leaf(p)[position + 1..]
-            } else {
-                self.leaf(q)
-            };
+            let others = if p == q { &self.leaf(p)[position + 1..] } else { self.leaf(q) };
             for &j in others {
                 visit(i.min(j), i.max(j));
             }
@@ -160,9 +150,7 @@ impl Tree {
 fn split(items: &mut [u32], middle: usize, boxes: &[Aabb]) {
     let centre = |i: u32| boxes[i as usize].min + boxes[i as usize].max;
     let extents = Aabb::around(items.iter().map(|&i| centre(i))).extents();
-    let axis = (0..3)
-        .max_by(|&i, &j| extents[i].total_cmp(&extents[j]))
-        .unwrap_or(0);
+    let axis = (0..3).max_by(|&i, &j| extents[i].total_cmp(&extents[j])).unwrap_or(0);
     items.select_nth_unstable_by(middle, |&i, &j| {
         let by_centre = centre(i)[axis].total_cmp(&centre(j)[axis]);
         by_centre.then(i.cmp(&j))

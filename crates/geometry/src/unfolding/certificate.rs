@@ -75,11 +75,8 @@ impl<'a> Sweep<'a> {
         let joints = &chain.arcs[1..];
         let moments: Vec<f64> = turned.iter().zip(joints).map(|(c, s)| c * s).collect();
         let rounding = chain.rounding(from).max(chain.rounding(to));
-        let seam_until = if chain.is_closed() {
-            seam_opens_until(chain, from, &change, rounding)
-        } else {
-            0.0
-        };
+        let seam_until =
+            if chain.is_closed() { seam_opens_until(chain, from, &change, rounding) } else { 0.0 };
         Self {
             chain,
             from,
@@ -94,10 +91,7 @@ impl<'a> Sweep<'a> {
     /// Whether all segments that are not neighbours stay farther apart than `clearance`, within `budget` distances.
     pub(super) fn run(&self, clearance: f64, budget: u64) -> SweepVerdict {
         if let Some(joint) = self.folded_back() {
-            return SweepVerdict::Undecided {
-                fraction: 0.0,
-                segments: [joint, joint + 1],
-            };
+            return SweepVerdict::Undecided { fraction: 0.0, segments: [joint, joint + 1] };
         }
         let count = self.chain.segment_count();
         let all = (0..count).flat_map(|i| (i + 2..count).map(move |j| [i, j]));
@@ -134,10 +128,7 @@ impl<'a> Sweep<'a> {
         }
         let mut met = (start + ahead).min(1.0);
         if !meets(met) {
-            return SweepVerdict::Undecided {
-                fraction: start,
-                segments,
-            };
+            return SweepVerdict::Undecided { fraction: start, segments };
         }
         let mut apart = start;
         while met - apart > SHORTEST {
@@ -148,10 +139,7 @@ impl<'a> Sweep<'a> {
                 apart = middle;
             }
         }
-        SweepVerdict::Crosses {
-            fraction: met,
-            segments,
-        }
+        SweepVerdict::Crosses { fraction: met, segments }
     }
 
     /// A joint that is folded back at an end of the sweep; `None` if there is none.

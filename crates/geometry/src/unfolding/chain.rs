@@ -34,11 +34,7 @@ impl Chain {
         let count = points.len().saturating_sub(1);
         let minimum = if is_closed { 3 } else { 1 };
         if !(minimum..=MOST_SEGMENTS).contains(&count) {
-            return Err(GeometryError::SegmentCount {
-                count,
-                minimum,
-                maximum: MOST_SEGMENTS,
-            });
+            return Err(GeometryError::SegmentCount { count, minimum, maximum: MOST_SEGMENTS });
         }
         let segments: Vec<DVec2> = points.windows(2).map(|p| p[1] - p[0]).collect();
         if let Some(index) = segments.iter().position(|s| s.length() == 0.0) {
@@ -93,9 +89,7 @@ impl Chain {
     /// point a sum of n segments.
     pub(super) fn rounding(&self, turns: &[f64]) -> f64 {
         let count = self.segment_count() as f64;
-        let largest = sums(turns)
-            .into_iter()
-            .fold(0.0, |a: f64, h| a.max(h.abs()));
+        let largest = sums(turns).into_iter().fold(0.0, |a: f64, h| a.max(h.abs()));
         f64::EPSILON * count * count * (1.0 + largest)
     }
 

@@ -51,11 +51,7 @@ pub(super) fn descend(chain: &Chain, turns: Vec<f64>) -> Result<Vec<Waypoint>, G
         let (before, gradient) = energy_and_gradient(&points);
         let squared: f64 = gradient.iter().map(|g| g * g).sum();
         let moved = |length: f64| -> Vec<f64> {
-            turns
-                .iter()
-                .zip(&gradient)
-                .map(|(t, g)| t - length * g)
-                .collect()
+            turns.iter().zip(&gradient).map(|(t, g)| t - length * g).collect()
         };
         let limit = limit(chain, &turns, &points, &gradient);
         length = limit.length.min(GROWTH * length);
@@ -93,10 +89,7 @@ fn limit(chain: &Chain, turns: &[f64], points: &[DVec2], gradient: &[f64]) -> Li
     let direction: Vec<f64> = turns.iter().zip(gradient).map(|(t, g)| t - g).collect();
     let sweep = Sweep::new(chain, turns, &direction);
     let motion = Motion::new(chain, points, gradient);
-    let mut limit = Limit {
-        length: f64::INFINITY,
-        clearance: f64::INFINITY,
-    };
+    let mut limit = Limit { length: f64::INFINITY, clearance: f64::INFINITY };
     let count = chain.segment_count();
     for i in 0..count {
         for j in i + 2..count {
@@ -105,9 +98,7 @@ fn limit(chain: &Chain, turns: &[f64], points: &[DVec2], gradient: &[f64]) -> Li
             let along_chain = allowed / sweep.approach([i, j]);
             // The square root is skipped if it cannot matter.
             if along_chain < limit.length {
-                limit.length = limit
-                    .length
-                    .min(along_chain.max(motion.reach([i, j], allowed)));
+                limit.length = limit.length.min(along_chain.max(motion.reach([i, j], allowed)));
             }
             limit.clearance = limit.clearance.min(distance);
         }
@@ -143,10 +134,7 @@ impl Motion {
         }
         let mean = velocities.iter().sum::<DVec2>() / velocities.len() as f64;
         let speeds: Vec<f64> = velocities.iter().map(|v| (v - mean).length()).collect();
-        Self {
-            speeds: speeds.windows(2).map(|s| s[0].max(s[1])).collect(),
-            curvature,
-        }
+        Self { speeds: speeds.windows(2).map(|s| s[0].max(s[1])).collect(), curvature }
     }
 
     /// The longest step in which a pair approaches by no more than `allowed`: the root of s (a_i + a_j) + s² b = allowed.

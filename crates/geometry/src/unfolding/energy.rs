@@ -94,11 +94,7 @@ mod tests {
                 };
                 let slope = (moved(1e-6) - moved(-1e-6)) / 2e-6;
                 let scale = gradient.iter().fold(0.0, |a: f64, g| a.max(g.abs()));
-                assert!(
-                    (slope - gradient[k]).abs() < 1e-6 * scale,
-                    "{k}: {slope} {}",
-                    gradient[k]
-                );
+                assert!((slope - gradient[k]).abs() < 1e-6 * scale, "{k}: {slope} {}", gradient[k]);
             }
         }
     }

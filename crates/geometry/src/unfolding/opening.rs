@@ -22,13 +22,9 @@ pub(super) fn open_seam(chain: &Chain) -> Option<Vec<f64>> {
     let last = points.len() - 1;
     let [e, f] = [points[1] - points[0], points[last] - points[last - 1]].map(DVec2::normalize);
     let goal = -(e + f).try_normalize()?;
-    let columns: Vec<DVec2> = points[1..last]
-        .iter()
-        .map(|&joint| (points[last] - joint).perp())
-        .collect();
-    let gram = columns.iter().fold(DMat2::ZERO, |sum, &c| {
-        sum + DMat2::from_cols(c * c.x, c * c.y)
-    });
+    let columns: Vec<DVec2> =
+        points[1..last].iter().map(|&joint| (points[last] - joint).perp()).collect();
+    let gram = columns.iter().fold(DMat2::ZERO, |sum, &c| sum + DMat2::from_cols(c * c.x, c * c.y));
     let multiplier = gram.inverse() * goal;
     let direction: Vec<f64> = columns.iter().map(|c| c.dot(multiplier)).collect();
     (0..MOST_HALVINGS).find_map(|halvings| {

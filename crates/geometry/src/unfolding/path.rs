@@ -25,10 +25,8 @@ pub struct TurnPath {
 impl TurnPath {
     /// The turns at `progress`, which is clamped to [0, 1].
     pub fn at(&self, progress: f64) -> Vec<f64> {
-        let next = self
-            .progress
-            .partition_point(|&p| p <= progress)
-            .clamp(1, self.progress.len() - 1);
+        let next =
+            self.progress.partition_point(|&p| p <= progress).clamp(1, self.progress.len() - 1);
         let [start, end] = [next - 1, next].map(|k| self.progress[k]);
         let share = ((progress - start) / (end - start)).clamp(0.0, 1.0);
         let pair = self.turns[next - 1].iter().zip(&self.turns[next]);
@@ -68,20 +66,14 @@ pub fn straighten(chain: &Chain) -> Result<TurnPath, GeometryError> {
     if knots.last() != Some(&straight) || knots.len() == 1 {
         knots.push(straight);
     }
-    Ok(TurnPath {
-        progress: progress(chain, &knots),
-        turns: knots,
-        steps,
-    })
+    Ok(TurnPath { progress: progress(chain, &knots), turns: knots, steps })
 }
 
 /// As few of the states as possible such that the straight pieces between them are certified.
 fn thinned(chain: &Chain, waypoints: Vec<Waypoint>) -> Vec<Vec<f64>> {
     let last = waypoints.len() - 1;
     let is_clear = |from: usize, to: usize| {
-        let least = waypoints[from..=to]
-            .iter()
-            .fold(f64::INFINITY, |a, w| a.min(w.clearance));
+        let least = waypoints[from..=to].iter().fold(f64::INFINITY, |a, w| a.min(w.clearance));
         let sweep = Sweep::new(chain, &waypoints[from].turns, &waypoints[to].turns);
         let clearance = if least.is_finite() { KEPT * least } else { 0.0 };
         sweep.run(clearance, BUDGET) == SweepVerdict::Clear
@@ -110,10 +102,7 @@ fn thinned(chain: &Chain, waypoints: Vec<Waypoint>) -> Vec<Vec<f64>> {
     }
     let is_kept = |k: &usize| kept.binary_search(k).is_ok();
     let numbered = waypoints.into_iter().enumerate();
-    numbered
-        .filter(|(k, _)| is_kept(k))
-        .map(|(_, w)| w.turns)
-        .collect()
+    numbered.filter(|(k, _)| is_kept(k)).map(|(_, w)| w.turns).collect()
 }
 
 /// The progress at each knot, proportional to the largest change of a heading relative to the mean heading.
@@ -126,9 +115,7 @@ fn progress(chain: &Chain, knots: &[Vec<f64>]) -> Vec<f64> {
             let weighted = headings.iter().zip(&chain.lengths).map(|(h, l)| h * l);
             let mean = weighted.sum::<f64>() / chain.segment_count() as f64;
             // Knots that differ only by the frame still count as distinct.
-            headings
-                .iter()
-                .fold(1e-9, |a: f64, h| a.max((h - mean).abs()))
+            headings.iter().fold(1e-9, |a: f64, h| a.max((h - mean).abs()))
         })
         .collect();
     let sums = sums(&changes);

@@ -34,11 +34,8 @@ pub(super) fn seam_opens_until(chain: &Chain, from: &[f64], change: &[f64], roun
     };
     let least = |m: DVec2| m.dot(e).min(m.dot(f)).min(m.dot(opening));
     let bisectors = [e + f, f + opening, opening + e];
-    let share = bisectors
-        .into_iter()
-        .filter_map(DVec2::try_normalize)
-        .map(least)
-        .fold(0.0, f64::max);
+    let share =
+        bisectors.into_iter().filter_map(DVec2::try_normalize).map(least).fold(0.0, f64::max);
     if share <= 0.0 {
         return 0.0;
     }

@@ -3,10 +3,7 @@
 //! `cargo run --release -p foldmotion-verify --example ccd_queries FOLDER` does the same for a folder of such files.
 #![expect(clippy::unwrap_used, reason = "a test stops where a value is missing")]
 
-#[expect(
-    dead_code,
-    reason = "shared with the tests on its own queries, which use more of it"
-)]
+#[expect(dead_code, reason = "shared with the tests on its own queries, which use more of it")]
 #[path = "../oracle/mod.rs"]
 mod oracle;
 mod recorded;
@@ -57,9 +54,6 @@ fn a_kernel_that_sees_nothing_misses_every_recorded_meeting() {
     let all = files.iter().flat_map(|file| &file.queries);
     let blind = |tally: Tally, recorded: &Recorded| tally.count(&recorded.query, |_| false);
     let tally = all.fold(Tally::default(), blind);
-    assert_eq!(
-        [tally.false_negatives, tally.false_positives],
-        [tally.meets, 0]
-    );
+    assert_eq!([tally.false_negatives, tally.false_positives], [tally.meets, 0]);
     assert_eq!(tally.meets, 225);
 }

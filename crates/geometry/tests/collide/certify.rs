@@ -6,11 +6,7 @@ use glam::DVec3;
 
 use foldmotion_random::Random;
 
-const LIMITS: Limits = Limits {
-    tolerance: 1e-6,
-    margin: 1e-13,
-    budget: 4000,
-};
+const LIMITS: Limits = Limits { tolerance: 1e-6, margin: 1e-13, budget: 4000 };
 
 fn judge(pair: &MovingPair) -> Outcome {
     match Side::at_start(&pair.start, &LIMITS) {
@@ -28,11 +24,7 @@ fn pose(a: [DVec3; 3], b: [DVec3; 3]) -> PairPose {
 }
 
 fn plate() -> [DVec3; 3] {
-    [
-        DVec3::new(-1.0, -1.0, 0.0),
-        DVec3::new(2.0, -1.0, 0.0),
-        DVec3::new(-1.0, 2.0, 0.0),
-    ]
+    [DVec3::new(-1.0, -1.0, 0.0), DVec3::new(2.0, -1.0, 0.0), DVec3::new(-1.0, 2.0, 0.0)]
 }
 
 /// A random pair of the given kind: coordinates on a coarse grid (coplanar, parallel, equal coordinates), corners
@@ -59,11 +51,7 @@ fn random_pair(random: &mut Random, kind: usize, shared: usize) -> MovingPair {
     let between = |p: [DVec3; 3], q: [DVec3; 3]| [0, 1, 2].map(|i| p[i].lerp(q[i], reach));
     MovingPair {
         start,
-        end: PairPose {
-            a: between(start.a, far.a),
-            b: between(start.b, far.b),
-            shared,
-        },
+        end: PairPose { a: between(start.a, far.a), b: between(start.b, far.b), shared },
     }
 }
 
@@ -134,10 +122,8 @@ fn a_plate_that_passes_through_a_parallel_plate_crosses_though_it_is_never_deep(
     for _ in 0..400 {
         let flat = |t: [DVec3; 3], z: f64| t.map(|p| DVec3::new(p.x, p.y, z));
         let (a, b) = (flat(random.triangle(1.0), 0.0), random.triangle(1.0));
-        let (height, drift) = (
-            [1.0, 0.1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-7][random.index(7)],
-            random.vector(),
-        );
+        let (height, drift) =
+            ([1.0, 0.1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-7][random.index(7)], random.vector());
         let pair = MovingPair {
             start: pose(a, flat(b, height)),
             end: pose(a, flat(b.map(|p| p + drift), -height)),
@@ -172,11 +158,7 @@ fn needle(z0: f64, z1: f64) -> MovingPair {
     let at = |z: f64| {
         pose(
             plate(),
-            [
-                DVec3::new(0.0, 0.0, z),
-                DVec3::new(0.1, 0.0, z + 1.0),
-                DVec3::new(0.0, 0.1, z + 1.0),
-            ],
+            [DVec3::new(0.0, 0.0, z), DVec3::new(0.1, 0.0, z + 1.0), DVec3::new(0.0, 0.1, z + 1.0)],
         )
     };
     MovingPair::new(at(z0), at(z1))
@@ -198,10 +180,7 @@ fn judge_path(pairs: &[MovingPair]) -> Outcome {
 fn a_corner_that_touches_a_facet_and_goes_back_touches_and_one_that_goes_through_crosses() {
     for depth in [0.0, 1e-9, 0.9e-6] {
         let outcome = judge_path(&[needle(0.3, -depth), needle(-depth, 0.3)]);
-        assert!(
-            matches!(&outcome, Outcome::Passed(_)),
-            "{depth}: {outcome:?}"
-        );
+        assert!(matches!(&outcome, Outcome::Passed(_)), "{depth}: {outcome:?}");
     }
     let outcome = judge_path(&[needle(0.3, 1e-9), needle(1e-9, 0.3)]);
     assert!(matches!(outcome, Outcome::Passed(_)));
@@ -216,10 +195,7 @@ fn a_corner_that_touches_a_facet_and_goes_back_touches_and_one_that_goes_through
         }
     }
     let outcome = judge_path(&[needle(0.3, 0.0), needle(0.0, -0.3)]);
-    assert!(
-        matches!(outcome, Outcome::Crossed(_)),
-        "stopping at the facet is no way through"
-    );
+    assert!(matches!(outcome, Outcome::Crossed(_)), "stopping at the facet is no way through");
 }
 
 #[test]
@@ -257,29 +233,20 @@ fn plates_resting_on_each_other_may_turn_together() {
             .map(|k| MovingPair::new(turned(f64::from(k) * 0.1), turned(f64::from(k + 1) * 0.1))),
     );
     let outcome = judge_path(&path);
-    assert!(
-        matches!(&outcome, Outcome::Passed(p) if p.in_contact),
-        "{outcome:?}"
-    );
+    assert!(matches!(&outcome, Outcome::Passed(p) if p.in_contact), "{outcome:?}");
 }
 
 fn folded(angle: f64) -> PairPose {
     PairPose {
         a: [DVec3::ZERO, DVec3::X, DVec3::new(0.3, 1.0, 0.0)],
-        b: [
-            DVec3::ZERO,
-            DVec3::X,
-            DVec3::new(0.6, -f64::cos(angle), f64::sin(angle)),
-        ],
+        b: [DVec3::ZERO, DVec3::X, DVec3::new(0.6, -f64::cos(angle), f64::sin(angle))],
         shared: 2,
     }
 }
 
 fn fold(angles: &[f64]) -> Outcome {
-    let pairs: Vec<_> = angles
-        .windows(2)
-        .map(|w| MovingPair::new(folded(w[0]), folded(w[1])))
-        .collect();
+    let pairs: Vec<_> =
+        angles.windows(2).map(|w| MovingPair::new(folded(w[0]), folded(w[1]))).collect();
     judge_path(&pairs)
 }
 
@@ -292,10 +259,7 @@ fn a_fold_past_half_a_turn_crosses_where_its_overlap_exceeds_the_tolerance() {
         let to = |past: f64| fold(&[0.0, sign * 1.5, sign * 3.0, sign * (PI + past)]);
         for past in [-0.1, -1e-9, 0.0, 1e-9, 0.7e-6 / height] {
             let outcome = to(past);
-            assert!(
-                matches!(&outcome, Outcome::Passed(_)),
-                "{past}: {outcome:?}"
-            );
+            assert!(matches!(&outcome, Outcome::Passed(_)), "{past}: {outcome:?}");
         }
         for past in [3e-6, 1e-4, 0.1, 1.0] {
             match to(past) {
@@ -313,16 +277,8 @@ fn a_fold_past_half_a_turn_crosses_where_its_overlap_exceeds_the_tolerance() {
 #[test]
 fn crossing_around_a_shared_corner_is_found() {
     let at = |z: f64| PairPose {
-        a: [
-            DVec3::ZERO,
-            DVec3::new(1.0, -1.0, 0.0),
-            DVec3::new(1.0, 1.0, 0.0),
-        ],
-        b: [
-            DVec3::ZERO,
-            DVec3::new(0.8, 0.0, z),
-            DVec3::new(-0.5, 0.1, z + 0.5),
-        ],
+        a: [DVec3::ZERO, DVec3::new(1.0, -1.0, 0.0), DVec3::new(1.0, 1.0, 0.0)],
+        b: [DVec3::ZERO, DVec3::new(0.8, 0.0, z), DVec3::new(-0.5, 0.1, z + 0.5)],
         shared: 1,
     };
     let go = |z0: f64, z1: f64| MovingPair::new(at(z0), at(z1));
@@ -373,10 +329,7 @@ fn a_contact_begins_when_the_triangles_meet_whatever_direction_parted_them_befor
         let others = others.map(|(x, y)| tip + DVec3::new(x, y, -0.8125));
         pose(wall, [tip, others[0], others[1]])
     };
-    let pair = MovingPair {
-        start: part(0.1875, -0.75),
-        end: part(-1.3125, 0.75),
-    };
+    let pair = MovingPair { start: part(0.1875, -0.75), end: part(-1.3125, 0.75) };
     match judge(&pair) {
         Outcome::Crossed(crossing) => {
             assert!((crossing.contact - 0.625).abs() < 1e-9, "{crossing:?}");
@@ -387,16 +340,10 @@ fn a_contact_begins_when_the_triangles_meet_whatever_direction_parted_them_befor
 
 #[test]
 fn an_exhausted_budget_is_undecided() {
-    let limits = Limits {
-        budget: 2,
-        ..LIMITS
-    };
+    let limits = Limits { budget: 2, ..LIMITS };
     let pair = needle(0.3, -0.2);
     let side = Side::at_start(&pair.start, &limits).unwrap();
-    assert!(matches!(
-        certify(&pair, &side, &limits),
-        Outcome::Undecided { .. }
-    ));
+    assert!(matches!(certify(&pair, &side, &limits), Outcome::Undecided { .. }));
 }
 
 /// Mirror images in a folding sheet: corners 1 and 0 meet in a point and pass, but the facets behind them never
@@ -479,11 +426,7 @@ fn corners_that_meet_at_a_point_and_pass_touch() {
             shared: 0,
         },
     };
-    let limits = Limits {
-        tolerance: 1e-6,
-        margin: Limits::margin_for(3.0),
-        budget: 4096,
-    };
+    let limits = Limits { tolerance: 1e-6, margin: Limits::margin_for(3.0), budget: 4096 };
     let side = Side::at_start(&pair.start, &limits).unwrap();
     match certify(&pair, &side, &limits) {
         Outcome::Passed(passage) => assert!(passage.in_contact, "{passage:?}"),

@@ -7,11 +7,7 @@ use foldmotion_geometry::triangle_triangle;
 
 use foldmotion_random::Random;
 
-const LIMITS: Limits = Limits {
-    tolerance: 1e-6,
-    margin: 1e-14,
-    budget: 20_000,
-};
+const LIMITS: Limits = Limits { tolerance: 1e-6, margin: 1e-14, budget: 20_000 };
 
 type Corners = [DVec3; 3];
 
@@ -23,10 +19,7 @@ fn pair(start: [Corners; 2], end: [Corners; 2]) -> MovingPair {
 /// The greatest speed of a point of A relative to one of B.
 fn speed(pair: &MovingPair) -> f64 {
     let moves = |p: &Corners, q: &Corners| [0, 1, 2].map(|i| q[i] - p[i]);
-    let (a, b) = (
-        moves(&pair.start.a, &pair.end.a),
-        moves(&pair.start.b, &pair.end.b),
-    );
+    let (a, b) = (moves(&pair.start.a, &pair.end.a), moves(&pair.start.b, &pair.end.b));
     let speeds = a.iter().flat_map(|u| b.iter().map(move |v| u.distance(*v)));
     speeds.fold(0.0, f64::max)
 }
@@ -62,16 +55,9 @@ fn hold(pair: &MovingPair, case: &str) -> f64 {
     assert!(attained <= found.at_least + allowed, "{case}: {found:?}");
     // The distance changes by at most half a step of the samples times the speed.
     let slack = speed(pair) / 800.0 + allowed;
-    assert!(
-        found.at_least >= least - slack,
-        "{case}: {found:?} far below {least:e}"
-    );
+    assert!(found.at_least >= least - slack, "{case}: {found:?} far below {least:e}");
     let there = pair.at(found.nearest.unwrap().time);
-    assert_eq!(
-        triangle_triangle(&there.a, &there.b).distance,
-        attained,
-        "{case}"
-    );
+    assert_eq!(triangle_triangle(&there.a, &there.b).distance, attained, "{case}");
     attained
 }
 
@@ -86,12 +72,7 @@ fn turned(random: &mut Random) -> impl Fn(DVec3) -> DVec3 + use<> {
 fn the_bounds_of_random_pairs_hold_what_dense_sampling_finds() {
     let mut random = Random::new(41);
     for case in 0..80 {
-        let mut both = || {
-            [
-                random.triangle(1.0),
-                random.triangle(1.0).map(|p| p + DVec3::X * 1.5),
-            ]
-        };
+        let mut both = || [random.triangle(1.0), random.triangle(1.0).map(|p| p + DVec3::X * 1.5)];
         hold(&pair(both(), both()), &format!("random {case}"));
     }
 }
@@ -143,23 +124,13 @@ fn the_bounds_hold_where_a_corner_passes_an_edge_next_to_its_end() {
         let below = 1e-9 * 10f64.powi(-(case % 5));
         let place = turned(&mut random);
         let a = |y: f64| {
-            let corners = [
-                [-gap, y, 0.0],
-                [-0.17, 1.0 + y, 0.0],
-                [-0.2, 1.43 + y, -0.385],
-            ];
+            let corners = [[-gap, y, 0.0], [-0.17, 1.0 + y, 0.0], [-0.2, 1.43 + y, -0.385]];
             corners.map(|p| place(DVec3::from(p)))
         };
         let b = [[0.0, 0.0, -below], [0.0, 0.0, 0.67], [0.0064, -0.63, 0.55]];
         let b = b.map(|p| place(DVec3::from(p)));
-        let distance = hold(
-            &pair([a(0.04), b], [a(-0.0024), b]),
-            &format!("passing {case}"),
-        );
-        assert!(
-            distance <= gap + accuracy(gap, &LIMITS),
-            "{case}: {distance:e} {gap:e}"
-        );
+        let distance = hold(&pair([a(0.04), b], [a(-0.0024), b]), &format!("passing {case}"));
+        assert!(distance <= gap + accuracy(gap, &LIMITS), "{case}: {distance:e} {gap:e}");
     }
 }
 
@@ -177,18 +148,10 @@ fn a_pair_farther_than_the_bound_is_left_out() {
 #[test]
 fn an_exhausted_budget_leaves_a_valid_bound() {
     let mut random = Random::new(45);
-    let hasty = Limits {
-        budget: 3,
-        ..LIMITS
-    };
+    let hasty = Limits { budget: 3, ..LIMITS };
     let mut incomplete = 0;
     for _ in 0..60 {
-        let mut both = || {
-            [
-                random.triangle(1.0),
-                random.triangle(1.0).map(|p| p + DVec3::X * 1.5),
-            ]
-        };
+        let mut both = || [random.triangle(1.0), random.triangle(1.0).map(|p| p + DVec3::X * 1.5)];
         let pair = pair(both(), both());
         let found = closest_approach(&pair, f64::INFINITY, &hasty);
         assert!(found.at_least <= sampled(&pair));

@@ -71,11 +71,7 @@ fn plate() -> [DVec3; 3] {
 
 /// A needle above the plate with its tip at `tip`.
 fn needle(tip: DVec3) -> [DVec3; 3] {
-    let up = [
-        DVec3::ZERO,
-        DVec3::new(0.25, 0.0, 1.0),
-        DVec3::new(0.0, 0.25, 1.5),
-    ];
+    let up = [DVec3::ZERO, DVec3::new(0.25, 0.0, 1.0), DVec3::new(0.0, 0.25, 1.5)];
     up.map(|d| tip + d)
 }
 
@@ -108,10 +104,7 @@ fn a_vertex_that_reaches_a_facet_and_goes_back_touches_at_any_speed() {
         let heights = [fast, -depth, fast * 0.5, -depth, 2.0 * fast];
         let tips = heights.map(|height| above(&mut random, height));
         let outcome = judge(&motion(&mut random, &tips));
-        assert!(
-            matches!(&outcome, Outcome::Passed(_)),
-            "{case} at {fast}: {outcome:?}"
-        );
+        assert!(matches!(&outcome, Outcome::Passed(_)), "{case} at {fast}: {outcome:?}");
     }
 }
 
@@ -121,11 +114,7 @@ fn a_vertex_that_goes_through_a_facet_penetrates_at_any_speed() {
     for case in 0..300 {
         let fast = speed(&mut random);
         let instant = random.index(63) as f64 / 64.0 + 1.0 / 64.0;
-        let below = [
-            2.0 * TOLERANCE,
-            fast.max(2.0 * TOLERANCE) * (1.0 - instant),
-            4.0 + fast,
-        ];
+        let below = [2.0 * TOLERANCE, fast.max(2.0 * TOLERANCE) * (1.0 - instant), 4.0 + fast];
         let below = below[case % 3].max(2.0 * TOLERANCE);
         let tips = [fast * instant, -below].map(|height| above(&mut random, height));
         let outcome = judge(&motion(&mut random, &tips));
@@ -133,14 +122,8 @@ fn a_vertex_that_goes_through_a_facet_penetrates_at_any_speed() {
             panic!("{case} at {fast} to {below}: {outcome:?}");
         };
         let contact = tips[0].z / (tips[0].z + below);
-        assert!(
-            (crossing.contact - contact).abs() < 1e-6,
-            "{contact}: {crossing:?}"
-        );
-        assert!(
-            crossing.depth > TOLERANCE || crossing.reach > TOLERANCE,
-            "{crossing:?}"
-        );
+        assert!((crossing.contact - contact).abs() < 1e-6, "{contact}: {crossing:?}");
+        assert!(crossing.depth > TOLERANCE || crossing.reach > TOLERANCE, "{crossing:?}");
     }
 }
 
@@ -153,10 +136,7 @@ fn a_vertex_that_stops_on_a_facet_and_goes_on_through_it_penetrates_at_any_speed
         let heights = [fast, rest, rest, -fast.max(2.0 * TOLERANCE)];
         let tips = heights.map(|height| above(&mut random, height));
         let outcome = judge(&motion(&mut random, &tips));
-        assert!(
-            matches!(&outcome, Outcome::Crossed(_)),
-            "{case} at {fast}: {outcome:?}"
-        );
+        assert!(matches!(&outcome, Outcome::Crossed(_)), "{case} at {fast}: {outcome:?}");
     }
 }
 
@@ -169,26 +149,10 @@ fn graze(random: &mut Random, fast: f64, lift: f64) -> MovingPair {
     let place = placed(random);
     let pose = |t: f64| {
         let t = t - at;
-        let tip = DVec3::new(
-            place_in_facet + drift * t,
-            0.0,
-            fast * place_in_facet * t + lift,
-        );
-        let needle = [
-            DVec3::ZERO,
-            DVec3::new(0.0, 0.25, -1.0),
-            DVec3::new(0.0, -0.25, -1.5),
-        ];
-        let facet = [
-            DVec3::NEG_Y * 4.0,
-            DVec3::Y * 4.0,
-            DVec3::new(4.0, 0.0, 4.0 * fast * t),
-        ];
-        PairPose {
-            a: facet.map(&place),
-            b: needle.map(|d| place(tip + d)),
-            shared: 0,
-        }
+        let tip = DVec3::new(place_in_facet + drift * t, 0.0, fast * place_in_facet * t + lift);
+        let needle = [DVec3::ZERO, DVec3::new(0.0, 0.25, -1.0), DVec3::new(0.0, -0.25, -1.5)];
+        let facet = [DVec3::NEG_Y * 4.0, DVec3::Y * 4.0, DVec3::new(4.0, 0.0, 4.0 * fast * t)];
+        PairPose { a: facet.map(&place), b: needle.map(|d| place(tip + d)), shared: 0 }
     };
     MovingPair::new(pose(0.0), pose(1.0))
 }

@@ -14,11 +14,7 @@ fn a_wave_is_divided_into_equal_chords_for_every_number_of_segments() {
         let division = equal(&wave, segments);
         check_promises(&wave, &division);
         assert!(division.converged());
-        assert!(
-            division.max_residual <= 1e-13,
-            "{segments}: {}",
-            division.max_residual
-        );
+        assert!(division.max_residual <= 1e-13, "{segments}: {}", division.max_residual);
         assert_eq!(division.points.len(), segments + 1);
     }
 }
@@ -33,16 +29,11 @@ fn one_segment_is_the_chord_between_the_ends() {
 
 #[test]
 fn a_straight_profile_is_divided_as_a_ruler_is() {
-    let line = profile(
-        &[[1.0, 1.0], [2.0, 3.0], [2.5, 4.0], [4.0, 7.0], [5.0, 9.0]],
-        Closure::Open,
-    );
+    let line =
+        profile(&[[1.0, 1.0], [2.0, 3.0], [2.5, 4.0], [4.0, 7.0], [5.0, 9.0]], Closure::Open);
     for (k, point) in equal(&line, 8).points.iter().enumerate() {
         let expected = DVec2::new(1.0, 1.0) + DVec2::new(4.0, 8.0) * (k as f64 / 8.0);
-        assert!(
-            (*point - expected).length() < 1e-14,
-            "{point} != {expected}"
-        );
+        assert!((*point - expected).length() < 1e-14, "{point} != {expected}");
     }
 }
 
@@ -56,14 +47,7 @@ fn two_segments_meet_where_the_perpendicular_bisector_cuts_the_profile() {
 
 #[test]
 fn closed_profiles_are_divided_from_their_start_back_to_it() {
-    let corners = [
-        [0.0, 0.0],
-        [4.0, -1.0],
-        [6.0, 2.0],
-        [3.0, 5.0],
-        [-2.0, 4.0],
-        [-1.5, 2.0],
-    ];
+    let corners = [[0.0, 0.0], [4.0, -1.0], [6.0, 2.0], [3.0, 5.0], [-2.0, 4.0], [-1.5, 2.0]];
     for closure in [Closure::Corner, Closure::Smooth] {
         let closed = profile(&corners, closure);
         for segments in [3, 4, 7, 26, 100] {
@@ -77,10 +61,7 @@ fn closed_profiles_are_divided_from_their_start_back_to_it() {
         }
         for segments in [1, 2] {
             let error = divide(&closed, segments, &DivisionOptions::default()).unwrap_err();
-            assert!(matches!(
-                error,
-                GeometryError::SegmentCount { minimum: 3, .. }
-            ));
+            assert!(matches!(error, GeometryError::SegmentCount { minimum: 3, .. }));
         }
     }
 }
@@ -88,11 +69,8 @@ fn closed_profiles_are_divided_from_their_start_back_to_it() {
 /// Four legs up and down; `copies` of each turning point make it rounder (2) or a corner (3).
 fn zigzag(width: f64, copies: usize) -> Profile {
     let turns = [0.0, 2.0, 0.0, 2.0, 0.0];
-    let points: Vec<_> = turns
-        .iter()
-        .enumerate()
-        .flat_map(|(k, z)| vec![[k as f64 * width, *z]; copies])
-        .collect();
+    let points: Vec<_> =
+        turns.iter().enumerate().flat_map(|(k, z)| vec![[k as f64 * width, *z]; copies]).collect();
     profile(&points, Closure::Open)
 }
 
@@ -104,11 +82,7 @@ fn sharp_turns_and_corners_are_divided_too() {
         for segments in 2..40 {
             let division = equal(&zigzag, segments);
             check_promises(&zigzag, &division);
-            assert!(
-                division.converged(),
-                "{width} {copies} {segments}: {:?}",
-                division.ending
-            );
+            assert!(division.converged(), "{width} {copies} {segments}: {:?}", division.ending);
             assert!(division.max_residual <= 1e-13, "{}", division.max_residual);
         }
     }
@@ -130,15 +104,8 @@ fn needle_sharp_corners_hold_no_division_up() {
 #[test]
 fn a_triangle_with_a_needle_at_its_seam_may_stay_undivided_and_says_so() {
     let endings = (3..12).map(|segments| {
-        let corners = [
-            [0.0, 0.0],
-            [4.0, 0.1],
-            [4.0, 0.1],
-            [4.0, 0.1],
-            [4.0, -0.1],
-            [4.0, -0.1],
-            [4.0, -0.1],
-        ];
+        let corners =
+            [[0.0, 0.0], [4.0, 0.1], [4.0, 0.1], [4.0, 0.1], [4.0, -0.1], [4.0, -0.1], [4.0, -0.1]];
         let needle = profile(&corners, Closure::Corner);
         let division = equal(&needle, segments);
         check_promises(&needle, &division);
@@ -154,9 +121,8 @@ fn every_random_curve_without_a_seam_corner_is_divided_however_sharp_its_turns()
     // A linear congruential generator (Knuth 1997, volume 2, section 3.3.4).
     let mut state = 7_u64;
     let mut unit = || {
-        state = state
-            .wrapping_mul(6_364_136_223_846_793_005)
-            .wrapping_add(1_442_695_040_888_963_407);
+        state =
+            state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
         (state >> 11) as f64 / (1_u64 << 53) as f64
     };
     let mut divided = 0;
@@ -231,16 +197,9 @@ fn profiles_of_any_size_from_1e90_to_1e_minus_90_are_divided_alike() {
         let scaled = wave().scaled(factor).unwrap();
         let division = equal(&scaled, 12);
         check_promises(&scaled, &division);
-        assert!(
-            division.max_residual <= 1e-13,
-            "{factor}: {}",
-            division.max_residual
-        );
+        assert!(division.max_residual <= 1e-13, "{factor}: {}", division.max_residual);
     }
     let tiny = wave().scaled(1e-120).unwrap();
     let refused = divide(&tiny, 12, &DivisionOptions::default());
-    assert!(matches!(
-        refused,
-        Err(GeometryError::SegmentTooShort { .. })
-    ));
+    assert!(matches!(refused, Err(GeometryError::SegmentTooShort { .. })));
 }

@@ -1,9 +1,6 @@
 //! Division of profiles: equal segments on the curve, in order, with fixed ends; and what is refused.
 
-#![expect(
-    clippy::unwrap_used,
-    reason = "builders of test profiles panic on a broken one"
-)]
+#![expect(clippy::unwrap_used, reason = "builders of test profiles panic on a broken one")]
 
 mod equal_length;
 mod other_methods;
@@ -20,14 +17,7 @@ fn profile(coordinates: &[[f64; 2]], closure: Closure) -> Profile {
 
 fn wave() -> Profile {
     profile(
-        &[
-            [0.0, 0.0],
-            [1.0, 2.0],
-            [2.0, -1.0],
-            [3.0, 1.5],
-            [5.0, 0.0],
-            [5.5, 2.0],
-        ],
+        &[[0.0, 0.0], [1.0, 2.0], [2.0, -1.0], [3.0, 1.5], [5.0, 0.0], [5.5, 2.0]],
         Closure::Open,
     )
 }
@@ -38,14 +28,9 @@ fn equal(profile: &Profile, segments: usize) -> Division {
 
 /// What every division promises, whatever its residual.
 fn check_promises(profile: &Profile, division: &Division) {
-    let Division {
-        points, parameters, ..
-    } = division;
+    let Division { points, parameters, .. } = division;
     assert_eq!(points.len(), parameters.len());
-    assert_eq!(
-        (parameters[0], parameters[parameters.len() - 1]),
-        (0.0, 1.0)
-    );
+    assert_eq!((parameters[0], parameters[parameters.len() - 1]), (0.0, 1.0));
     assert!(parameters.windows(2).all(|u| u[0] < u[1]), "order is kept");
     for (point, &u) in points.iter().zip(parameters) {
         assert_eq!(*point, profile.position(u), "bitwise on the curve");
@@ -56,10 +41,7 @@ fn check_promises(profile: &Profile, division: &Division) {
     let lengths: Vec<_> = points.windows(2).map(|p| p[0].distance(p[1])).collect();
     let mean = lengths.iter().sum::<f64>() / lengths.len() as f64;
     assert!((mean - division.mean_length).abs() <= 1e-15 * mean);
-    let worst = lengths
-        .iter()
-        .map(|h| (h - mean).abs() / mean)
-        .fold(0.0, f64::max);
+    let worst = lengths.iter().map(|h| (h - mean).abs() / mean).fold(0.0, f64::max);
     assert!((worst - division.max_residual).abs() <= 1e-15 * (1.0 + worst));
     assert!(division.mean_residual <= division.max_residual);
     assert_eq!(

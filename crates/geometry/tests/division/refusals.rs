@@ -9,11 +9,7 @@ use crate::{check_promises, profile, wave};
 fn the_iteration_limit_and_the_tolerance_are_the_callers() {
     let wave = wave();
     let with = |tolerance, max_iterations| {
-        let options = DivisionOptions {
-            tolerance,
-            max_iterations,
-            ..DivisionOptions::default()
-        };
+        let options = DivisionOptions { tolerance, max_iterations, ..DivisionOptions::default() };
         divide(&wave, 9, &options)
     };
     let none = with(1e-14, 0).unwrap();
@@ -30,10 +26,7 @@ fn the_iteration_limit_and_the_tolerance_are_the_callers() {
     let exact = with(0.0, 100).unwrap();
     assert!(exact.converged() && exact.max_residual <= 1e-13);
     for tolerance in [-1.0, f64::NAN] {
-        assert!(matches!(
-            with(tolerance, 100),
-            Err(GeometryError::Tolerance { .. })
-        ));
+        assert!(matches!(with(tolerance, 100), Err(GeometryError::Tolerance { .. })));
     }
 }
 
@@ -52,33 +45,14 @@ fn starts_that_do_not_increase_from_0_to_1_are_refused() {
 #[test]
 fn segments_below_what_f64_resolves_are_refused() {
     let options = DivisionOptions::default();
-    let far = profile(
-        &[
-            [1e9, 0.0],
-            [1e9, 1e-3],
-            [1e9 + 1e-3, 1e-3],
-            [1e9 + 1e-3, 0.0],
-        ],
-        Closure::Open,
-    );
-    assert!(matches!(
-        divide(&far, 10, &options),
-        Err(GeometryError::SegmentTooShort { .. })
-    ));
+    let far =
+        profile(&[[1e9, 0.0], [1e9, 1e-3], [1e9 + 1e-3, 1e-3], [1e9 + 1e-3, 0.0]], Closure::Open);
+    assert!(matches!(divide(&far, 10, &options), Err(GeometryError::SegmentTooShort { .. })));
     let point = profile(&[[2.0, 1.0]; 4], Closure::Open);
-    assert!(matches!(
-        divide(&point, 1, &options),
-        Err(GeometryError::SegmentTooShort { .. })
-    ));
+    assert!(matches!(divide(&point, 1, &options), Err(GeometryError::SegmentTooShort { .. })));
     let origin = profile(&[[0.0, 0.0]; 5], Closure::Open);
-    assert!(matches!(
-        divide(&origin, 3, &options),
-        Err(GeometryError::SegmentTooShort { .. })
-    ));
-    assert!(matches!(
-        divide(&wave(), 0, &options),
-        Err(GeometryError::SegmentCount { .. })
-    ));
+    assert!(matches!(divide(&origin, 3, &options), Err(GeometryError::SegmentTooShort { .. })));
+    assert!(matches!(divide(&wave(), 0, &options), Err(GeometryError::SegmentCount { .. })));
     assert!(matches!(
         divide(&wave(), usize::MAX, &options),
         Err(GeometryError::SegmentCount { .. })
@@ -88,15 +62,9 @@ fn segments_below_what_f64_resolves_are_refused() {
 #[test]
 fn a_profile_that_crosses_itself_is_refused_with_the_point() {
     // Bézier (−1,0) (2,2) (−2,2) (1,0): symmetric in x, so it crosses itself on x = 0.
-    let looped = profile(
-        &[[-1.0, 0.0], [2.0, 2.0], [-2.0, 2.0], [1.0, 0.0]],
-        Closure::Open,
-    );
+    let looped = profile(&[[-1.0, 0.0], [2.0, 2.0], [-2.0, 2.0], [1.0, 0.0]], Closure::Open);
     match divide(&looped, 9, &DivisionOptions::default()).unwrap_err() {
-        GeometryError::CurveCrosses {
-            parameters: [a, b],
-            point,
-        } => {
+        GeometryError::CurveCrosses { parameters: [a, b], point } => {
             assert!(point.x.abs() < 1e-3, "{point}");
             assert!((a + b - 1.0).abs() < 1e-3 && a < b);
             assert!((looped.position(a) - point).length() < 1e-3);
@@ -118,41 +86,19 @@ fn a_profile_that_only_comes_close_to_itself_is_accepted() {
             [3.0, gap],
             [0.0, gap],
         ];
-        divide(
-            &profile(&points, Closure::Open),
-            40,
-            &DivisionOptions::default(),
-        )
+        divide(&profile(&points, Closure::Open), 40, &DivisionOptions::default())
     };
     assert!(hairpin(1e-3).is_ok());
     assert!(hairpin(1e-2).is_ok());
-    let crossed = [
-        [0.0, 0.0],
-        [3.0, 0.0],
-        [6.0, 0.0],
-        [9.0, 5e-4],
-        [6.0, 1e-3],
-        [3.0, 1e-3],
-        [0.0, -1e-3],
-    ];
-    let refused = divide(
-        &profile(&crossed, Closure::Open),
-        40,
-        &DivisionOptions::default(),
-    );
+    let crossed =
+        [[0.0, 0.0], [3.0, 0.0], [6.0, 0.0], [9.0, 5e-4], [6.0, 1e-3], [3.0, 1e-3], [0.0, -1e-3]];
+    let refused = divide(&profile(&crossed, Closure::Open), 40, &DivisionOptions::default());
     assert!(matches!(refused, Err(GeometryError::CurveCrosses { .. })));
 }
 
 #[test]
 fn an_open_profile_whose_ends_meet_is_refused_and_accepted_once_it_is_declared_closed() {
-    let points = [
-        [0.0, 0.0],
-        [4.0, -1.0],
-        [6.0, 2.0],
-        [3.0, 5.0],
-        [-2.0, 4.0],
-        [0.0, 0.0],
-    ];
+    let points = [[0.0, 0.0], [4.0, -1.0], [6.0, 2.0], [3.0, 5.0], [-2.0, 4.0], [0.0, 0.0]];
     let options = DivisionOptions::default();
     let open = divide(&profile(&points, Closure::Open), 9, &options);
     assert!(matches!(open, Err(GeometryError::CurveCrosses { .. })));

@@ -146,9 +146,7 @@ impl Query {
             return coplanar.roots_inside().iter().any(holds);
         }
         let polynomials = clauses.iter().flatten().map(|(p, _)| p);
-        polynomials
-            .flat_map(Polynomial::roots_inside)
-            .any(|t| holds(&t))
+        polynomials.flat_map(Polynomial::roots_inside).any(|t| holds(&t))
     }
 
     /// Compares given numbers only: if one feature is below the other at both ends, it is so throughout.
@@ -158,10 +156,7 @@ impl Query {
             Self::EdgeEdge(a, b) => (a, b),
         };
         let is_below = |a: &[Path], b: &[Path], axis: usize| {
-            (0..2).all(|end| {
-                a.iter()
-                    .all(|p| b.iter().all(|q| p[end][axis] < q[end][axis]))
-            })
+            (0..2).all(|end| a.iter().all(|p| b.iter().all(|q| p[end][axis] < q[end][axis])))
         };
         (0..3).any(|axis| is_below(a, b, axis) || is_below(b, a, axis))
     }
@@ -174,12 +169,7 @@ fn vertex_in_facet(x: &Point, y: &Point, z: &Point) -> (Polynomial, Vec<Clause>)
     let normal = cross(&minus(y, x), &minus(z, x));
     let mut inside = vec![(dot(&normal, &normal), Wanted::Positive)];
     inside.extend(sides.iter().map(|s| (dot(s, &normal), Wanted::NotNegative)));
-    let clauses = vec![
-        inside,
-        holds_origin(x, y),
-        holds_origin(y, z),
-        holds_origin(z, x),
-    ];
+    let clauses = vec![inside, holds_origin(x, y), holds_origin(y, z), holds_origin(z, x)];
     (dot(x, &sides[1]), clauses)
 }
 
@@ -196,13 +186,7 @@ fn edges_cross([a0, a1, b0, b1]: &[Point; 4]) -> (Polynomial, Vec<Clause>) {
         inside.push((place, Wanted::NotNegative));
     }
     let on = |p: &Point, q0: &Point, q1: &Point| holds_origin(&minus(q0, p), &minus(q1, p));
-    let clauses = vec![
-        inside,
-        on(a0, b0, b1),
-        on(a1, b0, b1),
-        on(b0, a0, a1),
-        on(b1, a0, a1),
-    ];
+    let clauses = vec![inside, on(a0, b0, b1), on(a1, b0, b1), on(b0, a0, a1), on(b1, a0, a1)];
     (dot(&w, &normal), clauses)
 }
 
@@ -254,11 +238,7 @@ mod tests {
     }
 
     fn plate() -> [Path; 3] {
-        [
-            still(0.0, 0.0, 0.0),
-            still(4.0, 0.0, 0.0),
-            still(0.0, 4.0, 0.0),
-        ]
+        [still(0.0, 0.0, 0.0), still(4.0, 0.0, 0.0), still(0.0, 4.0, 0.0)]
     }
 
     fn vertex_meets(from: [f64; 3], to: [f64; 3]) -> bool {
@@ -272,16 +252,10 @@ mod tests {
         assert!(vertex_meets([1.0, 1.0, 1.0], [1.0, 1.0, -3.0]));
         assert!(vertex_meets([1.0, 1.0, 1.0], [1.0, 1.0, 0.0]));
         assert!(!vertex_meets([1.0, 1.0, 1.0], [1.0, 1.0, 5e-324]));
-        assert!(
-            vertex_meets([2.0, 2.0, 1.0], [2.0, 2.0, -1.0]),
-            "on the rim"
-        );
+        assert!(vertex_meets([2.0, 2.0, 1.0], [2.0, 2.0, -1.0]), "on the rim");
         assert!(!vertex_meets([2.0, 2.0 + 2.0 * ULP, 1.0], [2.0, 2.0, -1.0]));
         assert!(vertex_meets([2.0, 2.0 - 2.0 * ULP, 1.0], [2.0, 2.0, -1.0]));
-        assert!(
-            vertex_meets([0.0, 0.0, 1.0], [0.0, 0.0, -1.0]),
-            "at a corner"
-        );
+        assert!(vertex_meets([0.0, 0.0, 1.0], [0.0, 0.0, -1.0]), "at a corner");
         assert!(!vertex_meets([-ULP, 0.0, 1.0], [0.0, 0.0, -1.0]));
     }
 
@@ -289,32 +263,16 @@ mod tests {
     fn a_vertex_in_the_plane_meets_the_plate_where_its_path_crosses_it() {
         assert!(vertex_meets([-1.0, 1.0, 0.0], [9.0, 1.0, 0.0]));
         assert!(!vertex_meets([-1.0, 1.0, 0.0], [-0.5, 3.0, 0.0]));
-        assert!(
-            vertex_meets([5.0, -1.0, 0.0], [3.0, 1.0, 0.0]),
-            "along the rim"
-        );
-        assert!(!vertex_meets(
-            [5.0 + 4.0 * ULP, -1.0, 0.0],
-            [3.0 + 4.0 * ULP, 1.0, 0.0]
-        ));
-        assert!(
-            vertex_meets([-1.0, -1.0, 0.0], [1.0, 1.0, 0.0]),
-            "through a corner"
-        );
+        assert!(vertex_meets([5.0, -1.0, 0.0], [3.0, 1.0, 0.0]), "along the rim");
+        assert!(!vertex_meets([5.0 + 4.0 * ULP, -1.0, 0.0], [3.0 + 4.0 * ULP, 1.0, 0.0]));
+        assert!(vertex_meets([-1.0, -1.0, 0.0], [1.0, 1.0, 0.0]), "through a corner");
         assert!(!vertex_meets([-1.0, 1.0, 0.0], [1.0, -1.0 - ULP, 0.0]));
-        assert!(
-            vertex_meets([-1.0, 1.0, 0.0], [1.0, -1.0, 0.0]),
-            "grazes a corner"
-        );
+        assert!(vertex_meets([-1.0, 1.0, 0.0], [1.0, -1.0, 0.0]), "grazes a corner");
     }
 
     #[test]
     fn a_facet_without_area_is_treated_as_its_edges() {
-        let needle = [
-            still(0.0, 0.0, 0.0),
-            still(2.0, 2.0, 0.0),
-            still(1.0, 1.0, 0.0),
-        ];
+        let needle = [still(0.0, 0.0, 0.0), still(2.0, 2.0, 0.0), still(1.0, 1.0, 0.0)];
         let through = |x: f64| Query::VertexFacet(path([x, 1.5, 1.0], [x, 1.5, -1.0]), needle);
         assert!(through(1.5).meets() && !through(1.5 + ULP).meets());
         let point = [still(1.5, 1.5, 0.0); 3];
@@ -348,11 +306,7 @@ mod tests {
         // Height over the plane through the y axis of slope k (t − t*): −k s (t − t*)², and an ulp more or less.
         let (at, k, s, x) = (0.375, 2.0, 0.5, 0.25);
         let tilt = |t: f64| DVec3::new(1.0, 0.0, k * (t - at));
-        let facet = [
-            still(0.0, -1.0, 0.0),
-            still(0.0, 1.0, 0.0),
-            [tilt(0.0), tilt(1.0)],
-        ];
+        let facet = [still(0.0, -1.0, 0.0), still(0.0, 1.0, 0.0), [tilt(0.0), tilt(1.0)]];
         let vertex = |lift: f64| {
             [0.0, 1.0].map(|t| DVec3::new(x + s * (t - at), 0.0, k * x * (t - at) + lift))
         };
@@ -363,20 +317,13 @@ mod tests {
 
     #[test]
     fn depth_is_exact_to_the_last_bit() {
-        let plate = [
-            still(-9.0, -9.0, 0.0),
-            still(9.0, -9.0, 0.0),
-            still(0.0, 9.0, 0.0),
-        ];
+        let plate = [still(-9.0, -9.0, 0.0), still(9.0, -9.0, 0.0), still(0.0, 9.0, 0.0)];
         let tip = |depth: f64| {
             let falls = path([0.0, 0.0, depth], [0.0, 0.0, -3.0 * depth]);
             [falls, still(0.1, 0.0, 1.0), still(0.0, 0.1, 1.0)]
         };
         let is_deep = |depth: f64, eighths| are_deeper_than(0.125, &plate, &tip(depth), eighths);
-        assert!(
-            is_deep(0.125 + ULP, 4),
-            "half way it is deeper by its own depth"
-        );
+        assert!(is_deep(0.125 + ULP, 4), "half way it is deeper by its own depth");
         assert!(!is_deep(0.125, 4) && is_deep(0.125, 5) && !is_deep(0.125, 0));
         assert!(!are_deeper_than(0.125, &plate, &plate, 4), "coplanar");
     }

@@ -48,10 +48,7 @@ impl Dyadic {
 
 impl Polynomial {
     pub(crate) fn new(mut coefficients: Vec<BigInt>) -> Self {
-        while coefficients
-            .last()
-            .is_some_and(|c| c.sign() == Sign::NoSign)
-        {
+        while coefficients.last().is_some_and(|c| c.sign() == Sign::NoSign) {
             coefficients.pop();
         }
         Self(coefficients)
@@ -290,9 +287,6 @@ mod tests {
         let root = square.roots_inside().remove(0);
         assert_eq!(square.sign_at(&root), Ordering::Equal);
         assert_eq!(polynomial(&[-1, 3]).sign_at(&root), Ordering::Equal);
-        assert_eq!(
-            polynomial(&[-1_000_000, 3_000_001]).sign_at(&root),
-            Ordering::Greater
-        );
+        assert_eq!(polynomial(&[-1_000_000, 3_000_001]).sign_at(&root), Ordering::Greater);
     }
 }

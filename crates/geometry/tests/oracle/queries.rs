@@ -49,11 +49,7 @@ pub(crate) fn query(class: Class, number: u64) -> Query {
     let is_vertex_facet = random.index(2) == 0;
     let cut = if is_vertex_facet { 1 } else { 2 };
     let [p, q, r, s] = paths(class, cut, &mut random);
-    if is_vertex_facet {
-        Query::VertexFacet(p, [q, r, s])
-    } else {
-        Query::EdgeEdge([p, q], [r, s])
-    }
+    if is_vertex_facet { Query::VertexFacet(p, [q, r, s]) } else { Query::EdgeEdge([p, q], [r, s]) }
 }
 
 /// The triangle pair of this class and number.
@@ -107,12 +103,7 @@ fn paths<const N: usize>(class: Class, cut: usize, random: &mut Random) -> [Path
         Class::NoExtent => without_extent(cut, random),
         Class::Identical => identical(cut, random),
         Class::Static => {
-            let base = [
-                Class::Random,
-                Class::Touching,
-                Class::Coplanar,
-                Class::SharedCoordinates,
-            ];
+            let base = [Class::Random, Class::Touching, Class::Coplanar, Class::SharedCoordinates];
             let moving: [Path; N] = paths(base[random.index(4)], cut, random);
             let end = random.index(2);
             moving.map(|path| [path[end]; 2])
@@ -120,12 +111,7 @@ fn paths<const N: usize>(class: Class, cut: usize, random: &mut Random) -> [Path
         Class::Touching => touching(cut, 1.0, random),
         Class::Grazing => grazing(cut, random),
         Class::SubUlp => {
-            let base = [
-                Class::Touching,
-                Class::Grazing,
-                Class::Coplanar,
-                Class::Parallel,
-            ];
+            let base = [Class::Touching, Class::Grazing, Class::Coplanar, Class::Parallel];
             let mut moved = paths(base[random.index(4)], cut, random);
             for _ in 0..=random.index(3) {
                 nudge(&mut moved[random.index(N)][random.index(2)], random);
@@ -133,12 +119,7 @@ fn paths<const N: usize>(class: Class, cut: usize, random: &mut Random) -> [Path
             moved
         }
         Class::HugeOrTiny => {
-            let base = [
-                Class::Random,
-                Class::Touching,
-                Class::Coplanar,
-                Class::Parallel,
-            ];
+            let base = [Class::Random, Class::Touching, Class::Coplanar, Class::Parallel];
             let paths = paths(base[random.index(4)], cut, random);
             let scale = power(10.0, -280, 279, random);
             paths.map(|path: Path| path.map(|p| p * scale))
@@ -170,11 +151,7 @@ fn on_grid<const N: usize>(random: &mut Random) -> [Path; N] {
 }
 
 fn either<const N: usize>(random: &mut Random) -> [Path; N] {
-    if random.index(2) == 0 {
-        scattered(random)
-    } else {
-        on_grid(random)
-    }
+    if random.index(2) == 0 { scattered(random) } else { on_grid(random) }
 }
 
 /// All points in one plane throughout.
@@ -332,10 +309,6 @@ fn nudge(point: &mut DVec3, random: &mut Random) {
         *coordinate = if is_up { f64::EPSILON } else { -f64::EPSILON };
     }
     for _ in 0..=random.index(3) {
-        *coordinate = if is_up {
-            coordinate.next_up()
-        } else {
-            coordinate.next_down()
-        };
+        *coordinate = if is_up { coordinate.next_up() } else { coordinate.next_down() };
     }
 }

@@ -59,10 +59,7 @@ pub(crate) fn may_meet(query: &Query, separation: f64) -> bool {
 
 /// The answer of the kernels of this crate.
 pub(crate) fn answer(query: &Query, separation: f64) -> Impact {
-    let search = ImpactSearch {
-        separation,
-        ..ImpactSearch::default()
-    };
+    let search = ImpactSearch { separation, ..ImpactSearch::default() };
     match *query {
         Query::VertexFacet(vertex, facet) => vertex_facet(vertex, facet, &search),
         Query::EdgeEdge(a, b) => edge_edge(a, b, &search),
@@ -95,9 +92,7 @@ impl Tally {
 pub(crate) fn try_queries(class: Class, count: u64, kernel: Kernel) -> Tally {
     (0..count)
         .into_par_iter()
-        .fold(Tally::default, |tally, number| {
-            tally.count(&query(class, number), kernel)
-        })
+        .fold(Tally::default, |tally, number| tally.count(&query(class, number), kernel))
         .reduce(Tally::default, Tally::plus)
 }
 
@@ -109,9 +104,7 @@ pub(crate) fn try_pairs(class: Class, count: u64, kernel: Kernel) -> (Tally, Pai
         .fold(none, |(tally, pairs), number| {
             let both = triangles(class, number);
             let queries = queries_of(&both);
-            let own = queries
-                .iter()
-                .fold(Tally::default(), |t, q| t.count(q, kernel));
+            let own = queries.iter().fold(Tally::default(), |t, q| t.count(q, kernel));
             let meets = own.meets > 0 || start_in_contact(&both);
             (tally.plus(own), pairs.count(&both, &queries, meets))
         })
@@ -122,20 +115,13 @@ pub(crate) fn try_pairs(class: Class, count: u64, kernel: Kernel) -> (Tally, Pai
 pub(crate) fn limits_of(triangles: &[[Path; 3]; 2]) -> Limits {
     let corners = triangles.iter().flatten().flatten();
     let extent = corners.map(|p| p.length()).fold(0.0, f64::max);
-    Limits {
-        tolerance: 1e-6 * extent,
-        margin: Limits::margin_for(extent),
-        budget: 4000,
-    }
+    Limits { tolerance: 1e-6 * extent, margin: Limits::margin_for(extent), budget: 4000 }
 }
 
 /// The pair in the form that the certificate takes.
 pub(crate) fn moving([a, b]: &[[Path; 3]; 2]) -> MovingPair {
-    let pose = |end: usize| PairPose {
-        a: a.map(|path| path[end]),
-        b: b.map(|path| path[end]),
-        shared: 0,
-    };
+    let pose =
+        |end: usize| PairPose { a: a.map(|path| path[end]), b: b.map(|path| path[end]), shared: 0 };
     MovingPair::new(pose(0), pose(1))
 }
 

@@ -11,18 +11,14 @@ pub(crate) fn fermat_spiral(half: usize) -> Vec<DVec2> {
     let at = |angle: f64| DVec2::from_angle(angle) * angle.sqrt();
     // Distances from a point of the arm increase along it up to at least 1.5.
     let next = |last: f64, length: f64| {
-        last_where([last, last + 1.5], |angle| {
-            at(angle).distance(at(last)) < length
-        })
+        last_where([last, last + 1.5], |angle| at(angle).distance(at(last)) < length)
     };
     let arm = |length: f64| -> Vec<f64> {
         let angles = std::iter::successors(Some(0.0), |&last| Some(next(last, length)));
         angles.take(half + 1).collect()
     };
     let scale = 1.0 / half as f64;
-    let length = last_where([10.0 * scale, 80.0 * scale], |length| {
-        arm(length)[half] < 6.0 * PI
-    });
+    let length = last_where([10.0 * scale, 80.0 * scale], |length| arm(length)[half] < 6.0 * PI);
     let points: Vec<DVec2> = arm(length).into_iter().map(at).collect();
     let other = points[1..].iter().rev().map(|&p| -p);
     other.chain(points.iter().copied()).collect()
@@ -59,9 +55,7 @@ pub(crate) fn airfoil(half: usize) -> Vec<DVec2> {
         DVec2::new(x, if k == 0 { 0.0 } else { side * z })
     };
     let upper = (0..half).map(|k| surface(k, 1.0));
-    upper
-        .chain((0..=half).rev().map(|k| surface(k, -1.0)))
-        .collect()
+    upper.chain((0..=half).rev().map(|k| surface(k, -1.0))).collect()
 }
 
 /// A capital omega divided into `rows` equal segments.
@@ -80,9 +74,7 @@ pub(crate) fn omega(rows: usize) -> Vec<DVec2> {
     let left = right.clone().rev().map(|p| DVec2::new(-p.x, p.y));
     let points: Vec<_> = right.chain([DVec2::new(0.0, 2.65)]).chain(left).collect();
     let profile = Profile::new(&points, Closure::Open).unwrap();
-    divide(&profile, rows, &DivisionOptions::default())
-        .unwrap()
-        .points
+    divide(&profile, rows, &DivisionOptions::default()).unwrap().points
 }
 
 pub(crate) fn open(points: &[DVec2]) -> Chain {

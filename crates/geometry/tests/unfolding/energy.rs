@@ -13,25 +13,15 @@ fn straightened(chain: &Chain) -> TurnPath {
     let path = straighten(chain).unwrap();
     assert_eq!(path.turns[0], chain.turns());
     assert!(path.turns.last().unwrap().iter().all(|&t| t == 0.0));
-    assert_eq!(
-        (path.progress[0], *path.progress.last().unwrap()),
-        (0.0, 1.0)
-    );
+    assert_eq!((path.progress[0], *path.progress.last().unwrap()), (0.0, 1.0));
     assert!(path.progress.windows(2).all(|p| p[0] < p[1]));
     for (index, piece) in path.turns.windows(2).enumerate() {
-        assert_eq!(
-            certify(chain, &piece[0], &piece[1]),
-            SweepVerdict::Clear,
-            "piece {index}"
-        );
+        assert_eq!(certify(chain, &piece[0], &piece[1]), SweepVerdict::Clear, "piece {index}");
     }
     for k in 0..=500 {
         let points = chain.points(&path.at(f64::from(k) / 500.0));
         let is_start = k == 0 && chain.is_closed();
-        assert!(
-            is_start || first_crossing(&points, false).is_none(),
-            "sample {k}"
-        );
+        assert!(is_start || first_crossing(&points, false).is_none(), "sample {k}");
     }
     path
 }
@@ -48,9 +38,7 @@ fn closed_profiles_open_at_their_seam_and_straighten() {
     for chain in [airfoil(4), airfoil(20), star(&[1.0; 3]), star(&[1.0; 30])] {
         straightened(&closed(&chain));
     }
-    let gear: Vec<f64> = (0..60)
-        .map(|k| if k % 10 < 5 { 1.0 } else { 0.6 })
-        .collect();
+    let gear: Vec<f64> = (0..60).map(|k| if k % 10 < 5 { 1.0 } else { 0.6 }).collect();
     straightened(&closed(&star(&gear)));
     straightened(&open(&omega(40)));
 }
@@ -99,10 +87,7 @@ fn chains_that_cross_or_touch_themselves_are_refused_with_their_segments() {
         }
     }
     assert!(Chain::new(&loops(1e-3), false).is_ok());
-    assert!(
-        Chain::new(&star(&[1.0; 8]), false).is_err(),
-        "closed, but not said to be"
-    );
+    assert!(Chain::new(&star(&[1.0; 8]), false).is_err(), "closed, but not said to be");
     assert!(matches!(
         Chain::new(&[DVec2::ZERO; 1], false),
         Err(GeometryError::SegmentCount { count: 0, .. })

@@ -42,11 +42,7 @@ fn a_fermat_spiral_scaled_down_crosses_itself_first_where_dense_sampling_finds_i
 #[test]
 fn airfoils_circles_and_omegas_unfold_uniformly() {
     for half in [3, 10, 40] {
-        assert_eq!(
-            uniform(&closed(&airfoil(half))),
-            SweepVerdict::Clear,
-            "{half}"
-        );
+        assert_eq!(uniform(&closed(&airfoil(half))), SweepVerdict::Clear, "{half}");
     }
     for count in [3, 4, 7, 40, 200] {
         let circle = closed(&star(&vec![1.0; count]));

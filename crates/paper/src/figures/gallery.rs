@@ -24,11 +24,7 @@ pub(super) fn figure6() -> Result<Composed, PaperError> {
         state.show(&mut drawing, View::Iso, target, scale)?;
         let name = model.name.replace('-', " ");
         let words = format!("({letter}) {name}, {}", counts(&study));
-        caption(
-            &mut drawing,
-            DVec2::new(x + 0.5 * cell.x, y + cell.y + 18.0),
-            words,
-        );
+        caption(&mut drawing, DVec2::new(x + 0.5 * cell.x, y + cell.y + 18.0), words);
     }
     Ok((
         drawing,
@@ -48,10 +44,7 @@ pub(super) fn figure7() -> Result<Composed, PaperError> {
 
 /// Figure 8: two closed profiles in four cases.
 pub(super) fn figure8() -> Result<Composed, PaperError> {
-    let drawing = four_cases([
-        ("mushroom", "(a) mushroom"),
-        ("bunny", "(b) Stanford bunny"),
-    ])?;
+    let drawing = four_cases([("mushroom", "(a) mushroom"), ("bunny", "(b) Stanford bunny")])?;
     Ok((
         drawing,
         "Figure 8. Closed profiles in cases E, T, S and SII, deployed above and folded below; one camera, one scale a profile.",
@@ -69,16 +62,9 @@ fn four_cases(blocks: [(&str, &str); 2]) -> Result<Drawing, PaperError> {
     let mut drawing = page(4.0 * 280.0 + 10.0, 2.0 * block)?;
     for (k, (model, title)) in blocks.into_iter().enumerate() {
         let top = block * k as f64;
-        drawing.words(
-            DVec2::new(10.0, top + 20.0),
-            title,
-            1.2 * WORDS,
-            Anchor::Start,
-        );
-        let studies: Vec<UnitStudy> = CASES
-            .iter()
-            .map(|&case| sheet(model, case))
-            .collect::<Result<_, _>>()?;
+        drawing.words(DVec2::new(10.0, top + 20.0), title, 1.2 * WORDS, Anchor::Start);
+        let studies: Vec<UnitStudy> =
+            CASES.iter().map(|&case| sheet(model, case)).collect::<Result<_, _>>()?;
         let deployed: Vec<SheetState<'_>> = studies.iter().map(SheetState::deployed).collect();
         let compact: Vec<SheetState<'_>> = studies.iter().map(SheetState::compact).collect();
         let scale = common_scale(&deployed, View::Iso, cell).min(common_scale(
@@ -93,11 +79,7 @@ fn four_cases(blocks: [(&str, &str); 2]) -> Result<Drawing, PaperError> {
             let lower = Cell::new(x, top + 25.0 + cell.y, cell.x, folded);
             compact[column].show(&mut drawing, View::Iso, lower, scale)?;
             let words = format!("case {}, {}", study.units.unit.case.name(), counts(study));
-            caption(
-                &mut drawing,
-                DVec2::new(x + 0.5 * cell.x, top + block - 15.0),
-                words,
-            );
+            caption(&mut drawing, DVec2::new(x + 0.5 * cell.x, top + block - 15.0), words);
         }
     }
     Ok(drawing)
@@ -107,11 +89,7 @@ fn four_cases(blocks: [(&str, &str); 2]) -> Result<Drawing, PaperError> {
 pub(super) fn figure9() -> Result<Composed, PaperError> {
     let line = 250.0;
     let mut drawing = page(1000.0, 4.0 * line + 30.0)?;
-    for (x, words) in [
-        (165.0, "deployed"),
-        (480.0, "folded"),
-        (810.0, "cut pattern"),
-    ] {
+    for (x, words) in [(165.0, "deployed"), (480.0, "folded"), (810.0, "cut pattern")] {
         caption(&mut drawing, DVec2::new(x, 20.0), words);
     }
     for ((k, case), letter) in CASES.into_iter().enumerate().zip('a'..) {

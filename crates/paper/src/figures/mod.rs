@@ -56,10 +56,7 @@ pub(super) fn finished(store: &Store) -> Vec<Figure> {
 
 fn find(store: &Store, part: PaperPart) -> Option<Figure> {
     let StoredFigure { row, hashes } = store.find(part.name(), &inputs(part))?;
-    let [svg, png] = [
-        store.read_file(&row.files[0]),
-        store.read_file(&row.files[1]),
-    ];
+    let [svg, png] = [store.read_file(&row.files[0]), store.read_file(&row.files[1])];
     let (svg, png) = (svg.ok()?, png.ok()?);
     let is_whole = hashes == [sha256(&svg), sha256(&png)];
     let svg = String::from_utf8(svg).ok().filter(|_| is_whole)?;
@@ -85,11 +82,7 @@ pub(super) fn draw(
         let (svg, png) = (drawing.svg()?, drawing.png()?);
         store.write_file(&files[0], svg.as_bytes())?;
         store.write_file(&files[1], &png)?;
-        let row = FigureRow {
-            name: name.to_owned(),
-            caption: caption.to_owned(),
-            files,
-        };
+        let row = FigureRow { name: name.to_owned(), caption: caption.to_owned(), files };
         let hashes = [sha256(svg.as_bytes()), sha256(&png)];
         Ok(StoredFigure { row, hashes })
     })?;

@@ -25,11 +25,7 @@ pub(super) struct SheetState<'a> {
 impl<'a> SheetState<'a> {
     /// A state without coincident facets.
     pub(super) fn new(study: &'a UnitStudy, positions: Vec<DVec3>) -> Self {
-        Self {
-            sheet: &study.units.sheet,
-            positions,
-            order: LayerOrder::default(),
-        }
+        Self { sheet: &study.units.sheet, positions, order: LayerOrder::default() }
     }
 
     /// The deployed state.
@@ -44,10 +40,7 @@ impl<'a> SheetState<'a> {
 
     /// This state with the compact layer order.
     pub(super) fn layered(self, study: &UnitStudy) -> Self {
-        Self {
-            order: study.units.compact_order(),
-            ..self
-        }
+        Self { order: study.units.compact_order(), ..self }
     }
 
     fn size(&self, view: View) -> DVec2 {
@@ -72,14 +65,7 @@ impl<'a> SheetState<'a> {
             line_width: LINE_WIDTH.min(LINE_PART * scale * self.sheet.unit_length) * pixels,
             ..Style::default()
         };
-        let image = picture(
-            self.sheet,
-            &self.positions,
-            &self.order,
-            &camera,
-            &style,
-            size,
-        )?;
+        let image = picture(self.sheet, &self.positions, &self.order, &camera, &style, size)?;
         drawing.picture(cell.at, image);
         Ok(())
     }
@@ -95,10 +81,7 @@ pub(super) struct Cell {
 
 impl Cell {
     pub(super) fn new(x: f64, y: f64, width: f64, height: f64) -> Self {
-        Self {
-            at: DVec2::new(x, y),
-            size: DVec2::new(width, height),
-        }
+        Self { at: DVec2::new(x, y), size: DVec2::new(width, height) }
     }
 }
 

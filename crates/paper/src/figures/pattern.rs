@@ -31,12 +31,7 @@ pub(super) struct PatternPlacement {
 
 impl PatternPlacement {
     pub(super) fn new(at: DVec2, scale: f64, width: f64) -> Self {
-        Self {
-            at,
-            scale,
-            width,
-            skip: 0.0,
-        }
+        Self { at, scale, width, skip: 0.0 }
     }
 
     /// The position of a vertex on the page: rows run down, and the width runs to the left.
@@ -101,22 +96,14 @@ pub(super) fn draw_unit(
         ..PatternPlacement::new(at, scale, unit.width)
     };
     let sheet = &units.sheet;
-    draw(drawing, sheet, &placement, 1.4, |f| {
-        sheet.facets[f as usize].row == row
-    });
+    draw(drawing, sheet, &placement, 1.4, |f| sheet.facets[f as usize].row == row);
     let size = scale * DVec2::new(unit.width, unit.height);
     for (vertex, &position) in (0..).zip(&sheet.vertices) {
         // The first corner of the paper's names stands on the left.
         let mirrored = DVec2::new(position.x, unit.width - position.y);
         if let Some(name) = units.vertex_name(vertex, row, 0) {
             let corner = placement.of(mirrored);
-            label(
-                drawing,
-                corner,
-                corner - at - 0.5 * size,
-                0.5 * size.y,
-                &name,
-            );
+            label(drawing, corner, corner - at - 0.5 * size, 0.5 * size.y, &name);
         }
     }
     parts_below(drawing, unit, at + DVec2::new(0.0, size.y + 22.0), scale);
@@ -135,11 +122,7 @@ pub(super) fn one_column(unit: &Unit) -> Result<UnitSheet, PaperError> {
 /// `away` is the position relative to the unit's centre, `half` half the unit's height.
 fn label(drawing: &mut Drawing, at: DVec2, away: DVec2, half: f64, name: &str) {
     let sign = |value: f64| {
-        if value.abs() < 1.0 {
-            0.0
-        } else {
-            value.signum()
-        }
+        if value.abs() < 1.0 { 0.0 } else { value.signum() }
     };
     let is_outside = away.y.abs() > half - 1.0;
     let (dx, dy) = match (sign(away.x), is_outside) {
@@ -159,11 +142,7 @@ fn with_subscript(name: &str) -> String {
         return name.to_owned();
     };
     let (number, half) = number.split_once('^').unwrap_or((number, ""));
-    let half = if half.is_empty() {
-        String::new()
-    } else {
-        format!("^{half}")
-    };
+    let half = if half.is_empty() { String::new() } else { format!("^{half}") };
     format!("{letter}_{number}{half}")
 }
 

@@ -18,19 +18,12 @@ const STRIPS: u32 = 240;
 pub(super) fn figure2() -> Result<Composed, PaperError> {
     let study = sheet("shelter", Case::E)?;
     let (smooth, positions) = swept_surface(&study);
-    let surface = SheetState {
-        sheet: &smooth,
-        positions,
-        order: LayerOrder::default(),
-    };
+    let surface = SheetState { sheet: &smooth, positions, order: LayerOrder::default() };
     let cell = DVec2::new(300.0, 300.0);
     let states = [surface, SheetState::deployed(&study)];
     let scale = common_scale(&states, View::Iso, cell);
     let mut drawing = page(960.0, 350.0)?;
-    let words = [
-        "(a) target surface Φ^T: Γ swept by W",
-        "(b) tiled with 7 × 5 units",
-    ];
+    let words = ["(a) target surface Φ^T: Γ swept by W", "(b) tiled with 7 × 5 units"];
     for (k, (state, words)) in states.iter().zip(words).enumerate() {
         let x = 10.0 + 310.0 * k as f64;
         let cell = Cell::new(x, 10.0, cell.x, cell.y);
@@ -41,20 +34,13 @@ pub(super) fn figure2() -> Result<Composed, PaperError> {
     SheetState::compact(&study).show(&mut drawing, View::Front, cell, scale)?;
     let ink = Stroke::new([110, 110, 115], 1.0);
     let half = 0.5 * scale * study.closed_form.map_or(0.0, |form| form.extents[0]);
-    let (left, right) = (
-        DVec2::new(790.0 - half, 230.0),
-        DVec2::new(790.0 + half, 230.0),
-    );
+    let (left, right) = (DVec2::new(790.0 - half, 230.0), DVec2::new(790.0 + half, 230.0));
     drawing.line([left, right], ink);
     for dy in [-5.0, 5.0] {
         drawing.line([left, left + DVec2::new(9.0, dy)], ink);
     }
     caption(&mut drawing, DVec2::new(790.0, 248.0), "growing line G_r");
-    caption(
-        &mut drawing,
-        DVec2::new(790.0, 335.0),
-        "(c) folded flat, seen along the width",
-    );
+    caption(&mut drawing, DVec2::new(790.0, 335.0), "(c) folded flat, seen along the width");
     Ok((
         drawing,
         "Figure 2. A target surface approximated with square units (case E) and folded flat, all at one scale; the box is \
@@ -77,16 +63,8 @@ fn swept_surface(study: &UnitStudy) -> (Sheet, Vec<DVec3>) {
         let is_border = faces.contains(&None);
         Edge {
             vertices,
-            assignment: if is_border {
-                Assignment::Border
-            } else {
-                Assignment::Facet
-            },
-            kind: if is_border {
-                CreaseKind::Border
-            } else {
-                CreaseKind::Facet
-            },
+            assignment: if is_border { Assignment::Border } else { Assignment::Facet },
+            kind: if is_border { CreaseKind::Border } else { CreaseKind::Facet },
             row: 0,
             column: 0,
             faces,
@@ -98,15 +76,9 @@ fn swept_surface(study: &UnitStudy) -> (Sheet, Vec<DVec3>) {
         edges.push(edge([v, v + 2], [Some(f), None]));
         edges.push(edge([v + 1, v + 3], [Some(f + 1), None]));
         edges.push(edge([v, v + 3], [Some(f), Some(f + 1)]));
-        edges.push(edge(
-            [v, v + 1],
-            [Some(f + 1), k.checked_sub(1).map(|_| f - 2)],
-        ));
+        edges.push(edge([v, v + 1], [Some(f + 1), k.checked_sub(1).map(|_| f - 2)]));
     }
-    edges.push(edge(
-        [2 * STRIPS, 2 * STRIPS + 1],
-        [Some(2 * STRIPS - 2), None],
-    ));
+    edges.push(edge([2 * STRIPS, 2 * STRIPS + 1], [Some(2 * STRIPS - 2), None]));
     let facet = Facet {
         polygon: vec![0, 2 * STRIPS, 2 * STRIPS + 1, 1],
         row: 0,

@@ -27,12 +27,7 @@ pub(super) fn figure_a1(store: &Store) -> Result<Composed, PaperError> {
     for ((k, model), letter) in CERTIFIED.into_iter().enumerate().zip('a'..) {
         let top = block * k as f64;
         let title = format!("({letter}) {}", model.replace('-', " "));
-        drawing.words(
-            DVec2::new(10.0, top + 22.0),
-            title,
-            1.2 * WORDS,
-            Anchor::Start,
-        );
+        drawing.words(DVec2::new(10.0, top + 22.0), title, 1.2 * WORDS, Anchor::Start);
         let mut strips = Vec::new();
         for case in CASES {
             let folding = finished(store, model, case, true).ok_or(PaperError::INTERRUPTED)?;
@@ -48,20 +43,10 @@ pub(super) fn figure_a1(store: &Store) -> Result<Composed, PaperError> {
             let (row, column) = (index / times, index % times);
             let x = LEFT + (CELL.x + 6.0) * column as f64;
             let y = top + TITLE + (CELL.y + 6.0) * row as f64;
-            state.show(
-                &mut drawing,
-                View::Iso,
-                Cell::new(x, y, CELL.x, CELL.y),
-                scale,
-            )?;
+            state.show(&mut drawing, View::Iso, Cell::new(x, y, CELL.x, CELL.y), scale)?;
             let (study, folding) = &strips[row];
             if column == 0 {
-                draw_labels(
-                    &mut drawing,
-                    DVec2::new(10.0, y + 0.5 * CELL.y),
-                    study,
-                    folding,
-                );
+                draw_labels(&mut drawing, DVec2::new(10.0, y + 0.5 * CELL.y), study, folding);
             }
             if row == 0 {
                 let words = format!("t = {}", folding.states[column].0);
@@ -93,9 +78,5 @@ fn draw_labels(
 /// A state of a motion, turned as its stage is displayed: upright before it is flat, then like the compact state.
 fn displayed<'a>(study: &'a UnitStudy, (time, positions): &(f64, Vec<DVec3>)) -> SheetState<'a> {
     let state = SheetState::new(study, study.turned(*time, positions));
-    if *time > 1.0 {
-        state.layered(study)
-    } else {
-        state
-    }
+    if *time > 1.0 { state.layered(study) } else { state }
 }

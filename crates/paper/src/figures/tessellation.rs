@@ -18,11 +18,7 @@ pub(super) fn figure1() -> Result<Composed, PaperError> {
     let units = UnitSheet::new(unit, 3, 5).map_err(failed)?;
     let placement = PatternPlacement::new(DVec2::new(30.0, 30.0), 90.0, 5.0);
     draw(&mut drawing, &units.sheet, &placement, 1.4, |_| true);
-    caption(
-        &mut drawing,
-        DVec2::new(255.0, 325.0),
-        "(a) N_r × N_c = 3 × 5 units",
-    );
+    caption(&mut drawing, DVec2::new(255.0, 325.0), "(a) N_r × N_c = 3 × 5 units");
     for (row, x, words) in [(0, 560.0, "(b) unit U^O"), (1, 740.0, "(c) unit U^E")] {
         draw_unit(&mut drawing, &unit, row, DVec2::new(x, 60.0), 120.0)?;
         caption(&mut drawing, DVec2::new(x + 60.0, 250.0), words);
@@ -65,14 +61,8 @@ fn star(drawing: &mut Drawing, units: &UnitSheet, kind: VertexType, centre: DVec
     let mut headings: Vec<f64> = creases
         .filter(|edge| edge.vertices.contains(&check.vertex))
         .map(|edge| {
-            let [a, b] = edge
-                .vertices
-                .map(|v| placement.of(sheet.vertices[v as usize]));
-            let other = if edge.vertices[0] == check.vertex {
-                b
-            } else {
-                a
-            };
+            let [a, b] = edge.vertices.map(|v| placement.of(sheet.vertices[v as usize]));
+            let other = if edge.vertices[0] == check.vertex { b } else { a };
             (other - centre).to_angle()
         })
         .collect();

@@ -23,10 +23,7 @@ pub(super) fn figure10() -> Result<Composed, PaperError> {
         let case = Case::auto(1.0, height, None);
         Unit::new(case, 1.0, height, None, None)
     });
-    let columns = [
-        (plain, 90.0, "(a) unmodified"),
-        (own, 450.0, "(b) each row by its own case"),
-    ];
+    let columns = [(plain, 90.0, "(a) unmodified"), (own, 450.0, "(b) each row by its own case")];
     for (units, x, words) in columns {
         let mut column = Vec::new();
         for unit in units {
@@ -49,21 +46,12 @@ fn draw_column(drawing: &mut Drawing, units: &[Unit], at: DVec2) -> Result<(), P
         let row = index as u32 % 2;
         let sheet = one_column(unit)?.sheet;
         let skip = f64::from(row) * unit.height;
-        let placement = PatternPlacement {
-            skip,
-            ..PatternPlacement::new(top, SCALE, unit.width)
-        };
-        draw(drawing, &sheet, &placement, 1.4, |f| {
-            sheet.facets[f as usize].row == row
-        });
+        let placement = PatternPlacement { skip, ..PatternPlacement::new(top, SCALE, unit.width) };
+        draw(drawing, &sheet, &placement, 1.4, |f| sheet.facets[f as usize].row == row);
         let ends = |depth: f64| -> Vec<f64> {
             let on_boundary = |v: &&DVec2| (v.x + skip + depth).abs() < MEETING;
-            let mut ends: Vec<f64> = sheet
-                .vertices
-                .iter()
-                .filter(on_boundary)
-                .map(|v| v.y)
-                .collect();
+            let mut ends: Vec<f64> =
+                sheet.vertices.iter().filter(on_boundary).map(|v| v.y).collect();
             ends.sort_by(f64::total_cmp);
             ends
         };
@@ -84,12 +72,7 @@ fn draw_column(drawing: &mut Drawing, units: &[Unit], at: DVec2) -> Result<(), P
         drawing.words(right, case, SMALL, Anchor::Start);
         top.y += SCALE * unit.height;
     }
-    drawing.words(
-        at + DVec2::new(0.5 * SCALE, -10.0),
-        "w",
-        WORDS,
-        Anchor::Middle,
-    );
+    drawing.words(at + DVec2::new(0.5 * SCALE, -10.0), "w", WORDS, Anchor::Middle);
     Ok(())
 }
 

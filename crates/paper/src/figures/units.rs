@@ -60,13 +60,7 @@ pub(super) fn figure5() -> Result<Composed, PaperError> {
     let unit = Unit::new(Case::SII, width, 1.0, Some(LAMBDA), Some(0.0)).map_err(failed)?;
     two_units(&mut drawing, 0.0, ["a", "b"], "d = 0", &unit, D_ZERO - 20.0)?;
     let study = sheet(MODEL, Case::SII)?;
-    line(
-        &mut drawing,
-        D_ZERO,
-        ["c", "d", "e", "f"],
-        "case SII",
-        &study,
-    )?;
+    line(&mut drawing, D_ZERO, ["c", "d", "e", "f"], "case SII", &study)?;
     Ok((
         drawing,
         "Figure 5. Case SII with λ = 0.7: split middle vertices without centre pad (d = 0), and with one (d = w_1'/2); the \
@@ -113,14 +107,7 @@ fn line(
     name: &str,
     study: &UnitStudy,
 ) -> Result<(), PaperError> {
-    two_units(
-        drawing,
-        top,
-        [letters[0], letters[1]],
-        name,
-        &study.units.unit,
-        LINE - 22.0,
-    )?;
+    two_units(drawing, top, [letters[0], letters[1]], name, &study.units.unit, LINE - 22.0)?;
     let is_flat = study.units.unit.side_pad == 0.0;
     let states = [SheetState::deployed(study), SheetState::compact(study)];
     let view = if is_flat { View::Front } else { View::Iso };

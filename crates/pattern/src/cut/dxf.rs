@@ -43,10 +43,7 @@ impl CutPage<'_> {
     fn header(&self, dxf: &mut Dxf) {
         let options = &self.pattern.options;
         dxf.pair(999, ascii(&options.title));
-        dxf.pair(
-            999,
-            ascii(&format!("lengths in millimetres; {}", options.note)),
-        );
+        dxf.pair(999, ascii(&format!("lengths in millimetres; {}", options.note)));
         dxf.open("HEADER");
         dxf.pair(9, "$ACADVER");
         dxf.pair(1, "AC1009");

@@ -21,13 +21,7 @@ pub enum LineClass {
 
 impl LineClass {
     /// Every class, in the order in which they are drawn.
-    pub const ALL: [Self; 5] = [
-        Self::Mountain,
-        Self::Valley,
-        Self::Free,
-        Self::Facet,
-        Self::Cut,
-    ];
+    pub const ALL: [Self; 5] = [Self::Mountain, Self::Valley, Self::Free, Self::Facet, Self::Cut];
 
     /// The class of an edge of the crease pattern.
     pub fn of(assignment: Assignment) -> Self {

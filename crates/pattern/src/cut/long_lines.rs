@@ -87,22 +87,14 @@ mod tests {
     use super::*;
 
     fn segment(ends: [u32; 2], class: LineClass, fold_angle: f64) -> Segment {
-        Segment {
-            ends,
-            class,
-            fold_angle,
-        }
+        Segment { ends, class, fold_angle }
     }
 
     #[test]
     fn a_straight_chain_of_one_class_and_angle_is_one_line() {
-        let vertices: Vec<DVec2> = (0..6)
-            .map(|i| DVec2::new(f64::from(i) / 3.0, 1.0))
-            .collect();
+        let vertices: Vec<DVec2> = (0..6).map(|i| DVec2::new(f64::from(i) / 3.0, 1.0)).collect();
         let chain = |order: [u32; 5]| {
-            order
-                .map(|i| segment([i + i % 2, i + 1 - i % 2], LineClass::Valley, 1.0))
-                .to_vec()
+            order.map(|i| segment([i + i % 2, i + 1 - i % 2], LineClass::Valley, 1.0)).to_vec()
         };
         for order in [[0, 1, 2, 3, 4], [2, 0, 4, 1, 3]] {
             let mut ends = join(&vertices, &chain(order))[0].ends;

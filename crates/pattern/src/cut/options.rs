@@ -54,18 +54,13 @@ impl CutOptions {
 
     pub(super) fn check(&self) -> Result<(), CutError> {
         let is_positive = |value: f64| value > 0.0 && value.is_finite();
-        let positive = [
-            ("the scale", self.scale),
-            ("the line width", self.stroke_width.unwrap_or(1.0)),
-        ];
+        let positive =
+            [("the scale", self.scale), ("the line width", self.stroke_width.unwrap_or(1.0))];
         if let Some((name, value)) = positive.into_iter().find(|&(_, v)| !is_positive(v)) {
             return Err(CutError::NotPositive { name, value });
         }
         if !(self.margin >= 0.0 && self.margin.is_finite()) {
-            return Err(CutError::Negative {
-                name: "the margin",
-                value: self.margin,
-            });
+            return Err(CutError::Negative { name: "the margin", value: self.margin });
         }
         let given = [
             (LineClass::Mountain, &self.mountain_dashes),
@@ -92,14 +87,12 @@ impl CutOptions {
         let unit = (row / DASH_UNITS_A_ROW).max(SHORTEST_DASH);
         let standard = |lengths: &[f64]| lengths.iter().map(|l| l * unit).collect();
         match class {
-            LineClass::Mountain => self
-                .mountain_dashes
-                .clone()
-                .unwrap_or_else(|| standard(&[3.0, 1.0, 1.0, 1.0])),
-            LineClass::Valley => self
-                .valley_dashes
-                .clone()
-                .unwrap_or_else(|| standard(&[2.0, 1.0])),
+            LineClass::Mountain => {
+                self.mountain_dashes.clone().unwrap_or_else(|| standard(&[3.0, 1.0, 1.0, 1.0]))
+            }
+            LineClass::Valley => {
+                self.valley_dashes.clone().unwrap_or_else(|| standard(&[2.0, 1.0]))
+            }
             LineClass::Free | LineClass::Facet | LineClass::Cut => Vec::new(),
         }
     }

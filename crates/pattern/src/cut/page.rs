@@ -45,10 +45,7 @@ impl CutPattern {
 impl<'a> CutPage<'a> {
     pub(super) fn whole(pattern: &'a CutPattern) -> Self {
         let margin = DVec2::splat(pattern.options.margin);
-        let shifted = |line: &CutLine| CutLine {
-            ends: line.ends.map(|end| end + margin),
-            ..*line
-        };
+        let shifted = |line: &CutLine| CutLine { ends: line.ends.map(|end| end + margin), ..*line };
         Self {
             pattern,
             number: None,
@@ -67,17 +64,8 @@ impl<'a> CutPage<'a> {
 
     /// The label of a tile: its number among the others.
     pub(super) fn label(&self) -> Option<String> {
-        let PageNumber {
-            row,
-            column,
-            rows,
-            columns,
-        } = self.number?;
-        Some(format!(
-            "page {}-{} of {rows} x {columns} (row-column)",
-            row + 1,
-            column + 1
-        ))
+        let PageNumber { row, column, rows, columns } = self.number?;
+        Some(format!("page {}-{} of {rows} x {columns} (row-column)", row + 1, column + 1))
     }
 
     /// The lower left corner of the label of a tile and the height of its letters, mm: in the margin if it has room.

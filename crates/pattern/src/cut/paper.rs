@@ -7,14 +7,8 @@ use glam::DVec2;
 use super::CutError;
 
 /// mm in a unit of length.
-const UNITS: &[(&str, f64)] = &[
-    ("mm", 1.0),
-    ("cm", 10.0),
-    ("m", 1000.0),
-    ("in", 25.4),
-    ("pt", 25.4 / 72.0),
-    ("", 1.0),
-];
+const UNITS: &[(&str, f64)] =
+    &[("mm", 1.0), ("cm", 10.0), ("m", 1000.0), ("in", 25.4), ("pt", 25.4 / 72.0), ("", 1.0)];
 
 /// Papers with their short and long side, mm (ISO 216; ANSI A to B).
 const PAPERS: &[(&str, [f64; 2])] = &[
@@ -35,21 +29,13 @@ const PAPERS: &[(&str, [f64; 2])] = &[
 /// # Errors
 /// [`CutError::LengthText`] where it is none of these, or not finite.
 pub fn parse_millimetres(text: &str) -> Result<f64, CutError> {
-    let wrong = || CutError::LengthText {
-        text: text.to_owned(),
-    };
-    let end = text
-        .rfind(|c: char| c.is_ascii_digit() || c == '.')
-        .map_or(0, |last| last + 1);
+    let wrong = || CutError::LengthText { text: text.to_owned() };
+    let end = text.rfind(|c: char| c.is_ascii_digit() || c == '.').map_or(0, |last| last + 1);
     let (number, unit) = text.split_at(end);
     let known = UNITS.iter().find(|(name, _)| *name == unit.trim());
     let &(_, factor) = known.ok_or_else(wrong)?;
     let value: f64 = number.trim().parse().map_err(|_| wrong())?;
-    if value.is_finite() {
-        Ok(value * factor)
-    } else {
-        Err(wrong())
-    }
+    if value.is_finite() { Ok(value * factor) } else { Err(wrong()) }
 }
 
 /// The size of a sheet of paper.
@@ -65,9 +51,7 @@ impl FromStr for PaperSize {
     /// `A0` to `A6`, `letter`, `legal`, `tabloid`, upright or with `-landscape`; or `WIDTHxHEIGHT` with a unit as in
     /// [`parse_millimetres`].
     fn from_str(text: &str) -> Result<Self, CutError> {
-        let wrong = || CutError::PaperText {
-            text: text.to_owned(),
-        };
+        let wrong = || CutError::PaperText { text: text.to_owned() };
         let lower = text.to_lowercase();
         let name = lower.strip_suffix("-landscape").unwrap_or(&lower);
         if let Some(&(_, [short, long])) = PAPERS.iter().find(|(known, _)| *known == name) {
@@ -82,17 +66,9 @@ impl FromStr for PaperSize {
         let height = parse_millimetres(height).map_err(|_| wrong())?;
         // A unit after the height alone is meant for both.
         let is_bare = width.ends_with(|c: char| c.is_ascii_digit() || c == '.');
-        let width = if is_bare {
-            format!("{width}{unit}")
-        } else {
-            width.to_owned()
-        };
+        let width = if is_bare { format!("{width}{unit}") } else { width.to_owned() };
         let width = parse_millimetres(&width).map_err(|_| wrong())?;
-        if width > 0.0 && height > 0.0 {
-            Ok(Self(DVec2::new(width, height)))
-        } else {
-            Err(wrong())
-        }
+        if width > 0.0 && height > 0.0 { Ok(Self(DVec2::new(width, height))) } else { Err(wrong()) }
     }
 }
 
@@ -127,17 +103,7 @@ mod tests {
         for text in ["", "mm", "3 feet", "1e999", "nan", "inf", "1,5"] {
             assert!(parse_millimetres(text).is_err(), "{text}");
         }
-        for text in [
-            "",
-            "A9",
-            "x",
-            "0x10",
-            "-3x4",
-            "10x",
-            "x10mm",
-            "10x20x30",
-            "A4-sideways",
-        ] {
+        for text in ["", "A9", "x", "0x10", "-3x4", "10x", "x10mm", "10x20x30", "A4-sideways"] {
             assert!(text.parse::<PaperSize>().is_err(), "{text}");
         }
     }

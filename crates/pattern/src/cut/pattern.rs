@@ -97,10 +97,8 @@ impl CutPattern {
 /// and columns downwards without a mirror image.
 fn on_paper(sheet: &Sheet, scale: f64) -> (Vec<DVec2>, DVec2) {
     let far = DVec2::splat(f64::INFINITY);
-    let (low, high) = sheet
-        .vertices
-        .iter()
-        .fold((far, -far), |(low, high), &v| (low.min(v), high.max(v)));
+    let (low, high) =
+        sheet.vertices.iter().fold((far, -far), |(low, high), &v| (low.min(v), high.max(v)));
     let position = |v: &DVec2| DVec2::new(high.x - v.x, v.y - low.y) * scale;
     let vertices = sheet.vertices.iter().map(position).collect();
     (vertices, (high - low) * scale)

@@ -88,10 +88,8 @@ impl CutPage<'_> {
 }
 
 fn open_layer(name: &str, svg: &mut String) {
-    let _ = writeln!(
-        svg,
-        "<g id=\"{name}\" inkscape:groupmode=\"layer\" inkscape:label=\"{name}\">"
-    );
+    let _ =
+        writeln!(svg, "<g id=\"{name}\" inkscape:groupmode=\"layer\" inkscape:label=\"{name}\">");
 }
 
 fn colour(class: LineClass) -> &'static str {

@@ -4,11 +4,7 @@
 pub(super) fn number(value: f64) -> String {
     let text = format!("{value:.9}");
     let short = text.trim_end_matches('0').trim_end_matches('.');
-    if short == "-0" {
-        "0".to_owned()
-    } else {
-        short.to_owned()
-    }
+    if short == "-0" { "0".to_owned() } else { short.to_owned() }
 }
 
 /// Words for XML: markup escaped, what XML 1.0 forbids as spaces.

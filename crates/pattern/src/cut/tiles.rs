@@ -48,53 +48,29 @@ impl CutPattern {
 
 impl<'a> Tiles<'a> {
     pub(super) fn new(pattern: &'a CutPattern, layout: PageLayout) -> Result<Self, CutError> {
-        let PageLayout {
-            paper,
-            margin,
-            overlap,
-        } = layout;
+        let PageLayout { paper, margin, overlap } = layout;
         if !(margin >= 0.0 && margin.is_finite()) {
-            return Err(CutError::Negative {
-                name: "the margin",
-                value: margin,
-            });
+            return Err(CutError::Negative { name: "the margin", value: margin });
         }
         let window = paper - DVec2::splat(2.0 * margin);
         if !(window.min_element() > 0.0 && window.is_finite()) {
-            return Err(CutError::PaperTooSmall {
-                paper: paper.to_array(),
-                margin,
-            });
+            return Err(CutError::PaperTooSmall { paper: paper.to_array(), margin });
         }
         let limit = window.min_element() / 2.0;
         if !(0.0..=limit).contains(&overlap) {
-            return Err(CutError::Overlap {
-                value: overlap,
-                limit,
-            });
+            return Err(CutError::Overlap { value: overlap, limit });
         }
         let step = window - DVec2::splat(overlap);
         // A sliver of rounding needs no page of its own: the last window reaches to the end of the pattern.
-        let more = ((pattern.size - window) / step - 1e-9)
-            .ceil()
-            .max(DVec2::ZERO);
+        let more = ((pattern.size - window) / step - 1e-9).ceil().max(DVec2::ZERO);
         let counts = more + DVec2::ONE;
         let pages = counts.x * counts.y;
         if pages > MOST_PAGES as f64 {
-            return Err(CutError::TooManyPages {
-                pages,
-                limit: MOST_PAGES,
-            });
+            return Err(CutError::TooManyPages { pages, limit: MOST_PAGES });
         }
         #[expect(clippy::cast_sign_loss, reason = "at least 1, at most 1000")]
         let [columns, rows] = counts.to_array().map(|count| count as usize);
-        Ok(Self {
-            pattern,
-            layout,
-            window,
-            columns,
-            rows,
-        })
+        Ok(Self { pattern, layout, window, columns, rows })
     }
 
     /// Columns and rows of pages.
@@ -124,12 +100,7 @@ impl<'a> Tiles<'a> {
             let ends = clip(line.ends, start, end)?.map(|p| p + origin);
             Some(CutLine { ends, ..*line })
         };
-        let number = PageNumber {
-            row,
-            column,
-            rows: self.rows,
-            columns: self.columns,
-        };
+        let number = PageNumber { row, column, rows: self.rows, columns: self.columns };
         CutPage {
             pattern: self.pattern,
             number: Some(number),
@@ -167,10 +138,7 @@ impl<'a> Tiles<'a> {
         if number.row + 1 < number.rows {
             mark(glue.y, low.x, high.x, |y, x| DVec2::new(x, y));
         }
-        marks
-            .into_iter()
-            .filter_map(|ends| clip(ends, DVec2::ZERO, self.layout.paper))
-            .collect()
+        marks.into_iter().filter_map(|ends| clip(ends, DVec2::ZERO, self.layout.paper)).collect()
     }
 }
 
@@ -190,11 +158,8 @@ fn clip([from, to]: [DVec2; 2], low: DVec2, high: DVec2) -> Option<[DVec2; 2]> {
             }
             continue;
         }
-        let (near, far) = if step > 0.0 {
-            (low[axis], high[axis])
-        } else {
-            (high[axis], low[axis])
-        };
+        let (near, far) =
+            if step > 0.0 { (low[axis], high[axis]) } else { (high[axis], low[axis]) };
         enter = enter.max((near - start) / step);
         leave = leave.min((far - start) / step);
     }
@@ -218,19 +183,10 @@ mod tests {
 
     #[test]
     fn a_line_is_cut_exactly_where_it_leaves_the_box() {
-        assert_eq!(
-            clipped([[-1.0, 1.0], [5.0, 1.0]]),
-            Some([[0.0, 1.0], [3.0, 1.0]])
-        );
-        assert_eq!(
-            clipped([[4.0, 3.0], [0.0, -1.0]]),
-            Some([[3.0, 2.0], [1.0, 0.0]])
-        );
+        assert_eq!(clipped([[-1.0, 1.0], [5.0, 1.0]]), Some([[0.0, 1.0], [3.0, 1.0]]));
+        assert_eq!(clipped([[4.0, 3.0], [0.0, -1.0]]), Some([[3.0, 2.0], [1.0, 0.0]]));
         let third = 1.0 / 3.0;
-        assert_eq!(
-            clipped([[third, third], [2.0, 0.7]]),
-            Some([[third, third], [2.0, 0.7]])
-        );
+        assert_eq!(clipped([[third, third], [2.0, 0.7]]), Some([[third, third], [2.0, 0.7]]));
         let [from, to] = clipped([[0.1, 0.2], [7.3, 9.1]]).unwrap();
         assert_eq!((from, to[1]), ([0.1, 0.2], 2.0));
     }
@@ -250,9 +206,6 @@ mod tests {
 
     #[test]
     fn a_line_on_the_side_of_the_box_is_inside() {
-        assert_eq!(
-            clipped([[0.0, -1.0], [0.0, 5.0]]),
-            Some([[0.0, 0.0], [0.0, 2.0]])
-        );
+        assert_eq!(clipped([[0.0, -1.0], [0.0, 5.0]]), Some([[0.0, 0.0], [0.0, 2.0]]));
     }
 }

@@ -23,9 +23,8 @@ pub(super) fn sweep(lines: &mut Vec<CutLine>, row: f64) {
     for mut band in bands.into_values() {
         let low = |line: &CutLine| line.ends[0].y.min(line.ends[1].y);
         let high = |line: &CutLine| line.ends[0].y.max(line.ends[1].y);
-        let (first, last) = band
-            .iter()
-            .fold((f64::INFINITY, f64::NEG_INFINITY), |(first, last), line| {
+        let (first, last) =
+            band.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(first, last), line| {
                 (first.min(low(line)), last.max(high(line)))
             });
         if (pen.y - first).abs() <= (pen.y - last).abs() {
@@ -61,11 +60,7 @@ pub(super) fn outline(border: &[Segment]) -> Vec<Segment> {
             let [from, to] = border[index].ends;
             let ends = if from == pen { [from, to] } else { [to, from] };
             pen = ends[1];
-            sorted.push(Segment {
-                ends,
-                class: LineClass::Cut,
-                ..border[index]
-            });
+            sorted.push(Segment { ends, class: LineClass::Cut, ..border[index] });
             next = at_vertex[&pen].iter().copied().find(|&i| !is_used[i]);
         }
     }

@@ -73,20 +73,10 @@ impl FoldFile {
             }
             true
         };
-        let mut key = read_frames(
-            input,
-            FrameVisitor {
-                select: &select,
-                each: &mut summarise,
-            },
-        )?;
+        let mut key = read_frames(input, FrameVisitor { select: &select, each: &mut summarise })?;
         let polygons = key.faces.take().filter(|f| !f.is_empty());
         let polygons = polygons.ok_or_else(|| missing(0, "faces_vertices", NEED_FACES))?;
-        let rest = if key.has_coordinates {
-            std::mem::take(&mut key.coordinates)
-        } else {
-            first
-        };
+        let rest = if key.has_coordinates { std::mem::take(&mut key.coordinates) } else { first };
         if rest.is_empty() {
             return Err(missing(0, "vertices_coords", NEED_COORDINATES));
         }
@@ -156,13 +146,7 @@ impl FoldFile {
             failure = outcome.err();
             failure.is_none()
         };
-        let finished = read_frames(
-            input,
-            FrameVisitor {
-                select: &select,
-                each: &mut read,
-            },
-        );
+        let finished = read_frames(input, FrameVisitor { select: &select, each: &mut read });
         match failure {
             Some(failure) => Err(failure),
             None => finished.map(drop).map_err(E::from),
@@ -180,12 +164,7 @@ fn layer_order(
     for (entry, &(f, g, sign)) in orders.iter().enumerate() {
         let is_in_range = (f as usize) < faces && (g as usize) < faces;
         if !is_in_range || f == g || !(-1..=1).contains(&sign) {
-            return Err(FoldError::FaceOrder {
-                frame,
-                entry,
-                order: (f, g, sign),
-                faces,
-            });
+            return Err(FoldError::FaceOrder { frame, entry, order: (f, g, sign), faces });
         }
         if sign == 0 {
             continue;

@@ -72,20 +72,14 @@ pub(crate) fn read_frames(
     let location = Location::default();
     let input = BufReader::with_capacity(BUFFER, Utf8Reader::new(input));
     let mut reader = serde_json::Deserializer::from_reader(input);
-    let file = FileObject {
-        visitor,
-        location: &location,
-    };
+    let file = FileObject { visitor, location: &location };
     let read = reader.deserialize_map(file);
     read.and_then(|fields| {
         location.key.set("end of the file");
         location.element.set(None);
         reader.end().map(|()| fields)
     })
-    .map_err(|e| FoldError::Json {
-        location: location.to_string(),
-        message: e.to_string(),
-    })
+    .map_err(|e| FoldError::Json { location: location.to_string(), message: e.to_string() })
 }
 
 /// The frame, key and list element being read, for error messages.
@@ -109,9 +103,7 @@ impl fmt::Display for Location {
         if !self.key.get().is_empty() {
             write!(f, ", {}", self.key.get())?;
         }
-        self.element
-            .get()
-            .map_or(Ok(()), |element| write!(f, "[{element}]"))
+        self.element.get().map_or(Ok(()), |element| write!(f, "[{element}]"))
     }
 }
 
@@ -174,10 +166,8 @@ impl<'de> Visitor<'de> for FrameList<'_, '_> {
             self.location.frame.set(number);
             self.location.enter("");
             let number = FrameNumber(number);
-            let frame = FrameObject {
-                select: (self.visitor.select)(number),
-                location: self.location,
-            };
+            let frame =
+                FrameObject { select: (self.visitor.select)(number), location: self.location };
             let Some(fields) = list.next_element_seed(frame)? else {
                 break;
             };
@@ -233,9 +223,7 @@ impl FrameFields {
                 parent: self.parent.map_or("none".to_owned(), |p| p.to_string()),
             });
         }
-        Ok(parent
-            .filter(|_| self.inherit)
-            .map(|parent| parent as usize))
+        Ok(parent.filter(|_| self.inherit).map(|parent| parent as usize))
     }
 
     /// Reads the value of `key` or skips it.
@@ -347,10 +335,7 @@ struct List<'a, T> {
 
 impl<'a, T> List<'a, T> {
     fn new(location: &'a Location) -> Self {
-        Self {
-            location,
-            elements: Vec::new(),
-        }
+        Self { location, elements: Vec::new() }
     }
 }
 
@@ -425,12 +410,7 @@ pub(crate) fn check_vertices(
     vertices: usize,
 ) -> Result<(), FoldError> {
     match corners.iter().find(|&&v| v as usize >= vertices) {
-        Some(&vertex) => Err(FoldError::VertexOutOfRange {
-            key,
-            element,
-            vertex,
-            vertices,
-        }),
+        Some(&vertex) => Err(FoldError::VertexOutOfRange { key, element, vertex, vertices }),
         None => Ok(()),
     }
 }

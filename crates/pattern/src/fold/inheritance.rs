@@ -42,11 +42,7 @@ impl FrameSummary {
 pub(super) const NEED_OWN: &str = "a frame that does not inherit (frame_inherit) must be complete";
 
 pub(super) fn missing(frame: usize, key: &'static str, need: &'static str) -> FoldError {
-    FoldError::Missing {
-        frame: FrameNumber(frame),
-        key,
-        need,
-    }
+    FoldError::Missing { frame: FrameNumber(frame), key, need }
 }
 
 /// The frames of the motion with their times and the frames that have their coordinates, and whether the file gives all
@@ -79,14 +75,12 @@ pub(super) fn motion_frames(
     let key_time = has_key.then_some(key.time).into_iter();
     let times: Option<Vec<f64>> = key_time.chain(times).collect();
     let numbers = (usize::from(!has_key)..sources.len()).filter_map(|n| Some((n, sources[n]?)));
-    let frames = numbers
-        .enumerate()
-        .map(|(index, (number, source))| FrameSource {
-            number: FrameNumber(number),
-            time: times.as_ref().map_or(index as f64, |t| t[index]),
-            source: FrameNumber(source),
-            order_source: orders[number].map(FrameNumber),
-        });
+    let frames = numbers.enumerate().map(|(index, (number, source))| FrameSource {
+        number: FrameNumber(number),
+        time: times.as_ref().map_or(index as f64, |t| t[index]),
+        source: FrameNumber(source),
+        order_source: orders[number].map(FrameNumber),
+    });
     Ok((frames.collect(), times.is_some()))
 }
 

@@ -28,11 +28,7 @@ pub(super) fn build(
     let corners = polygons.iter().map(Vec::len).sum();
     for (what, found) in [("vertices", rest.len()), ("corners of faces", corners)] {
         if found > most {
-            return Err(FoldError::TooMany {
-                what,
-                found,
-                limit: most,
-            });
+            return Err(FoldError::TooMany { what, found, limit: most });
         }
     }
     let mut faces = Vec::new();
@@ -64,20 +60,12 @@ pub(super) fn build(
 fn validate(face: usize, polygon: &[u32], vertices: usize) -> Result<(), FoldError> {
     let key = "faces_vertices";
     if !(3..=MOST_CORNERS).contains(&polygon.len()) {
-        return Err(FoldError::Corners {
-            face,
-            corners: polygon.len(),
-            limit: MOST_CORNERS,
-        });
+        return Err(FoldError::Corners { face, corners: polygon.len(), limit: MOST_CORNERS });
     }
     let mut sorted = polygon.to_vec();
     sorted.sort_unstable();
     if let Some(pair) = sorted.windows(2).find(|pair| pair[0] == pair[1]) {
-        return Err(FoldError::RepeatedVertex {
-            key,
-            element: face,
-            vertex: pair[0],
-        });
+        return Err(FoldError::RepeatedVertex { key, element: face, vertex: pair[0] });
     }
     check_vertices(key, face, polygon, vertices)
 }
@@ -89,12 +77,7 @@ fn facets(
     triangles: &[[u32; 3]],
     faces: &[u32],
 ) -> Result<(Vec<u32>, Vec<Facet>), FoldError> {
-    let plain = |polygon| Facet {
-        polygon,
-        row: 0,
-        column: 0,
-        kind: FacetKind::Plain,
-    };
+    let plain = |polygon| Facet { polygon, row: 0, column: 0, kind: FacetKind::Plain };
     let Some(named) = &key.facets else {
         let facets = polygons.iter().cloned().map(plain).collect();
         return Ok((faces.to_vec(), facets));
@@ -132,26 +115,15 @@ fn facets(
 fn outline(triangles: &[[u32; 3]]) -> Vec<u32> {
     let sides = |t: &[u32; 3]| [[t[0], t[1]], [t[1], t[2]], [t[2], t[0]]];
     let all: BTreeSet<[u32; 2]> = triangles.iter().flat_map(sides).collect();
-    let next: BTreeMap<u32, u32> = all
-        .iter()
-        .filter(|[a, b]| !all.contains(&[*b, *a]))
-        .map(|&[a, b]| (a, b))
-        .collect();
+    let next: BTreeMap<u32, u32> =
+        all.iter().filter(|[a, b]| !all.contains(&[*b, *a])).map(|&[a, b]| (a, b)).collect();
     let corners: BTreeSet<u32> = triangles.iter().flatten().copied().collect();
     let on_border = |v: &u32| next.contains_key(v);
     let start = triangles.iter().flatten().copied().find(on_border);
-    let mut border: Vec<u32> = std::iter::successors(start, |at| next.get(at).copied())
-        .take(next.len() + 1)
-        .collect();
+    let mut border: Vec<u32> =
+        std::iter::successors(start, |at| next.get(at).copied()).take(next.len() + 1).collect();
     let is_closed = border.len() > 1 && border.pop() == start;
-    if is_closed
-        && border
-            .iter()
-            .copied()
-            .collect::<BTreeSet<_>>()
-            .iter()
-            .eq(next.keys())
-    {
+    if is_closed && border.iter().copied().collect::<BTreeSet<_>>().iter().eq(next.keys()) {
         border
     } else {
         corners.into_iter().collect()
@@ -181,11 +153,7 @@ fn edges(
     for (element, &[a, b]) in listed.iter().enumerate() {
         check_vertices("edges_vertices", element, &[a, b], vertices)?;
         if a == b {
-            return Err(FoldError::RepeatedVertex {
-                key: "edges_vertices",
-                element,
-                vertex: a,
-            });
+            return Err(FoldError::RepeatedVertex { key: "edges_vertices", element, vertex: a });
         }
         // Edges of no face do not move anything; one listed twice is one edge.
         if let Some(around) = sides.remove(&[a.min(b), a.max(b)]) {
@@ -237,21 +205,14 @@ fn edge(
         }
         ref more => {
             let three = [0, 1, 2].map(|i| more.get(i).map_or(0, |m| faces[m.0 as usize]));
-            return Err(FoldError::NonManifold {
-                vertices: ends,
-                faces: three,
-            });
+            return Err(FoldError::NonManifold { vertices: ends, faces: three });
         }
     };
     let is_border = assignment == Assignment::Border;
     Ok(Edge {
         vertices: ends,
         assignment,
-        kind: if is_border {
-            CreaseKind::Border
-        } else {
-            CreaseKind::Facet
-        },
+        kind: if is_border { CreaseKind::Border } else { CreaseKind::Facet },
         row: 0,
         column: 0,
         faces: joined,
@@ -263,12 +224,7 @@ fn mean_side(polygons: &[Vec<u32>], rest: &[DVec3]) -> f64 {
     let mut sides = BTreeSet::new();
     for polygon in polygons {
         let next = polygon.iter().cycle().skip(1);
-        sides.extend(
-            polygon
-                .iter()
-                .zip(next)
-                .map(|(&a, &b)| (a.min(b), a.max(b))),
-        );
+        sides.extend(polygon.iter().zip(next).map(|(&a, &b)| (a.min(b), a.max(b))));
     }
     let length = |&(a, b): &(u32, u32)| rest[a as usize].distance(rest[b as usize]);
     sides.iter().map(length).sum::<f64>() / sides.len() as f64

@@ -25,34 +25,22 @@ pub(super) fn triangulate(
 ) -> Result<Vec<[u32; 3]>, FoldError> {
     let corner =
         |i: usize| positions[polygon[i % polygon.len()] as usize] - positions[polygon[0] as usize];
-    let area: DVec3 = (0..polygon.len())
-        .map(|i| corner(i).cross(corner(i + 1)))
-        .sum();
-    let size = (0..polygon.len())
-        .map(|i| corner(i).length())
-        .fold(0.0, f64::max);
+    let area: DVec3 = (0..polygon.len()).map(|i| corner(i).cross(corner(i + 1))).sum();
+    let size = (0..polygon.len()).map(|i| corner(i).length()).fold(0.0, f64::max);
     let limit = AREA_LIMIT * size * size;
     let length = area.length();
     if length.is_nan() || length <= limit {
-        return Err(FoldError::ZeroArea {
-            face,
-            area: length,
-            limit,
-        });
+        return Err(FoldError::ZeroArea { face, area: length, limit });
     }
     if let &[a, b, c] = polygon {
         return Ok(vec![[a, b, c]]);
     }
     let (x, y) = (area / length).any_orthonormal_pair();
-    let plane: Vec<DVec2> = (0..polygon.len())
-        .map(|i| DVec2::new(corner(i).dot(x), corner(i).dot(y)))
-        .collect();
+    let plane: Vec<DVec2> =
+        (0..polygon.len()).map(|i| DVec2::new(corner(i).dot(x), corner(i).dot(y))).collect();
     let outline = Outline { plane, limit };
     let triangles = outline.triangles().ok_or(FoldError::NotSimple { face })?;
-    Ok(triangles
-        .into_iter()
-        .map(|t| t.map(|i| polygon[i]))
-        .collect())
+    Ok(triangles.into_iter().map(|t| t.map(|i| polygon[i])).collect())
 }
 
 /// A polygon in its plane, counter-clockwise.
@@ -101,10 +89,7 @@ mod tests {
 
     fn outline(points: &[(f64, f64)]) -> (Vec<u32>, Vec<DVec3>) {
         let polygon = (0..points.len() as u32).collect();
-        (
-            polygon,
-            points.iter().map(|&(x, y)| DVec3::new(x, y, 0.0)).collect(),
-        )
+        (polygon, points.iter().map(|&(x, y)| DVec3::new(x, y, 0.0)).collect())
     }
 
     #[test]
@@ -112,17 +97,7 @@ mod tests {
         let cases: [(&[(f64, f64)], f64); 5] = [
             (&[(0.0, 0.0), (2.0, 0.0), (2.0, 1.0), (0.0, 1.0)], 2.0),
             // An L, whose fan from the first corner would leave it.
-            (
-                &[
-                    (1.0, 1.0),
-                    (1.0, 2.0),
-                    (0.0, 2.0),
-                    (0.0, 0.0),
-                    (2.0, 0.0),
-                    (2.0, 1.0),
-                ],
-                3.0,
-            ),
+            (&[(1.0, 1.0), (1.0, 2.0), (0.0, 2.0), (0.0, 0.0), (2.0, 0.0), (2.0, 1.0)], 3.0),
             // A corner on a straight side.
             (&[(0.0, 0.0), (1.0, 0.0), (2.0, 0.0), (0.0, 2.0)], 2.0),
             // A dart.
@@ -136,10 +111,7 @@ mod tests {
             assert_eq!(triangles.len(), polygon.len() - 2);
             let areas: Vec<f64> = triangles.iter().map(|t| area(&points, t)).collect();
             assert!(areas.iter().all(|a| a * expected > 0.0), "{areas:?}");
-            assert!(
-                (areas.iter().sum::<f64>() - expected).abs() < 1e-12,
-                "{areas:?}"
-            );
+            assert!((areas.iter().sum::<f64>() - expected).abs() < 1e-12, "{areas:?}");
         }
     }
 
@@ -147,10 +119,7 @@ mod tests {
     fn polygons_without_area_or_crossing_themselves_are_refused_by_number() {
         let (polygon, points) = outline(&[(0.0, 0.0), (1.0, 1.0), (2.0, 2.0)]);
         let flat = triangulate(7, &polygon, &points);
-        assert!(
-            matches!(flat, Err(FoldError::ZeroArea { face: 7, .. })),
-            "{flat:?}"
-        );
+        assert!(matches!(flat, Err(FoldError::ZeroArea { face: 7, .. })), "{flat:?}");
         let (polygon, points) = outline(&[(0.0, 0.0), (3.0, 2.0), (3.0, 0.0), (0.0, 1.0)]);
         let crossed = triangulate(3, &polygon, &points);
         assert_eq!(crossed, Err(FoldError::NotSimple { face: 3 }));

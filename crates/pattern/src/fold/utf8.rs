@@ -17,11 +17,7 @@ pub(super) struct Utf8Reader<R> {
 
 impl<R: Read> Utf8Reader<R> {
     pub(super) fn new(inner: R) -> Self {
-        Self {
-            inner,
-            cut: Vec::new(),
-            valid: 0,
-        }
+        Self { inner, cut: Vec::new(), valid: 0 }
     }
 
     fn take_in(&mut self, bytes: &[u8]) -> io::Result<()> {
@@ -84,23 +80,13 @@ mod tests {
 
     #[test]
     fn text_is_accepted_wherever_it_is_cut_exactly_if_it_is_utf8() {
-        let texts: [&[u8]; 6] = [
-            "aé€😀b".as_bytes(),
-            b"plain",
-            b"",
-            b"a\xffb",
-            b"cut \xe2\x82",
-            b"\xc3(",
-        ];
+        let texts: [&[u8]; 6] =
+            ["aé€😀b".as_bytes(), b"plain", b"", b"a\xffb", b"cut \xe2\x82", b"\xc3("];
         for text in texts {
             for step in 1..=8 {
                 let mut out = Vec::new();
                 let read = Utf8Reader::new(Slow(text, step)).read_to_end(&mut out);
-                assert_eq!(
-                    read.is_ok(),
-                    str::from_utf8(text).is_ok(),
-                    "{text:?} by {step}"
-                );
+                assert_eq!(read.is_ok(), str::from_utf8(text).is_ok(), "{text:?} by {step}");
                 assert!(read.is_err() || out == text);
             }
         }

@@ -38,32 +38,17 @@ impl CreasePattern<'_> {
             ("file_creator", json!(self.creator)),
             ("file_title", json!(self.title)),
         ];
-        keys.extend(
-            self.description
-                .map(|text| ("file_description", json!(text))),
-        );
+        keys.extend(self.description.map(|text| ("file_description", json!(text))));
         keys.extend([
             ("file_classes", json!(self.file_classes)),
             ("frame_title", json!("crease pattern")),
             ("frame_classes", json!(["creasePattern"])),
-            (
-                "frame_attributes",
-                json!(["2D", "manifold", "orientable", "noCuts", "noJoins"]),
-            ),
+            ("frame_attributes", json!(["2D", "manifold", "orientable", "noCuts", "noJoins"])),
             ("frame_unit", json!(self.unit)),
-            (
-                "foldmotion:unitLength",
-                json!(sheet.unit_length * self.scale),
-            ),
+            ("foldmotion:unitLength", json!(sheet.unit_length * self.scale)),
             ("vertices_coords", vertices.collect()),
-            (
-                "edges_vertices",
-                of_edges(&|(edge, _)| json!(edge.vertices)),
-            ),
-            (
-                "edges_assignment",
-                of_edges(&|(edge, _)| json!(edge.assignment)),
-            ),
+            ("edges_vertices", of_edges(&|(edge, _)| json!(edge.vertices))),
+            ("edges_assignment", of_edges(&|(edge, _)| json!(edge.assignment))),
             ("edges_foldAngle", of_edges(&|edge| json!(degrees(edge)))),
         ]);
         keys.extend(self.faces());

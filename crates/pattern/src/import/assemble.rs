@@ -32,33 +32,17 @@ pub(super) struct Assembled {
 pub(super) fn assemble(plan: &Plan, warnings: &mut Warnings) -> Result<Assembled, ImportError> {
     let lines: BTreeMap<[u32; 2], u32> =
         (0..).zip(&plan.lines).map(|(i, l)| (l.key(), i)).collect();
-    let Triangles {
-        mut corners,
-        facets: face_facets,
-    } = triangles(plan)?;
+    let Triangles { mut corners, facets: face_facets } = triangles(plan)?;
     check_manifold(plan, &lines, &corners, &face_facets)?;
-    let role = |key: [u32; 2]| {
-        lines
-            .get(&key)
-            .map_or(Role::Facet, |&i| plan.lines[i as usize].role)
-    };
+    let role =
+        |key: [u32; 2]| lines.get(&key).map_or(Role::Facet, |&i| plan.lines[i as usize].role);
     let origins = open_cuts(&mut corners, plan.points.len(), role);
     let vertex_points = without_unused(&mut corners, &origins);
-    let vertices: Vec<_> = vertex_points
-        .iter()
-        .map(|&p| plan.points[p as usize])
-        .collect();
+    let vertices: Vec<_> = vertex_points.iter().map(|&p| plan.points[p as usize]).collect();
     split_again(&mut corners, &face_facets, &vertices);
-    let assembly = Assembly {
-        plan,
-        lines,
-        vertex_points: &vertex_points,
-    };
+    let assembly = Assembly { plan, lines, vertex_points: &vertex_points };
     let (edges, edge_lines) = assembly.edges(&corners, warnings)?;
-    let drawn = edges
-        .iter()
-        .zip(&edge_lines)
-        .filter(|(_, line)| line.is_some());
+    let drawn = edges.iter().zip(&edge_lines).filter(|(_, line)| line.is_some());
     let lengths = drawn.map(|(edge, _)| {
         let [a, b] = edge.vertices.map(|v| vertices[v as usize]);
         a.distance(b)
@@ -71,29 +55,15 @@ pub(super) fn assemble(plan: &Plan, warnings: &mut Warnings) -> Result<Assembled
         .map(|(line, edge)| if edge.is_crease() { target(line) } else { 0.0 });
     let targets = targets.collect();
     let facets = facets(plan.facets.len(), &corners, &face_facets);
-    let sheet = Sheet {
-        vertices,
-        edges,
-        faces: corners,
-        face_facets,
-        facets,
-        unit_length,
-    };
-    let assembled = Assembled {
-        sheet,
-        targets,
-        edge_lines,
-        vertex_points,
-    };
+    let sheet = Sheet { vertices, edges, faces: corners, face_facets, facets, unit_length };
+    let assembled = Assembled { sheet, targets, edge_lines, vertex_points };
     assembled.check_connected(plan)?;
     Ok(assembled)
 }
 
 fn sources_of(plan: &Plan, lines: &BTreeMap<[u32; 2], u32>, key: [u32; 2]) -> Vec<Source> {
     let line = lines.get(&key).map(|&i| plan.lines[i as usize]);
-    line.iter()
-        .map(|l| plan.sources[l.source as usize].clone())
-        .collect()
+    line.iter().map(|l| plan.sources[l.source as usize].clone()).collect()
 }
 
 /// Refuses more than two triangles at a side, and two on the same side of it.
@@ -104,12 +74,7 @@ fn check_manifold(
     face_facets: &[u32],
 ) -> Result<(), ImportError> {
     for (ends, starts) in sides(corners) {
-        let facets = || {
-            starts
-                .iter()
-                .map(|&s| face_facets[s as usize / 3])
-                .collect()
-        };
+        let facets = || starts.iter().map(|&s| face_facets[s as usize / 3]).collect();
         let at = |start: u32| corners[start as usize / 3][start as usize % 3];
         let sources = || sources_of(plan, lines, ends);
         match *starts.as_slice() {
@@ -184,10 +149,7 @@ impl Assembly<'_> {
             let [a, b] = ends.map(point);
             self.lines.get(&[a.min(b), a.max(b)]).copied()
         };
-        let mut order: Vec<_> = sides
-            .iter()
-            .map(|(ends, at)| (line(*ends), *ends, at))
-            .collect();
+        let mut order: Vec<_> = sides.iter().map(|(ends, at)| (line(*ends), *ends, at)).collect();
         order.sort_by_key(|(line, ends, _)| (line.unwrap_or(u32::MAX), *ends));
         let mut edges = Vec::with_capacity(order.len());
         for (line, ends, starts) in &order {
@@ -229,17 +191,11 @@ impl Assembly<'_> {
     ) -> Result<Assignment, ImportError> {
         let Some(line) = line else {
             // A side without a line at the edge: of a face in a file that lists no such edge.
-            return Ok(if is_joined {
-                Assignment::Facet
-            } else {
-                Assignment::Border
-            });
+            return Ok(if is_joined { Assignment::Facet } else { Assignment::Border });
         };
         let source = &self.plan.sources[line.source as usize];
         match (line.role, is_joined) {
-            (Role::Border, true) => Err(ImportError::BorderInside {
-                element: source.clone(),
-            }),
+            (Role::Border, true) => Err(ImportError::BorderInside { element: source.clone() }),
             (Role::Cut, true) => {
                 warnings.add(WarningKind::ClosedCut, source);
                 Ok(Assignment::Free)
@@ -310,9 +266,7 @@ impl Assembled {
             if let Some(line) = line {
                 let source = plan.lines[*line as usize].source;
                 let piece = root(&mut joined, edge.vertices[0]);
-                first_of
-                    .entry(piece)
-                    .or_insert_with(|| plan.sources[source as usize].clone());
+                first_of.entry(piece).or_insert_with(|| plan.sources[source as usize].clone());
             }
         }
         if first_of.len() < 2 {

@@ -66,19 +66,13 @@ impl ImportedPattern {
         if !(-1.0..=1.0).contains(&fraction) {
             return Err(ImportError::Percentage { value: fraction });
         }
-        Ok(self
-            .targets
-            .iter()
-            .map(|target| target * fraction)
-            .collect())
+        Ok(self.targets.iter().map(|target| target * fraction).collect())
     }
 
     /// The edges that nothing drives and nothing holds.
     pub fn free_hinges(&self) -> impl Iterator<Item = u32> + '_ {
         let edges = self.sheet.edges.iter().zip(0..);
-        edges
-            .filter(|(edge, _)| edge.assignment == Assignment::Free)
-            .map(|(_, index)| index)
+        edges.filter(|(edge, _)| edge.assignment == Assignment::Free).map(|(_, index)| index)
     }
 
     /// The element that edge `edge` comes from; `None` for one that cuts a facet into triangles.

@@ -37,10 +37,7 @@ pub(super) fn faces(graph: &Graph) -> Faces {
         }
     }
     let face = |of: &u32| face_of_loop[*of as usize];
-    Faces {
-        face_of: trace.loop_of.iter().map(face).collect(),
-        loops,
-    }
+    Faces { face_of: trace.loop_of.iter().map(face).collect(), loops }
 }
 
 /// Outer loops by their index, each with the first vertex of its part of the graph.
@@ -173,9 +170,8 @@ impl<'a> Trace<'a> {
             }
         }
         let lines = self.graph.lines.iter();
-        let segments: Vec<[DVec2; 2]> = lines
-            .map(|line| line.ends.map(|v| self.graph.points[v as usize]))
-            .collect();
+        let segments: Vec<[DVec2; 2]> =
+            lines.map(|line| line.ends.map(|v| self.graph.points[v as usize])).collect();
         let grid = Grid::new(&segments, 0.0);
         let mut from_left: Vec<(&u32, &u32)> = outer.iter().collect();
         let points = &self.graph.points;

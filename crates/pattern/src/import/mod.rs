@@ -108,8 +108,5 @@ fn check_size(bytes: &[u8]) -> Result<(), ImportError> {
     if bytes.len() <= LARGEST_IMPORT_FILE {
         return Ok(());
     }
-    Err(ImportError::TooLarge {
-        size: bytes.len(),
-        limit: LARGEST_IMPORT_FILE,
-    })
+    Err(ImportError::TooLarge { size: bytes.len(), limit: LARGEST_IMPORT_FILE })
 }

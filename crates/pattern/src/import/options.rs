@@ -47,10 +47,7 @@ impl MergeTolerance {
         if (1e-12..=0.1).contains(&relative) {
             Ok(relative * diagonal)
         } else {
-            Err(ImportError::Tolerance {
-                value: relative * diagonal,
-                diagonal,
-            })
+            Err(ImportError::Tolerance { value: relative * diagonal, diagonal })
         }
     }
 }

@@ -34,11 +34,7 @@ pub(super) fn plan(
 ) -> Result<Plan, ImportError> {
     let faces = faces(&graph);
     let is_sheet = sheet_faces(&graph, &faces, &sources)?;
-    let Graph {
-        points,
-        origins,
-        lines,
-    } = graph;
+    let Graph { points, origins, lines } = graph;
     let mut kept = Vec::with_capacity(lines.len());
     for (index, mut line) in lines.into_iter().enumerate() {
         let sides = [0, 1].map(|side| is_sheet[faces.face_of[2 * index + side] as usize]);
@@ -58,13 +54,7 @@ pub(super) fn plan(
     if facets.is_empty() {
         return Err(ImportError::NoFaces);
     }
-    Ok(Plan {
-        points,
-        origins,
-        lines: kept,
-        facets,
-        sources,
-    })
+    Ok(Plan { points, origins, lines: kept, facets, sources })
 }
 
 /// Which faces belong to the sheet: those inside the border lines; where these bound nothing, or not all around, those
@@ -86,9 +76,7 @@ fn sheet_faces(graph: &Graph, faces: &Faces, sources: &[Source]) -> Result<Vec<b
         (Ok(is_sheet), _) => return Ok(is_sheet),
         (Err(line), Ok(_)) | (Err(_), Err(line)) => line,
     };
-    Err(ImportError::BorderInside {
-        element: sources[graph.lines[wrong].source as usize].clone(),
-    })
+    Err(ImportError::BorderInside { element: sources[graph.lines[wrong].source as usize].clone() })
 }
 
 /// Which faces an odd number of lines that part parts from face 0; otherwise the first line that contradicts the

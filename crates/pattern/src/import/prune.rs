@@ -27,9 +27,8 @@ impl Graph {
     pub(super) fn drop_strays(&mut self, sources: &[Source], warnings: &mut Warnings) {
         let mut at = self.lines_at();
         let mut is_dropped = vec![false; self.lines.len()];
-        let mut ends: Vec<u32> = (0..self.points.len() as u32)
-            .filter(|&v| at[v as usize].len() == 1)
-            .collect();
+        let mut ends: Vec<u32> =
+            (0..self.points.len() as u32).filter(|&v| at[v as usize].len() == 1).collect();
         while let Some(vertex) = ends.pop() {
             let &[index] = at[vertex as usize].as_slice() else {
                 continue;

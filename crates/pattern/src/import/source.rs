@@ -32,12 +32,7 @@ pub enum Source {
 impl Source {
     pub(super) fn svg(tag: &str, id: Option<&str>, [line, column]: [u32; 2]) -> Self {
         let short = |text: &str| text.chars().take(LONGEST_ID).collect();
-        Self::Svg {
-            tag: short(tag),
-            id: id.map(short),
-            line,
-            column,
-        }
+        Self::Svg { tag: short(tag), id: id.map(short), line, column }
     }
 }
 
@@ -48,12 +43,7 @@ impl fmt::Display for Source {
             Self::FoldFace(index) => write!(f, "face {index}"),
             Self::FoldVertex(index) => write!(f, "vertex {index}"),
             Self::FoldFrame(index) => write!(f, "file_frames[{index}]"),
-            Self::Svg {
-                tag,
-                id,
-                line,
-                column,
-            } => match id {
+            Self::Svg { tag, id, line, column } => match id {
                 Some(id) => write!(f, "<{tag} id={id:?}> (line {line})"),
                 None => write!(f, "<{tag}> (line {line}, column {column})"),
             },

@@ -72,17 +72,10 @@ pub(super) fn planar_graph(
             let drawn = splitting.origins.into_iter().map(Some);
             let mut origins: Vec<_> = drawn.collect();
             origins.resize(points.len(), None);
-            return Ok(Graph {
-                points,
-                origins,
-                lines,
-            });
+            return Ok(Graph { points, origins, lines });
         }
     }
-    Err(ImportError::Tangled {
-        passes: MOST_PASSES,
-        tolerance,
-    })
+    Err(ImportError::Tangled { passes: MOST_PASSES, tolerance })
 }
 
 impl Splitting<'_> {
@@ -140,10 +133,7 @@ impl Splitting<'_> {
             if stops.len() > 2 {
                 self.warn(WarningKind::Split, line);
             }
-            pieces.extend(stops.windows(2).map(|ends| Line {
-                ends: [ends[0], ends[1]],
-                ..*line
-            }));
+            pieces.extend(stops.windows(2).map(|ends| Line { ends: [ends[0], ends[1]], ..*line }));
         }
         Ok(pieces)
     }
@@ -229,11 +219,7 @@ impl Splitting<'_> {
                     let is_same = last.role == line.role && last.target == line.target;
                     if last.source != line.source {
                         self.warn(
-                            if is_same {
-                                WarningKind::Duplicate
-                            } else {
-                                WarningKind::Conflict
-                            },
+                            if is_same { WarningKind::Duplicate } else { WarningKind::Conflict },
                             &line,
                         );
                     }
@@ -262,9 +248,5 @@ fn crossing([a, b]: [DVec2; 2], [c, d]: [DVec2; 2]) -> DVec2 {
     let (u, v) = (b - a, d - c);
     let share = (c - a).perp_dot(v) / u.perp_dot(v);
     // Nearly parallel lines may put it anywhere on them.
-    if share.is_finite() {
-        a + u * share.clamp(0.0, 1.0)
-    } else {
-        a.midpoint(b)
-    }
+    if share.is_finite() { a + u * share.clamp(0.0, 1.0) } else { a.midpoint(b) }
 }

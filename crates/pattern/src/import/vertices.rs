@@ -16,27 +16,18 @@ pub(super) struct Vertices {
 
 impl Vertices {
     pub(super) fn new(tolerance: f64) -> Self {
-        Self {
-            points: Vec::new(),
-            tolerance,
-            squares: HashMap::new(),
-        }
+        Self { points: Vec::new(), tolerance, squares: HashMap::new() }
     }
 
     fn square(&self, point: DVec2) -> [i64; 2] {
-        (point / self.tolerance)
-            .floor()
-            .to_array()
-            .map(|c| c as i64)
+        (point / self.tolerance).floor().to_array().map(|c| c as i64)
     }
 
     /// The nearest vertex within the tolerance, the first of those equally near.
     fn near(&self, point: DVec2) -> Option<u32> {
         let [x, y] = self.square(point);
         let around = (-1..=1).flat_map(|dx| (-1..=1).map(move |dy| [x + dx, y + dy]));
-        let held = around
-            .filter_map(|square| self.squares.get(&square))
-            .flatten();
+        let held = around.filter_map(|square| self.squares.get(&square)).flatten();
         let distance = |&v: &u32| (self.points[v as usize].distance(point), v);
         held.map(distance)
             .filter(|(distance, _)| *distance <= self.tolerance)
@@ -49,10 +40,7 @@ impl Vertices {
         self.near(point).unwrap_or_else(|| {
             let vertex = self.points.len() as u32;
             self.points.push(point);
-            self.squares
-                .entry(self.square(point))
-                .or_default()
-                .push(vertex);
+            self.squares.entry(self.square(point)).or_default().push(vertex);
             vertex
         })
     }
@@ -65,14 +53,11 @@ mod tests {
     #[test]
     fn the_first_of_near_points_represents_all_and_chains_do_not_drift() {
         let mut vertices = Vertices::new(1.0);
-        let added: Vec<u32> = [0.0, 0.9, 1.8, 2.7, -0.9]
-            .map(|x| vertices.add(DVec2::new(x, -x)))
-            .to_vec();
+        let added: Vec<u32> =
+            [0.0, 0.9, 1.8, 2.7, -0.9].map(|x| vertices.add(DVec2::new(x, -x))).to_vec();
         // The distance between neighbours is 0.9·√2 > 1.
         assert_eq!(added, [0, 1, 2, 3, 4]);
-        let added: Vec<u32> = [0.5, 0.7, 1.3]
-            .map(|x| vertices.add(DVec2::new(x, -x)))
-            .to_vec();
+        let added: Vec<u32> = [0.5, 0.7, 1.3].map(|x| vertices.add(DVec2::new(x, -x))).to_vec();
         assert_eq!(added, [1, 1, 1]);
         assert_eq!(vertices.points.len(), 5);
     }

@@ -52,22 +52,10 @@ impl ImportedPattern {
         file.insert("frame_unit".into(), json!(self.unit.name()));
         file.insert("foldmotion:unitLength".into(), json!(sheet.unit_length));
         let position = |v: &glam::DVec2| json!(v.to_array());
-        file.insert(
-            "vertices_coords".into(),
-            sheet.vertices.iter().map(position).collect(),
-        );
-        file.insert(
-            "edges_vertices".into(),
-            edges(&|e| json!(sheet.edges[e].vertices)),
-        );
-        file.insert(
-            "edges_assignment".into(),
-            edges(&|e| json!(sheet.edges[e].assignment)),
-        );
-        file.insert(
-            "edges_foldAngle".into(),
-            edges(&|e| json!(self.target_degrees(e))),
-        );
+        file.insert("vertices_coords".into(), sheet.vertices.iter().map(position).collect());
+        file.insert("edges_vertices".into(), edges(&|e| json!(sheet.edges[e].vertices)));
+        file.insert("edges_assignment".into(), edges(&|e| json!(sheet.edges[e].assignment)));
+        file.insert("edges_foldAngle".into(), edges(&|e| json!(self.target_degrees(e))));
         file.insert("faces_vertices".into(), written.faces.clone());
         let frames: Vec<Value> = self
             .stages
@@ -149,8 +137,7 @@ impl<'a> WrittenElements<'a> {
     fn kept(&self) -> Map<String, Value> {
         let keys = self.imported.keys.iter();
         let kept = keys.filter(|(key, _)| !OWN.contains(&key.as_str()));
-        kept.map(|(key, value)| (key.clone(), self.reordered(key, value)))
-            .collect()
+        kept.map(|(key, value)| (key.clone(), self.reordered(key, value))).collect()
     }
 
     /// A list of the file in the order of the sheet; any other value as it is.
@@ -161,9 +148,7 @@ impl<'a> WrittenElements<'a> {
         };
         let take = |from: Vec<Option<u32>>| -> Value {
             let entry = |index: Option<u32>| list.get(index? as usize).cloned();
-            from.into_iter()
-                .map(|i| entry(i).unwrap_or(Value::Null))
-                .collect()
+            from.into_iter().map(|i| entry(i).unwrap_or(Value::Null)).collect()
         };
         // The element is named first (`edges_name:key`) or after a prefix (`name:edges_key`).
         let of = |kind: &str| key.split(':').any(|part| part.starts_with(kind));

@@ -16,19 +16,10 @@ const POINTS: usize = 60;
 pub(super) const AIRFOIL: ProfileModel = ProfileModel {
     name: "airfoil",
     title: "airfoil, section NACA 4415",
-    shape: Shape::Naca(NacaSection {
-        camber: 0.04,
-        camber_at: 0.4,
-        thickness: 0.15,
-    }),
+    shape: Shape::Naca(NacaSection { camber: 0.04, camber_at: 0.4, thickness: 0.15 }),
     closure: Closure::Corner,
     rows: 26,
-    columns: CaseColumns {
-        e: 7,
-        t: 10,
-        s: 5,
-        ours: true,
-    },
+    columns: CaseColumns { e: 7, t: 10, s: 5, ours: true },
     source: "NACA 4415 by its formula (NACA report 460) with a closed trailing edge; figure 6h of the paper names no section",
 };
 
@@ -57,10 +48,7 @@ impl NacaSection {
             (m / (p * p) * x * (2.0 * p - x), 2.0 * m / (p * p) * (p - x))
         } else {
             let scale = m / ((1.0 - p) * (1.0 - p));
-            (
-                scale * (1.0 - 2.0 * p + x * (2.0 * p - x)),
-                2.0 * scale * (p - x),
-            )
+            (scale * (1.0 - 2.0 * p + x * (2.0 * p - x)), 2.0 * scale * (p - x))
         };
         let normal = DVec2::new(-slope, 1.0).normalize();
         let side = half.copysign(root);
@@ -82,17 +70,10 @@ mod tests {
     #[test]
     fn the_section_is_as_thick_as_its_number_says_and_closed_at_the_trailing_edge() {
         // NACA 0012: half thickness 0.06 at x = 0.3 (Abbott and von Doenhoff, appendix I: 0.06002).
-        let section = NacaSection {
-            camber: 0.0,
-            camber_at: 0.4,
-            thickness: 0.12,
-        };
+        let section = NacaSection { camber: 0.0, camber_at: 0.4, thickness: 0.12 };
         let beta = (2.0f64 * 0.3 - 1.0).acos();
         let upper = section.point(beta);
-        assert!(
-            (upper - DVec2::new(0.3, 0.06002)).length() < 1e-4,
-            "{upper}"
-        );
+        assert!((upper - DVec2::new(0.3, 0.06002)).length() < 1e-4, "{upper}");
         let lower = section.point(std::f64::consts::TAU - beta);
         assert!((upper.y + lower.y).abs() < 1e-15);
         assert!(section.point(0.0).distance(DVec2::X) < 1e-15);
@@ -101,18 +82,10 @@ mod tests {
 
     #[test]
     fn the_mean_line_reaches_its_camber_where_its_number_says() {
-        let Shape::Naca(section) = AIRFOIL.shape else {
-            panic!("{:?}", AIRFOIL.shape)
-        };
+        let Shape::Naca(section) = AIRFOIL.shape else { panic!("{:?}", AIRFOIL.shape) };
         let beta = (2.0f64 * 0.4 - 1.0).acos();
-        let (upper, lower) = (
-            section.point(beta),
-            section.point(std::f64::consts::TAU - beta),
-        );
+        let (upper, lower) = (section.point(beta), section.point(std::f64::consts::TAU - beta));
         let middle = (upper + lower) / 2.0;
-        assert!(
-            (middle - DVec2::new(0.4, 0.04)).length() < 1e-15,
-            "{middle}"
-        );
+        assert!((middle - DVec2::new(0.4, 0.04)).length() < 1e-15, "{middle}");
     }
 }

@@ -13,12 +13,7 @@ pub(super) const BUNNY: ProfileModel = ProfileModel {
     shape: Shape::Points(&OUTLINE),
     closure: Closure::Smooth,
     rows: 100,
-    columns: CaseColumns {
-        e: 5,
-        t: 8,
-        s: 3,
-        ours: false,
-    },
+    columns: CaseColumns { e: 5, t: 8, s: 3, ours: false },
     source: "silhouette of the Stanford 3D Scanning Repository bunny on the x-y plane, after figure 6i of the paper",
 };
 

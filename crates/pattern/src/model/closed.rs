@@ -40,12 +40,7 @@ pub(super) const MUSHROOM: ProfileModel = ProfileModel {
     ]),
     closure: Closure::Corner,
     rows: 14,
-    columns: CaseColumns {
-        e: 3,
-        t: 5,
-        s: 2,
-        ours: false,
-    },
+    columns: CaseColumns { e: 3, t: 5, s: 2, ours: false },
     source: "drawn for foldmotion after figure 6f and table 1 (f) of the paper, which prints no control points",
 };
 
@@ -83,11 +78,6 @@ pub(super) const WHALE: ProfileModel = ProfileModel {
     ]),
     closure: Closure::Corner,
     rows: 20,
-    columns: CaseColumns {
-        e: 3,
-        t: 4,
-        s: 2,
-        ours: true,
-    },
+    columns: CaseColumns { e: 3, t: 4, s: 2, ours: true },
     source: "drawn for foldmotion after figure 6g and table 1 (g) of the paper, which prints no control points",
 };

@@ -31,12 +31,7 @@ pub(super) const SHELTER: ProfileModel = ProfileModel {
     ]),
     closure: Closure::Open,
     rows: 7,
-    columns: CaseColumns {
-        e: 5,
-        t: 7,
-        s: 3,
-        ours: true,
-    },
+    columns: CaseColumns { e: 5, t: 7, s: 3, ours: true },
     source: "drawn for foldmotion after figure 6a and table 1 (a) of the paper, which prints no control points",
 };
 
@@ -66,12 +61,7 @@ pub(super) const CHAIR: ProfileModel = ProfileModel {
     ]),
     closure: Closure::Open,
     rows: 9,
-    columns: CaseColumns {
-        e: 4,
-        t: 6,
-        s: 2,
-        ours: false,
-    },
+    columns: CaseColumns { e: 4, t: 6, s: 2, ours: false },
     source: "drawn for foldmotion after figure 6b and table 1 (b) of the paper, which prints no control points",
 };
 
@@ -100,12 +90,7 @@ pub(super) const ROLLING_PAPER: ProfileModel = ProfileModel {
     ]),
     closure: Closure::Open,
     rows: 12,
-    columns: CaseColumns {
-        e: 4,
-        t: 6,
-        s: 3,
-        ours: true,
-    },
+    columns: CaseColumns { e: 4, t: 6, s: 3, ours: true },
     source: "drawn for foldmotion after figure 6c and table 1 (c) of the paper, which prints no control points",
 };
 
@@ -137,11 +122,6 @@ pub(super) const OMEGA: ProfileModel = ProfileModel {
     ]),
     closure: Closure::Open,
     rows: 35,
-    columns: CaseColumns {
-        e: 5,
-        t: 6,
-        s: 4,
-        ours: false,
-    },
+    columns: CaseColumns { e: 5, t: 6, s: 4, ours: false },
     source: "drawn for foldmotion after figure 6e and table 1 (e) of the paper, which prints no control points",
 };

@@ -15,12 +15,7 @@ pub(super) const FERMAT_SPIRAL: ProfileModel = ProfileModel {
     shape: Shape::FermatSpiral { turns: 3.0 },
     closure: Closure::Open,
     rows: 100,
-    columns: CaseColumns {
-        e: 2,
-        t: 3,
-        s: 1,
-        ours: true,
-    },
+    columns: CaseColumns { e: 2, t: 3, s: 1, ours: true },
     source: "r^2 = a^2 theta (figure 6d of the paper); both arms to theta = 6 pi are ours",
 };
 

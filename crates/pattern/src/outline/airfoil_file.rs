@@ -28,10 +28,7 @@ pub(super) fn parse(text: &str) -> Result<Outline, OutlineError> {
             continue;
         }
         let [x, z] = values[..] else {
-            return Err(OutlineError::NotAPoint {
-                line: index + 1,
-                count: values.len(),
-            });
+            return Err(OutlineError::NotAPoint { line: index + 1, count: values.len() });
         };
         let point = DVec2::new(number(x, index + 1)?, number(z, index + 1)?);
         rows.push((index + 1, point));
@@ -44,11 +41,7 @@ pub(super) fn parse(text: &str) -> Result<Outline, OutlineError> {
     let points: Vec<_> = rows.iter().map(|row| row.1).collect();
     // No section of unit chord has a point at (2, 2) or beyond: these are numbers of points.
     let is_lednicer = first.cmpge(DVec2::splat(2.0)).all() && first.fract() == DVec2::ZERO;
-    let points = if is_lednicer {
-        around(line, first, &points[1..])?
-    } else {
-        points
-    };
+    let points = if is_lednicer { around(line, first, &points[1..])? } else { points };
     Ok(closed(points))
 }
 
@@ -57,12 +50,7 @@ fn around(line: usize, counts: DVec2, points: &[DVec2]) -> Result<Vec<DVec2>, Ou
     let [upper, lower] = counts.to_array();
     let split = (0..=points.len()).find(|&n| n as f64 == upper);
     let Some(split) = split.filter(|&n| (points.len() - n) as f64 == lower) else {
-        return Err(OutlineError::PointCounts {
-            line,
-            upper,
-            lower,
-            found: points.len(),
-        });
+        return Err(OutlineError::PointCounts { line, upper, lower, found: points.len() });
     };
     let (above, below) = points.split_at(split);
     let is_nose_shared = above.first() == below.first();
@@ -81,8 +69,5 @@ fn closed(mut points: Vec<DVec2>) -> Outline {
         points[0] = middle;
         points[last] = middle;
     }
-    Outline {
-        points,
-        closed: true,
-    }
+    Outline { points, closed: true }
 }

@@ -69,23 +69,16 @@ impl<'a> Ends<'a> {
     fn new(segments: &'a [Segment], tolerance: f64) -> Self {
         let mut sorted: Vec<_> = (0..segments.len()).flat_map(|k| [(k, 0), (k, 1)]).collect();
         sorted.sort_by(|&(a, i), &(b, j)| segments[a].ends[i].x.total_cmp(&segments[b].ends[j].x));
-        Self {
-            segments,
-            tolerance,
-            sorted,
-        }
+        Self { segments, tolerance, sorted }
     }
 
     /// The ends of other segments at the end `side` of segment `k`; more than two are not counted.
     fn others(&self, k: usize, side: usize) -> Vec<(usize, usize)> {
         let point = self.segments[k].ends[side];
         let at = |&(k, side): &(usize, usize)| self.segments[k].ends[side];
-        let from = self
-            .sorted
-            .partition_point(|end| at(end).x < point.x - self.tolerance);
-        let near = self.sorted[from..]
-            .iter()
-            .take_while(|end| at(end).x <= point.x + self.tolerance);
+        let from = self.sorted.partition_point(|end| at(end).x < point.x - self.tolerance);
+        let near =
+            self.sorted[from..].iter().take_while(|end| at(end).x <= point.x + self.tolerance);
         near.filter(|end| end.0 != k && at(end).distance(point) <= self.tolerance)
             .take(2)
             .copied()

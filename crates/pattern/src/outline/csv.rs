@@ -21,17 +21,12 @@ pub(super) fn parse(text: &str) -> Result<Outline, OutlineError> {
             continue;
         }
         let [x, z] = values[..] else {
-            return Err(OutlineError::NotAPoint {
-                line: index + 1,
-                count: values.len(),
-            });
+            return Err(OutlineError::NotAPoint { line: index + 1, count: values.len() });
         };
         points.push(DVec2::new(number(x, index + 1)?, number(z, index + 1)?));
     }
     if points.is_empty() {
-        return Err(OutlineError::Empty {
-            expected: "a line needs two numbers, x and z",
-        });
+        return Err(OutlineError::Empty { expected: "a line needs two numbers, x and z" });
     }
     Ok(Outline::of(points))
 }

@@ -79,23 +79,13 @@ impl Drawing {
     fn begin(&mut self, name: &str, before: Entity, line: usize) -> Entity {
         match (name, before) {
             ("LWPOLYLINE" | "POLYLINE", _) => {
-                self.polylines.push(Polyline {
-                    line,
-                    ..Polyline::default()
-                });
-                if name == "POLYLINE" {
-                    Entity::Heavy
-                } else {
-                    Entity::Light
-                }
+                self.polylines.push(Polyline { line, ..Polyline::default() });
+                if name == "POLYLINE" { Entity::Heavy } else { Entity::Light }
             }
             // Vertices belong to the polyline before them until SEQEND.
             ("VERTEX", Entity::Heavy | Entity::Vertex) => Entity::Vertex,
             ("LINE", _) => {
-                self.segments.push(Segment {
-                    line,
-                    ends: [DVec2::ZERO; 2],
-                });
+                self.segments.push(Segment { line, ends: [DVec2::ZERO; 2] });
                 Entity::Line
             }
             _ => {
@@ -141,10 +131,9 @@ impl Drawing {
             (0, None) => Err(OutlineError::Empty {
                 expected: "a drawing needs one LWPOLYLINE or POLYLINE, or a chain of LINEs",
             }),
-            (count, _) => Err(OutlineError::SeveralPolylines {
-                count,
-                line: self.polylines[1].line,
-            }),
+            (count, _) => {
+                Err(OutlineError::SeveralPolylines { count, line: self.polylines[1].line })
+            }
         }
     }
 }
@@ -168,10 +157,7 @@ impl Polyline {
                 }
             }
             (Entity::Light | Entity::Vertex, 42) if number(value, line)? != 0.0 => {
-                return Err(OutlineError::Bulge {
-                    line,
-                    value: value.to_owned(),
-                });
+                return Err(OutlineError::Bulge { line, value: value.to_owned() });
             }
             (Entity::Light, 90) => self.count = Some(whole(value, line)? as usize),
             (Entity::Light | Entity::Heavy, 70) => {
@@ -205,8 +191,7 @@ impl Polyline {
 }
 
 fn whole(value: &str, line: usize) -> Result<u32, OutlineError> {
-    value.parse().map_err(|_| OutlineError::NotANumber {
-        line,
-        value: value.chars().take(40).collect(),
-    })
+    value
+        .parse()
+        .map_err(|_| OutlineError::NotANumber { line, value: value.chars().take(40).collect() })
 }

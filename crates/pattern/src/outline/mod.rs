@@ -42,9 +42,8 @@ impl Outline {
     /// An unknown ending, a file that cannot be read or is above 16 MiB, and what is wrong in it, with the line.
     pub fn read(path: &Path) -> Result<Self, OutlineError> {
         let format = format_of(path)?;
-        let unreadable = |source: std::io::Error| OutlineError::Read {
-            message: source.to_string(),
-        };
+        let unreadable =
+            |source: std::io::Error| OutlineError::Read { message: source.to_string() };
         let data = std::fs::metadata(path).map_err(unreadable)?;
         if !data.is_file() {
             return Err(OutlineError::Read {
@@ -54,10 +53,7 @@ impl Outline {
         }
         let size = data.len();
         if size > LARGEST_OUTLINE_FILE {
-            return Err(OutlineError::TooLarge {
-                size,
-                limit: LARGEST_OUTLINE_FILE,
-            });
+            return Err(OutlineError::TooLarge { size, limit: LARGEST_OUTLINE_FILE });
         }
         let bytes = std::fs::read(path).map_err(unreadable)?;
         // Names and comments may be in any encoding; numbers are ASCII.
@@ -85,9 +81,7 @@ fn format_of(path: &Path) -> Result<Format, OutlineError> {
         "csv" => Ok(Format::Csv),
         "dat" => Ok(Format::Airfoil),
         "dxf" => Ok(Format::Dxf),
-        _ => Err(OutlineError::UnknownEnding {
-            ending: ending.into_owned(),
-        }),
+        _ => Err(OutlineError::UnknownEnding { ending: ending.into_owned() }),
     }
 }
 

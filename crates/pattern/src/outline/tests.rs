@@ -55,13 +55,7 @@ const LEDNICER: &str = "NACA thing 12\n 3. 3.\n\n 0.0 0.0\n 0.5 0.08\n 1.00 0.00
 
 #[test]
 fn both_orders_of_an_airfoil_are_the_same_outline_closed_at_the_middle_of_its_trailing_edge() {
-    let expected = points(&[
-        [1.0, 0.0],
-        [0.5, 0.08],
-        [0.0, 0.0],
-        [0.5, -0.04],
-        [1.0, 0.0],
-    ]);
+    let expected = points(&[[1.0, 0.0], [0.5, 0.08], [0.0, 0.0], [0.5, -0.04], [1.0, 0.0]]);
     for text in [SELIG, LEDNICER] {
         let outline = read(text, Format::Airfoil);
         assert_eq!(outline.points, expected);
@@ -87,25 +81,10 @@ fn a_wide_trailing_edge_is_left_as_it_is() {
 #[test]
 fn airfoils_with_errors_are_refused_with_their_line() {
     let counts = refused(&LEDNICER.replace("3. 3.", "3. 4."), Format::Airfoil);
-    assert_eq!(
-        counts,
-        OutlineError::PointCounts {
-            line: 2,
-            upper: 3.0,
-            lower: 4.0,
-            found: 6
-        }
-    );
-    assert!(matches!(
-        refused("name\n", Format::Airfoil),
-        OutlineError::Empty { .. }
-    ));
+    assert_eq!(counts, OutlineError::PointCounts { line: 2, upper: 3.0, lower: 4.0, found: 6 });
+    assert!(matches!(refused("name\n", Format::Airfoil), OutlineError::Empty { .. }));
     let broken = SELIG.replace("-0.04", "oops");
-    assert!(
-        refused(&broken, Format::Airfoil)
-            .to_string()
-            .starts_with("line 5: \"oops\"")
-    );
+    assert!(refused(&broken, Format::Airfoil).to_string().starts_with("line 5: \"oops\""));
     let triple = SELIG.replace("-0.04", "-0.04 7");
     assert!(matches!(
         refused(&triple, Format::Airfoil),
@@ -131,27 +110,12 @@ fn drawings_with_errors_are_refused_by_name() {
     let cases = [
         (HEAVY.replace("42\n0.0", "42\n0.5"), "arc (bulge 0.5)"),
         (HEAVY.replace("70\n0", "70\n4"), "curve-fitted"),
-        (
-            format!("{}{LIGHT}", HEAVY.replace("0\nEOF\n", "")),
-            "2 polylines",
-        ),
-        (
-            LIGHT.replace("LWPOLYLINE", "SPLINE"),
-            "line 6: SPLINE is not read",
-        ),
-        (
-            LIGHT.replace("LWPOLYLINE", "ARC"),
-            "line 6: ARC is not read",
-        ),
+        (format!("{}{LIGHT}", HEAVY.replace("0\nEOF\n", "")), "2 polylines"),
+        (LIGHT.replace("LWPOLYLINE", "SPLINE"), "line 6: SPLINE is not read"),
+        (LIGHT.replace("LWPOLYLINE", "ARC"), "line 6: ARC is not read"),
         (LIGHT.replace("LWPOLYLINE", "TEXT"), "no points"),
-        (
-            LIGHT.replace("90\n3", "90\n4"),
-            "announces 4 vertices (code 90), but 3",
-        ),
-        (
-            LIGHT.replace("0\nENDSEC\n0\nEOF\n", ""),
-            "line 24: the drawing ends here",
-        ),
+        (LIGHT.replace("90\n3", "90\n4"), "announces 4 vertices (code 90), but 3"),
+        (LIGHT.replace("0\nENDSEC\n0\nEOF\n", ""), "line 24: the drawing ends here"),
         (LIGHT.replace("0\nEOF\n", "0\n"), "the drawing ends here"),
         (LIGHT.replace("10\n2.0", "10\ntwo"), "\"two\""),
         (LIGHT.replace("90\n3", "ninety\n3"), "group code"),
@@ -174,22 +138,14 @@ fn lines(ends: &[[f64; 4]]) -> String {
 
 #[test]
 fn lines_in_any_order_and_direction_are_one_chain() {
-    let open = [
-        [2.0, 1.0, 1.0, 0.0],
-        [0.0, 0.0, 1.0, 0.0],
-        [3.0, 1.0, 2.0, 1.000_000_1],
-    ];
+    let open = [[2.0, 1.0, 1.0, 0.0], [0.0, 0.0, 1.0, 0.0], [3.0, 1.0, 2.0, 1.000_000_1]];
     let outline = read(&lines(&open), Format::Dxf);
     let expected = [[0.0, 0.0], [1.0, 0.0], [2.0, 1.0], [3.0, 1.0]];
     assert!(!outline.closed && outline.points.len() == expected.len());
     for (point, expected) in outline.points.iter().zip(points(&expected)) {
         assert!(point.distance(expected) < 1e-6, "{point}");
     }
-    let ring = [
-        [0.0, 0.0, 1.0, 0.0],
-        [0.0, 5.0, 0.0, 0.0],
-        [1.0, 0.0, 0.0, 5.0],
-    ];
+    let ring = [[0.0, 0.0, 1.0, 0.0], [0.0, 5.0, 0.0, 0.0], [1.0, 0.0, 0.0, 5.0]];
     let outline = read(&lines(&ring), Format::Dxf);
     assert!(outline.closed);
     let expected = points(&[[0.0, 0.0], [1.0, 0.0], [0.0, 5.0], [0.0, 0.0]]);
@@ -198,19 +154,12 @@ fn lines_in_any_order_and_direction_are_one_chain() {
 
 #[test]
 fn lines_that_branch_or_lie_apart_are_refused() {
-    let branch = [
-        [0.0, 0.0, 1.0, 0.0],
-        [1.0, 0.0, 2.0, 0.0],
-        [1.0, 0.0, 1.0, 1.0],
-    ];
+    let branch = [[0.0, 0.0, 1.0, 0.0], [1.0, 0.0, 2.0, 0.0], [1.0, 0.0, 1.0, 1.0]];
     let text = refused(&lines(&branch), Format::Dxf).to_string();
     assert!(text.contains("more than two LINEs meet"), "{text}");
     let apart = [[0.0, 0.0, 1.0, 0.0], [1.5, 0.0, 2.0, 0.0]];
     let text = refused(&lines(&apart), Format::Dxf).to_string();
-    assert!(
-        text.contains("line 22") && text.contains("not joined"),
-        "{text}"
-    );
+    assert!(text.contains("line 22") && text.contains("not joined"), "{text}");
 }
 
 #[test]

@@ -50,24 +50,11 @@ impl<'a> Builder<'a> {
             let is_mid_line = |&line: &u32| is_mid(lines[line as usize].family, row);
             for line in (0..lines.len() as u32).filter(is_mid_line) {
                 let both = !units[row as usize].split;
-                builder.add_vertex(
-                    line,
-                    VertexLocation::Mid {
-                        row,
-                        lower: false,
-                        both,
-                    },
-                    row,
-                    1,
-                );
+                builder.add_vertex(line, VertexLocation::Mid { row, lower: false, both }, row, 1);
                 if !both {
                     builder.add_vertex(
                         line,
-                        VertexLocation::Mid {
-                            row,
-                            lower: true,
-                            both,
-                        },
+                        VertexLocation::Mid { row, lower: true, both },
                         row,
                         2,
                     );
@@ -82,17 +69,11 @@ impl<'a> Builder<'a> {
         let mid_distance = |row: u32| self.units[row as usize].mid_distance();
         let x = match location {
             VertexLocation::Boundary { boundary } => at(boundary),
-            VertexLocation::Mid {
-                row, lower: false, ..
-            } => at(row) - mid_distance(row),
-            VertexLocation::Mid {
-                row, lower: true, ..
-            } => at(row + 1) + mid_distance(row),
+            VertexLocation::Mid { row, lower: false, .. } => at(row) - mid_distance(row),
+            VertexLocation::Mid { row, lower: true, .. } => at(row + 1) + mid_distance(row),
         };
-        self.index
-            .insert((row, line, part), self.vertices.len() as u32);
-        self.vertices
-            .push(DVec2::new(x, self.lines[line as usize].y));
+        self.index.insert((row, line, part), self.vertices.len() as u32);
+        self.vertices.push(DVec2::new(x, self.lines[line as usize].y));
         self.locations.push((line, location));
     }
 
@@ -107,10 +88,7 @@ impl<'a> Builder<'a> {
     /// (M1, M2) of a mid line; the same vertex twice where it is not split.
     fn mids(&self, row: u32, line: u32) -> (u32, u32) {
         let upper = self.index[&(row, line, 1)];
-        (
-            upper,
-            self.index.get(&(row, line, 2)).copied().unwrap_or(upper),
-        )
+        (upper, self.index.get(&(row, line, 2)).copied().unwrap_or(upper))
     }
 
     pub(super) fn add_strip(&mut self, row: u32, left: usize, strip: Strip) {
@@ -121,12 +99,8 @@ impl<'a> Builder<'a> {
             (Strip::Half, false) => self.add_half(row, l, r),
             (Strip::Pad(column), true) => self.add_walls(row, column, l, r),
             (Strip::Pad(column), false) => {
-                let pad = [
-                    self.top(row, l),
-                    self.top(row, r),
-                    self.bottom(row, r),
-                    self.bottom(row, l),
-                ];
+                let pad =
+                    [self.top(row, l), self.top(row, r), self.bottom(row, r), self.bottom(row, l)];
                 self.add_facet(row, column, FacetKind::TopPad, &pad);
             }
         }
@@ -140,26 +114,11 @@ impl<'a> Builder<'a> {
         let column = self.lines[corner.max(mid) as usize].column;
         self.add_facet(row, column, FacetKind::Tuck, &[corner_top, mid_top, m1]);
         if m1 == m2 {
-            self.add_facet(
-                row,
-                column,
-                FacetKind::Flap,
-                &[corner_top, m1, corner_bottom],
-            );
+            self.add_facet(row, column, FacetKind::Flap, &[corner_top, m1, corner_bottom]);
         } else {
-            self.add_facet(
-                row,
-                column,
-                FacetKind::Flap,
-                &[corner_top, m1, m2, corner_bottom],
-            );
+            self.add_facet(row, column, FacetKind::Flap, &[corner_top, m1, m2, corner_bottom]);
         }
-        self.add_facet(
-            row,
-            column,
-            FacetKind::Tuck,
-            &[corner_bottom, m2, mid_bottom],
-        );
+        self.add_facet(row, column, FacetKind::Tuck, &[corner_bottom, m2, mid_bottom]);
     }
 
     fn add_walls(&mut self, row: u32, column: u32, l: u32, r: u32) {
@@ -178,19 +137,11 @@ impl<'a> Builder<'a> {
         if signed_area(&self.vertices, &polygon) < 0.0 {
             polygon.reverse();
         }
-        self.facets.push(Facet {
-            polygon,
-            row,
-            column,
-            kind,
-        });
+        self.facets.push(Facet { polygon, row, column, kind });
     }
 }
 
 fn signed_area(vertices: &[DVec2], polygon: &[u32]) -> f64 {
     let point = |i: usize| vertices[polygon[i % polygon.len()] as usize];
-    (0..polygon.len())
-        .map(|i| point(i).perp_dot(point(i + 1)))
-        .sum::<f64>()
-        / 2.0
+    (0..polygon.len()).map(|i| point(i).perp_dot(point(i + 1))).sum::<f64>() / 2.0
 }

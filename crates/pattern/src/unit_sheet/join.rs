@@ -45,30 +45,13 @@ pub(super) fn join(
             _ if angle > 0.0 => Assignment::Valley,
             _ => Assignment::Mountain,
         };
-        let near = around
-            .iter()
-            .flatten()
-            .map(|&f| &facets[face_facets[f as usize] as usize]);
+        let near = around.iter().flatten().map(|&f| &facets[face_facets[f as usize] as usize]);
         let row = near.clone().map(|f| f.row).max().unwrap_or(0);
         let column = near.map(|f| f.column).min().unwrap_or(0);
-        edges.push(Edge {
-            vertices: ends,
-            assignment,
-            kind,
-            row,
-            column,
-            faces: around,
-        });
+        edges.push(Edge { vertices: ends, assignment, kind, row, column, faces: around });
         compact_angles.push(angle);
     }
-    let sheet = Sheet {
-        vertices,
-        edges,
-        faces,
-        face_facets,
-        facets,
-        unit_length: unit.height,
-    };
+    let sheet = Sheet { vertices, edges, faces, face_facets, facets, unit_length: unit.height };
     (sheet, compact_angles)
 }
 
@@ -92,10 +75,7 @@ fn crease(
         (CreaseKind::Vertical, -PI)
     } else if both(Flap) {
         let family = lines[locations[ends[0] as usize].0 as usize].family;
-        (
-            CreaseKind::Vertical,
-            if is_mid(family, a.row) { PI } else { -PI },
-        )
+        (CreaseKind::Vertical, if is_mid(family, a.row) { PI } else { -PI })
     } else if both(Wall) {
         (CreaseKind::Pad, PI)
     } else if either(BottomPad) {

@@ -45,12 +45,7 @@ pub(super) fn lines(unit: &Unit, columns: usize, folding: Folding) -> (Vec<Line>
     for column in 0..columns as u32 {
         let start = f64::from(column) * unit.width;
         let end = f64::from(column + 1) * unit.width;
-        let line = |family, y, compact_y| Line {
-            family,
-            y,
-            compact_y,
-            column,
-        };
+        let line = |family, y, compact_y| Line { family, y, compact_y, column };
         if column == 0 {
             lines.push(line(Family::P, 0.0, 0.0));
         }
@@ -61,11 +56,7 @@ pub(super) fn lines(unit: &Unit, columns: usize, folding: Folding) -> (Vec<Line>
             lines.push(line(Family::P, start + unit.side_pad, compact_y));
         }
         strips.push(Strip::Half);
-        lines.push(line(
-            Family::Q,
-            start + unit.side_pad + unit.flap,
-            compact_y,
-        ));
+        lines.push(line(Family::Q, start + unit.side_pad + unit.flap, compact_y));
         if unit.centre_pad > 0.0 {
             compact_y += unit.centre_pad;
             strips.push(Strip::Pad(column));

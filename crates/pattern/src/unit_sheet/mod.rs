@@ -130,16 +130,9 @@ impl UnitSheet {
                 builder.add_strip(row, left, strip);
             }
         }
-        let Builder {
-            mut vertices,
-            locations,
-            facets,
-            ..
-        } = builder;
-        let CutFacets {
-            triangles,
-            middle_nodes,
-        } = CutFacets::new(facet_model, &mut vertices, &facets);
+        let Builder { mut vertices, locations, facets, .. } = builder;
+        let CutFacets { triangles, middle_nodes } =
+            CutFacets::new(facet_model, &mut vertices, &facets);
         let (sheet, compact_angles) = join(&unit, &lines, &locations, vertices, facets, &triangles);
         let mut units = Self {
             unit,

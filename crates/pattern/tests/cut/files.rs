@@ -13,12 +13,7 @@ use crate::read::{self, ReadLine, expected, layer, sheets, totals};
 const SUM: f64 = 1e-6;
 
 fn every_edge(scale: f64) -> CutOptions {
-    CutOptions {
-        keeps_segments: true,
-        draws_facets: true,
-        margin: 12.5,
-        ..CutOptions::new(scale)
-    }
+    CutOptions { keeps_segments: true, draws_facets: true, margin: 12.5, ..CutOptions::new(scale) }
 }
 
 /// The lines of one layer, each from its lower end, sorted, to 1e-6.
@@ -127,9 +122,8 @@ fn colours_and_opacities_are_those_origami_simulator_reads() {
             assert_eq!(line.words.contains_key("stroke-dasharray"), is_crease);
             if is_crease {
                 let opacity: f64 = line.words["stroke-opacity"].parse().unwrap();
-                *angles
-                    .entry(format!("{} {}", line.layer, 180.0 * opacity))
-                    .or_default() += line.length();
+                *angles.entry(format!("{} {}", line.layer, 180.0 * opacity)).or_default() +=
+                    line.length();
             }
         }
         let mut wanted: BTreeMap<String, f64> = BTreeMap::new();
@@ -141,27 +135,15 @@ fn colours_and_opacities_are_those_origami_simulator_reads() {
             }
         }
         assert!(angles.keys().eq(wanted.keys()), "{angles:?} {wanted:?}");
-        assert!(
-            angles
-                .values()
-                .zip(wanted.values())
-                .all(|(a, w)| (a - w).abs() < SUM)
-        );
+        assert!(angles.values().zip(wanted.values()).all(|(a, w)| (a - w).abs() < SUM));
     }
 }
 
 #[test]
 fn the_page_is_as_large_as_the_sheet_in_its_unit_and_its_margins() {
     let units = UnitSheet::new(Unit::new(Case::T, 0.5, 2.0, None, None).unwrap(), 3, 4).unwrap();
-    for (scale, size) in [
-        (1000.0, [6000.0, 2000.0]),
-        (25.4, [152.4, 50.8]),
-        (0.75, [4.5, 1.5]),
-    ] {
-        let options = CutOptions {
-            margin: 5.0,
-            ..CutOptions::new(scale)
-        };
+    for (scale, size) in [(1000.0, [6000.0, 2000.0]), (25.4, [152.4, 50.8]), (0.75, [4.5, 1.5])] {
+        let options = CutOptions { margin: 5.0, ..CutOptions::new(scale) };
         let (root, _) = read::svg(&pattern_svg(&units, &options).unwrap());
         let [width, height] = size.map(|side| side + 10.0);
         assert_eq!(root["width"], format!("{width}mm"));
@@ -180,11 +162,7 @@ fn creases_come_before_the_outline_and_the_outline_is_one_way_round() {
     for units in sheets() {
         let text = pattern_dxf(&units, &CutOptions::new(1000.0)).unwrap();
         let lines = read::dxf(&text);
-        let rank = |l: &ReadLine| {
-            ["mountain", "valley", "cut"]
-                .iter()
-                .position(|n| *n == l.layer)
-        };
+        let rank = |l: &ReadLine| ["mountain", "valley", "cut"].iter().position(|n| *n == l.layer);
         assert!(lines.is_sorted_by_key(|l| rank(l).unwrap()));
         let cut = &lines[lines.len() - 4..];
         for side in 0..4 {
@@ -205,17 +183,11 @@ fn the_pen_travels_less_than_in_the_order_of_the_sheet() {
             edges.filter(move |e| LineClass::of(e.assignment) == class)
         });
         for edge in by_class {
-            let [a, b] = edge
-                .vertices
-                .map(|v| units.sheet.vertices[v as usize] * 1000.0);
+            let [a, b] = edge.vertices.map(|v| units.sheet.vertices[v as usize] * 1000.0);
             unsorted += pen.distance(a);
             pen = b;
         }
-        assert!(
-            pattern.travel() < 0.75 * unsorted,
-            "{} {unsorted}",
-            pattern.travel()
-        );
+        assert!(pattern.travel() < 0.75 * unsorted, "{} {unsorted}", pattern.travel());
     }
 }
 
@@ -233,32 +205,19 @@ fn dxf_layers_have_colour_and_a_linetype_with_the_dashes_asked_for() {
             .position(|w| w[0] == (0, kind.to_owned()) && w[1] == (2, name.to_owned()))
             .unwrap();
         let rest = pairs[start + 1..].iter();
-        rest.take_while(|(code, _)| *code != 0)
-            .cloned()
-            .collect::<Vec<_>>()
+        rest.take_while(|(code, _)| *code != 0).cloned().collect::<Vec<_>>()
     };
     let has = |record: &[(u16, String)], code: u16, value: &str| {
         record.contains(&(code, value.to_owned()))
     };
-    for (name, colour, linetype) in [
-        ("MOUNTAIN", "1", "DASHDOT"),
-        ("VALLEY", "5", "DASHED"),
-        ("CUT", "7", "CONTINUOUS"),
-    ] {
+    for (name, colour, linetype) in
+        [("MOUNTAIN", "1", "DASHDOT"), ("VALLEY", "5", "DASHED"), ("CUT", "7", "CONTINUOUS")]
+    {
         let layer = record("LAYER", name);
-        assert!(
-            has(&layer, 62, colour) && has(&layer, 6, linetype),
-            "{layer:?}"
-        );
+        assert!(has(&layer, 62, colour) && has(&layer, 6, linetype), "{layer:?}");
     }
-    let dashes: Vec<_> = record("LTYPE", "DASHDOT")
-        .into_iter()
-        .filter(|(c, _)| *c == 49)
-        .collect();
-    assert_eq!(
-        dashes.iter().map(|(_, v)| v.as_str()).collect::<Vec<_>>(),
-        ["6", "-2", "1", "-2"]
-    );
+    let dashes: Vec<_> = record("LTYPE", "DASHDOT").into_iter().filter(|(c, _)| *c == 49).collect();
+    assert_eq!(dashes.iter().map(|(_, v)| v.as_str()).collect::<Vec<_>>(), ["6", "-2", "1", "-2"]);
     assert!(has(&record("LTYPE", "DASHED"), 73, "0"));
     let svg = pattern_svg(&sheets()[2], &options).unwrap();
     let (_, lines) = read::svg(&svg);
@@ -272,21 +231,12 @@ fn dxf_layers_have_colour_and_a_linetype_with_the_dashes_asked_for() {
 fn the_fold_file_reads_back_as_the_sheet_in_millimetres() {
     for units in sheets() {
         for draws_facets in [false, true] {
-            let options = CutOptions {
-                draws_facets,
-                ..CutOptions::new(1000.0)
-            };
+            let options = CutOptions { draws_facets, ..CutOptions::new(1000.0) };
             let angles = units.compact_angles();
             let text = crease_pattern_fold(&units.sheet, angles, &options, "test").unwrap();
             let file = FoldFile::read(text.as_bytes()).unwrap();
             let same = |(a, b): (&glam::DVec2, &glam::DVec2)| *a == *b * 1000.0;
-            assert!(
-                file.sheet
-                    .vertices
-                    .iter()
-                    .zip(&units.sheet.vertices)
-                    .all(same)
-            );
+            assert!(file.sheet.vertices.iter().zip(&units.sheet.vertices).all(same));
             let edges = |sheet: &foldmotion_pattern::Sheet| -> BTreeMap<[u32; 2], char> {
                 let edge = |e: &foldmotion_pattern::Edge| {
                     let [a, b] = e.vertices;
@@ -328,10 +278,7 @@ fn titles_cannot_break_the_files() {
     let (_, lines) = read::svg(&pattern_svg(units, &options).unwrap());
     assert_eq!(lines, read::svg(&pattern_svg(units, &plain).unwrap()).1);
     let dxf = pattern_dxf(units, &options).unwrap();
-    assert_eq!(
-        read::dxf(&dxf),
-        read::dxf(&pattern_dxf(units, &plain).unwrap())
-    );
+    assert_eq!(read::dxf(&dxf), read::dxf(&pattern_dxf(units, &plain).unwrap()));
 }
 
 #[test]
@@ -348,37 +295,16 @@ fn sizes_and_options_out_of_range_are_refused() {
     }
     let good = CutOptions::new(1000.0);
     for margin in [-1.0, f64::NAN, f64::INFINITY] {
-        let error = refused(&CutOptions {
-            margin,
-            ..good.clone()
-        });
+        let error = refused(&CutOptions { margin, ..good.clone() });
         assert!(matches!(error, CutError::Negative { .. }), "{error}");
     }
-    for dashes in [
-        vec![1.0],
-        vec![1.0, 0.0],
-        vec![1.0, -1.0],
-        vec![f64::NAN; 2],
-        vec![1.0; 14],
-    ] {
+    for dashes in [vec![1.0], vec![1.0, 0.0], vec![1.0, -1.0], vec![f64::NAN; 2], vec![1.0; 14]] {
         let valley_dashes = Some(dashes);
-        let error = refused(&CutOptions {
-            valley_dashes,
-            ..good.clone()
-        });
-        let is_valley = matches!(
-            error,
-            CutError::Dashes {
-                class: LineClass::Valley,
-                ..
-            }
-        );
+        let error = refused(&CutOptions { valley_dashes, ..good.clone() });
+        let is_valley = matches!(error, CutError::Dashes { class: LineClass::Valley, .. });
         assert!(is_valley, "{error}");
     }
     let stroke_width = Some(0.0);
-    let error = refused(&CutOptions {
-        stroke_width,
-        ..good
-    });
+    let error = refused(&CutOptions { stroke_width, ..good });
     assert!(matches!(error, CutError::NotPositive { .. }), "{error}");
 }

@@ -1,9 +1,6 @@
 //! Crease patterns on paper, read back from the files.
 
-#![expect(
-    clippy::unwrap_used,
-    reason = "a test stops where something is missing"
-)]
+#![expect(clippy::unwrap_used, reason = "a test stops where something is missing")]
 
 mod files;
 mod read;

@@ -29,10 +29,7 @@ fn attributes(tag: &str) -> BTreeMap<String, String> {
     while let Some((name, after)) = rest.split_once("=\"") {
         let (value, after) = after.split_once('"').unwrap();
         let name = name.trim().rsplit(' ').next().unwrap();
-        assert!(
-            found.insert(name.to_owned(), value.to_owned()).is_none(),
-            "{tag}"
-        );
+        assert!(found.insert(name.to_owned(), value.to_owned()).is_none(), "{tag}");
         rest = after;
     }
     found
@@ -43,16 +40,9 @@ pub(crate) fn svg(text: &str) -> (BTreeMap<String, String>, Vec<ReadLine>) {
     let mut root = BTreeMap::new();
     let mut group = None;
     let mut lines = Vec::new();
-    for tag in text
-        .split('<')
-        .skip(1)
-        .map(|t| t.split('>').next().unwrap())
-    {
+    for tag in text.split('<').skip(1).map(|t| t.split('>').next().unwrap()) {
         let words = attributes(tag);
-        assert!(
-            !words.contains_key("transform") && !words.contains_key("style"),
-            "{tag}"
-        );
+        assert!(!words.contains_key("transform") && !words.contains_key("style"), "{tag}");
         match tag.split(' ').next().unwrap() {
             "svg" => root = words,
             "g" => {
@@ -80,10 +70,7 @@ pub(crate) fn svg(text: &str) -> (BTreeMap<String, String>, Vec<ReadLine>) {
 /// Pairs of group code and value.
 pub(crate) fn pairs(text: &str) -> Vec<(u16, String)> {
     let all: Vec<&str> = text.lines().collect();
-    assert!(
-        all.len().is_multiple_of(2),
-        "codes and values come in pairs"
-    );
+    assert!(all.len().is_multiple_of(2), "codes and values come in pairs");
     let pair = |p: &[&str]| (p[0].parse().unwrap(), p[1].to_owned());
     all.chunks(2).map(pair).collect()
 }
@@ -97,10 +84,8 @@ pub(crate) fn dxf(text: &str) -> Vec<ReadLine> {
     entities
         .filter(|entity| entity[0].1 == "LINE")
         .map(|entity| {
-            let words: BTreeMap<String, String> = entity[1..]
-                .iter()
-                .map(|(code, value)| (code.to_string(), value.clone()))
-                .collect();
+            let words: BTreeMap<String, String> =
+                entity[1..].iter().map(|(code, value)| (code.to_string(), value.clone())).collect();
             let at = |code: &str| words[code].parse().unwrap();
             ReadLine {
                 layer: words["8"].to_lowercase(),
@@ -144,9 +129,7 @@ pub(crate) fn sheets() -> Vec<UnitSheet> {
         Unit::new(Case::SII, 1.6 * h, h, Some(0.7), Some(0.0)),
         Unit::new(Case::Plain, 2.5 * h, h, None, None),
     ];
-    units
-        .map(|unit| UnitSheet::new(unit.unwrap(), 7, 5).unwrap())
-        .to_vec()
+    units.map(|unit| UnitSheet::new(unit.unwrap(), 7, 5).unwrap()).to_vec()
 }
 
 /// Count and total length, mm, of the sheet's edges of each layer.

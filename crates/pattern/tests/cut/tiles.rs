@@ -13,20 +13,11 @@ const PAPER: DVec2 = DVec2::new(120.0, 90.0);
 
 fn pattern(units: &UnitSheet) -> CutPattern {
     // 7 rows of 100 mm.
-    CutPattern::new(
-        &units.sheet,
-        units.compact_angles(),
-        &CutOptions::new(300.0),
-    )
-    .unwrap()
+    CutPattern::new(&units.sheet, units.compact_angles(), &CutOptions::new(300.0)).unwrap()
 }
 
 fn layout(overlap: f64) -> PageLayout {
-    PageLayout {
-        paper: PAPER,
-        margin: MARGIN,
-        overlap,
-    }
+    PageLayout { paper: PAPER, margin: MARGIN, overlap }
 }
 
 /// The length of a line inside a box, by the shares at which it enters and leaves.
@@ -51,10 +42,7 @@ fn length_inside(ends: [DVec2; 2], low: DVec2, high: DVec2) -> f64 {
 
 /// The page's lines in the coordinates of the pattern.
 fn in_pattern(page: &CutPage<'_>) -> Vec<CutLine> {
-    let shift = |line: &CutLine| CutLine {
-        ends: line.ends.map(|end| end - page.origin),
-        ..*line
-    };
+    let shift = |line: &CutLine| CutLine { ends: line.ends.map(|end| end - page.origin), ..*line };
     page.lines.iter().map(shift).collect()
 }
 
@@ -128,11 +116,7 @@ fn neighbouring_pages_have_their_marks_at_the_same_places_of_the_pattern() {
     };
     let [columns, _] = tiles.counts();
     let (first, second) = (upright(&pages[0]), upright(&pages[1]));
-    assert_eq!(
-        first[..3],
-        second[..3],
-        "the line and its two ticks on the right"
-    );
+    assert_eq!(first[..3], second[..3], "the line and its two ticks on the right");
     let below = upright(&pages[columns]);
     let bottom = &first[3..];
     assert!(bottom.len() == 3 && bottom.iter().all(|mark| below.contains(mark)));
@@ -142,27 +126,13 @@ fn neighbouring_pages_have_their_marks_at_the_same_places_of_the_pattern() {
 fn pages_are_written_with_their_marks_on_a_layer_of_their_own() {
     let units = &sheets()[0];
     let pattern = pattern(units);
-    let page = pattern
-        .tiles(layout(OVERLAP))
-        .unwrap()
-        .pages()
-        .nth(1)
-        .unwrap();
+    let page = pattern.tiles(layout(OVERLAP)).unwrap().pages().nth(1).unwrap();
     let (root, svg) = read::svg(&page.svg());
     let dxf = read::dxf(&page.dxf());
-    assert_eq!(
-        (root["width"].as_str(), root["height"].as_str()),
-        ("120mm", "90mm")
-    );
+    assert_eq!((root["width"].as_str(), root["height"].as_str()), ("120mm", "90mm"));
     assert_eq!(svg.len(), dxf.len());
-    assert_eq!(
-        svg.iter().filter(|l| l.layer == "marks").count(),
-        page.marks.len()
-    );
-    assert_eq!(
-        dxf.iter().filter(|l| l.layer == "marks").count(),
-        page.marks.len()
-    );
+    assert_eq!(svg.iter().filter(|l| l.layer == "marks").count(), page.marks.len());
+    assert_eq!(dxf.iter().filter(|l| l.layer == "marks").count(), page.marks.len());
     assert!(page.svg().contains("page 1-2 of"));
     assert!(page.dxf().contains("page 1-2 of"));
     assert!(!pattern.whole().svg().contains("marks"));
@@ -188,35 +158,21 @@ fn a_pattern_that_fits_is_one_page_even_if_rounding_says_a_hair_more() {
 fn layouts_that_cannot_be_are_refused() {
     let pattern = pattern(&sheets()[0]);
     let refused = |paper: [f64; 2], margin, overlap| {
-        let layout = PageLayout {
-            paper: paper.into(),
-            margin,
-            overlap,
-        };
+        let layout = PageLayout { paper: paper.into(), margin, overlap };
         pattern.tiles(layout).unwrap_err()
     };
-    for (paper, margin) in [
-        ([100.0, 20.0], 10.0),
-        ([5.0, 5.0], 10.0),
-        ([f64::NAN, 9.0], 1.0),
-    ] {
+    for (paper, margin) in [([100.0, 20.0], 10.0), ([5.0, 5.0], 10.0), ([f64::NAN, 9.0], 1.0)] {
         let error = refused(paper, margin, 0.0);
         assert!(matches!(error, CutError::PaperTooSmall { .. }), "{error}");
     }
     for overlap in [-1.0, 41.0, f64::NAN] {
         let error = refused([100.0, 100.0], 10.0, overlap);
-        assert!(
-            matches!(error, CutError::Overlap { limit: 40.0, .. }),
-            "{error}"
-        );
+        assert!(matches!(error, CutError::Overlap { limit: 40.0, .. }), "{error}");
     }
     let error = refused([100.0, 100.0], -1.0, 0.0);
     assert!(matches!(error, CutError::Negative { .. }), "{error}");
     for paper in [[12.0, 12.0], [1e-300, 1e-300]] {
         let error = refused(paper, 0.0, 0.0);
-        assert!(
-            matches!(error, CutError::TooManyPages { limit: 1000, .. }),
-            "{error}"
-        );
+        assert!(matches!(error, CutError::TooManyPages { limit: 1000, .. }), "{error}");
     }
 }

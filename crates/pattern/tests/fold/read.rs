@@ -49,11 +49,7 @@ fn with(change: impl FnOnce(&mut Value)) -> Value {
 fn our_own_motion_reads_back_bitwise() {
     let unit = Unit::new(Case::S, 1.6, 1.0, None, None).unwrap();
     let units = UnitSheet::new(unit, 2, 2).unwrap();
-    let wild: Vec<DVec3> = units
-        .compact()
-        .iter()
-        .map(|&p| p / 3.0 + 1.0 / 3.0)
-        .collect();
+    let wild: Vec<DVec3> = units.compact().iter().map(|&p| p / 3.0 + 1.0 / 3.0).collect();
     let frame = |time, positions| Frame { time, positions };
     let motion = Motion {
         frames: vec![
@@ -82,10 +78,7 @@ fn our_own_motion_reads_back_bitwise() {
     assert_eq!(own.unit_length.to_bits(), sheet.unit_length.to_bits());
     assert!(file.has_unit_length && file.has_facets);
     for (a, b) in own.edges.iter().zip(&sheet.edges) {
-        assert_eq!(
-            (a.vertices, a.assignment, a.faces),
-            (b.vertices, b.assignment, b.faces)
-        );
+        assert_eq!((a.vertices, a.assignment, a.faces), (b.vertices, b.assignment, b.faces));
     }
     for (a, b) in own.facets.iter().zip(&sheet.facets) {
         let start = a.polygon.iter().position(|v| *v == b.polygon[0]).unwrap();
@@ -99,10 +92,7 @@ fn our_own_motion_reads_back_bitwise() {
 fn a_pattern_is_not_a_frame_of_the_motion_and_times_default_to_the_index() {
     let (file, read) = frames(&square().to_string()).unwrap();
     assert_eq!(read.iter().map(|f| f.time).collect::<Vec<_>>(), [0.0, 1.0]);
-    assert_eq!(
-        read[1].positions[2..],
-        [DVec3::new(1.0, 1.0, 0.0), DVec3::splat(0.5)]
-    );
+    assert_eq!(read[1].positions[2..], [DVec3::new(1.0, 1.0, 0.0), DVec3::splat(0.5)]);
     let mean = (4.0 + 2.0_f64.sqrt()) / 5.0;
     assert!((file.sheet.unit_length - mean).abs() < 1e-15);
     assert_eq!(file.sheet.edges[4].assignment, Assignment::Valley);
@@ -152,18 +142,9 @@ fn bad_inheritance_is_refused() {
         assert!(matches!(error, FoldError::Parent { .. }), "{error}");
     }
     let orphan = with(|v| {
-        drop(
-            v["file_frames"][0]
-                .as_object_mut()
-                .unwrap()
-                .remove("frame_parent"),
-        );
+        drop(v["file_frames"][0].as_object_mut().unwrap().remove("frame_parent"));
     });
-    assert!(
-        refused(&orphan)
-            .to_string()
-            .starts_with("file_frames[0] inherits")
-    );
+    assert!(refused(&orphan).to_string().starts_with("file_frames[0] inherits"));
     let own = with(|v| v["file_frames"][1] = json!({ "frame_parent": 0 }));
     assert!(matches!(refused(&own), FoldError::Missing { .. }));
 }
@@ -190,77 +171,33 @@ fn polygons_are_cut_and_edges_built_from_faces() {
 fn each_bad_input_is_named() {
     type Change = fn(&mut Value);
     let cases: [(Change, &str); 16] = [
-        (
-            |v| v["vertices_coords"][2] = json!([1]),
-            "the key frame, vertices_coords[2]",
-        ),
-        (
-            |v| v["vertices_coords"][2] = json!([1, null]),
-            "the key frame, vertices_coords[2]",
-        ),
-        (
-            |v| v["vertices_coords"][1] = json!([1, 2, 3, 4]),
-            "vertices_coords[1]",
-        ),
+        (|v| v["vertices_coords"][2] = json!([1]), "the key frame, vertices_coords[2]"),
+        (|v| v["vertices_coords"][2] = json!([1, null]), "the key frame, vertices_coords[2]"),
+        (|v| v["vertices_coords"][1] = json!([1, 2, 3, 4]), "vertices_coords[1]"),
         (
             |v| v["file_frames"][1]["vertices_coords"][3][0] = json!("NaN"),
             "file_frames[1], vertices_coords[3]",
         ),
         (
             |v| {
-                drop(
-                    v["file_frames"][1]["vertices_coords"]
-                        .as_array_mut()
-                        .unwrap()
-                        .pop(),
-                );
+                drop(v["file_frames"][1]["vertices_coords"].as_array_mut().unwrap().pop());
             },
             "file_frames[1]: vertices_coords has 3 entries: 4",
         ),
-        (
-            |v| v["faces_vertices"][1][2] = json!(4),
-            "faces_vertices[1] names vertex 4",
-        ),
-        (
-            |v| v["faces_vertices"][1][2] = json!(-1),
-            "faces_vertices[1]",
-        ),
-        (
-            |v| v["edges_vertices"][4][1] = json!(9),
-            "edges_vertices[4] names vertex 9",
-        ),
-        (
-            |v| v["faces_vertices"][0] = json!([0, 1]),
-            "faces_vertices[0] has 2 corners",
-        ),
-        (
-            |v| v["faces_vertices"][0] = json!([0, 1, 1]),
-            "faces_vertices[0] names vertex 1 twice",
-        ),
-        (
-            |v| v["vertices_coords"][3] = json!([0.5, 0.5]),
-            "faces_vertices[1] has no area",
-        ),
-        (
-            |v| v["faces_vertices"] = json!([]),
-            "the key frame has no faces_vertices",
-        ),
-        (
-            |v| v["faces_vertices"] = json!([[0, 1, 2], [0, 2, 3], [2, 0, 1]]),
-            "the edge [0, 2]",
-        ),
+        (|v| v["faces_vertices"][1][2] = json!(4), "faces_vertices[1] names vertex 4"),
+        (|v| v["faces_vertices"][1][2] = json!(-1), "faces_vertices[1]"),
+        (|v| v["edges_vertices"][4][1] = json!(9), "edges_vertices[4] names vertex 9"),
+        (|v| v["faces_vertices"][0] = json!([0, 1]), "faces_vertices[0] has 2 corners"),
+        (|v| v["faces_vertices"][0] = json!([0, 1, 1]), "faces_vertices[0] names vertex 1 twice"),
+        (|v| v["vertices_coords"][3] = json!([0.5, 0.5]), "faces_vertices[1] has no area"),
+        (|v| v["faces_vertices"] = json!([]), "the key frame has no faces_vertices"),
+        (|v| v["faces_vertices"] = json!([[0, 1, 2], [0, 2, 3], [2, 0, 1]]), "the edge [0, 2]"),
         (
             |v| v["file_frames"][0]["faces_vertices"] = json!([[0, 1, 2]]),
             "file_frames[0] has other",
         ),
-        (
-            |v| v["edges_assignment"] = json!(["B"]),
-            "edges_assignment has 1 entries: 5",
-        ),
-        (
-            |v| v["foldmotion:unitLength"] = json!(0),
-            "foldmotion:unitLength is 0",
-        ),
+        (|v| v["edges_assignment"] = json!(["B"]), "edges_assignment has 1 entries: 5"),
+        (|v| v["foldmotion:unitLength"] = json!(0), "foldmotion:unitLength is 0"),
     ];
     for (change, named) in cases {
         let error = refused(&with(change)).to_string();
@@ -282,17 +219,9 @@ fn text_that_is_no_whole_json_is_refused_wherever_it_ends() {
     assert!(error.contains("UTF-8"), "{error}");
     let huge = square().to_string().replace("0.5,0.5,0.5", "0.5,0.5,1e999");
     let error = frames(&huge).unwrap_err().to_string();
-    assert!(
-        error.starts_with("file_frames[1], vertices_coords[3]"),
-        "{error}"
-    );
+    assert!(error.starts_with("file_frames[1], vertices_coords[3]"), "{error}");
     let twice = text.replacen('{', "{\"vertices_coords\":[],", 1);
-    assert!(
-        frames(&twice)
-            .unwrap_err()
-            .to_string()
-            .contains("given twice")
-    );
+    assert!(frames(&twice).unwrap_err().to_string().contains("given twice"));
 }
 
 #[test]
@@ -331,10 +260,7 @@ fn face_orders_are_inherited_like_coordinates_and_unknown_signs_are_no_claim() {
         v["file_frames"][1]["faceOrders"] = json!([[1, 0, -1]]);
         v["file_frames"].as_array_mut().unwrap().push(still.clone());
     });
-    assert_eq!(
-        claims(&own),
-        [vec![(1, 0, 1)], vec![(1, 0, -1)], vec![(1, 0, 1)]]
-    );
+    assert_eq!(claims(&own), [vec![(1, 0, 1)], vec![(1, 0, -1)], vec![(1, 0, 1)]]);
     let of_key = with(|v| v["faceOrders"] = json!([[0, 1, -1]]));
     assert_eq!(claims(&of_key), vec![vec![(0, 1, -1)]; 2]);
     assert_eq!(claims(&square()), vec![vec![]; 2]);
@@ -343,16 +269,10 @@ fn face_orders_are_inherited_like_coordinates_and_unknown_signs_are_no_claim() {
 #[test]
 fn face_orders_that_order_no_two_faces_are_refused_by_entry() {
     let orders = [
-        (
-            json!([[0, 1, 1], [1, 2, 1]]),
-            "file_frames[1]: faceOrders[1] is [1, 2, 1]",
-        ),
+        (json!([[0, 1, 1], [1, 2, 1]]), "file_frames[1]: faceOrders[1] is [1, 2, 1]"),
         (json!([[1, 1, 1]]), "faceOrders[0] is [1, 1, 1]"),
         (json!([[1, 0, 2]]), "faceOrders[0] is [1, 0, 2]"),
-        (
-            json!([[1, 0, 1], [1, 0, -1]]),
-            "faceOrders[1] gives faces 1 and 0",
-        ),
+        (json!([[1, 0, 1], [1, 0, -1]]), "faceOrders[1] gives faces 1 and 0"),
         (json!([[1, 0]]), "faceOrders"),
         (json!([[1, -1, 1]]), "faceOrders"),
         (json!([[1, 0, 0.5]]), "faceOrders"),
@@ -364,8 +284,5 @@ fn face_orders_that_order_no_two_faces_are_refused_by_entry() {
         assert!(error.to_string().contains("file_frames[1]"), "{error}");
     }
     let error = refused(&with(|v| v["faceOrders"] = json!([[0, 2, 1]])));
-    assert!(
-        error.to_string().contains("the key frame: faceOrders[0]"),
-        "{error}"
-    );
+    assert!(error.to_string().contains("the key frame: faceOrders[0]"), "{error}");
 }

@@ -11,18 +11,9 @@ fn written() -> (Motion, Value, u64) {
     let wild: Vec<DVec3> = units.compact().iter().map(|&p| p * third + third).collect();
     let motion = Motion {
         frames: vec![
-            Frame {
-                time: 1.0,
-                positions: units.sheet.planar(),
-            },
-            Frame {
-                time: 1.5,
-                positions: wild,
-            },
-            Frame {
-                time: 2.0,
-                positions: units.compact(),
-            },
+            Frame { time: 1.0, positions: units.sheet.planar() },
+            Frame { time: 1.5, positions: wild },
+            Frame { time: 2.0, positions: units.compact() },
         ],
         compact_order: units.compact_order(),
         sheet: units.sheet.clone(),
@@ -47,62 +38,42 @@ fn written() -> (Motion, Value, u64) {
 #[test]
 fn coordinates_read_back_as_the_same_numbers() {
     let (motion, value, _) = written();
-    for (frame, read) in motion
-        .frames
-        .iter()
-        .zip(value["file_frames"].as_array().unwrap())
-    {
+    for (frame, read) in motion.frames.iter().zip(value["file_frames"].as_array().unwrap()) {
         let coords: Vec<[f64; 3]> =
             serde_json::from_value(read["vertices_coords"].clone()).unwrap();
-        let same = frame
-            .positions
-            .iter()
-            .zip(&coords)
-            .all(|(p, c)| p.to_array() == *c);
+        let same = frame.positions.iter().zip(&coords).all(|(p, c)| p.to_array() == *c);
         assert!(same && coords.len() == frame.positions.len());
         assert_eq!(read["foldmotion:time"].as_f64(), Some(frame.time));
-        assert_eq!(
-            (&read["frame_parent"], &read["frame_inherit"]),
-            (&json!(0), &json!(true))
-        );
+        assert_eq!((&read["frame_parent"], &read["frame_inherit"]), (&json!(0), &json!(true)));
     }
 }
 
 #[test]
 fn fold_angles_carry_the_sign_of_their_assignment_and_borders_have_none() {
     let (motion, value, _) = written();
-    let compact = value["file_frames"][2]["edges_foldAngle"]
-        .as_array()
-        .unwrap();
+    let compact = value["file_frames"][2]["edges_foldAngle"].as_array().unwrap();
     for (edge, angle) in motion.sheet.edges.iter().zip(compact) {
         match (edge.assignment.letter(), angle.as_f64()) {
             ('B', None) => {}
             // Folded flat, a half turn is measured with either sign.
-            ('M', Some(a)) => assert!(
-                (a + 90.0).abs() < 1e-9 || (a.abs() - 180.0).abs() < 1e-9,
-                "{a}"
-            ),
-            ('V', Some(a)) => assert!(
-                (a - 90.0).abs() < 1e-9 || (a.abs() - 180.0).abs() < 1e-9,
-                "{a}"
-            ),
+            ('M', Some(a)) => {
+                assert!((a + 90.0).abs() < 1e-9 || (a.abs() - 180.0).abs() < 1e-9, "{a}")
+            }
+            ('V', Some(a)) => {
+                assert!((a - 90.0).abs() < 1e-9 || (a.abs() - 180.0).abs() < 1e-9, "{a}")
+            }
             ('F', Some(a)) => assert!(a.abs() < 1e-9),
             other => panic!("{other:?}"),
         }
     }
     let key: Vec<Option<f64>> = serde_json::from_value(value["edges_foldAngle"].clone()).unwrap();
     let signs =
-        motion
-            .sheet
-            .edges
-            .iter()
-            .zip(key)
-            .all(|(edge, angle)| match edge.assignment.letter() {
-                'M' => angle.unwrap() < 0.0,
-                'V' => angle.unwrap() > 0.0,
-                'F' => angle == Some(0.0),
-                _ => angle.is_none(),
-            });
+        motion.sheet.edges.iter().zip(key).all(|(edge, angle)| match edge.assignment.letter() {
+            'M' => angle.unwrap() < 0.0,
+            'V' => angle.unwrap() > 0.0,
+            'F' => angle == Some(0.0),
+            _ => angle.is_none(),
+        });
     assert!(signs);
 }
 

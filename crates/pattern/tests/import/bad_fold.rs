@@ -34,66 +34,34 @@ fn text_that_is_not_fold_is_refused_with_its_location() {
         b"{} {}",
     ] {
         let refused = import_fold(text, &options).unwrap_err();
-        assert!(
-            matches!(refused, ImportError::Fold(FoldError::Json { .. })),
-            "{refused}"
-        );
+        assert!(matches!(refused, ImportError::Fold(FoldError::Json { .. })), "{refused}");
     }
-    let deep = format!(
-        "{{\"lab:note\": {}{}}}",
-        "[".repeat(100_000),
-        "]".repeat(100_000)
-    );
+    let deep = format!("{{\"lab:note\": {}{}}}", "[".repeat(100_000), "]".repeat(100_000));
     let refused = import_fold(deep.as_bytes(), &options).unwrap_err();
-    assert!(
-        matches!(refused, ImportError::Fold(FoldError::Json { .. })),
-        "{refused}"
-    );
+    assert!(matches!(refused, ImportError::Fold(FoldError::Json { .. })), "{refused}");
 }
 
 #[test]
 fn lists_that_do_not_fit_each_other_are_refused_by_name() {
     let missing = changed(|f| drop(f.as_object_mut().unwrap().remove("vertices_coords")));
     assert!(missing.to_string().contains("vertices_coords"), "{missing}");
-    for (key, value) in [
-        ("edges_assignment", json!(["B"])),
-        ("edges_foldAngle", json!([1, 2])),
-    ] {
+    for (key, value) in [("edges_assignment", json!(["B"])), ("edges_foldAngle", json!([1, 2]))] {
         let refused = changed(|f| f[key] = value);
         assert!(matches!(refused, ImportError::Count { .. }), "{refused}");
         assert!(refused.to_string().contains(key));
     }
     let refused = changed(|f| f["edges_vertices"][2] = json!([2, 9]));
-    assert!(
-        refused
-            .to_string()
-            .contains("edges_vertices[2] names vertex 9"),
-        "{refused}"
-    );
+    assert!(refused.to_string().contains("edges_vertices[2] names vertex 9"), "{refused}");
     let refused = changed(|f| f["faces_vertices"][1][0] = json!(4));
-    assert!(
-        refused
-            .to_string()
-            .contains("faces_vertices[1] names vertex 4"),
-        "{refused}"
-    );
+    assert!(refused.to_string().contains("faces_vertices[1] names vertex 4"), "{refused}");
     let refused = changed(|f| f["edges_assignment"][3] = json!("Q"));
-    assert!(
-        refused.to_string().contains("edges_assignment[3] is \"Q\""),
-        "{refused}"
-    );
+    assert!(refused.to_string().contains("edges_assignment[3] is \"Q\""), "{refused}");
     let refused = changed(|f| f["edges_foldAngle"] = json!([null, null, null, null, -181]));
-    assert!(
-        refused.to_string().contains("edges_foldAngle[4] is -181"),
-        "{refused}"
-    );
+    assert!(refused.to_string().contains("edges_foldAngle[4] is -181"), "{refused}");
     let refused = changed(|f| f["frame_unit"] = json!("furlong"));
     assert!(matches!(refused, ImportError::Unit { .. }), "{refused}");
     let refused = changed(|f| f["foldmotion:unitLength"] = json!(0));
-    assert!(
-        matches!(refused, ImportError::Fold(FoldError::UnitLength { .. })),
-        "{refused}"
-    );
+    assert!(matches!(refused, ImportError::Fold(FoldError::UnitLength { .. })), "{refused}");
 }
 
 #[test]
@@ -102,84 +70,45 @@ fn frames_that_inherit_from_nowhere_or_do_not_fit_are_refused() {
         let refused = changed(|f| {
             f["file_frames"] = json!([{"frame_parent": parent, "frame_inherit": true}]);
         });
-        assert!(
-            matches!(refused, ImportError::Fold(FoldError::Parent { .. })),
-            "{refused}"
-        );
+        assert!(matches!(refused, ImportError::Fold(FoldError::Parent { .. })), "{refused}");
     }
     let refused = changed(|f| {
         f["file_frames"] =
             json!([{"frame_parent": 0, "frame_inherit": true, "edges_foldAngle": [1]}]);
     });
-    assert!(
-        refused
-            .to_string()
-            .contains("file_frames[0].edges_foldAngle has 1"),
-        "{refused}"
-    );
+    assert!(refused.to_string().contains("file_frames[0].edges_foldAngle has 1"), "{refused}");
     let refused = changed(|f| {
         f["file_frames"] = json!([{"frame_parent": 0, "frame_inherit": true,
             "edges_foldAngle": [0, 0, 0, 0, 1e9]}]);
     });
-    assert!(
-        refused
-            .to_string()
-            .contains("file_frames[0].edges_foldAngle[4]"),
-        "{refused}"
-    );
+    assert!(refused.to_string().contains("file_frames[0].edges_foldAngle[4]"), "{refused}");
 }
 
 #[test]
 fn faces_that_are_no_facets_are_refused() {
     let refused = changed(|f| f["faces_vertices"][1] = json!([0, 2]));
-    assert!(
-        refused
-            .to_string()
-            .contains("faces_vertices[1] has 2 corners"),
-        "{refused}"
-    );
+    assert!(refused.to_string().contains("faces_vertices[1] has 2 corners"), "{refused}");
     for polygon in [json!([0, 2, 2]), json!([0, 2, 3, 2]), json!([0, 2, 1, 3])] {
         let refused = changed(|f| f["faces_vertices"] = json!([polygon]));
-        assert!(
-            matches!(refused, ImportError::Facet { facet: 0, .. }),
-            "{polygon}: {refused}"
-        );
+        assert!(matches!(refused, ImportError::Facet { facet: 0, .. }), "{polygon}: {refused}");
     }
     // Three points of a line.
     let refused = changed(|f| f["vertices_coords"][1] = json!([0.5, 0.5]));
-    assert!(
-        matches!(refused, ImportError::Facet { facet: 0, .. }),
-        "{refused}"
-    );
+    assert!(matches!(refused, ImportError::Facet { facet: 0, .. }), "{refused}");
     let refused = changed(|f| f["faces_vertices"] = json!([[0, 1, 2], [0, 2, 3], [0, 2, 1]]));
     assert!(
-        matches!(
-            refused,
-            ImportError::NonManifold { .. } | ImportError::Overlap { .. }
-        ),
+        matches!(refused, ImportError::NonManifold { .. } | ImportError::Overlap { .. }),
         "{refused}"
     );
     let refused = changed(|f| f["faces_vertices"] = json!([[0, 1, 2], [0, 1, 3]]));
     assert!(matches!(refused, ImportError::Overlap { .. }), "{refused}");
     let refused = changed(|f| {
-        f["vertices_coords"]
-            .as_array_mut()
-            .unwrap()
-            .push(json!([0.5, 0.6]));
-        f["faces_vertices"]
-            .as_array_mut()
-            .unwrap()
-            .push(json!([0, 2, 4]));
+        f["vertices_coords"].as_array_mut().unwrap().push(json!([0.5, 0.6]));
+        f["faces_vertices"].as_array_mut().unwrap().push(json!([0, 2, 4]));
     });
-    assert!(
-        matches!(refused, ImportError::NonManifold { .. }),
-        "{refused}"
-    );
+    assert!(matches!(refused, ImportError::NonManifold { .. }), "{refused}");
     let refused = changed(|f| f["edges_assignment"][4] = json!("B"));
-    assert!(
-        refused.to_string().contains("edge 4 is a border"),
-        "{refused}"
-    );
+    assert!(refused.to_string().contains("edge 4 is a border"), "{refused}");
 }
 
 #[test]
@@ -188,10 +117,7 @@ fn pieces_and_nothing_are_refused() {
         "vertices_coords": [[0, 0], [1, 0], [0, 1], [5, 0], [6, 0], [5, 1]],
         "faces_vertices": [[0, 1, 2], [3, 4, 5]],
     });
-    assert!(matches!(
-        error(&two),
-        ImportError::Disconnected { pieces: 2, .. }
-    ));
+    assert!(matches!(error(&two), ImportError::Disconnected { pieces: 2, .. }));
     let none = json!({"vertices_coords": [[0, 0], [1, 0]], "edges_vertices": [[0, 1]]});
     assert_eq!(error(&none), ImportError::NoFaces);
     let empty = json!({"vertices_coords": [[0, 0], [1, 0]]});

@@ -10,10 +10,7 @@ use foldmotion_pattern::{
 use crate::svg::document;
 
 fn error(text: &str) -> ImportError {
-    let options = ImportOptions {
-        unknown: UnknownElements::Ignore,
-        ..ImportOptions::default()
-    };
+    let options = ImportOptions { unknown: UnknownElements::Ignore, ..ImportOptions::default() };
     import_svg(text.as_bytes(), &options).unwrap_err()
 }
 
@@ -24,14 +21,7 @@ fn files_that_are_no_svg_are_refused() {
     let options = ImportOptions::default();
     let not_utf8 = import_svg(b"<svg>\xff</svg>", &options).unwrap_err();
     assert_eq!(not_utf8, ImportError::NotUtf8 { byte: 5 });
-    for text in [
-        "",
-        "plain",
-        "<svg>",
-        "<svg/><svg/>",
-        "{\"file_spec\": 1}",
-        "<svg><g></svg>",
-    ] {
+    for text in ["", "plain", "<svg>", "<svg/><svg/>", "{\"file_spec\": 1}", "<svg><g></svg>"] {
         assert!(matches!(error(text), ImportError::Xml { .. }), "{text}");
     }
     assert!(matches!(error("<html/>"), ImportError::NotSvg { .. }));
@@ -52,20 +42,14 @@ fn entity_bombs_are_refused_with_the_document_type() {
 fn a_document_type_without_entities_is_no_harm() {
     let drawing = document("", "<rect width=\"4\" height=\"4\" stroke=\"#000\"/>");
     let doctype = "<!DOCTYPE svg PUBLIC \"-//W3C//DTD SVG 1.1//EN\" \"http://www.w3.org/Graphics/SVG/1.1/DTD/svg11.dtd\">";
-    let typed = import_svg(
-        format!("{doctype}{drawing}").as_bytes(),
-        &ImportOptions::default(),
-    );
+    let typed = import_svg(format!("{doctype}{drawing}").as_bytes(), &ImportOptions::default());
     assert_eq!(typed.unwrap().sheet.facets.len(), 1);
 }
 
 #[test]
 fn nothing_drawn_and_nothing_bounded_are_distinguished() {
     assert_eq!(error(&document("", "")), ImportError::Empty);
-    assert_eq!(
-        error(&document("", "<rect width=\"4\" height=\"4\"/>")),
-        ImportError::Empty
-    );
+    assert_eq!(error(&document("", "<rect width=\"4\" height=\"4\"/>")), ImportError::Empty);
     let open = document("", "<path d=\"M0 0H10V10\" stroke=\"black\"/>");
     assert_eq!(error(&open), ImportError::NoFaces);
     let point = document("", "<path d=\"M3 3L3 3\" stroke=\"black\"/>");
@@ -76,54 +60,22 @@ fn nothing_drawn_and_nothing_bounded_are_distinguished() {
 fn values_that_cannot_be_read_are_named_with_their_element() {
     for (attributes, body, name) in [
         ("", "<path id=\"x\" d=\"M0 0L1\" stroke=\"red\"/>", "d"),
-        (
-            "",
-            "<path id=\"x\" d=\"M0 0 L NaN 3\" stroke=\"red\"/>",
-            "d",
-        ),
-        (
-            "",
-            "<path id=\"x\" d=\"M0 0L1e999 3\" stroke=\"red\"/>",
-            "d",
-        ),
+        ("", "<path id=\"x\" d=\"M0 0 L NaN 3\" stroke=\"red\"/>", "d"),
+        ("", "<path id=\"x\" d=\"M0 0L1e999 3\" stroke=\"red\"/>", "d"),
         ("", "<path id=\"x\" d=\"L3 4\" stroke=\"red\"/>", "d"),
-        (
-            "",
-            "<polygon id=\"x\" points=\"0 0 1\" stroke=\"red\"/>",
-            "points",
-        ),
-        (
-            "",
-            "<polyline id=\"x\" points=\"0 0 1 inf\" stroke=\"red\"/>",
-            "points",
-        ),
-        (
-            "",
-            "<rect id=\"x\" width=\"-4\" height=\"3\" stroke=\"red\"/>",
-            "width",
-        ),
-        (
-            "",
-            "<rect id=\"x\" width=\"5%\" height=\"3\" stroke=\"red\"/>",
-            "width",
-        ),
+        ("", "<polygon id=\"x\" points=\"0 0 1\" stroke=\"red\"/>", "points"),
+        ("", "<polyline id=\"x\" points=\"0 0 1 inf\" stroke=\"red\"/>", "points"),
+        ("", "<rect id=\"x\" width=\"-4\" height=\"3\" stroke=\"red\"/>", "width"),
+        ("", "<rect id=\"x\" width=\"5%\" height=\"3\" stroke=\"red\"/>", "width"),
         ("", "<line id=\"x\" x1=\"1e400\" stroke=\"red\"/>", "x1"),
         ("", "<line id=\"x\" x2=\"two\" stroke=\"red\"/>", "x2"),
-        (
-            "",
-            "<path id=\"x\" transform=\"spin(3)\" d=\"M0 0H1\" stroke=\"red\"/>",
-            "transform",
-        ),
+        ("", "<path id=\"x\" transform=\"spin(3)\" d=\"M0 0H1\" stroke=\"red\"/>", "transform"),
         (
             "",
             "<path id=\"x\" transform=\"scale(1e999)\" d=\"M0 0H1\" stroke=\"red\"/>",
             "transform",
         ),
-        (
-            "",
-            "<path id=\"x\" opacity=\"half\" d=\"M0 0H1\" stroke=\"red\"/>",
-            "opacity",
-        ),
+        ("", "<path id=\"x\" opacity=\"half\" d=\"M0 0H1\" stroke=\"red\"/>", "opacity"),
         (
             "",
             "<path id=\"x\" style=\"stroke-opacity:nan\" d=\"M0 0H1\" stroke=\"red\"/>",
@@ -156,38 +108,16 @@ fn deep_and_large_files_end_in_an_error() {
     };
     assert!(deep(MOST_NESTED - 1).is_ok());
     for n in [MOST_NESTED + 1, 100_000] {
-        assert!(matches!(
-            deep(n),
-            Err(ImportError::TooMany { .. } | ImportError::Xml { .. })
-        ));
+        assert!(matches!(deep(n), Err(ImportError::TooMany { .. } | ImportError::Xml { .. })));
     }
-    let many = format!(
-        "<path d=\"M0 0{}\" stroke=\"red\"/>",
-        "h1v1".repeat(MOST_LINES / 2 + 1)
-    );
-    assert!(matches!(
-        error(&document("", &many)),
-        ImportError::TooMany { what: "lines", .. }
-    ));
+    let many = format!("<path d=\"M0 0{}\" stroke=\"red\"/>", "h1v1".repeat(MOST_LINES / 2 + 1));
+    assert!(matches!(error(&document("", &many)), ImportError::TooMany { what: "lines", .. }));
     let nodes = "<a/>".repeat(300_000);
-    assert!(matches!(
-        error(&document("", &nodes)),
-        ImportError::Xml { .. }
-    ));
+    assert!(matches!(error(&document("", &nodes)), ImportError::Xml { .. }));
     let rules = format!("<style>{}</style>", ".a{stroke:red}".repeat(500));
-    assert!(matches!(
-        error(&document("", &rules)),
-        ImportError::TooMany { .. }
-    ));
-    let lists = format!(
-        "<style>{}b{{{}}}</style>",
-        ".a,".repeat(900),
-        "x:y;".repeat(5_000)
-    );
-    assert!(matches!(
-        error(&document("", &lists)),
-        ImportError::TooMany { .. }
-    ));
+    assert!(matches!(error(&document("", &rules)), ImportError::TooMany { .. }));
+    let lists = format!("<style>{}b{{{}}}</style>", ".a,".repeat(900), "x:y;".repeat(5_000));
+    assert!(matches!(error(&document("", &lists)), ImportError::TooMany { .. }));
 }
 
 #[test]
@@ -215,10 +145,7 @@ fn sizes_beyond_reckoning_are_refused() {
         assert!(is_named, "{refused}");
     }
     let far = format!("<g transform=\"translate(1e9 0)\">{SQUARE}</g>");
-    assert!(matches!(
-        error(&document("", &far)),
-        ImportError::Extent { .. }
-    ));
+    assert!(matches!(error(&document("", &far)), ImportError::Extent { .. }));
 }
 
 #[test]

@@ -32,10 +32,7 @@ fn tangent(steps: usize) -> f64 {
 
 /// A point on a ray, at a distance from the leg's corner.
 pub(crate) fn on_ray(ray: usize, distance: f64) -> Point {
-    [
-        1.0 - distance * sine(4 - ray),
-        1.0 - distance * sine(4 + ray),
-    ]
+    [1.0 - distance * sine(4 - ray), 1.0 - distance * sine(4 + ray)]
 }
 
 /// Where an inside reverse fold crosses the rays: at `distance` on the diagonal, at `steps` times 11.25° to it,
@@ -67,12 +64,7 @@ impl Quarter {
             folds.push(reverse_fold(BEAK, 4));
         }
         Self {
-            starts: [
-                CENTRE,
-                [1.0 - tangent(3), 0.0],
-                [kites, 0.0],
-                [1.0 - (1.0 - y) * narrow, y],
-            ],
+            starts: [CENTRE, [1.0 - tangent(3), 0.0], [kites, 0.0], [1.0 - (1.0 - y) * narrow, y]],
             hinge: [kites / 2.0 + along, along - kites / 2.0],
             folds,
         }

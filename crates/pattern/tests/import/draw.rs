@@ -168,17 +168,7 @@ pub(crate) fn square_twist() -> Pattern {
 /// A card whose middle strip, cut at both sides, pops up.
 pub(crate) fn pop_up() -> Pattern {
     let mut pattern = Pattern::default();
-    pattern.closed(
-        'B',
-        &[
-            [0.0, 0.0],
-            [4.0, 0.0],
-            [4.0, 2.0],
-            [4.0, 4.0],
-            [0.0, 4.0],
-            [0.0, 2.0],
-        ],
-    );
+    pattern.closed('B', &[[0.0, 0.0], [4.0, 0.0], [4.0, 2.0], [4.0, 4.0], [0.0, 4.0], [0.0, 2.0]]);
     for x in [1.0, 3.0] {
         pattern.add('C', &[[x, 1.0], [x, 2.0], [x, 3.0]]);
     }

@@ -23,11 +23,7 @@ fn stack(folded: &Folded<'_>) -> Vec<usize> {
             let middle = (sum / corners.len() as f64).to_array();
             let facet = sheet.face_facets[folded.face_at(place(quarter, middle))];
             let front = 2 * depth + quarter / 2;
-            let layer = if quarter.is_multiple_of(2) {
-                front
-            } else {
-                63 - front
-            };
+            let layer = if quarter.is_multiple_of(2) { front } else { 63 - front };
             for (place, of) in stack.iter_mut().zip(&sheet.face_facets) {
                 if *of == facet {
                     *place = layer;

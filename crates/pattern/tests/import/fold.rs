@@ -46,20 +46,8 @@ fn letters_and_angles_say_how_an_edge_folds() {
         (json!("V"), None, Valley, 180.0, None),
         (json!("M"), Some(json!(-90)), Mountain, -90.0, None),
         (json!("V"), Some(json!(0)), Valley, 0.0, None),
-        (
-            json!("M"),
-            Some(json!(30)),
-            Valley,
-            30.0,
-            Some(WarningKind::OtherSign),
-        ),
-        (
-            json!("V"),
-            Some(json!(null)),
-            Free,
-            0.0,
-            Some(WarningKind::MadeFree),
-        ),
+        (json!("M"), Some(json!(30)), Valley, 30.0, Some(WarningKind::OtherSign)),
+        (json!("V"), Some(json!(null)), Free, 0.0, Some(WarningKind::MadeFree)),
         (json!("U"), None, Free, 0.0, None),
         (json!("U"), Some(json!(0)), Free, 0.0, None),
         (json!("U"), Some(json!(-45)), Mountain, -45.0, None),
@@ -87,26 +75,13 @@ fn letters_and_angles_say_how_an_edge_folds() {
                     file.as_object_mut().unwrap().remove("faces_vertices");
                 }
                 let imported = import(&file);
-                let edge = imported
-                    .sheet
-                    .edges
-                    .iter()
-                    .position(Edge::is_hinge)
-                    .unwrap();
+                let edge = imported.sheet.edges.iter().position(Edge::is_hinge).unwrap();
                 assert_eq!(imported.sheet.edges[edge].assignment, assignment, "{file}");
                 assert!((imported.targets[edge].to_degrees() - degrees).abs() < 1e-12);
                 if let Some(kind) = warning {
-                    assert!(
-                        warned(&imported, kind) > 0,
-                        "{file}: {:?}",
-                        imported.warnings
-                    );
+                    assert!(warned(&imported, kind) > 0, "{file}: {:?}", imported.warnings);
                 } else if has_faces {
-                    assert!(
-                        imported.warnings.is_empty(),
-                        "{file}: {:?}",
-                        imported.warnings
-                    );
+                    assert!(imported.warnings.is_empty(), "{file}: {:?}", imported.warnings);
                 }
                 let free: Vec<u32> = imported.free_hinges().collect();
                 assert_eq!(free.len(), usize::from(assignment == Free));
@@ -120,10 +95,7 @@ fn a_cut_between_two_faces_parts_them_where_it_can() {
     let mut file = two_triangles();
     file["edges_assignment"][4] = json!("C");
     let error = try_import(&file).unwrap_err();
-    assert!(
-        matches!(error, ImportError::Disconnected { pieces: 2, .. }),
-        "{error}"
-    );
+    assert!(matches!(error, ImportError::Disconnected { pieces: 2, .. }), "{error}");
     assert!(error.to_string().contains("edge 0"), "{error}");
     // A cut from the border to the middle: one vertex more, and a notch instead of two hinges.
     let notched = json!({
@@ -133,10 +105,7 @@ fn a_cut_between_two_faces_parts_them_where_it_can() {
         "faces_vertices": [[0, 1, 4], [1, 2, 4], [2, 3, 4], [3, 0, 4]],
     });
     let imported = import(&notched);
-    assert_eq!(
-        (imported.sheet.vertices.len(), counts(&imported)[&'B']),
-        (6, 6)
-    );
+    assert_eq!((imported.sheet.vertices.len(), counts(&imported)[&'B']), (6, 6));
     assert_eq!(imported.vertex_sources[5], Some(0));
     assert_eq!(imported.euler_characteristic(), 1);
 }
@@ -171,10 +140,7 @@ fn polygons_of_any_size_and_faces_with_holes_are_cut_into_triangles() {
         });
         let imported = import(&file);
         assert_eq!(
-            (
-                imported.sheet.faces.len(),
-                imported.sheet.facets[0].polygon.len()
-            ),
+            (imported.sheet.faces.len(), imported.sheet.facets[0].polygon.len()),
             (n - 2, n)
         );
         assert!(imported.warnings.is_empty(), "{:?}", imported.warnings);
@@ -193,10 +159,7 @@ fn polygons_of_any_size_and_faces_with_holes_are_cut_into_triangles() {
         }
         let imported = import(&file);
         assert_eq!(imported.euler_characteristic(), 0, "listed: {listed}");
-        assert_eq!(
-            (imported.sheet.facets.len(), imported.sheet.faces.len()),
-            (1, 12)
-        );
+        assert_eq!((imported.sheet.facets.len(), imported.sheet.faces.len()), (1, 12));
     }
 }
 
@@ -225,10 +188,8 @@ fn planes_other_than_z_0_are_turned_into_it_fronts_up() {
                 .map(|e| v[e.vertices[0] as usize].distance(v[e.vertices[1] as usize]))
                 .collect()
         };
-        let same = lengths(&imported)
-            .iter()
-            .zip(lengths(&flat))
-            .all(|(a, b)| (a - b).abs() < 1e-12);
+        let same =
+            lengths(&imported).iter().zip(lengths(&flat)).all(|(a, b)| (a - b).abs() < 1e-12);
         assert!(same);
         let shape = imported.shape.as_ref().unwrap();
         assert_eq!(shape[1], DVec3::from(place(1.0, 0.0)));
@@ -252,10 +213,7 @@ fn a_folded_key_frame_is_refused_unless_a_frame_is_the_pattern() {
         "frame_parent": 0, "frame_inherit": true, "frame_classes": ["creasePattern"],
         "vertices_coords": flat,
     }]);
-    assert_eq!(
-        import(&file).sheet.vertices,
-        import(&two_triangles()).sheet.vertices
-    );
+    assert_eq!(import(&file).sheet.vertices, import(&two_triangles()).sheet.vertices);
 }
 
 #[test]
@@ -272,34 +230,19 @@ fn frames_with_angles_are_stages_and_drive_what_the_key_frame_leaves_free() {
     ]);
     let imported = import(&file);
     assert_eq!(imported.free_hinges().count(), 0);
-    let edge = imported
-        .sheet
-        .edges
-        .iter()
-        .position(Edge::is_hinge)
-        .unwrap();
-    let stages: Vec<_> = imported
-        .stages
-        .iter()
-        .map(|s| (s.frame, s.title.as_deref(), s.angles[edge]))
-        .collect();
+    let edge = imported.sheet.edges.iter().position(Edge::is_hinge).unwrap();
+    let stages: Vec<_> =
+        imported.stages.iter().map(|s| (s.frame, s.title.as_deref(), s.angles[edge])).collect();
     assert_eq!(stages, [(0, Some("half"), Some(PI / 2.0)), (2, None, None)]);
     assert_eq!(imported.sheet.edges[edge].assignment, Assignment::Valley);
-    let other = imported
-        .warnings
-        .iter()
-        .find(|w| w.kind == WarningKind::OtherFrame)
-        .unwrap();
+    let other = imported.warnings.iter().find(|w| w.kind == WarningKind::OtherFrame).unwrap();
     assert_eq!(other.sources, [Source::FoldFrame(3)]);
 }
 
 #[test]
 fn what_no_face_needs_is_left_out_with_a_warning() {
     let mut file = two_triangles();
-    file["vertices_coords"]
-        .as_array_mut()
-        .unwrap()
-        .insert(0, json!([9, 9]));
+    file["vertices_coords"].as_array_mut().unwrap().insert(0, json!([9, 9]));
     for list in ["edges_vertices", "faces_vertices"] {
         for entry in file[list].as_array_mut().unwrap() {
             for v in entry.as_array_mut().unwrap() {
@@ -309,14 +252,8 @@ fn what_no_face_needs_is_left_out_with_a_warning() {
     }
     // Edges to the unused vertex, listed twice with another meaning, and a face the wrong way round.
     for (edge, letter) in [([0, 1], "M"), ([1, 3], "V"), ([1, 3], "M")] {
-        file["edges_vertices"]
-            .as_array_mut()
-            .unwrap()
-            .push(json!(edge));
-        file["edges_assignment"]
-            .as_array_mut()
-            .unwrap()
-            .push(json!(letter));
+        file["edges_vertices"].as_array_mut().unwrap().push(json!(edge));
+        file["edges_assignment"].as_array_mut().unwrap().push(json!(letter));
     }
     file["faces_vertices"][1].as_array_mut().unwrap().reverse();
     let imported = import(&file);
@@ -355,10 +292,7 @@ fn units_titles_unit_lengths_and_fixed_faces_are_read() {
         file["frame_unit"] = json!(unit);
         file["file_title"] = json!("a square");
         let imported = import(&file);
-        assert_eq!(
-            (imported.unit.name(), imported.title.as_deref()),
-            (unit, Some("a square"))
-        );
+        assert_eq!((imported.unit.name(), imported.title.as_deref()), (unit, Some("a square")));
     }
     assert_eq!(LengthUnit::named("in").unwrap().metres(), Some(0.0254));
     let mut file = two_triangles();
@@ -367,10 +301,7 @@ fn units_titles_unit_lengths_and_fixed_faces_are_read() {
     file["foldmotion:unitLength"] = json!(0.5);
     file["faces_foldmotion:fixed"] = json!([false, true]);
     let imported = import(&file);
-    assert_eq!(
-        (imported.sheet.unit_length, imported.fixed_facets),
-        (0.5, vec![1])
-    );
+    assert_eq!((imported.sheet.unit_length, imported.fixed_facets), (0.5, vec![1]));
     let mut file = two_triangles();
     file["rtori:os:vertices_fixed"] = json!([1, 1, 1, 0]);
     assert_eq!(import(&file).fixed_facets, [0]);
@@ -404,10 +335,7 @@ fn keys_that_are_not_read_survive_a_round_trip() {
     }
     assert!(written.get("edges_faces").is_none() && written.get("faceOrders").is_none());
     let again = import(&written);
-    assert_eq!(
-        (&again.sheet, &again.targets),
-        (&imported.sheet, &imported.targets)
-    );
+    assert_eq!((&again.sheet, &again.targets), (&imported.sheet, &imported.targets));
     assert_eq!(again.keys.get("lab:note"), imported.keys.get("lab:note"));
 }
 
@@ -426,20 +354,12 @@ fn lists_follow_their_elements_where_the_sheet_has_others() {
     let written: Value = serde_json::from_str(&imported.fold("test")).unwrap();
     for (letter, name) in [("M", json!("up")), ("V", json!("across"))] {
         let letters = written["edges_assignment"].as_array().unwrap();
-        let names = letters
-            .iter()
-            .zip(written["edges_lab:name"].as_array().unwrap());
-        let of: Vec<&Value> = names
-            .filter(|(l, _)| *l == letter)
-            .map(|(_, n)| n)
-            .collect();
+        let names = letters.iter().zip(written["edges_lab:name"].as_array().unwrap());
+        let of: Vec<&Value> = names.filter(|(l, _)| *l == letter).map(|(_, n)| n).collect();
         assert_eq!(of, [&name, &name]);
     }
     let places = written["vertices_coords"].as_array().unwrap();
-    for (place, name) in places
-        .iter()
-        .zip(written["vertices_lab:name"].as_array().unwrap())
-    {
+    for (place, name) in places.iter().zip(written["vertices_lab:name"].as_array().unwrap()) {
         match name.as_u64() {
             Some(index) => {
                 let at = |v: &Value| DVec2::from([0, 1].map(|i| v[i].as_f64().unwrap()));

@@ -59,20 +59,12 @@ impl<'a> Folded<'a> {
     /// From each triangle to those beside it, and the map between them.
     fn steps(&self) -> impl Iterator<Item = (usize, usize, DAffine2)> + use<'a> {
         let sheet = &self.imported.sheet;
-        sheet
-            .edges
-            .iter()
-            .filter(|e| e.is_hinge())
-            .flat_map(|edge| {
-                let [a, b] = edge.vertices.map(|v| sheet.vertices[v as usize]);
-                let turn = if edge.is_crease() {
-                    reflection(a, b)
-                } else {
-                    DAffine2::IDENTITY
-                };
-                let [f, g] = edge.faces.map(|f| f.unwrap() as usize);
-                [(f, g, turn), (g, f, turn)]
-            })
+        sheet.edges.iter().filter(|e| e.is_hinge()).flat_map(|edge| {
+            let [a, b] = edge.vertices.map(|v| sheet.vertices[v as usize]);
+            let turn = if edge.is_crease() { reflection(a, b) } else { DAffine2::IDENTITY };
+            let [f, g] = edge.faces.map(|f| f.unwrap() as usize);
+            [(f, g, turn), (g, f, turn)]
+        })
     }
 
     /// Whether the walk meets itself around every vertex.
@@ -118,9 +110,7 @@ impl<'a> Folded<'a> {
             };
             crossings += (0..stack.len()).filter(runs).count();
             let others = bends[index + 1..].iter();
-            crossings += others
-                .filter(|o| bend.interleaves(o) && bend.lies_along(o))
-                .count();
+            crossings += others.filter(|o| bend.interleaves(o) && bend.lies_along(o)).count();
         }
         crossings
     }
@@ -167,9 +157,7 @@ impl Bend {
     fn lies_along(&self, other: &Self) -> bool {
         let way = self.ends[1] - self.ends[0];
         let off = |p: DVec2| way.perp_dot(p - self.ends[0]);
-        let [a, b] = other
-            .ends
-            .map(|p| way.dot(p - self.ends[0]) / way.length_squared());
+        let [a, b] = other.ends.map(|p| way.dot(p - self.ends[0]) / way.length_squared());
         other.ends.iter().all(|p| off(*p).abs() < 1e-9)
             && a.max(b).min(1.0) - a.min(b).max(0.0) > 1e-6
             && off(self.beside) * off(other.beside) > 0.0

@@ -56,9 +56,8 @@ fn random_lines_across_have_as_many_facets_as_crossings_say() {
     // Chords of a square: facets = 1 + chords + crossings (Euler), if no three meet.
     let mut random = fastrand::Rng::with_seed(7);
     for count in [3, 20, 80] {
-        let chords: Vec<[f64; 4]> = (0..count)
-            .map(|_| [0.0, 100.0 * random.f64(), 100.0, 100.0 * random.f64()])
-            .collect();
+        let chords: Vec<[f64; 4]> =
+            (0..count).map(|_| [0.0, 100.0 * random.f64(), 100.0, 100.0 * random.f64()]).collect();
         let mut body = square("");
         for chord in &chords {
             body += &line(*chord, "red");
@@ -85,15 +84,7 @@ fn many_lines_through_nearly_one_point_become_one_sheet() {
         let (sin, cos) = (std::f64::consts::PI * f64::from(k) / 60.0).sin_cos();
         let wobble = 0.004 * f64::from(k % 7);
         let (x, y) = (50.0 + wobble, 50.0 - wobble);
-        body += &line(
-            [
-                x - 40.0 * cos,
-                y - 40.0 * sin,
-                x + 40.0 * cos,
-                y + 40.0 * sin,
-            ],
-            "red",
-        );
+        body += &line([x - 40.0 * cos, y - 40.0 * sin, x + 40.0 * cos, y + 40.0 * sin], "red");
     }
     body += "<polygon stroke=\"blue\" points=\"";
     for k in 0..120 {
@@ -119,24 +110,14 @@ fn ends_that_nearly_meet_are_merged_within_the_tolerance_only() {
     let imported = import(&body);
     assert_eq!(imported.sheet.facets.len(), 2);
     assert!(warned(&imported, WarningKind::Merged) > 0);
-    let exact = ImportOptions {
-        merge: Some(MergeTolerance::Relative(1e-6)),
-        ..ImportOptions::default()
-    };
+    let exact =
+        ImportOptions { merge: Some(MergeTolerance::Relative(1e-6)), ..ImportOptions::default() };
     let imported = import_with(exact, &body).unwrap();
-    assert_eq!(
-        (
-            imported.sheet.facets.len(),
-            warned(&imported, WarningKind::Stray)
-        ),
-        (1, 2)
-    );
+    assert_eq!((imported.sheet.facets.len(), warned(&imported, WarningKind::Stray)), (1, 2));
     // Origami Simulator's 3 units.
     let body = square(&line([50.0, 2.0, 50.0, 98.0], "red"));
-    let simulator = ImportOptions {
-        merge: Some(MergeTolerance::Absolute(3.0)),
-        ..ImportOptions::default()
-    };
+    let simulator =
+        ImportOptions { merge: Some(MergeTolerance::Absolute(3.0)), ..ImportOptions::default() };
     assert_eq!(import_with(simulator, &body).unwrap().sheet.facets.len(), 2);
     assert_eq!(import(&body).sheet.facets.len(), 1);
     for merge in [
@@ -146,10 +127,7 @@ fn ends_that_nearly_meet_are_merged_within_the_tolerance_only() {
         MergeTolerance::Absolute(-1.0),
         MergeTolerance::Absolute(1e9),
     ] {
-        let options = ImportOptions {
-            merge: Some(merge),
-            ..ImportOptions::default()
-        };
+        let options = ImportOptions { merge: Some(merge), ..ImportOptions::default() };
         let error = import_with(options, &body).unwrap_err();
         assert!(matches!(error, ImportError::Tolerance { .. }), "{error}");
     }
@@ -186,10 +164,7 @@ fn strays_outsiders_and_hole_fillers_are_left_out() {
     assert_eq!(warned(&imported, WarningKind::Stray), 2);
     assert_eq!(warned(&imported, WarningKind::Outside), 1);
     // A crease from the border to the hole has the same facet on both sides.
-    assert_eq!(
-        (imported.sheet.facets.len(), counts(&imported)[&'V']),
-        (1, 1)
-    );
+    assert_eq!((imported.sheet.facets.len(), counts(&imported)[&'V']), (1, 1));
     assert_eq!(imported.euler_characteristic(), 0);
 }
 
@@ -198,10 +173,7 @@ fn creases_that_leave_the_sheet_and_return_end_at_its_border() {
     let imported = import(&square(
         "<path d=\"M50 0V50H130V120H50V80\" stroke=\"red\"/><path d=\"M50 50L0 100\" stroke=\"red\"/>",
     ));
-    assert_eq!(
-        (imported.sheet.facets.len(), imported.euler_characteristic()),
-        (3, 1)
-    );
+    assert_eq!((imported.sheet.facets.len(), imported.euler_characteristic()), (3, 1));
     assert_eq!(warned(&imported, WarningKind::Outside), 1);
 }
 
@@ -215,23 +187,14 @@ fn nested_holes_and_islands_are_distinguished() {
     };
     // Two facets that only a crease parts: the inner one lies in the outer.
     let imported = import(&(ring(0.0, "black") + &ring(20.0, "red")));
-    assert_eq!(
-        (imported.sheet.facets.len(), counts(&imported)[&'M']),
-        (2, 4)
-    );
+    assert_eq!((imported.sheet.facets.len(), counts(&imported)[&'M']), (2, 4));
     assert_eq!(imported.euler_characteristic(), 1);
     let imported = import(&(ring(0.0, "black") + &ring(20.0, "red") + &ring(30.0, "black")));
-    assert_eq!(
-        (imported.sheet.facets.len(), imported.euler_characteristic()),
-        (2, 0)
-    );
+    assert_eq!((imported.sheet.facets.len(), imported.euler_characteristic()), (2, 0));
     // An island in the hole is a second piece.
     let body = ring(0.0, "black") + &ring(20.0, "black") + &ring(30.0, "black");
     let error = import_with(ImportOptions::default(), &body).unwrap_err();
-    assert!(
-        matches!(error, ImportError::Disconnected { pieces: 2, .. }),
-        "{error}"
-    );
+    assert!(matches!(error, ImportError::Disconnected { pieces: 2, .. }), "{error}");
 }
 
 #[test]
@@ -262,10 +225,7 @@ fn a_slit_opens_where_a_crease_meets_it() {
     assert_eq!(warned(&open, WarningKind::ClosedCut), 0);
     assert_eq!(open.euler_characteristic(), 0);
     let notch = import(&square("<path d=\"M0 50H50L80 20\" stroke=\"#0f0\"/>"));
-    assert_eq!(
-        (notch.euler_characteristic(), counts(&notch)[&'B']),
-        (1, 5 + 4)
-    );
+    assert_eq!((notch.euler_characteristic(), counts(&notch)[&'B']), (1, 5 + 4));
 }
 
 /// The pattern with every line as it was drawn, one upon another and in any direction.

@@ -1,10 +1,6 @@
 //! Crease patterns read from SVG and FOLD.
 
-#![expect(
-    clippy::unwrap_used,
-    clippy::panic,
-    reason = "a test stops where something is missing"
-)]
+#![expect(clippy::unwrap_used, clippy::panic, reason = "a test stops where something is missing")]
 
 mod bad_fold;
 mod bad_svg;

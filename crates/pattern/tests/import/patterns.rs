@@ -94,10 +94,7 @@ fn check_flat_foldable(imported: &ImportedPattern) -> usize {
         let sector = |i: usize| (creases[(i + 1) % n].0 - creases[i].0).rem_euclid(TAU);
         let alternate: f64 = (0..n).step_by(2).map(sector).sum();
         assert!(n.is_multiple_of(2) && (alternate - PI).abs() < 1e-9);
-        let mountains = creases
-            .iter()
-            .filter(|c| c.1 == Assignment::Mountain)
-            .count();
+        let mountains = creases.iter().filter(|c| c.1 == Assignment::Mountain).count();
         assert_eq!((2 * mountains).abs_diff(n), 2);
     }
     inside
@@ -189,14 +186,7 @@ fn a_frame_keeps_its_hole() {
 
 #[test]
 fn both_formats_say_the_same() {
-    for pattern in [
-        miura(4, 5),
-        bird_base(),
-        crane(),
-        square_twist(),
-        pop_up(),
-        frame(),
-    ] {
+    for pattern in [miura(4, 5), bird_base(), crane(), square_twist(), pop_up(), frame()] {
         let [svg, fold] = both(&pattern);
         assert_eq!(counts(&svg), counts(&fold));
         let lines = |i: &ImportedPattern| -> BTreeSet<([[i64; 2]; 2], char)> {

@@ -22,9 +22,7 @@ fn sheets() -> Vec<UnitSheet> {
         Unit::new(Case::SII, 1.6 * h, h, Some(0.7), Some(0.0)),
         Unit::new(Case::Plain, 2.5 * h, h, None, None),
     ];
-    units
-        .map(|unit| UnitSheet::new(unit.unwrap(), 5, 4).unwrap())
-        .to_vec()
+    units.map(|unit| UnitSheet::new(unit.unwrap(), 5, 4).unwrap()).to_vec()
 }
 
 const SCALE: f64 = 150.0;
@@ -38,45 +36,25 @@ fn edges(
     is_drawn: impl Fn(usize) -> bool,
     place: impl Fn(DVec2) -> DVec2,
 ) -> Edges {
-    let key = |v: u32| {
-        place(sheet.vertices[v as usize])
-            .to_array()
-            .map(|c| (c * 1e6).round() as i64)
-    };
-    let drawn = sheet
-        .edges
-        .iter()
-        .enumerate()
-        .filter(|(index, _)| is_drawn(*index));
+    let key =
+        |v: u32| place(sheet.vertices[v as usize]).to_array().map(|c| (c * 1e6).round() as i64);
+    let drawn = sheet.edges.iter().enumerate().filter(|(index, _)| is_drawn(*index));
     drawn
         .map(|(index, edge)| {
             let mut ends = edge.vertices.map(key);
             ends.sort_unstable();
-            let degrees = if edge.is_crease() {
-                targets[index].to_degrees()
-            } else {
-                0.0
-            };
-            (
-                ends,
-                (edge.assignment.letter(), (degrees * 1e6).round() as i64),
-            )
+            let degrees = if edge.is_crease() { targets[index].to_degrees() } else { 0.0 };
+            (ends, (edge.assignment.letter(), (degrees * 1e6).round() as i64))
         })
         .collect()
 }
 
 fn high(sheet: &Sheet) -> DVec2 {
-    sheet
-        .vertices
-        .iter()
-        .fold(DVec2::NEG_INFINITY, |m, v| m.max(*v))
+    sheet.vertices.iter().fold(DVec2::NEG_INFINITY, |m, v| m.max(*v))
 }
 
 fn low(sheet: &Sheet) -> DVec2 {
-    sheet
-        .vertices
-        .iter()
-        .fold(DVec2::INFINITY, |m, v| m.min(*v))
+    sheet.vertices.iter().fold(DVec2::INFINITY, |m, v| m.min(*v))
 }
 
 #[test]
@@ -115,10 +93,7 @@ fn sheets_of_units_written_as_svg_come_back_in_form_and_size() {
 fn sheets_of_units_written_as_fold_come_back_vertex_by_vertex() {
     for units in sheets() {
         for draws_facets in [true, false] {
-            let options = CutOptions {
-                draws_facets,
-                ..CutOptions::new(SCALE)
-            };
+            let options = CutOptions { draws_facets, ..CutOptions::new(SCALE) };
             let sheet = &units.sheet;
             let text =
                 crease_pattern_fold(sheet, units.compact_angles(), &options, "test").unwrap();
@@ -140,10 +115,7 @@ fn sheets_of_units_written_as_fold_come_back_vertex_by_vertex() {
             assert_eq!(faces[0], faces[1]);
             let all = |_: usize| true;
             let found = edges(&imported.sheet, &imported.targets, all, |v| v);
-            assert_eq!(
-                found,
-                edges(sheet, units.compact_angles(), all, |v| v * SCALE)
-            );
+            assert_eq!(found, edges(sheet, units.compact_angles(), all, |v| v * SCALE));
         }
     }
 }

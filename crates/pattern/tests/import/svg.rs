@@ -15,10 +15,7 @@ pub(crate) fn document(attributes: &str, body: &str) -> String {
 }
 
 fn import(attributes: &str, body: &str) -> ImportedPattern {
-    let imported = import_svg(
-        document(attributes, body).as_bytes(),
-        &ImportOptions::default(),
-    );
+    let imported = import_svg(document(attributes, body).as_bytes(), &ImportOptions::default());
     let imported = imported.unwrap();
     check_sheet(&imported);
     imported
@@ -26,10 +23,7 @@ fn import(attributes: &str, body: &str) -> ImportedPattern {
 
 /// A square of side 10 with one crease across, drawn by `crease`.
 fn square(crease: &str) -> ImportedPattern {
-    import(
-        "",
-        &format!("<rect width=\"10\" height=\"10\" stroke=\"#000\"/>{crease}"),
-    )
+    import("", &format!("<rect width=\"10\" height=\"10\" stroke=\"#000\"/>{crease}"))
 }
 
 /// The one crease of a sheet: its assignment and target in degrees.
@@ -48,25 +42,13 @@ fn every_notation_of_a_colour_means_the_same() {
     use Assignment::{Facet, Free, Mountain, Valley};
     for (colours, assignment, degrees) in [
         (
-            &[
-                "#f00",
-                "#ff0000",
-                "#F00",
-                "red",
-                "rgb(255,0,0)",
-                "rgb(100%, 0%, 0%)",
-                "Red",
-            ][..],
+            &["#f00", "#ff0000", "#F00", "red", "rgb(255,0,0)", "rgb(100%, 0%, 0%)", "Red"][..],
             Mountain,
             -180.0,
         ),
         (&["#00f", "#0000ff", "blue", "rgb(0 0 255)"], Valley, 180.0),
         (&["#ff0", "#FFFF00", "yellow"], Facet, 0.0),
-        (
-            &["#f0f", "magenta", "fuchsia", "rgba(255,0,255,1)"],
-            Free,
-            0.0,
-        ),
+        (&["#f0f", "magenta", "fuchsia", "rgba(255,0,255,1)"], Free, 0.0),
     ] {
         for colour in colours {
             for notation in [
@@ -85,10 +67,7 @@ fn every_notation_of_a_colour_means_the_same() {
 fn opacity_is_the_angle_and_may_be_nothing() {
     for (attributes, degrees) in [
         ("stroke=\"#00f\" opacity=\"0.5\"", 90.0),
-        (
-            "stroke=\"#00f\" stroke-opacity=\"0.5\" opacity=\"0.5\"",
-            45.0,
-        ),
+        ("stroke=\"#00f\" stroke-opacity=\"0.5\" opacity=\"0.5\"", 45.0),
         ("stroke=\"#f00\" style=\"stroke-opacity:25%\"", -45.0),
         ("stroke=\"#f00\" opacity=\"0\"", 0.0),
         ("stroke=\"#00f\" stroke-opacity=\"0\"", 0.0),
@@ -111,22 +90,10 @@ fn classes_ids_elements_and_groups_style_their_lines() {
                  #one { stroke: #f0f !important }</style>";
     for (crease, expected) in [
         ("<path d=\"M5 0V10\"/>", (Assignment::Valley, 180.0)),
-        (
-            "<path class=\"a m\" d=\"M5 0V10\"/>",
-            (Assignment::Mountain, -90.0),
-        ),
-        (
-            "<path class=\"m\" style=\"stroke:#00f\" d=\"M5 0V10\"/>",
-            (Assignment::Valley, 90.0),
-        ),
-        (
-            "<path id=\"one\" style=\"stroke:#00f\" d=\"M5 0V10\"/>",
-            (Assignment::Free, 0.0),
-        ),
-        (
-            "<g stroke=\"blue\"><line x1=\"5\" x2=\"5\" y2=\"10\"/></g>",
-            (Assignment::Valley, 180.0),
-        ),
+        ("<path class=\"a m\" d=\"M5 0V10\"/>", (Assignment::Mountain, -90.0)),
+        ("<path class=\"m\" style=\"stroke:#00f\" d=\"M5 0V10\"/>", (Assignment::Valley, 90.0)),
+        ("<path id=\"one\" style=\"stroke:#00f\" d=\"M5 0V10\"/>", (Assignment::Free, 0.0)),
+        ("<g stroke=\"blue\"><line x1=\"5\" x2=\"5\" y2=\"10\"/></g>", (Assignment::Valley, 180.0)),
         (
             "<g class=\"m\"><line x1=\"5\" x2=\"5\" y2=\"10\" stroke=\"inherit\"/></g>",
             (Assignment::Mountain, -90.0),
@@ -202,21 +169,9 @@ fn physical_sizes_are_kept() {
             LengthUnit::Millimetre,
             [40.0, 20.0],
         ),
-        (
-            "width=\"8cm\" viewBox=\"0 0 8 4\"",
-            LengthUnit::Millimetre,
-            [40.0, 20.0],
-        ),
-        (
-            "width=\"8in\" height=\"4in\" viewBox=\"0 0 8 4\"",
-            LengthUnit::Millimetre,
-            [101.6, 50.8],
-        ),
-        (
-            "width=\"72pt\" height=\"6pc\" viewBox=\"0 0 8 8\"",
-            LengthUnit::Millimetre,
-            [12.7, 6.35],
-        ),
+        ("width=\"8cm\" viewBox=\"0 0 8 4\"", LengthUnit::Millimetre, [40.0, 20.0]),
+        ("width=\"8in\" height=\"4in\" viewBox=\"0 0 8 4\"", LengthUnit::Millimetre, [101.6, 50.8]),
+        ("width=\"72pt\" height=\"6pc\" viewBox=\"0 0 8 8\"", LengthUnit::Millimetre, [12.7, 6.35]),
         (
             "width=\"80mm\" height=\"80mm\"",
             LengthUnit::Millimetre,
@@ -232,29 +187,14 @@ fn physical_sizes_are_kept() {
             LengthUnit::Millimetre,
             [40.0, 20.0],
         ),
-        (
-            "width=\"800\" height=\"400px\" viewBox=\"0 0 8 4\"",
-            LengthUnit::Unit,
-            [4.0, 2.0],
-        ),
-        (
-            "width=\"100%\" viewBox=\"0 0 8 4\"",
-            LengthUnit::Unit,
-            [4.0, 2.0],
-        ),
+        ("width=\"800\" height=\"400px\" viewBox=\"0 0 8 4\"", LengthUnit::Unit, [4.0, 2.0]),
+        ("width=\"100%\" viewBox=\"0 0 8 4\"", LengthUnit::Unit, [4.0, 2.0]),
         ("", LengthUnit::Unit, [4.0, 2.0]),
     ] {
         let imported = import(attributes, body);
         assert_eq!(imported.unit, unit, "{attributes}");
-        let far = imported
-            .sheet
-            .vertices
-            .iter()
-            .fold(DVec2::ZERO, |m, v| m.max(v.abs()));
-        assert!(
-            (far - DVec2::from(size)).length() < 1e-9,
-            "{attributes}: {far}"
-        );
+        let far = imported.sheet.vertices.iter().fold(DVec2::ZERO, |m, v| m.max(v.abs()));
+        assert!((far - DVec2::from(size)).length() < 1e-9, "{attributes}: {far}");
     }
 }
 
@@ -274,12 +214,8 @@ fn every_edge_knows_its_element_and_line() {
                 continue;
             }
         };
-        let expected = Source::Svg {
-            tag: tag.to_owned(),
-            id: Some(id.to_owned()),
-            line,
-            column: 1,
-        };
+        let expected =
+            Source::Svg { tag: tag.to_owned(), id: Some(id.to_owned()), line, column: 1 };
         assert_eq!(imported.edge_source(index as u32), Some(&expected));
         assert!(expected.to_string().contains("line "));
     }
@@ -293,28 +229,16 @@ fn unknown_strokes_are_refused_by_element_or_left_out() {
     let text = document("", body);
     let mut options = ImportOptions::default();
     let refused = import_svg(text.as_bytes(), &options).unwrap_err();
-    let ImportError::Unknown { elements, reasons } = &refused else {
-        panic!("{refused}")
-    };
+    let ImportError::Unknown { elements, reasons } = &refused else { panic!("{refused}") };
     assert_eq!((elements.len(), reasons.len()), (5, 5), "{refused}");
     let message = refused.to_string();
-    for part in [
-        "<path id=\"p\"> (line 3)",
-        "#888",
-        "circle",
-        "#zzz",
-        "arcs",
-        "curves",
-    ] {
+    for part in ["<path id=\"p\"> (line 3)", "#888", "circle", "#zzz", "arcs", "curves"] {
         assert!(message.contains(part), "{message}");
     }
     options.unknown = UnknownElements::Ignore;
     let imported = import_svg(text.as_bytes(), &options).unwrap();
     assert_eq!(imported.sheet.facets.len(), 1);
-    let ignored = imported
-        .warnings
-        .iter()
-        .find(|w| w.kind == WarningKind::Ignored);
+    let ignored = imported.warnings.iter().find(|w| w.kind == WarningKind::Ignored);
     assert_eq!(ignored.unwrap().count, 5);
 }
 
@@ -343,10 +267,8 @@ fn flattened_curves_stay_within_their_tolerance_of_the_circle_they_draw() {
         "<path d=\"M0 0H10C10 {k} {k} 10 0 10Z\" stroke=\"black\" transform=\"translate(3 4)\"/>"
     );
     for tolerance in [1e-2, 1e-3, 1e-4] {
-        let options = ImportOptions {
-            curves: Curves::Flatten(tolerance),
-            ..ImportOptions::default()
-        };
+        let options =
+            ImportOptions { curves: Curves::Flatten(tolerance), ..ImportOptions::default() };
         let imported = import_svg(document("", &body).as_bytes(), &options).unwrap();
         check_sheet(&imported);
         let centre = DVec2::new(3.0, -4.0);

@@ -20,11 +20,7 @@ pub(super) fn runs(text: &str) -> Vec<Run> {
     let mut runs: Vec<Run> = Vec::new();
     let mut push = |text: &str, scale: f64, rise: f64| match runs.last_mut() {
         Some(last) if last.rise == rise => last.text.push_str(text),
-        _ => runs.push(Run {
-            text: text.to_owned(),
-            scale,
-            rise,
-        }),
+        _ => runs.push(Run { text: text.to_owned(), scale, rise }),
     };
     let mut rest = text;
     while let Some(letter) = rest.chars().next() {

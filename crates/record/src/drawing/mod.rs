@@ -45,29 +45,19 @@ pub struct Stroke {
 impl Stroke {
     /// A solid line.
     pub fn new(color: [u8; 3], width: f64) -> Self {
-        Self {
-            color,
-            width,
-            dash: None,
-        }
+        Self { color, width, dash: None }
     }
 
     /// This line, dashed.
     #[must_use]
     pub fn dashed(self, dash: f64, gap: f64) -> Self {
-        Self {
-            dash: Some([dash, gap, dash, gap]),
-            ..self
-        }
+        Self { dash: Some([dash, gap, dash, gap]), ..self }
     }
 
     /// This line, dashed with a dot in each gap.
     #[must_use]
     pub fn dash_dotted(self, dash: f64, gap: f64) -> Self {
-        Self {
-            dash: Some([dash, gap, DOT, gap]),
-            ..self
-        }
+        Self { dash: Some([dash, gap, DOT, gap]), ..self }
     }
 }
 
@@ -86,33 +76,12 @@ pub enum Anchor {
 /// An item of a drawing.
 #[derive(Debug, Clone, PartialEq)]
 enum Item {
-    Area {
-        outline: Vec<DVec2>,
-        color: [u8; 3],
-    },
-    Shape {
-        rings: Vec<Vec<DVec2>>,
-        color: [u8; 3],
-        bleed: f64,
-    },
-    Line {
-        points: Vec<DVec2>,
-        stroke: Stroke,
-    },
-    Lines {
-        parts: Vec<[DVec2; 2]>,
-        stroke: Stroke,
-    },
-    Words {
-        at: DVec2,
-        text: String,
-        size: f64,
-        anchor: Anchor,
-    },
-    Picture {
-        at: DVec2,
-        image: Image,
-    },
+    Area { outline: Vec<DVec2>, color: [u8; 3] },
+    Shape { rings: Vec<Vec<DVec2>>, color: [u8; 3], bleed: f64 },
+    Line { points: Vec<DVec2>, stroke: Stroke },
+    Lines { parts: Vec<[DVec2; 2]>, stroke: Stroke },
+    Words { at: DVec2, text: String, size: f64, anchor: Anchor },
+    Picture { at: DVec2, image: Image },
 }
 
 /// The longest side of a page in millimetres: 14 400 points (ISO 32000-1, annex C).
@@ -156,10 +125,7 @@ impl Drawing {
     pub fn with_unit(mut self, millimetres: f64) -> Result<Self, RecordError> {
         let longest = f64::from(self.size[0].max(self.size[1])) * millimetres;
         if !(millimetres > 0.0 && longest <= LONGEST_PAGE) {
-            return Err(RecordError::Unit {
-                value: millimetres,
-                limit: LONGEST_PAGE,
-            });
+            return Err(RecordError::Unit { value: millimetres, limit: LONGEST_PAGE });
         }
         self.unit = Some(millimetres);
         Ok(self)
@@ -198,11 +164,7 @@ impl Drawing {
     /// Fills what closed `rings` wind around, holes in the opposite direction, and `bleed` around it: where shapes
     /// adjoin, a small one closes the seam that viewers leave between edges that they smooth one by one.
     pub fn shape(&mut self, rings: Vec<Vec<DVec2>>, color: [u8; 3], bleed: f64) {
-        self.items.push(Item::Shape {
-            rings,
-            color,
-            bleed,
-        });
+        self.items.push(Item::Shape { rings, color, bleed });
     }
 
     /// Draws straight lines of one look.
@@ -226,12 +188,7 @@ impl Drawing {
     /// braces, are raised, after `_` lowered.
     pub fn words(&mut self, at: DVec2, text: impl Into<String>, size: f64, anchor: Anchor) {
         let text = text.into();
-        self.items.push(Item::Words {
-            at,
-            text,
-            size,
-            anchor,
-        });
+        self.items.push(Item::Words { at, text, size, anchor });
     }
 
     /// Puts `image` with its left upper corner at `at`; [`PIXELS_A_UNIT`] of its pixels are one unit.
@@ -270,11 +227,8 @@ mod tests {
     #[test]
     fn pictures_keep_their_pixels() {
         let mut page = Drawing::new([10, 10]).unwrap();
-        let image = Image {
-            width: 4,
-            height: 2,
-            pixels: (0..8).map(|k| [k * 30, 7, 200]).collect(),
-        };
+        let image =
+            Image { width: 4, height: 2, pixels: (0..8).map(|k| [k * 30, 7, 200]).collect() };
         page.picture(DVec2::new(3.0, 2.0), image.clone());
         let drawn = page.image().unwrap();
         for (x, y) in (0..4).flat_map(|x| [(x, 0), (x, 1)]) {

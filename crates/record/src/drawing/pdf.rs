@@ -22,13 +22,7 @@ const PAGE: Ref = Ref::new(3);
 const CONTENT: Ref = Ref::new(4);
 const INFORMATION: Ref = Ref::new(5);
 const METADATA: Ref = Ref::new(6);
-const FONT_PARTS: [Ref; 5] = [
-    Ref::new(7),
-    Ref::new(8),
-    Ref::new(9),
-    Ref::new(10),
-    Ref::new(11),
-];
+const FONT_PARTS: [Ref; 5] = [Ref::new(7), Ref::new(8), Ref::new(9), Ref::new(10), Ref::new(11)];
 const FIRST_PICTURE: i32 = 12;
 
 impl Drawing {
@@ -51,9 +45,7 @@ impl Drawing {
         pdf.stream(CONTENT, &content).filter(Filter::FlateDecode);
         pdf.pages(PAGES).kids([PAGE]).count(1);
         let mut page = pdf.page(PAGE);
-        page.media_box(Rect::new(0.0, 0.0, width, height))
-            .parent(PAGES)
-            .contents(CONTENT);
+        page.media_box(Rect::new(0.0, 0.0, width, height)).parent(PAGES).contents(CONTENT);
         let mut resources = page.resources();
         resources.fonts().pair(FONT, FONT_PARTS[0]);
         let mut pictures = resources.x_objects();
@@ -109,21 +101,14 @@ impl Drawing {
                 Item::Area { outline, color } => {
                     fill(&mut content, std::slice::from_ref(outline), *color, 0.0);
                 }
-                Item::Shape {
-                    rings,
-                    color,
-                    bleed,
-                } => fill(&mut content, rings, *color, *bleed),
+                Item::Shape { rings, color, bleed } => fill(&mut content, rings, *color, *bleed),
                 Item::Line { points, stroke } => draw(&mut content, [&points[..]], stroke),
                 Item::Lines { parts, stroke } => {
                     draw(&mut content, parts.iter().map(|part| &part[..]), stroke);
                 }
-                Item::Words {
-                    at,
-                    text,
-                    size,
-                    anchor,
-                } => write(&mut content, font, *at, text, *size, *anchor),
+                Item::Words { at, text, size, anchor } => {
+                    write(&mut content, font, *at, text, *size, *anchor)
+                }
                 Item::Picture { at, image } => {
                     draw_picture(&mut content, *at, image, &picture_name(images.len()));
                     images.push(image);

@@ -17,11 +17,8 @@ use crate::RecordError;
 /// Its name: six letters tell a subset from the whole font.
 const NAME: Name<'static> = Name(b"FOLDMO+Ubuntu-Light");
 
-const SYSTEM: SystemInfo<'static> = SystemInfo {
-    registry: Str(b"Adobe"),
-    ordering: Str(b"Identity"),
-    supplement: 0,
-};
+const SYSTEM: SystemInfo<'static> =
+    SystemInfo { registry: Str(b"Adobe"), ordering: Str(b"Identity"), supplement: 0 };
 
 /// The letters of a document.
 pub(super) struct PdfFont {
@@ -44,11 +41,7 @@ impl PdfFont {
             (letter, (glyph, glyphs.remap(glyph.0)))
         };
         let letters = sorted.into_iter().map(glyph).collect();
-        Ok(Self {
-            face,
-            glyphs,
-            letters,
-        })
+        Ok(Self { face, glyphs, letters })
     }
 
     /// The bytes that show `text`, and its width as a part of the letters' size.
@@ -126,17 +119,12 @@ impl PdfFont {
             .italic_angle(0.0)
             .ascent(ascent)
             .descent(self.thousandths(face.descender()))
-            .cap_height(
-                face.capital_height()
-                    .map_or(ascent, |h| self.thousandths(h)),
-            )
+            .cap_height(face.capital_height().map_or(ascent, |h| self.thousandths(h)))
             .stem_v(60.0)
             .font_file2(file);
     }
 }
 
 fn failed(error: impl std::fmt::Display) -> RecordError {
-    RecordError::Font {
-        message: error.to_string(),
-    }
+    RecordError::Font { message: error.to_string() }
 }

@@ -44,9 +44,8 @@ impl Drawing {
     }
 
     fn pixmap(&self) -> Result<Pixmap, RecordError> {
-        let face = Face::parse(UBUNTU_LIGHT, 0).map_err(|e| RecordError::Font {
-            message: e.to_string(),
-        })?;
+        let face = Face::parse(UBUNTU_LIGHT, 0)
+            .map_err(|e| RecordError::Font { message: e.to_string() })?;
         let mut pixmap = new_pixmap(self.size.map(|side| side * PIXELS_A_UNIT))?;
         if let Some([r, g, b]) = self.background {
             pixmap.fill(Color::from_rgba8(r, g, b, u8::MAX));
@@ -54,11 +53,7 @@ impl Drawing {
         for item in &self.items {
             match item {
                 Item::Area { outline, color } => fill(&mut pixmap, path(outline, true), *color),
-                Item::Shape {
-                    rings,
-                    color,
-                    bleed,
-                } => {
+                Item::Shape { rings, color, bleed } => {
                     let shape = joined(rings.iter().map(|ring| (&ring[..], true)));
                     let outline = Stroke::new(*color, *bleed);
                     stroke_path(&mut pixmap, shape.as_ref(), &outline);
@@ -71,16 +66,9 @@ impl Drawing {
                     let lines = joined(parts.iter().map(|part| (&part[..], false)));
                     stroke_path(&mut pixmap, lines.as_ref(), stroke);
                 }
-                Item::Words {
-                    at,
-                    text,
-                    size,
-                    anchor,
-                } => fill(
-                    &mut pixmap,
-                    letters(&face, *at, text, *size, *anchor),
-                    WORDS,
-                ),
+                Item::Words { at, text, size, anchor } => {
+                    fill(&mut pixmap, letters(&face, *at, text, *size, *anchor), WORDS)
+                }
                 Item::Picture { at, image } => {
                     // Whole pixels, so that nothing is sampled anew.
                     let at = (*at * f64::from(PIXELS_A_UNIT)).round().as_ivec2();
@@ -95,17 +83,11 @@ impl Drawing {
 }
 
 fn new_pixmap([width, height]: [u32; 2]) -> Result<Pixmap, RecordError> {
-    Pixmap::new(width, height).ok_or(RecordError::Size {
-        width,
-        height,
-        limit: crate::MAX_PIXELS,
-    })
+    Pixmap::new(width, height).ok_or(RecordError::Size { width, height, limit: crate::MAX_PIXELS })
 }
 
 fn encoded(pixmap: &Pixmap) -> Result<Vec<u8>, RecordError> {
-    pixmap.encode_png().map_err(|e| RecordError::Png {
-        message: e.to_string(),
-    })
+    pixmap.encode_png().map_err(|e| RecordError::Png { message: e.to_string() })
 }
 
 fn pixmap_of(image: &Image) -> Result<Pixmap, RecordError> {
@@ -140,9 +122,7 @@ fn stroke_path(pixmap: &mut Pixmap, path: Option<&Path>, stroke: &Stroke) {
     let Some(path) = path.filter(|_| stroke.width > 0.0) else {
         return;
     };
-    let dash = stroke
-        .dash
-        .map(|lengths| lengths.map(|l| l as f32).to_vec());
+    let dash = stroke.dash.map(|lengths| lengths.map(|l| l as f32).to_vec());
     let look = tiny_skia::Stroke {
         width: stroke.width as f32,
         line_cap: LineCap::Round,
@@ -179,11 +159,7 @@ fn joined<'a>(parts: impl Iterator<Item = (&'a [DVec2], bool)>) -> Option<Path> 
 /// The outlines of words.
 fn letters(face: &Face<'_>, at: DVec2, text: &str, size: f64, anchor: Anchor) -> Option<Path> {
     let unit = size / f64::from(face.units_per_em());
-    let mut pen = Pen {
-        builder: PathBuilder::new(),
-        at: DVec2::ZERO,
-        scale: 1.0,
-    };
+    let mut pen = Pen { builder: PathBuilder::new(), at: DVec2::ZERO, scale: 1.0 };
     let mut x = 0.0;
     for run in runs(text) {
         pen.scale = unit * run.scale;
@@ -200,9 +176,7 @@ fn letters(face: &Face<'_>, at: DVec2, text: &str, size: f64, anchor: Anchor) ->
         Anchor::End => x,
     };
     let shift = DVec2::new(at.x - start, at.y).as_vec2();
-    pen.builder
-        .finish()?
-        .transform(Transform::from_translate(shift.x, shift.y))
+    pen.builder.finish()?.transform(Transform::from_translate(shift.x, shift.y))
 }
 
 /// Transforms the outline of a letter, y up, to its position on the page.

@@ -25,22 +25,15 @@ impl Drawing {
                     let (path, color) = (path(outline, true), hex(*color));
                     let _ = writeln!(svg, "<path d=\"{path}\" fill=\"{color}\"/>");
                 }
-                Item::Shape {
-                    rings,
-                    color,
-                    bleed,
-                } => svg.push_str(&shape(rings, *color, *bleed)),
+                Item::Shape { rings, color, bleed } => svg.push_str(&shape(rings, *color, *bleed)),
                 Item::Line { points, stroke } => svg.push_str(&line(&path(points, false), stroke)),
                 Item::Lines { parts, stroke } => {
                     let path: String = parts.iter().map(|part| short_path(part, false)).collect();
                     svg.push_str(&line(&path, stroke));
                 }
-                Item::Words {
-                    at,
-                    text,
-                    size,
-                    anchor,
-                } => svg.push_str(&words(*at, text, *size, *anchor)),
+                Item::Words { at, text, size, anchor } => {
+                    svg.push_str(&words(*at, text, *size, *anchor))
+                }
                 Item::Picture { at, image } => {
                     let [x, y] = [at.x, at.y].map(number);
                     let [w, h] = [image.width, image.height]
@@ -75,10 +68,7 @@ impl Drawing {
         }
         if let Some(background) = self.background {
             let color = hex(background);
-            let _ = writeln!(
-                svg,
-                "<rect width=\"{width}\" height=\"{height}\" fill=\"{color}\"/>"
-            );
+            let _ = writeln!(svg, "<rect width=\"{width}\" height=\"{height}\" fill=\"{color}\"/>");
         }
         svg
     }
@@ -152,10 +142,7 @@ fn words(at: DVec2, text: &str, size: f64, anchor: Anchor) -> String {
 
 fn path(points: &[DVec2], closed: bool) -> String {
     let mut path = String::new();
-    for (letter, point) in std::iter::once('M')
-        .chain(std::iter::repeat('L'))
-        .zip(points)
-    {
+    for (letter, point) in std::iter::once('M').chain(std::iter::repeat('L')).zip(points) {
         let _ = write!(path, "{letter}{} {}", number(point.x), number(point.y));
     }
     if closed {
@@ -168,9 +155,7 @@ fn path(points: &[DVec2], closed: bool) -> String {
 fn short_path(points: &[DVec2], closed: bool) -> String {
     let mut path = String::new();
     for (k, point) in points.iter().enumerate() {
-        let [x, y] = point
-            .to_array()
-            .map(|value| trimmed(&format!("{value:.2}")));
+        let [x, y] = point.to_array().map(|value| trimmed(&format!("{value:.2}")));
         let _ = write!(path, "{}{x} {y}", if k == 0 { 'M' } else { ' ' });
     }
     if closed {

@@ -11,9 +11,8 @@ use crate::RecordError;
 /// # Errors
 /// [`RecordError::Font`].
 pub(crate) fn words_width(text: &str, size: f64) -> Result<f64, RecordError> {
-    let face = Face::parse(UBUNTU_LIGHT, 0).map_err(|e| RecordError::Font {
-        message: e.to_string(),
-    })?;
+    let face =
+        Face::parse(UBUNTU_LIGHT, 0).map_err(|e| RecordError::Font { message: e.to_string() })?;
     let advance = |letter: char| {
         let glyph = face.glyph_index(letter).unwrap_or(GlyphId(0));
         f64::from(face.glyph_hor_advance(glyph).unwrap_or(0))

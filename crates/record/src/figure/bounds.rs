@@ -19,10 +19,7 @@ impl Shown {
     fn new(bounds: &Bounds, camera: &Camera, shift: DVec2) -> Self {
         let corners = bounds.corners().map(|corner| camera.project(corner));
         let farthest = (0..8).min_by(|&a, &b| corners[a].z.total_cmp(&corners[b].z));
-        Self {
-            corners: corners.map(|p| p.truncate() + shift),
-            farthest: farthest.unwrap_or(0),
-        }
+        Self { corners: corners.map(|p| p.truncate() + shift), farthest: farthest.unwrap_or(0) }
     }
 
     /// The edges as pairs of corners, those at the farthest corner or the others.
@@ -45,13 +42,7 @@ impl Shown {
             out.length() + 0.01 * out.y
         };
         let edges = (0..8_usize).filter(|k| k >> axis & 1 == 0).map(edge);
-        let outermost = edges.reduce(|a, b| {
-            if outwardness(b) >= outwardness(a) {
-                b
-            } else {
-                a
-            }
-        });
+        let outermost = edges.reduce(|a, b| if outwardness(b) >= outwardness(a) { b } else { a });
         outermost.unwrap_or([centre; 2])
     }
 

@@ -75,11 +75,7 @@ pub(super) fn positions(
     letters: f64,
     inner: f64,
 ) -> Result<Vec<(usize, f64)>, RecordError> {
-    let bar = if options.unit.is_empty() {
-        0.0
-    } else {
-        BAR * inner + 2.0 * letters
-    };
+    let bar = if options.unit.is_empty() { 0.0 } else { BAR * inner + 2.0 * letters };
     let (mut row, mut x) = (0, bar);
     let mut positions = vec![(0, 0.0)];
     for key in keys {

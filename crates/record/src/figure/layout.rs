@@ -82,12 +82,7 @@ impl SpaceNeeded {
                 beside.extend(boxes.map(from_middle));
             }
         }
-        Ok(Self {
-            extent,
-            beside,
-            text,
-            lines,
-        })
+        Ok(Self { extent, beside, text, lines })
     }
 
     /// All that is shown at `scale` around the middle of the extent, but for the height of the text below.
@@ -119,9 +114,7 @@ impl Layout {
         let width = f64::from(across);
         let millimetres = options.width / width;
         let letters = options.letters / millimetres;
-        let needs = states
-            .iter()
-            .map(|state| SpaceNeeded::new(state, options, letters));
+        let needs = states.iter().map(|state| SpaceNeeded::new(state, options, letters));
         let needs: Vec<SpaceNeeded> = needs.collect::<Result<_, _>>()?;
         let rows: Vec<&[SpaceNeeded]> = needs.chunks(options.columns.max(1)).collect();
         let gap = GAP * letters;
@@ -168,11 +161,7 @@ fn fitting_scale(rows: &[&[SpaceNeeded]], room: [f64; 2], letters: f64) -> Optio
         return None;
     }
     // States of no extent are shown at one unit a length.
-    let mut too_large = if largest > 0.0 {
-        (room[0] + room[1]) / largest
-    } else {
-        1.0
-    };
+    let mut too_large = if largest > 0.0 { (room[0] + room[1]) / largest } else { 1.0 };
     if fits(too_large) {
         return Some(too_large);
     }
@@ -209,12 +198,7 @@ fn place_row(row: &[SpaceNeeded], [inner, top, gap]: [f64; 3], scale: f64, cells
     for need in row {
         let size = need.size(scale);
         let at = DVec2::new(left, top + high - size.y);
-        cells.push(Cell {
-            at,
-            size,
-            middle: at - need.around(scale)[0],
-            extent: need.extent,
-        });
+        cells.push(Cell { at, size, middle: at - need.around(scale)[0], extent: need.extent });
         left += size.x + between;
     }
 }

@@ -95,10 +95,7 @@ mod tests {
             assert!(short[0] < long[0] && short[1] < long[1]);
             assert!(short[1] > 1.3 * width, "half a width of each end is ink");
             let period: f64 = short.iter().sum();
-            assert!(
-                period < 1.0,
-                "{period} mm, where small units have a millimetre"
-            );
+            assert!(period < 1.0, "{period} mm, where small units have a millimetre");
         }
         let solid = LineStyle::Solid.stroke(Assignment::Valley, [0; 3], width, 2);
         assert!(solid.dash.is_none());

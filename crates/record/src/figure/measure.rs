@@ -45,18 +45,12 @@ pub(super) fn measures<'a>(state: &'a FigureState<'_>, camera: &Camera) -> Vec<M
     });
     let bounds = state.bounds.iter().flat_map(|bounds| {
         let edges = outer_edges(bounds, camera).into_iter();
-        edges
-            .zip(&bounds.sizes)
-            .map(|((ends, inside), words)| (ends, inside, words))
+        edges.zip(&bounds.sizes).map(|((ends, inside), words)| (ends, inside, words))
     });
     let measure = |([a, b], inside, words): ([DVec2; 2], DVec2, &'a String)| {
         let from_inside = 0.5 * (a + b) - inside;
         let out = from_inside.reject_from((b - a).normalize_or(DVec2::X));
-        Measure {
-            ends: [a, b],
-            out: out.normalize_or(DVec2::Y),
-            words,
-        }
+        Measure { ends: [a, b], out: out.normalize_or(DVec2::Y), words }
     };
     let all = own.chain(bounds).filter(|(_, _, words)| !words.is_empty());
     all.map(measure).collect()
@@ -70,11 +64,7 @@ impl Measure<'_> {
         let tick = DVec2::splat(1.5 * TICK * letters);
         let around_end = [end - tick, end + tick];
         let middle = 0.5 * (a + b);
-        Ok([
-            (a, around_end),
-            (b, around_end),
-            (middle, self.words_box(letters)?),
-        ])
+        Ok([(a, around_end), (b, around_end), (middle, self.words_box(letters)?)])
     }
 
     fn anchor(&self) -> Anchor {

@@ -102,17 +102,13 @@ impl StripOptions {
         ];
         for (name, value) in sides {
             if !(value > 0.0 && value <= MAX_SIDE) {
-                return Err(RecordError::Length {
-                    name,
-                    value,
-                    limit: MAX_SIDE,
-                });
+                return Err(RecordError::Length { name, value, limit: MAX_SIDE });
             }
         }
         match self.legend {
-            Some(Legend {
-                range: [low, high], ..
-            }) if !(low.is_finite() && high.is_finite() && low < high) => {
+            Some(Legend { range: [low, high], .. })
+                if !(low.is_finite() && high.is_finite() && low < high) =>
+            {
                 Err(RecordError::Range { low, high })
             }
             _ => Ok(()),
@@ -145,11 +141,7 @@ pub fn strip(
         .with_background(options.background);
     for (state, cell) in states.iter().zip(&layout.cells) {
         let paper = Paper::new(sheet, state.order);
-        let painter = Painter {
-            paper: &paper,
-            options,
-            layout: &layout,
-        };
+        let painter = Painter { paper: &paper, options, layout: &layout };
         painter.paint(&mut drawing, state, cell)?;
         for (line, text) in state.captions().enumerate() {
             let y = cell.at.y + cell.size.y + layout.letters * (1.2 + layout::LINE * line as f64);

@@ -51,10 +51,7 @@ impl Painter<'_> {
         let camera = Camera::centred(options.view, cell.extent, [1, 1], scale)?;
         let shift = cell.middle - DVec2::splat(0.5);
         let project = |point: DVec3| camera.project(point).truncate() + shift;
-        let style = Style {
-            line_width: 0.0,
-            ..options.style.clone()
-        };
+        let style = Style { line_width: 0.0, ..options.style.clone() };
         let surface = Surface::new(self.paper, &state.positions, &camera, &style);
         let visible = surface.visible();
         let widest = self.layout.line_width;
@@ -62,12 +59,7 @@ impl Painter<'_> {
             bounds::draw_back(drawing, bounds, &camera, shift, widest);
         }
         let width = line_width(self.paper.sheet, &state.positions, &camera, widest);
-        let seen = ShownState {
-            surface: &surface,
-            visible: &visible,
-            shift,
-            width,
-        };
+        let seen = ShownState { surface: &surface, visible: &visible, shift, width };
         self.areas(drawing, state, &seen);
         self.lines(drawing, state, &seen);
         if let Some(bounds) = &state.bounds {
@@ -77,12 +69,7 @@ impl Painter<'_> {
             measure.draw(drawing, shift, self.layout.letters, self.layout.line_width);
         }
         if let Some(spot) = state.spot {
-            ring(
-                drawing,
-                project(spot),
-                options.style.mark,
-                self.layout.letters,
-            );
+            ring(drawing, project(spot), options.style.mark, self.layout.letters);
         }
         if state.target.len() > 1 {
             let width = 2.0 * self.layout.line_width;
@@ -100,10 +87,7 @@ impl Painter<'_> {
             if state.marked.get(face) == Some(&true) {
                 return encoded(inks.marked(normal));
             }
-            let value = state
-                .values
-                .get(face)
-                .and_then(|&value| self.color_of(value));
+            let value = state.values.get(face).and_then(|&value| self.color_of(value));
             encoded(match value {
                 Some(color) => Inks::valued(linear(color), normal),
                 None => inks.paper(normal),

@@ -78,11 +78,8 @@ impl<'a> FigureState<'a> {
     pub fn at(motion: &'a Motion, marks: &Marks, time: f64) -> Self {
         let positions = positions_at(motion, time);
         let label = format!("t = {time}, {}", stage(time));
-        let marked = if marks.is_empty() {
-            Vec::new()
-        } else {
-            marks.at(&motion.sheet, time, time)
-        };
+        let marked =
+            if marks.is_empty() { Vec::new() } else { marks.at(&motion.sheet, time, time) };
         Self {
             marked,
             spot: marks.spot_at(&motion.sheet, &positions, time),
@@ -99,11 +96,7 @@ impl<'a> FigureState<'a> {
         ];
         for (found, expected) in lists {
             if found != 0 && found != expected {
-                return Err(RecordError::ValueCount {
-                    frame,
-                    found,
-                    expected,
-                });
+                return Err(RecordError::ValueCount { frame, found, expected });
             }
         }
         let corners = self.bounds.iter().flat_map(|b| [b.low, b.high]);
@@ -112,11 +105,9 @@ impl<'a> FigureState<'a> {
         let mut points = self.target.iter().copied().chain(others).enumerate();
         match points.find(|(_, p)| !p.is_finite()) {
             None => Ok(()),
-            Some((vertex, position)) => Err(RecordError::NotFinite {
-                frame,
-                vertex,
-                position: position.to_array(),
-            }),
+            Some((vertex, position)) => {
+                Err(RecordError::NotFinite { frame, vertex, position: position.to_array() })
+            }
         }
     }
 
@@ -141,11 +132,7 @@ impl Bounds {
     pub(super) fn corners(&self) -> [DVec3; 8] {
         std::array::from_fn(|k| {
             let pick = |i: usize| {
-                if k >> i & 1 == 1 {
-                    self.high[i]
-                } else {
-                    self.low[i]
-                }
+                if k >> i & 1 == 1 { self.high[i] } else { self.low[i] }
             };
             DVec3::new(pick(0), pick(1), pick(2))
         })

@@ -15,16 +15,10 @@ pub(super) fn badge(verdict: Option<&str>) -> String {
         return String::new();
     };
     let (sign, class, meaning) = match verdict {
-        "free" => (
-            "✓",
-            "good",
-            "no facets come within the tolerance of each other",
-        ),
-        "touching" => (
-            "✓",
-            "good",
-            "facets lie on each other and leave on the side they came from",
-        ),
+        "free" => ("✓", "good", "no facets come within the tolerance of each other"),
+        "touching" => {
+            ("✓", "good", "facets lie on each other and leave on the side they came from")
+        }
         "penetrating" => ("✗", "bad", "the sheet passes through itself"),
         _ => ("?", "open", "not decided"),
     };
@@ -72,10 +66,7 @@ fn statement(certificate: &Value) -> String {
     };
     let separation = || {
         let distance = digits_at("/min_separation/distance", 4)?;
-        Some(format!(
-            "{distance} at t = {}",
-            digits_at("/min_separation/t", 4)?
-        ))
+        Some(format!("{distance} at t = {}", digits_at("/min_separation/t", 4)?))
     };
     facts(&[
         ("verdict", text("/verdict")),
@@ -93,11 +84,7 @@ fn statement(certificate: &Value) -> String {
 fn pair(entry: &Value) -> String {
     let of = |key: &str| {
         let numbers = entry.pointer(key)?;
-        Some(format!(
-            "{} and {}",
-            number(numbers.get(0)?)?,
-            number(numbers.get(1)?)?
-        ))
+        Some(format!("{} and {}", number(numbers.get(0)?)?, number(numbers.get(1)?)?))
     };
     let facets = of("/pair/facets").map(|pair| format!("facets {pair}"));
     let pair = facets.or_else(|| Some(format!("faces {}", of("/pair/faces")?)));
@@ -116,24 +103,12 @@ fn penetrations(certificate: &Value) -> String {
         let depth = depth.map_or_else(|| "–".to_owned(), |d| digits(d, 3));
         vec![time(entry), pair(entry), kind.to_owned(), depth]
     };
-    rows(
-        "Penetrations",
-        certificate,
-        "/penetrations",
-        &["t", "between", "kind", "depth"],
-        &row,
-    )
+    rows("Penetrations", certificate, "/penetrations", &["t", "between", "kind", "depth"], &row)
 }
 
 fn undecided(certificate: &Value) -> String {
     let row = |entry: &Value| vec![time(entry), pair(entry)];
-    rows(
-        "Undecided pairs",
-        certificate,
-        "/undecided",
-        &["certified up to t", "between"],
-        &row,
-    )
+    rows("Undecided pairs", certificate, "/undecided", &["certified up to t", "between"], &row)
 }
 
 fn rows(

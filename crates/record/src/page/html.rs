@@ -101,11 +101,7 @@ pub(super) fn digits(x: f64, count: u16) -> String {
 
 /// Without the zeros that end a fraction.
 fn trimmed(number: &str) -> &str {
-    if number.contains('.') {
-        number.trim_end_matches('0').trim_end_matches('.')
-    } else {
-        number
-    }
+    if number.contains('.') { number.trim_end_matches('0').trim_end_matches('.') } else { number }
 }
 
 fn raised(letter: char) -> char {
@@ -147,9 +143,6 @@ mod tests {
         assert_eq!(escaped("</b>\"'&"), "&lt;/b&gt;&quot;&#39;&amp;");
         let text = data(&serde_json::json!("</script><!--"));
         assert!(!text.contains('<'));
-        assert_eq!(
-            serde_json::from_str::<Value>(&text).unwrap(),
-            "</script><!--"
-        );
+        assert_eq!(serde_json::from_str::<Value>(&text).unwrap(), "</script><!--");
     }
 }

@@ -173,11 +173,7 @@ impl<'a> Contents<'a> {
             "lead" => section(&self.report, report::lead),
             "verdict" => {
                 let outcome = section(&self.report, report::outcome);
-                if outcome.is_empty() {
-                    certificate::badge(self.verdict())
-                } else {
-                    outcome
-                }
+                if outcome.is_empty() { certificate::badge(self.verdict()) } else { outcome }
             }
             "plots" => sections::plotted(self.page.panels)?,
             "report" => section(&self.report, report::section),
@@ -214,10 +210,8 @@ fn checked(page: &Page<'_>, options: &PageOptions) -> Result<KeyFrames, RecordEr
 }
 
 fn parsed(name: &'static str, text: &str) -> Result<Value, RecordError> {
-    serde_json::from_str(text).map_err(|error| RecordError::Json {
-        name,
-        message: error.to_string(),
-    })
+    serde_json::from_str(text)
+        .map_err(|error| RecordError::Json { name, message: error.to_string() })
 }
 
 /// The text of a template up to each `{{name}}`, with that name; the last with none.

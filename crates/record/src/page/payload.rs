@@ -37,19 +37,11 @@ pub(super) fn check_size(page: &Page<'_>, keys: usize) -> Result<(), RecordError
             positions + (values + 32) * sheet.faces.len() as u64,
             "raise the tolerance or leave out the values",
         ),
-        (
-            page.fold.map_or(0, |fold| fold.len() as u64),
-            "leave out the FOLD file",
-        ),
+        (page.fold.map_or(0, |fold| fold.len() as u64), "leave out the FOLD file"),
     ];
     for (bytes, remedy) in largest {
         if bytes > MAX_BYTES {
-            return Err(RecordError::FileSize {
-                format: "HTML",
-                bytes,
-                limit: MAX_BYTES,
-                remedy,
-            });
+            return Err(RecordError::FileSize { format: "HTML", bytes, limit: MAX_BYTES, remedy });
         }
     }
     Ok(())

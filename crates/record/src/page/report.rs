@@ -108,13 +108,8 @@ fn stages(report: &Value) -> String {
     if rows.is_empty() {
         return String::new();
     }
-    let head = [
-        "stage",
-        "largest strain, %",
-        "mean strain, %",
-        "largest facet bending, °",
-        "converged",
-    ];
+    let head =
+        ["stage", "largest strain, %", "mean strain, %", "largest facet bending, °", "converged"];
     table("The stages of the motion", &head, &rows)
 }
 
@@ -138,10 +133,9 @@ fn stop(report: &Value) -> String {
 /// How the motion ended and why, with a sign, so that no one needs to tell colours apart; nothing for a report without
 /// it.
 pub(super) fn outcome(report: &Value) -> String {
-    let (Some(kind), Some(time)) = (
-        text(report, "/outcome/kind"),
-        report.pointer("/outcome/t").and_then(Value::as_f64),
-    ) else {
+    let (Some(kind), Some(time)) =
+        (text(report, "/outcome/kind"), report.pointer("/outcome/t").and_then(Value::as_f64))
+    else {
         return String::new();
     };
     let (sign, class) = match kind.as_str() {
@@ -194,14 +188,8 @@ fn sizes(report: &Value) -> String {
         ("frames", text(report, "/path/frames")),
         ("straight paths stray", straying()),
         ("smallest separation", separation()),
-        (
-            "pairs of triangles judged",
-            text(report, "/collision/pairs_tested"),
-        ),
-        (
-            "pairs that touch",
-            text(report, "/collision/touching_pairs"),
-        ),
+        ("pairs of triangles judged", text(report, "/collision/pairs_tested")),
+        ("pairs that touch", text(report, "/collision/touching_pairs")),
     ])
 }
 
@@ -220,14 +208,7 @@ fn vertices(report: &Value) -> String {
     if rows.is_empty() {
         return String::new();
     }
-    let head = [
-        "type",
-        "creases",
-        "vertices",
-        "M − V",
-        "angles sum to",
-        "flat-foldable",
-    ];
+    let head = ["type", "creases", "vertices", "M − V", "angles sum to", "flat-foldable"];
     format!(
         "<details>\n<summary>Interior vertices of the crease pattern</summary>\n{}</details>\n",
         table("Interior vertices by type", &head, &rows)
@@ -250,13 +231,7 @@ mod tests {
         assert!(ended("not-converged").contains("did not converge</strong>"));
         assert!(ended("collides").contains("class=\"verdict bad\""));
         assert!(ended("folded").contains("class=\"verdict good\""));
-        for kind in [
-            "jammed",
-            "stopped",
-            "not-converged",
-            "collides",
-            "undecided",
-        ] {
+        for kind in ["jammed", "stopped", "not-converged", "collides", "undecided"] {
             assert!(!ended(kind).contains("good"), "{kind}");
         }
         assert_eq!(outcome(&json!({"title": "no outcome"})), "");

@@ -63,10 +63,7 @@ pub(super) fn origin(origin: &Provenance) -> String {
     }
     if !origin.scene.is_empty() {
         let scene = escaped(&origin.scene);
-        let _ = write!(
-            text,
-            "<details><summary>Scene</summary><pre>{scene}</pre></details>"
-        );
+        let _ = write!(text, "<details><summary>Scene</summary><pre>{scene}</pre></details>");
     }
     text
 }

@@ -106,11 +106,7 @@ fn levels(values: &Values) -> Vec<u8> {
     #[expect(clippy::cast_sign_loss, reason = "clamped to 0 to LEVELS")]
     let level = |value: f64| {
         let part = ((value - low) / (high - low)).clamp(0.0, 1.0);
-        if part.is_nan() {
-            u8::MAX
-        } else {
-            (part * f64::from(LEVELS)).round() as u8
-        }
+        if part.is_nan() { u8::MAX } else { (part * f64::from(LEVELS)).round() as u8 }
     };
     let mut before = vec![0_u8; values.frames.first().map_or(0, Vec::len)];
     let mut changes = Vec::with_capacity(before.len() * values.frames.len());

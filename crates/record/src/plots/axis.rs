@@ -23,11 +23,7 @@ impl Axis {
     /// The values to mark, rising, with their labels. At most `most` of them.
     pub(super) fn ticks(&self, most: usize) -> Vec<(f64, String)> {
         let most = most.min(MOST_TICKS);
-        if self.is_logarithmic {
-            self.logarithmic_ticks(most)
-        } else {
-            self.linear_ticks(most)
-        }
+        if self.is_logarithmic { self.logarithmic_ticks(most) } else { self.linear_ticks(most) }
     }
 
     /// Multiples of 1, 2 or 5 times a power of ten.
@@ -48,17 +44,13 @@ impl Axis {
         let multiples: [&[u8]; 3] = [&[1], &[1, 2, 5], &[1, 2, 3, 4, 5, 6, 7, 8, 9]];
         let mut ticks = Vec::new();
         for multiples in multiples {
-            let all = exponents
-                .clone()
-                .flat_map(|e| multiples.iter().map(move |&m| (m, e)));
+            let all = exponents.clone().flat_map(|e| multiples.iter().map(move |&m| (m, e)));
             let all = all.map(|(m, e)| {
                 let power = 10.0_f64.powi(e);
                 let value = f64::from(m) * power;
                 (value, label(value, power))
             });
-            ticks = all
-                .filter(|(v, _)| self.range.contains(v))
-                .collect::<Vec<_>>();
+            ticks = all.filter(|(v, _)| self.range.contains(v)).collect::<Vec<_>>();
             if ticks.len() > 1 {
                 break;
             }
@@ -85,10 +77,7 @@ mod tests {
     use super::*;
 
     fn labels(range: Range<f64>, is_logarithmic: bool) -> Vec<String> {
-        let axis = Axis {
-            range,
-            is_logarithmic,
-        };
+        let axis = Axis { range, is_logarithmic };
         let ticks = axis.ticks(5).into_iter();
         ticks.map(|(_, label)| label).collect()
     }
@@ -114,10 +103,7 @@ mod tests {
     #[test]
     fn ends_of_the_range_are_the_ends_of_the_axis() {
         for is_logarithmic in [false, true] {
-            let axis = Axis {
-                range: 0.1..10.0,
-                is_logarithmic,
-            };
+            let axis = Axis { range: 0.1..10.0, is_logarithmic };
             let ends = [0.1, 10.0].map(|value| axis.fraction(value));
             assert!(ends[0].abs() < 1e-15 && (ends[1] - 1.0).abs() < 1e-15);
         }

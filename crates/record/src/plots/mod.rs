@@ -67,11 +67,8 @@ pub fn plots(panels: &[Panel]) -> Result<String, RecordError> {
     let mut drawing = Drawing::new([SIZE[0], SIZE[1].saturating_mul(count) + TIME_AXIS])?;
     let time = times(panels);
     for (index, panel) in panels.iter().enumerate() {
-        let chart = Chart {
-            top: f64::from(SIZE[1]) * index as f64,
-            time: &time,
-            value: values(panel),
-        };
+        let chart =
+            Chart { top: f64::from(SIZE[1]) * index as f64, time: &time, value: values(panel) };
         chart.draw_axes(&mut drawing, index + 1 == panels.len());
         for (curve, color) in panel.curves.iter().zip(COLOURS) {
             for part in drawn_parts(curve, panel.is_logarithmic) {
@@ -105,20 +102,14 @@ impl Chart<'_> {
     /// The left upper and the right lower corner of the curves' area.
     fn corners(&self) -> [DVec2; 2] {
         let [width, height] = SIZE.map(f64::from);
-        [
-            DVec2::new(LEFT, self.top + TOP),
-            DVec2::new(width - RIGHT, self.top + height - BOTTOM),
-        ]
+        [DVec2::new(LEFT, self.top + TOP), DVec2::new(width - RIGHT, self.top + height - BOTTOM)]
     }
 
     fn point(&self, time: f64, value: f64) -> DVec2 {
         let [low, high] = self.corners();
         let across = self.time.fraction(time);
         let up = self.value.fraction(value);
-        DVec2::new(
-            low.x + across * (high.x - low.x),
-            high.y - up * (high.y - low.y),
-        )
+        DVec2::new(low.x + across * (high.x - low.x), high.y - up * (high.y - low.y))
     }
 
     /// The frame, the grid and the labels; those of time only if `has_times`.
@@ -177,24 +168,14 @@ fn drawn_parts(curve: &Curve, is_logarithmic: bool) -> Vec<Vec<(f64, f64)>> {
     let is_drawn =
         |&(t, v): &(f64, f64)| t.is_finite() && v.is_finite() && (!is_logarithmic || v > 0.0);
     let parts = curve.points.split(|point| !is_drawn(point));
-    parts
-        .filter(|part| !part.is_empty())
-        .map(<[_]>::to_vec)
-        .collect()
+    parts.filter(|part| !part.is_empty()).map(<[_]>::to_vec).collect()
 }
 
 /// The time axis of all panels.
 fn times(panels: &[Panel]) -> Axis {
-    let all = panels
-        .iter()
-        .flat_map(|p| &p.curves)
-        .flat_map(|c| &c.points)
-        .map(|p| p.0);
+    let all = panels.iter().flat_map(|p| &p.curves).flat_map(|c| &c.points).map(|p| p.0);
     let (low, high) = bounds(all).unwrap_or((0.0, 2.0));
-    Axis {
-        range: low..if high > low { high } else { low + 1.0 },
-        is_logarithmic: false,
-    }
+    Axis { range: low..if high > low { high } else { low + 1.0 }, is_logarithmic: false }
 }
 
 /// The vertical axis of a panel.
@@ -213,19 +194,14 @@ fn values(panel: &Panel) -> Axis {
         (_, true) => 0.1..1.0,
         (_, false) => 0.0..1.0,
     };
-    Axis {
-        range,
-        is_logarithmic: panel.is_logarithmic,
-    }
+    Axis { range, is_logarithmic: panel.is_logarithmic }
 }
 
 fn bounds(values: impl Iterator<Item = f64>) -> Option<(f64, f64)> {
-    values
-        .filter(|v| v.is_finite())
-        .fold(None, |bounds, v| match bounds {
-            None => Some((v, v)),
-            Some((low, high)) => Some((v.min(low), v.max(high))),
-        })
+    values.filter(|v| v.is_finite()).fold(None, |bounds, v| match bounds {
+        None => Some((v, v)),
+        Some((low, high)) => Some((v.min(low), v.max(high))),
+    })
 }
 
 #[cfg(test)]
@@ -233,26 +209,13 @@ mod tests {
     use super::*;
 
     fn panel(is_logarithmic: bool, points: Vec<(f64, f64)>) -> Panel {
-        Panel {
-            title: "strain, %",
-            is_logarithmic,
-            curves: vec![Curve {
-                name: "peak",
-                points,
-            }],
-        }
+        Panel { title: "strain, %", is_logarithmic, curves: vec![Curve { name: "peak", points }] }
     }
 
     #[test]
     fn a_curve_is_drawn_once_a_part_and_cut_where_it_has_no_value() {
         let whole = vec![(0.0, 1.0), (1.0, 2.0), (2.0, 1.5)];
-        let broken = vec![
-            (0.0, 1.0),
-            (0.5, 2.0),
-            (1.0, f64::NAN),
-            (1.5, 0.5),
-            (2.0, 1.5),
-        ];
+        let broken = vec![(0.0, 1.0), (0.5, 2.0), (1.0, f64::NAN), (1.5, 0.5), (2.0, 1.5)];
         let lines = |points: Vec<(f64, f64)>| {
             let svg = plots(&[panel(false, points)]).unwrap();
             svg.matches("stroke-width=\"2\"").count()
@@ -263,21 +226,15 @@ mod tests {
     #[test]
     fn a_curve_on_a_logarithmic_axis_is_interrupted_at_zero() {
         let points = vec![(0.0, 1e-3), (1.0, 0.0), (2.0, 1e-6)];
-        assert_eq!(
-            drawn_parts(&panel(true, points.clone()).curves[0], true).len(),
-            2
-        );
+        assert_eq!(drawn_parts(&panel(true, points.clone()).curves[0], true).len(), 2);
         assert_eq!(drawn_parts(&panel(false, points).curves[0], false).len(), 1);
     }
 
     #[test]
     fn empty_and_constant_panels_are_drawn_too() {
-        for points in [
-            vec![],
-            vec![(0.0, 0.0), (2.0, 0.0)],
-            vec![(1.0, 3.0)],
-            vec![(0.0, -1.0), (2.0, -1.0)],
-        ] {
+        for points in
+            [vec![], vec![(0.0, 0.0), (2.0, 0.0)], vec![(1.0, 3.0)], vec![(0.0, -1.0), (2.0, -1.0)]]
+        {
             for is_logarithmic in [false, true] {
                 let svg = plots(&[panel(is_logarithmic, points.clone())]).unwrap();
                 assert!(svg.contains("strain, %") && svg.trim_end().ends_with("</svg>"));
@@ -287,10 +244,8 @@ mod tests {
 
     #[test]
     fn the_same_panels_give_the_same_text() {
-        let panels = [
-            panel(false, vec![(0.0, 1.0), (2.0, 2.0)]),
-            panel(true, vec![(0.0, 1.0), (2.0, 2.0)]),
-        ];
+        let panels =
+            [panel(false, vec![(0.0, 1.0), (2.0, 2.0)]), panel(true, vec![(0.0, 1.0), (2.0, 2.0)])];
         assert_eq!(plots(&panels).unwrap(), plots(&panels).unwrap());
     }
 }

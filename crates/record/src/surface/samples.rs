@@ -28,12 +28,7 @@ impl WithSimd for FindLines<'_> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, _: S) {
-        let Self {
-            surface,
-            edges,
-            centre,
-            found,
-        } = self;
+        let Self { surface, edges, centre, found } = self;
         let mut nearest = [surface.half_width * surface.half_width; SAMPLES];
         for &edge in edges {
             if !surface.may_have_line(edge, &Square::pixel(centre)) {
@@ -68,12 +63,7 @@ impl WithSimd for FindLayer<'_> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, _: S) {
-        let Self {
-            surface,
-            face,
-            centre,
-            layers,
-        } = self;
+        let Self { surface, face, centre, layers } = self;
         let screen = surface.face(face);
         let covered = covered(screen, centre);
         let mut outlined = 0;
@@ -88,12 +78,7 @@ impl WithSimd for FindLayer<'_> {
         for k in members(outlined) {
             depths[k] = outlines[k];
         }
-        layers.push(Layer {
-            face,
-            covered,
-            outlined,
-            depths,
-        });
+        layers.push(Layer { face, covered, outlined, depths });
     }
 }
 

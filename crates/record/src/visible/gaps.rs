@@ -18,9 +18,8 @@ pub(super) fn over(scene: &Scene<'_>, face: u32, all: &[VisibleParts]) -> Vec<(u
     let mut near = Vec::new();
     scene.grid.near(&scene.boxes[face as usize], &mut near);
     let nearer = near.iter().filter(|&&other| other != face);
-    let mut clips: Vec<Vec<DVec2>> = nearer
-        .filter_map(|&other| hidden_part(scene.surface, other, face, 0.0))
-        .collect();
+    let mut clips: Vec<Vec<DVec2>> =
+        nearer.filter_map(|&other| hidden_part(scene.surface, other, face, 0.0)).collect();
     clips.extend(seen.pieces.iter().cloned());
     for occluder in seen.occluders.iter().filter(|occluder| occluder.by_order) {
         clips.extend(all[occluder.face as usize].pieces.iter().cloned());

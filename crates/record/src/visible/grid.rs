@@ -22,9 +22,8 @@ impl Grid {
     #[expect(clippy::cast_sign_loss, reason = "clamped to at least 1 before")]
     pub(super) fn new(boxes: &[[DVec2; 2]]) -> Self {
         let corners = boxes.iter().flatten();
-        let (low, high) = corners.fold((DVec2::INFINITY, DVec2::NEG_INFINITY), |(l, h), p| {
-            (l.min(*p), h.max(*p))
-        });
+        let (low, high) = corners
+            .fold((DVec2::INFINITY, DVec2::NEG_INFINITY), |(l, h), p| (l.min(*p), h.max(*p)));
         let size = (high - low).max(DVec2::splat(f64::MIN_POSITIVE));
         let side = (boxes.len() as f64).sqrt().ceil().clamp(1.0, MAX_SIDE);
         let mut grid = Self {
@@ -58,10 +57,7 @@ impl Grid {
         #[expect(clippy::cast_sign_loss, reason = "clamped to 0 and above")]
         let cell = |p: DVec2| {
             let cell = ((p - self.low) * self.density).max(DVec2::ZERO);
-            [
-                (cell.x as usize).min(across - 1),
-                (cell.y as usize).min(down - 1),
-            ]
+            [(cell.x as usize).min(across - 1), (cell.y as usize).min(down - 1)]
         };
         let (first, last) = (cell(*low), cell(*high));
         (first[1]..=last[1]).flat_map(move |y| (first[0]..=last[0]).map(move |x| y * across + x))
@@ -98,10 +94,7 @@ mod tests {
             }
         }
         grid.near(&[DVec2::splat(-9.0), DVec2::splat(-8.0)], &mut found);
-        assert!(
-            found.len() < boxes.len(),
-            "a far box does not find them all"
-        );
+        assert!(found.len() < boxes.len(), "a far box does not find them all");
     }
 
     #[test]

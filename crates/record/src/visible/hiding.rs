@@ -13,11 +13,7 @@ const EQUAL_DEPTH: f64 = 1e-7;
 pub(super) fn triangle(surface: &Surface<'_>, face: u32) -> [DVec2; 3] {
     let corners = surface.paper().sheet.faces[face as usize];
     let [a, b, c] = corners.map(|v| surface.points()[v as usize].truncate());
-    if (b - a).perp_dot(c - a) < 0.0 {
-        [a, c, b]
-    } else {
-        [a, b, c]
-    }
+    if (b - a).perp_dot(c - a) < 0.0 { [a, c, b] } else { [a, b, c] }
 }
 
 /// The convex part of triangle `back` that triangle `front` hides if it does so where it is nearer by `threshold`.

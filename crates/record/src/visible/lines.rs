@@ -47,9 +47,7 @@ pub(super) fn seen_of(
     let has_inside = |&face: &u32| !surface.face(face).is_edge_on();
     let is_edge_on = !beside().any(|face| has_inside(&face));
     let mut near = Vec::new();
-    scene
-        .grid
-        .near(&[start.min(end), start.max(end)], &mut near);
+    scene.grid.near(&[start.min(end), start.max(end)], &mut near);
     near.retain(|other| beside().all(|face| face != *other));
     let mut found = Vec::new();
     for (side, face) in (0..).zip(joined.faces) {
@@ -63,17 +61,13 @@ pub(super) fn seen_of(
             normal * (apex - start).dot(normal).signum()
         });
         let half = Half { ends, face, inward };
-        let hidden = near
-            .iter()
-            .filter_map(|&other| half.hidden_by(scene, other));
+        let hidden = near.iter().filter_map(|&other| half.hidden_by(scene, other));
         let seen = gaps(hidden.collect(), SHORTEST / length);
         found.extend(seen.into_iter().map(|interval| (interval, side)));
     }
     let line = |(interval, seen): (Interval, [bool; 2])| {
         let faces = joined.faces.into_iter().zip(seen).filter(|pair| pair.1);
-        let face = faces
-            .filter_map(|pair| pair.0)
-            .max_by_key(|&face| level(face));
+        let face = faces.filter_map(|pair| pair.0).max_by_key(|&face| level(face));
         face.map(|face| VisibleLine {
             edge,
             face,
@@ -112,13 +106,9 @@ impl Half {
         } else {
             surface.outline_threshold(other, self.face)
         };
-        let [from, to] = self
-            .ends
-            .map(|(p, depth)| screen.plane(p) - depth - threshold);
+        let [from, to] = self.ends.map(|(p, depth)| screen.plane(p) - depth - threshold);
         if from.abs() < ON_LINE && to.abs() < ON_LINE {
-            return self
-                .is_behind(screen, surface.face(self.face), other)
-                .then_some(interval);
+            return self.is_behind(screen, surface.face(self.face), other).then_some(interval);
         }
         keep(&mut interval, from, to)?;
         Some(interval)
@@ -200,11 +190,7 @@ mod tests {
     fn halves_are_joined_and_say_on_which_sides_they_are_seen() {
         let (left, right) = ([true, false], [false, true]);
         let parts = [([0.0, 0.6], 0), ([0.4, 1.0], 1)];
-        let expected = [
-            ([0.0, 0.4], left),
-            ([0.4, 0.6], [true; 2]),
-            ([0.6, 1.0], right),
-        ];
+        let expected = [([0.0, 0.4], left), ([0.4, 0.6], [true; 2]), ([0.6, 1.0], right)];
         assert_eq!(joined_parts(&parts, 1e-9), expected);
         let apart = [([0.0, 0.2], 0), ([0.5, 1.0], 0)];
         let expected = [([0.0, 0.2], left), ([0.5, 1.0], left)];

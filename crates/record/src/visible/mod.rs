@@ -80,12 +80,7 @@ impl Surface<'_> {
             return Visible::default();
         };
         let boxes: Vec<_> = self.faces().iter().map(ScreenFace::extent).collect();
-        let scene = Scene {
-            surface: self,
-            plane,
-            grid: Grid::new(&boxes),
-            boxes,
-        };
+        let scene = Scene { surface: self, plane, grid: Grid::new(&boxes), boxes };
         scene.visible()
     }
 }
@@ -117,17 +112,10 @@ impl Scene<'_> {
     fn visible(&self) -> Visible {
         let faces = || (0..self.boxes.len() as u32).into_par_iter();
         let mut seen: Vec<VisibleParts> = faces().map(|face| self.seen_of(face)).collect();
-        let depths: Vec<f64> = self
-            .surface
-            .faces()
-            .iter()
-            .map(ScreenFace::middle)
-            .collect();
+        let depths: Vec<f64> = self.surface.faces().iter().map(ScreenFace::middle).collect();
         let levels = order::levels(&seen, &depths);
         let level = |face: u32| levels[face as usize];
-        let gaps: Vec<_> = faces()
-            .flat_map_iter(|face| gaps::over(self, face, &seen))
-            .collect();
+        let gaps: Vec<_> = faces().flat_map_iter(|face| gaps::over(self, face, &seen)).collect();
         for (face, piece) in gaps {
             seen[face as usize].pieces.push(piece);
         }
@@ -140,9 +128,8 @@ impl Scene<'_> {
         areas.sort_by_key(|area| (area.level, area.face));
         let edges = (0..self.surface.paper().sheet.edges.len() as u32).into_par_iter();
         let drawn = edges.filter(|&edge| self.is_drawn(edge));
-        let mut lines: Vec<VisibleLine> = drawn
-            .flat_map_iter(|edge| lines::seen_of(self, edge, &level))
-            .collect();
+        let mut lines: Vec<VisibleLine> =
+            drawn.flat_map_iter(|edge| lines::seen_of(self, edge, &level)).collect();
         lines.sort_by_key(|line| (line.level, line.edge));
         Visible { areas, lines }
     }
@@ -181,10 +168,7 @@ impl Scene<'_> {
             let threshold = self.surface.threshold(other, face);
             if let Some(part) = hidden_part(self.surface, other, face, threshold) {
                 let by_order = threshold < 0.0;
-                occluders.push(Occluder {
-                    face: other,
-                    by_order,
-                });
+                occluders.push(Occluder { face: other, by_order });
                 clips.push(part);
             }
         }

@@ -36,10 +36,7 @@ pub(super) fn levels(seen: &[VisibleParts], depths: &[f64]) -> Vec<u32> {
     for occluder in seen.iter().flat_map(|seen| &seen.occluders) {
         open[occluder.face as usize] += 1;
     }
-    let waiting = |face: u32| Unpainted {
-        depth: depths[face as usize],
-        face,
-    };
+    let waiting = |face: u32| Unpainted { depth: depths[face as usize], face };
     let mut all: Vec<Unpainted> = (0..depths.len() as u32).map(waiting).collect();
     let free = |face: &&Unpainted| open[face.face as usize] == 0;
     let free = all.iter().filter(free).map(|face| waiting(face.face));
@@ -71,10 +68,7 @@ mod tests {
     use super::*;
 
     fn seen(hidden_by: &[&[u32]]) -> Vec<VisibleParts> {
-        let occluder = |&face: &u32| Occluder {
-            face,
-            by_order: false,
-        };
+        let occluder = |&face: &u32| Occluder { face, by_order: false };
         let seen = |fronts: &&[u32]| VisibleParts {
             pieces: Vec::new(),
             occluders: fronts.iter().map(occluder).collect(),

@@ -48,9 +48,7 @@ impl Plane {
         let shapes = overlay.overlay(OverlayRule::Subject, FillRule::NonZero);
         let shapes = shapes.into_iter();
         let rings = shapes.flatten();
-        rings
-            .map(|ring| ring.into_iter().map(DVec2::from).collect())
-            .collect()
+        rings.map(|ring| ring.into_iter().map(DVec2::from).collect()).collect()
     }
 }
 
@@ -60,9 +58,7 @@ pub(crate) fn doubled_area(ring: &[DVec2]) -> f64 {
         return 0.0;
     };
     let pairs = ring.windows(2);
-    pairs
-        .map(|pair| (pair[0] - first).perp_dot(pair[1] - first))
-        .sum()
+    pairs.map(|pair| (pair[0] - first).perp_dot(pair[1] - first)).sum()
 }
 
 /// The length of the closed `ring`.
@@ -134,9 +130,7 @@ mod tests {
     use super::*;
 
     fn square(low: f64, high: f64) -> Vec<DVec2> {
-        [(low, low), (high, low), (high, high), (low, high)]
-            .map(DVec2::from)
-            .to_vec()
+        [(low, low), (high, low), (high, high), (low, high)].map(DVec2::from).to_vec()
     }
 
     fn area(rings: &[Vec<DVec2>]) -> f64 {

@@ -67,10 +67,7 @@ pub(crate) fn two_squares() -> Sheet {
 
 /// No lines, so that only paper shows.
 pub(crate) fn plain() -> Style {
-    Style {
-        line_width: 0.0,
-        ..Style::default()
-    }
+    Style { line_width: 0.0, ..Style::default() }
 }
 
 /// The camera from above that shows the square from −0.5 to 1.5 at `pixels` a unit.
@@ -103,11 +100,7 @@ pub(crate) fn turned_over(positions: &[DVec3]) -> Vec<DVec3> {
 /// Linear light of an sRGB byte.
 pub(crate) fn linear(byte: u8) -> f64 {
     let value = f64::from(byte) / 255.0;
-    if value <= 0.04045 {
-        value / 12.92
-    } else {
-        ((value + 0.055) / 1.055).powf(2.4)
-    }
+    if value <= 0.04045 { value / 12.92 } else { ((value + 0.055) / 1.055).powf(2.4) }
 }
 
 /// The square folded about its diagonal from flat at t = 0 by 90° at t = `last`.
@@ -136,8 +129,5 @@ pub(crate) fn shown_style(
     camera: &Camera,
     style: &Style,
 ) -> Style {
-    Style {
-        line_width: line_width(sheet, positions, camera, style.line_width),
-        ..style.clone()
-    }
+    Style { line_width: line_width(sheet, positions, camera, style.line_width), ..style.clone() }
 }

@@ -35,11 +35,7 @@ fn count(svg: &str, start: &str) -> usize {
 #[test]
 fn a_strip_has_its_width_on_paper_and_no_more_than_its_height() {
     for (width, height) in [(180.0, 240.0), (85.0, 40.0), (123.4, 30.0)] {
-        let options = StripOptions {
-            width,
-            height,
-            ..StripOptions::default()
-        };
+        let options = StripOptions { width, height, ..StripOptions::default() };
         let svg = figure(&options).unwrap().svg().unwrap();
         let head = svg.lines().next().unwrap();
         assert!(head.contains(&format!("width=\"{width}mm\"")), "{head}");
@@ -47,15 +43,9 @@ fn a_strip_has_its_width_on_paper_and_no_more_than_its_height() {
         let high: f64 = high.split("mm").next().unwrap().parse().unwrap();
         assert!(high <= height + 0.3, "{high} mm of {height}");
     }
-    let narrow = StripOptions {
-        width: 10.0,
-        ..StripOptions::default()
-    };
+    let narrow = StripOptions { width: 10.0, ..StripOptions::default() };
     let refused = figure(&narrow);
-    assert!(matches!(
-        refused,
-        Err(RecordError::NoRoom { states: 2, .. })
-    ));
+    assert!(matches!(refused, Err(RecordError::NoRoom { states: 2, .. })));
 }
 
 #[test]
@@ -67,25 +57,14 @@ fn what_cannot_be_drawn_is_refused_with_its_value() {
         change(&mut states, &mut options);
         strip(&units.sheet, &states, &options).unwrap_err()
     };
-    assert!(matches!(
-        wrong(&|states, _| states.clear()),
-        RecordError::NoFrames
-    ));
+    assert!(matches!(wrong(&|states, _| states.clear()), RecordError::NoFrames));
     assert!(matches!(
         wrong(&|states, _| states[1].positions[3].y = f64::NAN),
-        RecordError::NotFinite {
-            frame: 1,
-            vertex: 3,
-            ..
-        }
+        RecordError::NotFinite { frame: 1, vertex: 3, .. }
     ));
     assert!(matches!(
         wrong(&|states, _| states[1].values = vec![1.0; 5]),
-        RecordError::ValueCount {
-            frame: 1,
-            found: 5,
-            ..
-        }
+        RecordError::ValueCount { frame: 1, found: 5, .. }
     ));
     assert!(matches!(
         wrong(&|states, _| states[0].target = vec![DVec3::ZERO, DVec3::INFINITY]),
@@ -93,15 +72,9 @@ fn what_cannot_be_drawn_is_refused_with_its_value() {
     ));
     assert!(matches!(
         wrong(&|_, options| options.line_width = f64::NAN),
-        RecordError::Length {
-            name: "line_width",
-            ..
-        }
+        RecordError::Length { name: "line_width", .. }
     ));
-    let legend = Some(Legend {
-        title: "strain".to_owned(),
-        range: [1.0, 1.0],
-    });
+    let legend = Some(Legend { title: "strain".to_owned(), range: [1.0, 1.0] });
     assert!(matches!(
         wrong(&|_, options| options.legend.clone_from(&legend)),
         RecordError::Range { .. }
@@ -119,21 +92,16 @@ fn what_cannot_be_drawn_is_refused_with_its_value() {
 fn lines_take_their_style_and_greys_stay_grey() {
     let plain = figure(&StripOptions::default()).unwrap().svg().unwrap();
     assert!(!plain.contains("stroke-dasharray"));
-    let grey = StripOptions {
-        style: Style::grey(),
-        lines: LineStyle::Dashed,
-        ..StripOptions::default()
-    };
+    let grey =
+        StripOptions { style: Style::grey(), lines: LineStyle::Dashed, ..StripOptions::default() };
     let svg = figure(&grey).unwrap().svg().unwrap();
     let dashes = svg.split("stroke-dasharray=\"").skip(1);
-    let lengths: Vec<usize> = dashes
-        .map(|rest| rest.split('"').next().unwrap().split(' ').count())
-        .collect();
+    let lengths: Vec<usize> =
+        dashes.map(|rest| rest.split('"').next().unwrap().split(' ').count()).collect();
     assert!(lengths.contains(&2) && lengths.contains(&4), "{lengths:?}");
     for color in svg.split('#').skip(1) {
-        let channels: Vec<u8> = (0..3)
-            .map(|k| u8::from_str_radix(&color[2 * k..2 * k + 2], 16).unwrap())
-            .collect();
+        let channels: Vec<u8> =
+            (0..3).map(|k| u8::from_str_radix(&color[2 * k..2 * k + 2], 16).unwrap()).collect();
         let spread = channels.iter().max().unwrap() - channels.iter().min().unwrap();
         // Words are a very dark grey with a breath of blue.
         assert!(spread <= 4, "#{}", &color[..6]);
@@ -142,10 +110,7 @@ fn lines_take_their_style_and_greys_stay_grey() {
 
 #[test]
 fn a_page_without_background_lets_through_what_lies_behind() {
-    let options = StripOptions {
-        background: None,
-        ..StripOptions::default()
-    };
+    let options = StripOptions { background: None, ..StripOptions::default() };
     let clear = figure(&options).unwrap();
     let white = figure(&StripOptions::default()).unwrap();
     assert_eq!(count(&clear.svg().unwrap(), "<rect"), 0);
@@ -179,19 +144,13 @@ fn values_marks_targets_and_boxes_are_drawn() {
     let none = strip(&units.sheet, &marked, &options).unwrap();
     assert_eq!(words(none), base);
     marked[0].marked[2] = true;
-    let svg = strip(&units.sheet, &marked, &options)
-        .unwrap()
-        .svg()
-        .unwrap();
+    let svg = strip(&units.sheet, &marked, &options).unwrap().svg().unwrap();
     assert!(svg.contains(">penetrating<"));
     let mut valued = bare.clone();
     valued[0].values = (0..units.sheet.faces.len()).map(|k| k as f64).collect();
     let hidden = strip(&units.sheet, &valued, &options).unwrap();
     assert_eq!(hidden, strip(&units.sheet, &bare, &options).unwrap());
-    let legend = Some(Legend {
-        title: "strain, %".to_owned(),
-        range: [0.0, 10.0],
-    });
+    let legend = Some(Legend { title: "strain, %".to_owned(), range: [0.0, 10.0] });
     let shown = StripOptions { legend, ..options };
     let svg = strip(&units.sheet, &valued, &shown).unwrap().svg().unwrap();
     assert!(svg.contains("strain, %") && svg.contains("#00224e") && svg.contains("#fee838"));
@@ -205,10 +164,7 @@ fn marks_of_a_motion_show_in_the_state_at_their_time() {
     let marked = |time| FigureState::at(&motion, &marks, time).marked;
     assert_eq!(marked(1.0), [false, true]);
     assert_eq!(marked(2.0), [false, false]);
-    assert_eq!(
-        FigureState::at(&motion, &marks, 2.0).label,
-        "t = 2, compact"
-    );
+    assert_eq!(FigureState::at(&motion, &marks, 2.0).label, "t = 2, compact");
 }
 
 #[test]
@@ -216,28 +172,14 @@ fn one_scale_serves_all_states() {
     let square = square(foldmotion_pattern::Assignment::Facet);
     let order = LayerOrder::default();
     let half: Vec<DVec3> = square.planar().iter().map(|&p| 0.5 * p).collect();
-    let states = [
-        FigureState::new(square.planar(), &order, ""),
-        FigureState::new(half, &order, ""),
-    ];
-    let options = StripOptions {
-        view: View::Top,
-        has_key: false,
-        ..StripOptions::default()
-    };
+    let states =
+        [FigureState::new(square.planar(), &order, ""), FigureState::new(half, &order, "")];
+    let options = StripOptions { view: View::Top, has_key: false, ..StripOptions::default() };
     let svg = strip(&square, &states, &options).unwrap().svg().unwrap();
-    let shapes = svg
-        .lines()
-        .filter(|l| l.contains("fill=\"#") && l.contains("<path"));
+    let shapes = svg.lines().filter(|l| l.contains("fill=\"#") && l.contains("<path"));
     let widths: Vec<f64> = shapes
         .map(|line| {
-            let path = line
-                .split("d=\"")
-                .nth(1)
-                .unwrap()
-                .split('"')
-                .next()
-                .unwrap();
+            let path = line.split("d=\"").nth(1).unwrap().split('"').next().unwrap();
             let numbers = path.split(|c: char| !(c.is_ascii_digit() || c == '.'));
             let all: Vec<f64> = numbers.filter_map(|n| n.parse().ok()).collect();
             let x = all.iter().step_by(2);
@@ -292,9 +234,7 @@ fn a_pdf_has_whole_objects_its_size_in_points_and_the_shapes_of_the_svg() {
     assert!((sides[2] - 180.0 / 25.4 * 72.0).abs() < 1e-3, "{sides:?}");
     let content = stream(objects[3]);
     let svg = drawing.svg().unwrap();
-    let shapes = svg
-        .lines()
-        .filter(|l| l.contains("stroke-linejoin") && !l.contains("\"none\""));
+    let shapes = svg.lines().filter(|l| l.contains("stroke-linejoin") && !l.contains("\"none\""));
     let filled = content.lines().filter(|line| *line == "B").count();
     assert_eq!(filled, shapes.count());
     assert_eq!(count(&content, "BT"), count(&svg, "<text"));
@@ -335,12 +275,7 @@ fn every_file_says_where_it_comes_from_and_the_same_drawing_has_the_same_bytes()
     objects(&pdf);
     let pdf = String::from_utf8_lossy(&pdf).into_owned();
     for file in [&svg, &pdf] {
-        for text in [
-            "0123abcd",
-            "foldmotion 9.9.9",
-            "# &lt;one&gt;",
-            "A strip &amp; its motion",
-        ] {
+        for text in ["0123abcd", "foldmotion 9.9.9", "# &lt;one&gt;", "A strip &amp; its motion"] {
             assert!(file.contains(text), "{text}");
         }
         assert!(!file.contains("Date"));

@@ -22,11 +22,7 @@ fn options() -> FilmOptions {
 }
 
 fn scene<'a>(motion: &'a Motion, marks: &'a Marks, values: Option<&'a Values>) -> Scene<'a> {
-    Scene {
-        motion,
-        marks,
-        values,
-    }
+    Scene { motion, marks, values }
 }
 
 /// The PNG files of a film.
@@ -38,13 +34,7 @@ fn frames(motion: &Motion, options: &FilmOptions, values: Option<&Values>) -> Ve
         Ok(())
     });
     let marks = Marks::default();
-    film(
-        scene(motion, &marks, values),
-        options,
-        &mut [&mut writer],
-        &|_| true,
-    )
-    .unwrap();
+    film(scene(motion, &marks, values), options, &mut [&mut writer], &|_| true).unwrap();
     drop(writer);
     files
 }
@@ -106,10 +96,7 @@ fn png_files_without_background_give_the_picture_when_laid_over_it() {
             partly += usize::from(a > 0.0 && a < 1.0);
             for c in 0..3 {
                 let over = a * linear(found[c]) + (1.0 - a) * linear(background[c]);
-                assert!(
-                    (over - linear(wanted[c])).abs() < 0.006,
-                    "{found:?} {wanted:?}"
-                );
+                assert!((over - linear(wanted[c])).abs() < 0.006, "{found:?} {wanted:?}");
             }
             assert_eq!(found[3] == 0, *wanted == background, "{found:?}");
         }
@@ -141,15 +128,8 @@ fn films_made_together_are_those_made_alone() {
 #[test]
 fn a_film_back_and_forth_shows_the_same_states_twice_but_the_last() {
     let motion = folding_square(&[0.0, 1.0, 2.0]);
-    let options = FilmOptions {
-        playback: Playback::BackAndForth,
-        ..options()
-    };
-    let times: Vec<f64> = timeline(&motion, &options)
-        .unwrap()
-        .iter()
-        .map(|s| s.time)
-        .collect();
+    let options = FilmOptions { playback: Playback::BackAndForth, ..options() };
+    let times: Vec<f64> = timeline(&motion, &options).unwrap().iter().map(|s| s.time).collect();
     let back: Vec<f64> = times.iter().rev().copied().collect();
     assert_eq!((times.len(), &times), (21, &back));
     assert_eq!(times.iter().filter(|&&t| t == 2.0).count(), 1);
@@ -158,21 +138,11 @@ fn a_film_back_and_forth_shows_the_same_states_twice_but_the_last() {
 #[test]
 fn captions_and_legends_change_the_picture_and_values_colour_the_facets() {
     let motion = folding_square(&[0.0, 1.0, 2.0]);
-    let options = FilmOptions {
-        view: View::Top,
-        size: [192, 144],
-        ..options()
-    };
-    let values = Values {
-        title: "strain".to_owned(),
-        range: [0.0, 1.0],
-        frames: vec![vec![0.0, 1.0]; 3],
-    };
+    let options = FilmOptions { view: View::Top, size: [192, 144], ..options() };
+    let values =
+        Values { title: "strain".to_owned(), range: [0.0, 1.0], frames: vec![vec![0.0, 1.0]; 3] };
     let plain = frames(&motion, &options, None);
-    let with_caption = FilmOptions {
-        has_caption: true,
-        ..options.clone()
-    };
+    let with_caption = FilmOptions { has_caption: true, ..options.clone() };
     assert_ne!(frames(&motion, &with_caption, None)[0], plain[0]);
     let (pixels, ..) = read(&frames(&motion, &options, Some(&values))[0]);
     let count = |color: [u8; 3]| pixels.chunks(3).filter(|p| **p == color).count();
@@ -194,62 +164,34 @@ fn a_film_follows_a_sheet_that_grows_unless_that_is_off_or_the_camera_is_aimed()
         };
         [&files[0], files.last().unwrap()].map(count)
     };
-    let still = FilmOptions {
-        seconds: [20.0, 0.3],
-        ..options()
-    };
-    let following = FilmOptions {
-        is_following: true,
-        ..still.clone()
-    };
-    let aimed = FilmOptions {
-        width: Some(2.0),
-        ..following.clone()
-    };
+    let still = FilmOptions { seconds: [20.0, 0.3], ..options() };
+    let following = FilmOptions { is_following: true, ..still.clone() };
+    let aimed = FilmOptions { width: Some(2.0), ..following.clone() };
     let ([small, all], [near, whole]) = (sheet_pixels(&still), sheet_pixels(&following));
     assert_eq!(whole, all, "the last state fills the picture either way");
     assert!(near > 10 * small && 10 * near > all, "{small} {near} {all}");
-    let not_following = FilmOptions {
-        width: Some(2.0),
-        ..still
-    };
+    let not_following = FilmOptions { width: Some(2.0), ..still };
     assert_eq!(sheet_pixels(&aimed), sheet_pixels(&not_following));
 }
 
 #[test]
 fn a_turning_camera_shows_another_side_at_the_end() {
     let motion = folding_square(&[0.0, 1.0, 2.0]);
-    let turning = FilmOptions {
-        turn: 360.0,
-        ..options()
-    };
+    let turning = FilmOptions { turn: 360.0, ..options() };
     let files = frames(&motion, &turning, None);
-    let half = FilmOptions {
-        turn: 180.0,
-        ..options()
-    };
+    let half = FilmOptions { turn: 180.0, ..options() };
     let halves = frames(&motion, &half, None);
     assert_eq!(files[0], halves[0], "they start alike");
     assert_ne!(files.last(), halves.last());
-    let far = FilmOptions {
-        turn: f64::NAN,
-        ..options()
-    };
-    assert!(matches!(
-        timeline(&motion, &far),
-        Err(RecordError::Turn { .. })
-    ));
+    let far = FilmOptions { turn: f64::NAN, ..options() };
+    assert!(matches!(timeline(&motion, &far), Err(RecordError::Turn { .. })));
 }
 
 #[test]
 fn values_that_do_not_fit_are_refused_and_a_full_disk_is_reported() {
     let motion = folding_square(&[0.0, 1.0, 2.0]);
     let marks = Marks::default();
-    let good = Values {
-        title: String::new(),
-        range: [0.0, 1.0],
-        frames: vec![vec![0.0; 2]; 3],
-    };
+    let good = Values { title: String::new(), range: [0.0, 1.0], frames: vec![vec![0.0; 2]; 3] };
     let refused = |values: &Values| {
         let mut writer = Frames::new(|_: &str, _: &[u8]| Err(io::ErrorKind::StorageFull.into()));
         let scene = scene(&motion, &marks, Some(values));
@@ -260,26 +202,10 @@ fn values_that_do_not_fit_are_refused_and_a_full_disk_is_reported() {
     let mut short = good.clone();
     short.frames[1].pop();
     let error = refused(&short);
-    assert!(
-        matches!(
-            error,
-            RecordError::ValueCount {
-                frame: 1,
-                found: 1,
-                ..
-            }
-        ),
-        "{error}"
-    );
+    assert!(matches!(error, RecordError::ValueCount { frame: 1, found: 1, .. }), "{error}");
     let mut few = good.clone();
     few.frames.pop();
-    assert!(matches!(
-        refused(&few),
-        RecordError::ValueCount { frame: 2, .. }
-    ));
-    let flat = Values {
-        range: [1.0, 1.0],
-        ..good
-    };
+    assert!(matches!(refused(&few), RecordError::ValueCount { frame: 2, .. }));
+    let flat = Values { range: [1.0, 1.0], ..good };
     assert!(matches!(refused(&flat), RecordError::Range { .. }));
 }

@@ -79,18 +79,11 @@ fn the_bytes_are_the_same_for_one_and_two_threads() {
     let units = UnitSheet::new(unit, 3, 2).unwrap();
     let frame = |time, positions| Frame { time, positions };
     let motion = Motion {
-        frames: vec![
-            frame(1.0, units.sheet.planar()),
-            frame(2.0, units.compact()),
-        ],
+        frames: vec![frame(1.0, units.sheet.planar()), frame(2.0, units.compact())],
         compact_order: units.compact_order(),
         sheet: units.sheet,
     };
-    let options = FilmOptions {
-        seconds: [0.0, 1.0],
-        is_following: true,
-        ..options()
-    };
+    let options = FilmOptions { seconds: [0.0, 1.0], is_following: true, ..options() };
     let with_threads = |count| {
         let pool = ThreadPoolBuilder::new().num_threads(count).build().unwrap();
         pool.install(|| film(&motion, &options))
@@ -104,10 +97,7 @@ fn a_film_hits_the_three_states_exactly_and_holds_them() {
     let motion = folding_square(&[0.0, 0.3, 1.3, 2.0]);
     let shots = timeline(&motion, &FilmOptions::default()).unwrap();
     assert_eq!(shots.len(), 1 + 90 + 150);
-    assert_eq!(
-        [shots[0].time, shots[90].time, shots[240].time],
-        [0.0, 1.0, 2.0]
-    );
+    assert_eq!([shots[0].time, shots[90].time, shots[240].time], [0.0, 1.0, 2.0]);
     assert!(shots.is_sorted_by(|a, b| a.time < b.time));
     for (index, shot) in shots.iter().enumerate() {
         let held = if [0, 90, 240].contains(&index) { 50 } else { 0 };
@@ -148,42 +138,15 @@ fn vertices_move_straight_between_frames() {
 fn films_of_bad_input_are_refused_before_anything_is_written() {
     type Broken = (fn(&mut FilmOptions), fn(&RecordError) -> bool);
     let broken: [Broken; 9] = [
-        (
-            |o| o.size = [0, 72],
-            |e| matches!(e, RecordError::Size { .. }),
-        ),
-        (
-            |o| o.size = [65_536, 72],
-            |e| matches!(e, RecordError::Size { .. }),
-        ),
-        (
-            |o| o.fps = 0.0,
-            |e| matches!(e, RecordError::FramesPerSecond { .. }),
-        ),
-        (
-            |o| o.fps = f64::NAN,
-            |e| matches!(e, RecordError::FramesPerSecond { .. }),
-        ),
-        (
-            |o| o.fps = 51.0,
-            |e| matches!(e, RecordError::FramesPerSecond { .. }),
-        ),
-        (
-            |o| o.hold[1] = -1.0,
-            |e| matches!(e, RecordError::Seconds { .. }),
-        ),
-        (
-            |o| o.seconds[1] = f64::NAN,
-            |e| matches!(e, RecordError::Seconds { .. }),
-        ),
-        (
-            |o| o.margin = 0.5,
-            |e| matches!(e, RecordError::Margin { .. }),
-        ),
-        (
-            |o| o.style.line_width = -1.0,
-            |e| matches!(e, RecordError::LineWidth { .. }),
-        ),
+        (|o| o.size = [0, 72], |e| matches!(e, RecordError::Size { .. })),
+        (|o| o.size = [65_536, 72], |e| matches!(e, RecordError::Size { .. })),
+        (|o| o.fps = 0.0, |e| matches!(e, RecordError::FramesPerSecond { .. })),
+        (|o| o.fps = f64::NAN, |e| matches!(e, RecordError::FramesPerSecond { .. })),
+        (|o| o.fps = 51.0, |e| matches!(e, RecordError::FramesPerSecond { .. })),
+        (|o| o.hold[1] = -1.0, |e| matches!(e, RecordError::Seconds { .. })),
+        (|o| o.seconds[1] = f64::NAN, |e| matches!(e, RecordError::Seconds { .. })),
+        (|o| o.margin = 0.5, |e| matches!(e, RecordError::Margin { .. })),
+        (|o| o.style.line_width = -1.0, |e| matches!(e, RecordError::LineWidth { .. })),
     ];
     let refused = |motion: &Motion, options: &FilmOptions| {
         let mut bytes = Vec::new();
@@ -201,33 +164,17 @@ fn films_of_bad_input_are_refused_before_anything_is_written() {
     let mut nan = motion.clone();
     nan.frames[1].positions[2] = DVec3::NAN;
     let error = refused(&nan, &options());
-    assert!(
-        matches!(
-            error,
-            RecordError::NotFinite {
-                frame: 1,
-                vertex: 2,
-                ..
-            }
-        ),
-        "{error}"
-    );
+    assert!(matches!(error, RecordError::NotFinite { frame: 1, vertex: 2, .. }), "{error}");
     let mut short = motion.clone();
     short.frames[0].positions.pop();
     let error = refused(&short, &options());
-    assert!(
-        matches!(error, RecordError::VertexCount { frame: 0, .. }),
-        "{error}"
-    );
+    assert!(matches!(error, RecordError::VertexCount { frame: 0, .. }), "{error}");
     for times in [[0.0, 0.0], [1.0, 0.5], [0.0, f64::NAN]] {
         let mut still = motion.clone();
         still.frames[0].time = times[0];
         still.frames[1].time = times[1];
         let error = refused(&still, &options());
-        assert!(
-            matches!(error, RecordError::Time { frame: 1, .. }),
-            "{error}"
-        );
+        assert!(matches!(error, RecordError::Time { frame: 1, .. }), "{error}");
     }
     let mut empty = motion;
     empty.frames.clear();
@@ -238,23 +185,13 @@ fn films_of_bad_input_are_refused_before_anything_is_written() {
 #[test]
 fn a_film_can_be_interrupted_and_reports_its_progress() {
     let motion = folding_square(&[0.0, 1.0, 2.0]);
-    let options = FilmOptions {
-        seconds: [2.0, 2.0],
-        ..options()
-    };
+    let options = FilmOptions { seconds: [2.0, 2.0], ..options() };
     let calls = AtomicUsize::new(0);
     let stop_at_third = |part: f64| {
         assert!((0.0..=1.0).contains(&part));
         calls.fetch_add(1, Ordering::Relaxed) < 2
     };
-    let error = gif(
-        &motion,
-        &Marks::default(),
-        &options,
-        Vec::new(),
-        &stop_at_third,
-    )
-    .unwrap_err();
+    let error = gif(&motion, &Marks::default(), &options, Vec::new(), &stop_at_third).unwrap_err();
     assert!(matches!(error, RecordError::Interrupted), "{error}");
     assert_eq!(calls.load(Ordering::Relaxed), 3);
 }
@@ -264,10 +201,7 @@ fn a_film_that_cannot_be_written_says_so() {
     struct Full(usize);
     impl io::Write for Full {
         fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
-            self.0 = self
-                .0
-                .checked_sub(bytes.len())
-                .ok_or(io::ErrorKind::StorageFull)?;
+            self.0 = self.0.checked_sub(bytes.len()).ok_or(io::ErrorKind::StorageFull)?;
             Ok(bytes.len())
         }
         fn flush(&mut self) -> io::Result<()> {
@@ -276,10 +210,7 @@ fn a_film_that_cannot_be_written_says_so() {
     }
     let motion = folding_square(&[0.0, 1.0, 2.0]);
     for room in [0, 100, 900, 2000] {
-        let error = gif(&motion, &Marks::default(), &options(), Full(room), &|_| {
-            true
-        })
-        .unwrap_err();
+        let error = gif(&motion, &Marks::default(), &options(), Full(room), &|_| true).unwrap_err();
         let RecordError::Write(error) = error else {
             panic!("room for {room} bytes: {error}");
         };

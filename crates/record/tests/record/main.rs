@@ -1,9 +1,6 @@
 //! What is recorded of a motion, read back: pictures, films, figures, models and pages.
 
-#![expect(
-    clippy::unwrap_used,
-    reason = "what cannot be made or read must fail its test"
-)]
+#![expect(clippy::unwrap_used, reason = "what cannot be made or read must fail its test")]
 
 mod common;
 mod figures;

@@ -50,19 +50,12 @@ fn shown(file: &gltf::Gltf, primitive: &gltf::Primitive<'_>, seconds: f32) -> Ve
 fn a_glb_shows_every_frame_of_the_motion_within_its_tolerance_on_both_sides_and_lines() {
     let times: Vec<f64> = (0..=40).map(|k| f64::from(k) / 20.0).collect();
     let motion = folding_square(&times);
-    let options = GlbOptions {
-        provenance: "a square".to_owned(),
-        ..GlbOptions::default()
-    };
+    let options = GlbOptions { provenance: "a square".to_owned(), ..GlbOptions::default() };
     let file = written(&motion, &options);
     let meshes: Vec<_> = file.meshes().collect();
     let sides: Vec<_> = meshes[0].primitives().collect();
     let lines: Vec<_> = meshes[1].primitives().collect();
-    assert_eq!(
-        (sides.len(), lines.len()),
-        (2, 2),
-        "two sides, valley and border"
-    );
+    assert_eq!((sides.len(), lines.len()), (2, 2), "two sides, valley and border");
     let edges = &motion.sheet.edges;
     let ends_of = |kind: Assignment| -> Vec<u32> {
         let chosen = edges.iter().filter(|edge| edge.assignment == kind);
@@ -88,11 +81,7 @@ fn a_glb_shows_every_frame_of_the_motion_within_its_tolerance_on_both_sides_and_
         }
     }
     let targets = |p: &gltf::Primitive<'_>| p.morph_targets().count();
-    assert!(
-        (2..40).contains(&targets(&sides[0])),
-        "{}",
-        targets(&sides[0])
-    );
+    assert!((2..40).contains(&targets(&sides[0])), "{}", targets(&sides[0]));
     let extras = file.document.as_json().asset.extras.as_ref().unwrap();
     assert!(extras.get().contains("a square"));
 }
@@ -124,22 +113,11 @@ fn a_motion_of_more_targets_than_viewers_take_is_refused_and_a_still_one_is_writ
     }
     let mut bytes = Vec::new();
     let error = glb(&motion, &GlbOptions::default(), &mut bytes).unwrap_err();
-    assert!(
-        matches!(error, RecordError::Targets { needed: 399, .. }),
-        "{error}"
-    );
+    assert!(matches!(error, RecordError::Targets { needed: 399, .. }), "{error}");
     assert!(bytes.is_empty());
     motion.frames.truncate(1);
-    assert_eq!(
-        written(&motion, &GlbOptions::default())
-            .animations()
-            .count(),
-        0
-    );
-    let no_time = GlbOptions {
-        seconds: [0.0, 1.0],
-        ..GlbOptions::default()
-    };
+    assert_eq!(written(&motion, &GlbOptions::default()).animations().count(), 0);
+    let no_time = GlbOptions { seconds: [0.0, 1.0], ..GlbOptions::default() };
     let error = glb(&motion, &no_time, &mut bytes).unwrap_err();
     assert!(matches!(error, RecordError::NotPositive { .. }), "{error}");
 }
@@ -153,9 +131,7 @@ fn is_closed(solid: &Solid) -> bool {
         }
     }
     let opposite = |[a, b]: &[u32; 2]| counts.get(&[*b, *a]) == Some(&1);
-    counts
-        .iter()
-        .all(|(edge, &count)| count == 1 && opposite(edge))
+    counts.iter().all(|(edge, &count)| count == 1 && opposite(edge))
 }
 
 #[test]
@@ -170,11 +146,7 @@ fn a_thick_sheet_is_closed_outward_and_holds_area_times_thickness() {
     for positions in [units.sheet.planar(), units.compact()] {
         let thick = solid(&units.sheet, &positions, 0.01).unwrap();
         assert!(is_closed(&thick));
-        assert!(
-            (thick.volume() - 0.01 * area).abs() < 1e-9 * area,
-            "{}",
-            thick.volume()
-        );
+        assert!((thick.volume() - 0.01 * area).abs() < 1e-9 * area, "{}", thick.volume());
     }
     let thin = surface_of(&units.sheet, &units.sheet.planar()).unwrap();
     assert!(!is_closed(&thin), "a surface has a border");
@@ -209,9 +181,7 @@ fn stl_and_obj_read_back_as_the_triangles_they_were() {
     assert!(text.starts_with("# scene\n# hash\n"));
     let numbers = |kind: &str| -> Vec<f64> {
         let lines = text.lines().filter_map(|line| line.strip_prefix(kind));
-        lines
-            .flat_map(|line| line.split(' ').map(|n| n.parse().unwrap()))
-            .collect()
+        lines.flat_map(|line| line.split(' ').map(|n| n.parse().unwrap())).collect()
     };
     let vertices: Vec<DVec3> = numbers("v ").chunks(3).map(DVec3::from_slice).collect();
     assert_eq!(vertices, thick.vertices);
@@ -226,10 +196,7 @@ fn positions_that_do_not_fit_are_refused() {
     assert!(surface_of(&sheet, &[DVec3::ZERO]).is_err());
     assert!(solid(&sheet, &[DVec3::NAN; 4], 0.1).is_err());
     let motion = Motion {
-        frames: vec![Frame {
-            time: 0.0,
-            positions: vec![DVec3::NAN; 4],
-        }],
+        frames: vec![Frame { time: 0.0, positions: vec![DVec3::NAN; 4] }],
         compact_order: LayerOrder::default(),
         sheet,
     };

@@ -22,11 +22,7 @@ fn options() -> FilmOptions {
 fn filmed(motion: &Motion, options: &FilmOptions) -> (Vec<u8>, Vec<Vec<u8>>) {
     let (mut bytes, mut files) = (Vec::new(), Vec::new());
     let marks = Marks::default();
-    let scene = Scene {
-        motion,
-        marks: &marks,
-        values: None,
-    };
+    let scene = Scene { motion, marks: &marks, values: None };
     let mut frames = Frames::new(|_: &str, bytes: &[u8]| {
         files.push(bytes.to_vec());
         Ok(())
@@ -85,9 +81,7 @@ fn an_mp4_decodes_to_the_pictures_it_was_made_of() {
     for (picture, file) in pictures.iter().zip(&files) {
         let decoded = decoder.decode(picture).unwrap().unwrap();
         assert_eq!(decoded.dimensions(), (96, 72), "odd sides grow");
-        let mut reader = png::Decoder::new(std::io::Cursor::new(file))
-            .read_info()
-            .unwrap();
+        let mut reader = png::Decoder::new(std::io::Cursor::new(file)).read_info().unwrap();
         let mut pixels = vec![0; 95 * 71 * 3];
         reader.next_frame(&mut pixels).unwrap();
         let mut sum = 0.0;
@@ -116,13 +110,8 @@ fn the_bytes_of_an_mp4_are_the_same_for_one_and_two_threads() {
 #[test]
 fn no_frame_is_left_out_where_the_whole_picture_moves() {
     let motion = folding_square(&(0..30).map(|k| f64::from(k) / 29.0).collect::<Vec<_>>());
-    let mut hard = FilmOptions {
-        size: [640, 480],
-        fps: 50.0,
-        seconds: [0.6, 0.0],
-        turn: 3600.0,
-        ..options()
-    };
+    let mut hard =
+        FilmOptions { size: [640, 480], fps: 50.0, seconds: [0.6, 0.0], turn: 3600.0, ..options() };
     hard.style.line_width = 40.0;
     let count = stream(&filmed(&motion, &hard).0).len();
     assert_eq!(count, 31 + 5 + 10);
@@ -135,11 +124,7 @@ fn sizes_that_the_encoder_does_not_take_are_refused_before_anything_is_drawn() {
         let options = FilmOptions { size, ..options() };
         let mut bytes = Vec::new();
         let marks = Marks::default();
-        let scene = Scene {
-            motion: &motion,
-            marks: &marks,
-            values: None,
-        };
+        let scene = Scene { motion: &motion, marks: &marks, values: None };
         let mut writer = Mp4::new(&mut bytes).unwrap();
         let error = film(scene, &options, &mut [&mut writer], &|_| true).unwrap_err();
         assert!(matches!(error, RecordError::H264 { .. }), "{error}");

@@ -40,10 +40,7 @@ fn colors() -> ([u8; 3], [u8; 3]) {
 fn the_covered_pixels_sum_to_the_area_of_a_triangle() {
     let vertices = [DVec2::ZERO, DVec2::new(1.0, 0.13), DVec2::new(0.21, 0.97)];
     let sheet = sheet(&vertices, &[[0, 1, 2]], &[]);
-    let style = Style {
-        front: [0; 3],
-        ..plain()
-    };
+    let style = Style { front: [0; 3], ..plain() };
     for turn in 0..12_i32 {
         let rotation = DMat3::from_rotation_z(f64::from(turn) * 0.31);
         let foot = DVec3::new(0.3, 0.4, 0.0);
@@ -53,10 +50,7 @@ fn the_covered_pixels_sum_to_the_area_of_a_triangle() {
         let covered: f64 = image.pixels.iter().map(|p| 1.0 - linear(p[1])).sum();
         let area = 0.5 * vertices[1].perp_dot(vertices[2]) * camera().scale().powi(2);
         // The perimeter crosses about 130 pixels, each off by a few hundredths with either sign.
-        assert!(
-            (covered - area).abs() < 1.0,
-            "turn {turn}: {covered} for {area}"
-        );
+        assert!((covered - area).abs() < 1.0, "turn {turn}: {covered} for {area}");
     }
 }
 
@@ -89,10 +83,7 @@ fn two_triangles_of_a_square_show_no_seam() {
                     let seen = image.pixel(x, y);
                     // The normals of both triangles round differently in the last bit.
                     let error = (0..3).map(|c| seen[c].abs_diff(flat[c])).max().unwrap();
-                    assert!(
-                        error <= 1,
-                        "turn {turn}: {seen:?} beside {flat:?} at {x}, {y}"
-                    );
+                    assert!(error <= 1, "turn {turn}: {seen:?} beside {flat:?} at {x}, {y}");
                 }
             }
         }
@@ -108,11 +99,7 @@ fn a_triangle_behind_another_is_hidden_whatever_the_sequence_of_the_triangles() 
     let image = from_above(&sheet, &positions, &none, &plain());
     assert_eq!(middle(&image), back);
     let below = from_above(&sheet, &turned_over(&positions), &none, &plain());
-    assert_eq!(
-        middle(&below),
-        back,
-        "from below the first square shows its back"
-    );
+    assert_eq!(middle(&below), back, "from below the first square shows its back");
     assert_ne!(front, back);
 
     let vertices = sheet.vertices.clone();
@@ -174,18 +161,9 @@ fn each_side_has_its_own_colour() {
     let flat = sheet.planar();
     let over = turned_over(&flat);
     let style = plain();
-    let swapped = Style {
-        front: style.back,
-        back: style.front,
-        ..plain()
-    };
+    let swapped = Style { front: style.back, back: style.front, ..plain() };
     let seen = |positions: &[DVec3], style: &Style| {
-        middle(&from_above(
-            &sheet,
-            positions,
-            &LayerOrder::default(),
-            style,
-        ))
+        middle(&from_above(&sheet, positions, &LayerOrder::default(), style))
     };
     assert_ne!(seen(&flat, &style), seen(&over, &style));
     assert_eq!(seen(&flat, &style), seen(&over, &swapped));
@@ -215,14 +193,8 @@ fn creased(assignment: Assignment, flap_z: f64) -> (Sheet, Vec<DVec3>) {
 
 #[test]
 fn a_crease_has_its_width_and_colour_and_is_hidden_where_its_facets_are() {
-    let style = Style {
-        line_width: 4.0,
-        ..Style::default()
-    };
-    let kinds = [
-        (Assignment::Mountain, style.mountain),
-        (Assignment::Valley, style.valley),
-    ];
+    let style = Style { line_width: 4.0, ..Style::default() };
+    let kinds = [(Assignment::Mountain, style.mountain), (Assignment::Valley, style.valley)];
     for (assignment, color) in kinds {
         let (sheet, positions) = creased(assignment, -0.1);
         let image = from_above(&sheet, &positions, &LayerOrder::default(), &style);
@@ -247,10 +219,7 @@ fn a_crease_has_its_width_and_colour_and_is_hidden_where_its_facets_are() {
 
 #[test]
 fn edges_inside_a_facet_are_not_drawn() {
-    let style = Style {
-        line_width: 4.0,
-        ..Style::default()
-    };
+    let style = Style { line_width: 4.0, ..Style::default() };
     let sheet = square(Assignment::Facet);
     let none = LayerOrder::default();
     let seen = middle(&from_above(&sheet, &sheet.planar(), &none, &style));
@@ -260,11 +229,7 @@ fn edges_inside_a_facet_are_not_drawn() {
 #[test]
 fn a_facet_seen_edge_on_still_shows_its_border() {
     let sheet = square(Assignment::Facet);
-    let upright: Vec<_> = sheet
-        .planar()
-        .iter()
-        .map(|p| DVec3::new(p.x, 0.5, p.y))
-        .collect();
+    let upright: Vec<_> = sheet.planar().iter().map(|p| DVec3::new(p.x, 0.5, p.y)).collect();
     let style = Style::default();
     let none = LayerOrder::default();
     let image = from_above(&sheet, &upright, &none, &style);
@@ -371,14 +336,8 @@ fn a_camera_shows_all_points_at_equal_scale_inside_its_margin() {
             assert!((63.999..=576.001).contains(&seen.x), "{name}: {seen}");
             assert!((47.999..=432.001).contains(&seen.y), "{name}: {seen}");
             let q = points[0];
-            let lengths = [
-                p.distance(q) * camera.scale(),
-                seen.distance(camera.project(q)),
-            ];
-            assert!(
-                (lengths[0] - lengths[1]).abs() < 1e-9,
-                "{name}: {lengths:?}"
-            );
+            let lengths = [p.distance(q) * camera.scale(), seen.distance(camera.project(q))];
+            assert!((lengths[0] - lengths[1]).abs() < 1e-9, "{name}: {lengths:?}");
         }
     }
     assert_eq!(View::from_name("sideways"), None);
@@ -397,22 +356,13 @@ fn pictures_of_bad_input_are_refused() {
         assert!(matches!(error, RecordError::Size { .. }), "{error}");
     }
     let error = try_picture(&flat[1..], &plain(), SIZE);
-    assert!(
-        matches!(error, RecordError::VertexCount { found: 3, .. }),
-        "{error}"
-    );
+    assert!(matches!(error, RecordError::VertexCount { found: 3, .. }), "{error}");
     let mut broken = flat.clone();
     broken[2].y = f64::NAN;
     let error = try_picture(&broken, &plain(), SIZE);
-    assert!(
-        matches!(error, RecordError::NotFinite { vertex: 2, .. }),
-        "{error}"
-    );
+    assert!(matches!(error, RecordError::NotFinite { vertex: 2, .. }), "{error}");
     for line_width in [-1.0, f64::NAN, 1e9] {
-        let style = Style {
-            line_width,
-            ..plain()
-        };
+        let style = Style { line_width, ..plain() };
         let error = try_picture(&flat, &style, SIZE);
         assert!(matches!(error, RecordError::LineWidth { .. }), "{error}");
     }
@@ -464,9 +414,8 @@ fn layers_that_noise_drives_through_each_other_keep_their_faces_only_by_their_or
             let surface = Surface::new(&paper, state, &camera, &style);
             let at = |k: u32| DVec2::new(f64::from(k % 192), f64::from(k / 192)) + 0.37;
             let points = (0..192 * 144).map(at);
-            let faces: Vec<_> = points
-                .map(|p| surface.front_at(p).map(|candidate| candidate.face))
-                .collect();
+            let faces: Vec<_> =
+                points.map(|p| surface.front_at(p).map(|candidate| candidate.face)).collect();
             faces
         });
         let differ = seen[0].iter().zip(&seen[1]).filter(|(a, b)| a != b);
@@ -474,13 +423,7 @@ fn layers_that_noise_drives_through_each_other_keep_their_faces_only_by_their_or
     };
     let (with_order, shown) = changed(&units.compact_order());
     assert!(shown > 4000, "{shown} points show paper");
-    assert!(
-        with_order * 200 < shown,
-        "{with_order} of {shown} points flicker"
-    );
+    assert!(with_order * 200 < shown, "{with_order} of {shown} points flicker");
     let (without_order, _) = changed(&LayerOrder::default());
-    assert!(
-        without_order * 4 > shown,
-        "only {without_order} of {shown} flicker"
-    );
+    assert!(without_order * 4 > shown, "only {without_order} of {shown} flicker");
 }

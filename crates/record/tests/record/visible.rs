@@ -146,18 +146,13 @@ fn compare_areas(state: &State<'_>, visible: &Visible, points: usize) -> Count {
         };
         let near = |ring: &Vec<DVec2>| {
             let ends = ring.iter().zip(ring.iter().cycle().skip(1));
-            ends.map(|(&a, &b)| segment_distance(point, a, b))
-                .any(|distance| distance < 1e-4)
+            ends.map(|(&a, &b)| segment_distance(point, a, b)).any(|distance| distance < 1e-4)
         };
         if visible.areas.iter().flat_map(|area| &area.rings).any(near) {
             continue;
         }
-        let found: Vec<u32> = visible
-            .areas
-            .iter()
-            .filter(|area| holds(area, point))
-            .map(|area| area.face)
-            .collect();
+        let found: Vec<u32> =
+            visible.areas.iter().filter(|area| holds(area, point)).map(|area| area.face).collect();
         count.compared += 1;
         let is_right = match state.front(state.origin(point)) {
             None => found.is_empty(),
@@ -192,9 +187,7 @@ fn compare_lines(state: &State<'_>, visible: &Visible, points: usize) -> Count {
             continue;
         }
         // A line of another facet that runs along it within the step beside it cannot be told apart.
-        let others = edges
-            .iter()
-            .map(|&other| &state.sheet.edges[other as usize]);
+        let others = edges.iter().map(|&other| &state.sheet.edges[other as usize]);
         let along = |other: &foldmotion_pattern::Edge| {
             let [a, b] = other.vertices.map(|v| state.positions[v as usize]);
             let [a, b] = [a, b].map(|p| state.camera.project(p).truncate());
@@ -206,10 +199,7 @@ fn compare_lines(state: &State<'_>, visible: &Visible, points: usize) -> Count {
         }
         let is_front = |face: u32| {
             let apex = state.sheet.apex(face, edge).unwrap();
-            let apex = state
-                .camera
-                .project(state.positions[apex as usize])
-                .truncate();
+            let apex = state.camera.project(state.positions[apex as usize]).truncate();
             let inward = (apex - start).reject_from(end - start).normalize_or_zero();
             state.front(state.origin(point + inward * BESIDE)) == Some(Ok(face))
         };
@@ -247,14 +237,11 @@ fn states<'a>(
 }
 
 fn sheets() -> [UnitSheet; 3] {
-    [
-        (Case::E, 1.0, None),
-        (Case::S, 1.6, None),
-        (Case::SII, 1.6, Some(0.7)),
-    ]
-    .map(|(case, width, lambda)| {
-        UnitSheet::new(Unit::new(case, width, 1.0, lambda, None).unwrap(), 3, 2).unwrap()
-    })
+    [(Case::E, 1.0, None), (Case::S, 1.6, None), (Case::SII, 1.6, Some(0.7))].map(
+        |(case, width, lambda)| {
+            UnitSheet::new(Unit::new(case, width, 1.0, lambda, None).unwrap(), 3, 2).unwrap()
+        },
+    )
 }
 
 /// Straight from flat to compact: facets are torn and drive through each other.
@@ -307,16 +294,12 @@ fn a_sheet_seen_in_another_order_or_state_is_found_out() {
     }
     let compact = units.compact();
     let folded = between(&units, 0.6);
-    for (positions, seen, seen_order) in [
-        (&compact, &compact, &turned),
-        (&folded, &between(&units, 0.62), &order),
-    ] {
+    for (positions, seen, seen_order) in
+        [(&compact, &compact, &turned), (&folded, &between(&units, 0.62), &order)]
+    {
         let state = &states(&units, positions, &order)[0];
         let other = &states(&units, seen, seen_order)[0];
-        let other = State {
-            camera: state.camera,
-            ..*other
-        };
+        let other = State { camera: state.camera, ..*other };
         let visible = other.visible();
         assert!(compare_areas(state, &visible, 400).wrong > 4);
         assert!(compare_lines(state, &visible, 400).wrong > 4);
@@ -334,12 +317,7 @@ fn size(area: &VisibleArea) -> f64 {
 
 /// The state of `sheet` from above, 24 pixels a unit of length.
 fn from_top<'a>(sheet: &'a Sheet, positions: &'a [DVec3], order: &'a LayerOrder) -> State<'a> {
-    State {
-        sheet,
-        positions,
-        order,
-        camera: camera(),
-    }
+    State { sheet, positions, order, camera: camera() }
 }
 
 #[test]
@@ -354,26 +332,16 @@ fn squares_that_penetrate_are_cut_where_their_planes_meet() {
     let state = from_top(&sheet, &positions, &none);
     let visible = state.visible();
     let seen = |faces: [u32; 2]| -> f64 {
-        let areas = visible
-            .areas
-            .iter()
-            .filter(|area| faces.contains(&area.face));
+        let areas = visible.areas.iter().filter(|area| faces.contains(&area.face));
         areas.map(size).sum::<f64>() / state.camera.scale().powi(2)
     };
     assert!((seen([0, 1]) - 0.25).abs() < 1e-5, "{}", seen([0, 1]));
     assert!((seen([2, 3]) - 0.75).abs() < 1e-5, "{}", seen([2, 3]));
     // The side y = 0 of the second is hidden as far as x = 0.25.
-    let edge = sheet
-        .edges
-        .iter()
-        .position(|e| e.vertices == [4, 5])
-        .unwrap();
+    let edge = sheet.edges.iter().position(|e| e.vertices == [4, 5]).unwrap();
     let lines = visible.lines.iter().filter(|line| line.edge == edge as u32);
     let length: f64 = lines.map(|line| line.ends[0].distance(line.ends[1])).sum();
-    assert!(
-        (length / state.camera.scale() - 0.75).abs() < 1e-9,
-        "{length}"
-    );
+    assert!((length / state.camera.scale() - 0.75).abs() < 1e-9, "{length}");
 }
 
 #[test]
@@ -398,8 +366,5 @@ fn where_an_order_runs_in_a_circle_every_point_still_has_one_triangle() {
     let middle = state.camera.project(DVec3::new(0.6, 0.4, 0.0)).truncate();
     let front = surface.front_at(middle).map(|front| front.face);
     let areas = visible.areas.iter().filter(|area| holds(area, middle));
-    assert_eq!(
-        areas.map(|area| area.face).collect::<Vec<_>>(),
-        [front.unwrap()]
-    );
+    assert_eq!(areas.map(|area| area.face).collect::<Vec<_>>(), [front.unwrap()]);
 }

@@ -50,9 +50,7 @@ pub(super) fn atan2<S: Simd>(y: Lanes<S>, x: Lanes<S>) -> Lanes<S> {
     // The sign bit tells −0 from 0 as atan2 does.
     let behind = x.constant(PI) - first;
     let is_behind = x.constant(1.0).times_sign_of(x);
-    is_behind
-        .select_below(x.constant(0.0), behind, first)
-        .times_sign_of(y)
+    is_behind.select_below(x.constant(0.0), behind, first).times_sign_of(y)
 }
 
 #[cfg(test)]
@@ -74,10 +72,7 @@ mod tests {
         fn with_simd<S: Simd>(self, simd: S) -> [f64; WIDTH] {
             let mut out = [0.0; WIDTH];
             for part in 0..Lanes::<S>::PARTS {
-                let angle = atan2(
-                    Lanes::load(simd, self.y, part),
-                    Lanes::load(simd, self.x, part),
-                );
+                let angle = atan2(Lanes::load(simd, self.y, part), Lanes::load(simd, self.x, part));
                 angle.store(&mut out, part);
             }
             out
@@ -87,10 +82,7 @@ mod tests {
     fn largest_error(vectors: &[(f64, f64)]) -> f64 {
         let mut worst = 0.0f64;
         for &(y, x) in vectors {
-            let found = Arch::new().dispatch(Angles {
-                y: &[y; WIDTH],
-                x: &[x; WIDTH],
-            });
+            let found = Arch::new().dispatch(Angles { y: &[y; WIDTH], x: &[x; WIDTH] });
             let exact = f64::atan2(y, x);
             for angle in found {
                 assert_eq!(
@@ -123,10 +115,7 @@ mod tests {
     #[test]
     fn axes_and_zeros_have_the_angles_of_the_library() {
         let numbers = [0.0, -0.0, 1.0, -1.0, 1e-300, -1e-300, 1e150, -1e150];
-        let vectors: Vec<_> = numbers
-            .iter()
-            .flat_map(|&y| numbers.map(|x| (y, x)))
-            .collect();
+        let vectors: Vec<_> = numbers.iter().flat_map(|&y| numbers.map(|x| (y, x))).collect();
         assert!(largest_error(&vectors) < 3.0);
     }
 }

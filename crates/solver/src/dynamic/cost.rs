@@ -55,11 +55,6 @@ impl State<'_> {
         // Positions and velocities are read and written, forces too, masses read.
         bytes += nodes * (6 * quad + size_of::<Mass>());
         memory += nodes * (5 * quad + size_of::<Mass>() + 2 * size_of::<f64>() + 4);
-        StepCost {
-            nodes,
-            bytes: bytes as f64,
-            operations,
-            memory: memory as f64,
-        }
+        StepCost { nodes, bytes: bytes as f64, operations, memory: memory as f64 }
     }
 }

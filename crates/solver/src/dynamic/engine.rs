@@ -117,18 +117,10 @@ fn run_here(
     let mut frames = engine.recorder.into_frames();
     // The start is given, not computed: it is recorded as it came, to the last bit.
     if let Some(frame) = frames.first_mut() {
-        *frame = Frame {
-            time: first.start_time(),
-            positions: start.to_vec(),
-        };
+        *frame = Frame { time: first.start_time(), positions: start.to_vec() };
     }
     let steps = stages.iter().map(|stage| stage.steps).sum();
-    Ok(Run {
-        frames,
-        stages,
-        steps,
-        device: "cpu".to_owned(),
-    })
+    Ok(Run { frames, stages, steps, device: "cpu".to_owned() })
 }
 
 struct Engine<'a, 'm> {
@@ -218,9 +210,7 @@ impl Engine<'_, '_> {
             let s = from + (to - from) * (step as f64 / steps as f64);
             self.schedule.targets(stage, s, &mut self.targets);
             self.state.set_targets(&self.targets);
-            self.state
-                .step(dt)
-                .map_err(|runaway| diverged(runaway, stage, s))?;
+            self.state.step(dt).map_err(|runaway| diverged(runaway, stage, s))?;
         }
         Ok(steps as u64)
     }
@@ -247,36 +237,25 @@ impl Engine<'_, '_> {
         let mut relaxation = Relaxation::new(&mut self.state, tolerance);
         let mut is_settled = false;
         while !allowance.is_spent(relaxation.steps()) {
-            if relaxation
-                .advance()
-                .map_err(|runaway| diverged(runaway, stage, s))?
+            if relaxation.advance().map_err(|runaway| diverged(runaway, stage, s))?
                 == Progress::Settled
             {
                 is_settled = true;
                 break;
             }
             if s == 1.0 {
-                self.recorder
-                    .settling(stage, &relaxation.state().positions());
+                self.recorder.settling(stage, &relaxation.state().positions());
             }
             report(self.progress, stage, s, relaxation.state())?;
         }
         *spent += relaxation.steps();
         self.taken += relaxation.steps();
-        Ok(if is_settled {
-            StageStatus::Settled
-        } else {
-            self.unsettled()
-        })
+        Ok(if is_settled { StageStatus::Settled } else { self.unsettled() })
     }
 
     /// The status of a search whose allowance was spent before the sheet settled.
     fn unsettled(&self) -> StageStatus {
-        if self.options.budget.is_late() {
-            StageStatus::OutOfTime
-        } else {
-            StageStatus::OutOfSteps
-        }
+        if self.options.budget.is_late() { StageStatus::OutOfTime } else { StageStatus::OutOfSteps }
     }
 
     /// The status if the budget of the run is spent.
@@ -320,14 +299,8 @@ impl Engine<'_, '_> {
             }
         };
         self.state.damping = 0.0;
-        let rough = drive.settle(
-            &mut self.state,
-            tolerance,
-            allowance,
-            is_recorded,
-            time,
-            &mut look,
-        )?;
+        let rough =
+            drive.settle(&mut self.state, tolerance, allowance, is_recorded, time, &mut look)?;
         *spent += rough.steps;
         self.taken += rough.steps;
         Ok(if !rough.is_settled {
@@ -357,9 +330,5 @@ fn report(
 }
 
 fn diverged((node, displacement): (usize, f64), stage: Stage, s: f64) -> SolverError {
-    SolverError::Diverged {
-        node,
-        time: stage.start_time() + s,
-        displacement,
-    }
+    SolverError::Diverged { node, time: stage.start_time() + s, displacement }
 }

@@ -55,11 +55,7 @@ pub(super) fn increments(
             Stage::Unfold => options.ramp_tolerance,
             Stage::Fold => options.ramp_tolerance * closeness * closeness,
         };
-        Increment {
-            end: 1.0 - left,
-            tolerance: tolerance.max(options.tolerance),
-            is_recorded,
-        }
+        Increment { end: 1.0 - left, tolerance: tolerance.max(options.tolerance), is_recorded }
     };
     let asked = options.extra_times.iter().map(|t| t - stage.start_time());
     let asked: Vec<f64> = asked.filter(|s| *s > 0.0 && *s < 1.0).collect();
@@ -99,11 +95,7 @@ impl Piece {
         let rate = |turn: &Turn| turn.angle * turn.timing.steepest(ends[0], ends[1]);
         let fastest = turns.iter().map(rate).fold(0.0, f64::max);
         let turn = fastest * (from - to) / intervals;
-        Self {
-            from,
-            to,
-            parts: ((turn / LARGEST_TURN).ceil() as usize).max(1),
-        }
+        Self { from, to, parts: ((turn / LARGEST_TURN).ceil() as usize).max(1) }
     }
 
     /// The time left of the stage at the end of a part, counted from 1.
@@ -134,9 +126,7 @@ fn pieces(turns: &[Turn], asked: &[f64], frames: usize) -> Vec<Piece> {
     let mut cuts: Vec<f64> = (0..=frames).map(|left| left as f64).chain(kinks).collect();
     cuts.sort_by(|a, b| b.total_cmp(a));
     cuts.dedup_by(|later, earlier| *earlier - *later <= same);
-    cuts.windows(2)
-        .map(|pair| Piece::new(turns, [pair[0], pair[1]], intervals))
-        .collect()
+    cuts.windows(2).map(|pair| Piece::new(turns, [pair[0], pair[1]], intervals)).collect()
 }
 
 /// How close the sheet is to the end of a turn with `left` of the stage to go: the smallest turn left, as a share of
@@ -196,10 +186,7 @@ mod tests {
     }
 
     fn options(frames: usize) -> DynamicOptions {
-        DynamicOptions {
-            frames,
-            ..DynamicOptions::default()
-        }
+        DynamicOptions { frames, ..DynamicOptions::default() }
     }
 
     fn increments_for(frames: usize, share: f64) -> Vec<Increment> {
@@ -268,10 +255,7 @@ mod tests {
     fn no_increment_of_any_schedule_turns_a_target_too_far() {
         let schedules = [
             vec![],
-            vec![
-                step(0, 0.0, 0.3, Ease::Linear),
-                step(1, 0.3, 0.61, Ease::Smooth),
-            ],
+            vec![step(0, 0.0, 0.3, Ease::Linear), step(1, 0.3, 0.61, Ease::Smooth)],
             vec![step(1, 0.123_456, 0.123_457, Ease::Smooth)],
             vec![step(2, 0.5, 0.501, Ease::Linear)],
         ];
@@ -301,10 +285,7 @@ mod tests {
         let units = sheet();
         let flat = vec![0.0; units.sheet.edges.len()];
         let angles = vec![vec![0.0; 2], vec![1.5, -0.3], vec![-1.5, 0.3], vec![0.0; 2]];
-        let path = UnfoldPath {
-            progress: vec![0.0, 0.21, 0.3, 1.0],
-            angles,
-        };
+        let path = UnfoldPath { progress: vec![0.0, 0.21, 0.3, 1.0], angles };
         let schedule = Schedule::uniform(&units.sheet, &flat, &flat)
             .and_then(|schedule| schedule.with_unfold_path(&units.sheet, path))
             .unwrap();
@@ -314,10 +295,7 @@ mod tests {
             for (from, end) in std::iter::once(0.0).chain(ends.iter().copied()).zip(&ends) {
                 for hinge in 0..schedule.hinge_count() {
                     let [a, b] = [from, *end].map(|s| schedule.target(Stage::Unfold, hinge, s));
-                    assert!(
-                        (b - a).abs() <= LARGEST_TURN * (1.0 + 1e-6),
-                        "{from}: {a} {b}"
-                    );
+                    assert!((b - a).abs() <= LARGEST_TURN * (1.0 + 1e-6), "{from}: {a} {b}");
                 }
             }
             // 3 radians within 0.09 of the stage set the pace of all of it.
@@ -328,10 +306,7 @@ mod tests {
 
     #[test]
     fn a_state_is_recorded_at_every_frame_and_where_a_step_begins_or_ends() {
-        let steps = [
-            step(0, 0.0, 0.311, Ease::Linear),
-            step(1, 0.25, 0.75, Ease::Smooth),
-        ];
+        let steps = [step(0, 0.0, 0.311, Ease::Linear), step(1, 0.25, 0.75, Ease::Smooth)];
         for frames in [2, 24, 1000] {
             let increments = increments(&schedule(1.0, &steps), Stage::Fold, &options(frames));
             let spacings = frames / 2;

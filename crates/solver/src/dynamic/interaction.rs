@@ -79,11 +79,7 @@ impl<'a> InteractiveSheet<'a> {
         schedule.check_start(model, start)?;
         if stages.is_empty() {
             let what = "stages of the motion";
-            return Err(SolverError::Count {
-                what,
-                expected: 1,
-                found: 0,
-            });
+            return Err(SolverError::Count { what, expected: 1, found: 0 });
         }
         if !time.is_finite() {
             let what = "motion time of the start, number";
@@ -140,11 +136,7 @@ impl<'a> InteractiveSheet<'a> {
             if let Err((node, displacement)) = self.update() {
                 let time = self.time;
                 self.restore();
-                return Err(SolverError::Diverged {
-                    node,
-                    time,
-                    displacement,
-                });
+                return Err(SolverError::Diverged { node, time, displacement });
             }
         }
         Ok(self.time)
@@ -217,11 +209,7 @@ impl<'a> InteractiveSheet<'a> {
         if fastest <= SAFE_SPEED {
             self.safe.take(&self.state, self.time);
         }
-        self.updates_at_rest = if fastest <= REST {
-            self.updates_at_rest + 1
-        } else {
-            0
-        };
+        self.updates_at_rest = if fastest <= REST { self.updates_at_rest + 1 } else { 0 };
         Ok(())
     }
 
@@ -230,10 +218,7 @@ impl<'a> InteractiveSheet<'a> {
         self.history = StepHistory::NONE;
         self.updates_at_rest = 0;
         self.time = self.safe.time;
-        self.state
-            .now
-            .positions
-            .clone_from_slice(&self.safe.positions);
+        self.state.now.positions.clone_from_slice(&self.safe.positions);
         self.state.hinges.clone_from(&self.safe.hinges);
         self.state.stop();
         self.follow();
@@ -242,11 +227,7 @@ impl<'a> InteractiveSheet<'a> {
 
 impl SafeState {
     fn of(state: &State<'_>, time: f64) -> Self {
-        Self {
-            positions: state.now.positions.clone(),
-            hinges: state.hinges.clone(),
-            time,
-        }
+        Self { positions: state.now.positions.clone(), hinges: state.hinges.clone(), time }
     }
 
     fn take(&mut self, state: &State<'_>, time: f64) {
@@ -290,13 +271,7 @@ impl State<'_> {
         let displacement = point - from;
         let force = displacement * (largest_force / displacement.length().max(REACH));
         let [drift, turn] = body.moved_by(force, (from - body.middle).cross(force));
-        PullForce {
-            index,
-            force,
-            middle: body.middle,
-            drift,
-            turn,
-        }
+        PullForce { index, force, middle: body.middle, drift, turn }
     }
 
     /// Adds the effect of `pull_force`, computed from the state before it, to the step that was just made.
@@ -355,16 +330,8 @@ impl State<'_> {
         }
         let inverse = inertia.inverse();
         // Nodes along a line have no inertia about it.
-        let inverse_inertia = if inverse.is_finite() {
-            inverse
-        } else {
-            DMat3::ZERO
-        };
-        Body {
-            mass,
-            middle,
-            inverse_inertia,
-        }
+        let inverse_inertia = if inverse.is_finite() { inverse } else { DMat3::ZERO };
+        Body { mass, middle, inverse_inertia }
     }
 }
 

@@ -24,20 +24,14 @@ impl<S: Simd> Lanes<S> {
 
     #[inline(always)]
     pub(super) fn splat(simd: S, value: f64) -> Self {
-        Self {
-            simd,
-            value: simd.splat_f64s(value),
-        }
+        Self { simd, value: simd.splat_f64s(value) }
     }
 
     /// A part of a group of numbers.
     #[inline(always)]
     pub(super) fn load(simd: S, group: &[f64; WIDTH], part: usize) -> Self {
         let (parts, _) = S::as_simd_f64s(group);
-        Self {
-            simd,
-            value: parts[part],
-        }
+        Self { simd, value: parts[part] }
     }
 
     #[inline(always)]
@@ -57,10 +51,7 @@ impl<S: Simd> Lanes<S> {
     /// self × factor + term.
     #[inline(always)]
     pub(super) fn mul_add(self, factor: Self, term: Self) -> Self {
-        self.with(
-            self.simd
-                .mul_add_e_f64s(self.value, factor.value, term.value),
-        )
+        self.with(self.simd.mul_add_e_f64s(self.value, factor.value, term.value))
     }
 
     #[inline(always)]
@@ -115,10 +106,7 @@ impl<S: Simd> Lanes<S> {
 
     #[inline(always)]
     fn with(self, value: S::f64s) -> Self {
-        Self {
-            simd: self.simd,
-            value,
-        }
+        Self { simd: self.simd, value }
     }
 }
 
@@ -184,11 +172,7 @@ impl<S: Simd> Vectors<S> {
     fn of_rows(simd: S, rows: [S::f64s; 4]) -> Self {
         let [x, y, z, _] = simd.deinterleave_shfl_f64s(rows);
         let lanes = Lanes { simd, value: x };
-        Self {
-            x: lanes,
-            y: lanes.with(y),
-            z: lanes.with(z),
-        }
+        Self { x: lanes, y: lanes.with(y), z: lanes.with(z) }
     }
 
     /// Writes the vectors of a part into a group of quads.
@@ -227,11 +211,7 @@ impl<S: Simd> Vectors<S> {
 
     #[inline(always)]
     pub(super) fn scaled(self, factor: Lanes<S>) -> Self {
-        Self {
-            x: self.x * factor,
-            y: self.y * factor,
-            z: self.z * factor,
-        }
+        Self { x: self.x * factor, y: self.y * factor, z: self.z * factor }
     }
 
     /// self × factor + term.
@@ -250,11 +230,7 @@ impl<S: Simd> Sub for Vectors<S> {
 
     #[inline(always)]
     fn sub(self, other: Self) -> Self {
-        Self {
-            x: self.x - other.x,
-            y: self.y - other.y,
-            z: self.z - other.z,
-        }
+        Self { x: self.x - other.x, y: self.y - other.y, z: self.z - other.z }
     }
 }
 

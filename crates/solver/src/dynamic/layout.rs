@@ -94,11 +94,7 @@ impl Layout {
             .step_by(block_len)
             .map(|first| Block::new(model, &topology, first, block_len.min(nodes - first)))
             .collect();
-        Self {
-            order,
-            blocks,
-            block_len,
-        }
+        Self { order, blocks, block_len }
     }
 }
 
@@ -187,9 +183,7 @@ impl Block {
         }
         let vertices = |edge: u32| topology.edge_vertices(model, edge);
         sort_by_place(&mut edges, |edge| {
-            model.bars[edge as usize]
-                .vertices
-                .map(|v| topology.places[v as usize])
+            model.bars[edge as usize].vertices.map(|v| topology.places[v as usize])
         });
         let mut halo: Vec<u32> = edges
             .iter()
@@ -206,10 +200,7 @@ impl Block {
             edges: vec![EdgeGroup::default(); edges.len().div_ceil(WIDTH)],
             faces: vec![FaceGroup::default(); faces.len().div_ceil(WIDTH)],
             rest_angles: Vec::new(),
-            hinges: edges
-                .iter()
-                .map(|&edge| topology.hinge_of[edge as usize])
-                .collect(),
+            hinges: edges.iter().map(|&edge| topology.hinge_of[edge as usize]).collect(),
             triangles: vec![[0.0; WIDTH]; edges.len().div_ceil(WIDTH)],
             end_starts: Vec::with_capacity(owned + 1),
             ends: Vec::new(),
@@ -257,11 +248,8 @@ impl Block {
     }
 
     fn fill_faces(&mut self, model: &Model, topology: &Topology<'_>, faces: &[u32], edges: &[u32]) {
-        let mut by_edge: Vec<(u32, u16)> = edges
-            .iter()
-            .enumerate()
-            .map(|(index, &edge)| (edge, index as u16))
-            .collect();
+        let mut by_edge: Vec<(u32, u16)> =
+            edges.iter().enumerate().map(|(index, &edge)| (edge, index as u16)).collect();
         by_edge.sort_unstable();
         let index_of = |edge: u32| {
             let at = by_edge.partition_point(|&(other, _)| other < edge);
@@ -308,10 +296,8 @@ impl Block {
         self.end_starts.push(0);
         self.corner_starts.push(0);
         for node in 0..self.owned {
-            self.ends
-                .extend(ends.slots(node).iter().map(|&slot| slot as u16));
-            self.corners
-                .extend(corners.slots(node).iter().map(corner_slot));
+            self.ends.extend(ends.slots(node).iter().map(|&slot| slot as u16));
+            self.corners.extend(corners.slots(node).iter().map(corner_slot));
             self.end_starts.push(self.ends.len() as u16);
             self.corner_starts.push(self.corners.len() as u16);
         }

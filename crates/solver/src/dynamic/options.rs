@@ -62,10 +62,7 @@ impl DynamicOptions {
             ("ramp_tolerance", self.ramp_tolerance, true),
             ("ramp_steps", ramp_steps, true),
         ];
-        match numbers
-            .into_iter()
-            .find(|&(_, value, is_bounded)| !(value > 0.0 && is_bounded))
-        {
+        match numbers.into_iter().find(|&(_, value, is_bounded)| !(value > 0.0 && is_bounded)) {
             Some((name, value, _)) => Err(SolverError::Option { name, value }),
             None => Ok(()),
         }

@@ -78,10 +78,7 @@ impl Mass {
     pub(super) const UNIT: Self = Self::new(1.0);
 
     pub(super) const fn new(mass: f64) -> Self {
-        Self {
-            mass,
-            inverse: 1.0 / mass,
-        }
+        Self { mass, inverse: 1.0 / mass }
     }
 }
 
@@ -132,10 +129,7 @@ impl WithSimd for BlockStep<'_> {
     fn with_simd<S: Simd>(mut self, simd: S) -> Totals {
         self.load_nodes();
         self.edge_loads(simd);
-        match (
-            self.settings.damping == 0.0,
-            self.block.rest_angles.is_empty(),
-        ) {
+        match (self.settings.damping == 0.0, self.block.rest_angles.is_empty()) {
             (true, true) => self.face_loads::<S, false, false>(simd),
             (true, false) => self.face_loads::<S, false, true>(simd),
             (false, true) => self.face_loads::<S, true, false>(simd),
@@ -148,12 +142,7 @@ impl WithSimd for BlockStep<'_> {
 impl BlockStep<'_> {
     #[inline(always)]
     fn load_nodes(&mut self) {
-        let Self {
-            block,
-            before,
-            scratch,
-            ..
-        } = self;
+        let Self { block, before, scratch, .. } = self;
         load(block, before.positions, &mut scratch.positions);
         if self.settings.damping != 0.0 {
             load(block, before.velocities, &mut scratch.velocities);
@@ -163,9 +152,7 @@ impl BlockStep<'_> {
     #[inline(always)]
     fn edge_loads<S: Simd>(&mut self, simd: S) {
         let scratch = &mut *self.scratch;
-        scratch
-            .loads
-            .resize(self.block.edges.len(), [[0.0; 4]; WIDTH]);
+        scratch.loads.resize(self.block.edges.len(), [[0.0; 4]; WIDTH]);
         let damping = Lanes::splat(simd, self.settings.damping);
         let hinges = self.hinges.angles.iter_mut().zip(&self.hinges.targets);
         let records = self.block.edges.iter().zip(hinges);
@@ -201,21 +188,13 @@ impl BlockStep<'_> {
         let loads = scratch.loads.as_flattened();
         let one = Lanes::splat(simd, 1.0);
         let stiffness = one.constant(self.face_angle_stiffness);
-        for (group, (record, forces)) in self
-            .block
-            .faces
-            .iter()
-            .zip(&mut scratch.corner_forces)
-            .enumerate()
+        for (group, (record, forces)) in
+            self.block.faces.iter().zip(&mut scratch.corner_forces).enumerate()
         {
             for index in 0..Lanes::<S>::PARTS {
                 let part = Part { simd, index };
-                let Face {
-                    sides: [ea, eb, ec],
-                    dots: [da, db, dc],
-                    normal,
-                    square,
-                } = part.face(&scratch.positions, record);
+                let Face { sides: [ea, eb, ec], dots: [da, db, dc], normal, square } =
+                    part.face(&scratch.positions, record);
                 let la = part.vectors(loads, &record.edges[0]);
                 let lb = part.vectors(loads, &record.edges[1]);
                 let lc = part.vectors(loads, &record.edges[2]);
@@ -261,13 +240,7 @@ impl BlockStep<'_> {
         let StepSettings { dt, viscosity, .. } = self.settings;
         let keep = (1.0 - 0.5 * viscosity * dt) / (1.0 + 0.5 * viscosity * dt);
         let gain = dt / (1.0 + 0.5 * viscosity * dt);
-        let Self {
-            block,
-            before,
-            after,
-            scratch,
-            ..
-        } = self;
+        let Self { block, before, after, scratch, .. } = self;
         let corner_forces = scratch.corner_forces.as_flattened().as_flattened();
         let own = block.first..block.first + block.owned;
         let nodes = before.positions[own.clone()]

@@ -30,13 +30,7 @@ pub(super) struct Recorder<'m> {
 impl<'m> Recorder<'m> {
     /// A recorder without frames.
     pub(super) fn new(model: &'m Model) -> Self {
-        Self {
-            model,
-            frames: Vec::new(),
-            left: 1.0,
-            path: Vec::new(),
-            path_states: 0,
-        }
+        Self { model, frames: Vec::new(), left: 1.0, path: Vec::new(), path_states: 0 }
     }
 
     /// Records `positions` (unit lengths) as the frame at stage-local time `s`, which lies on the ramp or ends it.
@@ -80,9 +74,6 @@ impl<'m> Recorder<'m> {
 
     fn push_frame(&mut self, stage: Stage, s: f64, positions: &[DVec3]) {
         let time = stage.start_time() + s;
-        self.frames.push(Frame {
-            time,
-            positions: self.model.to_sheet(positions),
-        });
+        self.frames.push(Frame { time, positions: self.model.to_sheet(positions) });
     }
 }

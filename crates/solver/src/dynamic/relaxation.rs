@@ -56,11 +56,7 @@ pub(super) struct StepHistory {
 
 impl StepHistory {
     /// The state before the first step.
-    pub(super) const NONE: Self = Self {
-        damping: 0.0,
-        dt: DT,
-        steps: 0,
-    };
+    pub(super) const NONE: Self = Self { damping: 0.0, dt: DT, steps: 0 };
 }
 
 impl<'a, 'm> Relaxation<'a, 'm> {
@@ -72,12 +68,7 @@ impl<'a, 'm> Relaxation<'a, 'm> {
     /// Goes on after the steps of `history`.
     pub(super) fn resumed(state: &'a mut State<'m>, tolerance: f64, history: StepHistory) -> Self {
         state.damping = 0.0;
-        Self {
-            state,
-            tolerance,
-            history,
-            was_below: false,
-        }
+        Self { state, tolerance, history, was_below: false }
     }
 
     /// The history that the relaxation adapts to.
@@ -111,11 +102,8 @@ impl<'a, 'm> Relaxation<'a, 'm> {
         let speed = self.state.largest_speed();
         let is_below = self.state.residual() <= self.tolerance && speed * DT <= self.tolerance;
         // Twice in a row: a sheet that swings through its equilibrium is below once.
-        let progress = if is_below && self.was_below {
-            Progress::Settled
-        } else {
-            Progress::Moving
-        };
+        let progress =
+            if is_below && self.was_below { Progress::Settled } else { Progress::Moving };
         self.was_below = is_below;
         Ok(progress)
     }

@@ -34,10 +34,7 @@ impl State<'_> {
     /// unit masses.
     pub fn stable_time_step(&mut self) -> f64 {
         self.update_row_sums();
-        self.row_sums
-            .iter()
-            .map(|row| row.stable_time_step())
-            .fold(f64::INFINITY, f64::min)
+        self.row_sums.iter().map(|row| row.stable_time_step()).fold(f64::INFINITY, f64::min)
     }
 
     /// Evaluates the row sums of every node.
@@ -146,11 +143,8 @@ impl BlockRows<'_> {
         for (record, rows) in self.block.faces.iter().zip(&mut scratch.corner_forces) {
             for index in 0..Lanes::<S>::PARTS {
                 let part = Part { simd, index };
-                let Face {
-                    sides: [ea, eb, ec],
-                    square,
-                    ..
-                } = part.face(&scratch.positions, record);
+                let Face { sides: [ea, eb, ec], square, .. } =
+                    part.face(&scratch.positions, record);
                 let area = square.sqrt();
                 let (la, lb, lc) = (length(ea), length(eb), length(ec));
                 let wa = part.gathered(self.weights, &record.edges[0]) * la;
@@ -211,9 +205,5 @@ fn length<S: Simd>(vector: Vectors<S>) -> Lanes<S> {
 #[inline(always)]
 fn alone<S: Simd>(x: Lanes<S>) -> Vectors<S> {
     let zero = x.constant(0.0);
-    Vectors {
-        x,
-        y: zero,
-        z: zero,
-    }
+    Vectors { x, y: zero, z: zero }
 }

@@ -58,10 +58,8 @@ impl<'a> State<'a> {
         model.follow_angles(positions, &mut angles);
         let layout = Layout::new(model);
         let count = layout.order.len();
-        let nodes = Nodes {
-            positions: quads(&layout.order, positions),
-            velocities: vec![[0.0; 4]; count],
-        };
+        let nodes =
+            Nodes { positions: quads(&layout.order, positions), velocities: vec![[0.0; 4]; count] };
         let hinges = layout.blocks.iter().map(|block| Hinges {
             angles: vec![[0.0; WIDTH]; block.edges.len()],
             targets: vec![[0.0; WIDTH]; block.edges.len()],
@@ -100,11 +98,7 @@ impl<'a> State<'a> {
     /// # Errors
     /// As [`Self::step`].
     pub(super) fn step_with(&mut self, dt: f64, viscosity: f64) -> Result<f64, (usize, f64)> {
-        self.evaluate(StepSettings {
-            dt,
-            viscosity,
-            damping: self.damping,
-        });
+        self.evaluate(StepSettings { dt, viscosity, damping: self.damping });
         std::mem::swap(&mut self.now, &mut self.next);
         // The sum carries a NaN where a maximum would lose it.
         let displacement = self.sum(|totals| totals.squared_speed).sqrt() * dt;
@@ -123,11 +117,7 @@ impl<'a> State<'a> {
 
     /// Evaluates the force on every node, dampers included, and follows the fold angles; nothing moves.
     pub fn evaluate_forces(&mut self) {
-        self.evaluate(StepSettings {
-            dt: 0.0,
-            viscosity: 0.0,
-            damping: self.damping,
-        });
+        self.evaluate(StepSettings { dt: 0.0, viscosity: 0.0, damping: self.damping });
     }
 
     /// The passes over every block, from `now` to `next`.
@@ -262,11 +252,7 @@ impl<'a> State<'a> {
 
     /// Σ |v|² / 2, of unit masses.
     pub fn kinetic_energy(&self) -> f64 {
-        let squares = self
-            .now
-            .velocities
-            .iter()
-            .map(|v| vector(v).length_squared());
+        let squares = self.now.velocities.iter().map(|v| vector(v).length_squared());
         0.5 * squares.sum::<f64>()
     }
 
@@ -380,12 +366,7 @@ impl BlockRun<'_> {
     }
 
     fn run_here(self, work: &SharedStep<'_>, scratch: &mut Scratch) {
-        let StateAfter {
-            positions,
-            velocities,
-            forces,
-            masses,
-        } = self.after;
+        let StateAfter { positions, velocities, forces, masses } = self.after;
         let len = work.block_len;
         let after = positions
             .chunks_mut(len)
@@ -400,12 +381,7 @@ impl BlockRun<'_> {
                 block,
                 hinges,
                 before: work.before,
-                after: StateAfter {
-                    positions,
-                    velocities,
-                    forces,
-                    masses,
-                },
+                after: StateAfter { positions, velocities, forces, masses },
                 scratch,
                 settings: work.settings,
                 face_angle_stiffness: work.face_angle_stiffness,

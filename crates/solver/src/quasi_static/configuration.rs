@@ -28,29 +28,19 @@ impl Configuration {
         length: f64,
         largest_turn: f64,
     ) -> Option<Self> {
-        let positions: Vec<DVec3> = self
-            .positions
-            .iter()
-            .zip(direction)
-            .map(|(&x, &d)| x + d * length)
-            .collect();
+        let positions: Vec<DVec3> =
+            self.positions.iter().zip(direction).map(|(&x, &d)| x + d * length).collect();
         let mut angles = self.angles.clone();
         model.follow_angles(&positions, &mut angles);
-        let followed = angles
-            .iter()
-            .zip(&self.angles)
-            .all(|(new, old)| (new - old).abs() <= largest_turn);
+        let followed =
+            angles.iter().zip(&self.angles).all(|(new, old)| (new - old).abs() <= largest_turn);
         followed.then_some(Self { positions, angles })
     }
 }
 
 /// The largest length among `vectors`.
 pub(super) fn largest(vectors: &[DVec3]) -> f64 {
-    vectors
-        .iter()
-        .map(|v| v.length_squared())
-        .fold(0.0, f64::max)
-        .sqrt()
+    vectors.iter().map(|v| v.length_squared()).fold(0.0, f64::max).sqrt()
 }
 
 /// Σ u·v.

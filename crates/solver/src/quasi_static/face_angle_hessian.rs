@@ -49,16 +49,9 @@ mod tests {
     /// Acute, right, obtuse and flat corners, none in a coordinate plane.
     fn corners() -> [[DVec3; 3]; 4] {
         [0.4_f64, std::f64::consts::FRAC_PI_2, 2.3, 3.1].map(|angle| {
-            let (x, y) = (
-                DVec3::new(2.0, -1.0, 2.0) / 3.0,
-                DVec3::new(2.0, 2.0, -1.0) / 3.0,
-            );
+            let (x, y) = (DVec3::new(2.0, -1.0, 2.0) / 3.0, DVec3::new(2.0, 2.0, -1.0) / 3.0);
             let a = DVec3::new(0.3, -0.2, 0.5);
-            [
-                a,
-                a + x * 1.3,
-                a + (x * angle.cos() + y * angle.sin()) * 0.7,
-            ]
+            [a, a + x * 1.3, a + (x * angle.cos() + y * angle.sin()) * 0.7]
         })
     }
 

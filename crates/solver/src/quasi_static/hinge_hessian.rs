@@ -75,12 +75,7 @@ impl HingeSide {
         let per_height = per_area / per_edge;
         let slope = normal * (per_area / per_edge.sqrt());
         let half = outer(apex - e * share, slope);
-        Self {
-            slope,
-            share,
-            per_height,
-            turn: half + half.transpose(),
-        }
+        Self { slope, share, per_height, turn: half + half.transpose() }
     }
 
     /// The block of the apex with itself.

@@ -27,17 +27,8 @@ pub(super) struct History {
 impl History {
     /// A path that starts at `s` in `start`.
     pub(super) fn new(s: f64, start: Configuration, in_contact: bool) -> Self {
-        let most = if in_contact {
-            MOST_STATES_IN_CONTACT
-        } else {
-            MOST_STATES
-        };
-        Self {
-            most,
-            states: VecDeque::from([(s, start.positions.clone())]),
-            last: start,
-            used: 1,
-        }
+        let most = if in_contact { MOST_STATES_IN_CONTACT } else { MOST_STATES };
+        Self { most, states: VecDeque::from([(s, start.positions.clone())]), last: start, used: 1 }
     }
 
     /// Adds an equilibrium. The earlier ones are moved rigidly onto it, so that what is extrapolated is how the sheet
@@ -55,9 +46,7 @@ impl History {
         let error = |used: usize| {
             let foretold = self.foretell(s, used);
             let errors = foretold.iter().zip(&state.positions);
-            errors
-                .map(|(&p, &q)| p.distance_squared(q))
-                .fold(0.0, f64::max)
+            errors.map(|(&p, &q)| p.distance_squared(q)).fold(0.0, f64::max)
         };
         let errors: Vec<f64> = (1..=known).map(error).collect();
         let best = (1..=known).min_by(|&a, &b| errors[a - 1].total_cmp(&errors[b - 1]));
@@ -93,9 +82,7 @@ impl History {
         for (index, (own, positions)) in states().enumerate() {
             // Lagrange's polynomial of one state at `s`.
             let others = states().enumerate().filter(|&(i, _)| i != index);
-            let weight: f64 = others
-                .map(|(_, (other, _))| (s - other) / (own - other))
-                .product();
+            let weight: f64 = others.map(|(_, (other, _))| (s - other) / (own - other)).product();
             for (sum, &position) in sum.iter_mut().zip(positions) {
                 *sum += position * weight;
             }

@@ -39,10 +39,7 @@ use crate::Model;
 /// The force by which residuals are judged: the moment of the stiffer kind of hinge at one radian per unit length, at
 /// a lever of one unit length. In the model's units.
 pub fn force_scale(model: &Model) -> f64 {
-    model
-        .material
-        .fold_stiffness
-        .max(model.material.facet_stiffness)
+    model.material.fold_stiffness.max(model.material.facet_stiffness)
 }
 
 /// F of the barriers at the start: ten times what hinges push with, or bars strained by a thousandth if that is more.

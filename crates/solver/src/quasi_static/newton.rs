@@ -139,12 +139,8 @@ impl<'a> Newton<'a> {
         loop {
             let residual = largest(&gradient);
             let factorisations = self.factorisations - earlier;
-            let settled = |converged| SearchOutcome {
-                converged,
-                residual,
-                iterations,
-                factorisations,
-            };
+            let settled =
+                |converged| SearchOutcome { converged, residual, iterations, factorisations };
             let is_balanced = residual <= tolerance.force;
             if is_balanced && is_near {
                 return Ok(settled(true));
@@ -166,18 +162,14 @@ impl<'a> Newton<'a> {
     }
 
     fn energy(&mut self, state: &Configuration, targets: &[f64]) -> f64 {
-        let elastic = self
-            .model
-            .energy_by_kind(&state.positions, &state.angles, targets)
-            .total();
+        let elastic = self.model.energy_by_kind(&state.positions, &state.angles, targets).total();
         let barrier = self.contact.as_mut().map(|c| c.energy(&state.positions));
         elastic + barrier.unwrap_or(0.0)
     }
 
     fn gradient(&mut self, state: &Configuration, targets: &[f64]) -> Vec<DVec3> {
         let mut gradient = vec![DVec3::ZERO; state.positions.len()];
-        self.model
-            .gradient(&state.positions, &state.angles, targets, &mut gradient);
+        self.model.gradient(&state.positions, &state.angles, targets, &mut gradient);
         if let Some(contact) = &mut self.contact {
             contact.add_gradient(&state.positions, &mut gradient);
         }
@@ -295,14 +287,7 @@ impl<'a> Newton<'a> {
         is_supported: bool,
     ) -> f64 {
         self.matrix.clear();
-        add_stiffness(
-            self.model,
-            state,
-            targets,
-            curvature,
-            &self.elements,
-            &mut self.matrix,
-        );
+        add_stiffness(self.model, state, targets, curvature, &self.elements, &mut self.matrix);
         let scale = self.matrix.mean_diagonal();
         if is_supported {
             add_support(self.supported, state, scale, &mut self.matrix);

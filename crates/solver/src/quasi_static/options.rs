@@ -65,10 +65,7 @@ impl QuasiStaticOptions {
     /// The first option out of range, as an error.
     pub(super) fn validate(&self) -> Result<(), SolverError> {
         if self.frames < 2 || self.frames % 2 == 1 || self.frames > Self::MAX_FRAMES {
-            return Err(SolverError::Frames {
-                frames: self.frames,
-                maximum: Self::MAX_FRAMES,
-            });
+            return Err(SolverError::Frames { frames: self.frames, maximum: Self::MAX_FRAMES });
         }
         positive("tolerance", self.tolerance)?;
         positive("max_iterations", self.max_iterations as f64)?;
@@ -77,9 +74,5 @@ impl QuasiStaticOptions {
 }
 
 fn positive(name: &'static str, value: f64) -> Result<(), SolverError> {
-    if value.is_finite() && value > 0.0 {
-        Ok(())
-    } else {
-        Err(SolverError::Option { name, value })
-    }
+    if value.is_finite() && value > 0.0 { Ok(()) } else { Err(SolverError::Option { name, value }) }
 }

@@ -73,12 +73,7 @@ pub fn run_quasi_static(
         schedule.targets(stage, 0.0, &mut angles);
     }
     let contact = match options.contact {
-        Some(contact) => Some(ContactField::new(
-            model,
-            contact,
-            barrier_force(model),
-            &positions,
-        )?),
+        Some(contact) => Some(ContactField::new(model, contact, barrier_force(model), &positions)?),
         None => None,
     };
     let mut run = Run {
@@ -228,12 +223,7 @@ impl Run<'_> {
 
     /// The reason for the end of the stage in a load step of length `step`; `settled`: the outcome of its last attempt.
     fn stop(&self, reason: StopReason, step: f64, settled: &SearchOutcome) -> Stop {
-        Stop {
-            reason,
-            step,
-            residual: settled.residual,
-            tolerance: self.tolerance().force,
-        }
+        Stop { reason, step, residual: settled.residual, tolerance: self.tolerance().force }
     }
 
     /// The equilibrium at `s`, sought from the state extrapolated to it where contact allows, else from the last one,
@@ -270,13 +260,8 @@ impl Run<'_> {
         let allowance = self.options.budget.allowance(iterations);
         let tolerance = self.tolerance();
         let settled =
-            self.newton
-                .settle(&mut state, &self.targets, tolerance, allowance, &mut visit)?;
-        Ok(Trial {
-            state,
-            settled,
-            path,
-        })
+            self.newton.settle(&mut state, &self.targets, tolerance, allowance, &mut visit)?;
+        Ok(Trial { state, settled, path })
     }
 
     fn tolerance(&self) -> Tolerance {
@@ -299,21 +284,15 @@ impl Run<'_> {
     /// targets, and contact leaves the straight path to it free.
     fn may_start_from(&mut self, ahead: &Configuration) -> bool {
         let [stay, go] = [&self.state, ahead].map(|state| {
-            let energy = &self
-                .model
-                .energy_by_kind(&state.positions, &state.angles, &self.targets);
+            let energy = &self.model.energy_by_kind(&state.positions, &state.angles, &self.targets);
             energy.total()
         });
         if go > USELESS_ENERGY * stay {
             return false;
         }
         let from = &self.state.positions;
-        let displacement: Vec<DVec3> = ahead
-            .positions
-            .iter()
-            .zip(from)
-            .map(|(&b, &a)| b - a)
-            .collect();
+        let displacement: Vec<DVec3> =
+            ahead.positions.iter().zip(from).map(|(&b, &a)| b - a).collect();
         self.newton.limited(from, &displacement, 1.0) >= 1.0
     }
 
@@ -371,14 +350,9 @@ impl Run<'_> {
 
     fn record(&mut self, time: f64, state: &Configuration) {
         self.last_recorded.clone_from(&state.positions);
-        self.outcome.frames.push(Frame {
-            time,
-            positions: self.model.to_sheet(&state.positions),
-        });
+        self.outcome.frames.push(Frame { time, positions: self.model.to_sheet(&state.positions) });
         let mut figures = FrameFigures {
-            energy: self
-                .model
-                .energy_by_kind(&state.positions, &state.angles, &self.targets),
+            energy: self.model.energy_by_kind(&state.positions, &state.angles, &self.targets),
             fold_angle_error: self.fold_angle_error(state),
             ..FrameFigures::default()
         };
@@ -391,12 +365,7 @@ impl Run<'_> {
     }
 
     fn fold_angle_error(&self, state: &Configuration) -> f64 {
-        let creases = self
-            .model
-            .hinges
-            .iter()
-            .zip(&state.angles)
-            .zip(&self.targets);
+        let creases = self.model.hinges.iter().zip(&state.angles).zip(&self.targets);
         creases
             .filter(|((hinge, _), _)| hinge.kind == HingeKind::Crease)
             .map(|((_, angle), target)| (angle - target).abs())

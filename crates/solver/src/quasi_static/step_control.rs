@@ -34,12 +34,7 @@ impl StepControl {
     pub(super) fn new(frames: usize, in_contact: bool) -> Self {
         let least_steps = LEAST_STEPS.max(frames / 2);
         let longest = 1.0 / least_steps as f64;
-        Self {
-            least_steps,
-            longest,
-            length: longest,
-            in_contact,
-        }
+        Self { least_steps, longest, length: longest, in_contact }
     }
 
     /// The number of load steps of the stage if all have the largest length.
@@ -91,12 +86,7 @@ mod tests {
     use super::*;
 
     fn settled(iterations: usize) -> SearchOutcome {
-        SearchOutcome {
-            converged: true,
-            residual: 0.0,
-            iterations,
-            factorisations: iterations,
-        }
+        SearchOutcome { converged: true, residual: 0.0, iterations, factorisations: iterations }
     }
 
     #[test]

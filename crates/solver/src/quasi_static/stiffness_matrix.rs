@@ -41,17 +41,14 @@ impl StiffnessMatrix {
         let cholesky = Cholesky::new(nodes, &starts, &rows)
             .map_err(|reason| SolverError::Factorisation { nodes, reason })?;
         let ranks = cholesky.ranks();
-        let ranked = pairs
-            .iter()
-            .map(|pair| pair.map(|node| ranks[node as usize]));
+        let ranked = pairs.iter().map(|pair| pair.map(|node| ranks[node as usize]));
         let (starts, rows) = block_pattern(nodes, ranked);
         let columns = (0..nodes).flat_map(|column| {
             let own = &rows[starts[column] as usize..starts[column + 1] as usize];
             own.iter().map(move |&row| (row, column as u32))
         });
-        let offsets: Vec<BlockOffset> = columns
-            .filter_map(|(row, column)| cholesky.offset(row, column))
-            .collect();
+        let offsets: Vec<BlockOffset> =
+            columns.filter_map(|(row, column)| cholesky.offset(row, column)).collect();
         Ok(Self {
             values: vec![[0.0; 9]; rows.len()],
             right_side: vec![0.0; 3 * nodes],
@@ -90,9 +87,8 @@ impl StiffnessMatrix {
         for (i, row) in element.blocks.iter().enumerate() {
             for (j, &index) in row.iter().enumerate().take(i + 1) {
                 let block = &blocks[element.order[i] as usize][element.order[j] as usize];
-                for (sum, scalar) in self.values[index as usize]
-                    .iter_mut()
-                    .zip(block.to_cols_array())
+                for (sum, scalar) in
+                    self.values[index as usize].iter_mut().zip(block.to_cols_array())
                 {
                     *sum += scalar;
                 }
@@ -113,8 +109,7 @@ impl StiffnessMatrix {
 
     /// Factorises the matrix with `shift` added to every diagonal scalar; false where it is not positive definite.
     pub(super) fn factorise(&mut self, shift: f64) -> bool {
-        self.cholesky
-            .factorise(&self.starts, &self.offsets, &self.values, shift)
+        self.cholesky.factorise(&self.starts, &self.offsets, &self.values, shift)
     }
 
     /// Overwrites `vectors` by the solution with them as the right side, from the last factorisation.
@@ -173,10 +168,7 @@ mod tests {
     #[test]
     fn a_solution_solves_the_system_it_was_made_from() {
         let nodes = 12;
-        let pairs: Vec<[u32; 2]> = (0..11)
-            .map(|i| [i + 1, i])
-            .chain([[0, 7], [3, 9]])
-            .collect();
+        let pairs: Vec<[u32; 2]> = (0..11).map(|i| [i + 1, i]).chain([[0, 7], [3, 9]]).collect();
         let mut matrix = StiffnessMatrix::new(nodes, &pairs).unwrap();
         let block = |i: u32, j: u32| {
             let x = f64::from(i * 7 + j * 3);
@@ -191,9 +183,8 @@ mod tests {
         for (i, row) in dense.iter_mut().enumerate() {
             row[i] += DMat3::IDENTITY * 9.0;
         }
-        let right: Vec<DVec3> = (0..nodes)
-            .map(|i| DVec3::new(i as f64, 1.0, -(i as f64)))
-            .collect();
+        let right: Vec<DVec3> =
+            (0..nodes).map(|i| DVec3::new(i as f64, 1.0, -(i as f64))).collect();
         let mut solution = right.clone();
         assert!(matrix.factorise(9.0));
         matrix.solve(&mut solution);

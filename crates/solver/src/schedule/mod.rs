@@ -104,33 +104,18 @@ impl Schedule {
     ) -> Result<Self, SolverError> {
         check_count("deployed angles", sheet, deployed_angles)?;
         check_count("compact angles", sheet, compact_angles)?;
-        let turn = |angle| Turn {
-            angle,
-            timing: Timing::UNIFORM,
-        };
+        let turn = |angle| Turn { angle, timing: Timing::UNIFORM };
         let turns = |(index, edge): (usize, &Edge)| {
             if !edge.is_crease() {
                 return Ok([turn(0.0); 2]);
             }
             Ok([
-                turn(checked(
-                    "deployed angle of edge",
-                    index,
-                    deployed_angles[index],
-                )?),
-                turn(checked(
-                    "compact angle of edge",
-                    index,
-                    compact_angles[index],
-                )?),
+                turn(checked("deployed angle of edge", index, deployed_angles[index])?),
+                turn(checked("compact angle of edge", index, compact_angles[index])?),
             ])
         };
         let hinges = hinge_edges(sheet).map(turns).collect::<Result<_, _>>()?;
-        Ok(Self {
-            hinges,
-            unfold_path: None,
-            waypoints: None,
-        })
+        Ok(Self { hinges, unfold_path: None, waypoints: None })
     }
 
     /// The same schedule, with the row creases following `path` in `unfold`; steps go on timing them.
@@ -148,11 +133,7 @@ impl Schedule {
     ) -> Result<Self, SolverError> {
         self.check_sheet(sheet)?;
         let unfold = Stage::Unfold.index();
-        let deployed: Vec<f64> = self
-            .hinges
-            .iter()
-            .map(|turns| turns[unfold].angle)
-            .collect();
+        let deployed: Vec<f64> = self.hinges.iter().map(|turns| turns[unfold].angle).collect();
         self.unfold_path = Some(FollowedPath::new(sheet, path, &deployed)?);
         Ok(self)
     }
@@ -186,11 +167,7 @@ impl Schedule {
         if found == self.hinges.len() {
             return Ok(());
         }
-        Err(SolverError::Count {
-            what: "hinges of the sheet",
-            expected: self.hinges.len(),
-            found,
-        })
+        Err(SolverError::Count { what: "hinges of the sheet", expected: self.hinges.len(), found })
     }
 
     /// The same end angles, reached by `steps`; creases that no step of a stage names follow its uniform ramp.
@@ -247,18 +224,11 @@ impl Schedule {
         ];
         for (what, expected, found) in counts {
             if expected != found {
-                return Err(SolverError::Count {
-                    what,
-                    expected,
-                    found,
-                });
+                return Err(SolverError::Count { what, expected, found });
             }
         }
         match start.iter().position(|p| !p.is_finite()) {
-            Some(index) => Err(SolverError::NotFinite {
-                what: "start position of vertex",
-                index,
-            }),
+            Some(index) => Err(SolverError::NotFinite { what: "start position of vertex", index }),
             None => Ok(()),
         }
     }
@@ -317,22 +287,14 @@ impl Schedule {
 
 /// The edges with a fold angle, each with its index in the sheet.
 fn hinge_edges(sheet: &Sheet) -> impl Iterator<Item = (usize, &Edge)> {
-    sheet
-        .edges
-        .iter()
-        .enumerate()
-        .filter(|(_, edge)| edge.is_hinge())
+    sheet.edges.iter().enumerate().filter(|(_, edge)| edge.is_hinge())
 }
 
 fn check_count(what: &'static str, sheet: &Sheet, angles: &[f64]) -> Result<(), SolverError> {
     if angles.len() == sheet.edges.len() {
         Ok(())
     } else {
-        Err(SolverError::Count {
-            what,
-            expected: sheet.edges.len(),
-            found: angles.len(),
-        })
+        Err(SolverError::Count { what, expected: sheet.edges.len(), found: angles.len() })
     }
 }
 
@@ -340,12 +302,7 @@ fn checked(what: &'static str, index: usize, value: f64) -> Result<f64, SolverEr
     if !value.is_finite() {
         Err(SolverError::NotFinite { what, index })
     } else if value.abs() > MAX_ANGLE {
-        Err(SolverError::AngleOutOfRange {
-            what,
-            index,
-            value,
-            limit: MAX_ANGLE,
-        })
+        Err(SolverError::AngleOutOfRange { what, index, value, limit: MAX_ANGLE })
     } else {
         Ok(value)
     }

@@ -89,11 +89,7 @@ impl ScheduleStep {
     }
 
     pub(super) fn timing(&self) -> Timing {
-        Timing {
-            from: self.from,
-            to: self.to,
-            ease: self.ease,
-        }
+        Timing { from: self.from, to: self.to, ease: self.ease }
     }
 
     /// The first error in the numbers of the step, whose index is `step`.
@@ -120,13 +116,7 @@ impl ScheduleStep {
         ] {
             match range {
                 Some([first, last]) if first > last || last >= count => {
-                    return Err(SolverError::StepRange {
-                        step,
-                        what,
-                        first,
-                        last,
-                        count,
-                    });
+                    return Err(SolverError::StepRange { step, what, first, last, count });
                 }
                 _ => {}
             }

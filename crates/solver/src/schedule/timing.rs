@@ -24,11 +24,7 @@ pub(crate) struct Timing {
 
 impl Timing {
     /// The whole stage at constant speed.
-    pub(crate) const UNIFORM: Self = Self {
-        from: 0.0,
-        to: 1.0,
-        ease: Ease::Linear,
-    };
+    pub(crate) const UNIFORM: Self = Self { from: 0.0, to: 1.0, ease: Ease::Linear };
 
     /// The share of the turn made at stage-local time `s`.
     pub(crate) fn progress(&self, s: f64) -> f64 {
@@ -94,16 +90,8 @@ mod tests {
 
     const STEPS: [Timing; 3] = [
         Timing::UNIFORM,
-        Timing {
-            from: 0.2,
-            to: 0.7,
-            ease: Ease::Linear,
-        },
-        Timing {
-            from: 0.2,
-            to: 0.7,
-            ease: Ease::Smooth,
-        },
+        Timing { from: 0.2, to: 0.7, ease: Ease::Linear },
+        Timing { from: 0.2, to: 0.7, ease: Ease::Smooth },
     ];
 
     #[test]

@@ -28,11 +28,7 @@ impl UnfoldPath {
             if expected == found {
                 Ok(())
             } else {
-                Err(SolverError::Count {
-                    what,
-                    expected,
-                    found,
-                })
+                Err(SolverError::Count { what, expected, found })
             }
         };
         count("knots of the unfold path", knots.max(2), knots)?;
@@ -48,11 +44,7 @@ impl UnfoldPath {
             }
         }
         for angles in &self.angles {
-            count(
-                "rows of the unfold path",
-                self.angles[0].len(),
-                angles.len(),
-            )?;
+            count("rows of the unfold path", self.angles[0].len(), angles.len())?;
             for (index, &angle) in angles.iter().enumerate() {
                 checked("angle of the unfold path at row", index + 1, angle)?;
             }

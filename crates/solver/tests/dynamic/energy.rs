@@ -54,34 +54,10 @@ fn only(material: &str) -> (Material, fn(&EnergyByKind) -> f64) {
         ..Material::default()
     };
     match material {
-        "bars" => (
-            Material {
-                axial_stiffness: 20.0,
-                ..none
-            },
-            |e| e.bars,
-        ),
-        "creases" => (
-            Material {
-                fold_stiffness: 0.7,
-                ..none
-            },
-            |e| e.creases,
-        ),
-        "facets" => (
-            Material {
-                facet_stiffness: 0.7,
-                ..none
-            },
-            |e| e.facets,
-        ),
-        _ => (
-            Material {
-                face_angle_stiffness: 0.2,
-                ..none
-            },
-            |e| e.face_angles,
-        ),
+        "bars" => (Material { axial_stiffness: 20.0, ..none }, |e| e.bars),
+        "creases" => (Material { fold_stiffness: 0.7, ..none }, |e| e.creases),
+        "facets" => (Material { facet_stiffness: 0.7, ..none }, |e| e.facets),
+        _ => (Material { face_angle_stiffness: 0.2, ..none }, |e| e.face_angles),
     }
 }
 
@@ -92,17 +68,11 @@ fn the_gradient_of_each_kind_of_energy_agrees_with_finite_differences() {
     for kind in ["bars", "creases", "facets", "face angles"] {
         let (material, part) = only(kind);
         let model = Model::new(&units.sheet, &material).unwrap();
-        let mut angles: Vec<f64> = model
-            .hinges
-            .iter()
-            .map(|h| units.compact_angles()[h.edge as usize])
-            .collect();
+        let mut angles: Vec<f64> =
+            model.hinges.iter().map(|h| units.compact_angles()[h.edge as usize]).collect();
         model.follow_angles(&positions, &mut angles);
         let targets: Vec<f64> = angles.iter().map(|a| 0.3 * a + 0.1).collect();
-        assert!(
-            part(&model.energy_by_kind(&positions, &angles, &targets)) > 1e-4,
-            "{kind}: idle"
-        );
+        assert!(part(&model.energy_by_kind(&positions, &angles, &targets)) > 1e-4, "{kind}: idle");
         let error = gradient_error(&model, &positions, &angles, &targets, part);
         assert!(error < 2e-6, "{kind}: {error}");
         let wrong: Vec<f64> = targets.iter().map(|t| t + 1e-3).collect();
@@ -111,14 +81,8 @@ fn the_gradient_of_each_kind_of_energy_agrees_with_finite_differences() {
             model.gradient(&positions, &angles, &wrong, &mut gradient);
             let mut right = gradient.clone();
             model.gradient(&positions, &angles, &targets, &mut right);
-            let differs = gradient
-                .iter()
-                .zip(&right)
-                .any(|(a, b)| a.distance(*b) > 1e-5);
-            assert!(
-                differs,
-                "the check would not notice a target off by a thousandth"
-            );
+            let differs = gradient.iter().zip(&right).any(|(a, b)| a.distance(*b) > 1e-5);
+            assert!(differs, "the check would not notice a target off by a thousandth");
         }
     }
 }
@@ -131,11 +95,7 @@ fn the_gradient_holds_near_and_beyond_half_a_turn() {
         let positions = folded_hinge(&sheet, angle);
         let mut angles = vec![angle.signum() * 3.0];
         model.follow_angles(&positions, &mut angles);
-        assert!(
-            (angles[0] - angle).abs() < 1e-12,
-            "{} is not {angle}",
-            angles[0]
-        );
+        assert!((angles[0] - angle).abs() < 1e-12, "{} is not {angle}", angles[0]);
         let error = gradient_error(&model, &positions, &angles, &[0.2], |e| e.creases);
         assert!(error < 1e-7, "{angle}: {error}");
     }
@@ -157,30 +117,17 @@ fn energy_does_not_change_and_forces_turn_with_a_rigid_motion() {
         model.follow_angles(positions, &mut angles);
         let mut gradient = vec![DVec3::ZERO; model.node_count()];
         model.gradient(positions, &angles, &targets, &mut gradient);
-        (
-            model.energy_by_kind(positions, &angles, &targets).total(),
-            gradient,
-        )
+        (model.energy_by_kind(positions, &angles, &targets).total(), gradient)
     };
     let (energy, gradient) = evaluate(&positions);
     let (moved_energy, moved_gradient) = evaluate(&moved);
-    assert!(
-        (energy - moved_energy).abs() < 1e-11 * energy,
-        "{energy} {moved_energy}"
-    );
+    assert!((energy - moved_energy).abs() < 1e-11 * energy, "{energy} {moved_energy}");
     for (g, moved) in gradient.iter().zip(&moved_gradient) {
         assert!((motion.rotation * *g).distance(*moved) < 1e-10);
     }
     let net: DVec3 = gradient.iter().sum();
-    let torque: DVec3 = gradient
-        .iter()
-        .zip(&positions)
-        .map(|(g, p)| p.cross(*g))
-        .sum();
-    assert!(
-        net.length() < 1e-11 && torque.length() < 1e-11,
-        "{net} {torque}"
-    );
+    let torque: DVec3 = gradient.iter().zip(&positions).map(|(g, p)| p.cross(*g)).sum();
+    assert!(net.length() < 1e-11 && torque.length() < 1e-11, "{net} {torque}");
 }
 
 #[test]
@@ -188,21 +135,15 @@ fn an_isometric_state_at_its_targets_has_no_energy() {
     for case in [Case::E, Case::T, Case::S, Case::SII] {
         let units = units(case, 3, 2);
         let model = Model::new(&units.sheet, &WITH_FACE_ANGLES).unwrap();
-        let targets: Vec<f64> = model
-            .hinges
-            .iter()
-            .map(|h| units.compact_angles()[h.edge as usize])
-            .collect();
+        let targets: Vec<f64> =
+            model.hinges.iter().map(|h| units.compact_angles()[h.edge as usize]).collect();
         let mut angles = targets.clone();
         let compact = model.to_model(&units.compact());
         model.follow_angles(&compact, &mut angles);
         let energy = model.energy_by_kind(&compact, &angles, &targets);
         assert!(energy.total() < 1e-24, "{case:?}: {energy:?}");
         let wrong = model.energy_by_kind(&compact, &angles, &vec![0.0; targets.len()]);
-        assert!(
-            wrong.creases > 1.0 && wrong.bars < 1e-24,
-            "{case:?}: {wrong:?}"
-        );
+        assert!(wrong.creases > 1.0 && wrong.bars < 1e-24, "{case:?}: {wrong:?}");
     }
 }
 
@@ -223,85 +164,31 @@ fn a_bad_material_is_refused_by_name_with_its_value_and_limits() {
     let refused = |material: Material| Model::new(&sheet, &material).unwrap_err().to_string();
     let good = Material::default();
     for value in [0.0, -1.0, f64::NAN, f64::INFINITY, 1e-300, 1e300] {
-        let message = refused(Material {
-            axial_stiffness: value,
-            ..good
-        });
-        assert!(
-            message.starts_with(&format!("axial_stiffness is {value}")),
-            "{message}"
-        );
-        assert!(
-            message.contains("0.000000001 and 1000000000000"),
-            "{message}"
-        );
+        let message = refused(Material { axial_stiffness: value, ..good });
+        assert!(message.starts_with(&format!("axial_stiffness is {value}")), "{message}");
+        assert!(message.contains("0.000000001 and 1000000000000"), "{message}");
     }
-    assert!(
-        refused(Material {
-            fold_stiffness: 0.0,
-            ..good
-        })
-        .contains("fold_stiffness")
-    );
-    assert!(
-        refused(Material {
-            facet_stiffness: -2.0,
-            ..good
-        })
-        .contains("facet_stiffness is -2")
-    );
-    assert!(
-        refused(Material {
-            face_angle_stiffness: -0.1,
-            ..good
-        })
-        .contains("face_angle")
-    );
-    assert!(
-        refused(Material {
-            damping_ratio: f64::NAN,
-            ..good
-        })
-        .contains("damping_ratio")
-    );
-    assert!(
-        Model::new(
-            &sheet,
-            &Material {
-                damping_ratio: 0.0,
-                ..good
-            }
-        )
-        .is_ok()
-    );
+    assert!(refused(Material { fold_stiffness: 0.0, ..good }).contains("fold_stiffness"));
+    assert!(refused(Material { facet_stiffness: -2.0, ..good }).contains("facet_stiffness is -2"));
+    assert!(refused(Material { face_angle_stiffness: -0.1, ..good }).contains("face_angle"));
+    assert!(refused(Material { damping_ratio: f64::NAN, ..good }).contains("damping_ratio"));
+    assert!(Model::new(&sheet, &Material { damping_ratio: 0.0, ..good }).is_ok());
 }
 
 #[test]
 fn a_degenerate_sheet_is_refused_with_its_element() {
     let refused = |sheet: &Sheet| Model::new(sheet, &Material::default()).unwrap_err();
     let thin = hinge(Assignment::Valley, 1.0, 1e-8, 1.0);
-    assert!(matches!(
-        refused(&thin),
-        SolverError::DegenerateFace { face: 0, .. }
-    ));
+    assert!(matches!(refused(&thin), SolverError::DegenerateFace { face: 0, .. }));
     let mut short = hinge(Assignment::Valley, 1.0, 1.0, 1.0);
     short.vertices[1] = short.vertices[0];
-    assert!(matches!(
-        refused(&short),
-        SolverError::DegenerateEdge { edge: 0, .. }
-    ));
+    assert!(matches!(refused(&short), SolverError::DegenerateEdge { edge: 0, .. }));
     let mut unmeasured = hinge(Assignment::Valley, 1.0, 1.0, 1.0);
     unmeasured.unit_length = 0.0;
-    assert!(matches!(
-        refused(&unmeasured),
-        SolverError::UnitLength { .. }
-    ));
+    assert!(matches!(refused(&unmeasured), SolverError::UnitLength { .. }));
     let mut lost = hinge(Assignment::Valley, 1.0, 1.0, 1.0);
     lost.vertices[3].x = f64::NAN;
-    assert!(matches!(
-        refused(&lost),
-        SolverError::DegenerateEdge { edge: 3, .. }
-    ));
+    assert!(matches!(refused(&lost), SolverError::DegenerateEdge { edge: 3, .. }));
     let mut empty = hinge(Assignment::Valley, 1.0, 1.0, 1.0);
     empty.faces.clear();
     assert!(matches!(refused(&empty), SolverError::NoFacets));

@@ -16,19 +16,14 @@ fn fold(units: &UnitSheet, options: &DynamicOptions) -> Run {
 }
 
 fn coarse() -> DynamicOptions {
-    DynamicOptions {
-        frames: 24,
-        ..DynamicOptions::default()
-    }
+    DynamicOptions { frames: 24, ..DynamicOptions::default() }
 }
 
 /// Root mean square distance after the best rigid motion.
 fn rms(positions: &[DVec3], exact: &[DVec3]) -> f64 {
     let motion = RigidMotion::best_fit(positions, exact);
     let pairs = positions.iter().zip(exact);
-    let squares: f64 = pairs
-        .map(|(p, q)| motion.apply(*p).distance_squared(*q))
-        .sum();
+    let squares: f64 = pairs.map(|(p, q)| motion.apply(*p).distance_squared(*q)).sum();
     (squares / exact.len() as f64).sqrt()
 }
 
@@ -37,11 +32,7 @@ fn every_case_passes_through_the_flat_sheet_and_reaches_the_exact_compact_state(
     for case in [Case::E, Case::T, Case::S, Case::SII, Case::Plain] {
         let units = units(case, 3, 2);
         let run = fold(&units, &coarse());
-        assert!(
-            run.stages.iter().all(StageOutcome::is_converged),
-            "{case:?}: {:?}",
-            run.stages
-        );
+        assert!(run.stages.iter().all(StageOutcome::is_converged), "{case:?}: {:?}", run.stages);
         let last = run.frames.last().unwrap();
         let error = rms(&last.positions, &units.compact());
         assert!(error < 1e-7, "{case:?}: compact within {error}");
@@ -49,10 +40,7 @@ fn every_case_passes_through_the_flat_sheet_and_reaches_the_exact_compact_state(
         let error = rms(&planar.positions, &units.sheet.planar());
         assert!(error < 1e-6, "{case:?}: planar within {error}");
         for outcome in &run.stages {
-            assert!(
-                outcome.residual <= 1e-8 && outcome.fold_angle_error < 1e-6,
-                "{outcome:?}"
-            );
+            assert!(outcome.residual <= 1e-8 && outcome.fold_angle_error < 1e-6, "{outcome:?}");
         }
         let model = Model::new(&units.sheet, &Material::default()).unwrap();
         let strains = run.frames.iter().flat_map(|f| model.strains(&f.positions));
@@ -69,10 +57,7 @@ fn frames_lie_at_the_stated_times_and_rise_strictly() {
     assert!(times.windows(2).all(|pair| pair[0] < pair[1]), "{times:?}");
     for k in 0..=24 {
         let time = 2.0 * f64::from(k) / 24.0;
-        assert!(
-            times.iter().any(|t| (t - time).abs() < 1e-12),
-            "{time} is missing"
-        );
+        assert!(times.iter().any(|t| (t - time).abs() < 1e-12), "{time} is missing");
     }
     assert_eq!((times[0], *times.last().unwrap()), (0.0, 2.0));
     assert_eq!(run.frames[0].positions, deployed(&units).0);
@@ -81,11 +66,7 @@ fn frames_lie_at_the_stated_times_and_rise_strictly() {
 
 #[test]
 fn settling_that_moves_the_sheet_is_recorded_step_by_step() {
-    let lagging = DynamicOptions {
-        ramp_tolerance: f64::INFINITY,
-        ramp_steps: 1,
-        ..coarse()
-    };
+    let lagging = DynamicOptions { ramp_tolerance: f64::INFINITY, ramp_steps: 1, ..coarse() };
     let units = units(Case::E, 3, 2);
     let run = fold(&units, &lagging);
     assert!(run.stages.iter().all(StageOutcome::is_converged));
@@ -96,9 +77,7 @@ fn settling_that_moves_the_sheet_is_recorded_step_by_step() {
         assert!(path.len() > 5, "{stage:?}: {} states", path.len());
         for pair in path.windows(2).skip(1) {
             let displacement = pair[0].positions.iter().zip(&pair[1].positions);
-            let longest = displacement
-                .map(|(p, q)| p.distance(*q))
-                .fold(0.0, f64::max);
+            let longest = displacement.map(|(p, q)| p.distance(*q)).fold(0.0, f64::max);
             // A state every 0.02, and at most one update's displacement more.
             assert!(longest < 0.06, "{stage:?}: a node went {longest} unseen");
         }
@@ -109,16 +88,10 @@ fn settling_that_moves_the_sheet_is_recorded_step_by_step() {
 fn the_result_is_the_same_for_any_number_of_threads_bit_for_bit() {
     let units = units(Case::S, 40, 26);
     let model = Model::new(&units.sheet, &Material::default()).unwrap();
-    assert!(
-        model.node_count() > 4_000,
-        "large enough to run in parallel"
-    );
+    assert!(model.node_count() > 4_000, "large enough to run in parallel");
     let (start, _) = deployed(&units);
     let steps_on = |threads| {
-        let pool = rayon::ThreadPoolBuilder::new()
-            .num_threads(threads)
-            .build()
-            .unwrap();
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
         pool.install(|| {
             let mut state = State::at_rest(&model, &model.to_model(&start));
             state.set_targets(&vec![0.3; model.hinges.len()]);
@@ -178,10 +151,7 @@ fn a_run_out_of_steps_ends_there_and_says_so_with_its_evidence() {
     let units = units(Case::S, 3, 2);
     let whole = fold(&units, &coarse());
     for step_budget in [0, 200, 2_000] {
-        let options = DynamicOptions {
-            step_budget,
-            ..coarse()
-        };
+        let options = DynamicOptions { step_budget, ..coarse() };
         let run = fold(&units, &options);
         let last = run.stages.last().unwrap();
         assert_eq!(last.status, StageStatus::OutOfSteps, "{step_budget}");
@@ -216,9 +186,7 @@ fn input_that_does_not_fit_is_refused() {
     let model = Model::new(&units.sheet, &Material::default()).unwrap();
     let (start, schedule) = deployed(&units);
     let refused = |start: &[DVec3], options: &DynamicOptions| {
-        run(&model, &schedule, start, options, &|_| true)
-            .unwrap_err()
-            .to_string()
+        run(&model, &schedule, start, options, &|_| true).unwrap_err().to_string()
     };
     let good = DynamicOptions::default();
     assert!(refused(&start[1..], &good).contains("start positions were given"));
@@ -226,38 +194,20 @@ fn input_that_does_not_fit_is_refused() {
     lost[3].z = f64::NAN;
     assert!(refused(&lost, &good).contains("start position of vertex 3"));
     for frames in [0, 1, 7, usize::MAX - 1] {
-        let options = DynamicOptions {
-            frames,
-            ..good.clone()
-        };
+        let options = DynamicOptions { frames, ..good.clone() };
         let message = refused(&start, &options);
-        assert!(
-            message.starts_with(&format!("{frames} frames were requested")),
-            "{message}"
-        );
+        assert!(message.starts_with(&format!("{frames} frames were requested")), "{message}");
     }
     for tolerance in [0.0, -1.0, f64::NAN, f64::INFINITY] {
-        let options = DynamicOptions {
-            tolerance,
-            ..good.clone()
-        };
+        let options = DynamicOptions { tolerance, ..good.clone() };
         assert!(refused(&start, &options).contains("tolerance"));
     }
-    let options = DynamicOptions {
-        ramp_steps: 0,
-        ..good.clone()
-    };
+    let options = DynamicOptions { ramp_steps: 0, ..good.clone() };
     assert!(refused(&start, &options).contains("ramp_steps is 0"));
     let other = crate::sheets::units(Case::E, 3, 1);
     let (_, longer) = deployed(&other);
     let error = run(&model, &longer, &start, &good, &|_| true).unwrap_err();
-    assert!(matches!(
-        error,
-        SolverError::Count {
-            what: "scheduled hinges",
-            ..
-        }
-    ));
+    assert!(matches!(error, SolverError::Count { what: "scheduled hinges", .. }));
 }
 
 #[test]
@@ -285,13 +235,7 @@ fn a_schedule_takes_creases_from_their_deployed_angle_over_zero_to_the_compact_o
     let edges = units.sheet.edges.len();
     let flat = vec![0.0; edges];
     let short = Schedule::uniform(&units.sheet, &flat[1..], &flat).unwrap_err();
-    assert!(matches!(
-        short,
-        SolverError::Count {
-            what: "deployed angles",
-            ..
-        }
-    ));
+    assert!(matches!(short, SolverError::Count { what: "deployed angles", .. }));
     let huge = Schedule::uniform(&units.sheet, &flat, &vec![7.0; edges]).unwrap_err();
     assert!(matches!(huge, SolverError::AngleOutOfRange { .. }));
     let lost = Schedule::uniform(&units.sheet, &flat, &vec![f64::NAN; edges]).unwrap_err();
@@ -301,21 +245,10 @@ fn a_schedule_takes_creases_from_their_deployed_angle_over_zero_to_the_compact_o
 #[test]
 fn times_asked_for_are_recorded_once_among_the_frames() {
     let units = units(Case::E, 2, 1);
-    let asked = DynamicOptions {
-        extra_times: vec![1.7, 0.1, 1.0, 0.0, 2.5],
-        ..coarse()
-    };
+    let asked = DynamicOptions { extra_times: vec![1.7, 0.1, 1.0, 0.0, 2.5], ..coarse() };
     let times = |run: &Run| run.frames.iter().map(|f| f.time).collect::<Vec<_>>();
-    let (plain, asked) = (
-        times(&fold(&units, &coarse())),
-        times(&fold(&units, &asked)),
-    );
-    let count = |t: f64| {
-        asked
-            .iter()
-            .filter(|time| (**time - t).abs() < 1e-9)
-            .count()
-    };
+    let (plain, asked) = (times(&fold(&units, &coarse())), times(&fold(&units, &asked)));
+    let count = |t: f64| asked.iter().filter(|time| (**time - t).abs() < 1e-9).count();
     for time in plain.iter().chain(&[0.1, 1.7]) {
         assert_eq!(count(*time), 1, "{time}");
     }

@@ -17,12 +17,7 @@ struct Sheet {
 fn sheet(rows: usize, columns: usize) -> Sheet {
     let units = units(Case::E, rows, columns);
     let (start, schedule) = deployed(&units);
-    Sheet {
-        model: Model::new(&units.sheet, &Material::default()).unwrap(),
-        units,
-        schedule,
-        start,
-    }
+    Sheet { model: Model::new(&units.sheet, &Material::default()).unwrap(), units, schedule, start }
 }
 
 impl Sheet {
@@ -45,9 +40,7 @@ fn settle(interaction: &mut InteractiveSheet<'_>) {
 fn apart(from: &[DVec3], to: &[DVec3]) -> f64 {
     let fit = RigidMotion::best_fit(from, to);
     let pairs = from.iter().zip(to);
-    pairs
-        .map(|(&p, &q)| fit.apply(p).distance(q))
-        .fold(0.0, f64::max)
+    pairs.map(|(&p, &q)| fit.apply(p).distance(q)).fold(0.0, f64::max)
 }
 
 #[test]
@@ -57,11 +50,7 @@ fn a_sheet_aimed_at_the_end_reaches_the_exact_compact_state_and_comes_back() {
     interaction.aim(2.0);
     settle(&mut interaction);
     assert_eq!(interaction.time(), 2.0);
-    assert!(
-        interaction.fold_angle_error() < 1e-3,
-        "{}",
-        interaction.fold_angle_error()
-    );
+    assert!(interaction.fold_angle_error() < 1e-3, "{}", interaction.fold_angle_error());
     let compact = sheet.units.compact();
     assert!(apart(&interaction.positions(), &compact) < 1e-2);
     interaction.aim(0.0);
@@ -96,25 +85,16 @@ fn a_pulled_vertex_moves_towards_the_point_and_back_when_let_go() {
     let before = interaction.positions();
     for vertex in [0, before.len() / 2, before.len() - 1] {
         let point = before[vertex] + DVec3::new(0.4, -0.3, 1.0);
-        interaction.pull(Some(Pull {
-            vertex: vertex as u32,
-            point,
-        }));
+        interaction.pull(Some(Pull { vertex: vertex as u32, point }));
         settle(&mut interaction);
         let pulled = interaction.positions();
         let [was, is] = [before[vertex], pulled[vertex]].map(|p| p.distance(point));
         assert!(is < 0.9 * was, "vertex {vertex}: {is} of {was}");
         let middle = |p: &[DVec3]| p.iter().sum::<DVec3>() / p.len() as f64;
-        assert!(
-            middle(&pulled).distance(middle(&before)) < 0.5 * was,
-            "it stays in place"
-        );
+        assert!(middle(&pulled).distance(middle(&before)) < 0.5 * was, "it stays in place");
         interaction.pull(None);
         settle(&mut interaction);
-        assert!(
-            apart(&interaction.positions(), &before) < 1e-3,
-            "vertex {vertex}"
-        );
+        assert!(apart(&interaction.positions(), &before) < 1e-3, "vertex {vertex}");
         assert!(
             interaction.positions()[vertex].distance(before[vertex]) < 0.3,
             "it is where it was"
@@ -140,10 +120,7 @@ fn violence_never_gives_a_position_that_is_no_number() {
         if let Err(error) = interaction.advance(10) {
             assert!(matches!(error, SolverError::Diverged { .. }), "{error}");
         }
-        assert!(
-            interaction.positions().iter().all(|p| p.is_finite()),
-            "round {round}"
-        );
+        assert!(interaction.positions().iter().all(|p| p.is_finite()), "round {round}");
         assert!((0.0..=2.0).contains(&interaction.time()));
     }
     interaction.pull(None);
@@ -159,25 +136,16 @@ fn what_does_not_fit_is_refused_or_ends_the_pull() {
         InteractiveSheet::new(&sheet.model, &sheet.schedule, stages, start, time).err()
     };
     let start = &sheet.start;
-    assert!(matches!(
-        new(&[], start, 0.0),
-        Some(SolverError::Count { .. })
-    ));
+    assert!(matches!(new(&[], start, 0.0), Some(SolverError::Count { .. })));
     let short = &start[1..];
-    assert!(matches!(
-        new(&Stage::ALL, short, 0.0),
-        Some(SolverError::Count { .. })
-    ));
+    assert!(matches!(new(&Stage::ALL, short, 0.0), Some(SolverError::Count { .. })));
     let lost = new(&Stage::ALL, start, f64::NAN);
     assert!(matches!(lost, Some(SolverError::NotFinite { .. })));
     let mut interaction = sheet.interaction();
     interaction.aim(f64::NAN);
     let point = DVec3::splat(f64::NAN);
     interaction.pull(Some(Pull { vertex: 0, point }));
-    interaction.pull(Some(Pull {
-        vertex: u32::MAX,
-        point: DVec3::ZERO,
-    }));
+    interaction.pull(Some(Pull { vertex: u32::MAX, point: DVec3::ZERO }));
     settle(&mut interaction);
     assert_eq!(interaction.time(), 0.0);
     assert!(apart(&interaction.positions(), start) < 1e-6);

@@ -9,11 +9,7 @@ use foldmotion_solver::{Material, Model};
 use glam::DVec3;
 
 fn undamped() -> Material {
-    Material {
-        face_angle_stiffness: 0.2,
-        damping_ratio: 0.0,
-        ..Material::default()
-    }
+    Material { face_angle_stiffness: 0.2, damping_ratio: 0.0, ..Material::default() }
 }
 
 fn momentum(state: &State<'_>) -> DVec3 {
@@ -21,12 +17,7 @@ fn momentum(state: &State<'_>) -> DVec3 {
 }
 
 fn angular_momentum(state: &State<'_>) -> DVec3 {
-    state
-        .positions()
-        .iter()
-        .zip(&state.velocities())
-        .map(|(x, v)| x.cross(*v))
-        .sum()
+    state.positions().iter().zip(&state.velocities()).map(|(x, v)| x.cross(*v)).sum()
 }
 
 fn shaken_state(model: &Model, case: Case) -> State<'_> {
@@ -46,21 +37,14 @@ fn linear_momentum_is_conserved_with_damping() {
     for _ in 0..2_000 {
         state.step(dt).unwrap();
     }
-    assert!(
-        momentum(&state).distance(before) < 1e-12,
-        "{before} {}",
-        momentum(&state)
-    );
+    assert!(momentum(&state).distance(before) < 1e-12, "{before} {}", momentum(&state));
 }
 
 #[test]
 fn angular_momentum_is_conserved_without_damping_and_lost_with_it() {
     let mut drift = [0.0; 2];
     for (drift, damping_ratio) in drift.iter_mut().zip([0.0, 0.45]) {
-        let material = Material {
-            damping_ratio,
-            ..undamped()
-        };
+        let material = Material { damping_ratio, ..undamped() };
         let model = Model::new(&units(Case::S, 2, 2).sheet, &material).unwrap();
         let mut state = shaken_state(&model, Case::S);
         let before = angular_momentum(&state);
@@ -150,14 +134,8 @@ fn a_single_bar_swings_at_its_frequency_and_decays_at_its_damping_ratio() {
     let ratio = 0.05 * 2.0f64.sqrt();
     let (damped, decrement) = oscillation(0.05, 1e-4);
     let expected = TAU * ratio / (1.0 - ratio * ratio).sqrt();
-    assert!(
-        (decrement / expected - 1.0).abs() < 2e-3,
-        "{decrement} {expected}"
-    );
-    assert!(
-        (damped / (omega * (1.0 - ratio * ratio).sqrt()) - 1.0).abs() < 1e-4,
-        "{damped}"
-    );
+    assert!((decrement / expected - 1.0).abs() < 2e-3, "{decrement} {expected}");
+    assert!((damped / (omega * (1.0 - ratio * ratio).sqrt()) - 1.0).abs() < 1e-4, "{damped}");
 }
 
 #[test]
@@ -172,16 +150,8 @@ fn a_single_hinge_settles_at_its_target_even_beyond_half_a_turn() {
             state.set_targets(&[target * (f64::from(step) / f64::from(ramp)).min(1.0)]);
             state.step(dt).unwrap();
         }
-        let worst = model
-            .strains(&state.positions())
-            .into_iter()
-            .map(f64::abs)
-            .fold(0.0, f64::max);
-        assert!(
-            (state.angles()[0] - target).abs() < 1e-6,
-            "{} {target}",
-            state.angles()[0]
-        );
+        let worst = model.strains(&state.positions()).into_iter().map(f64::abs).fold(0.0, f64::max);
+        assert!((state.angles()[0] - target).abs() < 1e-6, "{} {target}", state.angles()[0]);
         assert!(worst < 1e-6, "{worst}");
         let exact = folded_hinge(&sheet, target);
         let apart = |p: &[DVec3]| p[2].distance(p[3]);
@@ -210,42 +180,17 @@ fn growth(material: &Material, share: f64) -> f64 {
 
 #[test]
 fn the_time_step_is_stable_at_its_bound_and_unstable_at_a_multiple_of_it() {
-    let bars = Material {
-        damping_ratio: 0.0,
-        ..Material::default()
-    };
-    let hinges = Material {
-        axial_stiffness: 1e-3,
-        fold_stiffness: 50.0,
-        facet_stiffness: 50.0,
-        ..bars
-    };
-    let dampers = Material {
-        damping_ratio: 5.0,
-        ..bars
-    };
-    let faces = Material {
-        axial_stiffness: 1e-2,
-        face_angle_stiffness: 50.0,
-        ..bars
-    };
-    let kinds = [
-        ("bars", bars),
-        ("hinges", hinges),
-        ("dampers", dampers),
-        ("face angles", faces),
-    ];
+    let bars = Material { damping_ratio: 0.0, ..Material::default() };
+    let hinges =
+        Material { axial_stiffness: 1e-3, fold_stiffness: 50.0, facet_stiffness: 50.0, ..bars };
+    let dampers = Material { damping_ratio: 5.0, ..bars };
+    let faces = Material { axial_stiffness: 1e-2, face_angle_stiffness: 50.0, ..bars };
+    let kinds = [("bars", bars), ("hinges", hinges), ("dampers", dampers), ("face angles", faces)];
     for (name, material) in kinds {
         let at_the_bound = growth(&material, 1.0);
-        assert!(
-            at_the_bound < 1e3,
-            "{name}: grew {at_the_bound} times at the bound"
-        );
+        assert!(at_the_bound < 1e3, "{name}: grew {at_the_bound} times at the bound");
         let beyond = growth(&material, 2.0);
-        assert!(
-            beyond > 1e5,
-            "{name}: grew only {beyond} times at twice the bound"
-        );
+        assert!(beyond > 1e5, "{name}: grew only {beyond} times at twice the bound");
     }
 }
 
@@ -269,10 +214,7 @@ fn the_bound_of_one_bar_is_that_of_a_damped_oscillator() {
         let mode = 2.0f64.sqrt() * ratio;
         let expected = 2.0 * ((1.0 + mode * mode).sqrt() - mode) / omega;
         let found = state.stable_time_step();
-        assert!(
-            (found / expected - 1.0).abs() < 1e-6,
-            "ζ = {ratio}: {found} {expected}"
-        );
+        assert!((found / expected - 1.0).abs() < 1e-6, "ζ = {ratio}: {found} {expected}");
     }
 }
 
@@ -282,11 +224,7 @@ fn force_error(material: &Material, rows: usize, columns: usize) -> f64 {
     let model = Model::new(&units.sheet, material).unwrap();
     let positions = shaken(&model.to_model(&units.sheet.planar()), 0.1);
     let mut state = State::at_rest(&model, &positions);
-    let targets = state
-        .angles()
-        .iter()
-        .map(|a| 0.5 * a + 0.3)
-        .collect::<Vec<_>>();
+    let targets = state.angles().iter().map(|a| 0.5 * a + 0.3).collect::<Vec<_>>();
     state.set_targets(&targets);
     state.evaluate_forces();
     let mut angles = vec![0.0; model.hinges.len()];
@@ -294,20 +232,14 @@ fn force_error(material: &Material, rows: usize, columns: usize) -> f64 {
     let mut gradient = vec![DVec3::ZERO; model.node_count()];
     model.gradient(&positions, &angles, &targets, &mut gradient);
     let forces = state.forces();
-    let sums = forces
-        .iter()
-        .zip(&gradient)
-        .map(|(f, g)| (*f + *g).length());
+    let sums = forces.iter().zip(&gradient).map(|(f, g)| (*f + *g).length());
     sums.fold(0.0, f64::max)
 }
 
 #[test]
 fn the_passes_give_the_negative_gradient_of_the_energy() {
     for face_angle_stiffness in [0.0, 0.2] {
-        let material = Material {
-            face_angle_stiffness,
-            ..Material::default()
-        };
+        let material = Material { face_angle_stiffness, ..Material::default() };
         // One block, and several with their borders.
         for (rows, columns) in [(1, 1), (3, 2), (20, 20)] {
             let error = force_error(&material, rows, columns);

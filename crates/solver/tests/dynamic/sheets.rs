@@ -22,14 +22,8 @@ pub(crate) fn hinge(assignment: Assignment, length: f64, left: f64, right: f64) 
         column: 0,
         faces,
     };
-    let border = |a, b, face| {
-        edge(
-            [a, b],
-            [Some(face), None],
-            Assignment::Border,
-            CreaseKind::Border,
-        )
-    };
+    let border =
+        |a, b, face| edge([a, b], [Some(face), None], Assignment::Border, CreaseKind::Border);
     let facet = |polygon: [u32; 3]| Facet {
         polygon: polygon.to_vec(),
         row: 0,
@@ -100,9 +94,5 @@ pub(crate) fn deployed(units: &UnitSheet) -> (Vec<DVec3>, Schedule) {
 pub(crate) fn shaken(positions: &[DVec3], size: f64) -> Vec<DVec3> {
     let noise = |i: usize| ((i as f64 * 12.9898).sin() * 43_758.547).fract() * size;
     let shake = |i| DVec3::new(noise(3 * i), noise(3 * i + 1), noise(3 * i + 2));
-    positions
-        .iter()
-        .enumerate()
-        .map(|(i, p)| *p + shake(i))
-        .collect()
+    positions.iter().enumerate().map(|(i, p)| *p + shake(i)).collect()
 }

@@ -34,21 +34,10 @@ fn shelter() -> Shelter {
 }
 
 fn step(stage: Stage, creases: CreaseGroup, from: f64, to: f64) -> ScheduleStep {
-    ScheduleStep {
-        stage,
-        creases,
-        rows: None,
-        columns: None,
-        from,
-        to,
-        ease: Ease::Linear,
-    }
+    ScheduleStep { stage, creases, rows: None, columns: None, from, to, ease: Ease::Linear }
 }
 
 /// A step of `fold` for all creases of `row`.
 fn row_step(row: u32, from: f64, to: f64) -> ScheduleStep {
-    ScheduleStep {
-        rows: Some([row, row]),
-        ..step(Stage::Fold, CreaseGroup::All, from, to)
-    }
+    ScheduleStep { rows: Some([row, row]), ..step(Stage::Fold, CreaseGroup::All, from, to) }
 }

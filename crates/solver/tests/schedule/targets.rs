@@ -18,10 +18,7 @@ fn targets(schedule: &Schedule, stage: Stage, s: f64) -> Vec<f64> {
 }
 
 fn end_angles(shelter: &Shelter) -> [Vec<f64>; 2] {
-    [
-        targets(&shelter.uniform, Stage::Unfold, 0.0),
-        targets(&shelter.uniform, Stage::Fold, 1.0),
-    ]
+    [targets(&shelter.uniform, Stage::Unfold, 0.0), targets(&shelter.uniform, Stage::Fold, 1.0)]
 }
 
 #[test]
@@ -37,10 +34,7 @@ fn named_creases_wait_move_with_their_ease_and_stay_while_the_others_follow_the_
         let schedule = shelter
             .uniform
             .clone()
-            .with_steps(
-                &shelter.units.sheet,
-                &[named(Stage::Unfold), named(Stage::Fold)],
-            )
+            .with_steps(&shelter.units.sheet, &[named(Stage::Unfold), named(Stage::Fold)])
             .unwrap();
         let shares = [
             (0.0, 0.0),
@@ -83,16 +77,8 @@ fn a_step_names_creases_by_kind_row_and_column() {
         (CreaseGroup::Pads, |kind| kind == CreaseKind::Pad),
     ];
     for (group, is_of_group) in groups {
-        for (rows, columns) in [
-            (None, None),
-            (Some([1, 2]), None),
-            (Some([1, 1]), Some([0, 0])),
-        ] {
-            let late = ScheduleStep {
-                rows,
-                columns,
-                ..step(Stage::Fold, group, 0.5, 1.0)
-            };
+        for (rows, columns) in [(None, None), (Some([1, 2]), None), (Some([1, 1]), Some([0, 0]))] {
+            let late = ScheduleStep { rows, columns, ..step(Stage::Fold, group, 0.5, 1.0) };
             let schedule = shelter.uniform.clone();
             let schedule = schedule.with_steps(&shelter.units.sheet, &[late]).unwrap();
             let waiting = targets(&schedule, Stage::Fold, 0.5);
@@ -125,14 +111,9 @@ fn every_crease_begins_and_ends_its_stage_at_the_stages_angles_whatever_the_step
     for (index, &from) in times.iter().enumerate() {
         for &to in &times[index + 1..] {
             for ease in [Ease::Linear, Ease::Smooth] {
-                let eased = |row| ScheduleStep {
-                    ease,
-                    ..row_step(row, from, to)
-                };
-                let rows = ScheduleStep {
-                    ease,
-                    ..step(Stage::Unfold, CreaseGroup::Rows, from, to)
-                };
+                let eased = |row| ScheduleStep { ease, ..row_step(row, from, to) };
+                let rows =
+                    ScheduleStep { ease, ..step(Stage::Unfold, CreaseGroup::Rows, from, to) };
                 if to - from < 1e-6 {
                     continue;
                 }
@@ -159,28 +140,18 @@ fn every_crease_begins_and_ends_its_stage_at_the_stages_angles_whatever_the_step
 #[test]
 fn targets_are_continuous_and_never_turn_back() {
     let shelter = shelter();
-    let smooth = ScheduleStep {
-        ease: Ease::Smooth,
-        ..row_step(1, 0.2, 0.6)
-    };
+    let smooth = ScheduleStep { ease: Ease::Smooth, ..row_step(1, 0.2, 0.6) };
     let schedule = shelter
         .uniform
         .clone()
-        .with_steps(
-            &shelter.units.sheet,
-            &[row_step(0, 0.0, 0.4), smooth, row_step(2, 0.4, 1.0)],
-        )
+        .with_steps(&shelter.units.sheet, &[row_step(0, 0.0, 0.4), smooth, row_step(2, 0.4, 1.0)])
         .unwrap();
     let samples = 4000;
     // At most π in 0.4 of the stage, eased at 3/2 of that.
     let most = 1.5 * std::f64::consts::PI / 0.4 / f64::from(samples);
     let mut before = targets(&schedule, Stage::Fold, 0.0);
     for index in 1..=samples {
-        let now = targets(
-            &schedule,
-            Stage::Fold,
-            f64::from(index) / f64::from(samples),
-        );
+        let now = targets(&schedule, Stage::Fold, f64::from(index) / f64::from(samples));
         for (a, b) in before.iter().zip(&now) {
             assert!((b - a).abs() <= most * (1.0 + 1e-9), "{a} {b}");
             assert!(b.abs() >= a.abs() - 1e-15, "{a} {b}");
@@ -197,15 +168,9 @@ fn no_steps_or_steps_that_say_the_same_leave_the_uniform_ramp() {
         schedule.with_steps(&shelter.units.sheet, steps).unwrap()
     };
     assert_eq!(with(&[]), shelter.uniform);
-    assert_eq!(
-        with(&[step(Stage::Fold, CreaseGroup::All, 0.0, 1.0)]),
-        shelter.uniform
-    );
+    assert_eq!(with(&[step(Stage::Fold, CreaseGroup::All, 0.0, 1.0)]), shelter.uniform);
     let stepped = with(&[row_step(1, 0.0, 0.5)]);
     assert_ne!(stepped, shelter.uniform);
     // Steps given before are forgotten.
-    assert_eq!(
-        stepped.with_steps(&shelter.units.sheet, &[]).unwrap(),
-        shelter.uniform
-    );
+    assert_eq!(stepped.with_steps(&shelter.units.sheet, &[]).unwrap(), shelter.uniform);
 }

@@ -24,14 +24,10 @@ pub(crate) fn print() -> Result<(), Box<dyn Error>> {
     for rows in ROWS {
         let units = sheet(Case::E, rows, COLUMNS)?;
         let model = Model::new(&units.sheet, &Material::default())?;
-        let options = QuasiStaticOptions {
-            stages: vec![Stage::Fold],
-            ..QuasiStaticOptions::default()
-        };
+        let options =
+            QuasiStaticOptions { stages: vec![Stage::Fold], ..QuasiStaticOptions::default() };
         let schedule = flat_to_compact(&units)?;
-        let run = run_quasi_static(&model, &schedule, &units.sheet.planar(), &options, &|_| {
-            true
-        })?;
+        let run = run_quasi_static(&model, &schedule, &units.sheet.planar(), &options, &|_| true)?;
         let motion = Motion {
             frames: run.frames,
             compact_order: units.compact_order(),

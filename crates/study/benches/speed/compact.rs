@@ -28,10 +28,8 @@ pub(crate) fn print() -> Result<(), Box<dyn Error>> {
     for case in [Case::E, Case::SII] {
         for rows in ROWS {
             row("dynamic", case, rows, |problem| {
-                let options = DynamicOptions {
-                    stages: vec![Stage::Fold],
-                    ..DynamicOptions::default()
-                };
+                let options =
+                    DynamicOptions { stages: vec![Stage::Fold], ..DynamicOptions::default() };
                 let run = dynamic::run(
                     &problem.model,
                     &problem.schedule,
@@ -96,9 +94,7 @@ fn row(
         .map(|hinge| units.compact_angles()[hinge.edge as usize])
         .collect();
     let targets = angles.clone();
-    problem
-        .model
-        .follow_angles(&problem.model.to_model(positions), &mut angles);
+    problem.model.follow_angles(&problem.model.to_model(positions), &mut angles);
     let errors = angles.iter().zip(&targets).map(|(a, t)| (a - t).abs());
     println!(
         "| {engine} | {} | {rows} × {COLUMNS} | {} | {seconds:.3} | {steps} | {:.0e} |",

@@ -54,9 +54,7 @@ fn ceiling(threads: usize) -> Result<Ceiling, ThreadPoolBuildError> {
         let mut operations = 0;
         let seconds = median_seconds(3, || {
             let workers = (0..threads).into_par_iter().with_max_len(1);
-            operations = workers
-                .map(|_| Arch::new().dispatch(FusedSums))
-                .sum::<usize>();
+            operations = workers.map(|_| Arch::new().dispatch(FusedSums)).sum::<usize>();
         });
         operations as f64 / seconds
     });
@@ -64,10 +62,7 @@ fn ceiling(threads: usize) -> Result<Ceiling, ThreadPoolBuildError> {
         let [mut a, b, c] = [0.0, 1.0, 2.0].map(|number| vec![number; NUMBERS]);
         let part = NUMBERS / threads;
         let seconds = median_seconds(5, || {
-            let parts = a
-                .par_chunks_mut(part)
-                .zip(b.par_chunks(part))
-                .zip(c.par_chunks(part));
+            let parts = a.par_chunks_mut(part).zip(b.par_chunks(part)).zip(c.par_chunks(part));
             parts.for_each(|((a, b), c)| {
                 for ((a, b), c) in a.iter_mut().zip(b).zip(c) {
                     *a = b + 0.5 * c;
@@ -77,11 +72,7 @@ fn ceiling(threads: usize) -> Result<Ceiling, ThreadPoolBuildError> {
         });
         (3 * size_of::<f64>() * NUMBERS) as f64 / seconds
     });
-    Ok(Ceiling {
-        pool,
-        operations,
-        bytes,
-    })
+    Ok(Ceiling { pool, operations, bytes })
 }
 
 struct FusedSums;

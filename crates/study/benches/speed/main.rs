@@ -19,16 +19,9 @@ use std::error::Error;
 
 fn main() -> Result<(), Box<dyn Error>> {
     // cargo adds `--bench`.
-    let words: Vec<String> = std::env::args()
-        .skip(1)
-        .filter(|a| a != "--bench")
-        .collect();
+    let words: Vec<String> = std::env::args().skip(1).filter(|a| a != "--bench").collect();
     let is_large = words.iter().any(|word| word == "large");
-    let tables: Vec<&str> = words
-        .iter()
-        .map(String::as_str)
-        .filter(|w| *w != "large")
-        .collect();
+    let tables: Vec<&str> = words.iter().map(String::as_str).filter(|w| *w != "large").collect();
     let asked = |table: &str| tables.is_empty() || tables.contains(&table);
     let ceilings = machine::measure()?;
     if asked("machine") {

@@ -37,10 +37,7 @@ pub(crate) fn print(ceilings: &[Ceiling], is_large: bool) -> Result<(), Box<dyn 
         .map(|(rows, columns)| {
             let units = sheet(Case::E, rows, columns)?;
             let model = |face_angle_stiffness| {
-                let material = Material {
-                    face_angle_stiffness,
-                    ..Material::default()
-                };
+                let material = Material { face_angle_stiffness, ..Material::default() };
                 Model::new(&units.sheet, &material)
             };
             Ok::<_, Box<dyn Error>>(Sheets {
@@ -54,10 +51,7 @@ pub(crate) fn print(ceilings: &[Ceiling], is_large: bool) -> Result<(), Box<dyn 
         "Million node-steps a second, f64, medians of {SAMPLES}; in brackets the share of the lower ceiling (f: operations, \
          m: memory)\n"
     );
-    println!(
-        "| nodes | threads | {} | scaling | bytes a node |",
-        KINDS.map(|k| k.0).join(" | ")
-    );
+    println!("| nodes | threads | {} | scaling | bytes a node |", KINDS.map(|k| k.0).join(" | "));
     println!("| --- | --- | --- | --- | --- | --- | --- |");
     let mut points = vec![Vec::new(); ceilings.len()];
     for pair in &sheets {
@@ -67,9 +61,8 @@ pub(crate) fn print(ceilings: &[Ceiling], is_large: bool) -> Result<(), Box<dyn 
             let mut cost = None;
             for (_, damping, face_angles) in KINDS {
                 let model = &pair.models[usize::from(face_angles > 0.0)];
-                let (seconds, step_cost) = ceiling
-                    .pool
-                    .install(|| seconds_a_step(model, &pair.flat, damping));
+                let (seconds, step_cost) =
+                    ceiling.pool.install(|| seconds_a_step(model, &pair.flat, damping));
                 let rate = model.node_count() as f64 / seconds;
                 if cells.is_empty() {
                     cells.push(format!(
@@ -130,9 +123,5 @@ fn share(rate: f64, cost: &StepCost, ceiling: &Ceiling) -> String {
     let nodes = cost.nodes as f64;
     let by_operations = rate * cost.operations / nodes / ceiling.operations;
     let by_bytes = rate * cost.bytes / nodes / ceiling.bytes;
-    format!(
-        "f {:.0} %, m {:.0} %",
-        100.0 * by_operations,
-        100.0 * by_bytes
-    )
+    format!("f {:.0} %, m {:.0} %", 100.0 * by_operations, 100.0 * by_bytes)
 }

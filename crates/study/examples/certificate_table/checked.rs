@@ -46,11 +46,7 @@ impl Motion {
             &folder.path().join("certificate.json"),
             &|_, _| true,
         )?;
-        Ok(Checked {
-            report,
-            verified,
-            verify_seconds: started.elapsed().as_secs_f64(),
-        })
+        Ok(Checked { report, verified, verify_seconds: started.elapsed().as_secs_f64() })
     }
 }
 
@@ -60,10 +56,9 @@ impl Checked {
         let certificate = &self.verified.certificate;
         match &certificate.stopped {
             None => certificate.verdict.to_string(),
-            Some(stopped) => format!(
-                "{}, checked up to t = {:.3}",
-                certificate.verdict, stopped.time
-            ),
+            Some(stopped) => {
+                format!("{}, checked up to t = {:.3}", certificate.verdict, stopped.time)
+            }
         }
     }
 

@@ -9,11 +9,7 @@
 //! engine; `--only` then names scenes and columns. The exit status is 1 if a motion got no certificate, or
 //! if the second proof did not confirm it; details are then on stderr.
 
-#![expect(
-    clippy::print_stdout,
-    clippy::print_stderr,
-    reason = "an example that prints its tables"
-)]
+#![expect(clippy::print_stdout, clippy::print_stderr, reason = "an example that prints its tables")]
 
 mod checked;
 mod matrix;
@@ -49,15 +45,9 @@ fn arguments() -> Result<Options, Box<dyn Error>> {
 
 fn main() -> Result<ExitCode, Box<dyn Error>> {
     let options = arguments()?;
-    let mut tables = if options.matrix {
-        vec![matrix::table()?]
-    } else {
-        shelter::tables()
-    };
+    let mut tables = if options.matrix { vec![matrix::table()?] } else { shelter::tables() };
     for table in &mut tables {
-        table
-            .rows
-            .retain(|row| options.only.iter().all(|word| row.has(word)));
+        table.rows.retain(|row| options.only.iter().all(|word| row.has(word)));
     }
     if tables.iter().all(|table| table.rows.is_empty()) {
         return Err(format!("no row has all of {:?}", options.only).into());
@@ -90,10 +80,7 @@ impl Row {
     fn has(&self, word: &str) -> bool {
         let contact = ["no-contact", "contact"][usize::from(self.motion.has_contact)];
         contact == word
-            || self
-                .names
-                .iter()
-                .any(|name| name.split([' ', ',']).any(|part| part == word))
+            || self.names.iter().any(|name| name.split([' ', ',']).any(|part| part == word))
     }
 }
 
@@ -142,10 +129,8 @@ impl Total {
             eprintln!("{}: {}", checked.report.title, checked.verified.table());
         }
         let (report, engine) = (&checked.report, &checked.report.engine);
-        self.computed_with = Some(format!(
-            "foldmotion {} on {}",
-            report.version, engine.instruction_set
-        ));
+        self.computed_with =
+            Some(format!("foldmotion {} on {}", report.version, engine.instruction_set));
     }
 
     fn sentence(&self) -> String {

@@ -6,11 +6,8 @@ use crate::checked::{Motion, scenes};
 use crate::{Row, Table};
 
 /// Engine and contact; the dynamic engine has no contact.
-const MOVED: [(&str, bool); 3] = [
-    ("quasi-static", true),
-    ("quasi-static", false),
-    ("dynamic", false),
-];
+const MOVED: [(&str, bool); 3] =
+    [("quasi-static", true), ("quasi-static", false), ("dynamic", false)];
 
 /// The table of every scene file.
 pub(crate) fn table() -> Result<Table, Box<dyn Error>> {
@@ -42,13 +39,7 @@ pub(crate) fn table() -> Result<Table, Box<dyn Error>> {
         title: "Every scene with contact, without, and moved by the dynamic engine.".to_owned(),
         columns: [
             &["scene", "engine", "contact"],
-            &[
-                "verdict",
-                "outcome",
-                "check, s",
-                "second proof, s",
-                "second proof",
-            ],
+            &["verdict", "outcome", "check, s", "second proof, s", "second proof"],
         ],
         rows: rows.collect(),
         cells: |checked| {

@@ -73,31 +73,20 @@ fn without_contact() -> Table {
     let mut rows = Vec::from(CASES.map(|case| shelter(case, "default")));
     rows.extend(CASES.map(|case| shelter(case, "near-rigid")));
     let mut wide = Motion::of_shelter("S", "near-rigid", false);
-    wide.settings
-        .extend(["sheet.columns=5", "sheet.width=8.0"].map(str::to_owned));
+    wide.settings.extend(["sheet.columns=5", "sheet.width=8.0"].map(str::to_owned));
     rows.push(row("S, 7 × 5, w = 1.6 h", "near-rigid", wide));
     for (scene, sheet) in [
         ("shelter-short-plain", "unmodified rectangles, w/h = 2.5"),
         ("shelter-tall-plain", "unmodified rectangles, w/h = 0.71"),
     ] {
-        let motion = Motion {
-            scene: scene.to_owned(),
-            has_contact: false,
-            settings: Vec::new(),
-        };
+        let motion = Motion { scene: scene.to_owned(), has_contact: false, settings: Vec::new() };
         rows.push(row(sheet, "default", motion));
     }
     Table {
         title: "Without contact, uniform schedule:".to_owned(),
         columns: [
             &["sheet", "material"],
-            &[
-                "verdict",
-                "first penetration",
-                "peak strain",
-                "outcome",
-                "second proof",
-            ],
+            &["verdict", "first penetration", "peak strain", "outcome", "second proof"],
         ],
         rows,
         cells: |checked| {
@@ -119,11 +108,7 @@ impl Motion {
         if material != "default" {
             settings.push(format!("material.preset={material}"));
         }
-        Self {
-            scene: format!("shelter-{}", case.to_lowercase()),
-            has_contact,
-            settings,
-        }
+        Self { scene: format!("shelter-{}", case.to_lowercase()), has_contact, settings }
     }
 }
 
@@ -148,10 +133,7 @@ fn separation(checked: &Checked) -> [String; 2] {
         Some(closest) if checked.is_finished() => {
             [scientific(closest.attained, 3), format!("{:.3}", closest.t)]
         }
-        Some(closest) => [
-            format!("> {}", scientific(below(closest.distance), 1)),
-            none(),
-        ],
+        Some(closest) => [format!("> {}", scientific(below(closest.distance), 1)), none()],
     }
 }
 

@@ -88,8 +88,7 @@ impl MotionFile<'_> {
     }
 
     pub(crate) fn face(&self, triangle: u32) -> u32 {
-        self.triangle_faces
-            .map_or(triangle, |faces| faces[triangle as usize])
+        self.triangle_faces.map_or(triangle, |faces| faces[triangle as usize])
     }
 
     pub(crate) fn pair(&self, triangles: [u32; 2]) -> TrianglePair {

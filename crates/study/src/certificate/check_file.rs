@@ -32,10 +32,7 @@ pub struct CheckOptions {
 impl Default for CheckOptions {
     fn default() -> Self {
         let options = CollisionOptions::default();
-        Self {
-            tolerance: options.touch_tolerance,
-            stop_at: options.stop_at,
-        }
+        Self { tolerance: options.touch_tolerance, stop_at: options.stop_at }
     }
 }
 
@@ -95,9 +92,8 @@ pub(crate) fn check_motion_file(
     let (file, sha256) = read_header(path, progress)?;
     let mut input = MotionReader::open(path, Phase::Check, progress)?;
     let checker = RefCell::new(FrameChecker::new(&file, options));
-    let read = file.frames(&mut input, &mut |frame, order| {
-        checker.borrow_mut().check(&frame, order)
-    });
+    let read =
+        file.frames(&mut input, &mut |frame, order| checker.borrow_mut().check(&frame, order));
     let checker = checker.into_inner();
     if input.is_stopped {
         return Err(StudyError::Interrupted);
@@ -108,12 +104,7 @@ pub(crate) fn check_motion_file(
         return Err(input.failure(&TooFewStates(checker.times.len())));
     }
     let (collision, times) = checker.finish().map_err(|e| motion_error(path, &e))?;
-    Ok(FileCheck {
-        file,
-        sha256,
-        times,
-        collision,
-    })
+    Ok(FileCheck { file, sha256, times, collision })
 }
 
 impl Certificate {
@@ -221,10 +212,7 @@ impl Read for MotionReader<'_> {
 }
 
 pub(crate) fn motion_error(path: &Path, message: &dyn std::fmt::Display) -> StudyError {
-    StudyError::Motion {
-        path: path.to_owned(),
-        message: message.to_string(),
-    }
+    StudyError::Motion { path: path.to_owned(), message: message.to_string() }
 }
 
 /// The error of a file with fewer states than a motion needs, and their number.
@@ -294,12 +282,7 @@ impl<'a> FrameChecker<'a> {
         let at = self.file.frame_number(self.times.len());
         match (error, at) {
             (
-                FrameError::Check(CheckError::DegenerateFace {
-                    face,
-                    height,
-                    limit,
-                    ..
-                }),
+                FrameError::Check(CheckError::DegenerateFace { face, height, limit, .. }),
                 Some(at),
             ) => {
                 let face = self.file.triangle_faces[*face];

@@ -160,23 +160,18 @@ impl Certificate {
 
     /// The verdict with its first evidence, on one line.
     pub fn line(&self) -> String {
-        let judged = self.stopped.as_ref().map_or_else(String::new, |stopped| {
-            format!(", judged up to t = {:.4}", stopped.time)
-        });
+        let judged = self
+            .stopped
+            .as_ref()
+            .map_or_else(String::new, |stopped| format!(", judged up to t = {:.4}", stopped.time));
         let evidence = match (self.penetrations.first(), self.undecided.first()) {
             (Some(first), _) => {
                 let [a, b] = first.pair.faces;
-                format!(
-                    ": first at t = {:.4}, {}, faces {a} and {b}",
-                    first.t, first.kind
-                )
+                format!(": first at t = {:.4}, {}, faces {a} and {b}", first.t, first.kind)
             }
             (None, Some(first)) => {
                 let [a, b] = first.pair.faces;
-                format!(
-                    ": faces {a} and {b} are certified up to t = {:.4} only",
-                    first.t
-                )
+                format!(": faces {a} and {b} are certified up to t = {:.4} only", first.t)
             }
             (None, None) => String::new(),
         };
@@ -200,9 +195,7 @@ impl Certificate {
             "{}\n\n{}{}\nsha256 {}",
             self.line(),
             self.file,
-            self.title
-                .as_ref()
-                .map_or(String::new(), |t| format!(": {t}")),
+            self.title.as_ref().map_or(String::new(), |t| format!(": {t}")),
             self.sha256
         );
         let _ = writeln!(

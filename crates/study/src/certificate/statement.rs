@@ -31,58 +31,26 @@ pub(crate) fn against_file(certificate: &Certificate, file: &FoldFile) -> Vec<Re
     let r = &mut refuted;
     require(r, "version", &certificate.version, &VERSION.to_owned());
     require(r, "title", &certificate.title, &file.title);
-    require(
-        r,
-        "unit_length",
-        &certificate.unit_length,
-        &file.sheet.unit_length,
-    );
-    require(
-        r,
-        "assumptions",
-        &certificate.assumptions,
-        &file_info.assumptions(),
-    );
+    require(r, "unit_length", &certificate.unit_length, &file.sheet.unit_length);
+    require(r, "assumptions", &certificate.assumptions, &file_info.assumptions());
     require(r, "frames", &certificate.frames, &file.frame_count());
-    require(
-        r,
-        "vertices",
-        &certificate.vertices,
-        &file.sheet.vertices.len(),
-    );
+    require(r, "vertices", &certificate.vertices, &file.sheet.vertices.len());
     require(r, "faces", &certificate.faces, &file.polygons.len());
-    require(
-        r,
-        "triangles",
-        &certificate.triangles,
-        &file.sheet.faces.len(),
-    );
+    require(r, "triangles", &certificate.triangles, &file.sheet.faces.len());
     let value = certificate.tolerance;
     if !(value > 0.0 && value < 0.1) {
-        r.push(Refutation::new(
-            "tolerance",
-            value,
-            "it must be positive and below 0.1",
-        ));
+        r.push(Refutation::new("tolerance", value, "it must be positive and below 0.1"));
     }
     for (field, pair) in pairs(certificate) {
         let [f, g] = pair.triangles;
         if f >= g || g as usize >= file.sheet.faces.len() {
             let found = "two indices of triangles, the smaller first, are expected";
-            r.push(Refutation::new(
-                field,
-                format!("{:?}", pair.triangles),
-                found,
-            ));
+            r.push(Refutation::new(field, format!("{:?}", pair.triangles), found));
         } else {
             require(r, field, pair, &file_info.pair(pair.triangles));
         }
     }
-    for layers in certificate
-        .penetrations
-        .iter()
-        .filter_map(|p| p.layers.as_ref())
-    {
+    for layers in certificate.penetrations.iter().filter_map(|p| p.layers.as_ref()) {
         let count = file.sheet.faces.len();
         let found: Vec<Option<u32>> = layers
             .triangles
@@ -109,11 +77,7 @@ fn pairs(certificate: &Certificate) -> impl Iterator<Item = (&'static str, &Tria
 /// passes through an edge may have been in contact since an earlier interval.
 fn in_interval(p: &PenetrationEntry, first: f64) -> f64 {
     let is_long = p.kind == PenetrationKind::ThroughEdge;
-    if is_long && (first..p.interval[0]).contains(&p.t) {
-        p.interval[0]
-    } else {
-        p.t
-    }
+    if is_long && (first..p.interval[0]).contains(&p.t) { p.interval[0] } else { p.t }
 }
 
 /// Refutations by the times of the frames.
@@ -129,40 +93,23 @@ pub(crate) fn against_times(certificate: &Certificate, times: &[f64]) -> Vec<Ref
     let penetrations = certificate.penetrations.iter();
     let intervals = penetrations
         .map(|p| {
-            (
-                "penetrations",
-                p.frames,
-                p.interval,
-                in_interval(p, ends[0]),
-                p.layers.is_some(),
-            )
+            ("penetrations", p.frames, p.interval, in_interval(p, ends[0]), p.layers.is_some())
         })
         .chain(
-            certificate
-                .undecided
-                .iter()
-                .map(|u| ("undecided", u.frames, u.interval, u.t, false)),
+            certificate.undecided.iter().map(|u| ("undecided", u.frames, u.interval, u.t, false)),
         );
     for (field, frames, interval, t, at_frame) in intervals {
         let of = frames.map(|k| times.get(k).copied().unwrap_or(f64::NAN));
         require(r, &format!("{field}.interval"), &interval, &of);
         let is_next = frames[0].checked_add(1) == Some(frames[1]) || frames == [0, 0];
-        let is_fit = if at_frame {
-            frames[0] == frames[1]
-        } else {
-            is_next
-        };
+        let is_fit = if at_frame { frames[0] == frames[1] } else { is_next };
         if !is_fit {
             let found = if at_frame {
                 "layers are out of order at a single frame"
             } else {
                 "an interval is between one frame and the next"
             };
-            r.push(Refutation::new(
-                format!("{field}.frames"),
-                format!("{frames:?}"),
-                found,
-            ));
+            r.push(Refutation::new(format!("{field}.frames"), format!("{frames:?}"), found));
         }
         if !(interval[0]..=interval[1]).contains(&t) {
             let found = format!("the interval is {interval:?}");
@@ -215,9 +162,9 @@ fn penetration(p: &PenetrationEntry) -> Penetration {
         point: p.point.into(),
         depth: p.depth,
         kind: p.kind,
-        conflict: p.layers.as_ref().map(|layers| LayerConflict {
-            rule: layers.rule,
-            faces: layers.triangles.clone(),
-        }),
+        conflict: p
+            .layers
+            .as_ref()
+            .map(|layers| LayerConflict { rule: layers.rule, faces: layers.triangles.clone() }),
     }
 }

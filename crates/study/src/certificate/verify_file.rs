@@ -53,10 +53,7 @@ pub fn verify_file(
         verification,
         other_name: other_name.clone(),
     };
-    let refuted = |refuted| Verification {
-        refuted,
-        ..Verification::default()
-    };
+    let refuted = |refuted| Verification { refuted, ..Verification::default() };
     if sha256 != certificate.sha256 {
         let refutation = Refutation::new("sha256", &certificate.sha256, sha256);
         return Ok(done(refuted(vec![refutation])));
@@ -69,9 +66,7 @@ pub fn verify_file(
     let mut input = MotionReader::open(motion, Phase::Verify, progress)?;
     let (mut verification, times) = prove(&file, &mut input, &claim)?;
     input.require_unchanged(&sha256)?;
-    verification
-        .refuted
-        .extend(against_times(&certificate, &times));
+    verification.refuted.extend(against_times(&certificate, &times));
     progress(Phase::Verify, 1.0);
     Ok(done(verification))
 }
@@ -85,9 +80,7 @@ fn prove(
     let mut verifier: Option<Verifier<'_>> = None;
     let mut times: Vec<f64> = Vec::new();
     let mut disorder = None;
-    let read = file.frames(&mut *input, &mut |frame: Frame,
-                                              order|
-     -> Result<(), FoldError> {
+    let read = file.frames(&mut *input, &mut |frame: Frame, order| -> Result<(), FoldError> {
         if times.last().is_some_and(|&before| before >= frame.time) {
             disorder = disorder.or(Some(times.len()));
         }
@@ -114,10 +107,7 @@ fn prove(
 }
 
 pub(crate) fn read_certificate(path: &Path) -> Result<Certificate, StudyError> {
-    let error = |message: String| StudyError::Certificate {
-        path: path.to_owned(),
-        message,
-    };
+    let error = |message: String| StudyError::Certificate { path: path.to_owned(), message };
     let text = input_file::read_text(path, LARGEST)?;
     let not_a_certificate = |e: serde_json::Error| error(format!("not a certificate: {e}"));
     let given: Value = serde_json::from_str(&text).map_err(not_a_certificate)?;
@@ -127,9 +117,9 @@ pub(crate) fn read_certificate(path: &Path) -> Result<Certificate, StudyError> {
     let certificate: Certificate = serde_json::from_str(&text).map_err(not_a_certificate)?;
     let parsed = |text: &str| serde_json::from_str(text).unwrap_or(Value::Null);
     match unknown_key(&given, &parsed(&certificate.to_json())) {
-        Some(key) => Err(error(format!(
-            "the key `{key}` is unknown, so what it states cannot be proved"
-        ))),
+        Some(key) => {
+            Err(error(format!("the key `{key}` is unknown, so what it states cannot be proved")))
+        }
         None => Ok(certificate),
     }
 }
@@ -193,11 +183,7 @@ impl VerifiedCertificate {
         let stated = &self.certificate.verdict;
         match (v.refuted.first(), v.unproved.first()) {
             (Some(r), _) => {
-                let Refutation {
-                    field,
-                    stated,
-                    found,
-                } = r;
+                let Refutation { field, stated, found } = r;
                 format!("{result}: {field}: stated {stated}; found {found}")
             }
             (None, Some(u)) => format!(
@@ -213,18 +199,11 @@ impl VerifiedCertificate {
         let mut out = String::new();
         let (certificate, v) = (&self.certificate, &self.verification);
         // Writing into a string cannot fail.
-        let _ = writeln!(
-            out,
-            "{}\n\n{}\nsha256 {}",
-            self.line(),
-            certificate.file,
-            certificate.sha256
-        );
+        let _ =
+            writeln!(out, "{}\n\n{}\nsha256 {}", self.line(), certificate.file, certificate.sha256);
         if let Some(name) = &self.other_name {
-            let _ = writeln!(
-                out,
-                "note: the certificate names this file, but the motion is in {name}"
-            );
+            let _ =
+                writeln!(out, "note: the certificate names this file, but the motion is in {name}");
         }
         let _ = writeln!(
             out,

@@ -80,13 +80,8 @@ impl Study {
             budget,
             ..DynamicOptions::default()
         };
-        let run = dynamic::run(
-            &self.model,
-            &self.schedule,
-            &self.subject.start(),
-            &options,
-            watcher,
-        )?;
+        let run =
+            dynamic::run(&self.model, &self.schedule, &self.subject.start(), &options, watcher)?;
         let stages = run.stages.iter().map(|s| StageSummary {
             stage: s.stage,
             converged: s.is_converged(),
@@ -162,17 +157,13 @@ impl Study {
                 residual_tolerance: stop.tolerance,
             }),
         });
-        let contacts = run.figures.iter().map(|f| ContactFigures {
-            energy: f.contact_energy,
-            count: f.contacts,
-        });
+        let contacts = run
+            .figures
+            .iter()
+            .map(|f| ContactFigures { energy: f.contact_energy, count: f.contacts });
         Ok(EngineRun {
             stages: stages.collect(),
-            contacts: if self.contact_gap.is_some() {
-                contacts.collect()
-            } else {
-                Vec::new()
-            },
+            contacts: if self.contact_gap.is_some() { contacts.collect() } else { Vec::new() },
             steps: run.stages.iter().map(|s| s.iterations as u64).sum(),
             device: "cpu".to_owned(),
             jam: run.jam,

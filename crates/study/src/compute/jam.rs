@@ -27,11 +27,7 @@ pub struct JamReport {
 impl JamReport {
     /// The facets that block the motion, as part of a sentence.
     pub(crate) fn words(&self) -> String {
-        let pairs = self
-            .names
-            .iter()
-            .take(3)
-            .map(|[a, b]| format!("{a} on {b}"));
+        let pairs = self.names.iter().take(3).map(|[a, b]| format!("{a} on {b}"));
         let pairs = pairs.collect::<Vec<_>>().join(", ");
         format!("facets that push hardest: {pairs}")
     }
@@ -46,9 +42,7 @@ impl JamReport {
         let facets: Vec<[u32; 2]> = facets.take(10).collect();
         let units = facets.iter().filter_map(|pair| subject.units_of(*pair));
         let units = units.collect();
-        let names = facets
-            .iter()
-            .map(|pair| pair.map(|f| subject.facet_name(f)));
+        let names = facets.iter().map(|pair| pair.map(|f| subject.facet_name(f)));
         let names = names.collect();
         Self {
             t: jam.time,

@@ -57,9 +57,7 @@ impl CheckedRun {
     fn is_cut_short(&self, earlier: &Self) -> bool {
         let end = |checked_run: &Self| checked_run.motion.frames.last().map_or(0.0, |f| f.time);
         let is_spent = |stage: &StageSummary| {
-            stage
-                .stop
-                .is_some_and(|stop| stop.reason != StopCause::NoEquilibrium)
+            stage.stop.is_some_and(|stop| stop.reason != StopCause::NoEquilibrium)
         };
         end(self) < end(earlier) && self.computed.stages.iter().any(is_spent)
     }
@@ -126,12 +124,7 @@ impl Study {
         let progress = |phase, done| watch.progress(phase, done);
         let (findings, seconds) = timed(|| self.check(&motion, &computed, &progress))?;
         spent.check += seconds;
-        Ok(CheckedRun {
-            strays: straying(&motion.frames),
-            computed,
-            motion,
-            findings,
-        })
+        Ok(CheckedRun { strays: straying(&motion.frames), computed, motion, findings })
     }
 
     fn folded(
@@ -146,11 +139,7 @@ impl Study {
         let sheet = self.subject.sheet();
         let jam = checked_run.computed.jam.as_ref();
         let jam = jam.map(|jam| JamReport::new(jam, &self.subject));
-        let stop = checked_run
-            .computed
-            .stages
-            .iter()
-            .find_map(|stage| stage.stop);
+        let stop = checked_run.computed.stages.iter().find_map(|stage| stage.stop);
         let fold_angles = FoldAngleReport::new(sheet, last, self.subject.end_angles());
         let outcome = Outcome::of(&OutcomeInput {
             end: frames.last().map_or(0.0, |frame| frame.time),
@@ -186,10 +175,7 @@ impl Study {
         let height = self.subject.sheet().unit_length;
         let mut open: Vec<usize> = collision.undecided.iter().map(|u| u.frame).collect();
         // Layers out of order are shown by one frame, so more frames would not help.
-        let passed = collision
-            .penetrations
-            .iter()
-            .filter(|p| p.conflict.is_none());
+        let passed = collision.penetrations.iter().filter(|p| p.conflict.is_none());
         for penetration in passed {
             let k = penetration.frame;
             let is_of_a_frame = penetration.passed <= frames[k].time;

@@ -50,10 +50,7 @@ impl Outcome {
 
     /// Whether the motion reached its end.
     pub fn is_at_end(&self) -> bool {
-        matches!(
-            self.kind,
-            OutcomeKind::Folded | OutcomeKind::Collides | OutcomeKind::Undecided
-        )
+        matches!(self.kind, OutcomeKind::Folded | OutcomeKind::Collides | OutcomeKind::Undecided)
     }
 
     /// The kind in words, with the motion time of the event.

@@ -85,11 +85,8 @@ pub(crate) fn csv(series: &[FrameFigures]) -> String {
                    energy_face_angles,energy_contact,contacts,separation\n"
         .to_owned();
     for f in series {
-        let separation = if f.separation.is_finite() {
-            format!("{:?}", f.separation)
-        } else {
-            String::new()
-        };
+        let separation =
+            if f.separation.is_finite() { format!("{:?}", f.separation) } else { String::new() };
         // The shortest digits that read back as the same number. Writing into a string cannot fail.
         let _ = writeln!(
             out,
@@ -133,16 +130,10 @@ pub(crate) fn panels(series: &[FrameFigures], first_penetration: Option<f64>) ->
         let drawn: Vec<f64> = drawn.filter(|s| s.is_finite() && *s > 0.0).collect();
         let lowest = drawn.iter().copied().fold(f64::INFINITY, f64::min);
         let highest = drawn.iter().copied().fold(0.0, f64::max);
-        separation.push(Curve {
-            name: "penetration",
-            points: vec![(time, lowest), (time, highest)],
-        });
+        separation
+            .push(Curve { name: "penetration", points: vec![(time, lowest), (time, highest)] });
     }
-    let panel = |title, is_logarithmic, curves| Panel {
-        title,
-        is_logarithmic,
-        curves,
-    };
+    let panel = |title, is_logarithmic, curves| Panel { title, is_logarithmic, curves };
     vec![
         panel(
             "bar strain, %",
@@ -158,10 +149,6 @@ pub(crate) fn panels(series: &[FrameFigures], first_penetration: Option<f64>) ->
             vec![curve("bending", |f| f.peak_bending_deg)],
         ),
         panel("energy, units of EA h at EA = 1", false, energy),
-        panel(
-            "smallest separation of facets that share no vertex, h",
-            true,
-            separation,
-        ),
+        panel("smallest separation of facets that share no vertex, h", true, separation),
     ]
 }

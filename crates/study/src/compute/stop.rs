@@ -75,13 +75,7 @@ mod tests {
     use super::*;
 
     fn report(reason: StopCause, load_step: Option<f64>) -> StopReport {
-        StopReport {
-            t: 1.25,
-            reason,
-            load_step,
-            residual: 0.5,
-            residual_tolerance: 1e-9,
-        }
+        StopReport { t: 1.25, reason, load_step, residual: 0.5, residual_tolerance: 1e-9 }
     }
 
     #[test]
@@ -93,10 +87,7 @@ mod tests {
              equilibrium"
         );
         let spent = report(StopCause::OutOfSteps, None);
-        assert_eq!(
-            spent.line(),
-            "unbalanced force left: 0.5; at most 1e-9 counts as equilibrium"
-        );
+        assert_eq!(spent.line(), "unbalanced force left: 0.5; at most 1e-9 counts as equilibrium");
         assert!(spent.words().contains("steps"));
         let late = report(StopCause::OutOfTime, None);
         assert!(late.words().contains("time"), "{}", late.words());

@@ -75,12 +75,8 @@ impl SymmetryReport {
     /// The report of a mirror; `None` if the first frame is not symmetric. `images` has the mirror image of each vertex.
     fn of(mirror: Mirror, images: &[usize], motion: &Motion) -> Option<Self> {
         let h = motion.sheet.unit_length;
-        let mut report = Self {
-            mirror,
-            largest: 0.0,
-            largest_t: motion.frames.first()?.time,
-            broken_t: None,
-        };
+        let mut report =
+            Self { mirror, largest: 0.0, largest_t: motion.frames.first()?.time, broken_t: None };
         for (index, Frame { time, positions }) in motion.frames.iter().enumerate() {
             let distance = asymmetry(positions, images) / h;
             let is_broken = distance > BROKEN;
@@ -134,14 +130,9 @@ fn images(sheet: &Sheet, mirror: Mirror) -> Option<Vec<usize>> {
     };
     let images: Vec<usize> = points.iter().map(image).collect::<Option<_>>()?;
     let sorted = |[a, b]: [usize; 2]| [a.min(b), a.max(b)];
-    let edges = sheet
-        .edges
-        .iter()
-        .map(|edge| (edge, edge.vertices.map(|v| v as usize)));
-    let known: HashSet<_> = edges
-        .clone()
-        .map(|(edge, ends)| (sorted(ends), edge.assignment.letter()))
-        .collect();
+    let edges = sheet.edges.iter().map(|edge| (edge, edge.vertices.map(|v| v as usize)));
+    let known: HashSet<_> =
+        edges.clone().map(|(edge, ends)| (sorted(ends), edge.assignment.letter())).collect();
     let mut mirrored =
         edges.map(|(edge, ends)| (sorted(ends.map(|v| images[v])), edge.assignment.letter()));
     mirrored.all(|edge| known.contains(&edge)).then_some(images)
@@ -153,9 +144,7 @@ fn asymmetry(positions: &[DVec3], images: &[usize]) -> f64 {
     let reflected: Vec<DVec3> = images.iter().map(reflect).collect();
     let fit = RigidMotion::best_fit(&reflected, positions);
     let pairs = reflected.iter().zip(positions);
-    pairs
-        .map(|(&image, &p)| fit.apply(image).distance(p))
-        .fold(0.0, f64::max)
+    pairs.map(|(&image, &p)| fit.apply(image).distance(p)).fold(0.0, f64::max)
 }
 
 #[cfg(test)]

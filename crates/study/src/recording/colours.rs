@@ -67,24 +67,16 @@ impl Quantity {
     /// The values of each frame, on a scale from 0 to a round number.
     pub fn of_motion(self, motion: &Motion) -> Values {
         let frames = motion.frames.par_iter();
-        let frames: Vec<Vec<f64>> = frames
-            .map(|frame| self.values(&motion.sheet, &frame.positions))
-            .collect();
+        let frames: Vec<Vec<f64>> =
+            frames.map(|frame| self.values(&motion.sheet, &frame.positions)).collect();
         let peak = frames.iter().flatten().copied().fold(0.0, f64::max);
-        Values {
-            title: self.title().to_owned(),
-            range: [0.0, rounded_up(peak)],
-            frames,
-        }
+        Values { title: self.title().to_owned(), range: [0.0, rounded_up(peak)], frames }
     }
 }
 
 /// The colour scale of `values`, for figures.
 pub(crate) fn legend(values: &Values) -> Legend {
-    Legend {
-        title: values.title.clone(),
-        range: values.range,
-    }
+    Legend { title: values.title.clone(), range: values.range }
 }
 
 /// `value` rounded up to 1, 2 or 5 times a power of ten.
@@ -121,10 +113,7 @@ mod tests {
         assert!(bending.peak_deg() > 1.0);
         assert!((peak(Quantity::Bending) - bending.peak_deg()).abs() < 1e-12);
         let motion = Motion {
-            frames: vec![Frame {
-                time: 0.0,
-                positions: positions.clone(),
-            }],
+            frames: vec![Frame { time: 0.0, positions: positions.clone() }],
             compact_order: units.compact_order(),
             sheet: units.sheet.clone(),
         };
@@ -137,10 +126,7 @@ mod tests {
         let cases = [0.0, 1e-9, 0.011, 0.4, 1.0, 1.2, 73.0, f64::INFINITY];
         let expected = [1e-3, 1e-3, 0.02, 0.5, 1.0, 2.0, 100.0, 1e-3];
         for (value, expected) in cases.into_iter().zip(expected) {
-            assert!(
-                (rounded_up(value) / expected - 1.0).abs() < 1e-12,
-                "{value}"
-            );
+            assert!((rounded_up(value) / expected - 1.0).abs() < 1e-12, "{value}");
         }
     }
 }

@@ -91,9 +91,7 @@ impl Recorder<'_> {
             && self.recording.film.centre.is_none()
         {
             pose.positions = study.turned(time, &pose.positions);
-            pose.spot = self
-                .marks
-                .spot_at(&self.motion.sheet, &pose.positions, time);
+            pose.spot = self.marks.spot_at(&self.motion.sheet, &pose.positions, time);
             if self.recording.has_profile && time == 0.0 {
                 pose.target = profile_points(&study.profile);
             }
@@ -143,9 +141,7 @@ impl Recorder<'_> {
         Bounds {
             low,
             high,
-            sizes: (high - low)
-                .to_array()
-                .map(|side| format!("{} {unit}", short(side))),
+            sizes: (high - low).to_array().map(|side| format!("{} {unit}", short(side))),
             words: words.unwrap_or_default(),
         }
     }

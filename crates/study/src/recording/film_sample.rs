@@ -60,11 +60,7 @@ impl Recording {
                 Ok(())
             })));
         }
-        let scene = Scene {
-            motion,
-            marks: &Marks::default(),
-            values: None,
-        };
+        let scene = Scene { motion, marks: &Marks::default(), values: None };
         let mut borrowed: Vec<&mut dyn FilmWriter> = Vec::new();
         for writer in &mut writers {
             borrowed.push(writer.as_mut());
@@ -84,11 +80,7 @@ impl Recording {
         // Pictures that repeat the one before take no space in a GIF and little in an MP4.
         let [gif, mp4, png] = [moving, moving + still / 8, still].map(|n| n as f64 / shots as f64);
         let size = |k: usize, times: f64| (MARGINS[k] * sampled[k] as f64 * times) as u64;
-        FilmSizes {
-            gif: size(0, gif),
-            mp4: size(1, mp4),
-            png: size(2, png),
-        }
+        FilmSizes { gif: size(0, gif), mp4: size(1, mp4), png: size(2, png) }
     }
 }
 
@@ -102,9 +94,7 @@ impl Subject {
             None => vec![planar.clone(), planar],
         };
         let times = (0..).map(|k: u32| self.start_time() + f64::from(k));
-        let frames = times
-            .zip(states)
-            .map(|(time, positions)| Frame { time, positions });
+        let frames = times.zip(states).map(|(time, positions)| Frame { time, positions });
         Motion {
             frames: frames.collect(),
             compact_order: self.compact_order().cloned().unwrap_or_default(),
@@ -156,10 +146,7 @@ mod tests {
             let name = output.name();
             assert!(written <= most, "{name}: {written} bytes, at most {most}");
             let bounds = written * 3 / 4..=written * 5 / 2 + 2_000_000;
-            assert!(
-                bounds.contains(&about),
-                "{name}: {written} bytes, about {about}"
-            );
+            assert!(bounds.contains(&about), "{name}: {written} bytes, about {about}");
         }
     }
 }

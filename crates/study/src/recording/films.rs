@@ -47,26 +47,17 @@ impl Recorder<'_> {
         if writers.is_empty() {
             return Ok(());
         }
-        let scene = Scene {
-            motion: self.motion,
-            marks: &self.marks,
-            values,
-        };
+        let scene = Scene { motion: self.motion, marks: &self.marks, values };
         let film_options = &self.recording.film;
         let options = FilmOptions {
-            style: Style {
-                line_width: line_width(film_options),
-                ..film_options.style.clone()
-            },
+            style: Style { line_width: line_width(film_options), ..film_options.style.clone() },
             provenance: self.source_info.text(),
             ending: self.ending.clone(),
             // Only PNG pictures can be transparent.
             is_transparent: film_options.is_transparent && has(OutputChoice::Png),
             ..film_options.clone()
         };
-        film(scene, &options, &mut writers, &|done| {
-            progress(Phase::Record, done)
-        })?;
+        film(scene, &options, &mut writers, &|done| progress(Phase::Record, done))?;
         drop(frames);
         results.add(names);
         Ok(())
@@ -86,12 +77,7 @@ mod tests {
 
     #[test]
     fn lines_are_in_proportion_to_the_picture_and_never_vanish() {
-        let width = |size| {
-            line_width(&FilmOptions {
-                size,
-                ..FilmOptions::default()
-            })
-        };
+        let width = |size| line_width(&FilmOptions { size, ..FilmOptions::default() });
         let standard = FilmOptions::default().style.line_width;
         assert_eq!(width([960, 720]), standard);
         assert_eq!(width([1440, 2000]), 2.0 * standard);

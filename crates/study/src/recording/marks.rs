@@ -50,10 +50,7 @@ mod tests {
         let folded = study.compute(&|_, _| true).unwrap();
         let (motion, collision) = (&folded.motion, &folded.findings.collision);
         let first = collision.first.as_ref().unwrap();
-        assert!(
-            collision.penetrations.len() > 4,
-            "it crosses in many places"
-        );
+        assert!(collision.penetrations.len() > 4, "it crosses in many places");
         let marks = marks(motion, collision, |time| time);
         let facets = |time: f64| {
             let marked = FigureState::at(motion, &marks, time).marked;

@@ -81,10 +81,7 @@ impl Recorder<'_> {
             None if first > 0.0 => (0..5).map(even).collect(),
             None => STATES.to_vec(),
         };
-        let mut times: Vec<f64> = requested
-            .into_iter()
-            .map(|t| t.clamp(first, last))
-            .collect();
+        let mut times: Vec<f64> = requested.into_iter().map(|t| t.clamp(first, last)).collect();
         times.dedup();
         times
     }
@@ -101,9 +98,5 @@ impl Recorder<'_> {
 type ColourValues<'a> = Option<&'a Values>;
 
 fn require_progress(progress: Progress<'_>) -> Result<(), StudyError> {
-    if progress(Phase::Record, 0.0) {
-        Ok(())
-    } else {
-        Err(StudyError::Interrupted)
-    }
+    if progress(Phase::Record, 0.0) { Ok(()) } else { Err(StudyError::Interrupted) }
 }

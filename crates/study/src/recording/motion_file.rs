@@ -75,20 +75,14 @@ pub(super) fn publish_record(
     let files = results.written().to_vec();
     let published =
         results.publish(Some(sha256), &|file| has_pictures && is_picture(&file.name))?;
-    let published = Published {
-        skipped,
-        others: Vec::new(),
-        ..published
-    };
+    let published = Published { skipped, others: Vec::new(), ..published };
     Ok((files, published))
 }
 
 /// Resolves the settings `record` of the recording of a motion file.
 pub(super) fn recording(record: &RecordScene) -> Result<Recording, StudyError> {
     let mut record = record.clone();
-    let outputs = record
-        .outputs
-        .get_or_insert_with(|| vec![OutputChoice::Gif]);
+    let outputs = record.outputs.get_or_insert_with(|| vec![OutputChoice::Gif]);
     let needs_scene = [OutputChoice::Fold, OutputChoice::Csv];
     let refused = outputs.iter().find(|o| needs_scene.contains(o)).copied();
     let source = SceneSource::from_flags(&record);
@@ -103,10 +97,7 @@ pub(super) fn recording(record: &RecordScene) -> Result<Recording, StudyError> {
         let message = "a motion file has no profile; run the scene instead".to_owned();
         return Err(source.value_error("record.profile", message));
     }
-    let scene = Scene {
-        record,
-        ..Scene::default()
-    };
+    let scene = Scene { record, ..Scene::default() };
     let input = Input::new(&source, &scene);
     resolved(&input, input.title(None))
 }
@@ -170,11 +161,7 @@ impl LoadedMotion {
             return Err(input.failure(&message));
         }
         let compact_order = of_triangles(&claimed, &file);
-        let mut motion = Motion {
-            sheet: file.sheet,
-            frames,
-            compact_order,
-        };
+        let mut motion = Motion { sheet: file.sheet, frames, compact_order };
         let marks = certificate_marks(path, &motion, &sha256, file.has_times);
         if !file.has_times {
             as_one_stage(&mut motion);
@@ -221,12 +208,7 @@ impl LoadedMotion {
         let penetrates = !marks.is_empty();
         self.record(&recording, marks, &mut results, progress)?;
         let (files, published) = publish_record(results, &recording, &self.sha256)?;
-        Ok(MotionRecord {
-            files,
-            is_checked,
-            penetrates,
-            published,
-        })
+        Ok(MotionRecord { files, is_checked, penetrates, published })
     }
 
     /// Records the motion into `results`.
@@ -330,13 +312,7 @@ fn certificate_marks(path: &Path, motion: &Motion, sha256: &str, has_times: bool
         return None;
     }
     // Without times in the file, the times of the certificate count frames.
-    Some(marks(motion, &report, |time| {
-        if has_times {
-            time
-        } else {
-            stage_time(time, frames)
-        }
-    }))
+    Some(marks(motion, &report, |time| if has_times { time } else { stage_time(time, frames) }))
 }
 
 /// Converts times that count frames into motion times of one stage, from planar to compact.

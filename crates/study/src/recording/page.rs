@@ -50,10 +50,8 @@ impl Recorder<'_> {
         if self.has_rest_lengths {
             quantities.insert(0, Quantity::Strain);
         }
-        let values: Vec<_> = quantities
-            .into_iter()
-            .map(|quantity| quantity.of_motion(self.motion))
-            .collect();
+        let values: Vec<_> =
+            quantities.into_iter().map(|quantity| quantity.of_motion(self.motion)).collect();
         let content = Page {
             motion: self.motion,
             marks: &self.marks,
@@ -64,9 +62,7 @@ impl Recorder<'_> {
             fold: self.page_content.fold.as_deref(),
         };
         results.write("motion.html", |out| {
-            page(&content, &options, out)
-                .map(drop)
-                .map_err(StudyError::from)
+            page(&content, &options, out).map(drop).map_err(StudyError::from)
         })
     }
 }

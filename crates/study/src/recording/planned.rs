@@ -45,10 +45,7 @@ pub(super) fn moving_pictures(film: &FilmOptions) -> u64 {
     in_seconds(film, film.seconds.iter().sum())
 }
 
-#[expect(
-    clippy::cast_sign_loss,
-    reason = "the film's options were checked to be positive"
-)]
+#[expect(clippy::cast_sign_loss, reason = "the film's options were checked to be positive")]
 fn in_seconds(film: &FilmOptions, seconds: f64) -> u64 {
     let passes = match film.playback {
         Playback::Once => 1.0,

@@ -70,16 +70,11 @@ pub fn reproduce_file(
     }
     let name = original.name()?;
     if !results.written().contains(&name) {
-        return Err(original.error(format!(
-            "the recording has no {name}: rename the file to its original name"
-        )));
+        return Err(original
+            .error(format!("the recording has no {name}: rename the file to its original name")));
     }
     let made = results.take(&name, &target, replaces_all)?;
-    Ok(Reproduction {
-        path: target,
-        is_same: made == earlier,
-        warnings,
-    })
+    Ok(Reproduction { path: target, is_same: made == earlier, warnings })
 }
 
 /// The file to reproduce.
@@ -99,18 +94,11 @@ impl<'a> Original<'a> {
             path: file.to_owned(),
             message: "its extension is not gif, mp4, png, svg, pdf, glb, obj or html: rename the file to its original name".to_owned(),
         })?;
-        Ok(Self {
-            file,
-            output,
-            state: source_info.state,
-        })
+        Ok(Self { file, output, state: source_info.state })
     }
 
     fn error(&self, message: String) -> StudyError {
-        StudyError::SourceInfo {
-            path: self.file.to_owned(),
-            message,
-        }
+        StudyError::SourceInfo { path: self.file.to_owned(), message }
     }
 
     fn file_name(&self) -> String {
@@ -187,11 +175,7 @@ impl<'a> Original<'a> {
     /// The motion file called `name`. Only the name counts: a recorded file must not lead to other folders.
     fn find(&self, name: &str) -> Result<PathBuf, StudyError> {
         let only_name = Path::new(name).file_name().unwrap_or_default();
-        let folders = [
-            self.folder().to_owned(),
-            self.folder().join(".."),
-            PathBuf::new(),
-        ];
+        let folders = [self.folder().to_owned(), self.folder().join(".."), PathBuf::new()];
         let mut paths = folders.into_iter().map(|folder| folder.join(only_name));
         paths.find(|path| path.is_file()).ok_or_else(|| {
             self.error(format!(

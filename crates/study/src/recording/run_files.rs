@@ -47,10 +47,7 @@ impl Study {
     /// The recording with `record` instead of the scene's `[record]`.
     fn recording_as(&self, record: &RecordScene) -> Result<Recording, StudyError> {
         let source = SceneSource::from_flags(record);
-        let scene = Scene {
-            record: record.clone(),
-            ..self.recording.scene.clone()
-        };
+        let scene = Scene { record: record.clone(), ..self.recording.scene.clone() };
         let input = Input::new(&source, &scene);
         resolved(&input, self.title.clone())
     }

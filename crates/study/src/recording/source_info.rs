@@ -71,19 +71,13 @@ impl SourceInfo {
 
     /// The text of a file that shows the state at `time`.
     pub(crate) fn text_at(&self, time: f64) -> String {
-        let state = Self {
-            state: Some(time),
-            ..self.clone()
-        };
+        let state = Self { state: Some(time), ..self.clone() };
         state.text()
     }
 
     /// Reads the source information of the file at `path`.
     pub(crate) fn read(path: &Path) -> Result<Self, StudyError> {
-        let error = |message: String| StudyError::SourceInfo {
-            path: path.to_owned(),
-            message,
-        };
+        let error = |message: String| StudyError::SourceInfo { path: path.to_owned(), message };
         let bytes = input_file::read(path, LARGEST)?;
         let text = embedded(&bytes).ok_or_else(|| {
             error(
@@ -93,16 +87,11 @@ impl SourceInfo {
             )
         })?;
         let info: Self = toml::from_str(&text).map_err(|e| {
-            error(format!(
-                "its source information cannot be read: {}",
-                e.message()
-            ))
+            error(format!("its source information cannot be read: {}", e.message()))
         })?;
         match (&info.scene, &info.record, &info.motion) {
             (Some(_), None, None) | (None, Some(_), Some(_)) => Ok(info),
-            _ => Err(error(
-                "its source information names neither a scene nor a motion".to_owned(),
-            )),
+            _ => Err(error("its source information names neither a scene nor a motion".to_owned())),
         }
     }
 }

@@ -92,12 +92,7 @@ impl PenetrationReport {
                 format!(" ({} row {} column {})", u.name, u.row, u.column)
             })
         };
-        let names: Vec<&str> = self
-            .vertex_names
-            .iter()
-            .flatten()
-            .map(String::as_str)
-            .collect();
+        let names: Vec<&str> = self.vertex_names.iter().flatten().map(String::as_str).collect();
         format!(
             "t = {:.5} ({}): {}, facets {}{} and {}{}, vertices {:?}{}, depth {:.2} {h}",
             self.t,
@@ -108,11 +103,7 @@ impl PenetrationReport {
             self.facets[1],
             unit(1),
             self.vertices,
-            if names.is_empty() {
-                String::new()
-            } else {
-                format!(" ({})", names.join(", "))
-            },
+            if names.is_empty() { String::new() } else { format!(" ({})", names.join(", ")) },
             Number(self.depth)
         )
     }
@@ -142,21 +133,14 @@ impl Study {
     }
 
     pub(super) fn penetration_report(&self, p: &Penetration) -> PenetrationReport {
-        let facets = p
-            .faces
-            .map(|f| self.subject.sheet().face_facets[f as usize]);
+        let facets = p.faces.map(|f| self.subject.sheet().face_facets[f as usize]);
         let units = self.subject.units_of(facets);
         let vertex_name = |&v: &u32| {
             let sheet = &self.subject.units()?.units;
             let pair = units.as_ref()?;
-            pair.iter()
-                .find_map(|u| sheet.vertex_name(v, u.row, u.column))
+            pair.iter().find_map(|u| sheet.vertex_name(v, u.row, u.column))
         };
-        let stage = if p.time < 1.0 {
-            Stage::Unfold
-        } else {
-            Stage::Fold
-        };
+        let stage = if p.time < 1.0 { Stage::Unfold } else { Stage::Fold };
         PenetrationReport {
             t: p.time,
             stage,

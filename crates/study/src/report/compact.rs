@@ -93,21 +93,13 @@ pub struct ErrorReport {
 
 impl From<CompactBox> for BoxReport {
     fn from(b: CompactBox) -> Self {
-        Self {
-            extents: b.extents,
-            area: b.area,
-            volume: b.volume,
-        }
+        Self { extents: b.extents, area: b.area, volume: b.volume }
     }
 }
 
 impl From<&FittedBox> for BoxReport {
     fn from(b: &FittedBox) -> Self {
-        Self {
-            extents: b.extents.into(),
-            area: b.area,
-            volume: b.volume,
-        }
+        Self { extents: b.extents.into(), area: b.area, volume: b.volume }
     }
 }
 
@@ -115,30 +107,14 @@ impl ErrorReport {
     /// The errors of a box against the extents of its closed form, for units of the height `h`.
     pub fn new(measured: &FittedBox, closed_form: [f64; 3], h: f64) -> Self {
         let error = relative_error(measured, closed_form.into(), h);
-        Self {
-            extents: error.extents.into(),
-            area: error.area,
-            volume: error.volume,
-        }
+        Self { extents: error.extents.into(), area: error.area, volume: error.volume }
     }
 }
 
 impl From<SkinPlane> for SkinPlaneReport {
     fn from(plane: SkinPlane) -> Self {
-        let SkinPlane {
-            facets,
-            edges,
-            vertices,
-            area,
-            share,
-        } = plane;
-        Self {
-            facets,
-            edges,
-            vertices,
-            area,
-            share,
-        }
+        let SkinPlane { facets, edges, vertices, area, share } = plane;
+        Self { facets, edges, vertices, area, share }
     }
 }
 
@@ -171,10 +147,7 @@ impl Study {
     ) -> Option<String> {
         let error = compact.relative_error?;
         let is_large = |axis: &usize| error.extents[*axis].abs() > LARGE_ERROR;
-        let axes: Vec<&str> = (0..3)
-            .filter(is_large)
-            .map(|axis| ["x", "y", "z"][axis])
-            .collect();
+        let axes: Vec<&str> = (0..3).filter(is_large).map(|axis| ["x", "y", "z"][axis]).collect();
         if axes.is_empty() {
             return None;
         }
@@ -200,10 +173,7 @@ impl Study {
         let fit = RigidMotion::best_fit(positions, &exact);
         let fitted: Vec<DVec3> = positions.iter().map(|&p| fit.apply(p)).collect();
         let tolerance = SKIN_TOLERANCE * units.unit.flap;
-        let (measured, exact) = (
-            units.skin(&fitted, tolerance)?,
-            units.skin(&exact, tolerance)?,
-        );
+        let (measured, exact) = (units.skin(&fitted, tolerance)?, units.skin(&exact, tolerance)?);
         Some(SkinReport {
             tolerance: SKIN_TOLERANCE,
             upper: measured.upper.into(),

@@ -134,9 +134,7 @@ impl Study {
     ) -> Report {
         let units = self.subject.units();
         let sheet = units.map(|study| &study.units);
-        let Folded {
-            computed, findings, ..
-        } = folded;
+        let Folded { computed, findings, .. } = folded;
         let fold_angles = folded.fold_angles;
         let mut compact = self.compact_report(&folded.compact, folded.motion.frames.last());
         compact.explanation = self.explanation(&compact, &folded.outcome, &fold_angles);
@@ -158,11 +156,7 @@ impl Study {
             closed_form: self.subject.closed_form().map(BoxReport::from),
             compact,
             unfold: units.map(|study| unfold_report(&study.unfolding)),
-            stages: computed
-                .stages
-                .iter()
-                .map(|s| stage_report(s, &findings.series))
-                .collect(),
+            stages: computed.stages.iter().map(|s| stage_report(s, &findings.series)).collect(),
             fold_angles,
             symmetry: units.map_or_else(Vec::new, |_| SymmetryReport::all(&folded.motion)),
             jam: folded.jam.clone(),

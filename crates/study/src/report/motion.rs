@@ -88,19 +88,13 @@ pub struct SecondsReport {
 
 impl SecondsReport {
     /// Zeros, for a report without timings.
-    pub(crate) const NONE: Self = Self {
-        check: 0.0,
-        record: 0.0,
-        total: 0.0,
-    };
+    pub(crate) const NONE: Self = Self { check: 0.0, record: 0.0, total: 0.0 };
 }
 
 pub(super) fn stage_report(stage: &StageSummary, series: &[FrameFigures]) -> StageReport {
     let start = stage.stage.start_time();
-    let within: Vec<&FrameFigures> = series
-        .iter()
-        .filter(|f| (start..=start + 1.0).contains(&f.time))
-        .collect();
+    let within: Vec<&FrameFigures> =
+        series.iter().filter(|f| (start..=start + 1.0).contains(&f.time)).collect();
     let peak = |value: fn(&FrameFigures) -> f64| {
         within
             .iter()

@@ -149,14 +149,8 @@ impl MapReport {
         if let Some(height) = self.stack_height {
             let _ = write!(line, ", {height:.6} {unit} high");
         }
-        if let Some(BoxReport {
-            extents: [x, y, z], ..
-        }) = &self.waterbomb
-        {
-            let _ = write!(
-                line,
-                "; folded unit by unit {x:.6} x {y:.6} x {z:.6} {unit}"
-            );
+        if let Some(BoxReport { extents: [x, y, z], .. }) = &self.waterbomb {
+            let _ = write!(line, "; folded unit by unit {x:.6} x {y:.6} x {z:.6} {unit}");
         }
         line
     }
@@ -224,28 +218,19 @@ impl Study {
 }
 
 pub(super) fn row_reports(sheet: &UnitSheet) -> Option<Vec<RowReport>> {
-    let row = |unit: &Unit| RowReport {
-        case: unit.case.name().to_owned(),
-        height: unit.height,
-    };
+    let row = |unit: &Unit| RowReport { case: unit.case.name().to_owned(), height: unit.height };
     let rows = sheet.row_units().iter().map(row);
     (!sheet.has_equal_rows()).then(|| rows.collect())
 }
 
 pub(super) fn profile_report(study: &UnitStudy) -> ProfileReport {
-    ProfileReport {
-        source: study.profile_source.clone(),
-        closed: study.profile.is_closed(),
-    }
+    ProfileReport { source: study.profile_source.clone(), closed: study.profile.is_closed() }
 }
 
 pub(super) fn division_report(study: &UnitStudy) -> DivisionReport {
     DivisionReport {
         method: study.division_method,
-        fit: FitReport {
-            largest: study.fit.largest,
-            mean: study.fit.mean,
-        },
+        fit: FitReport { largest: study.fit.largest, mean: study.fit.mean },
         max_residual: study.division.max_residual,
         mean_residual: study.division.mean_residual,
         iterations: study.division.iterations,

@@ -18,11 +18,7 @@ impl Report {
             out,
             "pattern: {}developable, {}flat-foldable; {} vertices, {} facets",
             if self.pattern.developable { "" } else { "not " },
-            if self.pattern.flat_foldable {
-                ""
-            } else {
-                "not "
-            },
+            if self.pattern.flat_foldable { "" } else { "not " },
             self.pattern.vertex_count,
             self.pattern.facet_count
         );
@@ -81,13 +77,9 @@ impl Report {
         if let Some(import) = &self.import {
             out.push_str(&import.lines(unit));
         }
-        if let (Some(case), Some(rows), Some(columns), Some(of_unit), Some(division)) = (
-            &self.case,
-            self.rows,
-            self.columns,
-            self.unit,
-            &self.division,
-        ) {
+        if let (Some(case), Some(rows), Some(columns), Some(of_unit), Some(division)) =
+            (&self.case, self.rows, self.columns, self.unit, &self.division)
+        {
             let _ = writeln!(
                 out,
                 "case {case}, {rows} x {columns} units, w = {:.6} {unit}, h = {:.6} {unit}; row heights equal to within |R_max| = {:.2} after {} iterations",
@@ -104,11 +96,7 @@ impl Report {
 
     /// The unit of tolerances and separations.
     fn tolerance_unit(&self) -> &'static str {
-        if self.import.is_some() {
-            "mean edges"
-        } else {
-            "h"
-        }
+        if self.import.is_some() { "mean edges" } else { "h" }
     }
 
     fn write_box(&self, out: &mut String) {
@@ -130,11 +118,7 @@ impl Report {
             line
         };
         let c = &self.compact;
-        let _ = writeln!(
-            out,
-            "{}  ({unit})",
-            row("measured", c.extents, c.area, c.volume)
-        );
+        let _ = writeln!(out, "{}  ({unit})", row("measured", c.extents, c.area, c.volume));
         if let Some(f) = &self.closed_form {
             let _ = writeln!(out, "{}", row("closed form", f.extents, f.area, f.volume));
         } else if self.import.is_none() {
@@ -224,11 +208,7 @@ impl Report {
         if let Some(first) = &c.first {
             let _ = writeln!(out, "first at {}", first.line(h));
         }
-        if let Some(within) = c
-            .first_within_unit
-            .as_ref()
-            .filter(|w| c.first.as_ref() != Some(w))
-        {
+        if let Some(within) = c.first_within_unit.as_ref().filter(|w| c.first.as_ref() != Some(w)) {
             let _ = writeln!(out, "first within one unit at {}", within.line(h));
         }
     }

@@ -28,9 +28,7 @@ impl MotionBudget {
             Self::Steps(steps) => Budget::Steps(steps),
             Self::Seconds(seconds) => {
                 let duration = Duration::try_from_secs_f64(seconds).unwrap_or(Duration::MAX);
-                Instant::now()
-                    .checked_add(duration)
-                    .map_or(Budget::Standard, Budget::Until)
+                Instant::now().checked_add(duration).map_or(Budget::Standard, Budget::Until)
             }
         }
     }
@@ -39,9 +37,7 @@ impl MotionBudget {
         if seconds > 0.0 && seconds <= MOST_SECONDS {
             Ok(Self::Seconds(seconds))
         } else {
-            Err(format!(
-                "seconds must be above 0 and at most {MOST_SECONDS:e}"
-            ))
+            Err(format!("seconds must be above 0 and at most {MOST_SECONDS:e}"))
         }
     }
 }
@@ -52,9 +48,8 @@ impl FromStr for MotionBudget {
     /// Parses `60`, `60 s`, `60 seconds` or `20000 steps`.
     fn from_str(text: &str) -> Result<Self, String> {
         let text = text.trim();
-        let split = text
-            .find(|c: char| c.is_alphabetic() && c != 'e' && c != 'E')
-            .unwrap_or(text.len());
+        let split =
+            text.find(|c: char| c.is_alphabetic() && c != 'e' && c != 'E').unwrap_or(text.len());
         let (number, unit) = (text[..split].trim(), &text[split..]);
         let wrong =
             || format!("{text:?} is neither seconds (60 s) nor a number of steps (20000 steps)");
@@ -76,9 +71,7 @@ pub(crate) fn budget(input: &Input<'_>) -> Result<Option<MotionBudget>, StudyErr
         Some(BudgetScene::Seconds(seconds)) => MotionBudget::seconds(*seconds),
         Some(BudgetScene::Words(words)) => words.parse(),
     };
-    budget
-        .map(Some)
-        .map_err(|message| input.error("motion.budget", message))
+    budget.map(Some).map_err(|message| input.error("motion.budget", message))
 }
 
 #[cfg(test)]
@@ -91,19 +84,9 @@ mod tests {
             assert_eq!(text.parse(), Ok(MotionBudget::Seconds(60.0)), "{text}");
         }
         assert_eq!("20000 steps".parse(), Ok(MotionBudget::Steps(20_000)));
-        for text in [
-            "",
-            "s",
-            "-1",
-            "0",
-            "0 steps",
-            "1.5 steps",
-            "nan",
-            "inf",
-            "1 h",
-            "1e300 s",
-            "steps 5",
-        ] {
+        for text in
+            ["", "s", "-1", "0", "0 steps", "1.5 steps", "nan", "inf", "1 h", "1e300 s", "steps 5"]
+        {
             assert!(text.parse::<MotionBudget>().is_err(), "{text}");
         }
     }

@@ -35,10 +35,7 @@ pub(crate) fn collision(
     }
     if let Some(stop_at) = input.scene.check.stop_at {
         options.stop_at = usize::try_from(stop_at).map_err(|_| {
-            input.error(
-                "check.stop_at",
-                "must be a number of pairs, or 0 for no limit",
-            )
+            input.error("check.stop_at", "must be a number of pairs, or 0 for no limit")
         })?;
     }
     Ok(options)

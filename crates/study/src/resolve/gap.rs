@@ -15,9 +15,7 @@ const SMALLEST_GAP: f64 = 1e-6;
 /// The contact gap, in units of the sheet's unit length; `None` without contact.
 pub(crate) fn contact_gap(input: &Input<'_>, subject: &Subject) -> Result<Option<f64>, StudyError> {
     let height = subject.sheet().unit_length;
-    let is_map = subject
-        .units()
-        .is_some_and(|s| s.units.map_layers().is_some());
+    let is_map = subject.units().is_some_and(|s| s.units.map_layers().is_some());
     let motion = &input.scene.motion;
     let thickness = input.scene.material.thickness;
     let is_dynamic = engine(input) == EngineChoice::Dynamic;
@@ -53,20 +51,12 @@ pub(crate) fn contact_gap(input: &Input<'_>, subject: &Subject) -> Result<Option
     if gap >= SMALLEST_GAP && gap <= limit {
         return Ok(Some(gap));
     }
-    let scale = if key == "material.thickness" {
-        height
-    } else {
-        1.0
-    };
+    let scale = if key == "material.thickness" { height } else { 1.0 };
     let message = format!(
         "must be between {} and {:.6}, so that {layers} layers fit next to the thinnest part of the {}",
         Number(SMALLEST_GAP * scale),
         Number(limit * scale),
-        if subject.units().is_some() {
-            "unit"
-        } else {
-            "pattern"
-        }
+        if subject.units().is_some() { "unit" } else { "pattern" }
     );
     Err(input.error(key, message))
 }

@@ -103,9 +103,7 @@ pub(crate) fn imported_schedule(
     if study.waypoints.len() > 1 {
         schedule = schedule.with_waypoints(sheet, &study.waypoints)?;
     }
-    schedule
-        .with_steps(sheet, &imported_steps(input)?)
-        .map_err(|e| schedule_error(input, e))
+    schedule.with_steps(sheet, &imported_steps(input)?).map_err(|e| schedule_error(input, e))
 }
 
 /// Refuses keys that do not apply to an imported pattern.
@@ -120,10 +118,7 @@ fn refuse_keys_of_units(input: &Input<'_>) -> Result<(), StudyError> {
         let message = format!(
             "[{table}] describes a sheet of units, but [pattern] imports a sheet; omit one of the two"
         );
-        return Err(StudyError::Parse {
-            location: input.source.location_of(table),
-            message,
-        });
+        return Err(StudyError::Parse { location: input.source.location_of(table), message });
     }
     if scene.motion.unfold.is_some() {
         let message = "an imported pattern starts flat, so nothing is unfolded; omit it";
@@ -145,9 +140,7 @@ fn read_pattern(input: &Input<'_>, scene: &PatternScene) -> Result<ImportedPatte
     let options = ImportOptions {
         merge: scene.vertex_tolerance.map(MergeTolerance::Absolute),
         unknown: scene.unknown.unwrap_or_default(),
-        curves: scene
-            .curve_tolerance
-            .map_or(Curves::Refuse, Curves::Flatten),
+        curves: scene.curve_tolerance.map_or(Curves::Refuse, Curves::Flatten),
     };
     let bytes = input_file::read(&path, LARGEST_IMPORT_FILE as u64)?;
     let imported = match format {
@@ -161,10 +154,7 @@ fn read_pattern(input: &Input<'_>, scene: &PatternScene) -> Result<ImportedPatte
         ImportError::CurveTolerance { .. } => {
             input.error("pattern.curve_tolerance", error.to_string())
         }
-        error => StudyError::Import {
-            path,
-            error: Box::new(error),
-        },
+        error => StudyError::Import { path, error: Box::new(error) },
     })
 }
 
@@ -213,10 +203,7 @@ fn imported_steps(input: &Input<'_>) -> Result<Vec<ScheduleStep>, StudyError> {
             ("rows", step.rows.is_some()),
             ("columns", step.columns.is_some()),
         ];
-        if let Some((key, _)) = unsuitable
-            .into_iter()
-            .find(|&(_, is_unsuitable)| is_unsuitable)
-        {
+        if let Some((key, _)) = unsuitable.into_iter().find(|&(_, is_unsuitable)| is_unsuitable) {
             let message = match key {
                 "stage" => "an imported pattern starts flat; its only stage is \"fold\"",
                 "creases" => {

@@ -55,10 +55,10 @@ impl<'a> Input<'a> {
                     self.error(key, format!("must be between 1 and {MOST_ROWS_OR_COLUMNS}"))
                 }),
             (None, Some(n)) => Ok(n),
-            (None, None) => Err(self.error(
-                key,
-                "is missing; it is required unless the profile is a built-in one",
-            )),
+            (None, None) => {
+                Err(self
+                    .error(key, "is missing; it is required unless the profile is a built-in one"))
+            }
         }
     }
 }

@@ -120,13 +120,8 @@ fn notes(input: &Input<'_>, subject: &Subject) -> Vec<String> {
     if !is_open || !units.has_equal_rows() || !matches!(units.unit.case, Case::E | Case::T) {
         return Vec::new();
     }
-    let given = [
-        ("sheet.lambda", scene.lambda),
-        ("sheet.offset", scene.offset),
-    ];
-    let unused = given
-        .into_iter()
-        .filter_map(|(key, value)| Some((key, value?)));
+    let given = [("sheet.lambda", scene.lambda), ("sheet.offset", scene.offset)];
+    let unused = given.into_iter().filter_map(|(key, value)| Some((key, value?)));
     let note = |(key, value)| {
         let (case, ratio) = (units.unit.case.name(), units.unit.width / units.unit.height);
         let location = input.source.location_of(key);

@@ -10,11 +10,7 @@ use crate::scene::{EngineChoice, StepScene};
 const MOST_FRAMES: usize = 100_000;
 
 pub(crate) fn engine(input: &Input<'_>) -> EngineChoice {
-    input
-        .scene
-        .motion
-        .engine
-        .unwrap_or(EngineChoice::QuasiStatic)
+    input.scene.motion.engine.unwrap_or(EngineChoice::QuasiStatic)
 }
 
 pub(crate) fn frames(input: &Input<'_>) -> Result<usize, StudyError> {
@@ -49,14 +45,7 @@ pub(crate) fn steps(input: &Input<'_>) -> Result<Vec<ScheduleStep>, StudyError> 
             ease: step.ease.unwrap_or_default(),
         })
     };
-    input
-        .scene
-        .motion
-        .step
-        .iter()
-        .enumerate()
-        .map(step)
-        .collect()
+    input.scene.motion.step.iter().enumerate().map(step).collect()
 }
 
 fn index_range(

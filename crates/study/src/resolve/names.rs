@@ -23,14 +23,9 @@ impl Subject {
         let Some(units) = self.units() else {
             return format!("facet {facet}");
         };
-        let Facet {
-            row, column, kind, ..
-        } = units.units.sheet.facets[facet as usize];
+        let Facet { row, column, kind, .. } = units.units.sheet.facets[facet as usize];
         let unit = UnitSheet::unit_name(row);
-        format!(
-            "{} {facet} of unit {unit} row {row} column {column}",
-            kind.name()
-        )
+        format!("{} {facet} of unit {unit} row {row} column {column}", kind.name())
     }
 
     /// The units of two facets; `None` for an imported pattern.

@@ -58,21 +58,14 @@ fn half_turn(exact: &ExactStates<'_>) -> DMat3 {
     let lies_the_other_way = angle(DMat3::IDENTITY) > PI - QUARTER_TURN / 2.0;
     let axes = [DVec3::Z, DVec3::Y, DVec3::X];
     let turns = axes.map(|axis| DMat3::from_diagonal(2.0 * axis - DVec3::ONE));
-    let fitting = turns
-        .into_iter()
-        .find(|&turn| angle(turn) < QUARTER_TURN / 2.0);
-    fitting
-        .filter(|_| lies_the_other_way)
-        .unwrap_or(DMat3::IDENTITY)
+    let fitting = turns.into_iter().find(|&turn| angle(turn) < QUARTER_TURN / 2.0);
+    fitting.filter(|_| lies_the_other_way).unwrap_or(DMat3::IDENTITY)
 }
 
 /// `positions` turned about their centre.
 fn turned(positions: &[DVec3], turn: DMat3) -> Vec<DVec3> {
     let centre = centre(positions);
-    positions
-        .iter()
-        .map(|&p| centre + turn * (p - centre))
-        .collect()
+    positions.iter().map(|&p| centre + turn * (p - centre)).collect()
 }
 
 /// Places the frames of the stage that leads to `exact`, after its placed first frame `start`.
@@ -97,10 +90,7 @@ fn place_stage(start: &Frame, frames: &mut [Frame], exact: &[DVec3]) {
         let share = share(frame.time - start.time.floor());
         let rotation = DMat3::from_axis_angle(axis, share * angle);
         let translation = centre + share * displacement - rotation * centre;
-        let motion = RigidMotion {
-            rotation,
-            translation,
-        };
+        let motion = RigidMotion { rotation, translation };
         apply(&motion, frame);
     }
 }
@@ -115,11 +105,7 @@ fn share(u: f64) -> f64 {
 fn axis_and_angle(rotation: DMat3) -> (DVec3, f64) {
     let q = DQuat::from_mat3(&rotation);
     let largest = |v: DVec3| v.to_array().into_iter().fold(0.0, furthest);
-    let is_reversed = if q.w.abs() < HALF_TURN {
-        largest(q.xyz()) < 0.0
-    } else {
-        q.w < 0.0
-    };
+    let is_reversed = if q.w.abs() < HALF_TURN { largest(q.xyz()) < 0.0 } else { q.w < 0.0 };
     let q = if is_reversed { -q } else { q };
     let sine = q.xyz().length();
     let axis = q.xyz().try_normalize().unwrap_or(DVec3::Z);
@@ -167,12 +153,8 @@ mod tests {
         (study, computed)
     }
 
-    const SHEETS: [&str; 4] = [
-        "case = \"E\"",
-        "case = \"T\"",
-        "case = \"S\"",
-        "case = \"SII\"\nlambda = 0.7",
-    ];
+    const SHEETS: [&str; 4] =
+        ["case = \"E\"", "case = \"T\"", "case = \"S\"", "case = \"SII\"\nlambda = 0.7"];
 
     /// The largest turn of the sheet as a whole from one frame to the next, degrees.
     fn largest_turn(frames: &[Frame]) -> f64 {
@@ -222,10 +204,7 @@ mod tests {
             let turn =
                 DMat3::from_euler(glam::EulerRot::XYZ, 40.0 * time, -7.0 * time, 90.0 * time);
             let moved = |p: DVec3| turn * p + DVec3::new(time.sin(), 3.0 * time, -time);
-            Frame {
-                time,
-                positions: BAR.map(moved).to_vec(),
-            }
+            Frame { time, positions: BAR.map(moved).to_vec() }
         };
         times.map(frame).collect()
     }
@@ -268,11 +247,7 @@ mod tests {
         const STEPS: u32 = 100;
         let turned = |angle: f64| BAR.map(|p| DMat3::from_rotation_y(angle) * p + DVec3::X);
         let (third, quarter) = (turned(PI / 1.5), turned(FRAC_PI_2));
-        let exact = ExactStates {
-            deployed: &BAR,
-            planar: &third,
-            compact: &quarter,
-        };
+        let exact = ExactStates { deployed: &BAR, planar: &third, compact: &quarter };
         let mut frames = tumbling((0..=2 * STEPS).map(|k| f64::from(k) / f64::from(STEPS)));
         assert!(largest_turn(&frames) > 20.0);
         place(&mut frames, &exact);
@@ -291,11 +266,7 @@ mod tests {
     #[test]
     fn a_stage_that_did_not_reach_its_end_is_not_rotated() {
         let far = BAR.map(|p| DMat3::from_rotation_z(2.0) * p);
-        let exact = ExactStates {
-            deployed: &BAR,
-            planar: &BAR,
-            compact: &far,
-        };
+        let exact = ExactStates { deployed: &BAR, planar: &BAR, compact: &far };
         let mut frames = tumbling((0..=19).map(|k| f64::from(k) / 10.0));
         place(&mut frames, &exact);
         assert!(largest_turn(&frames) < 1e-9);

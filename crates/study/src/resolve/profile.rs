@@ -52,11 +52,7 @@ pub(crate) fn curve(input: &Input<'_>) -> Result<Curve, StudyError> {
                 Some(knots) => Profile::with_knots(&list(points), knots, closure),
                 None => Profile::new(&list(points), closure),
             };
-            own(
-                profile,
-                "profile.control_points",
-                "control points of the scene",
-            )
+            own(profile, "profile.control_points", "control points of the scene")
         }
         (_, Some(points), _) => {
             let profile = Profile::through(&list(points), closure);
@@ -111,9 +107,7 @@ fn built_in(input: &Input<'_>, name: &str) -> Result<Curve, StudyError> {
     };
     Ok(Curve {
         model: Some(model),
-        profile: model
-            .profile()
-            .map_err(|e| curve_error(input, &e, "profile.model"))?,
+        profile: model.profile().map_err(|e| curve_error(input, &e, "profile.model"))?,
         source: format!("{}: {}", model.name, model.source),
     })
 }
@@ -126,11 +120,7 @@ fn outline(input: &Input<'_>, file: &str) -> Result<Outline, StudyError> {
 
 /// Divides the curve into the segments of the rows.
 pub(crate) fn division(input: &Input<'_>, curve: &Curve) -> Result<DividedProfile, StudyError> {
-    let method = input
-        .scene
-        .division
-        .method
-        .unwrap_or(DivisionMethod::EqualLength);
+    let method = input.scene.division.method.unwrap_or(DivisionMethod::EqualLength);
     let length = match (input.scene.profile.length, curve.model) {
         (Some(length), _) => Some(input.length("profile.length", length)?),
         (None, model) => model.map(ProfileModel::length),
@@ -141,12 +131,7 @@ pub(crate) fn division(input: &Input<'_>, curve: &Curve) -> Result<DividedProfil
         Some(tolerance) => simplified(input, curve, tolerance, length)?,
         None => divided(input, curve, method, length)?,
     };
-    let divided = DividedProfile {
-        fit: division.fit(&profile),
-        profile,
-        division,
-        method,
-    };
+    let divided = DividedProfile { fit: division.fit(&profile), profile, division, method };
     check_equal(input, &divided)?;
     Ok(divided)
 }
@@ -226,10 +211,7 @@ fn division_options(
     method: DivisionMethod,
 ) -> Result<DivisionOptions, StudyError> {
     let scene = &input.scene.division;
-    let mut options = DivisionOptions {
-        method,
-        ..DivisionOptions::default()
-    };
+    let mut options = DivisionOptions { method, ..DivisionOptions::default() };
     if let Some(tolerance) = scene.tolerance {
         if !(0.0..1.0).contains(&tolerance) {
             return Err(input.error("division.tolerance", "must be between 0 and 1"));
@@ -237,12 +219,10 @@ fn division_options(
         options.tolerance = tolerance;
     }
     if let Some(limit) = scene.max_iterations {
-        options.max_iterations = usize::try_from(limit)
-            .ok()
-            .filter(|&n| (1..=1_000_000).contains(&n))
-            .ok_or_else(|| {
-                input.error("division.max_iterations", "must be between 1 and 1000000")
-            })?;
+        options.max_iterations =
+            usize::try_from(limit).ok().filter(|&n| (1..=1_000_000).contains(&n)).ok_or_else(
+                || input.error("division.max_iterations", "must be between 1 and 1000000"),
+            )?;
     }
     Ok(options)
 }

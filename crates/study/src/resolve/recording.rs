@@ -68,12 +68,9 @@ fn style(colour: ColourChoice) -> Style {
     match colour {
         ColourChoice::Paper => Style::default(),
         ColourChoice::Grey => Style::grey(),
-        ColourChoice::Strain | ColourChoice::Bending => Style {
-            mountain: NEUTRAL,
-            valley: NEUTRAL,
-            line_width: 0.9,
-            ..Style::default()
-        },
+        ColourChoice::Strain | ColourChoice::Bending => {
+            Style { mountain: NEUTRAL, valley: NEUTRAL, line_width: 0.9, ..Style::default() }
+        }
     }
 }
 
@@ -199,15 +196,9 @@ fn aim(input: &Input<'_>) -> Result<(Option<DVec3>, Option<f64>), StudyError> {
         let message = format!("centre must be three numbers within ±{}", Number(FARTHEST));
         return Err(input.error("record.camera", message));
     }
-    if !own
-        .width
-        .is_none_or(|w| (NARROWEST..=FARTHEST).contains(&w))
-    {
-        let message = format!(
-            "width must be between {} and {}",
-            Number(NARROWEST),
-            Number(FARTHEST)
-        );
+    if !own.width.is_none_or(|w| (NARROWEST..=FARTHEST).contains(&w)) {
+        let message =
+            format!("width must be between {} and {}", Number(NARROWEST), Number(FARTHEST));
         return Err(input.error("record.camera", message));
     }
     Ok((own.centre.map(DVec3::from), own.width))

@@ -48,11 +48,7 @@ pub(crate) fn units(
 fn facet_model(input: &Input<'_>, sheet: &UnitSheet) -> FacetModel {
     // The units of a map are stacked, and middle nodes in their facets make the stack jam.
     let is_split = folding(input) == Folding::Map || sheet.narrowest_facet() < NARROW;
-    let default = if is_split {
-        FacetModel::OneDiagonal
-    } else {
-        FacetModel::Symmetric
-    };
+    let default = if is_split { FacetModel::OneDiagonal } else { FacetModel::Symmetric };
     input.scene.material.facet_model.unwrap_or(default)
 }
 
@@ -78,11 +74,7 @@ fn row_units(
         return Err(input.error("sheet.case", message));
     }
     let width = unit_width(input, built_in, height, columns)?;
-    let heights: Vec<f64> = division
-        .points
-        .windows(2)
-        .map(|p| p[0].distance(p[1]))
-        .collect();
+    let heights: Vec<f64> = division.points.windows(2).map(|p| p[0].distance(p[1])).collect();
     let rows = if scene.unequal == Some(UnequalChoice::CommonFlap) {
         let lambda = scene.lambda.unwrap_or(COMMON_LAMBDA);
         common_flap(width, &heights, lambda, scene.offset)
@@ -96,10 +88,8 @@ fn row_units(
 /// Refuses λ and d, which apply only to case SII and to a common flap.
 fn refuse_flap_keys(input: &Input<'_>) -> Result<(), StudyError> {
     let scene = &input.scene.sheet;
-    let given = [
-        ("sheet.lambda", scene.lambda.is_some()),
-        ("sheet.offset", scene.offset.is_some()),
-    ];
+    let given =
+        [("sheet.lambda", scene.lambda.is_some()), ("sheet.offset", scene.offset.is_some())];
     match given.into_iter().find(|&(_, given)| given) {
         Some((key, _)) => {
             let message = "does not apply to rows in their own cases; omit it, or set unequal = \"common-flap\"";
@@ -129,10 +119,7 @@ pub(crate) fn steps_of(
         to: from + 0.5,
         ease: Ease::Linear,
     };
-    let map = [
-        half(CreaseGroup::Columns, 0.0),
-        half(CreaseGroup::Rows, 0.5),
-    ];
+    let map = [half(CreaseGroup::Columns, 0.0), half(CreaseGroup::Rows, 0.5)];
     Ok(steps.into_iter().chain(map).collect())
 }
 
@@ -149,13 +136,8 @@ pub fn clash_drawing(source: &SceneSource) -> Result<Option<String>, StudyError>
     if division.max_residual <= EQUAL_ROWS {
         return Ok(None);
     }
-    let columns = input.count(
-        "sheet.columns",
-        scene.sheet.columns,
-        curve.model.map(|m| m.columns.e),
-    )?;
+    let columns =
+        input.count("sheet.columns", scene.sheet.columns, curve.model.map(|m| m.columns.e))?;
     let rows = row_units(&input, curve.model, &division, columns)?;
-    clash_figure(&rows)
-        .map(Some)
-        .map_err(|e| pattern_error(&input, &e))
+    clash_figure(&rows).map(Some).map_err(|e| pattern_error(&input, &e))
 }

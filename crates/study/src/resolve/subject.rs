@@ -147,10 +147,7 @@ impl Subject {
     /// Places a state of a run in progress for display: a pattern by its fixed facet. Units are not moved, since their
     /// placement depends on the end of the run.
     pub fn show(&self, positions: Vec<DVec3>) -> Vec<DVec3> {
-        let mut frame = Frame {
-            time: 0.0,
-            positions,
-        };
+        let mut frame = Frame { time: 0.0, positions };
         if self.imported().is_some() {
             self.place(std::slice::from_mut(&mut frame));
         }

@@ -36,12 +36,7 @@ impl Unfolding {
         division: &Division,
         in_turn: bool,
     ) -> Result<Self, GeometryError> {
-        let mut unfolding = Self {
-            requested,
-            certified: false,
-            crosses_at: None,
-            path: None,
-        };
+        let mut unfolding = Self { requested, certified: false, crosses_at: None, path: None };
         let chain = Chain::new(&division.points, profile.is_closed());
         if requested == UnfoldChoice::Energy {
             unfolding.path = Some(straighten(&chain?)?);
@@ -66,11 +61,7 @@ impl Unfolding {
 
     /// The method that was taken: uniform or energy.
     pub fn method(&self) -> UnfoldChoice {
-        if self.path.is_some() {
-            UnfoldChoice::Energy
-        } else {
-            UnfoldChoice::Uniform
-        }
+        if self.path.is_some() { UnfoldChoice::Energy } else { UnfoldChoice::Uniform }
     }
 
     /// The path as fold angles of the row creases, for flaps on the side `facing`; `None` if uniform.

@@ -43,10 +43,7 @@ pub(crate) fn require_moderate(
         );
         return Err(input.error("sheet.columns", message));
     }
-    let Some(&unit) = units
-        .first()
-        .filter(|&first| units.iter().all(|unit| unit == first))
-    else {
+    let Some(&unit) = units.first().filter(|&first| units.iter().all(|unit| unit == first)) else {
         return Ok(());
     };
     match UnitSheet::count_compact_order(unit, rows, columns, folding) {
@@ -102,9 +99,7 @@ pub(crate) fn unit_width(
 
 pub(crate) fn pattern_error(input: &Input<'_>, error: &PatternError) -> StudyError {
     let key = match error {
-        PatternError::CountOutOfRange {
-            name: "columns", ..
-        } => "sheet.columns",
+        PatternError::CountOutOfRange { name: "columns", .. } => "sheet.columns",
         PatternError::CountOutOfRange { .. } | PatternError::WrongPolygon { .. } => "sheet.rows",
         PatternError::LambdaOutOfRange { .. }
         | PatternError::CommonFlapOutOfRange { .. }

@@ -78,20 +78,14 @@ pub(crate) struct ResolvedSheet {
 
 /// The sheet of units with its schedule.
 pub(crate) fn unit_study(input: &Input<'_>) -> Result<(UnitStudy, Schedule), StudyError> {
-    let ResolvedSheet {
-        profile_source,
-        divided,
-        division_seconds,
-        units,
-    } = lay_out(input, Purpose::Fold)?;
+    let ResolvedSheet { profile_source, divided, division_seconds, units } =
+        lay_out(input, Purpose::Fold)?;
     let (profile, division) = (divided.profile, divided.division);
     let facing = input.scene.sheet.facing.unwrap_or_default();
-    let deployed = units
-        .deployed(&division.points, facing)
-        .map_err(|e| pattern_error(input, &e))?;
-    let deployed_angles = units
-        .deployed_angles(&division.points, facing)
-        .map_err(|e| pattern_error(input, &e))?;
+    let deployed =
+        units.deployed(&division.points, facing).map_err(|e| pattern_error(input, &e))?;
+    let deployed_angles =
+        units.deployed_angles(&division.points, facing).map_err(|e| pattern_error(input, &e))?;
     let steps = steps_of(input, &units)?;
     let mut schedule = Schedule::uniform(&units.sheet, &deployed_angles, units.compact_angles())?
         .with_steps(&units.sheet, &steps)
@@ -119,9 +113,7 @@ pub(crate) fn unit_study(input: &Input<'_>) -> Result<(UnitStudy, Schedule), Stu
 
 /// The layer order of the compact state, which check and films keep in memory.
 fn compact_order(input: &Input<'_>, units: &UnitSheet) -> Result<LayerOrder, StudyError> {
-    units
-        .compact_order_within(MOST_ORDERED)
-        .ok_or_else(|| too_many_layers(input))
+    units.compact_order_within(MOST_ORDERED).ok_or_else(|| too_many_layers(input))
 }
 
 /// Divides the profile and lays out the sheet.
@@ -140,12 +132,7 @@ fn lay_out(input: &Input<'_>, purpose: Purpose) -> Result<ResolvedSheet, StudyEr
         curve.model.map(|m| m.columns.of(requested_case(input))),
     )?;
     let units = units(input, curve.model, &divided.division, columns, purpose)?;
-    Ok(ResolvedSheet {
-        profile_source: curve.source,
-        divided,
-        division_seconds,
-        units,
-    })
+    Ok(ResolvedSheet { profile_source: curve.source, divided, division_seconds, units })
 }
 
 fn unfolding(

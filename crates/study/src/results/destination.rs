@@ -12,10 +12,7 @@ pub struct Destination<'a> {
 impl<'a, P: AsRef<Path> + ?Sized> From<&'a P> for Destination<'a> {
     /// A folder in which only files that foldmotion made are replaced.
     fn from(folder: &'a P) -> Self {
-        Self {
-            folder: folder.as_ref(),
-            replaces_all: false,
-        }
+        Self { folder: folder.as_ref(), replaces_all: false }
     }
 }
 
@@ -33,9 +30,6 @@ impl<'a> Destination<'a> {
     /// This folder with `replaces_all`: whether files that foldmotion did not make may be replaced.
     #[must_use]
     pub fn replacing(self, replaces_all: bool) -> Self {
-        Self {
-            replaces_all,
-            ..self
-        }
+        Self { replaces_all, ..self }
     }
 }

@@ -91,15 +91,8 @@ impl Manifest {
             return list;
         }
         let files = files_of_report(&folder.join(REPORT)).unwrap_or_default();
-        let made = |name| ManifestEntry {
-            name,
-            by: Command::Run,
-            sha256: None,
-            of: None,
-        };
-        Self {
-            files: files.into_iter().map(made).collect(),
-        }
+        let made = |name| ManifestEntry { name, by: Command::Run, sha256: None, of: None };
+        Self { files: files.into_iter().map(made).collect() }
     }
 
     /// Writes the manifest into `folder` atomically, by way of the folder `temporary`.
@@ -194,7 +187,5 @@ fn files_of_report(path: &Path) -> Option<Vec<String>> {
 /// The bytes of a regular file that is not too large.
 fn read_bounded(path: &Path) -> Option<Vec<u8>> {
     let data = fs::metadata(path).ok()?;
-    (data.is_file() && data.len() <= LARGEST)
-        .then(|| fs::read(path).ok())
-        .flatten()
+    (data.is_file() && data.len() <= LARGEST).then(|| fs::read(path).ok()).flatten()
 }

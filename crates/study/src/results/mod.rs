@@ -75,21 +75,14 @@ impl Results {
         let folder = destination.folder();
         if folder.exists() && !folder.is_dir() {
             let source = io::Error::new(io::ErrorKind::NotADirectory, "it is a file, not a folder");
-            return Err(output_error(
-                folder,
-                "cannot be used as output folder",
-                source,
-            ));
+            return Err(output_error(folder, "cannot be used as output folder", source));
         }
         let parent = match folder.parent() {
             Some(parent) if !parent.as_os_str().is_empty() => parent,
             _ => Path::new("."),
         };
         fs::create_dir_all(parent).map_err(|e| output_error(parent, "cannot be created", e))?;
-        let name = folder
-            .file_name()
-            .unwrap_or_else(|| "out".as_ref())
-            .to_string_lossy();
+        let name = folder.file_name().unwrap_or_else(|| "out".as_ref()).to_string_lossy();
         abandoned::remove(parent, &name);
         let temporary = abandoned::folder_of(parent, &name);
         fs::create_dir_all(&temporary)
@@ -257,10 +250,8 @@ impl Results {
             // The folder is kept if it has other files.
             let _ = fs::remove_dir(&frames);
         }
-        let (report, others): (Vec<&String>, Vec<&String>) = self
-            .written
-            .iter()
-            .partition(|&n| Some(n.as_str()) == self.last);
+        let (report, others): (Vec<&String>, Vec<&String>) =
+            self.written.iter().partition(|&n| Some(n.as_str()) == self.last);
         for name in others.into_iter().chain(report) {
             let to = folder.join(name);
             fs::rename(self.temporary.join(name), &to)
@@ -270,11 +261,7 @@ impl Results {
         let mut others = names_of(&folder)?;
         others.retain(|name| is_of_a_run(name) && !after.has(self.command, name));
         others.retain(|name| !skipped.contains(name));
-        Ok(Published {
-            skipped,
-            removed: stale,
-            others,
-        })
+        Ok(Published { skipped, removed: stale, others })
     }
 
     fn has(&self, name: &str) -> bool {
@@ -374,11 +361,7 @@ pub(crate) fn write_error(folder: &Path, name: &str, source: io::Error) -> Study
 }
 
 pub(crate) fn output_error(path: &Path, action: &'static str, source: io::Error) -> StudyError {
-    StudyError::Output {
-        path: path.to_owned(),
-        action,
-        source,
-    }
+    StudyError::Output { path: path.to_owned(), action, source }
 }
 
 #[cfg(test)]

@@ -20,16 +20,11 @@ impl Published {
                  them)",
                 &self.skipped,
             ),
-            (
-                "removed, because they show an earlier motion",
-                &self.removed,
-            ),
+            ("removed, because they show an earlier motion", &self.removed),
             ("kept, although this run did not make them", &self.others),
         ];
         let messages = lines.into_iter().filter(|(_, names)| !names.is_empty());
-        messages
-            .map(|(what, names)| format!("{what}: {}", list_names(names)))
-            .collect()
+        messages.map(|(what, names)| format!("{what}: {}", list_names(names))).collect()
     }
 }
 

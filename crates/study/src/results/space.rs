@@ -44,9 +44,8 @@ impl Space {
     pub(crate) fn words(&self) -> String {
         let mut sizes = self.0.clone();
         sizes.sort_by_key(|&(output, bytes)| (std::cmp::Reverse(bytes), output));
-        let words = sizes
-            .iter()
-            .map(|&(output, bytes)| format!("{} {}", output.name(), size_words(bytes)));
+        let words =
+            sizes.iter().map(|&(output, bytes)| format!("{} {}", output.name(), size_words(bytes)));
         words.collect::<Vec<_>>().join(", ")
     }
 }

@@ -48,10 +48,7 @@ fn published_results_replace_earlier_ones_and_keep_files_of_the_user() {
     assert_eq!(text(&folder, REPORT), "new report");
     assert_eq!(text(&folder, "notes.txt"), "mine");
     assert_eq!(text(&folder, "figure.pdf"), "mine");
-    assert!(
-        !folder.join("motion.gif").exists(),
-        "a film of another motion would mislead"
-    );
+    assert!(!folder.join("motion.gif").exists(), "a film of another motion would mislead");
     assert!(!folder.join(CERTIFICATE).exists());
     assert_eq!(
         fs::read_dir(home.path().join("out")).unwrap().count(),

@@ -11,9 +11,7 @@ struct Named<T>(T);
 
 impl<'de, T: for<'a> Deserialize<'a>> Deserialize<'de> for Named<T> {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        deserializer
-            .deserialize_any(NameVisitor(PhantomData))
-            .map(Named)
+        deserializer.deserialize_any(NameVisitor(PhantomData)).map(Named)
     }
 }
 
@@ -34,9 +32,7 @@ impl<T: for<'a> Deserialize<'a>> Visitor<'_> for NameVisitor<T> {
         match Self::look_up::<serde::de::value::Error>("") {
             Err(e) => {
                 let text = e.to_string();
-                let words = text
-                    .split_once("expected ")
-                    .map_or("a word", |(_, words)| words);
+                let words = text.split_once("expected ").map_or("a word", |(_, words)| words);
                 f.write_str(words)
             }
             Ok(_) => f.write_str("a word"),

@@ -31,9 +31,7 @@ impl<'de, T: Deserialize<'de>, const N: usize> Visitor<'de> for Values<T, N> {
         }
         let values = <[T; N]>::try_from(values).map_err(|values| {
             let count = values.len();
-            A::Error::custom(format!(
-                "a list of {count} values, but exactly {N} are needed"
-            ))
+            A::Error::custom(format!("a list of {count} values, but exactly {N} are needed"))
         })?;
         Ok(Exact(values))
     }

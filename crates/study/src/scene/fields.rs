@@ -67,9 +67,7 @@ pub fn tip(key: &str) -> &'static str {
 pub fn choices(key: &str) -> Vec<(&'static str, &'static str)> {
     let choices = field(key).map(|field| &field.choices);
     let choices = choices.into_iter().flatten();
-    choices
-        .map(|(name, meaning)| (&**name, &**meaning))
-        .collect()
+    choices.map(|(name, meaning)| (&**name, &**meaning)).collect()
 }
 
 impl Field {
@@ -113,9 +111,7 @@ impl Field {
             ("Range", self.range()),
         ];
         let facts = facts.iter().filter(|(_, text)| !text.is_empty());
-        let facts: Vec<String> = facts
-            .map(|(name, text)| format!("{name}: {text}."))
-            .collect();
+        let facts: Vec<String> = facts.map(|(name, text)| format!("{name}: {text}.")).collect();
         if !facts.is_empty() {
             let _ = write!(page, "\n{}\n", facts.join(" "));
         }
@@ -129,9 +125,8 @@ impl Field {
 }
 
 /// The tables of a scene, in the order of the reference.
-const TABLES: [&str; 9] = [
-    "title", "profile", "sheet", "division", "pattern", "material", "motion", "check", "record",
-];
+const TABLES: [&str; 9] =
+    ["title", "profile", "sheet", "division", "pattern", "material", "motion", "check", "record"];
 
 /// The scene reference of the book.
 pub fn reference() -> String {
@@ -141,9 +136,8 @@ pub fn reference() -> String {
         .to_owned();
     for table in TABLES {
         let prefix = format!("{table}.");
-        let own = fields()
-            .iter()
-            .filter(|field| field.key == table || field.key.starts_with(&prefix));
+        let own =
+            fields().iter().filter(|field| field.key == table || field.key.starts_with(&prefix));
         for field in own {
             field.describe(&mut page);
         }
@@ -165,11 +159,7 @@ fn toml_text(value: &Value) -> String {
         Value::Number(number) => number.as_f64().map_or_else(
             || number.to_string(),
             |value| {
-                if number.is_f64() {
-                    format!("{value:?}")
-                } else {
-                    number.to_string()
-                }
+                if number.is_f64() { format!("{value:?}") } else { number.to_string() }
             },
         ),
         other => other.to_string(),
@@ -265,10 +255,7 @@ mod tests {
     /// A scene in which `key`, at the end of a table, has `value`.
     fn scene(key: &str, value: &str) -> Option<String> {
         let (table, name) = key.rsplit_once('.')?;
-        let pattern = concat!(
-            env!("CARGO_MANIFEST_DIR"),
-            "/../../scenes/imported/miura.svg"
-        );
+        let pattern = concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenes/imported/miura.svg");
         let base = "[profile]\nmodel = \"shelter\"\n[sheet]\ncase = \"E\"\n";
         let line = format!("{name} = {value}\n");
         Some(match table {
@@ -330,11 +317,7 @@ mod tests {
             let is_integer = ["rows", "columns", "max_iterations", "frames", "stop_at"];
             let (_, name) = field.key.rsplit_once('.').unwrap_or(("", &field.key));
             let beyond = |limit: f64, sign: f64| {
-                let step = if limit == 0.0 {
-                    1e-3
-                } else {
-                    1e-3 * limit.abs()
-                };
+                let step = if limit == 0.0 { 1e-3 } else { 1e-3 * limit.abs() };
                 if is_integer.contains(&name) {
                     format!("{}", limit + sign)
                 } else {
@@ -351,11 +334,7 @@ mod tests {
                     text
                 };
                 let error = resolved(&text).expect_err(&field.key);
-                assert!(
-                    error.contains(name) || error.contains("camera"),
-                    "{}: {error}",
-                    field.key
-                );
+                assert!(error.contains(name) || error.contains("camera"), "{}: {error}", field.key);
                 checked += 1;
             }
         }
@@ -364,14 +343,8 @@ mod tests {
 
     #[test]
     fn keys_are_found_with_the_indices_of_lists() {
-        assert_eq!(
-            field("motion.step.0.creases").unwrap().key,
-            "motion.step.creases"
-        );
-        assert_eq!(
-            field("record.camera.azimuth").unwrap().unit.as_deref(),
-            Some("degrees")
-        );
+        assert_eq!(field("motion.step.0.creases").unwrap().key, "motion.step.creases");
+        assert_eq!(field("record.camera.azimuth").unwrap().unit.as_deref(), Some("degrees"));
         assert!(field("sheet.colour").is_none());
         let cases = &field("sheet.case").unwrap().choices;
         let names: Vec<_> = cases.iter().map(|(name, _)| name.as_str()).collect();
@@ -388,10 +361,7 @@ mod tests {
         let mut checked = 0;
         for line in crate::FIRST_SCENE.lines() {
             let line = line.trim_start_matches("# ");
-            if let Some(name) = line
-                .strip_prefix('[')
-                .and_then(|rest| rest.split(']').next())
-            {
+            if let Some(name) = line.strip_prefix('[').and_then(|rest| rest.split(']').next()) {
                 table = name.trim_start_matches('[').to_owned();
                 continue;
             }

@@ -81,11 +81,7 @@ impl RecordScene {
     /// The default size in pixels and the default frame rate of films.
     pub fn standard_film(&self) -> ([u32; 2], f64) {
         let is_full = |output| matches!(output, &OutputChoice::Mp4 | &OutputChoice::Png);
-        if self.outputs.iter().flatten().any(is_full) {
-            FULL_FILM
-        } else {
-            GIF_FILM
-        }
+        if self.outputs.iter().flatten().any(is_full) { FULL_FILM } else { GIF_FILM }
     }
 }
 
@@ -236,10 +232,7 @@ pub enum ColourChoice {
 
 /// The thickness of solids.
 #[derive(Debug, Clone, Copy, PartialEq, Deserialize, Serialize, JsonSchema)]
-#[serde(
-    untagged,
-    expecting = "thickened must be true, false, or a thickness in profile.unit"
-)]
+#[serde(untagged, expecting = "thickened must be true, false, or a thickness in profile.unit")]
 pub enum ThickenedScene {
     /// The thickness of the material, or surfaces.
     ByMaterial(bool),

@@ -45,11 +45,7 @@ impl SceneSource {
 
     /// A scene from text; errors name `path`, and results its stem.
     pub fn new(path: &Path, text: String) -> Self {
-        Self {
-            path: path.to_owned(),
-            text,
-            overrides: Vec::new(),
-        }
+        Self { path: path.to_owned(), text, overrides: Vec::new() }
     }
 
     /// Adds a `--set key=value`: a dotted key and a TOML value; anything else is a string.
@@ -62,9 +58,7 @@ impl SceneSource {
             message,
         };
         let Some((key, value)) = assignment.split_once('=') else {
-            return Err(error(
-                "expected key=value, such as sheet.columns=3".to_owned(),
-            ));
+            return Err(error("expected key=value, such as sheet.columns=3".to_owned()));
         };
         let (key, value) = (key.trim(), value.trim());
         if key.split('.').any(str::is_empty) {
@@ -72,16 +66,10 @@ impl SceneSource {
                 "the key is empty; write table.key=value, such as sheet.columns=3".to_owned(),
             ));
         }
-        let parsed = format!("value = {value}")
-            .parse::<Table>()
-            .ok()
-            .and_then(|mut t| t.remove("value"));
+        let parsed =
+            format!("value = {value}").parse::<Table>().ok().and_then(|mut t| t.remove("value"));
         let value = parsed.unwrap_or_else(|| Value::String(value.to_owned()));
-        self.overrides.push(Override {
-            flag: "--set".to_owned(),
-            key: key.to_owned(),
-            value,
-        });
+        self.overrides.push(Override { flag: "--set".to_owned(), key: key.to_owned(), value });
         Ok(())
     }
 
@@ -140,10 +128,9 @@ impl SceneSource {
     /// [`StudyError::Parse`] for invalid TOML, unknown keys and wrong types; [`StudyError::Value`] for a title of several lines.
     pub fn scene(&self) -> Result<Scene, StudyError> {
         let parse_error = |error: &toml::de::Error| StudyError::Parse {
-            location: error.span().map_or_else(
-                || self.path.display().to_string(),
-                |span| self.location(span.start),
-            ),
+            location: error
+                .span()
+                .map_or_else(|| self.path.display().to_string(), |span| self.location(span.start)),
             message: self.message(error),
         };
         let mut table: Table = toml::from_str(&self.text).map_err(|e| parse_error(&e))?;
@@ -162,10 +149,7 @@ impl SceneSource {
             Ok(overridden) => self.with_valid_title(overridden),
             Err(error) => match scene {
                 Err(own) => Err(parse_error(&own)),
-                Ok(_) => Err(StudyError::Parse {
-                    location: self.override_names(),
-                    message: error,
-                }),
+                Ok(_) => Err(StudyError::Parse { location: self.override_names(), message: error }),
             },
         }
     }
@@ -193,11 +177,8 @@ impl SceneSource {
     }
 
     fn override_names(&self) -> String {
-        let names: Vec<String> = self
-            .overrides
-            .iter()
-            .map(|over| format!("{} {}", over.flag, over.key))
-            .collect();
+        let names: Vec<String> =
+            self.overrides.iter().map(|over| format!("{} {}", over.flag, over.key)).collect();
         names.join(", ")
     }
 
@@ -209,12 +190,7 @@ impl SceneSource {
             (None, Some((span, value))) => (self.location(span.start), format!(" = {value}")),
             (None, None) => (self.path.display().to_string(), String::new()),
         };
-        StudyError::Value {
-            location,
-            key: key.to_owned(),
-            value,
-            message,
-        }
+        StudyError::Value { location, key: key.to_owned(), value, message }
     }
 
     /// The location of a key: the flag that set it, `file:line:column`, or the file if the key is absent.
@@ -222,10 +198,8 @@ impl SceneSource {
         if let Some(over) = self.overrides.iter().rev().find(|over| over.key == key) {
             return over.flag.clone();
         }
-        self.locate(key).map_or_else(
-            || self.path.display().to_string(),
-            |(span, _)| self.location(span.start),
-        )
+        self.locate(key)
+            .map_or_else(|| self.path.display().to_string(), |(span, _)| self.location(span.start))
     }
 
     /// The location of a byte of the text as `file:line:column`.
@@ -277,14 +251,10 @@ fn insert(table: &mut Table, key: &str, value: Value) -> Result<(), String> {
             Ok(())
         }
         Some((group, rest)) => {
-            let entry = table
-                .entry(group.to_owned())
-                .or_insert_with(|| Value::Table(Table::new()));
+            let entry = table.entry(group.to_owned()).or_insert_with(|| Value::Table(Table::new()));
             match entry {
                 Value::Table(inner) => insert(inner, rest, value),
-                _ => Err(format!(
-                    "{group} is not a table, so {rest} cannot be set in it"
-                )),
+                _ => Err(format!("{group} is not a table, so {rest} cannot be set in it")),
             }
         }
     }
@@ -292,9 +262,7 @@ fn insert(table: &mut Table, key: &str, value: Value) -> Result<(), String> {
 
 impl Scene {
     fn deserialize_table(table: Table) -> Result<Self, String> {
-        table
-            .try_into()
-            .map_err(|e: toml::de::Error| e.message().to_owned())
+        table.try_into().map_err(|e: toml::de::Error| e.message().to_owned())
     }
 }
 
@@ -308,32 +276,21 @@ mod tests {
 
     #[test]
     fn an_unknown_key_is_refused_with_its_line() {
-        let error = source("title = \"a\"\n[sheet]\nwidht = 5.0\n")
-            .scene()
-            .unwrap_err();
+        let error = source("title = \"a\"\n[sheet]\nwidht = 5.0\n").scene().unwrap_err();
         assert_eq!(error.status(), 2);
         let text = error.to_string();
-        assert!(
-            text.contains("test.toml:3") && text.contains("widht"),
-            "{text}"
-        );
+        assert!(text.contains("test.toml:3") && text.contains("widht"), "{text}");
     }
 
     #[test]
     fn a_wrong_type_is_refused_with_its_line() {
-        let text = source("[sheet]\nrows = \"seven\"\n")
-            .scene()
-            .unwrap_err()
-            .to_string();
+        let text = source("[sheet]\nrows = \"seven\"\n").scene().unwrap_err().to_string();
         assert!(text.contains("test.toml:2"), "{text}");
     }
 
     #[test]
     fn text_that_is_not_toml_is_refused_with_its_line() {
-        let text = source("[sheet]\nrows = = 7\n")
-            .scene()
-            .unwrap_err()
-            .to_string();
+        let text = source("[sheet]\nrows = = 7\n").scene().unwrap_err().to_string();
         assert!(text.contains("test.toml:2"), "{text}");
     }
 
@@ -354,10 +311,7 @@ mod tests {
         let mut unknown = source("");
         unknown.set("sheet.nonsense=1").unwrap();
         let text = unknown.scene().unwrap_err().to_string();
-        assert!(
-            text.contains("--set sheet.nonsense") && text.contains("nonsense"),
-            "{text}"
-        );
+        assert!(text.contains("--set sheet.nonsense") && text.contains("nonsense"), "{text}");
         assert!(source("").set("nothing").is_err());
         assert!(source("").set("=3").is_err());
     }

@@ -10,12 +10,7 @@ use crate::{agreed, judge};
 
 /// A roof of two triangles at the edge from 0 to 1, and a triangle above it that is displaced by `moves`.
 fn above_a_roof(slope: f64, part: [DVec3; 3], moves: &[DVec3]) -> Motion {
-    let roof = [
-        DVec3::ZERO,
-        DVec3::X,
-        DVec3::new(0.5, 1.0, -slope),
-        DVec3::new(0.5, -1.0, -slope),
-    ];
+    let roof = [DVec3::ZERO, DVec3::X, DVec3::new(0.5, 1.0, -slope), DVec3::new(0.5, -1.0, -slope)];
     let flat = [
         DVec2::ZERO,
         DVec2::X,
@@ -36,11 +31,7 @@ fn above_a_roof(slope: f64, part: [DVec3; 3], moves: &[DVec3]) -> Motion {
 
 /// A triangle in the plane that contains the edge.
 fn wall() -> [DVec3; 3] {
-    [
-        DVec3::new(0.3, 0.0, 0.5),
-        DVec3::new(0.7, 0.0, 0.5),
-        DVec3::new(0.5, 0.0, 1.5),
-    ]
+    [DVec3::new(0.3, 0.0, 0.5), DVec3::new(0.7, 0.0, 0.5), DVec3::new(0.5, 0.0, 1.5)]
 }
 
 fn through_the_edge() -> Motion {
@@ -71,10 +62,7 @@ fn a_wall_that_sinks_through_an_edge_is_found_where_nothing_is_listed() {
     let report = judge(&motion);
     assert_eq!(report.penetrations[0].kind, PenetrationKind::ThroughEdge);
     let refuted = verify(&motion, &without_penetrations(&report)).refuted;
-    assert!(
-        refuted.iter().any(|r| r.found.contains("through the edge")),
-        "{refuted:?}"
-    );
+    assert!(refuted.iter().any(|r| r.found.contains("through the edge")), "{refuted:?}");
 }
 
 /// A change to a report that makes it false.
@@ -130,11 +118,7 @@ fn a_wall_that_rests_on_an_edge_and_then_sinks_passes_no_earlier_than_it_sinks()
 
 /// A triangle that lands on one half, slides across the edge to the other and leaves, upwards or downwards.
 fn sliding(leaves: f64) -> Motion {
-    let part = [
-        DVec3::new(0.45, 0.2, 0.5),
-        DVec3::new(0.55, 0.2, 0.5),
-        DVec3::new(0.5, 0.3, 0.5),
-    ];
+    let part = [DVec3::new(0.45, 0.2, 0.5), DVec3::new(0.55, 0.2, 0.5), DVec3::new(0.5, 0.3, 0.5)];
     let down = DVec3::new(0.0, 0.0, -0.5);
     let across = |y: f64| DVec3::new(0.0, y, -0.5);
     let end = across(-0.5) + DVec3::Z * leaves;

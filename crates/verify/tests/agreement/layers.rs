@@ -16,10 +16,7 @@ use foldmotion_random::Random;
 type State = (Vec<DVec3>, LayerOrder);
 
 fn frame(k: usize, (positions, _): &State) -> Frame {
-    Frame {
-        time: k as f64,
-        positions: positions.clone(),
-    }
+    Frame { time: k as f64, positions: positions.clone() }
 }
 
 fn judge(sheet: &Sheet, states: &[State]) -> CollisionReport {
@@ -127,11 +124,7 @@ fn swapped_layers_are_found_by_the_second_proof_alone() {
         assert!(!verify(&units.sheet, &states, &clean).refuted.is_empty());
         let rules = agreed(&units.sheet, &states).penetrations;
         let is_crease = |rule| rule == LayerRule::Crease;
-        assert!(
-            rules
-                .iter()
-                .any(|p| is_crease(p.conflict.as_ref().unwrap().rule))
-        );
+        assert!(rules.iter().any(|p| is_crease(p.conflict.as_ref().unwrap().rule)));
     }
 }
 
@@ -147,10 +140,7 @@ fn both_proofs_agree_on_orders_left_out_and_turned_round_at_random() {
             let share = [-0.98, -0.9, 0.0][k % 3];
             let claims = turned(&claims, &mut |_, _| random.number() < share);
             let report = agreed(&units.sheet, &[(units.compact(), claims)]);
-            let conflicts = report
-                .penetrations
-                .iter()
-                .filter_map(|p| p.conflict.clone());
+            let conflicts = report.penetrations.iter().filter_map(|p| p.conflict.clone());
             rules.extend(conflicts.map(|c| c.rule));
         }
     }
@@ -215,14 +205,7 @@ fn a_claim_at_the_first_frame_decides_the_side_in_both_proofs() {
 fn rolled_up_squares_are_judged_alike_in_every_order_of_their_levels() {
     let sheet = strip(3, 1);
     let rolled = folded(&sheet, &[0.0, PI, 2.0 * PI]);
-    for levels in [
-        [0, 1, 2],
-        [0, 2, 1],
-        [1, 0, 2],
-        [1, 2, 0],
-        [2, 0, 1],
-        [2, 1, 0],
-    ] {
+    for levels in [[0, 1, 2], [0, 2, 1], [1, 0, 2], [1, 2, 0], [2, 0, 1], [2, 1, 0]] {
         let mut order = LayerOrder::default();
         for f in 0..6_usize {
             for g in (0..6_usize).filter(|g| f / 2 != g / 2) {

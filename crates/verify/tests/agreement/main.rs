@@ -53,10 +53,7 @@ fn sheets_of_every_kind_get_the_same_verdict_twice() {
         (accordion(8, 2, 20, 0.0, 0.7), Verdict::Touching),
         (accordion(8, 2, 20, -1e-3, 0.7), Verdict::Penetrating),
         (fold(2, &[&[0.0, 0.0], &[0.0, PI]], 20), Verdict::Touching),
-        (
-            fold(2, &[&[0.0, 0.0], &[0.0, PI + 0.01]], 20),
-            Verdict::Penetrating,
-        ),
+        (fold(2, &[&[0.0, 0.0], &[0.0, PI + 0.01]], 20), Verdict::Penetrating),
     ];
     for (k, (motion, expected)) in cases.into_iter().enumerate() {
         println!("case {k}");
@@ -108,11 +105,7 @@ fn tumbling(random: &mut Random, shared: u32) -> Motion {
     let shift = random.vector() * 0.8;
     let states = (0..4).map(|k| {
         let moved = |(i, p): (usize, &DVec3)| {
-            let shift = if i > 2 {
-                shift * f64::from(k)
-            } else {
-                DVec3::ZERO
-            };
+            let shift = if i > 2 { shift * f64::from(k) } else { DVec3::ZERO };
             *p + random.vector() * 0.25 + shift
         };
         start.iter().enumerate().map(moved).collect::<Vec<_>>()

@@ -33,11 +33,7 @@ fn cloths() -> Motion {
             let at = sheet.vertices[v];
             let slanting = 0.5 + 0.2 * at.x - 0.35 * f64::from(frame);
             let height = if is_upper { slanting } else { 0.0 };
-            DVec3::new(
-                at.x,
-                if is_upper { at.y - 20.0 } else { at.y },
-                height + off,
-            )
+            DVec3::new(at.x, if is_upper { at.y - 20.0 } else { at.y }, height + off)
         };
         crumple.iter().enumerate().map(place).collect::<Vec<_>>()
     });
@@ -46,10 +42,7 @@ fn cloths() -> Motion {
 }
 
 fn judge(motion: &Motion, stop_at: usize) -> CollisionReport {
-    let options = CollisionOptions {
-        stop_at,
-        ..CollisionOptions::default()
-    };
+    let options = CollisionOptions { stop_at, ..CollisionOptions::default() };
     collisions(motion, &options, &|_| true).unwrap()
 }
 
@@ -84,11 +77,7 @@ fn what_is_stated_of_a_stopped_check_is_proved_up_to_its_last_frame_and_no_more(
     let stopped = claim.stopped.unwrap();
     let changed = |frame, time, stop_at| {
         let mut claim = claim.clone();
-        claim.stopped = Some(foldmotion_check::Stopped {
-            frame,
-            time,
-            stop_at,
-        });
+        claim.stopped = Some(foldmotion_check::Stopped { frame, time, stop_at });
         claim
     };
     let count = claim.penetrations.len();

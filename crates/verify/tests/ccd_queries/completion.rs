@@ -16,11 +16,7 @@ use crate::{
 /// away from the other feature, so that the features themselves are the first to meet; other numbers add them anywhere
 /// nearby.
 pub(crate) fn triangles(query: &Query, completion: u64) -> [[Path; 3]; 2] {
-    let added = if completion == 0 {
-        behind(query)
-    } else {
-        nearby(query, completion)
-    };
+    let added = if completion == 0 { behind(query) } else { nearby(query, completion) };
     match *query {
         Query::VertexFacet(vertex, facet) => {
             let [e, f] = added.map(|offset| vertex.map(|p| p + offset));
@@ -76,18 +72,10 @@ fn away(query: &Query) -> DVec3 {
         Query::VertexFacet(v, [p, q, r]) => ((q[0] - p[0]).cross(r[0] - p[0]), v[0] - p[0]),
         Query::EdgeEdge([a, b], [c, d]) => ((b[0] - a[0]).cross(d[0] - c[0]), a[0] - c[0]),
     };
-    let along = sides(query)
-        .iter()
-        .find_map(|[p, q]| (q[0] - p[0]).try_normalize())
-        .unwrap_or(DVec3::X);
-    let normal = across
-        .try_normalize()
-        .unwrap_or_else(|| along.any_orthonormal_vector());
-    if normal.dot(apart) < 0.0 {
-        -normal
-    } else {
-        normal
-    }
+    let along =
+        sides(query).iter().find_map(|[p, q]| (q[0] - p[0]).try_normalize()).unwrap_or(DVec3::X);
+    let normal = across.try_normalize().unwrap_or_else(|| along.any_orthonormal_vector());
+    if normal.dot(apart) < 0.0 { -normal } else { normal }
 }
 
 /// The vertices of the features.
@@ -109,9 +97,7 @@ fn sides(query: &Query) -> Vec<[Path; 2]> {
 /// The mean length of the sides over both ends of the motion; 1 if the features have no sides.
 fn mean_side(query: &Query) -> f64 {
     let sides = sides(query);
-    let lengths = sides
-        .iter()
-        .flat_map(|[p, q]| [0, 1].map(|end| p[end].distance(q[end])));
+    let lengths = sides.iter().flat_map(|[p, q]| [0, 1].map(|end| p[end].distance(q[end])));
     let mean = lengths.sum::<f64>() / (2 * sides.len()) as f64;
     if mean > 0.0 { mean } else { 1.0 }
 }

@@ -3,25 +3,16 @@
 //!
 //! `cargo run --release -p foldmotion-verify --example ccd_queries FOLDER` does the same for a folder of such files.
 #![expect(clippy::unwrap_used, reason = "a test stops where a value is missing")]
-#![expect(
-    clippy::disallowed_methods,
-    reason = "the tests compare the two proofs"
-)]
+#![expect(clippy::disallowed_methods, reason = "the tests compare the two proofs")]
 
 mod completion;
 #[path = "../../../geometry/tests/oracle/mod.rs"]
-#[expect(
-    dead_code,
-    reason = "shared with the tests on its own queries, which use more of it"
-)]
+#[expect(dead_code, reason = "shared with the tests on its own queries, which use more of it")]
 mod oracle;
 #[path = "../../../geometry/tests/ccd_queries/recorded/mod.rs"]
 mod recorded;
 #[path = "../../../check/tests/collision/sheets.rs"]
-#[expect(
-    dead_code,
-    reason = "shared with the tests of folded sheets, which use more of it"
-)]
+#[expect(dead_code, reason = "shared with the tests of folded sheets, which use more of it")]
 mod sheets;
 mod trial;
 
@@ -36,10 +27,7 @@ use trial::{FailureKind, Judge, Tally, judge, try_completions, try_motions};
 const COMPLETIONS: u64 = 8;
 /// Queries on which the two proofs once disagreed in some of the first 100 completions, by file and first line.
 const DIFFERED: [(&str, &[usize]); 4] = [
-    (
-        "erleben-spikes_edge-edge.csv",
-        &[9, 33, 49, 57, 65, 121, 161],
-    ),
+    ("erleben-spikes_edge-edge.csv", &[9, 33, 49, 57, 65, 121, 161]),
     ("erleben-spikes_vertex-face.csv", &[89, 97]),
     ("erleben-wedges_edge-edge.csv", &[113, 121, 129, 161]),
     ("erleben-wedges_vertex-face.csv", &[81]),
@@ -66,10 +54,7 @@ fn assert_no_failure(tally: &Tally) {
     let count = lines.len();
     assert!(count == 0, "{count} of {all}:\n{}", lines.join("\n"));
     assert!(100 * open.len() <= all as usize, "{open:?}");
-    assert_eq!(
-        [tally.undecided, tally.verified + open.len() as u32],
-        [0, all]
-    );
+    assert_eq!([tally.undecided, tally.verified + open.len() as u32], [0, all]);
 }
 
 #[test]
@@ -114,10 +99,7 @@ fn reports_that_hide_contact_are_counted_and_each_is_refuted() {
     let tally = try_committed(hide_contact);
     println!("{tally}");
     let of = |kind| {
-        let failures = tally
-            .failures
-            .iter()
-            .filter(move |failure| failure.kind == kind);
+        let failures = tally.failures.iter().filter(move |failure| failure.kind == kind);
         failures.map(|failure| (&failure.file, failure.line, failure.completion))
     };
     let refuted: BTreeSet<_> = of(FailureKind::Refuted).collect();

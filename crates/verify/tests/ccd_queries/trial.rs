@@ -98,10 +98,7 @@ fn try_motion(file: &str, recorded: &Recorded, completion: u64, judge: Judge) ->
         Ok(report) => report,
         Err(error) => {
             let failures = vec![failure((FailureKind::Refused, error.to_string()))];
-            return Tally {
-                failures,
-                ..Tally::default()
-            };
+            return Tally { failures, ..Tally::default() };
         }
     };
     let truth = Truth::of(recorded, completion);
@@ -111,10 +108,7 @@ fn try_motion(file: &str, recorded: &Recorded, completion: u64, judge: Judge) ->
     let by_second = refuted
         .map(|detail| (FailureKind::Refuted, detail))
         .or_else(|| unproved.map(|detail| (FailureKind::Unproved, detail)));
-    let all = truth
-        .failures(&motion, &report)
-        .into_iter()
-        .chain(by_second);
+    let all = truth.failures(&motion, &report).into_iter().chain(by_second);
     let is = |verdict: Verdict| u32::from(report.verdict == verdict);
     Tally {
         meets: u32::from(truth.meets),
@@ -165,10 +159,7 @@ impl Truth {
             kinds.push(FailureKind::SeparationTooLarge);
         }
         let detail = format!("{:?}, {:?}", report.verdict, report.min_separation);
-        kinds
-            .into_iter()
-            .map(|kind| (kind, detail.clone()))
-            .collect()
+        kinds.into_iter().map(|kind| (kind, detail.clone())).collect()
     }
 }
 
@@ -194,17 +185,8 @@ impl Tally {
 
 impl fmt::Display for Failure {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self {
-            file,
-            line,
-            completion,
-            kind,
-            detail,
-        } = self;
-        write!(
-            f,
-            "{file}:{line} completion {completion} {kind:?}: {detail}"
-        )
+        let Self { file, line, completion, kind, detail } = self;
+        write!(f, "{file}:{line} completion {completion} {kind:?}: {detail}")
     }
 }
 

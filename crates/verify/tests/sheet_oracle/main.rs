@@ -2,10 +2,7 @@
 //!
 //! `cargo run --release -p foldmotion-verify --example sheet_oracle` does the same for 100 000 sheets.
 #![expect(clippy::expect_used, reason = "a test stops where a value is missing")]
-#![expect(
-    clippy::disallowed_methods,
-    reason = "the tests compare the two proofs"
-)]
+#![expect(clippy::disallowed_methods, reason = "the tests compare the two proofs")]
 
 mod oracle;
 
@@ -46,33 +43,20 @@ fn both_proofs_agree_with_the_truth() {
     }
     println!("{:<16} {all}", "all");
     let verdicts = ["missed", "false alarm", "wrong nearness", "undecided"];
-    assert_eq!(
-        listed(&tallies, &verdicts),
-        Vec::<String>::new(),
-        "the verdict"
-    );
+    assert_eq!(listed(&tallies, &verdicts), Vec::<String>::new(), "the verdict");
     // The second proof couples sides at instants and not around vertices; what it leaves to the first is counted.
     let sheets = 18 * SHARE as usize;
-    for what in [
-        "right but refuted",
-        "right but unproved",
-        "tampering passed",
-    ] {
+    for what in ["right but refuted", "right but unproved", "tampering passed"] {
         let found = listed(&tallies, &[what]);
         let lists = all.lists();
-        let count: usize = (lists.iter().filter(|(name, _)| *name == what))
-            .map(|(_, list)| list.len())
-            .sum();
+        let count: usize =
+            (lists.iter().filter(|(name, _)| *name == what)).map(|(_, list)| list.len()).sum();
         assert!(100 * count <= sheets, "the second proof: {found:?}");
     }
     let wrong = listed(&tallies, &["wrong but verified"]);
     assert_eq!(wrong, Vec::<String>::new(), "the second proof");
     let distances = ["separation too large", "separation too small"];
-    assert_eq!(
-        listed(&tallies, &distances),
-        Vec::<String>::new(),
-        "the separation"
-    );
+    assert_eq!(listed(&tallies, &distances), Vec::<String>::new(), "the separation");
 }
 
 /// Scenes that the second proof once did not prove although the report was right, by the reason.
@@ -96,23 +80,11 @@ const ONCE_NOT_PROVED: [(&str, &[(Class, u64)]); 8] = [
             (Class::Interior, 3054),
         ],
     ),
-    (
-        "the beginning of a contact",
-        &[(Class::Interior, 3793), (Class::Tube, 275)],
-    ),
-    (
-        "depths at other instants",
-        &[(Class::InteriorVertex, 3308), (Class::Crease, 3460)],
-    ),
-    (
-        "a side lost by a long step",
-        &[(Class::InteriorVertex, 1738)],
-    ),
+    ("the beginning of a contact", &[(Class::Interior, 3793), (Class::Tube, 275)]),
+    ("depths at other instants", &[(Class::InteriorVertex, 3308), (Class::Crease, 3460)]),
+    ("a side lost by a long step", &[(Class::InteriorVertex, 1738)]),
     ("slivers", &[(Class::Thin, 686), (Class::Thin, 1619)]),
-    (
-        "what stays in a crease or a vertex",
-        &[(Class::Crease, 2041), (Class::Thin, 148)],
-    ),
+    ("what stays in a crease or a vertex", &[(Class::Crease, 2041), (Class::Thin, 148)]),
     (
         "what gets deeper than τ in a later interval",
         &[(Class::Interior, 3571), (Class::Diagonal, 5477)],
@@ -126,11 +98,7 @@ fn scenes_that_were_once_not_proved_though_right_are_proved() {
             let trial = try_scene(class, number);
             assert!(trial.is_right, "{class:?} {number}");
             let verified = trial.verified;
-            assert_eq!(
-                verified,
-                Some(Verified::Proved),
-                "{what}: {class:?} {number}"
-            );
+            assert_eq!(verified, Some(Verified::Proved), "{what}: {class:?} {number}");
         }
     }
 }
@@ -140,12 +108,7 @@ fn an_order_that_the_sides_contradict_is_not_proved() {
     let (motion, ..) = motion_of(Class::Slide, 0);
     let report = collisions(&motion, &CollisionOptions::default(), &|_| true);
     let mut report = report.expect("the motion can be judged");
-    assert!(
-        report
-            .clusters
-            .iter()
-            .any(|c| c.order == LayerProof::Unproved)
-    );
+    assert!(report.clusters.iter().any(|c| c.order == LayerProof::Unproved));
     for cluster in &mut report.clusters {
         cluster.order = LayerProof::Proved;
     }
@@ -180,10 +143,7 @@ fn the_classes_have_scenes_of_every_kind() {
         for number in 0..60 {
             let (motion, truth, _) = motion_of(class, number);
             *all.entry(truth).or_insert(0) += 1;
-            assert!(
-                (2..=40).contains(&motion.sheet.faces.len()),
-                "{class:?} {number}"
-            );
+            assert!((2..=40).contains(&motion.sheet.faces.len()), "{class:?} {number}");
             assert!((1..=8).contains(&motion.frames.len()), "{class:?} {number}");
         }
     }
@@ -214,11 +174,7 @@ fn the_yardstick_shows_what_lasts_and_nothing_where_all_is_free() {
             through += u32::from(truth == Truth::Penetrating);
             shown += u32::from(truth == Truth::Penetrating && shows);
         }
-        let demanded = if lasting.contains(&class) {
-            through * 9 / 10
-        } else {
-            0
-        };
+        let demanded = if lasting.contains(&class) { through * 9 / 10 } else { 0 };
         assert!(shown >= demanded, "{class:?}: {shown} of {through}");
     }
 }
@@ -249,17 +205,10 @@ fn a_judge_that_samples_instants_is_caught_both_ways() {
         for number in 0..60 {
             let (motion, truth, _) = motion_of(class, number);
             let shows = shows_crossing(&motion, &mut class.random(!number));
-            let said = if shows {
-                Verdict::Penetrating
-            } else {
-                Verdict::Touching
-            };
+            let said = if shows { Verdict::Penetrating } else { Verdict::Touching };
             missed += u32::from(truth == Truth::Penetrating && !is_right(truth, said));
             alarms += u32::from(truth == Truth::Touching && !is_right(truth, said));
         }
     }
-    assert!(
-        missed > 20 && alarms > 20,
-        "{missed} missed, {alarms} alarms"
-    );
+    assert!(missed > 20 && alarms > 20, "{missed} missed, {alarms} alarms");
 }

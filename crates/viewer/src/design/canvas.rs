@@ -39,9 +39,7 @@ impl SampledCurve {
         let scene = &form.scene.profile;
         let from_file = scene.file.is_some();
         let profile = if from_file {
-            form.draft
-                .and_then(Draft::units)
-                .map(|draft| draft.profile.clone())
+            form.draft.and_then(Draft::units).map(|draft| draft.profile.clone())
         } else {
             own_profile(scene)
         };
@@ -71,14 +69,8 @@ impl Canvas {
         if traced.is_none_or(|traced| !traced.is_of(form)) {
             self.traced = Some(SampledCurve::new(form));
         }
-        let points = handles(&form.scene.profile)
-            .map(|points| vectors(points))
-            .unwrap_or_default();
-        let curve = self
-            .traced
-            .as_ref()
-            .map(|traced| traced.points.as_slice())
-            .unwrap_or_default();
+        let points = handles(&form.scene.profile).map(|points| vectors(points)).unwrap_or_default();
+        let curve = self.traced.as_ref().map(|traced| traced.points.as_slice()).unwrap_or_default();
         let size = bounds(curve.iter().chain(&points).copied());
         let is_bare = points.is_empty() && curve.is_empty();
         let height = (ui.available_width() * 0.66).clamp(170.0, 300.0);
@@ -91,8 +83,7 @@ impl Canvas {
             return;
         }
         HandleEditor::paint_polygon(form, ui, &painter, &plane, &points);
-        self.handle_editor
-            .show(form, ui, &painter, &plane, &points, &mut self.view);
+        self.handle_editor.show(form, ui, &painter, &plane, &points, &mut self.view);
         self.add_point(form, &response, &plane, points.is_empty());
         if response.clicked() {
             self.handle_editor.select_none();

@@ -78,9 +78,7 @@ impl Form<'_> {
     ) {
         self.scope(ui, &field.key, |form, ui| {
             let mut is_on = of(&mut form.scene).unwrap_or(default);
-            let response = ui
-                .checkbox(&mut is_on, field.name)
-                .on_hover_text(field.tip());
+            let response = ui.checkbox(&mut is_on, field.name).on_hover_text(field.tip());
             if response.changed() {
                 *of(&mut form.scene) = (is_on != default).then_some(is_on);
                 form.record(field.name, response.id, false);
@@ -100,9 +98,8 @@ impl Form<'_> {
         let mut entered = None;
         self.row(ui, field, |form, ui, label| {
             let id = form.id(&field.key).with("text");
-            let mut text = ui
-                .data(|data| data.get_temp::<String>(id))
-                .unwrap_or_else(|| value.to_owned());
+            let mut text =
+                ui.data(|data| data.get_temp::<String>(id)).unwrap_or_else(|| value.to_owned());
             let edit = TextEdit::singleline(&mut text)
                 .id(id)
                 .hint_text(hint)

@@ -46,22 +46,12 @@ impl Counts {
     }
 
     pub(super) fn show(&self, ui: &mut Ui) {
-        let text = format!(
-            "{} vertices, {} facets, {} creases",
-            self.vertices, self.facets, self.creases
-        );
+        let text =
+            format!("{} vertices, {} facets, {} creases", self.vertices, self.facets, self.creases);
         let tip = "Vertices, facets, and mountain and valley creases of the pattern";
         value_row(ui, "sheet", &text, tip);
-        let foldable = if self.is_flat_foldable {
-            "flat-foldable"
-        } else {
-            "not flat-foldable"
-        };
-        let developable = if self.is_developable {
-            "developable"
-        } else {
-            "not developable"
-        };
+        let foldable = if self.is_flat_foldable { "flat-foldable" } else { "not flat-foldable" };
+        let developable = if self.is_developable { "developable" } else { "not developable" };
         let tip = "Developable: the sector angles at each vertex sum to 2π. Flat-foldable: alternate angles sum to π, and the \
              numbers of mountains and valleys differ by two (section 2).";
         value_row(ui, "vertices", &format!("{developable}, {foldable}"), tip);
@@ -135,12 +125,7 @@ impl Measurements {
 fn show_unit(draft: &UnitDraft, ui: &mut Ui) {
     let unit = &draft.units.unit;
     let ratio = unit.width / unit.height;
-    let text = format!(
-        "{} × {}, w/h = {}",
-        brief(unit.width),
-        brief(unit.height),
-        brief(ratio)
-    );
+    let text = format!("{} × {}, w/h = {}", brief(unit.width), brief(unit.height), brief(ratio));
     let tip = "w = W/Nc, and h is the mean length of a segment.";
     value_row(ui, "unit w × h", &text, tip);
     let text = format!(
@@ -166,19 +151,10 @@ fn show_cases(form: &mut Form<'_>, ui: &mut Ui) {
             .show(ui, |ui| {
                 let heads = [
                     ("case", "Case of the units"),
-                    (
-                        "a",
-                        "Width of a flap: h/2 in E and S, w/2 in T, λh/2 in SII",
-                    ),
-                    (
-                        "x × y × z",
-                        "Compact box: Nr h − (Nr − 1) a, Nc (2s + 2d), a",
-                    ),
+                    ("a", "Width of a flap: h/2 in E and S, w/2 in T, λh/2 in SII"),
+                    ("x × y × z", "Compact box: Nr h − (Nr − 1) a, Nc (2s + 2d), a"),
                     ("A", "Area in the x–z plane (equations 3, 4, 5)"),
-                    (
-                        "V",
-                        "Volume (equations 6, 7); 0 if the compact state is flat",
-                    ),
+                    ("V", "Volume (equations 6, 7); 0 if the compact state is flat"),
                 ];
                 for (head, tip) in heads {
                     ui.label(note(ui, head)).on_hover_text(tip);

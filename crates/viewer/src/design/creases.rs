@@ -45,10 +45,7 @@ impl Creases {
         let corner = plane.rect.min;
         let key = MeshKey {
             draft_number,
-            plane: Plane {
-                rect: plane.rect.translate(-corner.to_vec2()),
-                ..*plane
-            },
+            plane: Plane { rect: plane.rect.translate(-corner.to_vec2()), ..*plane },
             pixels_per_point: ui.pixels_per_point(),
             colours: crease_colours(ui),
             corner,
@@ -74,11 +71,7 @@ fn mesh(ui: &Ui, sheet: &Sheet, plane: &Plane, place: impl Fn(DVec2) -> DVec2) -
     let [mountain, valley] = crease_colours(ui);
     let border = Stroke::new(1.4, ui.visuals().text_color());
     let free = Stroke::new(1.0, ui.visuals().weak_text_color());
-    let on_screen: Vec<Pos2> = sheet
-        .vertices
-        .iter()
-        .map(|&v| plane.to_screen(place(v)))
-        .collect();
+    let on_screen: Vec<Pos2> = sheet.vertices.iter().map(|&v| plane.to_screen(place(v))).collect();
     let mut shapes = Vec::with_capacity(sheet.edges.len());
     for edge in sheet.edges.iter().take(MAX_EDGES) {
         let ends = edge.vertices.map(|v| on_screen[v as usize]);

@@ -26,13 +26,8 @@ impl ProfileKind {
     /// The kind that a scene uses. A scene without a curve counts as one that names a model.
     pub(super) fn of(scene: &ProfileScene) -> Self {
         match scene {
-            ProfileScene {
-                control_points: Some(_),
-                ..
-            } => Self::ControlPoints,
-            ProfileScene {
-                points: Some(_), ..
-            } => Self::Points,
+            ProfileScene { control_points: Some(_), .. } => Self::ControlPoints,
+            ProfileScene { points: Some(_), .. } => Self::Points,
             ProfileScene { file: Some(_), .. } => Self::File,
             _ => Self::Model,
         }
@@ -183,10 +178,7 @@ fn write_model_size(scene: &mut Scene) {
     let length = *scene.profile.length.get_or_insert(model.length());
     let rows = *scene.sheet.rows.get_or_insert(count(model.rows));
     let case = scene.sheet.case;
-    scene
-        .sheet
-        .columns
-        .get_or_insert(count(model.columns.of(columns_case(case))));
+    scene.sheet.columns.get_or_insert(count(model.columns.of(columns_case(case))));
     if !matches!(case, None | Some(CaseChoice::E | CaseChoice::Auto)) {
         let width = model.columns.e as f64 * length / rows.max(1) as f64;
         scene.sheet.width.get_or_insert(width);
@@ -219,11 +211,7 @@ pub(super) fn add_handle(scene: &mut ProfileScene, place: DVec2) -> Option<usize
     let is_closed = scene.closed.is_some();
     let points = handles_mut(scene)?;
     let ends = vectors(points);
-    let count = if is_closed {
-        ends.len()
-    } else {
-        ends.len().saturating_sub(1)
-    };
+    let count = if is_closed { ends.len() } else { ends.len().saturating_sub(1) };
     let distance = |k: &usize| to_segment(place, ends[*k], ends[(*k + 1) % ends.len()]);
     let nearest = (0..count).min_by(|a, b| distance(a).total_cmp(&distance(b)))?;
     points.insert(nearest + 1, place.into());
@@ -270,10 +258,7 @@ pub(super) fn remove_handle(scene: &mut ProfileScene, index: usize) -> bool {
 fn nearest_parameter(profile: &Profile, place: DVec2) -> f64 {
     let at = |k: usize| (k as f64 + 0.5) / SAMPLES as f64;
     let distance = |u: f64| profile.position(u).distance_squared(place);
-    (0..SAMPLES)
-        .map(at)
-        .min_by(|&a, &b| distance(a).total_cmp(&distance(b)))
-        .unwrap_or(0.5)
+    (0..SAMPLES).map(at).min_by(|&a, &b| distance(a).total_cmp(&distance(b))).unwrap_or(0.5)
 }
 
 fn to_segment(p: DVec2, a: DVec2, b: DVec2) -> f64 {
@@ -329,11 +314,7 @@ mod tests {
             for k in 0..=500 {
                 let u = f64::from(k) / 500.0;
                 let error = before.position(u).distance(after.position(u));
-                assert!(
-                    error <= 1e-12 * before.magnitude(),
-                    "{} at {u}: {error}",
-                    model.name
-                );
+                assert!(error <= 1e-12 * before.magnitude(), "{} at {u}: {error}", model.name);
             }
         }
     }
@@ -379,10 +360,7 @@ mod tests {
             for k in 0..=500 {
                 let u = f64::from(k) / 500.0;
                 let error = before.position(u).distance(after.position(u));
-                assert!(
-                    error <= 1e-12 * before.magnitude(),
-                    "{name} at {u}: {error}"
-                );
+                assert!(error <= 1e-12 * before.magnitude(), "{name} at {u}: {error}");
             }
         }
     }
@@ -417,10 +395,7 @@ mod tests {
             let mut scene = scene_of(model);
             assert!(into_points(&mut scene, None));
             assert!(own_profile(&scene.profile).is_some(), "{}", model.name);
-            assert_eq!(
-                own_profile(&scene.profile).unwrap().closure(),
-                before.closure()
-            );
+            assert_eq!(own_profile(&scene.profile).unwrap().closure(), before.closure());
         }
     }
 }

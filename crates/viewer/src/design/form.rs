@@ -14,9 +14,8 @@ pub(super) const NOTE_SIZE: f32 = 11.0;
 /// Width of the labels to the left of the controls, points.
 pub(super) const LABEL_WIDTH: f32 = 100.0;
 /// Tables of a scene that have a section; errors in other tables are shown at the top of the panel.
-const TABLES: [&str; 8] = [
-    "profile", "sheet", "division", "material", "motion", "check", "record", "pattern",
-];
+const TABLES: [&str; 8] =
+    ["profile", "sheet", "division", "material", "motion", "check", "record", "pattern"];
 
 /// A key of the scene that has a row in the panel. Its tooltip is the description in the schema.
 #[derive(Debug, Clone)]
@@ -82,11 +81,8 @@ impl<'a> Form<'a> {
         }
         // Text that cannot be parsed leaves the scene unchanged.
         let change = self.change.filter(|_| self.scene != *self.original);
-        let change = change.map(|(label, continues)| Change {
-            scene: self.scene,
-            label,
-            continues,
-        });
+        let change =
+            change.map(|(label, continues)| Change { scene: self.scene, label, continues });
         (change, self.gesture, self.claims)
     }
 
@@ -188,10 +184,7 @@ impl<'a> Form<'a> {
 
     fn unclaimed(&self, ui: &mut Ui, tables: &[&str]) {
         for error in self.errors {
-            let is_claimed = error
-                .key
-                .as_ref()
-                .is_some_and(|key| self.claimed.contains(key));
+            let is_claimed = error.key.as_ref().is_some_and(|key| self.claimed.contains(key));
             if is_within(error, tables) && !is_claimed {
                 message(ui, error);
             }
@@ -222,9 +215,7 @@ pub(super) fn note(ui: &Ui, text: impl Into<String>) -> RichText {
 }
 
 fn message(ui: &mut Ui, error: &SceneError) {
-    let text = RichText::new(&error.message)
-        .size(NOTE_SIZE)
-        .color(ui.visuals().error_fg_color);
+    let text = RichText::new(&error.message).size(NOTE_SIZE).color(ui.visuals().error_fg_color);
     ui.add(egui::Label::new(text).wrap());
 }
 

@@ -52,11 +52,7 @@ impl HandleEditor {
             return;
         }
         let again = points.first().filter(|_| profile.closed.is_some());
-        let line = points
-            .iter()
-            .chain(again)
-            .map(|&p| plane.to_screen(p))
-            .collect();
+        let line = points.iter().chain(again).map(|&p| plane.to_screen(p)).collect();
         let colour = ui.visuals().weak_text_color();
         painter.line(line, Stroke::new(1.0, colour));
     }
@@ -82,11 +78,8 @@ impl HandleEditor {
             }
             let rect = Rect::from_center_size(place, vec2(REACH, REACH));
             let response = ui.interact(rect, id, Sense::click_and_drag());
-            let kind = if form.scene.profile.control_points.is_some() {
-                "control point"
-            } else {
-                "point"
-            };
+            let kind =
+                if form.scene.profile.control_points.is_some() { "control point" } else { "point" };
             response.widget_info(|| {
                 let name = format!("{kind} {}", index + 1);
                 egui::WidgetInfo::labeled(egui::accesskit::Role::GraphicsObject, true, name)
@@ -130,11 +123,7 @@ impl HandleEditor {
     ) {
         let is_selected = self.selected == Some(index);
         let visuals = ui.visuals();
-        let fill = if is_selected {
-            visuals.selection.bg_fill
-        } else {
-            visuals.extreme_bg_color
-        };
+        let fill = if is_selected { visuals.selection.bg_fill } else { visuals.extreme_bg_color };
         let lively = is_selected || response.hovered() || response.dragged();
         let stroke = if lively {
             Stroke::new(2.0, visuals.strong_text_color())
@@ -222,24 +211,15 @@ impl HandleEditor {
 
 /// The action of a key press: arrow keys move the point, ten times as far with Shift; Delete and Backspace remove it.
 fn key_action(ui: &Ui, response: &Response, plane: &Plane, point: DVec2) -> Option<HandleAction> {
-    let filter = EventFilter {
-        horizontal_arrows: true,
-        vertical_arrows: true,
-        ..EventFilter::default()
-    };
+    let filter =
+        EventFilter { horizontal_arrows: true, vertical_arrows: true, ..EventFilter::default() };
     ui.memory_mut(|memory| memory.set_focus_lock_filter(response.id, filter));
     let step = round_step(1.0 / plane.scale);
     let mut way = DVec2::ZERO;
     let mut removes = false;
     ui.input(|input| {
         for event in &input.events {
-            let Event::Key {
-                key,
-                pressed: true,
-                modifiers,
-                ..
-            } = event
-            else {
+            let Event::Key { key, pressed: true, modifiers, .. } = event else {
                 continue;
             };
             let step = if modifiers.shift { 10.0 * step } else { step };

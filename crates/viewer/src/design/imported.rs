@@ -14,21 +14,15 @@ fn of(scene: &mut Scene) -> &mut PatternScene {
 }
 
 pub(super) fn show(measurements: &mut Measurements, form: &mut Form<'_>, ui: &mut Ui) {
-    form.section(
-        ui,
-        "Pattern",
-        true,
-        &["pattern", "profile", "sheet", "division"],
-        |form, ui| {
-            show_file(form, ui);
-            show_fold(form, ui);
-            show_reading(form, ui);
-            if let Some(Draft::Imported(study)) = form.draft {
-                measurements.update(form);
-                show_facts(study, measurements, ui);
-            }
-        },
-    );
+    form.section(ui, "Pattern", true, &["pattern", "profile", "sheet", "division"], |form, ui| {
+        show_file(form, ui);
+        show_fold(form, ui);
+        show_reading(form, ui);
+        if let Some(Draft::Imported(study)) = form.draft {
+            measurements.update(form);
+            show_facts(study, measurements, ui);
+        }
+    });
 }
 
 fn show_file(form: &mut Form<'_>, ui: &mut Ui) {
@@ -50,11 +44,7 @@ fn show_fold(form: &mut Form<'_>, ui: &mut Ui) {
     let field = Field::new("pattern.fixed", "fixed facet");
     form.row(ui, &field, |form, ui, label| {
         let width = ui.available_width() - 70.0;
-        let given = form
-            .scene
-            .pattern
-            .as_ref()
-            .and_then(|pattern| pattern.fixed.clone());
+        let given = form.scene.pattern.as_ref().and_then(|pattern| pattern.fixed.clone());
         let is_none = given.as_ref().is_some_and(Vec::is_empty);
         let mut first = given.as_ref().and_then(|list| list.first().copied());
         let hint = if is_none { "none" } else { "from file" };
@@ -63,9 +53,7 @@ fn show_fold(form: &mut Form<'_>, ui: &mut Ui) {
         if form.whole_cell(ui, field.name, spoken, &number, width, &mut first) {
             of(&mut form.scene).fixed = first.map(|facet| vec![facet]);
         }
-        let none = ui
-            .selectable_label(is_none, "none")
-            .on_hover_text("No facet stays in place.");
+        let none = ui.selectable_label(is_none, "none").on_hover_text("No facet stays in place.");
         if none.clicked() {
             of(&mut form.scene).fixed = (!is_none).then(Vec::new);
             form.record(field.name, none.id, false);
@@ -105,9 +93,8 @@ fn show_facts(study: &ImportedStudy, measurements: &Measurements, ui: &mut Ui) {
         value_row(ui, "stays", &format!("facet {facet}"), tip);
     }
     for warning in &imported.warnings {
-        let text = RichText::new(warning.to_string())
-            .size(NOTE_SIZE)
-            .color(ui.visuals().warn_fg_color);
+        let text =
+            RichText::new(warning.to_string()).size(NOTE_SIZE).color(ui.visuals().warn_fg_color);
         ui.add(eframe::egui::Label::new(text).wrap());
     }
 }

@@ -107,21 +107,13 @@ mod tests {
             for u in [0.0, 1e-3, 0.25, 1.0 / 3.0, 0.5, 0.777, 0.999] {
                 let Some((points, knots)) = inserted(curve.control_points(), curve.knots(), u)
                 else {
-                    assert_eq!(
-                        u, 0.0,
-                        "{}: only the clamped start takes no knot",
-                        model.name
-                    );
+                    assert_eq!(u, 0.0, "{}: only the clamped start takes no knot", model.name);
                     continue;
                 };
                 assert_eq!(points.len(), curve.control_points().len() + 1);
                 let more = Nurbs::with_knots(points, knots).unwrap();
                 let error = largest_difference(curve, &more);
-                assert!(
-                    error <= 1e-12 * profile.magnitude(),
-                    "{} {u}: {error}",
-                    model.name
-                );
+                assert!(error <= 1e-12 * profile.magnitude(), "{} {u}: {error}", model.name);
             }
         }
     }

@@ -31,41 +31,21 @@ pub(super) fn show(form: &mut Form<'_>, ui: &mut Ui) {
 
 fn show_constants(form: &mut Form<'_>, ui: &mut Ui, preset: &Material) {
     let constants: [(&str, &str, f64, f64, Constant); 5] = [
-        (
-            "material.axial_stiffness",
-            "bars EA",
-            preset.axial_stiffness,
-            1e5,
-            |s| &mut s.material.axial_stiffness,
-        ),
-        (
-            "material.fold_stiffness",
-            "creases",
-            preset.fold_stiffness,
-            1e3,
-            |s| &mut s.material.fold_stiffness,
-        ),
-        (
-            "material.facet_stiffness",
-            "facet hinges",
-            preset.facet_stiffness,
-            1e5,
-            |s| &mut s.material.facet_stiffness,
-        ),
-        (
-            "material.face_angle_stiffness",
-            "face angles",
-            preset.face_angle_stiffness,
-            1e3,
-            |s| &mut s.material.face_angle_stiffness,
-        ),
-        (
-            "material.damping_ratio",
-            "damping ζ",
-            preset.damping_ratio,
-            10.0,
-            |s| &mut s.material.damping_ratio,
-        ),
+        ("material.axial_stiffness", "bars EA", preset.axial_stiffness, 1e5, |s| {
+            &mut s.material.axial_stiffness
+        }),
+        ("material.fold_stiffness", "creases", preset.fold_stiffness, 1e3, |s| {
+            &mut s.material.fold_stiffness
+        }),
+        ("material.facet_stiffness", "facet hinges", preset.facet_stiffness, 1e5, |s| {
+            &mut s.material.facet_stiffness
+        }),
+        ("material.face_angle_stiffness", "face angles", preset.face_angle_stiffness, 1e3, |s| {
+            &mut s.material.face_angle_stiffness
+        }),
+        ("material.damping_ratio", "damping ζ", preset.damping_ratio, 10.0, |s| {
+            &mut s.material.damping_ratio
+        }),
     ];
     for (key, name, default, most, of) in constants {
         let number = Number::within(0.0..=most).default(default);

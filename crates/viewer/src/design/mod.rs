@@ -55,10 +55,7 @@ pub(crate) struct SceneError {
 impl SceneError {
     /// The message of `error`, which belongs to `key`.
     pub(crate) fn new(key: Option<&str>, error: &impl ToString) -> Self {
-        Self {
-            key: key.map(str::to_owned),
-            message: error.to_string(),
-        }
+        Self { key: key.map(str::to_owned), message: error.to_string() }
     }
 }
 

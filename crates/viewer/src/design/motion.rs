@@ -17,9 +17,7 @@ pub(super) fn show(form: &mut Form<'_>, ui: &mut Ui) {
         }
         let field = Field::new("check.touch_tolerance", "touch within");
         let number = Number::within(0.0..=0.1).default(1e-6);
-        form.number(ui, &field, &number, |scene| {
-            &mut scene.check.touch_tolerance
-        });
+        form.number(ui, &field, &number, |scene| &mut scene.check.touch_tolerance);
         show_steps(form, ui);
     });
 }

@@ -26,13 +26,7 @@ pub(super) struct Number {
 
 impl Number {
     pub(super) fn within(drag_range: RangeInclusive<f64>) -> Self {
-        Self {
-            drag_range,
-            default: None,
-            hint: "none",
-            speed: None,
-            whole: false,
-        }
+        Self { drag_range, default: None, hint: "none", speed: None, whole: false }
     }
 
     pub(super) fn default(mut self, value: impl Into<Option<f64>>) -> Self {
@@ -244,14 +238,7 @@ impl Form<'_> {
         before: f64,
     ) -> Option<f64> {
         let mut value = Some(before);
-        let is_changed = self.cell(
-            ui,
-            undo,
-            AccessibleName::As(name),
-            number,
-            width,
-            &mut value,
-        );
+        let is_changed = self.cell(ui, undo, AccessibleName::As(name), number, width, &mut value);
         value.filter(|_| is_changed)
     }
 

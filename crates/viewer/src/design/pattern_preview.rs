@@ -73,9 +73,8 @@ impl PatternPreview {
                     let [mountain, valley] = super::plane::crease_colours(ui);
                     ui.label(RichText::new("— mountain").size(NOTE_SIZE).color(mountain));
                     ui.label(RichText::new("- - valley").size(NOTE_SIZE).color(valley));
-                    let fit = ui
-                        .small_button("fit pattern")
-                        .on_hover_text("Show the whole pattern");
+                    let fit =
+                        ui.small_button("fit pattern").on_hover_text("Show the whole pattern");
                     if fit.clicked() {
                         self.view.fit();
                     }
@@ -90,11 +89,7 @@ impl PatternPreview {
         }
         self.of = Some(draft_number);
         self.orientation = Orientation::of(draft);
-        let turned = draft
-            .sheet()
-            .vertices
-            .iter()
-            .map(|&v| self.orientation.apply(v));
+        let turned = draft.sheet().vertices.iter().map(|&v| self.orientation.apply(v));
         self.bounds = bounds(turned);
     }
 
@@ -107,10 +102,7 @@ impl PatternPreview {
         let sheet = draft.sheet();
         let orientation = self.orientation;
         let place = |v| orientation.apply(v);
-        painter.add(
-            self.creases
-                .shape(ui, form.draft_number, sheet, &plane, place),
-        );
+        painter.add(self.creases.shape(ui, form.draft_number, sheet, &plane, place));
         if sheet.edges.len() > MAX_EDGES {
             let text = "only the first creases are shown";
             message(ui, &painter, &plane, text);
@@ -118,10 +110,8 @@ impl PatternPreview {
         if let Some(at) = response.hover_pos() {
             let found = found(draft, orientation.undo(plane.to_plane(at)));
             if let Some((corners, text)) = found {
-                let corners: Vec<_> = corners
-                    .iter()
-                    .map(|&c| plane.to_screen(orientation.apply(c)))
-                    .collect();
+                let corners: Vec<_> =
+                    corners.iter().map(|&c| plane.to_screen(orientation.apply(c))).collect();
                 mark(ui, &painter, &plane, corners, &text);
             }
         }
@@ -166,10 +156,7 @@ fn unit_at(units: &UnitSheet, at: DVec2) -> Option<(Vec<DVec2>, String)> {
                 DVec2::new(bottom, left),
             ];
             let kind = UnitSheet::unit_name(row as u32);
-            let text = format!(
-                "row {row}, column {column}: {kind}, case {}",
-                unit.case.name()
-            );
+            let text = format!("row {row}, column {column}: {kind}, case {}", unit.case.name());
             return Some((corners, text));
         }
         top = bottom;
@@ -180,17 +167,12 @@ fn unit_at(units: &UnitSheet, at: DVec2) -> Option<(Vec<DVec2>, String)> {
 fn facet_at(sheet: &Sheet, at: DVec2) -> Option<(Vec<DVec2>, String)> {
     let is_inside = |face: &[u32; 3]| {
         let [a, b, c] = face.map(|v| sheet.vertices[v as usize]);
-        [(a, b), (b, c), (c, a)]
-            .into_iter()
-            .all(|(p, q)| (q - p).perp_dot(at - p) >= 0.0)
+        [(a, b), (b, c), (c, a)].into_iter().all(|(p, q)| (q - p).perp_dot(at - p) >= 0.0)
     };
     let face = sheet.faces.iter().position(is_inside)?;
     let facet = sheet.face_facets[face];
     let polygon = &sheet.facets[facet as usize].polygon;
-    let corners = polygon
-        .iter()
-        .map(|&v| sheet.vertices[v as usize])
-        .collect();
+    let corners = polygon.iter().map(|&v| sheet.vertices[v as usize]).collect();
     Some((corners, format!("facet {facet}")))
 }
 
@@ -207,18 +189,11 @@ mod tests {
         for (row, column) in [(0, 0), (1, 1), (2, 0)] {
             let at = DVec2::new(-(f64::from(row) + 0.5), (f64::from(column) + 0.5) * 1.6);
             let (corners, text) = unit_at(&units, at).unwrap();
-            assert!(
-                text.starts_with(&format!("row {row}, column {column}")),
-                "{text}"
-            );
+            assert!(text.starts_with(&format!("row {row}, column {column}")), "{text}");
             let centre = corners.iter().sum::<DVec2>() / 4.0;
             assert!(centre.distance(at) < 1e-12);
         }
-        for outside in [
-            DVec2::new(0.1, 0.5),
-            DVec2::new(-3.1, 0.5),
-            DVec2::new(-1.0, 3.3),
-        ] {
+        for outside in [DVec2::new(0.1, 0.5), DVec2::new(-3.1, 0.5), DVec2::new(-1.0, 3.3)] {
             assert!(unit_at(&units, outside).is_none());
         }
     }

@@ -25,26 +25,17 @@ impl Plane {
     /// The plane in which the box from `low` to `high` fills `rect`.
     fn fitted(rect: Rect, [low, high]: [DVec2; 2]) -> Self {
         let room = rect.shrink(MARGIN.min(rect.size().min_elem() / 4.0)).size();
-        let size = (high - low).max(DVec2::splat(
-            1e-9 * (low.abs().max(high.abs()).max_element() + 1e-90),
-        ));
+        let size = (high - low)
+            .max(DVec2::splat(1e-9 * (low.abs().max(high.abs()).max_element() + 1e-90)));
         let scale = (f64::from(room.x) / size.x).min(f64::from(room.y) / size.y);
-        Self {
-            rect,
-            centre: low.midpoint(high),
-            scale: scale.clamp(1e-99, 1e99),
-        }
+        Self { rect, centre: low.midpoint(high), scale: scale.clamp(1e-99, 1e99) }
     }
 
     /// The position of a point on the screen, clamped to coordinates that can be drawn.
     pub(super) fn to_screen(self, point: DVec2) -> Pos2 {
         let offset = (point - self.centre) * self.scale;
         let kept = |x: f64| {
-            if x.is_nan() {
-                0.0
-            } else {
-                x.clamp(-1e4, 1e4) as f32
-            }
+            if x.is_nan() { 0.0 } else { x.clamp(-1e4, 1e4) as f32 }
         };
         self.rect.center() + vec2(kept(offset.x), -kept(offset.y))
     }
@@ -70,15 +61,11 @@ impl Plane {
             let label = label(value, step);
             painter.text(place, Align2::LEFT_BOTTOM, label, font.clone(), text);
         };
-        let (low, high) = (
-            self.to_plane(self.rect.left_bottom()),
-            self.to_plane(self.rect.right_top()),
-        );
+        let (low, high) =
+            (self.to_plane(self.rect.left_bottom()), self.to_plane(self.rect.right_top()));
         let lines = |low: f64, high: f64| {
             let first = (low / step).ceil();
-            (0..200)
-                .map(move |k| (first + f64::from(k)) * step)
-                .take_while(move |&x| x <= high)
+            (0..200).map(move |k| (first + f64::from(k)) * step).take_while(move |&x| x <= high)
         };
         let stroke = |at: f64| {
             let width = if at.abs() < step / 2.0 { 1.6 } else { 0.8 };
@@ -102,11 +89,7 @@ impl Plane {
 }
 
 fn label(at: f64, step: f64) -> String {
-    if at.abs() < step / 2.0 {
-        "0".to_owned()
-    } else {
-        short(at)
-    }
+    if at.abs() < step / 2.0 { "0".to_owned() } else { short(at) }
 }
 
 /// The smallest number that is 1, 2 or 5 times a power of ten and not less than `least`.
@@ -126,11 +109,7 @@ pub(super) fn bounds(points: impl IntoIterator<Item = DVec2>) -> [DVec2; 2] {
         .into_iter()
         .filter(|p| p.is_finite())
         .fold(start, |[low, high], p| [low.min(p), high.max(p)]);
-    if low.x <= high.x {
-        [low, high]
-    } else {
-        [DVec2::splat(-1.0), DVec2::splat(1.0)]
-    }
+    if low.x <= high.x { [low, high] } else { [DVec2::splat(-1.0), DVec2::splat(1.0)] }
 }
 
 /// The view that the user has chosen; until then, the view that fits the contents.
@@ -159,11 +138,7 @@ impl PlaneView {
         let rect = response.rect;
         let fitted = Plane::fitted(rect, bounds);
         let mut plane = match self.chosen {
-            Some((centre, scale)) => Plane {
-                rect,
-                centre,
-                scale,
-            },
+            Some((centre, scale)) => Plane { rect, centre, scale },
             None => fitted,
         };
         let moves = [egui::PointerButton::Secondary, egui::PointerButton::Middle];
@@ -208,28 +183,16 @@ pub(super) fn canvas(ui: &mut Ui, height: f32, name: &str) -> (Response, egui::P
     response.widget_info(|| egui::WidgetInfo::labeled(egui::accesskit::Role::Canvas, true, name));
     let painter = ui.painter_at(rect);
     let edge = ui.visuals().widgets.noninteractive.bg_stroke;
-    painter.rect(
-        rect,
-        3.0,
-        ui.visuals().extreme_bg_color,
-        edge,
-        egui::StrokeKind::Inside,
-    );
+    painter.rect(rect, 3.0, ui.visuals().extreme_bg_color, edge, egui::StrokeKind::Inside);
     (response, painter)
 }
 
 /// Red for mountains and blue for valleys, as in the paper, legible on dark and light backgrounds.
 pub(super) fn crease_colours(ui: &Ui) -> [Color32; 2] {
     if ui.visuals().dark_mode {
-        [
-            Color32::from_rgb(255, 105, 97),
-            Color32::from_rgb(105, 170, 255),
-        ]
+        [Color32::from_rgb(255, 105, 97), Color32::from_rgb(105, 170, 255)]
     } else {
-        [
-            Color32::from_rgb(200, 30, 30),
-            Color32::from_rgb(30, 80, 200),
-        ]
+        [Color32::from_rgb(200, 30, 30), Color32::from_rgb(30, 80, 200)]
     }
 }
 
@@ -261,13 +224,7 @@ mod tests {
 
     #[test]
     fn steps_of_grids_are_1_2_or_5_times_a_power_of_ten() {
-        for (least, step) in [
-            (0.9, 1.0),
-            (1.1, 2.0),
-            (2.1, 5.0),
-            (5.1, 10.0),
-            (0.03, 0.05),
-        ] {
+        for (least, step) in [(0.9, 1.0), (1.1, 2.0), (2.1, 5.0), (5.1, 10.0), (0.03, 0.05)] {
             assert!((round_step(least) / step - 1.0).abs() < 1e-12, "{least}");
         }
     }
@@ -279,10 +236,7 @@ mod tests {
             let place = plane.to_screen(DVec2::new(x, 0.0));
             assert!(place.x.is_finite() && place.y.is_finite());
         }
-        assert_eq!(
-            bounds([DVec2::NAN]),
-            [DVec2::splat(-1.0), DVec2::splat(1.0)]
-        );
+        assert_eq!(bounds([DVec2::NAN]), [DVec2::splat(-1.0), DVec2::splat(1.0)]);
         for size in [0.0, 1e-100, 1e100] {
             let fitted = Plane::fitted(plane.rect, [DVec2::splat(-size), DVec2::splat(size)]);
             assert!(fitted.scale.is_finite() && fitted.scale > 0.0);

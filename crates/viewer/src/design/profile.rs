@@ -37,32 +37,16 @@ impl ProfileSection {
     fn show_kinds(&mut self, form: &mut Form<'_>, ui: &mut Ui) {
         let at = ProfileKind::of(&form.scene.profile);
         self.names_file &= at != ProfileKind::File;
-        let shown = if self.names_file {
-            ProfileKind::File
-        } else {
-            at
-        };
+        let shown = if self.names_file { ProfileKind::File } else { at };
         let ways = [
-            (
-                ProfileKind::Model,
-                "built-in",
-                "A profile of figure 6 and table 1 of the paper",
-            ),
+            (ProfileKind::Model, "built-in", "A profile of figure 6 and table 1 of the paper"),
             (
                 ProfileKind::ControlPoints,
                 "control points",
                 "A cubic NURBS with unit weights (section 2 of the paper)",
             ),
-            (
-                ProfileKind::Points,
-                "points",
-                "A cubic spline through points",
-            ),
-            (
-                ProfileKind::File,
-                "file",
-                "Points from a .csv, .dat or .dxf file",
-            ),
+            (ProfileKind::Points, "points", "A cubic spline through points"),
+            (ProfileKind::File, "file", "Points from a .csv, .dat or .dxf file"),
         ];
         form.scope(ui, "profile kind", |form, ui| {
             ui.horizontal_wrapped(|ui| {
@@ -87,11 +71,7 @@ impl ProfileSection {
     fn show_buttons(&mut self, form: &mut Form<'_>, ui: &mut Ui) {
         form.scope(ui, "profile buttons", |form, ui| {
             ui.horizontal(|ui| {
-                if ui
-                    .small_button("fit")
-                    .on_hover_text("Show the whole profile")
-                    .clicked()
-                {
+                if ui.small_button("fit").on_hover_text("Show the whole profile").clicked() {
                     self.canvas.view.fit();
                 }
                 if ProfileKind::of(&form.scene.profile) != ProfileKind::ControlPoints {
@@ -113,10 +93,7 @@ impl ProfileSection {
 
 /// Converts the curve to another kind; returns false if it stays as it is for now.
 fn convert_to(form: &mut Form<'_>, kind: ProfileKind) -> bool {
-    let drawn = form
-        .draft
-        .and_then(Draft::units)
-        .map(|draft| &draft.profile);
+    let drawn = form.draft.and_then(Draft::units).map(|draft| &draft.profile);
     match kind {
         ProfileKind::Model => {
             let name = models().first().map_or("shelter", |model| model.name);

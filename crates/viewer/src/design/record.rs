@@ -36,11 +36,7 @@ fn show_outputs(form: &mut Form<'_>, ui: &mut Ui) {
                 let tip = tip.map_or("", |(_, tip)| *tip);
                 let response = ui.checkbox(&mut is_on, output.name()).on_hover_text(tip);
                 if response.changed() {
-                    let outputs = form
-                        .scene
-                        .record
-                        .outputs
-                        .get_or_insert(DEFAULT_OUTPUTS.to_vec());
+                    let outputs = form.scene.record.outputs.get_or_insert(DEFAULT_OUTPUTS.to_vec());
                     outputs.retain(|&other| other != output);
                     if is_on {
                         outputs.push(output);
@@ -69,14 +65,7 @@ fn pair(
         for (index, name) in names.into_iter().enumerate() {
             let number = number.clone().default(default[index]);
             let mut one = value.map(|values| values[index]);
-            if form.cell(
-                ui,
-                field.name,
-                AccessibleName::As(name),
-                &number,
-                width,
-                &mut one,
-            ) {
+            if form.cell(ui, field.name, AccessibleName::As(name), &number, width, &mut one) {
                 *value = one.map(|one| {
                     let mut values = before.unwrap_or(default);
                     values[index] = one;
@@ -109,15 +98,7 @@ fn show_times(form: &mut Form<'_>, ui: &mut Ui) {
     let number = Number::within(0.0..=60.0).speed(0.05);
     let mut value = form.scene.record.seconds;
     let names = ["seconds to unfold", "seconds to fold"];
-    if pair(
-        form,
-        ui,
-        &field,
-        names,
-        &number,
-        DEFAULT_SECONDS,
-        &mut value,
-    ) {
+    if pair(form, ui, &field, names, &number, DEFAULT_SECONDS, &mut value) {
         form.scene.record.seconds = value;
     }
     let field = Field::new("record.fps", "frames a second");
@@ -143,11 +124,7 @@ fn show_hold(form: &mut Form<'_>, ui: &mut Ui) {
         Some([]) => None,
         Some(&[seconds]) => Some(HoldScene::Each(seconds)),
         Some(&[a, b, c]) => Some(HoldScene::States([a, b, c])),
-        _ => form
-            .scene
-            .record
-            .hold
-            .or(Some(HoldScene::Each(DEFAULT_HOLD))),
+        _ => form.scene.record.hold.or(Some(HoldScene::Each(DEFAULT_HOLD))),
     };
     form.scene.record.hold = hold;
 }
@@ -182,11 +159,7 @@ fn show_looks(form: &mut Form<'_>, ui: &mut Ui) {
 fn show_states(form: &mut Form<'_>, ui: &mut Ui) {
     let field = Field::new("record.at", "states at");
     let given = form.scene.record.at.clone().unwrap_or_default();
-    let text = given
-        .iter()
-        .map(|t| format!("{t}"))
-        .collect::<Vec<_>>()
-        .join(", ");
+    let text = given.iter().map(|t| format!("{t}")).collect::<Vec<_>>().join(", ");
     if let Some(entered) = form.text(ui, &field, "0, 0.5, 1, 1.5, 2", &text)
         && let Some(times) = numbers(&entered)
     {

@@ -94,16 +94,10 @@ fn show_counts(form: &mut Form<'_>, ui: &mut Ui) {
     let case = columns_case(form.scene.sheet.case);
     let columns = built_in.map(|model| model.columns.of(case) as f64);
     let field = Field::new("sheet.columns", "columns Nc");
-    let number = Number::within(1.0..=1000.0)
-        .default(columns)
-        .hint("required");
+    let number = Number::within(1.0..=1000.0).default(columns).hint("required");
     form.whole(ui, &field, number, |scene| &mut scene.sheet.columns);
     let text = match size {
-        Some(UnitSize {
-            width: Some(w),
-            height: h,
-            ..
-        }) => {
+        Some(UnitSize { width: Some(w), height: h, .. }) => {
             format!("w = {}, h = {}, w/h = {}", short(w), short(h), short(w / h))
         }
         Some(UnitSize { height: h, .. }) => format!("h = {}; w requires a width", short(h)),
@@ -165,9 +159,7 @@ fn show_rest(form: &mut Form<'_>, ui: &mut Ui) {
 
 fn show_division(form: &mut Form<'_>, ui: &mut Ui) {
     let field = Field::new("division.method", "division");
-    form.menu(ui, &field, "equal-length", |scene| {
-        &mut scene.division.method
-    });
+    form.menu(ui, &field, "equal-length", |scene| &mut scene.division.method);
     let is_split = form.scene.division.method == Some(DivisionMethod::DouglasPeucker);
     let field = Field::new("division.tolerance", "tolerance");
     let number = if is_split {
@@ -178,7 +170,5 @@ fn show_division(form: &mut Form<'_>, ui: &mut Ui) {
     form.number(ui, &field, &number, |scene| &mut scene.division.tolerance);
     let field = Field::new("division.max_iterations", "iterations");
     let number = Number::within(1.0..=10_000.0).default(200.0);
-    form.whole(ui, &field, number, |scene| {
-        &mut scene.division.max_iterations
-    });
+    form.whole(ui, &field, number, |scene| &mut scene.division.max_iterations);
 }

@@ -29,10 +29,7 @@ pub(super) fn show_step(
     count: usize,
 ) -> Option<(StepAction, Id)> {
     let ground = ui.visuals().faint_bg_color;
-    let frame = Frame::new()
-        .fill(ground)
-        .inner_margin(Margin::same(5))
-        .corner_radius(3.0);
+    let frame = Frame::new().fill(ground).inner_margin(Margin::same(5)).corner_radius(3.0);
     frame
         .show(ui, |ui| {
             ui.set_width(ui.available_width());
@@ -57,12 +54,8 @@ fn show_head(ui: &mut Ui, index: usize, count: usize) -> Option<(StepAction, Id)
     ];
     let mut asked = None;
     for (name, order, is_possible) in buttons {
-        let button = ui
-            .add_enabled_ui(is_possible, |ui| icon_button(ui, order))
-            .inner;
-        let button = button
-            .accessible_name(format!("{name} step {number}"))
-            .on_hover_text(name);
+        let button = ui.add_enabled_ui(is_possible, |ui| icon_button(ui, order)).inner;
+        let button = button.accessible_name(format!("{name} step {number}")).on_hover_text(name);
         if button.clicked() {
             asked = Some((order, button.id));
         }
@@ -120,13 +113,9 @@ fn show_creases(form: &mut Form<'_>, ui: &mut Ui, index: usize) {
     if is_imported {
         creases.retain(|(name, _)| IMPORTED_CREASES.contains(name) || given == *name);
     }
-    form.menu_of(ui, &field, "all", creases, |scene| {
-        &mut scene.motion.step[index].creases
-    });
-    let lists: [(&'static str, Range); 2] = [
-        ("rows", |step| &mut step.rows),
-        ("columns", |step| &mut step.columns),
-    ];
+    form.menu_of(ui, &field, "all", creases, |scene| &mut scene.motion.step[index].creases);
+    let lists: [(&'static str, Range); 2] =
+        [("rows", |step| &mut step.rows), ("columns", |step| &mut step.columns)];
     for (name, of) in lists {
         let step = form.scene.motion.step.get_mut(index);
         let is_given = step.is_some_and(|step| of(step).is_some());
@@ -180,17 +169,11 @@ fn show_timing(form: &mut Form<'_>, ui: &mut Ui, index: usize) {
     paint_part(ui, step.from.unwrap_or(0.0), step.to.unwrap_or(1.0));
     let part = Number::within(0.0..=1.0).speed(0.005);
     let field = Field::new(key("from"), "from");
-    form.number(ui, &field, &part.clone().default(0.0), |scene| {
-        &mut scene.motion.step[index].from
-    });
+    form.number(ui, &field, &part.clone().default(0.0), |scene| &mut scene.motion.step[index].from);
     let field = Field::new(key("to"), "to");
-    form.number(ui, &field, &part.default(1.0), |scene| {
-        &mut scene.motion.step[index].to
-    });
+    form.number(ui, &field, &part.default(1.0), |scene| &mut scene.motion.step[index].to);
     let field = Field::new(key("ease"), "ease");
-    form.menu(ui, &field, "linear", |scene| {
-        &mut scene.motion.step[index].ease
-    });
+    form.menu(ui, &field, "linear", |scene| &mut scene.motion.step[index].ease);
 }
 
 /// A bar for the stage, in which the part with the step is filled.

@@ -38,12 +38,7 @@ impl UnitSize {
             (None, _, Some(model)) => Some(model.columns.e as f64 * height / columns as f64),
             (None, _, None) => None,
         };
-        Some(Self {
-            width,
-            height,
-            rows,
-            columns,
-        })
+        Some(Self { width, height, rows, columns })
     }
 
     /// The unit in a case; `None` if the width is not known.
@@ -76,19 +71,13 @@ fn rows(form: &Form<'_>, built_in: Option<&ProfileModel>) -> Option<usize> {
     if splits {
         return drafted();
     }
-    positive(form.scene.sheet.rows)
-        .or_else(|| built_in.map(|model| model.rows))
-        .or_else(drafted)
+    positive(form.scene.sheet.rows).or_else(|| built_in.map(|model| model.rows)).or_else(drafted)
 }
 
 /// The height h, the mean of all rows: from the length of the polygon if that is known, otherwise from the last
 /// division.
 fn height(form: &Form<'_>, built_in: Option<&ProfileModel>, rows: usize) -> Option<f64> {
-    let length = form
-        .scene
-        .profile
-        .length
-        .or_else(|| built_in.map(ProfileModel::length));
+    let length = form.scene.profile.length.or_else(|| built_in.map(ProfileModel::length));
     let height = match length {
         Some(length) => length / rows as f64,
         None => form.draft.and_then(Draft::units)?.division.mean_length,

@@ -41,10 +41,7 @@ pub(super) fn check_readable(path: &Path) -> Result<(), StudyError> {
         }
         File::open(path).map(drop)
     });
-    checked.map_err(|source| StudyError::Read {
-        path: path.to_owned(),
-        source,
-    })
+    checked.map_err(|source| StudyError::Read { path: path.to_owned(), source })
 }
 
 /// Writes a temporary file beside `path` and renames it: after a crash there is either the old file or the new one.
@@ -55,19 +52,12 @@ pub(crate) fn write_whole(path: &Path, text: &str, durable: bool) -> io::Result<
     let target = path.canonicalize().unwrap_or_else(|_| path.to_owned());
     let permissions = std::fs::metadata(&target).map(|m| m.permissions()).ok();
     if permissions.as_ref().is_some_and(Permissions::readonly) {
-        return Err(io::Error::new(
-            ErrorKind::PermissionDenied,
-            "the file is read-only",
-        ));
+        return Err(io::Error::new(ErrorKind::PermissionDenied, "the file is read-only"));
     }
     let name = target.file_name().unwrap_or_default().to_string_lossy();
     let beside = target.with_file_name(format!(".{name}.{}.part", std::process::id()));
     let written = || -> io::Result<()> {
-        let mut file = OpenOptions::new()
-            .write(true)
-            .create(true)
-            .truncate(true)
-            .open(&beside)?;
+        let mut file = OpenOptions::new().write(true).create(true).truncate(true).open(&beside)?;
         file.write_all(text.as_bytes())?;
         if let Some(permissions) = permissions {
             file.set_permissions(permissions)?;

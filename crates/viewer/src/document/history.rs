@@ -93,11 +93,7 @@ mod tests {
     use super::*;
 
     fn step(before: &str, after: &str) -> Step {
-        Step {
-            label: "edit".to_owned(),
-            before: before.into(),
-            after: after.into(),
-        }
+        Step { label: "edit".to_owned(), before: before.into(), after: after.into() }
     }
 
     #[test]

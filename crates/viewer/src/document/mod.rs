@@ -51,11 +51,7 @@ impl Document {
         file::check_readable(path)?;
         let source = SceneSource::read(path)?;
         if !SceneSource::is_pattern(path) {
-            return Ok(Self::with(
-                path.to_owned(),
-                Some(path.to_owned()),
-                source.text(),
-            ));
+            return Ok(Self::with(path.to_owned(), Some(path.to_owned()), source.text()));
         }
         let text = edit::edited("", &Scene::default(), &source.scene()?).unwrap_or_default();
         Ok(Self::with(path.to_owned(), None, &text))
@@ -215,11 +211,7 @@ impl Document {
     }
 
     fn record(&mut self, text: Arc<str>, label: &str, continues: bool) {
-        let step = Step {
-            label: label.to_owned(),
-            before: self.text.clone(),
-            after: text.clone(),
-        };
+        let step = Step { label: label.to_owned(), before: self.text.clone(), after: text.clone() };
         self.history.record(step, continues);
         self.text = text;
         self.revision += 1;
@@ -279,9 +271,7 @@ impl Document {
     /// unchanged.
     pub(crate) fn save_as(&mut self, path: &Path) -> Result<(), SaveError> {
         if SceneSource::is_pattern(path) {
-            return Err(SaveError::Ending {
-                path: path.to_owned(),
-            });
+            return Err(SaveError::Ending { path: path.to_owned() });
         }
         let (old, new) = (self.folder(), file::folder_of(path));
         let moved = |text: &str| moved_text(text, &old, &new);
@@ -325,17 +315,13 @@ impl Document {
 }
 
 fn write(path: &Path, text: &str) -> Result<(), SaveError> {
-    write_whole(path, text, true).map_err(|source| SaveError::Write {
-        path: path.to_owned(),
-        source,
-    })
+    write_whole(path, text, true)
+        .map_err(|source| SaveError::Write { path: path.to_owned(), source })
 }
 
 /// The text of a scene that moves from one folder to another; `None` if no path in it changes.
 fn moved_text(text: &str, old: &Path, new: &Path) -> Option<String> {
-    let scene = SceneSource::new(Path::new(UNTITLED), text.to_owned())
-        .scene()
-        .ok()?;
+    let scene = SceneSource::new(Path::new(UNTITLED), text.to_owned()).scene().ok()?;
     let moved = file::moved(&scene, old, new);
     (moved != scene).then(|| edit::edited(text, &scene, &moved))?
 }

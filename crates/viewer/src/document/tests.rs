@@ -43,10 +43,7 @@ fn an_edit_is_undone_and_redone_and_undone_back_to_the_saved_text_is_unmodified(
     assert_eq!(document.undo().as_deref(), Some("rows"));
     assert!(document.text() == text && !document.is_modified());
     assert_eq!(document.scene().sheet.rows, None);
-    assert_eq!(
-        (document.can_undo(), document.can_redo()),
-        (None, Some("rows"))
-    );
+    assert_eq!((document.can_undo(), document.can_redo()), (None, Some("rows")));
     assert_eq!(document.redo().as_deref(), Some("rows"));
     assert_eq!(document.text(), edited);
     assert_eq!(document.redo(), None);
@@ -101,11 +98,8 @@ fn while_the_text_has_an_error_the_scene_is_the_last_that_had_none() {
 #[test]
 fn only_what_cannot_be_read_is_an_error() {
     let folder = tempfile::tempdir().unwrap();
-    let unreadable = [
-        folder.path().to_owned(),
-        folder.path().join("none.toml"),
-        folder.path().join("none.svg"),
-    ];
+    let unreadable =
+        [folder.path().to_owned(), folder.path().join("none.toml"), folder.path().join("none.svg")];
     let binary = folder.path().join("binary.toml");
     fs::write(&binary, [0xff, 0xfe, 0x00]).unwrap();
     let large = folder.path().join("large.toml");
@@ -125,10 +119,7 @@ fn a_crease_pattern_opens_as_a_scene_that_names_it_and_is_never_overwritten() {
     assert!(foldmotion_study::Study::resolve(&document.source()).is_ok());
     let folder = tempfile::tempdir().unwrap();
     let pattern = folder.path().join("x.FOLD");
-    assert!(matches!(
-        document.save_as(&pattern),
-        Err(SaveError::Ending { .. })
-    ));
+    assert!(matches!(document.save_as(&pattern), Err(SaveError::Ending { .. })));
     assert!(!pattern.exists());
 }
 
@@ -138,10 +129,7 @@ fn saving_writes_the_text_and_notices_what_another_program_wrote() {
     let mut document = Document::open(&path).unwrap();
     assert!(rows(&mut document, 4, false));
     document.save().unwrap();
-    assert_eq!(
-        fs::read_to_string(&path).unwrap(),
-        "[sheet]\nrows = 4 # three\n"
-    );
+    assert_eq!(fs::read_to_string(&path).unwrap(), "[sheet]\nrows = 4 # three\n");
     assert!(!document.is_modified());
     assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 1);
 
@@ -174,10 +162,7 @@ fn a_file_that_cannot_be_written_leaves_the_scene_modified() {
     permissions.set_readonly(true);
     fs::set_permissions(&path, permissions).unwrap();
     let error = document.save().unwrap_err().to_string();
-    assert!(
-        error.contains("read-only") && document.is_modified(),
-        "{error}"
-    );
+    assert!(error.contains("read-only") && document.is_modified(), "{error}");
     let nowhere = path.with_file_name("no folder").join("a.toml");
     assert!(document.save_as(&nowhere).is_err());
     assert_eq!(document.path(), Some(&*path));
@@ -205,16 +190,10 @@ fn a_scene_saved_elsewhere_names_the_same_files_even_after_undo() {
     let below = folder.path().join("below");
     fs::create_dir(&below).unwrap();
     document.save_as(&below.join("b.toml")).unwrap();
-    assert_eq!(
-        document.scene().profile.file.as_deref(),
-        Some("../curve.csv")
-    );
+    assert_eq!(document.scene().profile.file.as_deref(), Some("../curve.csv"));
     assert!(document.text().contains("# drawn") && !document.is_modified());
     document.undo();
-    assert_eq!(
-        document.text(),
-        "[profile]\nfile = \"../curve.csv\" # drawn\n"
-    );
+    assert_eq!(document.text(), "[profile]\nfile = \"../curve.csv\" # drawn\n");
     document.redo();
     document.save_as(&folder.path().join("c.toml")).unwrap();
     assert_eq!(document.scene().profile.file.as_deref(), Some("curve.csv"));
@@ -224,12 +203,8 @@ fn a_scene_saved_elsewhere_names_the_same_files_even_after_undo() {
 #[test]
 fn a_restored_scene_keeps_its_file_and_can_be_undone() {
     let (_folder, path) = on_disk("[sheet]\nrows = 3\n");
-    let mut document = Document::restored(
-        &path,
-        Some(&path),
-        "[sheet]\nrows = 3\n",
-        "[sheet]\nrows = 4\n",
-    );
+    let mut document =
+        Document::restored(&path, Some(&path), "[sheet]\nrows = 3\n", "[sheet]\nrows = 4\n");
     assert!(document.is_modified() && document.scene().sheet.rows == Some(4));
     document.undo();
     assert!(!document.is_modified());

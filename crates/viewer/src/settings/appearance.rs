@@ -144,11 +144,7 @@ mod tests {
     fn contrast(a: Color32, b: Color32) -> f64 {
         let channel = |c: u8| {
             let c = f64::from(c) / 255.0;
-            if c <= 0.04045 {
-                c / 12.92
-            } else {
-                ((c + 0.055) / 1.055).powf(2.4)
-            }
+            if c <= 0.04045 { c / 12.92 } else { ((c + 0.055) / 1.055).powf(2.4) }
         };
         let luminance = |c: Color32| {
             0.2126 * channel(c.r()) + 0.7152 * channel(c.g()) + 0.0722 * channel(c.b())
@@ -161,12 +157,7 @@ mod tests {
     fn text_has_enough_contrast_on_every_background() {
         assert!(contrast(Color32::BLACK, Color32::WHITE) > 20.9);
         for palette in [&DARK, &LIGHT] {
-            for ground in [
-                palette.ground,
-                palette.raised,
-                palette.sunken,
-                palette.chosen,
-            ] {
+            for ground in [palette.ground, palette.raised, palette.sunken, palette.chosen] {
                 assert!(contrast(palette.text, ground) > 7.0);
             }
             for colour in [palette.accent, palette.warning, palette.error] {

@@ -36,14 +36,8 @@ const MOUSE: [(&str, &[(&str, &str)]); 2] = [
 ];
 
 const TERMS: [(&str, &str); 3] = [
-    (
-        "Touching",
-        "Facets lie on each other and separate on the same side.",
-    ),
-    (
-        "Penetrating",
-        "Facets overlap by more than the tolerance, or separate on the other side.",
-    ),
+    ("Touching", "Facets lie on each other and separate on the same side."),
+    ("Penetrating", "Facets overlap by more than the tolerance, or separate on the other side."),
     ("Free", "No facets come within the tolerance of each other."),
 ];
 
@@ -115,10 +109,7 @@ fn table(ui: &mut Ui, name: &str, rows: impl Iterator<Item = (String, String)>) 
     title(ui, name);
     let half = 0.5 * ui.available_width() - 12.0;
     let grid = Grid::new(name).num_columns(2).spacing([8.0, 2.0]);
-    let grid = grid
-        .min_row_height(16.0)
-        .min_col_width(half)
-        .max_col_width(half);
+    let grid = grid.min_row_height(16.0).min_col_width(half).max_col_width(half);
     grid.show(ui, |ui| {
         for (what, how) in rows {
             ui.label(what);
@@ -154,9 +145,7 @@ mod tests {
         harness.run();
         for shortcut in SHORTCUTS {
             harness.get_by_label(shortcut.name);
-            let listed = COLUMNS
-                .iter()
-                .any(|groups| groups.contains(&shortcut.group));
+            let listed = COLUMNS.iter().any(|groups| groups.contains(&shortcut.group));
             assert!(listed, "{shortcut:?}");
         }
         harness.get_by_label_contains("F5");
@@ -182,18 +171,13 @@ mod tests {
     #[test]
     #[cfg_attr(not(gpu_tests), ignore = "needs a GPU and FOLDMOTION_GPU_TESTS=yes")]
     fn the_sheet_is_drawn_dark_and_light() {
-        for (appearance, theme) in [
-            (Appearance::Dark, Theme::Dark),
-            (Appearance::Light, Theme::Light),
-        ] {
+        for (appearance, theme) in
+            [(Appearance::Dark, Theme::Dark), (Appearance::Light, Theme::Light)]
+        {
             let mut harness = harness(appearance);
             harness.run();
             assert_eq!(harness.ctx.theme(), theme);
-            let lit = drawn(
-                &mut harness,
-                &format!("help-{}", appearance.name()),
-                [450, 500],
-            );
+            let lit = drawn(&mut harness, &format!("help-{}", appearance.name()), [450, 500]);
             assert_eq!(lit < 128, theme == Theme::Dark, "{lit}");
         }
     }

@@ -93,9 +93,7 @@ impl Settings {
 /// One field, read by itself, so that an incompatible value of another version only resets this field.
 fn field<T: DeserializeOwned + Default>(stored: &Map<String, Value>, name: &str) -> T {
     let value = stored.get(name).cloned();
-    value
-        .and_then(|value| serde_json::from_value(value).ok())
-        .unwrap_or_default()
+    value.and_then(|value| serde_json::from_value(value).ok()).unwrap_or_default()
 }
 
 #[cfg(test)]
@@ -124,9 +122,7 @@ mod tests {
     pub(super) fn drawn<S>(harness: &mut Harness<'_, S>, name: &str, [x, y]: [u32; 2]) -> u8 {
         let picture = harness.render().unwrap();
         if let Some(folder) = std::env::var_os("FOLDMOTION_PICTURES") {
-            picture
-                .save(Path::new(&folder).join(format!("{name}.png")))
-                .unwrap();
+            picture.save(Path::new(&folder).join(format!("{name}.png"))).unwrap();
         }
         picture.get_pixel(x, y).0[0]
     }

@@ -50,10 +50,7 @@ const fn ctrl(key: Key) -> KeyboardShortcut {
     KeyboardShortcut::new(Modifiers::COMMAND, key)
 }
 
-const CTRL_SHIFT: Modifiers = Modifiers {
-    shift: true,
-    ..Modifiers::COMMAND
-};
+const CTRL_SHIFT: Modifiers = Modifiers { shift: true, ..Modifiers::COMMAND };
 
 const fn ctrl_shift(key: Key) -> KeyboardShortcut {
     KeyboardShortcut::new(CTRL_SHIFT, key)
@@ -141,9 +138,7 @@ commands! {
 }
 
 pub(crate) fn commands_of(group: Group) -> impl Iterator<Item = Command> {
-    let shortcuts = SHORTCUTS
-        .iter()
-        .filter(move |shortcut| shortcut.group == group);
+    let shortcuts = SHORTCUTS.iter().filter(move |shortcut| shortcut.group == group);
     shortcuts.map(|shortcut| shortcut.command)
 }
 
@@ -168,9 +163,7 @@ pub(super) fn written(ctx: &Context, keys: KeyboardShortcut) -> String {
 }
 
 fn shortcut_of(command: Command) -> Option<&'static Shortcut> {
-    SHORTCUTS
-        .iter()
-        .find(|shortcut| shortcut.command == command)
+    SHORTCUTS.iter().find(|shortcut| shortcut.command == command)
 }
 
 /// The commands whose keys were pressed since the last frame; their events are removed from the input.
@@ -212,14 +205,7 @@ enum Focus {
 }
 
 fn command_of(event: &Event, focus: Focus) -> Option<Command> {
-    let &Event::Key {
-        key,
-        pressed: true,
-        repeat,
-        modifiers,
-        ..
-    } = event
-    else {
+    let &Event::Key { key, pressed: true, repeat, modifiers, .. } = event else {
         return None;
     };
     let shortcut = SHORTCUTS.iter().find(|shortcut| {
@@ -266,13 +252,7 @@ mod tests {
     use super::*;
 
     fn key(key: Key, modifiers: Modifiers) -> Event {
-        Event::Key {
-            key,
-            physical_key: None,
-            pressed: true,
-            repeat: false,
-            modifiers,
-        }
+        Event::Key { key, physical_key: None, pressed: true, repeat: false, modifiers }
     }
 
     #[test]
@@ -322,15 +302,7 @@ mod tests {
             left = ui.input(|input| input.events.len());
         });
         output.drop_without_applying_deltas();
-        assert_eq!(
-            commands,
-            [
-                Command::Save,
-                Command::Redo,
-                Command::Help,
-                Command::ClosedFormBox
-            ]
-        );
+        assert_eq!(commands, [Command::Save, Command::Redo, Command::Help, Command::ClosedFormBox]);
         assert_eq!(left, 2);
     }
 
@@ -341,24 +313,12 @@ mod tests {
                 .map(|focus| command_of(&event, focus))
         };
         let (play, fit) = (Some(Command::Play), Some(Command::Fit));
-        assert_eq!(
-            found(key(Key::Space, Modifiers::NONE)),
-            [play, play, None, None]
-        );
+        assert_eq!(found(key(Key::Space, Modifiers::NONE)), [play, play, None, None]);
         assert_eq!(found(key(Key::F, Modifiers::NONE)), [fit, fit, fit, None]);
         let next = Some(Command::NextFrame);
-        assert_eq!(
-            found(key(Key::ArrowRight, Modifiers::NONE)),
-            [next, None, None, None]
-        );
-        assert_eq!(
-            found(key(Key::F5, Modifiers::NONE)),
-            [Some(Command::Run); 4]
-        );
-        assert_eq!(
-            found(key(Key::Z, Modifiers::COMMAND)),
-            [Some(Command::Undo); 4]
-        );
+        assert_eq!(found(key(Key::ArrowRight, Modifiers::NONE)), [next, None, None, None]);
+        assert_eq!(found(key(Key::F5, Modifiers::NONE)), [Some(Command::Run); 4]);
+        assert_eq!(found(key(Key::Z, Modifiers::COMMAND)), [Some(Command::Undo); 4]);
     }
 
     #[test]
@@ -371,10 +331,7 @@ mod tests {
             modifiers: Modifiers::NONE,
         };
         assert_eq!(command_of(&held(Key::Space), Focus::None), None);
-        assert_eq!(
-            command_of(&held(Key::ArrowRight), Focus::None),
-            Some(Command::NextFrame)
-        );
+        assert_eq!(command_of(&held(Key::ArrowRight), Focus::None), Some(Command::NextFrame));
     }
 
     #[test]

@@ -31,9 +31,7 @@ pub(crate) struct UnsavedScene {
 
 impl UnsavedScene {
     fn of(document: &Document) -> Self {
-        let path = document
-            .path()
-            .map(|path| path.to_string_lossy().into_owned());
+        let path = document.path().map(|path| path.to_string_lossy().into_owned());
         Self {
             location: document.location().to_string_lossy().into_owned(),
             path,
@@ -53,18 +51,12 @@ impl UnsavedScene {
     pub(crate) fn describe(&self) -> String {
         let name = Path::new(&self.location).file_name().unwrap_or_default();
         let age = since_epoch().as_secs().saturating_sub(self.time);
-        format!(
-            "unsaved changes to {}, {}",
-            name.to_string_lossy(),
-            ago(age)
-        )
+        format!("unsaved changes to {}, {}", name.to_string_lossy(), ago(age))
     }
 }
 
 fn since_epoch() -> Duration {
-    SystemTime::now()
-        .duration_since(UNIX_EPOCH)
-        .unwrap_or_default()
+    SystemTime::now().duration_since(UNIX_EPOCH).unwrap_or_default()
 }
 
 fn ago(seconds: u64) -> String {
@@ -91,10 +83,7 @@ impl LockedFile {
     fn take(path: PathBuf) -> Option<Self> {
         let lock = File::create(lock_of(&path)).ok()?;
         match lock.try_lock() {
-            Ok(()) => Some(Self {
-                path,
-                lock: Some(lock),
-            }),
+            Ok(()) => Some(Self { path, lock: Some(lock) }),
             Err(TryLockError::WouldBlock) => None,
             Err(TryLockError::Error(_)) => Some(Self { path, lock: None }),
         }
@@ -143,12 +132,7 @@ impl UnsavedScenes {
         for (_, kept) in recovered.drain(recovered.len().min(MAX_COUNT)..) {
             kept.remove();
         }
-        Ok(Self {
-            folder: folder.to_owned(),
-            own: None,
-            written: None,
-            recovered,
-        })
+        Ok(Self { folder: folder.to_owned(), own: None, written: None, recovered })
     }
 
     /// The scenes that earlier windows left behind, the latest first.
@@ -304,20 +288,13 @@ mod tests {
             .unwrap();
         let is_kept = || {
             let entries = std::fs::read_dir(folder.path()).unwrap();
-            entries
-                .flatten()
-                .any(|e| e.path().extension().is_some_and(|e| e == "json"))
+            entries.flatten().any(|e| e.path().extension().is_some_and(|e| e == "json"))
         };
         while !is_kept() {
             assert!(other.try_wait().unwrap().is_none());
             std::thread::sleep(Duration::from_millis(10));
         }
-        let offered = || {
-            UnsavedScenes::in_folder(folder.path())
-                .unwrap()
-                .recovered()
-                .count()
-        };
+        let offered = || UnsavedScenes::in_folder(folder.path()).unwrap().recovered().count();
         assert_eq!(offered(), 0);
         other.kill().unwrap();
         other.wait().unwrap();
@@ -328,10 +305,7 @@ mod tests {
     fn ten_are_kept_and_what_is_discarded_is_gone() {
         let folder = tempfile::tempdir().unwrap();
         for k in 0..13 {
-            let scene = UnsavedScene {
-                time: k,
-                ..UnsavedScene::of(&edited(9))
-            };
+            let scene = UnsavedScene { time: k, ..UnsavedScene::of(&edited(9)) };
             let path = folder.path().join(format!("{k}.json"));
             std::fs::write(path, serde_json::to_string(&scene).unwrap()).unwrap();
         }
@@ -341,13 +315,7 @@ mod tests {
         assert_eq!(times, (3..13).rev().collect::<Vec<_>>());
         scenes.discard(0);
         drop(scenes);
-        assert_eq!(
-            UnsavedScenes::in_folder(folder.path())
-                .unwrap()
-                .recovered()
-                .count(),
-            9
-        );
+        assert_eq!(UnsavedScenes::in_folder(folder.path()).unwrap().recovered().count(), 9);
     }
 
     #[test]

@@ -20,13 +20,8 @@ pub(crate) enum Colour {
 }
 
 impl Colour {
-    pub(crate) const ALL: [Self; 5] = [
-        Self::Plain,
-        Self::Strain,
-        Self::Bending,
-        Self::Unit,
-        Self::Layer,
-    ];
+    pub(crate) const ALL: [Self; 5] =
+        [Self::Plain, Self::Strain, Self::Bending, Self::Unit, Self::Layer];
 
     pub(crate) fn name(self) -> &'static str {
         match self {
@@ -49,10 +44,7 @@ impl Colour {
     }
 }
 
-#[expect(
-    clippy::struct_excessive_bools,
-    reason = "each is a switch in the window"
-)]
+#[expect(clippy::struct_excessive_bools, reason = "each is a switch in the window")]
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub(crate) struct ViewSettings {
@@ -85,10 +77,7 @@ impl Default for ViewSettings {
     }
 }
 
-#[expect(
-    clippy::struct_excessive_bools,
-    reason = "each is a switch in the window"
-)]
+#[expect(clippy::struct_excessive_bools, reason = "each is a switch in the window")]
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub(crate) struct PanelSettings {
@@ -101,12 +90,6 @@ pub(crate) struct PanelSettings {
 
 impl Default for PanelSettings {
     fn default() -> Self {
-        Self {
-            design: true,
-            plots: true,
-            verdict: true,
-            record: false,
-            text: false,
-        }
+        Self { design: true, plots: true, verdict: true, record: false, text: false }
     }
 }

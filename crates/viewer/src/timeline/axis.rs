@@ -21,10 +21,7 @@ impl Axis {
     pub(super) fn within(rect: Rect, times: [f64; 2]) -> Self {
         let left = rect.left() + Self::LEFT;
         let right = (rect.right() - Self::RIGHT).max(left + 1.0);
-        Self {
-            times,
-            span: Rangef::new(left, right),
-        }
+        Self { times, span: Rangef::new(left, right) }
     }
 
     /// The position of motion time `t`, points.

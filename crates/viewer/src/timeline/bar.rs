@@ -81,11 +81,8 @@ fn buttons(ui: &mut Ui, playback: &mut Playback, marks: &Marks) -> bool {
             playback.step(&marks.frames, false);
             moved = true;
         }
-        let (sign, name) = if playback.is_playing {
-            (Icon::Pause, "Pause")
-        } else {
-            (Icon::Play, "Play")
-        };
+        let (sign, name) =
+            if playback.is_playing { (Icon::Pause, "Pause") } else { (Icon::Play, "Play") };
         if icon(ui, sign, name, "space") {
             playback.toggle();
         }
@@ -110,11 +107,8 @@ fn buttons(ui: &mut Ui, playback: &mut Playback, marks: &Marks) -> bool {
         ui.separator();
         let label = ui.label("speed");
         let [slowest, fastest] = Playback::SPEEDS;
-        let field = DragValue::new(&mut playback.speed)
-            .range(slowest..=fastest)
-            .speed(0.02);
-        ui.add(field.max_decimals(3).suffix("×"))
-            .labelled_by(label.id);
+        let field = DragValue::new(&mut playback.speed).range(slowest..=fastest).speed(0.02);
+        ui.add(field.max_decimals(3).suffix("×")).labelled_by(label.id);
         ComboBox::from_id_salt("repeat")
             .selected_text(playback.repeat.name())
             .width(100.0)
@@ -222,18 +216,10 @@ fn bar(ui: &mut Ui, playback: &Playback, marks: &Marks, axis: &Axis) -> Response
         painter.vline(axis.x(t), middle - 7.0..=middle + 7.0, stroke);
     }
     let x = axis.x(time);
-    let knob = if response.dragged() || response.hovered() {
-        8.0
-    } else {
-        7.0
-    };
+    let knob = if response.dragged() || response.hovered() { 8.0 } else { 7.0 };
     let colour = visuals.hyperlink_color;
     painter.add(Shape::circle_filled(pos2(x, middle), knob, colour));
-    let rim = if response.has_focus() {
-        visuals.strong_text_color()
-    } else {
-        visuals.window_fill
-    };
+    let rim = if response.has_focus() { visuals.strong_text_color() } else { visuals.window_fill };
     painter.circle_stroke(pos2(x, middle), knob, Stroke::new(1.5, rim));
     response
 }

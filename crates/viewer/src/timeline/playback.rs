@@ -65,12 +65,7 @@ impl Playback {
         let [first, last] = self.range;
         let direction = seconds * self.speed / Self::STAGE_SECONDS;
         let length = last - first;
-        let time = self.time
-            + if self.is_backward {
-                -direction
-            } else {
-                direction
-            };
+        let time = self.time + if self.is_backward { -direction } else { direction };
         if (first..=last).contains(&time) {
             self.time = time;
             return;
@@ -85,12 +80,7 @@ impl Playback {
                 // Mirrored into the range; after a long pause this may be several lengths away.
                 let turned = (time - first).rem_euclid(2.0 * length.max(1e-9));
                 self.is_backward = turned > length;
-                self.time = first
-                    + if self.is_backward {
-                        2.0 * length - turned
-                    } else {
-                        turned
-                    };
+                self.time = first + if self.is_backward { 2.0 * length - turned } else { turned };
             }
         }
         self.time = self.time.clamp(first, last);
@@ -149,11 +139,7 @@ mod tests {
     use super::*;
 
     fn playing(repeat: Repeat) -> Playback {
-        Playback {
-            is_playing: true,
-            repeat,
-            ..Playback::default()
-        }
+        Playback { is_playing: true, repeat, ..Playback::default() }
     }
 
     #[test]
@@ -165,10 +151,7 @@ mod tests {
         playback.advance(1.0);
         assert_eq!(playback.time, 1.5);
         playback.advance(9.0);
-        assert!(
-            playback.time == 2.0 && !playback.is_playing,
-            "the end stops it"
-        );
+        assert!(playback.time == 2.0 && !playback.is_playing, "the end stops it");
     }
 
     #[test]
@@ -211,9 +194,6 @@ mod tests {
         assert_eq!(playback.time, 2.0);
         playback.repeat = Repeat::Once;
         playback.toggle();
-        assert!(
-            playback.time == 1.0 && playback.is_playing,
-            "it starts over"
-        );
+        assert!(playback.time == 1.0 && playback.is_playing, "it starts over");
     }
 }

@@ -38,26 +38,16 @@ impl Plot {
 
     /// A value on the scale of the plot: the value itself, or its decimal logarithm.
     pub(super) fn level(&self, value: f64) -> f64 {
-        if self.is_logarithmic {
-            value.log10()
-        } else {
-            value
-        }
+        if self.is_logarithmic { value.log10() } else { value }
     }
 
     /// The lowest and the highest level; a linear plot starts at 0 if no value is negative.
     pub(super) fn levels(&self) -> [f64; 2] {
-        let values = self
-            .curves
-            .iter()
-            .flat_map(|c| c.points.iter().map(|p| p[1]));
+        let values = self.curves.iter().flat_map(|c| c.points.iter().map(|p| p[1]));
         let values = values.chain(self.reference.map(|(value, _)| value));
         let levels = values.filter(|&v| self.shows(v)).map(|v| self.level(v));
-        let start = if self.is_logarithmic {
-            [f64::INFINITY, f64::NEG_INFINITY]
-        } else {
-            [0.0, 0.0]
-        };
+        let start =
+            if self.is_logarithmic { [f64::INFINITY, f64::NEG_INFINITY] } else { [0.0, 0.0] };
         let [low, high] = levels.fold(start, |[low, high], v| [low.min(v), high.max(v)]);
         if !(low.is_finite() && high.is_finite()) {
             return [0.0, 1.0];
@@ -93,10 +83,7 @@ mod tests {
             title: String::new(),
             about: "",
             is_logarithmic,
-            curves: vec![Curve {
-                name: "a",
-                points: points.collect(),
-            }],
+            curves: vec![Curve { name: "a", points: points.collect() }],
             reference: None,
         }
     }

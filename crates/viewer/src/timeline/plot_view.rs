@@ -12,23 +12,14 @@ use super::plot::{Curve, Plot};
 pub(super) const HEIGHT: f32 = 40.0;
 
 /// Colours of curves that can be told apart with colour blindness (Okabe and Ito 2008).
-const COLOURS: [[u8; 3]; 5] = [
-    [0, 114, 178],
-    [213, 94, 0],
-    [0, 158, 115],
-    [204, 121, 167],
-    [230, 159, 0],
-];
+const COLOURS: [[u8; 3]; 5] =
+    [[0, 114, 178], [213, 94, 0], [0, 158, 115], [204, 121, 167], [230, 159, 0]];
 
 /// The colour of curve `index`, lighter on a dark background.
 fn colour(index: usize, visuals: &Visuals) -> Color32 {
     let [r, g, b] = COLOURS[index % COLOURS.len()];
     let colour = Color32::from_rgb(r, g, b);
-    if visuals.dark_mode {
-        colour.lerp_to_gamma(Color32::WHITE, 0.25)
-    } else {
-        colour
-    }
+    if visuals.dark_mode { colour.lerp_to_gamma(Color32::WHITE, 0.25) } else { colour }
 }
 
 /// Draws a plot and returns the response of its area, in which the user can scrub.
@@ -38,22 +29,14 @@ pub(super) fn show_plot(ui: &mut Ui, plot: &Plot, axis: &Axis, time: f64) -> Res
     let name = format!("{} over motion time", plot.title);
     response.widget_info(|| {
         let words = readings(plot, time);
-        WidgetInfo::labeled(
-            eframe::egui::accesskit::Role::Image,
-            true,
-            format!("{name}: {words}"),
-        )
+        WidgetInfo::labeled(eframe::egui::accesskit::Role::Image, true, format!("{name}: {words}"))
     });
     if ui.is_rect_visible(rect) {
         paint(ui, plot, axis, time, rect);
     }
     // The tooltip is not shown over the curves, where it would cover what is being scrubbed.
     let is_beside = response.hover_pos().is_some_and(|at| at.x < axis.span.min);
-    if is_beside {
-        response.on_hover_text(plot.about)
-    } else {
-        response
-    }
+    if is_beside { response.on_hover_text(plot.about) } else { response }
 }
 
 fn paint(ui: &Ui, plot: &Plot, axis: &Axis, time: f64, rect: Rect) {
@@ -74,27 +57,10 @@ fn paint(ui: &Ui, plot: &Plot, axis: &Axis, time: f64, rect: Rect) {
         let part = (level - levels[0]) / (levels[1] - levels[0]);
         area.bottom() - 3.0 - (area.height() - 6.0) * part as f32
     };
-    for (level, anchor) in [
-        (levels[1], Align2::RIGHT_TOP),
-        (levels[0], Align2::RIGHT_BOTTOM),
-    ] {
-        let value = if plot.is_logarithmic {
-            10_f64.powf(level)
-        } else {
-            level
-        };
-        let at = if level == levels[1] {
-            area.top()
-        } else {
-            area.bottom()
-        };
-        painter.text(
-            pos2(area.left() - 5.0, at),
-            anchor,
-            number(value),
-            font.clone(),
-            weak,
-        );
+    for (level, anchor) in [(levels[1], Align2::RIGHT_TOP), (levels[0], Align2::RIGHT_BOTTOM)] {
+        let value = if plot.is_logarithmic { 10_f64.powf(level) } else { level };
+        let at = if level == levels[1] { area.top() } else { area.bottom() };
+        painter.text(pos2(area.left() - 5.0, at), anchor, number(value), font.clone(), weak);
     }
     for whole in [0.0, 1.0, 2.0] {
         if (axis.times[0]..=axis.times[1]).contains(&whole) {
@@ -185,27 +151,17 @@ fn legend(ui: &Ui, plot: &Plot, time: f64, area: Rect) {
         write(format!("{} {value}", curve.name), colour(index, visuals));
     }
     if let Some((value, name)) = plot.reference {
-        write(
-            format!("{name} {}", number(value)),
-            visuals.weak_text_color(),
-        );
+        write(format!("{name} {}", number(value)), visuals.weak_text_color());
     }
     let colour = visuals.extreme_bg_color.gamma_multiply(0.85);
-    painter.set(
-        ground,
-        Shape::rect_filled(place.expand2(vec2(3.0, 0.0)), 2.0, colour),
-    );
+    painter.set(ground, Shape::rect_filled(place.expand2(vec2(3.0, 0.0)), 2.0, colour));
 }
 
 /// The values at `time` as text.
 fn readings(plot: &Plot, time: f64) -> String {
     let value = |curve: &Curve| {
         let value = curve.at(time).filter(|v| v.is_finite());
-        format!(
-            "{} {}",
-            curve.name,
-            value.map_or_else(|| "none".to_owned(), number)
-        )
+        format!("{} {}", curve.name, value.map_or_else(|| "none".to_owned(), number))
     };
     plot.curves.iter().map(value).collect::<Vec<_>>().join(", ")
 }
@@ -239,9 +195,8 @@ mod tests {
 
     #[test]
     fn a_long_curve_keeps_its_peaks_and_gaps_in_few_points() {
-        let mut points: Vec<[f64; 2]> = (0..=20_000)
-            .map(|k| [f64::from(k) / 10_000.0, 1.0])
-            .collect();
+        let mut points: Vec<[f64; 2]> =
+            (0..=20_000).map(|k| [f64::from(k) / 10_000.0, 1.0]).collect();
         points[7_777][1] = 9.0;
         points[15_000][1] = f64::NAN;
         let plot = Plot {
@@ -251,10 +206,7 @@ mod tests {
             curves: vec![Curve { name: "a", points }],
             reference: None,
         };
-        let axis = Axis {
-            times: [0.0, 2.0],
-            span: Rangef::new(0.0, 300.0),
-        };
+        let axis = Axis { times: [0.0, 2.0], span: Rangef::new(0.0, 300.0) };
         let pieces = pieces(&plot, &plot.curves[0], &axis, &|level| level as f32);
         assert_eq!(pieces.len(), 2, "a value that is no number is a gap");
         let all: Vec<Pos2> = pieces.concat();

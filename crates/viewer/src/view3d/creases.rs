@@ -5,10 +5,7 @@ use serde::{Deserialize, Serialize};
 
 /// The classes of creases that are drawn: an edge is drawn if both its assignment and its kind are on. Diagonals inside
 /// facets are never drawn.
-#[expect(
-    clippy::struct_excessive_bools,
-    reason = "each is a switch in the window"
-)]
+#[expect(clippy::struct_excessive_bools, reason = "each is a switch in the window")]
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(default)]
 pub(crate) struct CreaseClasses {
@@ -110,11 +107,7 @@ mod tests {
         let drawn = count(&|edge| edge.assignment != Assignment::Facet);
         let all = CreaseClasses::default();
         assert_eq!(all.lines(&sheet).len(), drawn);
-        let without = CreaseClasses {
-            valleys: false,
-            row: false,
-            ..all
-        };
+        let without = CreaseClasses { valleys: false, row: false, ..all };
         let taken = count(&|edge| {
             edge.assignment != Assignment::Facet
                 && (edge.assignment == Assignment::Valley || edge.kind == CreaseKind::Row)

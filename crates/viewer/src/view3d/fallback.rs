@@ -66,9 +66,7 @@ impl FallbackRenderer {
         }
         painter.add(Shape::Mesh(Arc::clone(&self.mesh)));
         for segment in segments(picture) {
-            let [a, b] = segment
-                .ends
-                .map(|end| at(rect.min, projection.project(end)));
+            let [a, b] = segment.ends.map(|end| at(rect.min, projection.project(end)));
             if a == b {
                 painter.circle_filled(a, 0.5 * segment.width, segment.colour);
             } else {
@@ -90,17 +88,9 @@ fn mesh(
     prepared: Option<&PreparedSheet>,
 ) -> Mesh {
     let sheet = picture.sheet;
-    let points: Vec<DVec3> = picture
-        .positions
-        .iter()
-        .map(|&p| projection.project(p))
-        .collect();
+    let points: Vec<DVec3> = picture.positions.iter().map(|&p| projection.project(p)).collect();
     let mut lines = vec![Vec::new(); sheet.faces.len()];
-    for edge in sheet
-        .edges
-        .iter()
-        .filter(|edge| picture.creases.shows(edge))
-    {
+    for edge in sheet.edges.iter().filter(|edge| picture.creases.shows(edge)) {
         for face in edge.faces.into_iter().flatten() {
             lines[face as usize].push(edge);
         }
@@ -111,9 +101,8 @@ fn mesh(
             let corners = sheet.faces[index].map(|v| points[v as usize]);
             let n = normal(picture, projection, index);
             let side = if is_front(corners) { 1.0 } else { -1.0 };
-            let depth_offset = prepared.map_or(0.0, |prepared| {
-                prepared.depth_offset(index, side, sheet.unit_length)
-            });
+            let depth_offset = prepared
+                .map_or(0.0, |prepared| prepared.depth_offset(index, side, sheet.unit_length));
             let depth = corners.iter().map(|p| p.z).sum::<f64>() / 3.0;
             let light = painted(picture, paints[index], side, side * n);
             (depth - depth_offset, index, light)
@@ -124,11 +113,7 @@ fn mesh(
     let width = picture.style.line_width as f32;
     for (_, index, light) in faces {
         let colour = Color32::from(Rgba::from_rgb(light.x, light.y, light.z));
-        polygon(
-            &mut mesh,
-            &sheet.faces[index].map(|v| at(corner, points[v as usize])),
-            colour,
-        );
+        polygon(&mut mesh, &sheet.faces[index].map(|v| at(corner, points[v as usize])), colour);
         for edge in &lines[index] {
             let ends = edge.vertices.map(|v| at(corner, points[v as usize]));
             let [r, g, b] = match ink(edge.assignment) {
@@ -144,11 +129,7 @@ fn mesh(
 
 fn polygon(mesh: &mut Mesh, corners: &[Pos2], color: Color32) {
     let first = mesh.vertices.len() as u32;
-    let vertex = |&pos: &Pos2| Vertex {
-        pos,
-        uv: pos2(0.0, 0.0),
-        color,
-    };
+    let vertex = |&pos: &Pos2| Vertex { pos, uv: pos2(0.0, 0.0), color };
     mesh.vertices.extend(corners.iter().map(vertex));
     for k in 2..corners.len() as u32 {
         mesh.add_triangle(first, first + k - 1, first + k);
@@ -180,11 +161,7 @@ fn painted(picture: &Picture<'_>, paint: u32, side: f64, n: DVec3) -> Vec3 {
         Vec3::new(r, g, b)
     };
     let (kind, colour) = unpacked(paint);
-    let paper = light(if side > 0.0 {
-        picture.style.front
-    } else {
-        picture.style.back
-    });
+    let paper = light(if side > 0.0 { picture.style.front } else { picture.style.back });
     let base = match kind {
         VALUE => return light(colour),
         TINT => light(colour) * if side > 0.0 { 1.0 } else { TINTED_BACK },

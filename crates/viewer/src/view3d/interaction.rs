@@ -88,8 +88,7 @@ impl View3d {
         if factor != 1.0 {
             let length = self.orbit.width / f64::from(rect.width());
             let at = (within(rect, at) - 0.5 * size(rect)) * length;
-            self.orbit
-                .zoom(factor, DVec2::new(at.x, -at.y), self.widths());
+            self.orbit.zoom(factor, DVec2::new(at.x, -at.y), self.widths());
         }
     }
 
@@ -168,11 +167,7 @@ impl View3d {
         let pull = self.pull(response, rect, picture, projection);
         let vertex = hit.vertex;
         self.mark(ui, response, rect, vertex.filter(|_| picture.can_pull));
-        ViewResponse {
-            vertex,
-            face: hit.face,
-            pull,
-        }
+        ViewResponse { vertex, face: hit.face, pull }
     }
 
     fn hit(&self, picture: &Picture<'_>, at: Option<DVec2>) -> Hit {
@@ -210,10 +205,7 @@ impl View3d {
         let vertex = self.pulled?;
         let at = response.interact_pointer_pos()?;
         let place: DVec3 = *picture.positions.get(vertex as usize)?;
-        Some(VertexPull {
-            vertex,
-            target: projection.beside(place, within(rect, at)),
-        })
+        Some(VertexPull { vertex, target: projection.beside(place, within(rect, at)) })
     }
 
     /// Marks the vertex that can be grabbed, and the view if it has the keyboard focus.
@@ -221,13 +213,11 @@ impl View3d {
         let stroke = egui::Stroke::new(1.0, ui.visuals().hyperlink_color);
         if let Some(at) = vertex.and_then(|vertex| self.points.at(vertex)) {
             let at = rect.min + egui::vec2(at.x as f32, at.y as f32);
-            ui.painter_at(rect)
-                .circle_stroke(at, 6.0, (2.0, stroke.color));
+            ui.painter_at(rect).circle_stroke(at, 6.0, (2.0, stroke.color));
             ui.set_cursor_icon(egui::CursorIcon::Grab);
         }
         if response.has_focus() {
-            ui.painter()
-                .rect_stroke(rect, 0.0, stroke, StrokeKind::Inside);
+            ui.painter().rect_stroke(rect, 0.0, stroke, StrokeKind::Inside);
         }
     }
 }

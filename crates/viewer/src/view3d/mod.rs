@@ -78,9 +78,7 @@ impl View3d {
 
     /// The camera; during a transition, the camera at its end.
     pub(crate) fn orbit(&self) -> OrbitCamera {
-        self.transition
-            .as_ref()
-            .map_or(self.orbit, CameraTransition::end)
+        self.transition.as_ref().map_or(self.orbit, CameraTransition::end)
     }
 
     /// Sets the camera without a transition.
@@ -93,10 +91,7 @@ impl View3d {
     /// Moves the camera by `displacement`, together with a sheet that is now shown elsewhere.
     pub(crate) fn translate(&mut self, displacement: DVec3) {
         let orbit = self.orbit();
-        self.set_orbit(OrbitCamera {
-            centre: orbit.centre + displacement,
-            ..orbit
-        });
+        self.set_orbit(OrbitCamera { centre: orbit.centre + displacement, ..orbit });
     }
 
     /// Turns to one of the standard views, see [`View::NAMES`].
@@ -109,10 +104,7 @@ impl View3d {
     /// Switches between perspective and parallel projection.
     pub(crate) fn set_perspective(&mut self, perspective: bool) {
         self.orbit.perspective = perspective;
-        let to = OrbitCamera {
-            perspective,
-            ..self.orbit()
-        };
+        let to = OrbitCamera { perspective, ..self.orbit() };
         self.move_to(to);
     }
 
@@ -137,10 +129,7 @@ impl View3d {
 
     /// The smallest and the largest width of the view.
     fn widths(&self) -> [f64; 2] {
-        let radius = self
-            .prepared
-            .as_ref()
-            .map_or(1.0, |prepared| prepared.sphere.radius);
+        let radius = self.prepared.as_ref().map_or(1.0, |prepared| prepared.sphere.radius);
         [1e-3, 1e2].map(|part| part * radius.max(f64::MIN_POSITIVE))
     }
 
@@ -162,9 +151,7 @@ impl View3d {
         let sphere = self.prepared.as_ref().map(|prepared| prepared.sphere);
         let overlays = segments::segments(picture);
         let ends = overlays.iter().flat_map(|segment| segment.ends);
-        let sphere = sphere
-            .unwrap_or_else(|| projection::Sphere::around([]))
-            .with(ends);
+        let sphere = sphere.unwrap_or_else(|| projection::Sphere::around([])).with(ends);
         let projection = Projection::new(&self.orbit, size, sphere);
         ui.painter().rect_filled(rect, 0.0, picture.background);
         if !self.is_drawable(picture) {
@@ -175,19 +162,14 @@ impl View3d {
             ui.painter().image(texture, rect, whole, Color32::WHITE);
         } else {
             let painter = ui.painter_at(rect);
-            self.fallback
-                .paint(&painter, rect, picture, &projection, self.prepared.as_ref());
+            self.fallback.paint(&painter, rect, picture, &projection, self.prepared.as_ref());
             self.note(ui, rect, render_state.is_some());
         }
         self.pick(ui, &response, rect, picture, &projection)
     }
 
     fn is_drawable(&self, picture: &Picture<'_>) -> bool {
-        picture.is_whole()
-            && self
-                .prepared
-                .as_ref()
-                .is_some_and(|prepared| prepared.is_finite)
+        picture.is_whole() && self.prepared.as_ref().is_some_and(|prepared| prepared.is_finite)
     }
 
     /// Updates what is derived from the sheet and its state.
@@ -199,10 +181,8 @@ impl View3d {
             None => self.prepared = Some(PreparedSheet::new(picture)),
         }
         if self.is_drawable(picture) {
-            self.pivot = self
-                .prepared
-                .as_ref()
-                .map_or(self.pivot, |prepared| prepared.sphere.middle);
+            self.pivot =
+                self.prepared.as_ref().map_or(self.pivot, |prepared| prepared.sphere.middle);
             if !self.was_shown {
                 self.pending_fit = Some(picture.positions.to_vec());
             }
@@ -309,11 +289,7 @@ fn name(response: &Response, orbit: &OrbitCamera) {
             orbit.azimuth,
             orbit.elevation,
             orbit.width,
-            if orbit.perspective {
-                ", in perspective"
-            } else {
-                ""
-            }
+            if orbit.perspective { ", in perspective" } else { "" }
         );
         egui::WidgetInfo {
             current_text_value: Some(from),

@@ -32,13 +32,7 @@ pub(crate) struct OrbitCamera {
 impl Default for OrbitCamera {
     fn default() -> Self {
         let [azimuth, elevation] = direction(View::Iso);
-        Self {
-            azimuth,
-            elevation,
-            centre: DVec3::ZERO,
-            width: 1.0,
-            perspective: false,
-        }
+        Self { azimuth, elevation, centre: DVec3::ZERO, width: 1.0, perspective: false }
     }
 }
 
@@ -60,10 +54,7 @@ fn direction(view: View) -> [f64; 2] {
 impl OrbitCamera {
     /// The same direction for films and figures.
     pub(crate) fn view(&self) -> View {
-        View::Around {
-            azimuth: self.azimuth,
-            elevation: self.elevation,
-        }
+        View::Around { azimuth: self.azimuth, elevation: self.elevation }
     }
 
     /// Unit vectors to the right, up and towards the viewer.
@@ -138,11 +129,7 @@ impl OrbitCamera {
         self.centre = right * middle.x + up * middle.y + toward * depth;
         if width > 0.0 {
             // Near points look larger in perspective.
-            let bulge = if self.perspective {
-                0.5 * (near - far) / EYE_DISTANCE
-            } else {
-                0.0
-            };
+            let bulge = if self.perspective { 0.5 * (near - far) / EYE_DISTANCE } else { 0.0 };
             self.width = width + bulge;
         }
     }
@@ -178,11 +165,7 @@ pub(super) struct CameraTransition {
 
 impl CameraTransition {
     pub(super) fn new(from: OrbitCamera, to: OrbitCamera) -> Self {
-        Self {
-            from,
-            to,
-            passed: 0.0,
-        }
+        Self { from, to, passed: 0.0 }
     }
 
     /// The camera at the end of the transition.
@@ -250,14 +233,8 @@ mod tests {
 
     #[test]
     fn a_transition_turns_the_shorter_way_round_and_ends() {
-        let from = OrbitCamera {
-            azimuth: 170.0,
-            ..OrbitCamera::default()
-        };
-        let to = OrbitCamera {
-            azimuth: -170.0,
-            ..from
-        };
+        let from = OrbitCamera { azimuth: 170.0, ..OrbitCamera::default() };
+        let to = OrbitCamera { azimuth: -170.0, ..from };
         let mut transition = CameraTransition::new(from, to);
         let (half, arrived) = transition.step(0.5 * TRANSITION_SECONDS);
         assert!((half.azimuth - 180.0).abs() < 1e-9 && !arrived);

@@ -16,13 +16,8 @@ pub(super) const MARK: u32 = 3;
 
 /// Tints of units that can be told apart with colour blindness (after Okabe and Ito 2008, Color universal design) and
 /// are light enough for lines on them.
-const TINTS: [[u8; 3]; 5] = [
-    [242, 207, 138],
-    [158, 208, 238],
-    [140, 211, 186],
-    [240, 232, 150],
-    [232, 184, 212],
-];
+const TINTS: [[u8; 3]; 5] =
+    [[242, 207, 138], [158, 208, 238], [140, 211, 186], [240, 232, 150], [232, 184, 212]];
 
 fn packed(kind: u32, [r, g, b]: [u8; 3]) -> u32 {
     kind << 24 | u32::from(b) << 16 | u32::from(g) << 8 | u32::from(r)
@@ -49,10 +44,7 @@ impl PaintKey {
             Colours::Units => (2, [0.0; 2], 0),
             Colours::Layers => (3, [0.0; 2], 0),
         };
-        Self {
-            colours,
-            flash: picture.flash.to_vec(),
-        }
+        Self { colours, flash: picture.flash.to_vec() }
     }
 }
 
@@ -77,11 +69,7 @@ fn of_values(sheet: &Sheet, values: &[f64], [low, high]: [f64; 2]) -> Vec<u32> {
     let paint = |face: usize| {
         let value = values.get(face).copied().unwrap_or(f64::NAN);
         let part = (value - low) / (high - low);
-        if part.is_nan() {
-            PAPER
-        } else {
-            packed(VALUE, colour_of(part))
-        }
+        if part.is_nan() { PAPER } else { packed(VALUE, colour_of(part)) }
     };
     (0..sheet.faces.len()).map(paint).collect()
 }
@@ -109,12 +97,7 @@ fn of_layers(sheet: &Sheet, layers: Option<&Layers>) -> Vec<u32> {
         }
         packed(TINT, colour_of(f64::from(height) / f64::from(top)))
     };
-    layers
-        .heights
-        .iter()
-        .zip(&layers.before)
-        .map(paint)
-        .collect()
+    layers.heights.iter().zip(&layers.before).map(paint).collect()
 }
 
 #[cfg(test)]

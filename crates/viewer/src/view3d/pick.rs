@@ -56,10 +56,7 @@ impl ProjectedVertices {
             front.is_none_or(|(_, depth)| depth <= point.z + slack)
         });
         let front = self.front(picture, prepared, at, |_| true);
-        Hit {
-            vertex: seen.map(|(vertex, _)| vertex),
-            face: front.map(|(face, _)| face),
-        }
+        Hit { vertex: seen.map(|(vertex, _)| vertex), face: front.map(|(face, _)| face) }
     }
 
     /// The triangle nearest to the viewer at `at`, of those that pass `filter`, and its nearness there.

@@ -107,9 +107,7 @@ fn neighbours(layers: &Layers) -> Vec<[u32; 2]> {
         }
     }
     let pairs = (0..).zip(nearest);
-    pairs
-        .filter_map(|(face, nearest)| Some([face, nearest?.1]))
-        .collect()
+    pairs.filter_map(|(face, nearest)| Some([face, nearest?.1])).collect()
 }
 
 /// The number of layers in front of each triangle, reduced where it is not parallel to its neighbour.

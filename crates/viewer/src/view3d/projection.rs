@@ -23,18 +23,13 @@ impl Sphere {
         if middle.is_finite() && radius.is_finite() {
             return Self { middle, radius };
         }
-        Self {
-            middle: DVec3::ZERO,
-            radius: 1.0,
-        }
+        Self { middle: DVec3::ZERO, radius: 1.0 }
     }
 
     /// A sphere with the same centre that contains `points` too.
     pub(super) fn with(self, points: impl IntoIterator<Item = DVec3>) -> Self {
         let distances = points.into_iter().map(|p| (p - self.middle).length());
-        let radius = distances
-            .filter(|d| d.is_finite())
-            .fold(self.radius, f64::max);
+        let radius = distances.filter(|d| d.is_finite()).fold(self.radius, f64::max);
         Self { radius, ..self }
     }
 }
@@ -65,11 +60,7 @@ impl Projection {
             centre: orbit.centre,
             scale: size.x / orbit.width,
             size,
-            inverse_distance: if orbit.perspective {
-                1.0 / distance
-            } else {
-                0.0
-            },
+            inverse_distance: if orbit.perspective { 1.0 / distance } else { 0.0 },
             sphere,
         }
     }
@@ -135,11 +126,8 @@ mod tests {
 
     #[test]
     fn a_parallel_projection_is_that_of_the_camera_of_films() {
-        let orbit = OrbitCamera {
-            centre: DVec3::new(1.0, 2.0, 3.0),
-            width: 8.0,
-            ..OrbitCamera::default()
-        };
+        let orbit =
+            OrbitCamera { centre: DVec3::new(1.0, 2.0, 3.0), width: 8.0, ..OrbitCamera::default() };
         let camera = orbit.camera([400, 300]).unwrap();
         for point in [DVec3::ZERO, DVec3::X, DVec3::new(-2.0, 5.0, 1.0)] {
             let apart = (camera.project(point) - projection(false).project(point)).truncate();
@@ -171,10 +159,7 @@ mod tests {
             let projection = Projection::new(&orbit, DVec2::ONE, sphere);
             let nearest = sphere.middle + projection.axes()[2] * sphere.radius;
             let behind = projection.project(sphere.middle - projection.axes()[2]);
-            assert!(
-                projection.project(nearest).z > projection.project(sphere.middle).z,
-                "{width}"
-            );
+            assert!(projection.project(nearest).z > projection.project(sphere.middle).z, "{width}");
             assert!(behind.z < projection.project(sphere.middle).z);
         }
     }

@@ -31,20 +31,7 @@ impl Segment {
         let [r, g, b_, alpha] = Rgba::from(self.colour.to_opaque()).to_array();
         let opacity = alpha * f32::from(self.colour.a()) / 255.0;
         let half = 0.5 * self.width * pixels;
-        [
-            a.x,
-            a.y,
-            a.z,
-            b.x,
-            b.y,
-            b.z,
-            r,
-            g,
-            b_,
-            opacity,
-            half,
-            self.hidden,
-        ]
+        [a.x, a.y, a.z, b.x, b.y, b.z, r, g, b_, opacity, half, self.hidden]
     }
 }
 
@@ -57,12 +44,7 @@ pub(super) fn segments(picture: &Picture<'_>) -> Vec<Segment> {
     {
         let [r, g, b] = picture.style.mark;
         let colour = Color32::from_rgb(r, g, b);
-        let segment = |ends, width| Segment {
-            ends,
-            colour,
-            width,
-            hidden: 1.0,
-        };
+        let segment = |ends, width| Segment { ends, colour, width, hidden: 1.0 };
         segments.push(segment([from, pull.target], 2.0));
         segments.push(segment([from; 2], PULL_DIAMETER));
         segments.push(segment([pull.target; 2], 0.7 * PULL_DIAMETER));
@@ -76,12 +58,8 @@ fn of_overlay(overlay: &Overlay<'_>) -> Vec<Segment> {
         Shape::Dots(_) => 1.0,
         Shape::Path(_) | Shape::Box(..) => HIDDEN,
     };
-    let segment = |ends: [DVec3; 2]| Segment {
-        ends,
-        colour: overlay.colour,
-        width: overlay.width,
-        hidden,
-    };
+    let segment =
+        |ends: [DVec3; 2]| Segment { ends, colour: overlay.colour, width: overlay.width, hidden };
     match overlay.shape {
         Shape::Path(points) => {
             let pairs = points.windows(2).map(|pair| [pair[0], pair[1]]);
@@ -108,9 +86,8 @@ mod tests {
     #[test]
     fn a_box_has_twelve_edges_and_three_at_each_of_its_eight_corners() {
         let edges = box_edges(DVec3::ONE, [DVec3::X, DVec3::Y * 2.0, DVec3::Z * 3.0]);
-        let mut corners: Vec<[i32; 3]> = (edges.iter().flatten())
-            .map(|p| p.as_ivec3().to_array())
-            .collect();
+        let mut corners: Vec<[i32; 3]> =
+            (edges.iter().flatten()).map(|p| p.as_ivec3().to_array()).collect();
         corners.sort_unstable();
         assert_eq!(corners.len(), 24);
         let counts: Vec<usize> = corners.chunk_by(|a, b| a == b).map(<[_]>::len).collect();

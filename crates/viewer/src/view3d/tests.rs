@@ -68,11 +68,7 @@ impl Window {
         let (low, high) = (DVec3::new(-2.2, 0.0, 0.0), DVec3::new(2.2, 8.0, 2.2));
         let edges = [DVec3::X, DVec3::Y, DVec3::Z].map(|axis| axis * (high - low));
         let colour = ui.visuals().hyperlink_color;
-        let overlay = |shape, width| Overlay {
-            shape,
-            colour,
-            width,
-        };
+        let overlay = |shape, width| Overlay { shape, colour, width };
         let path = [low, 0.5 * (low + high), high];
         let overlays = [
             overlay(Shape::Box(low, edges), 1.5),
@@ -80,11 +76,7 @@ impl Window {
             overlay(Shape::Dots(&path), 8.0),
         ];
         picture.colours = match self.colours {
-            TestColours::Strain => Colours::Values {
-                values: &values,
-                range,
-                key: 0,
-            },
+            TestColours::Strain => Colours::Values { values: &values, range, key: 0 },
             TestColours::Units => Colours::Units,
             TestColours::Layers => Colours::Layers,
             TestColours::Plain | TestColours::Overlays => Colours::Plain,
@@ -92,10 +84,7 @@ impl Window {
         if self.colours == TestColours::Overlays {
             picture.overlays = &overlays;
             picture.flash = &[3, 40, 41, 42];
-            picture.pull = Some(VertexPull {
-                vertex: 30,
-                target: high,
-            });
+            picture.pull = Some(VertexPull { vertex: 30, target: high });
         }
         let seen = self.view.show(ui, self.render_state.as_ref(), &picture);
         (self.vertex, self.face) = (seen.vertex, seen.face);
@@ -175,11 +164,7 @@ fn the_vertex_and_the_facet_under_the_pointer_are_found() {
     assert_eq!(harness.state().vertex, Some(4));
     let sheet = &harness.state().subject.units.sheet;
     let face = sheet.faces[5];
-    let middle = face
-        .map(|v| harness.state().positions[v as usize])
-        .iter()
-        .sum::<DVec3>()
-        / 3.0;
+    let middle = face.map(|v| harness.state().positions[v as usize]).iter().sum::<DVec3>() / 3.0;
     harness.hover_at(on_screen(&harness, middle));
     harness.run();
     assert_eq!(harness.state().face, Some(5));
@@ -221,9 +206,7 @@ fn hidden_vertices(window: &Window) -> Vec<u32> {
         let point = window.positions[vertex as usize];
         sheet.faces.iter().any(|face| hides(face, point))
     };
-    (0..window.positions.len() as u32)
-        .filter(is_hidden)
-        .collect()
+    (0..window.positions.len() as u32).filter(is_hidden).collect()
 }
 
 #[test]
@@ -253,11 +236,7 @@ fn drags_turn_and_move_and_the_wheel_zooms_about_the_pointer() {
     });
     harness.run();
     let width = harness.state().view.orbit().width;
-    assert!(
-        width < 0.9 * turned.width,
-        "{width} of {}, at {at}",
-        turned.width
-    );
+    assert!(width < 0.9 * turned.width, "{width} of {}, at {at}", turned.width);
     assert!((on_screen(&harness, point) - at).length() < 1e-2);
 }
 
@@ -278,12 +257,7 @@ fn a_pulled_vertex_follows_the_pointer_in_the_plane_of_the_screen_and_the_camera
     assert!((on_screen(&harness, pull.target) - to).length() < 1e-2);
     assert!(orbit.axes()[2].dot(pull.target - place).abs() < 1e-9);
     // A drag that does not start at a vertex turns the view.
-    drag(
-        &mut harness,
-        PointerButton::Primary,
-        pos2(20.0, 20.0),
-        pos2(60.0, 30.0),
-    );
+    drag(&mut harness, PointerButton::Primary, pos2(20.0, 20.0), pos2(60.0, 30.0));
     assert_ne!(harness.state().view.orbit(), orbit);
 }
 
@@ -331,17 +305,11 @@ fn missing_or_infinite_positions_leave_the_view_empty() {
 fn with_gpu(mut window: Window, size: [f32; 2], is_dark: bool) -> Harness<'static, Window> {
     let state = device();
     window.render_state = Some(state.clone());
-    let theme = if is_dark {
-        egui::Theme::Dark
-    } else {
-        egui::Theme::Light
-    };
+    let theme = if is_dark { egui::Theme::Dark } else { egui::Theme::Light };
     Harness::builder()
         .with_size(Vec2::from(size))
         .with_theme(theme)
-        .renderer(egui_kittest::wgpu::WgpuTestRenderer::from_render_state(
-            state,
-        ))
+        .renderer(egui_kittest::wgpu::WgpuTestRenderer::from_render_state(state))
         .build_ui_state(|ui, window: &mut Window| window.show(ui), window)
 }
 

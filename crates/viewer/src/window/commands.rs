@@ -149,10 +149,7 @@ impl Viewer {
 
     pub(super) fn run(&mut self) {
         if self.display.file.is_some() {
-            self.notify(
-                "A motion file cannot be run. Open its scene instead.",
-                false,
-            );
+            self.notify("A motion file cannot be run. Open its scene instead.", false);
             return;
         }
         if self.jobs.run.is_some() {
@@ -192,23 +189,16 @@ impl Viewer {
     /// Lets the user move the sheet by hand from its current state, or ends that.
     fn toggle_interaction(&mut self) {
         if self.jobs.interaction.take().is_some() {
-            self.timings
-                .rate("moving by hand", self.jobs.best_rate as f64);
+            self.timings.rate("moving by hand", self.jobs.best_rate as f64);
             self.display.pulled = None;
             return;
         }
         let (Some(study), Some(shown)) = (self.resolved.study.clone(), self.shown_motion()) else {
-            self.notify(
-                "The sheet can be moved by hand once the scene is resolved.",
-                false,
-            );
+            self.notify("The sheet can be moved by hand once the scene is resolved.", false);
             return;
         };
         if self.display.file.is_some() || self.is_stale(&shown) {
-            self.notify(
-                "Only the sheet of the current scene can be moved by hand.",
-                false,
-            );
+            self.notify("Only the sheet of the current scene can be moved by hand.", false);
             return;
         }
         self.jobs.best_rate = 0;
@@ -237,19 +227,15 @@ impl Viewer {
         let name = self.document.name_to_save();
         let recent = self.settings.recent.folders();
         let folder = self.folder();
-        self.dialog = Dialog::Save(
-            FilePicker::save("Save as", &["toml"], &folder, &name, &recent),
-            None,
-        );
+        self.dialog =
+            Dialog::Save(FilePicker::save("Save as", &["toml"], &folder, &name, &recent), None);
     }
 
     /// The folder of the scene, or the current folder if it has none.
     fn folder(&self) -> PathBuf {
         let beside = self.document.location().parent().map(Path::to_owned);
         let folder = beside.filter(|folder| folder.is_dir());
-        folder
-            .or_else(|| std::env::current_dir().ok())
-            .unwrap_or_default()
+        folder.or_else(|| std::env::current_dir().ok()).unwrap_or_default()
     }
 
     fn save_document(&mut self) {
@@ -329,18 +315,10 @@ impl Viewer {
             let sheet = &mut scene.sheet;
             sheet.rows = sheet.rows.or(i64::try_from(units.rows).ok());
             sheet.columns = sheet.columns.or(i64::try_from(units.columns).ok());
-            sheet.width = sheet
-                .width
-                .or(Some(units.unit.width * units.columns as f64));
+            sheet.width = sheet.width.or(Some(units.unit.width * units.columns as f64));
         }
-        if !self
-            .document
-            .change(scene, "profile from an outline", false)
-        {
-            self.notify(
-                "The text of the scene has an error. Correct it there first (F7).",
-                false,
-            );
+        if !self.document.change(scene, "profile from an outline", false) {
+            self.notify("The text of the scene has an error. Correct it there first (F7).", false);
         }
     }
 }

@@ -124,13 +124,7 @@ impl Viewer {
     fn ask_changed(&mut self, ctx: &Context) {
         let words = format!("{} was changed by another program", self.document.name());
         let about = "Reloading the file can be undone; overwriting it cannot.";
-        match ask(
-            ctx,
-            "changed",
-            &words,
-            about,
-            &["Reload", "Overwrite", "Cancel"],
-        ) {
+        match ask(ctx, "changed", &words, about, &["Reload", "Overwrite", "Cancel"]) {
             Some(0) => {
                 if let Err(error) = self.document.reload() {
                     self.notify(error.to_string(), false);
@@ -150,10 +144,8 @@ impl Viewer {
         let Some(unsaved) = &mut self.unsaved else {
             return;
         };
-        let left: Vec<String> = unsaved
-            .recovered()
-            .map(crate::settings::UnsavedScene::describe)
-            .collect();
+        let left: Vec<String> =
+            unsaved.recovered().map(crate::settings::UnsavedScene::describe).collect();
         if left.is_empty() {
             return;
         }
@@ -267,16 +259,11 @@ impl Viewer {
 
     /// Updates the title of the window.
     pub(super) fn title(&mut self, ctx: &Context) {
-        let mark = if self.document.is_modified() {
-            "• "
-        } else {
-            ""
-        };
+        let mark = if self.document.is_modified() { "• " } else { "" };
         let name = match &self.display.file {
-            Some(shown) => shown
-                .opened()
-                .map(|motion| motion.title().to_owned())
-                .unwrap_or_default(),
+            Some(shown) => {
+                shown.opened().map(|motion| motion.title().to_owned()).unwrap_or_default()
+            }
             None => self.document.name(),
         };
         let title = format!("{mark}{name} — foldmotion");

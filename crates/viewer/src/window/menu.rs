@@ -79,10 +79,7 @@ impl Viewer {
     fn appearance_menu(&mut self, ui: &mut Ui) {
         ui.menu_button("Appearance", |ui| {
             for appearance in Appearance::ALL {
-                if ui
-                    .radio(self.settings.appearance == appearance, appearance.name())
-                    .clicked()
-                {
+                if ui.radio(self.settings.appearance == appearance, appearance.name()).clicked() {
                     self.settings.appearance = appearance;
                     apply(ui.ctx(), appearance, self.settings.scale.factor());
                 }
@@ -95,21 +92,14 @@ impl Viewer {
         let keys = keys_of(ui.ctx(), command);
         let (name, is_on) = match command {
             Command::Undo => (
-                self.document
-                    .can_undo()
-                    .map(|label| format!("Undo: {label}")),
+                self.document.can_undo().map(|label| format!("Undo: {label}")),
                 self.document.can_undo().is_some(),
             ),
             Command::Redo => (
-                self.document
-                    .can_redo()
-                    .map(|label| format!("Redo: {label}")),
+                self.document.can_redo().map(|label| format!("Redo: {label}")),
                 self.document.can_redo().is_some(),
             ),
-            Command::Run => (
-                None,
-                self.resolved.study.is_some() && self.jobs.run.is_none(),
-            ),
+            Command::Run => (None, self.resolved.study.is_some() && self.jobs.run.is_none()),
             Command::Cancel => (None, self.is_busy()),
             _ => (None, true),
         };
@@ -144,29 +134,22 @@ impl Viewer {
             if ui.add_enabled(is_on, button).on_hover_text(hint).clicked() {
                 *wanted = Some(Command::Run);
             }
-            ui.checkbox(&mut self.settings.view.folds_at_once, "preview")
-                .on_hover_text(
-                    "Fold the sheet after every edit, without contact and without a check",
-                );
+            ui.checkbox(&mut self.settings.view.folds_at_once, "preview").on_hover_text(
+                "Fold the sheet after every edit, without contact and without a check",
+            );
         }
     }
 
     /// The status bar: a notice, an error of the scene, or facts about the sheet.
     pub(super) fn status(&mut self, ui: &mut Ui) {
         ui.horizontal(|ui| {
-            let is_old = self
-                .notice
-                .as_ref()
-                .is_some_and(|(_, _, since)| since.elapsed() > NOTICE);
+            let is_old = self.notice.as_ref().is_some_and(|(_, _, since)| since.elapsed() > NOTICE);
             if is_old {
                 self.notice = None;
             }
             if let Some((words, is_good, _)) = &self.notice {
-                let colour = if *is_good {
-                    ui.visuals().text_color()
-                } else {
-                    ui.visuals().error_fg_color
-                };
+                let colour =
+                    if *is_good { ui.visuals().text_color() } else { ui.visuals().error_fg_color };
                 ui.colored_label(colour, words);
                 ui.ctx().request_repaint_after(NOTICE);
                 return;

@@ -41,10 +41,7 @@ use self::shown_motion::ShownMotion;
 use self::shown_state::ShownState;
 
 /// The window.
-#[expect(
-    clippy::struct_excessive_bools,
-    reason = "independent flags of the window"
-)]
+#[expect(clippy::struct_excessive_bools, reason = "independent flags of the window")]
 pub struct Viewer {
     document: Document,
     settings: Settings,
@@ -157,10 +154,7 @@ impl Viewer {
                 study: None,
                 errors: Vec::new(),
             },
-            display: Display {
-                fits: true,
-                ..Display::default()
-            },
+            display: Display { fits: true, ..Display::default() },
             jobs: Jobs::default(),
             dialog: Dialog::None,
             record_panel: RecordPanel::default(),
@@ -171,9 +165,7 @@ impl Viewer {
             settings,
             repaint,
         };
-        viewer
-            .view3d
-            .set_perspective(viewer.settings.view.perspective);
+        viewer.view3d.set_perspective(viewer.settings.view.perspective);
         viewer.begin(options.file);
         viewer
     }
@@ -216,10 +208,7 @@ impl Viewer {
     /// Whether a motion of the current scene will be shown soon.
     fn is_resolving(&self) -> bool {
         let revision = self.document.revision();
-        let is_asked = self
-            .resolved
-            .requested
-            .is_some_and(|(of, _)| of == revision);
+        let is_asked = self.resolved.requested.is_some_and(|(of, _)| of == revision);
         !is_asked || self.resolved.resolver.is_busy() || self.jobs.preview.is_some()
     }
 
@@ -267,11 +256,7 @@ impl Viewer {
         let shown = self.shown_motion();
         let (none, no_plots) = (Marks::default(), Plots::default());
         let (marks, curves) = shown.as_ref().map_or((&none, &no_plots), |shown| {
-            let curves = if self.settings.panels.plots {
-                &shown.plots
-            } else {
-                &no_plots
-            };
+            let curves = if self.settings.panels.plots { &shown.plots } else { &no_plots };
             (&shown.marks, curves)
         });
         if let Some(shown) = &shown {
@@ -289,26 +274,18 @@ impl Viewer {
     fn side_panels(&mut self, ui: &mut Ui) {
         let shows_text = self.settings.panels.text || self.must_fix_text;
         if self.settings.panels.design || shows_text {
-            Panel::left("design")
-                .default_size(348.0)
-                .size_range(280.0..=620.0)
-                .show(ui, |ui| {
-                    if shows_text {
-                        self.text_panel(ui);
-                    } else {
-                        ScrollArea::vertical()
-                            .auto_shrink(false)
-                            .show(ui, |ui| self.design_panel(ui));
-                    }
-                });
+            Panel::left("design").default_size(348.0).size_range(280.0..=620.0).show(ui, |ui| {
+                if shows_text {
+                    self.text_panel(ui);
+                } else {
+                    ScrollArea::vertical().auto_shrink(false).show(ui, |ui| self.design_panel(ui));
+                }
+            });
         }
         if self.settings.panels.verdict {
-            Panel::right("verdict")
-                .default_size(300.0)
-                .size_range(220.0..=520.0)
-                .show(ui, |ui| {
-                    self.verdict_panel(ui);
-                });
+            Panel::right("verdict").default_size(300.0).size_range(220.0..=520.0).show(ui, |ui| {
+                self.verdict_panel(ui);
+            });
         }
     }
 
@@ -326,14 +303,9 @@ impl Viewer {
             errors: &self.resolved.errors,
         };
         if let Some(change) = self.design.show(ui, &input)
-            && !self
-                .document
-                .change(change.scene, change.label, change.continues)
+            && !self.document.change(change.scene, change.label, change.continues)
         {
-            self.notify(
-                "The text of the scene has an error. Correct it there first (F7).",
-                false,
-            );
+            self.notify("The text of the scene has an error. Correct it there first (F7).", false);
         }
     }
 
@@ -423,11 +395,7 @@ impl Viewer {
 
 /// The scene without its title and recording, which do not affect the motion.
 fn motion_keys(scene: &Scene) -> Scene {
-    Scene {
-        title: None,
-        record: foldmotion_study::scene::RecordScene::default(),
-        ..scene.clone()
-    }
+    Scene { title: None, record: foldmotion_study::scene::RecordScene::default(), ..scene.clone() }
 }
 
 impl eframe::App for Viewer {
@@ -447,8 +415,7 @@ impl eframe::App for Viewer {
             self.perform(command, &ctx);
         }
         self.take_dropped_files(&ctx);
-        self.playback
-            .advance(f64::from(ctx.input(|i| i.stable_dt).min(0.1)));
+        self.playback.advance(f64::from(ctx.input(|i| i.stable_dt).min(0.1)));
         if self.playback.is_playing {
             ctx.request_repaint();
         }

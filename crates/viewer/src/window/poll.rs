@@ -37,10 +37,7 @@ impl Viewer {
     fn resolve_scene(&mut self) {
         let revision = self.document.revision();
         if self.display.file.is_some()
-            || self
-                .resolved
-                .requested
-                .is_some_and(|(of, _)| of == revision)
+            || self.resolved.requested.is_some_and(|(of, _)| of == revision)
         {
             return;
         }
@@ -205,11 +202,7 @@ impl Viewer {
         self.jobs.stop();
         self.record_panel.folder = None;
         let next_key = self.display.next_key;
-        self.display = super::Display {
-            fits: true,
-            next_key,
-            ..super::Display::default()
-        };
+        self.display = super::Display { fits: true, next_key, ..super::Display::default() };
         self.playback.go_to(self.playback.range[0]);
     }
 

@@ -72,8 +72,7 @@ impl RecordPanel {
         ui.add_space(4.0);
         let label = ui.label("folder");
         ui.horizontal(|ui| {
-            ui.add(TextEdit::singleline(&mut folder).desired_width(300.0))
-                .labelled_by(label.id);
+            ui.add(TextEdit::singleline(&mut folder).desired_width(300.0)).labelled_by(label.id);
             if ui.button("Choose…").clicked() {
                 request = Some(RecordRequest::ChooseFolder);
             }
@@ -129,9 +128,7 @@ impl RecordPanel {
                 ui.end_row();
             }
             let label = ui.label("film, seconds");
-            let field = DragValue::new(&mut self.seconds)
-                .range(0.1..=600.0)
-                .speed(0.1);
+            let field = DragValue::new(&mut self.seconds).range(0.1..=600.0).speed(0.1);
             ui.add(field).labelled_by(label.id);
             ui.end_row();
         });
@@ -157,11 +154,7 @@ impl RecordPanel {
                 Colour::Bending => Some(ColourChoice::Bending),
                 Colour::Plain | Colour::Unit | Colour::Layer => scene.colour,
             },
-            at: if self.only_now {
-                Some(vec![current.time])
-            } else {
-                scene.at.clone()
-            },
+            at: if self.only_now { Some(vec![current.time]) } else { scene.at.clone() },
             profile: if current.is_file { None } else { scene.profile },
             ..scene.clone()
         }

@@ -64,11 +64,7 @@ impl Viewer {
         let (accent, weak) = (visuals.hyperlink_color, visuals.weak_text_color());
         let mut overlays = Vec::new();
         let mut add = |shape, colour, width| {
-            overlays.push(Overlay {
-                shape,
-                colour,
-                width,
-            });
+            overlays.push(Overlay { shape, colour, width });
         };
         // The profile is compared with the deployed sheet, the boxes with the compact one.
         let is_folding = self.playback.time > 1.0;
@@ -109,20 +105,12 @@ impl Viewer {
         let pulse = if faces.is_empty() { 0.0 } else { flash(ui) };
         let values = self.display.state.values(shown, sheet, view.colour);
         let colours = match (view.colour, values) {
-            (_, Some((values, range, _))) => Colours::Values {
-                values,
-                range,
-                key: state_key,
-            },
+            (_, Some((values, range, _))) => Colours::Values { values, range, key: state_key },
             (Colour::Unit, _) => Colours::Units,
             (Colour::Layer, _) => Colours::Layers,
             _ => Colours::Plain,
         };
-        let creases = if view.creases {
-            view.classes
-        } else {
-            CreaseClasses::NONE
-        };
+        let creases = if view.creases { view.classes } else { CreaseClasses::NONE };
         let picture = Picture {
             sheet,
             sheet_key: shown.key,
@@ -162,11 +150,10 @@ impl Viewer {
         }
         let colour = visuals.panel_fill.gamma_multiply(0.7);
         painter.set(ground, RectShape::filled(area.expand(4.0), 4.0, colour));
-        ui.interact(area, ui.scope_id().with("words over"), Sense::hover())
-            .widget_info(|| {
-                let words: Vec<&str> = lines.iter().map(|line| line.0.as_str()).collect();
-                WidgetInfo::labeled(Role::Label, true, words.join(", "))
-            });
+        ui.interact(area, ui.scope_id().with("words over"), Sense::hover()).widget_info(|| {
+            let words: Vec<&str> = lines.iter().map(|line| line.0.as_str()).collect();
+            WidgetInfo::labeled(Role::Label, true, words.join(", "))
+        });
         let sheet = &shown.motion().sheet;
         if let Some(words) = self.pointed_text(sheet) {
             let corner = rect.left_bottom() + vec2(12.0, -10.0);
@@ -183,9 +170,7 @@ impl Viewer {
     fn pointed_text(&self, sheet: &Sheet) -> Option<String> {
         let (face, vertex) = self.display.pointed?;
         let facet = *sheet.face_facets.get(face as usize)?;
-        let Facet {
-            row, column, kind, ..
-        } = sheet.facets.get(facet as usize)?;
+        let Facet { row, column, kind, .. } = sheet.facets.get(facet as usize)?;
         let place = match kind {
             FacetKind::Plain => String::new(),
             kind => format!(": {}, row {row}, column {column}", kind.name()),
@@ -200,10 +185,7 @@ impl Viewer {
         let visuals = ui.visuals();
         let (badge, colour) = self.badge(ui, shown);
         let time = format!("t = {:.4}", self.shown_time());
-        let mut lines = vec![
-            (time, 18.0, visuals.strong_text_color()),
-            (badge, SMALL, colour),
-        ];
+        let mut lines = vec![(time, 18.0, visuals.strong_text_color()), (badge, SMALL, colour)];
         if self.is_stale(shown) && !self.is_resolving() {
             let words = shown.out_of_date_text().to_owned();
             lines.push((words, SMALL, visuals.warn_fg_color));
@@ -235,18 +217,15 @@ impl Viewer {
         }
         let checked = |verdict: Verdict| (verdict.to_string(), verdict_colour(ui, verdict));
         match &shown.source {
-            MotionSource::Exact(_) => (
-                "exact states: deployed, planar, compact".to_owned(),
-                visuals.weak_text_color(),
-            ),
-            MotionSource::Preview(_) => (
-                "preview: without contact, not checked".to_owned(),
-                visuals.warn_fg_color,
-            ),
-            MotionSource::Run { report, .. } => (
-                report.outcome.headline(),
-                outcome_colour(ui, report.outcome.kind),
-            ),
+            MotionSource::Exact(_) => {
+                ("exact states: deployed, planar, compact".to_owned(), visuals.weak_text_color())
+            }
+            MotionSource::Preview(_) => {
+                ("preview: without contact, not checked".to_owned(), visuals.warn_fg_color)
+            }
+            MotionSource::Run { report, .. } => {
+                (report.outcome.headline(), outcome_colour(ui, report.outcome.kind))
+            }
             MotionSource::File { checked: found, .. } => match found {
                 Some(found) => checked(found.certificate.verdict),
                 None => ("not checked yet".to_owned(), visuals.weak_text_color()),
@@ -256,8 +235,7 @@ impl Viewer {
 
     /// The motion time of what is shown.
     pub(super) fn shown_time(&self) -> f64 {
-        self.live_state()
-            .map_or(self.playback.time, |state| state.time)
+        self.live_state().map_or(self.playback.time, |state| state.time)
     }
 
     fn tools(&mut self, ui: &mut Ui) {
@@ -346,10 +324,7 @@ fn style(is_dark: bool) -> Style {
     if !is_dark {
         return standard;
     }
-    Style {
-        border: [20, 20, 24],
-        ..standard
-    }
+    Style { border: [20, 20, 24], ..standard }
 }
 
 /// The current brightness of flashing triangles; requests the next frame.
@@ -368,10 +343,8 @@ fn scale(painter: &Painter, ui: &Ui, rect: Rect, range: [f64; 2], title: &str) {
     for k in 0..STEPS {
         let [r, g, b] = colour_of(f64::from(k) / f64::from(STEPS - 1));
         let width = SIZE[0] / STEPS as f32;
-        let place = Rect::from_min_size(
-            bar.min + vec2(k as f32 * width, 0.0),
-            vec2(width + 0.5, SIZE[1]),
-        );
+        let place =
+            Rect::from_min_size(bar.min + vec2(k as f32 * width, 0.0), vec2(width + 0.5, SIZE[1]));
         painter.rect_filled(place, 0.0, Color32::from_rgb(r, g, b));
     }
     let visuals = ui.visuals();

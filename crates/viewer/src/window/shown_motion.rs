@@ -26,16 +26,9 @@ pub(crate) enum MotionSource {
     /// A preview, folded quickly without contact and not checked.
     Preview(Motion),
     /// A run with its report.
-    Run {
-        study: Arc<Study>,
-        folded: Arc<Folded>,
-        report: Box<Report>,
-    },
+    Run { study: Arc<Study>, folded: Arc<Folded>, report: Box<Report> },
     /// A motion file, with the result of its check once that is known.
-    File {
-        motion: Arc<OpenedMotion>,
-        checked: Option<Box<CheckedMotion>>,
-    },
+    File { motion: Arc<OpenedMotion>, checked: Option<Box<CheckedMotion>> },
 }
 
 /// A motion with everything the window shows of it.
@@ -69,24 +62,17 @@ impl ShownMotion {
             compact_order = units.compact_order_within(MAX_ORDERED).unwrap_or_default();
             first = 0.0;
         }
-        let frames = states.into_iter().zip(0_u32..).map(|(positions, k)| Frame {
-            time: first + f64::from(k),
-            positions,
-        });
-        let motion = Motion {
-            sheet: draft.sheet().clone(),
-            frames: frames.collect(),
-            compact_order,
-        };
+        let frames = states
+            .into_iter()
+            .zip(0_u32..)
+            .map(|(positions, k)| Frame { time: first + f64::from(k), positions });
+        let motion =
+            Motion { sheet: draft.sheet().clone(), frames: frames.collect(), compact_order };
         Self::new(MotionSource::Exact(motion), key).with_draft(draft)
     }
 
     pub(crate) fn preview(draft: &Draft, preview: Preview, scene: &Scene, key: u64) -> Self {
-        let Preview {
-            motion,
-            series,
-            boxes,
-        } = preview;
+        let Preview { motion, series, boxes } = preview;
         let (closed_form, unit) = match draft {
             Draft::Units(units) => {
                 let unit = scene.profile.unit.unwrap_or_default();
@@ -100,12 +86,7 @@ impl ShownMotion {
     }
 
     pub(crate) fn run(finished: &FinishedRun, key: u64) -> Self {
-        let FinishedRun {
-            study,
-            folded,
-            report,
-            boxes,
-        } = finished;
+        let FinishedRun { study, folded, report, boxes } = finished;
         let source = MotionSource::Run {
             study: Arc::clone(study),
             folded: Arc::clone(folded),
@@ -130,13 +111,8 @@ impl ShownMotion {
         key: u64,
     ) -> Self {
         let unit = motion.unit_name().to_owned();
-        let findings = checked
-            .as_ref()
-            .map(|checked| Arc::clone(&checked.findings));
-        let source = MotionSource::File {
-            motion,
-            checked: checked.map(Box::new),
-        };
+        let findings = checked.as_ref().map(|checked| Arc::clone(&checked.findings));
+        let source = MotionSource::File { motion, checked: checked.map(Box::new) };
         let mut shown = Self::new(source, key);
         if let Some(findings) = findings {
             shown.plots = plots_of(&findings.series, &[], None, &unit);
@@ -159,10 +135,7 @@ impl ShownMotion {
             boxes: [None; 2],
         };
         let motion = shown.motion();
-        let last = motion
-            .frames
-            .last()
-            .map_or(&[][..], |frame| &frame.positions);
+        let last = motion.frames.last().map_or(&[][..], |frame| &frame.positions);
         let layers = Layers::new(&motion.sheet, &motion.compact_order, last);
         let measured = bounds(last);
         let frames: Vec<f64> = motion.frames.iter().map(|frame| frame.time).collect();
@@ -238,10 +211,7 @@ impl ShownMotion {
 
     /// Whether it is a run or a motion file.
     pub(crate) fn can_be_recorded(&self) -> bool {
-        matches!(
-            self.source,
-            MotionSource::Run { .. } | MotionSource::File { .. }
-        )
+        matches!(self.source, MotionSource::Run { .. } | MotionSource::File { .. })
     }
 
     /// Records it in the background; `None` if it cannot be recorded.

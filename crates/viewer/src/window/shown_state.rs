@@ -58,13 +58,7 @@ impl ShownState {
         let positions = if is_interacting {
             Arc::clone(&state.positions)
         } else {
-            Arc::new(
-                state
-                    .positions
-                    .iter()
-                    .map(|&p| shown.placement.apply(p))
-                    .collect(),
-            )
+            Arc::new(state.positions.iter().map(|&p| shown.placement.apply(p)).collect())
         };
         self.set(of, positions);
         self.penetrating = (Vec::new(), Vec::new());
@@ -88,17 +82,12 @@ impl ShownState {
             Colour::Bending => Quantity::Bending,
             Colour::Plain | Colour::Unit | Colour::Layer => return None,
         };
-        if self
-            .ranges
-            .is_none_or(|(key, q, _)| (key, q) != (shown.key, quantity))
-        {
+        if self.ranges.is_none_or(|(key, q, _)| (key, q) != (shown.key, quantity)) {
             let range = quantity.of_motion(shown.motion()).range;
             self.ranges = Some((shown.key, quantity, range));
         }
-        let is_known = self
-            .values
-            .as_ref()
-            .is_some_and(|(key, q, _)| (*key, *q) == (self.key, quantity));
+        let is_known =
+            self.values.as_ref().is_some_and(|(key, q, _)| (*key, *q) == (self.key, quantity));
         if !is_known {
             let values = quantity.values(sheet, &self.positions);
             self.values = Some((self.key, quantity, values));

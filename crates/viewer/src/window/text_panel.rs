@@ -9,11 +9,7 @@ impl Viewer {
         ui.horizontal(|ui| {
             let label = ui.strong("scene as text");
             ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-                if ui
-                    .button("Design")
-                    .on_hover_text("Back to the design panel (F7)")
-                    .clicked()
-                {
+                if ui.button("Design").on_hover_text("Back to the design panel (F7)").clicked() {
                     self.settings.panels.text = false;
                     self.must_fix_text = false;
                 }
@@ -27,25 +23,22 @@ impl Viewer {
         }
         let mut text = self.document.text().to_owned();
         let height = ui.available_height();
-        ScrollArea::both()
-            .auto_shrink(false)
-            .max_height(height)
-            .show(ui, |ui| {
-                let font: FontId = TextStyle::Monospace.resolve(ui.style());
-                let editor = TextEdit::multiline(&mut text)
-                    // It has its own id so that it keeps the keyboard focus when messages above it come and go.
-                    .id(Id::unique("scene text"))
-                    .font(font)
-                    .desired_width(f32::INFINITY)
-                    .desired_rows(40)
-                    .code_editor();
-                let response = ui.add(editor).accessible_name("Scene as text");
-                if response.changed() {
-                    self.document.set_text(&text, true);
-                }
-                if response.lost_focus() {
-                    self.document.end_step();
-                }
-            });
+        ScrollArea::both().auto_shrink(false).max_height(height).show(ui, |ui| {
+            let font: FontId = TextStyle::Monospace.resolve(ui.style());
+            let editor = TextEdit::multiline(&mut text)
+                // It has its own id so that it keeps the keyboard focus when messages above it come and go.
+                .id(Id::unique("scene text"))
+                .font(font)
+                .desired_width(f32::INFINITY)
+                .desired_rows(40)
+                .code_editor();
+            let response = ui.add(editor).accessible_name("Scene as text");
+            if response.changed() {
+                self.document.set_text(&text, true);
+            }
+            if response.lost_focus() {
+                self.document.end_step();
+            }
+        });
     }
 }

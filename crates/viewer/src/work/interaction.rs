@@ -70,16 +70,8 @@ impl Interaction {
             let subject = &study.subject;
             (subject.start_time(), subject.start().into_owned())
         });
-        let request = Request {
-            serial: 0,
-            target_time: time,
-            pull: None,
-            is_stopped: false,
-        };
-        let status = InteractionStatus {
-            time,
-            ..InteractionStatus::default()
-        };
+        let request = Request { serial: 0, target_time: time, pull: None, is_stopped: false };
+        let status = InteractionStatus { time, ..InteractionStatus::default() };
         let shared = Arc::new(Shared {
             request: Mutex::new(request),
             requested: Condvar::new(),
@@ -95,17 +87,12 @@ impl Interaction {
             }
         });
         let thread = thread.map_err(|error| shared.fail(error)).ok();
-        Self {
-            shared,
-            states,
-            thread,
-        }
+        Self { shared, states, thread }
     }
 
     /// Requests a motion time.
     pub(crate) fn set_target_time(&self, time: f64) {
-        self.shared
-            .change_request(|request| request.target_time = time);
+        self.shared.change_request(|request| request.target_time = time);
     }
 
     /// Pulls `vertex` towards `point`, in the sheet's unit, or releases it.
@@ -220,8 +207,7 @@ impl Shared {
 
 impl Drop for Interaction {
     fn drop(&mut self) {
-        self.shared
-            .change_request(|request| request.is_stopped = true);
+        self.shared.change_request(|request| request.is_stopped = true);
         join_briefly(self.thread.take());
     }
 }
@@ -241,12 +227,7 @@ mod tests {
             let status = interaction.status();
             status.is_at_rest && status.time == time
         });
-        wait(|| {
-            interaction
-                .states()
-                .latest()
-                .is_some_and(|state| state.time == time)
-        });
+        wait(|| interaction.states().latest().is_some_and(|state| state.time == time));
         interaction.states().latest().unwrap().positions
     }
 
@@ -296,11 +277,8 @@ mod tests {
         let apart = settled.iter().zip(&frame.positions);
         let apart = apart.map(|(p, q)| p.distance(*q)).fold(0.0, f64::max);
         assert!(apart < 0.05 * study.subject.sheet().unit_length, "{apart}");
-        let interaction = Interaction::start(
-            study,
-            Some((0.5, vec![DVec3::ZERO])),
-            RepaintSignal::new(|| {}),
-        );
+        let interaction =
+            Interaction::start(study, Some((0.5, vec![DVec3::ZERO])), RepaintSignal::new(|| {}));
         wait(|| interaction.take_error().is_some());
     }
 }

@@ -65,10 +65,7 @@ impl<T: Send + 'static> Job<T> {
 
 impl<T> Shared<T> {
     fn report(&self, phase: Phase, done: f64) -> bool {
-        *lock(&self.progress) = Progress {
-            phase: Some(phase),
-            done: done.clamp(0.0, 1.0),
-        };
+        *lock(&self.progress) = Progress { phase: Some(phase), done: done.clamp(0.0, 1.0) };
         self.repaint.send_limited();
         !self.is_stopped.load(Ordering::Relaxed)
     }

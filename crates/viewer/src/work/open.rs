@@ -16,9 +16,7 @@ pub(crate) struct CheckedMotion {
 
 /// Reads a file: a scene, a crease pattern or a motion.
 pub(crate) fn open(path: PathBuf, repaint: RepaintSignal) -> Job<OpenedFile> {
-    Job::start("foldmotion open", repaint, move |report| {
-        Ok(OpenedFile::read(&path, report)?)
-    })
+    Job::start("foldmotion open", repaint, move |report| Ok(OpenedFile::read(&path, report)?))
 }
 
 /// Checks a motion file.
@@ -28,9 +26,6 @@ pub(crate) fn check_motion(
 ) -> Job<CheckedMotion> {
     Job::start("foldmotion check", repaint, move |report| {
         let (findings, certificate) = motion.check(&CheckOptions::default(), report)?;
-        Ok(CheckedMotion {
-            findings: Arc::new(findings),
-            certificate,
-        })
+        Ok(CheckedMotion { findings: Arc::new(findings), certificate })
     })
 }

@@ -98,15 +98,10 @@ mod tests {
         let files = done(&record(run, kept, view(&outputs), at("mine"), quiet())).unwrap();
         assert!(files.contains(&"motion.fold".to_owned()));
         let opened = done(&open(at("mine/motion.fold"), quiet())).unwrap();
-        let OpenedFile::Motion(motion) = opened else {
-            panic!("a motion was written")
-        };
+        let OpenedFile::Motion(motion) = opened else { panic!("a motion was written") };
         assert_eq!(motion.motion().frames, folded.motion.frames);
         let checked = done(&check_motion(Arc::clone(&motion), quiet())).unwrap();
-        assert_eq!(
-            checked.findings.collision.verdict,
-            folded.findings.collision.verdict
-        );
+        assert_eq!(checked.findings.collision.verdict, folded.findings.collision.verdict);
         let certificate = fs::read_to_string(at("mine/certificate.json")).unwrap();
         assert_eq!(checked.certificate.to_json(), certificate);
         let pictures = [OutputChoice::Png];

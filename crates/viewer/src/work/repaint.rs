@@ -19,10 +19,7 @@ pub(crate) struct RepaintSignal {
 impl RepaintSignal {
     /// Requests repaints by `call`.
     pub(crate) fn new(call: impl Fn() + Send + Sync + 'static) -> Self {
-        Self {
-            call: Arc::new(call),
-            last: Arc::default(),
-        }
+        Self { call: Arc::new(call), last: Arc::default() }
     }
 
     /// Requests a repaint.

@@ -50,14 +50,8 @@ impl Resolver {
 
     /// The results since the last call: at most a draft and a study.
     pub(crate) fn take(&self) -> impl Iterator<Item = Resolved> {
-        let draft = self
-            .drafts
-            .take()
-            .map(|(n, draft)| Resolved::Draft(n, draft));
-        let study = self
-            .studies
-            .take()
-            .map(|(n, study)| Resolved::Study(n, study));
+        let draft = self.drafts.take().map(|(n, draft)| Resolved::Draft(n, draft));
+        let study = self.studies.take().map(|(n, study)| Resolved::Study(n, study));
         draft.into_iter().chain(study)
     }
 
@@ -93,13 +87,9 @@ mod tests {
         }
         let serial = resolver.submit(source("[motion]\nframes = 48\n"));
         let (draft, study) = answers(&resolver);
-        let Some(Resolved::Draft(n, Ok(draft))) = draft else {
-            panic!("{draft:?}")
-        };
+        let Some(Resolved::Draft(n, Ok(draft))) = draft else { panic!("{draft:?}") };
         assert_eq!(n, serial);
-        let Some(Resolved::Study(n, Ok(study))) = study else {
-            panic!("{study:?}")
-        };
+        let Some(Resolved::Study(n, Ok(study))) = study else { panic!("{study:?}") };
         assert_eq!((n, study.frames), (serial, 48));
         assert_eq!(draft.sheet(), study.subject.sheet());
     }
@@ -110,9 +100,7 @@ mod tests {
         resolver.submit(source("[motion]\nframes = 3\n"));
         let (draft, study) = answers(&resolver);
         assert!(matches!(draft, Some(Resolved::Draft(1, Ok(_)))));
-        let Some(Resolved::Study(1, Err(error))) = study else {
-            panic!("{study:?}")
-        };
+        let Some(Resolved::Study(1, Err(error))) = study else { panic!("{study:?}") };
         assert_eq!(error.key(), Some("motion.frames"));
     }
 }

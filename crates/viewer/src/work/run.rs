@@ -22,12 +22,7 @@ pub(crate) fn run(study: &Arc<Study>, repaint: RepaintSignal) -> (StateFeed, Job
     let states = StateFeed::default();
     let (study, shown, woken) = (Arc::clone(study), states.clone(), repaint.clone());
     let job = Job::start("foldmotion run", repaint, move |report| {
-        let watcher = Watcher {
-            study: &study,
-            report,
-            states: &shown,
-            repaint: &woken,
-        };
+        let watcher = Watcher { study: &study, report, states: &shown, repaint: &woken };
         let folded = study.compute(&watcher)?;
         Ok(FinishedRun {
             report: study.report_of(&folded),

@@ -68,11 +68,7 @@ impl StateFeed {
         let now = Instant::now();
         let mut inner = lock(&self.0);
         let serial = inner.state.as_ref().map_or(0, |state| state.serial) + 1;
-        inner.state = Some(SheetState {
-            serial,
-            time,
-            positions: Arc::new(positions),
-        });
+        inner.state = Some(SheetState { serial, time, positions: Arc::new(positions) });
         let is_old = |first: &Instant| now - *first >= WINDOW;
         while inner.times.front().is_some_and(is_old) {
             inner.times.pop_front();

@@ -16,9 +16,7 @@ pub(super) fn start(
     work: impl FnOnce() + Send + 'static,
 ) -> Result<JoinHandle<()>, WorkError> {
     let started = Builder::new().name(name.to_owned()).spawn(work);
-    started.map_err(|e| WorkError::Thread {
-        message: e.to_string(),
-    })
+    started.map_err(|e| WorkError::Thread { message: e.to_string() })
 }
 
 /// Runs `work` in a pool with one thread fewer than there are cores, which leaves one for the window.
@@ -32,9 +30,7 @@ pub(super) fn in_thread_pool<T: Send>(
         .num_threads(cores.saturating_sub(1).max(1))
         .thread_name(|index| format!("foldmotion work {index}"))
         .build()
-        .map_err(|e| WorkError::Thread {
-            message: e.to_string(),
-        })?;
+        .map_err(|e| WorkError::Thread { message: e.to_string() })?;
     pool.install(|| catch_panic(work))
 }
 

@@ -13,9 +13,7 @@ const NONE: Modifiers = Modifiers::NONE;
 
 /// The commands that do not change the scene, by their names in the help.
 const LOOKS: [(&str, Modifiers, Key, Probe); 32] = [
-    ("Play or pause", NONE, Key::Space, |w| {
-        w.has("Pause").to_string()
-    }),
+    ("Play or pause", NONE, Key::Space, |w| w.has("Pause").to_string()),
     ("Next frame", NONE, Key::Period, time),
     ("Previous frame", NONE, Key::Comma, time),
     ("Compact state", NONE, Key::End, time),
@@ -35,42 +33,18 @@ const LOOKS: [(&str, Modifiers, Key, Probe); 32] = [
     ("Colour: layer", NONE, Key::Num9, colour),
     ("Colour: plain", NONE, Key::Num5, colour),
     ("Creases", NONE, Key::C, |w| switch(w, "creases", "creases")),
-    ("Profile curve", NONE, Key::G, |w| {
-        switch(w, "overlays", "profile curve")
-    }),
-    ("Compact box", NONE, Key::B, |w| {
-        switch(w, "overlays", "compact box, measured")
-    }),
-    ("Closed-form box", SHIFT, Key::B, |w| {
-        switch(w, "overlays", "compact box, closed form")
-    }),
-    ("Design panel", NONE, Key::F2, |w| {
-        w.has("profile canvas").to_string()
-    }),
-    ("Plots", NONE, Key::F3, |w| {
-        w.says("over motion time").to_string()
-    }),
-    ("Verdict", NONE, Key::F4, |w| {
-        w.says("pairs tested").to_string()
-    }),
-    ("Record dialog", NONE, Key::F6, |w| {
-        w.has("Record now").to_string()
-    }),
-    ("Scene as text", NONE, Key::F7, |w| {
-        w.has("Scene as text").to_string()
-    }),
-    ("Larger, for presentations", NONE, Key::F9, |w| {
-        w.harness.ctx.zoom_factor().to_string()
-    }),
-    ("Dark or light", NONE, Key::F10, |w| {
-        format!("{:?}", w.harness.ctx.theme())
-    }),
-    ("Move the sheet by hand", NONE, Key::H, |w| {
-        w.is_on("by hand").to_string()
-    }),
-    ("Shortcuts and help", NONE, Key::F1, |w| {
-        w.has("Help").to_string()
-    }),
+    ("Profile curve", NONE, Key::G, |w| switch(w, "overlays", "profile curve")),
+    ("Compact box", NONE, Key::B, |w| switch(w, "overlays", "compact box, measured")),
+    ("Closed-form box", SHIFT, Key::B, |w| switch(w, "overlays", "compact box, closed form")),
+    ("Design panel", NONE, Key::F2, |w| w.has("profile canvas").to_string()),
+    ("Plots", NONE, Key::F3, |w| w.says("over motion time").to_string()),
+    ("Verdict", NONE, Key::F4, |w| w.says("pairs tested").to_string()),
+    ("Record dialog", NONE, Key::F6, |w| w.has("Record now").to_string()),
+    ("Scene as text", NONE, Key::F7, |w| w.has("Scene as text").to_string()),
+    ("Larger, for presentations", NONE, Key::F9, |w| w.harness.ctx.zoom_factor().to_string()),
+    ("Dark or light", NONE, Key::F10, |w| format!("{:?}", w.harness.ctx.theme())),
+    ("Move the sheet by hand", NONE, Key::H, |w| w.is_on("by hand").to_string()),
+    ("Shortcuts and help", NONE, Key::F1, |w| w.has("Help").to_string()),
 ];
 
 fn time(window: &mut Window) -> String {
@@ -158,9 +132,7 @@ fn no_plain_shortcut_fires_while_the_user_types() {
     let mut window = Window::over(SMALL);
     window.run_scene();
     window.press(Key::P);
-    let typed = LOOKS
-        .iter()
-        .filter(|row| row.2.name().len() < 2 || !row.2.name().starts_with('F'));
+    let typed = LOOKS.iter().filter(|row| row.2.name().len() < 2 || !row.2.name().starts_with('F'));
     for (name, modifiers, key, look) in typed {
         let before = look(&mut window);
         window.node("width W").focus();

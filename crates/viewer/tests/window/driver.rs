@@ -109,11 +109,8 @@ impl Window {
         file: Option<PathBuf>,
         storage: Option<&Storage>,
     ) -> Self {
-        let options = ViewOptions {
-            file,
-            timings: false,
-            unsaved: Some(folder.path().join("unsaved")),
-        };
+        let options =
+            ViewOptions { file, timings: false, unsaved: Some(folder.path().join("unsaved")) };
         let storage = storage.map(Storage::shared);
         let system = System::default();
         let plugin = system.clone();
@@ -123,11 +120,7 @@ impl Window {
             creation.storage = storage.map(|storage| storage as &dyn eframe::Storage);
             Viewer::new(creation, options, Instant::now())
         });
-        Self {
-            harness,
-            folder,
-            system,
-        }
+        Self { harness, folder, system }
     }
 
     /// The scene file of a window made by [`Self::over`].
@@ -192,11 +185,7 @@ impl Window {
         let nodes = self.harness.root().children_recursive();
         let words = nodes.filter_map(|node| {
             let node = node.accesskit_node();
-            let label = if node.role() == Role::Label {
-                node.value()
-            } else {
-                node.label()
-            };
+            let label = if node.role() == Role::Label { node.value() } else { node.label() };
             label.map(|label| format!("{:?} {label}", node.role()))
         });
         words.collect::<Vec<_>>().join("\n")
@@ -204,10 +193,7 @@ impl Window {
 
     /// Whether some text in the window contains `words`.
     pub(crate) fn says(&self, words: &str) -> bool {
-        self.harness
-            .query_all_by_label_contains(words)
-            .next()
-            .is_some()
+        self.harness.query_all_by_label_contains(words).next().is_some()
     }
 
     /// The rectangles of texts that contain `words`.
@@ -220,9 +206,7 @@ impl Window {
     pub(crate) fn text_over_view(&self) -> String {
         let found = self.harness.query_all_by_label_contains("t = ");
         let words = found.filter_map(|node| node.value());
-        words
-            .filter(|words| words.starts_with("t = ") && words.contains(", "))
-            .collect()
+        words.filter(|words| words.starts_with("t = ") && words.contains(", ")).collect()
     }
 
     /// Whether there is a control or text with exactly this name.
@@ -336,10 +320,7 @@ impl Window {
     #[track_caller]
     pub(crate) fn follow_link(&mut self, words: &str) {
         let mut links = self.harness.query_all_by_role_and_label(Role::Link, words);
-        links
-            .next()
-            .unwrap_or_else(|| panic!("a link {words}"))
-            .click();
+        links.next().unwrap_or_else(|| panic!("a link {words}")).click();
         drop(links);
         self.settle();
     }
@@ -352,8 +333,7 @@ impl Window {
         self.harness.drag_at(from);
         self.harness.step();
         for step in 1..=STEPS {
-            self.harness
-                .hover_at(from + way * f32::from(step) / f32::from(STEPS));
+            self.harness.hover_at(from + way * f32::from(step) / f32::from(STEPS));
             self.harness.step();
         }
         self.harness.drop_at(from + way);
@@ -408,9 +388,7 @@ impl Window {
 
     /// Ends the window as a crash would, and starts another with the same unsaved scenes.
     pub(crate) fn killed(self, file: Option<PathBuf>) -> Self {
-        let Self {
-            harness, folder, ..
-        } = self;
+        let Self { harness, folder, .. } = self;
         drop(harness);
         Self::start(folder, file, None)
     }

@@ -21,10 +21,7 @@ fn a_dragged_control_point_changes_the_text_and_the_closed_forms_and_can_be_undo
     window.drag(from, vec2(18.0, -12.0));
     let moved = window.text();
     assert_ne!(moved, ARCH);
-    assert!(
-        !moved.contains("[0.0, 3.5]") && moved.contains("[2.0, 2.5]"),
-        "{moved}"
-    );
+    assert!(!moved.contains("[0.0, 3.5]") && moved.contains("[2.0, 2.5]"), "{moved}");
     assert_eq!(window.title(), "• scene.toml — foldmotion");
     window.until_preview();
     assert_ne!(closed_forms(&window), before);
@@ -91,9 +88,7 @@ fn a_bad_value_says_so_under_its_control_and_the_sheet_stays() {
     );
     assert!(!window.is_enabled("Run"));
     window.undo();
-    window.until("the error is gone", |window| {
-        window.rects_saying("sheet.width").next().is_none()
-    });
+    window.until("the error is gone", |window| window.rects_saying("sheet.width").next().is_none());
     window.until_preview();
 }
 
@@ -104,11 +99,7 @@ fn an_edit_in_the_panel_waits_for_a_text_without_errors() {
     let broken = SMALL.replace("[motion]", "[motion");
     window.set_text(&broken);
     window.enter("width W", "6.5");
-    assert!(
-        window.says("Correct it there first"),
-        "{}",
-        window.all_words()
-    );
+    assert!(window.says("Correct it there first"), "{}", window.all_words());
     assert_eq!(window.text(), broken);
 }
 

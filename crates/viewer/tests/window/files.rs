@@ -94,10 +94,7 @@ fn the_window_asks_about_unsaved_edits_before_it_opens_another_scene() {
                 );
                 assert_eq!(window.text(), text);
             }
-            "Save" => assert_eq!(
-                (on_disk, title.as_str()),
-                (text, "untitled.toml — foldmotion")
-            ),
+            "Save" => assert_eq!((on_disk, title.as_str()), (text, "untitled.toml — foldmotion")),
             _ => assert_eq!(
                 (on_disk.as_str(), title.as_str()),
                 (SMALL, "untitled.toml — foldmotion")
@@ -129,11 +126,7 @@ fn a_file_that_another_program_has_changed_is_not_overwritten_without_asking() {
         window.click(answer);
         assert_eq!(window.title(), title, "{answer}");
         let expected = if on_disk.is_empty() { &text } else { on_disk };
-        assert_eq!(
-            fs::read_to_string(window.path()).unwrap(),
-            expected,
-            "{answer}"
-        );
+        assert_eq!(fs::read_to_string(window.path()).unwrap(), expected, "{answer}");
         let shown = if answer == "Reload" { ARCH } else { &text };
         assert_eq!(window.text(), shown, "{answer}");
     }
@@ -161,9 +154,7 @@ fn a_dropped_file_is_opened_after_asking_about_unsaved_edits() {
     window.settle();
     assert!(window.says("has unsaved edits"));
     window.click("Discard edits");
-    window.until("the dropped scene", |w| {
-        w.title() == "arch.toml — foldmotion"
-    });
+    window.until("the dropped scene", |w| w.title() == "arch.toml — foldmotion");
     window.until_preview();
 }
 
@@ -176,19 +167,12 @@ fn recent_files_are_remembered_and_opened_again() {
     let mut window = Window::start(folder, Some(path.clone()), Some(&storage));
     window.until_preview();
     window.harness.state_mut().save(&mut storage);
-    let Window {
-        harness, folder, ..
-    } = window;
+    let Window { harness, folder, .. } = window;
     drop(harness);
     let mut window = Window::start(folder, None, Some(&storage));
     window.click("File");
     window.click("Open recent");
-    let entry = window
-        .harness
-        .query_all_by_label_contains("scene.toml")
-        .last();
+    let entry = window.harness.query_all_by_label_contains("scene.toml").last();
     entry.unwrap().click();
-    window.until("the recent scene", |w| {
-        w.title() == "scene.toml — foldmotion"
-    });
+    window.until("the recent scene", |w| w.title() == "scene.toml — foldmotion");
 }

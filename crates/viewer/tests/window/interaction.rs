@@ -11,13 +11,10 @@ fn a_sheet_moved_by_hand_follows_the_timeline_until_that_ends() {
     window.enter("t", "1.2");
     window.click("by hand");
     assert!(window.is_on("by hand") && window.says("moved by hand: drag the timeline"));
-    window.until("its first state", |w| {
-        w.text_over_view().starts_with("t = 1.2")
-    });
+    window.until("its first state", |w| w.text_over_view().starts_with("t = 1.2"));
     window.enter("t", "1.6");
-    window.until("it has followed", |w| {
-        w.text_over_view().starts_with("t = 1.6000, moved by hand")
-    });
+    window
+        .until("it has followed", |w| w.text_over_view().starts_with("t = 1.6000, moved by hand"));
     window.press(Key::H);
     assert!(!window.is_on("by hand"));
     assert!(window.says("preview: without contact, not checked"));

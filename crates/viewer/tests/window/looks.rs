@@ -37,10 +37,7 @@ fn every_size_for_presentation_keeps_the_controls_within_the_window() {
         let room = window.harness.ctx.content_rect();
         for label in ["Run", "Motion time", "Play", "3D view", "colour"] {
             let rect = window.node(label).rect();
-            assert!(
-                room.contains_rect(rect),
-                "{label} at {rect:?} in {room:?} at {factor}"
-            );
+            assert!(room.contains_rect(rect), "{label} at {rect:?} in {room:?} at {factor}");
         }
     }
 }
@@ -88,12 +85,7 @@ fn help_opens_over_everything_and_closes() {
     window.until_preview();
     window.press(Key::F1);
     assert!(window.has("Help") && window.has("Mouse in the 3D view"));
-    assert!(
-        window
-            .harness
-            .query_by_label("Move the sheet by hand")
-            .is_some()
-    );
+    assert!(window.harness.query_by_label("Move the sheet by hand").is_some());
     window.press(Key::Escape);
     assert!(!window.has("Mouse in the 3D view"));
 }

@@ -1,9 +1,6 @@
 //! Tests of the whole window without a screen: mouse and keyboard input, and what is shown after it.
 
-#![expect(
-    clippy::unwrap_used,
-    reason = "a test stops where something is missing"
-)]
+#![expect(clippy::unwrap_used, reason = "a test stops where something is missing")]
 
 mod commands;
 mod driver;

@@ -68,16 +68,8 @@ fn a_motion_is_opened_and_checked() {
     let mut window = Window::of(&out.join("motion.fold"));
     let frames = report.path.frames;
     window.until_said(&format!("pairs tested between {frames} frames"));
-    assert!(
-        window.has(report.collision.verdict.name()),
-        "{}",
-        window.all_words()
-    );
-    assert!(
-        window.title().starts_with("Small shelter"),
-        "{}",
-        window.title()
-    );
+    assert!(window.has(report.collision.verdict.name()), "{}", window.all_words());
+    assert!(window.title().starts_with("Small shelter"), "{}", window.title());
     assert!(window.says("A motion file has no scene to edit"));
     assert!(!window.is_enabled("Run"));
 }

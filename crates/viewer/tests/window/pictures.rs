@@ -24,9 +24,7 @@ fn compare(window: &mut Window, name: &str) {
     // The camera comes to rest.
     window.harness.run_steps(12);
     window.hide_seconds();
-    let options = SnapshotOptions::new()
-        .threshold(2.0)
-        .max_failed_pixels(1500);
+    let options = SnapshotOptions::new().threshold(2.0).max_failed_pixels(1500);
     window.harness.snapshot_options(name, &options);
 }
 

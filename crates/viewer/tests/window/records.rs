@@ -37,27 +37,18 @@ fn a_run_is_recorded_as_film_figure_and_model() {
     window.click("3D file with the motion, GLB");
     window.click("Record now");
     window.until_said("Recorded ");
-    let mut files: Vec<_> = std::fs::read_dir(&folder)
-        .unwrap()
-        .map(|entry| entry.unwrap().path())
-        .collect();
+    let mut files: Vec<_> =
+        std::fs::read_dir(&folder).unwrap().map(|entry| entry.unwrap().path()).collect();
     files.sort();
     let of = |ending: &str| {
-        let mut of = files
-            .iter()
-            .filter(|path| path.extension().is_some_and(|e| e == ending));
-        of.next()
-            .unwrap_or_else(|| panic!("no {ending} in {files:?}"))
+        let mut of = files.iter().filter(|path| path.extension().is_some_and(|e| e == ending));
+        of.next().unwrap_or_else(|| panic!("no {ending} in {files:?}"))
     };
     let gif = std::fs::read(of("gif")).unwrap();
     assert_eq!(&gif[..6], b"GIF89a");
     assert_eq!(gif[6..10], [120, 0, 90, 0], "as large as was asked");
     let svg = std::fs::read_to_string(of("svg")).unwrap();
-    assert!(
-        svg.contains("<svg") && svg.contains("<path"),
-        "{}",
-        &svg[..200]
-    );
+    assert!(svg.contains("<svg") && svg.contains("<path"), "{}", &svg[..200]);
     let other = window.folder.path().join("other");
     recorded(OutputChoice::Glb, &other);
     let model = |path: &Path| {

@@ -71,26 +71,14 @@ fn an_edit_during_a_run_is_accepted_and_the_result_is_out_of_date_until_it_is_un
     window.press(Key::F5);
     window.enter("width W", "6.5");
     assert!(window.text().contains("width = 6.5"), "taken while it runs");
-    window.until("the run has ended", |w| {
-        w.says("pairs tested between") && !w.has("Cancel")
-    });
-    assert!(
-        window.says("of date: the scene has changed"),
-        "{}",
-        window.all_words()
-    );
+    window.until("the run has ended", |w| w.says("pairs tested between") && !w.has("Cancel"));
+    assert!(window.says("of date: the scene has changed"), "{}", window.all_words());
     window.until_preview();
     assert!(window.says("Last run (out of date"));
     window.undo();
-    window.until("the run's own scene again", |w| {
-        !w.says("of date: the scene has changed")
-    });
+    window.until("the run's own scene again", |w| !w.says("of date: the scene has changed"));
     let outcome = report_of(SMALL).outcome.headline();
-    assert!(
-        window.text_over_view().ends_with(&outcome),
-        "{}",
-        window.text_over_view()
-    );
+    assert!(window.text_over_view().ends_with(&outcome), "{}", window.text_over_view());
 }
 
 #[test]
@@ -114,12 +102,7 @@ fn penetrations_are_shown_and_the_time_of_the_first_is_a_link() {
     window.press(Key::Home);
     assert_eq!(window.time(), 0.0);
     window.follow_link(&format!("t\u{a0}=\u{a0}{:.4}", first.t));
-    assert!(
-        (window.time() - first.t).abs() < 1e-12,
-        "{} {}",
-        window.time(),
-        first.t
-    );
+    assert!((window.time() - first.t).abs() < 1e-12, "{} {}", window.time(), first.t);
     assert!(window.says("penetrate here"), "{}", window.text_over_view());
 }
 

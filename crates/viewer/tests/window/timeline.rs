@@ -25,11 +25,7 @@ fn the_bar_is_dragged_to_any_time() {
     assert!((window.time() - 1.5).abs() < 0.01, "{}", window.time());
     assert!(window.says("folding, 50 %"));
     let said = format!("t = {:.4}", window.time());
-    assert!(
-        window.text_over_view().starts_with(&said),
-        "{}",
-        window.text_over_view()
-    );
+    assert!(window.text_over_view().starts_with(&said), "{}", window.text_over_view());
     let (from, beyond) = (place(&window, 1.5), vec2(-3000.0, 0.0));
     window.drag(from, beyond);
     assert_eq!(window.time(), 0.0);
@@ -51,11 +47,7 @@ fn keys_step_frames_and_go_to_the_states() {
         (Key::Home, 0.0),
     ] {
         window.press(key);
-        assert!(
-            (window.time() - t).abs() < 1e-12,
-            "{key:?} {}",
-            window.time()
-        );
+        assert!((window.time() - t).abs() < 1e-12, "{key:?} {}", window.time());
     }
 }
 
@@ -72,11 +64,7 @@ fn the_bar_with_the_focus_takes_the_same_keys() {
         (Key::ArrowLeft, 2.0 - 1.0 / 60.0),
     ] {
         window.press(key);
-        assert!(
-            (window.time() - t).abs() < 1e-12,
-            "{key:?} {}",
-            window.time()
-        );
+        assert!((window.time() - t).abs() < 1e-12, "{key:?} {}", window.time());
     }
 }
 
@@ -86,11 +74,7 @@ fn a_time_is_typed_and_its_buttons_step() {
     window.enter("t", "1.25");
     assert_eq!(window.time(), 1.25);
     window.click("Next frame");
-    assert!(
-        (window.time() - 76.0 / 60.0).abs() < 1e-12,
-        "{}",
-        window.time()
-    );
+    assert!((window.time() - 76.0 / 60.0).abs() < 1e-12, "{}", window.time());
     window.click("Previous frame");
     assert!((window.time() - 1.25).abs() < 1e-12, "{}", window.time());
     window.enter("t", "7");
@@ -133,16 +117,10 @@ fn it_plays_at_its_speed_and_ends_as_was_chosen() {
 #[test]
 fn curves_are_scrubbed_as_the_bar_is_and_say_their_values() {
     let mut window = shown();
-    assert!(
-        !window.says("separation, h over"),
-        "a preview is not checked"
-    );
+    assert!(!window.says("separation, h over"), "a preview is not checked");
     window.run_scene();
     assert!(window.says("separation, h over"));
-    let strip = window
-        .rects_saying("bar strain, % over motion time")
-        .next()
-        .unwrap();
+    let strip = window.rects_saying("bar strain, % over motion time").next().unwrap();
     let to = pos2(place(&window, 0.5).x, strip.center().y);
     window.drag(to - vec2(40.0, 0.0), vec2(40.0, 0.0));
     assert!((window.time() - 0.5).abs() < 0.01, "{}", window.time());

@@ -10,11 +10,7 @@ use crate::files::edited;
 use crate::storage::Storage;
 
 fn ask_to_close(window: &mut Window) {
-    let viewport = window
-        .harness
-        .input_mut()
-        .viewports
-        .get_mut(&ViewportId::ROOT);
+    let viewport = window.harness.input_mut().viewports.get_mut(&ViewportId::ROOT);
     viewport.unwrap().events.push(ViewportEvent::Close);
     window.harness.step();
 }
@@ -48,20 +44,13 @@ fn closing_with_edits_asks_and_does_what_is_answered() {
         assert_eq!(closes, answer != "Cancel", "{answer}");
         if closes {
             ask_to_close(&mut window);
-            assert!(
-                !window.asked_for(&ViewportCommand::CancelClose),
-                "it asks once"
-            );
+            assert!(!window.asked_for(&ViewportCommand::CancelClose), "it asks once");
             window.harness.state_mut().save(&mut Storage::default());
         }
         let on_disk = fs::read_to_string(window.path()).unwrap();
         assert_eq!(on_disk == text, answer == "Save", "{answer}");
         let next = window.killed(None);
-        assert_eq!(
-            next.has("Unsaved edits"),
-            answer == "Keep for the next start",
-            "{answer}"
-        );
+        assert_eq!(next.has("Unsaved edits"), answer == "Keep for the next start", "{answer}");
     }
 }
 

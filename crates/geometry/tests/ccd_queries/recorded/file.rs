@@ -91,20 +91,13 @@ pub(crate) fn read_folder(folder: &Path) -> Result<Vec<QueryFile>, Box<dyn Error
 pub(crate) fn parse(text: &str, features: Features) -> Result<Vec<Recorded>, Malformed> {
     let mut corners = Vec::new();
     for (index, line) in text.lines().enumerate() {
-        let malformed = |reason| Malformed {
-            line: index + 1,
-            reason,
-        };
+        let malformed = |reason| Malformed { line: index + 1, reason };
         corners.push(Corner::parse(line).map_err(malformed)?);
     }
     let query = |(index, corners): (usize, &[Corner])| {
-        let malformed = |reason| Malformed {
-            line: index * LINES + 1,
-            reason,
-        };
-        let corners: &[Corner; LINES] = corners
-            .try_into()
-            .map_err(|_| malformed("a query of fewer than 8 lines"))?;
+        let malformed = |reason| Malformed { line: index * LINES + 1, reason };
+        let corners: &[Corner; LINES] =
+            corners.try_into().map_err(|_| malformed("a query of fewer than 8 lines"))?;
         if corners.iter().any(|c| c.meets != corners[0].meets) {
             return Err(malformed("the lines of the query differ in its truth"));
         }

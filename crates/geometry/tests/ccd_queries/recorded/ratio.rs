@@ -69,11 +69,7 @@ mod tests {
 
     fn assert_is(found: Option<Nearest>, value: f64, is_exact: bool) {
         let found = found.unwrap();
-        assert_eq!(
-            found.value.to_bits(),
-            value.to_bits(),
-            "{found:?} {value:e}"
-        );
+        assert_eq!(found.value.to_bits(), value.to_bits(), "{found:?} {value:e}");
         assert_eq!(found.is_exact, is_exact, "{value:e}");
     }
 
@@ -120,20 +116,12 @@ mod tests {
             // value = m 2^e with e ≥ −1074, plus a third of its last bit.
             let biased = (bits >> 52).max(1);
             let fraction = bits & ((1 << 52) - 1);
-            let mantissa = if bits >> 52 == 0 {
-                fraction
-            } else {
-                fraction | (1 << 52)
-            };
+            let mantissa = if bits >> 52 == 0 { fraction } else { fraction | (1 << 52) };
             let numerator = (BigInt::from(mantissa) * 3 + 1) << biased;
             let denominator = BigInt::from(3) << 1075u32;
             assert_is(nearest(&numerator, &denominator), value, false);
             let numerator = BigInt::from(mantissa) << biased;
-            assert_is(
-                nearest(&numerator, &(BigInt::from(1) << 1075u32)),
-                value,
-                true,
-            );
+            assert_is(nearest(&numerator, &(BigInt::from(1) << 1075u32)), value, true);
         }
     }
 }

@@ -63,17 +63,9 @@ fn staged_signs(frames: &Frames, pattern: usize, edges: usize) -> Vec<f64> {
 
 /// The meaning of a letter and an angle in degrees; `None` for a letter that FOLD does not have.
 fn meaning(letter: Option<&str>, angle: Option<f64>, staged: f64) -> Option<EdgeMeaning> {
-    let plain = |role, warning| EdgeMeaning {
-        role,
-        target: 0.0,
-        warning,
-    };
+    let plain = |role, warning| EdgeMeaning { role, target: 0.0, warning };
     let crease = |sign: f64, degrees: f64, warning| EdgeMeaning {
-        role: if sign < 0.0 {
-            Role::Mountain
-        } else {
-            Role::Valley
-        },
+        role: if sign < 0.0 { Role::Mountain } else { Role::Valley },
         target: degrees * (PI / 180.0),
         warning,
     };
@@ -110,12 +102,7 @@ pub(super) fn lines(
 ) -> Vec<Line> {
     let edges = pattern.edges.iter().zip(&pattern.meanings);
     let line = |((&ends, meaning), source): ((&[u32; 2], &EdgeMeaning), u32)| {
-        let mut line = Line {
-            ends,
-            role: meaning.role,
-            target: meaning.target,
-            source,
-        };
+        let mut line = Line { ends, role: meaning.role, target: meaning.target, source };
         let is_outer = sides.get(&line.key()).is_some_and(|faces| faces.len() == 1);
         match meaning.warning {
             // Only its position says what it is.

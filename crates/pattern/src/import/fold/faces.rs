@@ -57,39 +57,22 @@ pub(super) fn plan(
             Some(_) => warnings.add(WarningKind::Conflict, source),
         }
     }
-    let unlisted = if pattern.edges.is_empty() {
-        Role::Free
-    } else {
-        Role::Facet
-    };
-    for (ends, faces) in sides
-        .into_iter()
-        .filter(|(ends, _)| !of_ends.contains_key(ends))
-    {
+    let unlisted = if pattern.edges.is_empty() { Role::Free } else { Role::Facet };
+    for (ends, faces) in sides.into_iter().filter(|(ends, _)| !of_ends.contains_key(ends)) {
         let source = Source::FoldFace(faces[0]);
         if unlisted == Role::Free && faces.len() > 1 {
             warnings.add(WarningKind::Unassigned, &source);
         }
         lines.push(Line {
             ends,
-            role: if faces.len() > 1 {
-                unlisted
-            } else {
-                Role::Border
-            },
+            role: if faces.len() > 1 { unlisted } else { Role::Border },
             target: 0.0,
             source: sources.len() as u32,
         });
         sources.push(source);
     }
     let origins = (0..points.len() as u32).map(Some).collect();
-    Ok(Plan {
-        points,
-        origins,
-        lines,
-        facets,
-        sources,
-    })
+    Ok(Plan { points, origins, lines, facets, sources })
 }
 
 fn twice_area(face: &[u32], points: &[DVec2]) -> f64 {

@@ -17,33 +17,23 @@ pub(super) fn in_plane(pattern: &FoldPattern<'_>) -> Result<Vec<DVec2>, ImportEr
     let points = pattern.coordinates;
     let (low, high) = points
         .iter()
-        .fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(low, high), p| {
-            (low.min(*p), high.max(*p))
-        });
+        .fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(low, high), p| (low.min(*p), high.max(*p)));
     let flat_bounds = |a: DVec3| DVec2::new(a.truncate().length(), a.z);
     let size = check_extent(flat_bounds(DVec3::ZERO), flat_bounds(high - low))?;
     let Some(normal) = normal(pattern, size) else {
         // Without area; that is found where facets are cut.
         return Ok(points.iter().map(|p| p.truncate()).collect());
     };
-    let origin = if low.z == high.z {
-        DVec3::new(0.0, 0.0, low.z)
-    } else {
-        points[0]
-    };
+    let origin = if low.z == high.z { DVec3::new(0.0, 0.0, low.z) } else { points[0] };
     let used = || {
         let corners = pattern.faces.iter().flatten();
         let ends = pattern.edges.iter().flatten();
         let is_traced = pattern.faces.is_empty();
         corners.chain(ends.filter(move |_| is_traced))
     };
-    let origin = used().next().map_or(origin, |&v| {
-        if low.z == high.z {
-            origin
-        } else {
-            points[v as usize]
-        }
-    });
+    let origin = used()
+        .next()
+        .map_or(origin, |&v| if low.z == high.z { origin } else { points[v as usize] });
     let height = |&v: &u32| (v, (points[v as usize] - origin).dot(normal).abs());
     let highest = used().map(height).max_by(|a, b| a.1.total_cmp(&b.1));
     if let Some((vertex, height)) = highest.filter(|(_, h)| *h > FLATNESS * size) {
@@ -64,10 +54,7 @@ pub(super) fn in_plane(pattern: &FoldPattern<'_>) -> Result<Vec<DVec2>, ImportEr
         along(DVec3::Y).normalize()
     };
     let y = normal.cross(x);
-    Ok(points
-        .iter()
-        .map(|p| DVec2::new(p.dot(x), p.dot(y)))
-        .collect())
+    Ok(points.iter().map(|p| DVec2::new(p.dot(x), p.dot(y))).collect())
 }
 
 /// The unit normal of the pattern; `None` if it has no area.
@@ -78,33 +65,19 @@ fn normal(pattern: &FoldPattern<'_>, size: f64) -> Option<DVec3> {
         let first = points[*face.first()? as usize];
         let corner = |v: &u32| points[*v as usize] - first;
         let pairs = face.windows(2);
-        Some(
-            pairs
-                .map(|p| corner(&p[0]).cross(corner(&p[1])))
-                .sum::<DVec3>(),
-        )
+        Some(pairs.map(|p| corner(&p[0]).cross(corner(&p[1]))).sum::<DVec3>())
     };
     let total: DVec3 = pattern.faces.iter().filter_map(area).sum();
     if total.length() > 1e-12 * size * size {
         let normal = total.normalize();
         // Exactly, so that coordinates stay as they are.
-        return Some(if is_level {
-            DVec3::Z * normal.z.signum()
-        } else {
-            normal
-        });
+        return Some(if is_level { DVec3::Z * normal.z.signum() } else { normal });
     }
     if is_level {
         return Some(DVec3::Z);
     }
     let first = points[pattern.edges.first()?[0] as usize];
-    let ends = || {
-        pattern
-            .edges
-            .iter()
-            .flatten()
-            .map(|&v| points[v as usize] - first)
-    };
+    let ends = || pattern.edges.iter().flatten().map(|&v| points[v as usize] - first);
     let longest = ends().max_by(|a, b| a.length().total_cmp(&b.length()))?;
     let across = ends().map(|p| longest.cross(p));
     let normal = across.max_by(|a, b| a.length().total_cmp(&b.length()))?;
@@ -112,8 +85,6 @@ fn normal(pattern: &FoldPattern<'_>, size: f64) -> Option<DVec3> {
         return None;
     }
     let normal = normal.normalize();
-    let lead = [normal.z, normal.y, normal.x]
-        .into_iter()
-        .find(|c| c.abs() > 1e-9)?;
+    let lead = [normal.z, normal.y, normal.x].into_iter().find(|c| c.abs() > 1e-9)?;
     Some(normal * lead.signum())
 }

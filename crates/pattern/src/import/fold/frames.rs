@@ -19,22 +19,12 @@ impl Frames {
     /// Reads the frames; each inherits from one before it.
     pub(super) fn read(bytes: &[u8]) -> Result<Self, ImportError> {
         let mut list = vec![FrameFields::default()];
-        let select = |_| Selection {
-            coordinates: true,
-            topology: true,
-            rest: true,
-        };
+        let select = |_| Selection { coordinates: true, topology: true, rest: true };
         let mut each = |_, fields| {
             list.push(fields);
             list.len() <= MOST_FRAMES
         };
-        let finished = read_frames(
-            bytes,
-            FrameVisitor {
-                select: &select,
-                each: &mut each,
-            },
-        );
+        let finished = read_frames(bytes, FrameVisitor { select: &select, each: &mut each });
         if list.len() > MOST_FRAMES {
             return Err(ImportError::TooMany {
                 what: "frames",
@@ -86,9 +76,7 @@ impl Frames {
     }
 
     pub(super) fn coordinates(&self, frame: usize) -> Option<&[DVec3]> {
-        self.inherited(frame, |f| {
-            f.has_coordinates.then_some(f.coordinates.as_slice())
-        })
+        self.inherited(frame, |f| f.has_coordinates.then_some(f.coordinates.as_slice()))
     }
 
     pub(super) fn edges(&self, frame: usize) -> Option<&[[u32; 2]]> {

@@ -131,12 +131,7 @@ impl<'a> FoldPattern<'a> {
         plan: Plan,
         frames: &Frames,
     ) -> Result<ImportedPattern, ImportError> {
-        let Assembled {
-            mut sheet,
-            targets,
-            edge_lines,
-            vertex_points,
-        } = assembled;
+        let Assembled { mut sheet, targets, edge_lines, vertex_points } = assembled;
         match frames.unit_length() {
             Some(length) if length > 0.0 => sheet.unit_length = length,
             Some(value) => return Err(crate::FoldError::UnitLength { value }.into()),
@@ -144,18 +139,13 @@ impl<'a> FoldPattern<'a> {
         }
         let unit = match frames.unit(self.frame) {
             None => LengthUnit::Unit,
-            Some(name) => LengthUnit::named(name).ok_or_else(|| ImportError::Unit {
-                found: name.chars().take(40).collect(),
-            })?,
+            Some(name) => LengthUnit::named(name)
+                .ok_or_else(|| ImportError::Unit { found: name.chars().take(40).collect() })?,
         };
         let lines = edge_lines.into_iter();
-        let edge_sources = lines
-            .map(|l| Some(plan.lines[l? as usize].source))
-            .collect();
-        let vertex_sources: Vec<Option<u32>> = vertex_points
-            .iter()
-            .map(|&p| plan.origins[p as usize])
-            .collect();
+        let edge_sources = lines.map(|l| Some(plan.lines[l? as usize].source)).collect();
+        let vertex_sources: Vec<Option<u32>> =
+            vertex_points.iter().map(|&p| plan.origins[p as usize]).collect();
         let position = |v: &Option<u32>| v.map(|v| self.coordinates[v as usize]);
         let shape: Option<Vec<DVec3>> = vertex_sources.iter().map(position).collect();
         let shape = shape.filter(|shape| *shape != sheet.planar());
@@ -201,8 +191,5 @@ fn fixed_facets(
             || by_vertex
                 .is_some_and(|list| corners.all(|v| v.is_some_and(|v| is_set(list, v as usize))))
     };
-    (0..sheet.facets.len())
-        .filter(|&facet| is_fixed(facet))
-        .map(|facet| facet as u32)
-        .collect()
+    (0..sheet.facets.len()).filter(|&facet| is_fixed(facet)).map(|facet| facet as u32).collect()
 }

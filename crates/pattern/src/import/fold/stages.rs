@@ -47,11 +47,7 @@ pub(super) fn stages(
         stages.push(PatternStage {
             frame: index,
             title: frame.frame_title.clone(),
-            angles: edges
-                .iter()
-                .zip(&imported.edge_sources)
-                .map(angle)
-                .collect(),
+            angles: edges.iter().zip(&imported.edge_sources).map(angle).collect(),
         });
     }
     Ok(stages)

@@ -89,8 +89,7 @@ impl<'a, 'b> ElementReader<'a, 'b> {
         let name = node.tag_name().name();
         if !is_drawn_container(name) && !is_shape(name) {
             if matches!(name, "text" | "image" | "foreignObject") {
-                self.warnings
-                    .add(WarningKind::Ignored, &self.numbering.source(node));
+                self.warnings.add(WarningKind::Ignored, &self.numbering.source(node));
             }
             return Ok(());
         }
@@ -99,8 +98,7 @@ impl<'a, 'b> ElementReader<'a, 'b> {
         if properties.display == Some("none") {
             own.is_visible = false;
             if is_drawn_container(name) {
-                self.warnings
-                    .add(WarningKind::NotDrawn, &self.numbering.source(node));
+                self.warnings.add(WarningKind::NotDrawn, &self.numbering.source(node));
                 return Ok(());
             }
         }
@@ -126,13 +124,7 @@ impl<'a, 'b> ElementReader<'a, 'b> {
         let parsed = |name, text: Option<&str>| match text.filter(|t| *t != "inherit") {
             None => Ok(None),
             Some(text) => opacity(text).map(Some).ok_or_else(|| {
-                wrong(
-                    node,
-                    self.numbering,
-                    name,
-                    text,
-                    "a finite number is needed",
-                )
+                wrong(node, self.numbering, name, text, "a finite number is needed")
             }),
         };
         if let Some(stroke) = properties.stroke.filter(|s| *s != "inherit") {
@@ -147,10 +139,7 @@ impl<'a, 'b> ElementReader<'a, 'b> {
             Some("visible") => own.is_visible = true,
             _ => {}
         }
-        if let Some(text) = properties
-            .transform
-            .filter(|t| !t.is_empty() && *t != "none")
-        {
+        if let Some(text) = properties.transform.filter(|t| !t.is_empty() && *t != "none") {
             let need = "a list of SVG 1.1 transforms with finite numbers is needed";
             let parsed = Transform::from_str(text).ok();
             let finite = parsed.map(|t| [t.a, t.b, t.c, t.d, t.e, t.f]);
@@ -179,8 +168,7 @@ impl<'a, 'b> ElementReader<'a, 'b> {
         };
         let Ok((role, alpha)) = meaning(stroke) else {
             let shown: String = stroke.chars().take(40).collect();
-            self.unread
-                .add(source, format!("the stroke {shown:?} is unknown"));
+            self.unread.add(source, format!("the stroke {shown:?} is unknown"));
             return Ok(());
         };
         let has_curves = pieces.iter().any(|p| matches!(p, Piece::Curve(_)));
@@ -200,13 +188,7 @@ impl<'a, 'b> ElementReader<'a, 'b> {
         if !is_finite {
             let text = node.ancestors().find_map(|n| n.attribute("transform"));
             let need = "the element must stay within the numbers there are";
-            return Err(wrong(
-                node,
-                self.numbering,
-                "transform",
-                text.unwrap_or_default(),
-                need,
-            ));
+            return Err(wrong(node, self.numbering, "transform", text.unwrap_or_default(), need));
         }
         self.strokes.push(Stroke {
             source,
@@ -223,8 +205,5 @@ fn is_drawn_container(name: &str) -> bool {
 }
 
 fn is_shape(name: &str) -> bool {
-    matches!(
-        name,
-        "path" | "line" | "rect" | "polyline" | "polygon" | "circle" | "ellipse" | "use"
-    )
+    matches!(name, "path" | "line" | "rect" | "polyline" | "polygon" | "circle" | "ellipse" | "use")
 }

@@ -39,18 +39,16 @@ use shape::{Piece, Stroke};
 /// [`ImportError`]; texts name elements by id and line.
 pub fn import_svg(bytes: &[u8], options: &ImportOptions) -> Result<ImportedPattern, ImportError> {
     check_size(bytes)?;
-    let text = std::str::from_utf8(bytes).map_err(|e| ImportError::NotUtf8 {
-        byte: e.valid_up_to(),
-    })?;
+    let text =
+        std::str::from_utf8(bytes).map_err(|e| ImportError::NotUtf8 { byte: e.valid_up_to() })?;
     let parsing = ParsingOptions {
         nodes_limit: MOST_NODES,
         // Drawing programs name a document type; one that defines entities could grow without bound.
         allow_dtd: !text.contains("<!ENTITY"),
         ..ParsingOptions::default()
     };
-    let document = Document::parse_with_options(text, parsing).map_err(|e| ImportError::Xml {
-        message: e.to_string(),
-    })?;
+    let document = Document::parse_with_options(text, parsing)
+        .map_err(|e| ImportError::Xml { message: e.to_string() })?;
     let root = document.root_element();
     if root.tag_name().name() != "svg" {
         return Err(ImportError::NotSvg {
@@ -67,16 +65,9 @@ pub fn import_svg(bytes: &[u8], options: &ImportOptions) -> Result<ImportedPatte
     let drawing = drawing(&strokes, options.curves)?;
     let merge = options.merge.unwrap_or(MergeTolerance::DRAWING);
     let plan = plan_of(drawing, merge, viewport.scale, true, &mut warnings)?;
-    let Assembled {
-        sheet,
-        targets,
-        edge_lines,
-        vertex_points,
-    } = assemble(&plan, &mut warnings)?;
+    let Assembled { sheet, targets, edge_lines, vertex_points } = assemble(&plan, &mut warnings)?;
     let lines = edge_lines.into_iter();
-    let title = root
-        .children()
-        .find(|c| c.has_tag_name("title") || is_svg(*c, "title"));
+    let title = root.children().find(|c| c.has_tag_name("title") || is_svg(*c, "title"));
     Ok(ImportedPattern {
         title: title.and_then(|t| t.text()).map(str::to_owned),
         sheet,
@@ -84,9 +75,7 @@ pub fn import_svg(bytes: &[u8], options: &ImportOptions) -> Result<ImportedPatte
         targets,
         stages: Vec::new(),
         fixed_facets: Vec::new(),
-        edge_sources: lines
-            .map(|l| Some(plan.lines[l? as usize].source))
-            .collect(),
+        edge_sources: lines.map(|l| Some(plan.lines[l? as usize].source)).collect(),
         sources: plan.sources,
         vertex_sources: vec![None; vertex_points.len()],
         shape: None,
@@ -109,22 +98,14 @@ struct LineNumbers {
 impl LineNumbers {
     fn new(text: &str) -> Self {
         let breaks = text.bytes().enumerate().filter(|(_, byte)| *byte == b'\n');
-        Self {
-            starts: std::iter::once(0)
-                .chain(breaks.map(|(at, _)| at + 1))
-                .collect(),
-        }
+        Self { starts: std::iter::once(0).chain(breaks.map(|(at, _)| at + 1)).collect() }
     }
 
     fn source(&self, node: Node<'_, '_>) -> Source {
         let at = node.range().start;
         let line = self.starts.partition_point(|&start| start <= at);
         let column = at + 1 - self.starts[line - 1];
-        Source::svg(
-            node.tag_name().name(),
-            node.attribute("id"),
-            [line as u32, column as u32],
-        )
+        Source::svg(node.tag_name().name(), node.attribute("id"), [line as u32, column as u32])
     }
 }
 
@@ -162,9 +143,7 @@ impl UnreadElement {
 
 /// The drawing of strokes, y upwards, curves as chords.
 fn drawing(strokes: &[Stroke], curves: Curves) -> Result<Drawing, ImportError> {
-    let ends = strokes
-        .iter()
-        .flat_map(|s| s.pieces.iter().flat_map(Piece::points));
+    let ends = strokes.iter().flat_map(|s| s.pieces.iter().flat_map(Piece::points));
     let all: Vec<DVec2> = ends.copied().collect();
     let [low, high] = super::drawing::bounds(&all).ok_or(ImportError::Empty)?;
     let tolerance = match curves {
@@ -182,9 +161,7 @@ fn drawing(strokes: &[Stroke], curves: Curves) -> Result<Drawing, ImportError> {
             let chords = piece.chords(tolerance * low.distance(high));
             for ends in chords.windows(2) {
                 let first = drawing.points.len() as u32;
-                drawing
-                    .points
-                    .extend([ends[0], ends[1]].map(|p| mirrored.transform_point2(p)));
+                drawing.points.extend([ends[0], ends[1]].map(|p| mirrored.transform_point2(p)));
                 drawing.lines.push(Line {
                     ends: [first, first + 1],
                     role: stroke.role,

@@ -56,10 +56,7 @@ impl Piece {
         };
         let second = (a - 2.0 * b + c).length().max((b - 2.0 * c + d).length());
         #[expect(clippy::cast_sign_loss, reason = "clamped to at least 1")]
-        let count = (0.75 * second / tolerance)
-            .sqrt()
-            .ceil()
-            .clamp(1.0, MOST_CHORDS) as u32;
+        let count = (0.75 * second / tolerance).sqrt().ceil().clamp(1.0, MOST_CHORDS) as u32;
         let at = |i: u32| {
             let t = f64::from(i) / f64::from(count);
             let s = 1.0 - t;
@@ -110,10 +107,7 @@ pub(super) fn outline(node: Node<'_, '_>, numbering: &LineNumbers) -> Result<Out
 }
 
 fn chain(points: &[DVec2], closed: bool) -> Vec<Piece> {
-    let mut pieces: Vec<Piece> = points
-        .windows(2)
-        .map(|p| Piece::Line([p[0], p[1]]))
-        .collect();
+    let mut pieces: Vec<Piece> = points.windows(2).map(|p| Piece::Line([p[0], p[1]])).collect();
     if let (true, [first, .., last]) = (closed, points) {
         pieces.push(Piece::Line([*last, *first]));
     }
@@ -130,27 +124,13 @@ fn points(node: Node<'_, '_>, numbering: &LineNumbers) -> Result<Vec<DVec2>, Imp
 
 fn rect(node: Node<'_, '_>, numbering: &LineNumbers) -> Result<Outline, ImportError> {
     if size(node, numbering, "rx")? > 0.0 || size(node, numbering, "ry")? > 0.0 {
-        return Ok(Outline::UnreadElement(
-            "rounded rectangles are not read".to_owned(),
-        ));
+        return Ok(Outline::UnreadElement("rounded rectangles are not read".to_owned()));
     }
     let low = DVec2::new(length(node, numbering, "x")?, length(node, numbering, "y")?);
-    let sides = DVec2::new(
-        size(node, numbering, "width")?,
-        size(node, numbering, "height")?,
-    );
+    let sides = DVec2::new(size(node, numbering, "width")?, size(node, numbering, "height")?);
     let high = low + sides;
-    let corners = [
-        low,
-        DVec2::new(high.x, low.y),
-        high,
-        DVec2::new(low.x, high.y),
-    ];
-    Ok(Outline::Pieces(if sides.min_element() > 0.0 {
-        chain(&corners, true)
-    } else {
-        Vec::new()
-    }))
+    let corners = [low, DVec2::new(high.x, low.y), high, DVec2::new(low.x, high.y)];
+    Ok(Outline::Pieces(if sides.min_element() > 0.0 { chain(&corners, true) } else { Vec::new() }))
 }
 
 fn path(node: Node<'_, '_>, numbering: &LineNumbers) -> Result<Outline, ImportError> {
@@ -161,9 +141,7 @@ fn path(node: Node<'_, '_>, numbering: &LineNumbers) -> Result<Outline, ImportEr
     let is_arc =
         |segment: &Result<PathSegment, _>| matches!(segment, Ok(PathSegment::EllipticalArc { .. }));
     if PathParser::from(text).any(|segment| is_arc(&segment)) {
-        return Ok(Outline::UnreadElement(
-            "elliptical arcs (A) of paths are not read".to_owned(),
-        ));
+        return Ok(Outline::UnreadElement("elliptical arcs (A) of paths are not read".to_owned()));
     }
     let need = "commands of SVG paths with finite numbers are needed";
     let mut pieces = Vec::new();
@@ -178,14 +156,7 @@ fn path(node: Node<'_, '_>, numbering: &LineNumbers) -> Result<Outline, ImportEr
                 pieces.push(Piece::Line([at, DVec2::new(x, y)]));
                 at = DVec2::new(x, y);
             }
-            SimplePathSegment::CurveTo {
-                x1,
-                y1,
-                x2,
-                y2,
-                x,
-                y,
-            } => {
+            SimplePathSegment::CurveTo { x1, y1, x2, y2, x, y } => {
                 let [b, c, d] = [[x1, y1], [x2, y2], [x, y]].map(DVec2::from);
                 pieces.push(Piece::Curve([at, b, c, d]));
                 at = d;
@@ -193,12 +164,7 @@ fn path(node: Node<'_, '_>, numbering: &LineNumbers) -> Result<Outline, ImportEr
             SimplePathSegment::Quadratic { x1, y1, x, y } => {
                 let [b, c] = [[x1, y1], [x, y]].map(DVec2::from);
                 // The same curve as a cubic.
-                pieces.push(Piece::Curve([
-                    at,
-                    at.lerp(b, 2.0 / 3.0),
-                    c.lerp(b, 2.0 / 3.0),
-                    c,
-                ]));
+                pieces.push(Piece::Curve([at, at.lerp(b, 2.0 / 3.0), c.lerp(b, 2.0 / 3.0), c]));
                 at = c;
             }
             SimplePathSegment::ClosePath => {

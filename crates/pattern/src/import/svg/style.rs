@@ -52,9 +52,7 @@ impl<'a> Styles<'a> {
     ) -> Result<Self, ImportError> {
         let mut sheet = StyleSheet::new();
         let mut bytes = 0;
-        let elements = root
-            .descendants()
-            .filter(|n| n.tag_name().name() == "style");
+        let elements = root.descendants().filter(|n| n.tag_name().name() == "style");
         for element in elements {
             for text in element.children().filter_map(|c| c.text()) {
                 bytes += text.len();
@@ -131,9 +129,7 @@ impl Element for SingleElement<'_> {
     }
 
     fn attribute_matches(&self, name: &str, operator: AttributeOperator<'_>) -> bool {
-        self.0
-            .attribute(name)
-            .is_some_and(|value| operator.matches(value))
+        self.0.attribute(name).is_some_and(|value| operator.matches(value))
     }
 
     fn pseudo_class_matches(&self, _: PseudoClass<'_>) -> bool {

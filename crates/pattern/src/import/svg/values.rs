@@ -83,18 +83,10 @@ pub(super) fn size(
         return Ok(value);
     }
     let text = node.attribute(name).unwrap_or_default();
-    Err(wrong(
-        node,
-        numbering,
-        name,
-        text,
-        "it must not be negative",
-    ))
+    Err(wrong(node, numbering, name, text, "it must not be negative"))
 }
 
 /// All numbers of a list.
 pub(super) fn numbers(text: &str) -> Option<Vec<f64>> {
-    NumberListParser::from(text)
-        .map(|number| number.ok().filter(|n| n.is_finite()))
-        .collect()
+    NumberListParser::from(text).map(|number| number.ok().filter(|n| n.is_finite())).collect()
 }

@@ -20,16 +20,9 @@ pub(super) struct Viewport {
 
 /// The viewport of the outermost `svg`.
 pub(super) fn outer(root: Node<'_, '_>, numbering: &LineNumbers) -> Result<Viewport, ImportError> {
-    let size = [
-        side(root, numbering, "width")?,
-        side(root, numbering, "height")?,
-    ];
+    let size = [side(root, numbering, "width")?, side(root, numbering, "height")?];
     let is_physical = size.iter().flatten().any(|(_, physical)| *physical);
-    let unit = if is_physical {
-        LengthUnit::Millimetre
-    } else {
-        LengthUnit::Unit
-    };
+    let unit = if is_physical { LengthUnit::Millimetre } else { LengthUnit::Unit };
     let lengths = size.map(|side| {
         let (length, physical) = side?;
         Some(match (is_physical, physical) {
@@ -46,21 +39,14 @@ pub(super) fn outer(root: Node<'_, '_>, numbering: &LineNumbers) -> Result<Viewp
         // Without a physical size, user units are as good as pixels; only their proportion is kept.
         scale /= scale.x;
     }
-    Ok(Viewport {
-        transform: DAffine2::from_scale(scale),
-        scale: scale.min_element(),
-        unit,
-    })
+    Ok(Viewport { transform: DAffine2::from_scale(scale), scale: scale.min_element(), unit })
 }
 
 /// From the user units in a nested `svg` to those around it.
 pub(super) fn nested(node: Node<'_, '_>, numbering: &LineNumbers) -> Result<DAffine2, ImportError> {
     let at = DVec2::new(length(node, numbering, "x")?, length(node, numbering, "y")?);
     let shift_to_corner = DAffine2::from_translation(at);
-    let size = [
-        side(node, numbering, "width")?,
-        side(node, numbering, "height")?,
-    ];
+    let size = [side(node, numbering, "width")?, side(node, numbering, "height")?];
     let lengths = size.map(|side| {
         let (length, physical) = side?;
         Some(if physical { length / MM_A_UNIT } else { length })
@@ -107,13 +93,7 @@ fn side(
     };
     match found {
         Ok((length, physical)) if length > 0.0 => Ok(Some((length, physical))),
-        _ => Err(wrong(
-            node,
-            numbering,
-            name,
-            text,
-            "a positive length is needed",
-        )),
+        _ => Err(wrong(node, numbering, name, text, "a positive length is needed")),
     }
 }
 
@@ -134,15 +114,8 @@ fn aspect_ratio(node: Node<'_, '_>, numbering: &LineNumbers) -> Result<AspectRat
     let name = "preserveAspectRatio";
     match node.attribute(name) {
         None => Ok(AspectRatio::default()),
-        Some(text) => AspectRatio::from_str(text).map_err(|_| {
-            wrong(
-                node,
-                numbering,
-                name,
-                text,
-                "an alignment of SVG 1.1 is needed",
-            )
-        }),
+        Some(text) => AspectRatio::from_str(text)
+            .map_err(|_| wrong(node, numbering, name, text, "an alignment of SVG 1.1 is needed")),
     }
 }
 
@@ -154,10 +127,7 @@ fn fit(
     view: &ViewBox,
 ) -> Result<Option<DVec2>, ImportError> {
     let ratio = aspect_ratio(node, numbering)?;
-    let [x, y] = [
-        lengths[0].map(|w| w / view.w),
-        lengths[1].map(|h| h / view.h),
-    ];
+    let [x, y] = [lengths[0].map(|w| w / view.w), lengths[1].map(|h| h / view.h)];
     Ok(match (x, y) {
         (None, None) => None,
         (Some(one), None) | (None, Some(one)) => Some(DVec2::splat(one)),

@@ -25,10 +25,7 @@ fn tower() -> Motion {
         let pairs = flat.iter().zip(&compact);
         let bulge = DVec3::Z * (3.0 * part).sin();
         let positions = pairs.map(|(a, b)| a.lerp(*b, part) + bulge * a.x).collect();
-        Frame {
-            time: 1.0 + part,
-            positions,
-        }
+        Frame { time: 1.0 + part, positions }
     };
     Motion {
         frames: (0..=40).map(frame).collect(),
@@ -38,15 +35,7 @@ fn tower() -> Motion {
 }
 
 fn bare<'a>(motion: &'a Motion, marks: &'a Marks) -> Page<'a> {
-    Page {
-        motion,
-        marks,
-        values: &[],
-        panels: &[],
-        report: None,
-        certificate: None,
-        fold: None,
-    }
+    Page { motion, marks, values: &[], panels: &[], report: None, certificate: None, fold: None }
 }
 
 fn written(contents: &Page<'_>, options: &PageOptions) -> String {
@@ -79,19 +68,13 @@ fn read(html: &str) -> (Value, BTreeMap<String, Vec<i64>>) {
         let word = |w: &[u8]| <[u8; 4]>::try_from(w).unwrap();
         match entry["type"].as_str().unwrap() {
             "Uint8" => words(1).map(|w| i64::from(w[0])).collect(),
-            "Uint32" => words(4)
-                .map(|w| u32::from_le_bytes(word(w)).into())
-                .collect(),
-            "Int32" => words(4)
-                .map(|w| i32::from_le_bytes(word(w)).into())
-                .collect(),
+            "Uint32" => words(4).map(|w| u32::from_le_bytes(word(w)).into()).collect(),
+            "Int32" => words(4).map(|w| i32::from_le_bytes(word(w)).into()).collect(),
             other => panic!("{other}"),
         }
     };
     let entries = header["arrays"].as_object().unwrap();
-    let arrays = entries
-        .iter()
-        .map(|(name, entry)| (name.clone(), array(entry)));
+    let arrays = entries.iter().map(|(name, entry)| (name.clone(), array(entry)));
     let arrays = arrays.collect();
     (header, arrays)
 }
@@ -122,10 +105,7 @@ fn shown(html: &str, sheet: &Motion) -> Motion {
             positions: places.chunks(3).map(point).collect(),
         }
     });
-    Motion {
-        frames: frames.collect(),
-        ..sheet.clone()
-    }
+    Motion { frames: frames.collect(), ..sheet.clone() }
 }
 
 #[test]
@@ -133,10 +113,7 @@ fn a_page_holds_the_motion_within_its_tolerance_at_every_time_and_says_so() {
     let times: Vec<f64> = (0..=40).map(|k| f64::from(k) / 20.0).collect();
     for motion in [folding_square(&times), tower()] {
         for tolerance in [1e-2, 1e-3, 1e-9] {
-            let options = PageOptions {
-                tolerance,
-                ..PageOptions::default()
-            };
+            let options = PageOptions { tolerance, ..PageOptions::default() };
             let html = written(&bare(&motion, &Marks::default()), &options);
             let keys = shown(&html, &motion);
             let mut largest: f64 = 0.0;
@@ -144,18 +121,13 @@ fn a_page_holds_the_motion_within_its_tolerance_at_every_time_and_says_so() {
                 let time = f64::from(k) / 200.0;
                 let pairs = positions_at(&keys, time).into_iter();
                 let distances = pairs.zip(positions_at(&motion, time));
-                largest = distances
-                    .map(|(p, q)| p.distance(q))
-                    .fold(largest, f64::max);
+                largest = distances.map(|(p, q)| p.distance(q)).fold(largest, f64::max);
             }
             let (header, _) = read(&html);
             let said = header["largestError"].as_f64().unwrap();
             let rounding = 1e-14;
             assert!(largest <= said + rounding, "{largest} {said}");
-            assert!(
-                said <= tolerance * motion.sheet.unit_length + 1e-8,
-                "{said}"
-            );
+            assert!(said <= tolerance * motion.sheet.unit_length + 1e-8, "{said}");
             assert!(tolerance < 1e-2 || keys.frames.len() < motion.frames.len());
         }
     }
@@ -205,10 +177,7 @@ fn values_are_read_back_within_half_a_step_of_their_range_and_those_that_are_non
         frames: vec![vec![-1.0, 0.4], vec![f64::NAN, 9.0], vec![2.99, -7.0]],
     }];
     let marks = Marks::default();
-    let contents = Page {
-        values: &values,
-        ..bare(&motion, &marks)
-    };
+    let contents = Page { values: &values, ..bare(&motion, &marks) };
     let (header, arrays) = read(&written(&contents, &PageOptions::default()));
     let most = header["levels"].as_f64().unwrap();
     let mut levels = [0_i64; 2];
@@ -229,16 +198,11 @@ fn values_are_read_back_within_half_a_step_of_their_range_and_those_that_are_non
 #[test]
 fn the_files_in_a_page_are_those_that_were_given() {
     let motion = folding_square(&[0.0, 1.0]);
-    let fold: Vec<u8> = (0..200_000_u32)
-        .map(|k| (k.wrapping_mul(k) >> 3) as u8)
-        .collect();
+    let fold: Vec<u8> = (0..200_000_u32).map(|k| (k.wrapping_mul(k) >> 3) as u8).collect();
     let certificate = "{\"verdict\": \"touching\",\n \"title\": \"λ </script>\"}\n";
     let marks = Marks::default();
-    let contents = Page {
-        fold: Some(&fold),
-        certificate: Some(certificate),
-        ..bare(&motion, &marks)
-    };
+    let contents =
+        Page { fold: Some(&fold), certificate: Some(certificate), ..bare(&motion, &marks) };
     let html = written(&contents, &PageOptions::default());
     assert_eq!(unpacked(&html, "fold-file"), fold);
     assert_eq!(unpacked(&html, "certificate-file"), certificate.as_bytes());

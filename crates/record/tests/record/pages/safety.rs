@@ -27,11 +27,8 @@ fn told(words: &str) -> (PageOptions, Vec<Values>, String, String) {
         },
         ..PageOptions::default()
     };
-    let values = vec![Values {
-        title: words.to_owned(),
-        range: [0.0, 1.0],
-        frames: vec![vec![0.0; 2]; 2],
-    }];
+    let values =
+        vec![Values { title: words.to_owned(), range: [0.0, 1.0], frames: vec![vec![0.0; 2]; 2] }];
     let report = serde_json::json!({
         "case": words, "rows": 7, "columns": 3, "length_unit": words,
         "closed_form": {"extents": [1.0, 2.0, 3.0], "area": words, "volume": 6.0},
@@ -54,10 +51,7 @@ fn no_words_become_tags_scripts_or_attributes() {
     let panels = [Panel {
         title: "a < b",
         is_logarithmic: false,
-        curves: vec![Curve {
-            name: "c",
-            points: vec![(0.0, 1.0), (1.0, 2.0)],
-        }],
+        curves: vec![Curve { name: "c", points: vec![(0.0, 1.0), (1.0, 2.0)] }],
     }];
     let html = |words: &str| {
         let (options, values, report, certificate) = told(words);
@@ -106,18 +100,13 @@ fn a_page_may_run_its_own_two_scripts_only_and_fetch_nothing() {
         let script = &script[..script.find("</script>").unwrap()];
         assert!(policy.contains(&hash(script)));
     }
-    for scheme in [
-        "http://", "https://", "//cdn", "src=\"/", "@import", "import(",
-    ] {
+    for scheme in ["http://", "https://", "//cdn", "src=\"/", "@import", "import("] {
         for place in html.match_indices(scheme) {
             let address: String = html[place.0..].chars().take(40).collect();
             assert!(address.starts_with("http://www.w3.org/1999/"), "{address}");
         }
     }
-    assert!(
-        html.contains("Permission is hereby granted"),
-        "the library's licence"
-    );
+    assert!(html.contains("Permission is hereby granted"), "the library's licence");
 }
 
 #[test]
@@ -136,10 +125,7 @@ fn the_same_page_has_the_same_bytes_and_shows_no_time_and_no_device() {
         .to_string()
     };
     let html = |report: &str| {
-        let contents = Page {
-            report: Some(report),
-            ..bare(&motion, &marks)
-        };
+        let contents = Page { report: Some(report), ..bare(&motion, &marks) };
         written(&contents, &PageOptions::default())
     };
     let first = html(&report(12.5, "a fast card"));
@@ -153,19 +139,11 @@ fn marks_are_listed_by_triangle_and_span_within_the_motion() {
     let mut marks = Marks::default();
     marks.insert(1, 0.25, 0.5);
     marks.insert(0, -7.0, f64::INFINITY);
-    for (face, from, to) in [
-        (9, 0.0, 1.0),
-        (0, 1.5, 2.0),
-        (0, 0.7, 0.6),
-        (0, f64::NAN, 1.0),
-    ] {
+    for (face, from, to) in [(9, 0.0, 1.0), (0, 1.5, 2.0), (0, 0.7, 0.6), (0, f64::NAN, 1.0)] {
         marks.insert(face, from, to);
     }
     let (header, _) = read(&written(&bare(&motion, &marks), &PageOptions::default()));
-    assert_eq!(
-        header["marks"],
-        serde_json::json!([[0.25, 0.5, 1], [0.0, 1.0, 0]])
-    );
+    assert_eq!(header["marks"], serde_json::json!([[0.25, 0.5, 1], [0.0, 1.0, 0]]));
 }
 
 #[test]
@@ -181,78 +159,35 @@ fn what_cannot_be_shown_is_refused_before_anything_is_written() {
     };
     let usual = PageOptions::default();
     for tolerance in [0.0, -1.0, f64::NAN, f64::INFINITY] {
-        let options = PageOptions {
-            tolerance,
-            ..usual.clone()
-        };
-        assert!(matches!(
-            refused(&good, &options),
-            RecordError::NotPositive { .. }
-        ));
+        let options = PageOptions { tolerance, ..usual.clone() };
+        assert!(matches!(refused(&good, &options), RecordError::NotPositive { .. }));
     }
-    let options = PageOptions {
-        seconds: [1.0, 0.0],
-        ..usual.clone()
-    };
+    let options = PageOptions { seconds: [1.0, 0.0], ..usual.clone() };
     assert!(matches!(
         refused(&good, &options),
-        RecordError::NotPositive {
-            name: "seconds[1]",
-            ..
-        }
+        RecordError::NotPositive { name: "seconds[1]", .. }
     ));
     for words in ["", "{", "\u{0}"] {
-        let contents = Page {
-            report: Some(words),
-            ..good
-        };
+        let contents = Page { report: Some(words), ..good };
+        assert!(matches!(refused(&contents, &usual), RecordError::Json { name: "report", .. }));
+        let contents = Page { certificate: Some(words), ..good };
         assert!(matches!(
             refused(&contents, &usual),
-            RecordError::Json { name: "report", .. }
-        ));
-        let contents = Page {
-            certificate: Some(words),
-            ..good
-        };
-        assert!(matches!(
-            refused(&contents, &usual),
-            RecordError::Json {
-                name: "certificate",
-                ..
-            }
+            RecordError::Json { name: "certificate", .. }
         ));
     }
-    let values = [Values {
-        title: String::new(),
-        range: [0.0, 1.0],
-        frames: vec![vec![0.0; 2]],
-    }];
-    let contents = Page {
-        values: &values,
-        ..good
-    };
-    assert!(matches!(
-        refused(&contents, &usual),
-        RecordError::ValueCount { frame: 1, .. }
-    ));
+    let values = [Values { title: String::new(), range: [0.0, 1.0], frames: vec![vec![0.0; 2]] }];
+    let contents = Page { values: &values, ..good };
+    assert!(matches!(refused(&contents, &usual), RecordError::ValueCount { frame: 1, .. }));
     let large = vec![0; (1 << 28) + 1];
-    let contents = Page {
-        fold: Some(&large),
-        ..good
-    };
-    assert!(matches!(
-        refused(&contents, &usual),
-        RecordError::FileSize { format: "HTML", .. }
-    ));
+    let contents = Page { fold: Some(&large), ..good };
+    assert!(matches!(refused(&contents, &usual), RecordError::FileSize { format: "HTML", .. }));
     let still = Motion {
         frames: Vec::new(),
         compact_order: LayerOrder::default(),
         sheet: motion.sheet.clone(),
     };
-    assert!(matches!(
-        refused(&bare(&still, &marks), &usual),
-        RecordError::NoFrames
-    ));
+    assert!(matches!(refused(&bare(&still, &marks), &usual), RecordError::NoFrames));
 }
 
 #[test]
@@ -266,11 +201,8 @@ fn reports_and_certificates_of_other_shapes_are_shown_as_far_as_they_go() {
         "{\"rows\": {}, \"stages\": 3, \"closed_form\": []}",
         "{\"pair\": {\"faces\": []}, \"penetrations\": [1, null]}",
     ] {
-        let contents = Page {
-            report: Some(words),
-            certificate: Some(words),
-            ..bare(&motion, &marks)
-        };
+        let contents =
+            Page { report: Some(words), certificate: Some(words), ..bare(&motion, &marks) };
         let html = written(&contents, &PageOptions::default());
         assert!(html.ends_with("</html>\n"));
     }

@@ -16,9 +16,7 @@ impl Gpu {
     ) -> Result<wgpu::Buffer, SolverError> {
         let bytes = size_of_val(records) as u64;
         let limits = self.device.limits();
-        let limit = limits
-            .max_storage_buffer_binding_size
-            .min(limits.max_buffer_size);
+        let limit = limits.max_storage_buffer_binding_size.min(limits.max_buffer_size);
         if bytes > limit {
             return Err(SolverError::GpuTooSmall { what, bytes, limit });
         }
@@ -40,16 +38,13 @@ impl Gpu {
             usage: wgpu::BufferUsages::MAP_READ | wgpu::BufferUsages::COPY_DST,
             mapped_at_creation: false,
         });
-        let mut encoder = self
-            .device
-            .create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+        let mut encoder =
+            self.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
         encoder.copy_buffer_to_buffer(buffer, 0, &staging, 0, buffer.size());
         self.queue.submit([encoder.finish()]);
         // What goes wrong with the mapping is said where it is read.
         staging.map_async(wgpu::MapMode::Read, .., |_mapped| {});
-        self.device
-            .poll(wgpu::PollType::wait_indefinitely())
-            .map_err(|e| self.lost(e))?;
+        self.device.poll(wgpu::PollType::wait_indefinitely()).map_err(|e| self.lost(e))?;
         self.check()?;
         let view = staging.get_mapped_range(..).map_err(|e| self.lost(e))?;
         Ok(bytemuck::pod_collect_to_vec(&view))

@@ -60,16 +60,13 @@ impl Gpu {
     }
 
     fn copy(&self, from: &wgpu::Buffer, to: &wgpu::Buffer, times: u64) -> Result<(), SolverError> {
-        let mut encoder = self
-            .device
-            .create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+        let mut encoder =
+            self.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
         for _time in 0..times {
             encoder.copy_buffer_to_buffer(from, 0, to, 0, from.size());
         }
         self.queue.submit([encoder.finish()]);
-        self.device
-            .poll(wgpu::PollType::wait_indefinitely())
-            .map_err(|e| self.lost(e))?;
+        self.device.poll(wgpu::PollType::wait_indefinitely()).map_err(|e| self.lost(e))?;
         self.check()
     }
 }

@@ -95,10 +95,7 @@ impl Gpu {
 
     /// The first error the driver reported.
     fn device_error(&self) -> Option<String> {
-        let device_error = self
-            .device_error
-            .lock()
-            .unwrap_or_else(PoisonError::into_inner);
+        let device_error = self.device_error.lock().unwrap_or_else(PoisonError::into_inner);
         device_error.clone()
     }
 
@@ -112,10 +109,7 @@ impl Gpu {
     }
 
     pub(super) fn lost(&self, reason: impl std::fmt::Display) -> SolverError {
-        SolverError::GpuLost {
-            gpu: self.name.clone(),
-            reason: reason.to_string(),
-        }
+        SolverError::GpuLost { gpu: self.name.clone(), reason: reason.to_string() }
     }
 }
 

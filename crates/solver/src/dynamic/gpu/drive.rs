@@ -38,10 +38,7 @@ impl<'a> GpuDrive<'a> {
         model: &'a Model,
         start: &[DVec3],
     ) -> Result<Self, SolverError> {
-        Ok(Self {
-            state: GpuState::at_rest(gpu, model, start)?,
-            model,
-        })
+        Ok(Self { state: GpuState::at_rest(gpu, model, start)?, model })
     }
 
     /// Takes over from the CPU's state.
@@ -72,19 +69,13 @@ impl<'a> GpuDrive<'a> {
         let positions = self.state.positions()?;
         let velocities = self.state.velocities()?;
         // The displacement from or to a position that is not a number is not a number either.
-        let displacements = positions
-            .iter()
-            .zip(&velocities)
-            .map(|(p, v)| v.length() * dt + 0.0 * p.length());
+        let displacements =
+            positions.iter().zip(&velocities).map(|(p, v)| v.length() * dt + 0.0 * p.length());
         let runaway = displacements
             .enumerate()
             .find(|(_, displacement)| displacement.is_nan() || *displacement > MAX_DISPLACEMENT);
         if let Some((node, displacement)) = runaway {
-            return Err(SolverError::Diverged {
-                node,
-                time,
-                displacement,
-            });
+            return Err(SolverError::Diverged { node, time, displacement });
         }
         cpu.set_positions(&positions);
         cpu.set_velocities(&velocities);
@@ -96,17 +87,9 @@ impl<'a> GpuDrive<'a> {
     /// bar.
     fn floor(&self, positions: &[DVec3]) -> f64 {
         let pattern = self.model.pattern.iter();
-        let moves = positions
-            .iter()
-            .zip(pattern)
-            .map(|(p, q)| p.distance(q.extend(0.0)));
+        let moves = positions.iter().zip(pattern).map(|(p, q)| p.distance(q.extend(0.0)));
         let furthest = moves.fold(1.0, f64::max);
-        let stiffest = self
-            .model
-            .bars
-            .iter()
-            .map(|bar| bar.stiffness)
-            .fold(0.0, f64::max);
+        let stiffest = self.model.bars.iter().map(|bar| bar.stiffness).fold(0.0, f64::max);
         ROUNDINGS * f64::from(f32::EPSILON) * furthest * stiffest
             / self.model.material.fold_stiffness
     }
@@ -122,11 +105,7 @@ impl<'a> GpuDrive<'a> {
         time: f64,
         look: &mut dyn FnMut(&[DVec3]) -> Result<(), SolverError>,
     ) -> Result<Rough, SolverError> {
-        let look_steps = if is_recorded {
-            STEPS_A_RECORDED_LOOK
-        } else {
-            STEPS_A_LOOK
-        };
+        let look_steps = if is_recorded { STEPS_A_RECORDED_LOOK } else { STEPS_A_LOOK };
         let tolerance = tolerance.max(self.floor(&cpu.positions()));
         let mut steps = 0;
         while !allowance.is_spent(steps) {
@@ -143,11 +122,7 @@ impl<'a> GpuDrive<'a> {
                     self.store(cpu, totals.pace[0], time)?;
                     look(&cpu.positions())?;
                     if is_settled {
-                        return Ok(Rough {
-                            steps,
-                            tolerance,
-                            is_settled,
-                        });
+                        return Ok(Rough { steps, tolerance, is_settled });
                     }
                     break;
                 }
@@ -158,10 +133,6 @@ impl<'a> GpuDrive<'a> {
                 looks += 1;
             }
         }
-        Ok(Rough {
-            steps,
-            tolerance,
-            is_settled: false,
-        })
+        Ok(Rough { steps, tolerance, is_settled: false })
     }
 }

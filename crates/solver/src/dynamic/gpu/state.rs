@@ -102,39 +102,17 @@ impl<'a> GpuState<'a> {
         };
         let constants = [
             (1, gpu.buffer("edges", &tables.edge_vertices, none)?),
-            (
-                2,
-                gpu.buffer("constants of edges", &tables.edge_constants, none)?,
-            ),
-            (
-                3,
-                gpu.buffer("edges at rest", tables.edge_rest.as_flattened(), none)?,
-            ),
-            (
-                9,
-                gpu.buffer("triangles", tables.face_records.as_flattened(), none)?,
-            ),
-            (
-                10,
-                gpu.buffer("triangles at rest", tables.face_rest.as_flattened(), none)?,
-            ),
+            (2, gpu.buffer("constants of edges", &tables.edge_constants, none)?),
+            (3, gpu.buffer("edges at rest", tables.edge_rest.as_flattened(), none)?),
+            (9, gpu.buffer("triangles", tables.face_records.as_flattened(), none)?),
+            (10, gpu.buffer("triangles at rest", tables.face_rest.as_flattened(), none)?),
             (12, gpu.buffer("starts", &tables.starts, none)?),
             (13, gpu.buffer("slots", &tables.slots, none)?),
-            (
-                16,
-                gpu.buffer("partial sums", &zeros(2 * count(nodes) as usize), none)?,
-            ),
+            (16, gpu.buffer("partial sums", &zeros(2 * count(nodes) as usize), none)?),
         ];
         let groups = bind(gpu, &buffers, &constants);
         gpu.check()?;
-        Ok(Self {
-            gpu,
-            model,
-            tables,
-            control,
-            buffers,
-            groups,
-        })
+        Ok(Self { gpu, model, tables, control, buffers, groups })
     }
 
     /// `count` steps of length `dt` with the fraction `damping` of the bars' dampers and a viscous force −c m v.
@@ -192,10 +170,8 @@ impl<'a> GpuState<'a> {
         let mut left = count;
         while left > 0 {
             let steps = left.min(STEPS_A_SUBMISSION);
-            let mut encoder = self
-                .gpu
-                .device
-                .create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+            let mut encoder =
+                self.gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
             {
                 let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor::default());
                 for _step in 0..steps {
@@ -214,24 +190,12 @@ impl<'a> GpuState<'a> {
 
     /// Groups of each pass.
     fn dispatches(&self) -> [u32; PASSES.len()] {
-        let Control {
-            nodes,
-            edges,
-            faces,
-            ..
-        } = self.control;
-        [
-            edges.div_ceil(GROUP),
-            faces.div_ceil(GROUP),
-            nodes.div_ceil(GROUP),
-            1,
-        ]
+        let Control { nodes, edges, faces, .. } = self.control;
+        [edges.div_ceil(GROUP), faces.div_ceil(GROUP), nodes.div_ceil(GROUP), 1]
     }
 
     fn write<T: bytemuck::NoUninit>(&self, buffer: &wgpu::Buffer, records: &[T]) {
-        self.gpu
-            .queue
-            .write_buffer(buffer, 0, bytemuck::cast_slice(records));
+        self.gpu.queue.write_buffer(buffer, 0, bytemuck::cast_slice(records));
     }
 
     /// Sets the target of every hinge, radians.
@@ -246,10 +210,7 @@ impl<'a> GpuState<'a> {
 
     /// Sets the positions, one a node, in unit lengths.
     pub fn set_positions(&mut self, positions: &[DVec3]) {
-        self.write(
-            &self.buffers.displacements,
-            &displacements(self.model, positions),
-        );
+        self.write(&self.buffers.displacements, &displacements(self.model, positions));
     }
 
     /// Sets the velocities, one a node.
@@ -275,9 +236,8 @@ impl<'a> GpuState<'a> {
     /// [`SolverError::GpuLost`].
     pub fn totals(&self) -> Result<GpuTotals, SolverError> {
         let words: Vec<u32> = self.gpu.read(&self.buffers.control)?;
-        let words: [u32; WORDS] = words
-            .try_into()
-            .map_err(|_words| self.gpu.lost("its control has another size"))?;
+        let words: [u32; WORDS] =
+            words.try_into().map_err(|_words| self.gpu.lost("its control has another size"))?;
         let control = Control::from_words(&words);
         Ok(GpuTotals {
             residual: f64::from(control.squared_force).sqrt() / self.model.material.fold_stiffness,

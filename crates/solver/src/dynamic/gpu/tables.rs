@@ -66,8 +66,7 @@ impl Tables {
         let bar = &model.bars[edge as usize];
         let index = topology.hinge_of[edge as usize];
         let hinge = model.hinges.get(index as usize);
-        self.edge_vertices
-            .push(vertices.map(|v| topology.places[v as usize]));
+        self.edge_vertices.push(vertices.map(|v| topology.places[v as usize]));
         let damper = 2.0 * model.material.damping_ratio * bar.stiffness.sqrt();
         self.edge_constants.push([
             bar.stiffness as f32,
@@ -76,10 +75,7 @@ impl Tables {
             hinge.map_or(0.0, |hinge| hinge.stiffness as f32),
         ]);
         let [start, end, left, right] = vertices.map(|v| model.pattern[v as usize]);
-        self.edge_rest.push([
-            pair(end - start, left - start),
-            pair(right - start, DVec2::ZERO),
-        ]);
+        self.edge_rest.push([pair(end - start, left - start), pair(right - start, DVec2::ZERO)]);
         self.hinges.push((index != NO_HINGE).then_some(index));
     }
 
@@ -89,17 +85,13 @@ impl Tables {
         let [a, b, c] = model.faces[face as usize].map(|v| model.pattern[v as usize]);
         let rest = model.face_angles.get(face as usize);
         let angles = rest.map_or([0.0; 3], |face| face.rest_angles.map(|angle| angle as f32));
-        self.face_rest
-            .push([pair(b - a, c - b), [angles[0], angles[1], angles[2], 0.0]]);
+        self.face_rest.push([pair(b - a, c - b), [angles[0], angles[1], angles[2], 0.0]]);
     }
 
     /// Ends first, then corners, each by node.
     fn fill_slots(&mut self, nodes: usize) {
         let ends = self.edge_vertices.iter().filter_map(|v| v.first_chunk());
-        let corners = self
-            .face_records
-            .iter()
-            .filter_map(|[v, _]| v.first_chunk());
+        let corners = self.face_records.iter().filter_map(|[v, _]| v.first_chunk());
         let ends = Gather::new::<2>(nodes, ends);
         let corners = Gather::new::<3>(nodes, corners);
         let tables = [&ends, &corners];

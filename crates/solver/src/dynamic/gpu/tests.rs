@@ -30,27 +30,17 @@ fn the_shader_is_valid_and_has_every_pass() {
     let flags = naga::valid::ValidationFlags::all();
     let mut validator = naga::valid::Validator::new(flags, naga::valid::Capabilities::empty());
     validator.validate(&module).unwrap();
-    let passes: Vec<&str> = module
-        .entry_points
-        .iter()
-        .map(|e| e.name.as_str())
-        .collect();
+    let passes: Vec<&str> = module.entry_points.iter().map(|e| e.name.as_str()).collect();
     assert_eq!(passes, PASSES);
-    let grouped = module
-        .entry_points
-        .iter()
-        .all(|e| e.workgroup_size == [GROUP, 1, 1]);
+    let grouped = module.entry_points.iter().all(|e| e.workgroup_size == [GROUP, 1, 1]);
     assert!(grouped, "every pass has groups of {GROUP}");
 }
 
 #[test]
 fn the_control_has_the_layout_of_the_shader() {
     let module = module();
-    let (_, control) = module
-        .types
-        .iter()
-        .find(|(_, ty)| ty.name.as_deref() == Some("Control"))
-        .unwrap();
+    let (_, control) =
+        module.types.iter().find(|(_, ty)| ty.name.as_deref() == Some("Control")).unwrap();
     let naga::TypeInner::Struct { members, span } = &control.inner else {
         panic!("Control is a struct");
     };
@@ -78,11 +68,7 @@ struct Shaken {
 fn wave(count: usize, size: f64) -> impl Iterator<Item = DVec3> {
     (0..count).map(move |i| {
         let phase = i as f64;
-        DVec3::new(
-            (1.1 * phase).sin(),
-            (1.7 * phase).cos(),
-            (2.3 * phase).sin(),
-        ) * size
+        DVec3::new((1.1 * phase).sin(), (1.7 * phase).cos(), (2.3 * phase).sin()) * size
     })
 }
 
@@ -93,19 +79,12 @@ fn shaken(case: Case, rows: usize, columns: usize, face_angle_stiffness: f64) ->
         _ => Unit::new(Case::E, 1.0, 1.0, None, None),
     };
     let units = UnitSheet::new(unit.unwrap(), rows, columns).unwrap();
-    let material = Material {
-        face_angle_stiffness,
-        ..Material::default()
-    };
+    let material = Material { face_angle_stiffness, ..Material::default() };
     let model = Model::new(&units.sheet, &material).unwrap();
     let flat = model.to_model(&units.sheet.planar());
     let count = flat.len();
     Shaken {
-        positions: flat
-            .iter()
-            .zip(wave(count, 0.04))
-            .map(|(&p, w)| p + w)
-            .collect(),
+        positions: flat.iter().zip(wave(count, 0.04)).map(|(&p, w)| p + w).collect(),
         velocities: wave(count, 0.1).collect(),
         targets: vec![0.4; model.hinges.len()],
         model,
@@ -129,10 +108,7 @@ impl Shaken {
 }
 
 fn largest_difference(a: &[DVec3], b: &[DVec3]) -> f64 {
-    a.iter()
-        .zip(b)
-        .map(|(p, q)| p.distance(*q))
-        .fold(0.0, f64::max)
+    a.iter().zip(b).map(|(p, q)| p.distance(*q)).fold(0.0, f64::max)
 }
 
 /// The worst force, angle, velocity and place after `steps` steps, GPU against CPU.
@@ -168,10 +144,7 @@ fn one_step_agrees_with_the_cpu_to_what_f32_leaves() {
     let gpu = Gpu::new().unwrap();
     for sheet in sheets() {
         let [force, angle, speed, place] = errors(&gpu, &sheet, 1);
-        let found = format!(
-            "{} nodes: {force} {angle} {speed} {place}",
-            sheet.model.node_count()
-        );
+        let found = format!("{} nodes: {force} {angle} {speed} {place}", sheet.model.node_count());
         assert!(force < FORCE_TOLERANCE, "{found}");
         assert!(angle < 1e-5 && speed < 1e-4 && place < 1e-4, "{found}");
     }
@@ -183,14 +156,8 @@ fn a_hundred_steps_stay_with_the_cpu() {
     let gpu = Gpu::new().unwrap();
     for sheet in sheets() {
         let [force, angle, speed, place] = errors(&gpu, &sheet, 100);
-        let found = format!(
-            "{} nodes: {force} {angle} {speed} {place}",
-            sheet.model.node_count()
-        );
-        assert!(
-            place < 1e-3 && angle < 1e-2 && speed < 1e-2 && force < 0.1,
-            "{found}"
-        );
+        let found = format!("{} nodes: {force} {angle} {speed} {place}", sheet.model.node_count());
+        assert!(place < 1e-3 && angle < 1e-2 && speed < 1e-2 && force < 0.1, "{found}");
     }
 }
 
@@ -206,10 +173,7 @@ fn a_wrong_shader_is_noticed() {
         assert!(SOURCE.contains(right), "{right}");
         let gpu = Gpu::with_shader(&SOURCE.replace(right, wrong)).unwrap();
         let [force, angle, ..] = errors(&gpu, &shaken(Case::SII, 3, 2, 0.0), 1);
-        assert!(
-            force > FORCE_TOLERANCE || angle > 1e-5,
-            "{wrong} passes: {force} {angle}"
-        );
+        assert!(force > FORCE_TOLERANCE || angle > 1e-5, "{wrong} passes: {force} {angle}");
     }
 }
 
@@ -257,10 +221,7 @@ fn fold(device: Device) -> (Run, Vec<DVec3>) {
         device,
         ..DynamicOptions::default()
     };
-    let run = run(&model, &schedule, &units.sheet.planar(), &options, &|_| {
-        true
-    })
-    .unwrap();
+    let run = run(&model, &schedule, &units.sheet.planar(), &options, &|_| true).unwrap();
     (run, units.compact())
 }
 

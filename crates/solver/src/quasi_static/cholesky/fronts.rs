@@ -94,13 +94,7 @@ impl Fronts {
         for (rank, &node) in order.iter().enumerate() {
             of_nodes[node as usize] = ranks[rank];
         }
-        Self {
-            ranks: of_nodes,
-            first,
-            starts,
-            rows,
-            parents,
-        }
+        Self { ranks: of_nodes, first, starts, rows, parents }
     }
 }
 
@@ -184,11 +178,8 @@ fn merge(parents: &[u32], columns: &[Vec<u32>]) -> Vec<Option<Group>> {
     let mut groups: Vec<Option<Group>> = Vec::with_capacity(parents.len());
     let mut below: Vec<Vec<u32>> = vec![Vec::new(); parents.len()];
     for (node, &parent) in parents.iter().enumerate() {
-        let mut group = Group {
-            nodes: vec![node as u32],
-            rows: columns[node].len(),
-            children: Vec::new(),
-        };
+        let mut group =
+            Group { nodes: vec![node as u32], rows: columns[node].len(), children: Vec::new() };
         for child in std::mem::take(&mut below[node]) {
             let apart = groups[child as usize].take_if(|child| is_cheaper_merged(&group, child));
             match apart {
@@ -279,9 +270,6 @@ mod tests {
 
     #[test]
     fn a_matrix_without_nodes_has_no_fronts() {
-        assert_eq!(
-            Fronts::new(0, &[0], &[]).map(|fronts| fronts.count()).ok(),
-            Some(0)
-        );
+        assert_eq!(Fronts::new(0, &[0], &[]).map(|fronts| fronts.count()).ok(), Some(0));
     }
 }

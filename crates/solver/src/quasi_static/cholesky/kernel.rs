@@ -34,9 +34,7 @@ impl Shape {
 
     /// Rows below, padded: the distance of the columns of the update.
     pub(super) fn tail(self) -> usize {
-        self.rows
-            .next_multiple_of(TOGETHER)
-            .next_multiple_of(PADDING)
+        self.rows.next_multiple_of(TOGETHER).next_multiple_of(PADDING)
     }
 
     /// Panel rows: the distance of its columns.
@@ -64,11 +62,7 @@ pub(super) fn factorise_panel<S: Simd>(simd: S, panel: &mut [f64], shape: Shape)
         let (done, rest) = panel.split_at_mut(first * height);
         let own = &mut rest[..3 * height];
         let from = row / S::F64_LANES;
-        let done = Columns {
-            scalars: done,
-            height,
-            from: 0,
-        };
+        let done = Columns { scalars: done, height, from: 0 };
         done.subtract_from::<S, 3>(simd, row, from, own, height);
         let Some(corner) = Corner::factorise(own, height, row) else {
             return false;
@@ -163,12 +157,7 @@ impl Corner {
         let d2 = at(2, 2) - l20 * l20 - l21 * l21;
         let i2 = 1.0 / d2.sqrt();
         // NaN is not positive either.
-        (d0 > 0.0 && d1 > 0.0 && d2 > 0.0).then_some(Self {
-            inverse: [i0, i1, i2],
-            l10,
-            l20,
-            l21,
-        })
+        (d0 > 0.0 && d1 > 0.0 && d2 > 0.0).then_some(Self { inverse: [i0, i1, i2], l10, l20, l21 })
     }
 
     /// Divides the rows of the three columns by the transposed factor.
@@ -205,11 +194,7 @@ pub(super) fn subtract_product<S: Simd>(simd: S, panel: &[f64], update: &mut [f6
     if tail == 0 {
         return;
     }
-    let below = Columns {
-        scalars: panel,
-        height: shape.height(),
-        from: shape.head(),
-    };
+    let below = Columns { scalars: panel, height: shape.height(), from: shape.head() };
     for (index, columns) in update.chunks_exact_mut(TOGETHER * tail).enumerate() {
         let row = TOGETHER * index;
         below.subtract_from::<S, TOGETHER>(simd, row, row / S::F64_LANES, columns, tail);

@@ -46,10 +46,7 @@ impl Cholesky {
     /// The reason, as a sentence, if the matrix is too large.
     pub(super) fn new(nodes: usize, starts: &[u32], blocks: &[u32]) -> Result<Self, &'static str> {
         let fronts = Fronts::new(nodes, starts, blocks)?;
-        let shape = |f: usize| Shape {
-            width: 3 * fronts.width(f),
-            rows: 3 * fronts.rows(f).len(),
-        };
+        let shape = |f: usize| Shape { width: 3 * fronts.width(f), rows: 3 * fronts.rows(f).len() };
         let shapes: Vec<Shape> = (0..fronts.count()).map(shape).collect();
         let mut panel_starts = vec![0u32];
         let mut size = 0;
@@ -87,9 +84,7 @@ impl Cholesky {
         } else {
             shape.head() + 3 * self.fronts.rows(f).binary_search(&row).ok()?
         };
-        Some(BlockOffset {
-            scalars: (inside * shape.height() + panel_row) as u32,
-        })
+        Some(BlockOffset { scalars: (inside * shape.height() + panel_row) as u32 })
     }
 
     /// Factorises the matrix with `shift` added to its diagonal; false where it is not positive definite.
@@ -197,10 +192,7 @@ impl WithSimd for Elimination<'_> {
             let [first, last] = [f, f + 1].map(|f| self.fronts.first[f] as usize);
             let blocks = self.starts[first] as usize..self.starts[last] as usize;
             panel.fill(0.0);
-            for (offset, block) in self.offsets[blocks.clone()]
-                .iter()
-                .zip(&self.values[blocks])
-            {
+            for (offset, block) in self.offsets[blocks.clone()].iter().zip(&self.values[blocks]) {
                 for (column, scalars) in block.as_chunks::<3>().0.iter().enumerate() {
                     let at = offset.scalars as usize + column * shape.height();
                     panel[at..at + 3].copy_from_slice(scalars);
@@ -247,11 +239,7 @@ fn add_shift(panel: &mut [f64], shape: Shape, shift: f64) {
 #[inline(always)]
 fn take_up(panel: &mut [f64], update: &mut [f64], shape: Shape, handed: &[f64], to: &[u32]) {
     let (head, tail) = (shape.head(), shape.tail());
-    let distance = Shape {
-        width: 0,
-        rows: 3 * to.len(),
-    }
-    .tail();
+    let distance = Shape { width: 0, rows: 3 * to.len() }.tail();
     for (j, &row) in to.iter().enumerate() {
         let row = row as usize;
         for axis in 0..3 {
@@ -297,11 +285,8 @@ impl WithSimd for Solution<'_> {
             own[shape.head()..].fill(0.0);
             solve_forward(simd, panel(self.panels, self.panel_starts, f), own, shape);
             right.copy_from_slice(&own[shape.offset()..shape.head()]);
-            for (&row, less) in self
-                .fronts
-                .rows(f)
-                .iter()
-                .zip(own[shape.head()..].as_chunks::<3>().0)
+            for (&row, less) in
+                self.fronts.rows(f).iter().zip(own[shape.head()..].as_chunks::<3>().0)
             {
                 let target = &mut self.right[3 * row as usize..][..3];
                 for axis in 0..3 {
@@ -315,11 +300,8 @@ impl WithSimd for Solution<'_> {
             own[shape.offset()..shape.head()]
                 .copy_from_slice(&self.right[columns..columns + shape.width]);
             own[shape.head()..].fill(0.0);
-            for (&row, target) in self
-                .fronts
-                .rows(f)
-                .iter()
-                .zip(own[shape.head()..].as_chunks_mut::<3>().0)
+            for (&row, target) in
+                self.fronts.rows(f).iter().zip(own[shape.head()..].as_chunks_mut::<3>().0)
             {
                 target.copy_from_slice(&self.right[3 * row as usize..][..3]);
             }

@@ -35,13 +35,7 @@ impl Closest {
         let apart = combine(&weights, x);
         let mut all = [[0.0; 4]; 2];
         all[..tangents.len()].copy_from_slice(tangents);
-        Self {
-            weights,
-            tangents: all,
-            free: tangents.len(),
-            apart,
-            distance: apart.length(),
-        }
+        Self { weights, tangents: all, free: tangents.len(), apart, distance: apart.length() }
     }
 
     /// The closest points of vertex x₀ and facet x₁x₂x₃ (Ericson 2005, section 5.1.5).
@@ -185,11 +179,7 @@ mod tests {
 
     impl Sample {
         fn closest(&self, x: &[DVec3; 4]) -> Closest {
-            if self.is_facet {
-                Closest::vertex_facet(x)
-            } else {
-                Closest::edge_edge(x)
-            }
+            if self.is_facet { Closest::vertex_facet(x) } else { Closest::edge_edge(x) }
         }
     }
 
@@ -225,12 +215,7 @@ mod tests {
     #[test]
     fn every_kind_of_closest_points_has_the_parameters_it_should() {
         for sample in samples() {
-            assert_eq!(
-                sample.closest(&sample.x).free,
-                sample.free,
-                "{}",
-                sample.name
-            );
+            assert_eq!(sample.closest(&sample.x).free, sample.free, "{}", sample.name);
         }
     }
 
@@ -251,10 +236,7 @@ mod tests {
                 least = least.min(r.length());
             }
             let name = sample.name;
-            assert!(
-                found <= least + 1e-12 && found > least - 2e-3,
-                "{name}: {found} {least}"
-            );
+            assert!(found <= least + 1e-12 && found > least - 2e-3, "{name}: {found} {least}");
         }
     }
 
@@ -274,11 +256,7 @@ mod tests {
                 };
                 let (above, below) = (shifted(1.0), shifted(-1.0));
                 let slope = (above.distance - below.distance) / (2.0 * h);
-                assert!(
-                    (slope - gradient[node][axis]).abs() < 1e-8,
-                    "{}",
-                    sample.name
-                );
+                assert!((slope - gradient[node][axis]).abs() < 1e-8, "{}", sample.name);
                 for (row, blocks) in hessian.iter().enumerate() {
                     let change = (above.gradient()[row] - below.gradient()[row]) / (2.0 * h);
                     let error = change.distance(blocks[node].col(axis));

@@ -88,15 +88,9 @@ impl SearchedPath {
         let off = || positions.iter().zip(&self.from).map(|(&x, &a)| x - a);
         let square = dot(&self.displacement, &self.displacement);
         let along: f64 = off().zip(&self.displacement).map(|(d, &w)| d.dot(w)).sum();
-        let time = if square > 0.0 {
-            (along / square).clamp(0.0, 1.0)
-        } else {
-            0.0
-        };
+        let time = if square > 0.0 { (along / square).clamp(0.0, 1.0) } else { 0.0 };
         let limit = 0.25 * MARGIN * MARGIN;
-        off()
-            .zip(&self.displacement)
-            .all(|(d, &w)| (d - w * time).length_squared() <= limit)
+        off().zip(&self.displacement).all(|(d, &w)| (d - w * time).length_squared() <= limit)
     }
 }
 
@@ -115,10 +109,7 @@ impl ContactField {
         let smallest_height = primitives.smallest_height(start);
         let maximum = LARGEST_GAP * smallest_height;
         if !(contact.gap > 0.0 && contact.gap <= maximum) {
-            return Err(SolverError::GapTooLarge {
-                gap: contact.gap,
-                maximum,
-            });
+            return Err(SolverError::GapTooLarge { gap: contact.gap, maximum });
         }
         let boxes = primitives.boxes(start, &[], 0.0);
         let mut field = Self {
@@ -159,19 +150,13 @@ impl ContactField {
 
     /// Makes the candidates good for every state on the straight path from `positions` to `positions` + `displacement`.
     pub(super) fn prepare_path(&mut self, positions: &[DVec3], displacement: &[DVec3]) {
-        let end: Vec<DVec3> = positions
-            .iter()
-            .zip(displacement)
-            .map(|(&x, &d)| x + d)
-            .collect();
+        let end: Vec<DVec3> = positions.iter().zip(displacement).map(|(&x, &d)| x + d).collect();
         // The states near the searched path are a convex set: if they hold the ends of a path they hold all of it.
         if self.searched_path.holds(positions) && self.searched_path.holds(&end) {
             return;
         }
-        self.searched_path = SearchedPath {
-            from: positions.to_vec(),
-            displacement: displacement.to_vec(),
-        };
+        self.searched_path =
+            SearchedPath { from: positions.to_vec(), displacement: displacement.to_vec() };
         self.pairs = self.search(positions, displacement, self.gap + self.reach + MARGIN);
         self.near = NearPairs::default();
     }
@@ -180,9 +165,7 @@ impl ContactField {
     pub(super) fn energy(&mut self, positions: &[DVec3]) -> f64 {
         let force = self.force;
         let pairs = self.near.active(&self.pairs, positions);
-        pairs
-            .map(|pair| pair.energy(&pair.corners(positions), force))
-            .sum()
+        pairs.map(|pair| pair.energy(&pair.corners(positions), force)).sum()
     }
 
     pub(super) fn add_gradient(&mut self, positions: &[DVec3], gradient: &mut [DVec3]) {
@@ -214,9 +197,7 @@ impl ContactField {
 
     /// Whether `matrix` has room for every barrier within reach.
     pub(super) fn fits(&mut self, positions: &[DVec3], matrix: &StiffnessMatrix) -> bool {
-        self.near
-            .active(&self.pairs, positions)
-            .all(|pair| matrix.element(&pair.nodes).is_some())
+        self.near.active(&self.pairs, positions).all(|pair| matrix.element(&pair.nodes).is_some())
     }
 
     /// The pairs of nodes coupled by barriers, or that will be when the layers come closer by `more`.

@@ -37,11 +37,8 @@ impl NearPairs {
             return;
         }
         let fall = if self.least.len() == pairs.len() {
-            let moves: Vec<DVec3> = positions
-                .iter()
-                .zip(&self.positions)
-                .map(|(&x, &old)| x - old)
-                .collect();
+            let moves: Vec<DVec3> =
+                positions.iter().zip(&self.positions).map(|(&x, &old)| x - old).collect();
             2.0 * largest(&moves) * (1.0 + ROUNDING) + ROUNDING * ROUNDING
         } else {
             self.least.clear();

@@ -174,11 +174,7 @@ impl ContactPair {
 /// β, β′ and β″ at 0 < y < 1.
 fn barrier(y: f64) -> [f64; 3] {
     let (d, log) = (y - 1.0, y.ln());
-    [
-        -d * d * log,
-        -2.0 * d * log - d * d / y,
-        -2.0 * log - 4.0 * d / y + (d / y).powi(2),
-    ]
+    [-d * d * log, -2.0 * d * log - d * d / y, -2.0 * log - 4.0 * d / y + (d / y).powi(2)]
 }
 
 /// The blocks scale × u_i v_jᵀ.
@@ -202,10 +198,7 @@ struct Cross {
 
 impl Cross {
     fn new(x: &[DVec3; 4]) -> Self {
-        Self {
-            u: x[1] - x[0],
-            v: x[3] - x[2],
-        }
+        Self { u: x[1] - x[0], v: x[3] - x[2] }
     }
 
     fn gradient(&self) -> [DVec3; 4] {
@@ -247,31 +240,10 @@ mod tests {
         [
             (
                 pair(PairKind::VertexFacet, 0.0),
-                [
-                    v(0.3, 0.3, z),
-                    v(0.0, 0.0, 0.0),
-                    v(1.0, 0.1, 0.0),
-                    v(0.0, 1.0, 0.0),
-                ],
+                [v(0.3, 0.3, z), v(0.0, 0.0, 0.0), v(1.0, 0.1, 0.0), v(0.0, 1.0, 0.0)],
             ),
-            (
-                edges,
-                [
-                    v(0.0, 0.0, 0.0),
-                    v(1.0, 0.1, 0.0),
-                    v(0.4, -0.5, z),
-                    v(0.6, 0.7, z),
-                ],
-            ),
-            (
-                edges,
-                [
-                    v(0.0, 0.0, 0.0),
-                    v(1.0, 0.0, 0.001),
-                    v(0.1, -0.01, z),
-                    v(1.1, 0.01, z),
-                ],
-            ),
+            (edges, [v(0.0, 0.0, 0.0), v(1.0, 0.1, 0.0), v(0.4, -0.5, z), v(0.6, 0.7, z)]),
+            (edges, [v(0.0, 0.0, 0.0), v(1.0, 0.0, 0.001), v(0.1, -0.01, z), v(1.1, 0.01, z)]),
         ]
     }
 
@@ -311,11 +283,7 @@ mod tests {
                         let difference = (above[row] - below[row]) / 2e-7;
                         let column = hessian[row][node].col(axis);
                         let error = difference.distance(column);
-                        assert!(
-                            error < 1e-3 * (1.0 + column.length()),
-                            "{:?} {error}",
-                            pair.kind
-                        );
+                        assert!(error < 1e-3 * (1.0 + column.length()), "{:?} {error}", pair.kind);
                     }
                 }
             }

@@ -44,11 +44,7 @@ impl Primitives {
                 edges[owner as usize].push((bar.vertices, bar.rest_length));
             }
         }
-        Self {
-            faces: model.faces.clone(),
-            vertices,
-            edges,
-        }
+        Self { faces: model.faces.clone(), vertices, edges }
     }
 
     /// The box of every triangle on the straight path from `positions` to `positions` + `displacement` (empty: at

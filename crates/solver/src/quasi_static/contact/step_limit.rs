@@ -65,11 +65,7 @@ mod tests {
         let gap = 0.02;
         let (mut limited, mut late) = (0, 0);
         for trial in 0..600 {
-            let kind = if trial % 2 == 0 {
-                PairKind::VertexFacet
-            } else {
-                PairKind::EdgeEdge
-            };
+            let kind = if trial % 2 == 0 { PairKind::VertexFacet } else { PairKind::EdgeEdge };
             let pair = ContactPair {
                 kind,
                 nodes: [0, 1, 2, 3],
@@ -91,10 +87,7 @@ mod tests {
             let limit = step_limit(&pair, gap, &x, &d, 1.0);
             for k in 0..=1000 {
                 let t = limit * f64::from(k) / 1000.0;
-                assert!(
-                    at(t) >= 0.1 * start - 1e-12,
-                    "{kind:?} {trial} at {t} of {limit}"
-                );
+                assert!(at(t) >= 0.1 * start - 1e-12, "{kind:?} {trial} at {t} of {limit}");
             }
             if limit < 1.0 {
                 limited += 1;
@@ -105,9 +98,6 @@ mod tests {
             }
         }
         assert!(limited > 50, "only {limited} pairs met");
-        assert!(
-            late * 10 < limited,
-            "{late} of {limited} limits were far too early"
-        );
+        assert!(late * 10 < limited, "{late} of {limited} limits were far too early");
     }
 }

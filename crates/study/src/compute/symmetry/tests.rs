@@ -20,19 +20,12 @@ const SII: &str = "case = \"SII\"\nlambda = 0.7";
 
 /// The shelter, which is its own mirror image along and across its profile.
 fn folded(sheet: &str, material: &str, motion: &str) -> (Study, Vec<Frame>) {
-    let model = if material.contains("facet_model") {
-        ""
-    } else {
-        "facet_model = \"symmetric\"\n"
-    };
+    let model = if material.contains("facet_model") { "" } else { "facet_model = \"symmetric\"\n" };
     let scene = format!(
         "[profile]\nmodel = \"shelter\"\n[sheet]\n{sheet}\n[material]\n{model}{material}\n[motion]\nframes = {FRAMES}\n{motion}\n"
     );
     let study = Study::resolve(&SceneSource::new(Path::new("a.toml"), scene)).unwrap();
-    let frames = study
-        .fold(&[], foldmotion_solver::Budget::Standard, &|_| true)
-        .unwrap()
-        .frames;
+    let frames = study.fold(&[], foldmotion_solver::Budget::Standard, &|_| true).unwrap().frames;
     (study, frames)
 }
 
@@ -46,10 +39,7 @@ fn mirrors(sheet: &Sheet) -> [Vec<usize>; 2] {
     };
     let across = |v: &DVec2| at(DVec2::new(v.x, low.y + high.y - v.y));
     let along = |v: &DVec2| at(DVec2::new(low.x + high.x - v.x, v.y));
-    [
-        sheet.vertices.iter().map(across).collect(),
-        sheet.vertices.iter().map(along).collect(),
-    ]
+    [sheet.vertices.iter().map(across).collect(), sheet.vertices.iter().map(along).collect()]
 }
 
 /// By how much the distance of two vertices differs from that of their mirror images at most.

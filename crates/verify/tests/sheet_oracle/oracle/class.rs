@@ -50,9 +50,7 @@ impl Class {
     ];
 
     pub(crate) fn named(name: &str) -> Option<Self> {
-        Self::ALL
-            .into_iter()
-            .find(|class| format!("{class:?}") == name)
+        Self::ALL.into_iter().find(|class| format!("{class:?}") == name)
     }
 
     /// The stream of random numbers of a scene.

@@ -48,10 +48,8 @@ pub(crate) fn swept_distance(a: &Convex, b: &Convex, from: Point, to: Point) -> 
 fn nearest_to_origin(simplex: &[DVec3]) -> (DVec3, Vec<DVec3>) {
     let mut best = (DVec3::INFINITY, Vec::new());
     for subset in 1_u32..1 << simplex.len() {
-        let corners: Vec<DVec3> = (0..simplex.len())
-            .filter(|i| subset & (1 << i) != 0)
-            .map(|i| simplex[i])
-            .collect();
+        let corners: Vec<DVec3> =
+            (0..simplex.len()).filter(|i| subset & (1 << i) != 0).map(|i| simplex[i]).collect();
         if let Some(point) = foot(&corners)
             && point.length_squared() < best.0.length_squared()
         {

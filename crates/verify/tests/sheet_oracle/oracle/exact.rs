@@ -50,16 +50,11 @@ impl Convex {
         let is_small = |p: &Point| p.iter().all(|c| c.abs() < LARGEST);
         assert!(corners.iter().all(is_small), "{corners:?}");
         let count = corners.len();
-        let edges: Vec<Wide> = (0..count)
-            .map(|i| wide(minus(corners[(i + 1) % count], corners[i])))
-            .collect();
+        let edges: Vec<Wide> =
+            (0..count).map(|i| wide(minus(corners[(i + 1) % count], corners[i]))).collect();
         let normal = cross(edges[0], edges[1]);
         assert!(!is_zero(normal), "{corners:?}");
-        Self {
-            corners,
-            normal,
-            edges,
-        }
+        Self { corners, normal, edges }
     }
 
     /// Whether all corners lie in one plane.
@@ -70,9 +65,7 @@ impl Convex {
 
     fn range(&self, axis: Wide) -> [i128; 2] {
         let heights = self.corners.iter().map(|&p| dot(axis, wide(p)));
-        heights.fold([i128::MAX, i128::MIN], |[low, high], h| {
-            [low.min(h), high.max(h)]
-        })
+        heights.fold([i128::MAX, i128::MIN], |[low, high], h| [low.min(h), high.max(h)])
     }
 
     /// Whether this polygon meets `other`, displaced from `from` straight to `to`, at any time in between.

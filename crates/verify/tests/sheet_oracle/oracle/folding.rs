@@ -36,14 +36,7 @@ pub(crate) fn scene(class: Class, random: &mut Random) -> Scene {
         }
     };
     let mesh = Mesh::random(&part, random, false);
-    let mut scene = Scene {
-        part,
-        frames,
-        mesh,
-        truth,
-        separation: None,
-        allows_slivers: false,
-    };
+    let mut scene = Scene { part, frames, mesh, truth, separation: None, allows_slivers: false };
     transform(&mut scene, random);
     scene
 }
@@ -112,8 +105,7 @@ fn end_height(random: &mut Random) -> i64 {
 /// A profile at one frame, extruded along y.
 fn drawn_out(profile: &[[i64; 2]], widths: &[[i64; 2]]) -> Vec<Point> {
     let both = profile.iter().zip(widths);
-    both.flat_map(|(&[x, z], ys)| ys.map(|y| [x, y, z]))
-        .collect()
+    both.flat_map(|(&[x, z], ys)| ys.map(|y| [x, y, z])).collect()
 }
 
 fn closing_fold(random: &mut Random) -> Made {
@@ -132,22 +124,12 @@ fn closing_fold(random: &mut Random) -> Made {
         _ => {}
     }
     let widths = [[-half, half], [-half, half], [-half - taper, half]];
-    let frames: Vec<_> = ends
-        .iter()
-        .map(|&end| drawn_out(&[[-a, 0], [0, 0], end], &widths))
-        .collect();
+    let frames: Vec<_> =
+        ends.iter().map(|&end| drawn_out(&[[-a, 0], [0, 0], end], &widths)).collect();
     // Over the end of the shorter panel the height is a share of h.
-    let over = if a < b {
-        (i128::from(h) * i128::from(a) / i128::from(b)) as i64
-    } else {
-        h
-    };
+    let over = if a < b { (i128::from(h) * i128::from(a) / i128::from(b)) as i64 } else { h };
     let is_clear = over > -CLEAR && h <= -CLEAR;
-    let truth = if is_clear {
-        Truth::Open
-    } else {
-        by_height(h, over.abs())
-    };
+    let truth = if is_clear { Truth::Open } else { by_height(h, over.abs()) };
     let mut part = Part::extruded(&[[-16, 0], [0, 0], [16, 0]], false, [-16, 16]);
     part.corners.clone_from(&frames[0]);
     (part, frames, truth)
@@ -174,14 +156,11 @@ impl Layers {
     fn add_strip(&mut self, abscissas: &[i64], half: i64, strip: usize) {
         let start = self.abscissas.len();
         let profile: Vec<_> = abscissas.iter().map(|&x| [x, x]).collect();
-        self.part
-            .append(&Part::extruded(&profile, false, [-half, half]));
-        self.abscissas
-            .extend(abscissas.iter().map(|&x| sixteenths(x)));
-        self.panels.extend((0..abscissas.len() - 1).map(|i| Panel {
-            ends: [start + i, start + i + 1],
-            strip,
-        }));
+        self.part.append(&Part::extruded(&profile, false, [-half, half]));
+        self.abscissas.extend(abscissas.iter().map(|&x| sixteenths(x)));
+        self.panels.extend(
+            (0..abscissas.len() - 1).map(|i| Panel { ends: [start + i, start + i + 1], strip }),
+        );
     }
 
     /// Changes one end at one frame.
@@ -220,11 +199,7 @@ impl Layers {
 }
 
 fn layers(random: &mut Random) -> Made {
-    let mut layers = if random.index(3) == 0 {
-        nested(random)
-    } else {
-        stacked(random)
-    };
+    let mut layers = if random.index(3) == 0 { nested(random) } else { stacked(random) };
     if random.index(2) == 0 {
         layers.violate(random);
     }
@@ -235,17 +210,10 @@ fn layers(random: &mut Random) -> Made {
 fn stacked(random: &mut Random) -> Layers {
     let strips = 1 + random.index(3);
     let frames = 2 + random.index(3);
-    let mut layers = Layers {
-        heights: vec![Vec::new(); frames],
-        ..Layers::default()
-    };
+    let mut layers = Layers { heights: vec![Vec::new(); frames], ..Layers::default() };
     let mut level = vec![0_i64; frames];
     for strip in 0..strips {
-        let count = if strips == 1 {
-            3 + random.index(3)
-        } else {
-            2 + random.index(3)
-        };
+        let count = if strips == 1 { 3 + random.index(3) } else { 2 + random.index(3) };
         let first = random.index(2);
         let ends = [-between(random, 8, 16), between(random, 8, 16)];
         let abscissas: Vec<i64> = (0..count).map(|i| ends[(i + first) % 2]).collect();
@@ -275,9 +243,8 @@ fn nested(random: &mut Random) -> Layers {
     let first = below(random, 2);
     let mut layers = Layers::default();
     layers.add_strip(&[-16, right, -16], between(random, 8, 16), 0);
-    let abscissas: Vec<i64> = (0..=inner)
-        .map(|i| if i % 2 == first { ends[0] } else { ends[1] })
-        .collect();
+    let abscissas: Vec<i64> =
+        (0..=inner).map(|i| if i % 2 == first { ends[0] } else { ends[1] }).collect();
     layers.add_strip(&abscissas, between(random, 6, 16), 1);
     // From below: the lower panel of the fold, what is inside, the upper panel.
     let upper = layers.panels.remove(1);
@@ -363,11 +330,7 @@ fn flap(random: &mut Random) -> Made {
         places.push([-ya, -h, -yb, -k]);
     } else {
         let h = end_height(random);
-        let k = if random.index(2) == 0 {
-            end_height(random)
-        } else {
-            up(random)
-        };
+        let k = if random.index(2) == 0 { end_height(random) } else { up(random) };
         places.push([ya, h, yb, k]);
         match random.index(3) {
             0 => places.push(places[0]),
@@ -430,13 +393,7 @@ fn own_crease(random: &mut Random) -> Made {
     let half = sixteenths(between(random, 8, 14));
     let narrower = sixteenths([0, 0, 3, 5, -2][random.index(5)]);
     let tip = half - narrower;
-    let widths = [
-        [-half, half],
-        [-half, half],
-        [-half, half],
-        [-half, half],
-        [-tip, tip],
-    ];
+    let widths = [[-half, half], [-half, half], [-half, half], [-half, half], [-tip, tip]];
     let frames: Vec<_> = ends
         .iter()
         .map(|&end| {
@@ -444,17 +401,10 @@ fn own_crease(random: &mut Random) -> Made {
             drawn_out(&[p, q, r, s, end], &widths)
         })
         .collect();
-    let mut part = Part::extruded(
-        &[[-16, 0], [0, 0], [16, 0], [16, 16], [8, 8]],
-        false,
-        [-16, 16],
-    );
+    let mut part = Part::extruded(&[[-16, 0], [0, 0], [16, 0], [16, 16], [8, 8]], false, [-16, 16]);
     part.corners.clone_from(&frames[0]);
     let nearest = if slides { 0 } else { lowest.abs() };
-    let truth = if slides && lowest > -CLEAR {
-        Truth::Touching
-    } else {
-        by_height(lowest, nearest)
-    };
+    let truth =
+        if slides && lowest > -CLEAR { Truth::Touching } else { by_height(lowest, nearest) };
     (part, frames, truth)
 }

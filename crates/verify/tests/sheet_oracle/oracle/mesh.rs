@@ -118,11 +118,8 @@ impl Mesh {
     /// Connects a vertex inside with all sides.
     fn star(&mut self, polygon: usize, random: &mut Random) {
         let outline = self.outlines[polygon].clone();
-        let corners: Vec<usize> = outline
-            .iter()
-            .copied()
-            .filter(|&v| self.vertices[v].len() == 1)
-            .collect();
+        let corners: Vec<usize> =
+            outline.iter().copied().filter(|&v| self.vertices[v].len() == 1).collect();
         let at = |k: usize| &self.vertices[corners[k % corners.len()]];
         let first = random.index(corners.len());
         let centre = if corners.len() == 4 && random.index(2) == 0 {
@@ -130,14 +127,7 @@ impl Mesh {
             mean(&all, 4)
         } else {
             let step = corners.len().div_ceil(3);
-            mean(
-                &[
-                    (at(first), 2),
-                    (at(first + step), 1),
-                    (at(first + 2 * step), 1),
-                ],
-                4,
-            )
+            mean(&[(at(first), 2), (at(first + step), 1), (at(first + 2 * step), 1)], 4)
         };
         self.vertices.push(centre);
         let centre = self.vertices.len() - 1;
@@ -163,9 +153,7 @@ impl Mesh {
                 };
                 side(a, b, c) > 0 && left.iter().all(is_clear)
             };
-            let ear = (first..first + count)
-                .map(|i| i % count)
-                .find(|&i| is_ear(i));
+            let ear = (first..first + count).map(|i| i % count).find(|&i| is_ear(i));
             let i = ear.expect("every polygon has an ear");
             let triangle = [count - 1, 0, 1].map(|k| left[(i + k) % count]);
             left.remove(i);
@@ -177,11 +165,7 @@ impl Mesh {
     fn split_triangle(&mut self, random: &mut Random) {
         let index = random.index(self.triangles.len());
         let [a, b, c] = self.triangles[index];
-        let shares = [
-            (&self.vertices[a], 2),
-            (&self.vertices[b], 1),
-            (&self.vertices[c], 1),
-        ];
+        let shares = [(&self.vertices[a], 2), (&self.vertices[b], 1), (&self.vertices[c], 1)];
         self.vertices.push(mean(&shares, 4));
         let v = self.vertices.len() - 1;
         self.triangles[index] = [a, b, v];
@@ -231,10 +215,7 @@ impl Mesh {
         let mut edges: BTreeMap<[usize; 2], Vec<usize>> = BTreeMap::new();
         for (index, t) in self.triangles.iter().enumerate() {
             for k in 0..3 {
-                edges
-                    .entry(edge(t[k], t[(k + 1) % 3]))
-                    .or_default()
-                    .push(index);
+                edges.entry(edge(t[k], t[(k + 1) % 3])).or_default().push(index);
             }
         }
         edges
@@ -249,10 +230,7 @@ struct Plane {
 
 impl Plane {
     fn of(outline: &[usize], mesh: &Mesh, corners: &[Point]) -> Self {
-        let at: Vec<Point> = outline
-            .iter()
-            .map(|&v| scaled(&mesh.vertices[v], corners))
-            .collect();
+        let at: Vec<Point> = outline.iter().map(|&v| scaled(&mesh.vertices[v], corners)).collect();
         let area = |[x, y]: [usize; 2]| {
             let term = |i: usize| {
                 let [a, b] = [at[i], at[(i + 1) % at.len()]].map(|p| minus(p, at[0]));
@@ -261,14 +239,8 @@ impl Plane {
             (0..at.len()).map(term).sum::<i128>()
         };
         let planes = [[0, 1], [1, 2], [2, 0]];
-        let axes = planes
-            .into_iter()
-            .max_by_key(|&axes| area(axes).abs())
-            .unwrap_or([0, 1]);
-        Self {
-            axes,
-            is_turned: area(axes) < 0,
-        }
+        let axes = planes.into_iter().max_by_key(|&axes| area(axes).abs()).unwrap_or([0, 1]);
+        Self { axes, is_turned: area(axes) < 0 }
     }
 
     /// Twice the area of a triangle, positive if it has the orientation of the polygon.

@@ -25,20 +25,14 @@ pub(crate) fn below(random: &mut Random, count: u16) -> i64 {
 
 /// A random integer between two, both included.
 pub(crate) fn between(random: &mut Random, low: i64, high: i64) -> i64 {
-    low + below(
-        random,
-        u16::try_from(high - low + 1).expect("a small range"),
-    )
+    low + below(random, u16::try_from(high - low + 1).expect("a small range"))
 }
 
 impl Part {
     fn flat(outline: &[[i64; 2]], convex: Option<Vec<Vec<usize>>>) -> Self {
         let all: Vec<usize> = (0..outline.len()).collect();
         Self {
-            corners: outline
-                .iter()
-                .map(|&[x, y]| [x, y, 0].map(sixteenths))
-                .collect(),
+            corners: outline.iter().map(|&[x, y]| [x, y, 0].map(sixteenths)).collect(),
             convex: convex.unwrap_or_else(|| vec![all.clone()]),
             polygons: vec![all],
         }
@@ -46,16 +40,8 @@ impl Part {
 
     pub(crate) fn square(random: &mut Random) -> Self {
         let [w, h] = [(); 2].map(|()| between(random, 10, 18));
-        let skew = if random.index(3) == 0 {
-            between(random, -4, 4)
-        } else {
-            0
-        };
-        let (w, h) = if skew == 0 && random.index(2) == 0 {
-            (16, 16)
-        } else {
-            (w, h)
-        };
+        let skew = if random.index(3) == 0 { between(random, -4, 4) } else { 0 };
+        let (w, h) = if skew == 0 && random.index(2) == 0 { (16, 16) } else { (w, h) };
         Self::flat(&[[-w, -h], [w, -h], [w + skew, h], [skew - w, h]], None)
     }
 
@@ -66,10 +52,7 @@ impl Part {
 
     pub(crate) fn hexagon(random: &mut Random) -> Self {
         let [a, b] = [between(random, 5, 10), between(random, 10, 16)];
-        Self::flat(
-            &[[-a, -b], [a, -b], [16, 0], [a, b], [-a, b], [-16, 0]],
-            None,
-        )
+        Self::flat(&[[-a, -b], [a, -b], [16, 0], [a, b], [-a, b], [-16, 0]], None)
     }
 
     pub(crate) fn ell(random: &mut Random) -> Self {
@@ -100,11 +83,7 @@ impl Part {
             vec![2 * i, 2 * j, 2 * j + 1, 2 * i + 1]
         };
         let polygons: Vec<_> = (0..panels).map(panel).collect();
-        Self {
-            corners,
-            convex: polygons.clone(),
-            polygons,
-        }
+        Self { corners, convex: polygons.clone(), polygons }
     }
 
     /// Two polygons at a dihedral angle.
@@ -213,18 +192,12 @@ impl Part {
             };
             plus([0, 1, 2].map(along), to)
         };
-        Self {
-            corners: self.corners.iter().map(image).collect(),
-            ..self.clone()
-        }
+        Self { corners: self.corners.iter().map(image).collect(), ..self.clone() }
     }
 
     /// The part displaced so that `point` comes to the origin.
     pub(crate) fn centred_at(&self, point: Point) -> Self {
-        Self {
-            corners: self.corners.iter().map(|&p| minus(p, point)).collect(),
-            ..self.clone()
-        }
+        Self { corners: self.corners.iter().map(|&p| minus(p, point)).collect(), ..self.clone() }
     }
 
     pub(crate) fn pieces(&self) -> Vec<Convex> {

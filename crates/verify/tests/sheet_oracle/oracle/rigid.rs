@@ -73,22 +73,12 @@ fn aim(part: &Part, mesh: &Mesh, feature: Feature, random: &mut Random) -> Aim {
         (Feature::Border, [_]) => true,
         _ => false,
     };
-    let wanted: Vec<_> = edges
-        .iter()
-        .filter(|(_, beside)| is_wanted(beside))
-        .collect();
-    let aimed = if wanted.is_empty() {
-        None
-    } else {
-        Some(wanted[random.index(wanted.len())])
-    };
+    let wanted: Vec<_> = edges.iter().filter(|(_, beside)| is_wanted(beside)).collect();
+    let aimed = if wanted.is_empty() { None } else { Some(wanted[random.index(wanted.len())]) };
     let triangle = aimed.map_or_else(|| random.index(mesh.triangles.len()), |(_, f)| f[0]);
     let corners = mesh.triangles[triangle];
     let [a, b] = aimed.map_or([corners[0], corners[1]], |(ends, _)| *ends);
-    let c = corners
-        .into_iter()
-        .find(|v| *v != a && *v != b)
-        .unwrap_or(a);
+    let c = corners.into_iter().find(|v| *v != a && *v != b).unwrap_or(a);
     let share = [4, 8, 8, 12][random.index(4)];
     let along = minus(at(b), at(a));
     let place = match (feature, aimed) {
@@ -114,11 +104,7 @@ fn aim(part: &Part, mesh: &Mesh, feature: Feature, random: &mut Random) -> Aim {
 /// The end of an edge around which all edges have two triangles.
 fn inner_vertex(mesh: &Mesh, ends: [usize; 2]) -> Option<usize> {
     let edges = mesh.edges();
-    ends.into_iter().find(|v| {
-        edges
-            .iter()
-            .all(|(e, beside)| !e.contains(v) || beside.len() == 2)
-    })
+    ends.into_iter().find(|v| edges.iter().all(|(e, beside)| !e.contains(v) || beside.len() == 2))
 }
 
 /// A length in multiples of 2⁻²⁶ that is zero, less than half of τ, or several times τ.
@@ -153,12 +139,7 @@ fn mover(class: Class, random: &mut Random) -> Part {
         part = part.mapped(columns, [0; 3]);
     }
     let lowest = part.corners.iter().map(|p| p[2]).min().unwrap_or(0);
-    let lows: Vec<Point> = part
-        .corners
-        .iter()
-        .copied()
-        .filter(|p| p[2] == lowest)
-        .collect();
+    let lows: Vec<Point> = part.corners.iter().copied().filter(|p| p[2] == lowest).collect();
     let contact = match (random.index(4), lows.as_slice()) {
         (0, _) => [0; 3],
         (1, [p, q]) => plus(*p, times(minus(*q, *p), 8)),
@@ -196,19 +177,9 @@ fn path(class: Class, aim: &Aim, random: &mut Random) -> Vec<Point> {
         (Class::TouchAndBack, 1) => vec![at(high), dip(d), at(high), dip(e), at(high)],
         (Class::TouchAndBack, _) => vec![at(high), dip(d), at(low)],
         (Class::Slide, 0) => vec![at(high), dip(d), plus(dip(d), far), plus(at(leaves), far)],
-        (Class::Slide, 1) => vec![
-            dip(0),
-            plus(slide, dip(e)),
-            plus(slide, at(leaves)),
-            at(-low),
-        ],
+        (Class::Slide, 1) => vec![dip(0), plus(slide, dip(e)), plus(slide, at(leaves)), at(-low)],
         (Class::Slide, _) => {
-            vec![
-                at(high),
-                dip(d),
-                plus(slide, dip(e)),
-                plus(slide, at(leaves)),
-            ]
+            vec![at(high), dip(d), plus(slide, dip(e)), plus(slide, at(leaves))]
         }
         (Class::Static, 0) => vec![at(0), at(0)],
         (Class::Static, 1) => vec![dip(d), dip(e), dip(d)],
@@ -219,10 +190,7 @@ fn path(class: Class, aim: &Aim, random: &mut Random) -> Vec<Point> {
         }
         (Class::Along, _) => {
             let from = plus(at(-low / 2), times(aim.along, 36));
-            vec![
-                from,
-                plus(at(-low / 2), times(aim.along, between(random, -36, 8))),
-            ]
+            vec![from, plus(at(-low / 2), times(aim.along, between(random, -36, 8)))]
         }
         (_, 0) => vec![at(high), at(high / 2), at(-low / 2), at(-low)],
         (_, 1) => vec![at(high), at(-low), at(high)],
@@ -231,12 +199,7 @@ fn path(class: Class, aim: &Aim, random: &mut Random) -> Vec<Point> {
 }
 
 fn still(class: Class, random: &mut Random) -> (Part, Feature) {
-    let features = [
-        Feature::Interior,
-        Feature::Diagonal,
-        Feature::InteriorVertex,
-        Feature::Crease,
-    ];
+    let features = [Feature::Interior, Feature::Diagonal, Feature::InteriorVertex, Feature::Crease];
     let any = features[random.index(4)];
     let bent = |random: &mut Random| match random.index(3) {
         0 => Part::roof(random),
@@ -251,10 +214,7 @@ fn still(class: Class, random: &mut Random) -> (Part, Feature) {
         Class::Beside => (Part::plate(random), Feature::Border),
         Class::Stack => (Part::stack(random), any),
         Class::Tube => (Part::tube(random), any),
-        Class::Parallel => (
-            Part::plate(random),
-            [Feature::Diagonal, any][random.index(2)],
-        ),
+        Class::Parallel => (Part::plate(random), [Feature::Diagonal, any][random.index(2)]),
         _ if random.index(3) == 0 => (bent(random), any),
         _ => (Part::plate(random), any),
     }
@@ -307,13 +267,7 @@ fn within(class: Class, random: &mut Random) -> Option<Scene> {
         let z = sixteenths([12 - h, h - 12, h - 8, 0][random.index(4)]) + slip(random);
         [[x, 0, 0], [0, 0, z], [0, 0, 0]][random.index(3)]
     };
-    let path = [
-        [0, far, 0],
-        against(random),
-        against(random),
-        against(random),
-        [0, -far, 0],
-    ];
+    let path = [[0, far, 0], against(random), against(random), against(random), [0, -far, 0]];
     let count = 2 + random.index(4);
     let mesh = Mesh::random(&still, random, false);
     compose(class, &still, mesh, &moving, &path[..count], random)
@@ -348,13 +302,7 @@ fn attempt(class: Class, random: &mut Random) -> Option<Scene> {
     if random.index(2) == 0 || class == Class::Beside {
         moving = moving.centred_at(shift);
     }
-    let kinds = [
-        class,
-        Class::TouchAndBack,
-        Class::Slide,
-        Class::Static,
-        Class::TouchAndBack,
-    ];
+    let kinds = [class, Class::TouchAndBack, Class::Slide, Class::Static, Class::TouchAndBack];
     let kind = match class {
         Class::Stack | Class::Tube | Class::Thin => kinds[random.index(5)],
         Class::Interior | Class::Diagonal | Class::Crease | Class::InteriorVertex => {
@@ -383,17 +331,8 @@ fn compose(
     if mesh.triangles.len() > 40 {
         return None;
     }
-    let bodies = Bodies {
-        still: still.pieces(),
-        moving: moving.pieces(),
-        path: path.to_vec(),
-    };
-    if !bodies
-        .still
-        .iter()
-        .chain(&bodies.moving)
-        .all(Convex::is_plane)
-    {
+    let bodies = Bodies { still: still.pieces(), moving: moving.pieces(), path: path.to_vec() };
+    if !bodies.still.iter().chain(&bodies.moving).all(Convex::is_plane) {
         return None;
     }
     let nearest = bodies.distance();
@@ -405,9 +344,7 @@ fn compose(
     let first = still.corners.len();
     let place = |shift: &Point| -> Vec<Point> {
         let moved = part.corners.iter().enumerate();
-        moved
-            .map(|(i, &p)| if i < first { p } else { plus(p, *shift) })
-            .collect()
+        moved.map(|(i, &p)| if i < first { p } else { plus(p, *shift) }).collect()
     };
     Some(Scene {
         frames: path.iter().map(place).collect(),
@@ -422,32 +359,20 @@ fn compose(
 /// The truth decided by displaced paths; see [`super::undo`].
 fn truth(bodies: &Bodies, nearest: f64, is_thin: bool) -> Truth {
     if nearest > 1.5 * TOLERANCE {
-        return if is_thin {
-            Truth::NotThrough
-        } else {
-            Truth::Free
-        };
+        return if is_thin { Truth::NotThrough } else { Truth::Free };
     }
     let small = displacements(0.5 * TOLERANCE);
     let along = |lengths: [f64; 3]| bodies.along_wedges(&lengths.map(|l| l * TOLERANCE));
     let is_undone = |choices: &[Point], densities: [i64; 2]| {
-        densities
-            .into_iter()
-            .any(|density| bodies.can_be_undone(choices, density))
+        densities.into_iter().any(|density| bodies.can_be_undone(choices, density))
     };
     if is_undone(&small, [1, 4]) || is_undone(&along([0.3, 0.6, 0.9]), [1, 4]) {
-        return if nearest < 0.7 * TOLERANCE {
-            Truth::Touching
-        } else {
-            Truth::NotThrough
-        };
+        return if nearest < 0.7 * TOLERANCE { Truth::Touching } else { Truth::NotThrough };
     }
     // In a narrow wedge, displacements of 2 τ lead out through its walls, but smaller ones of the right length do not.
     let tenths = (6..20).map(|tenth| 0.1 * f64::from(tenth) * TOLERANCE);
     if bodies.can_be_undone(&displacements(2.0 * TOLERANCE), 4)
-        || tenths
-            .into_iter()
-            .any(|r| bodies.can_be_undone(&displacements(r), 1))
+        || tenths.into_iter().any(|r| bodies.can_be_undone(&displacements(r), 1))
         || is_undone(&along([1.0, 1.4, 1.8]), [1, 4])
     {
         return Truth::Open;
@@ -481,19 +406,11 @@ fn joined(mut mesh: Mesh, other: Mesh, still: &Part) -> Mesh {
     let (first, corners) = (mesh.vertices.len(), still.corners.len());
     let polygons = mesh.outlines.len();
     let shifted = |w: Vec<(usize, i64)>| w.into_iter().map(|(c, w)| (c + corners, w)).collect();
-    mesh.vertices
-        .extend(other.vertices.into_iter().map(shifted));
-    mesh.triangles
-        .extend(other.triangles.into_iter().map(|t| t.map(|v| v + first)));
-    mesh.polygon_of
-        .extend(other.polygon_of.into_iter().map(|p| p + polygons));
+    mesh.vertices.extend(other.vertices.into_iter().map(shifted));
+    mesh.triangles.extend(other.triangles.into_iter().map(|t| t.map(|v| v + first)));
+    mesh.polygon_of.extend(other.polygon_of.into_iter().map(|p| p + polygons));
     let outline = |o: Vec<usize>| o.into_iter().map(|v| v + first).collect();
-    mesh.outlines
-        .extend(other.outlines.into_iter().map(outline));
-    debug_assert!(
-        mesh.vertices
-            .iter()
-            .all(|w| w.iter().map(|(_, w)| w).sum::<i64>() == WHOLE)
-    );
+    mesh.outlines.extend(other.outlines.into_iter().map(outline));
+    debug_assert!(mesh.vertices.iter().all(|w| w.iter().map(|(_, w)| w).sum::<i64>() == WHOLE));
     mesh
 }

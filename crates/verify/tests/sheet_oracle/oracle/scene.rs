@@ -119,9 +119,7 @@ impl Order {
 fn components(part: &Part) -> Vec<usize> {
     let edges = |polygon: &Vec<usize>| -> Vec<[usize; 2]> {
         let next = |i: usize| polygon[(i + 1) % polygon.len()];
-        (0..polygon.len())
-            .map(|i| edge(polygon[i], next(i)))
-            .collect()
+        (0..polygon.len()).map(|i| edge(polygon[i], next(i))).collect()
     };
     let mut component: Vec<usize> = (0..part.polygons.len()).collect();
     for _ in 0..part.polygons.len() {
@@ -158,18 +156,10 @@ fn assemble(mesh: &Mesh, frames: &[Vec<Point>], order: &Order) -> Motion {
     }
     let faces = order.triangles.iter().map(|&t| {
         let [a, b, c] = mesh.triangles[t].map(|v| number[v]);
-        if order.is_turned[t] {
-            [a, c, b]
-        } else {
-            [a, b, c]
-        }
+        if order.is_turned[t] { [a, c, b] } else { [a, b, c] }
     });
     let faces: Vec<[u32; 3]> = faces.collect();
-    let polygon_of: Vec<usize> = order
-        .triangles
-        .iter()
-        .map(|&t| mesh.polygon_of[t])
-        .collect();
+    let polygon_of: Vec<usize> = order.triangles.iter().map(|&t| mesh.polygon_of[t]).collect();
     let facets = mesh.outlines.iter().map(|outline| Facet {
         polygon: outline.iter().map(|&v| number[v]).collect(),
         row: 0,
@@ -177,11 +167,7 @@ fn assemble(mesh: &Mesh, frames: &[Vec<Point>], order: &Order) -> Motion {
         kind: FacetKind::Plain,
     });
     let positions = |corners: &Vec<Point>| -> Vec<DVec3> {
-        order
-            .vertices
-            .iter()
-            .map(|&v| position(&mesh.vertices[v], corners))
-            .collect()
+        order.vertices.iter().map(|&v| position(&mesh.vertices[v], corners)).collect()
     };
     Motion {
         sheet: Sheet {
@@ -195,10 +181,7 @@ fn assemble(mesh: &Mesh, frames: &[Vec<Point>], order: &Order) -> Motion {
         frames: frames
             .iter()
             .enumerate()
-            .map(|(k, corners)| Frame {
-                time: k as f64,
-                positions: positions(corners),
-            })
+            .map(|(k, corners)| Frame { time: k as f64, positions: positions(corners) })
             .collect(),
         compact_order: LayerOrder::default(),
     }
@@ -221,14 +204,7 @@ fn edges(faces: &[[u32; 3]], polygon_of: &[usize]) -> Vec<Edge> {
             [Some(_), Some(_)] => (Assignment::Free, CreaseKind::Imported),
             _ => (Assignment::Border, CreaseKind::Border),
         };
-        Edge {
-            vertices: [v, w],
-            assignment,
-            kind,
-            row: 0,
-            column: 0,
-            faces,
-        }
+        Edge { vertices: [v, w], assignment, kind, row: 0, column: 0, faces }
     });
     edges.collect()
 }

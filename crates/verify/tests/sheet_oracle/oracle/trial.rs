@@ -39,11 +39,7 @@ pub(crate) fn motion_of(class: Class, number: u64) -> (Motion, Truth, Option<f64
     let mut random = class.random(number);
     let scene = class.scene(&mut random);
     let is_plain = random.index(3) == 0;
-    let motion = if is_plain {
-        scene.motion()
-    } else {
-        scene.varied(&mut random)
-    };
+    let motion = if is_plain { scene.motion() } else { scene.varied(&mut random) };
     (motion, scene.truth, scene.separation)
 }
 
@@ -71,20 +67,11 @@ fn without_penetrations(report: &CollisionReport) -> CollisionReport {
 /// Whether the second proof finds the removed penetration, and not only the wrong counts.
 fn is_found(verification: &Verification) -> bool {
     let is_count = |field: &str| {
-        [
-            "pairs_tested",
-            "decided_by",
-            "touching_pairs",
-            "clusters",
-            "verdict",
-        ]
-        .iter()
-        .any(|count| field.starts_with(count))
+        ["pairs_tested", "decided_by", "touching_pairs", "clusters", "verdict"]
+            .iter()
+            .any(|count| field.starts_with(count))
     };
-    verification
-        .refuted
-        .iter()
-        .any(|refutation| !is_count(&refutation.field))
+    verification.refuted.iter().any(|refutation| !is_count(&refutation.field))
 }
 
 /// Tests both proofs on a scene.
@@ -107,9 +94,8 @@ pub(crate) fn try_scene(class: Class, number: u64) -> Trial {
     };
     trial.verdict = Some(report.verdict);
     trial.is_right = is_right(truth, report.verdict);
-    trial.separation = separation
-        .zip(report.min_separation)
-        .map(|(truth, stated)| [stated.distance, truth]);
+    trial.separation =
+        separation.zip(report.min_separation).map(|(truth, stated)| [stated.distance, truth]);
     let verification = verify(&motion, &report);
     trial.verified = Some(if verification.is_verified() {
         Verified::Proved
@@ -263,10 +249,8 @@ impl Tally {
 
 /// Tests scenes `0..count` of a class.
 pub(crate) fn try_class(class: Class, count: u64) -> Tally {
-    let trials: Vec<Trial> = (0..count)
-        .into_par_iter()
-        .map(|number| try_scene(class, number))
-        .collect();
+    let trials: Vec<Trial> =
+        (0..count).into_par_iter().map(|number| try_scene(class, number)).collect();
     let mut tally = Tally::default();
     for trial in &trials {
         tally.count(trial);
@@ -282,11 +266,7 @@ class            sheets | truth:  pen touch  free  n.t. open | verdict: pen touc
 impl fmt::Display for Tally {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let [p, t, r, n, o] = self.truths;
-        write!(
-            f,
-            "{:>6} | {p:>11} {t:>5} {r:>5} {n:>5} {o:>4} |",
-            self.sheets
-        )?;
+        write!(f, "{:>6} | {p:>11} {t:>5} {r:>5} {n:>5} {o:>4} |", self.sheets)?;
         let [p, t, r, u, e] = self.verdicts;
         write!(f, " {p:>12} {t:>5} {r:>5} {u:>5} {e:>5} |")?;
         let n = self.lists().map(|(_, list)| list.len());

@@ -35,12 +35,9 @@ fn displacement(direction: DVec3, length: f64) -> Point {
 /// The displacements of a length, zero first.
 pub(crate) fn displacements(length: f64) -> Vec<Point> {
     let signs = [0.0, -1.0, 1.0];
-    let directions = signs
-        .iter()
-        .flat_map(|&x| signs.iter().flat_map(move |&y| signs.map(|z| [x, y, z])));
-    directions
-        .map(|d| displacement(DVec3::from_array(d), length))
-        .collect()
+    let directions =
+        signs.iter().flat_map(|&x| signs.iter().flat_map(move |&y| signs.map(|z| [x, y, z])));
+    directions.map(|d| displacement(DVec3::from_array(d), length)).collect()
 }
 
 /// The directions that lead from the common edges of two polygons into the angle between them.
@@ -98,10 +95,7 @@ impl Bodies {
     /// Whether a path with one of these displacements at each waypoint, with `density` times as many waypoints, meets
     /// nothing.
     pub(crate) fn can_be_undone(&self, choices: &[Point], density: i64) -> bool {
-        let radius = choices
-            .iter()
-            .map(|&d| to_f64(d).length())
-            .fold(0.0, f64::max);
+        let radius = choices.iter().map(|&d| to_f64(d).length()).fold(0.0, f64::max);
         let mut reached = vec![true; choices.len()];
         for [from, to] in self.windows() {
             let at = |k: i64| [0, 1, 2].map(|i| from[i] + (to[i] - from[i]) * k / density);

@@ -28,9 +28,8 @@ pub(crate) fn shows_crossing(motion: &Motion, random: &mut Random) -> bool {
         (0..=SAMPLES).any(|k| {
             let t = f64::from(k) / f64::from(SAMPLES);
             let both = pair[0].positions.iter().zip(&pair[1].positions);
-            let at: Vec<DVec3> = both
-                .map(|(p, q)| p.lerp(*q, t) + random.vector() * 1e-9)
-                .collect();
+            let at: Vec<DVec3> =
+                both.map(|(p, q)| p.lerp(*q, t) + random.vector() * 1e-9).collect();
             sheet.edges.iter().any(|edge| {
                 let ends = edge.vertices;
                 sheet.faces.iter().any(|face| {

@@ -34,10 +34,7 @@ fn a_dragged_control_point_moves_by_the_drag_over_the_scale() {
     assert!(labels.len() >= 2, "{labels:?}");
     assert!(labels.iter().all(|(label, _)| *label == "move point"));
     let continues: Vec<bool> = labels.iter().map(|(_, continues)| *continues).collect();
-    assert!(
-        !continues[0] && continues[1..].iter().all(|c| *c),
-        "{continues:?}"
-    );
+    assert!(!continues[0] && continues[1..].iter().all(|c| *c), "{continues:?}");
 }
 
 #[test]
@@ -47,12 +44,7 @@ fn two_drags_are_two_changes_to_undo() {
         let from = harness.get_by_label("control point 3").rect().center();
         drag(&mut harness, from, vec2(12.0, 6.0), 3);
     }
-    let starts = harness
-        .state()
-        .labels()
-        .iter()
-        .filter(|(_, continues)| !continues)
-        .count();
+    let starts = harness.state().labels().iter().filter(|(_, continues)| !continues).count();
     assert_eq!(starts, 2);
 }
 
@@ -124,11 +116,7 @@ fn a_model_is_converted_to_control_points_of_the_same_curve() {
         for k in 0..=100 {
             let u = f64::from(k) / 100.0;
             let error = before.position(u).distance(after.position(u));
-            assert!(
-                error <= 1e-12 * before.magnitude(),
-                "{} at {u}: {error}",
-                model.name
-            );
+            assert!(error <= 1e-12 * before.magnitude(), "{} at {u}: {error}", model.name);
         }
         let heights = |state: &TestPanel| state.draft.as_ref().unwrap().units().unwrap().units.unit;
         let unit = heights(harness.state());

@@ -37,11 +37,7 @@ fn entering_a_field_and_leaving_it_writes_nothing() {
         harness.key_press(eframe::egui::Key::Enter);
         harness.run();
     }
-    assert!(
-        harness.state().changes.is_empty(),
-        "{:?}",
-        harness.state().labels()
-    );
+    assert!(harness.state().changes.is_empty(), "{:?}", harness.state().labels());
 }
 
 #[test]
@@ -72,10 +68,7 @@ fn a_chosen_case_sets_the_keys_it_needs() {
     let mut harness = panel(SHELTER);
     click(&mut harness, "case SII");
     let sheet = &harness.state().scene.sheet;
-    assert_eq!(
-        (sheet.case, sheet.lambda),
-        (Some(CaseChoice::SII), Some(0.7))
-    );
+    assert_eq!((sheet.case, sheet.lambda), (Some(CaseChoice::SII), Some(0.7)));
     enter(&mut harness, "λ", "0.6");
     click(&mut harness, "case S");
     let sheet = &harness.state().scene.sheet;
@@ -90,14 +83,7 @@ fn a_chosen_case_sets_the_keys_it_needs() {
 fn cases_that_contradict_the_unit_cannot_be_chosen() {
     let harness = panel(SHELTER);
     let disabled = |case: &str| harness.get_by_label(case).accesskit_node().is_disabled();
-    let cases = [
-        "case E",
-        "case T",
-        "case S",
-        "case SII",
-        "case plain",
-        "case auto",
-    ];
+    let cases = ["case E", "case T", "case S", "case SII", "case plain", "case auto"];
     let expected = [true, true, false, false, false, false];
     assert_eq!(cases.map(disabled), expected);
 }
@@ -107,18 +93,8 @@ fn the_current_case_stays_enabled_even_if_w_h_rules_it_out() {
     let harness =
         panel("[profile]\nmodel = \"shelter\"\n[sheet]\nwidth = 5.0\ncolumns = 3\ncase = \"T\"\n");
     assert!(harness.state().draft.is_none());
-    assert!(
-        !harness
-            .get_by_label("case T")
-            .accesskit_node()
-            .is_disabled()
-    );
-    assert!(
-        harness
-            .get_by_label("case E")
-            .accesskit_node()
-            .is_disabled()
-    );
+    assert!(!harness.get_by_label("case T").accesskit_node().is_disabled());
+    assert!(harness.get_by_label("case E").accesskit_node().is_disabled());
 }
 
 #[test]
@@ -136,10 +112,7 @@ fn an_error_is_shown_once_at_its_control_or_else_in_its_section_or_at_the_top() 
     assert!(y("no such file") < y("Profile"));
     assert!(y("width W") < y("too wide") && y("too wide") < y("rows Nr"));
     assert!(y("Sheet") < y("not divided") && y("not divided") < y("width W"));
-    assert!(
-        y("Record") < y("too fast"),
-        "below the header of a closed section"
-    );
+    assert!(y("Record") < y("too fast"), "below the header of a closed section");
 }
 
 #[test]
@@ -160,12 +133,7 @@ fn steps_are_added_filled_moved_and_removed() {
     click(&mut harness, "add step");
     let steps = |scene: &Scene| scene.motion.step.len();
     assert_eq!(steps(&harness.state().scene), 2);
-    let first = harness
-        .get_all_by_label("from")
-        .next()
-        .unwrap()
-        .rect()
-        .center();
+    let first = harness.get_all_by_label("from").next().unwrap().rect().center();
     harness.hover_at(first);
     harness.run();
     harness.get_all_by_label("to").next().unwrap();
@@ -180,12 +148,7 @@ fn steps_are_added_filled_moved_and_removed() {
     enter(&mut harness, "to", "0.5");
     let step = &harness.state().scene.motion.step[0];
     assert_eq!((step.from, step.to), (Some(0.25), Some(0.5)));
-    let labels: Vec<&str> = harness
-        .state()
-        .labels()
-        .into_iter()
-        .map(|(label, _)| label)
-        .collect();
+    let labels: Vec<&str> = harness.state().labels().into_iter().map(|(label, _)| label).collect();
     assert_eq!(labels[..2], ["add step", "add step"]);
     assert!(labels.contains(&"move step") && labels.contains(&"remove step"));
 }
@@ -196,10 +159,7 @@ fn a_menu_sets_a_key_and_its_default_omits_it() {
     click(&mut harness, "Motion");
     click(&mut harness, "engine");
     click(&mut harness, "dynamic");
-    assert_eq!(
-        harness.state().scene.motion.engine,
-        Some(EngineChoice::Dynamic)
-    );
+    assert_eq!(harness.state().scene.motion.engine, Some(EngineChoice::Dynamic));
     click(&mut harness, "engine");
     click(&mut harness, "quasi-static (default)");
     assert_eq!(harness.state().scene.motion.engine, None);
@@ -211,12 +171,7 @@ fn outputs_start_from_the_defaults() {
     click(&mut harness, "Record");
     click(&mut harness, "mp4");
     let outputs = harness.state().scene.record.outputs.clone().unwrap();
-    let expected = [
-        OutputChoice::Fold,
-        OutputChoice::Gif,
-        OutputChoice::Csv,
-        OutputChoice::Mp4,
-    ];
+    let expected = [OutputChoice::Fold, OutputChoice::Gif, OutputChoice::Csv, OutputChoice::Mp4];
     assert_eq!(outputs, expected);
 }
 
@@ -234,21 +189,14 @@ fn a_switch_set_to_its_default_omits_the_key() {
 fn a_scene_of_an_imported_pattern_shows_its_keys_in_place_of_the_sheet() {
     let path = scenes().join("imported/frame.toml");
     let text = std::fs::read_to_string(&path).unwrap();
-    let mut harness = panel_of(
-        &SceneSource::new(&path, text),
-        eframe::egui::Theme::Dark,
-        2600.0,
-    );
+    let mut harness = panel_of(&SceneSource::new(&path, text), eframe::egui::Theme::Dark, 2600.0);
     assert!(harness.query_by_label("Sheet").is_none());
     enter(&mut harness, "fold %", "-40");
     let pattern = harness.state().scene.pattern.clone().unwrap();
     assert_eq!(pattern.fold_percent, Some(-40.0));
     click(&mut harness, "Motion");
     assert!(harness.query_by_label("unfolds").is_none());
-    assert_eq!(
-        harness.state().scene.motion.step[0].creases,
-        Some(CreaseGroup::Mountains)
-    );
+    assert_eq!(harness.state().scene.motion.step[0].creases, Some(CreaseGroup::Mountains));
 }
 
 #[test]
@@ -266,12 +214,7 @@ fn a_field_under_a_drag_is_one_change_to_undo() {
     let from = harness.get_by_label("width W").rect().center();
     drag(&mut harness, from, eframe::egui::vec2(40.0, 0.0), 5);
     assert!(harness.state().scene.sheet.width.unwrap() > 5.0);
-    let continues: Vec<bool> = harness
-        .state()
-        .labels()
-        .iter()
-        .map(|label| label.1)
-        .collect();
+    let continues: Vec<bool> = harness.state().labels().iter().map(|label| label.1).collect();
     assert!(continues.len() > 2 && !continues[0] && continues[1..].iter().all(|c| *c));
 }
 
@@ -312,13 +255,7 @@ fn the_closed_forms_of_every_allowed_case_are_in_the_table() {
 
 #[test]
 fn nothing_is_wider_than_a_narrow_panel() {
-    for scene in [
-        "omega-sii",
-        "shelter-unequal",
-        "spiral-s",
-        "imported/frame",
-        "imported/miura",
-    ] {
+    for scene in ["omega-sii", "shelter-unequal", "spiral-s", "imported/frame", "imported/miura"] {
         let path = scenes().join(scene).with_extension("toml");
         let source = SceneSource::read(&path).unwrap();
         let mut harness = panel_of(&source, eframe::egui::Theme::Dark, 4000.0);
@@ -333,11 +270,7 @@ fn nothing_is_wider_than_a_narrow_panel() {
         for node in harness.root().children_recursive() {
             let node = node.accesskit_node();
             let right = node.raw_bounds().map_or(0.0, |bounds| bounds.x1);
-            assert!(
-                right <= 320.0,
-                "{scene}: {:?} ends at {right}",
-                node.label()
-            );
+            assert!(right <= 320.0, "{scene}: {:?} ends at {right}", node.label());
         }
     }
 }

@@ -15,15 +15,9 @@ use super::test_panel::{TestPanel, click, panel_of, scenes};
 fn colours(harness: &mut Harness<'static, TestPanel>, name: &str) -> usize {
     let picture = harness.render().unwrap();
     if let Ok(folder) = std::env::var("FOLDMOTION_PICTURES") {
-        picture
-            .save(Path::new(&folder).join(format!("{name}.png")))
-            .unwrap();
+        picture.save(Path::new(&folder).join(format!("{name}.png"))).unwrap();
     }
-    picture
-        .pixels()
-        .map(|pixel| pixel.0)
-        .collect::<BTreeSet<_>>()
-        .len()
+    picture.pixels().map(|pixel| pixel.0).collect::<BTreeSet<_>>().len()
 }
 
 #[test]
@@ -56,19 +50,9 @@ fn steps_own_camera_and_cases_that_contradict_are_drawn() {
                 stage = \"unfold\"\ncreases = \"diagonals\"\nfrom = 0.25\nto = 0.75\nease = \"smooth\"\n[record]\n\
                 size = [640, 480]\nthickened = 0.02\ncamera = { azimuth = 30.0, elevation = 20.0 }\n";
     for (theme, name) in [(Theme::Dark, "dark"), (Theme::Light, "light")] {
-        let mut harness = panel_of(
-            &SceneSource::new("own.toml".as_ref(), text.to_owned()),
-            theme,
-            1900.0,
-        );
-        for section in [
-            "Sheet",
-            "Closed forms",
-            "Crease pattern",
-            "Material",
-            "Motion",
-            "Record",
-        ] {
+        let mut harness =
+            panel_of(&SceneSource::new("own.toml".as_ref(), text.to_owned()), theme, 1900.0);
+        for section in ["Sheet", "Closed forms", "Crease pattern", "Material", "Motion", "Record"] {
             click(&mut harness, section);
         }
         assert!(colours(&mut harness, &format!("own-{name}")) > 20);
@@ -79,12 +63,7 @@ fn steps_own_camera_and_cases_that_contradict_are_drawn() {
 #[cfg_attr(not(gpu_tests), ignore = "needs a GPU and FOLDMOTION_GPU_TESTS=yes")]
 fn the_panel_is_drawn_dark_and_light() {
     for (theme, name) in [(Theme::Dark, "dark"), (Theme::Light, "light")] {
-        for scene in [
-            "shelter-sii",
-            "omega-sii",
-            "shelter-unequal",
-            "imported/frame",
-        ] {
+        for scene in ["shelter-sii", "omega-sii", "shelter-unequal", "imported/frame"] {
             let path = scenes().join(scene).with_extension("toml");
             let source = SceneSource::read(&path).unwrap();
             let mut harness = panel_of(&source, theme, 1400.0);

@@ -11,13 +11,9 @@ use super::test_panel::{drag, panel_of, scenes};
 fn all() -> Vec<PathBuf> {
     let files = |folder: PathBuf| {
         let entries = std::fs::read_dir(folder).unwrap();
-        entries
-            .map(|entry| entry.unwrap().path())
-            .filter(|path| path.is_file())
+        entries.map(|entry| entry.unwrap().path()).filter(|path| path.is_file())
     };
-    let mut paths: Vec<PathBuf> = files(scenes())
-        .chain(files(scenes().join("imported")))
-        .collect();
+    let mut paths: Vec<PathBuf> = files(scenes()).chain(files(scenes().join("imported"))).collect();
     paths.sort();
     paths
 }
@@ -91,10 +87,8 @@ fn random_clicks_and_typing_break_nothing() {
             let at = pos2(f32::from(dice.below(360)), f32::from(dice.below(2400)));
             match dice.below(6) {
                 0 => {
-                    let way = vec2(
-                        f32::from(dice.below(80)) - 40.0,
-                        f32::from(dice.below(80)) - 40.0,
-                    );
+                    let way =
+                        vec2(f32::from(dice.below(80)) - 40.0, f32::from(dice.below(80)) - 40.0);
                     drag(&mut harness, at, way, 2);
                 }
                 1 => {
@@ -104,20 +98,12 @@ fn random_clicks_and_typing_break_nothing() {
                     harness.key_press(KEYS[usize::from(dice.below(7))]);
                 }
                 turn => {
-                    let button = if turn == 2 {
-                        PointerButton::Secondary
-                    } else {
-                        PointerButton::Primary
-                    };
+                    let button =
+                        if turn == 2 { PointerButton::Secondary } else { PointerButton::Primary };
                     harness.hover_at(at);
                     for pressed in [true, false] {
                         let modifiers = Modifiers::NONE;
-                        harness.event(Event::PointerButton {
-                            pos: at,
-                            button,
-                            pressed,
-                            modifiers,
-                        });
+                        harness.event(Event::PointerButton { pos: at, button, pressed, modifiers });
                     }
                 }
             }
@@ -126,11 +112,7 @@ fn random_clicks_and_typing_break_nothing() {
             harness.run_ok();
         }
         assert!(harness.state().changes.len() > 5, "{scene}");
-        let real = harness
-            .state()
-            .changes
-            .windows(2)
-            .all(|pair| pair[0].scene != pair[1].scene);
+        let real = harness.state().changes.windows(2).all(|pair| pair[0].scene != pair[1].scene);
         assert!(real, "{scene}: every change changes something");
     }
 }

@@ -54,13 +54,8 @@ pub(super) fn panel_of(
             state.changes.push(change);
         }
     };
-    let builder = Harness::builder()
-        .with_size(vec2(360.0, height))
-        .with_theme(theme);
-    let mut harness = builder
-        .with_step_dt(0.05)
-        .with_max_steps(40)
-        .build_ui_state(show, state);
+    let builder = Harness::builder().with_size(vec2(360.0, height)).with_theme(theme);
+    let mut harness = builder.with_step_dt(0.05).with_max_steps(40).build_ui_state(show, state);
     harness.run();
     harness
 }
@@ -79,10 +74,7 @@ impl TestPanel {
     }
 
     pub(super) fn labels(&self) -> Vec<(&'static str, bool)> {
-        self.changes
-            .iter()
-            .map(|change| (change.label, change.continues))
-            .collect()
+        self.changes.iter().map(|change| (change.label, change.continues)).collect()
     }
 }
 

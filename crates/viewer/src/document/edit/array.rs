@@ -22,10 +22,7 @@ impl ChangedRange {
         let end = (0..shorter - start)
             .take_while(|&i| old[old.len() - 1 - i] == new[new.len() - 1 - i])
             .count();
-        Self {
-            old: start..old.len() - end,
-            new: start..new.len() - end,
-        }
+        Self { old: start..old.len() - end, new: start..new.len() - end }
     }
 
     /// The number of elements that are changed in place.
@@ -92,11 +89,7 @@ pub(super) fn insert(list: &mut Array, index: usize, mut value: toml_edit::Value
         None if lead.contains('\n') => bare(&lead),
         None => " ".to_owned(),
     };
-    let own = if index == 0 {
-        bare(&lead)
-    } else {
-        between.clone()
-    };
+    let own = if index == 0 { bare(&lead) } else { between.clone() };
     value.decor_mut().set_prefix(own);
     value.decor_mut().set_suffix("");
     if index == 0 && !has_comment(&lead) {

@@ -10,9 +10,7 @@ pub(super) struct DetachedComment {
 }
 
 pub(super) fn text_of(raw: Option<&RawString>) -> String {
-    raw.and_then(RawString::as_str)
-        .unwrap_or_default()
-        .to_owned()
+    raw.and_then(RawString::as_str).unwrap_or_default().to_owned()
 }
 
 /// Whether whitespace contains a comment.
@@ -51,11 +49,7 @@ pub(super) fn reattach(document: &mut DocumentMut, detached: Vec<DetachedComment
 
 /// The position of the first header after `position`.
 fn next_position(table: &Table, position: isize) -> Option<isize> {
-    headers(table)
-        .into_iter()
-        .filter_map(Table::position)
-        .filter(|&other| other > position)
-        .min()
+    headers(table).into_iter().filter_map(Table::position).filter(|&other| other > position).min()
 }
 
 /// The position of the last header at or below an item.

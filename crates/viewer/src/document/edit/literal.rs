@@ -83,9 +83,7 @@ fn float(number: f64) -> toml_edit::Value {
 
 fn list(values: &[Value]) -> Array {
     let mut list: Array = values.iter().map(literal).collect();
-    let nested = values
-        .iter()
-        .any(|v| matches!(v, Value::List(_) | Value::Table(_)));
+    let nested = values.iter().any(|v| matches!(v, Value::List(_) | Value::Table(_)));
     if nested && list.to_string().len() > LONGEST_LINE {
         for value in list.iter_mut() {
             value.decor_mut().set_prefix("\n    ");

@@ -37,12 +37,7 @@ pub(super) fn edited(text: &str, old: &Scene, new: &Scene) -> Option<String> {
         String::new()
     };
     let mut detached = Vec::new();
-    table::edit(
-        document.as_table_mut(),
-        &old,
-        &new,
-        &mut EditContext::root(&mut detached),
-    );
+    table::edit(document.as_table_mut(), &old, &new, &mut EditContext::root(&mut detached));
     comments::reattach(&mut document, detached);
     let edited = format!("{head}{document}");
     // A header that has become the first needs no empty line above it.
@@ -72,11 +67,7 @@ struct EditContext<'a> {
 
 impl<'a> EditContext<'a> {
     fn root(detached: &'a mut Vec<DetachedComment>) -> Self {
-        Self {
-            position: 0,
-            root: true,
-            detached,
-        }
+        Self { position: 0, root: true, detached }
     }
 
     fn within(&mut self, table: &toml_edit::Table) -> EditContext<'_> {
@@ -89,9 +80,6 @@ impl<'a> EditContext<'a> {
 
     /// Keeps a comment for whatever follows the current header.
     fn keep_comment(&mut self, comment: String) {
-        self.detached.push(DetachedComment {
-            position: self.position,
-            comment,
-        });
+        self.detached.push(DetachedComment { position: self.position, comment });
     }
 }

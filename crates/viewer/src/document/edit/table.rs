@@ -215,17 +215,11 @@ fn insert(
     order: &Keys,
     context: &mut EditContext<'_>,
 ) {
-    let before = order
-        .iter()
-        .map(|(other, _)| other)
-        .take_while(|&other| other != key);
+    let before = order.iter().map(|(other, _)| other).take_while(|&other| other != key);
     let present: Vec<&str> = before.filter(|&other| table.contains_key(other)).collect();
     match value {
         Value::Table(keys) if context.root => {
-            let header = present
-                .iter()
-                .rev()
-                .find_map(|&other| last_position(&table[other]));
+            let header = present.iter().rev().find_map(|&other| last_position(&table[other]));
             let mut inner = literal::table(keys, header.unwrap_or(0));
             if header.is_none() && !has_values(table) {
                 inner.decor_mut().set_prefix(take_head(table));
@@ -238,11 +232,7 @@ fn insert(
 }
 
 fn insert_value(table: &mut toml_edit::Table, key: &str, value: &Value, context: &EditContext<'_>) {
-    let above = if context.root && !has_values(table) {
-        take_head(table)
-    } else {
-        indent(table)
-    };
+    let above = if context.root && !has_values(table) { take_head(table) } else { indent(table) };
     let item = literal::item(value, !table.is_dotted(), context.position);
     let headed = !item.is_value();
     table.insert(key, item);
@@ -255,10 +245,7 @@ fn insert_value(table: &mut toml_edit::Table, key: &str, value: &Value, context:
     if table.is_implicit() {
         // The header appears with the first value and comes before those of the table's parts.
         table.set_implicit(false);
-        let first = table
-            .iter()
-            .filter_map(|(_, item)| last_position(item))
-            .min();
+        let first = table.iter().filter_map(|(_, item)| last_position(item)).min();
         table.set_position(first.or(Some(context.position)));
     }
 }
@@ -272,10 +259,7 @@ fn indent(table: &toml_edit::Table) -> String {
     let value = table.iter().find(|(_, item)| item.is_value());
     let key = value.and_then(|(key, _)| table.key(key));
     let space = text_of(key.and_then(|key| key.leaf_decor().prefix()));
-    space
-        .rfind('\n')
-        .map_or("", |end| &space[end + 1..])
-        .to_owned()
+    space.rfind('\n').map_or("", |end| &space[end + 1..]).to_owned()
 }
 
 /// Removes and returns the comments at the top of the file from the first header.

@@ -45,10 +45,7 @@ const CHOICES: &[(&str, &[&str])] = &[
             "[[0.0, 0.0], [0.7, 0.1], [0.5, 1e-3]]",
         ],
     ),
-    (
-        "profile.knots",
-        &["[]", "[0.0, 0.5, 1.0]", "[0.0, 0.25, 0.5, 1.0]"],
-    ),
+    ("profile.knots", &["[]", "[0.0, 0.5, 1.0]", "[0.0, 0.25, 0.5, 1.0]"]),
     ("profile.closed", &["\"corner\"", "\"smooth\""]),
     ("profile.length", &["7.0", "1e300"]),
     ("sheet.width", &["5.0", "4.75"]),
@@ -72,10 +69,7 @@ const CHOICES: &[(&str, &[&str])] = &[
         ],
     ),
     ("check.touch_tolerance", &["1e-6"]),
-    (
-        "record.outputs",
-        &["[]", "[\"fold\", \"gif\"]", "[\"gif\", \"mp4\", \"pdf\"]"],
-    ),
+    ("record.outputs", &["[]", "[\"fold\", \"gif\"]", "[\"gif\", \"mp4\", \"pdf\"]"]),
     ("record.size", &["[960, 720]", "[960, 480]"]),
     ("record.hold", &["0.5", "[0.5, 1.0, 2.0]"]),
     (
@@ -138,9 +132,7 @@ fn written(table: &Table, style: Style) -> String {
         Style::Headers => format!("# head\n\n{}", headers()),
         Style::Windows => format!("\u{feff}{}", headers().replace('\n', "\r\n")),
         Style::Inline => {
-            let lines = table
-                .iter()
-                .map(|(key, value)| format!("{key} = {}\n", inline(value)));
+            let lines = table.iter().map(|(key, value)| format!("{key} = {}\n", inline(value)));
             lines.collect()
         }
         Style::Dotted => {
@@ -232,9 +224,7 @@ fn without_tables_that_go(mut table: Table) -> Table {
 fn scene_files() -> Vec<PathBuf> {
     let scenes = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes");
     let folders = [scenes.clone(), scenes.join("imported")];
-    let entries = folders
-        .iter()
-        .flat_map(|folder| std::fs::read_dir(folder).unwrap());
+    let entries = folders.iter().flat_map(|folder| std::fs::read_dir(folder).unwrap());
     let mut files: Vec<PathBuf> = entries
         .map(|entry| entry.unwrap().path())
         .filter(|path| path.extension().is_some_and(|e| e == "toml"))
@@ -274,21 +264,15 @@ fn a_new_key_is_placed_in_the_order_of_a_scene() {
         scene.sheet.rows = Some(3);
         scene.sheet.lambda = Some(0.5);
     });
-    assert_eq!(
-        text,
-        "[sheet]\nwidth = 5.0\nrows = 3\n# why\ncase = \"S\"\nlambda = 0.5\n"
-    );
+    assert_eq!(text, "[sheet]\nwidth = 5.0\nrows = 3\n# why\ncase = \"S\"\nlambda = 0.5\n");
 }
 
 #[test]
 fn a_new_table_is_placed_in_the_order_of_a_scene() {
-    let text = by(
-        "# head\n\n[profile]\nmodel = \"shelter\"\n\n[record]\nfps = 30\n",
-        |scene| {
-            scene.title = Some("T".to_owned());
-            scene.sheet.rows = Some(3);
-        },
-    );
+    let text = by("# head\n\n[profile]\nmodel = \"shelter\"\n\n[record]\nfps = 30\n", |scene| {
+        scene.title = Some("T".to_owned());
+        scene.sheet.rows = Some(3);
+    });
     let wanted = "# head\n\ntitle = \"T\"\n\n[profile]\nmodel = \"shelter\"\n\n[sheet]\nrows = 3\n\n[record]\nfps = 30\n";
     assert_eq!(text, wanted);
     let fresh = by("# only a comment", |scene| scene.sheet.rows = Some(3));
@@ -299,17 +283,9 @@ fn a_new_table_is_placed_in_the_order_of_a_scene() {
 fn a_point_between_others_leaves_their_lines_as_they_are() {
     let text = "[profile]\ncontrol_points = [\n    [0, 0],   # start\n    [2, 0],   # end\n]\n";
     let more = by(text, |scene| {
-        scene
-            .profile
-            .control_points
-            .as_mut()
-            .unwrap()
-            .insert(1, [1.0, 0.5]);
+        scene.profile.control_points.as_mut().unwrap().insert(1, [1.0, 0.5]);
     });
-    assert!(
-        more.contains("    [0, 0],") && more.contains("    [2, 0],   # end\n]"),
-        "{more}"
-    );
+    assert!(more.contains("    [0, 0],") && more.contains("    [2, 0],   # end\n]"), "{more}");
     assert!(more.contains("\n    [1.0, 0.5],"), "{more}");
     let moved = by(text, |scene| {
         scene.profile.control_points.as_mut().unwrap()[1][1] = 0.5;
@@ -326,10 +302,7 @@ fn many_new_points_are_written_one_per_line() {
     let text = by("[profile]\n", |scene| {
         scene.profile.points = Some((0..9).map(|k| [f64::from(k), 0.25]).collect());
     });
-    assert!(
-        text.contains("points = [\n    [0.0, 0.25],\n    [1.0, 0.25],"),
-        "{text}"
-    );
+    assert!(text.contains("points = [\n    [0.0, 0.25],\n    [1.0, 0.25],"), "{text}");
     assert!(text.ends_with("[8.0, 0.25],\n]\n"), "{text}");
 }
 
@@ -345,10 +318,7 @@ fn steps_change_one_by_one() {
     let third = "\n[[motion.step]]\nstage = \"fold\"\nto = 0.5\n";
     assert_eq!(more, text.replace("half\n", &format!("half\n{third}")));
     let fewer = by(text, |scene| drop(scene.motion.step.remove(0)));
-    assert!(
-        fewer.contains("# second\n[[motion.step]]") && !fewer.contains("# half"),
-        "{fewer}"
-    );
+    assert!(fewer.contains("# second\n[[motion.step]]") && !fewer.contains("# half"), "{fewer}");
     let none = by(text, |scene| scene.motion.step.clear());
     assert_eq!(none, "[motion]\nframes = 60\n\n[check]\n");
 }

@@ -37,9 +37,7 @@ impl Keys {
     }
 
     pub(super) fn get(&self, key: &str) -> Option<&Value> {
-        self.iter()
-            .find(|(other, _)| *other == key)
-            .map(|(_, value)| value)
+        self.iter().find(|(other, _)| *other == key).map(|(_, value)| value)
     }
 
     pub(super) fn iter(&self) -> impl Iterator<Item = (&str, &Value)> {
@@ -50,9 +48,7 @@ impl Keys {
 impl Value {
     fn of_item(item: &Item) -> Option<Self> {
         if let Item::ArrayOfTables(tables) = item {
-            let tables = tables
-                .iter()
-                .map(|table| Keys::of_table(table).map(Self::Table));
+            let tables = tables.iter().map(|table| Keys::of_table(table).map(Self::Table));
             return tables.collect::<Option<_>>().map(Self::List);
         }
         match item.as_value() {

@@ -28,11 +28,7 @@ pub(super) fn read(folder: &Path, endings: &[&str], hidden: bool) -> io::Result<
         let is_folder = kind.is_dir() || (kind.is_symlink() && path.is_dir());
         let shown = hidden || !name.starts_with('.');
         let fits = is_folder || has_ending(&path, endings);
-        (shown && fits).then_some(Entry {
-            name,
-            path,
-            is_folder,
-        })
+        (shown && fits).then_some(Entry { name, path, is_folder })
     });
     let mut entries: Vec<Entry> = entries.collect();
     entries.sort_by_cached_key(|e| (!e.is_folder, e.name.to_lowercase(), e.name.clone()));
@@ -42,10 +38,7 @@ pub(super) fn read(folder: &Path, endings: &[&str], hidden: bool) -> io::Result<
 /// Whether a path has one of the extensions; true if there are none.
 pub(super) fn has_ending(path: &Path, endings: &[&str]) -> bool {
     let own = path.extension().and_then(|e| e.to_str());
-    endings.is_empty()
-        || endings
-            .iter()
-            .any(|e| own.is_some_and(|own| own.eq_ignore_ascii_case(e)))
+    endings.is_empty() || endings.iter().any(|e| own.is_some_and(|own| own.eq_ignore_ascii_case(e)))
 }
 
 /// The path that was typed: absolute, relative to the home folder (`~/`), or relative to `folder`.
@@ -69,10 +62,7 @@ pub(super) fn completed(folder: &Path, typed: &str, endings: &[&str]) -> Option<
     let mut found: Vec<&Entry> = entries.iter().filter(alike).collect();
     if found.is_empty() {
         let begun = begun.to_lowercase();
-        found = entries
-            .iter()
-            .filter(|e| e.name.to_lowercase().starts_with(&begun))
-            .collect();
+        found = entries.iter().filter(|e| e.name.to_lowercase().starts_with(&begun)).collect();
     }
     let first = found.first()?;
     let common = found.iter().fold(first.name.as_str(), |common, e| {
@@ -81,10 +71,6 @@ pub(super) fn completed(folder: &Path, typed: &str, endings: &[&str]) -> Option<
         &common[..end.map_or(0, |((at, c), _)| at + c.len_utf8())]
     });
     let whole = found.len() == 1 && first.is_folder;
-    let common = if common.len() < begun.len() {
-        begun
-    } else {
-        common
-    };
+    let common = if common.len() < begun.len() { begun } else { common };
     Some(format!("{way}{common}{}", if whole { "/" } else { "" }))
 }

@@ -109,10 +109,7 @@ impl FilePicker {
         self.entries = match folder::read(&self.folder, &self.endings, self.hidden) {
             Ok(entries) => entries,
             Err(error) => {
-                self.message = Some(format!(
-                    "{}: cannot be read: {error}",
-                    self.folder.display()
-                ));
+                self.message = Some(format!("{}: cannot be read: {error}", self.folder.display()));
                 Vec::new()
             }
         };
@@ -136,10 +133,7 @@ impl FilePicker {
         let left = self.folder.clone();
         if let Some(parent) = left.parent() {
             self.go(parent);
-            let entry = self
-                .shown
-                .iter()
-                .position(|&index| self.entries[index].path == left);
+            let entry = self.shown.iter().position(|&index| self.entries[index].path == left);
             self.selected = entry;
         }
     }

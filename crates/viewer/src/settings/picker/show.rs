@@ -51,12 +51,9 @@ impl FilePicker {
             return None;
         }
         let pressed = |key| ui.input_mut(|input| input.consume_key(Modifiers::NONE, key));
-        for (key, by) in [
-            (Key::ArrowDown, 1),
-            (Key::ArrowUp, -1),
-            (Key::PageDown, 12),
-            (Key::PageUp, -12),
-        ] {
+        for (key, by) in
+            [(Key::ArrowDown, 1), (Key::ArrowUp, -1), (Key::PageDown, 12), (Key::PageUp, -12)]
+        {
             if pressed(key) {
                 self.step(by);
             }
@@ -66,11 +63,7 @@ impl FilePicker {
         } else if !self.typed.is_empty() && pressed(Key::Tab) {
             self.complete();
         }
-        if pressed(Key::Enter) {
-            self.enter()
-        } else {
-            None
-        }
+        if pressed(Key::Enter) { self.enter() } else { None }
     }
 
     /// Buttons for the parent folders.
@@ -84,9 +77,7 @@ impl FilePicker {
                 ui.weak("…");
             }
             for folder in way.into_iter().rev() {
-                let name = folder
-                    .file_name()
-                    .map(|name| name.to_string_lossy().into_owned());
+                let name = folder.file_name().map(|name| name.to_string_lossy().into_owned());
                 let name = name.unwrap_or_else(|| folder.display().to_string());
                 let tip = folder.display().to_string();
                 if ui.button(name).on_hover_text(tip).clicked() {
@@ -113,12 +104,8 @@ impl FilePicker {
 
     /// The folders and files. Only visible rows are laid out.
     fn list(&mut self, ui: &mut Ui, height: f32) -> Option<PickerResult> {
-        let row = ui
-            .text_style_height(&TextStyle::Button)
-            .max(ui.spacing().interact_size.y);
-        let mut scroll = ScrollArea::vertical()
-            .auto_shrink([false, false])
-            .max_height(height);
+        let row = ui.text_style_height(&TextStyle::Button).max(ui.spacing().interact_size.y);
+        let mut scroll = ScrollArea::vertical().auto_shrink([false, false]).max_height(height);
         if std::mem::take(&mut self.scrolls) {
             let gap = ui.spacing().item_spacing.y;
             let pitch = row + gap;
@@ -165,25 +152,15 @@ impl FilePicker {
                     if ui.button("Keep it").clicked() {
                         self.overwrites = None;
                     }
-                    ui.button("Overwrite")
-                        .clicked()
-                        .then_some(PickerResult::File(path))
+                    ui.button("Overwrite").clicked().then_some(PickerResult::File(path))
                 })
                 .inner;
         }
         ui.horizontal(|ui| {
-            let label = ui.label(if self.is_saving {
-                "Name"
-            } else {
-                "Name or path"
-            });
+            let label = ui.label(if self.is_saving { "Name" } else { "Name or path" });
             let tabs = !self.typed.is_empty();
-            let field = TextEdit::singleline(&mut self.typed)
-                .id(text_id())
-                .lock_focus(tabs);
-            let field = ui
-                .add(field.desired_width(f32::INFINITY))
-                .labelled_by(label.id);
+            let field = TextEdit::singleline(&mut self.typed).id(text_id()).lock_focus(tabs);
+            let field = ui.add(field.desired_width(f32::INFINITY)).labelled_by(label.id);
             if field.changed() {
                 self.message = None;
                 self.filter();

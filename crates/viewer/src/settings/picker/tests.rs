@@ -18,10 +18,7 @@ struct App {
 }
 
 fn harness(picker: FilePicker, appearance: Appearance) -> Harness<'static, App> {
-    let app = App {
-        picker,
-        picked: None,
-    };
+    let app = App { picker, picked: None };
     let builder = builder(appearance, vec2(800.0, 600.0)).with_step_dt(0.02);
     let show = |ui: &mut eframe::egui::Ui, app: &mut App| {
         if app.picked.is_none() {
@@ -78,20 +75,8 @@ fn folders_come_first_and_only_fitting_files_are_listed() {
         let entries = folder::read(folder.path(), &["toml"], hidden).unwrap();
         entries.into_iter().map(|e| e.name).collect::<Vec<_>>()
     };
-    assert_eq!(
-        names(false),
-        ["imported", "other", "shelter.toml", "Spiral.TOML"]
-    );
-    assert_eq!(
-        names(true),
-        [
-            "imported",
-            "other",
-            ".hidden.toml",
-            "shelter.toml",
-            "Spiral.TOML"
-        ]
-    );
+    assert_eq!(names(false), ["imported", "other", "shelter.toml", "Spiral.TOML"]);
+    assert_eq!(names(true), ["imported", "other", ".hidden.toml", "shelter.toml", "Spiral.TOML"]);
 }
 
 #[test]
@@ -139,33 +124,21 @@ fn a_path_is_completed_step_by_step() {
     let folder = folder();
     let complete = |typed| folder::completed(folder.path(), typed, &["toml"]);
     assert_eq!(complete("im").as_deref(), Some("imported/"));
-    assert_eq!(
-        complete("imported/").as_deref(),
-        Some("imported/miura.toml")
-    );
+    assert_eq!(complete("imported/").as_deref(), Some("imported/miura.toml"));
     assert_eq!(complete("s").as_deref(), Some("shelter.toml"));
     assert_eq!(complete("none"), None);
     fs::write(folder.path().join("shelf.toml"), "").unwrap();
     assert_eq!(complete("s").as_deref(), Some("shel"));
     let home = std::env::home_dir().unwrap();
     assert_eq!(folder::resolve(folder.path(), "~/a"), home.join("a"));
-    assert_eq!(
-        folder::resolve(folder.path(), "~a"),
-        folder.path().join("~a")
-    );
+    assert_eq!(folder::resolve(folder.path(), "~a"), folder.path().join("~a"));
 }
 
 #[test]
 fn a_double_click_chooses_and_breadcrumbs_go_to_parent_folders() {
     let folder = folder();
     let mut harness = harness(open(&folder.path().join("imported")), Appearance::Dark);
-    let name = folder
-        .path()
-        .file_name()
-        .unwrap()
-        .to_str()
-        .unwrap()
-        .to_owned();
+    let name = folder.path().file_name().unwrap().to_str().unwrap().to_owned();
     harness.get_by_label(&name).click();
     harness.run();
     // Long enough that the next click does not count as a double click.
@@ -183,10 +156,7 @@ fn saving_adds_the_ending_and_asks_before_it_overwrites() {
     let folder = folder();
     let mut fresh = harness(save(folder.path(), "new"), Appearance::Dark);
     press(&mut fresh, Key::Enter);
-    assert_eq!(
-        file_of(&fresh),
-        folder.path().canonicalize().unwrap().join("new.toml")
-    );
+    assert_eq!(file_of(&fresh), folder.path().canonicalize().unwrap().join("new.toml"));
 
     let mut harness = harness(save(folder.path(), "shelter.toml"), Appearance::Dark);
     press(&mut harness, Key::Enter);
@@ -202,11 +172,9 @@ fn saving_adds_the_ending_and_asks_before_it_overwrites() {
 #[test]
 fn saving_refuses_other_endings_and_folders_that_are_not_there() {
     let folder = folder();
-    for (name, reason) in [
-        ("a.fold", "must end in .toml"),
-        ("no/a", "folder not found"),
-        ("", "Type a name"),
-    ] {
+    for (name, reason) in
+        [("a.fold", "must end in .toml"), ("no/a", "folder not found"), ("", "Type a name")]
+    {
         let mut harness = harness(save(folder.path(), name), Appearance::Dark);
         press(&mut harness, Key::Enter);
         harness.get_by_label_contains(reason);
@@ -242,26 +210,14 @@ fn the_picker_is_drawn_dark_and_light() {
     let folder = folder();
     for appearance in [Appearance::Dark, Appearance::Light] {
         let recent = [folder.path().join("imported")];
-        let picker = FilePicker::open(
-            "Open a scene",
-            &["toml", "fold", "svg"],
-            folder.path(),
-            &recent,
-        );
+        let picker =
+            FilePicker::open("Open a scene", &["toml", "fold", "svg"], folder.path(), &recent);
         let mut harness = harness(picker, appearance);
         press(&mut harness, Key::ArrowDown);
-        drawn(
-            &mut harness,
-            &format!("picker-{}", appearance.name()),
-            [400, 150],
-        );
+        drawn(&mut harness, &format!("picker-{}", appearance.name()), [400, 150]);
         let mut harness = self::harness(save(folder.path(), "shelter"), appearance);
         press(&mut harness, Key::Enter);
-        let lit = drawn(
-            &mut harness,
-            &format!("picker-save-{}", appearance.name()),
-            [400, 150],
-        );
+        let lit = drawn(&mut harness, &format!("picker-save-{}", appearance.name()), [400, 150]);
         assert_eq!(lit < 128, appearance == Appearance::Dark, "{lit}");
     }
 }

@@ -18,12 +18,7 @@ pub(super) struct Buffer {
 
 impl Buffer {
     pub(super) fn instances(label: &'static str) -> Self {
-        Self {
-            label,
-            usage: wgpu::BufferUsages::VERTEX,
-            held: None,
-            count: 0,
-        }
+        Self { label, usage: wgpu::BufferUsages::VERTEX, held: None, count: 0 }
     }
 
     /// Replaces the contents by `records`.

@@ -24,17 +24,11 @@ impl LossMonitor {
     pub(in super::super) fn new(state: &RenderState) -> Self {
         let lost: Arc<Mutex<Option<String>>> = Arc::default();
         let told = Arc::clone(&lost);
-        state
-            .device
-            .set_device_lost_callback(move |reason, message| {
-                let mut told = told.lock().unwrap_or_else(PoisonError::into_inner);
-                told.get_or_insert_with(|| line(&format!("device lost ({reason:?}) {message}")));
-            });
-        Self {
-            device: state.device.clone(),
-            renderer: Arc::clone(&state.renderer),
-            lost,
-        }
+        state.device.set_device_lost_callback(move |reason, message| {
+            let mut told = told.lock().unwrap_or_else(PoisonError::into_inner);
+            told.get_or_insert_with(|| line(&format!("device lost ({reason:?}) {message}")));
+        });
+        Self { device: state.device.clone(), renderer: Arc::clone(&state.renderer), lost }
     }
 
     /// Whether it monitors the device of `state`.

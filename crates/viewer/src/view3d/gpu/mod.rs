@@ -76,10 +76,7 @@ impl Gpu {
             usage: wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST,
             mapped_at_creation: false,
         });
-        let (places, layers) = (
-            DataTexture::new(&device, 1, 4),
-            DataTexture::new(&device, 1, 2),
-        );
+        let (places, layers) = (DataTexture::new(&device, 1, 4), DataTexture::new(&device, 1, 2));
         let bind_group = bind(&device, &pipelines, &uniform, [&places, &layers]);
         Self {
             format,
@@ -121,9 +118,7 @@ impl Gpu {
         }
         let device = self.device.clone();
         catch_errors(&device, || self.follow(picture, view))?;
-        self.egui_texture
-            .id()
-            .ok_or_else(|| "no picture".to_owned())
+        self.egui_texture.id().ok_or_else(|| "no picture".to_owned())
     }
 
     fn follow(&mut self, picture: &Picture<'_>, view: &FrameView<'_>) {
@@ -174,8 +169,7 @@ impl Gpu {
         };
         let places = picture.positions.iter().flat_map(place).collect();
         self.places.write(&self.queue, places);
-        self.layers
-            .write(&self.queue, view.prepared.before.concat());
+        self.layers.write(&self.queue, view.prepared.before.concat());
         true
     }
 
@@ -185,8 +179,7 @@ impl Gpu {
             return false;
         }
         self.drawn.paints = Some(wanted);
-        self.paints
-            .write(&self.device, &self.queue, &paints(picture));
+        self.paints.write(&self.device, &self.queue, &paints(picture));
         true
     }
 
@@ -211,11 +204,7 @@ impl Gpu {
     }
 
     fn take_size(&mut self, size: [u32; 2]) -> bool {
-        if self
-            .target
-            .as_ref()
-            .is_some_and(|target| target.size == size)
-        {
+        if self.target.as_ref().is_some_and(|target| target.size == size) {
             return false;
         }
         let target = Target::new(&self.device, size, self.format);

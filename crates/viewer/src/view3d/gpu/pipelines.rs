@@ -142,10 +142,7 @@ fn pipeline(
             stencil: wgpu::StencilState::default(),
             bias: wgpu::DepthBiasState::default(),
         }),
-        multisample: wgpu::MultisampleState {
-            count: SAMPLES,
-            ..wgpu::MultisampleState::default()
-        },
+        multisample: wgpu::MultisampleState { count: SAMPLES, ..wgpu::MultisampleState::default() },
         fragment: Some(wgpu::FragmentState {
             module,
             entry_point: Some(pass.fragment),

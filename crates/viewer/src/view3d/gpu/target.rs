@@ -37,11 +37,7 @@ impl Target {
         let texture = |label, format, sample_count, usage, view_formats| {
             device.create_texture(&wgpu::TextureDescriptor {
                 label: Some(label),
-                size: wgpu::Extent3d {
-                    width: size[0],
-                    height: size[1],
-                    depth_or_array_layers: 1,
-                },
+                size: wgpu::Extent3d { width: size[0], height: size[1], depth_or_array_layers: 1 },
                 mip_level_count: 1,
                 sample_count,
                 dimension: wgpu::TextureDimension::D2,
@@ -116,10 +112,7 @@ pub(super) struct EguiTexture {
 
 impl EguiTexture {
     pub(super) fn new(state: &RenderState) -> Self {
-        Self {
-            renderer: Arc::clone(&state.renderer),
-            id: None,
-        }
+        Self { renderer: Arc::clone(&state.renderer), id: None }
     }
 
     /// Makes egui show `view`.

@@ -35,9 +35,8 @@ fn the_shader_is_valid_for_devices_without_extras() {
 #[test]
 fn the_view_has_the_size_of_the_shader_and_passes_read_what_buffers_hold() {
     let module = module();
-    let (_, view) = (module.types.iter())
-        .find(|(_, ty)| ty.name.as_deref() == Some("View"))
-        .unwrap();
+    let (_, view) =
+        (module.types.iter()).find(|(_, ty)| ty.name.as_deref() == Some("View")).unwrap();
     let naga::TypeInner::Struct { span, .. } = view.inner else {
         panic!("View is a struct");
     };
@@ -54,9 +53,7 @@ fn the_view_has_the_size_of_the_shader_and_passes_read_what_buffers_hold() {
     };
     let held = |buffers: &[&[wgpu::VertexAttribute]]| {
         let attributes = buffers.iter().flat_map(|b| b.iter());
-        attributes
-            .map(|a| a.format.size() as u32)
-            .collect::<Vec<u32>>()
+        attributes.map(|a| a.format.size() as u32).collect::<Vec<u32>>()
     };
     assert_eq!(read("face_vertex"), held(&[&CORNERS, &PAINTS]));
     assert_eq!(read("crease_vertex"), held(&[&CREASES]));
@@ -78,12 +75,7 @@ impl Subject {
         let units = UnitSheet::new(unit, rows, columns).unwrap();
         let order = units.compact_order();
         let layers = Layers::new(&units.sheet, &order, &units.compact());
-        Self {
-            units,
-            order,
-            layers,
-            style: Style::default(),
-        }
+        Self { units, order, layers, style: Style::default() }
     }
 
     pub(in super::super) fn picture<'a>(
@@ -119,9 +111,7 @@ fn drawn(gpu: &mut Gpu, picture: &Picture<'_>, orbit: &OrbitCamera) -> Image {
     let prepared = PreparedSheet::new(picture);
     let size = DVec2::from(SIZE.map(f64::from));
     let lines = segments(picture);
-    let sphere = prepared
-        .sphere
-        .with(lines.iter().flat_map(|line| line.ends));
+    let sphere = prepared.sphere.with(lines.iter().flat_map(|line| line.ends));
     let projection = Projection::new(orbit, size, sphere);
     let view = FrameView {
         projection: &projection,
@@ -143,9 +133,7 @@ fn read(gpu: &Gpu) -> Image {
         usage: wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::MAP_READ,
         mapped_at_creation: false,
     });
-    let mut encoder = gpu
-        .device
-        .create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+    let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
     let picture = gpu.target.as_ref().unwrap().picture();
     encoder.copy_texture_to_buffer(
         picture.as_image_copy(),
@@ -161,17 +149,11 @@ fn read(gpu: &Gpu) -> Image {
     );
     gpu.queue.submit([encoder.finish()]);
     buffer.map_async(wgpu::MapMode::Read, .., |done| done.unwrap());
-    gpu.device
-        .poll(wgpu::PollType::wait_indefinitely())
-        .unwrap();
+    gpu.device.poll(wgpu::PollType::wait_indefinitely()).unwrap();
     let bytes = buffer.get_mapped_range(..).unwrap();
     let rows = bytes.chunks(row as usize).map(|r| &r[..4 * width as usize]);
     let pixels = rows.flat_map(|r| r.chunks(4).map(|p| [p[0], p[1], p[2]]));
-    Image {
-        width,
-        height,
-        pixels: pixels.collect(),
-    }
+    Image { width, height, pixels: pixels.collect() }
 }
 
 /// Saves a picture in the folder FOLDMOTION_PICTURES, if it is set, to be looked at.
@@ -205,12 +187,7 @@ fn part(a: &Image, b: &Image, differ: impl Fn([u8; 3], [u8; 3]) -> bool) -> f64 
     count as f64 / a.pixels.len() as f64
 }
 
-const CASES: [(Case, f64); 4] = [
-    (Case::E, 1.0),
-    (Case::T, 0.8),
-    (Case::S, 1.6),
-    (Case::SII, 1.7),
-];
+const CASES: [(Case, f64); 4] = [(Case::E, 1.0), (Case::T, 0.8), (Case::S, 1.6), (Case::SII, 1.7)];
 
 /// Views of the compact state from all sides, also from below.
 fn views() -> Vec<Direction> {
@@ -346,10 +323,7 @@ fn paper_has_the_colours_of_films_on_both_sides() {
     for (key, view) in (1..).zip([
         Direction::Top,
         Direction::Iso,
-        Direction::Around {
-            azimuth: 10.0,
-            elevation: -50.0,
-        },
+        Direction::Around { azimuth: 10.0, elevation: -50.0 },
     ]) {
         let orbit = fitted(view, &flat);
         let camera = orbit.camera(SIZE).unwrap();
@@ -360,19 +334,12 @@ fn paper_has_the_colours_of_films_on_both_sides() {
         let window = drawn(&mut gpu, &picture, &orbit);
         let middle = |image: &Image| image.pixel(SIZE[0] / 2, SIZE[1] / 2);
         let [a, b] = [&film, &window].map(middle);
-        assert!(
-            (0..3).all(|c| a[c].abs_diff(b[c]) <= 1),
-            "{view:?}: {a:?} {b:?}"
-        );
+        assert!((0..3).all(|c| a[c].abs_diff(b[c]) <= 1), "{view:?}: {a:?} {b:?}");
     }
 }
 
 fn red(shape: Shape<'_>, width: f32) -> [Overlay<'_>; 1] {
-    [Overlay {
-        shape,
-        colour: Color32::from_rgb(255, 0, 0),
-        width,
-    }]
+    [Overlay { shape, colour: Color32::from_rgb(255, 0, 0), width }]
 }
 
 /// The darkness of the middle row of pixels, summed up.
@@ -398,10 +365,7 @@ fn lines_have_the_same_width_at_any_zoom() {
     let flat = subject.units.sheet.planar();
     let mut picture = subject.picture(&flat, 1);
     // Only the border is drawn, its left side in the middle of the view.
-    picture.creases = CreaseClasses {
-        border: true,
-        ..CreaseClasses::NONE
-    };
+    picture.creases = CreaseClasses { border: true, ..CreaseClasses::NONE };
     let mut orbit = fitted(Direction::Top, &flat);
     let left = flat.iter().map(|p| p.x).fold(f64::INFINITY, f64::min);
     orbit.centre.x = left;
@@ -435,11 +399,7 @@ fn overlays_are_dimmed_behind_the_sheet_and_dots_and_pulls_are_not() {
     let middle = orbit.centre;
     let line = |z: f64| [-0.5, 0.5].map(|x| middle + DVec3::new(x, 0.0, z));
     let colour = |gpu: &mut Gpu, overlays: &[Overlay<'_>], pull| {
-        let picture = Picture {
-            overlays,
-            pull,
-            ..picture
-        };
+        let picture = Picture { overlays, pull, ..picture };
         drawn(gpu, &picture, &orbit).pixel(SIZE[0] / 2, SIZE[1] / 2)
     };
     let [above, below] = [1.0, -1.0].map(line);
@@ -447,17 +407,11 @@ fn overlays_are_dimmed_behind_the_sheet_and_dots_and_pulls_are_not() {
     assert_eq!(before, [255, 0, 0]);
     let behind = colour(&mut gpu, &red(Shape::Path(&below), 5.0), None);
     let paper = plain.pixel(SIZE[0] / 2, SIZE[1] / 2);
-    assert!(
-        behind[1] < paper[1] && behind[1] > 100,
-        "{behind:?} on {paper:?}"
-    );
+    assert!(behind[1] < paper[1] && behind[1] > 100, "{behind:?} on {paper:?}");
     let dots = [middle + DVec3::new(0.0, 0.0, -1.0)];
     let dot = red(Shape::Dots(&dots), 9.0);
     assert_eq!(colour(&mut gpu, &dot, None), [255, 0, 0]);
-    let pull = VertexPull {
-        vertex: 0,
-        target: dots[0],
-    };
+    let pull = VertexPull { vertex: 0, target: dots[0] };
     assert_eq!(colour(&mut gpu, &[], Some(pull)), subject.style.mark);
 }
 
@@ -477,10 +431,7 @@ fn flashing_triangles_go_from_the_colour_of_paper_to_that_of_marks() {
         drawn(&mut gpu, &picture, &orbit).pixel(SIZE[0] / 2, SIZE[1] / 2)
     };
     let (paper, marked) = (at(0.0), at(1.0));
-    assert!(
-        class(paper) == Class::Front && marked[1] < 60 && marked[0] > 150,
-        "{marked:?}"
-    );
+    assert!(class(paper) == Class::Front && marked[1] < 60 && marked[0] > 150, "{marked:?}");
 }
 
 #[test]
