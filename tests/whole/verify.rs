@@ -118,7 +118,7 @@ impl Random {
 fn leaves(value: &Value, at: &str, found: &mut Vec<String>) {
     match value {
         Value::Object(map) => {
-            map.iter().for_each(|(key, v)| leaves(v, &format!("{at}/{key}"), found))
+            map.iter().for_each(|(key, v)| leaves(v, &format!("{at}/{key}"), found));
         }
         Value::Array(list) => (0..).zip(list).for_each(|(k, v)| {
             let k: usize = k;

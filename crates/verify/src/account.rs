@@ -138,7 +138,7 @@ impl Verifier<'_> {
         let stated = self.claimed.get(&faces).map(|p| p.frame);
         match stated {
             Some(frame) => {
-                self.refute(&format!("penetrations[{faces:?}].frames"), frame, self.frames - 1)
+                self.refute(&format!("penetrations[{faces:?}].frames"), frame, self.frames - 1);
             }
             // If nothing nearby is listed either, that was refuted when the evidence was evaluated.
             None if self.is_listed_around(faces, self.last.time) => {

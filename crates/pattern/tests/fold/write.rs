@@ -57,10 +57,10 @@ fn fold_angles_carry_the_sign_of_their_assignment_and_borders_have_none() {
             ('B', None) => {}
             // Folded flat, a half turn is measured with either sign.
             ('M', Some(a)) => {
-                assert!((a + 90.0).abs() < 1e-9 || (a.abs() - 180.0).abs() < 1e-9, "{a}")
+                assert!((a + 90.0).abs() < 1e-9 || (a.abs() - 180.0).abs() < 1e-9, "{a}");
             }
             ('V', Some(a)) => {
-                assert!((a - 90.0).abs() < 1e-9 || (a.abs() - 180.0).abs() < 1e-9, "{a}")
+                assert!((a - 90.0).abs() < 1e-9 || (a.abs() - 180.0).abs() < 1e-9, "{a}");
             }
             ('F', Some(a)) => assert!(a.abs() < 1e-9),
             other => panic!("{other:?}"),

@@ -107,7 +107,7 @@ impl Drawing {
                     draw(&mut content, parts.iter().map(|part| &part[..]), stroke);
                 }
                 Item::Words { at, text, size, anchor } => {
-                    write(&mut content, font, *at, text, *size, *anchor)
+                    write(&mut content, font, *at, text, *size, *anchor);
                 }
                 Item::Picture { at, image } => {
                     draw_picture(&mut content, *at, image, &picture_name(images.len()));

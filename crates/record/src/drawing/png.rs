@@ -67,7 +67,7 @@ impl Drawing {
                     stroke_path(&mut pixmap, lines.as_ref(), stroke);
                 }
                 Item::Words { at, text, size, anchor } => {
-                    fill(&mut pixmap, letters(&face, *at, text, *size, *anchor), WORDS)
+                    fill(&mut pixmap, letters(&face, *at, text, *size, *anchor), WORDS);
                 }
                 Item::Picture { at, image } => {
                     // Whole pixels, so that nothing is sampled anew.

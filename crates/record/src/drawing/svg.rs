@@ -32,7 +32,7 @@ impl Drawing {
                     svg.push_str(&line(&path, stroke));
                 }
                 Item::Words { at, text, size, anchor } => {
-                    svg.push_str(&words(*at, text, *size, *anchor))
+                    svg.push_str(&words(*at, text, *size, *anchor));
                 }
                 Item::Picture { at, image } => {
                     let [x, y] = [at.x, at.y].map(number);
