@@ -77,7 +77,7 @@ pub(crate) enum Command {
 pub(crate) struct RunArguments {
     /// The scene file, or a crease pattern: .fold, or .svg in Origami Simulator's colours
     pub(crate) scene: PathBuf,
-    /// Folder for the results. Default: out/<name of the file>
+    /// Folder for the results. Default: out/ and the name of the file
     #[arg(long)]
     pub(crate) out: Option<PathBuf>,
     /// Override a key of the scene, such as sheet.columns=5
@@ -133,7 +133,7 @@ pub(crate) enum DeviceChoice {
 pub(crate) struct CheckArguments {
     /// The motion: a FOLD file with frames
     pub(crate) motion: PathBuf,
-    /// Folder for certificate.json. Default: out/<name of the file>
+    /// Folder for certificate.json. Default: out/ and the name of the file
     #[arg(long)]
     pub(crate) out: Option<PathBuf>,
     /// Prove the statement of this certificate.json again by a second method; writes nothing

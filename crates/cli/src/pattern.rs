@@ -13,7 +13,7 @@ use foldmotion_study::{
 pub(crate) struct PatternArguments {
     /// The scene file
     pub(crate) scene: PathBuf,
-    /// Folder for the results. Default: out/<name of the scene>
+    /// Folder for the results. Default: out/ and the name of the scene
     #[arg(long)]
     pub(crate) out: Option<PathBuf>,
     /// Override a key of the scene, such as sheet.columns=5

@@ -19,7 +19,7 @@ pub(crate) struct RecordArguments {
     /// The motion: a FOLD file with frames
     #[arg(required_unless_present = "again")]
     pub(crate) motion: Option<PathBuf>,
-    /// Folder for the results. Default: out/<name of the file>
+    /// Folder for the results. Default: out/ and the name of the file
     #[arg(long)]
     pub(crate) out: Option<PathBuf>,
     /// Reproduce this recorded file from the scene or motion named inside it: next to it as NAME-again, or in --out. If the
@@ -47,7 +47,7 @@ pub(crate) struct RecordArguments {
     pub(crate) hold: Option<HoldScene>,
     #[arg(long = "loop", help = tip("record.loop"), value_name = "HOW", value_parser = choice::<Playback>("record.loop", parse_choice))]
     pub(crate) playback: Option<Playback>,
-    /// iso, front, side, top, turntable, or AZIMUTH,ELEVATION[,TURN] in degrees. Default: iso
+    /// iso, front, side, top, turntable, or AZIMUTH,ELEVATION or AZIMUTH,ELEVATION,TURN in degrees. Default: iso
     #[arg(long, value_parser = parse_camera, allow_hyphen_values = true)]
     pub(crate) camera: Option<CameraScene>,
     #[arg(long, help = tip("record.colour"), value_parser = choice::<ColourChoice>("record.colour", parse_choice))]
