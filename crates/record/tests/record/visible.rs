@@ -250,37 +250,32 @@ fn between(units: &UnitSheet, part: f64) -> Vec<DVec3> {
     pairs.map(|(p, q)| p.lerp(q, part)).collect()
 }
 
-#[test]
-fn areas_are_those_that_rays_meet_first_from_flat_to_compact() {
+/// How much `compare` compares over all sheets and states, of which nothing may be wrong.
+fn compared_from_flat_to_compact(compare: fn(&State<'_>, &Visible, usize) -> Count) -> usize {
     let mut compared = 0;
     for units in sheets() {
         let order = units.compact_order();
         for part in [0.0, 0.3, 0.6, 0.9, 0.995, 1.0] {
             let positions = between(&units, part);
             for state in states(&units, &positions, &order) {
-                let count = compare_areas(&state, &state.visible(), 400);
+                let count = compare(&state, &state.visible(), 400);
                 assert_eq!(count.wrong, 0, "{:?} {part}: {count:?}", units.unit.case);
                 compared += count.compared;
             }
         }
     }
+    compared
+}
+
+#[test]
+fn areas_are_those_that_rays_meet_first_from_flat_to_compact() {
+    let compared = compared_from_flat_to_compact(compare_areas);
     assert!(compared > 20_000, "{compared}");
 }
 
 #[test]
 fn lines_are_seen_where_rays_beside_them_meet_their_triangles_first() {
-    let mut compared = 0;
-    for units in sheets() {
-        let order = units.compact_order();
-        for part in [0.0, 0.3, 0.6, 0.9, 0.995, 1.0] {
-            let positions = between(&units, part);
-            for state in states(&units, &positions, &order) {
-                let count = compare_lines(&state, &state.visible(), 400);
-                assert_eq!(count.wrong, 0, "{:?} {part}: {count:?}", units.unit.case);
-                compared += count.compared;
-            }
-        }
-    }
+    let compared = compared_from_flat_to_compact(compare_lines);
     assert!(compared > 10_000, "{compared}");
 }
 

@@ -13,6 +13,7 @@ use super::outcome::Outcome;
 use super::path::PathReport;
 use super::series::FrameFigures;
 use super::stop::StopReport;
+use super::symmetry::SymmetryReport;
 use crate::Study;
 use crate::resolve::subject::Subject;
 
@@ -42,6 +43,8 @@ pub struct Folded {
     pub(crate) stop: Option<StopReport>,
     /// How close the creases came to their targets.
     pub(crate) fold_angles: FoldAngleReport,
+    /// How well a sheet of units keeps its mirror symmetries.
+    pub(crate) symmetry: Vec<SymmetryReport>,
     pub(crate) computed: EngineRun,
     pub(crate) path: PathReport,
     /// Seconds of all runs of the engine.

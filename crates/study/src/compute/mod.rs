@@ -29,7 +29,9 @@ use self::jam::JamReport;
 use self::outcome::{Outcome, OutcomeInput};
 use self::path::PathReport;
 use self::stop::StopCause;
+use self::symmetry::SymmetryReport;
 use crate::resolve::budget::MotionBudget;
+use crate::resolve::subject::Subject;
 use crate::{Phase, Study, StudyError, Watch};
 
 /// The largest number of refinements; each divides the deviation of the paths by 16.
@@ -155,6 +157,10 @@ impl Study {
             jam,
             stop,
             fold_angles,
+            symmetry: match self.subject {
+                Subject::Units(_) => SymmetryReport::all(&checked_run.motion),
+                Subject::Imported(_) => Vec::new(),
+            },
             path: self.path_report(frames, &checked_run.strays, rounds, added),
             computed: checked_run.computed,
             motion: checked_run.motion,

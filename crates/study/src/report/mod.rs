@@ -158,7 +158,7 @@ impl Study {
             unfold: units.map(|study| unfold_report(&study.unfolding)),
             stages: computed.stages.iter().map(|s| stage_report(s, &findings.series)).collect(),
             fold_angles,
-            symmetry: units.map_or_else(Vec::new, |_| SymmetryReport::all(&folded.motion)),
+            symmetry: folded.symmetry.clone(),
             jam: folded.jam.clone(),
             stop: folded.stop,
             collision: self.collision_section(&findings.collision),

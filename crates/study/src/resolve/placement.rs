@@ -55,11 +55,12 @@ fn half_turn(exact: &ExactStates<'_>) -> DMat3 {
         let fit = RigidMotion::best_fit(exact.deployed, &planar);
         axis_and_angle(fit.rotation).1
     };
-    let lies_the_other_way = angle(DMat3::IDENTITY) > PI - QUARTER_TURN / 2.0;
+    if angle(DMat3::IDENTITY) <= PI - QUARTER_TURN / 2.0 {
+        return DMat3::IDENTITY;
+    }
     let axes = [DVec3::Z, DVec3::Y, DVec3::X];
-    let turns = axes.map(|axis| DMat3::from_diagonal(2.0 * axis - DVec3::ONE));
-    let fitting = turns.into_iter().find(|&turn| angle(turn) < QUARTER_TURN / 2.0);
-    fitting.filter(|_| lies_the_other_way).unwrap_or(DMat3::IDENTITY)
+    let mut turns = axes.map(|axis| DMat3::from_diagonal(2.0 * axis - DVec3::ONE)).into_iter();
+    turns.find(|&turn| angle(turn) < QUARTER_TURN / 2.0).unwrap_or(DMat3::IDENTITY)
 }
 
 /// `positions` turned about their centre.

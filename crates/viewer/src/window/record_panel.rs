@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use eframe::egui::{Button, Checkbox, DragValue, Grid, TextEdit, Ui};
+use foldmotion_record::FilmOptions;
 use foldmotion_study::scene::{CameraScene, ColourChoice, OutputChoice, OwnCamera, RecordScene};
 
 use crate::settings::Colour;
@@ -45,7 +46,7 @@ impl Default for RecordPanel {
     fn default() -> Self {
         Self {
             outputs: vec![OutputChoice::Gif],
-            size: [960, 720],
+            size: FilmOptions::default().size,
             seconds: 8.0,
             only_now: false,
             folder: None,
