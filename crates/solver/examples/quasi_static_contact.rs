@@ -40,7 +40,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let schedule = Schedule::uniform(&sheet.sheet, &angles, sheet.compact_angles())?;
     let options = QuasiStaticOptions {
         frames,
-        contact: (gap > 0.0).then_some(Contact { gap }),
+        contact: (gap > 0.0).then_some(Contact { gap, ..Contact::default() }),
         ..QuasiStaticOptions::default()
     };
     let start = Instant::now();
@@ -72,11 +72,12 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     }
     println!("  last {:?} jam {:?}", run.figures.last(), run.jam);
     println!(
-        "  factorisations {} analyses {} frames {} jam {}",
+        "  factorisations {} analyses {} frames {} gap {:?} {:?}",
         run.factorisations,
         run.analyses,
         run.frames.len(),
-        run.jam.as_ref().map_or(0, |j| j.blocking.len())
+        run.gap_reached,
+        run.effort
     );
     Ok(())
 }

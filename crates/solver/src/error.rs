@@ -206,6 +206,14 @@ pub enum SolverError {
         /// The largest the sheet can close to.
         maximum: f64,
     },
+    /// A final gap that is no distance, or larger than the gap it closes from.
+    #[error("the final gap is {final_gap} unit lengths; it must be above 0 and at most the gap of {gap}")]
+    FinalGap {
+        /// The final gap that was requested.
+        final_gap: f64,
+        /// The gap.
+        gap: f64,
+    },
     /// The start state crosses itself, so that contact cannot keep its layers apart.
     #[error(
         "triangles {} and {} cross each other in the start state; contact needs a start free of crossings, or must be \

@@ -21,21 +21,23 @@ pub(super) struct History {
     last: Configuration,
     /// Through how many of them to extrapolate.
     used: usize,
-    most: usize,
 }
 
 impl History {
     /// A path that starts at `s` in `start`.
-    pub(super) fn new(s: f64, start: Configuration, in_contact: bool) -> Self {
-        let most = if in_contact { MOST_STATES_IN_CONTACT } else { MOST_STATES };
-        Self { most, states: VecDeque::from([(s, start.positions.clone())]), last: start, used: 1 }
+    pub(super) fn new(s: f64, start: Configuration) -> Self {
+        Self { states: VecDeque::from([(s, start.positions.clone())]), last: start, used: 1 }
     }
 
     /// Adds an equilibrium. The earlier ones are moved rigidly onto it, so that what is extrapolated is how the sheet
     /// folds: the rigid motion of a state is arbitrary, and extrapolating it would make it grow without bound.
     ///
     /// From now on as many states are used as would have foretold this one best, or one more if that was all.
-    pub(super) fn push(&mut self, s: f64, state: Configuration) {
+    pub(super) fn push(&mut self, s: f64, state: Configuration, in_contact: bool) {
+        let most = if in_contact { MOST_STATES_IN_CONTACT } else { MOST_STATES };
+        while self.states.len() > most {
+            self.states.pop_front();
+        }
         let motion = RigidMotion::best_fit(&self.last.positions, &state.positions);
         for (_, earlier) in &mut self.states {
             for position in earlier {
@@ -52,9 +54,9 @@ impl History {
         let best = (1..=known).min_by(|&a, &b| errors[a - 1].total_cmp(&errors[b - 1]));
         self.used = match best {
             Some(best) if best < known => best,
-            _ => self.most.min(known + 1),
+            _ => most.min(known + 1),
         };
-        if known == self.most {
+        if known == most {
             self.states.pop_front();
         }
         self.states.push_back((s, state.positions.clone()));

@@ -5,11 +5,12 @@
 //! [`Contact`] the layers push on each other and cannot pass through one another.
 //!
 //! Limits. The path is that of a sheet folded slowly: where equilibrium is lost it snaps to the next, and which one
-//! that is depends on the step of the search. Layers have the thickness of the gap in contact, which soft bars make
-//! room for by straining: compact extents then exceed the closed form by a length of the order of the gap. Bars too
-//! stiff to strain that far leave the creases open by an angle of the order of the root of the gap instead.
+//! that is depends on the step of the search. Layers keep the gap in contact, which [`Contact::final_gap`] closes at the
+//! end: compact extents then exceed the closed form by at most the layers met times that gap, or, where bars are too
+//! stiff to make room by straining, by what creases open by an angle of the order of its root.
 
 mod cholesky;
+mod closing;
 mod configuration;
 mod contact;
 mod element_stiffness;
@@ -17,6 +18,7 @@ mod face_angle_hessian;
 mod hinge_hessian;
 mod history;
 mod jam;
+mod model_step;
 mod newton;
 mod options;
 mod outcome;
@@ -28,7 +30,7 @@ mod stiffness_matrix;
 pub use contact::Contact;
 pub use hinge_hessian::fold_angle_hessian;
 pub use options::{QuasiStaticOptions, Support};
-pub use outcome::{FrameFigures, Jam, QuasiStaticRun, StageOutcome, Stop, StopReason};
+pub use outcome::{Effort, FrameFigures, Jam, QuasiStaticRun, StageOutcome, Stop, StopReason};
 pub use run::run_quasi_static;
 
 use configuration::Configuration;
@@ -42,8 +44,8 @@ pub fn force_scale(model: &Model) -> f64 {
     model.material.fold_stiffness.max(model.material.facet_stiffness)
 }
 
-/// F of the barriers at the start: ten times what hinges push with, or bars strained by a thousandth if that is more.
-fn barrier_force(model: &Model) -> f64 {
+/// κ g of contact: ten times what hinges push with, or bars strained by a thousandth if that is more.
+fn contact_force(model: &Model) -> f64 {
     10.0 * force_scale(model).max(1e-3 * model.material.axial_stiffness)
 }
 

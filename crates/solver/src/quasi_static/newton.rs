@@ -9,6 +9,8 @@
 //! for the following steps too (the chord method): near the equilibrium they cost a fraction and lead to the same
 //! point. With contact every step is cut where two layers would come too close.
 
+use std::collections::BTreeSet;
+
 use glam::{DMat3, DVec3};
 
 use super::Support;
@@ -16,6 +18,8 @@ use super::configuration::{Configuration, dot, largest};
 use super::contact::ContactField;
 use super::element_stiffness::{Curvature, ElementMap, add_stiffness, coupled_nodes};
 use super::hinge_hessian::outer;
+use super::model_step::ModelStep;
+use super::outcome::Effort;
 use super::stiffness_matrix::StiffnessMatrix;
 use crate::budget::Allowance;
 use crate::{Model, SolverError};
@@ -39,8 +43,12 @@ const MOST_INERTIA: f64 = 1e-2;
 const INERTIA_DECAY: f64 = 0.25;
 /// A step with an earlier factor is taken where it is at most this share of the step before it.
 const CHORD_DECREASE: f64 = 0.1;
-/// Barriers this far out of reach, in reaches, are given room in the matrix.
-const ROOM: f64 = 2.0;
+/// Rounds in which the active planes of a step are found; after as many the step is taken as it is.
+const MOST_ROUNDS: usize = 20;
+/// A round that advances by less than this share ends the search for the step.
+const LEAST_ADVANCE: f64 = 1e-6;
+/// Contact is foreseen for steps that move no node further.
+const FURTHEST_FORESEEN: f64 = 0.05;
 
 /// The outcome of a search for equilibrium.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -82,6 +90,9 @@ pub(super) struct Newton<'a> {
     pub(super) contact: Option<ContactField>,
     pub(super) factorisations: usize,
     pub(super) analyses: usize,
+    /// The pairs of nodes that contact has coupled so far.
+    coupled: BTreeSet<[u32; 2]>,
+    pub(super) effort: Effort,
 }
 
 impl<'a> Newton<'a> {
@@ -108,13 +119,15 @@ impl<'a> Newton<'a> {
             contact,
             factorisations: 0,
             analyses: 1,
+            coupled: BTreeSet::new(),
+            effort: Effort::default(),
         })
     }
 
     /// Moves `state` to the equilibrium at `targets`, or as far as it gets within `allowance`.
     ///
-    /// `visit` is called with every state on the path and may end the search. On the straight path between two of them no layer
-    /// touches another.
+    /// `tolerances`: without contact, and where layers push. `visit` is called with every state on the path and may end
+    /// the search. On the straight path between two of them no layer touches another.
     ///
     /// # Errors
     /// Those of [`StiffnessMatrix::new`] and of `visit`.
@@ -122,13 +135,11 @@ impl<'a> Newton<'a> {
         &mut self,
         state: &mut Configuration,
         targets: &[f64],
-        tolerance: Tolerance,
+        tolerances: [Tolerance; 2],
         allowance: Allowance,
         visit: &mut dyn FnMut(&Configuration) -> Result<(), SolverError>,
     ) -> Result<SearchOutcome, SolverError> {
-        if let Some(contact) = &mut self.contact {
-            contact.prepare(&state.positions);
-        }
+        self.linearise(state);
         let mut energy = self.energy(state, targets);
         let mut gradient = self.gradient(state, targets);
         self.inertia = INERTIA;
@@ -136,13 +147,23 @@ impl<'a> Newton<'a> {
         let earlier = self.factorisations;
         let mut is_near = false;
         let mut iterations = 0;
+        let mut residual = largest(&gradient);
         loop {
-            let residual = largest(&gradient);
+            let pushes = |c: &ContactField| c.pushes();
+            let tolerance = tolerances[usize::from(self.contact.as_ref().is_some_and(pushes))];
             let factorisations = self.factorisations - earlier;
             let settled =
                 |converged| SearchOutcome { converged, residual, iterations, factorisations };
             let is_balanced = residual <= tolerance.force;
             if is_balanced && is_near {
+                let updates = |c: &mut ContactField| c.update_multipliers(&state.positions);
+                if self.contact.as_mut().is_some_and(updates) {
+                    energy = self.energy(state, targets);
+                    gradient = self.gradient(state, targets);
+                    is_near = false;
+                    self.effort.multiplier_updates += 1;
+                    continue;
+                }
                 return Ok(settled(true));
             }
             if allowance.is_spent(iterations as u64) || !energy.is_finite() {
@@ -153,24 +174,38 @@ impl<'a> Newton<'a> {
                 return Ok(settled(is_balanced));
             };
             is_near = step.is_last(&tolerance);
+            residual = largest(&step.gradient);
             *state = step.state;
-            energy = step.energy;
-            gradient = step.gradient;
+            if self.contact.is_some() {
+                self.linearise(state);
+                energy = self.energy(state, targets);
+                gradient = self.gradient(state, targets);
+            } else {
+                energy = step.energy;
+                gradient = step.gradient;
+            }
             iterations += 1;
             visit(state)?;
         }
     }
 
+    /// Holds the planes of contact at `state`.
+    fn linearise(&mut self, state: &Configuration) {
+        if let Some(contact) = &mut self.contact {
+            contact.linearise(&state.positions);
+        }
+    }
+
     fn energy(&mut self, state: &Configuration, targets: &[f64]) -> f64 {
         let elastic = self.model.energy_by_kind(&state.positions, &state.angles, targets).total();
-        let barrier = self.contact.as_mut().map(|c| c.energy(&state.positions));
+        let barrier = self.contact.as_ref().map(|c| c.energy(&state.positions));
         elastic + barrier.unwrap_or(0.0)
     }
 
     fn gradient(&mut self, state: &Configuration, targets: &[f64]) -> Vec<DVec3> {
         let mut gradient = vec![DVec3::ZERO; state.positions.len()];
         self.model.gradient(&state.positions, &state.angles, targets, &mut gradient);
-        if let Some(contact) = &mut self.contact {
+        if let Some(contact) = &self.contact {
             contact.add_gradient(&state.positions, &mut gradient);
         }
         gradient
@@ -188,7 +223,6 @@ impl<'a> Newton<'a> {
         if let Some(step) = self.chord_step(state, targets, gradient, energy) {
             return Ok(Some(step));
         }
-        self.make_room(state)?;
         let inertia = self.inertia;
         let attempts = [
             (Curvature::Exact, 0.0),
@@ -201,10 +235,10 @@ impl<'a> Newton<'a> {
             (Curvature::Convex, 1.0),
         ];
         for (curvature, inertia) in attempts {
-            if !self.factorise(state, targets, curvature, inertia) {
+            let direction = self.newton_direction(state, targets, gradient, curvature, inertia)?;
+            let Some(direction) = direction else {
                 continue;
-            }
-            let direction = self.direction(state, gradient);
+            };
             if let Some(step) = self.search(state, targets, gradient, energy, &direction) {
                 if inertia > 0.0 {
                     self.inertia = (inertia * INERTIA_DECAY).clamp(LEAST_INERTIA, MOST_INERTIA);
@@ -215,6 +249,85 @@ impl<'a> Newton<'a> {
             }
         }
         Ok(None)
+    }
+
+    /// −(K + S + μ I)⁻¹ ∇U, or with contact the step that keeps the gaps it would break; `None` where the matrix is not
+    /// positive definite.
+    fn newton_direction(
+        &mut self,
+        state: &Configuration,
+        targets: &[f64],
+        gradient: &[DVec3],
+        curvature: Curvature,
+        inertia: f64,
+    ) -> Result<Option<Vec<DVec3>>, SolverError> {
+        let Some(mut contact) = self.contact.take() else {
+            let is_definite = self.factorise(state, targets, curvature, inertia, None);
+            return Ok(is_definite.then(|| self.direction(state, gradient)));
+        };
+        let direction =
+            self.foreseen(state, targets, gradient, (curvature, inertia), &mut contact);
+        self.contact = Some(contact);
+        direction
+    }
+
+    /// The minimum of the quadratic model of the energy and of the augmented Lagrangian of the planes, found by Newton's
+    /// method with exact line search (semismooth: the latter's pieces are quadratic; Qi and Sun 1993): each round makes
+    /// those planes active that push at the step found so far. Planes of pairs that only the step would bring too close
+    /// are made on the way.
+    fn foreseen(
+        &mut self,
+        state: &Configuration,
+        targets: &[f64],
+        gradient: &[DVec3],
+        (curvature, inertia): (Curvature, f64),
+        contact: &mut ContactField,
+    ) -> Result<Option<Vec<DVec3>>, SolverError> {
+        let x = &state.positions;
+        let mut step = ModelStep::none(x.len());
+        for round in 0..MOST_ROUNDS {
+            self.make_room(contact)?;
+            if !self.factorise(state, targets, curvature, inertia, Some(contact)) {
+                return Ok(None);
+            }
+            self.effort.rounds += 1;
+            let Some(ahead) = self.model_step(state, gradient, contact) else {
+                return Ok(None);
+            };
+            if round == 0 {
+                contact.foresee(x, &ahead.direction, largest(&ahead.direction));
+            }
+            let share = contact.model_minimum(gradient, &step, &ahead);
+            step.advance(share, &ahead);
+            let changed = contact.activate(&step.direction);
+            let is_least = (share == 1.0 && !changed) || share < LEAST_ADVANCE;
+            if is_least && !contact.foresee(x, &step.direction, largest(&step.direction)) {
+                break;
+            }
+            contact.activate(&step.direction);
+        }
+        Ok(Some(step.direction))
+    }
+
+    /// The Newton step of the model with the active planes, with the current factor, no longer than contact is foreseen.
+    fn model_step(
+        &mut self,
+        state: &Configuration,
+        gradient: &[DVec3],
+        contact: &ContactField,
+    ) -> Option<ModelStep> {
+        let mut model_gradient = gradient.to_vec();
+        contact.add_foreseen(&mut model_gradient);
+        let direction = self.direction(state, &model_gradient);
+        let reach = largest(&direction);
+        // H d is what is left of −∇U once the planes' part is taken off.
+        let mut elastic: Vec<DVec3> = model_gradient.iter().map(|&g| -g).collect();
+        contact.subtract_stiffness(&direction, &mut elastic);
+        let mut step = ModelStep { direction, elastic };
+        if reach > FURTHEST_FORESEEN {
+            step.scale(FURTHEST_FORESEEN / reach);
+        }
+        reach.is_finite().then_some(step)
     }
 
     /// A step with the factor of an earlier one; `None` if it would not be much smaller than the step before.
@@ -234,20 +347,18 @@ impl<'a> Newton<'a> {
         let mut step = self.search(state, targets, gradient, energy, &direction)?;
         self.chord = step.full_move;
         step.decrease = Some(decrease);
+        self.effort.chord_steps += 1;
         Some(step)
     }
 
-    /// Makes room in the matrix for the barriers within reach.
-    fn make_room(&mut self, state: &Configuration) -> Result<(), SolverError> {
-        let Some(contact) = &mut self.contact else {
-            return Ok(());
-        };
-        if contact.fits(&state.positions, &self.matrix) {
+    /// Makes room in the matrix for the active planes.
+    fn make_room(&mut self, contact: &ContactField) -> Result<(), SolverError> {
+        if contact.fits(&self.matrix) {
             return Ok(());
         }
+        self.coupled.extend(contact.coupled_nodes());
         let mut pairs = coupled_nodes(self.model);
-        let more = ROOM * contact.reach();
-        pairs.extend(contact.coupled_nodes(&state.positions, more));
+        pairs.extend(&self.coupled);
         self.matrix = StiffnessMatrix::new(self.model.node_count(), &pairs)?;
         self.elements = ElementMap::new(self.model, &self.matrix);
         self.analyses += 1;
@@ -262,20 +373,23 @@ impl<'a> Newton<'a> {
         targets: &[f64],
         curvature: Curvature,
         inertia: f64,
+        contact: Option<&ContactField>,
     ) -> bool {
         // Inertia alone makes the matrix positive definite.
         let is_supported = self.support == Support::Triangle || inertia == 0.0;
         let scale = match self.assembled {
             Some((present, supported, scale))
-                if present == curvature && supported == is_supported =>
+                if present == curvature && supported == is_supported && contact.is_none() =>
             {
                 scale
             }
-            _ => self.assemble(state, targets, curvature, is_supported),
+            _ => self.assemble(state, targets, curvature, is_supported, contact),
         };
         self.assembled = Some((curvature, is_supported, scale));
         self.factorisations += 1;
-        self.matrix.factorise(inertia * scale)
+        let is_definite = self.matrix.factorise(inertia * scale);
+        self.effort.indefinite += usize::from(!is_definite);
+        is_definite
     }
 
     /// Assembles K + S; returns the mean diagonal of K without barriers.
@@ -285,6 +399,7 @@ impl<'a> Newton<'a> {
         targets: &[f64],
         curvature: Curvature,
         is_supported: bool,
+        contact: Option<&ContactField>,
     ) -> f64 {
         self.matrix.clear();
         add_stiffness(self.model, state, targets, curvature, &self.elements, &mut self.matrix);
@@ -292,8 +407,9 @@ impl<'a> Newton<'a> {
         if is_supported {
             add_support(self.supported, state, scale, &mut self.matrix);
         }
-        if let Some(contact) = &mut self.contact {
-            contact.add_stiffness(&state.positions, curvature, &mut self.matrix);
+        if let Some(contact) = contact {
+            let is_exact = curvature == Curvature::Exact;
+            contact.add_stiffness(&state.positions, is_exact, &mut self.matrix);
         }
         scale
     }
@@ -322,7 +438,9 @@ impl<'a> Newton<'a> {
         if !(slope < 0.0 && reach.is_finite()) {
             return None;
         }
-        let mut length = self.limited(&state.positions, direction, (LARGEST_MOVE / reach).min(1.0));
+        let first = (LARGEST_MOVE / reach).min(1.0);
+        let mut length = self.limited(&state.positions, direction, first);
+        self.effort.cut_steps += usize::from(length < first);
         let residual = largest(gradient);
         let rounding = self.energy_rounding(energy);
         for _halving in 0..MAX_HALVINGS {
@@ -344,6 +462,7 @@ impl<'a> Newton<'a> {
                 }
             }
             length *= 0.5;
+            self.effort.halvings += 1;
         }
         None
     }
@@ -357,12 +476,10 @@ impl<'a> Newton<'a> {
 
     /// The largest part of `length` × `direction` that contact allows.
     pub(super) fn limited(&mut self, positions: &[DVec3], direction: &[DVec3], length: f64) -> f64 {
-        let Some(contact) = &mut self.contact else {
-            return length;
-        };
-        let displacement: Vec<DVec3> = direction.iter().map(|&d| d * length).collect();
-        contact.prepare_path(positions, &displacement);
-        contact.step_limit(positions, direction, length)
+        match &mut self.contact {
+            Some(contact) => contact.step_limit(positions, direction, length),
+            None => length,
+        }
     }
 }
 

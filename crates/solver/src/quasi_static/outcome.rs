@@ -22,6 +22,29 @@ pub struct QuasiStaticRun {
     pub factorisations: usize,
     /// Symbolic analyses in all: one, and one each time contact couples nodes for the first time.
     pub analyses: usize,
+    /// What Newton's method did.
+    pub effort: Effort,
+    /// The gap that layers keep in the last state, in unit lengths; `None` without contact.
+    pub gap_reached: Option<f64>,
+}
+
+/// What the Newton steps of a run were spent on.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Effort {
+    /// Steps with the factor of an earlier one.
+    pub chord_steps: usize,
+    /// Steps shortened because layers would have come too close.
+    pub cut_steps: usize,
+    /// Halvings of steps that did not lower the energy.
+    pub halvings: usize,
+    /// Matrices found not to be positive definite.
+    pub indefinite: usize,
+    /// Rounds in which steps found the pairs that they would bring too close.
+    pub rounds: usize,
+    /// Updates of the multipliers of contact.
+    pub multiplier_updates: usize,
+    /// Searches for pairs that can meet.
+    pub searches: usize,
 }
 
 impl QuasiStaticRun {
@@ -36,7 +59,7 @@ impl QuasiStaticRun {
 pub struct FrameFigures {
     /// Energy of bars and hinges.
     pub energy: EnergyByKind,
-    /// Energy of the contact barriers.
+    /// Energy of the contact between layers.
     pub contact_energy: f64,
     /// Pairs of primitives that push on each other.
     pub contacts: usize,

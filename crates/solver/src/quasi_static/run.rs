@@ -3,6 +3,7 @@
 use foldmotion_pattern::Frame;
 use glam::DVec3;
 
+use super::closing::Closing;
 use super::configuration::{Configuration, largest};
 use super::contact::ContactField;
 use super::history::History;
@@ -10,7 +11,7 @@ use super::jam::find_jam;
 use super::newton::{Newton, SearchOutcome, Tolerance};
 use super::outcome::{FrameFigures, QuasiStaticRun, StageOutcome, Stop, StopReason};
 use super::step_control::StepControl;
-use super::{QuasiStaticOptions, barrier_force, force_scale, rounding_force};
+use super::{QuasiStaticOptions, contact_force, force_scale, rounding_force};
 use crate::{HingeKind, Model, Schedule, Snapshot, SolverError, Stage, Watcher};
 
 /// The last Newton step of an equilibrium moves no node further, in unit lengths: without contact, and with it.
@@ -28,13 +29,10 @@ const HARD_ITERATIONS: usize = 30;
 const USELESS_ENERGY: f64 = 100.0;
 /// Stage-local times closer than this are the same but for rounding.
 const SAME_TIME: f64 = 1e-12;
+/// Creases this near to their targets, radians, follow them.
+const FOLLOWING: f64 = 0.5;
 /// The iterations allowed in a snap, over those allowed elsewhere.
 const SNAP_BUDGET: usize = 40;
-/// A barrier whose separation falls below this share of its reach is too soft: all become stiffer by a factor, up to a
-/// limit over what they started with.
-const TIGHT: f64 = 0.1;
-const STIFFENING: f64 = 4.0;
-const MOST_STIFFENING: f64 = 1e4;
 
 /// Folds the sheet of `model` slowly along `schedule`, from `start` (one position for each vertex, in the sheet's
 /// unit).
@@ -45,8 +43,9 @@ const MOST_STIFFENING: f64 = 1e4;
 /// to descend to the next equilibrium, however far. `progress` is called after each load step and after each Newton
 /// step within it, and ends the run by returning false.
 ///
-/// With contact, the frames at t = 2k/frames keep the whole gap and the straight paths between frames half of it: where
-/// they would not, states of the search are recorded as frames between.
+/// With contact, the frames at t = 2k/frames keep the whole gap and the straight paths between frames 0.4 of it: where
+/// they would not, states of the search are recorded as frames between. Facets that started in touch, which have no gap,
+/// do not cross each other in any frame. Towards the end of stage fold the gap [closes](super::Contact::final_gap).
 ///
 /// Every run ends: load steps shrink to no less than a thousandth of the longest, and a stage takes no more Newton
 /// iterations than [`QuasiStaticOptions::iterations_a_step`] or [`QuasiStaticOptions::budget`] allows. A stage that
@@ -73,7 +72,7 @@ pub fn run_quasi_static(
         schedule.targets(stage, 0.0, &mut angles);
     }
     let contact = match options.contact {
-        Some(contact) => Some(ContactField::new(model, contact, barrier_force(model), &positions)?),
+        Some(contact) => Some(ContactField::new(model, contact, contact_force(model), &positions)?),
         None => None,
     };
     let mut run = Run {
@@ -85,6 +84,7 @@ pub fn run_quasi_static(
         state: Configuration::new(model, positions, angles),
         targets: vec![0.0; model.hinges.len()],
         last_recorded: Vec::new(),
+        crossed: None,
         outcome: QuasiStaticRun::default(),
     };
     for &stage in &options.stages {
@@ -136,6 +136,8 @@ struct Run<'a> {
     state: Configuration,
     targets: Vec<f64>,
     last_recorded: Vec<DVec3>,
+    /// Two triangles that started in touch and crossed each other in the last state tried.
+    crossed: Option<[u32; 2]>,
     outcome: QuasiStaticRun,
 }
 
@@ -160,23 +162,28 @@ impl Run<'_> {
     /// Runs one stage; false where it did not reach its end.
     fn stage(&mut self, stage: Stage) -> Result<bool, SolverError> {
         let mut outcome = StageOutcome::new(stage);
-        let in_contact = self.newton.contact.is_some();
-        let mut history = History::new(0.0, self.state.clone(), in_contact);
+        let mut history = History::new(0.0, self.state.clone());
         let goals = recorded_times(self.options, stage);
-        let mut control = StepControl::new(self.options.frames, in_contact);
+        let mut control = StepControl::new(self.options.frames);
+        let closing = self.options.contact.and_then(|c| Closing::new(stage, c.gap, c.final_gap));
         let standard = self.standard_budget(goals.len().max(control.least_steps()));
         let (mut s, mut recorded) = (0.0, 0);
         while let Some(&goal) = goals.get(recorded) {
-            let (next, reaches) = control.next(s, goal);
+            let (mut next, mut reaches) = control.next(s, goal);
+            if let Some(closing) = closing.filter(|_| self.follows_targets()) {
+                let latest = closing.latest_end(s);
+                (next, reaches) = (next.min(latest), reaches && next <= latest);
+                self.close_to(closing.gap_at(next));
+            }
             let is_short = control.is_short();
             let left = self.left(standard, outcome.iterations);
-            let trial = self.load_step(stage, next, &history, is_short, left)?;
+            let mut trial = self.load_step(stage, next, &history, is_short, left)?;
+            trial.settled.converged &= !self.crosses_in_touch(&trial.state);
             outcome.add(&trial.settled);
             if !trial.settled.converged {
                 let is_spent = self.left(standard, outcome.iterations) == 0;
                 let is_late = self.options.budget.is_late();
-                let stiffened = self.stiffen_barriers(&trial.state);
-                if is_spent || is_late || (is_short && !stiffened) {
+                if is_spent || is_late || is_short {
                     let reason = StopReason::of(is_late, is_spent);
                     outcome.stop = Some(self.stop(reason, next - s, &trial.settled));
                     outcome.residual = trial.settled.residual;
@@ -185,7 +192,9 @@ impl Run<'_> {
                 control.shorten(next - s);
                 continue;
             }
-            control.adapt(&trial.settled);
+            let pushes = |c: &ContactField| c.pushes();
+            let is_pushed = self.newton.contact.as_ref().is_some_and(pushes);
+            control.adapt(&trial.settled, is_pushed);
             outcome.snaps += usize::from(trial.settled.iterations > self.options.max_iterations);
             let [from, to] = [s, next].map(|s| stage.start_time() + s);
             self.accept(from, to, &trial);
@@ -194,9 +203,9 @@ impl Run<'_> {
             }
             if trial.settled.iterations > HARD_ITERATIONS {
                 // Where the path is not smooth, what came before says nothing about what comes next.
-                history = History::new(next, trial.state.clone(), in_contact);
+                history = History::new(next, trial.state.clone());
             } else {
-                history.push(next, trial.state.clone());
+                history.push(next, trial.state.clone(), is_pushed);
             }
             (self.state, s, outcome.reached) = (trial.state, next, to);
             recorded += usize::from(reaches);
@@ -206,6 +215,25 @@ impl Run<'_> {
         let converged = outcome.converged;
         self.outcome.stages.push(outcome);
         Ok(converged)
+    }
+
+    /// Whether the creases are near the targets of the last load step, so that no layer keeps them from these.
+    fn follows_targets(&self) -> bool {
+        self.fold_angle_error(&self.state) <= FOLLOWING
+    }
+
+    /// Lets the layers come as close as `gap`.
+    fn close_to(&mut self, gap: f64) {
+        if let Some(contact) = &mut self.newton.contact {
+            contact.close_to(gap);
+        }
+    }
+
+    /// Whether facets that started in touch cross each other in `state`, in which case they stop the motion.
+    fn crosses_in_touch(&mut self, state: &Configuration) -> bool {
+        let contact = self.newton.contact.as_ref();
+        self.crossed = contact.and_then(|c| c.crossing_in_touch(&state.positions));
+        self.crossed.is_some()
     }
 
     /// The default number of iterations in a stage of at least `load_steps`.
@@ -258,25 +286,31 @@ impl Run<'_> {
         let iterations = self.options.max_iterations * if is_short { SNAP_BUDGET } else { 1 };
         let iterations = iterations.min(most_iterations) as u64;
         let allowance = self.options.budget.allowance(iterations);
-        let tolerance = self.tolerance();
+        let tolerances = [self.tolerance(), self.contact_tolerance()];
         let settled =
-            self.newton.settle(&mut state, &self.targets, tolerance, allowance, &mut visit)?;
+            self.newton.settle(&mut state, &self.targets, tolerances, allowance, &mut visit)?;
         Ok(Trial { state, settled, path })
     }
 
     fn tolerance(&self) -> Tolerance {
-        let remainder = REMAINDER * largest(&self.state.positions);
-        let (lenience, step, remainder) = if self.newton.contact.is_some() {
-            let remainder = remainder.max(CONTACT_REMAINDER);
-            (CONTACT_LENIENCE, CONTACT_STEP_TOLERANCE, remainder)
-        } else {
-            (1.0, STEP_TOLERANCE, remainder)
-        };
         let rounding = rounding_force(self.model, &self.state.positions);
         Tolerance {
-            force: lenience * self.options.tolerance * force_scale(self.model) + rounding,
-            step,
-            remainder,
+            force: self.options.tolerance * force_scale(self.model) + rounding,
+            step: STEP_TOLERANCE,
+            remainder: REMAINDER * largest(&self.state.positions),
+        }
+    }
+
+    /// The tolerance of states in which layers push.
+    fn contact_tolerance(&self) -> Tolerance {
+        let without = self.tolerance();
+        let lenient = CONTACT_LENIENCE * self.options.tolerance * force_scale(self.model);
+        let contact = self.newton.contact.as_ref().map_or(0.0, ContactField::stiffness);
+        let rounding = 16.0 * f64::EPSILON * contact * largest(&self.state.positions);
+        Tolerance {
+            force: without.force + lenient + rounding,
+            step: CONTACT_STEP_TOLERANCE,
+            remainder: without.remainder.max(CONTACT_REMAINDER),
         }
     }
 
@@ -302,21 +336,6 @@ impl Run<'_> {
         if let Some(contact) = &mut self.newton.contact {
             contact.accept(&trial.state.positions);
         }
-        self.stiffen_barriers(&trial.state);
-    }
-
-    /// Makes the barriers stiffer where a pair has been pressed close to its gap; false if there is none.
-    fn stiffen_barriers(&mut self, state: &Configuration) -> bool {
-        let limit = MOST_STIFFENING * barrier_force(self.model);
-        let Some(contact) = &mut self.newton.contact else {
-            return false;
-        };
-        contact.prepare(&state.positions);
-        let is_tight = contact.tightest(&state.positions) < TIGHT && contact.force < limit;
-        if is_tight {
-            contact.force *= STIFFENING;
-        }
-        is_tight
     }
 
     /// If the straight path from the last frame to the new state is not free of contact, records states on the path
@@ -357,7 +376,7 @@ impl Run<'_> {
             ..FrameFigures::default()
         };
         if let Some(contact) = &mut self.newton.contact {
-            contact.prepare(&state.positions);
+            contact.linearise(&state.positions);
             figures.contact_energy = contact.energy(&state.positions);
             (figures.contacts, figures.contact_force) = contact.load(&state.positions);
         }
@@ -383,8 +402,12 @@ impl Run<'_> {
         }
         self.outcome.factorisations = self.newton.factorisations;
         self.outcome.analyses = self.newton.analyses;
+        self.outcome.effort = self.newton.effort;
         if let Some(contact) = &self.newton.contact {
-            let blocking = contact.hardest(&self.state.positions);
+            self.outcome.effort.searches = contact.searches();
+            self.outcome.gap_reached = Some(contact.gap());
+            let mut blocking = contact.hardest(&self.state.positions);
+            blocking.extend(self.crossed.map(|faces| (faces, 0.0)));
             let slack = contact.fold_angle_slack();
             self.outcome.jam = find_jam(&self.outcome, slack, blocking);
         }

@@ -26,15 +26,14 @@ pub(super) struct StepControl {
     least_steps: usize,
     longest: f64,
     length: f64,
-    in_contact: bool,
 }
 
 impl StepControl {
     /// The step control of a stage with `frames` / 2 recorded states.
-    pub(super) fn new(frames: usize, in_contact: bool) -> Self {
+    pub(super) fn new(frames: usize) -> Self {
         let least_steps = LEAST_STEPS.max(frames / 2);
         let longest = 1.0 / least_steps as f64;
-        Self { least_steps, longest, length: longest, in_contact }
+        Self { least_steps, longest, length: longest }
     }
 
     /// The number of load steps of the stage if all have the largest length.
@@ -60,24 +59,24 @@ impl StepControl {
     }
 
     /// Lengthens or shortens the steps by what the last one, which found one, took.
-    pub(super) fn adapt(&mut self, settled: &SearchOutcome) {
-        self.set(self.length * self.growth(settled));
+    pub(super) fn adapt(&mut self, settled: &SearchOutcome, in_contact: bool) {
+        self.set(self.length * growth(settled, in_contact));
     }
 
     fn set(&mut self, length: f64) {
         self.length = length.clamp(LEAST_STEP * self.longest, self.longest);
     }
+}
 
-    /// By how much longer the next load step may be.
-    fn growth(&self, settled: &SearchOutcome) -> f64 {
-        let excess = settled.factorisations as f64 / COSTLY_FACTORISATIONS as f64;
-        if excess > 1.0 && !self.in_contact {
-            1.0 / excess.min(MOST_SHORTENED)
-        } else if settled.iterations <= EASY_ITERATIONS {
-            STEP_FACTOR
-        } else {
-            1.0
-        }
+/// By how much longer the next load step may be.
+fn growth(settled: &SearchOutcome, in_contact: bool) -> f64 {
+    let excess = settled.factorisations as f64 / COSTLY_FACTORISATIONS as f64;
+    if excess > 1.0 && !in_contact {
+        1.0 / excess.min(MOST_SHORTENED)
+    } else if settled.iterations <= EASY_ITERATIONS {
+        STEP_FACTOR
+    } else {
+        1.0
     }
 }
 
@@ -92,12 +91,12 @@ mod tests {
     #[test]
     fn steps_that_stay_costly_however_short_end_the_stage_all_the_same() {
         for frames in [2, 180, 240, 100_000] {
-            let mut load_steps = StepControl::new(frames, false);
+            let mut load_steps = StepControl::new(frames);
             let most = 1_000 * load_steps.least_steps() + 1;
             let (mut s, mut steps) = (0.0, 0);
             while s < 1.0 && steps <= most {
                 s = load_steps.next(s, 1.0).0;
-                load_steps.adapt(&settled(1_000));
+                load_steps.adapt(&settled(1_000), false);
                 steps += 1;
             }
             assert!(s == 1.0 && steps > most / 2, "{frames}: {s} {steps}");
@@ -106,7 +105,7 @@ mod tests {
 
     #[test]
     fn steps_that_fail_become_short_and_shrink_no_further_than_the_floor() {
-        let mut load_steps = StepControl::new(240, true);
+        let mut load_steps = StepControl::new(240);
         let mut failures = 0;
         while !load_steps.is_short() {
             load_steps.shorten(load_steps.next(0.0, 1.0).0);
@@ -122,10 +121,10 @@ mod tests {
 
     #[test]
     fn easy_steps_grow_to_the_spacing_of_frames_and_no_further() {
-        let mut load_steps = StepControl::new(480, false);
+        let mut load_steps = StepControl::new(480);
         load_steps.shorten(1e-9);
         for _ in 0..100 {
-            load_steps.adapt(&settled(2));
+            load_steps.adapt(&settled(2), false);
         }
         assert_eq!(load_steps.next(0.0, 1.0), (1.0 / 240.0, false));
     }

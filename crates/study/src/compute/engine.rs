@@ -125,7 +125,7 @@ impl Study {
         budget: Budget,
         watcher: Watcher<'_>,
     ) -> Result<EngineRun, StudyError> {
-        let contact = self.contact_gap.map(|gap| Contact { gap });
+        let contact = self.contact_gap.map(|gap| Contact { gap, final_gap: gap.min(1e-5) });
         let options = QuasiStaticOptions {
             stages: self.subject.stages().to_vec(),
             frames: self.frames,

@@ -15,6 +15,13 @@ use super::super::hinge_hessian::outer;
 /// Edges whose sine is below the root of this are treated as parallel.
 const PARALLEL: f64 = 1e-12;
 
+/// ∂w/∂t along the sides of a facet, and along two edges.
+const AB: [f64; 4] = [0.0, 1.0, -1.0, 0.0];
+const AC: [f64; 4] = [0.0, 1.0, 0.0, -1.0];
+const BC: [f64; 4] = [0.0, 0.0, 1.0, -1.0];
+const FIRST: [f64; 4] = [-1.0, 1.0, 0.0, 0.0];
+const SECOND: [f64; 4] = [0.0, 0.0, 1.0, -1.0];
+
 /// The closest points of a pair, as weights on its four nodes.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Closest {
@@ -40,9 +47,6 @@ impl Closest {
 
     /// The closest points of vertex x₀ and facet x₁x₂x₃ (Ericson 2005, section 5.1.5).
     pub(super) fn vertex_facet(x: &[DVec3; 4]) -> Self {
-        const AB: [f64; 4] = [0.0, 1.0, -1.0, 0.0];
-        const AC: [f64; 4] = [0.0, 1.0, 0.0, -1.0];
-        const BC: [f64; 4] = [0.0, 0.0, 1.0, -1.0];
         let [p, a, b, c] = *x;
         let (ab, ac) = (b - a, c - a);
         let at = |b: f64, c: f64| [1.0, b + c - 1.0, -b, -c];
@@ -77,8 +81,6 @@ impl Closest {
 
     /// The closest points of edges x₀x₁ and x₂x₃ (Ericson 2005, section 5.1.9).
     pub(super) fn edge_edge(x: &[DVec3; 4]) -> Self {
-        const FIRST: [f64; 4] = [-1.0, 1.0, 0.0, 0.0];
-        const SECOND: [f64; 4] = [0.0, 0.0, 1.0, -1.0];
         let (u, v, r) = (x[1] - x[0], x[3] - x[2], x[0] - x[2]);
         let (a, e, b) = (u.length_squared(), v.length_squared(), u.dot(v));
         let (c, f) = (u.dot(r), v.dot(r));
@@ -103,6 +105,34 @@ impl Closest {
             (false, true) => Self::new(x, weights, &[SECOND]),
             (false, false) => Self::new(x, weights, &[]),
         }
+    }
+
+    /// The foot of vertex x₀ on the plane of facet x₁x₂x₃.
+    pub(super) fn vertex_plane(x: &[DVec3; 4]) -> Self {
+        let [p, a, b, c] = *x;
+        let (ab, ac, ap) = (b - a, c - a, p - a);
+        let metric = DMat2::from_cols(
+            DVec2::new(ab.length_squared(), ab.dot(ac)),
+            DVec2::new(ab.dot(ac), ac.length_squared()),
+        );
+        let t = metric.inverse() * DVec2::new(ab.dot(ap), ac.dot(ap));
+        Self::new(x, [1.0, t.x + t.y - 1.0, -t.x, -t.y], &[AB, AC])
+    }
+
+    /// The closest points of the lines through edges x₀x₁ and x₂x₃, which are not parallel.
+    pub(super) fn lines(x: &[DVec3; 4]) -> Self {
+        let (u, v, r) = (x[1] - x[0], x[3] - x[2], x[0] - x[2]);
+        let (a, e, b) = (u.length_squared(), v.length_squared(), u.dot(v));
+        let (c, f) = (u.dot(r), v.dot(r));
+        let s = (b * f - c * e) / (a * e - b * b);
+        let t = (b * s + f) / e;
+        Self::new(x, [1.0 - s, s, t - 1.0, -t], &[FIRST, SECOND])
+    }
+
+    /// Whether the closest points lie inside both primitives.
+    #[inline]
+    pub(super) fn is_inside(&self) -> bool {
+        self.free == 2
     }
 
     /// ∇D, one vector a node. Precondition: D > 0.

@@ -1,296 +1,347 @@
-//! Contact: layers pushed apart by barriers, steps limited so that none passes through another.
+//! Contact: layers that push each other apart and cannot pass through one another.
 //!
 //! Every vertex and facet and every two edges that share no vertex keep the gap g. Those two kinds of pairs are enough:
 //! surfaces that do not cross can begin to cross only where a vertex meets a facet or an edge an edge (Provot 1997),
 //! also for facets that share a vertex or an edge, whose other corners and opposite edges are such pairs. A crease
 //! can therefore close up to 180° less the turn that holds its apexes g apart, never beyond.
 //!
-//! Pairs that start closer than g and its reach (the seam of a closed profile, facets narrower than that) keep half of
-//! the largest distance they have had, until that is g; pairs that start in touch are left alone until they have
-//! come apart.
+//! Forces come from an augmented Lagrangian of [planes](plane) made anew for every Newton step; a step finds the pairs
+//! it would bring too close before it is taken. What guarantees that no layer passes through another is apart from
+//! that: every step ends before a pair has given up half of its gap, by continuous collision detection
+//! ([`step_limit`]).
+//!
+//! Pairs that start closer than twice g (the seam of a closed profile, facets narrower than that) keep half of the
+//! largest distance they have had, until that is g. Pairs that start in touch, such as the sides of a cut, are not
+//! pushed apart until they have come apart; that no facets cross there is tested at every equilibrium instead.
 
+mod candidates;
 mod closest;
 mod near;
 mod pair;
+mod plane;
 mod primitives;
 mod step_limit;
 
 use std::collections::BTreeMap;
 
-use foldmotion_geometry::collide::Tree;
-use glam::{DMat3, DVec3};
+use glam::DVec3;
 
-use self::near::NearPairs;
-use self::pair::{ContactPair, PairKind};
-use self::primitives::Primitives;
-use self::step_limit::step_limit;
+use self::candidates::Candidates;
+use self::plane::{Form, Plane};
 use super::configuration::dot;
-use super::element_stiffness::Curvature;
+use super::model_step::ModelStep;
 use super::stiffness_matrix::StiffnessMatrix;
 use crate::{Model, SolverError};
 
-/// d̂ over the gap.
-const REACH: f64 = 0.5;
+/// The share of the gap that may be missing in equilibrium.
+const VIOLATION: f64 = 0.1;
+/// Layers keep the gap over this, so that what is missing in equilibrium does not show.
+const KEPT: f64 = 1.0 - VIOLATION;
 /// A gap above this share of the smallest height of a facet cannot be kept by a folded sheet.
 const LARGEST_GAP: f64 = 0.25;
-/// Pairs closer than this share of the gap at the start count as in touch.
-const TOUCHING: f64 = 1e-3;
-/// By how much distances may change before candidates are looked for again, in unit lengths.
-const MARGIN: f64 = 0.02;
-
 /// Layers that may lie between the facets of one crease.
 const LAYERS: f64 = 8.0;
 /// The number of blocking pairs reported.
 const HARDEST: usize = 8;
+/// Bisections for the minimum of the model along a line.
+const BISECTIONS: usize = 40;
 
 /// Contact of the layers.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Contact {
     /// g, the closest approach of primitives that share no vertex, in unit lengths.
     pub gap: f64,
+    /// What becomes of g by the end of stage fold, at most g: the sheet closes where its creases follow their targets.
+    pub final_gap: f64,
+}
+
+impl Contact {
+    /// Contact with a gap that stays the same.
+    pub fn constant(gap: f64) -> Self {
+        Self { gap, final_gap: gap }
+    }
 }
 
 impl Default for Contact {
     fn default() -> Self {
-        Self { gap: 1e-3 }
+        Self { gap: 1e-3, final_gap: 1e-5 }
     }
 }
 
-/// The barriers between the layers of a sheet, and the candidates for them.
+/// The forces between the layers of a sheet, and the candidates for them.
 pub(super) struct ContactField {
-    primitives: Primitives,
-    tree: Tree,
-    gap: f64,
-    reach: f64,
-    /// F, by which every barrier is scaled.
-    pub(super) force: f64,
-    /// ρ of the pairs that do not keep the whole gap yet.
-    admitted: BTreeMap<(PairKind, [u32; 4]), f64>,
-    pairs: Vec<ContactPair>,
-    near: NearPairs,
-    searched_path: SearchedPath,
-    smallest_height: f64,
-}
-
-/// The straight path along which candidates were searched.
-#[derive(Default)]
-struct SearchedPath {
-    from: Vec<DVec3>,
-    displacement: Vec<DVec3>,
-}
-
-impl SearchedPath {
-    /// Whether no node of `positions` is further than half the margin from where it is at one instant of the path.
-    fn holds(&self, positions: &[DVec3]) -> bool {
-        if self.from.len() != positions.len() {
-            return false;
-        }
-        let off = || positions.iter().zip(&self.from).map(|(&x, &a)| x - a);
-        let square = dot(&self.displacement, &self.displacement);
-        let along: f64 = off().zip(&self.displacement).map(|(d, &w)| d.dot(w)).sum();
-        let time = if square > 0.0 { (along / square).clamp(0.0, 1.0) } else { 0.0 };
-        let limit = 0.25 * MARGIN * MARGIN;
-        off().zip(&self.displacement).all(|(d, &w)| (d - w * time).length_squared() <= limit)
-    }
+    candidates: Candidates,
+    planes: Vec<Plane>,
+    /// κ g, a force.
+    force: f64,
 }
 
 impl ContactField {
-    /// The contact of `model` from `start` (unit lengths) on.
+    /// The contact of `model` from `start` (unit lengths) on; `force` scales the stiffness of contact.
     ///
     /// # Errors
-    /// [`SolverError::GapTooLarge`], and [`SolverError::StartCrosses`] where the sheet crosses itself at the start.
+    /// [`SolverError::GapTooLarge`], [`SolverError::FinalGap`], and [`SolverError::StartCrosses`] where the sheet crosses itself at the start.
     pub(super) fn new(
         model: &Model,
         contact: Contact,
         force: f64,
         start: &[DVec3],
     ) -> Result<Self, SolverError> {
-        let primitives = Primitives::new(model);
-        let smallest_height = primitives.smallest_height(start);
-        let maximum = LARGEST_GAP * smallest_height;
-        if !(contact.gap > 0.0 && contact.gap <= maximum) {
-            return Err(SolverError::GapTooLarge { gap: contact.gap, maximum });
+        let candidates = Candidates::new(model, contact.gap / KEPT, start)?;
+        let Contact { gap, final_gap } = contact;
+        let maximum = LARGEST_GAP * candidates.smallest_height();
+        if !(gap > 0.0 && gap <= maximum) {
+            return Err(SolverError::GapTooLarge { gap, maximum });
         }
-        let boxes = primitives.boxes(start, &[], 0.0);
-        let mut field = Self {
-            tree: Tree::new(&boxes),
-            gap: contact.gap,
-            reach: REACH * contact.gap,
-            force,
-            admitted: BTreeMap::new(),
-            pairs: Vec::new(),
-            near: NearPairs::default(),
-            searched_path: SearchedPath::default(),
-            smallest_height,
-            primitives,
-        };
-        if let Some(faces) = field.crossing(start) {
-            return Err(SolverError::StartCrosses { faces });
+        if !(final_gap > 0.0 && final_gap <= gap) {
+            return Err(SolverError::FinalGap { final_gap, gap });
         }
-        field.admit(start);
-        Ok(field)
+        Ok(Self { candidates, planes: Vec::new(), force })
+    }
+
+    /// g.
+    pub(super) fn gap(&self) -> f64 {
+        self.candidates.gap() * KEPT
+    }
+
+    /// Lets the layers come as close as `gap`, if that is closer than before.
+    pub(super) fn close_to(&mut self, gap: f64) {
+        self.candidates.close_to(gap / KEPT);
+    }
+
+    /// κ.
+    pub(super) fn stiffness(&self) -> f64 {
+        self.force / self.candidates.gap()
     }
 
     /// How far layers a gap apart may keep creases from their targets, in radians: several layers over the smallest
     /// height of a triangle.
     pub(super) fn fold_angle_slack(&self) -> f64 {
-        LAYERS * self.gap / self.smallest_height
+        LAYERS * self.gap() / self.candidates.smallest_height()
     }
 
-    /// The reach d̂ of the barrier.
-    pub(super) fn reach(&self) -> f64 {
-        self.reach
+    /// The searches for candidates so far.
+    pub(super) fn searches(&self) -> usize {
+        self.candidates.searches()
     }
 
-    /// Makes the candidates good for `positions`.
-    pub(super) fn prepare(&mut self, positions: &[DVec3]) {
-        let still = vec![DVec3::ZERO; positions.len()];
-        self.prepare_path(positions, &still);
-    }
-
-    /// Makes the candidates good for every state on the straight path from `positions` to `positions` + `displacement`.
-    pub(super) fn prepare_path(&mut self, positions: &[DVec3], displacement: &[DVec3]) {
-        let end: Vec<DVec3> = positions.iter().zip(displacement).map(|(&x, &d)| x + d).collect();
-        // The states near the searched path are a convex set: if they hold the ends of a path they hold all of it.
-        if self.searched_path.holds(positions) && self.searched_path.holds(&end) {
-            return;
+    /// Makes the planes of the pairs that are near at `positions`; those that push are active.
+    pub(super) fn linearise(&mut self, positions: &[DVec3]) {
+        self.candidates.prepare(positions, &mut self.planes);
+        self.candidates.measure(positions);
+        self.planes.clear();
+        self.candidates.forget_planes();
+        for index in self.candidates.near() {
+            self.add_plane(index, positions);
         }
-        self.searched_path =
-            SearchedPath { from: positions.to_vec(), displacement: displacement.to_vec() };
-        self.pairs = self.search(positions, displacement, self.gap + self.reach + MARGIN);
-        self.near = NearPairs::default();
-    }
-
-    /// Σ B; infinite where a gap is not kept.
-    pub(super) fn energy(&mut self, positions: &[DVec3]) -> f64 {
-        let force = self.force;
-        let pairs = self.near.active(&self.pairs, positions);
-        pairs.map(|pair| pair.energy(&pair.corners(positions), force)).sum()
-    }
-
-    pub(super) fn add_gradient(&mut self, positions: &[DVec3], gradient: &mut [DVec3]) {
-        for pair in self.near.active(&self.pairs, positions) {
-            if let Some(slopes) = pair.gradient(&pair.corners(positions), self.force) {
-                for (node, slope) in pair.nodes.iter().zip(slopes) {
-                    gradient[*node as usize] += slope;
-                }
-            }
+        for pair in self.candidates.pairs_mut() {
+            pair.is_on_facet = false;
+        }
+        for plane in &mut self.planes {
+            self.candidates.pair_mut(plane.pair).is_on_facet = plane.form == Form::Facet;
+            plane.is_active = plane.push(plane.value) > 0.0;
         }
     }
 
-    pub(super) fn add_stiffness(
+    fn add_plane(&mut self, index: u32, positions: &[DVec3]) {
+        let stiffness = self.stiffness();
+        let pair = self.candidates.pair_mut(index);
+        if let Some(mut plane) = Plane::new(pair, &pair.corners(positions)) {
+            plane.pair = index;
+            plane.stiffness *= stiffness;
+            pair.has_plane = true;
+            self.planes.push(plane);
+        }
+    }
+
+    /// Makes planes too of the pairs that the step `direction` from `positions`, no node moving further than `reach`,
+    /// would bring within the gap; whether there are any.
+    pub(super) fn foresee(
         &mut self,
         positions: &[DVec3],
-        curvature: Curvature,
-        matrix: &mut StiffnessMatrix,
-    ) {
-        let mut blocks = [[DMat3::ZERO; 4]; 4];
-        for pair in self.near.active(&self.pairs, positions) {
-            let corners = pair.corners(positions);
-            if pair.hessian(&corners, self.force, curvature, &mut blocks)
-                && let Some(places) = matrix.element(&pair.nodes)
-            {
-                matrix.add(&places, &blocks);
-            }
+        direction: &[DVec3],
+        reach: f64,
+    ) -> bool {
+        self.candidates.prepare_path(positions, direction, &mut self.planes);
+        self.candidates.measure(positions);
+        let known = self.planes.len();
+        for index in self.candidates.closing(direction, reach) {
+            self.add_plane(index, positions);
         }
+        let mut index = 0;
+        let candidates = &mut self.candidates;
+        self.planes.retain(|plane| {
+            index += 1;
+            let is_kept = index <= known || plane.push_after(direction) > 0.0;
+            candidates.pair_mut(plane.pair).has_plane = is_kept;
+            is_kept
+        });
+        self.planes.len() > known
     }
 
-    /// Whether `matrix` has room for every barrier within reach.
-    pub(super) fn fits(&mut self, positions: &[DVec3], matrix: &StiffnessMatrix) -> bool {
-        self.near.active(&self.pairs, positions).all(|pair| matrix.element(&pair.nodes).is_some())
+    /// Makes active those planes that push after the step `direction`; whether that changed any.
+    pub(super) fn activate(&mut self, direction: &[DVec3]) -> bool {
+        let mut changed = false;
+        for plane in &mut self.planes {
+            let pushes = plane.push_after(direction) > 0.0;
+            changed |= pushes != plane.is_active;
+            plane.is_active = pushes;
+        }
+        changed
     }
 
-    /// The pairs of nodes coupled by barriers, or that will be when the layers come closer by `more`.
-    pub(super) fn coupled_nodes(&self, positions: &[DVec3], more: f64) -> Vec<[u32; 2]> {
-        let mut coupled = Vec::new();
-        for pair in &self.pairs {
-            let distance = pair.closest(&pair.corners(positions)).distance;
-            if distance < pair.gap + pair.reach + more {
-                for i in 0..4 {
-                    coupled.extend((0..i).map(|j| [pair.nodes[i], pair.nodes[j]]));
+    /// Σ ψ at `positions`.
+    pub(super) fn energy(&self, positions: &[DVec3]) -> f64 {
+        self.planes.iter().map(|plane| plane.energy(positions)).sum()
+    }
+
+    /// Adds Σ ∇ψ at `positions`.
+    pub(super) fn add_gradient(&self, positions: &[DVec3], gradient: &mut [DVec3]) {
+        for plane in &self.planes {
+            if let Some(forces) = plane.forces(positions) {
+                for (&node, force) in plane.nodes.iter().zip(forces) {
+                    gradient[node as usize] -= force;
                 }
             }
         }
-        coupled
     }
 
-    /// The largest t ≤ `limit` for which every pair keeps a tenth of its separation on the path from `positions` along
-    /// t × `direction`. Precondition: candidates prepared for that path.
+    /// Turns Σ ∇ψ at the start of the step into that of the active planes, whether or not they push there.
+    pub(super) fn add_foreseen(&self, gradient: &mut [DVec3]) {
+        for plane in &self.planes {
+            let push = plane.push(plane.value);
+            if plane.is_active != (push > 0.0) {
+                plane.add_push(if plane.is_active { push } else { -push }, gradient);
+            }
+        }
+    }
+
+    /// Adds Σ ∇∇ψ of the active planes; `is_exact`: with the curvature of the distances.
+    pub(super) fn add_stiffness(
+        &self,
+        positions: &[DVec3],
+        is_exact: bool,
+        matrix: &mut StiffnessMatrix,
+    ) {
+        for plane in self.active() {
+            if let Some(places) = matrix.element(&plane.nodes) {
+                matrix.add(&places, &plane.hessian(positions, is_exact));
+            }
+        }
+    }
+
+    /// Subtracts Σ κ ∇c (∇c·d) of the active planes.
+    pub(super) fn subtract_stiffness(&self, direction: &[DVec3], forces: &mut [DVec3]) {
+        for plane in self.active() {
+            plane.add_push(plane.stiffness * plane.change(direction), forces);
+        }
+    }
+
+    fn active(&self) -> impl Iterator<Item = &Plane> {
+        self.planes.iter().filter(|plane| plane.is_active)
+    }
+
+    /// Whether `matrix` has room for every active plane.
+    pub(super) fn fits(&self, matrix: &StiffnessMatrix) -> bool {
+        self.active().all(|plane| matrix.element(&plane.nodes).is_some())
+    }
+
+    /// The pairs of nodes that planes couple.
+    pub(super) fn coupled_nodes(&self) -> impl Iterator<Item = [u32; 2]> {
+        let couples = |nodes: [u32; 4]| (0..4).flat_map(move |i| (0..i).map(move |j| [i, j]))
+            .map(move |pair: [usize; 2]| pair.map(|i| nodes[i]));
+        self.planes.iter().flat_map(move |plane| couples(plane.nodes))
+    }
+
+    /// The share of the way from `step` to `ahead` at which the model of the energy is least. `gradient`: of the
+    /// energy with contact at the start of the step.
+    pub(super) fn model_minimum(
+        &self,
+        gradient: &[DVec3],
+        step: &ModelStep,
+        ahead: &ModelStep,
+    ) -> f64 {
+        let way: Vec<DVec3> =
+            ahead.direction.iter().zip(&step.direction).map(|(&a, &d)| a - d).collect();
+        let mut slope = dot(gradient, &way) + dot(&step.elastic, &way);
+        let bend = dot(&ahead.elastic, &way) - dot(&step.elastic, &way);
+        let mut pieces = Vec::with_capacity(self.planes.len());
+        for plane in &self.planes {
+            let rate = plane.change(&way);
+            // The gradient holds what pushes at the start.
+            slope += plane.push(plane.value).max(0.0) * rate;
+            pieces.push((plane.push_after(&step.direction), rate, plane.stiffness));
+        }
+        let derivative = |share: f64| {
+            let pushes = pieces.iter().map(|&(push, rate, stiffness): &(f64, f64, f64)| {
+                (push - stiffness * rate * share).max(0.0) * rate
+            });
+            slope + bend * share - pushes.sum::<f64>()
+        };
+        least_of_convex(derivative)
+    }
+
+    /// Lets the multipliers carry the forces at `positions`, if a gap is not kept there; whether it did.
+    pub(super) fn update_multipliers(&mut self, positions: &[DVec3]) -> bool {
+        let violation = |plane: &Plane| (plane.gap - plane.value_at(positions)) / plane.gap;
+        if self.planes.iter().all(|plane| violation(plane) <= VIOLATION) {
+            return false;
+        }
+        for plane in &mut self.planes {
+            plane.multiplier = plane.push(plane.value_at(positions)).max(0.0);
+            self.candidates.pair_mut(plane.pair).multiplier = plane.multiplier;
+        }
+        true
+    }
+
+    /// The largest t ≤ `limit` for which every pair keeps half of its gap on the path from `positions` along
+    /// t × `direction`.
     pub(super) fn step_limit(
         &mut self,
         positions: &[DVec3],
         direction: &[DVec3],
         limit: f64,
     ) -> f64 {
-        self.near.move_to(&self.pairs, positions);
-        let pairs = self.pairs.iter().zip(&self.near.least);
-        pairs.fold(limit, |limit, (pair, least)| {
-            let d = pair.corners(direction);
-            if least - pair.gap > pair.speed(&d) * limit {
-                return limit;
-            }
-            step_limit(pair, pair.gap, &pair.corners(positions), &d, limit)
-        })
+        let displacement: Vec<DVec3> = direction.iter().map(|&d| d * limit).collect();
+        self.candidates.prepare_path(positions, &displacement, &mut self.planes);
+        self.candidates.step_limit(positions, direction, limit)
     }
 
-    /// Whether no layer touches another on the straight path between two states: half of the gap stays.
+    /// Whether no layer touches another on the straight path between two states.
     pub(super) fn is_path_free(&mut self, from: &[DVec3], to: &[DVec3]) -> bool {
-        let displacement: Vec<DVec3> = to.iter().zip(from).map(|(&b, &a)| b - a).collect();
-        self.prepare_path(from, &displacement);
-        self.pairs.iter().all(|pair| {
-            let (x, d) = (pair.corners(from), pair.corners(&displacement));
-            step_limit(pair, 0.5 * pair.gap, &x, &d, 1.0) >= 1.0
-        })
+        self.candidates.is_path_free(from, to, &mut self.planes)
     }
 
     /// Takes note of an equilibrium: pairs that have come further apart keep more of the gap from now on.
     pub(super) fn accept(&mut self, positions: &[DVec3]) {
-        let whole = 2.0 * self.gap;
-        let before = self.admitted.len();
-        let mut grown = false;
-        for ((kind, nodes), most) in &mut self.admitted {
-            let x = nodes.map(|v| positions[v as usize]);
-            let distance = match kind {
-                PairKind::VertexFacet => closest::Closest::vertex_facet(&x),
-                PairKind::EdgeEdge => closest::Closest::edge_edge(&x),
-            }
-            .distance;
-            if distance > 1.1 * *most && distance > 0.1 * self.gap {
-                *most = distance;
-                grown = true;
-            }
-        }
-        self.admitted.retain(|_, most| *most < whole);
-        if grown || self.admitted.len() != before {
-            self.searched_path = SearchedPath::default();
-        }
+        self.candidates.accept(positions);
     }
 
-    /// The smallest separation over its reach among the active pairs; 1 where there are none.
-    pub(super) fn tightest(&self, positions: &[DVec3]) -> f64 {
-        self.pairs
-            .iter()
-            .map(|pair| (pair.closest(&pair.corners(positions)).distance - pair.gap) / pair.reach)
-            .fold(1.0, f64::min)
+    /// Two triangles that cross each other at `positions` among those whose contact is not pushed yet.
+    pub(super) fn crossing_in_touch(&self, positions: &[DVec3]) -> Option<[u32; 2]> {
+        self.candidates.crossing_in_touch(positions)
+    }
+
+    /// Whether any pair pushes in the state in which the planes were made.
+    pub(super) fn pushes(&self) -> bool {
+        self.planes.iter().any(|plane| plane.push(plane.value) > 0.0)
     }
 
     /// The number of pairs that push, and the sum of their forces.
     pub(super) fn load(&self, positions: &[DVec3]) -> (usize, f64) {
-        let forces = self
-            .pairs
-            .iter()
-            .map(|pair| pair.force(&pair.corners(positions), self.force))
-            .filter(|&force| force > 0.0);
-        forces.fold((0, 0.0), |(count, sum), force| (count + 1, sum + force))
+        let forces = self.planes.iter().map(|plane| plane.push(plane.value_at(positions)));
+        forces
+            .filter(|&force| force > 0.0)
+            .fold((0, 0.0), |(count, sum), force| (count + 1, sum + force))
     }
 
     /// The pairs of triangles that push hardest, with the force, hardest first.
     pub(super) fn hardest(&self, positions: &[DVec3]) -> Vec<([u32; 2], f64)> {
         let mut by_faces: BTreeMap<[u32; 2], f64> = BTreeMap::new();
-        for pair in &self.pairs {
-            let force = pair.force(&pair.corners(positions), self.force);
+        for plane in &self.planes {
+            let force = plane.push(plane.value_at(positions));
             if force > 0.0 {
-                *by_faces.entry(pair.faces).or_default() += force;
+                *by_faces.entry(self.candidates.pair(plane.pair).faces).or_default() += force;
             }
         }
         let mut sorted: Vec<_> = by_faces.into_iter().collect();
@@ -298,69 +349,36 @@ impl ContactField {
         sorted.truncate(HARDEST);
         sorted
     }
+}
 
-    /// Every pair that may come nearer than `within` on the straight path from `positions` to `positions` +
-    /// `displacement`.
-    fn search(
-        &mut self,
-        positions: &[DVec3],
-        displacement: &[DVec3],
-        within: f64,
-    ) -> Vec<ContactPair> {
-        let boxes = self.primitives.boxes(positions, displacement, 0.5 * within);
-        self.tree.refit(&boxes);
-        let mut pairs = Vec::new();
-        for (a, b) in self.tree.overlapping_pairs(&boxes) {
-            self.primitives.visit_pairs(a, b, |kind, nodes, mollifier| {
-                let mut pair = ContactPair {
-                    kind,
-                    nodes,
-                    faces: [a, b],
-                    gap: self.gap,
-                    reach: self.reach,
-                    mollifier,
-                };
-                let distance = pair.closest(&pair.corners(positions)).distance;
-                let nearest = distance - pair.speed(&pair.corners(displacement));
-                if nearest < within && self.keeps_gap(&mut pair) {
-                    pairs.push(pair);
-                }
-            });
+/// The share in [0, 1] at which a convex function with this derivative is least.
+fn least_of_convex(derivative: impl Fn(f64) -> f64) -> f64 {
+    if derivative(1.0) <= 0.0 {
+        return 1.0;
+    }
+    let (mut low, mut high) = (0.0, 1.0);
+    for _bisection in 0..BISECTIONS {
+        let middle = 0.5 * (low + high);
+        if derivative(middle) > 0.0 {
+            high = middle;
+        } else {
+            low = middle;
         }
-        pairs
     }
+    // Rounding leaves a small slope at the minimum of a quadratic.
+    if high > 0.9999 { 1.0 } else { low }
+}
 
-    /// Sets the gap and the reach of an admitted pair; false where it is left alone.
-    fn keeps_gap(&self, pair: &mut ContactPair) -> bool {
-        let Some(&most) = self.admitted.get(&(pair.kind, pair.nodes)) else {
-            return true;
-        };
-        pair.gap = self.gap.min(0.5 * most);
-        pair.reach = self.reach.min(most - pair.gap);
-        most > TOUCHING * self.gap
-    }
+#[cfg(test)]
+mod tests {
+    use super::*;
 
-    /// Admits the pairs that start closer than the gap and its reach.
-    fn admit(&mut self, start: &[DVec3]) {
-        let whole = 2.0 * self.gap;
-        let still = vec![DVec3::ZERO; start.len()];
-        let close = self.search(start, &still, whole);
-        self.admitted = close
-            .iter()
-            .map(|pair| {
-                let distance = pair.closest(&pair.corners(start)).distance;
-                ((pair.kind, pair.nodes), distance)
-            })
-            .collect();
-    }
-
-    /// The first two triangles that cross each other.
-    fn crossing(&self, positions: &[DVec3]) -> Option<[u32; 2]> {
-        let boxes = self.primitives.boxes(positions, &[], 0.0);
-        let pairs = self.tree.overlapping_pairs(&boxes);
-        pairs
-            .into_iter()
-            .map(|(a, b)| [a, b])
-            .find(|&faces| self.primitives.cross(faces, positions))
+    #[test]
+    fn the_least_of_a_convex_function_is_where_its_derivative_vanishes_or_at_an_end() {
+        assert!((least_of_convex(|t| t - 0.3) - 0.3).abs() < 1e-9);
+        let kinked = |t: f64| if t < 0.5 { t - 0.6 } else { 10.0 * (t - 0.5) };
+        assert!((least_of_convex(kinked) - 0.5).abs() < 1e-9);
+        assert_eq!(least_of_convex(|t| t - 2.0), 1.0);
+        assert!(least_of_convex(|t| t + 1.0) < 1e-9);
     }
 }

@@ -5,6 +5,8 @@ use glam::DVec3;
 use super::super::configuration::largest;
 use super::pair::ContactPair;
 
+/// Pairs within this many gaps are near.
+const WITHIN: f64 = 2.0;
 /// By how much of the moves the bounds are lowered further, so that rounding never leaves one too high.
 const ROUNDING: f64 = 1e-9;
 
@@ -17,18 +19,18 @@ pub(super) struct NearPairs {
     positions: Vec<DVec3>,
     /// No candidate is closer than this.
     pub(super) least: Vec<f64>,
-    active: Vec<u32>,
+    pub(super) active: Vec<u32>,
 }
 
 impl NearPairs {
-    /// The pairs within reach at `positions`, in order. Precondition: the same pairs since this was made.
-    pub(super) fn active<'a>(
-        &'a mut self,
-        pairs: &'a [ContactPair],
-        positions: &[DVec3],
-    ) -> impl Iterator<Item = &'a ContactPair> {
-        self.move_to(pairs, positions);
-        self.active.iter().map(|&index| &pairs[index as usize])
+    /// The bounds `least` at `positions`.
+    pub(super) fn new(positions: &[DVec3], least: Vec<f64>, pairs: &[ContactPair]) -> Self {
+        let near = pairs.iter().zip(&least).enumerate();
+        let active = near
+            .filter(|(_, (pair, least))| **least < WITHIN * pair.gap)
+            .map(|(index, _)| index as u32)
+            .collect();
+        Self { positions: positions.to_vec(), least, active }
     }
 
     /// Makes the bounds hold at `positions`.
@@ -48,7 +50,7 @@ impl NearPairs {
         self.active.clear();
         for (index, (pair, least)) in pairs.iter().zip(&mut self.least).enumerate() {
             *least -= fall;
-            let within = pair.gap + pair.reach;
+            let within = WITHIN * pair.gap;
             if *least < within {
                 *least = pair.closest(&pair.corners(positions)).distance;
                 if *least < within {

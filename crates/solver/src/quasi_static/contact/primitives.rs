@@ -4,6 +4,8 @@
 //! belongs to one triangle that has it (Curtis, Tamstorf, Manocha 2008, "Fast collision detection for deformable
 //! models using representative-triangles").
 
+use std::collections::HashSet;
+
 use foldmotion_geometry::Aabb;
 use glam::DVec3;
 
@@ -15,6 +17,8 @@ const ROUNDING: f64 = 1e-9;
 
 pub(super) struct Primitives {
     faces: Vec<[u32; 3]>,
+    /// Whether the sheet goes on beyond the sides 01, 12 and 20 of each triangle.
+    goes_on: Vec<[bool; 3]>,
     /// The vertices that belong to each triangle.
     vertices: Vec<Vec<u32>>,
     /// The edges that belong to each triangle, with their rest lengths.
@@ -44,7 +48,12 @@ impl Primitives {
                 edges[owner as usize].push((bar.vertices, bar.rest_length));
             }
         }
-        Self { faces: model.faces.clone(), vertices, edges }
+        let hinges: HashSet<[u32; 2]> = model.hinges.iter().map(|h| sorted([h.vertices[0], h.vertices[1]])).collect();
+        let goes_on = |&[a, b, c]: &[u32; 3]| {
+            [[a, b], [b, c], [c, a]].map(|side| hinges.contains(&sorted(side)))
+        };
+        let goes_on = model.faces.iter().map(goes_on).collect();
+        Self { faces: model.faces.clone(), goes_on, vertices, edges }
     }
 
     /// The box of every triangle on the straight path from `positions` to `positions` + `displacement` (empty: at
@@ -102,7 +111,25 @@ impl Primitives {
         }
     }
 
-    /// Whether a side of one triangle passes through the inside of the other.
+    /// The pairs of triangles that have the primitives of `pair`, one each.
+    pub(super) fn triangles_of(&self, pair: &ContactPair) -> Vec<[u32; 2]> {
+        let [a, b, c, d] = pair.nodes;
+        let (first, second): (&[u32], &[u32]) = match pair.kind {
+            PairKind::VertexFacet => (&[a], &[b, c, d]),
+            PairKind::EdgeEdge => (&[a, b], &[c, d]),
+        };
+        let with = |nodes: &[u32]| -> Vec<u32> {
+            let has_all = |face: &[u32; 3]| nodes.iter().all(|node| face.contains(node));
+            let faces = self.faces.iter().enumerate().filter(|(_, face)| has_all(face));
+            faces.map(|(index, _)| index as u32).collect()
+        };
+        let (first, second) = (with(first), with(second));
+        let pairs = first.iter().flat_map(|&a| second.iter().map(move |&b| [a.min(b), a.max(b)]));
+        pairs.filter(|[a, b]| a != b).collect()
+    }
+
+    /// Whether a side of one triangle passes through the other: through its inside, or through a side beyond which the
+    /// sheet goes on.
     pub(super) fn cross(&self, [a, b]: [u32; 2], positions: &[DVec3]) -> bool {
         let corners = |face: u32| self.faces[face as usize];
         [(a, b), (b, a)].into_iter().any(|(own, other)| {
@@ -115,14 +142,20 @@ impl Primitives {
                     pierces(
                         side.map(|v| positions[v as usize]),
                         facet.map(|v| positions[v as usize]),
+                        self.goes_on[other as usize],
                     )
                 })
         })
     }
 }
 
-/// Whether the segment passes through the inside of the triangle, by more than rounding.
-fn pierces([p, q]: [DVec3; 2], [a, b, c]: [DVec3; 3]) -> bool {
+fn sorted([a, b]: [u32; 2]) -> [u32; 2] {
+    [a.min(b), a.max(b)]
+}
+
+/// Whether the segment passes through the triangle by more than rounding, at its inside or on a side beyond which the
+/// sheet `goes_on`.
+fn pierces([p, q]: [DVec3; 2], [a, b, c]: [DVec3; 3], goes_on: [bool; 3]) -> bool {
     let normal = (b - a).cross(c - a);
     let area = normal.length();
     let (above, below) = (normal.dot(p - a) / area, normal.dot(q - a) / area);
@@ -131,9 +164,10 @@ fn pierces([p, q]: [DVec3; 2], [a, b, c]: [DVec3; 3]) -> bool {
         return false;
     }
     let hit = p.lerp(q, above / (above - below));
-    [(a, b), (b, c), (c, a)].into_iter().all(|(from, to)| {
+    [(a, b), (b, c), (c, a)].into_iter().zip(goes_on).all(|((from, to), goes_on)| {
         let side = to - from;
-        normal.cross(side).dot(hit - from) / (area * side.length()) > ROUNDING
+        let inside = normal.cross(side).dot(hit - from) / (area * side.length());
+        inside > if goes_on { -ROUNDING } else { ROUNDING }
     })
 }
 
@@ -145,10 +179,20 @@ mod tests {
     fn a_segment_pierces_a_triangle_only_through_its_inside() {
         let v = DVec3::new;
         let triangle = [v(0.0, 0.0, 0.0), v(1.0, 0.0, 0.0), v(0.0, 1.0, 0.0)];
-        assert!(pierces([v(0.2, 0.2, 1.0), v(0.2, 0.3, -1.0)], triangle));
-        assert!(!pierces([v(0.2, 0.2, 1.0), v(0.2, 0.3, 0.1)], triangle));
-        assert!(!pierces([v(0.2, 0.2, 1.0), v(0.2, 0.3, 0.0)], triangle));
-        assert!(!pierces([v(0.8, 0.8, 1.0), v(0.8, 0.8, -1.0)], triangle));
-        assert!(!pierces([v(0.0, 0.0, 1.0), v(0.0, 0.0, -1.0)], triangle));
+        let pierces = |segment| pierces(segment, triangle, [false; 3]);
+        assert!(pierces([v(0.2, 0.2, 1.0), v(0.2, 0.3, -1.0)]));
+        assert!(!pierces([v(0.2, 0.2, 1.0), v(0.2, 0.3, 0.1)]));
+        assert!(!pierces([v(0.2, 0.2, 1.0), v(0.2, 0.3, 0.0)]));
+        assert!(!pierces([v(0.8, 0.8, 1.0), v(0.8, 0.8, -1.0)]));
+        assert!(!pierces([v(0.0, 0.0, 1.0), v(0.0, 0.0, -1.0)]));
+    }
+
+    #[test]
+    fn a_segment_pierces_a_side_only_where_the_sheet_goes_on() {
+        let v = DVec3::new;
+        let triangle = [v(0.0, 0.0, 0.0), v(1.0, 0.0, 0.0), v(0.0, 1.0, 0.0)];
+        let through_the_first = [v(0.4, 0.0, 1.0), v(0.6, 0.0, -1.0)];
+        assert!(pierces(through_the_first, triangle, [true, false, false]));
+        assert!(!pierces(through_the_first, triangle, [false, true, true]));
     }
 }

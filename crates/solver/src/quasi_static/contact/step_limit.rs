@@ -66,14 +66,7 @@ mod tests {
         let (mut limited, mut late) = (0, 0);
         for trial in 0..600 {
             let kind = if trial % 2 == 0 { PairKind::VertexFacet } else { PairKind::EdgeEdge };
-            let pair = ContactPair {
-                kind,
-                nodes: [0, 1, 2, 3],
-                faces: [0, 1],
-                gap,
-                reach: 0.1,
-                mollifier: 1.0,
-            };
+            let pair = ContactPair::new(kind, [0, 1, 2, 3], [0, 1], gap, 1.0);
             let x: [DVec3; 4] = std::array::from_fn(|_| vector());
             let d: [DVec3; 4] = std::array::from_fn(|_| vector() * 2.0);
             let at = |t: f64| -> f64 {
