@@ -207,7 +207,9 @@ pub enum SolverError {
         maximum: f64,
     },
     /// A final gap that is no distance, or larger than the gap it closes from.
-    #[error("the final gap is {final_gap} unit lengths; it must be above 0 and at most the gap of {gap}")]
+    #[error(
+        "the final gap is {final_gap} unit lengths; it must be above 0 and at most the gap of {gap}"
+    )]
     FinalGap {
         /// The final gap that was requested.
         final_gap: f64,

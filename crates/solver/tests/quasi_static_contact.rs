@@ -42,7 +42,11 @@ fn unit(case: Case) -> Unit {
 }
 
 fn with_gap(gap: f64, frames: usize) -> QuasiStaticOptions {
-    QuasiStaticOptions { frames, contact: Some(Contact::constant(gap)), ..QuasiStaticOptions::default() }
+    QuasiStaticOptions {
+        frames,
+        contact: Some(Contact::constant(gap)),
+        ..QuasiStaticOptions::default()
+    }
 }
 
 fn run(scene: &Scene, options: &QuasiStaticOptions) -> QuasiStaticRun {

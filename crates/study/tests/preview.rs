@@ -10,7 +10,7 @@ fn a_preview_of_a_scene_with_contact_reaches_the_exact_compact_state() {
     let scene = "[profile]\nmodel = \"shelter\"\n[sheet]\ncase = \"SII\"\nlambda = 0.7\n";
     let source = SceneSource::new(Path::new("a.toml"), scene.to_owned());
     let study = Study::resolve(&source).unwrap();
-    assert!(study.contact_gap.is_some());
+    assert!(study.contact.is_some());
     let Preview { motion, series, boxes } = study.preview(&|_, _| true).unwrap();
     assert_eq!(series.len(), motion.frames.len());
     assert_eq!(boxes.len(), motion.frames.len());

@@ -211,7 +211,11 @@ fn engine(ui: &mut Ui, report: &Report) {
     let engine = &report.engine;
     let gap = engine.contact_gap.map_or_else(
         || "layers may pass through each other".to_owned(),
-        |gap| format!("layers keep {gap:.0e} h apart"),
+        |gap| {
+            let at_end = engine.final_gap.filter(|end| *end < gap);
+            let end = at_end.map_or_else(String::new, |end| format!(", {end:.0e} h in the end"));
+            format!("layers keep {gap:.0e} h apart{end}")
+        },
     );
     ui.weak(format!(
         "{} engine on {} ({gap}): {:.2} s for {} steps; check {:.2} s",

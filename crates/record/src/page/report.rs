@@ -185,6 +185,7 @@ fn sizes(report: &Value) -> String {
         ("unfolded by", text(report, "/unfold/method")),
         ("engine", text(report, "/engine/name")),
         ("contact gap, h", text(report, "/engine/contact_gap")),
+        ("in the last state, h", text(report, "/engine/final_gap")),
         ("frames", text(report, "/path/frames")),
         ("straight paths stray", straying()),
         ("smallest separation", separation()),

@@ -265,8 +265,7 @@ impl<'a> Newton<'a> {
             let is_definite = self.factorise(state, targets, curvature, inertia, None);
             return Ok(is_definite.then(|| self.direction(state, gradient)));
         };
-        let direction =
-            self.foreseen(state, targets, gradient, (curvature, inertia), &mut contact);
+        let direction = self.foreseen(state, targets, gradient, (curvature, inertia), &mut contact);
         self.contact = Some(contact);
         direction
     }

@@ -2,9 +2,7 @@
 
 use foldmotion_pattern::{FacetModel, Frame};
 use foldmotion_solver::dynamic::{self, DynamicOptions, StageStatus};
-use foldmotion_solver::quasi_static::{
-    Contact, Jam, QuasiStaticOptions, Support, run_quasi_static,
-};
+use foldmotion_solver::quasi_static::{Jam, QuasiStaticOptions, Support, run_quasi_static};
 use foldmotion_solver::{Budget, Stage, Watcher};
 
 use super::stop::{StopCause, StopReport};
@@ -22,6 +20,8 @@ pub(crate) struct EngineRun {
     pub(crate) contacts: Vec<ContactFigures>,
     /// Where contact stopped the motion; `None` if it did not.
     pub(crate) jam: Option<Jam>,
+    /// The gap that layers keep in the last state; `None` without contact.
+    pub(crate) gap_reached: Option<f64>,
     /// The number of steps of the dynamic engine, or of Newton iterations of the quasi-static one.
     pub(crate) steps: u64,
     /// The device: cpu, or the name of the GPU.
@@ -45,7 +45,7 @@ pub(crate) struct StageSummary {
     pub(crate) stop: Option<StopReport>,
 }
 
-/// The contact at one frame: energy of the barriers and number of pairs.
+/// The contact at one frame: its energy and the number of pairs.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct ContactFigures {
     pub(crate) energy: f64,
@@ -105,6 +105,7 @@ impl Study {
             stages: stages.collect(),
             contacts: Vec::new(),
             jam: None,
+            gap_reached: None,
             steps: run.steps,
             device: run.device,
             frames: run.frames,
@@ -125,12 +126,11 @@ impl Study {
         budget: Budget,
         watcher: Watcher<'_>,
     ) -> Result<EngineRun, StudyError> {
-        let contact = self.contact_gap.map(|gap| Contact { gap, final_gap: gap.min(1e-5) });
         let options = QuasiStaticOptions {
             stages: self.subject.stages().to_vec(),
             frames: self.frames,
             extra_times: extra_times.to_vec(),
-            contact,
+            contact: self.contact,
             budget,
             support: self.support(),
             ..QuasiStaticOptions::default()
@@ -163,10 +163,11 @@ impl Study {
             .map(|f| ContactFigures { energy: f.contact_energy, count: f.contacts });
         Ok(EngineRun {
             stages: stages.collect(),
-            contacts: if self.contact_gap.is_some() { contacts.collect() } else { Vec::new() },
+            contacts: if self.contact.is_some() { contacts.collect() } else { Vec::new() },
             steps: run.stages.iter().map(|s| s.iterations as u64).sum(),
             device: "cpu".to_owned(),
             jam: run.jam,
+            gap_reached: run.gap_reached,
             frames: run.frames,
         })
     }

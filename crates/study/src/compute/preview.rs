@@ -31,7 +31,7 @@ impl Study {
     pub fn preview(&self, watch: &dyn Watch) -> Result<Preview, StudyError> {
         let quick = Self {
             engine: EngineChoice::QuasiStatic,
-            contact_gap: None,
+            contact: None,
             frames: FRAMES,
             ..self.clone()
         };

@@ -25,7 +25,7 @@ pub struct FrameFigures {
     pub peak_bending_deg: f64,
     /// The energy in units of EA·h for EA = 1; 0 for a motion of unknown material.
     pub energy: EnergyByKind,
-    /// The energy of the contact barriers, in the same units.
+    /// The energy of contact, in the same units.
     pub contact_energy: f64,
     /// The number of pairs in contact.
     pub contacts: usize,

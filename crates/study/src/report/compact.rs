@@ -1,7 +1,7 @@
 //! The compact state in the report, compared with its closed form.
 
 use foldmotion_check::{FittedBox, relative_error};
-use foldmotion_geometry::RigidMotion;
+use foldmotion_geometry::{Number, RigidMotion};
 use foldmotion_pattern::{CompactBox, Frame, SkinPlane};
 use glam::DVec3;
 use schemars::JsonSchema;
@@ -40,7 +40,8 @@ pub struct CompactReport {
     /// The root mean square distance of the vertices from the exact compact state, in units of h; null for an
     /// imported pattern.
     pub rms_to_exact: Option<f64>,
-    /// The differences from the closed form; null if the case has none.
+    /// The differences from the closed form, or from the thick one if the sheet has a thickness; null if the case has
+    /// none.
     pub relative_error: Option<ErrorReport>,
     /// Why the box differs from the closed form, if an extent does by more than one hundredth (of h if the closed
     /// form is 0).
@@ -126,7 +127,9 @@ impl Study {
     ) -> CompactReport {
         let h = self.subject.sheet().unit_length;
         let closed_form = self.subject.closed_form();
-        let error = closed_form.map(|form| ErrorReport::new(measured, form.extents, h));
+        let thick = self.thick_closed_form().map(|form| form.extents);
+        let extents = thick.or(closed_form.map(|form| form.extents));
+        let error = extents.map(|extents| ErrorReport::new(measured, extents, h));
         CompactReport {
             extents: measured.extents.into(),
             area: measured.area,
@@ -144,6 +147,7 @@ impl Study {
         compact: &CompactReport,
         outcome: &Outcome,
         fold_angles: &FoldAngleReport,
+        gap_reached: Option<f64>,
     ) -> Option<String> {
         let error = compact.relative_error?;
         let is_large = |axis: &usize| error.extents[*axis].abs() > LARGE_ERROR;
@@ -157,9 +161,9 @@ impl Study {
                 "{axes}: the sheet did not reach its compact state; this is the box of the last state reached"
             ));
         }
-        let gap = self.contact_gap.map_or_else(
+        let gap = gap_reached.map_or_else(
             || "without contact".to_owned(),
-            |gap| format!("every layer keeps a gap of {gap} h from the next"),
+            |gap| format!("every layer keeps a gap of {:.3} h from the next", Number(gap)),
         );
         Some(format!(
             "{axes}: {gap}, and {}, which adds up over the length of the sheet",

@@ -6,6 +6,7 @@ mod imported;
 mod motion;
 mod sheet;
 mod table;
+mod thick;
 
 use foldmotion_pattern::UnitSheet;
 use schemars::JsonSchema;
@@ -68,6 +69,10 @@ pub struct Report {
     pub pattern: PatternReport,
     /// The compact box by equations 3 to 7; null if the case has no closed form.
     pub closed_form: Option<BoxReport>,
+    /// The closed form with the thickness of the layers that meet along each axis; null without material.thickness. Then
+    /// the errors of compact are those from this box.
+    #[serde(default)]
+    pub thick_closed_form: Option<BoxReport>,
     /// The compact state that the motion reached.
     pub compact: CompactReport,
     /// How close the creases came to their targets at the end of the motion.
@@ -137,7 +142,8 @@ impl Study {
         let Folded { computed, findings, .. } = folded;
         let fold_angles = folded.fold_angles;
         let mut compact = self.compact_report(&folded.compact, folded.motion.frames.last());
-        compact.explanation = self.explanation(&compact, &folded.outcome, &fold_angles);
+        compact.explanation =
+            self.explanation(&compact, &folded.outcome, &fold_angles, computed.gap_reached);
         Report {
             title: self.title.clone(),
             version: VERSION.to_owned(),
@@ -154,6 +160,7 @@ impl Study {
             division: units.map(division_report),
             pattern: self.pattern_report(),
             closed_form: self.subject.closed_form().map(BoxReport::from),
+            thick_closed_form: self.thick_closed_form(),
             compact,
             unfold: units.map(|study| unfold_report(&study.unfolding)),
             stages: computed.stages.iter().map(|s| stage_report(s, &findings.series)).collect(),
@@ -165,7 +172,8 @@ impl Study {
             path: folded.path,
             engine: EngineReport {
                 name: self.engine,
-                contact_gap: self.contact_gap,
+                contact_gap: self.contact.map(|contact| contact.gap),
+                final_gap: computed.gap_reached,
                 steps: computed.steps,
                 seconds: folded.engine_seconds,
                 threads: rayon::current_num_threads(),

@@ -52,7 +52,7 @@ pub struct EnergyReport {
     pub facets: f64,
     /// The energy of the angles of the triangles.
     pub face_angles: f64,
-    /// The energy of the contact barriers.
+    /// The energy of contact.
     pub contact: f64,
 }
 
@@ -61,8 +61,11 @@ pub struct EnergyReport {
 pub struct EngineReport {
     /// The engine: dynamic or quasi-static.
     pub name: EngineChoice,
-    /// The closest approach of layers, in units of h; null without contact.
+    /// The closest approach of layers before they close at the end, in units of h; null without contact.
     pub contact_gap: Option<f64>,
+    /// The closest approach of layers in the last state, in units of h: motion.final_gap, or more where the motion
+    /// ended before the sheet closed; null without contact.
+    pub final_gap: Option<f64>,
     /// The number of steps of all stages together.
     pub steps: u64,
     /// The wall-clock seconds of all runs of the engine.

@@ -57,6 +57,16 @@ impl Report {
         self.write_verdict(&mut out);
         self.write_path(&mut out);
         let e = &self.engine;
+        if let (Some(gap), Some(end)) = (e.contact_gap, e.final_gap) {
+            let unit = self.tolerance_unit();
+            let (gap, end) = (format!("{:.3}", Number(gap)), format!("{:.3}", Number(end)));
+            let at_end = if gap == end {
+                String::new()
+            } else {
+                format!(", {end} {unit} in the last state")
+            };
+            let _ = writeln!(out, "layers keep {gap} {unit} apart{at_end}");
+        }
         let _ = writeln!(
             out,
             "engine {}: {} steps in {:.2} s, {} thread(s), {}; check {:.2} s, record {:.2} s",
@@ -121,17 +131,22 @@ impl Report {
         let _ = writeln!(out, "{}  ({unit})", row("measured", c.extents, c.area, c.volume));
         if let Some(f) = &self.closed_form {
             let _ = writeln!(out, "{}", row("closed form", f.extents, f.area, f.volume));
+            if let Some(f) = &self.thick_closed_form {
+                let _ = writeln!(out, "{}", row("with layers", f.extents, f.area, f.volume));
+            }
         } else if self.import.is_none() {
             let _ = writeln!(out, "closed form  none for an unmodified rectangle");
         }
         if let Some(e) = &c.relative_error {
-            let mut line = format!("{:<12}", "error");
+            let name = if self.thick_closed_form.is_some() { "thick error" } else { "error" };
+            let mut line = format!("{name:<12}");
             for value in e.extents.into_iter().chain([e.area, e.volume]) {
                 let _ = write!(line, " {:>12}", format!("{:.2}", Number(value)));
             }
             let _ = writeln!(out, "{line}");
             let absolute = [("x", 0), ("y", 1), ("z", 2)].map(|(name, axis)| {
-                let is_flat = self.closed_form.is_some_and(|f| f.extents[axis] == 0.0);
+                let compared = self.thick_closed_form.or(self.closed_form);
+                let is_flat = compared.is_some_and(|f| f.extents[axis] == 0.0);
                 if is_flat { name } else { "" }
             });
             if absolute.concat() != "" {

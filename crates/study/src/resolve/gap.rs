@@ -9,15 +9,14 @@ use super::subject::Subject;
 use crate::StudyError;
 use crate::scene::EngineChoice;
 
-/// The smallest gap, in units of h; the barrier of a smaller one exceeds the precision of f64.
+/// The smallest gap, in units of h.
 const SMALLEST_GAP: f64 = 1e-6;
+/// The smallest final gap over the extent of the sheet, of which f64 resolves 2⁻⁵³.
+const RESOLVED: f64 = 1e-9;
 
-/// The contact gap, in units of the sheet's unit length; `None` without contact.
-pub(crate) fn contact_gap(input: &Input<'_>, subject: &Subject) -> Result<Option<f64>, StudyError> {
-    let height = subject.sheet().unit_length;
-    let is_map = subject.units().is_some_and(|s| s.units.map_layers().is_some());
+/// Contact, in units of the sheet's unit length; `None` without.
+pub(crate) fn contact(input: &Input<'_>, subject: &Subject) -> Result<Option<Contact>, StudyError> {
     let motion = &input.scene.motion;
-    let thickness = input.scene.material.thickness;
     let is_dynamic = engine(input) == EngineChoice::Dynamic;
     if is_dynamic && motion.contact == Some(true) {
         let message =
@@ -25,21 +24,33 @@ pub(crate) fn contact_gap(input: &Input<'_>, subject: &Subject) -> Result<Option
         return Err(input.error("motion.contact", message));
     }
     if is_dynamic || motion.contact == Some(false) {
-        let given = [
-            ("motion.gap", motion.gap),
-            // For a map, the thickness also determines the height of the stack.
-            ("material.thickness", thickness.filter(|_| !is_map)),
-        ];
-        return match given.into_iter().find(|(_, value)| value.is_some()) {
-            Some((key, _)) => {
-                Err(input.error(key, "keeps layers apart, but contact is off; omit it"))
-            }
-            None => Ok(None),
-        };
+        return no_gap(input, subject).map(|()| None);
     }
+    let gap = gap(input, subject)?;
+    Ok(Some(Contact { gap, final_gap: final_gap(input, subject, gap)? }))
+}
+
+/// Refuses keys that say how close layers may come, where they may pass through each other.
+fn no_gap(input: &Input<'_>, subject: &Subject) -> Result<(), StudyError> {
+    let is_map = subject.units().is_some_and(|s| s.units.map_layers().is_some());
+    let motion = &input.scene.motion;
+    let given = [
+        ("motion.gap", motion.gap),
+        ("motion.final_gap", motion.final_gap),
+        // For a map, the thickness also determines the height of the stack.
+        ("material.thickness", input.scene.material.thickness.filter(|_| !is_map)),
+    ];
+    match given.into_iter().find(|(_, value)| value.is_some()) {
+        Some((key, _)) => Err(input.error(key, "keeps layers apart, but contact is off; omit it")),
+        None => Ok(()),
+    }
+}
+
+fn gap(input: &Input<'_>, subject: &Subject) -> Result<f64, StudyError> {
+    let height = subject.sheet().unit_length;
     let (thinnest, layers) = subject.thinnest_part();
     let limit = thinnest / height / layers as f64;
-    let (key, gap) = match (motion.gap, thickness) {
+    let (key, gap) = match (input.scene.motion.gap, input.scene.material.thickness) {
         (Some(_), Some(_)) => {
             let message = "the gap follows from material.thickness; omit one of the two";
             return Err(input.error("motion.gap", message));
@@ -49,7 +60,7 @@ pub(crate) fn contact_gap(input: &Input<'_>, subject: &Subject) -> Result<Option
         (None, None) => ("motion.gap", default_gap(subject, limit)),
     };
     if gap >= SMALLEST_GAP && gap <= limit {
-        return Ok(Some(gap));
+        return Ok(gap);
     }
     let scale = if key == "material.thickness" { height } else { 1.0 };
     let message = format!(
@@ -59,6 +70,28 @@ pub(crate) fn contact_gap(input: &Input<'_>, subject: &Subject) -> Result<Option
         if subject.units().is_some() { "unit" } else { "pattern" }
     );
     Err(input.error(key, message))
+}
+
+/// What `gap` shrinks to: a thickness does not.
+fn final_gap(input: &Input<'_>, subject: &Subject, gap: f64) -> Result<f64, StudyError> {
+    let is_thick = input.scene.material.thickness.is_some();
+    let Some(final_gap) = input.scene.motion.final_gap else {
+        return Ok(if is_thick { gap } else { gap.min(Contact::default().final_gap) });
+    };
+    if is_thick {
+        let message = "a sheet with material.thickness keeps it; omit one of the two";
+        return Err(input.error("motion.final_gap", message));
+    }
+    let smallest = RESOLVED * subject.size();
+    if final_gap >= smallest && final_gap <= gap {
+        return Ok(final_gap);
+    }
+    let message = format!(
+        "must be between {:.2}, below which rounding blurs it in a sheet of this size, and the gap of {}",
+        Number(smallest),
+        Number(gap)
+    );
+    Err(input.error("motion.final_gap", message))
 }
 
 /// The default gap: a pattern with small facets takes the largest that fits.

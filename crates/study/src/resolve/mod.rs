@@ -23,6 +23,7 @@ use foldmotion_check::CollisionOptions;
 use foldmotion_geometry::Number;
 use foldmotion_pattern::Case;
 use foldmotion_solver::dynamic::Device;
+use foldmotion_solver::quasi_static::Contact;
 use foldmotion_solver::{Model, Schedule};
 
 use self::budget::MotionBudget;
@@ -49,8 +50,8 @@ pub struct Study {
     pub engine: EngineChoice,
     /// The device of the dynamic engine; the quasi-static engine runs on the processor.
     pub device: Device,
-    /// The contact gap, in units of the sheet's unit length; `None` if layers may pass through each other.
-    pub contact_gap: Option<f64>,
+    /// The contact of layers, its gaps in units of the sheet's unit length; `None` if layers may pass through each other.
+    pub contact: Option<Contact>,
     /// The thickness of the sheet; `None` if the scene does not set it.
     pub thickness: Option<f64>,
     /// The number of intervals: the states at t = 2k/frames are recorded.
@@ -91,7 +92,7 @@ impl Study {
             schedule,
             engine: motion::engine(&input),
             device: Device::Cpu,
-            contact_gap: gap::contact_gap(&input, &subject)?,
+            contact: gap::contact(&input, &subject)?,
             thickness: material::material_thickness(&input)?,
             frames: motion::frames(&input)?,
             budget: budget::budget(&input)?,

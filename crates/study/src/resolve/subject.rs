@@ -162,6 +162,15 @@ impl Subject {
         }
     }
 
+    /// The longest side of the flat sheet, in unit lengths.
+    pub(crate) fn size(&self) -> f64 {
+        let sheet = self.sheet();
+        let vertices = || sheet.vertices.iter().copied();
+        let low = vertices().reduce(glam::DVec2::min).unwrap_or_default();
+        let high = vertices().reduce(glam::DVec2::max).unwrap_or_default();
+        (high - low).max_element() / sheet.unit_length
+    }
+
     /// The width of the thinnest part of the sheet, and the number of layers that have to fit next to it.
     pub(crate) fn thinnest_part(&self) -> (f64, usize) {
         /// The number of layers in a column of a compact sheet, also assumed for a pattern.

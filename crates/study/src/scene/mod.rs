@@ -300,6 +300,10 @@ pub struct MotionScene {
     /// The closest approach of layers. It has to fit next to the thinnest part of the sheet.
     #[schemars(extend("x-default" = "1e-3, or less if a pattern has small facets", "x-unit" = "h, or the mean edge of a pattern", "minimum" = 1e-06))]
     pub gap: Option<f64>,
+    /// What the gap shrinks to in the last tenth of stage fold, so that the compact box meets the closed form. The same
+    /// as motion.gap keeps the gap. Where contact keeps creases from their targets the gap does not shrink.
+    #[schemars(extend("x-default" = "1e-5, or motion.gap if that is less", "x-unit" = "h, or the mean edge of a pattern", "minimum" = 1e-09))]
+    pub final_gap: Option<f64>,
     /// How stage unfold flattens the profile.
     #[serde(deserialize_with = "choice::optional")]
     #[schemars(extend("default" = "auto"))]

@@ -37,6 +37,9 @@ fn show_contact(form: &mut Form<'_>, ui: &mut Ui) {
     let field = Field::new("motion.gap", "gap");
     let number = Number::within(1e-6..=0.1).default(1e-3).speed(1e-5);
     form.number(ui, &field, &number, |scene| &mut scene.motion.gap);
+    let field = Field::new("motion.final_gap", "gap in the end");
+    let number = Number::within(1e-9..=0.1).default(1e-5).speed(1e-7);
+    form.number(ui, &field, &number, |scene| &mut scene.motion.final_gap);
 }
 
 fn show_steps(form: &mut Form<'_>, ui: &mut Ui) {

@@ -159,11 +159,8 @@ impl Candidates {
         let reach = largest(displacement);
         let margin = (2.0 * reach).clamp(MARGIN_IN_GAPS * self.gap, MARGIN).max(self.margin);
         let (mut pairs, least) = self.search(positions, displacement, WITHIN * self.gap + margin);
-        self.searched_path = SearchedPath {
-            from: positions.to_vec(),
-            displacement: displacement.to_vec(),
-            margin,
-        };
+        self.searched_path =
+            SearchedPath { from: positions.to_vec(), displacement: displacement.to_vec(), margin };
         // Few candidates may as well serve for longer; many cost more than another search.
         if pairs.len() < self.triangles {
             self.margin = (2.0 * margin).min(MOST_MARGIN);

@@ -156,12 +156,7 @@ impl ContactField {
 
     /// Makes planes too of the pairs that the step `direction` from `positions`, no node moving further than `reach`,
     /// would bring within the gap; whether there are any.
-    pub(super) fn foresee(
-        &mut self,
-        positions: &[DVec3],
-        direction: &[DVec3],
-        reach: f64,
-    ) -> bool {
+    pub(super) fn foresee(&mut self, positions: &[DVec3], direction: &[DVec3], reach: f64) -> bool {
         self.candidates.prepare_path(positions, direction, &mut self.planes);
         self.candidates.measure(positions);
         let known = self.planes.len();
@@ -248,8 +243,11 @@ impl ContactField {
 
     /// The pairs of nodes that planes couple.
     pub(super) fn coupled_nodes(&self) -> impl Iterator<Item = [u32; 2]> {
-        let couples = |nodes: [u32; 4]| (0..4).flat_map(move |i| (0..i).map(move |j| [i, j]))
-            .map(move |pair: [usize; 2]| pair.map(|i| nodes[i]));
+        let couples = |nodes: [u32; 4]| {
+            (0..4)
+                .flat_map(move |i| (0..i).map(move |j| [i, j]))
+                .map(move |pair: [usize; 2]| pair.map(|i| nodes[i]))
+        };
         self.planes.iter().flat_map(move |plane| couples(plane.nodes))
     }
 

@@ -48,7 +48,8 @@ impl Primitives {
                 edges[owner as usize].push((bar.vertices, bar.rest_length));
             }
         }
-        let hinges: HashSet<[u32; 2]> = model.hinges.iter().map(|h| sorted([h.vertices[0], h.vertices[1]])).collect();
+        let hinges: HashSet<[u32; 2]> =
+            model.hinges.iter().map(|h| sorted([h.vertices[0], h.vertices[1]])).collect();
         let goes_on = |&[a, b, c]: &[u32; 3]| {
             [[a, b], [b, c], [c, a]].map(|side| hinges.contains(&sorted(side)))
         };
