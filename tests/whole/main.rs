@@ -5,6 +5,7 @@
 mod bad_input;
 mod bad_record;
 mod corpus;
+mod cut_sheets;
 mod import;
 mod imported;
 mod imported_errors;

@@ -206,12 +206,45 @@ fn a_jammed_sheet_claims_no_order_of_layers_that_it_does_not_have() {
     assert!(orders.claimed > orders.ignored, "{orders:?}");
 }
 
+/// Equations 3 to 7: the box of the sheet that closes in contact, each extent, the area and the volume.
+#[test]
+fn the_compact_box_of_every_case_meets_the_closed_form_with_contact() {
+    let home = tempfile::tempdir().unwrap();
+    for scene in ["shelter-e", "shelter-t", "shelter-s", "shelter-sii"] {
+        let report = run(scene, &[REPORT_ONLY], home.path());
+        assert_eq!(report.outcome.kind, OutcomeKind::Folded, "{scene}");
+        assert_eq!(report.collision.verdict.name(), "free", "{scene}");
+        let error = report.compact.relative_error.unwrap();
+        let all = error.extents.into_iter().chain([error.area, error.volume]);
+        assert!(all.clone().all(|e| e.abs() < 1e-3), "{scene}: {error:?}");
+        assert!(all.into_iter().any(|e| e > 1e-6), "{scene}: layers keep a gap");
+        let engine = report.engine;
+        assert_eq!(engine.contact_gap, Some(1e-3), "{scene}");
+        assert!((engine.final_gap.unwrap() / 1e-5 - 1.0).abs() < 1e-9, "{scene}");
+    }
+}
+
+/// Bars that strain by less than a thousandth leave creases open by little, not by the root of the gap.
+#[test]
+fn near_rigid_stacks_close_with_little_strain() {
+    let home = tempfile::tempdir().unwrap();
+    for scene in ["shelter-s", "shelter-sii"] {
+        let set = ["material.preset=near-rigid", REPORT_ONLY];
+        let report = run(scene, &set, home.path());
+        assert_eq!(report.outcome.kind, OutcomeKind::Folded, "{scene}");
+        let error = report.compact.relative_error.unwrap();
+        assert!(error.extents.iter().all(|e| e.abs() < 1e-3), "{scene}: {error:?}");
+        assert!(report.stages.iter().all(|stage| stage.peak_strain < 1e-3), "{scene}");
+    }
+}
+
 /// Gaps of 4, 2 and 1 thousandths: the box shrinks in proportion, and its extrapolation to no gap is the closed form.
 #[test]
 fn the_compact_box_converges_linearly_with_the_gap() {
     let home = tempfile::tempdir().unwrap();
     let extents = [4e-3, 2e-3, 1e-3].map(|gap| {
-        let set = [&format!("motion.gap={gap}"), "motion.frames=120", REPORT_ONLY];
+        let keys = ["motion.gap", "motion.final_gap"].map(|key| format!("{key}={gap}"));
+        let set = [&keys[0], &keys[1], "motion.frames=120", REPORT_ONLY];
         let report = run("shelter-s", &set, home.path());
         assert_eq!(report.collision.verdict.name(), "free");
         let closed = report.closed_form.unwrap().extents;
@@ -222,7 +255,7 @@ fn the_compact_box_converges_linearly_with_the_gap() {
     for axis in 0..3 {
         let [e4, e2, e1] = extents.map(|e| e[axis]);
         // Richardson: what is left at no gap after the linear part is taken off.
-        assert!((2.0 * e1 - e2).abs() < 1e-3, "axis {axis}: {e4} {e2} {e1}");
+        assert!((2.0 * e1 - e2).abs() < 3e-3, "axis {axis}: {e4} {e2} {e1}");
         assert!((2.0 * e2 - e4).abs() < 4e-3, "axis {axis}: {e4} {e2} {e1}");
         assert!(e4 > e2 && e2 > e1 && e1 > 0.0, "axis {axis}: {e4} {e2} {e1}");
     }

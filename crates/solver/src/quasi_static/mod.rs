@@ -13,6 +13,7 @@ mod cholesky;
 mod closing;
 mod configuration;
 mod contact;
+mod effort;
 mod element_stiffness;
 mod face_angle_hessian;
 mod hinge_hessian;
@@ -28,9 +29,10 @@ mod step_control;
 mod stiffness_matrix;
 
 pub use contact::Contact;
+pub use effort::Effort;
 pub use hinge_hessian::fold_angle_hessian;
 pub use options::{QuasiStaticOptions, Support};
-pub use outcome::{Effort, FrameFigures, Jam, QuasiStaticRun, StageOutcome, Stop, StopReason};
+pub use outcome::{FrameFigures, Jam, QuasiStaticRun, StageOutcome, Stop, StopReason};
 pub use run::run_quasi_static;
 
 use configuration::Configuration;

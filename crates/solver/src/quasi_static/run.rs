@@ -232,7 +232,8 @@ impl Run<'_> {
     /// Whether facets that started in touch cross each other in `state`, in which case they stop the motion.
     fn crosses_in_touch(&mut self, state: &Configuration) -> bool {
         let contact = self.newton.contact.as_ref();
-        self.crossed = contact.and_then(|c| c.crossing_in_touch(&state.positions));
+        self.crossed =
+            contact.and_then(|c| c.crossing_in_touch(&self.state.positions, &state.positions));
         self.crossed.is_some()
     }
 

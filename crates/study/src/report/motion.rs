@@ -52,7 +52,7 @@ pub struct EnergyReport {
     pub facets: f64,
     /// The energy of the angles of the triangles.
     pub face_angles: f64,
-    /// The energy of contact.
+    /// The energy of contact between layers.
     pub contact: f64,
 }
 

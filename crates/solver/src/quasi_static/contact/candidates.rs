@@ -21,6 +21,8 @@ const WITHIN: f64 = 2.0;
 /// The share of its gap that a pair never gives up in a step, and on the straight path between two frames.
 const FLOOR: f64 = 0.5;
 const PATH_FLOOR: f64 = 0.45;
+/// Instants of a path at which triangles that started in touch are tried.
+const INSTANTS: u32 = 8;
 /// By how much distances may change before candidates are looked for again, in unit lengths: at least this many gaps,
 /// twice what nodes move up to this, and more up to the last while there are few.
 const MARGIN_IN_GAPS: f64 = 4.0;
@@ -252,6 +254,9 @@ impl Candidates {
         planes: &mut Vec<Plane>,
     ) -> bool {
         let displacement: Vec<DVec3> = to.iter().zip(from).map(|(&b, &a)| b - a).collect();
+        if self.crossing_in_touch(from, to).is_some() {
+            return false;
+        }
         self.prepare_path(from, &displacement, planes);
         self.measure(from);
         let reach = 2.0 * largest(&displacement);
@@ -332,10 +337,18 @@ impl Candidates {
         self.admitted = close.iter().map(ContactPair::key).zip(distances).collect();
     }
 
-    /// Two triangles that cross each other at `positions` among those that started in touch.
-    pub(super) fn crossing_in_touch(&self, positions: &[DVec3]) -> Option<[u32; 2]> {
-        let mut in_touch = self.in_touch.iter().copied();
-        in_touch.find(|&faces| self.primitives.cross(faces, positions))
+    /// Two triangles among those that started in touch that cross each other on the straight path between two states, at
+    /// its end or at one of the instants tried before.
+    pub(super) fn crossing_in_touch(&self, from: &[DVec3], to: &[DVec3]) -> Option<[u32; 2]> {
+        if self.in_touch.is_empty() {
+            return None;
+        }
+        (1..=INSTANTS).find_map(|k| {
+            let t = f64::from(k) / f64::from(INSTANTS);
+            let between: Vec<DVec3> = from.iter().zip(to).map(|(a, b)| a.lerp(*b, t)).collect();
+            let mut in_touch = self.in_touch.iter().copied();
+            in_touch.find(|&faces| self.primitives.cross(faces, &between))
+        })
     }
 
     /// The first two triangles that cross each other.

@@ -12,7 +12,8 @@
 //!
 //! Pairs that start closer than twice g (the seam of a closed profile, facets narrower than that) keep half of the
 //! largest distance they have had, until that is g. Pairs that start in touch, such as the sides of a cut, are not
-//! pushed apart until they have come apart; that no facets cross there is tested at every equilibrium instead.
+//! pushed apart until they have come apart; that no facets cross there is tested
+//! at every equilibrium, and on the way to it, instead.
 
 mod candidates;
 mod closest;
@@ -315,9 +316,9 @@ impl ContactField {
         self.candidates.accept(positions);
     }
 
-    /// Two triangles that cross each other at `positions` among those whose contact is not pushed yet.
-    pub(super) fn crossing_in_touch(&self, positions: &[DVec3]) -> Option<[u32; 2]> {
-        self.candidates.crossing_in_touch(positions)
+    /// Two triangles that cross each other on the straight path between two states, among those that started in touch.
+    pub(super) fn crossing_in_touch(&self, from: &[DVec3], to: &[DVec3]) -> Option<[u32; 2]> {
+        self.candidates.crossing_in_touch(from, to)
     }
 
     /// Whether any pair pushes in the state in which the planes were made.

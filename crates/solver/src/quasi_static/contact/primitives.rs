@@ -130,24 +130,35 @@ impl Primitives {
     }
 
     /// Whether a side of one triangle passes through the other: through its inside, or through a side beyond which the
-    /// sheet goes on.
-    pub(super) fn cross(&self, [a, b]: [u32; 2], positions: &[DVec3]) -> bool {
-        let corners = |face: u32| self.faces[face as usize];
-        [(a, b), (b, a)].into_iter().any(|(own, other)| {
-            let [p, q, r] = corners(own);
-            let facet = corners(other);
-            [[p, q], [q, r], [r, p]]
-                .into_iter()
-                .filter(|side| side.iter().all(|v| !facet.contains(v)))
-                .any(|side| {
-                    pierces(
-                        side.map(|v| positions[v as usize]),
-                        facet.map(|v| positions[v as usize]),
-                        self.goes_on[other as usize],
-                    )
-                })
+    /// sheet goes on. For triangles that share a vertex also, whether they cross around it.
+    pub(super) fn cross(&self, faces: [u32; 2], positions: &[DVec3]) -> bool {
+        let [a, b] = faces;
+        [[a, b], [b, a]].into_iter().any(|[own, other]| {
+            let facet = self.faces[other as usize];
+            let [p, q, r] = self.faces[own as usize];
+            let at = |v: u32| positions[v as usize];
+            let goes_on = self.goes_on[other as usize];
+            [[p, q, r], [q, r, p], [r, p, q]].into_iter().any(|[from, to, opposite]| {
+                let is_apart = !facet.contains(&from) && !facet.contains(&to);
+                let side = [from, to].map(at);
+                is_apart
+                    && (pierces(side, facet.map(at), goes_on)
+                        || around(opposite, facet, goes_on)
+                            .is_some_and(|(facet, on)| pierces_sector(side, facet.map(at), on)))
+            })
         })
     }
+}
+
+/// The facet turned so that `vertex` comes first, with whether the sheet goes on beyond its sides; `None` if it is not
+/// its vertex.
+fn around(
+    vertex: u32,
+    [a, b, c]: [u32; 3],
+    [ab, bc, ca]: [bool; 3],
+) -> Option<([u32; 3], [bool; 3])> {
+    let turned = [([a, b, c], [ab, bc, ca]), ([b, c, a], [bc, ca, ab]), ([c, a, b], [ca, ab, bc])];
+    turned.into_iter().find(|(facet, _)| facet[0] == vertex)
 }
 
 fn sorted([a, b]: [u32; 2]) -> [u32; 2] {
@@ -156,18 +167,34 @@ fn sorted([a, b]: [u32; 2]) -> [u32; 2] {
 
 /// Whether the segment passes through the triangle by more than rounding, at its inside or on a side beyond which the
 /// sheet `goes_on`.
-fn pierces([p, q]: [DVec3; 2], [a, b, c]: [DVec3; 3], goes_on: [bool; 3]) -> bool {
-    let normal = (b - a).cross(c - a);
-    let area = normal.length();
-    let (above, below) = (normal.dot(p - a) / area, normal.dot(q - a) / area);
+fn pierces(segment: [DVec3; 2], [a, b, c]: [DVec3; 3], goes_on: [bool; 3]) -> bool {
+    let sides = [(a, b), (b, c), (c, a)];
+    pierces_plane(segment, [a, b, c])
+        .is_some_and(|(hit, normal)| is_inside(hit, normal, &sides, &goes_on))
+}
+
+/// Whether the segment passes through the sector of the triangle at its first corner, however far from it: what is
+/// nearer to the corner on the same ray then passes through the triangle.
+fn pierces_sector(segment: [DVec3; 2], [a, b, c]: [DVec3; 3], goes_on: [bool; 3]) -> bool {
+    let [ab, _, ca] = goes_on;
+    pierces_plane(segment, [a, b, c])
+        .is_some_and(|(hit, normal)| is_inside(hit, normal, &[(a, b), (c, a)], &[ab, ca]))
+}
+
+/// Where the segment passes through the plane of the triangle by more than rounding, with the unit normal.
+fn pierces_plane([p, q]: [DVec3; 2], [a, b, c]: [DVec3; 3]) -> Option<(DVec3, DVec3)> {
+    let normal = (b - a).cross(c - a).normalize_or_zero();
+    let (above, below) = (normal.dot(p - a), normal.dot(q - a));
     let apart = above.abs() > ROUNDING && below.abs() > ROUNDING;
-    if !apart || (above > 0.0) == (below > 0.0) {
-        return false;
-    }
-    let hit = p.lerp(q, above / (above - below));
-    [(a, b), (b, c), (c, a)].into_iter().zip(goes_on).all(|((from, to), goes_on)| {
+    let passes = apart && (above > 0.0) != (below > 0.0);
+    passes.then(|| (p.lerp(q, above / (above - below)), normal))
+}
+
+/// Whether a point of the plane lies inside of all `sides`, those included beyond which the sheet `goes_on`.
+fn is_inside(hit: DVec3, normal: DVec3, sides: &[(DVec3, DVec3)], goes_on: &[bool]) -> bool {
+    sides.iter().zip(goes_on).all(|(&(from, to), &goes_on)| {
         let side = to - from;
-        let inside = normal.cross(side).dot(hit - from) / (area * side.length());
+        let inside = normal.cross(side).dot(hit - from) / side.length();
         inside > if goes_on { -ROUNDING } else { ROUNDING }
     })
 }
@@ -195,5 +222,28 @@ mod tests {
         let through_the_first = [v(0.4, 0.0, 1.0), v(0.6, 0.0, -1.0)];
         assert!(pierces(through_the_first, triangle, [true, false, false]));
         assert!(!pierces(through_the_first, triangle, [false, true, true]));
+    }
+
+    #[test]
+    fn triangles_that_share_a_vertex_cross_where_their_sectors_do() {
+        let v = DVec3::new;
+        // A small triangle at the corner of a large one: no side of either meets the other's inside.
+        let positions = [
+            v(0.0, 0.0, 0.0),
+            v(5.0, 0.0, 0.0),
+            v(0.0, 5.0, 0.0),
+            v(0.1, 0.2, 0.1),
+            v(0.2, 0.1, -0.1),
+            v(-0.1, 0.2, -0.1),
+        ];
+        let primitives = |second: [u32; 3]| Primitives {
+            faces: vec![[0, 1, 2], second],
+            goes_on: vec![[false; 3]; 2],
+            vertices: vec![Vec::new(); 2],
+            edges: vec![Vec::new(); 2],
+        };
+        assert!(primitives([3, 4, 0]).cross([0, 1], &positions));
+        assert!(primitives([4, 0, 3]).cross([1, 0], &positions));
+        assert!(!primitives([4, 5, 0]).cross([0, 1], &positions));
     }
 }

@@ -80,8 +80,9 @@ fn without_contact_symmetric_sheets_move_symmetrically() {
 
 #[test]
 fn with_contact_symmetric_sheets_move_symmetrically_until_the_stack_buckles() {
-    // From there on the second derivative of the energy at the symmetric equilibrium is negative in some direction.
-    for (sheet, buckles) in [(E, 1.95), (T, 1.95), (S, 1.95), (SII, 3.0)] {
+    // From there on the second derivative of the energy at the symmetric equilibrium is negative in some direction, or
+    // layers touch in so many places that forces, and so the way through the last load step, are not unique.
+    for (sheet, buckles) in [(E, 1.99), (T, 1.99), (S, 1.99), (SII, 1.99)] {
         let (study, frames) = folded(sheet, "", "contact = true");
         let worst = largest(&study, &frames, buckles);
         // Equilibrium in contact is found to 1e-6 of a step.
